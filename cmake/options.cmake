@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What every target of ours compiles with. No global flags: targets link furrow_options.
+add_library(furrow_options INTERFACE)
+target_compile_features(furrow_options INTERFACE cxx_std_20)
+target_include_directories(furrow_options INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/furrow>)
+# The same input gives the same bits: no contraction of a*b+c that depends on the compiler's mood.
+target_compile_options(furrow_options INTERFACE -ffp-contract=off)
+target_compile_options(furrow_options INTERFACE
+  $<BUILD_INTERFACE:-fno-math-errno -Wall -Wextra -Wshadow -Wnon-virtual-dtor>)
+if(FURROW_WERROR)
+  target_compile_options(furrow_options INTERFACE $<BUILD_INTERFACE:-Werror>)
+endif()
+if(FURROW_SANITIZE)
+  # These four checks make g++ take minutes and gigabytes for one CGAL source; the rest stay on.
+  set(furrow_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr
+      -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_compile_options(furrow_options INTERFACE $<BUILD_INTERFACE:${furrow_sanitizers}>)
+  target_link_options(furrow_options INTERFACE $<BUILD_INTERFACE:${furrow_sanitizers}>)
+endif()
+
+# furrow_add_library(NAME SOURCES…): a static library `furrow::NAME` of this folder, installed and exported.
+function(furrow_add_library name)
+  add_library(${name} STATIC ${ARGN})
+  add_library(furrow::${name} ALIAS ${name})
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME furrow_${name} EXPORT_NAME ${name}
+                        POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(${name} PUBLIC furrow_options)
+  set_property(GLOBAL APPEND PROPERTY furrow_libraries ${name})
+endfunction()

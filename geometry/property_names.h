@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "geometry/mesh.h"
+
+/// Every map that stays on a mesh: its name, key, type, unit and the value of what nobody set.
+/// CGAL 5.5 and 6 return different types from property_map(): only this file calls it.
+namespace furrow::geometry {
+
+template <class KeyType, class ValueType>
+struct PropertyName {
+  using Key = KeyType;
+  using Value = ValueType;
+  const char* name;
+  Value default_value;
+};
+
+inline constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
+using TextureCoordinate = std::array<double, 2>;  ///< (u, v); NaN = none
+using Color = std::array<double, 4>;              ///< red, green, blue, alpha in [0, 1]
+
+/// Line that a vertex belongs to: the index of its stroke, -1 = none.
+inline constexpr PropertyName<Vertex, int> kLine{"v:line", -1};
+/// Mass lumped to a vertex [kg].
+inline constexpr PropertyName<Vertex, double> kMass{"v:mass", kUnset};
+inline constexpr PropertyName<Vertex, Color> kColor{"v:color", {1, 1, 1, 1}};
+/// Rest length of the structural spring on an edge [m].
+inline constexpr PropertyName<Edge, double> kRestLength{"e:rest_length", kUnset};
+/// Rest length of the bending spring that joins the two vertices opposite an edge [m]; NaN = this edge has none.
+inline constexpr PropertyName<Edge, double> kBendingRestLength{"e:bending_rest_length", kUnset};
+/// How many edges share the bending spring of this one (two hinges with one vertex pair); 0 = no spring.
+inline constexpr PropertyName<Edge, int> kBendingCount{"e:bending_count", 0};
+/// Edge of a drawn line, in a chain of line vertices: it is never flipped.
+inline constexpr PropertyName<Edge, bool> kLineEdge{"e:line_edge", false};
+/// Texture coordinate of the corner of face(h) at target(h).
+inline constexpr PropertyName<Halfedge, TextureCoordinate> kTexture{"h:texture", {kUnset, kUnset}};
+/// Index into the document's group names (OBJ g and o), -1 = none.
+inline constexpr PropertyName<Face, int> kGroup{"f:group", -1};
+/// Index into the document's material names (OBJ usemtl), -1 = none.
+inline constexpr PropertyName<Face, int> kMaterial{"f:material", -1};
+
+/// The map of that name, added with its default value where the mesh has none.
+template <class K, class V>
+Map<K, V> ensure_map(Mesh& mesh, const PropertyName<K, V>& p) {
+  return mesh.add_property_map<K, V>(p.name, p.default_value).first;
+}
+/// The map of that name, or nothing. A Map is a handle: writing through it changes the mesh.
+template <class K, class V>
+std::optional<Map<K, V>> find_map(const Mesh& mesh, const PropertyName<K, V>& p) {
+  auto [map, found] = mesh.property_map<K, V>(p.name);
+  return found ? std::optional(map) : std::nullopt;
+}
+
+}  // namespace furrow::geometry

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <vector>
+
+#include "physics/particles.h"
+
+namespace furrow::physics {
+
+/// Energy 1/2 stiffness (l - rest_length)^2. Arrays of springs are sorted by (a, b) with a < b, so that
+/// sums have one order and the same input gives the same bits.
+struct Spring {
+  int a, b;            ///< particle indices, a < b
+  double rest_length;  ///< L [m]; > 0
+  double stiffness;    ///< k [N/m]; >= 0
+};
+
+/// Signed hinge between the triangles (0, 1, 2) and (1, 0, 3) of its vertices; the edge is 0-1.
+struct Hinge {
+  std::array<int, 4> vertices;
+  double rest_angle;  ///< [rad] in (-pi, pi); 0 = flat, > 0 = ridge
+  double stiffness;   ///< [N m]
+};
+
+/// The whole state of a cloth as plain arrays.
+struct Cloth {
+  Particles particles;
+  std::vector<Spring> structural;              ///< one for each edge
+  std::vector<Spring> bending;                 ///< one for each pair of vertices opposite an interior edge
+  std::vector<Hinge> hinges;                   ///< foreseen; no force reads them yet
+  std::vector<std::array<int, 3>> triangles;   ///< counter-clockwise from outside
+};
+
+}  // namespace furrow::physics
