@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "physics/contact.h"
+#include "physics/damping_sweep.h"
+#include "physics/packed_cloth.h"
+#include "physics/thread_pool.h"
+
+namespace furrow::physics {
+
+/// What acts on a cloth besides its springs.
+struct Loads {
+  Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
+  double air_drag = 0;        ///< c of dv/dt = -c v [1/s]; >= 0
+  double spring_damping = 0;  ///< share of critical damping of each spring [-]; >= 0
+};
+
+struct WorkCounts {
+  std::int64_t steps = 0, force_evaluations = 0;
+  ContactCounts contact;
+};
+
+/// A cloth in motion, and the phases that a step is made of. Particles with inv_mass 0 never move.
+class Motion {
+ public:
+  /// contact may be null; pool and contact must outlive the motion. The springs' forces are those of the
+  /// cloth's positions. Throws std::invalid_argument as pack() does, or if a load is out of its range.
+  Motion(const Cloth& cloth, const Loads& loads, ThreadPool& pool, BodyContact* contact = nullptr);
+
+  /// v decays over `seconds` by the springs' damping, forward or in the reverse order (see DampingSweep).
+  void damp_forward(double seconds);
+  void damp_reverse(double seconds);
+  /// v *= exp(-air_drag seconds), before or after  v += seconds (force / m + gravity).
+  void drag_and_kick(double seconds);
+  void kick_and_drag(double seconds);
+  /// x += seconds v, then the body's answer to it.
+  void drift(double seconds);
+  void update_forces();
+
+  const PackedCloth& cloth() const { return cloth_; }
+  WorkCounts& work() { return work_; }
+
+ private:
+  const DampingSweep& damping(double seconds);
+
+  PackedCloth cloth_;
+  Loads loads_;
+  ThreadPool& pool_;
+  BodyContact* contact_;
+  DampingSweep damping_;
+  double damping_seconds_ = -1;
+  WorkCounts work_;
+};
+
+}  // namespace furrow::physics

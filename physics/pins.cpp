@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "physics/pins.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace furrow::physics {
+
+void pin(Particles& particles, std::span<const int> indices) {
+  for (const int i : indices) {
+    if (i < 0 || std::size_t(i) >= particles.size()) {
+      throw std::invalid_argument("pin: no particle " + std::to_string(i) + " among " +
+                                  std::to_string(particles.size()));
+    }
+  }
+  for (const int i : indices) {
+    particles.inv_mass[i] = 0;
+    particles.v[i] = Vec3::Zero();
+  }
+}
+
+}  // namespace furrow::physics

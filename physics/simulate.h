@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "physics/collider.h"
+#include "physics/springs.h"
+#include "physics/strain.h"
+
+namespace furrow::physics {
+
+enum class Integrator { leapfrog, explicit_euler };
+enum class StepRule {
+  limited,  ///< dt never exceeds the stability limit; a larger `dt` is refused
+  forced    ///< `dt` is used as it is
+};
+
+struct SimulateOptions {
+  double seconds = 2;        ///< how long [s]; >= 0
+  std::optional<double> dt;  ///< step [s]; > 0; none: dt_factor times the stability limit
+  double dt_factor = 0.9;    ///< [-]; in (0, 1]
+  double dt_max = 0.005;     ///< longest step chosen without `dt` [s]; > 0
+  StepRule step_rule = StepRule::limited;
+  int limit_steps = 2000;        ///< steps after which the limit is estimated anew; >= 1
+  double limit_strain = 0.02;    ///< and sooner when the largest strain grew by this [-]; > 0
+  Vec3 gravity{0, -9.81, 0};     ///< [m/s^2]
+  double air_drag = 2;           ///< [1/s]; >= 0
+  double spring_damping = 0.02;  ///< share of critical of each spring [-]; >= 0
+  double friction = 0.3;         ///< Coulomb coefficient between cloth and body [-]; >= 0
+  double contact_gap = 0.003;    ///< distance at which cloth rests on the body [m]; > 0
+  double recovery_speed = 0.1;   ///< how fast vertices that start too deep are taken out [m/s]; > 0
+  Integrator integrator = Integrator::leapfrog;
+  int threads = 1;            ///< >= 1; the result is the same for any number
+  int observe_steps = 100;    ///< steps between two calls of the observer; >= 1
+  double speed_limit = 1000;  ///< a faster particle means that the motion diverged [m/s]; > 0
+};
+
+struct SimulateProgress {
+  double time;  ///< [s]
+  std::int64_t step;
+  double dt;              ///< of the last step [s]
+  double kinetic_energy;  ///< [J]
+};
+/// Called every observe_steps steps and at the end; the cloth holds the state of that time. false: stop here.
+using Observer = std::function<bool(const SimulateProgress&)>;
+
+enum class Outcome { finished, stopped_by_observer, diverged };
+
+struct SimulateReport {
+  Outcome outcome = Outcome::finished;
+  std::int64_t steps = 0;
+  double time = 0;                      ///< simulated [s]
+  double dt = 0, dt_smallest = 0;       ///< of the last step, and the smallest [s]
+  double dt_limit = 0;                  ///< stability limit last estimated [s]; infinity without springs
+  double dt_limit_smallest = 0;         ///< [s]
+  double seconds = 0, cpu_seconds = 0;  ///< clock and processor time of the call (all threads) [s]
+  StrainStatistics strain;              ///< structural springs at the end
+  double kinetic_energy = 0;            ///< [J]
+  double residual_force = 0;            ///< see residual_force(): largest net force relative to weight [-]
+  int contacts = 0;                     ///< particles at the body at the end
+  int limit_estimates = 0;
+  std::int64_t force_evaluations = 0, collider_queries = 0;
+  std::int64_t truncated_moves = 0;  ///< cut short against tunnelling
+};
+
+/// Moves the cloth for options.seconds under springs, gravity, drag, damping and contact (collider may be
+/// null). Steps have equal length between two estimates of the limit, and the end is hit exactly. A state
+/// that is not finite or faster than speed_limit ends the run with Outcome::diverged and is left as it is
+/// (checked every 16 steps). Same input, same bits, for any number of threads. The next call continues where
+/// this one ended. Throws std::invalid_argument, the cloth untouched, if an option is out of its range, dt is
+/// above the limit under StepRule::limited, or the cloth's arrays are broken.
+SimulateReport simulate(Cloth& cloth, const Collider* collider, const SimulateOptions& options,
+                        const Observer& observer = {});
+
+}  // namespace furrow::physics

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+
+#include "physics/springs.h"
+
+namespace furrow::physics {
+
+/// |l - L| / L over springs; all 0 without springs.
+struct StrainStatistics {
+  double max = 0, p99 = 0, mean = 0;  ///< [-]; p99: 99 % of the springs are strained at most so much
+};
+StrainStatistics strain_statistics(std::span<const Vec3> x, std::span<const Spring> springs);
+
+/// Sum of 1/2 m v^2 [J] over the particles that are not pinned.
+double kinetic_energy(const Particles& particles);
+
+}  // namespace furrow::physics

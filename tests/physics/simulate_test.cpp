@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/simulate.h"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "physics/pins.h"
+#include "tests/physics/test_cloths.h"
+
+using namespace furrow::physics;
+using namespace furrow::tests;
+
+namespace {
+
+constexpr double gravity = 9.81;
+
+struct Ball : Collider {
+  Vec3 centre;
+  double radius;
+  Ball(const Vec3& c, double r) : centre(c), radius(r) {}
+  SignedDistance at(const Vec3& x) const override {
+    return {(x - centre).norm() - radius, (x - centre).normalized()};
+  }
+};
+
+/// A chain of 32 uneven springs between two pins 1 m apart; k after S1.7, masses lumped half and half.
+Cloth irregular_chain() {
+  std::vector<double> r;
+  double sum = 0;
+  for (int i = 1; i <= 32; ++i) sum += r.emplace_back(1 + 0.7 * std::sin(5.0 * i));
+  Cloth cloth;
+  for (int i = 0; i <= 32; ++i) add_particle(cloth, {i / 32.0, -0.02 * i * (32 - i) / 10, 0}, 1);
+  std::fill(cloth.particles.mass.begin(), cloth.particles.mass.end(), 0);
+  const double average = 1.5 / 32, k_std = 147.15 / average;
+  for (int i = 0; i < 32; ++i) {
+    const double rest = r[i] * 1.5 / sum;
+    cloth.structural.push_back({i, i + 1, rest, k_std * rest / average});
+    for (const int end : {i, i + 1}) cloth.particles.mass[end] += 0.981 / gravity * rest / 2;
+  }
+  for (int i = 0; i <= 32; ++i) cloth.particles.inv_mass[i] = 1 / cloth.particles.mass[i];
+  pin(cloth.particles, std::vector<int>{0, 32});
+  return cloth;
+}
+
+/// Nodes of the chain in balance, if its first spring carries the force (H, V): the rest follows node by
+/// node.
+std::vector<Eigen::Vector2d> shoot(const Cloth& chain, double H, double V) {
+  std::vector<Eigen::Vector2d> nodes{{0, 0}};
+  for (std::size_t i = 0; i < chain.structural.size(); ++i) {
+    const Spring& s = chain.structural[i];
+    const double tension = std::hypot(H, V), l = s.rest_length + tension / s.stiffness;
+    nodes.push_back(nodes.back() + l / tension * Eigen::Vector2d(H, -V));
+    V -= chain.particles.mass[i + 1] * gravity;
+  }
+  return nodes;
+}
+
+std::vector<Eigen::Vector2d> exact_chain(const Cloth& chain) {
+  Eigen::Vector2d force(0.3, 0.7);
+  const Eigen::Vector2d goal(1, 0);
+  for (int round = 0; round < 50; ++round) {
+    const Eigen::Vector2d miss = shoot(chain, force[0], force[1]).back() - goal;
+    if (miss.norm() < 1e-12) return shoot(chain, force[0], force[1]);
+    const double h = 1e-6;
+    Eigen::Matrix2d jacobian;
+    jacobian.col(0) =
+        (shoot(chain, force[0] + h, force[1]).back() - shoot(chain, force[0] - h, force[1]).back()) / (2 * h);
+    jacobian.col(1) =
+        (shoot(chain, force[0], force[1] + h).back() - shoot(chain, force[0], force[1] - h).back()) / (2 * h);
+    Eigen::Vector2d move = -jacobian.inverse() * miss;
+    force += std::min(1.0, 0.2 / move.norm()) * move;
+  }
+  FAIL("the shooting did not converge");
+  return {};
+}
+
+Cloth hung_sheet(int columns = 12, int rows = 10) {
+  Cloth cloth = sheet(columns, rows, 0.05, 0.2, 2);
+  pin(cloth.particles, std::vector<int>{0, columns - 1});
+  return cloth;
+}
+
+bool same_bits(const Cloth& a, const Cloth& b) {
+  return a.particles.x == b.particles.x && a.particles.v == b.particles.v;
+}
+
+}  // namespace
+
+TEST_CASE("a hanging chain of uneven springs comes to rest at the exact solution") {
+  Cloth chain = irregular_chain();
+  const std::vector<Eigen::Vector2d> exact = exact_chain(chain);
+  SimulateOptions options;
+  options.seconds = 8;
+  options.air_drag = 6;
+  options.spring_damping = 0.2;
+  const SimulateReport report = simulate(chain, nullptr, options);
+  CHECK(report.outcome == Outcome::finished);
+  double worst = 0, lowest = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const Vec3& x = chain.particles.x[i];
+    worst = std::max(worst, (x - Vec3(exact[i].x(), exact[i].y(), 0)).norm());
+    lowest = std::min(lowest, x.y());
+  }
+  CHECK(lowest < -0.45);
+  CHECK(worst < 1e-5);
+  CHECK(report.residual_force < 1e-4);
+}
+
+TEST_CASE("two runs, and runs with one and two threads, give the same bits") {
+  Cloth first = sheet(60, 55, 0.02, 0.2, 2);  // several blocks
+  pin(first.particles, std::vector<int>{0, 59});
+  Cloth second = first, third = first;
+  const Ball ball({0.6, -0.5, -0.202}, 0.2);
+  SimulateOptions options;
+  options.seconds = 0.02;
+  options.dt = 2e-5;
+  options.observe_steps = 300;
+  int seen = 0;
+  const SimulateReport report =
+      simulate(first, &ball, options, [&](const SimulateProgress&) { return ++seen > 0; });
+  CHECK(seen == 4);
+  CHECK(report.contacts > 0);
+  simulate(second, &ball, options);
+  CHECK(same_bits(first, second));
+  options.threads = 2;
+  const SimulateReport two = simulate(third, &ball, options);
+  CHECK(same_bits(first, third));
+  CHECK(two.collider_queries == report.collider_queries);
+}
+
+TEST_CASE("an undamped hung sheet keeps its energy, a damped one comes to rest") {
+  Cloth cloth = hung_sheet();
+  const auto energy = [&] {
+    double e = kinetic_energy(cloth.particles);
+    for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
+      e += cloth.particles.mass[i] * gravity * cloth.particles.x[i].y();
+    }
+    for (const auto* springs : {&cloth.structural, &cloth.bending}) {
+      for (const Spring& s : *springs) {
+        e += 0.5 * s.stiffness *
+             std::pow((cloth.particles.x[s.a] - cloth.particles.x[s.b]).norm() - s.rest_length, 2);
+      }
+    }
+    return e;
+  };
+  double scale = 0;
+  for (const double m : cloth.particles.mass) scale += m * gravity * 0.43;
+  SimulateOptions options;
+  options.seconds = 1;
+  SECTION("undamped") {
+    options.air_drag = options.spring_damping = 0;
+    const double start = energy();
+    double worst = 0;
+    simulate(cloth, nullptr, options, [&](const SimulateProgress&) {
+      worst = std::max(worst, std::abs(energy() - start));
+      return true;
+    });
+    CHECK(worst > 0);
+    CHECK(worst < 2e-3 * scale);
+  }
+  SECTION("damped") {
+    options.seconds = 8;
+    options.air_drag = 4;
+    options.spring_damping = 0.1;
+    const SimulateReport report = simulate(cloth, nullptr, options);
+    CHECK(report.outcome == Outcome::finished);
+    CHECK(report.kinetic_energy < 1e-8 * scale);
+    CHECK(report.residual_force < 0.05);
+    CHECK(report.strain.max < 0.2);
+    CHECK(report.strain.mean > 0);
+  }
+}
+
+TEST_CASE("a sheet that drops on a ball lies on it, and its energy never rises") {
+  Cloth cloth = sheet(13, 15, 0.05, 0, 1);
+  const double R = 0.2;
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& x : cloth.particles.x) centre += x / double(cloth.particles.size());
+  for (Vec3& x : cloth.particles.x) x = Vec3(x.x() - centre.x(), R + 0.05, x.y() - centre.y());
+  const Ball ball(Vec3::Zero(), R);
+  SimulateOptions options;
+  options.seconds = 1;
+  options.observe_steps = 1;
+  double before = 1e300, rise = 0, mgh = 0, deepest = 0;
+  for (const double m : cloth.particles.mass) mgh += m * gravity * (R + 0.05);
+  const SimulateReport report = simulate(cloth, &ball, options, [&](const SimulateProgress& p) {
+    double e = p.kinetic_energy;
+    for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
+      e += cloth.particles.mass[i] * gravity * cloth.particles.x[i].y();
+      deepest = std::max(deepest, R + options.contact_gap - cloth.particles.x[i].norm());
+    }
+    for (const auto* springs : {&cloth.structural, &cloth.bending}) {
+      for (const Spring& s : *springs) {
+        e += 0.5 * s.stiffness *
+             std::pow((cloth.particles.x[s.a] - cloth.particles.x[s.b]).norm() - s.rest_length, 2);
+      }
+    }
+    rise = std::max(rise, e - before);
+    before = e;
+    return true;
+  });
+  CHECK(report.outcome == Outcome::finished);
+  CHECK(report.contacts >= 5);
+  CHECK(deepest < 1e-3 * R);
+  CHECK(rise < 1e-3 * mgh);
+  INFO("rise relative to m g H: " << rise / mgh);
+  CHECK(rise < 1e-5 * mgh);
+}
+
+TEST_CASE("an observer stops a run, and the next call goes on from there") {
+  Cloth whole = hung_sheet(), parts = whole;
+  SimulateOptions options;
+  options.seconds = 0.1;
+  options.dt = 1e-4;
+  simulate(whole, nullptr, options);
+  options.observe_steps = 250;
+  const SimulateReport first =
+      simulate(parts, nullptr, options, [](const SimulateProgress& p) { return p.step < 500; });
+  CHECK(first.outcome == Outcome::stopped_by_observer);
+  CHECK(first.steps == 500);
+  CHECK(first.time == Approx(0.05).epsilon(1e-12));
+  options.seconds = 0.05;
+  const SimulateReport second = simulate(parts, nullptr, options);
+  CHECK(second.outcome == Outcome::finished);
+  CHECK(second.time == 0.05);
+  double difference = 0;
+  for (std::size_t i = 0; i < whole.particles.size(); ++i) {
+    difference = std::max(difference, (whole.particles.x[i] - parts.particles.x[i]).norm());
+  }
+  CHECK(difference < 1e-10);
+}
+
+TEST_CASE("the step follows the limit; a longer one is refused unless forced") {
+  Cloth cloth = hung_sheet();
+  const Cloth start = cloth;
+  SimulateOptions options;
+  options.seconds = 0.3;
+  options.limit_steps = 500;
+  const SimulateReport report = simulate(cloth, nullptr, options);
+  CHECK(report.time == 0.3);
+  CHECK(report.dt <= 0.9 * report.dt_limit * (1 + 1e-9));
+  CHECK(report.dt_smallest <= report.dt);
+  CHECK(report.limit_estimates >= 2);
+  CHECK(report.force_evaluations == report.steps + 1);
+
+  cloth = start;
+  options.dt = 1.5 * report.dt_limit;
+  CHECK_THROWS_WITH(simulate(cloth, nullptr, options),
+                    Catch::Contains("dt = ") && Catch::Contains("above the stability limit of "));
+  CHECK(same_bits(cloth, start));
+  options.step_rule = StepRule::forced;
+  const SimulateReport forced = simulate(cloth, nullptr, options);
+  CHECK(forced.outcome == Outcome::diverged);
+  CHECK(forced.time < 0.3);
+  CHECK(forced.dt == Approx(*options.dt).epsilon(0.02));
+}
+
+TEST_CASE("explicit Euler diverges where leapfrog finishes") {
+  Cloth cloth = hung_sheet();
+  SimulateOptions options;
+  options.air_drag = options.spring_damping = 0;
+  options.integrator = Integrator::explicit_euler;
+  CHECK(simulate(cloth, nullptr, options).outcome == Outcome::diverged);
+  cloth = hung_sheet();
+  options.integrator = Integrator::leapfrog;
+  CHECK(simulate(cloth, nullptr, options).outcome == Outcome::finished);
+}
+
+TEST_CASE("pinned and isolated particles do not move") {
+  Cloth cloth = hung_sheet();
+  cloth.particles.v[0] = Vec3(1, 1, 1);
+  add_particle(cloth, {1, 2, 3}, 0);
+  const Vec3 corner = cloth.particles.x[0];
+  SimulateOptions options;
+  options.seconds = 0.05;
+  CHECK(simulate(cloth, nullptr, options).outcome == Outcome::finished);
+  CHECK(cloth.particles.x[0] == corner);
+  CHECK(cloth.particles.x.back() == Vec3(1, 2, 3));
+}
+
+TEST_CASE("simulate refuses options out of range before it moves anything") {
+  Cloth cloth = hung_sheet();
+  const Cloth start = cloth;
+  const auto refused = [&](auto change) {
+    SimulateOptions options;
+    change(options);
+    CHECK_THROWS_AS(simulate(cloth, nullptr, options), std::invalid_argument);
+    CHECK(same_bits(cloth, start));
+  };
+  refused([](SimulateOptions& o) { o.seconds = -1; });
+  refused([](SimulateOptions& o) { o.dt = 0; });
+  refused([](SimulateOptions& o) { o.dt_factor = 1.1; });
+  refused([](SimulateOptions& o) { o.step_rule = StepRule::forced; });
+  refused([](SimulateOptions& o) { o.limit_steps = 0; });
+  refused([](SimulateOptions& o) { o.air_drag = -1; });
+  refused([](SimulateOptions& o) { o.threads = 0; });
+  refused([](SimulateOptions& o) { o.observe_steps = 0; });
+  refused([](SimulateOptions& o) { o.speed_limit = 0; });
+  SimulateOptions none;
+  none.seconds = 0;
+  CHECK(simulate(cloth, nullptr, none).steps == 0);
+  CHECK(same_bits(cloth, start));
+}

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
+  contact_test.cpp
+  damping_sweep_test.cpp
+  euler_step_test.cpp
+  leapfrog_step_test.cpp
+  packed_cloth_test.cpp
+  residual_force_test.cpp
+  simulate_test.cpp
+  spring_forces_test.cpp
+  stable_step_test.cpp
+  strain_test.cpp
+  sweep_order_test.cpp
+  thread_pool_test.cpp
+)
