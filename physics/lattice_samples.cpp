@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "physics/lattice_samples.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+namespace furrow::physics {
+namespace {
+
+std::uint64_t key_of(const LatticePoint& p) {
+  return static_cast<std::uint64_t>(p[0]) | static_cast<std::uint64_t>(p[1]) << 21 |
+         static_cast<std::uint64_t>(p[2]) << 42;
+}
+
+std::uint64_t scramble(std::uint64_t key) {
+  key *= 0x9e3779b97f4a7c15ull;
+  return key ^ (key >> 32);
+}
+
+}  // namespace
+
+LatticeSamples::LatticeSamples(const ExactDistance& exact, const Vec3& low, double unit, int threads)
+    : exact_(exact), low_(low), unit_(unit), threads_(threads), slots_(1 << 16, 0) {}
+
+std::size_t LatticeSamples::slot_of(std::uint64_t key) const {
+  std::size_t slot = scramble(key) & (slots_.size() - 1);
+  while (slots_[slot] != 0 && key_of(points_[slots_[slot] - 1]) != key) slot = (slot + 1) & (slots_.size() - 1);
+  return slot;
+}
+
+void LatticeSamples::grow() {
+  slots_.assign(2 * slots_.size(), 0);
+  for (int i = 0; i < size(); ++i) slots_[slot_of(key_of(points_[i]))] = i + 1;
+}
+
+int LatticeSamples::add(const LatticePoint& p, int guess) {
+  const std::size_t slot = slot_of(key_of(p));
+  if (slots_[slot] != 0) return slots_[slot] - 1;
+  samples_.push_back({0, 0});
+  points_.push_back(p);
+  guesses_.push_back(guess);
+  slots_[slot] = size();
+  if (3 * samples_.size() > 2 * slots_.size()) grow();
+  return size() - 1;
+}
+
+void LatticeSamples::evaluate_range(int begin, int end) {
+  for (int i = begin; i < end; ++i) {
+    const Vec3 x = position(points_[i]);
+    const int guess = guesses_[i];
+    samples_[i] = guess < evaluated_ ? exact_.sample(x, position(points_[guess]), samples_[guess]) : exact_.sample(x);
+  }
+}
+
+void LatticeSamples::evaluate() {
+  constexpr int block = 512;
+  std::atomic<int> next = evaluated_;
+  const auto work = [&] {
+    for (int begin; (begin = next.fetch_add(block)) < size();) evaluate_range(begin, std::min(begin + block, size()));
+  };
+  const int helpers = std::min(threads_ - 1, (size() - evaluated_) / block);
+  {
+    std::vector<std::jthread> pool;
+    for (int i = 0; i < helpers; ++i) pool.emplace_back(work);
+    work();
+  }
+  evaluated_ = size();
+}
+
+}  // namespace furrow::physics
