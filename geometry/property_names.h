@@ -38,6 +38,8 @@ inline constexpr PropertyName<Edge, int> kBendingCount{"e:bending_count", 0};
 inline constexpr PropertyName<Edge, bool> kLineEdge{"e:line_edge", false};
 /// Texture coordinate of the corner of face(h) at target(h).
 inline constexpr PropertyName<Halfedge, TextureCoordinate> kTexture{"h:texture", {kUnset, kUnset}};
+/// How often insertion has split a face or the one it came from; after two splits it is left alone.
+inline constexpr PropertyName<Face, int> kGeneration{"f:generation", 0};
 /// Index into the document's group names (OBJ g and o), -1 = none.
 inline constexpr PropertyName<Face, int> kGroup{"f:group", -1};
 /// Index into the document's material names (OBJ usemtl), -1 = none.

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <map>
+#include <set>
+#include <vector>
+
+#include "geometry/connect_line.h"
+#include "geometry/insert_along_stroke.h"
+#include "geometry/trace_stroke.h"
+
+namespace furrow::geometry {
+
+/// What a round of insert_along_stroke changes to get better angles.
+struct LinePlan {
+  enum class Place { clamped, incenter, corner };
+  std::map<Face, Place> places;  ///< where a face's node goes; clamped if not named
+  std::set<Edge> routed;         ///< crossed edges that are neither flipped nor split
+};
+
+/// One round: a line drawn into a copy of the mesh.
+struct DrawnLine {
+  Mesh mesh;
+  Insertion insertion;
+  std::map<Vertex, Face> inserted_in;          ///< new vertices of faces
+  std::vector<std::pair<Link, Edge>> links;    ///< with the edge that the stroke crosses there
+};
+
+/// Inserts, joins, flips and restores the Delaunay property; see insert_along_stroke. `mean_edge` is h [m].
+DrawnLine draw_line(const Mesh& mesh, const TracedStroke& traced, const LinePlan& plan, int line_id, double mean_edge,
+                    const InsertionOptions& options);
+
+/// Names in `plan` what to do otherwise about the faces with an angle below `least_angle` [rad]; false: nothing is left.
+bool improve_plan(const DrawnLine& drawn, double least_angle, LinePlan& plan);
+
+}  // namespace furrow::geometry

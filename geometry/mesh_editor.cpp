@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh_editor.h"
+
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace furrow::geometry {
+namespace {
+
+TextureCoordinate blend(const std::array<TextureCoordinate, 3>& corners, const Barycentrics& weights) {
+  TextureCoordinate result{};
+  for (int k = 0; k < 2; ++k) {
+    result[k] = weights[0] * corners[0][k] + weights[1] * corners[1][k] + weights[2] * corners[2][k];
+  }
+  return result;
+}
+
+bool same(const TextureCoordinate& a, const TextureCoordinate& b) {
+  const auto equal = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  return equal(a[0], b[0]) && equal(a[1], b[1]);
+}
+
+}  // namespace
+
+MeshEditor::MeshEditor(Mesh& mesh)
+    : mesh_(mesh),
+      rest_(ensure_rest_lengths(mesh)),
+      line_(ensure_map(mesh, kLine)),
+      line_edge_(ensure_map(mesh, kLineEdge)),
+      generation_(ensure_map(mesh, kGeneration)),
+      texture_(find_map(mesh, kTexture)),
+      color_(find_map(mesh, kColor)),
+      group_(find_map(mesh, kGroup)),
+      material_(find_map(mesh, kMaterial)),
+      bending_(find_map(mesh, kBendingRestLength)),
+      bending_count_(find_map(mesh, kBendingCount)) {}
+
+/// Texture coordinate of `vertex` in the face of `inside`.
+TextureCoordinate MeshEditor::corner_in(Halfedge inside, Vertex vertex) const {
+  Halfedge h = inside;
+  while (mesh_.target(h) != vertex) h = mesh_.next(h);
+  return (*texture_)[h];
+}
+
+void MeshEditor::copy_face(Face from, Face to) {
+  if (group_) (*group_)[to] = (*group_)[from];
+  if (material_) (*material_)[to] = (*material_)[from];
+  generation_[to] = generation_[from];
+  changed_.insert(to);
+}
+
+void MeshEditor::unset_springs(Edge edge) {
+  if (bending_) (*bending_)[edge] = kUnset;
+  if (bending_count_) (*bending_count_)[edge] = 0;
+}
+
+void MeshEditor::set_color(Vertex vertex, const std::array<Vertex, 3>& corners, const Barycentrics& weights) {
+  if (!color_) return;
+  Color sum{};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 4; ++k) sum[k] += weights[i] * (*color_)[corners[i]][k];
+  }
+  (*color_)[vertex] = sum;
+}
+
+Vertex MeshEditor::split_face(const FacePoint& point) {
+  const Point position = position_of(mesh_, point);
+  const auto corners = corners_of(mesh_, point.face);
+  const auto sides = halfedges_of(mesh_, point.face);
+  const auto spokes = lengths_to_corners(rest_lengths_of(mesh_, rest_, point.face), point.barycentrics);
+  std::array<TextureCoordinate, 3> texture{};
+  if (texture_) {
+    for (int i = 0; i < 3; ++i) texture[i] = (*texture_)[sides[(i + 2) % 3]];
+  }
+  ++generation_[point.face];
+  const Halfedge in = CGAL::Euler::add_center_vertex(mesh_.halfedge(point.face), mesh_);
+  const Vertex centre = mesh_.target(in);
+  mesh_.point(centre) = position;
+  set_color(centre, corners, point.barycentrics);
+  for (int i = 0; i < 3; ++i) {
+    // The part on side i: corner i, corner i + 1, centre.
+    const Halfedge to_centre = mesh_.next(sides[i]), from_centre = mesh_.next(to_centre);
+    const Edge spoke = mesh_.edge(from_centre);
+    rest_[spoke] = spokes[i];
+    unset_springs(spoke);
+    unset_springs(mesh_.edge(sides[i]));
+    copy_face(point.face, mesh_.face(sides[i]));
+    if (!texture_) continue;
+    (*texture_)[to_centre] = blend(texture, point.barycentrics);
+    (*texture_)[from_centre] = texture[i];
+  }
+  return centre;
+}
+
+Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
+  const Vertex a = mesh_.source(halfedge), b = mesh_.target(halfedge);
+  const Halfedge opposite = mesh_.opposite(halfedge);
+  const Edge edge = mesh_.edge(halfedge);
+  const double length = rest_[edge];
+  const bool line_edge = line_edge_[edge];
+  const auto left = lengths_to_corners(
+      {length, rest_[mesh_.edge(mesh_.next(halfedge))], rest_[mesh_.edge(mesh_.prev(halfedge))]}, {1 - t, t, 0});
+  const auto right = lengths_to_corners(
+      {length, rest_[mesh_.edge(mesh_.next(opposite))], rest_[mesh_.edge(mesh_.prev(opposite))]}, {t, 1 - t, 0});
+  std::array<std::array<TextureCoordinate, 3>, 2> texture{};  // a, b, apex of both sides
+  const std::array<Halfedge, 2> inside{halfedge, opposite};
+  for (int side = 0; texture_ && side < 2; ++side) {
+    texture[side] = {corner_in(inside[side], a), corner_in(inside[side], b), (*texture_)[mesh_.next(inside[side])]};
+  }
+  const Point& pa = mesh_.point(a);
+  const Point position = pa + t * (mesh_.point(b) - pa);
+  const Halfedge first = CGAL::Euler::split_edge(halfedge, mesh_);  // a to the new vertex; halfedge goes on to b
+  const Vertex middle = mesh_.target(first);
+  mesh_.point(middle) = position;
+  set_color(middle, {a, b, b}, {1 - t, t, 0});
+  rest_[mesh_.edge(first)] = t * length;
+  rest_[mesh_.edge(halfedge)] = (1 - t) * length;
+  for (Halfedge part : {first, halfedge}) {
+    line_edge_[mesh_.edge(part)] = line_edge;
+    unset_springs(mesh_.edge(part));
+  }
+  const std::array<double, 2> spokes{left[2], right[2]};
+  const std::array<Halfedge, 2> to_middle{first, mesh_.opposite(halfedge)};
+  for (int side = 0; side < 2; ++side) {
+    const Face old_face = mesh_.face(to_middle[side]);
+    const Vertex apex = mesh_.target(mesh_.next(mesh_.next(to_middle[side])));
+    const Halfedge spoke =
+        CGAL::Euler::split_face(to_middle[side], mesh_.next(mesh_.next(to_middle[side])), mesh_);
+    rest_[mesh_.edge(spoke)] = spokes[side];
+    unset_springs(mesh_.edge(spoke));
+    ++generation_[old_face];
+    const auto& corner = texture[side];
+    for (Halfedge part : {spoke, mesh_.opposite(spoke)}) {
+      copy_face(old_face, mesh_.face(part));
+      for (Halfedge h : halfedges_of(mesh_, mesh_.face(part))) {
+        unset_springs(mesh_.edge(h));
+        const Vertex v = mesh_.target(h);
+        if (!texture_) continue;
+        (*texture_)[h] = v == a ? corner[0] : v == b ? corner[1] : v == apex ? corner[2]
+                                                                            : blend({corner[0], corner[1], corner[1]},
+                                                                                    {1 - t, t, 0});
+      }
+    }
+  }
+  return middle;
+}
+
+void MeshEditor::flip_edge(Edge edge) {
+  const Halfedge h = mesh_.halfedge(edge), to_c = mesh_.next(h), to_d = mesh_.next(mesh_.opposite(h));
+  const Vertex c = mesh_.target(to_c);
+  const double length = unfold(mesh_, rest_, edge).flipped_length();
+  const std::array<Face, 2> faces{mesh_.face(h), mesh_.face(mesh_.opposite(h))};
+  const int generation = std::max(generation_[faces[0]], generation_[faces[1]]);
+  for (Halfedge side : {to_c, mesh_.prev(h), to_d, mesh_.prev(mesh_.opposite(h))}) unset_springs(mesh_.edge(side));
+  CGAL::Euler::flip_edge(h, mesh_);
+  rest_[edge] = length;
+  line_edge_[edge] = false;
+  unset_springs(edge);
+  for (Face face : faces) {
+    generation_[face] = generation;
+    changed_.insert(face);
+  }
+  if (!texture_) return;
+  for (Halfedge part : {h, mesh_.opposite(h)}) (*texture_)[part] = (*texture_)[mesh_.target(part) == c ? to_c : to_d];
+}
+
+bool MeshEditor::is_seam(Edge edge) const {
+  const Halfedge h = mesh_.halfedge(edge), o = mesh_.opposite(h);
+  const Face f = mesh_.face(h), g = mesh_.face(o);
+  if (group_ && (*group_)[f] != (*group_)[g]) return true;
+  if (material_ && (*material_)[f] != (*material_)[g]) return true;
+  return texture_ && !(same((*texture_)[h], (*texture_)[mesh_.prev(o)]) &&
+                       same((*texture_)[o], (*texture_)[mesh_.prev(h)]));
+}
+
+std::optional<Edge> MeshEditor::edge_between(Vertex a, Vertex b) const {
+  const Halfedge h = mesh_.halfedge(a, b);
+  return h.is_valid() ? std::optional(mesh_.edge(h)) : std::nullopt;
+}
+
+}  // namespace furrow::geometry
