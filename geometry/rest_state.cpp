@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/rest_state.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "geometry/bending_springs.h"
+#include "geometry/edge_metric.h"
+#include "geometry/preconditions.h"
+#include "geometry/property_names.h"
+
+namespace furrow::geometry {
+namespace {
+
+/// Compares the present shape with the snapshot's.
+class Change {
+ public:
+  Change(const Mesh& mesh, const RestSnapshot& before) : mesh_(mesh), before_(before) {}
+  bool touches(Vertex a, Vertex b) const { return moved(a) || moved(b); }
+  /// The rest length `rest` [m] of a spring a-b carried over to the present shape.
+  double carried(double rest, Vertex a, Vertex b) const {
+    const double after = distance(mesh_.point(a), mesh_.point(b));
+    const double earlier = distance(before_.positions[a.idx()], before_.positions[b.idx()]);
+    return std::isnan(rest) || !(earlier > 0) ? after : rest * (after / earlier);
+  }
+
+ private:
+  static double distance(const Point& p, const Point& q) { return std::sqrt(CGAL::squared_distance(p, q)); }
+  bool moved(Vertex v) const { return mesh_.point(v) != before_.positions[v.idx()]; }
+  const Mesh& mesh_;
+  const RestSnapshot& before_;
+};
+
+}  // namespace
+
+RestSnapshot take_rest_snapshot(const Mesh& mesh) {
+  RestSnapshot snapshot;
+  snapshot.positions.assign(mesh.points().begin(), mesh.points().end());
+  snapshot.edges = mesh.num_edges();
+  return snapshot;
+}
+
+RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule) {
+  if (before.positions.size() != mesh.num_vertices() || before.edges != mesh.num_edges())
+    throw std::invalid_argument("apply_rest_rule: the snapshot has " + std::to_string(before.positions.size()) +
+                                " vertices and " + std::to_string(before.edges) + " edges, the mesh has " +
+                                std::to_string(mesh.num_vertices()) + " and " +
+                                std::to_string(mesh.num_edges()));
+  require_finite(mesh, "apply_rest_rule");
+  RestReport report;
+  if (rule == RestRule::flat) return report;
+  const Change change(mesh, before);
+  auto rest = ensure_map(mesh, kRestLength);
+  for (Edge e : mesh.edges()) {
+    const Vertex a = mesh.vertex(e, 0), b = mesh.vertex(e, 1);
+    if (!change.touches(a, b)) continue;
+    rest[e] = change.carried(rest[e], a, b);
+    ++report.scaled_edges;
+  }
+  for (const BendingSpring& s : bending_springs(mesh)) {
+    if (!change.touches(s.a, s.b)) continue;
+    (*find_map(mesh, kBendingRestLength))[s.across] = change.carried(s.rest_length, s.a, s.b);
+    ++report.scaled_bending_springs;
+  }
+  return report;
+}
+
+RestReport apply_drawn_rest(Mesh& mesh, const RestSnapshot& before) {
+  return apply_rest_rule(mesh, before, RestRule::drawn);
+}
+
+double rest_area(const Mesh& mesh) {
+  require_triangles(mesh, "rest_area");
+  const std::vector<double> lengths = rest_lengths(mesh);
+  double sum = 0;
+  for (Face f : mesh.faces()) {
+    const auto [a, b, c] = edge_lengths(mesh, f, lengths);
+    sum += triangle_area(a, b, c);
+  }
+  return sum;
+}
+
+}  // namespace furrow::geometry

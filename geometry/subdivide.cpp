@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/subdivide.h"
+
+#include <CGAL/subdivision_method_3.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geometry/carry_attributes.h"
+#include "geometry/preconditions.h"
+
+namespace furrow::geometry {
+namespace {
+
+namespace cgal = CGAL::Subdivision_method_3;
+using PointMap = boost::property_map<Mesh, CGAL::vertex_point_t>::type;
+
+/// CGAL's masks, except that a vertex without faces stays where it is.
+template <class Mask>
+class KeepIsolated : public Mask {
+ public:
+  explicit KeepIsolated(Mesh& mesh) : Mask(&mesh, mesh.points()), mesh_(mesh) {}
+  void vertex_node(Vertex v, Point& p) {
+    if (mesh_.is_isolated(v)) p = mesh_.point(v);
+    else Mask::vertex_node(v, p);
+  }
+
+ private:
+  const Mesh& mesh_;
+};
+
+void check(Mesh& mesh, int steps, int faces_per_face, const char* operation) {
+  if (steps < 0 || steps > 6)
+    throw std::invalid_argument(std::string(operation) + ": steps is " + std::to_string(steps) +
+                                ", not in [0, 6]");
+  require_triangles(mesh, operation);
+  require_finite(mesh, operation);
+  const double faces = static_cast<double>(mesh.number_of_faces()) * std::pow(faces_per_face, steps);
+  if (faces > 50e6)
+    throw std::invalid_argument(std::string(operation) + ": steps is " + std::to_string(steps) +
+                                ", which would make more than 50 million faces");
+  if (steps > 0) mesh.collect_garbage();
+}
+
+/// Marks the halves of the edges of lines, and gives their mid-points the line of both ends.
+void carry_lines(Mesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& old_edges,
+                 const std::vector<char>& was_line_edge, std::size_t old_vertices) {
+  const auto line = find_map(mesh, kLine);
+  const auto line_edge = find_map(mesh, kLineEdge);
+  if (line_edge)
+    for (Edge e : mesh.edges()) (*line_edge)[e] = false;
+  for (std::size_t i = 0; i < old_edges.size(); ++i) {
+    if (!was_line_edge[i]) continue;
+    const auto [a, b] = old_edges[i];
+    const Vertex mid(static_cast<Vertex::size_type>(old_vertices + i));
+    if (line && (*line)[a] == (*line)[b]) (*line)[mid] = (*line)[a];
+    for (Vertex end : {a, b}) (*line_edge)[mesh.edge(mesh.halfedge(end, mid))] = true;
+  }
+}
+
+void loop_step(Mesh& mesh) {
+  const SavedAttributes saved(mesh);
+  const std::size_t old_vertices = mesh.number_of_vertices(), old_faces = mesh.number_of_faces();
+  std::vector<std::pair<Vertex, Vertex>> ends;  // CGAL appends the mid-points in the order of the edges
+  std::vector<char> was_line_edge;
+  const auto line_edge = find_map(mesh, kLineEdge);
+  for (Edge e : mesh.edges()) {
+    ends.emplace_back(mesh.vertex(e, 0), mesh.vertex(e, 1));
+    was_line_edge.push_back(line_edge && (*line_edge)[e]);
+  }
+  KeepIsolated<CGAL::Loop_mask_3<Mesh, PointMap>> mask(mesh);
+  cgal::PTQ(mesh, mask, CGAL::parameters::number_of_iterations(1));
+  // A face keeps its index for one of its four parts; the other three are appended, face by face.
+  const auto parent = [&](Face f) {
+    return f.idx() < old_faces ? f : Face(static_cast<Face::size_type>((f.idx() - old_faces) / 3));
+  };
+  const auto origin = [&](Vertex v, Face in) {
+    Origin at{in};
+    const auto [a, b] = v.idx() < old_vertices ? std::pair(v, v) : ends[v.idx() - old_vertices];
+    if (saved.corner(in, a) == 3 || saved.corner(in, b) == 3)
+      throw std::logic_error("loop_subdivide: CGAL numbers its faces in an unknown way");
+    at.weights[saved.corner(in, a)] += 0.5;
+    at.weights[saved.corner(in, b)] += 0.5;
+    return at;
+  };
+  saved.restore(mesh, parent, origin);
+  carry_lines(mesh, ends, was_line_edge, old_vertices);
+}
+
+/// Where CGAL's step will put the new vertices, in its order: the centroid of each face, or, where the border is
+/// refined, two vertices on the border edge of a face that has one.
+std::vector<Origin> sqrt3_origins(const Mesh& mesh, const SavedAttributes& saved, bool refine_border) {
+  std::vector<Origin> origins;
+  for (Face f : mesh.faces()) {
+    Halfedge border;
+    for (Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
+      if (!border.is_valid() && mesh.is_border(mesh.opposite(h))) border = h;
+    if (!refine_border || !border.is_valid()) {
+      origins.push_back({f, {1. / 3, 1. / 3, 1. / 3}});
+      continue;
+    }
+    const std::size_t from = saved.corner(f, mesh.source(border)), to = saved.corner(f, mesh.target(border));
+    for (double share : {1. / 3, 2. / 3}) {
+      Origin at{f};
+      at.weights[from] = 1 - share;
+      at.weights[to] = share;
+      origins.push_back(at);
+    }
+  }
+  return origins;
+}
+
+void sqrt3_step(Mesh& mesh, bool refine_border) {
+  const SavedAttributes saved(mesh);
+  const std::size_t old_vertices = mesh.number_of_vertices();
+  const std::vector<Origin> origins = sqrt3_origins(mesh, saved, refine_border);
+  KeepIsolated<CGAL::Sqrt3_mask_3<Mesh, PointMap>> mask(mesh);
+  // CGAL's public function makes all steps at once; attributes have to be carried after each.
+  cgal::internal::Sqrt3_1step(mesh, mesh.points(), mask, refine_border);
+  mesh.collect_garbage();
+  const auto parent = [&](Face f) {
+    Vertex newest;  // every new face has a new vertex; the one of lowest index decides
+    for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+      if (v.idx() >= old_vertices && (!newest.is_valid() || v < newest)) newest = v;
+    return origins.at(newest.idx() - old_vertices).face;
+  };
+  const auto origin = [&](Vertex v, Face in) {
+    if (v.idx() >= old_vertices) return origins[v.idx() - old_vertices];
+    Origin at{in};
+    at.weights.at(saved.corner(in, v)) = 1;
+    return at;
+  };
+  saved.restore(mesh, parent, origin);
+  if (const auto line_edge = find_map(mesh, kLineEdge))
+    for (Edge e : mesh.edges()) (*line_edge)[e] = false;
+}
+
+}  // namespace
+
+void loop_subdivide(Mesh& mesh, int steps) {
+  check(mesh, steps, 4, "loop_subdivide");
+  for (int i = 0; i < steps; ++i) loop_step(mesh);
+  if (steps > 0) unset_rest_state(mesh);
+}
+
+void sqrt3_subdivide(Mesh& mesh, int steps) {
+  check(mesh, steps, 3, "sqrt3_subdivide");
+  for (int i = 0; i < steps; ++i) sqrt3_step(mesh, i % 2 == 1);
+  if (steps > 0) unset_rest_state(mesh);
+}
+
+}  // namespace furrow::geometry
