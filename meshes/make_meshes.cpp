@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Makes the small inputs of this folder: make_meshes FOLDER writes FOLDER/sheet.obj and FOLDER/strokes/sheet.json.
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "geometry/sheet.h"
+
+namespace {
+
+using furrow::geometry::Face;
+using furrow::geometry::Mesh;
+using furrow::geometry::Point;
+using furrow::geometry::Vertex;
+using nlohmann::json;
+
+/// Shortest text that reads back as the same double.
+std::string text(double x) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, x + 0.0).ptr};
+}
+
+double rounded(double x) { return std::round(x * 1e6) / 1e6 + 0.0; }  // to a micrometre; -0 becomes 0
+
+void write(const std::filesystem::path& path, const std::string& content) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream file(path, std::ios::binary);
+  file << content;
+  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+std::string obj(const Mesh& mesh, const std::string& comment) {
+  std::string out = "# " + comment + "\n";
+  for (Vertex v : mesh.vertices()) {
+    const Point& p = mesh.point(v);
+    out += "v " + text(p.x()) + " " + text(p.y()) + " " + text(p.z()) + "\n";
+  }
+  for (Face f : mesh.faces()) {
+    out += "f";
+    for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) out += " " + std::to_string(v.idx() + 1);
+    out += "\n";
+  }
+  return out;
+}
+
+/// Points every `spacing` metres on the way from a to b, both included.
+json segment(const Point& a, const Point& b, double spacing) {
+  const int n = static_cast<int>(std::ceil(std::sqrt(CGAL::squared_distance(a, b)) / spacing - 1e-9));
+  json points = json::array();
+  for (int i = 0; i <= n; ++i) {
+    const Point p = a + static_cast<double>(i) / n * (b - a);
+    points.push_back({rounded(p.x()), rounded(p.y()), rounded(p.z())});
+  }
+  return points;
+}
+
+json ring(const Point& center, double radius, int n) {
+  json points = json::array();
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    points.push_back({rounded(center.x() + radius * std::cos(angle)),
+                      rounded(center.y() + radius * std::sin(angle)), rounded(center.z())});
+  }
+  return points;
+}
+
+void make(const std::filesystem::path& folder) {
+  write(folder / "sheet.obj", obj(furrow::geometry::equilateral_sheet(1, 1, 0.02),
+                                  "1 m x 1 m of cloth, equilateral triangles of edge 20 mm; metres, y up, made by make_meshes"));
+  // Ridge and valley: 0.5 m each (legs of 0.3 and 0.4 m), falling from below the corners towards the middle.
+  const json strokes = {
+      {{"name", "ridge"}, {"height", 0.02}, {"points", segment({-0.36, 0.86, 0}, {-0.06, 0.46, 0}, 0.005)}},
+      {{"name", "valley"}, {"height", -0.02}, {"points", segment({0.36, 0.86, 0}, {0.06, 0.46, 0}, 0.005)}},
+      {{"name", "ring"}, {"height", 0.03}, {"closed", true}, {"points", ring({0, 0.22, 0}, 0.12, 150)}}};
+  std::string text_of_strokes = "{\"strokes\": [\n";
+  for (const json& stroke : strokes) text_of_strokes += stroke.dump() + (&stroke == &strokes.back() ? "\n" : ",\n");
+  write(folder / "strokes" / "sheet.json", text_of_strokes + "]}\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    if (argc != 2) throw std::invalid_argument("usage: make_meshes FOLDER");
+    make(argv[1]);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}
