@@ -89,6 +89,36 @@ void add_normals(const std::array<int, 3>& t, const Vector3d& normal, PreparedMe
   }
 }
 
+/// The mean over a vertex's triangle sides of `value(from, to)`, a side of two triangles counted twice.
+template <class Value>
+std::vector<double> mean_over_sides(const PreparedMesh& mesh, const Value& value) {
+  std::vector<double> sums(mesh.vertices.size(), 0), counts(mesh.vertices.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      for (int other : {t[(i + 1) % 3], t[(i + 2) % 3]}) {
+        sums[t[i]] += value(t[i], other);
+        ++counts[t[i]];
+      }
+    }
+  }
+  for (std::size_t v = 0; v < sums.size(); ++v) sums[v] /= std::max(counts[v], 1.0);
+  return sums;
+}
+
+/// Normal curvature along the sides (change of the normal over the length), meaned over the neighbours, once
+/// more so that single vertices do not speckle, and bent into (−1, 1).
+std::vector<double> bulges(const PreparedMesh& mesh) {
+  constexpr double kSharp = 1.0 / 150;  // radius, of the scene's diagonal
+  const std::vector<double> curvature = mean_over_sides(mesh, [&](int a, int b) {
+    const Vector3d side = mesh.vertices[b] - mesh.vertices[a];
+    return side.dot(mesh.normals[b] - mesh.normals[a]) / side.squaredNorm();
+  });
+  std::vector<double> result =
+      mean_over_sides(mesh, [&](int a, int b) { return (curvature[a] + curvature[b]) / 2; });
+  for (double& x : result) x = kSharp * x / (1 + std::abs(kSharp * x));
+  return result;
+}
+
 PreparedMesh prepare_mesh(const RenderMesh& mesh, const Frame& frame) {
   PreparedMesh result;
   result.style = mesh.style;
@@ -103,6 +133,7 @@ PreparedMesh prepare_mesh(const RenderMesh& mesh, const Frame& frame) {
     add_normals(t, cross.normalized(), result);
   }
   for (Vector3d& n : result.normals) n = n.norm() > 1e-6 ? Vector3d(n.normalized()) : Vector3d(0, 0, 0);
+  if (mesh.style == Style::cloth) result.bulges = bulges(result);
   for (const Colour& c : mesh.vertex_colours) result.colours.push_back(linear(c));
   if (result.colours.empty()) result.colours.push_back(linear(mesh.colour));
   return result;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -44,7 +45,7 @@ class Picture {
         counts_(ray_counts(options.quality)),
         scene_(prepare(scene, options)),
         rays_(scene_),
-        shader_(scene_, rays_, counts_.sky) {}
+        shader_(scene_, rays_, counts_.side * counts_.side, counts_.sky) {}
 
   void draw_row(int row, std::uint8_t* rgb) const {
     const Colour c = background_colour(row, height_);
@@ -59,14 +60,14 @@ class Picture {
 
  private:
   Vector3d pixel(int column, int row, const Vector3d& background) const {
-    const SampleSequence key = pixel_sequence(column, row, 1), sky = pixel_sequence(column, row, 2);
+    const PixelTurn turn = pixel_turn(column, row);
     const int n = counts_.side;
     Vector3d sum = Vector3d::Zero();
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
         // n² places in n² columns and n² rows of the pixel: the smoothest edges that so many rays give.
         const double x = column + (i + (j + 0.5) / n) / n, y = row + (j + (i + 0.5) / n) / n;
-        sum += light_along(direction(x, y), j * n + i, key, sky, background);
+        sum += light_along(direction(x, y), j * n + i, turn, background);
       }
     }
     return sum / (n * n);
@@ -78,15 +79,16 @@ class Picture {
     return (c.forward + a * c.right + b * c.up).normalized();
   }
 
-  Vector3d light_along(const Vector3d& ray, int sample, const SampleSequence& key, const SampleSequence& sky,
+  Vector3d light_along(const Vector3d& ray, int sample, const PixelTurn& turn,
                        const Vector3d& background) const {
     const Vector3d& eye = scene_.camera.eye;
     const auto hit = rays_.nearest_surface(eye, ray);
     // Half a radius in front of the surface: the sides of a valley must not swallow its line.
-    const double reach = hit ? hit->distance + 0.5 * scene_.line_radius.at(hit->distance) : HUGE_VAL;
+    const double reach = hit ? hit->distance + 0.5 * scene_.line_radius.at(hit->distance)
+                             : std::numeric_limits<double>::infinity();
     const auto line = rays_.nearest_line(eye, ray, reach);
     if (line) return shader_.line(ray, *line);
-    return hit ? shader_.surface(ray, *hit, sample, key, sky) : background;
+    return hit ? shader_.surface(ray, *hit, sample, turn) : background;
   }
 
   int width_, height_;

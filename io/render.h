@@ -12,7 +12,7 @@ namespace furrow::io {
 
 using Colour = std::array<float, 3>;  ///< red, green, blue in [0, 1], sRGB
 
-inline constexpr Colour kClothColour{0.60f, 0.70f, 0.84f};
+inline constexpr Colour kClothColour{0.66f, 0.73f, 0.82f};
 inline constexpr Colour kBodyColour{0.80f, 0.72f, 0.66f};
 inline constexpr Colour kRidgeColour{0.85f, 0.22f, 0.08f};
 inline constexpr Colour kValleyColour{0.06f, 0.24f, 0.72f};

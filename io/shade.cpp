@@ -13,24 +13,34 @@ using Eigen::Vector3d;
 
 // In units of the scene's diagonal.
 constexpr double kRayOffset = 1e-4;    // a ray starts this far above the surface it leaves
-constexpr double kSkyDistance = 0.25;  // what lies farther away does not hide the sky
+constexpr double kSkyDistance = 0.12;  // what lies farther away does not hide the sky
 constexpr double kKeyRadius = 0.10;    // tangent of half the key light's angle: soft shadows
 // Strength of the lights.
-constexpr double kKey = 0.85, kSky = 0.55, kFill = 0.10;
-constexpr double kBounce = 0.30;  // of the sky's light, from whatever hides it
+constexpr double kKey = 1.02, kSky = 0.52, kFill = 0.24;
+constexpr double kBounce = 0.15;  // of the sky's light, from whatever hides it
+// Cloth.
+constexpr double kCavity = 0.34;  // how much darker a sharp valley is painted, and lighter a sharp ridge
+const Vector3d kBackTint(0.55, 0.42, 0.36);
 
-/// Corner of a square to a direction around z whose density is the cosine.
-Vector3d cosine_direction(const std::array<double, 2>& at) {
-  const double radius = std::sqrt(at[0]), angle = 2 * std::numbers::pi * at[1];
-  return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(0.0, 1 - at[0]))};
+/// Points of the unit disk, evenly spread however many are taken: the additive recurrence of the plastic
+/// number (Roberts 2018), bent to the disk.
+Eigen::Vector2d disk_point(int i) {
+  const double x = (i + 0.5) * 0.7548776662466927, y = (i + 0.5) * 0.5698402909980532;
+  const double radius = std::sqrt(x - std::floor(x)), angle = 2 * std::numbers::pi * (y - std::floor(y));
+  return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// d, given around z, turned to lie around the unit vector n.
-Vector3d turned(const Vector3d& d, const Vector3d& n) {
-  const Vector3d axis = std::abs(n.x()) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY();
-  const Vector3d a = axis.cross(n).normalized(), b = n.cross(a);
-  return (d.x() * a + d.y() * b + d.z() * n).normalized();
-}
+/// d, given about z, turned about z as the pixel says and then to lie about the unit vector n.
+struct Basis {
+  Vector3d a, b, n;
+  Basis(const Vector3d& normal, const PixelTurn& turn) : n(normal) {
+    const Vector3d axis = std::abs(n.x()) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY();
+    const Vector3d u = axis.cross(n).normalized(), v = n.cross(u);
+    a = turn.cosine * u + turn.sine * v;
+    b = turn.cosine * v - turn.sine * u;
+  }
+  Vector3d operator()(const Vector3d& d) const { return d.x() * a + d.y() * b + d.z() * n; }
+};
 
 /// The point of a curved surface above the hit on its flat triangle: the corners' tangent planes blended.
 /// Rays that leave from it do not see the facets at the edge of the shadow (Hanika 2021, "Hacking the shadow
@@ -67,7 +77,12 @@ Seen see(const PreparedMesh& mesh, const SurfaceHit& hit, const Vector3d& direct
     smooth += weights[i] * normals[i];
     colour += weights[i] * mesh.colours[mesh.colours.size() == 1 ? 0 : t[i]];
   }
-  if (back && mesh.style == Style::cloth) colour = colour.cwiseProduct(Vector3d(0.55, 0.42, 0.36));
+  if (mesh.style == Style::cloth) {
+    double bulge = 0;
+    for (int i = 0; i < 3; ++i) bulge += weights[i] * mesh.bulges[t[i]];
+    colour *= 1 + kCavity * side * bulge;
+    if (back) colour = colour.cwiseProduct(kBackTint);
+  }
   return {raised_point(p, corners, normals, weights) + kRayOffset * flat, smooth.normalized(), colour};
 }
 
@@ -79,47 +94,48 @@ std::uint32_t mixed(std::uint32_t h) {
 
 }  // namespace
 
-std::array<double, 2> SampleSequence::operator()(int i) const {
-  const double x = shift_x + i * 0.7548776662466927, y = shift_y + i * 0.5698402909980532;
-  return {x - std::floor(x), y - std::floor(y)};
+PixelTurn pixel_turn(std::uint32_t column, std::uint32_t row) {
+  const double angle = 2 * std::numbers::pi * 0x1p-32 * mixed(column + mixed(row + 1));
+  return {std::cos(angle), std::sin(angle)};
 }
 
-SampleSequence pixel_sequence(std::uint32_t x, std::uint32_t y, std::uint32_t purpose) {
-  const std::uint32_t a = mixed(x + mixed(y + mixed(purpose))), b = mixed(a + 0x9e3779b9u);
-  return {a * 0x1p-32, b * 0x1p-32};
-}
-
-Shader::Shader(const PreparedScene& scene, const RayScene& rays, int sky_rays)
+Shader::Shader(const PreparedScene& scene, const RayScene& rays, int samples, int sky_rays)
     : scene_(scene), rays_(rays), sky_rays_(sky_rays) {
   const PreparedCamera& c = scene.camera;
-  key_direction_ = (-0.78 * c.right + 0.52 * c.up - 0.42 * c.forward).normalized();
-  fill_direction_ = (0.85 * c.right + 0.1 * c.up - 0.5 * c.forward).normalized();
+  key_direction_ = (-0.75 * c.right + 0.58 * c.up - 0.36 * c.forward).normalized();
+  fill_direction_ = (0.9 * c.right - 0.15 * c.up - 0.25 * c.forward).normalized();
+  for (int i = 0; i < samples; ++i) {
+    const Eigen::Vector2d p = kKeyRadius * disk_point(i);
+    key_samples_.emplace_back(p.x(), p.y(), 1);
+  }
+  for (int i = 0; i < samples * sky_rays; ++i) {
+    const Eigen::Vector2d p = disk_point(i);
+    sky_samples_.emplace_back(p.x(), p.y(), std::sqrt(std::max(0.0, 1 - p.squaredNorm())));
+  }
 }
 
-double Shader::key_light(const Vector3d& p, const Vector3d& normal, const std::array<double, 2>& at) const {
-  const double radius = kKeyRadius * std::sqrt(at[0]), angle = 2 * std::numbers::pi * at[1];
-  const Vector3d d =
-      turned(Vector3d(radius * std::cos(angle), radius * std::sin(angle), 1).normalized(), key_direction_);
+double Shader::key_light(const Vector3d& p, const Vector3d& normal, int sample, const PixelTurn& turn) const {
+  const Vector3d d = Basis(key_direction_, turn)(key_samples_[sample]).normalized();
   const double cosine = normal.dot(d);
   return cosine > 0 && !rays_.is_blocked(p, d) ? cosine : 0;
 }
 
-double Shader::sky_light(const Vector3d& p, const Vector3d& normal, int sample,
-                         const SampleSequence& sequence) const {
+double Shader::sky_light(const Vector3d& p, const Vector3d& normal, int sample, const PixelTurn& turn) const {
+  const Basis basis(normal, turn);
   double sum = 0;
   for (int i = 0; i < sky_rays_; ++i) {
-    const Vector3d d = turned(cosine_direction(sequence(sample * sky_rays_ + i)), normal);
-    const double brightness = 0.75 + 0.25 * d.dot(scene_.camera.up);
+    const Vector3d d = basis(sky_samples_[sample * sky_rays_ + i]);
+    const double brightness = 0.56 + 0.44 * d.dot(scene_.camera.up);
     sum += brightness * (rays_.is_blocked(p, d, kSkyDistance) ? kBounce : 1);
   }
   return sum / sky_rays_;
 }
 
 Vector3d Shader::surface(const Vector3d& direction, const SurfaceHit& hit, int sample,
-                         const SampleSequence& key, const SampleSequence& sky) const {
+                         const PixelTurn& turn) const {
   const Seen seen = see(scene_.meshes[hit.mesh], hit, direction);
-  const double light = kKey * key_light(seen.point, seen.normal, key(sample)) +
-                       kSky * sky_light(seen.point, seen.normal, sample, sky) +
+  const double light = kKey * key_light(seen.point, seen.normal, sample, turn) +
+                       kSky * sky_light(seen.point, seen.normal, sample, turn) +
                        kFill * std::max(0.0, seen.normal.dot(fill_direction_));
   return light * seen.colour;
 }
