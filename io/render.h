@@ -68,8 +68,8 @@ Colour background_colour(int row, int height);
 /// The shaded picture of a scene, without a display: rays (Embree) for what is seen, smooth normals, a soft
 /// key light raking from the upper left of the picture, and the occluded light of the sky; needed to show the
 /// stages (method S1.21). The same scene and options give the same bits for any number of threads. Throws
-/// std::invalid_argument for a scene or option out of the ranges above, before any work; cost: about 5 s for
-/// 1200 × 1200 pixels, quality normal, one core.
+/// std::invalid_argument for a scene or option out of the ranges above, before any work. Cost: by the rays
+/// that hit something; 1200 × 1200 pixels of normal quality take one core 4 to 12 s.
 Image render(const RenderScene& scene, const RenderOptions& options = {});
 
 }  // namespace furrow::io

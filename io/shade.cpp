@@ -20,7 +20,7 @@ constexpr double kKey = 1.02, kSky = 0.52, kFill = 0.24;
 constexpr double kBounce = 0.15;  // of the sky's light, from whatever hides it
 // Cloth.
 constexpr double kCavity = 0.34;  // how much darker a sharp valley is painted, and lighter a sharp ridge
-const Vector3d kBackTint(0.55, 0.42, 0.36);
+const Vector3d kBackTint(0.66, 0.54, 0.48);
 
 /// Points of the unit disk, evenly spread however many are taken: the additive recurrence of the plastic
 /// number (Roberts 2018), bent to the disk.
@@ -30,17 +30,19 @@ Eigen::Vector2d disk_point(int i) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// d, given about z, turned about z as the pixel says and then to lie about the unit vector n.
-struct Basis {
-  Vector3d a, b, n;
-  Basis(const Vector3d& normal, const PixelTurn& turn) : n(normal) {
-    const Vector3d axis = std::abs(n.x()) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY();
-    const Vector3d u = axis.cross(n).normalized(), v = n.cross(u);
-    a = turn.cosine * u + turn.sine * v;
-    b = turn.cosine * v - turn.sine * u;
-  }
-  Vector3d operator()(const Vector3d& d) const { return d.x() * a + d.y() * b + d.z() * n; }
-};
+/// Two unit vectors that are orthogonal to the unit vector n and to each other.
+std::array<Vector3d, 2> across(const Vector3d& n) {
+  const Vector3d axis = std::abs(n.x()) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY();
+  const Vector3d u = axis.cross(n).normalized();
+  return {u, n.cross(u)};
+}
+
+/// d, given about z, turned about z as the pixel says and then to lie about n.
+Vector3d turned(const Vector3d& d, const PixelTurn& turn, const Vector3d& n,
+                const std::array<Vector3d, 2>& uv) {
+  const double x = turn.cosine * d.x() - turn.sine * d.y(), y = turn.sine * d.x() + turn.cosine * d.y();
+  return x * uv[0] + y * uv[1] + d.z() * n;
+}
 
 /// The point of a curved surface above the hit on its flat triangle: the corners' tangent planes blended.
 /// Rays that leave from it do not see the facets at the edge of the shadow (Hanika 2021, "Hacking the shadow
@@ -103,10 +105,11 @@ Shader::Shader(const PreparedScene& scene, const RayScene& rays, int samples, in
     : scene_(scene), rays_(rays), sky_rays_(sky_rays) {
   const PreparedCamera& c = scene.camera;
   key_direction_ = (-0.75 * c.right + 0.58 * c.up - 0.36 * c.forward).normalized();
+  key_across_ = across(key_direction_);
   fill_direction_ = (0.9 * c.right - 0.15 * c.up - 0.25 * c.forward).normalized();
   for (int i = 0; i < samples; ++i) {
     const Eigen::Vector2d p = kKeyRadius * disk_point(i);
-    key_samples_.emplace_back(p.x(), p.y(), 1);
+    key_samples_.push_back(Vector3d(p.x(), p.y(), 1).normalized());
   }
   for (int i = 0; i < samples * sky_rays; ++i) {
     const Eigen::Vector2d p = disk_point(i);
@@ -115,16 +118,16 @@ Shader::Shader(const PreparedScene& scene, const RayScene& rays, int samples, in
 }
 
 double Shader::key_light(const Vector3d& p, const Vector3d& normal, int sample, const PixelTurn& turn) const {
-  const Vector3d d = Basis(key_direction_, turn)(key_samples_[sample]).normalized();
+  const Vector3d d = turned(key_samples_[sample], turn, key_direction_, key_across_);
   const double cosine = normal.dot(d);
   return cosine > 0 && !rays_.is_blocked(p, d) ? cosine : 0;
 }
 
 double Shader::sky_light(const Vector3d& p, const Vector3d& normal, int sample, const PixelTurn& turn) const {
-  const Basis basis(normal, turn);
+  const std::array<Vector3d, 2> uv = across(normal);
   double sum = 0;
   for (int i = 0; i < sky_rays_; ++i) {
-    const Vector3d d = basis(sky_samples_[sample * sky_rays_ + i]);
+    const Vector3d d = turned(sky_samples_[sample * sky_rays_ + i], turn, normal, uv);
     const double brightness = 0.56 + 0.44 * d.dot(scene_.camera.up);
     sum += brightness * (rays_.is_blocked(p, d, kSkyDistance) ? kBounce : 1);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -39,7 +40,8 @@ class Shader {
   const RayScene& rays_;
   int sky_rays_;
   Eigen::Vector3d key_direction_, fill_direction_;
-  std::vector<Eigen::Vector3d> key_samples_;  ///< a disk at height 1 above the origin
+  std::array<Eigen::Vector3d, 2> key_across_;
+  std::vector<Eigen::Vector3d> key_samples_;  ///< unit vectors about z, as wide as the key light
   std::vector<Eigen::Vector3d> sky_samples_;  ///< a hemisphere about z whose density is the cosine
 };
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <rapidcheck.h>
+
 #include <catch2/catch.hpp>
 #include <limits>
+#include <string>
 
 #include "tests/render/scenes.h"
 
@@ -52,8 +55,8 @@ TEST_CASE("An option out of its range is refused by its name") {
   refused([](auto& o) { o.camera->eye = o.camera->target; }, "one place");
   refused([](auto& o) { o.camera->up = {0, 0, 2}; }, "up");
   refused([](auto& o) { o.camera->up = {0, 0, 0}; }, "up");
-  refused([](auto& o) { o.camera->eye[0] = kNan; }, "camera, point 0");
-  refused([](auto& o) { o.camera->eye[0] = 9e8; }, "diagonals away");
+  refused([](auto& o) { o.camera->eye[0] = kNan; }, "camera: a coordinate");
+  refused([](auto& o) { o.camera->eye[0] = 1e300; }, "diagonals away");
   refused([](auto& o) { o.camera.reset(), o.view.margin = 0.7; }, "margin");
 }
 
@@ -63,6 +66,37 @@ TEST_CASE("A scene of nothing but degenerate triangles is an empty picture") {
   needle.triangles = {{0, 1, 2}};
   const io::Image image = io::render({{needle}, {}}, from_the_front(9, 4));
   for (int y = 0; y < 9; ++y) CHECK(pixel(image, 4, y) == background_pixel(y, 9));
+}
+
+TEST_CASE("Any triangles and lines of finite points are drawn: no ray becomes NaN") {
+  CHECK(rc::check([] {
+    const auto coordinate =
+        rc::gen::oneOf(rc::gen::element(0.0, 1.0, -1.0, 1e-12, 1e9, -1e9, 1e-300),
+                       rc::gen::map(rc::gen::inRange(-999, 999), [](int i) { return i * 1e-3; }));
+    const int count = *rc::gen::inRange(3, 12);
+    io::RenderScene scene;
+    io::RenderMesh mesh;
+    mesh.style = *rc::gen::element(io::Style::cloth, io::Style::body);
+    for (int i = 0; i < count; ++i) mesh.vertices.push_back({*coordinate, *coordinate, *coordinate});
+    const auto corner = rc::gen::inRange(0, count);
+    for (int i = 0; i < 12; ++i) mesh.triangles.push_back({*corner, *corner, *corner});
+    mesh.triangles.push_back({0, 1, 2});
+    scene.lines.push_back({{mesh.vertices[0], mesh.vertices[1], mesh.vertices[2]}, kBlue});
+    scene.meshes.push_back(mesh);
+    io::RenderOptions options;
+    options.width = options.height = 6;
+    options.quality = io::Quality::draft;
+    options.threads = 1;
+    try {
+      const io::Image image = io::render(scene, options);
+      RC_ASSERT(image.rgb == io::render(scene, options).rgb);
+    } catch (const std::invalid_argument& error) {
+      const std::string reason = error.what();
+      RC_LOG() << reason;
+      RC_ASSERT(reason.find("no extent") != std::string::npos ||
+                reason.find("one place") != std::string::npos);
+    }
+  }));
 }
 
 TEST_CASE("A camera inside of the scene, and lines behind it, are drawn without fault") {
