@@ -1,2 +1,92 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-int main() { return 2; }
+#include <algorithm>
+#include <iostream>
+#include <new>
+#include <numeric>
+
+#include "cli/common.h"
+#include "cli/subcommands.h"
+#include "geometry/errors.h"
+
+namespace {
+
+using namespace furrow;
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+    }
+  }
+  return row.back();
+}
+
+/// The message for a first word that is no subcommand, with the nearest one.
+std::string unknown_subcommand(const CLI::App& app, const std::string& word) {
+  std::string nearest;
+  std::size_t least = 4;
+  for (const CLI::App* sub : app.get_subcommands({}))
+    if (const std::size_t d = edit_distance(word, sub->get_name()); d < least) {
+      least = d;
+      nearest = sub->get_name();
+    }
+  return "there is no subcommand '" + word + "'" +
+         (nearest.empty() ? "; furrow --help lists them" : "; did you mean '" + nearest + "'?");
+}
+
+int fail(int code, const std::string& message) {
+  std::cerr << "error: " << message << "\n";
+  return code;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Furrow: cloth that wrinkles where you draw.\n"
+               "Lengths are metres, masses kilograms, times seconds, unless an option says otherwise.\n\n"
+               "  furrow wrinkle shirt.obj lines.json -o wrinkled.ply\n"
+               "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
+               "  furrow render worn.ply --body body.obj -o worn.png"};
+  app.name("furrow");
+  app.set_version_flag("--version", cli::version_text());
+  app.require_subcommand(1);
+  int exit_code = cli::kOk;
+  cli::add_info(app);
+  cli::add_subdivide(app);
+  cli::add_smooth(app);
+  cli::add_wrinkle(app);
+  cli::add_simulate(app, exit_code);
+  cli::add_sdf(app);
+  cli::add_render(app);
+  if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1]))
+    return fail(cli::kUsage, unknown_subcommand(app, argv[1]));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    return fail(cli::kUsage, std::string(e.what()) + "; furrow " + (argc > 1 ? argv[1] : "") + " --help tells more");
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const cli::UsageError& e) {
+    return fail(cli::kUsage, e.what());
+  } catch (const std::invalid_argument& e) {
+    return fail(cli::kUsage, e.what());
+  } catch (const geometry::ContentError& e) {
+    return fail(cli::kUnreadable, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(cli::kFailed, "not enough memory; try a smaller mesh or a larger --tolerance");
+  } catch (const std::exception& e) {
+    return fail(cli::kFailed, e.what());
+  }
+}

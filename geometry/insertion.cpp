@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/insertion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -33,6 +34,26 @@ void check(const InsertionOptions& options) {
     require(*options.mean_edge > 0 && std::isfinite(*options.mean_edge), "mean_edge must be > 0 m",
             *options.mean_edge);
   }
+}
+
+InsertionReport& operator+=(InsertionReport& sum, const InsertionReport& line) {
+  for (auto count : {&InsertionReport::inserted, &InsertionReport::flipped, &InsertionReport::delaunay_flips,
+                     &InsertionReport::folded_flips, &InsertionReport::reused, &InsertionReport::snapped,
+                     &InsertionReport::too_small, &InsertionReport::nudges})
+    sum.*count += line.*count;
+  sum.attempts = std::max(sum.attempts, line.attempts);
+  for (const auto& [reason, count] : line.refused_flips) sum.refused_flips[reason] += count;
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(sum.split_edges, line.split_edges);
+  append(sum.missing_edges, line.missing_edges);
+  append(sum.warnings, line.warnings);
+  const bool first = sum.changed_faces.empty();
+  append(sum.changed_faces, line.changed_faces);
+  std::sort(sum.changed_faces.begin(), sum.changed_faces.end());
+  sum.changed_faces.erase(std::unique(sum.changed_faces.begin(), sum.changed_faces.end()), sum.changed_faces.end());
+  sum.min_angle_deg = first ? line.min_angle_deg : std::min(sum.min_angle_deg, line.min_angle_deg);
+  sum.max_deviation = std::max(sum.max_deviation, line.max_deviation);
+  return sum;
 }
 
 }  // namespace furrow::geometry

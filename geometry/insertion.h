@@ -87,4 +87,7 @@ struct InsertionReport {
   double max_deviation = 0;         ///< largest distance of a sample on cloth from the line [m]
 };
 
+/// Adds another line's report: counts and lists grow, the smaller angle and the larger deviation stay.
+InsertionReport& operator+=(InsertionReport& sum, const InsertionReport& line);
+
 }  // namespace furrow::geometry

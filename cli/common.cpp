@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/common.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+
+#include "geometry/errors.h"
+
+namespace furrow::cli {
+namespace {
+
+const std::map<std::string, double>& units() {
+  static const std::map<std::string, double> metres{{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
+  return metres;
+}
+
+io::Axis axis(const CommonArguments& common) { return common.up == "z" ? io::Axis::z : io::Axis::y; }
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void tell_repairs(const std::string& path, const io::MeshFile& file, const CommonArguments& common) {
+  for (const std::string& w : file.warnings) warn(path + ": " + w, common);
+  const io::RepairReport& r = file.repairs;
+  const auto tell = [&](std::size_t n, const char* what) {
+    if (n) warn(path + ": " + std::to_string(n) + " " + what, common);
+  };
+  tell(r.degenerate_faces, "degenerate faces dropped");
+  tell(r.duplicate_faces, "duplicate faces dropped");
+  tell(r.reversed_faces, "faces turned to agree with their neighbours");
+  tell(r.duplicated_vertices, "vertices duplicated where the surface was not manifold");
+}
+
+void print_text(const Json& value, const std::string& indent) {
+  for (const auto& [key, item] : value.items()) {
+    std::cout << indent << key << ":";
+    if (item.is_structured() && !item.empty() && !(item.is_array() && item[0].is_number())) {
+      std::cout << "\n";
+      print_text(item, indent + "  ");
+    } else if (item.is_string()) {
+      std::cout << " " << item.get<std::string>() << "\n";
+    } else if (item.is_number_float()) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.6g", item.get<double>());
+      std::cout << " " << text << "\n";
+    } else {
+      std::cout << " " << item.dump() << "\n";
+    }
+  }
+}
+
+volatile std::sig_atomic_t interrupt_flag = 0;
+void on_interrupt(int) { interrupt_flag = 1; }
+
+}  // namespace
+
+void add_common_options(CLI::App& sub, CommonArguments& common) {
+  sub.add_option("--unit", common.unit, "unit of length in the mesh files: m, cm, mm or inch")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}))
+      ->capture_default_str();
+  sub.add_option("--up", common.up, "axis that points up in the mesh files: y or z")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
+  sub.add_flag("--json", common.json, "print the report as JSON");
+  sub.add_flag("-q,--quiet", common.quiet, "print neither report nor progress");
+}
+
+io::ReadOptions read_options(const CommonArguments& common) { return {units().at(common.unit), axis(common)}; }
+io::WriteOptions write_options(const CommonArguments& common) { return {units().at(common.unit), axis(common)}; }
+
+io::MeshFile read_mesh(const std::string& path, const CommonArguments& common) {
+  io::MeshFile file = io::read_mesh(path, read_options(common));
+  tell_repairs(path, file, common);
+  return file;
+}
+
+io::MeshFile read_garment(const std::string& path, const CommonArguments& common) {
+  io::MeshFile file = read_mesh(path, common);
+  double low = INFINITY, high = -INFINITY;
+  for (geometry::Vertex v : file.mesh.vertices()) {
+    low = std::min(low, file.mesh.point(v).y());
+    high = std::max(high, file.mesh.point(v).y());
+  }
+  if (high - low > 10)
+    throw geometry::ContentError(path + ": the garment is " + std::to_string(high - low) +
+                                 " m tall; if its file is not in metres, say so with --unit cm, mm or inch");
+  return file;
+}
+
+void print_report(const Json& report, const CommonArguments& common) {
+  if (common.json) {
+    Json versioned{{"schema", 1}};
+    versioned.update(report);
+    std::cout << versioned.dump(2) << "\n";
+  } else if (!common.quiet) {
+    print_text(report, "");
+  }
+  std::cout.flush();
+}
+
+void warn(const std::string& message, const CommonArguments& common) {
+  if (!common.quiet) std::cerr << "warning: " << message << "\n";
+}
+
+std::vector<double> parse_numbers(const std::string& text, std::size_t n, const std::string& option) {
+  std::vector<double> numbers;
+  const char* at = text.c_str();
+  for (;;) {
+    char* end = nullptr;
+    const double value = std::strtod(at, &end);
+    if (end == at || !std::isfinite(value)) break;
+    numbers.push_back(value);
+    at = end;
+    if (*at != ',') break;
+    ++at;
+  }
+  if (*at != 0 || numbers.size() != n)
+    throw UsageError(option + " takes " + std::to_string(n) + " numbers parted by commas, not '" + text + "'");
+  return numbers;
+}
+
+Progress::Progress(std::string what, const CommonArguments& common)
+    : what_(std::move(what)), on_(!common.quiet && isatty(STDERR_FILENO)), start_(now()) {}
+
+Progress::~Progress() {
+  if (on_ && shown_ >= 0) std::cerr << "\r\033[K" << std::flush;
+}
+
+void Progress::show(double share) {
+  const int permille = static_cast<int>(1000 * std::clamp(share, 0.0, 1.0));
+  if (!on_ || permille == shown_) return;
+  shown_ = permille;
+  const double elapsed = now() - start_;
+  std::string bar(30, ' ');
+  std::fill_n(bar.begin(), 30 * permille / 1000, '=');
+  char text[96];
+  std::snprintf(text, sizeof text, "] %5.1f %%  %.0f s left", permille / 10.0,
+                permille > 0 ? elapsed * (1000 - permille) / permille : 0.0);
+  std::cerr << "\r\033[K" << what_ << " [" << bar << text << std::flush;
+}
+
+void catch_interrupts() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+}
+bool interrupted() { return interrupt_flag != 0; }
+
+}  // namespace furrow::cli

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "io/mesh_file.h"
+
+/// What the subcommands share: units, reports, progress, interruption, exit codes.
+namespace furrow::cli {
+
+using Json = nlohmann::ordered_json;
+
+enum ExitCode { kOk = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kNotConverged = 4, kInterrupted = 130 };
+
+/// A fault in how the program was called; exits with kUsage.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Options that every subcommand has.
+struct CommonArguments {
+  std::string unit = "m";  ///< of the meshes read and written
+  std::string up = "y";    ///< axis of the meshes read and written that points up
+  bool json = false;       ///< the report as JSON
+  bool quiet = false;      ///< no report, no progress
+};
+void add_common_options(CLI::App& sub, CommonArguments& common);
+io::ReadOptions read_options(const CommonArguments& common);
+io::WriteOptions write_options(const CommonArguments& common);
+
+/// Reads a mesh and tells on stderr what was repaired.
+io::MeshFile read_mesh(const std::string& path, const CommonArguments& common);
+/// As read_mesh, and refuses a garment taller than 10 m with a hint at --unit.
+io::MeshFile read_garment(const std::string& path, const CommonArguments& common);
+
+/// Prints a report to stdout: a line a key, or JSON with a schema version. Nested objects are indented.
+void print_report(const Json& report, const CommonArguments& common);
+void warn(const std::string& message, const CommonArguments& common);
+
+/// `text` as exactly n numbers parted by commas. Throws UsageError that names the option.
+std::vector<double> parse_numbers(const std::string& text, std::size_t n, const std::string& option);
+
+/// Draws a progress bar on stderr if that is a terminal and the user wants to hear of it; cleans up after itself.
+class Progress {
+ public:
+  Progress(std::string what, const CommonArguments& common);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void show(double share);  ///< in [0, 1]
+
+ private:
+  std::string what_;
+  bool on_;
+  int shown_ = -1;
+  double start_;
+};
+
+/// From the first call on, Ctrl-C and SIGTERM set a flag in place of ending the program.
+void catch_interrupts();
+bool interrupted();
+
+}  // namespace furrow::cli

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <memory>
+
+#include "bridge/body.h"
+#include "cli/body.h"
+#include "cli/subcommands.h"
+#include "io/field_file.h"
+#include "io/render_slice.h"
+
+namespace furrow::cli {
+namespace {
+
+struct SdfArguments : CommonArguments {
+  BodyArguments body;
+  std::string out, slice, at;
+};
+
+const char* to_text(physics::SignRule rule) {
+  return rule == physics::SignRule::pseudonormal ? "pseudonormal" : "winding number";
+}
+
+/// Error of the field at points of a lattice in its band [m], by exact distance.
+Json errors(const BodyCollider& body) {
+  double largest = 0, sum = 0;
+  int points = 0;
+  constexpr int n = 40;
+  for (int i = 0; i < n * n * n; ++i) {
+    const physics::Vec3 u((i % n + 0.5) / n, (i / n % n + 0.5) / n, (i / n / n + 0.5) / n);
+    const physics::Vec3 x = body.exact.low() + u.cwiseProduct(body.exact.high() - body.exact.low());
+    const double exact = body.exact.at(x).value;
+    if (exact > 0.03 || exact < -0.02) continue;
+    const double error = std::abs(body.field.at(x).value - exact);
+    largest = std::max(largest, error);
+    sum += error;
+    ++points;
+  }
+  return {{"points", points}, {"max", largest}, {"mean", points ? sum / points : 0}};
+}
+
+void sdf(const SdfArguments& a) {
+  const auto start = std::chrono::steady_clock::now();
+  const BodyCollider body = load_body(a.body, a);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const physics::DistanceFieldReport& r = body.field.report();
+  if (!a.out.empty()) io::write_field(a.out, body.field, body.triangles);
+  if (!a.slice.empty()) io::write_png(a.slice, io::render_slice(body.field, body.exact.low(), body.exact.high()));
+  Json report{{"tolerance", r.tolerance},
+              {"leaves", r.leaves},
+              {"samples", r.samples},
+              {"depth", r.depth},
+              {"leaves_at_max_depth", r.leaves_at_max_depth},
+              {"bytes", body.field.memory()},
+              {"sign", to_text(r.sign.rule)},
+              {"seconds", seconds},
+              {"error", errors(body)}};
+  if (!a.at.empty()) {
+    const std::vector<double> p = parse_numbers(a.at, 3, "--at");
+    const physics::Vec3 x(p[0], p[1], p[2]);
+    const physics::SignedDistance field = body.field.at(x);
+    report["at"] = {{"distance", field.value},
+                    {"gradient", {field.gradient.x(), field.gradient.y(), field.gradient.z()}},
+                    {"exact_distance", body.exact.at(x).value}};
+  }
+  print_report(report, a);
+}
+
+}  // namespace
+
+void add_sdf(CLI::App& app) {
+  auto a = std::make_shared<SdfArguments>();
+  CLI::App* sub = app.add_subcommand("sdf",
+                                     "Make the signed distance field of a body; negative inside\n\n"
+                                     "  furrow sdf body.obj -o body.field --slice body.png");
+  sub->add_option("body", a->body.path, "body to read")->required();
+  sub->add_option("-o,--output", a->out, "file to keep the field in, for furrow simulate --field");
+  sub->add_option("--slice", a->slice, "PNG of the field in the body's middle plane, seen from the front");
+  sub->add_option("--at", a->at, "report distance and gradient at x,y,z [m]");
+  add_field_options(*sub, a->body);
+  add_common_options(*sub, *a);
+  sub->callback([a] { sdf(*a); });
+}
+
+}  // namespace furrow::cli

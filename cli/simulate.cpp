@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "bridge/gather.h"
+#include "bridge/scatter.h"
+#include "cli/body.h"
+#include "cli/common.h"
+#include "cli/pins.h"
+#include "cli/simulate_report.h"
+#include "cli/subcommands.h"
+#include "geometry/bending_springs.h"
+#include "geometry/masses.h"
+#include "geometry/property_names.h"
+#include "geometry/rest_metric.h"
+#include "geometry/stiffness.h"
+#include "geometry/wrinkle.h"
+#include "io/wrinkle_record.h"
+#include "physics/simulate.h"
+
+namespace furrow::cli {
+namespace {
+
+struct SimulateArguments : CommonArguments {
+  std::string in, out;
+  BodyArguments body;
+  PinArguments pins;
+  std::optional<double> density, dt;
+  double structural = 1000, bending = 10, gravity = 9.81;
+  bool force_dt = false;
+  std::string integrator = "leapfrog";
+  physics::SimulateOptions options;
+};
+
+/// Masses, rest lengths and bending springs where the file has none: the shape as it is, at rest.
+io::WrinkleRecord complete(io::MeshFile& file, const SimulateArguments& a) {
+  using namespace geometry;
+  Mesh& mesh = file.mesh;
+  ensure_rest_lengths(mesh);
+  if (!find_map(mesh, kBendingRestLength)) rebuild_bending_springs(mesh);
+  std::optional<io::WrinkleRecord> record = io::find_wrinkle_record(file);
+  const bool has_mass = find_map(mesh, kMass).has_value();
+  if (a.density || !has_mass) lump_masses(mesh, a.density.value_or(WrinkleOptions{}.density));
+  if (record) return *record;
+  return {mean_rest_length(mesh), mean_bending_rest_length(mesh), 0, "", {}};
+}
+
+physics::SimulateOptions to_options(const SimulateArguments& a) {
+  physics::SimulateOptions o = a.options;
+  o.gravity = {0, -a.gravity, 0};
+  o.dt = a.dt;
+  o.step_rule = a.force_dt ? physics::StepRule::forced : physics::StepRule::limited;
+  o.integrator = a.integrator == "euler" ? physics::Integrator::explicit_euler : physics::Integrator::leapfrog;
+  return o;
+}
+
+int finish(const physics::SimulateReport& report, const SimulateArguments& a) {
+  if (report.outcome == physics::Outcome::diverged) {
+    std::cerr << "error: the simulation diverged at " << report.time << " s with steps of " << report.dt
+              << " s (stable below " << report.dt_limit << " s); nothing was written; leave --dt away\n";
+    return kNotConverged;
+  }
+  if (report.outcome == physics::Outcome::stopped_by_observer) {
+    warn("interrupted at " + std::to_string(report.time) + " s; the state reached is in " + a.out, a);
+    return kInterrupted;
+  }
+  return kOk;
+}
+
+int simulate(SimulateArguments a) {
+  io::MeshFile file = read_garment(a.in, a);
+  const io::WrinkleRecord record = complete(file, a);
+  physics::Cloth cloth = bridge::gather(
+      file.mesh, {a.structural, a.bending, record.mean_structural_length, record.mean_bending_length});
+  pin(cloth, file, a.pins);
+  std::optional<BodyCollider> body;
+  if (!a.body.path.empty()) {
+    body = load_body(a.body, a);
+    a.options.contact_gap = contact_gap(a.options.contact_gap, *body, file.mesh);
+  }
+  const std::vector<double> heights = line_heights_by_id(file.mesh);
+  catch_interrupts();
+  physics::SimulateReport report;
+  {
+    Progress progress("simulating", a);
+    report = physics::simulate(cloth, body ? &body->field : nullptr, to_options(a),
+                               [&](const physics::SimulateProgress& p) {
+                                 progress.show(p.time / a.options.seconds);
+                                 return !interrupted();
+                               });
+  }
+  if (report.outcome != physics::Outcome::diverged) {
+    bridge::scatter(cloth.particles, file.mesh);
+    io::write_mesh(a.out, file, write_options(a));
+  }
+  print_report(to_json(report, file, record, heights, body, a.options.contact_gap), a);
+  return finish(report, a);
+}
+
+void add_physics_options(CLI::App& sub, SimulateArguments& a) {
+  physics::SimulateOptions& o = a.options;
+  sub.add_option("--seconds", o.seconds, "time to simulate [s]")->capture_default_str();
+  sub.add_option("--density", a.density, "mass of the cloth [kg/m^2]; default that of the file, else 0.15");
+  sub.add_option("--stiffness", a.structural, "k_std of the structural springs [N/m]")->capture_default_str();
+  sub.add_option("--bending", a.bending, "k_std of the bending springs [N/m]")->capture_default_str();
+  sub.add_option("--damping", o.spring_damping, "damping of each spring, as a share of critical")->capture_default_str();
+  sub.add_option("--drag", o.air_drag, "air drag [1/s]")->capture_default_str();
+  sub.add_option("--gravity", a.gravity, "acceleration downwards [m/s^2]")->capture_default_str();
+  sub.add_option("--friction", o.friction, "Coulomb friction with the body")->capture_default_str();
+  sub.add_option("--gap", o.contact_gap, "distance that the cloth keeps from the body [m]; raised to what the mesh and the field need")
+      ->capture_default_str();
+  sub.add_option("--dt", a.dt, "time step [s]; default 0.9 of the limit");
+  sub.add_flag("--force-dt", a.force_dt, "take a --dt above the stability limit");
+  sub.add_option("--integrator", a.integrator, "leapfrog, or euler (the baseline that diverges)")
+      ->check(CLI::IsMember({"leapfrog", "euler"}))
+      ->capture_default_str();
+  o.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  sub.add_option("--threads", o.threads, "threads; the result does not depend on them")->check(CLI::Range(1, 256));
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<SimulateArguments>();
+  CLI::App* sub = app.add_subcommand("simulate",
+                                     "Let a garment hang, fall and rest on a body\n\n"
+                                     "  furrow simulate sheet.ply --pin-box -0.5,0,-1,-0.5,1,1 -o hung.ply\n"
+                                     "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
+                                     "  furrow simulate skirt.ply --body body.obj --pin-loop top --seconds 3 -o worn.ply");
+  sub->add_option("mesh", a->in, "garment to read; PLY of furrow wrinkle brings rest lengths and masses")->required();
+  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl")->required();
+  add_body_options(*sub, a->body);
+  add_pin_options(*sub, a->pins);
+  add_physics_options(*sub, *a);
+  add_common_options(*sub, *a);
+  sub->callback([a, &exit_code] { exit_code = simulate(*a); });
+}
+
+}  // namespace furrow::cli

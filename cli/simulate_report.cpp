@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/simulate_report.h"
+
+#include <cmath>
+
+#include "bridge/convert.h"
+#include "geometry/border_loops.h"
+#include "geometry/line_height.h"
+#include "geometry/property_names.h"
+#include "geometry/self_intersections.h"
+
+namespace furrow::cli {
+namespace {
+
+Json lines_to_json(const io::MeshFile& file, const io::WrinkleRecord& record, const std::vector<double>& before) {
+  Json lines = Json::array();
+  const std::vector<double> now = line_heights_by_id(file.mesh);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    Json line{{"id", i}};
+    if (i < record.lines.size()) {
+      line["name"] = record.lines[i].name;
+      line["drawn_height"] = record.lines[i].drawn_height;
+    }
+    line["smoothed_height"] = before[i];
+    line["height"] = now[i];
+    line["kept"] = now[i] / before[i];
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+Json borders_to_json(const geometry::Mesh& mesh) {
+  Json loops = Json::array();
+  for (const geometry::BorderLoop& loop : geometry::border_loops(mesh))
+    loops.push_back(
+        {{"rest_length", geometry::rest_length(mesh, loop)}, {"length", loop.length}, {"mean_height", loop.mean_height}});
+  return loops;
+}
+
+}  // namespace
+
+std::vector<double> line_heights_by_id(const geometry::Mesh& mesh) {
+  std::vector<double> heights;
+  for (const geometry::LineHeight& h : geometry::line_heights(mesh)) {
+    heights.resize(std::max(heights.size(), static_cast<std::size_t>(h.line) + 1), geometry::kUnset);
+    heights[h.line] = h.height;
+  }
+  return heights;
+}
+
+Json to_json(const physics::SimulateReport& r, const io::MeshFile& file, const io::WrinkleRecord& record,
+             const std::vector<double>& before, const std::optional<BodyCollider>& body, double contact_gap) {
+  Json report{{"outcome", r.outcome == physics::Outcome::finished   ? "finished"
+                          : r.outcome == physics::Outcome::diverged ? "diverged"
+                                                                    : "interrupted"},
+              {"time", r.time},
+              {"steps", r.steps},
+              {"dt", r.dt},
+              {"dt_limit", r.dt_limit},
+              {"seconds", r.seconds},
+              {"cpu_seconds", r.cpu_seconds},
+              {"force_evaluations", r.force_evaluations},
+              {"strain", {{"max", r.strain.max}, {"p99", r.strain.p99}, {"mean", r.strain.mean}}},
+              {"kinetic_energy", r.kinetic_energy},
+              {"residual_force", r.residual_force}};
+  if (r.outcome == physics::Outcome::diverged) return report;
+  if (body) {
+    const physics::Penetration p = physics::penetration(body->exact, bridge::positions_of(file.mesh));
+    report["contact_gap"] = contact_gap;
+    report["contacts"] = r.contacts;
+    report["vertices_inside"] = p.inside;
+    report["deepest_penetration"] = p.deepest;
+    report["truncated_moves"] = r.truncated_moves;
+  }
+  report["self_intersections"] = geometry::count_self_intersections(file.mesh);
+  report["borders"] = borders_to_json(file.mesh);
+  report["lines"] = lines_to_json(file, record, before);
+  return report;
+}
+
+}  // namespace furrow::cli

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+
+/// One function a subcommand, each in a file of its name: it parses, calls the library, writes.
+namespace furrow::cli {
+
+void add_info(CLI::App& app);
+void add_subdivide(CLI::App& app);
+void add_smooth(CLI::App& app);
+void add_wrinkle(CLI::App& app);
+/// Sets exit_code where the run was interrupted or diverged.
+void add_simulate(CLI::App& app, int& exit_code);
+void add_sdf(CLI::App& app);
+void add_render(CLI::App& app);
+
+/// The program's version and those of the libraries that it was built with.
+std::string version_text();
+
+}  // namespace furrow::cli

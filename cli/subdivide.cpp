@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/subcommands.h"
+#include "cli/wrinkle_reports.h"
+#include "geometry/insert_along_stroke.h"
+#include "geometry/insert_in_faces.h"
+#include "geometry/subdivide.h"
+#include "io/stroke_file.h"
+
+namespace furrow::cli {
+namespace {
+
+struct SubdivideArguments : CommonArguments {
+  std::string in, out, strokes, rule = "safe";
+  bool all = false;
+  int loop = 0, sqrt3 = 0;
+  geometry::InsertionOptions options;
+};
+
+Json insert_strokes(geometry::Mesh& mesh, const SubdivideArguments& a) {
+  geometry::InsertionReport sum;
+  int id = 0;
+  for (const geometry::Stroke& stroke : io::read_strokes(a.strokes, geometry::Stroke{}.height, read_options(a)))
+    sum += geometry::insert_along_stroke(mesh, stroke, id++, a.options).report;
+  for (const std::string& w : sum.warnings) warn(w, a);
+  return to_json(sum);
+}
+
+Json insert_everywhere(geometry::Mesh& mesh, const SubdivideArguments& a) {
+  std::vector<geometry::FacePoint> centroids;
+  for (geometry::Face f : mesh.faces()) centroids.push_back({f, {1. / 3, 1. / 3, 1. / 3}});
+  return to_json(geometry::insert_in_faces(mesh, centroids, a.options));
+}
+
+void subdivide(SubdivideArguments a) {
+  if (!a.strokes.empty() + a.all + (a.loop > 0) + (a.sqrt3 > 0) != 1)
+    throw UsageError("subdivide takes one of --strokes, --all, --loop and --sqrt3");
+  a.options.rule = a.rule == "paper" ? geometry::InsertionRule::paper : geometry::InsertionRule::safe;
+  io::MeshFile file = read_mesh(a.in, a);
+  Json report = Json::object();
+  if (!a.strokes.empty()) report = insert_strokes(file.mesh, a);
+  if (a.all) report = insert_everywhere(file.mesh, a);
+  if (a.loop > 0) geometry::loop_subdivide(file.mesh, a.loop);
+  if (a.sqrt3 > 0) geometry::sqrt3_subdivide(file.mesh, a.sqrt3);
+  io::write_mesh(a.out, file, write_options(a));
+  report["vertices"] = file.mesh.number_of_vertices();
+  report["faces"] = file.mesh.number_of_faces();
+  report["written"] = a.out;
+  print_report(report, a);
+}
+
+}  // namespace
+
+void add_subdivide(CLI::App& app) {
+  auto a = std::make_shared<SubdivideArguments>();
+  CLI::App* sub = app.add_subcommand("subdivide",
+                                     "Refine a mesh along strokes or everywhere; strokes leave its shape as it is\n\n"
+                                     "  furrow subdivide shirt.obj --loop 2 -o fine.obj\n"
+                                     "  furrow subdivide shirt.obj --strokes lines.json -o lined.ply");
+  sub->add_option("mesh", a->in, "mesh to read")->required();
+  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl")->required();
+  sub->add_option("--strokes", a->strokes, "insert lines: JSON, or the l elements of an OBJ file");
+  sub->add_flag("--all", a->all, "insert a vertex in every face and flip every edge");
+  sub->add_option("--loop", a->loop, "steps of Loop subdivision")->check(CLI::Range(0, 6));
+  sub->add_option("--sqrt3", a->sqrt3, "steps of sqrt(3) subdivision")->check(CLI::Range(0, 6));
+  sub->add_option("--rule", a->rule, "safe or paper, for --strokes and --all")
+      ->check(CLI::IsMember({"safe", "paper"}))
+      ->capture_default_str();
+  sub->add_option("--max-distance", a->options.max_distance, "how far a stroke may lie from the surface [m]")
+      ->capture_default_str();
+  add_common_options(*sub, *a);
+  sub->callback([a] { subdivide(*a); });
+}
+
+}  // namespace furrow::cli

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/smoothing_options.h"
+#include "cli/subcommands.h"
+#include "cli/wrinkle_reports.h"
+#include "geometry/wrinkle.h"
+#include "io/stroke_file.h"
+#include "io/wrinkle_record.h"
+
+namespace furrow::cli {
+namespace {
+
+struct WrinkleArguments : CommonArguments {
+  std::string in, strokes, out, inserted;
+  double height = geometry::Stroke{}.height;
+  std::string rule = "safe", rest = "drawn", region = "two-ring";
+  geometry::WrinkleOptions options;
+  SmoothingArguments smoothing;
+};
+
+geometry::WrinkleOptions to_options(const WrinkleArguments& a) {
+  using namespace geometry;
+  WrinkleOptions o = a.options;
+  o.smoothing = to_options(a.smoothing);
+  o.insertion.rule = a.rule == "paper" ? InsertionRule::paper : InsertionRule::safe;
+  o.rest = a.rest == "flat" ? RestRule::flat : RestRule::drawn;
+  o.region = a.region == "whole-mesh" ? SmoothingRegion::whole_mesh : SmoothingRegion::two_ring;
+  return o;
+}
+
+/// The flags that say the same, for the record in the file.
+std::string flags(const WrinkleArguments& a) {
+  const auto number = [](double x) { return Json(x).dump(); };
+  return "--rule " + a.rule + " --rest " + a.rest + " --region " + a.region + " --max-distance " +
+         number(a.options.insertion.max_distance) + " --density " + number(a.options.density) + " --iterations " +
+         std::to_string(a.smoothing.iterations) + " --lambda " + number(a.smoothing.lambda) + " --mu " +
+         number(a.smoothing.mu) + " --weights " + a.smoothing.weights + (a.smoothing.keep_lines ? " --keep-lines" : "") +
+         (a.smoothing.keep_border ? " --keep-border" : "");
+}
+
+io::WrinkleRecord record_of(const WrinkleArguments& a, const geometry::WrinkleReport& report) {
+  io::WrinkleRecord record{report.mean_structural_length, report.mean_bending_length, a.options.density, flags(a), {}};
+  for (const geometry::WrinkledLine& line : report.lines)
+    record.lines.push_back({line.name, line.height, line.drawn_height, line.smoothed_height});
+  return record;
+}
+
+void wrinkle(const WrinkleArguments& a) {
+  io::MeshFile file = read_garment(a.in, a);
+  const std::vector<geometry::Stroke> strokes = io::read_strokes(a.strokes, a.height, read_options(a));
+  std::optional<geometry::Mesh> displaced;
+  const auto keep_stage = [&](geometry::Stage stage, const geometry::Mesh& mesh) {
+    if (!a.inserted.empty() && stage == geometry::Stage::displaced) displaced = mesh;
+  };
+  const geometry::WrinkleReport report = geometry::wrinkle(file.mesh, strokes, to_options(a), keep_stage);
+  for (const std::string& w : report.insertion.warnings) warn(w, a);
+  set_wrinkle_record(file, record_of(a, report));
+  io::write_mesh(a.out, file, write_options(a));
+  const Json json = to_json(report, file.mesh);
+  if (displaced) {
+    file.mesh = std::move(*displaced);
+    io::write_mesh(a.inserted, file, write_options(a));
+  }
+  print_report(json, a);
+}
+
+void add_options(CLI::App& sub, WrinkleArguments& a) {
+  sub.add_option("--height", a.height, "height of strokes that name none [m]; > 0 ridge, < 0 valley")
+      ->capture_default_str();
+  sub.add_option("--max-distance", a.options.insertion.max_distance, "how far a stroke may lie from the surface [m]")
+      ->capture_default_str();
+  sub.add_option("--rule", a.rule, "safe: flips that would spoil the mesh are refused; paper: the paper's plain rule")
+      ->check(CLI::IsMember({"safe", "paper"}))
+      ->capture_default_str();
+  sub.add_option("--rest", a.rest, "drawn: a line adds cloth; flat: rest lengths stay as they were")
+      ->check(CLI::IsMember({"drawn", "flat"}))
+      ->capture_default_str();
+  sub.add_option("--region", a.region, "what is smoothed: two-ring (around the lines) or whole-mesh")
+      ->check(CLI::IsMember({"two-ring", "whole-mesh"}))
+      ->capture_default_str();
+  sub.add_option("--density", a.options.density, "mass of the cloth [kg/m^2]")->capture_default_str();
+  sub.add_option("--inserted", a.inserted, "also write the mesh after insertion and before smoothing");
+}
+
+}  // namespace
+
+void add_wrinkle(CLI::App& app) {
+  auto a = std::make_shared<WrinkleArguments>();
+  CLI::App* sub = app.add_subcommand("wrinkle",
+                                     "Turn drawn ridge and valley lines into wrinkles\n\n"
+                                     "  furrow wrinkle shirt.obj lines.json -o wrinkled.ply\n"
+                                     "  furrow wrinkle skirt.obj lines.obj --height -0.02 -o wrinkled.ply");
+  sub->add_option("mesh", a->in, "garment to read")->required();
+  sub->add_option("strokes", a->strokes, "lines: JSON, or the l elements of an OBJ file")->required();
+  sub->add_option("-o,--output", a->out, "mesh to write; PLY keeps rest lengths, masses and lines")->required();
+  add_options(*sub, *a);
+  add_smoothing_options(*sub, a->smoothing);
+  add_common_options(*sub, *a);
+  sub->callback([a] { wrinkle(*a); });
+}
+
+}  // namespace furrow::cli

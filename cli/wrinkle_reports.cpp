@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/wrinkle_reports.h"
+
+#include "geometry/audit_rest_metric.h"
+
+namespace furrow::cli {
+
+Json to_json(const geometry::InsertionReport& r, const geometry::Mesh& mesh) {
+  Json refused = Json::object();
+  for (const auto& [reason, count] : r.refused_flips) refused[geometry::to_string(reason)] = count;
+  Json missing = Json::array();
+  for (const geometry::MissingLineEdge& m : r.missing_edges)
+    missing.push_back({{"from", static_cast<std::size_t>(m.from)},
+                       {"to", static_cast<std::size_t>(m.to)},
+                       {"reason", geometry::to_string(m.reason)}});
+  const geometry::RestMetricAudit audit = geometry::audit_rest_metric(mesh);
+  return {{"inserted", r.inserted},
+          {"split_edges", r.split_edges.size()},
+          {"flipped", r.flipped},
+          {"delaunay_flips", r.delaunay_flips},
+          {"refused_flips", refused},
+          {"reused", r.reused},
+          {"snapped", r.snapped},
+          {"line_edges_missing", missing},
+          {"inverted_faces", audit.inverted_faces},
+          {"duplicate_edges", audit.duplicate_edges},
+          {"min_angle_deg", audit.min_angle_deg}};
+}
+
+Json to_json(const geometry::WrinkleReport& r, const geometry::Mesh& mesh) {
+  Json report = to_json(r.insertion, mesh);
+  report["structural_springs"] = r.structural_springs;
+  report["bending_springs"] = r.bending_springs;
+  report["rest_area_before"] = r.rest_area_before;
+  report["rest_area_after"] = r.rest_area_after;
+  report["total_mass"] = r.total_mass;
+  report["max_deviation"] = r.insertion.max_deviation;
+  report["lines"] = Json::array();
+  for (std::size_t i = 0; i < r.lines.size(); ++i)
+    report["lines"].push_back({{"id", i},
+                               {"name", r.lines[i].name},
+                               {"parts", r.lines[i].chains.size()},
+                               {"height", r.lines[i].height},
+                               {"drawn_height", r.lines[i].drawn_height},
+                               {"smoothed_height", r.lines[i].smoothed_height}});
+  return report;
+}
+
+}  // namespace furrow::cli

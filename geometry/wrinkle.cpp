@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/wrinkle.h"
+
+#include <map>
+#include <stdexcept>
+
+#include "geometry/bending_springs.h"
+#include "geometry/displace_line.h"
+#include "geometry/errors.h"
+#include "geometry/line_height.h"
+#include "geometry/masses.h"
+#include "geometry/property_names.h"
+#include "geometry/rest_metric.h"
+#include "geometry/stiffness.h"
+#include "geometry/two_ring.h"
+
+namespace furrow::geometry {
+namespace {
+
+/// The vertices of all lines, each with the displacement of the last line that has it.
+std::vector<Displacement> displacements(const std::vector<InsertedLine>& lines, std::span<const Stroke> strokes) {
+  std::map<Vertex, Displacement> last;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (const LineVertex& v : lines[i].vertices) last[v.vertex] = {v.vertex, v.normal, strokes[i].height};
+  std::vector<Displacement> list;
+  for (const auto& [vertex, displacement] : last) list.push_back(displacement);
+  return list;
+}
+
+std::vector<InsertedLine> insert_lines(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options,
+                                       WrinkleReport& report) {
+  InsertionOptions insertion = options.insertion;
+  if (!insertion.mean_edge) insertion.mean_edge = report.mean_structural_length;
+  std::vector<InsertedLine> lines;
+  for (const Stroke& stroke : strokes) {
+    Insertion one = insert_along_stroke(mesh, stroke, static_cast<int>(lines.size()), insertion);
+    report.insertion += one.report;
+    report.lines.push_back({stroke.name, stroke.height, 0, 0, one.line.chains});
+    lines.push_back(std::move(one.line));
+  }
+  return lines;
+}
+
+/// Heights by line id; NaN for a line whose vertices all went to later lines.
+std::vector<double> heights(const Mesh& mesh, std::size_t lines) {
+  std::vector<double> by_id(lines, kUnset);
+  for (const LineHeight& h : line_heights(mesh)) by_id.at(h.line) = h.height;
+  return by_id;
+}
+
+void smooth(Mesh& mesh, std::span<const Displacement> lines, const WrinkleOptions& options) {
+  std::vector<Vertex> region;
+  if (options.region == SmoothingRegion::two_ring) {
+    std::vector<Vertex> centres;
+    for (const Displacement& d : lines) centres.push_back(d.vertex);
+    region = two_ring(mesh, centres);
+    if (region.empty()) return;
+  }
+  taubin_smooth(mesh, region, options.smoothing);
+}
+
+}  // namespace
+
+WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options,
+                      const StageObserver& observer) {
+  if (!(options.density > 0)) throw std::invalid_argument("wrinkle: density must be > 0 kg/m^2");
+  check(options.insertion);
+  const auto tell = [&](Stage stage, const Mesh& m) {
+    if (observer) observer(stage, m);
+  };
+  Mesh work = mesh;
+  WrinkleReport report;
+  ensure_rest_lengths(work);
+  rebuild_bending_springs(work);
+  report.mean_structural_length = mean_rest_length(work);
+  report.mean_bending_length = mean_bending_rest_length(work);
+  report.rest_area_before = rest_area(work);
+
+  const std::vector<InsertedLine> lines = insert_lines(work, strokes, options, report);
+  rebuild_bending_springs(work, report.insertion.changed_faces);
+  tell(Stage::inserted, work);
+
+  const RestSnapshot before = take_rest_snapshot(work);
+  const std::vector<Displacement> moves = displacements(lines, strokes);
+  displace_line(work, moves);
+  const std::vector<double> drawn = heights(work, lines.size());
+  tell(Stage::displaced, work);
+
+  smooth(work, moves, options);
+  const std::vector<double> smoothed = heights(work, lines.size());
+  apply_rest_rule(work, before, options.rest);
+  report.total_mass = lump_masses(work, options.density);
+  report.rest_area_after = rest_area(work);
+  report.structural_springs = work.number_of_edges();
+  report.bending_springs = bending_springs(work).size();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    report.lines[i].drawn_height = drawn[i];
+    report.lines[i].smoothed_height = smoothed[i];
+  }
+  tell(Stage::smoothed, work);
+  mesh = std::move(work);
+  return report;
+}
+
+}  // namespace furrow::geometry

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/insert_along_stroke.h"
+#include "geometry/rest_state.h"
+#include "geometry/taubin_smooth.h"
+
+namespace furrow::geometry {
+
+enum class SmoothingRegion { two_ring, whole_mesh };
+
+struct WrinkleOptions {
+  InsertionOptions insertion;
+  TaubinOptions smoothing;
+  SmoothingRegion region = SmoothingRegion::two_ring;
+  RestRule rest = RestRule::drawn;
+  double density = 0.15;  ///< rho [kg/m^2]; > 0
+};
+
+struct WrinkledLine {
+  std::string name;
+  double height = 0;                            ///< k as asked for [m]
+  double drawn_height = 0;                      ///< after displacement, see line_height() [m]
+  double smoothed_height = 0;                   ///< after smoothing [m]
+  std::vector<std::vector<Vertex>> chains;      ///< its vertices, a list for each connected part
+};
+
+struct WrinkleReport {
+  InsertionReport insertion;                    ///< sums over all lines
+  std::vector<WrinkledLine> lines;              ///< line i is stroke i; a later line owns the vertices that two share
+  std::size_t structural_springs = 0, bending_springs = 0;
+  double rest_area_before = 0, rest_area_after = 0;  ///< [m^2]
+  double total_mass = 0;                             ///< [kg]
+  double mean_structural_length = 0, mean_bending_length = 0;  ///< r_avg of the mesh before any line [m] (S1.7)
+};
+
+/// The stages of method S1.21 that geometry makes.
+enum class Stage { inserted, displaced, smoothed };
+using StageObserver = std::function<void(Stage, const Mesh&)>;
+
+/// Turns strokes into wrinkles: inserts their lines (Algorithm 2), displaces their vertices along the normals,
+/// smooths, rebuilds the bending springs, and updates rest lengths and masses (method, Algorithm 1, steps 2 to 4).
+/// All lines are inserted into the undisplaced surface, one after the other; then all are displaced, and smoothed
+/// once. Sets kLine, kLineEdge, kRestLength, kBendingRestLength, kBendingCount, kMass. An unset rest length is the
+/// length as it is.
+/// Throws std::invalid_argument for an option out of its range and ContentError for a stroke that cannot be used;
+/// the mesh is then as it was. Cost: about O(faces log faces) for each stroke.
+WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options = {},
+                      const StageObserver& observer = {});
+
+}  // namespace furrow::geometry

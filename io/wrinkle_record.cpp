@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/wrinkle_record.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+
+namespace furrow::io {
+namespace {
+
+constexpr const char* kPrefix = "furrow wrinkle ";
+bool is_record(const std::string& comment) { return comment.rfind(kPrefix, 0) == 0; }
+
+}  // namespace
+
+void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record) {
+  nlohmann::ordered_json json{{"r_avg_structural", record.mean_structural_length},
+                              {"r_avg_bending", record.mean_bending_length},
+                              {"density", record.density},
+                              {"unit", "m"},
+                              {"options", record.options},
+                              {"lines", nlohmann::ordered_json::array()}};
+  for (const WrinkleRecord::Line& line : record.lines)
+    json["lines"].push_back({{"name", line.name},
+                             {"height", line.height},
+                             {"drawn_height", line.drawn_height},
+                             {"smoothed_height", line.smoothed_height}});
+  std::erase_if(file.comments, is_record);
+  using Handler = nlohmann::ordered_json::error_handler_t;
+  file.comments.push_back(kPrefix + json.dump(-1, ' ', true, Handler::replace));
+}
+
+std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file) {
+  const auto comment = std::find_if(file.comments.begin(), file.comments.end(), is_record);
+  if (comment == file.comments.end()) return std::nullopt;
+  try {
+    const auto json = nlohmann::json::parse(comment->substr(std::string(kPrefix).size()));
+    WrinkleRecord record{json.at("r_avg_structural"), json.at("r_avg_bending"), json.at("density"), json.at("options"), {}};
+    for (const auto& line : json.at("lines"))
+      record.lines.push_back(
+          {line.at("name"), line.at("height"), line.at("drawn_height"), line.at("smoothed_height")});
+    return record;
+  } catch (const nlohmann::json::exception& e) {
+    throw geometry::ContentError(std::string("the comment 'furrow wrinkle' is damaged (") + e.what() +
+                                 "); write the mesh again with furrow wrinkle");
+  }
+}
+
+}  // namespace furrow::io

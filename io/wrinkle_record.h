@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/mesh_file.h"
+
+namespace furrow::io {
+
+/// What a wrinkled mesh carries beside its maps, so that a simulation needs nothing else. Kept as comments
+/// `furrow wrinkle {…}` (JSON in one line).
+struct WrinkleRecord {
+  struct Line {
+    std::string name;
+    double height = 0;           ///< k [m]
+    double drawn_height = 0;     ///< [m]
+    double smoothed_height = 0;  ///< [m]
+  };
+  double mean_structural_length = 0;  ///< r_avg of the mesh before any line [m]
+  double mean_bending_length = 0;     ///< [m]
+  double density = 0;                 ///< [kg/m^2]
+  std::string options;                ///< the flags that made it
+  std::vector<Line> lines;            ///< by line id
+};
+
+void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record);
+/// The record, or nothing if the file has none. Throws geometry::ContentError if it is damaged.
+std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file);
+
+}  // namespace furrow::io

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/gather.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "bridge/scatter.h"
+#include "geometry/bending_springs.h"
+#include "geometry/masses.h"
+#include "geometry/property_names.h"
+#include "geometry/rest_metric.h"
+
+using namespace furrow;
+using geometry::Mesh;
+using geometry::Point;
+using geometry::Vertex;
+
+namespace {
+
+/// Two triangles of a unit square, and a vertex that no face uses.
+Mesh square() {
+  Mesh mesh;
+  const Vertex a = mesh.add_vertex(Point(0, 0, 0)), b = mesh.add_vertex(Point(1, 0, 0));
+  const Vertex c = mesh.add_vertex(Point(1, 1, 0)), d = mesh.add_vertex(Point(0, 1, 0));
+  mesh.add_vertex(Point(9, 9, 9));
+  mesh.add_face(a, b, c);
+  mesh.add_face(a, c, d);
+  geometry::ensure_rest_lengths(mesh);
+  geometry::rebuild_bending_springs(mesh);
+  geometry::lump_masses(mesh, 0.6);
+  return mesh;
+}
+const bridge::GatherOptions kOptions{1000, 10, 0.5, 2};
+
+}  // namespace
+
+TEST_CASE("gather turns maps into masses and springs by the law of S1.7") {
+  const physics::Cloth cloth = bridge::gather(square(), kOptions);
+  REQUIRE(cloth.particles.size() == 5);
+  CHECK(cloth.particles.mass[0] == Approx(0.2));
+  CHECK(cloth.particles.mass[1] == Approx(0.1));
+  CHECK(cloth.particles.mass[4] == 0);
+  CHECK(cloth.particles.inv_mass[4] == 0);
+  REQUIRE(cloth.structural.size() == 5);
+  for (std::size_t i = 1; i < 5; ++i) {
+    const auto &s = cloth.structural[i - 1], &t = cloth.structural[i];
+    CHECK((s.a < t.a || (s.a == t.a && s.b < t.b)));
+  }
+  for (const physics::Spring& s : cloth.structural) CHECK(s.stiffness == Approx(s.rest_length / 0.5 * 1000));
+  REQUIRE(cloth.bending.size() == 1);
+  CHECK(cloth.bending[0].a == 1);
+  CHECK(cloth.bending[0].b == 3);
+  CHECK(cloth.bending[0].rest_length == Approx(std::sqrt(2)));
+  CHECK(cloth.bending[0].stiffness == Approx(std::sqrt(2) / 2 * 10));
+  CHECK(cloth.triangles.size() == 2);
+}
+
+TEST_CASE("gather refuses a mesh that lacks what it needs") {
+  Mesh bare;
+  bare.add_vertex(Point(0, 0, 0));
+  CHECK_THROWS_AS(bridge::gather(bare, kOptions), std::invalid_argument);
+  Mesh unset = square();
+  (*geometry::find_map(unset, geometry::kRestLength))[*unset.edges().begin()] = NAN;
+  CHECK_THROWS_AS(bridge::gather(unset, kOptions), std::invalid_argument);
+  bridge::GatherOptions bad = kOptions;
+  bad.mean_structural_length = 0;
+  CHECK_THROWS_AS(bridge::gather(square(), bad), std::invalid_argument);
+}
+
+TEST_CASE("scatter writes back what gather read, and refuses another mesh") {
+  Mesh mesh = square();
+  physics::Cloth cloth = bridge::gather(mesh, kOptions);
+  for (physics::Vec3& x : cloth.particles.x) x *= 2;
+  bridge::scatter(cloth.particles, mesh);
+  CHECK(mesh.point(Vertex(2)) == Point(2, 2, 0));
+  cloth.particles.x.pop_back();
+  CHECK_THROWS_AS(bridge::scatter(cloth.particles, mesh), std::invalid_argument);
+}

@@ -1,0 +1,5 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+furrow_add_tests(bridge LIBRARIES furrow::bridge SOURCES
+  gather_test.cpp
+  body_test.cpp
+)

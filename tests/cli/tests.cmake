@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+furrow_add_tests(cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
+  run_furrow.h
+  run_furrow.cpp
+  usage_test.cpp
+  pipeline_test.cpp
+  hostile_files_test.cpp
+)
+add_dependencies(test_cli furrow)

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "run_furrow.h"
+
+using namespace furrow::tests;
+
+namespace {
+const char* const kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+}
+
+TEST_CASE("every subcommand has help with units, and help succeeds") {
+  for (const char* sub : {"info", "subdivide", "smooth", "wrinkle", "simulate", "sdf", "render"}) {
+    const Run run = run_furrow(std::string(sub) + " --help");
+    INFO(sub);
+    CHECK(run.exit_code == 0);
+    CHECK(run.out.find("--json") != std::string::npos);
+    CHECK(run.err.empty());
+  }
+  CHECK(run_furrow("simulate --help").out.find("[N/m]") != std::string::npos);
+}
+
+TEST_CASE("the version names the libraries") {
+  const Run run = run_furrow("--version");
+  CHECK(run.exit_code == 0);
+  for (const char* library : {"furrow", "CGAL", "Eigen", "Embree", "assimp"})
+    CHECK(run.out.find(library) != std::string::npos);
+}
+
+TEST_CASE("a wrong call exits with 2 and one line that begins with error:") {
+  const ScratchDirectory scratch;
+  write_text(scratch / "square.obj", kSquare);
+  const std::string square = scratch / "square.obj";
+  for (const std::string& call :
+       {std::string(""), std::string("wrinkel a b"), std::string("info"), "info " + square + " --unit mile",
+        "subdivide " + square + " -o " + (scratch / "o.obj"),
+        "subdivide " + square + " --loop 1 --all -o " + (scratch / "o.obj"),
+        "smooth " + square + " -o " + (scratch / "o.obj") + " --lambda 2",
+        "simulate " + square + " -o " + (scratch / "o.obj") + " --pin-loop middle",
+        "simulate " + square + " -o " + (scratch / "o.obj") + " --pin-vertices 99",
+        "simulate " + square + " -o " + (scratch / "o.obj") + " --seconds -1",
+        "simulate " + square + " -o " + (scratch / "o.obj") + " --dt 1"}) {
+    INFO("furrow " << call);
+    const Run run = run_furrow(call);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err.rfind("error: ", 0) == 0);
+    CHECK(run.out.empty());
+    CHECK_FALSE(std::filesystem::exists(scratch / "o.obj"));
+  }
+  CHECK(run_furrow("wrinkel a b").err.find("did you mean 'wrinkle'") != std::string::npos);
+}
+
+TEST_CASE("a file that cannot be read exits with 3") {
+  CHECK(run_furrow("info /nonexistent/shirt.obj").exit_code == 3);
+  const ScratchDirectory scratch;
+  write_text(scratch / "bad.obj", "v 0 0 0\nv 1 0 zero\n");
+  const Run run = run_furrow("info " + (scratch / "bad.obj"));
+  CHECK(run.exit_code == 3);
+  CHECK(run.err.find("bad.obj:2") != std::string::npos);
+}
+
+TEST_CASE("a file that cannot be written exits with 1 and leaves nothing behind") {
+  const ScratchDirectory scratch;
+  write_text(scratch / "square.obj", kSquare);
+  const Run run = run_furrow("smooth " + (scratch / "square.obj") + " -o " + (scratch / "no/such/folder.obj"));
+  CHECK(run.exit_code == 1);
+  CHECK(run.err.rfind("error: ", 0) == 0);
+}
+
+TEST_CASE("info counts a square and says it as JSON") {
+  const ScratchDirectory scratch;
+  write_text(scratch / "square.obj", kSquare);
+  const Run run = run_furrow("info --json " + (scratch / "square.obj"));
+  REQUIRE(run.exit_code == 0);
+  const auto report = nlohmann::json::parse(run.out);
+  CHECK(report["schema"] == 1);
+  CHECK(report["vertices"] == 4);
+  CHECK(report["edges"] == 5);
+  CHECK(report["faces"] == 2);
+  CHECK(report["boundary_loops"] == 1);
+  CHECK(report["euler_characteristic"] == 1);
+  CHECK(report["closed"] == false);
+  CHECK(report["area"].get<double>() == Approx(1));
+  CHECK(report["repairs"]["triangulated_faces"] == 1);
+}
+
+TEST_CASE("units and the up axis turn what is read and turn it back when written") {
+  const ScratchDirectory scratch;
+  write_text(scratch / "square.obj", kSquare);
+  const Run run = run_furrow("info --json --unit cm " + (scratch / "square.obj"));
+  CHECK(nlohmann::json::parse(run.out)["area"].get<double>() == Approx(1e-4));
+  const Run tall = run_furrow("wrinkle --unit m " + (scratch / "square.obj") + " " + (scratch / "none.json") + " -o " +
+                              (scratch / "o.ply"));
+  CHECK(tall.exit_code == 3);
+  REQUIRE(run_furrow("smooth --iterations 0 --up z --unit mm " + (scratch / "square.obj") + " -o " + (scratch / "same.obj"))
+              .exit_code == 0);
+  const auto same = nlohmann::json::parse(run_furrow("info --json " + (scratch / "same.obj")).out);
+  CHECK(same["bounding_box"]["max"] == nlohmann::json::parse("[1.0, 1.0, 0.0]"));
+}
+
+TEST_CASE("a garment taller than 10 m is refused with a hint at the unit") {
+  const ScratchDirectory scratch;
+  write_text(scratch / "tall.obj", "v 0 0 0\nv 1 0 0\nv 1 170 0\nf 1 2 3\n");
+  const Run run = run_furrow("simulate " + (scratch / "tall.obj") + " -o " + (scratch / "o.obj"));
+  CHECK(run.exit_code == 3);
+  CHECK(run.err.find("--unit cm") != std::string::npos);
+}
