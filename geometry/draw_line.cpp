@@ -149,13 +149,15 @@ class LineDrawing {
   void make_chains(const std::set<Edge>& fresh) {
     std::size_t next = 0;
     std::set<Edge> used;
+    std::set<Vertex> is_node;
+    for (const auto& entry : nodes_) is_node.insert(entry.second);
     for (const SubStroke& part : traced_.sub_strokes) {
       std::vector<Vertex> chain;
       const auto push = [&](Vertex v) {
         if (!chain.empty() && chain.back() == v) return;
         const std::size_t n = chain.size();
-        // A way to a corner and back again adds nothing.
-        const bool spike = n >= 2 && chain[n - 2] == v && out_.inserted_in.count(chain[n - 1]) == 0;
+        // A way round through a corner and back again adds nothing.
+        const bool spike = n >= 2 && chain[n - 2] == v && is_node.count(chain[n - 1]) == 0;
         spike ? chain.pop_back() : chain.push_back(v);
       };
       push(nodes_.at(part.faces.front().face));

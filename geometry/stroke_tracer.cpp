@@ -10,6 +10,7 @@ namespace {
 constexpr double kInside = 1e-4;      ///< least barycentric of a hit: it lies strictly inside its face
 constexpr double kDegenerate = 1e-6;  ///< a barycentric, or a position on an edge, that counts as on the end
 constexpr int kBisections = 8;
+constexpr std::size_t kMostAround = 8;  ///< edges around a vertex
 
 double distance(const Point& a, const Point& b) { return std::sqrt(CGAL::squared_distance(a, b)); }
 
@@ -59,8 +60,13 @@ bool StrokeTracer::connect(const StrokeHit& from, const StrokeHit& to, int depth
     length += direct.length;
     return length <= limit;
   }
-  if (depth == 0) return false;
   const Point middle = CGAL::midpoint(from.position, to.position);
+  if (depth == 0) {
+    // So short a step may still fail beside a notch of the border: go round the notch's vertex.
+    const auto round = fewest_crossings(mesh_, from.point.face, to.point.face, middle, kMostAround);
+    path.insert(path.end(), round.begin(), round.end());
+    return !round.empty();
+  }
   const double radius = 0.75 * distance(from.position, to.position) + 2 * options_.mean_edge;
   const auto nearby = faces_reachable_within(mesh_, from.point.face, middle, radius);
   const StrokeHit half =
@@ -124,10 +130,13 @@ void StrokeTracer::enter(const StrokeHit& from, const StrokeHit& at) {
 }
 
 void StrokeTracer::advance(const StrokeHit& from, StrokeHit to) {
-  std::vector<EdgeCrossing> path;
-  double length = 0;
-  if (connect(from, to, 0, length_limit(from, to), path, length)) {
-    append(path, from, to);
+  if (from.point.face == to.point.face) {
+    current_ = to;
+    return;
+  }
+  const SurfaceWalk direct = walk(from, to, true);
+  if (direct.end == SurfaceWalk::End::reached) {
+    append(direct.crossings, from, to);
     current_ = to;
     return;
   }
@@ -141,15 +150,15 @@ void StrokeTracer::advance(const StrokeHit& from, StrokeHit to) {
   const SurfaceHit closest = projector_.closest_among(to.target, nearby);
   if (closest.distance <= options_.max_distance) {
     const StrokeHit local = hit_at(closest, to.target, to.parameter);
-    path.clear();
-    length = 0;
+    std::vector<EdgeCrossing> path;
+    double length = 0;
     if (connect(from, local, kBisections, length_limit(from, local), path, length)) {
       append(path, from, local);
       current_ = local;
       return;
     }
   }
-  const bool border = walk(from, to, true).end == SurfaceWalk::End::border;
+  const bool border = direct.end == SurfaceWalk::End::border;
   if (border) leave(from, to);
   warnings_.push_back(name_ + ": broken at " + std::to_string(to.parameter) + " of its length: no way along the cloth");
   if (border) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/walk_surface.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace furrow::geometry {
@@ -52,6 +54,34 @@ std::vector<Face> faces_reachable_within(const Mesh& mesh, Face face, const Poin
     }
   }
   return {seen.begin(), seen.end()};
+}
+
+std::vector<EdgeCrossing> fewest_crossings(const Mesh& mesh, Face from, Face to, const Point& guide, std::size_t most) {
+  std::map<Face, Halfedge> entered_by;  // the halfedge of the face before
+  std::vector<Face> ring{from};
+  std::set<Face> seen{from};
+  for (std::size_t steps = 0; steps < most && seen.count(to) == 0; ++steps) {
+    std::vector<Face> next;
+    for (Face face : ring) {
+      for (Halfedge h : halfedges_of(mesh, face)) {
+        if (mesh.is_border(mesh.opposite(h))) continue;
+        const Face beyond = mesh.face(mesh.opposite(h));
+        if (seen.insert(beyond).second) entered_by[beyond] = h, next.push_back(beyond);
+      }
+    }
+    ring = std::move(next);
+  }
+  std::vector<EdgeCrossing> crossings;
+  if (seen.count(to) == 0) return crossings;
+  for (Face face = to; face != from; face = mesh.face(crossings.back().halfedge)) {
+    const Halfedge h = entered_by.at(face);
+    const Point& a = mesh.point(mesh.source(h));
+    const Vector edge = mesh.point(mesh.target(h)) - a;
+    const double t = std::clamp(((guide - a) * edge) / edge.squared_length(), 1e-3, 1 - 1e-3);
+    crossings.push_back({h, t, a + t * edge});
+  }
+  std::reverse(crossings.begin(), crossings.end());
+  return crossings;
 }
 
 }  // namespace furrow::geometry

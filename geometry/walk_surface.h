@@ -36,4 +36,8 @@ SurfaceWalk walk_surface(const Mesh& mesh, Face face, const Point& start, const 
 /// The faces that can be reached from `face` through faces with a corner within `radius` [m] of `centre`; ascending.
 std::vector<Face> faces_reachable_within(const Mesh& mesh, Face face, const Point& centre, double radius);
 
+/// Crossings of the way from face to face with the fewest edges; each at the point of its edge closest to `guide`, but
+/// never nearer to an end than 1e-3 of it. Empty if `to` is `from` or more than `most` edges away. O(faces within `most`).
+std::vector<EdgeCrossing> fewest_crossings(const Mesh& mesh, Face from, Face to, const Point& guide, std::size_t most);
+
 }  // namespace furrow::geometry
