@@ -11,8 +11,6 @@
 namespace furrow::geometry {
 namespace {
 
-using Place = LinePlan::Place;
-
 constexpr double kReuse = 0.5;     ///< in h: a node this near to an earlier line's vertex takes it
 constexpr double kLeastEdge = 0.25;  ///< h_min in h
 constexpr int kGenerations = 2;
@@ -60,11 +58,16 @@ class LineDrawing {
     return faces;
   }
 
+  const Barycentrics& node_of(const CrossedFace& visit) const {
+    const auto pinned = plan_.pinned.find(visit.face);
+    return pinned == plan_.pinned.end() ? visit.node : pinned->second;
+  }
+
   /// A corner in place of a new vertex, if the safe rule wants one.
   std::optional<Vertex> corner_for(const CrossedFace& visit) {
     const Mesh& mesh = editor_.mesh();
     const auto corners = corners_of(mesh, visit.face);
-    const auto away = lengths_to_corners(rest_lengths_of(mesh, editor_.rest(), visit.face), visit.node);
+    const auto away = lengths_to_corners(rest_lengths_of(mesh, editor_.rest(), visit.face), node_of(visit));
     std::optional<int> reused;
     for (int i = 0; i < 3; ++i) {
       const bool near = editor_.line()[corners[i]] >= 0 && away[i] <= kReuse * mean_edge_;
@@ -73,7 +76,7 @@ class LineDrawing {
     if (reused) return ++report_.reused, corners[*reused];
     const auto place = plan_.places.find(visit.face);
     const bool small = too_small(editor_, visit.face, mean_edge_);
-    if (!small && (place == plan_.places.end() || place->second != Place::corner)) return std::nullopt;
+    if (!small && (place == plan_.places.end() || place->second != LinePlan::Place::corner)) return std::nullopt;
     report_.too_small += small;
     ++report_.snapped;
     return corners[std::min_element(away.begin(), away.end()) - away.begin()];
@@ -81,7 +84,7 @@ class LineDrawing {
 
   Barycentrics place_in(const CrossedFace& visit) const {
     if (options_.rule == InsertionRule::paper) return visit.node;
-    if (plan_.places.count(visit.face) == 0) return clamped(visit.node, options_.min_barycentric);
+    if (plan_.places.count(visit.face) == 0) return clamped(node_of(visit), options_.min_barycentric);
     return incenter(rest_lengths_of(editor_.mesh(), editor_.rest(), visit.face));
   }
 
@@ -228,40 +231,6 @@ DrawnLine draw_line(const Mesh& mesh, const TracedStroke& traced, const LinePlan
   out.insertion.line.id = line_id;
   LineDrawing(out, traced, plan, line_id, mean_edge, options).run();
   return out;
-}
-
-bool improve_plan(const DrawnLine& drawn, double least_angle, LinePlan& plan) {
-  const auto rest = *find_map(drawn.mesh, kRestLength);
-  LinePlan next = plan;
-  bool changed = false;
-  const auto place_of = [&](Vertex v) {
-    const auto found = plan.places.find(drawn.inserted_in.at(v));
-    return found == plan.places.end() ? Place::clamped : found->second;
-  };
-  for (Face face : drawn.insertion.report.changed_faces) {
-    if (smallest_angle(rest_lengths_of(drawn.mesh, rest, face)) >= least_angle) continue;
-    const auto corners = corners_of(drawn.mesh, face);
-    std::vector<Vertex> fresh;
-    for (Vertex v : corners) {
-      if (drawn.inserted_in.count(v) > 0) fresh.push_back(v);
-    }
-    Place lowest = Place::corner;
-    for (Vertex v : fresh) lowest = std::min(lowest, place_of(v));
-    for (Vertex v : fresh) {
-      if (place_of(v) != lowest) continue;
-      next.places[drawn.inserted_in.at(v)] = lowest == Place::clamped ? Place::incenter : Place::corner;
-      changed = true;
-    }
-    if (!fresh.empty()) continue;
-    const auto at_corner = [&](Vertex v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); };
-    for (const auto& [link, edge] : drawn.links) {
-      const bool here = (at_corner(link.from) && at_corner(link.to)) ||
-                        std::any_of(link.between.begin(), link.between.end(), at_corner);
-      if (here) changed = next.routed.insert(edge).second || changed;
-    }
-  }
-  plan = std::move(next);
-  return changed;
 }
 
 }  // namespace furrow::geometry

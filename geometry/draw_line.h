@@ -10,10 +10,11 @@
 
 namespace furrow::geometry {
 
-/// What a round of insert_along_stroke changes to get better angles.
+/// What a round of insert_along_stroke does otherwise than the first.
 struct LinePlan {
   enum class Place { clamped, incenter, corner };
   std::map<Face, Place> places;  ///< where a face's node goes; clamped if not named
+  std::map<Face, Barycentrics> pinned;  ///< in place of CrossedFace::node
   std::set<Edge> routed;         ///< crossed edges that are neither flipped nor split
 };
 
@@ -28,8 +29,5 @@ struct DrawnLine {
 /// Inserts, joins, flips and restores the Delaunay property; see insert_along_stroke. `mean_edge` is h [m].
 DrawnLine draw_line(const Mesh& mesh, const TracedStroke& traced, const LinePlan& plan, int line_id, double mean_edge,
                     const InsertionOptions& options);
-
-/// Names in `plan` what to do otherwise about the faces with an angle below `least_angle` [rad]; false: nothing is left.
-bool improve_plan(const DrawnLine& drawn, double least_angle, LinePlan& plan);
 
 }  // namespace furrow::geometry

@@ -102,7 +102,7 @@ void StrokeTracer::append(const std::vector<EdgeCrossing>& path, const StrokeHit
 }
 
 void StrokeTracer::add_sample(const StrokeHit& hit, std::size_t index) {
-  samples_.push_back({hit.position, hit.point.face, index});
+  samples_.push_back({hit.position, hit.point, index});
   CrossedFace& visit = sub_strokes_.back().faces.back();
   for (int i = 0; i < 3; ++i) visit.node[i] += hit.point.barycentrics[i];
   visit.stroke_parameter = visit.samples == 0 ? hit.parameter : 0.5 * (visit.stroke_parameter + hit.parameter);

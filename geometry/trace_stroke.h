@@ -29,7 +29,7 @@ struct SubStroke {
 /// A point of the stroke on the cloth.
 struct ProjectedSample {
   Point position;  ///< [m]
-  Face face;
+  FacePoint point;
   std::size_t index;  ///< into Stroke::points
 };
 

@@ -116,12 +116,13 @@ double relative_deviation(const Mesh& before, const Mesh& after, const Stroke& s
     double longest = 0;
     for (const SubStroke& part : traced.sub_strokes) {
       for (std::size_t i = 0; i < part.faces.size(); ++i) {
-        if (part.faces[i].face != sample.face) continue;
+        if (part.faces[i].face != sample.point.face) continue;
         for (std::size_t j = i > 0 ? i - 1 : 0; j < std::min(i + 2, part.faces.size()); ++j) {
           for (double l : rest_lengths_of(before, rest, part.faces[j].face)) longest = std::max(longest, l);
         }
       }
     }
+    longest = std::max(longest, mean_edge);
     worst = std::max(worst, distance_to_line(after, insertion.line, sample.position) / (longest / 2));
   }
   return worst;
