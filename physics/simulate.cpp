@@ -84,8 +84,7 @@ class StepLength {
 
  private:
   void estimate() {
-    StepLimit limit = stable_step(cloth_, {.start = std::move(mode_)});
-    mode_ = std::move(limit.mode);
+    const StepLimit limit = stable_step(cloth_);
     strain_ = strain_statistics(cloth_.particles.x, cloth_.structural).max;
     report_.dt_limit = limit.dt_limit;
     report_.dt_limit_smallest = std::min(report_.dt_limit_smallest, limit.dt_limit);
@@ -105,7 +104,6 @@ class StepLength {
   const Cloth& cloth_;
   const SimulateOptions& options_;
   SimulateReport& report_;
-  std::vector<Vec3> mode_;
   double strain_ = 0, dt_ = 0;
   std::int64_t steps_left_ = 0, estimated_at_ = 0;
 };

@@ -18,6 +18,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// A residual can be small before the largest eigenvalue has shown up at all, but hardly after so many rounds.
+constexpr std::size_t least_iterations = 32;
+
 /// In [-1/2, 1/2), a function of its argument only (the mixer splitmix64).
 double pseudo_random(std::uint64_t i) {
   std::uint64_t z = (i + 1) * 0x9e3779b97f4a7c15u;
@@ -64,62 +67,49 @@ class Operator {
   std::vector<double> scale_;
 };
 
-VectorXd start_vector(const Operator& op, const std::vector<Vec3>& hint) {
+VectorXd start_vector(const Operator& op) {
   VectorXd q(op.size());
-  for (Index i = 0; i < q.size(); ++i)
+  for (Index i = 0; i < q.size(); ++i) {
     q[i] = op.scale()[std::size_t(i / 3)] > 0 ? pseudo_random(std::uint64_t(i)) : 0;
-  if (q.norm() > 0) q.normalize();
-  if (!hint.empty()) {
-    // Some of the random vector stays in, so that a mode that overtook the old one is found.
-    q *= 0.3;
-    for (std::size_t i = 0; i < hint.size(); ++i) {
-      if (op.scale()[i] > 0) q.segment<3>(Index(3 * i)) += hint[i];
-    }
-    if (q.norm() > 0) q.normalize();
   }
-  return q;
+  return q.normalized();
 }
 
 struct Ritz {
-  double theta = 0, residual = 0;
-  VectorXd coefficients;
+  double theta, residual;
 };
 
-Ritz largest_ritz_pair(const std::vector<double>& alpha, const std::vector<double>& beta) {
+Ritz largest_ritz_value(const std::vector<double>& alpha, const std::vector<double>& beta) {
   const Index m = Index(alpha.size());
   Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
   const VectorXd diagonal = Eigen::Map<const VectorXd>(alpha.data(), m);
   const VectorXd off = Eigen::Map<const VectorXd>(beta.data(), m - 1);
   solver.computeFromTridiagonal(diagonal, off, Eigen::ComputeEigenvectors);
-  const VectorXd s = solver.eigenvectors().col(m - 1);
-  return {solver.eigenvalues()[m - 1], beta.back() * std::abs(s[m - 1]), s};
+  return {solver.eigenvalues()[m - 1], beta.back() * std::abs(solver.eigenvectors()(m - 1, m - 1))};
 }
 
-void check(const Cloth& cloth, const StableStepOptions& options) {
+void check(const StableStepOptions& options) {
   if (!(options.tolerance > 0 && options.tolerance < 0.5)) {
     throw std::invalid_argument("stable_step: tolerance = " + std::to_string(options.tolerance) +
                                 " is not in (0, 0.5)");
   }
   if (options.max_iterations < 1) {
-    throw std::invalid_argument("stable_step: max_iterations = " + std::to_string(options.max_iterations));
-  }
-  if (!options.start.empty() && options.start.size() != cloth.particles.size()) {
-    throw std::invalid_argument("stable_step: start has " + std::to_string(options.start.size()) +
-                                " entries");
+    throw std::invalid_argument("stable_step: max_iterations = " + std::to_string(options.max_iterations) +
+                                " is not >= 1");
   }
 }
 
 }  // namespace
 
 StepLimit stable_step(const Cloth& cloth, const StableStepOptions& options) {
-  check(cloth, options);
+  check(options);
   Operator op(cloth);
   const double bound = op.gershgorin();
-  if (bound == 0) return {std::numeric_limits<double>::infinity(), 0, 0, 0, {}};
+  if (bound == 0) return {std::numeric_limits<double>::infinity(), 0, 0, 0};
   const Index most = std::min<Index>(op.size(), options.max_iterations);
-  std::vector<VectorXd> basis{start_vector(op, options.start)};
+  std::vector<VectorXd> basis{start_vector(op)};
   std::vector<double> alpha, beta;
-  Ritz ritz;
+  Ritz ritz{};
   VectorXd w(op.size());
   while (true) {
     op.apply(basis.back(), w);
@@ -129,19 +119,14 @@ StepLimit stable_step(const Cloth& cloth, const StableStepOptions& options) {
     }
     beta.push_back(w.norm());
     const bool exhausted = beta.back() <= 1e-13 * bound || Index(alpha.size()) >= most;
-    if (exhausted || alpha.size() % 4 == 0) {
-      ritz = largest_ritz_pair(alpha, beta);
-      const bool long_enough = alpha.size() >= (options.start.empty() ? 24 : 12);
-      if (exhausted || (long_enough && ritz.residual <= options.tolerance * ritz.theta)) break;
+    if (exhausted || (alpha.size() >= least_iterations && alpha.size() % 4 == 0)) {
+      ritz = largest_ritz_value(alpha, beta);
+      if (exhausted || ritz.residual <= options.tolerance * ritz.theta) break;
     }
     basis.push_back(w / beta.back());
   }
-  const double omega = std::sqrt(std::min(ritz.theta + ritz.residual, bound) * (1 + 1e-12));
-  VectorXd mode = VectorXd::Zero(op.size());
-  for (std::size_t j = 0; j < alpha.size(); ++j) mode += ritz.coefficients[Index(j)] * basis[j];
-  StepLimit limit{2 / omega, omega, ritz.residual / ritz.theta, int(alpha.size()), {}};
-  for (Index i = 0; i < mode.size(); i += 3) limit.mode.push_back(mode.segment<3>(i));
-  return limit;
+  const double largest = std::min(ritz.theta + ritz.residual, bound) * (1 + 1e-12), omega = std::sqrt(largest);
+  return {2 / omega, omega, ritz.theta > 0 ? ritz.residual / ritz.theta : 0, int(alpha.size())};
 }
 
 }  // namespace furrow::physics

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <vector>
-
 #include "physics/springs.h"
 
 namespace furrow::physics {
@@ -9,8 +7,6 @@ namespace furrow::physics {
 struct StableStepOptions {
   double tolerance = 0.01;   ///< residual of the largest eigenvalue, relative to it [-]; in (0, 0.5)
   int max_iterations = 400;  ///< >= 1; each costs one product with the stiffness matrix
-  std::vector<Vec3>
-      start{};  ///< near the fastest mode, such as `mode` of an earlier call; empty = none known
 };
 
 struct StepLimit {
@@ -18,16 +14,18 @@ struct StepLimit {
   double omega_max;  ///< upper bound of the highest angular frequency [1/s]
   double residual;   ///< of the largest eigenvalue, relative to it [-]
   int iterations;
-  std::vector<Vec3> mode;  ///< the fastest mode, weighted by the root of mass, of norm 1
 };
 
 /// dt_limit = 2 / omega_max,  omega_max^2 the largest eigenvalue of M^-1/2 K M^-1/2 at the present positions,
 /// K the springs' stiffness without the (destabilising) transverse part of compressed ones, M the masses;
 /// what has inv_mass 0 is held. Lanczos with full reorthogonalisation from a fixed pseudo-random start, until
 /// the residual r is below the tolerance; then omega_max^2 = theta + r, at most Gershgorin's bound, so that
-/// dt_limit errs to the safe side, by about half the tolerance. Cost: iterations (20 to 80 usually) *
-/// (springs + particles * iterations); memory particles * iterations. Throws std::invalid_argument if an
-/// option is out of its range.
+/// dt_limit errs to the safe side, by at most about half the tolerance.
+///
+/// Always from the same start: one near an earlier mode converges to that mode although another may have
+/// overtaken it.
+/// Cost: iterations (32 usually) * (springs + particles * iterations); memory particles * iterations.
+/// Throws std::invalid_argument if an option is out of its range.
 StepLimit stable_step(const Cloth& cloth, const StableStepOptions& options = {});
 
 }  // namespace furrow::physics

@@ -56,12 +56,6 @@ TEST_CASE("the limit is never above the exact one and within 2 % of it on irregu
     CHECK(limit.dt_limit <= exact * (1 + 1e-9));
     CHECK(limit.dt_limit >= 0.98 * positive);
     CHECK(limit.dt_limit >= 0.98 * exact);
-    // A start near an earlier mode gives the same answer.
-    cloth.particles.x[5] += 1e-3 * noise.vector();
-    const double moved = exact_limit(cloth, Stiffness::positive_part);
-    const double warm = stable_step(cloth, {.start = limit.mode}).dt_limit;
-    CHECK(warm <= moved * (1 + 1e-9));
-    CHECK(warm >= 0.98 * moved);
   }
 }
 
@@ -72,5 +66,4 @@ TEST_CASE("nothing stiff, no limit; bad options are refused") {
   CHECK(std::isinf(stable_step(Cloth{}).dt_limit));
   CHECK_THROWS_AS(stable_step(cloth, {.tolerance = 0}), std::invalid_argument);
   CHECK_THROWS_AS(stable_step(cloth, {.max_iterations = 0}), std::invalid_argument);
-  CHECK_THROWS_AS(stable_step(cloth, {.start = {Vec3::Zero(), Vec3::Zero()}}), std::invalid_argument);
 }
