@@ -13,7 +13,6 @@ namespace {
 constexpr double tolerance = 1e-5;     // m: a projection that leaves less depth is good enough
 constexpr double small_depth = 1e-4;   // m: below, the field is linear and one Newton step is exact
 constexpr double longest_push = 0.02;  // m
-constexpr double lipschitz = 2;        // bound on the change of the field a metre
 constexpr int most_pieces = 1000;
 
 void check_positive(double value, const char* name) {
@@ -88,8 +87,8 @@ void BodyContact::respond(int i, const Vec3& before, double dt, Vec3& x, Vec3& v
   const double gap = options_.gap;
   Known& known = known_[std::size_t(i)];
   if (std::isnan(known.level)) known = {before, query(before, counts).value};
-  const double travelled = (x - known.x).norm(), step = (x - before).norm();
-  if (!std::isfinite(travelled) || lipschitz * travelled < known.level - gap) return;
+  const double step = (x - before).norm();
+  if (!std::isfinite(step) || is_clear(i, x)) return;
 
   const auto level_before = [&] {
     if (before != known.x) known = {before, query(before, counts).value};

@@ -40,6 +40,12 @@ class BodyContact {
   /// The collider must outlive this object. Throws std::invalid_argument if an option is out of its range.
   BodyContact(const Collider& collider, const ContactOptions& options, int particles);
 
+  /// Whether particle i at x cannot be in contact, for all that is known; then respond() would do nothing.
+  bool is_clear(int i, const Vec3& x) const {
+    const Known& known = known_[std::size_t(i)];
+    const double clearance = known.level - options_.gap;
+    return clearance > 0 && lipschitz * lipschitz * (x - known.x).squaredNorm() < clearance * clearance;
+  }
   /// Particle i moved from `before` to x in dt with velocity v: corrects x and v. Particles are independent
   /// of each other, so different i may be handled by several threads. Positions that are not finite are left
   /// alone.
@@ -51,6 +57,7 @@ class BodyContact {
   double push_out(double target, SignedDistance& field, Vec3& x, ContactCounts& counts) const;
   void remember(int i, const Vec3& x, double level);
 
+  static constexpr double lipschitz = 2;  // bound on the change of the field a metre
   const Collider& collider_;
   ContactOptions options_;
   struct Known {

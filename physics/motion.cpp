@@ -70,6 +70,10 @@ ContactCounts drift_with_contact(PackedCloth& cloth, BodyContact& contact, doubl
     Vec4 &x4 = cloth.x[i], &v4 = cloth.v[i];
     const Vec3 before(x4.x, x4.y, x4.z);
     Vec3 v(v4.x, v4.y, v4.z), x = before + seconds * v;
+    if (contact.is_clear(i, x)) {
+      x4 = {x.x(), x.y(), x.z(), 0};
+      continue;
+    }
     contact.respond(i, before, seconds, x, v, counts);
     x4 = {x.x(), x.y(), x.z(), 0};
     v4 = {v.x(), v.y(), v.z(), 0};

@@ -56,7 +56,7 @@ struct SimulateReport {
   double dt_limit_smallest = 0;         ///< [s]
   double seconds = 0, cpu_seconds = 0;  ///< clock and processor time of the call (all threads) [s]
   StrainStatistics strain;              ///< structural springs at the end
-  double kinetic_energy = 0;            ///< [J]
+  double kinetic_energy = 0;            ///< [J]; what rests on the body keeps the last half-kick, g dt/2
   double residual_force = 0;            ///< see residual_force(): largest net force relative to weight [-]
   int contacts = 0;                     ///< particles at the body at the end
   int limit_estimates = 0;

@@ -125,7 +125,8 @@ StepLimit stable_step(const Cloth& cloth, const StableStepOptions& options) {
     }
     basis.push_back(w / beta.back());
   }
-  const double largest = std::min(ritz.theta + ritz.residual, bound) * (1 + 1e-12), omega = std::sqrt(largest);
+  const double largest = std::min(ritz.theta + ritz.residual, bound) * (1 + 1e-12),
+               omega = std::sqrt(largest);
   return {2 / omega, omega, ritz.theta > 0 ? ritz.residual / ritz.theta : 0, int(alpha.size())};
 }
 
