@@ -71,6 +71,7 @@ class DistanceField : public Collider {
   DistanceField() = default;
   void take(const class DistanceOctree& octree);
   void index();
+  void read_tree(class ByteReader& in);
   void fill_top(Entry entry, int level, const std::array<int, 3>& low);
   SignedDistance inside_at(const Vec3& lattice) const;
   Vec3 corner_gradient_at(std::size_t leaf, const Vec3& u) const;

@@ -69,10 +69,12 @@ std::array<int, 27> DistanceOctree::add_lattice(const OctreeCell& cell) {
 
 bool DistanceOctree::must_split(const OctreeCell& cell, const std::array<int, 27>& lattice) const {
   if (cell.level < rule_.min_depth) return true;
-  const double centre = samples_.value(lattice[at3(1, 1, 1)]);
-  const double half_diagonal = std::sqrt(0.75) * unit_ * edge(cell);
-  if (cell.level < rule_.band_depth && centre <= rule_.outer_band + half_diagonal &&
-      centre >= -rule_.inner_band - half_diagonal)
+  const auto in_band = [&](int sample) {
+    return samples_.value(sample) <= rule_.outer_band && samples_.value(sample) >= -rule_.inner_band;
+  };
+  const bool surface_inside = std::any_of(lattice.begin(), lattice.end(), [&](int s) { return samples_.value(s) < 0; }) &&
+                              std::any_of(lattice.begin(), lattice.end(), [&](int s) { return samples_.value(s) >= 0; });
+  if (cell.level < rule_.band_depth && (surface_inside || std::any_of(lattice.begin(), lattice.end(), in_band)))
     return true;
   std::array<double, 8> corner;
   for (int c = 0; c < 8; ++c) corner[c] = samples_.value(cell.corner[c]);

@@ -33,7 +33,7 @@ int split(const std::vector<Vec3>& centroids, std::vector<int>& order, int begin
 Float4 box_distances(const TriangleBvh::Node& node, const Float4* p) {
   Float4 sum = splat(0);
   for (int k = 0; k < 3; ++k) {
-    const Float4 d = max(max(node.low[k] - p[k], p[k] - node.high[k]), splat(0));
+    const Float4 d = positive_part(absolute(p[k] - node.middle[k]) - node.half[k]);
     sum += d * d;
   }
   return sum;
@@ -64,13 +64,34 @@ Float4 triangle_distances(const TriangleBvh::Leaf& leaf, const Float4* p) {
   return min(min(v, w), rest) >= splat(0) ? min(edges, height * height) : edges;
 }
 
-/// No triangle whose float distance is above this can be closer than best2: float moves a point by < slack.
-float search_limit(double best2, double slack) {
-  const double d = std::sqrt(best2) + slack;
-  return static_cast<float>(std::min(d * d * 1.00001, 1e37));
-}
-
 }  // namespace
+
+/// Float distances are off by less than `slack`. So nothing whose float distance is above `limit` can be the answer;
+/// what is below waits in `waiting` to be computed in double.
+struct TriangleBvh::Search {
+  struct Entry {
+    float distance;  ///< squared
+    int child;
+  };
+  struct Candidate {
+    float distance;  ///< squared
+    int slot;
+  };
+  Vec3 x;
+  Float4 p[3];
+  double slack;
+  float limit;
+  bool trust_float;  ///< a float distance may lower the limit
+  ClosestPoint best;
+  int size = 0, waiting_size = 0;
+  Entry stack[96];
+  Candidate waiting[64];
+
+  /// Lowers the limit when something is known to lie within `d` (slack included).
+  void lower_limit(double d) {
+    limit = std::min(limit, static_cast<float>(std::min((d + slack) * (d + slack) * 1.00001, 1e37)));
+  }
+};
 
 TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
@@ -155,8 +176,8 @@ void TriangleBvh::refit(std::span<const char> dropped) {
           for (const Vec3& corner : corners_[leaf_size * ~child + j]) box.extend(corner);
       }
       for (int k = 0; k < 3; ++k) {
-        nodes_[i].low[k][lane] = box.isEmpty() ? far_away : static_cast<float>(box.min()[k] - centre_[k]);
-        nodes_[i].high[k][lane] = box.isEmpty() ? far_away : static_cast<float>(box.max()[k] - centre_[k]);
+        nodes_[i].middle[k][lane] = box.isEmpty() ? far_away : static_cast<float>(box.center()[k] - centre_[k]);
+        nodes_[i].half[k][lane] = box.isEmpty() ? 0 : static_cast<float>(box.sizes()[k] / 2);
       }
       node_box[i].extend(box);
     }
@@ -170,55 +191,74 @@ void TriangleBvh::drop(std::span<const char> dropped) {
   refit(dropped);
 }
 
-void TriangleBvh::search_leaf(int index, const Vec3& x, const Float4* p, double slack, float& limit,
-                              ClosestPoint& best) const {
-  const Leaf& leaf = leaves_[index];
-  const Float4 d = triangle_distances(leaf, p);
-  for (int lane = 0; lane < leaf_size; ++lane) {
-    if (!(d[lane] <= limit) || leaf.triangle[lane] == best.triangle) continue;
-    const auto& [a, b, c] = corners_[leaf_size * index + lane];
-    const PointOnTriangle q = closest_on_triangle(x, a, b, c);
-    const double squared = (x - q.point).squaredNorm();
-    if (squared >= best.squared_distance) continue;
-    best = {squared, q.point, leaf.triangle[lane], q.feature};
-    limit = search_limit(squared, slack);
+void TriangleBvh::settle(Search& s) const {
+  for (int i = 0; i < s.waiting_size; ++i) {
+    const int slot = s.waiting[i].slot, triangle = leaves_[slot / leaf_size].triangle[slot % leaf_size];
+    if (s.waiting[i].distance > s.limit || triangle == s.best.triangle) continue;
+    const auto& [a, b, c] = corners_[slot];
+    const PointOnTriangle q = closest_on_triangle(s.x, a, b, c);
+    const double squared = (s.x - q.point).squaredNorm();
+    if (squared >= s.best.squared_distance) continue;
+    s.best = {squared, q.point, triangle, q.feature};
+    s.lower_limit(std::sqrt(squared));
   }
+  s.waiting_size = 0;
+}
+
+void TriangleBvh::search_leaf(Search& s, int leaf) const {
+  const Float4 d = triangle_distances(leaves_[leaf], s.p);
+  const float nearest = least(d);
+  if (!(nearest <= s.limit)) return;
+  if (s.trust_float) s.lower_limit(std::sqrt(static_cast<double>(nearest)) + s.slack);
+  if (s.waiting_size + leaf_size > static_cast<int>(std::size(s.waiting))) settle(s);
+  for (int lane = 0; lane < leaf_size; ++lane)
+    if (d[lane] <= s.limit) s.waiting[s.waiting_size++] = {d[lane], leaf_size * leaf + lane};
+  if (!s.trust_float) settle(s);
+}
+
+void TriangleBvh::push_children(Search& s, const Node& node) const {
+  const Float4 d = box_distances(node, s.p);
+  int nearest = s.size;
+  for (int i = 0; i < 4; ++i) {
+    if (!(d[i] <= s.limit)) continue;
+    if (s.size == nearest || d[i] < s.stack[nearest].distance) nearest = s.size;
+    s.stack[s.size++] = {d[i], node.child[i]};
+  }
+  if (nearest < s.size) std::swap(s.stack[nearest], s.stack[s.size - 1]);
+}
+
+void TriangleBvh::search(Search& s) const {
+  s.stack[s.size++] = {0, 0};
+  while (s.size > 0) {
+    const Search::Entry top = s.stack[--s.size];
+    if (top.distance > s.limit) continue;
+    if (top.child >= 0) push_children(s, nodes_[top.child]);
+    else search_leaf(s, ~top.child);
+  }
+  settle(s);
 }
 
 ClosestPoint TriangleBvh::closest(const Vec3& x, int guess) const {
   const auto& [a, b, c] = corners(guess);
   const PointOnTriangle q = closest_on_triangle(x, a, b, c);
-  ClosestPoint best{(x - q.point).squaredNorm(), q.point, guess, q.feature};
   const Vec3 local = x - centre_;
-  if (!(local.cwiseAbs().maxCoeff() < 1e12)) return best;  // also NaN: float boxes say nothing there
-  const double slack = 1e-6 * (radius_ + local.cwiseAbs().maxCoeff());
-  float limit = search_limit(best.squared_distance, slack);
-  const Float4 p[] = {splat(static_cast<float>(local[0])), splat(static_cast<float>(local[1])),
-                      splat(static_cast<float>(local[2]))};
-  struct Entry {
-    float distance;
-    int child;
-  } stack[96];
-  int size = 0;
-  stack[size++] = {0, 0};
-  while (size > 0) {
-    const Entry top = stack[--size];
-    if (top.distance > limit) continue;
-    if (top.child < 0) {
-      search_leaf(~top.child, x, p, slack, limit, best);
-      continue;
-    }
-    const Node& node = nodes_[top.child];
-    const Float4 d = box_distances(node, p);
-    const int base = size;
-    for (int i = 0; i < 4; ++i) {
-      if (!(d[i] <= limit) || node.child[i] == Node::none) continue;
-      int at = size++;  // the nearest child ends on top
-      for (; at > base && stack[at - 1].distance < d[i]; --at) stack[at] = stack[at - 1];
-      stack[at] = {d[i], node.child[i]};
-    }
-  }
-  return best;
+  Search s;
+  s.best = {(x - q.point).squaredNorm(), q.point, guess, q.feature};
+  if (!(local.cwiseAbs().maxCoeff() < 1e12)) return s.best;  // also NaN: float boxes say nothing there
+  s.x = x;
+  for (int k = 0; k < 3; ++k) s.p[k] = splat(static_cast<float>(local[k]));
+  s.slack = 1e-6 * (radius_ + local.cwiseAbs().maxCoeff());
+  s.limit = 1e37f;
+  s.lower_limit(std::sqrt(s.best.squared_distance));
+  s.trust_float = true;
+  search(s);
+  if (s.best.squared_distance <= s.limit) return s.best;
+  // a needle that float took to be nearer than it is: once more, with limits from double only
+  s.limit = 1e37f;
+  s.lower_limit(std::sqrt(s.best.squared_distance));
+  s.trust_float = false;
+  search(s);
+  return s.best;
 }
 
 void TriangleBvh::append_near(const Vec3& low, const Vec3& high, std::vector<int>& triangles) const {
@@ -231,7 +271,8 @@ void TriangleBvh::append_near(const Vec3& low, const Vec3& high, std::vector<int
     for (int i = 0; i < 4; ++i) {
       bool meets = node.child[i] != Node::none;
       for (int k = 0; k < 3; ++k)
-        meets = meets && node.low[k][i] <= to[k] + slack && node.high[k][i] >= from[k] - slack;
+        meets = meets && std::abs((from[k] + to[k]) / 2 - node.middle[k][i]) <=
+                             (to[k] - from[k]) / 2 + node.half[k][i] + slack;
       if (!meets) continue;
       if (node.child[i] >= 0) {
         stack.push_back(node.child[i]);

@@ -25,7 +25,7 @@ class TriangleBvh {
   /// Four boxes; child >= 0 is a node, child < 0 the leaf ~child, `none` no child (its box is far away).
   struct Node {
     static constexpr int none = -2147483647 - 1;
-    Float4 low[3], high[3];  ///< [m], relative to centre()
+    Float4 middle[3], half[3];  ///< centre relative to centre() and half the edges [m]
     std::array<int, 4> child;
   };
   /// Four triangles: corner a, edges e1 = b - a and e2 = c - a, unit normal, the edges' products and inverses.
@@ -59,7 +59,11 @@ class TriangleBvh {
   int add_leaf(const TriangleMesh& mesh, const std::vector<int>& order, int begin, int end);
   void set_lane(int leaf, int lane, bool used);
   void refit(std::span<const char> dropped);
-  void search_leaf(int leaf, const Vec3& x, const Float4* p, double slack, float& limit, ClosestPoint& best) const;
+  struct Search;
+  void search(Search& search) const;
+  void push_children(Search& search, const Node& node) const;
+  void search_leaf(Search& search, int leaf) const;
+  void settle(Search& search) const;
 
   Vec3 centre_;
   double radius_;  ///< largest coordinate relative to centre_ [m]

@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+furrow_add_tests(field LIBRARIES furrow::physics CGAL::CGAL SOURCES
+  triangle_bvh_test.cpp
+  winding_number_test.cpp
+  exact_distance_test.cpp
+  distance_field_test.cpp
+  distance_field_bytes_test.cpp
+)
