@@ -60,7 +60,7 @@ Float4 triangle_distances(const TriangleBvh::Leaf& leaf, const Float4* p) {
   }
   const Float4 edges = min(min(square(r1), square(r2)), square(r3));
   const Float4 v = leaf.g22 * k1 - leaf.g12 * k2, w = leaf.g11 * k2 - leaf.g12 * k1;
-  const Float4 rest = leaf.g11 * leaf.g22 - leaf.g12 * leaf.g12 - v - w;
+  const Float4 rest = leaf.det - v - w;
   return min(min(v, w), rest) >= splat(0) ? min(edges, height * height) : edges;
 }
 
@@ -152,6 +152,9 @@ void TriangleBvh::set_lane(int index, int lane, bool used) {
     leaf.e2[k][lane] = used ? static_cast<float>(e2[k]) : 0;
     leaf.n[k][lane] = static_cast<float>(n[k]);
   }
+  const double area2 = e1.cross(e2).squaredNorm(), longest2 = std::max(e1.squaredNorm(), e2.squaredNorm());
+  const bool flat = used && area2 > 1e-13 * longest2 * longest2;
+  leaf.det[lane] = flat ? static_cast<float>(area2) : -1;
   const auto inverse = [&](double g) { return used && g > 1e-36 ? static_cast<float>(1 / g) : 0.0f; };
   leaf.g11[lane] = used ? static_cast<float>(e1.squaredNorm()) : 0;
   leaf.g12[lane] = used ? static_cast<float>(e1.dot(e2)) : 0;
@@ -244,7 +247,7 @@ ClosestPoint TriangleBvh::closest(const Vec3& x, int guess) const {
   const Vec3 local = x - centre_;
   Search s;
   s.best = {(x - q.point).squaredNorm(), q.point, guess, q.feature};
-  if (!(local.cwiseAbs().maxCoeff() < 1e12)) return s.best;  // also NaN: float boxes say nothing there
+  if (!(local.cwiseAbs().sum() < 1e12)) return s.best;  // also NaN: float boxes say nothing there
   s.x = x;
   for (int k = 0; k < 3; ++k) s.p[k] = splat(static_cast<float>(local[k]));
   s.slack = 1e-6 * (radius_ + local.cwiseAbs().maxCoeff());

@@ -28,10 +28,11 @@ class TriangleBvh {
     Float4 middle[3], half[3];  ///< centre relative to centre() and half the edges [m]
     std::array<int, 4> child;
   };
-  /// Four triangles: corner a, edges e1 = b - a and e2 = c - a, unit normal, the edges' products and inverses.
+  /// Four triangles: corner a, edges e1 = b - a and e2 = c - a, unit normal, the edges' products and inverses, and
+  /// det = g11 g22 - g12^2, negative for a triangle without area: its plane says nothing.
   struct Leaf {
     Float4 a[3], e1[3], e2[3], n[3];
-    Float4 g11, g12, g22, inverse11, inverse22, inverse33;
+    Float4 g11, g12, g22, det, inverse11, inverse22, inverse33;
     std::array<int, 4> triangle;  ///< `none` where a leaf is not full
   };
 

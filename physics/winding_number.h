@@ -8,7 +8,7 @@ namespace furrow::physics {
 
 /// Generalized winding number of a triangle soup: 1 inside and 0 outside of a closed body, 2 where two bodies overlap,
 /// between them near holes. Boxes farther than beta = 2 radii count as one dipole (first order), all others exactly,
-/// so it is off by about 0.01. Source: Barill et al. 2018, Fast winding numbers for soups and clouds; method S1.9.
+/// so it is off by a few hundredths at most. Source: Barill et al. 2018, Fast winding numbers for soups and clouds; method S1.9.
 class WindingNumber {
  public:
   /// Takes the tree before drop(): all triangles count. Keeps a reference to it. Cost O(T).
