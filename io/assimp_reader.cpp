@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The only source that knows assimp.
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+
+#include "geometry/errors.h"
+#include "io/bytes_file.h"
+#include "io/child_process.h"
+#include "io/file_frame.h"
+#include "io/merge_points.h"
+#include "io/mesh_readers.h"
+#include "io/soup_bytes.h"
+
+namespace furrow::io {
+namespace {
+
+using namespace geometry;
+using Transform = aiMatrix4x4t<double>;
+
+/// Index of a name, added where new.
+int index_of(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::ranges::find(names, name);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  names.push_back(name);
+  return static_cast<int>(names.size() - 1);
+}
+
+class SceneReader {
+ public:
+  SceneReader(const aiScene& scene, const ReadOptions& options) : scene_(scene), options_(options) {}
+
+  SoupFile read() {
+    std::vector<std::pair<const aiNode*, Transform>> open = {{scene_.mRootNode, Transform()}};
+    while (!open.empty()) {
+      const auto [node, parent] = open.back();
+      open.pop_back();
+      if (!node) continue;
+      const Transform transform = parent * Transform(node->mTransformation);
+      if (node->mNumMeshes > 0) read_node(*node, transform);
+      for (unsigned c = node->mNumChildren; c-- > 0;) open.emplace_back(node->mChildren[c], transform);
+    }
+    const auto is_none = [](const TextureCoordinate& t) { return std::isnan(t[0]); };
+    if (std::ranges::all_of(out_.soup.textures, is_none)) out_.soup.textures.clear();
+    if (!has_colors_) out_.soup.colors.clear();
+    return std::move(out_);
+  }
+
+ private:
+  /// All meshes of a node (glTF: its primitives) share the points of equal position.
+  void read_node(const aiNode& node, const Transform& transform) {
+    PointNumbers numbers;
+    const std::size_t base = out_.soup.points.size();
+    const int group = index_of(out_.group_names, node.mName.length ? node.mName.C_Str() : "mesh");
+    const bool mirrored = transform.Determinant() < 0;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      if (node.mMeshes[i] >= scene_.mNumMeshes) throw ContentError("a node names a mesh that is not there");
+      const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
+      const std::vector<std::size_t> points = read_points(mesh, transform, numbers, base);
+      read_faces(mesh, points, group, mirrored);
+    }
+  }
+
+  std::vector<std::size_t> read_points(const aiMesh& mesh, const Transform& transform, PointNumbers& numbers,
+                                       std::size_t base) {
+    std::vector<std::size_t> points(mesh.mNumVertices);
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D& raw = mesh.mVertices[v];
+      const aiVector3t<double> p = transform * aiVector3t<double>(raw.x, raw.y, raw.z);
+      const auto point = from_file(p.x, p.y, p.z, options_);
+      if (!point) throw ContentError(kBadCoordinate);
+      const auto [index, is_new] = numbers.number(*point);
+      points[v] = base + index;
+      if (!is_new) {
+        ++out_.merged_vertices;
+        continue;
+      }
+      out_.soup.points.push_back(*point);
+      out_.soup.colors.push_back(kColor.default_value);
+      if (!mesh.HasVertexColors(0)) continue;
+      const aiColor4D& c = mesh.mColors[0][v];
+      out_.soup.colors.back() = {c.r, c.g, c.b, c.a};
+      has_colors_ = true;
+    }
+    return points;
+  }
+
+  void read_faces(const aiMesh& mesh, const std::vector<std::size_t>& points, int group, bool mirrored) {
+    int material = -1;
+    if (mesh.mMaterialIndex < scene_.mNumMaterials)
+      material = index_of(out_.material_names, scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str());
+    PolygonSoup& soup = out_.soup;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices < 3) continue;  // points and lines
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        const unsigned v = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
+        if (v >= points.size()) throw ContentError("a face names a vertex that is not there");
+        soup.corners.push_back(points[v]);
+        TextureCoordinate t = kTexture.default_value;
+        if (mesh.HasTextureCoords(0)) t = {mesh.mTextureCoords[0][v].x, mesh.mTextureCoords[0][v].y};
+        soup.textures.push_back(t);
+      }
+      soup.close_face();
+      soup.groups.push_back(group);
+      soup.materials.push_back(material);
+    }
+  }
+
+  const aiScene& scene_;
+  ReadOptions options_;
+  SoupFile out_;
+  bool has_colors_ = false;
+};
+
+std::string import(const std::filesystem::path& path, const ReadOptions& options) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
+  if (!scene) throw ContentError(importer.GetErrorString());
+  return to_bytes(SceneReader(*scene, options).read());
+}
+
+}  // namespace
+
+MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options) {
+  const std::string name = path.string();
+  if (read_text(path).empty()) throw ContentError(name + ": the file is empty");
+  MeshFile file;
+  SoupFile content;
+  try {
+    content = soup_from_bytes(run_in_child([&] { return import(path, options); }));
+  } catch (const ContentError& error) {
+    throw ContentError(name + ": " + error.what());
+  }
+  file.group_names = std::move(content.group_names);
+  file.material_names = std::move(content.material_names);
+  file.repairs.merged_vertices = content.merged_vertices;
+  file.warnings.push_back(name + ": single precision, vertex order not kept");
+  set_mesh(file, content.soup, name);
+  return file;
+}
+
+}  // namespace furrow::io

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <istream>
+#include <ostream>
+
+#include "geometry/errors.h"
+#include "io/atomic_file.h"
+
+namespace furrow::io {
+namespace {
+
+/// Reads a file or stream to its end into any array of bytes.
+template <class Bytes>
+Bytes read_all(std::istream& in, const std::string& name) {
+  constexpr std::size_t kChunk = std::size_t{1} << 16;
+  Bytes bytes;
+  std::size_t size = 0;
+  while (in) {
+    if (bytes.size() < size + kChunk) bytes.resize(std::max(2 * bytes.size(), size + kChunk));
+    in.read(reinterpret_cast<char*>(bytes.data()) + size, static_cast<std::streamsize>(bytes.size() - size));
+    size += static_cast<std::size_t>(in.gcount());
+    if (size > kLargestFile) throw geometry::ContentError(name + ": larger than 4 GiB; give a smaller file");
+  }
+  if (in.bad()) throw geometry::ContentError(name + ": cannot be read: " + std::strerror(errno));
+  bytes.resize(size);
+  return bytes;
+}
+
+template <class Bytes>
+Bytes read_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw geometry::ContentError(path.string() + ": is a folder; name a file");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw geometry::ContentError(path.string() + ": cannot be opened: " + std::strerror(errno));
+  return read_all<Bytes>(in, path.string());
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& path) { return read_file<std::string>(path); }
+
+std::string read_text(std::istream& in, const std::string& name) { return read_all<std::string>(in, name); }
+
+std::vector<std::byte> read_bytes(const std::filesystem::path& path) { return read_file<std::vector<std::byte>>(path); }
+
+void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  write_atomically(path, [bytes](std::ostream& out) {
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  });
+}
+
+}  // namespace furrow::io

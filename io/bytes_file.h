@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace furrow::io {
+
+/// Files above this are refused, so that an endless one (a device) does not fill the memory [bytes].
+inline constexpr std::size_t kLargestFile = std::size_t{4} << 30;
+
+/// The whole file. Throws geometry::ContentError if it is missing, a folder, unreadable or above kLargestFile.
+std::string read_text(const std::filesystem::path& path);
+/// The rest of a stream; `name` stands in messages.
+std::string read_text(std::istream& in, const std::string& name);
+/// The same as bytes: a saved distance field, for one.
+std::vector<std::byte> read_bytes(const std::filesystem::path& path);
+/// Writes by write_atomically(), whose errors it has.
+void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+}  // namespace furrow::io

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "io/file_frame.h"
+#include "io/mesh_readers.h"
+#include "io/ply_edges.h"
+#include "io/ply_rows.h"
+#include "io/soup_to_mesh.h"
+
+namespace furrow::io {
+namespace {
+
+using namespace geometry;
+using Column = std::optional<std::size_t>;
+
+class PlyReader {
+ public:
+  PlyReader(std::string_view text, const std::string& name, const ReadOptions& options)
+      : name_(name), options_(options), scanner_(text, name), header_(read_ply_header(scanner_, text.size())),
+        rows_(scanner_, text, header_.encoding) {}
+
+  MeshFile read() {
+    for (const PlyElement& element : header_.elements) {
+      if (element.properties.empty()) continue;
+      if (element.name == "vertex") read_vertices(element);
+      else if (element.name == "face") read_faces(element);
+      else if (element.name == "edge" && edges_.set_columns(element)) read_edges(element);
+      else skip(element);
+    }
+    finish_textures();
+    take_comments();
+    SoupMesh mesh = soup_to_mesh(soup_, name_);
+    edges_.fill_maps(mesh, name_);
+    file_.mesh = std::move(mesh.mesh);
+    file_.repairs = mesh.repairs;
+    return std::move(file_);
+  }
+
+ private:
+  void warn_of_unknown(const PlyElement& element, std::initializer_list<std::string_view> known) {
+    std::string names;
+    for (const PlyProperty& p : element.properties)
+      if (std::find(known.begin(), known.end(), p.name) == known.end()) names += (names.empty() ? "" : ", ") + p.name;
+    if (!names.empty()) file_.warnings.push_back(name_ + ": properties of '" + element.name + "' not read: " + names);
+  }
+
+  void skip(const PlyElement& element) {
+    for (std::size_t i = 0; i < element.count; ++i) rows_.read(element, i, row_);
+    file_.warnings.push_back(name_ + ": element '" + element.name + "' not read");
+  }
+
+  Column number(const PlyElement& e, std::initializer_list<const char*> names) const {
+    return find_column(e, names, PlyKind::number);
+  }
+
+  void read_vertices(const PlyElement& element) {
+    const std::array<Column, 3> xyz = {number(element, {"x"}), number(element, {"y"}), number(element, {"z"})};
+    const std::array<Column, 4> rgba = {number(element, {"red", "r"}), number(element, {"green", "g"}),
+                                        number(element, {"blue", "b"}), number(element, {"alpha", "a"})};
+    const std::array<Column, 2> st = {number(element, {"s", "u", "texture_u"}),
+                                      number(element, {"t", "v", "texture_v"})};
+    const Column line = number(element, {"line"}), mass = number(element, {"mass"});
+    warn_of_unknown(element, {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha", "r", "g", "b", "a", "s",
+                              "t", "u", "v", "texture_u", "texture_v", "line", "mass"});
+    if (!xyz[0] || !xyz[1] || !xyz[2]) rows_.fail("the vertices have no x, y and z");
+    for (std::size_t i = 0; i < element.count; ++i) {
+      rows_.read(element, i, row_);
+      const auto& n = row_.numbers;
+      const auto point = from_file(n[*xyz[0]], n[*xyz[1]], n[*xyz[2]], options_);
+      if (!point) rows_.fail(kBadCoordinate);
+      soup_.points.push_back(*point);
+      if (rgba[0] && rgba[1] && rgba[2]) soup_.colors.push_back(color(element, rgba));
+      if (st[0] && st[1]) vertex_textures_.push_back({n[*st[0]], n[*st[1]]});
+      if (line) soup_.lines.push_back(whole(n[*line], "line"));
+      if (mass) soup_.masses.push_back(checked_mass(n[*mass]));
+    }
+  }
+
+  Color color(const PlyElement& element, const std::array<Column, 4>& rgba) const {
+    Color c = kColor.default_value;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (!rgba[k]) continue;
+      const PlyType type = element.properties[*rgba[k]].type;
+      const double most = !is_integer(type) ? 1 : size_of(type) == 1 ? 255 : size_of(type) == 2 ? 65535 : 4294967295.0;
+      c[k] = row_.numbers[*rgba[k]] / most;
+      if (!std::isfinite(c[k])) rows_.fail("a colour is not finite; correct it");
+    }
+    return c;
+  }
+
+  int whole(double value, const char* what) const {
+    constexpr double kMost = std::numeric_limits<int>::max();
+    if (!(value >= -1 && value <= kMost) || value != std::floor(value))
+      rows_.fail(std::string("the property '") + what + "' must be whole and at least -1 (none)");
+    return static_cast<int>(value);
+  }
+
+  double checked_mass(double value) const {
+    if (value < 0 || std::isinf(value)) rows_.fail("a mass must be at least 0 kg and finite, or nan for none");
+    return value;
+  }
+
+  void read_faces(const PlyElement& element) {
+    const Column indices = find_column(element, {"vertex_indices", "vertex_index"}, PlyKind::list);
+    const Column texcoord = find_column(element, {"texcoord"}, PlyKind::list);
+    const Column group = number(element, {"group"}), material = number(element, {"material"});
+    warn_of_unknown(element, {"vertex_indices", "vertex_index", "texcoord", "group", "material"});
+    if (!indices) rows_.fail("the faces have no list vertex_indices");
+    for (std::size_t i = 0; i < element.count; ++i) {
+      rows_.read(element, i, row_);
+      const auto& corners = row_.lists[*indices];
+      for (const double c : corners) {
+        if (!(c >= 0 && c < 9e15) || c != std::floor(c)) rows_.fail("a corner is no index of a vertex; correct it");
+        soup_.corners.push_back(static_cast<std::size_t>(c));
+      }
+      soup_.close_face();
+      if (texcoord) add_textures(row_.lists[*texcoord], corners.size());
+      if (group) soup_.groups.push_back(whole(row_.numbers[*group], "group"));
+      if (material) soup_.materials.push_back(whole(row_.numbers[*material], "material"));
+    }
+  }
+
+  void add_textures(const std::vector<double>& values, std::size_t corners) {
+    if (values.size() != 2 * corners && !values.empty()) rows_.fail("texcoord must hold two numbers a corner, or none");
+    for (std::size_t k = 0; k < corners; ++k)
+      soup_.textures.push_back(values.empty() ? kTexture.default_value
+                                              : TextureCoordinate{values[2 * k], values[2 * k + 1]});
+  }
+
+  void read_edges(const PlyElement& element) {
+    warn_of_unknown(element,
+                    {"vertex1", "vertex2", "rest_length", "bending_rest_length", "bending_count", "line_edge"});
+    for (std::size_t i = 0; i < element.count; ++i) {
+      rows_.read(element, i, row_);
+      edges_.add(row_, rows_, options_.metres_per_unit);
+    }
+  }
+
+  /// Texture coordinates of vertices go to all their corners, if the faces bring none.
+  void finish_textures() {
+    if (vertex_textures_.empty() || !soup_.textures.empty()) return;
+    for (const std::size_t c : soup_.corners)
+      soup_.textures.push_back(c < vertex_textures_.size() ? vertex_textures_[c] : kTexture.default_value);
+  }
+
+  /// "furrow group 3 sleeve" names a group, "furrow material 0 cotton" a material; the rest is kept.
+  void take_comments() {
+    for (std::string& comment : header_.comments)
+      if (!take_name(comment, "furrow group ", file_.group_names) &&
+          !take_name(comment, "furrow material ", file_.material_names))
+        file_.comments.push_back(std::move(comment));
+  }
+
+  static bool take_name(std::string_view comment, std::string_view mark, std::vector<std::string>& names) {
+    if (!comment.starts_with(mark)) return false;
+    comment.remove_prefix(mark.size());
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(comment.data(), comment.data() + comment.size(), index);
+    if (error != std::errc() || index > 100000) return false;
+    comment.remove_prefix(static_cast<std::size_t>(end - comment.data()));
+    if (comment.starts_with(' ')) comment.remove_prefix(1);
+    if (names.size() <= index) names.resize(index + 1);
+    names[index] = comment;
+    return true;
+  }
+
+  std::string name_;
+  ReadOptions options_;
+  TextScanner scanner_;
+  PlyHeader header_;
+  PlyRows rows_;
+  PlyRow row_;
+  PolygonSoup soup_;
+  PlyEdges edges_;
+  std::vector<TextureCoordinate> vertex_textures_;
+  MeshFile file_;
+};
+
+}  // namespace
+
+MeshFile read_ply(std::string_view text, const std::string& name, const ReadOptions& options) {
+  return PlyReader(text, name, options).read();
+}
+
+}  // namespace furrow::io

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <ostream>
+
+#include "geometry/property_names.h"
+#include "io/mesh_writers.h"
+#include "io/number_text.h"
+
+namespace furrow::io {
+namespace {
+
+using namespace geometry;
+
+class PlyWriter {
+ public:
+  PlyWriter(const MeshFile& file, const WriteOptions& options)
+      : file_(file), mesh_(file.mesh), options_(options), colors_(find_map(mesh_, kColor)),
+        lines_(find_map(mesh_, kLine)), masses_(find_map(mesh_, kMass)), textures_(find_map(mesh_, kTexture)),
+        groups_(find_map(mesh_, kGroup)), materials_(find_map(mesh_, kMaterial)),
+        rest_lengths_(find_map(mesh_, kRestLength)), bending_rest_lengths_(find_map(mesh_, kBendingRestLength)),
+        bending_counts_(find_map(mesh_, kBendingCount)), line_edges_(find_map(mesh_, kLineEdge)) {
+    byte_colors_ = colors_ && std::ranges::all_of(mesh_.vertices(), [&](Vertex v) {
+      return std::ranges::all_of((*colors_)[v], [](double c) { return std::round(c * 255) / 255 == c; });
+    });
+  }
+
+  std::string bytes() {
+    write_header();
+    write_vertices();
+    write_faces();
+    if (has_edges()) write_edges();
+    return std::move(out_);
+  }
+
+ private:
+  bool has_edges() const { return rest_lengths_ || bending_rest_lengths_ || bending_counts_ || line_edges_; }
+
+  template <class T>
+  void put(T value) {
+    auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+    if (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
+    out_.append(bytes.data(), bytes.size());
+  }
+  void put_index(std::size_t value) { put(static_cast<std::int32_t>(value)); }
+  /// Length in the file's unit.
+  void put_length(double metres) { put(metres / options_.metres_per_unit); }
+
+  void write_names(const char* kind, const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i)
+      out_ += std::string("comment furrow ") + kind + " " + std::to_string(i) + " " + one_line(names[i]) + "\n";
+  }
+
+  void declare(const char* element, std::size_t count) {
+    out_ += std::string("element ") + element + " " + std::to_string(count) + "\n";
+  }
+
+  void write_header() {
+    out_ = "ply\nformat binary_little_endian 1.0\n";
+    for (const std::string& comment : file_.comments) out_ += "comment " + one_line(comment) + "\n";
+    write_names("group", file_.group_names);
+    write_names("material", file_.material_names);
+    declare("vertex", mesh_.number_of_vertices());
+    out_ += "property double x\nproperty double y\nproperty double z\n";
+    if (colors_)
+      for (const char* channel : {"red", "green", "blue", "alpha"})
+        out_ += std::string("property ") + (byte_colors_ ? "uchar " : "double ") + channel + "\n";
+    if (lines_) out_ += "property int line\n";
+    if (masses_) out_ += "property double mass\n";
+    declare("face", mesh_.number_of_faces());
+    out_ += "property list uchar int vertex_indices\n";
+    if (textures_) out_ += "property list uchar double texcoord\n";
+    if (groups_) out_ += "property int group\n";
+    if (materials_) out_ += "property int material\n";
+    if (has_edges()) {
+      declare("edge", mesh_.number_of_edges());
+      out_ += "property int vertex1\nproperty int vertex2\n";
+      if (rest_lengths_) out_ += "property double rest_length\n";
+      if (bending_rest_lengths_) out_ += "property double bending_rest_length\n";
+      if (bending_counts_) out_ += "property int bending_count\n";
+      if (line_edges_) out_ += "property uchar line_edge\n";
+    }
+    out_ += "end_header\n";
+  }
+
+  void write_vertices() {
+    for (const Vertex v : mesh_.vertices()) {
+      const Vector p = to_file(mesh_.point(v), options_);
+      for (int k = 0; k < 3; ++k) put(p[k]);
+      if (colors_)
+        for (const double c : (*colors_)[v])
+          byte_colors_ ? put(static_cast<std::uint8_t>(std::lround(c * 255))) : put(c);
+      if (lines_) put(static_cast<std::int32_t>((*lines_)[v]));
+      if (masses_) put((*masses_)[v]);
+    }
+  }
+
+  void write_faces() {
+    for (const Face f : mesh_.faces()) {
+      put(std::uint8_t{3});
+      for (const Vertex v : mesh_.vertices_around_face(mesh_.halfedge(f))) put_index(numbers_[v]);
+      if (textures_) {
+        put(std::uint8_t{6});
+        for (const Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f)))
+          for (const double t : (*textures_)[h]) put(t);
+      }
+      if (groups_) put(static_cast<std::int32_t>((*groups_)[f]));
+      if (materials_) put(static_cast<std::int32_t>((*materials_)[f]));
+    }
+  }
+
+  void write_edges() {
+    for (const Edge e : mesh_.edges()) {
+      put_index(numbers_[mesh_.vertex(e, 0)]);
+      put_index(numbers_[mesh_.vertex(e, 1)]);
+      if (rest_lengths_) put_length((*rest_lengths_)[e]);
+      if (bending_rest_lengths_) put_length((*bending_rest_lengths_)[e]);
+      if (bending_counts_) put(static_cast<std::int32_t>((*bending_counts_)[e]));
+      if (line_edges_) put(static_cast<std::uint8_t>((*line_edges_)[e]));
+    }
+  }
+
+  const MeshFile& file_;
+  const Mesh& mesh_;
+  const WriteOptions& options_;
+  std::vector<std::size_t> numbers_ = vertex_numbers(mesh_);
+  std::optional<VertexMap<Color>> colors_;
+  std::optional<VertexMap<int>> lines_;
+  std::optional<VertexMap<double>> masses_;
+  std::optional<HalfedgeMap<TextureCoordinate>> textures_;
+  std::optional<FaceMap<int>> groups_, materials_;
+  std::optional<EdgeMap<double>> rest_lengths_, bending_rest_lengths_;
+  std::optional<EdgeMap<int>> bending_counts_;
+  std::optional<EdgeMap<bool>> line_edges_;
+  bool byte_colors_ = false;
+  std::string out_;
+};
+
+}  // namespace
+
+void write_ply(std::ostream& out, const MeshFile& file, const WriteOptions& options) {
+  check_positions(file.mesh, options);
+  const std::string bytes = PlyWriter(file, options).bytes();
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+}  // namespace furrow::io

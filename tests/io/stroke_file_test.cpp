@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/stroke_file.h"
+
+#include <catch2/catch.hpp>
+
+#include "io/nearest_word.h"
+#include "io_test_helpers.h"
+
+using namespace furrow;
+using namespace furrow::geometry;
+using namespace furrow::tests;
+
+namespace {
+
+std::vector<Stroke> strokes(const std::string& json, const io::ReadOptions& options = {}) {
+  TemporaryFolder folder;
+  spit(folder / "s.json", json);
+  return io::read_strokes(folder / "s.json", 0.01, options);
+}
+/// The message behind the file's name.
+std::string error_of(const std::string& json) {
+  const std::string text = content_error([&] { strokes(json); });
+  const auto name = text.find("s.json:");
+  return name == std::string::npos ? text : text.substr(name + 7);
+}
+
+}  // namespace
+
+TEST_CASE("strokes: all keys, and the defaults of those that are missing") {
+  const auto read = strokes(R"({"strokes": [
+    {"height": -0.02, "points": [[0, 1, 2], [1e-3, 0.1, -3]], "name": "fold", "closed": false, "direction": [0, 0, -2]},
+    {"points": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "closed": true},
+    {"height": 0, "points": [[5, 5, 5]]}]})");
+  REQUIRE(read.size() == 3);
+  CHECK(read[0].height == -0.02);
+  CHECK(read[0].points == std::vector<Point>{{0, 1, 2}, {1e-3, 0.1, -3}});
+  CHECK(read[0].name == "fold");
+  CHECK_FALSE(read[0].closed);
+  CHECK(*read[0].direction == Vector(0, 0, -2));
+  CHECK((read[1].closed && read[1].height == 0.01 && !read[1].direction && read[1].name.empty()));
+  CHECK((read[2].height == 0 && read[2].points.size() == 1));
+}
+
+TEST_CASE("strokes: what is not allowed is named with stroke and key") {
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]]}, {"hieght": 1, "points": [[0,0,0]]}]})") ==
+        " stroke 1: unknown key 'hieght'; did you mean 'height'?");
+  CHECK(error_of(R"({"stroke": []})") == " unknown key 'stroke'; did you mean 'strokes'?");
+  CHECK(error_of(R"({"strokes": {}})").find("must be a list") != std::string::npos);
+  CHECK(error_of(R"({})").find("must be a list") != std::string::npos);
+  CHECK(error_of(R"([])").find("must hold an object") != std::string::npos);
+  CHECK(error_of(R"({"strokes": []})") == " no strokes; add one to the list");
+  CHECK(error_of(R"({"strokes": [7]})").starts_with(" stroke 0: must be an object"));
+  CHECK(error_of(R"({"strokes": [{"height": 1}]})") == " stroke 0: 'points' is missing");
+  CHECK(error_of(R"({"strokes": [{"points": []}]})").starts_with(" stroke 0: 'points' must be a list of at least one"));
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0],[1,2]]}]})").starts_with(" stroke 0: point 1: 'points': three"));
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,"1"]]}]})").starts_with(" stroke 0: point 0: 'points' must hold num"));
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,1e10]]}]})").find("beyond 1e9 m") != std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "height": true}]})").find("holds a boolean") !=
+        std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "height": null}]})").find("'height' must") != std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "closed": 1}]})").find("true or false") != std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "closed": true}]})").find("three points") != std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "name": 1}]})").find("'name' must") != std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "direction": [0,0,0]}]})").find("zero") != std::string::npos);
+}
+
+TEST_CASE("strokes: broken JSON is named with line and column") {
+  CHECK(error_of("{\"strokes\": [\n  {\"points\" [[0,0,0]]}]}").starts_with("2:13: no valid JSON: "));
+  CHECK(error_of("").starts_with("1:1: no valid JSON: "));
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,1e999]]}]})").find("no valid JSON") != std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,NaN]]}]})").find("no valid JSON") != std::string::npos);
+  CHECK(error_of(std::string(300000, '[')).find("no valid JSON") != std::string::npos);
+  CHECK(error_of("{\"strokes\": " + std::string(300000, '[') + std::string(300000, ']') + "}")
+            .starts_with(" stroke 0: must be an object"));
+}
+
+TEST_CASE("strokes: what is written comes back with the same bits, also in another unit and axis") {
+  Stroke fold{"Falte \"1\"\n", 0.1 + 0.2, {{1.0 / 3, 2, -3e-5}, {0.7, 0.1, 1}, {4, 5, 6}}, true, Vector(0.1, 0.2, 0.3)};
+  Stroke plain{"", -0.01, {{1, 2, 3}}, false, {}};
+  TemporaryFolder folder;
+  for (const io::Axis up : {io::Axis::y, io::Axis::z}) {
+    io::write_strokes(folder / "s.json", {fold, plain}, {.metres_per_unit = 0.5, .up = up});
+    const auto back = io::read_strokes(folder / "s.json", 0.3, {.metres_per_unit = 0.5, .up = up});
+    REQUIRE(back.size() == 2);
+    CHECK(back[0].name == fold.name);
+    CHECK(back[0].height == fold.height);
+    CHECK(back[0].points == fold.points);
+    CHECK(back[0].closed);
+    CHECK(*back[0].direction == *fold.direction);
+    CHECK((back[1].points == plain.points && !back[1].closed && !back[1].direction && back[1].height == -0.01));
+  }
+  plain.points.clear();
+  CHECK_THROWS_AS(io::write_strokes(folder / "s.json", {plain}), std::invalid_argument);
+  fold.height = kUnset;
+  CHECK_THROWS_AS(io::write_strokes(folder / "s.json", {fold}), std::invalid_argument);
+}
+
+TEST_CASE("strokes: the polylines of an OBJ file, which needs no faces") {
+  TemporaryFolder folder;
+  spit(folder / "lines.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 5 5 5\nv 6 5 5\nv 5 6 5\nl 1 2\nl 2 3\nl 4 5\nl 5 6\nl 6 4\n");
+  const auto read = io::read_strokes(folder / "lines.obj", -0.03);
+  REQUIRE(read.size() == 2);
+  CHECK(read[0].points == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}});
+  CHECK((read[0].height == -0.03 && !read[0].closed));
+  CHECK((read[1].points.size() == 3 && read[1].closed));
+  spit(folder / "none.obj", kCubeObj);
+  CHECK(content_error([&] { io::read_strokes(folder / "none.obj"); }).find("no polylines") != std::string::npos);
+  CHECK_THROWS_AS(io::read_strokes(folder / "strokes.svg"), ContentError);
+  CHECK_THROWS_AS(io::read_strokes(folder / "lines.obj", kUnset), std::invalid_argument);
+}
+
+TEST_CASE("nearest_word: distances known by hand") {
+  CHECK(io::edit_distance("kitten", "sitting") == 3);
+  CHECK(io::edit_distance("", "abc") == 3);
+  CHECK(io::edit_distance("same", "same") == 0);
+  CHECK(io::nearest_word("pionts", {"height", "points", "name"}) == "points");
+}

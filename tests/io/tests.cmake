@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+furrow_add_tests(io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
+  assimp_reader_test.cpp
+  atomic_file_test.cpp
+  chain_segments_test.cpp
+  child_process_test.cpp
+  damaged_files_test.cpp
+  hostile_files_test.cpp
+  obj_test.cpp
+  off_test.cpp
+  ply_test.cpp
+  real_files_test.cpp
+  soup_to_mesh_test.cpp
+  stl_test.cpp
+  stroke_file_test.cpp
+  text_scanner_test.cpp
+  triangulate_polygon_test.cpp
+)
