@@ -105,16 +105,17 @@ std::vector<double> mean_over_sides(const PreparedMesh& mesh, const Value& value
   return sums;
 }
 
-/// Normal curvature along the sides (change of the normal over the length), meaned over the neighbours, once
-/// more so that single vertices do not speckle, and bent into (−1, 1).
+/// Twice the mean of the normal curvature along the sides (change of the normal over the length), which is
+/// about the sum of the principal curvatures; meaned again over the neighbours, so that single vertices do
+/// not speckle, and bent into (−1, 1).
 std::vector<double> bulges(const PreparedMesh& mesh) {
-  constexpr double kSharp = 1.0 / 150;  // radius, of the scene's diagonal
+  constexpr double kSharp = 1.0 / 100;  // radius, of the scene's diagonal
   const std::vector<double> curvature = mean_over_sides(mesh, [&](int a, int b) {
     const Vector3d side = mesh.vertices[b] - mesh.vertices[a];
     return side.dot(mesh.normals[b] - mesh.normals[a]) / side.squaredNorm();
   });
   std::vector<double> result =
-      mean_over_sides(mesh, [&](int a, int b) { return (curvature[a] + curvature[b]) / 2; });
+      mean_over_sides(mesh, [&](int a, int b) { return curvature[a] + curvature[b]; });
   for (double& x : result) x = kSharp * x / (1 + std::abs(kSharp * x));
   return result;
 }

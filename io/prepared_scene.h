@@ -15,8 +15,8 @@ struct PreparedMesh {
   std::vector<Eigen::Vector3d> normals;       ///< unit, weighted by angle; 0 where the triangles cancel
   std::vector<std::array<int, 3>> triangles;  ///< none degenerate
   std::vector<Eigen::Vector3d> colours;       ///< one, or one a vertex
-  /// How much the surface bulges at a vertex: 1 on a sharp ridge, −1 in a sharp valley, ±0.5 where the mean
-  /// curvature is one over 1/150 of the scene's diagonal. Cloth only, else empty.
+  /// How much the surface bulges at a vertex: towards 1 on a sharp ridge, −1 in a sharp valley, ±0.5 on a
+  /// fold whose radius is 1/100 of the scene's diagonal. Cloth only, else empty.
   std::vector<double> bulges;
   Style style = Style::cloth;
 };

@@ -17,7 +17,8 @@ inline constexpr Colour kBodyColour{0.80f, 0.72f, 0.66f};
 inline constexpr Colour kRidgeColour{0.85f, 0.22f, 0.08f};
 inline constexpr Colour kValleyColour{0.06f, 0.24f, 0.72f};
 
-/// Cloth shows its back in a darker, warmer colour; a body looks the same from both sides.
+/// Cloth shows its back in a darker, warmer colour, its ridges a little lighter and its valleys a little
+/// darker than the lights make them, so that wrinkles read from every side; a body is one colour.
 enum class Style { cloth, body };
 
 /// A triangle mesh to be drawn. Degenerate triangles and vertices of no triangle are left out.

@@ -2,6 +2,7 @@
 furrow_add_tests(render LIBRARIES furrow::io SOURCES
   png_file_test.cpp
   camera_test.cpp
+  prepared_scene_test.cpp
   render_test.cpp
   render_errors_test.cpp
   render_scene_test.cpp

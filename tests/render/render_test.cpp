@@ -163,10 +163,18 @@ TEST_CASE("Cloth shows its back darker, a body does not") {
 TEST_CASE("Waves of half a centimetre are seen on a sheet of a metre, a flat sheet is even") {
   io::RenderOptions options = from_the_front(120, 2.5);
   options.quality = io::Quality::normal;
-  const double flat = contrast(io::render({{waves(0, 0.1)}, {}}, options));
-  const double waved = contrast(io::render({{waves(0.005, 0.1)}, {}}, options));
-  CHECK(flat < 1);
-  CHECK(waved > 8);
+  const io::Image cloth = io::render({{waves(0.005, 0.1)}, {}}, options);
+  CHECK(contrast(io::render({{waves(0, 0.1)}, {}}, options)) < 1);
+  CHECK(contrast(cloth) > 8);
+
+  // On cloth the ridges are painted lighter than the valleys, since no light may rake over both sides of
+  // each.
+  io::RenderMesh mesh = waves(0.005, 0.1);
+  mesh.style = io::Style::body;
+  const auto ridge_over_valley = [](const io::Image& image) {
+    return luminance(pixel(image, 62, 60)) - luminance(pixel(image, 57, 60));
+  };
+  CHECK(ridge_over_valley(cloth) > ridge_over_valley(io::render({{mesh}, {}}, options)) + 2);
 }
 
 TEST_CASE("What lies close over a surface shades it") {
@@ -182,7 +190,7 @@ TEST_CASE("What lies close over a surface shades it") {
     return luminance(pixel(with, x, y)) / luminance(pixel(alone, x, y));
   };
   CHECK(shaded(57, 40) < 0.75);  // right of the ball: it hides the key light
-  CHECK(shaded(40, 43) < 0.95);  // before the ball: it hides a part of the sky
+  CHECK(shaded(29, 40) < 0.97);  // left of it: it hides a part of the sky
   CHECK(shaded(10, 40) == Approx(1).margin(0.01));
 }
 
