@@ -26,6 +26,11 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
+bool has_subcommand(const CLI::App& app, const std::string& word) {
+  const auto subs = app.get_subcommands({});
+  return std::any_of(subs.begin(), subs.end(), [&](const CLI::App* sub) { return sub->get_name() == word; });
+}
+
 /// The message for a first word that is no subcommand, with the nearest one.
 std::string unknown_subcommand(const CLI::App& app, const std::string& word) {
   std::string nearest;
@@ -61,7 +66,7 @@ int run(int argc, char** argv) {
   cli::add_simulate(app, exit_code);
   cli::add_sdf(app);
   cli::add_render(app);
-  if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1]))
+  if (argc > 1 && argv[1][0] != '-' && !has_subcommand(app, argv[1]))
     return fail(cli::kUsage, unknown_subcommand(app, argv[1]));
   try {
     app.parse(argc, argv);

@@ -25,13 +25,14 @@ Json insert_strokes(geometry::Mesh& mesh, const SubdivideArguments& a) {
   for (const geometry::Stroke& stroke : io::read_strokes(a.strokes, geometry::Stroke{}.height, read_options(a)))
     sum += geometry::insert_along_stroke(mesh, stroke, id++, a.options).report;
   for (const std::string& w : sum.warnings) warn(w, a);
-  return to_json(sum);
+  return to_json(sum, mesh);
 }
 
 Json insert_everywhere(geometry::Mesh& mesh, const SubdivideArguments& a) {
   std::vector<geometry::FacePoint> centroids;
   for (geometry::Face f : mesh.faces()) centroids.push_back({f, {1. / 3, 1. / 3, 1. / 3}});
-  return to_json(geometry::insert_in_faces(mesh, centroids, a.options));
+  const geometry::InsertionReport report = geometry::insert_in_faces(mesh, centroids, a.options);
+  return to_json(report, mesh);
 }
 
 void subdivide(SubdivideArguments a) {
