@@ -101,7 +101,15 @@ bool improve_plan(const DrawnLine& drawn, const LineDeviation& deviation, double
     }
   }
   for (const ProjectedSample& sample : deviation.samples) {
-    changed = next.pinned.try_emplace(sample.point.face, sample.point.barycentrics).second || changed;
+    const Face face = sample.point.face;
+    if (next.pinned.try_emplace(face, sample.point.barycentrics).second) {
+      changed = true;
+    } else if (plan.pinned.count(face) > 0) {
+      // The place in the face was still too far from the tip where the sample lies.
+      const auto placed = next.places.find(face);
+      changed = changed || placed == next.places.end() || placed->second != Place::corner;
+      next.places[face] = Place::corner;
+    }
   }
   plan = std::move(next);
   return changed;

@@ -21,7 +21,7 @@ double smallest_angle_around(const Mesh& mesh, const EdgeMap<double>& rest, cons
 
 /// Puts into `plan` what to do otherwise about the faces with an angle below `least_angle` [rad]: their new vertices go
 /// from the clamped place to the incenter, then to a corner; the links between corners alone go round. Vertices of faces
-/// with a sample too far away go towards that sample. Returns false if nothing is left to be changed.
+/// with a sample too far away go towards that sample, then to its corner. Returns false if nothing is left to be changed.
 bool improve_plan(const DrawnLine& drawn, const LineDeviation& deviation, double least_angle, LinePlan& plan);
 
 }  // namespace furrow::geometry

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Strokes and Algorithm 2.
 furrow_add_tests(insertion LIBRARIES furrow::geometry SOURCES
+  insert_along_stroke_test.cpp
+  insert_in_faces_test.cpp
   insertion_checks.cpp
   insertion_checks.h
   insertion_meshes.cpp
   insertion_meshes.h
+  insertion_table_test.cpp
   random_strokes_test.cpp
+  rest_metric_test.cpp
+  trace_stroke_test.cpp
 )
