@@ -4,7 +4,8 @@
 
 /// FURROW_VECTOR_CLONES: compiled for AVX2 too, chosen when the program starts. Every operation on lanes is
 /// one IEEE operation in one order, without contraction, so all versions give the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define FURROW_VECTOR_CLONES __attribute__((target_clones("default", "avx2")))
 #else
 #define FURROW_VECTOR_CLONES

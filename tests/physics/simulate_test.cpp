@@ -112,9 +112,9 @@ TEST_CASE("two runs, and runs with one and two threads, give the same bits") {
   Cloth second = first, third = first;
   const Ball ball({0.6, -0.5, -0.202}, 0.2);
   SimulateOptions options;
-  options.seconds = 0.02;
+  options.seconds = 0.004;
   options.dt = 2e-5;
-  options.observe_steps = 300;
+  options.observe_steps = 60;
   int seen = 0;
   const SimulateReport report =
       simulate(first, &ball, options, [&](const SimulateProgress&) { return ++seen > 0; });

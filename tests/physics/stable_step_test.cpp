@@ -31,14 +31,23 @@ double exact_limit(const Cloth& cloth, Stiffness stiffness) {
 }  // namespace
 
 TEST_CASE("the limit of a chain between walls is that of its highest mode") {
-  Cloth cloth;  // along x, springs at rest: only longitudinal modes have stiffness
-  const int n = 20;
+  // Along x with springs at rest only longitudinal modes have stiffness; the top of their spectrum is
+  // crowded, so the largest eigenvalue comes slowly and its residual counts.
+  const int n = GENERATE(20, 200, 2000);
+  Cloth cloth;
   for (int i = 0; i <= n + 1; ++i) add_particle(cloth, {double(i), 0, 0}, 0.5);
   for (int i = 0; i <= n; ++i) cloth.structural.push_back({i, i + 1, 1, 30});
   pin(cloth.particles, std::vector<int>{0, n + 1});
-  const double omega = 2 * std::sqrt(30 / 0.5) * std::sin(n * 3.14159265358979323846 / (2 * (n + 1)));
-  const StepLimit limit = stable_step(cloth, {.tolerance = 1e-9});
-  CHECK(limit.dt_limit == Approx(2 / omega).epsilon(1e-9));
+  const double exact = 1 / (std::sqrt(30 / 0.5) * std::sin(n * 3.14159265358979323846 / (2 * (n + 1))));
+  const StepLimit rough = stable_step(cloth);
+  CHECK(rough.residual <= 0.01);
+  CHECK(rough.dt_limit <= exact);
+  CHECK(rough.dt_limit >= 0.99 * exact);
+  CHECK(rough.omega_max == Approx(2 / rough.dt_limit).epsilon(1e-15));
+  if (n > 200) return;
+  const StepLimit fine = stable_step(cloth, {.tolerance = 1e-9});
+  CHECK(fine.residual <= 1e-9);
+  CHECK(fine.dt_limit == Approx(exact).epsilon(1e-9));
 }
 
 TEST_CASE("the limit is never above the exact one and within 2 % of it on irregular meshes") {
