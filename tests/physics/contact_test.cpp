@@ -34,6 +34,56 @@ SimulateOptions frictional(double friction, double dt) {
   return o;
 }
 
+/// A horizontal cylinder along z.
+struct Cylinder : Collider {
+  double radius;
+  explicit Cylinder(double r) : radius(r) {}
+  SignedDistance at(const Vec3& x) const override {
+    const double l = std::hypot(x.x(), x.y());
+    return {l - radius, Vec3(x.x() / l, x.y() / l, 0)};
+  }
+};
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A heavy strip over the upper half of a cylinder, `left` and `right` hanging down beside it, half_turn
+/// springs on it.
+Cloth strip_over_cylinder(double radius, double left, double right, int half_turn) {
+  const double h = pi * radius / half_turn;
+  Cloth cloth;
+  const auto add = [&](const Vec3& x) { add_particle(cloth, x, 0.15 * h); };
+  for (int i = int(std::lround(left / h)); i > 0; --i) add({-radius, -i * h, 0});
+  for (int i = 0; i <= half_turn; ++i) {
+    add(radius * Vec3(-std::cos(pi * i / half_turn), std::sin(pi * i / half_turn), 0));
+  }
+  for (int i = 1; i <= int(std::lround(right / h)); ++i) add({radius, -i * h, 0});
+  for (int i = 0; i + 1 < int(cloth.particles.size()); ++i) cloth.structural.push_back({i, i + 1, 0, 0});
+  return cloth;
+}
+
+/// Stretches the strip's springs so that every node is in balance with the friction mu N against sliding to
+/// the right; returns the upward force that is left over at the lower right end.
+double balance(Cloth& strip, double mu) {
+  const double membrane = 300;  // N
+  const auto& x = strip.particles.x;
+  double tension = 0;
+  Vec3 along_before = Vec3::UnitY();
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    const Vec3 load = -tension * along_before - strip.particles.mass[i] * 9.81 * Vec3::UnitY();
+    const double l = (x[i + 1] - x[i]).norm();
+    const Vec3 along = (x[i + 1] - x[i]) / l;
+    const bool on_body = x[i].y() >= 0;
+    const Vec3 n = x[i].normalized(), tangent(n.y(), -n.x(), 0);
+    const Vec3 test = on_body ? Vec3(tangent + mu * n) : along;
+    tension = -load.dot(test) / along.dot(test);
+    const double r = l / (1 + tension / membrane);
+    strip.structural[i].rest_length = r;
+    strip.structural[i].stiffness = membrane / r;
+    along_before = along;
+  }
+  return tension - strip.particles.mass.back() * 9.81;
+}
+
 /// How far a particle that starts at rest on an incline slides in 2 s [m]; and its speed [m/s].
 std::pair<double, double> slide(double tan_angle, const SimulateOptions& options, double slope = 1) {
   const Vec3 n = Vec3(-tan_angle, 1, 0).normalized(), down = Vec3(-1, -tan_angle, 0).normalized();
@@ -72,6 +122,28 @@ TEST_CASE("friction is right where the field's slope is not 1") {
   const double angle = std::atan(0.8), exact = 2 * 9.81 * (std::sin(angle) - 0.5 * std::cos(angle));
   CHECK(slide(0.8, options, 0.7).first == Approx(exact).epsilon(0.01));
   CHECK(slide(0.8, options, 1.2).first == Approx(exact).epsilon(0.01));
+}
+
+TEST_CASE("a strip over a cylinder slips beyond the heavy capstan's length and holds below it") {
+  // l2 = l1 e^(mu pi) + 2 mu R (1 + e^(mu pi)) / (1 + mu^2)
+  const double mu = GENERATE(0.2, 0.4), R = 0.1, l1 = 0.2, e = std::exp(mu * pi);
+  const double critical = l1 * e + 2 * mu * R * (1 + e) / (1 + mu * mu);
+  const Cylinder cylinder(R - 0.003);
+  SimulateOptions options;
+  options.friction = mu;
+  options.seconds = 0.8;
+  const auto slip = [&](double right) {
+    Cloth cloth = strip_over_cylinder(R, l1, right, 64);
+    double low = 0, high = 1;  // the share of friction that holds the strip as it lies
+    for (int i = 0; i < 60; ++i) (balance(cloth, (low + high) / 2) > 0 ? high : low) = (low + high) / 2;
+    CHECK(std::abs(low - mu) > 0.01 * mu);  // the strip as built knows the closed form, too
+    CHECK((low > mu) == (right > critical));
+    const double start = cloth.particles.x[0].y();
+    CHECK(simulate(cloth, &cylinder, options).outcome == Outcome::finished);
+    return cloth.particles.x[0].y() - start;
+  };
+  CHECK(std::abs(slip(0.97 * critical)) < 1e-6);
+  CHECK(slip(1.03 * critical) > 0.01);
 }
 
 TEST_CASE("a braking particle stops after v^2 / (2 mu g)") {
