@@ -230,7 +230,7 @@ TEST_CASE("an observer stops a run, and the next call goes on from there") {
   CHECK(difference < 1e-10);
 }
 
-TEST_CASE("the step follows the limit; a longer one is refused unless forced") {
+TEST_CASE("the step follows the limit and a longer one is refused unless forced") {
   Cloth cloth = hung_sheet();
   const Cloth start = cloth;
   SimulateOptions options;

@@ -82,7 +82,7 @@ TEST_CASE("the positive part of the stiffness is at least 0 and at least the exa
   CHECK(compressed > 1);
 }
 
-TEST_CASE("a spring of length 0 exerts no force; a spring out of range is refused") {
+TEST_CASE("a spring of length 0 exerts no force, and a spring out of range is refused") {
   const std::vector<Vec3> x(2, Vec3(1, 2, 3));
   std::vector<Vec3> force(2, Vec3::Zero());
   add_spring_forces(x, std::vector<Spring>{{0, 1, 0.1, 10}}, force);

@@ -68,7 +68,7 @@ TEST_CASE("the limit is never above the exact one and within 2 % of it on irregu
   }
 }
 
-TEST_CASE("nothing stiff, no limit; bad options are refused") {
+TEST_CASE("nothing stiff, no limit, and bad options are refused") {
   Cloth cloth;
   add_particle(cloth, {0, 0, 0}, 1);
   CHECK(std::isinf(stable_step(cloth).dt_limit));

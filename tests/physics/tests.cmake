@@ -5,6 +5,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   euler_step_test.cpp
   leapfrog_step_test.cpp
   packed_cloth_test.cpp
+  pins_test.cpp
   residual_force_test.cpp
   simulate_test.cpp
   spring_forces_test.cpp
