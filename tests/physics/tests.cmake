@@ -3,6 +3,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   contact_test.cpp
   damping_sweep_test.cpp
   euler_step_test.cpp
+  hanging_chain_test.cpp
   leapfrog_step_test.cpp
   packed_cloth_test.cpp
   pins_test.cpp
