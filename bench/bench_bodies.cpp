@@ -19,9 +19,10 @@ using physics::Vec3;
 
 namespace {
 
-constexpr int icosahedron[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                                    {3, 8, 9},  {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+constexpr int icosahedron[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                    {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                    {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
 
 /// Flat icosahedron whose faces are cut into frequency^2 triangles.
 struct Geodesic {
@@ -121,7 +122,8 @@ TriangleMesh loop_once(const TriangleMesh& mesh) {
       throw std::runtime_error("the body is not a manifold; it cannot be subdivided");
   CGAL::Subdivision_method_3::Loop_subdivision(cgal, CGAL::parameters::number_of_iterations(1));
   TriangleMesh result;
-  for (Vertex v : cgal.vertices()) result.vertices.emplace_back(cgal.point(v).x(), cgal.point(v).y(), cgal.point(v).z());
+  for (Vertex v : cgal.vertices())
+    result.vertices.emplace_back(cgal.point(v).x(), cgal.point(v).y(), cgal.point(v).z());
   for (auto f : cgal.faces()) {
     std::array<int, 3> t;
     int k = 0;

@@ -6,8 +6,8 @@
 
 namespace furrow::bench {
 
-/// Geodesic sphere of 20 * frequency^2 triangles, radius about 1 m, with low bumps and a radial noise of 0.3 edge
-/// lengths: the body that other distance libraries were measured with. Always the same one.
+/// Geodesic sphere of 20 * frequency^2 triangles, radius about 1 m, with low bumps and a radial noise of 0.3
+/// edge lengths: the body that other distance libraries were measured with. Always the same one.
 physics::TriangleMesh noisy_sphere(int frequency);
 
 /// `v` and `f` of an OBJ file, polygons cut from their first corner.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// distance_field_bench [BODY.obj …] [--relative T] [--loop] [--threads N] : one JSON line a body, CPU seconds of this
-// thread. Without a body: the noisy sphere of 100,820 triangles. T: tolerance over the diagonal, default 1e-3.
+// distance_field_bench [BODY.obj …] [--relative T] [--loop] [--threads N] : one JSON line a body, CPU seconds
+// of this thread. Without a body: the noisy sphere of 100,820 triangles. T: tolerance over the diagonal,
+// default 1e-3.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -46,10 +47,12 @@ void sort_spatially(std::vector<Vec3>& points, const Vec3& low, double size) {
   const auto key = [&](const Vec3& x) {
     std::uint64_t code = 0;
     for (int bit = 9; bit >= 0; --bit)
-      for (int k = 0; k < 3; ++k) code = 2 * code + (static_cast<int>(1024 * (x[k] - low[k]) / size) >> bit & 1);
+      for (int k = 0; k < 3; ++k)
+        code = 2 * code + (static_cast<int>(1024 * (x[k] - low[k]) / size) >> bit & 1);
     return code;
   };
-  std::stable_sort(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) { return key(a) < key(b); });
+  std::stable_sort(points.begin(), points.end(),
+                   [&](const Vec3& a, const Vec3& b) { return key(a) < key(b); });
 }
 
 double query_nanoseconds(const furrow::physics::Collider& field, const std::vector<Vec3>& points) {
@@ -73,8 +76,8 @@ std::string spread(const std::string& name, std::vector<double> e) {
   std::sort(e.begin(), e.end());
   const auto at = [&](double q) { return std::to_string(e[static_cast<std::size_t>(q * (e.size() - 1))]); };
   return ", \"" + name + "_max\": " + at(1) + ", \"" + name + "_p999\": " + at(0.999) + ", \"" + name +
-         "_p99\": " + at(0.99) + ", \"" + name +
-         "_mean\": " + std::to_string(std::accumulate(e.begin(), e.end(), 0.0) / static_cast<double>(e.size()));
+         "_p99\": " + at(0.99) + ", \"" + name + "_mean\": " +
+         std::to_string(std::accumulate(e.begin(), e.end(), 0.0) / static_cast<double>(e.size()));
 }
 
 void measure(const std::string& name, const TriangleMesh& mesh, double relative, int threads) {
@@ -102,7 +105,8 @@ void measure(const std::string& name, const TriangleMesh& mesh, double relative,
     const double d = exact.at(points[i]).value, error = std::abs(field.at(points[i]).value - d);
     in_tolerance.push_back(error / field.report().tolerance);
     in_allow.push_back(error / field.allowed_error(d));
-    Vec3 x = points[i];  // onto the nearest plane of the finest lattice: both sides of any face between leaves
+    Vec3 x =
+        points[i];  // onto the nearest plane of the finest lattice: both sides of any face between leaves
     const double unit = field.size() / 1024;
     x[i % 3] = field.low()[i % 3] + unit * std::round((x[i % 3] - field.low()[i % 3]) / unit);
     Vec3 y = x;
@@ -113,11 +117,12 @@ void measure(const std::string& name, const TriangleMesh& mesh, double relative,
   const double ordered_ns = query_nanoseconds(field, points);
   const auto& report = field.report();
   std::cout << "{\"body\": \"" << name << "\", \"triangles\": " << mesh.triangles.size()
-            << ", \"sign_rule\": " << static_cast<int>(report.sign.rule) << ", \"tolerance\": " << report.tolerance
-            << ", \"threads\": " << threads << ", \"exact_build_cpu_s\": " << exact_s[1]
-            << ", \"field_build_cpu_s\": " << field_s[1] << ", \"total_build_cpu_s\": " << exact_s[1] + field_s[1]
-            << ", \"leaves\": " << report.leaves << ", \"samples\": " << report.samples
-            << ", \"depth\": " << report.depth << ", \"megabytes\": " << 1e-6 * static_cast<double>(field.memory())
+            << ", \"sign_rule\": " << static_cast<int>(report.sign.rule)
+            << ", \"tolerance\": " << report.tolerance << ", \"threads\": " << threads
+            << ", \"exact_build_cpu_s\": " << exact_s[1] << ", \"field_build_cpu_s\": " << field_s[1]
+            << ", \"total_build_cpu_s\": " << exact_s[1] + field_s[1] << ", \"leaves\": " << report.leaves
+            << ", \"samples\": " << report.samples << ", \"depth\": " << report.depth
+            << ", \"megabytes\": " << 1e-6 * static_cast<double>(field.memory())
             << ", \"ns_random\": " << random_ns << ", \"ns_ordered\": " << ordered_ns
             << spread("error_in_tolerance", in_tolerance) << spread("error_in_allow", in_allow)
             << ", \"jump_over_diagonal\": " << jump / exact.diagonal() << "}" << std::endl;
@@ -132,10 +137,14 @@ int main(int argc, char** argv) {
   int threads = 1;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "--relative" && i + 1 < argc) relative = std::atof(argv[++i]);
-    else if (word == "--threads" && i + 1 < argc) threads = std::atoi(argv[++i]);
-    else if (word == "--loop") loop = true;
-    else bodies.push_back(word);
+    if (word == "--relative" && i + 1 < argc)
+      relative = std::atof(argv[++i]);
+    else if (word == "--threads" && i + 1 < argc)
+      threads = std::atoi(argv[++i]);
+    else if (word == "--loop")
+      loop = true;
+    else
+      bodies.push_back(word);
   }
   std::cout << "{\"stream_triad_gb_s\": " << furrow::bench::stream_triad()
             << ", \"plain_springs_mvertex_steps_s\": " << furrow::bench::plain_springs() << "}" << std::endl;

@@ -44,7 +44,8 @@ struct Sheet {
         const int a = i + di[s], b = j + dj[s], at = s * count + n;
         const bool there = a >= 0 && b >= 0 && a < side && b < side;
         other[at] = there ? b * side + a : n;
-        if (there) rest[at] = h * std::sqrt(static_cast<float>(di[s] * di[s] + dj[s] * dj[s])), stiffness[at] = 100;
+        if (there)
+          rest[at] = h * std::sqrt(static_cast<float>(di[s] * di[s] + dj[s] * dj[s])), stiffness[at] = 100;
       }
     }
   }

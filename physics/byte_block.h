@@ -37,7 +37,8 @@ class ByteReader {
   template <class T>
   T get() {
     static_assert(std::is_arithmetic_v<T>);
-    if (left() < sizeof(T)) throw std::invalid_argument("the block ends after " + std::to_string(at_) + " bytes");
+    if (left() < sizeof(T))
+      throw std::invalid_argument("the block ends after " + std::to_string(at_) + " bytes");
     std::byte bytes[sizeof(T)];
     for (std::size_t i = 0; i < sizeof(T); ++i)
       bytes[std::endian::native == std::endian::little ? i : sizeof(T) - 1 - i] = block_[at_ + i];

@@ -6,7 +6,8 @@
 namespace furrow::physics {
 namespace {
 
-PointOnTriangle on_segment(const Vec3& x, const Vec3& a, const Vec3& b, Feature at_a, Feature at_b, Feature between) {
+PointOnTriangle on_segment(const Vec3& x, const Vec3& a, const Vec3& b, Feature at_a, Feature at_b,
+                           Feature between) {
   const Vec3 ab = b - a;
   const double along = ab.dot(x - a), length2 = ab.squaredNorm();
   if (along <= 0 || length2 == 0) return {a, at_a};
@@ -15,9 +16,10 @@ PointOnTriangle on_segment(const Vec3& x, const Vec3& a, const Vec3& b, Feature 
 }
 
 PointOnTriangle on_edges(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const PointOnTriangle candidates[] = {on_segment(x, a, b, Feature::corner0, Feature::corner1, Feature::edge01),
-                                        on_segment(x, b, c, Feature::corner1, Feature::corner2, Feature::edge12),
-                                        on_segment(x, c, a, Feature::corner2, Feature::corner0, Feature::edge20)};
+  const PointOnTriangle candidates[] = {
+      on_segment(x, a, b, Feature::corner0, Feature::corner1, Feature::edge01),
+      on_segment(x, b, c, Feature::corner1, Feature::corner2, Feature::edge12),
+      on_segment(x, c, a, Feature::corner2, Feature::corner0, Feature::edge20)};
   return *std::min_element(std::begin(candidates), std::end(candidates), [&](const auto& p, const auto& q) {
     return (x - p.point).squaredNorm() < (x - q.point).squaredNorm();
   });

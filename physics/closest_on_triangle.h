@@ -14,8 +14,8 @@ struct PointOnTriangle {
   Feature feature;
 };
 
-/// Closest point to x of the triangle (a, b, c) by the Voronoi regions of its features; a triangle without area is
-/// treated as its three edges. Source: Ericson, Real-Time Collision Detection, 5.1.5.
+/// Closest point to x of the triangle (a, b, c) by the Voronoi regions of its features; a triangle without
+/// area is treated as its three edges. Source: Ericson, Real-Time Collision Detection, 5.1.5.
 PointOnTriangle closest_on_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace furrow::physics

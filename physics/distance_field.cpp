@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <stdexcept>
 
 #include "physics/distance_field_layout.h"
 
@@ -10,19 +12,74 @@ namespace furrow::physics {
 
 using namespace distance_field_layout;
 
+namespace {
+
+typedef float Float2 __attribute__((vector_size(8)));
+typedef double Double2 __attribute__((vector_size(16)));
+
+inline Double2 load2(const float* f) {
+  Float2 pair;
+  std::memcpy(&pair, f, sizeof pair);
+  return __builtin_convertvector(pair, Double2);
+}
+
+/// Into [0, high]; NaN gives 0.
+inline double clamp(double t, double high) {
+  const double above = t > 0 ? t : 0;
+  return above < high ? above : high;
+}
+
+}  // namespace
+
 double DistanceField::allowed_error(double d) const {
   return report_.tolerance + far_slope_ * std::max(0.0, d > 0 ? d - outer_band_ : -d - inner_band_);
 }
 
 std::size_t DistanceField::memory() const {
-  return top_.size() * sizeof(Entry) + nodes_.size() * sizeof(nodes_[0]) + leaves_.size() * sizeof(Leaf) +
-         leaf_gradients_.size() * sizeof(LeafGradient);
+  return (top_.size() + bricks_.size()) * sizeof(Entry) + nodes_.size() * sizeof(nodes_[0]) +
+         leaves_.size() * sizeof(Leaf) + leaf_gradients_.size() * sizeof(LeafGradient);
+}
+
+int DistanceField::depth_below(Entry entry) const {
+  if (entry & leaf_bit) return 0;
+  int depth = 0;
+  for (Entry child : nodes_[entry]) depth = std::max(depth, depth_below(child));
+  return depth + 1;
+}
+
+void DistanceField::fill_brick(Entry entry, int level, const std::array<int, 3>& low, int left, int depth,
+                               std::size_t base) {
+  if (left == 0 || (entry & leaf_bit)) {
+    const int reach = 1 << left;
+    const Entry stored = entry & leaf_bit ? entry | static_cast<Entry>(level) << level_shift : entry;
+    for (int k = 0; k < reach; ++k)
+      for (int j = 0; j < reach; ++j) {
+        const auto row = static_cast<std::size_t>((((low[2] + k) << depth) + low[1] + j) << depth);
+        std::fill_n(bricks_.begin() + static_cast<std::ptrdiff_t>(base + row) + low[0], reach, stored);
+      }
+    return;
+  }
+  const int half = 1 << (left - 1);
+  for (int c = 0; c < 8; ++c)
+    fill_brick(nodes_[entry][c], level + 1,
+               {low[0] + (c & 1) * half, low[1] + (c >> 1 & 1) * half, low[2] + (c >> 2) * half}, left - 1,
+               depth, base);
+}
+
+DistanceField::Entry DistanceField::add_brick(Entry entry, int level) {
+  const std::size_t base = bricks_.size();
+  const int depth = std::min(depth_below(entry), brick_depth);
+  bricks_.resize(base + (std::size_t{1} << (3 * depth)));
+  if (bricks_.size() > brick_mask)
+    throw std::length_error("DistanceField: too many leaves; raise the tolerance");
+  fill_brick(entry, level, {0, 0, 0}, depth, depth, base);
+  return static_cast<Entry>(base) | static_cast<Entry>(depth) << brick_shift;
 }
 
 void DistanceField::fill_top(Entry entry, int level, const std::array<int, 3>& low) {
   if (level == top_depth_ || (entry & leaf_bit)) {
     const int reach = 1 << (top_depth_ - level);
-    const Entry stored = entry & leaf_bit ? entry | static_cast<Entry>(level) << level_shift : entry;
+    const Entry stored = add_brick(entry, level);
     for (int k = 0; k < reach; ++k)
       for (int j = 0; j < reach; ++j) {
         const auto row = (((low[2] + k) << top_depth_) + low[1] + j) << top_depth_;
@@ -44,50 +101,59 @@ void DistanceField::index() {
   fill_top(0, 0, {0, 0, 0});
 }
 
-SignedDistance DistanceField::at(const Vec3& x) const {
-  const Vec3 t = per_unit_ * (x - low_);
-  const double side = 1 << max_depth_;
-  if (t[0] >= 0 && t[1] >= 0 && t[2] >= 0 && t[0] < side && t[1] < side && t[2] < side) return inside_at(t);
-  Vec3 clamped;
-  for (int k = 0; k < 3; ++k) clamped[k] = t[k] > 0 ? std::min(t[k], side) : 0;  // NaN gives 0
-  const Vec3 beyond = (t - clamped) / per_unit_;
-  const double distance = beyond.norm();
-  const SignedDistance border = inside_at(clamped);
-  if (distance == 0) return border;
-  return {border.value + distance, beyond / distance};
-}
-
-SignedDistance DistanceField::inside_at(const Vec3& t) const {
-  const int last = (1 << max_depth_) - 1;
-  const int ix = std::min(static_cast<int>(t[0]), last), iy = std::min(static_cast<int>(t[1]), last),
-            iz = std::min(static_cast<int>(t[2]), last);
-  int shift = max_depth_ - top_depth_;
-  Entry entry = top_[((((iz >> shift) << top_depth_) + (iy >> shift)) << top_depth_) + (ix >> shift)];
-  int level = top_depth_;
-  if (entry & leaf_bit) {
-    level = entry >> level_shift & level_mask;
-  } else {
+inline DistanceField::Place DistanceField::find(int ix, int iy, int iz) const {
+  const int top_shift = max_depth_ - top_depth_;
+  const Entry brick =
+      top_[((((iz >> top_shift) << top_depth_) + (iy >> top_shift)) << top_depth_) + (ix >> top_shift)];
+  const int depth = brick >> brick_shift, last = (1 << depth) - 1;
+  int shift = top_shift - depth;
+  Entry entry = bricks_[(brick & brick_mask) + (ix >> shift & last) + ((iy >> shift & last) << depth) +
+                        ((iz >> shift & last) << 2 * depth)];
+  int level = entry >> level_shift & level_mask;
+  if (!(entry & leaf_bit)) [[unlikely]] {
+    level = top_depth_ + depth;
     do {
       --shift;
       ++level;
       entry = nodes_[entry][(ix >> shift & 1) | (iy >> shift & 1) << 1 | (iz >> shift & 1) << 2];
     } while (!(entry & leaf_bit));
   }
-  const std::size_t leaf = entry & index_mask;
-  const Leaf& f = leaves_[leaf];
-  const int low_bits = ~((1 << (max_depth_ - level)) - 1);
-  const double scale = cells_a_unit_[level], slope = scale * per_unit_;
-  const double u = (t[0] - (ix & low_bits)) * scale, v = (t[1] - (iy & low_bits)) * scale,
-               w = (t[2] - (iz & low_bits)) * scale;
-  const double x00 = double(f[1]) - f[0], x10 = double(f[3]) - f[2], x01 = double(f[5]) - f[4],
-               x11 = double(f[7]) - f[6];
-  const double e00 = f[0] + u * x00, e10 = f[2] + u * x10, e01 = f[4] + u * x01, e11 = f[6] + u * x11;
-  const double y0 = e10 - e00, y1 = e11 - e01;
-  const double g0 = e00 + v * y0, g1 = e01 + v * y1;
-  const double x0 = x00 + v * (x10 - x00), x1 = x01 + v * (x11 - x01);
-  const double value = g0 + w * (g1 - g0);
-  if (gradient_ == GradientRule::interpolated_corners) return {value, corner_gradient_at(leaf, {u, v, w})};
-  return {value, Vec3(slope * (x0 + w * (x1 - x0)), slope * (y0 + w * (y1 - y0)), slope * (g1 - g0))};
+  return {entry & index_mask, level};
+}
+
+SignedDistance DistanceField::at(const Vec3& x) const {
+  const double side = 1 << max_depth_;
+  const double tx = per_unit_ * (x[0] - low_[0]), ty = per_unit_ * (x[1] - low_[1]),
+               tz = per_unit_ * (x[2] - low_[2]);
+  const double cx = clamp(tx, side), cy = clamp(ty, side), cz = clamp(tz, side);
+  const SignedDistance border = inside_at(cx, cy, cz);
+  if (cx == tx && cy == ty && cz == tz) [[likely]]
+    return border;
+  const Vec3 beyond = Vec3(tx - cx, ty - cy, tz - cz) / per_unit_;
+  const double distance = beyond.norm();
+  return {border.value + distance, beyond / distance};
+}
+
+inline SignedDistance DistanceField::inside_at(double tx, double ty, double tz) const {
+  const int last = (1 << max_depth_) - 1;
+  const int ix = std::min(static_cast<int>(tx), last), iy = std::min(static_cast<int>(ty), last),
+            iz = std::min(static_cast<int>(tz), last);
+  const Place place = find(ix, iy, iz);
+  const int low_bits = ~((1 << (max_depth_ - place.level)) - 1);
+  const double scale = cells_a_unit_[place.level], slope = scale * per_unit_;
+  const double u = (tx - (ix & low_bits)) * scale, v = (ty - (iy & low_bits)) * scale,
+               w = (tz - (iz & low_bits)) * scale;
+  // both z layers at once: corner c and c + 4 lie side by side
+  const float* f = leaves_[place.leaf].data();
+  const Double2 f00 = load2(f), f10 = load2(f + 2), f01 = load2(f + 4), f11 = load2(f + 6);
+  const Double2 x0 = f10 - f00, x1 = f11 - f01;
+  const Double2 e0 = f00 + u * x0, e1 = f01 + u * x1;
+  const Double2 dy = e1 - e0, dx = x0 + v * (x1 - x0), g = e0 + v * dy;
+  const double dz = g[1] - g[0], value = g[0] + w * dz;
+  if (gradient_ == GradientRule::interpolated_corners)
+    return {value, corner_gradient_at(place.leaf, {u, v, w})};
+  return {value,
+          Vec3(slope * (dx[0] + w * (dx[1] - dx[0])), slope * (dy[0] + w * (dy[1] - dy[0])), slope * dz)};
 }
 
 Vec3 DistanceField::corner_gradient_at(std::size_t leaf, const Vec3& u) const {

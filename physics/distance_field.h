@@ -13,7 +13,8 @@ namespace furrow::physics {
 
 enum class GradientRule {
   exact_derivative,     ///< the gradient of the interpolated value: jumps a little between cells
-  interpolated_corners  ///< the paper's: trilinear in the corners' gradients; continuous, not the value's gradient
+  interpolated_corners  ///< the paper's: trilinear in the corners' gradients; continuous, not the value's
+                        ///< gradient
 };
 
 struct DistanceFieldOptions {
@@ -25,7 +26,7 @@ struct DistanceFieldOptions {
   int band_depth = 6;               ///< least depth of cells that meet the band; 3 ... max_depth
   int max_depth = 10;               ///< edge of the smallest cell = cube / 2^max_depth; 3 ... 12
   GradientRule gradient = GradientRule::exact_derivative;
-  int threads = 1;                  ///< of the build; 1 ... 256; the result does not depend on it
+  int threads = 1;  ///< of the build; 1 ... 256; the result does not depend on it
 };
 
 struct DistanceFieldReport {
@@ -37,10 +38,10 @@ struct DistanceFieldReport {
   SignReport sign;
 };
 
-/// Adaptively sampled signed distance of a body, for many fast queries. Continuous everywhere; inside its cube the
-/// error is about `tolerance` in the band and grows by far_slope beyond it. Outside the cube the value is that of the
-/// closest point of the cube plus the distance to it, the gradient points away from the cube.
-/// Sources: method S1.9 and S1.20; Frisken et al. 2000.
+/// Adaptively sampled signed distance of a body, for many fast queries. Continuous everywhere; inside its
+/// cube the error is about `tolerance` in the band and grows by far_slope beyond it. Outside the cube the
+/// value is that of the closest point of the cube plus the distance to it, the gradient points away from the
+/// cube. Sources: method S1.9 and S1.20; Frisken et al. 2000.
 class DistanceField : public Collider {
  public:
   /// Any soup that ExactDistance takes. std::invalid_argument names a bad option or vertex.
@@ -57,23 +58,32 @@ class DistanceField : public Collider {
   double size() const { return size_; }         ///< edge of the cube [m]
   std::size_t memory() const;                   ///< [bytes] of tables and leaves
 
-  /// The whole field as one little-endian block with a magic word and a version; from_bytes() gives it back bit for
-  /// bit, or throws std::invalid_argument when the block is cut, of another version or contradicts itself.
+  /// The whole field as one little-endian block with a magic word and a version; from_bytes() gives it back
+  /// bit for bit, or throws std::invalid_argument when the block is cut, of another version or contradicts
+  /// itself.
   std::vector<std::byte> to_bytes() const;
   static DistanceField from_bytes(std::span<const std::byte> bytes);
 
  private:
-  using Entry = std::uint32_t;  ///< node: its index; leaf: leaf_bit, in the top table its level, and its index
+  using Entry = std::uint32_t;  ///< see distance_field_layout.h
   using Leaf = std::array<float, 8>;
   using LeafGradient = std::array<std::array<float, 3>, 8>;
-
 
   DistanceField() = default;
   void take(const class DistanceOctree& octree);
   void index();
   void read_tree(class ByteReader& in);
   void fill_top(Entry entry, int level, const std::array<int, 3>& low);
-  SignedDistance inside_at(const Vec3& lattice) const;
+  Entry add_brick(Entry entry, int level);
+  void fill_brick(Entry entry, int level, const std::array<int, 3>& low, int left, int depth,
+                  std::size_t base);
+  int depth_below(Entry entry) const;
+  struct Place {
+    std::uint32_t leaf;
+    int level;
+  };
+  Place find(int ix, int iy, int iz) const;
+  SignedDistance inside_at(double tx, double ty, double tz) const;
   Vec3 corner_gradient_at(std::size_t leaf, const Vec3& u) const;
 
   Vec3 low_;
@@ -81,11 +91,12 @@ class DistanceField : public Collider {
   int max_depth_ = 0, top_depth_ = 0;
   double outer_band_ = 0, inner_band_ = 0, far_slope_ = 0;
   GradientRule gradient_ = GradientRule::exact_derivative;
-  std::vector<Entry> top_;                         ///< dense table at depth top_depth_, z slowest
-  std::vector<std::array<Entry, 8>> nodes_;        ///< depth first, the root is node 0
-  std::vector<Leaf> leaves_;                       ///< corner values [m]
-  std::vector<LeafGradient> leaf_gradients_;       ///< only with interpolated_corners
-  std::array<double, 13> cells_a_unit_{};          ///< a level: 1 / edge in lattice units
+  std::vector<Entry> top_;                    ///< dense table of bricks at depth top_depth_, z slowest
+  std::vector<Entry> bricks_;                 ///< tables of 2^k x 2^k x 2^k leaves (or nodes), z slowest
+  std::vector<std::array<Entry, 8>> nodes_;   ///< depth first, the root is node 0
+  std::vector<Leaf> leaves_;                  ///< values of the corners 0 4 1 5 2 6 3 7 [m]
+  std::vector<LeafGradient> leaf_gradients_;  ///< only with interpolated_corners
+  std::array<double, 13> cells_a_unit_{};     ///< a level: 1 / edge in lattice units
   DistanceFieldReport report_;
 };
 

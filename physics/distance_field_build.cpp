@@ -20,7 +20,8 @@ void check(bool good, const char* option, double value, const char* range) {
 }
 
 void check(const DistanceFieldOptions& o) {
-  if (o.tolerance) check(*o.tolerance > 0 && std::isfinite(*o.tolerance), "tolerance", *o.tolerance, "> 0 [m]");
+  if (o.tolerance)
+    check(*o.tolerance > 0 && std::isfinite(*o.tolerance), "tolerance", *o.tolerance, "> 0 [m]");
   check(o.outer_band >= 0 && std::isfinite(o.outer_band), "outer_band", o.outer_band, ">= 0 [m]");
   check(o.inner_band >= 0 && std::isfinite(o.inner_band), "inner_band", o.inner_band, ">= 0 [m]");
   check(o.far_slope >= 0 && o.far_slope <= 1, "far_slope", o.far_slope, "in 0 ... 1");
@@ -53,8 +54,8 @@ DistanceField DistanceField::build(const ExactDistance& exact, const DistanceFie
   const double unit = field.size_ / (1 << options.max_depth);
   LatticeSamples samples(exact, field.low_, unit, options.threads);
   const DistanceOctree octree(samples,
-                              {field.report_.tolerance, options.outer_band, options.inner_band, options.far_slope, 3,
-                               options.band_depth, options.max_depth},
+                              {field.report_.tolerance, options.outer_band, options.inner_band,
+                               options.far_slope, 3, options.band_depth, options.max_depth},
                               unit);
   field.report_.samples = samples.size();
   field.take(octree);
@@ -68,13 +69,15 @@ void DistanceField::take(const DistanceOctree& octree) {
   report_.largest_repair = octree.largest_repair();
   const auto take_leaf = [&](const OctreeCell& cell) {
     leaves_.emplace_back();
-    for (int c = 0; c < 8; ++c) leaves_.back()[c] = static_cast<float>(octree.values()[cell.corner[c]]);
+    for (int c = 0; c < 8; ++c)
+      leaves_.back()[2 * (c & 3) + c / 4] = static_cast<float>(octree.values()[cell.corner[c]]);
     report_.depth = std::max(report_.depth, cell.level);
     report_.leaves_at_max_depth += cell.level == max_depth_;
     if (gradients.empty()) return;
     leaf_gradients_.emplace_back();
     for (int c = 0; c < 8; ++c)
-      for (int k = 0; k < 3; ++k) leaf_gradients_.back()[c][k] = static_cast<float>(gradients[cell.corner[c]][k]);
+      for (int k = 0; k < 3; ++k)
+        leaf_gradients_.back()[c][k] = static_cast<float>(gradients[cell.corner[c]][k]);
   };
   const auto take_node = [&](const auto& self, const OctreeCell& cell) -> Entry {
     const Entry node = static_cast<Entry>(nodes_.size());
@@ -93,7 +96,8 @@ void DistanceField::take(const DistanceOctree& octree) {
   };
   take_node(take_node, octree.cells()[0]);
   report_.leaves = static_cast<int>(leaves_.size());
-  if (leaves_.size() > index_mask) throw std::length_error("DistanceField: too many leaves; raise the tolerance");
+  if (leaves_.size() > index_mask)
+    throw std::length_error("DistanceField: too many leaves; raise the tolerance");
 }
 
 }  // namespace furrow::physics

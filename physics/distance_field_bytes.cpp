@@ -84,7 +84,8 @@ DistanceField DistanceField::from_bytes(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   require(in.get<std::uint64_t>() == magic, "this is no distance field");
   require(in.get<std::uint32_t>() == version, "this version is not known");
-  require(bytes.size() >= 20 && ByteReader(bytes.last(8)).get<std::uint64_t>() == checksum(bytes.first(bytes.size() - 8)),
+  require(bytes.size() >= 20 &&
+              ByteReader(bytes.last(8)).get<std::uint64_t>() == checksum(bytes.first(bytes.size() - 8)),
           "the block is cut or damaged (checksum)");
   DistanceField field;
   const auto word = [&](std::uint32_t below) {
@@ -127,7 +128,8 @@ void DistanceField::read_tree(ByteReader& in) {
     for (Entry& entry : node) entry = in.get<Entry>();
   TreeCheck check{nodes_, max_depth_};
   check.visit(0, 0);
-  require(check.next_node == node_count && check.next_leaf == leaf_count, "the tree does not reach every leaf");
+  require(check.next_node == node_count && check.next_leaf == leaf_count,
+          "the tree does not reach every leaf");
   const auto number = [&](float& value) {
     value = in.get<float>();
     require(std::isfinite(value), "a number is not finite");

@@ -27,7 +27,8 @@ std::array<double, 27> interpolate(const std::array<double, 8>& corner) {
 template <class T>
 T trilinear(const std::array<T, 8>& f, double u, double v, double w) {
   const auto mix = [](const T& a, const T& b, double t) { return T(a + t * (b - a)); };
-  return mix(mix(mix(f[0], f[1], u), mix(f[2], f[3], u), v), mix(mix(f[4], f[5], u), mix(f[6], f[7], u), v), w);
+  return mix(mix(mix(f[0], f[1], u), mix(f[2], f[3], u), v), mix(mix(f[4], f[5], u), mix(f[6], f[7], u), v),
+             w);
 }
 
 }  // namespace
@@ -62,7 +63,8 @@ std::array<int, 27> DistanceOctree::add_lattice(const OctreeCell& cell) {
         const bool corner = i != 1 && j != 1 && k != 1;
         lattice[at3(i, j, k)] =
             corner ? nearby
-                   : samples_.add({cell.low[0] + i * half, cell.low[1] + j * half, cell.low[2] + k * half}, nearby);
+                   : samples_.add({cell.low[0] + i * half, cell.low[1] + j * half, cell.low[2] + k * half},
+                                  nearby);
       }
   return lattice;
 }
@@ -72,14 +74,17 @@ bool DistanceOctree::must_split(const OctreeCell& cell, const std::array<int, 27
   const auto in_band = [&](int sample) {
     return samples_.value(sample) <= rule_.outer_band && samples_.value(sample) >= -rule_.inner_band;
   };
-  const bool surface_inside = std::any_of(lattice.begin(), lattice.end(), [&](int s) { return samples_.value(s) < 0; }) &&
-                              std::any_of(lattice.begin(), lattice.end(), [&](int s) { return samples_.value(s) >= 0; });
-  if (cell.level < rule_.band_depth && (surface_inside || std::any_of(lattice.begin(), lattice.end(), in_band)))
+  const bool surface_inside =
+      std::any_of(lattice.begin(), lattice.end(), [&](int s) { return samples_.value(s) < 0; }) &&
+      std::any_of(lattice.begin(), lattice.end(), [&](int s) { return samples_.value(s) >= 0; });
+  if (cell.level < rule_.band_depth &&
+      (surface_inside || std::any_of(lattice.begin(), lattice.end(), in_band)))
     return true;
   std::array<double, 8> corner;
   for (int c = 0; c < 8; ++c) corner[c] = samples_.value(cell.corner[c]);
   const std::array<double, 27> guess = interpolate(corner);
-  constexpr double reserve = 0.93;  // between the tested points, and after the repair, the error is a little larger
+  constexpr double reserve =
+      0.93;  // between the tested points, and after the repair, the error is a little larger
   return std::any_of(lattice.begin(), lattice.end(), [&, i = 0](int sample) mutable {
     const double exact = samples_.value(sample);
     return std::abs(exact - guess[i++]) > reserve * rule_.allowed_error(exact);
@@ -143,7 +148,8 @@ void DistanceOctree::balance() {
       for (int way = 0; way < 27; ++way) {
         const LatticePoint p{low[0] + (way % 3 - 1) * step, low[1] + (way / 3 % 3 - 1) * step,
                              low[2] + (way / 9 - 1) * step};
-        if (std::all_of(p.begin(), p.end(), [&](int a) { return a >= 0 && a < side; })) split_down_to(p, level, split);
+        if (std::all_of(p.begin(), p.end(), [&](int a) { return a >= 0 && a < side; }))
+          split_down_to(p, level, split);
       }
     }
 }
@@ -199,7 +205,8 @@ std::vector<Vec3> DistanceOctree::corner_gradients() const {
     for (int c = 0; cell.first_child == 0 && c < 8; ++c) {
       Vec3 slope;
       for (int k = 0; k < 3; ++k)
-        slope[k] = (values_[cell.corner[c | 1 << k]] - values_[cell.corner[c & ~(1 << k)]]) / (unit_ * edge(cell));
+        slope[k] =
+            (values_[cell.corner[c | 1 << k]] - values_[cell.corner[c & ~(1 << k)]]) / (unit_ * edge(cell));
       gradient[cell.corner[c]] += slope;
       ++leaves[cell.corner[c]];
     }

@@ -9,19 +9,20 @@ namespace furrow::physics {
 
 /// Where and how finely a distance is needed.
 struct RefinementRule {
-  double tolerance;    ///< largest error at the test points in the band [m]; > 0
-  double outer_band;   ///< the band's reach outside the body [m]; >= 0
-  double inner_band;   ///< and inside [m]; >= 0
-  double far_slope;    ///< tolerance gained for each metre beyond the band [-]; >= 0
-  int min_depth;       ///< of every leaf
-  int band_depth;      ///< of every leaf that meets the band
-  int max_depth;       ///< of any leaf
+  double tolerance;   ///< largest error at the test points in the band [m]; > 0
+  double outer_band;  ///< the band's reach outside the body [m]; >= 0
+  double inner_band;  ///< and inside [m]; >= 0
+  double far_slope;   ///< tolerance gained for each metre beyond the band [-]; >= 0
+  int min_depth;      ///< of every leaf
+  int band_depth;     ///< of every leaf that meets the band
+  int max_depth;      ///< of any leaf
 
   /// allow(d) = tolerance + far_slope * (how far d lies outside the band) [m].
   double allowed_error(double distance) const;
 };
 
-/// A cube of an octree on the lattice [0, 2^max_depth]^3. Corner and child c lies at bit 0 of c in x, 1 in y, 2 in z.
+/// A cube of an octree on the lattice [0, 2^max_depth]^3. Corner and child c lies at bit 0 of c in x, 1 in y,
+/// 2 in z.
 struct OctreeCell {
   LatticePoint low;
   int level;                  ///< edge = 2^(max_depth - level) lattice units
@@ -30,17 +31,18 @@ struct OctreeCell {
 };
 
 /// Octree whose leaves' trilinear interpolation of the corner values approximates a signed distance.
-/// Refined top down with the 19-point test (centre, face centres, edge midpoints: the corners of the children, so no
-/// sample is lost), balanced 2:1 over faces, edges and corners, and made continuous by "the coarsest wins".
-/// Sources: Frisken et al. 2000; method S1.9.
+/// Refined top down with the 19-point test (centre, face centres, edge midpoints: the corners of the
+/// children, so no sample is lost), balanced 2:1 over faces, edges and corners, and made continuous by "the
+/// coarsest wins". Sources: Frisken et al. 2000; method S1.9.
 class DistanceOctree {
  public:
   DistanceOctree(LatticeSamples& samples, const RefinementRule& rule, double unit);
 
-  const std::vector<OctreeCell>& cells() const { return cells_; }       ///< the root first
-  const std::vector<double>& values() const { return values_; }         ///< a sample: its value, continuous [m]
-  double largest_repair() const { return largest_repair_; }             ///< change of a value for continuity [m]
-  /// A sample: mean of the slopes of the leaves around it, continuous like the values [-]; zero where no corner is.
+  const std::vector<OctreeCell>& cells() const { return cells_; }  ///< the root first
+  const std::vector<double>& values() const { return values_; }    ///< a sample: its value, continuous [m]
+  double largest_repair() const { return largest_repair_; }        ///< change of a value for continuity [m]
+  /// A sample: mean of the slopes of the leaves around it, continuous like the values [-]; zero where no
+  /// corner is.
   std::vector<Vec3> corner_gradients() const;
 
  private:

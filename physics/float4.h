@@ -3,7 +3,8 @@
 
 namespace furrow::physics {
 
-/// Four floats that are computed with together (GCC's and Clang's vector extension: any processor, the same bits).
+/// Four floats that are computed with together (GCC's and Clang's vector extension: any processor, the same
+/// bits).
 typedef float Float4 __attribute__((vector_size(16)));
 
 inline Float4 splat(float a) { return Float4{a, a, a, a}; }
@@ -12,7 +13,8 @@ inline Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
 inline Float4 positive_part(Float4 a) { return a > splat(0) ? a : splat(0); }
 inline Float4 absolute(Float4 a) {
   typedef int Int4 __attribute__((vector_size(16)));
-  return reinterpret_cast<Float4>(reinterpret_cast<Int4>(a) & Int4{0x7fffffff, 0x7fffffff, 0x7fffffff, 0x7fffffff});
+  return reinterpret_cast<Float4>(reinterpret_cast<Int4>(a) &
+                                  Int4{0x7fffffff, 0x7fffffff, 0x7fffffff, 0x7fffffff});
 }
 inline float least(Float4 a) {
   const float b = a[0] < a[1] ? a[0] : a[1], c = a[2] < a[3] ? a[2] : a[3];

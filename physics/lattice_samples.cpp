@@ -21,26 +21,30 @@ std::uint64_t scramble(std::uint64_t key) {
 }  // namespace
 
 LatticeSamples::LatticeSamples(const ExactDistance& exact, const Vec3& low, double unit, int threads)
-    : exact_(exact), low_(low), unit_(unit), threads_(threads), slots_(1 << 16, 0) {}
+    : exact_(exact), low_(low), unit_(unit), threads_(threads), slots_(1 << 16) {}
 
 std::size_t LatticeSamples::slot_of(std::uint64_t key) const {
   std::size_t slot = scramble(key) & (slots_.size() - 1);
-  while (slots_[slot] != 0 && key_of(points_[slots_[slot] - 1]) != key) slot = (slot + 1) & (slots_.size() - 1);
+  while (slots_[slot].next_index != 0 && slots_[slot].key != key) slot = (slot + 1) & (slots_.size() - 1);
   return slot;
 }
 
 void LatticeSamples::grow() {
-  slots_.assign(2 * slots_.size(), 0);
-  for (int i = 0; i < size(); ++i) slots_[slot_of(key_of(points_[i]))] = i + 1;
+  slots_.assign(2 * slots_.size(), {});
+  for (int i = 0; i < size(); ++i) {
+    const std::uint64_t key = key_of(points_[i]);
+    slots_[slot_of(key)] = {key, i + 1};
+  }
 }
 
 int LatticeSamples::add(const LatticePoint& p, int guess) {
-  const std::size_t slot = slot_of(key_of(p));
-  if (slots_[slot] != 0) return slots_[slot] - 1;
+  const std::uint64_t key = key_of(p);
+  const std::size_t slot = slot_of(key);
+  if (slots_[slot].next_index != 0) return slots_[slot].next_index - 1;
   samples_.push_back({0, 0});
   points_.push_back(p);
   guesses_.push_back(guess);
-  slots_[slot] = size();
+  slots_[slot] = {key, size()};
   if (3 * samples_.size() > 2 * slots_.size()) grow();
   return size() - 1;
 }
@@ -49,7 +53,8 @@ void LatticeSamples::evaluate_range(int begin, int end) {
   for (int i = begin; i < end; ++i) {
     const Vec3 x = position(points_[i]);
     const int guess = guesses_[i];
-    samples_[i] = guess < evaluated_ ? exact_.sample(x, position(points_[guess]), samples_[guess]) : exact_.sample(x);
+    samples_[i] =
+        guess < evaluated_ ? exact_.sample(x, position(points_[guess]), samples_[guess]) : exact_.sample(x);
   }
 }
 
@@ -57,7 +62,8 @@ void LatticeSamples::evaluate() {
   constexpr int block = 512;
   std::atomic<int> next = evaluated_;
   const auto work = [&] {
-    for (int begin; (begin = next.fetch_add(block)) < size();) evaluate_range(begin, std::min(begin + block, size()));
+    for (int begin; (begin = next.fetch_add(block)) < size();)
+      evaluate_range(begin, std::min(begin + block, size()));
   };
   const int helpers = std::min(threads_ - 1, (size() - evaluated_) / block);
   {

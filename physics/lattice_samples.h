@@ -10,8 +10,8 @@ namespace furrow::physics {
 
 using LatticePoint = std::array<int, 3>;
 
-/// Exact distances at points of a cubic lattice, each point once. Points are added first and evaluated together, so
-/// that several threads can share the work; the values depend on the order of adding only.
+/// Exact distances at points of a cubic lattice, each point once. Points are added first and evaluated
+/// together, so that several threads can share the work; the values depend on the order of adding only.
 class LatticeSamples {
  public:
   /// A lattice of points low + unit * p, p in [0, 2^20]^3; `exact` must outlive it.
@@ -29,6 +29,10 @@ class LatticeSamples {
 
  private:
   Vec3 position(const LatticePoint& p) const { return low_ + unit_ * Vec3(p[0], p[1], p[2]); }
+  struct Slot {
+    std::uint64_t key;
+    int next_index = 0;  ///< index + 1; 0 = free
+  };
   std::size_t slot_of(std::uint64_t key) const;
   void evaluate_range(int begin, int end);
   void grow();
@@ -41,7 +45,7 @@ class LatticeSamples {
   std::vector<ExactDistance::Sample> samples_;
   std::vector<LatticePoint> points_;
   std::vector<int> guesses_;
-  std::vector<int> slots_;  ///< open addressing; index + 1, 0 = free
+  std::vector<Slot> slots_;  ///< open addressing
 };
 
 }  // namespace furrow::physics

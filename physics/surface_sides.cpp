@@ -27,7 +27,10 @@ double volume_of(const TriangleMesh& mesh, const Vec3& centre) {
 }  // namespace
 
 SurfaceSides::SurfaceSides(const TriangleMesh& mesh, const TriangleBvh& bvh)
-    : bvh_(bvh), topology_(surface_topology(mesh)), winding_(bvh), outer_(mesh.triangles.size(), unknown),
+    : bvh_(bvh),
+      topology_(surface_topology(mesh)),
+      winding_(bvh),
+      outer_(mesh.triangles.size(), unknown),
       dropped_(mesh.triangles.size(), 0) {
   report_.closed = topology_.closed;
   report_.border_edges = topology_.border_edges;
@@ -66,7 +69,8 @@ void SurfaceSides::number_parts(const std::vector<char>& crossed) {
       const auto& [a, b, c] = bvh_.corners(t);
       return (b - a).cross(c - a).norm();
     };
-    const int largest = *std::max_element(part.begin(), part.end(), [&](int s, int t) { return area(s) < area(t); });
+    const int largest =
+        *std::max_element(part.begin(), part.end(), [&](int s, int t) { return area(s) < area(t); });
     const int w = static_cast<int>(std::lround(beside(largest, 1)));
     for (int t : part) outer_[t] = w;
   }
@@ -85,8 +89,10 @@ void SurfaceSides::leave_out_unsound(const std::vector<char>& crossed) {
 void SurfaceSides::find_inner_walls(const std::vector<char>& crossed) {
   for (std::size_t t = 0; t < outer_.size(); ++t) {
     const int i = static_cast<int>(t);
-    if (outer_[t] != unknown) dropped_[t] = outer_[t] >= 1;
-    else if (!topology_.closed && !crossed[t]) dropped_[t] = beside(i, 1) > 0.5 && beside(i, -1) > 0.5;
+    if (outer_[t] != unknown)
+      dropped_[t] = outer_[t] >= 1;
+    else if (!topology_.closed && !crossed[t])
+      dropped_[t] = beside(i, 1) > 0.5 && beside(i, -1) > 0.5;
   }
   report_.dropped_triangles = static_cast<int>(std::count(dropped_.begin(), dropped_.end(), 1));
   if (report_.dropped_triangles < static_cast<int>(dropped_.size())) return;
@@ -106,7 +112,8 @@ void SurfaceSides::compare_signs(const TriangleMesh& mesh, const TriangleBvh& bv
     const auto& [a, b, c] = bvh.corners(t);
     const double s = u + v < 1 ? u : 1 - u, r = u + v < 1 ? v : 1 - v;
     const Vec3 on = a + s * (b - a) + r * (c - a);
-    const Vec3 x = on + (i % 2 ? reach : -reach) * (0.1 + 0.9 * spread(i, 0.6180339887498949)) * topology_.normals[t];
+    const Vec3 x =
+        on + (i % 2 ? reach : -reach) * (0.1 + 0.9 * spread(i, 0.6180339887498949)) * topology_.normals[t];
     const ClosestPoint q = bvh.closest(x, t);
     const bool by_winding = winding_.at(x) > 0.5;
     const bool by_normal = (x - q.point).dot(pseudonormal(topology_, q.triangle, q.feature)) < 0;
@@ -117,8 +124,10 @@ void SurfaceSides::compare_signs(const TriangleMesh& mesh, const TriangleBvh& bv
   }
   report_.disagreement = report_.samples ? static_cast<double>(differing) / report_.samples : 0;
   const bool plain = std::all_of(outer_.begin(), outer_.end(), [](int w) { return w == 0; });
-  if (differing_known > most_disagreement * known) report_.rule = SignRule::winding;
-  else if (plain && report_.disagreement <= most_disagreement) report_.rule = SignRule::pseudonormal;
+  if (differing_known > most_disagreement * known)
+    report_.rule = SignRule::winding;
+  else if (plain && report_.disagreement <= most_disagreement)
+    report_.rule = SignRule::pseudonormal;
 }
 
 bool SurfaceSides::inside(const Vec3& x, const ClosestPoint& q) const {

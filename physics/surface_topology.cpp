@@ -83,7 +83,8 @@ std::vector<HalfEdge> sorted_half_edges(const SurfaceTopology& s) {
 }
 
 void join_neighbours(SurfaceTopology& s) {
-  s.neighbours.assign(s.triangles.size(), {SurfaceTopology::none, SurfaceTopology::none, SurfaceTopology::none});
+  s.neighbours.assign(s.triangles.size(),
+                      {SurfaceTopology::none, SurfaceTopology::none, SurfaceTopology::none});
   s.closed = true;
   const std::vector<HalfEdge> edges = sorted_half_edges(s);
   for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {

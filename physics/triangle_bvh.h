@@ -17,19 +17,22 @@ struct ClosestPoint {
   Feature feature;          ///< of that triangle
 };
 
-/// Tree of boxes over triangles, four children a node and four triangles a leaf, for exact closest points. Boxes and
-/// leaves are searched in float with a bound on its rounding; the triangles that can be closest are then computed
-/// in double. The order of the search depends on nothing but the input. Source: method S1.9.
+/// Tree of boxes over triangles, four children a node and four triangles a leaf, for exact closest points.
+/// Boxes and leaves are searched in float with a bound on its rounding; the triangles that can be closest are
+/// then computed in double. The order of the search depends on nothing but the input. Source: method S1.9.
 class TriangleBvh {
  public:
+  static constexpr int leaf_size = 4;
+  static constexpr float far_away = 1e15f;  ///< where empty lanes lie [m]; its square is a finite float
+
   /// Four boxes; child >= 0 is a node, child < 0 the leaf ~child, `none` no child (its box is far away).
   struct Node {
     static constexpr int none = -2147483647 - 1;
     Float4 middle[3], half[3];  ///< centre relative to centre() and half the edges [m]
     std::array<int, 4> child;
   };
-  /// Four triangles: corner a, edges e1 = b - a and e2 = c - a, unit normal, the edges' products and inverses, and
-  /// det = g11 g22 - g12^2, negative for a triangle without area: its plane says nothing.
+  /// Four triangles: corner a, edges e1 = b - a and e2 = c - a, unit normal, the edges' products and
+  /// inverses, and det = g11 g22 - g12^2, negative for a triangle without area: its plane says nothing.
   struct Leaf {
     Float4 a[3], e1[3], e2[3], n[3];
     Float4 g11, g12, g22, det, inverse11, inverse22, inverse33;
@@ -39,15 +42,18 @@ class TriangleBvh {
   /// Needs check_body(mesh). Cost O(T log T), 100,000 triangles: about 0.06 s.
   explicit TriangleBvh(const TriangleMesh& mesh);
 
-  /// Leaves the triangles with dropped[t] != 0 out of closest(). At least one must stay (std::invalid_argument).
+  /// Leaves the triangles with dropped[t] != 0 out of closest(). At least one must stay
+  /// (std::invalid_argument).
   void drop(std::span<const char> dropped);
 
   /// Exact closest point (up to double rounding) over the triangles that are not dropped.
   ClosestPoint closest(const Vec3& x) const { return closest(x, first_kept_); }
-  /// The same; a triangle near x as first guess makes it faster (and is the answer beyond 1e12 m and for NaN).
+  /// The same; a triangle near x as first guess makes it faster (and is the answer beyond 1e12 m and for
+  /// NaN).
   ClosestPoint closest(const Vec3& x, int guess) const;
 
-  /// Appends the triangles whose leaf's box meets the box [low, high]: unsorted, some farther, no kept one missing.
+  /// Appends the triangles whose leaf's box meets the box [low, high]: unsorted, some farther, no kept one
+  /// missing.
   void append_near(const Vec3& low, const Vec3& high, std::vector<int>& triangles) const;
 
   std::span<const Node> nodes() const { return nodes_; }  ///< the root first, parents before children
@@ -56,7 +62,8 @@ class TriangleBvh {
   const Vec3& centre() const { return centre_; }
 
  private:
-  int build(const std::vector<Vec3>& centroids, const TriangleMesh& mesh, std::vector<int>& order, int begin, int end);
+  int build(const std::vector<Vec3>& centroids, const TriangleMesh& mesh, std::vector<int>& order, int begin,
+            int end);
   int add_leaf(const TriangleMesh& mesh, const std::vector<int>& order, int begin, int end);
   void set_lane(int leaf, int lane, bool used);
   void refit(std::span<const char> dropped);

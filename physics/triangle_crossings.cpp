@@ -33,7 +33,8 @@ bool folded(const Vec3& m, const Vec3& n) { return m.dot(n) < -1 + 1e-9; }
 /// Pair that shares no edge; `shared` counts common corners (0 or 1), which come first in s and t.
 bool pair_meets(const Corners& s, const Corners& t, int shared) {
   if (shared == 1)
-    return segment_meets_triangle(s[1], s[2], t[0], t[1], t[2]) || segment_meets_triangle(t[1], t[2], s[0], s[1], s[2]);
+    return segment_meets_triangle(s[1], s[2], t[0], t[1], t[2]) ||
+           segment_meets_triangle(t[1], t[2], s[0], s[1], s[2]);
   for (int k = 0; k < 3; ++k)
     if (segment_meets_triangle(s[k], s[(k + 1) % 3], t[0], t[1], t[2]) ||
         segment_meets_triangle(t[k], t[(k + 1) % 3], s[0], s[1], s[2]))
@@ -68,7 +69,8 @@ bool boxes_apart(const Corners& s, const Corners& t, double slack) {
 bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a, aq = q - a;
   const Vec3 n = ab.cross(ac);
-  const double size = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), ap.squaredNorm(), aq.squaredNorm()}));
+  const double size =
+      std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), ap.squaredNorm(), aq.squaredNorm()}));
   const double slack = 1e-9 * size, area = n.norm();
   if (area <= 1e-9 * size * size) {  // no plane to speak of: box against box
     return !boxes_apart({p, q, q}, {a, b, c}, slack);

@@ -16,8 +16,8 @@ void check_body(const TriangleMesh& mesh, const char* who) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (int v : mesh.triangles[t]) {
       if (v < 0 || v >= vertices)
-        throw std::invalid_argument(start + "triangle " + std::to_string(t) + " names vertex " + std::to_string(v) +
-                                    " of " + std::to_string(vertices));
+        throw std::invalid_argument(start + "triangle " + std::to_string(t) + " names vertex " +
+                                    std::to_string(v) + " of " + std::to_string(vertices));
       if (!(mesh.vertices[v].cwiseAbs().sum() <= 1e9))  // also false for NaN
         throw std::invalid_argument(start + "vertex " + std::to_string(v) + " is not finite or beyond 1e9 m");
     }

@@ -46,7 +46,8 @@ WindingNumber::Dipole WindingNumber::of_leaf(int leaf) const {
   sum.centre = sum.area > 0 ? Vec3(sum.centre / sum.area) : box.center();
   for (int t : bvh_.leaves()[leaf].triangle)
     if (t != TriangleBvh::Node::none)
-      for (const Vec3& corner : bvh_.corners(t)) sum.radius = std::max(sum.radius, (corner - sum.centre).norm());
+      for (const Vec3& corner : bvh_.corners(t))
+        sum.radius = std::max(sum.radius, (corner - sum.centre).norm());
   return sum;
 }
 

@@ -6,9 +6,10 @@
 
 namespace furrow::physics {
 
-/// Generalized winding number of a triangle soup: 1 inside and 0 outside of a closed body, 2 where two bodies overlap,
-/// between them near holes. Boxes farther than beta = 2 radii count as one dipole (first order), all others exactly,
-/// so it is off by a few hundredths at most. Source: Barill et al. 2018, Fast winding numbers for soups and clouds; method S1.9.
+/// Generalized winding number of a triangle soup: 1 inside and 0 outside of a closed body, 2 where two bodies
+/// overlap, between them near holes. Boxes farther than beta = 2 radii count as one dipole (first order), all
+/// others exactly, so it is off by a few hundredths at most. Source: Barill et al. 2018, Fast winding numbers
+/// for soups and clouds; method S1.9.
 class WindingNumber {
  public:
   /// Takes the tree before drop(): all triangles count. Keeps a reference to it. Cost O(T).
@@ -19,10 +20,10 @@ class WindingNumber {
 
  private:
   struct Dipole {
-    Vec3 centre;           ///< area-weighted [m]
-    Vec3 area_vector;      ///< sum of area times normal [m^2]
-    double area = 0;       ///< [m^2]
-    double radius = 0;     ///< of a ball around centre that holds the triangles [m]
+    Vec3 centre;        ///< area-weighted [m]
+    Vec3 area_vector;   ///< sum of area times normal [m^2]
+    double area = 0;    ///< [m^2]
+    double radius = 0;  ///< of a ball around centre that holds the triangles [m]
   };
   Dipole of_leaf(int leaf) const;
   Dipole of_node(int node) const;

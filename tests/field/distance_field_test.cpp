@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "physics/distance_field.h"
 
+#include <rapidcheck.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
-#include <rapidcheck.h>
 
 #include "tests/field/field_inputs.h"
 #include "tests/test_paths.h"
@@ -37,7 +38,8 @@ double largest_jump(const DistanceField& field, int points) {
     Vec3 x;
     for (int k = 0; k < 3; ++k) x[k] = field.low()[k] + field.size() * uniform(random, 0.001, 0.999);
     for (int k = 0; k < 3; ++k)  // on a face, and often on an edge or a corner
-      if (k == i % 3 || random() % 2) x[k] = field.low()[k] + unit * std::round((x[k] - field.low()[k]) / unit);
+      if (k == i % 3 || random() % 2)
+        x[k] = field.low()[k] + unit * std::round((x[k] - field.low()[k]) / unit);
     const Vec3 delta = 1e-11 * field.size() * random_direction(random);
     largest = std::max(largest, std::abs(field.at(x + delta).value - field.at(x - delta).value));
   }
@@ -71,7 +73,8 @@ Errors band_errors(const DistanceField& field, const ExactDistance& exact, const
 void check_surface(const DistanceField& field, const TriangleMesh& m, int count) {
   std::mt19937_64 random(13);
   double largest = 0;
-  for (int i = 0; i < count; ++i) largest = std::max(largest, std::abs(field.at(on_surface(m, random)).value));
+  for (int i = 0; i < count; ++i)
+    largest = std::max(largest, std::abs(field.at(on_surface(m, random)).value));
   CHECK(largest <= 1.5 * field.report().tolerance);
 }
 
@@ -86,7 +89,8 @@ void check_gradient_inside_cells(const DistanceField& field, int count) {
     const Vec3 gradient = field.at(x).gradient;
     for (int k = 0; k < 3; ++k) {
       const Vec3 step = h * Vec3::Unit(k);
-      largest = std::max(largest, std::abs((field.at(x + step).value - field.at(x - step).value) / (2 * h) - gradient[k]));
+      largest = std::max(
+          largest, std::abs((field.at(x + step).value - field.at(x - step).value) / (2 * h) - gradient[k]));
     }
   }
   CHECK(largest < 1e-5);
@@ -237,11 +241,14 @@ TEST_CASE("one triangle has a field: a sheet without an inside") {
 }
 
 TEST_CASE("the default tolerance is the thousandth part of the diagonal, at most 2 mm") {
-  const DistanceField small = DistanceField::build(furrow::tests::box({0, 0, 0}, {0.1, 0.2, 0.2}));
-  CHECK(small.report().tolerance == Approx(3e-4));
   DistanceFieldOptions options;
-  options.max_depth = 6;
-  CHECK(DistanceField::build(furrow::tests::box({0, 0, 0}, {10, 10, 10}), options).report().tolerance == 2e-3);
+  options.max_depth = 5;
+  options.band_depth = 5;
+  const DistanceField small = DistanceField::build(furrow::tests::box({0, 0, 0}, {0.1, 0.2, 0.2}), options);
+  CHECK(small.report().tolerance == Approx(3e-4));
+  CHECK(small.report().leaves_at_max_depth > 0);
+  CHECK(DistanceField::build(furrow::tests::box({0, 0, 0}, {10, 10, 10}), options).report().tolerance ==
+        2e-3);
 }
 
 TEST_CASE("bad options and bodies are refused by name") {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "physics/exact_distance.h"
 
+#include <rapidcheck.h>
+
 #include <catch2/catch.hpp>
 #include <limits>
-#include <rapidcheck.h>
 
 #include "tests/field/field_inputs.h"
 #include "tests/test_paths.h"
@@ -34,7 +35,8 @@ double wrong_signs(const ExactDistance& exact, double reach, double away, Inside
   std::mt19937_64 random(5);
   int wrong = 0, seen = 0;
   while (seen < 2000) {
-    const Vec3 x(uniform(random, -reach, reach), uniform(random, -reach, reach), uniform(random, -reach, reach));
+    const Vec3 x(uniform(random, -reach, reach), uniform(random, -reach, reach),
+                 uniform(random, -reach, reach));
     const double d = exact.at(x).value;
     if (std::abs(d) < away) continue;
     ++seen;
@@ -107,7 +109,8 @@ TEST_CASE("a body inside a body is an inner wall") {
 }
 
 TEST_CASE("a cavity with its faces turned inwards stays outside") {
-  TriangleMesh m = furrow::tests::sphere(16, 1), hole = furrow::tests::box({-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3});
+  TriangleMesh m = furrow::tests::sphere(16, 1),
+               hole = furrow::tests::box({-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3});
   for (auto& t : hole.triangles) std::swap(t[0], t[1]);
   furrow::tests::append(m, hole);
   const ExactDistance exact(m);
@@ -118,7 +121,8 @@ TEST_CASE("a cavity with its faces turned inwards stays outside") {
 
 TEST_CASE("flipped and missing triangles leave the sign right away from the surface") {
   TriangleMesh flipped = furrow::tests::sphere(24, 1), open = flipped;
-  for (std::size_t t = 0; t < flipped.triangles.size(); t += 20) std::swap(flipped.triangles[t][0], flipped.triangles[t][1]);
+  for (std::size_t t = 0; t < flipped.triangles.size(); t += 20)
+    std::swap(flipped.triangles[t][0], flipped.triangles[t][1]);
   const auto inside = [](const Vec3& x) { return x.norm() < 1; };
   const ExactDistance of_flipped(flipped);
   CHECK(of_flipped.report().rule == SignRule::winding);

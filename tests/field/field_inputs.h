@@ -65,11 +65,14 @@ inline physics::TriangleMesh sphere(int rings, double radius, const physics::Vec
     for (int k = 0; k < around; ++k) {
       const double polar = pi * r / rings, turn = 2 * pi * k / around;
       m.vertices.push_back(centre + radius * physics::Vec3(std::sin(polar) * std::cos(turn),
-                                                           std::sin(polar) * std::sin(turn), std::cos(polar)));
+                                                           std::sin(polar) * std::sin(turn),
+                                                           std::cos(polar)));
     }
   const int last = static_cast<int>(m.vertices.size());
   m.vertices.push_back(centre - physics::Vec3(0, 0, radius));
-  const auto at = [&](int r, int k) { return r == 0 ? 0 : r == rings ? last : 1 + (r - 1) * around + k % around; };
+  const auto at = [&](int r, int k) {
+    return r == 0 ? 0 : r == rings ? last : 1 + (r - 1) * around + k % around;
+  };
   for (int r = 0; r < rings; ++r)
     for (int k = 0; k < around; ++k) {
       if (r + 1 < rings) m.triangles.push_back({at(r, k), at(r + 1, k), at(r + 1, k + 1)});

@@ -5,10 +5,10 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
+#include <rapidcheck.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <rapidcheck.h>
 
 #include "physics/surface_topology.h"
 #include "physics/triangle_crossings.h"
@@ -24,9 +24,10 @@ TriangleMesh random_soup(std::mt19937_64& random, int count, double triangle_siz
   for (int t = 0; t < count; ++t) {
     const Vec3 centre(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
     for (int k = 0; k < 3; ++k)
-      m.vertices.push_back(centre + triangle_size * Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)));
+      m.vertices.push_back(centre + triangle_size * Vec3(uniform(random, -1, 1), uniform(random, -1, 1),
+                                                         uniform(random, -1, 1)));
     if (t % 5 == 0) m.vertices.back() = m.vertices[3 * t] + 1e-9 * Vec3(1, 2, 3);  // a needle
-    if (t % 7 == 0) m.vertices.back() = m.vertices[3 * t];                          // no area
+    if (t % 7 == 0) m.vertices.back() = m.vertices[3 * t];                         // no area
     m.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
   return m;
@@ -76,7 +77,8 @@ TEST_CASE("the closest point agrees with CGAL's tree on a dense sphere, also fro
   for (int i = 0; i < 2000; ++i) {
     Vec3 x(5, -3, 2);
     if (i > 0) x += Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
-    REQUIRE(bvh.closest(x).squared_distance == Approx(tree.squared_distance(point(x))).epsilon(1e-11).margin(1e-22));
+    REQUIRE(bvh.closest(x).squared_distance ==
+            Approx(tree.squared_distance(point(x))).epsilon(1e-11).margin(1e-22));
   }
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "physics/winding_number.h"
 
-#include <catch2/catch.hpp>
 #include <rapidcheck.h>
+
+#include <catch2/catch.hpp>
 
 #include "tests/field/field_inputs.h"
 
@@ -13,7 +14,8 @@ using furrow::tests::uniform;
 
 double by_sum(const TriangleMesh& m, const Vec3& x) {
   double w = 0;
-  for (const auto& [a, b, c] : m.triangles) w += winding_of_triangle(x, m.vertices[a], m.vertices[b], m.vertices[c]);
+  for (const auto& [a, b, c] : m.triangles)
+    w += winding_of_triangle(x, m.vertices[a], m.vertices[b], m.vertices[c]);
   return w;
 }
 
@@ -42,8 +44,10 @@ TEST_CASE("the fast winding number follows the exact sum on open and flipped bod
     TriangleMesh m = furrow::tests::sphere(10, 1);
     for (int i = 0; i < 20; ++i) {
       const std::size_t t = random() % m.triangles.size();
-      if (i % 2) m.triangles.erase(m.triangles.begin() + static_cast<std::ptrdiff_t>(t));
-      else std::swap(m.triangles[t][0], m.triangles[t][1]);
+      if (i % 2)
+        m.triangles.erase(m.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+      else
+        std::swap(m.triangles[t][0], m.triangles[t][1]);
     }
     const TriangleBvh bvh(m);
     const WindingNumber w(bvh);
