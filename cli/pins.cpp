@@ -38,7 +38,7 @@ void add_pin_options(CLI::App& sub, PinArguments& a) {
   sub.add_option("--pin-vertices", a.vertices, "hold vertices, by their indices from 0")->delimiter(',');
 }
 
-void pin(physics::Cloth& cloth, const io::MeshFile& file, const PinArguments& a) {
+std::vector<int> pin(physics::Cloth& cloth, const io::MeshFile& file, const PinArguments& a) {
   std::vector<int> pins;
   for (const std::string& text : a.boxes) add_named(pins, box(file.mesh, text), "--pin-box " + text);
   const std::vector<geometry::BorderLoop> loops = geometry::border_loops(file.mesh);
@@ -52,6 +52,7 @@ void pin(physics::Cloth& cloth, const io::MeshFile& file, const PinArguments& a)
     pins.push_back(v);
   }
   physics::pin(cloth.particles, pins);
+  return pins;
 }
 
 }  // namespace furrow::cli

@@ -18,7 +18,7 @@ struct PinArguments {
 };
 void add_pin_options(CLI::App& sub, PinArguments& a);
 
-/// Pins what the arguments name. Throws UsageError for one that names nothing.
-void pin(physics::Cloth& cloth, const io::MeshFile& file, const PinArguments& a);
+/// Pins what the arguments name and returns their indices. Throws UsageError for one that names nothing.
+std::vector<int> pin(physics::Cloth& cloth, const io::MeshFile& file, const PinArguments& a);
 
 }  // namespace furrow::cli

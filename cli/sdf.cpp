@@ -17,7 +17,12 @@ struct SdfArguments : CommonArguments {
 };
 
 const char* to_text(physics::SignRule rule) {
-  return rule == physics::SignRule::pseudonormal ? "pseudonormal" : "winding number";
+  switch (rule) {
+    case physics::SignRule::pseudonormal: return "pseudonormal";
+    case physics::SignRule::sides: return "sides of the uncrossed parts, winding number where they cross";
+    case physics::SignRule::winding: return "winding number";
+  }
+  return "";
 }
 
 /// Error of the field at points of a lattice in its band [m], by exact distance.

@@ -17,6 +17,7 @@
 #include "geometry/stiffness.h"
 #include "geometry/wrinkle.h"
 #include "io/wrinkle_record.h"
+#include "physics/push_out.h"
 #include "physics/simulate.h"
 
 namespace furrow::cli {
@@ -55,6 +56,16 @@ physics::SimulateOptions to_options(const SimulateArguments& a) {
   return o;
 }
 
+/// The simulation does not move pins, so those that start inside the body are put on its surface.
+void take_pins_out(physics::Cloth& cloth, const std::vector<int>& pins, const BodyCollider& body,
+                   const CommonArguments& common) {
+  const physics::PushOutReport report = physics::push_out(cloth.particles.x, pins, body.exact);
+  if (report.moved)
+    warn(std::to_string(report.moved) + " pinned vertices were inside the body; moved onto it, by " +
+             std::to_string(1000 * report.farthest) + " mm at most", common);
+  if (report.still_inside) warn(std::to_string(report.still_inside) + " of them could not be brought out", common);
+}
+
 int finish(const physics::SimulateReport& report, const SimulateArguments& a) {
   if (report.outcome == physics::Outcome::diverged) {
     std::cerr << "error: the simulation diverged at " << report.time << " s with steps of " << report.dt
@@ -73,11 +84,12 @@ int simulate(SimulateArguments a) {
   const io::WrinkleRecord record = complete(file, a);
   physics::Cloth cloth = bridge::gather(
       file.mesh, {a.structural, a.bending, record.mean_structural_length, record.mean_bending_length});
-  pin(cloth, file, a.pins);
+  const std::vector<int> pins = pin(cloth, file, a.pins);
   std::optional<BodyCollider> body;
   if (!a.body.path.empty()) {
     body = load_body(a.body, a);
     a.options.contact_gap = contact_gap(a.options.contact_gap, *body, file.mesh);
+    take_pins_out(cloth, pins, *body, a);
   }
   const std::vector<double> heights = line_heights_by_id(file.mesh);
   catch_interrupts();

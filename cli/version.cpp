@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CGAL/version.h>
 #include <assimp/version.h>
-#include <embree3/rtcore_version.h>
+#include <embree3/rtcore_config.h>
 #include <png.h>
 
 #include <Eigen/Core>

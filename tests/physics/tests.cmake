@@ -7,6 +7,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   leapfrog_step_test.cpp
   packed_cloth_test.cpp
   pins_test.cpp
+  push_out_test.cpp
   residual_force_test.cpp
   simulate_test.cpp
   spring_forces_test.cpp
