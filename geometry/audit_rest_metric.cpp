@@ -14,7 +14,9 @@ RestMetricAudit audit_rest_metric(const Mesh& mesh) {
   const auto rest = find_map(mesh, kRestLength);
   const auto length = [&](Halfedge h) {
     const double set = rest ? (*rest)[mesh.edge(h)] : kUnset;
-    return set == set ? set : std::sqrt(CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))));
+    return set == set
+               ? set
+               : std::sqrt(CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))));
   };
   double least = std::numbers::pi / 3;
   for (Face f : mesh.faces()) {

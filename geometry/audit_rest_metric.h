@@ -7,7 +7,8 @@
 namespace furrow::geometry {
 
 struct RestMetricAudit {
-  std::size_t inverted_faces = 0;   ///< triangle inequality fails, or Heron area < 1e-12 of the longest edge squared
+  std::size_t inverted_faces =
+      0;  ///< triangle inequality fails, or Heron area < 1e-12 of the longest edge squared
   std::size_t duplicate_edges = 0;  ///< edges beyond the first between two vertices
   double min_angle_deg = 0;         ///< smallest angle of all faces; 0 if a face is inverted [degrees]
   double area = 0;                  ///< of all faces [m^2]

@@ -9,8 +9,8 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double kNearEnd = 0.2;    ///< part of a split edge below which the line goes through its end
-constexpr double kNearLine = 0.5;   ///< in h: a line's vertex this near to the crossing is taken
+constexpr double kNearEnd = 0.2;   ///< part of a split edge below which the line goes through its end
+constexpr double kNearLine = 0.5;  ///< in h: a line's vertex this near to the crossing is taken
 
 class Connector {
  public:
@@ -46,7 +46,7 @@ class Connector {
       split(link, *edge);
     } else {
       link.between = shortest_edge_path(editor_.mesh(), editor_.rest(), link.from, link.to);
-      ++report_.snapped;
+      ++report_.routed;
     }
     lock_path(link);
   }
@@ -76,10 +76,11 @@ class Connector {
     const Vertex a = mesh.source(h), b = mesh.target(h);
     const bool stroke_crossed_it = a == link.a && b == link.b;
     const double t = stroke_crossed_it ? link.t : 0.5, length = editor_.rest()[edge];
-    const double near = editor_.line_edge()[edge] ? std::max(kNearEnd, kNearLine * mean_edge_ / length) : kNearEnd;
+    const double near =
+        editor_.line_edge()[edge] ? std::max(kNearEnd, kNearLine * mean_edge_ / length) : kNearEnd;
     if (std::min(t, 1 - t) < near) {
       link.between = {t < 0.5 ? a : b};
-      ++report_.snapped;
+      ++report_.routed;
       return;
     }
     const Vertex middle = editor_.split_edge(h, t);
@@ -121,7 +122,8 @@ std::set<Edge> connect_line(MeshEditor& editor, std::vector<Link>& links, double
   return connector.fresh();
 }
 
-std::vector<Vertex> shortest_edge_path(const Mesh& mesh, const EdgeMap<double>& rest, Vertex from, Vertex to) {
+std::vector<Vertex> shortest_edge_path(const Mesh& mesh, const EdgeMap<double>& rest, Vertex from,
+                                       Vertex to) {
   std::map<Vertex, std::pair<double, Vertex>> best{{from, {0.0, from}}};
   std::set<std::pair<double, Vertex>> queue{{0.0, from}};
   std::set<Vertex> done;

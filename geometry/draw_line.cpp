@@ -11,7 +11,7 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double kReuse = 0.5;     ///< in h: a node this near to an earlier line's vertex takes it
+constexpr double kReuse = 0.5;       ///< in h: a node this near to an earlier line's vertex takes it
 constexpr double kLeastEdge = 0.25;  ///< h_min in h
 constexpr int kGenerations = 2;
 
@@ -27,8 +27,14 @@ class LineDrawing {
  public:
   LineDrawing(DrawnLine& out, const TracedStroke& traced, const LinePlan& plan, int line_id, double mean_edge,
               const InsertionOptions& options)
-      : out_(out), report_(out.insertion.report), editor_(out.mesh), traced_(traced), plan_(plan),
-        line_id_(line_id), mean_edge_(mean_edge), options_(options) {}
+      : out_(out),
+        report_(out.insertion.report),
+        editor_(out.mesh),
+        traced_(traced),
+        plan_(plan),
+        line_id_(line_id),
+        mean_edge_(mean_edge),
+        options_(options) {}
 
   void run() {
     choose_nodes();
@@ -76,7 +82,8 @@ class LineDrawing {
     if (reused) return ++report_.reused, corners[*reused];
     const auto place = plan_.places.find(visit.face);
     const bool small = too_small(editor_, visit.face, mean_edge_);
-    if (!small && (place == plan_.places.end() || place->second != LinePlan::Place::corner)) return std::nullopt;
+    if (!small && (place == plan_.places.end() || place->second != LinePlan::Place::corner))
+      return std::nullopt;
     report_.too_small += small;
     ++report_.snapped;
     return corners[std::min_element(away.begin(), away.end()) - away.begin()];
@@ -114,7 +121,8 @@ class LineDrawing {
       for (const CrossedFace& visit : part.faces) {
         if (!visit.exit || mesh.is_border(mesh.edge(visit.exit->halfedge))) continue;
         const Face next = mesh.face(mesh.opposite(visit.exit->halfedge));
-        if (nodes_.count(visit.face) == 0 && nodes_.count(next) == 0) edges.insert(mesh.edge(visit.exit->halfedge));
+        if (nodes_.count(visit.face) == 0 && nodes_.count(next) == 0)
+          edges.insert(mesh.edge(visit.exit->halfedge));
       }
     }
     return edges;
@@ -224,8 +232,8 @@ class LineDrawing {
 
 }  // namespace
 
-DrawnLine draw_line(const Mesh& mesh, const TracedStroke& traced, const LinePlan& plan, int line_id, double mean_edge,
-                    const InsertionOptions& options) {
+DrawnLine draw_line(const Mesh& mesh, const TracedStroke& traced, const LinePlan& plan, int line_id,
+                    double mean_edge, const InsertionOptions& options) {
   DrawnLine out;
   out.mesh = mesh;
   out.insertion.line.id = line_id;

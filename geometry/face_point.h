@@ -9,8 +9,8 @@ namespace furrow::geometry {
 
 using Barycentrics = std::array<double, 3>;  ///< weights of the corners [-]; their sum is 1
 
-/// A point in a triangle. Corner i is the source of the i-th halfedge, counted from mesh.halfedge(face): it holds
-/// until the face is changed.
+/// A point in a triangle. Corner i is the source of the i-th halfedge, counted from mesh.halfedge(face): it
+/// holds until the face is changed.
 struct FacePoint {
   Face face;
   Barycentrics barycentrics;

@@ -27,7 +27,8 @@ std::optional<Refusal> refusal_of_flip(const MeshEditor& editor, Edge edge, cons
   const Vertex a = mesh.source(h), b = mesh.target(h);
   const Vertex c = mesh.target(mesh.next(h)), d = mesh.target(mesh.next(o));
   const bool duplicate = c == d || mesh.halfedge(c, d).is_valid();
-  if (options.rule == InsertionRule::paper) return duplicate ? std::optional(Refusal::duplicate_edge) : std::nullopt;
+  if (options.rule == InsertionRule::paper)
+    return duplicate ? std::optional(Refusal::duplicate_edge) : std::nullopt;
   if (editor.line_edge()[edge]) return Refusal::line_edge;
   if (editor.is_seam(edge)) return Refusal::seam;
   if (duplicate) return Refusal::duplicate_edge;

@@ -19,7 +19,8 @@ double squared_distance_to_segment(const Point& p, const Point& a, const Point& 
 }
 
 /// The longest rest edge of each crossed face and the faces crossed before and after it.
-std::map<Face, double> longest_edges_around(const Mesh& mesh, const EdgeMap<double>& rest, const TracedStroke& traced) {
+std::map<Face, double> longest_edges_around(const Mesh& mesh, const EdgeMap<double>& rest,
+                                            const TracedStroke& traced) {
   std::map<Face, double> longest;
   for (const SubStroke& part : traced.sub_strokes) {
     const auto edge_of = [&](std::size_t i) {
@@ -28,7 +29,8 @@ std::map<Face, double> longest_edges_around(const Mesh& mesh, const EdgeMap<doub
     };
     for (std::size_t i = 0; i < part.faces.size(); ++i) {
       double& l = longest[part.faces[i].face];
-      for (std::size_t j = i > 0 ? i - 1 : 0; j < std::min(i + 2, part.faces.size()); ++j) l = std::max(l, edge_of(j));
+      for (std::size_t j = i > 0 ? i - 1 : 0; j < std::min(i + 2, part.faces.size()); ++j)
+        l = std::max(l, edge_of(j));
     }
   }
   return longest;
@@ -50,7 +52,8 @@ LineDeviation deviation_of(const DrawnLine& drawn, const Mesh& before, const Edg
     }
     const double distance = std::sqrt(squared);
     deviation.largest = std::max(deviation.largest, distance);
-    if (distance > 0.5 * std::max(mean_edge, longest.at(sample.point.face))) deviation.samples.push_back(sample);
+    if (distance > 0.5 * std::max(mean_edge, longest.at(sample.point.face)))
+      deviation.samples.push_back(sample);
   }
   return deviation;
 }
@@ -70,7 +73,8 @@ double smallest_angle_around(const Mesh& mesh, const EdgeMap<double>& rest, cons
   return least;
 }
 
-bool improve_plan(const DrawnLine& drawn, const LineDeviation& deviation, double least_angle, LinePlan& plan) {
+bool improve_plan(const DrawnLine& drawn, const LineDeviation& deviation, double least_angle,
+                  LinePlan& plan) {
   const auto rest = *find_map(drawn.mesh, kRestLength);
   LinePlan next = plan;
   bool changed = false;
@@ -93,7 +97,9 @@ bool improve_plan(const DrawnLine& drawn, const LineDeviation& deviation, double
       changed = true;
     }
     if (!fresh.empty()) continue;
-    const auto at_corner = [&](Vertex v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); };
+    const auto at_corner = [&](Vertex v) {
+      return std::find(corners.begin(), corners.end(), v) != corners.end();
+    };
     for (const auto& [link, edge] : drawn.links) {
       const bool here = (at_corner(link.from) && at_corner(link.to)) ||
                         std::any_of(link.between.begin(), link.between.end(), at_corner);

@@ -8,8 +8,9 @@ namespace furrow::geometry {
 
 /// How far a drawn line lies from the stroke's samples on cloth.
 struct LineDeviation {
-  double largest = 0;                  ///< [m]
-  std::vector<ProjectedSample> samples;  ///< farther than half the longest rest edge around them, and than h/2
+  double largest = 0;  ///< [m]
+  std::vector<ProjectedSample>
+      samples;  ///< farther than half the longest rest edge around them, and than h/2
 };
 
 /// "Around": of the sample's face and of the faces crossed before and after it, as they were before the line.
@@ -19,9 +20,10 @@ LineDeviation deviation_of(const DrawnLine& drawn, const Mesh& before, const Edg
 /// Smallest rest angle [rad] of the faces that a stroke crosses and of their edge neighbours.
 double smallest_angle_around(const Mesh& mesh, const EdgeMap<double>& rest, const TracedStroke& traced);
 
-/// Puts into `plan` what to do otherwise about the faces with an angle below `least_angle` [rad]: their new vertices go
-/// from the clamped place to the incenter, then to a corner; the links between corners alone go round. Vertices of faces
-/// with a sample too far away go towards that sample, then to its corner. Returns false if nothing is left to be changed.
+/// Puts into `plan` what to do otherwise about the faces with an angle below `least_angle` [rad]: their new
+/// vertices go from the clamped place to the incenter, then to a corner; the links between corners alone go
+/// round. Vertices of faces with a sample too far away go towards that sample, then to its corner. Returns
+/// false if nothing is left to be changed.
 bool improve_plan(const DrawnLine& drawn, const LineDeviation& deviation, double least_angle, LinePlan& plan);
 
 }  // namespace furrow::geometry

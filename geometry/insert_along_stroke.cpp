@@ -29,9 +29,11 @@ bool better(const Round& a, const Round& b, double least_angle) {
 
 }  // namespace
 
-Insertion insert_along_stroke(Mesh& mesh, const Stroke& stroke, int line_id, const InsertionOptions& options) {
+Insertion insert_along_stroke(Mesh& mesh, const Stroke& stroke, int line_id,
+                              const InsertionOptions& options) {
   check(options);
-  if (line_id < 0) throw std::invalid_argument("insertion: line_id must be >= 0, not " + std::to_string(line_id));
+  if (line_id < 0)
+    throw std::invalid_argument("insertion: line_id must be >= 0, not " + std::to_string(line_id));
   check_triangles(mesh);
   const SurfaceProjector projector(mesh);
   Mesh original = mesh;

@@ -17,12 +17,15 @@ void check_points(const Mesh& mesh, std::span<const FacePoint> points) {
   std::set<Face> seen;
   for (const FacePoint& p : points) {
     const std::string where = "insert_in_faces: face " + std::to_string(p.face);
-    if (!mesh.is_valid(p.face) || !mesh.has_valid_index(p.face)) throw std::invalid_argument(where + " is not in the mesh");
+    if (!mesh.is_valid(p.face) || !mesh.has_valid_index(p.face))
+      throw std::invalid_argument(where + " is not in the mesh");
     if (!seen.insert(p.face).second) throw std::invalid_argument(where + " is given twice");
     const double sum = p.barycentrics[0] + p.barycentrics[1] + p.barycentrics[2];
-    const bool inside = std::all_of(p.barycentrics.begin(), p.barycentrics.end(), [](double b) { return b > 0; });
+    const bool inside =
+        std::all_of(p.barycentrics.begin(), p.barycentrics.end(), [](double b) { return b > 0; });
     if (!inside || !(std::abs(sum - 1) < 1e-9)) {
-      throw std::invalid_argument(where + ": barycentrics must be > 0 and sum to 1, not " + std::to_string(sum));
+      throw std::invalid_argument(where + ": barycentrics must be > 0 and sum to 1, not " +
+                                  std::to_string(sum));
     }
   }
 }
@@ -55,7 +58,8 @@ void check_face(const Mesh& mesh, const EdgeMap<double>& rest, Face face) {
   }
 }
 
-std::vector<Edge> edges_in_flip_order(const Mesh& mesh, std::span<const Face> selected, const std::set<Edge>& skip) {
+std::vector<Edge> edges_in_flip_order(const Mesh& mesh, std::span<const Face> selected,
+                                      const std::set<Edge>& skip) {
   const std::set<Face> inside(selected.begin(), selected.end());
   std::set<Edge> seen = skip;
   std::vector<Edge> shared, rim;
@@ -95,7 +99,8 @@ void conclude(const MeshEditor& editor, InsertionReport& report) {
   report.min_angle_deg = least * 180 / std::numbers::pi;
 }
 
-InsertionReport insert_in_faces(Mesh& mesh, std::span<const FacePoint> points, const InsertionOptions& options) {
+InsertionReport insert_in_faces(Mesh& mesh, std::span<const FacePoint> points,
+                                const InsertionOptions& options) {
   check(options);
   check_triangles(mesh);
   check_points(mesh, points);

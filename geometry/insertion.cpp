@@ -9,21 +9,30 @@ namespace furrow::geometry {
 
 const char* to_string(Refusal refusal) {
   switch (refusal) {
-    case Refusal::border: return "border";
-    case Refusal::seam: return "seam";
-    case Refusal::line_edge: return "line edge";
-    case Refusal::duplicate_edge: return "duplicate edge";
-    case Refusal::not_convex: return "not convex";
-    case Refusal::valence: return "valence";
-    case Refusal::layer: return "layer";
-    case Refusal::quality: return "quality";
+    case Refusal::border:
+      return "border";
+    case Refusal::seam:
+      return "seam";
+    case Refusal::line_edge:
+      return "line edge";
+    case Refusal::duplicate_edge:
+      return "duplicate edge";
+    case Refusal::not_convex:
+      return "not convex";
+    case Refusal::valence:
+      return "valence";
+    case Refusal::layer:
+      return "layer";
+    case Refusal::quality:
+      return "quality";
   }
   return "unknown";
 }
 
 void check(const InsertionOptions& options) {
   const auto require = [](bool holds, const char* rule, double value) {
-    if (!holds) throw std::invalid_argument(std::string("insertion: ") + rule + ", not " + std::to_string(value));
+    if (!holds)
+      throw std::invalid_argument(std::string("insertion: ") + rule + ", not " + std::to_string(value));
   };
   require(options.max_distance > 0, "max_distance must be > 0 m", options.max_distance);
   require(options.min_barycentric >= 0 && options.min_barycentric <= 1.0 / 3,

@@ -38,7 +38,8 @@ struct InsertionOptions {
   double min_angle_deg = 8;      ///< aimed at in the rest metric [degrees]; [0, 30]; safe rule
   /// h: mean rest edge of the mesh before the first line [m]; > 0; none: of the mesh given.
   std::optional<double> mean_edge;
-  /// Asked before a flip of the edge 0-1 to 2-3; says whether the surface may sweep over the tetrahedron. Empty: yes.
+  /// Asked before a flip of the edge 0-1 to 2-3; says whether the surface may sweep over the tetrahedron.
+  /// Empty: yes.
   std::function<bool(const std::array<Point, 4>&)> may_flip;
 };
 /// Throws std::invalid_argument that names the option and its value.
@@ -74,10 +75,11 @@ struct InsertionReport {
   std::size_t delaunay_flips = 0;  ///< edges flipped afterwards, beside the line
   std::size_t folded_flips = 0;    ///< flips that folded a face over in the rest metric (paper rule only)
   std::size_t reused = 0;          ///< crossed faces that took a vertex of an earlier line
-  std::size_t snapped = 0;         ///< crossed faces that took a corner, and links led through a corner
+  std::size_t snapped = 0;         ///< crossed faces that took another corner instead of a new vertex
   std::size_t too_small = 0;       ///< of the snapped faces: too small or split too often already
-  std::size_t attempts = 1;        ///< rounds of the search for a line with good angles
-  std::size_t nudges = 0;          ///< times that the stroke was moved aside from vertices and edges
+  std::size_t routed = 0;    ///< pairs of consecutive faces joined through corners, each after a refused flip
+  std::size_t attempts = 1;  ///< rounds of the search for a line with good angles
+  std::size_t nudges = 0;    ///< times that the stroke was moved aside from vertices and edges
   std::map<Refusal, std::size_t> refused_flips;  ///< of Algorithm 2, not of the Delaunay flips
   std::vector<SplitEdge> split_edges;
   std::vector<MissingLineEdge> missing_edges;

@@ -101,17 +101,21 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
   const double length = rest_[edge];
   const bool line_edge = line_edge_[edge];
   const auto left = lengths_to_corners(
-      {length, rest_[mesh_.edge(mesh_.next(halfedge))], rest_[mesh_.edge(mesh_.prev(halfedge))]}, {1 - t, t, 0});
+      {length, rest_[mesh_.edge(mesh_.next(halfedge))], rest_[mesh_.edge(mesh_.prev(halfedge))]},
+      {1 - t, t, 0});
   const auto right = lengths_to_corners(
-      {length, rest_[mesh_.edge(mesh_.next(opposite))], rest_[mesh_.edge(mesh_.prev(opposite))]}, {t, 1 - t, 0});
+      {length, rest_[mesh_.edge(mesh_.next(opposite))], rest_[mesh_.edge(mesh_.prev(opposite))]},
+      {t, 1 - t, 0});
   std::array<std::array<TextureCoordinate, 3>, 2> texture{};  // a, b, apex of both sides
   const std::array<Halfedge, 2> inside{halfedge, opposite};
   for (int side = 0; texture_ && side < 2; ++side) {
-    texture[side] = {corner_in(inside[side], a), corner_in(inside[side], b), (*texture_)[mesh_.next(inside[side])]};
+    texture[side] = {corner_in(inside[side], a), corner_in(inside[side], b),
+                     (*texture_)[mesh_.next(inside[side])]};
   }
   const Point& pa = mesh_.point(a);
   const Point position = pa + t * (mesh_.point(b) - pa);
-  const Halfedge first = CGAL::Euler::split_edge(halfedge, mesh_);  // a to the new vertex; halfedge goes on to b
+  const Halfedge first =
+      CGAL::Euler::split_edge(halfedge, mesh_);  // a to the new vertex; halfedge goes on to b
   const Vertex middle = mesh_.target(first);
   mesh_.point(middle) = position;
   set_color(middle, {a, b, b}, {1 - t, t, 0});
@@ -138,9 +142,10 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
         unset_springs(mesh_.edge(h));
         const Vertex v = mesh_.target(h);
         if (!texture_) continue;
-        (*texture_)[h] = v == a ? corner[0] : v == b ? corner[1] : v == apex ? corner[2]
-                                                                            : blend({corner[0], corner[1], corner[1]},
-                                                                                    {1 - t, t, 0});
+        (*texture_)[h] = v == a      ? corner[0]
+                         : v == b    ? corner[1]
+                         : v == apex ? corner[2]
+                                     : blend({corner[0], corner[1], corner[1]}, {1 - t, t, 0});
       }
     }
   }
@@ -153,7 +158,8 @@ void MeshEditor::flip_edge(Edge edge) {
   const double length = unfold(mesh_, rest_, edge).flipped_length();
   const std::array<Face, 2> faces{mesh_.face(h), mesh_.face(mesh_.opposite(h))};
   const int generation = std::max(generation_[faces[0]], generation_[faces[1]]);
-  for (Halfedge side : {to_c, mesh_.prev(h), to_d, mesh_.prev(mesh_.opposite(h))}) unset_springs(mesh_.edge(side));
+  for (Halfedge side : {to_c, mesh_.prev(h), to_d, mesh_.prev(mesh_.opposite(h))})
+    unset_springs(mesh_.edge(side));
   CGAL::Euler::flip_edge(h, mesh_);
   rest_[edge] = length;
   line_edge_[edge] = false;
@@ -163,7 +169,8 @@ void MeshEditor::flip_edge(Edge edge) {
     changed_.insert(face);
   }
   if (!texture_) return;
-  for (Halfedge part : {h, mesh_.opposite(h)}) (*texture_)[part] = (*texture_)[mesh_.target(part) == c ? to_c : to_d];
+  for (Halfedge part : {h, mesh_.opposite(h)})
+    (*texture_)[part] = (*texture_)[mesh_.target(part) == c ? to_c : to_d];
 }
 
 bool MeshEditor::is_seam(Edge edge) const {

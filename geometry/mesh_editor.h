@@ -8,10 +8,11 @@
 
 namespace furrow::geometry {
 
-/// The three local operators of insertion on a triangle mesh. Each sets, beside the half-edges, the position, the rest
-/// lengths and every other map of property_names.h that the mesh has: corner texture coordinates and colours are
-/// interpolated, groups and materials copied; masses and bending springs of what changed become unset (their own
-/// operations compute them anew). Other maps get their defaults. Each operator is O(valence).
+/// The three local operators of insertion on a triangle mesh. Each sets, beside the half-edges, the position,
+/// the rest lengths and every other map of property_names.h that the mesh has: corner texture coordinates and
+/// colours are interpolated, groups and materials copied; masses and bending springs of what changed become
+/// unset (their own operations compute them anew). Other maps get their defaults. Each operator is
+/// O(valence).
 class MeshEditor {
  public:
   /// Adds the maps for rest lengths (in-space lengths where unset), lines, line edges and generations.
@@ -19,8 +20,8 @@ class MeshEditor {
 
   /// Splits a face in three at a point strictly inside.
   Vertex split_face(const FacePoint& point);
-  /// Splits the edge of an inner halfedge at t in (0, 1) from its source, and its two faces with it. Both halves keep
-  /// what the edge was (a line edge, a seam).
+  /// Splits the edge of an inner halfedge at t in (0, 1) from its source, and its two faces with it. Both
+  /// halves keep what the edge was (a line edge, a seam).
   Vertex split_edge(Halfedge halfedge, double t);
   /// Flips an inner edge; it is no line edge afterwards. The caller has asked the flip rules.
   void flip_edge(Edge edge);

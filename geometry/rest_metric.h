@@ -6,8 +6,8 @@
 #include "geometry/face_point.h"
 #include "geometry/property_names.h"
 
-/// The shape of the unstrained cloth, known by the rest lengths of its edges alone (an intrinsic triangulation).
-/// Positions in space play no part: a strained mesh has the same rest metric.
+/// The shape of the unstrained cloth, known by the rest lengths of its edges alone (an intrinsic
+/// triangulation). Positions in space play no part: a strained mesh has the same rest metric.
 namespace furrow::geometry {
 
 /// Rest lengths of a triangle [m]: entry i joins corner i and corner i + 1.
@@ -28,11 +28,13 @@ double triangle_area(const TriangleLengths& lengths);
 std::array<double, 3> triangle_angles(const TriangleLengths& lengths);
 double smallest_angle(const TriangleLengths& lengths);
 
-/// Whether the lengths are finite, > 0, keep the triangle inequality and span at least 1e-12 l^2 of area, l the longest.
+/// Whether the lengths are finite, > 0, keep the triangle inequality and span at least 1e-12 l^2 of area, l
+/// the longest.
 bool is_proper_triangle(const TriangleLengths& lengths);
 
 /// Distances [m] of the point of the given barycentrics from the corners: with u = barycentrics - e_i,
-/// l_pi^2 = -(l_01^2 u_0 u_1 + l_12^2 u_1 u_2 + l_20^2 u_2 u_0). (Sharp, Soliman, Crane 2019, displacement length.)
+/// l_pi^2 = -(l_01^2 u_0 u_1 + l_12^2 u_1 u_2 + l_20^2 u_2 u_0). (Sharp, Soliman, Crane 2019, displacement
+/// length.)
 std::array<double, 3> lengths_to_corners(const TriangleLengths& lengths, const Barycentrics& barycentrics);
 
 Barycentrics incenter(const TriangleLengths& lengths);
@@ -41,7 +43,7 @@ Barycentrics incenter(const TriangleLengths& lengths);
 struct UnfoldedPair {
   double length;
   std::array<double, 2> c, d;
-  double flipped_length() const;               ///< |cd|, the rest length of the edge after its flip
+  double flipped_length() const;                ///< |cd|, the rest length of the edge after its flip
   std::array<double, 2> flipped_areas() const;  ///< signed areas of (a, d, c) and (d, b, c) [m^2]
 };
 

@@ -28,7 +28,8 @@ EdgeCrossing seen_from_beyond(const Mesh& mesh, const EdgeCrossing& x) {
 }  // namespace
 
 StrokeHit StrokeTracer::hit_at(const SurfaceHit& hit, const Point& target, double parameter) const {
-  StrokeHit result{hit.point, hit.position, parameter, hit.beyond_border > 0.5 * options_.mean_edge, false, target};
+  StrokeHit result{hit.point, hit.position, parameter, hit.beyond_border > 0.5 * options_.mean_edge,
+                   false,     target};
   Barycentrics& b = result.point.barycentrics;
   result.degenerate = !hit.on_border && *std::min_element(b.begin(), b.end()) < kDegenerate;
   double excess = 0;
@@ -72,7 +73,8 @@ bool StrokeTracer::connect(const StrokeHit& from, const StrokeHit& to, int depth
   const StrokeHit half =
       hit_at(projector_.closest_among(middle, nearby), middle, 0.5 * (from.parameter + to.parameter));
   if (half.off_cloth) return false;
-  return connect(from, half, depth - 1, limit, path, length) && connect(half, to, depth - 1, limit, path, length);
+  return connect(from, half, depth - 1, limit, path, length) &&
+         connect(half, to, depth - 1, limit, path, length);
 }
 
 bool StrokeTracer::gap_between(const StrokeHit& from, const StrokeHit& to) const {
@@ -105,7 +107,8 @@ void StrokeTracer::add_sample(const StrokeHit& hit, std::size_t index) {
   samples_.push_back({hit.position, hit.point, index});
   CrossedFace& visit = sub_strokes_.back().faces.back();
   for (int i = 0; i < 3; ++i) visit.node[i] += hit.point.barycentrics[i];
-  visit.stroke_parameter = visit.samples == 0 ? hit.parameter : 0.5 * (visit.stroke_parameter + hit.parameter);
+  visit.stroke_parameter =
+      visit.samples == 0 ? hit.parameter : 0.5 * (visit.stroke_parameter + hit.parameter);
   ++visit.samples;
 }
 
@@ -160,7 +163,8 @@ void StrokeTracer::advance(const StrokeHit& from, StrokeHit to) {
   }
   const bool border = direct.end == SurfaceWalk::End::border;
   if (border) leave(from, to);
-  warnings_.push_back(name_ + ": broken at " + std::to_string(to.parameter) + " of its length: no way along the cloth");
+  warnings_.push_back(name_ + ": broken at " + std::to_string(to.parameter) +
+                      " of its length: no way along the cloth");
   if (border) {
     enter(from, to);
   } else {

@@ -44,22 +44,25 @@ std::vector<double> parameters_of(const Stroke& stroke) {
   return s;
 }
 
-std::vector<StrokeHit> project(const SurfaceProjector& projector, const StrokeTracer& tracer, const Stroke& stroke,
-                               const std::vector<Point>& points, const std::vector<double>& parameters,
-                               double max_distance) {
+std::vector<StrokeHit> project(const SurfaceProjector& projector, const StrokeTracer& tracer,
+                               const Stroke& stroke, const std::vector<Point>& points,
+                               const std::vector<double>& parameters, double max_distance) {
   std::vector<StrokeHit> hits;
   for (std::size_t i = 0; i < points.size(); ++i) {
     SurfaceHit hit;
     if (stroke.direction) {
       const auto first = projector.first_hit(points[i], normalized(*stroke.direction));
-      if (!first) refuse(stroke, i, "its ray misses the surface; move the point or drop the stroke's direction");
+      if (!first)
+        refuse(stroke, i, "its ray misses the surface; move the point or drop the stroke's direction");
       hit = *first;
     } else {
       hit = projector.closest(points[i]);
     }
     if (!(hit.distance <= max_distance)) {
-      refuse(stroke, i, "it is " + std::to_string(hit.distance) + " m from the surface, more than the largest distance of " +
-                            std::to_string(max_distance) + " m; check the unit, or raise the limit");
+      refuse(stroke, i,
+             "it is " + std::to_string(hit.distance) +
+                 " m from the surface, more than the largest distance of " + std::to_string(max_distance) +
+                 " m; check the unit, or raise the limit");
     }
     hits.push_back(tracer.hit_at(hit, points[i], parameters[i]));
   }
@@ -67,7 +70,8 @@ std::vector<StrokeHit> project(const SurfaceProjector& projector, const StrokeTr
 }
 
 /// All points a little aside and onward: strokes along edges and through vertices come to lie inside faces.
-std::vector<Point> nudged(const Mesh& mesh, const Stroke& stroke, const std::vector<StrokeHit>& hits, double distance) {
+std::vector<Point> nudged(const Mesh& mesh, const Stroke& stroke, const std::vector<StrokeHit>& hits,
+                          double distance) {
   const std::size_t n = hits.size();
   std::vector<Point> result;
   for (std::size_t i = 0; i < n; ++i) {
@@ -133,7 +137,8 @@ TracedStroke trace_stroke(const Mesh& mesh, const SurfaceProjector& projector, c
   TracedStroke traced;
   for (double shift : {0.0, 1e-3, 1.7e-3, 2.9e-3}) {
     StrokeTracer tracer(mesh, projector, options);
-    const auto points = shift == 0 ? stroke.points : nudged(mesh, stroke, original, shift * options.mean_edge);
+    const auto points =
+        shift == 0 ? stroke.points : nudged(mesh, stroke, original, shift * options.mean_edge);
     const double slack = shift * 2 * options.mean_edge;
     const auto hits = project(projector, tracer, stroke, points, parameters, options.max_distance + slack);
     if (shift == 0) original = hits;
@@ -141,8 +146,9 @@ TracedStroke trace_stroke(const Mesh& mesh, const SurfaceProjector& projector, c
       throw ContentError(name_of(stroke) + ": all its points lie beyond the border of the cloth");
     }
     tracer.run(hits, stroke.closed, name_of(stroke));
-    const bool degenerate = tracer.degenerate() ||
-                            std::any_of(hits.begin(), hits.end(), [](const StrokeHit& h) { return h.degenerate; });
+    const bool degenerate =
+        tracer.degenerate() ||
+        std::any_of(hits.begin(), hits.end(), [](const StrokeHit& h) { return h.degenerate; });
     traced.sub_strokes = tracer.take_sub_strokes();
     traced.warnings = tracer.take_warnings();
     traced.samples = tracer.take_samples();

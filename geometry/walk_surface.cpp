@@ -8,8 +8,8 @@
 
 namespace furrow::geometry {
 
-SurfaceWalk walk_surface(const Mesh& mesh, Face face, const Point& start, const Point& target, const Vector& normal,
-                         std::optional<Face> target_face, double length_limit) {
+SurfaceWalk walk_surface(const Mesh& mesh, Face face, const Point& start, const Point& target,
+                         const Vector& normal, std::optional<Face> target_face, double length_limit) {
   SurfaceWalk walk;
   const Vector chord = target - start, side = CGAL::cross_product(chord, normal);
   if (!(side.squared_length() > 1e-24 * chord.squared_length())) return walk;
@@ -45,7 +45,9 @@ SurfaceWalk walk_surface(const Mesh& mesh, Face face, const Point& start, const 
 std::vector<Face> faces_reachable_within(const Mesh& mesh, Face face, const Point& centre, double radius) {
   std::set<Face> seen{face};
   std::vector<Face> queue{face};
-  const auto near = [&](Vertex v) { return CGAL::squared_distance(mesh.point(v), centre) <= radius * radius; };
+  const auto near = [&](Vertex v) {
+    return CGAL::squared_distance(mesh.point(v), centre) <= radius * radius;
+  };
   for (std::size_t next = 0; next < queue.size(); ++next) {
     for (Halfedge h : halfedges_of(mesh, queue[next])) {
       const Halfedge beyond = mesh.opposite(h);
@@ -56,7 +58,8 @@ std::vector<Face> faces_reachable_within(const Mesh& mesh, Face face, const Poin
   return {seen.begin(), seen.end()};
 }
 
-std::vector<EdgeCrossing> fewest_crossings(const Mesh& mesh, Face from, Face to, const Point& guide, std::size_t most) {
+std::vector<EdgeCrossing> fewest_crossings(const Mesh& mesh, Face from, Face to, const Point& guide,
+                                           std::size_t most) {
   std::map<Face, Halfedge> entered_by;  // the halfedge of the face before
   std::vector<Face> ring{from};
   std::set<Face> seen{from};

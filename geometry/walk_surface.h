@@ -10,8 +10,8 @@ namespace furrow::geometry {
 /// A point where a path leaves a face: `halfedge` belongs to the face that it leaves.
 struct EdgeCrossing {
   Halfedge halfedge;
-  double t = 0;     ///< position on the halfedge from its source [-]; [0, 1]
-  Point position;   ///< [m]
+  double t = 0;    ///< position on the halfedge from its source [-]; [0, 1]
+  Point position;  ///< [m]
 };
 
 struct SurfaceWalk {
@@ -27,17 +27,21 @@ struct SurfaceWalk {
   double length = 0;                    ///< up to the last crossing [m]
 };
 
-/// Walks from face to face along the plane that holds `start`, `target` and `normal`. A vertex on the plane counts as
-/// beside it, always on the same side, so a path never passes through a vertex. `start` must lie strictly inside `face`.
-/// Ends in `target_face` if given, else at the border or where the target is passed. O(crossed faces).
-SurfaceWalk walk_surface(const Mesh& mesh, Face face, const Point& start, const Point& target, const Vector& normal,
-                         std::optional<Face> target_face, double length_limit);
+/// Walks from face to face along the plane that holds `start`, `target` and `normal`. A vertex on the plane
+/// counts as beside it, always on the same side, so a path never passes through a vertex. `start` must lie
+/// strictly inside `face`. Ends in `target_face` if given, else at the border or where the target is passed.
+/// O(crossed faces).
+SurfaceWalk walk_surface(const Mesh& mesh, Face face, const Point& start, const Point& target,
+                         const Vector& normal, std::optional<Face> target_face, double length_limit);
 
-/// The faces that can be reached from `face` through faces with a corner within `radius` [m] of `centre`; ascending.
+/// The faces that can be reached from `face` through faces with a corner within `radius` [m] of `centre`;
+/// ascending.
 std::vector<Face> faces_reachable_within(const Mesh& mesh, Face face, const Point& centre, double radius);
 
-/// Crossings of the way from face to face with the fewest edges; each at the point of its edge closest to `guide`, but
-/// never nearer to an end than 1e-3 of it. Empty if `to` is `from` or more than `most` edges away. O(faces within `most`).
-std::vector<EdgeCrossing> fewest_crossings(const Mesh& mesh, Face from, Face to, const Point& guide, std::size_t most);
+/// Crossings of the way from face to face with the fewest edges; each at the point of its edge closest to
+/// `guide`, but never nearer to an end than 1e-3 of it. Empty if `to` is `from` or more than `most` edges
+/// away. O(faces within `most`).
+std::vector<EdgeCrossing> fewest_crossings(const Mesh& mesh, Face from, Face to, const Point& guide,
+                                           std::size_t most);
 
 }  // namespace furrow::geometry

@@ -68,7 +68,8 @@ void check_dress(const Mesh& mesh, bool seam) {
     }
   }
   for (Vertex v : mesh.vertices()) {
-    worst = std::max({worst, std::abs(color[v][0] - mesh.point(v).x()), std::abs(color[v][1] - mesh.point(v).y())});
+    worst = std::max(
+        {worst, std::abs(color[v][0] - mesh.point(v).x()), std::abs(color[v][1] - mesh.point(v).y())});
   }
   CHECK(wrong == 0);
   CHECK(worst < 1e-12);
@@ -114,7 +115,8 @@ TEST_CASE("a line edge far from any of its vertices is split at the crossing") {
   // One coarse line edge, marked by hand, across a finer stroke.
   Mesh mesh = union_jack_sheet(2);
   ensure_rest_lengths(mesh);
-  const Vertex centre = nearest_vertex(mesh, Point(0.5, 0.5, 0)), right = nearest_vertex(mesh, Point(1, 0.5, 0));
+  const Vertex centre = nearest_vertex(mesh, Point(0.5, 0.5, 0)),
+               right = nearest_vertex(mesh, Point(1, 0.5, 0));
   auto line = ensure_map(mesh, kLine);
   line[centre] = line[right] = 0;
   ensure_map(mesh, kLineEdge)[mesh.edge(mesh.halfedge(centre, right))] = true;
@@ -153,7 +155,8 @@ TEST_CASE("bad strokes are refused by name, and the mesh keeps its bits") {
   CHECK_THROWS_WITH(insert_along_stroke(mesh, diagonal(), 0, options), Catch::Contains("max_distance"));
   CHECK(fingerprint(mesh) == before);
   // A face without area beneath the stroke is found while the mesh is worked on.
-  ensure_rest_lengths(mesh)[mesh.edge(mesh.halfedge(SurfaceProjector(mesh).closest(diagonal().points[9]).point.face))] = 5;
+  ensure_rest_lengths(
+      mesh)[mesh.edge(mesh.halfedge(SurfaceProjector(mesh).closest(diagonal().points[9]).point.face))] = 5;
   const std::string degenerate = fingerprint(mesh);
   CHECK_THROWS_AS(insert_along_stroke(mesh, diagonal(), 0), ContentError);
   CHECK(fingerprint(mesh) == degenerate);
@@ -188,7 +191,8 @@ TEST_CASE("a stroke inside one face becomes one vertex") {
       const Insertion insertion = insert_along_stroke(copy, stroke, 2);
       CHECK(insertion.report.inserted == 1);
       REQUIRE(insertion.line.chains.size() == 1);
-      CHECK(insertion.line.chains[0] == std::vector<Vertex>{Vertex(static_cast<std::uint32_t>(old_vertices))});
+      CHECK(insertion.line.chains[0] ==
+            std::vector<Vertex>{Vertex(static_cast<std::uint32_t>(old_vertices))});
       REQUIRE(insertion.line.vertices.size() == 1);
       CHECK(insertion.line.vertices[0].normal.z() == Approx(1));
     }
@@ -205,7 +209,8 @@ TEST_CASE("where no flip is allowed the line goes through corners") {
     ++asked;
     // The two ends of the edge lie on either side of the line between its apexes.
     const Vector across = p[3] - p[2];
-    const double a = CGAL::cross_product(across, p[0] - p[2]).z(), b = CGAL::cross_product(across, p[1] - p[2]).z();
+    const double a = CGAL::cross_product(across, p[0] - p[2]).z(),
+                 b = CGAL::cross_product(across, p[1] - p[2]).z();
     CHECK(a * b < 0);
     return false;
   };
@@ -214,14 +219,15 @@ TEST_CASE("where no flip is allowed the line goes through corners") {
   CHECK(faults_of_insertion(before, mesh, insertion, true) == std::vector<std::string>{});
   CHECK(insertion.report.flipped + insertion.report.delaunay_flips == 0);
   CHECK(insertion.report.refused_flips.at(Refusal::layer) > 0);
-  CHECK(insertion.report.snapped > 0);
+  CHECK(insertion.report.routed > 0);
 }
 
 TEST_CASE("the normals of a line point outward") {
   Mesh mesh = cylinder(40);
   Stroke stroke;
   const double r = 0.5 / std::numbers::pi;
-  for (int i = 0; i <= 40; ++i) stroke.points.push_back(Point(r * std::sin(0.05 * i), 0.2 + 0.01 * i, r * std::cos(0.05 * i)));
+  for (int i = 0; i <= 40; ++i)
+    stroke.points.push_back(Point(r * std::sin(0.05 * i), 0.2 + 0.01 * i, r * std::cos(0.05 * i)));
   const Insertion insertion = insert_along_stroke(mesh, stroke, 0);
   double last = 0;
   for (const LineVertex& v : insertion.line.vertices) {

@@ -71,7 +71,8 @@ TEST_CASE("the rest metric does not see how the mesh lies in space") {
   const auto rest = *find_map(flat, kRestLength), carried = *find_map(bent, kRestLength);
   double worst = 0;
   for (Edge e : flat.edges()) {
-    const double space = std::sqrt(CGAL::squared_distance(flat.point(flat.vertex(e, 0)), flat.point(flat.vertex(e, 1))));
+    const double space =
+        std::sqrt(CGAL::squared_distance(flat.point(flat.vertex(e, 0)), flat.point(flat.vertex(e, 1))));
     worst = std::max({worst, std::abs(rest[e] - space), std::abs(carried[e] - rest[e])});
   }
   CHECK(worst < 1e-14);
@@ -91,7 +92,8 @@ TEST_CASE("insert_in_faces refuses what it cannot do and leaves the mesh alone")
   CHECK_THROWS_AS(insert({{Face(1000), {0.3, 0.3, 0.4}}}), std::invalid_argument);
   InsertionOptions options;
   options.min_barycentric = 0.4;
-  CHECK_THROWS_WITH(insert({{f, {0.3, 0.3, 0.4}}}, options), Catch::Contains("min_barycentric") && Catch::Contains("0.4"));
+  CHECK_THROWS_WITH(insert({{f, {0.3, 0.3, 0.4}}}, options),
+                    Catch::Contains("min_barycentric") && Catch::Contains("0.4"));
   CHECK(fingerprint(mesh) == before);
   ensure_rest_lengths(mesh)[mesh.edge(mesh.halfedge(f))] = 10;
   CHECK_THROWS_AS(insert({{f, {0.3, 0.3, 0.4}}}), ContentError);
@@ -102,7 +104,8 @@ TEST_CASE("insert_in_faces refuses what it cannot do and leaves the mesh alone")
 }
 
 TEST_CASE("clamping keeps the sum and the floor") {
-  for (const Barycentrics& b : {Barycentrics{1, 0, 0}, Barycentrics{0.5, 0.5, 0}, Barycentrics{0.1, 0.2, 0.7}}) {
+  for (const Barycentrics& b :
+       {Barycentrics{1, 0, 0}, Barycentrics{0.5, 0.5, 0}, Barycentrics{0.1, 0.2, 0.7}}) {
     const Barycentrics c = clamped(b, 0.2);
     CHECK(c[0] + c[1] + c[2] == Approx(1).epsilon(1e-15));
     for (double value : c) CHECK(value >= 0.2);

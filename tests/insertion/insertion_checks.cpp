@@ -48,8 +48,8 @@ double distance_to_line(const Mesh& mesh, const InsertedLine& line, const Point&
 
 }  // namespace
 
-std::vector<std::string> faults_of_insertion(const Mesh& before, const Mesh& after, const Insertion& insertion,
-                                             bool flat) {
+std::vector<std::string> faults_of_insertion(const Mesh& before, const Mesh& after,
+                                             const Insertion& insertion, bool flat) {
   std::vector<std::string> faults;
   const auto expect = [&](bool holds, const char* what) {
     if (!holds) faults.push_back(what);
@@ -76,7 +76,8 @@ std::vector<std::string> faults_of_insertion(const Mesh& before, const Mesh& aft
     const Point &a = after.point(after.vertex(e, 0)), &b = after.point(after.vertex(e, 1));
     const double space = std::sqrt(CGAL::squared_distance(a, b));
     if (!std::isfinite((*rest)[e])) expect(false, "rest lengths finite");
-    if (flat && std::abs((*rest)[e] - space) > 1e-12) expect(false, "rest lengths are lengths on a flat mesh");
+    if (flat && std::abs((*rest)[e] - space) > 1e-12)
+      expect(false, "rest lengths are lengths on a flat mesh");
   }
   expect(report.missing_edges.empty(), "no missing line edge");
   std::set<Vertex> described;
@@ -92,13 +93,15 @@ std::vector<std::string> faults_of_insertion(const Mesh& before, const Mesh& aft
       expect(described.count(chain[i]) == 1, "chain vertices are described");
       if (i == 0) continue;
       const Halfedge h = after.halfedge(chain[i - 1], chain[i]);
-      expect(h.is_valid() && (*line_edge)[after.edge(h)], "consecutive line vertices are joined by a line edge");
+      expect(h.is_valid() && (*line_edge)[after.edge(h)],
+             "consecutive line vertices are joined by a line edge");
     }
   }
   // Lines drawn before are still there.
   const auto old_edges = find_map(before, kLineEdge);
   std::set<Pair> split;
-  for (const SplitEdge& s : report.split_edges) split.insert({std::min(s.from, s.to), std::max(s.from, s.to)});
+  for (const SplitEdge& s : report.split_edges)
+    split.insert({std::min(s.from, s.to), std::max(s.from, s.to)});
   for (Edge e : before.edges()) {
     if (!old_edges || !(*old_edges)[e] || split.count(ends_of(before, e)) > 0) continue;
     const Halfedge h = after.halfedge(before.vertex(e, 0), before.vertex(e, 1));
@@ -107,8 +110,8 @@ std::vector<std::string> faults_of_insertion(const Mesh& before, const Mesh& aft
   return faults;
 }
 
-double relative_deviation(const Mesh& before, const Mesh& after, const Stroke& stroke, const Insertion& insertion,
-                          double mean_edge) {
+double relative_deviation(const Mesh& before, const Mesh& after, const Stroke& stroke,
+                          const Insertion& insertion, double mean_edge) {
   const TracedStroke traced = trace_stroke(before, SurfaceProjector(before), stroke, {0.3, mean_edge});
   const auto rest = *find_map(before, kRestLength);
   double worst = 0;

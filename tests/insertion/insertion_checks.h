@@ -12,10 +12,11 @@ namespace furrow::tests {
 std::vector<std::string> faults_of_insertion(const geometry::Mesh& before, const geometry::Mesh& after,
                                              const geometry::Insertion& insertion, bool flat);
 
-/// The largest distance of a sample on cloth from the line, in units of half the longest edge of the crossed faces
-/// around it: the sample's own, the one before and the one after.
-double relative_deviation(const geometry::Mesh& before, const geometry::Mesh& after, const geometry::Stroke& stroke,
-                          const geometry::Insertion& insertion, double mean_edge);
+/// The largest distance of a sample on cloth from the line, in units of half the longest edge of the crossed
+/// faces around it: the sample's own, the one before and the one after.
+double relative_deviation(const geometry::Mesh& before, const geometry::Mesh& after,
+                          const geometry::Stroke& stroke, const geometry::Insertion& insertion,
+                          double mean_edge);
 
 /// Everything on the mesh in one string, for comparing bits.
 std::string fingerprint(const geometry::Mesh& mesh);

@@ -81,8 +81,7 @@ Mesh regular_sheet(int columns, double jitter, std::uint64_t seed) {
   const double edge = 1.0 / columns, height = edge * std::numbers::sqrt3 / 2;
   const int rows = static_cast<int>(std::lround(1 / height));
   Mesh mesh = grid(
-      columns, rows,
-      [&](int i, int j) { return Point(edge * (i + (j % 2) * 0.5), height * j, 0); },
+      columns, rows, [&](int i, int j) { return Point(edge * (i + (j % 2) * 0.5), height * j, 0); },
       [](int, int j) { return j % 2 != 0; });
   jitter_inner(mesh, jitter * edge, seed);
   return mesh;
@@ -117,7 +116,8 @@ Mesh cylinder(int around) {
 Mesh torus(int around, int across) {
   return wrapped(around, across, true, [&](int i, int j) {
     const double u = 2 * std::numbers::pi * i / around, v = 2 * std::numbers::pi * j / across;
-    return Point((1 + 0.4 * std::cos(v)) * std::cos(u), (1 + 0.4 * std::cos(v)) * std::sin(u), 0.4 * std::sin(v));
+    return Point((1 + 0.4 * std::cos(v)) * std::cos(u), (1 + 0.4 * std::cos(v)) * std::sin(u),
+                 0.4 * std::sin(v));
   });
 }
 
@@ -140,7 +140,8 @@ Mesh random_sheet(std::uint64_t seed, double least_angle_deg) {
     Mesh mesh = grid(
         columns, rows,
         [&](int i, int j) {
-          const double x = (i + moves.within(-jitter, jitter)) / columns, y = (j + moves.within(-jitter, jitter)) / rows;
+          const double x = (i + moves.within(-jitter, jitter)) / columns,
+                       y = (j + moves.within(-jitter, jitter)) / rows;
           return Point(x, y, wave * std::sin(4 * x + phase) * std::cos(3 * y));
         },
         [&](int i, int j) { return rising[static_cast<std::size_t>(j * columns + i)]; });
@@ -181,7 +182,8 @@ Stroke stroke_through(const MeshCase& on, const std::vector<std::array<double, 2
 
 namespace {
 
-std::vector<std::array<double, 2>> sampled(double s0, double t0, double s1, double t1, int pieces, double bend = 0) {
+std::vector<std::array<double, 2>> sampled(double s0, double t0, double s1, double t1, int pieces,
+                                           double bend = 0) {
   std::vector<std::array<double, 2>> points;
   for (int i = 0; i <= pieces; ++i) {
     const double u = static_cast<double>(i) / pieces, aside = bend * std::sin(2 * std::numbers::pi * u);

@@ -31,7 +31,8 @@ geometry::Mesh cylinder(int around);
 /// Closed, of genus 1, all valences 6.
 geometry::Mesh torus(int around, int across);
 geometry::Mesh icosahedron();
-/// A jittered grid with random diagonals over 1 x 1 m, lifted to a random wave; all angles at least `least_angle_deg`.
+/// A jittered grid with random diagonals over 1 x 1 m, lifted to a random wave; all angles at least
+/// `least_angle_deg`.
 geometry::Mesh random_sheet(std::uint64_t seed, double least_angle_deg);
 
 /// The five meshes of the insertion table.

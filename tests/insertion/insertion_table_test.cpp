@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-
 #include <catch2/catch.hpp>
 
 #include "geometry/audit_rest_metric.h"

@@ -76,12 +76,16 @@ TEST_CASE("a flip that would fold over has a negative area") {
 
 TEST_CASE("lengths to the corners are distances in the plane") {
   CHECK(rc::check([] {
-    const auto number = [](int low, int high) { return *rc::gen::resize(100, rc::gen::inRange(low, high)) / 100.0; };
+    const auto number = [](int low, int high) {
+      return *rc::gen::resize(100, rc::gen::inRange(low, high)) / 100.0;
+    };
     const Point a(0, 0, 0), b(number(10, 300), 0, 0), c(number(-200, 200), number(10, 300), 0);
     const double u = number(1, 98), v = number(1, 98) * (1 - u);
     const Barycentrics beta{1 - u - v, u, v};
     const Point p = CGAL::ORIGIN + u * (b - a) + v * (c - a);
-    const auto distance = [](const Point& x, const Point& y) { return std::sqrt(CGAL::squared_distance(x, y)); };
+    const auto distance = [](const Point& x, const Point& y) {
+      return std::sqrt(CGAL::squared_distance(x, y));
+    };
     const auto lengths = lengths_to_corners({distance(a, b), distance(b, c), distance(c, a)}, beta);
     RC_ASSERT(std::abs(lengths[0] - distance(p, a)) < 1e-12);
     RC_ASSERT(std::abs(lengths[1] - distance(p, b)) < 1e-12);

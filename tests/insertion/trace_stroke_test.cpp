@@ -49,7 +49,8 @@ Mesh two_layers(double gap, bool joined) {
 std::set<double> heights_of(const Mesh& mesh, const TracedStroke& traced) {
   std::set<double> heights;
   for (const SubStroke& part : traced.sub_strokes) {
-    for (const CrossedFace& visit : part.faces) heights.insert(std::round(1e6 * position_of(mesh, {visit.face, visit.node}).z()));
+    for (const CrossedFace& visit : part.faces)
+      heights.insert(std::round(1e6 * position_of(mesh, {visit.face, visit.node}).z()));
   }
   return heights;
 }
@@ -72,7 +73,8 @@ TEST_CASE("no crossed face is missed, and each shares an edge with the next") {
   }
   CHECK(crossed.size() == faces.size());
   const SurfaceProjector projector(mesh);
-  for (int i = 0; i <= 5000; ++i) CHECK(crossed.count(projector.closest(a + (i / 5000.0) * (b - a)).point.face) == 1);
+  for (int i = 0; i <= 5000; ++i)
+    CHECK(crossed.count(projector.closest(a + (i / 5000.0) * (b - a)).point.face) == 1);
   CHECK_FALSE(faces.front().entry.has_value());
   CHECK_FALSE(faces.back().exit.has_value());
 }
@@ -99,7 +101,8 @@ TEST_CASE("a stroke never leaps to a layer 5 mm away") {
     const Mesh mesh = two_layers(0.005, joined);
     Stroke stroke;
     // Every other point lies nearer to the upper layer.
-    for (int i = 0; i <= 30; ++i) stroke.points.push_back(Point(0.2 + 0.022 * i, 0.31 + 0.01 * i, i % 2 ? 0.0045 : 0.0002));
+    for (int i = 0; i <= 30; ++i)
+      stroke.points.push_back(Point(0.2 + 0.022 * i, 0.31 + 0.01 * i, i % 2 ? 0.0045 : 0.0002));
     const TracedStroke traced = trace(mesh, stroke, 0.055);
     CHECK(traced.sub_strokes.size() == 1);
     CHECK(heights_of(mesh, traced).size() == 1);
@@ -117,7 +120,8 @@ TEST_CASE("a stroke breaks, with a warning, where no way leads on") {
     const auto c = corners_of(far, f);
     mesh.add_face(Vertex(c[0] + n), Vertex(c[1] + n), Vertex(c[2] + n));
   }
-  Stroke stroke = polyline({Point(0.3, 0.31, 0), Point(0.5, 0.52, 0), Point(0.51, 0.53, 0.3), Point(0.7, 0.62, 0.3)});
+  Stroke stroke =
+      polyline({Point(0.3, 0.31, 0), Point(0.5, 0.52, 0), Point(0.51, 0.53, 0.3), Point(0.7, 0.62, 0.3)});
   stroke.name = "leap";
   const TracedStroke traced = trace(mesh, stroke, 0.055);
   REQUIRE(traced.sub_strokes.size() == 2);
@@ -130,7 +134,8 @@ TEST_CASE("a stroke ends at the border and starts again where it comes back") {
   Mesh mesh = union_jack_sheet(20);
   for (Face f : mesh.faces()) {  // a hole of 0.2 x 0.4 m in the middle
     const Point p = position_of(mesh, {f, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
-    if (std::abs(p.x() - 0.5) < 0.1 && std::abs(p.y() - 0.5) < 0.2) CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
+    if (std::abs(p.x() - 0.5) < 0.1 && std::abs(p.y() - 0.5) < 0.2)
+      CGAL::Euler::remove_face(mesh.halfedge(f), mesh);
   }
   for (int points : {2, 5, 61}) {
     CAPTURE(points);
@@ -140,7 +145,8 @@ TEST_CASE("a stroke ends at the border and starts again where it comes back") {
     }
     const TracedStroke traced = trace(mesh, stroke, 0.055, 0.2);
     REQUIRE(traced.sub_strokes.size() == 2);
-    const EdgeCrossing end = *traced.sub_strokes[0].faces.back().exit, start = *traced.sub_strokes[1].faces.front().entry;
+    const EdgeCrossing end = *traced.sub_strokes[0].faces.back().exit,
+                       start = *traced.sub_strokes[1].faces.front().entry;
     CHECK(mesh.is_border(mesh.opposite(end.halfedge)));
     CHECK(mesh.is_border(mesh.opposite(start.halfedge)));
     CHECK(end.position.x() == Approx(0.4));
