@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "geometry/insertion.h"
+#include "geometry/insertion_report.h"
 #include "geometry/mesh_editor.h"
 
 namespace furrow::geometry {

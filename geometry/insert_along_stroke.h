@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "geometry/insertion.h"
+#include "geometry/insertion_report.h"
 #include "geometry/stroke.h"
 
 namespace furrow::geometry {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace furrow::geometry {
 
@@ -48,7 +49,7 @@ void check(const InsertionOptions& options) {
 InsertionReport& operator+=(InsertionReport& sum, const InsertionReport& line) {
   for (auto count : {&InsertionReport::inserted, &InsertionReport::flipped, &InsertionReport::delaunay_flips,
                      &InsertionReport::folded_flips, &InsertionReport::reused, &InsertionReport::snapped,
-                     &InsertionReport::too_small, &InsertionReport::nudges})
+                     &InsertionReport::too_small, &InsertionReport::routed, &InsertionReport::nudges})
     sum.*count += line.*count;
   sum.attempts = std::max(sum.attempts, line.attempts);
   for (const auto& [reason, count] : line.refused_flips) sum.refused_flips[reason] += count;

@@ -125,31 +125,35 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
     line_edge_[mesh_.edge(part)] = line_edge;
     unset_springs(mesh_.edge(part));
   }
-  const std::array<double, 2> spokes{left[2], right[2]};
   const std::array<Halfedge, 2> to_middle{first, mesh_.opposite(halfedge)};
-  for (int side = 0; side < 2; ++side) {
-    const Face old_face = mesh_.face(to_middle[side]);
-    const Vertex apex = mesh_.target(mesh_.next(mesh_.next(to_middle[side])));
-    const Halfedge spoke =
-        CGAL::Euler::split_face(to_middle[side], mesh_.next(mesh_.next(to_middle[side])), mesh_);
-    rest_[mesh_.edge(spoke)] = spokes[side];
-    unset_springs(mesh_.edge(spoke));
-    ++generation_[old_face];
-    const auto& corner = texture[side];
-    for (Halfedge part : {spoke, mesh_.opposite(spoke)}) {
-      copy_face(old_face, mesh_.face(part));
-      for (Halfedge h : halfedges_of(mesh_, mesh_.face(part))) {
-        unset_springs(mesh_.edge(h));
-        const Vertex v = mesh_.target(h);
-        if (!texture_) continue;
-        (*texture_)[h] = v == a      ? corner[0]
-                         : v == b    ? corner[1]
-                         : v == apex ? corner[2]
-                                     : blend({corner[0], corner[1], corner[1]}, {1 - t, t, 0});
-      }
+  split_side(to_middle[0], left[2], {a, b}, texture[0], t);
+  split_side(to_middle[1], right[2], {a, b}, texture[1], t);
+  return middle;
+}
+
+/// Cuts the quadrangle of `to_middle`, which ends at the new vertex of the split edge with these ends, into
+/// two triangles. `texture`: of the ends (the new vertex lies at t between) and of the apex.
+void MeshEditor::split_side(Halfedge to_middle, double spoke_length, const std::array<Vertex, 2>& ends,
+                            const std::array<TextureCoordinate, 3>& texture, double t) {
+  const Face face = mesh_.face(to_middle);
+  const Vertex middle = mesh_.target(to_middle);
+  const Halfedge to_apex = mesh_.next(mesh_.next(to_middle));
+  const Vertex apex = mesh_.target(to_apex);
+  const Halfedge spoke = CGAL::Euler::split_face(to_middle, to_apex, mesh_);
+  rest_[mesh_.edge(spoke)] = spoke_length;
+  ++generation_[face];
+  for (Halfedge part : {spoke, mesh_.opposite(spoke)}) {
+    copy_face(face, mesh_.face(part));
+    for (Halfedge h : halfedges_of(mesh_, mesh_.face(part))) {
+      unset_springs(mesh_.edge(h));
+      if (!texture_) continue;
+      const Vertex v = mesh_.target(h);
+      if (v == middle) (*texture_)[h] = blend({texture[0], texture[1], texture[1]}, {1 - t, t, 0});
+      if (v == apex) (*texture_)[h] = texture[2];
+      if (v == ends[0]) (*texture_)[h] = texture[0];
+      if (v == ends[1]) (*texture_)[h] = texture[1];
     }
   }
-  return middle;
 }
 
 void MeshEditor::flip_edge(Edge edge) {

@@ -40,8 +40,9 @@ class MeshEditor {
   const std::set<Face>& changed() const { return changed_; }
 
  private:
-  using Corner = TextureCoordinate;
-  Corner corner_in(Halfedge inside, Vertex vertex) const;
+  TextureCoordinate corner_in(Halfedge inside, Vertex vertex) const;
+  void split_side(Halfedge to_middle, double spoke_length, const std::array<Vertex, 2>& ends,
+                  const std::array<TextureCoordinate, 3>& texture, double t);
   void copy_face(Face from, Face to);
   void unset_springs(Edge edge);
   void set_color(Vertex vertex, const std::array<Vertex, 3>& corners, const Barycentrics& weights);

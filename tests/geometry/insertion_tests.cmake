@@ -8,6 +8,7 @@ furrow_add_tests(insertion LIBRARIES furrow::geometry SOURCES
   insertion_meshes.cpp
   insertion_meshes.h
   insertion_table_test.cpp
+  irregular_sheet.cpp
   random_strokes_test.cpp
   rest_metric_test.cpp
   trace_stroke_test.cpp

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/insertion/insertion_meshes.h"
 
-#include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/boost/graph/generators.h>
 
 #include <cmath>
@@ -92,15 +91,6 @@ Mesh union_jack_sheet(int columns) {
   return grid(
       columns, columns, [&](int i, int j) { return Point(edge * i, edge * j, 0); },
       [](int i, int j) { return (i + j) % 2 == 0; });
-}
-
-Mesh irregular_sheet(int columns) {
-  Mesh mesh = regular_sheet(columns, 0.3, 7);
-  CGAL::Polygon_mesh_processing::isotropic_remeshing(
-      faces(mesh), 0.9 / columns, mesh,
-      CGAL::parameters::number_of_iterations(2).number_of_relaxation_steps(1).protect_constraints(false));
-  mesh.collect_garbage();
-  return mesh;
 }
 
 Mesh cylinder(int around) {
