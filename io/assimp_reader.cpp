@@ -4,7 +4,9 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <cmath>
 
 #include "geometry/errors.h"
@@ -116,11 +118,37 @@ class SceneReader {
   bool has_colors_ = false;
 };
 
+/// assimp drops faces with bad indices and says so in its log only.
+class Warnings : public Assimp::LogStream {
+ public:
+  explicit Warnings(std::vector<std::string>& messages) : messages_(messages) {}
+  void write(const char* message) override {
+    std::string_view text = message;
+    if (const auto mark = text.find(": "); mark != text.npos) text.remove_prefix(mark + 2);  // "Warn,  T0: "
+    while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
+    if (messages_.size() < 10 && !text.starts_with("Validation")) messages_.emplace_back(text);
+    if (text.find("out-of-range") != text.npos) damage_ = true;
+  }
+  bool damage() const { return damage_; }
+
+ private:
+  std::vector<std::string>& messages_;
+  bool damage_ = false;
+};
+
+/// Runs in the child: the logger is the child's own.
 std::string import(const std::filesystem::path& path, const ReadOptions& options) {
+  std::vector<std::string> messages;
+  auto* warnings = new Warnings(messages);  // the logger's from here
+  Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0)
+      ->attachStream(warnings, Assimp::Logger::Warn | Assimp::Logger::Err);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (!scene) throw ContentError(importer.GetErrorString());
-  return to_bytes(SceneReader(*scene, options).read());
+  if (warnings->damage()) throw ContentError("a face names a vertex that is not there; repair the file");
+  SoupFile file = SceneReader(*scene, options).read();
+  file.warnings = std::move(messages);
+  return to_bytes(file);
 }
 
 }  // namespace
@@ -139,6 +167,7 @@ MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options
   file.material_names = std::move(content.material_names);
   file.repairs.merged_vertices = content.merged_vertices;
   file.warnings.push_back(name + ": single precision, vertex order not kept");
+  for (const std::string& warning : content.warnings) file.warnings.push_back(name + ": assimp: " + warning);
   set_mesh(file, content.soup, name);
   return file;
 }

@@ -92,6 +92,7 @@ std::string to_bytes(const SoupFile& file) {
   put(bytes, file.soup.materials);
   put(bytes, file.group_names);
   put(bytes, file.material_names);
+  put(bytes, file.warnings);
   put(bytes, std::vector<std::size_t>{file.merged_vertices});
   return bytes;
 }
@@ -110,6 +111,7 @@ SoupFile soup_from_bytes(std::string_view bytes) {
   in.get(file.soup.materials);
   in.get(file.group_names);
   in.get(file.material_names);
+  in.get(file.warnings);
   in.get(merged);
   if (!in.at_end() || merged.size() != 1 || coordinates.size() % 3 != 0) fail();
   for (std::size_t i = 0; i < coordinates.size(); i += 3)

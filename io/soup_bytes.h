@@ -11,7 +11,7 @@ namespace furrow::io {
 /// What the child process of the glTF reader sends.
 struct SoupFile {
   PolygonSoup soup;
-  std::vector<std::string> group_names, material_names;
+  std::vector<std::string> group_names, material_names, warnings;
   std::size_t merged_vertices = 0;
 };
 

@@ -31,7 +31,9 @@ TEST_CASE("run_in_child: what happens in the child is a content error here") {
   CHECK(error([]() -> std::string { ::abort(); }).find("crashed (signal 6)") != std::string::npos);
   CHECK(error([]() -> std::string { ::_exit(9); }).find("status 9") != std::string::npos);
   const auto spin = []() -> std::string {
-    for (volatile unsigned i = 0;; i = i + 1) continue;
+    volatile bool forever = true;
+    while (forever) continue;
+    return {};
   };
   CHECK(error(spin, {.cpu_seconds = 1}).find("CPU time") != std::string::npos);
   const auto sleep = [] { return ::pause(), std::string(); };

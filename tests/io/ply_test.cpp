@@ -196,7 +196,7 @@ TEST_CASE("PLY: errors name the line, or the element in binary files") {
   CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n").find("face 0") != std::string::npos);
   const std::string edge = "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty double rest_length\n";
   CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 0.5\n") == "(none)");
-  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 -0.5\n").starts_with("test:17: edge 0: a rest"));
+  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 -0.5\n").starts_with("test:18: edge 0: a rest"));
   CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 7 0.5\n").find("between vertices 0 and 7") !=
         std::string::npos);
   std::string bytes = written(decorated_grid(2), MeshFormat::ply);

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "io_test_helpers.h"
-#include "test_paths.h"
+#include "tests/test_paths.h"
 
 using namespace furrow;
 using namespace furrow::tests;
