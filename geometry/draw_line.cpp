@@ -157,6 +157,19 @@ class LineDrawing {
     }
   }
 
+  /// Where a stroke leaves the cloth or comes onto it, the line goes to the nearer end of the border edge there: a hem
+  /// that is drawn over takes part in the wrinkle. That end is a corner of the face, so an edge leads to it.
+  std::optional<Vertex> border_end(const SubStroke& part, const CrossedFace& visit,
+                                   const std::optional<EdgeCrossing>& x) {
+    const Mesh& mesh = editor_.mesh();
+    if (options_.rule != InsertionRule::safe || part.closed || !x || !mesh.is_border(mesh.edge(x->halfedge)))
+      return std::nullopt;
+    const Vertex end = x->t < 0.5 ? mesh.source(x->halfedge) : mesh.target(x->halfedge);
+    if (!editor_.edge_between(nodes_.at(visit.face), end)) return std::nullopt;
+    parameters_.try_emplace(end, visit.stroke_parameter);
+    return end;
+  }
+
   void make_chains(const std::set<Edge>& fresh) {
     std::size_t next = 0;
     std::set<Edge> used;
@@ -171,18 +184,21 @@ class LineDrawing {
         const bool spike = n >= 2 && chain[n - 2] == v && is_node.count(chain[n - 1]) == 0;
         spike ? chain.pop_back() : chain.push_back(v);
       };
+      if (const auto end = border_end(part, part.faces.front(), part.faces.front().entry)) push(*end);
       push(nodes_.at(part.faces.front().face));
       for (std::size_t i = 0; i + (part.closed ? 0 : 1) < part.faces.size(); ++i, ++next) {
         for (Vertex v : out_.links[next].first.between) push(v);
         push(out_.links[next].first.to);
       }
+      if (const auto end = border_end(part, part.faces.back(), part.faces.back().exit)) push(*end);
       for (std::size_t i = 1; i < chain.size(); ++i) {
         if (const auto e = editor_.edge_between(chain[i - 1], chain[i])) used.insert(*e);
       }
       for (Vertex v : chain) editor_.line()[v] = line_id_;
       out_.insertion.line.chains.push_back(std::move(chain));
     }
-    for (Edge e : fresh) editor_.line_edge()[e] = used.count(e) > 0;
+    for (Edge e : fresh) editor_.line_edge()[e] = false;
+    for (Edge e : used) editor_.line_edge()[e] = true;
   }
 
   void note_missing_edges() {

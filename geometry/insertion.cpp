@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/insertion.h"
+#include "geometry/insertion_report.h"
 
 #include <algorithm>
 #include <cmath>
