@@ -72,8 +72,9 @@ void clear(Mesh& mesh, std::span<const Edge> edges) {
   for (Edge e : edges) rest[e] = kUnset, count[e] = 0;
 }
 
-/// Edges of all faces that touch a corner of `changed`, each once: whatever pair of vertices lost or gained an edge or
-/// a hinge, one of the two is such a corner, so every hinge opposite that pair lies in these faces.
+/// Edges of all faces that touch a corner of `changed`, each once: whatever pair of vertices lost or gained
+/// an edge or a hinge, one of the two is such a corner, so every hinge opposite that pair lies in these
+/// faces.
 std::vector<Edge> edges_around(const Mesh& mesh, std::span<const Face> changed) {
   std::vector<Edge> edges;
   for (Face f : changed)
@@ -100,7 +101,8 @@ std::vector<std::pair<Pair, double>> known_rest_lengths(const Mesh& mesh, std::s
   };
   for (Edge e : edges) {
     const Halfedge h = mesh.halfedge(e);
-    if (mesh.is_border(e) || std::isnan((*rest)[e]) || is_changed(h) || is_changed(mesh.opposite(h))) continue;
+    if (mesh.is_border(e) || std::isnan((*rest)[e]) || is_changed(h) || is_changed(mesh.opposite(h)))
+      continue;
     known.emplace_back(opposite_pair(mesh, e), (*rest)[e]);
   }
   std::sort(known.begin(), known.end());
@@ -130,11 +132,14 @@ void rebuild_bending_springs(Mesh& mesh, std::span<const Face> changed) {
                            " is no triangle; triangulate the mesh first");
   const auto known = known_rest_lengths(mesh, edges, changed);
   const std::vector<Candidate> around = candidates(mesh, edges);
-  // A pair with neither vertex at `changed` may be seen here in part only, and did not change: leave it alone.
+  // A pair with neither vertex at `changed` may be seen here in part only, and did not change: leave it
+  // alone.
   std::vector<char> at_changed(mesh.num_vertices(), 0);
   for (Face f : changed)
     for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) at_changed[v.idx()] = 1;
-  const auto concerned = [&](const Pair& p) { return at_changed[p.first.idx()] || at_changed[p.second.idx()]; };
+  const auto concerned = [&](const Pair& p) {
+    return at_changed[p.first.idx()] || at_changed[p.second.idx()];
+  };
   std::vector<Candidate> kept;
   for (const Candidate& c : around)
     if (concerned(c.pair)) kept.push_back(c);

@@ -46,7 +46,9 @@ std::vector<BorderLoop> border_loops(const Mesh& mesh) {
 }
 
 std::size_t find_border_loop(std::span<const BorderLoop> loops, std::string_view name) {
-  const auto by_height = [](const BorderLoop& a, const BorderLoop& b) { return a.mean_height < b.mean_height; };
+  const auto by_height = [](const BorderLoop& a, const BorderLoop& b) {
+    return a.mean_height < b.mean_height;
+  };
   if (!loops.empty() && name == "top")
     return static_cast<std::size_t>(std::max_element(loops.begin(), loops.end(), by_height) - loops.begin());
   if (!loops.empty() && name == "bottom")
@@ -54,10 +56,10 @@ std::size_t find_border_loop(std::span<const BorderLoop> loops, std::string_view
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
   if (error == std::errc() && end == name.data() + name.size() && index < loops.size()) return index;
-  throw std::invalid_argument("border loop '" + std::string(name) + "': " +
-                              (loops.empty() ? "the mesh has no border"
-                                             : "choose top, bottom or an index from 0 to " +
-                                                   std::to_string(loops.size() - 1)));
+  throw std::invalid_argument(
+      "border loop '" + std::string(name) + "': " +
+      (loops.empty() ? "the mesh has no border"
+                     : "choose top, bottom or an index from 0 to " + std::to_string(loops.size() - 1)));
 }
 
 double rest_length(const Mesh& mesh, const BorderLoop& loop) {

@@ -19,8 +19,8 @@ struct BorderLoop {
 /// All border loops, longest first; of equal length, the one with the lower first vertex first. O(edges).
 std::vector<BorderLoop> border_loops(const Mesh& mesh);
 
-/// Index of the loop that a user names: "top" (highest mean_height), "bottom" (lowest), or its index in `loops`.
-/// Throws std::invalid_argument that lists the choices.
+/// Index of the loop that a user names: "top" (highest mean_height), "bottom" (lowest), or its index in
+/// `loops`. Throws std::invalid_argument that lists the choices.
 std::size_t find_border_loop(std::span<const BorderLoop> loops, std::string_view name);
 
 /// Length of the loop at rest [m]: the sum of the rest lengths of its edges (the present length where unset).

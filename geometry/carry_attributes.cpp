@@ -29,7 +29,8 @@ std::size_t SavedAttributes::corner(Face face, Vertex v) const {
 TextureCoordinate SavedAttributes::texture_at(const Origin& at) const {
   TextureCoordinate sum{0, 0};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (at.weights[i] == 0) continue;  // a corner without a coordinate (NaN) spoils only what it has a part in
+    if (at.weights[i] == 0)
+      continue;  // a corner without a coordinate (NaN) spoils only what it has a part in
     const TextureCoordinate& t = texture_[at.face.idx()][i];
     sum = {sum[0] + at.weights[i] * t[0], sum[1] + at.weights[i] * t[1]};
   }
@@ -54,7 +55,8 @@ void SavedAttributes::restore(Mesh& mesh, const std::function<Face(Face)>& paren
       if (!color || v.idx() < old_vertices_) continue;
       Color sum{0, 0, 0, 0};
       for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 4; ++k) sum[k] += at.weights[i] * color_[corners_[at.face.idx()][i].idx()][k];
+        for (std::size_t k = 0; k < 4; ++k)
+          sum[k] += at.weights[i] * color_[corners_[at.face.idx()][i].idx()][k];
       (*color)[v] = sum;
     }
   }

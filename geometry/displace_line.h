@@ -13,8 +13,8 @@ struct Displacement {
   double height = 0;       ///< k [m]; > 0 along n (ridge), < 0 against it (valley); finite
 };
 
-/// x += k n for each vertex (method S1.4: n is the unit normal of the triangle that the vertex was inserted in).
-/// A vertex that is named twice is displaced twice. Changes positions only; rest lengths, masses and
+/// x += k n for each vertex (method S1.4: n is the unit normal of the triangle that the vertex was inserted
+/// in). A vertex that is named twice is displaced twice. Changes positions only; rest lengths, masses and
 /// every other map stay. Throws std::invalid_argument, the mesh untouched, if the mesh has not such a vertex,
 /// a height or normal is not finite, or a normal is not of unit length.
 /// Source: Shi and Saito, step 2 of their Algorithm 1.

@@ -19,8 +19,8 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// The two-ring of one line: `free` are the line's vertices and their neighbours.
 struct Patch {
   std::vector<Vertex> line, free;
-  std::vector<int> index;    ///< by vertex: its place in `free`, or -1
-  std::vector<Face> faces;   ///< around the free vertices
+  std::vector<int> index;   ///< by vertex: its place in `free`, or -1
+  std::vector<Face> faces;  ///< around the free vertices
 };
 
 Patch gather_patch(const Mesh& mesh, std::vector<Vertex> line) {
@@ -55,8 +55,10 @@ Eigen::MatrixXd harmonic_fill(const Mesh& mesh, const Patch& patch, const std::v
         if (i < 0) continue;
         entries.emplace_back(i, i, w);
         const Point& p = mesh.point(ends[1 - side]);
-        if (j >= 0) entries.emplace_back(i, j, -w);
-        else right.row(i) += w * Eigen::RowVector3d(p.x(), p.y(), p.z());
+        if (j >= 0)
+          entries.emplace_back(i, j, -w);
+        else
+          right.row(i) += w * Eigen::RowVector3d(p.x(), p.y(), p.z());
       }
       h = mesh.next(h);
     }
@@ -81,7 +83,8 @@ double mean_height(const Mesh& mesh, const Patch& patch, const Eigen::MatrixXd& 
     Vector normal(0, 0, 0);
     for (Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v))) {
       if (mesh.is_border(h)) continue;
-      normal += CGAL::cross_product(position(mesh.target(mesh.next(h))) - foot, position(mesh.source(h)) - foot);
+      normal +=
+          CGAL::cross_product(position(mesh.target(mesh.next(h))) - foot, position(mesh.source(h)) - foot);
     }
     sum += (mesh.point(v) - foot) * normal / std::sqrt(normal.squared_length());
   }

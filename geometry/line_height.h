@@ -13,16 +13,16 @@ struct LineHeight {
   std::size_t vertices = 0;  ///< how many vertices the line has
 };
 
-/// How far each line (vertices of the same kLine >= 0) stands out of the surface as it would be without it, by id.
-/// The vertices two rings away from the line stay, those nearer take the harmonic fill between them: the solution of
-/// the Laplace equation with the cotangents of the rest lengths (the present length where unset), so the fill depends on
-/// the material and moves rigidly with the cloth. Where the two-ring meets the border of the mesh
-/// the fill's border is free (natural condition). Height of a vertex = (x - fill) . n, n the unit normal of the fill there,
-/// weighted by area. Vertices of other lines in the two-ring count as vertices like any other.
-/// On a flat surface it is the displacement minus the lift of the two-ring's border; on a surface of radius R the fill
-/// of a two-ring of half-width w sags by about w^2 / 2R, which then counts as height.
-/// Throws ContentError if a position is not finite or a face no triangle. Cost: a sparse Cholesky factorisation
-/// of the two-ring for each line. Used for drawn, smoothed and kept heights of reports.
+/// How far each line (vertices of the same kLine >= 0) stands out of the surface as it would be without it,
+/// by id. The vertices two rings away from the line stay, those nearer take the harmonic fill between them:
+/// the solution of the Laplace equation with the cotangents of the rest lengths (the present length where
+/// unset), so the fill depends on the material and moves rigidly with the cloth. Where the two-ring meets the
+/// border of the mesh the fill's border is free (natural condition). Height of a vertex = (x - fill) . n, n
+/// the unit normal of the fill there, weighted by area. Vertices of other lines in the two-ring count as
+/// vertices like any other. On a flat surface it is the displacement minus the lift of the two-ring's border;
+/// on a surface of radius R the fill of a two-ring of half-width w sags by about w^2 / 2R, which then counts
+/// as height. Throws ContentError if a position is not finite or a face no triangle. Cost: a sparse Cholesky
+/// factorisation of the two-ring for each line. Used for drawn, smoothed and kept heights of reports.
 std::vector<LineHeight> line_heights(const Mesh& mesh);
 
 }  // namespace furrow::geometry

@@ -36,7 +36,8 @@ std::size_t count_components(const Mesh& mesh) {
   return components;
 }
 
-/// Whether all halfedges that end at a vertex are one fan: at most one gap, and reached by one turn around it.
+/// Whether all halfedges that end at a vertex are one fan: at most one gap, and reached by one turn around
+/// it.
 bool is_manifold(const Mesh& mesh) {
   std::vector<std::size_t> ending(mesh.num_vertices(), 0), gaps(mesh.num_vertices(), 0);
   for (Halfedge h : mesh.halfedges()) {
@@ -95,8 +96,8 @@ MeshInfo measure(const Mesh& mesh) {
   for (Vertex v : mesh.vertices()) info.isolated_vertices += mesh.is_isolated(v);
   info.components = count_components(mesh);
   info.boundary_loops = border_loops(mesh).size();
-  info.euler_characteristic = static_cast<long>(info.vertices - info.isolated_vertices + info.faces) -
-                              static_cast<long>(info.edges);
+  info.euler_characteristic =
+      static_cast<long>(info.vertices - info.isolated_vertices + info.faces) - static_cast<long>(info.edges);
   info.closed = info.faces > 0 && info.boundary_loops == 0;
   info.manifold = is_manifold(mesh);
   measure_box(mesh, info);

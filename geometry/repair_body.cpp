@@ -142,15 +142,18 @@ Body repair_body(const Mesh& mesh) {
   Body body;
   Soup soup = soup_of(mesh);
   std::set<Corners> reversed;  // of the input: what the result may not contain
-  for (const auto& f : soup.faces) reversed.insert(cyclic({soup.points[f[0]], soup.points[f[2]], soup.points[f[1]]}));
+  for (const auto& f : soup.faces)
+    reversed.insert(cyclic({soup.points[f[0]], soup.points[f[2]], soup.points[f[1]]}));
   ExactMesh exact = oriented_mesh(soup, body.report);
   fill_holes(exact, body.report);
   body.report.closed = CGAL::is_closed(exact);
 
   gather(exact, body);
   body.report.self_intersections = count_self_intersections(body.points, body.triangles);
-  if (body.report.closed && body.report.self_intersections == 0) pmp::orient_to_bound_a_volume(exact);
-  else wind_by_volume(exact);
+  if (body.report.closed && body.report.self_intersections == 0)
+    pmp::orient_to_bound_a_volume(exact);
+  else
+    wind_by_volume(exact);
   body.points.clear();
   body.triangles.clear();
   gather(exact, body);

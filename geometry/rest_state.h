@@ -8,7 +8,8 @@
 namespace furrow::geometry {
 
 /// What a drawn line does to the rest lengths around it (method S1.18).
-/// drawn: the line adds cloth, the rest lengths grow with it. flat: it adds none, the cloth stays what it was.
+/// drawn: the line adds cloth, the rest lengths grow with it. flat: it adds none, the cloth stays what it
+/// was.
 enum class RestRule { drawn, flat };
 
 /// The shape before a displacement, to compare with after it.
@@ -25,19 +26,19 @@ struct RestReport {
   std::size_t scaled_bending_springs = 0;  ///< bending rest lengths that were scaled
 };
 
-/// After displacement and smoothing, rule drawn: the rest length of every edge and bending spring with a vertex that
-/// has moved is multiplied by length after / length before, so that strain that was there is carried over; where
-/// the rest length was unset, or the length before was 0, it becomes the length after. All others keep their bits.
-/// Changes kRestLength (added if missing) and kBendingRestLength. Rule flat: changes nothing.
-/// Throws std::invalid_argument, the mesh untouched, if the snapshot is of another connectivity;
-/// ContentError if a position is not finite. O(vertices + edges).
+/// After displacement and smoothing, rule drawn: the rest length of every edge and bending spring with a
+/// vertex that has moved is multiplied by length after / length before, so that strain that was there is
+/// carried over; where the rest length was unset, or the length before was 0, it becomes the length after.
+/// All others keep their bits. Changes kRestLength (added if missing) and kBendingRestLength. Rule flat:
+/// changes nothing. Throws std::invalid_argument, the mesh untouched, if the snapshot is of another
+/// connectivity; ContentError if a position is not finite. O(vertices + edges).
 RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule);
 
 /// apply_rest_rule(mesh, before, RestRule::drawn).
 RestReport apply_drawn_rest(Mesh& mesh, const RestSnapshot& before);
 
-/// Sum of the areas of the faces at rest [m^2] (Heron's formula on the rest lengths, the present length where unset;
-/// 0 for a face that breaks the triangle inequality).
+/// Sum of the areas of the faces at rest [m^2] (Heron's formula on the rest lengths, the present length where
+/// unset; 0 for a face that breaks the triangle inequality).
 double rest_area(const Mesh& mesh);
 
 }  // namespace furrow::geometry

@@ -19,7 +19,9 @@ namespace {
 using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
-bool is_finite(const Point& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
+bool is_finite(const Point& p) {
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
 
 /// For each point, the lowest index of a point at the same position.
 std::vector<int> weld(std::span<const Point> points) {
@@ -79,7 +81,8 @@ std::size_t count_self_intersections(const Mesh& mesh) {
   for (Face f : mesh.faces()) {
     std::size_t i = 0;
     triangles.emplace_back();
-    for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) triangles.back()[i++] = static_cast<int>(v.idx());
+    for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+      triangles.back()[i++] = static_cast<int>(v.idx());
   }
   const std::vector<Point> points(mesh.points().begin(), mesh.points().end());
   return count_self_intersections(points, triangles);

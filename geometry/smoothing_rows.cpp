@@ -46,9 +46,7 @@ class RowGatherer {
   const std::vector<double>& weights() const { return weights_; }  ///< empty: uniform
 
  private:
-  Label label(Vertex v) const {
-    return {line_ && (*line_)[v] >= 0, keep_border_ && mesh_.is_border(v)};
-  }
+  Label label(Vertex v) const { return {line_ && (*line_)[v] >= 0, keep_border_ && mesh_.is_border(v)}; }
   double inverse_length(Halfedge h) const { return 1 / lengths_[mesh_.edge(h).idx()]; }
   double cotangent_weight(Halfedge h) const {
     double sum = 0;

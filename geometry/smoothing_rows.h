@@ -7,8 +7,9 @@
 
 namespace furrow::geometry {
 
-/// The matrix W of taubin_smooth as compressed rows over a local numbering: row r moves point `active[r]` towards
-/// sum_j weight[j] x[neighbour[j]], j in [first[r], first[r + 1]), where the weights of a row sum to 1.
+/// The matrix W of taubin_smooth as compressed rows over a local numbering: row r moves point `active[r]`
+/// towards sum_j weight[j] x[neighbour[j]], j in [first[r], first[r + 1]), where the weights of a row sum
+/// to 1.
 struct SmoothingRows {
   std::vector<Vertex> vertices;  ///< of each local index, ascending: the moving vertices and their neighbours
   std::vector<int> active;       ///< local index of the vertex that a row moves, ascending

@@ -20,9 +20,12 @@ double spring_stiffness(double rest_length, double mean_rest_length, double k_st
   require(mean_rest_length > 0, "mean_rest_length", mean_rest_length);
   require(k_std >= 0, "k_std", k_std);
   switch (law) {
-    case StiffnessLaw::proportional: return rest_length / mean_rest_length * k_std;
-    case StiffnessLaw::constant: return k_std;
-    case StiffnessLaw::inverse: return mean_rest_length / rest_length * k_std;
+    case StiffnessLaw::proportional:
+      return rest_length / mean_rest_length * k_std;
+    case StiffnessLaw::constant:
+      return k_std;
+    case StiffnessLaw::inverse:
+      return mean_rest_length / rest_length * k_std;
   }
   throw std::invalid_argument("spring_stiffness: there is no such law");
 }

@@ -12,10 +12,10 @@ enum class StiffnessLaw {
   inverse        ///< k = (r_avg / r) k_std
 };
 
-/// Spring constant [N/m] of a spring of rest length `rest_length` [m] > 0, where `mean_rest_length` is r_avg [m] > 0 of
-/// the initial model and of this type of spring, `k_std` [N/m] >= 0 the constant of a spring of that length.
-/// Throws std::invalid_argument for what is out of range or not finite.
-/// Source: Shi and Saito, the update of spring constants after a line.
+/// Spring constant [N/m] of a spring of rest length `rest_length` [m] > 0, where `mean_rest_length` is r_avg
+/// [m] > 0 of the initial model and of this type of spring, `k_std` [N/m] >= 0 the constant of a spring of
+/// that length. Throws std::invalid_argument for what is out of range or not finite. Source: Shi and Saito,
+/// the update of spring constants after a line.
 double spring_stiffness(double rest_length, double mean_rest_length, double k_std,
                         StiffnessLaw law = StiffnessLaw::proportional);
 

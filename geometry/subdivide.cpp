@@ -23,8 +23,10 @@ class KeepIsolated : public Mask {
  public:
   explicit KeepIsolated(Mesh& mesh) : Mask(&mesh, mesh.points()), mesh_(mesh) {}
   void vertex_node(Vertex v, Point& p) {
-    if (mesh_.is_isolated(v)) p = mesh_.point(v);
-    else Mask::vertex_node(v, p);
+    if (mesh_.is_isolated(v))
+      p = mesh_.point(v);
+    else
+      Mask::vertex_node(v, p);
   }
 
  private:
@@ -89,8 +91,8 @@ void loop_step(Mesh& mesh) {
   carry_lines(mesh, ends, was_line_edge, old_vertices);
 }
 
-/// Where CGAL's step will put the new vertices, in its order: the centroid of each face, or, where the border is
-/// refined, two vertices on the border edge of a face that has one.
+/// Where CGAL's step will put the new vertices, in its order: the centroid of each face, or, where the border
+/// is refined, two vertices on the border edge of a face that has one.
 std::vector<Origin> sqrt3_origins(const Mesh& mesh, const SavedAttributes& saved, bool refine_border) {
   std::vector<Origin> origins;
   for (Face f : mesh.faces()) {

@@ -7,19 +7,20 @@
 
 namespace furrow::geometry {
 
-/// uniform: every neighbour counts the same. cotangent: of the rest lengths (kRestLength; where unset, the lengths
-/// at the start), frozen: a plane mesh at rest keeps all its vertices.
+/// uniform: every neighbour counts the same. cotangent: of the rest lengths (kRestLength; where unset, the
+/// lengths at the start), frozen: a plane mesh at rest keeps all its vertices.
 enum class SmoothingWeights { uniform, cotangent };
-/// keep: vertices of lines (kLine >= 0) average vertices of lines only, so that the ridge survives (method S1.6).
+/// keep: vertices of lines (kLine >= 0) average vertices of lines only, so that the ridge survives (method
+/// S1.6).
 enum class LineRule { free, keep };
 /// free: border vertices average all their neighbours, so that a hem can lengthen.
 /// keep: they average their neighbours along the border only.
 enum class BorderRule { free, keep };
 
 struct TaubinOptions {
-  int iterations = 10;    ///< pairs of steps, a shrinking one and an inflating one; [0, 100000]
-  double lambda = 0.33;   ///< factor of the shrinking step [-]; > 0
-  double mu = -0.34;      ///< factor of the inflating step [-]; < -lambda, and stable (see taubin_smooth)
+  int iterations = 10;   ///< pairs of steps, a shrinking one and an inflating one; [0, 100000]
+  double lambda = 0.33;  ///< factor of the shrinking step [-]; > 0
+  double mu = -0.34;     ///< factor of the inflating step [-]; < -lambda, and stable (see taubin_smooth)
   SmoothingWeights weights = SmoothingWeights::uniform;
   LineRule lines = LineRule::free;
   BorderRule border = BorderRule::free;
@@ -37,18 +38,18 @@ struct SmoothReport {
 /// k_stab = ((lambda + mu) - sqrt((lambda + mu)^2 - 8 lambda mu)) / (2 lambda mu).
 double stability_limit(double lambda, double mu);
 
-/// Smooths without shrinking (method S1.5, S1.6): iterations times x -= lambda K x, then x -= mu K x, with K = I - W.
-/// On a closed mesh a wave of eigenvalue k is multiplied by f(k) for each pair. `region` lists the vertices that may
-/// move, in any order; an empty one means the whole mesh. All other vertices keep their bits, and so do those kept:
-/// with lines kept, a line vertex with fewer than two line neighbours (ends, lone ones) and, with the border kept as
-/// well, line vertices on the border. Kept lines and borders weigh by 1/length where the weights are cotangents.
-/// Each step reads the old positions only (Jacobi). Same input, same bits.
-/// Changes positions; connectivity and every property map stay. Triangles are asked for by cotangents only.
-/// Cost: O(iterations x edges of the region), two copies of its positions, and O(mesh) once.
-/// Throws std::invalid_argument, the mesh untouched, for an option out of its range and where k_max > k_stab: the
-/// shortest waves would grow. k_max = 2 for uniform weights, 3 for cotangents (reached by needles only, but 2.45 has
-/// been seen on real meshes). Throws ContentError if a position is not finite.
-/// Source: G. Taubin, "A signal processing approach to fair surface design", SIGGRAPH 1995.
+/// Smooths without shrinking (method S1.5, S1.6): iterations times x -= lambda K x, then x -= mu K x, with K
+/// = I - W. On a closed mesh a wave of eigenvalue k is multiplied by f(k) for each pair. `region` lists the
+/// vertices that may move, in any order; an empty one means the whole mesh. All other vertices keep their
+/// bits, and so do those kept: with lines kept, a line vertex with fewer than two line neighbours (ends, lone
+/// ones) and, with the border kept as well, line vertices on the border. Kept lines and borders weigh by
+/// 1/length where the weights are cotangents. Each step reads the old positions only (Jacobi). Same input,
+/// same bits. Changes positions; connectivity and every property map stay. Triangles are asked for by
+/// cotangents only. Cost: O(iterations x edges of the region), two copies of its positions, and O(mesh) once.
+/// Throws std::invalid_argument, the mesh untouched, for an option out of its range and where k_max > k_stab:
+/// the shortest waves would grow. k_max = 2 for uniform weights, 3 for cotangents (reached by needles only,
+/// but 2.45 has been seen on real meshes). Throws ContentError if a position is not finite. Source: G.
+/// Taubin, "A signal processing approach to fair surface design", SIGGRAPH 1995.
 SmoothReport taubin_smooth(Mesh& mesh, std::span<const Vertex> region, const TaubinOptions& options = {});
 
 }  // namespace furrow::geometry

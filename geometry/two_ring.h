@@ -7,9 +7,9 @@
 
 namespace furrow::geometry {
 
-/// Vertices at most `rings` edges away from one of `seeds`, the seeds among them, each once, by ascending index.
-/// Cost: a byte for each vertex of the mesh, and the edges around the result.
-/// Throws std::invalid_argument if rings < 0 or the mesh has not such a seed.
+/// Vertices at most `rings` edges away from one of `seeds`, the seeds among them, each once, by ascending
+/// index. Cost: a byte for each vertex of the mesh, and the edges around the result. Throws
+/// std::invalid_argument if rings < 0 or the mesh has not such a seed.
 std::vector<Vertex> vertices_within_rings(const Mesh& mesh, std::span<const Vertex> seeds, int rings);
 
 /// The neighbourhood that a drawn line is smoothed in (method S1.5): vertices_within_rings(mesh, seeds, 2).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes the small inputs of this folder: make_meshes FOLDER writes FOLDER/sheet.obj and FOLDER/strokes/sheet.json.
+// Makes the small inputs of this folder: make_meshes FOLDER writes FOLDER/sheet.obj and
+// FOLDER/strokes/sheet.json.
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -72,15 +73,17 @@ json ring(const Point& center, double radius, int n) {
 }
 
 void make(const std::filesystem::path& folder) {
-  write(folder / "sheet.obj", obj(furrow::geometry::equilateral_sheet(1, 1, 0.02),
-                                  "1 m x 1 m of cloth, equilateral triangles of edge 20 mm; metres, y up, made by make_meshes"));
+  write(folder / "sheet.obj",
+        obj(furrow::geometry::equilateral_sheet(1, 1, 0.02),
+            "1 m x 1 m of cloth, equilateral triangles of edge 20 mm; metres, y up, made by make_meshes"));
   // Ridge and valley: 0.5 m each (legs of 0.3 and 0.4 m), falling from below the corners towards the middle.
   const json strokes = {
       {{"name", "ridge"}, {"height", 0.02}, {"points", segment({-0.36, 0.86, 0}, {-0.06, 0.46, 0}, 0.005)}},
       {{"name", "valley"}, {"height", -0.02}, {"points", segment({0.36, 0.86, 0}, {0.06, 0.46, 0}, 0.005)}},
       {{"name", "ring"}, {"height", 0.03}, {"closed", true}, {"points", ring({0, 0.22, 0}, 0.12, 150)}}};
   std::string text_of_strokes = "{\"strokes\": [\n";
-  for (const json& stroke : strokes) text_of_strokes += stroke.dump() + (&stroke == &strokes.back() ? "\n" : ",\n");
+  for (const json& stroke : strokes)
+    text_of_strokes += stroke.dump() + (&stroke == &strokes.back() ? "\n" : ",\n");
   write(folder / "strokes" / "sheet.json", text_of_strokes + "]}\n");
 }
 

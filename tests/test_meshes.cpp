@@ -34,8 +34,10 @@ Mesh cells(int nx, int ny, double width, double height, const OtherDiagonal& oth
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i) {
       const int a = i + j * (nx + 1), b = a + 1, c = b + nx + 1, d = a + nx + 1;
-      if (other_diagonal(i, j)) faces.insert(faces.end(), {{a, b, d}, {b, c, d}});
-      else faces.insert(faces.end(), {{a, b, c}, {a, c, d}});
+      if (other_diagonal(i, j))
+        faces.insert(faces.end(), {{a, b, d}, {b, c, d}});
+      else
+        faces.insert(faces.end(), {{a, b, c}, {a, c, d}});
     }
   return mesh_of(points, faces);
 }
@@ -88,17 +90,19 @@ Mesh cylinder(double radius, double height, int around, int up) {
 
 Mesh icosphere(int levels, double radius, const Point& center) {
   const double g = std::numbers::phi;
-  std::vector<Point> points = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                               {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  std::vector<std::array<int, 3>> faces = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11},
-                                           {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                                           {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9},
-                                           {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  std::vector<Point> points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                               {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  std::vector<std::array<int, 3>> faces = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                           {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                           {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                           {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
   for (int level = 0; level < levels; ++level) {
     std::map<std::pair<int, int>, int> middle;
     const auto between = [&](int a, int b) {
       const auto [entry, is_new] = middle.try_emplace(std::minmax(a, b), static_cast<int>(points.size()));
-      if (is_new) points.push_back(CGAL::midpoint(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]));
+      if (is_new)
+        points.push_back(
+            CGAL::midpoint(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]));
       return entry->second;
     };
     std::vector<std::array<int, 3>> finer;
@@ -135,8 +139,18 @@ Mesh torus_lattice(int n, int m, double major, double minor) {
 Mesh cube() {
   std::vector<Point> points;
   for (int i = 0; i < 8; ++i) points.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
-  return mesh_of(points, {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                          {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}});
+  return mesh_of(points, {{0, 2, 3},
+                          {0, 3, 1},
+                          {4, 5, 7},
+                          {4, 7, 6},
+                          {0, 1, 5},
+                          {0, 5, 4},
+                          {2, 6, 7},
+                          {2, 7, 3},
+                          {0, 4, 6},
+                          {0, 6, 2},
+                          {1, 3, 7},
+                          {1, 7, 5}});
 }
 
 void append(Mesh& mesh, const Mesh& part) {
