@@ -15,6 +15,7 @@
 #include "io/file_frame.h"
 #include "io/merge_points.h"
 #include "io/mesh_readers.h"
+#include "io/name_table.h"
 #include "io/soup_bytes.h"
 
 namespace furrow::io {
@@ -22,14 +23,6 @@ namespace {
 
 using namespace geometry;
 using Transform = aiMatrix4x4t<double>;
-
-/// Index of a name, added where new.
-int index_of(std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::ranges::find(names, name);
-  if (found != names.end()) return static_cast<int>(found - names.begin());
-  names.push_back(name);
-  return static_cast<int>(names.size() - 1);
-}
 
 class SceneReader {
  public:
@@ -56,7 +49,7 @@ class SceneReader {
   void read_node(const aiNode& node, const Transform& transform) {
     PointNumbers numbers;
     const std::size_t base = out_.soup.points.size();
-    const int group = index_of(out_.group_names, node.mName.length ? node.mName.C_Str() : "mesh");
+    const int group = groups_.index(node.mName.length ? node.mName.C_Str() : "mesh");
     const bool mirrored = transform.Determinant() < 0;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       if (node.mMeshes[i] >= scene_.mNumMeshes) throw ContentError("a node names a mesh that is not there");
@@ -93,7 +86,7 @@ class SceneReader {
   void read_faces(const aiMesh& mesh, const std::vector<std::size_t>& points, int group, bool mirrored) {
     int material = -1;
     if (mesh.mMaterialIndex < scene_.mNumMaterials)
-      material = index_of(out_.material_names, scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str());
+      material = materials_.index(scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str());
     PolygonSoup& soup = out_.soup;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
@@ -115,6 +108,7 @@ class SceneReader {
   const aiScene& scene_;
   ReadOptions options_;
   SoupFile out_;
+  NameTable groups_{out_.group_names}, materials_{out_.material_names};
   bool has_colors_ = false;
 };
 

@@ -47,7 +47,9 @@ std::string read_text(const std::filesystem::path& path) { return read_file<std:
 
 std::string read_text(std::istream& in, const std::string& name) { return read_all<std::string>(in, name); }
 
-std::vector<std::byte> read_bytes(const std::filesystem::path& path) { return read_file<std::vector<std::byte>>(path); }
+std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
+  return read_file<std::vector<std::byte>>(path);
+}
 
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   write_atomically(path, [bytes](std::ostream& out) {

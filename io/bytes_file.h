@@ -12,7 +12,8 @@ namespace furrow::io {
 /// Files above this are refused, so that an endless one (a device) does not fill the memory [bytes].
 inline constexpr std::size_t kLargestFile = std::size_t{4} << 30;
 
-/// The whole file. Throws geometry::ContentError if it is missing, a folder, unreadable or above kLargestFile.
+/// The whole file. Throws geometry::ContentError if it is missing, a folder, unreadable or above
+/// kLargestFile.
 std::string read_text(const std::filesystem::path& path);
 /// The rest of a stream; `name` stands in messages.
 std::string read_text(std::istream& in, const std::string& name);

@@ -11,9 +11,9 @@ struct Chain {
   bool closed = false;
 };
 
-/// Joins segments (pairs of vertices) that share a vertex into chains. A chain ends where one, or more than two,
-/// segments meet; closed loops are found. Segments of one vertex and repeated segments are dropped.
-/// Open chains come first, in the order of their first segments, then loops. Cost: O(n log n).
+/// Joins segments (pairs of vertices) that share a vertex into chains. A chain ends where one, or more than
+/// two, segments meet; closed loops are found. Segments of one vertex and repeated segments are dropped. Open
+/// chains come first, in the order of their first segments, then loops. Cost: O(n log n).
 std::vector<Chain> chain_segments(const std::vector<std::array<std::size_t, 2>>& segments);
 
 }  // namespace furrow::io

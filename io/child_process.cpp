@@ -56,7 +56,8 @@ void send(int pipe, const char* bytes, std::size_t size) {
 [[noreturn]] void be_child(int pipe, const std::function<std::string()>& work, const ChildLimits& limits,
                            std::size_t address_space) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGABRT, SIGXCPU}) ::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGABRT, SIGXCPU})
+    ::signal(signal, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
   limit(RLIMIT_CORE, 0);
@@ -103,7 +104,8 @@ std::string receive(int pipe, const ChildLimits& limits, std::string& why) {
 
 std::string reason_of_death(int status, const ChildLimits& limits) {
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
-    return "reading took more than " + std::to_string(limits.cpu_seconds) + " s of CPU time or too much memory";
+    return "reading took more than " + std::to_string(limits.cpu_seconds) +
+           " s of CPU time or too much memory";
   if (WIFSIGNALED(status)) return "the reader crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
   return "the reader ended early (status " + std::to_string(WEXITSTATUS(status)) + ")";
 }
@@ -115,7 +117,8 @@ std::string run_in_child(const std::function<std::string()>& work, const ChildLi
     throw std::invalid_argument("run_in_child: a limit is 0; all must be > 0");
   const std::size_t address_space = own_address_space();
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("no pipe: ") + std::strerror(errno));
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    throw std::runtime_error(std::string("no pipe: ") + std::strerror(errno));
   const pid_t child = ::fork();
   if (child < 0) {
     ::close(ends[0]), ::close(ends[1]);

@@ -7,18 +7,19 @@
 namespace furrow::io {
 
 struct ChildLimits {
-  std::size_t memory_bytes = std::size_t{4} << 30;  ///< address space beyond this process's own [bytes]; > 0.
-                                                    ///< Not held under the address sanitizer, which needs terabytes
+  /// Address space beyond this process's own [bytes]; > 0. Not held under the address sanitizer, which needs
+  /// terabytes of it.
+  std::size_t memory_bytes = std::size_t{4} << 30;
   unsigned cpu_seconds = 60;                        ///< [s]; > 0
   unsigned seconds = 120;                           ///< of waiting for the next bytes of the answer [s]; > 0
   std::size_t answer_bytes = std::size_t{2} << 30;  ///< longest answer [bytes]; > 0
 };
 
-/// Runs `work` in a forked child with limits and returns what it returned: for a library that may crash, hang or
-/// devour memory on a bad file. The child has no output but its answer (standard output and error are closed), runs
-/// no exit handlers, and ends with this process.
-/// Throws geometry::ContentError with the reason if `work` throws, crashes or passes a limit; std::runtime_error if
-/// no child can be started. Cost: a fork (about 1 ms) and a copy of the answer.
+/// Runs `work` in a forked child with limits and returns what it returned: for a library that may crash, hang
+/// or devour memory on a bad file. The child has no output but its answer (standard output and error are
+/// closed), runs no exit handlers, and ends with this process. Throws geometry::ContentError with the reason
+/// if `work` throws, crashes or passes a limit; std::runtime_error if no child can be started. Cost: a fork
+/// and a copy of the answer.
 std::string run_in_child(const std::function<std::string()>& work, const ChildLimits& limits = {});
 
 }  // namespace furrow::io

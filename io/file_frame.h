@@ -14,7 +14,8 @@ inline constexpr double kLargestCoordinate = 1e9;
 
 inline void check_unit(double metres_per_unit) {
   if (!(metres_per_unit > 0) || !std::isfinite(metres_per_unit))
-    throw std::invalid_argument("metres_per_unit must be > 0 and finite, is " + std::to_string(metres_per_unit));
+    throw std::invalid_argument("metres_per_unit must be > 0 and finite, is " +
+                                std::to_string(metres_per_unit));
 }
 
 /// A direction of the file in our axes.

@@ -14,7 +14,8 @@ class PointNumbers {
  public:
   /// The number of p, and whether it is new.
   std::pair<std::size_t, bool> number(const geometry::Point& p) {
-    const auto [found, is_new] = known_.try_emplace(Key{bits(p.x()), bits(p.y()), bits(p.z())}, known_.size());
+    const auto [found, is_new] =
+        known_.try_emplace(Key{bits(p.x()), bits(p.y()), bits(p.z())}, known_.size());
     return {found->second, is_new};
   }
 

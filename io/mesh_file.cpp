@@ -24,13 +24,19 @@ constexpr std::array<std::pair<const char*, MeshFormat>, 6> kEndings = {{{".obj"
                                                                          {".gltf", MeshFormat::gltf},
                                                                          {".glb", MeshFormat::gltf}}};
 
-MeshFile parse(std::string_view text, MeshFormat format, const std::string& name, const ReadOptions& options) {
+MeshFile parse(std::string_view text, MeshFormat format, const std::string& name,
+               const ReadOptions& options) {
   switch (format) {
-    case MeshFormat::obj: return read_obj(text, name, options);
-    case MeshFormat::ply: return read_ply(text, name, options);
-    case MeshFormat::off: return read_off(text, name, options);
-    case MeshFormat::stl: return read_stl(text, name, options);
-    default: throw std::invalid_argument("format: glTF is read from files only, not from streams");
+    case MeshFormat::obj:
+      return read_obj(text, name, options);
+    case MeshFormat::ply:
+      return read_ply(text, name, options);
+    case MeshFormat::off:
+      return read_off(text, name, options);
+    case MeshFormat::stl:
+      return read_stl(text, name, options);
+    default:
+      throw std::invalid_argument("format: glTF is read from files only, not from streams");
   }
 }
 
@@ -39,7 +45,8 @@ MeshFile parse(std::string_view text, MeshFormat format, const std::string& name
 MeshFormat mesh_format(const std::filesystem::path& path) {
   if (path == "-") return MeshFormat::obj;
   std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  std::ranges::transform(ending, ending.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   for (const auto& [known, format] : kEndings)
     if (ending == known) return format;
   throw geometry::ContentError(path.string() + ": unknown format '" + ending +
@@ -77,11 +84,16 @@ void write_mesh(const std::filesystem::path& path, const MeshFile& file, const W
 void write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file, const WriteOptions& options) {
   check_unit(options.metres_per_unit);
   switch (format) {
-    case MeshFormat::obj: return write_obj(out, file, options);
-    case MeshFormat::ply: return write_ply(out, file, options);
-    case MeshFormat::off: return write_off(out, file, options);
-    case MeshFormat::stl: return write_stl(out, file, options);
-    default: throw std::invalid_argument("format: glTF is not written; choose obj, ply, off or stl");
+    case MeshFormat::obj:
+      return write_obj(out, file, options);
+    case MeshFormat::ply:
+      return write_ply(out, file, options);
+    case MeshFormat::off:
+      return write_off(out, file, options);
+    case MeshFormat::stl:
+      return write_stl(out, file, options);
+    default:
+      throw std::invalid_argument("format: glTF is not written; choose obj, ply, off or stl");
   }
 }
 
@@ -104,7 +116,8 @@ void check_positions(const geometry::Mesh& mesh, const WriteOptions& options) {
     const geometry::Vector p = to_file(mesh.point(v), options);
     for (int k = 0; k < 3; ++k)
       if (!std::isfinite(p[k]))
-        throw std::invalid_argument("mesh: the position of vertex " + std::to_string(v.idx()) + " is not finite");
+        throw std::invalid_argument("mesh: the position of vertex " + std::to_string(v.idx()) +
+                                    " is not finite");
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace furrow::io {
 
-/// What a reader had to do to a file's content to get an oriented manifold of triangles. Zero where nothing was.
+/// What a reader had to do to a file's content to get an oriented manifold of triangles.
 struct RepairReport {
   std::size_t triangulated_faces = 0;   ///< faces with more than three corners, cut
   std::size_t degenerate_faces = 0;     ///< triangles dropped: a repeated corner
@@ -17,7 +17,7 @@ struct RepairReport {
   std::size_t reversed_faces = 0;       ///< triangles turned to agree with their neighbours
   std::size_t duplicated_vertices = 0;  ///< appended at the end, to part non-manifold edges and vertices
   std::size_t isolated_vertices = 0;    ///< kept
-  std::size_t merged_vertices = 0;      ///< equal positions, only where the format cannot share them (STL, glTF)
+  std::size_t merged_vertices = 0;  ///< equal positions, only where the format cannot share them (STL, glTF)
   bool any() const {
     return degenerate_faces || duplicate_faces || reversed_faces || duplicated_vertices || merged_vertices;
   }
@@ -26,7 +26,7 @@ struct RepairReport {
 /// An OBJ `l` element, or a chain of two-point elements that share vertices.
 struct Polyline {
   std::vector<geometry::Point> points;  ///< [m]; the first is not repeated at the end of a closed one
-  std::vector<std::size_t> vertices;    ///< the same points as vertex indices of the mesh; empty = not its own
+  std::vector<std::size_t> vertices;  ///< the same points as vertex indices of the mesh; empty = not its own
   bool closed = false;
 };
 

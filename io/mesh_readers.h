@@ -11,7 +11,8 @@
 namespace furrow::io {
 
 /// Wavefront OBJ: v (with w, or red green blue [alpha]), vt, f, l, g, o, usemtl, mtllib; indices from 1 or
-/// negative; continued lines. vn, vp, p, s and free-form geometry are passed over, unknown words with one warning.
+/// negative; continued lines. vn, vp, p, s and free-form geometry are passed over, unknown words with one
+/// warning.
 MeshFile read_obj(std::string_view text, const std::string& name, const ReadOptions& options);
 /// Only the polylines of an OBJ file, which needs no faces.
 std::vector<Polyline> read_obj_polylines(std::string_view text, const std::string& name,
@@ -22,8 +23,8 @@ MeshFile read_ply(std::string_view text, const std::string& name, const ReadOpti
 MeshFile read_off(std::string_view text, const std::string& name, const ReadOptions& options);
 /// STL, text (solids become groups) and binary. Vertices of exactly equal position are merged.
 MeshFile read_stl(std::string_view text, const std::string& name, const ReadOptions& options);
-/// glTF and GLB by assimp, in a child process with limits: single precision, vertices of equal position in one
-/// node merged. Throws geometry::ContentError too if the child crashes, hangs or sends nonsense.
+/// glTF and GLB by assimp, in a child process with limits: single precision, vertices of equal position in
+/// one node merged. Throws geometry::ContentError too if the child crashes, hangs or sends nonsense.
 MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options);
 
 /// The mesh of a soup put into the file's other content.

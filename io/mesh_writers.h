@@ -7,17 +7,18 @@
 #include "io/file_frame.h"
 #include "io/mesh_file.h"
 
-/// The writers behind write_mesh(), one source a format. They pass over removed elements of a mesh with garbage;
-/// vertices and faces keep their order. All throw std::invalid_argument, nothing written, for a position that is
-/// not finite.
+/// The writers behind write_mesh(), one source a format. They pass over removed elements of a mesh with
+/// garbage; vertices and faces keep their order. All throw std::invalid_argument, nothing written, for a
+/// position that is not finite.
 namespace furrow::io {
 
-/// OBJ in double (shortest text that reads back exactly): comments, mtllib, v (with colour), vt (equal ones shared;
-/// a face with a corner that has none gets none), g, usemtl, f; and as `l` elements the chains of line edges
-/// (e:line_edge) or, where the mesh has none, `polylines` (those without vertices of the mesh get vertices of
-/// their own at the end).
+/// OBJ in double (shortest text that reads back exactly): comments, mtllib, v (with colour), vt (equal ones
+/// shared; a face with a corner that has none gets none), g, usemtl, f; and as `l` elements the chains of
+/// line edges (e:line_edge) or, where the mesh has none, `polylines` (those without vertices of the mesh get
+/// vertices of their own at the end).
 void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& options);
-/// PLY, binary little-endian, double: every map of geometry/property_names.h that the mesh has (decision 0005).
+/// PLY, binary little-endian, double: every map of geometry/property_names.h that the mesh has (decision
+/// 0005).
 void write_ply(std::ostream& out, const MeshFile& file, const WriteOptions& options);
 /// OFF, or COFF where the mesh has colours, in double. Everything else is left out.
 void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& options);

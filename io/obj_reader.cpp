@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include "geometry/errors.h"
 #include "io/chain_segments.h"
 #include "io/file_frame.h"
 #include "io/mesh_readers.h"
+#include "io/name_table.h"
 #include "io/text_scanner.h"
 
 namespace furrow::io {
@@ -18,27 +18,10 @@ constexpr std::size_t kNoTexture = static_cast<std::size_t>(-1);
 
 /// Statements of the format that say nothing about our meshes.
 constexpr std::array kPassedOver = {
-    "vn",   "vp",   "p",    "s",      "mg",       "cstype",   "deg", "bmat",  "step",       "curv",
-    "curv2", "surf", "parm", "trim",   "hole",     "scrv",     "sp",  "end",   "con",        "bevel",
-    "lod",  "call", "csh",  "maplib", "usemap",   "c_interp", "d_interp", "shadow_obj", "trace_obj",
-    "ctech", "stech"};
-
-/// Names in the order of their first use.
-class Names {
- public:
-  explicit Names(std::vector<std::string>& names) : names_(names) {}
-  /// -1 for the empty name.
-  int index(std::string_view name) {
-    if (name.empty()) return -1;
-    const auto [found, is_new] = known_.emplace(name, static_cast<int>(names_.size()));
-    if (is_new) names_.emplace_back(name);
-    return found->second;
-  }
-
- private:
-  std::vector<std::string>& names_;
-  std::map<std::string, int, std::less<>> known_;
-};
+    "vn",     "vp",       "p",        "s",          "mg",        "cstype", "deg",  "bmat",
+    "step",   "curv",     "curv2",    "surf",       "parm",      "trim",   "hole", "scrv",
+    "sp",     "end",      "con",      "bevel",      "lod",       "call",   "csh",  "maplib",
+    "usemap", "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech",  "stech"};
 
 struct LineElement {
   std::vector<std::size_t> vertices;
@@ -49,7 +32,8 @@ class ObjReader {
  public:
   ObjReader(std::string_view text, const std::string& name, const ReadOptions& options)
       : in_(plain_text(text, name), name, TextScanner::Continuation::backslash), options_(options) {
-    if (std::ranges::count(text.substr(0, 4096), '\0') > 0) in_.fail("zero bytes: this is no text, so no OBJ file");
+    if (std::ranges::count(text.substr(0, 4096), '\0') > 0)
+      in_.fail("zero bytes: this is no text, so no OBJ file");
   }
 
   void read() {
@@ -67,14 +51,22 @@ class ObjReader {
     if (comment()) return;
     const std::string_view word = in_.word();
     if (word.empty()) return;
-    if (word == "v") read_vertex();
-    else if (word == "vt") read_texture();
-    else if (word == "f" || word == "fo") read_face();
-    else if (word == "l") read_line();
-    else if (word == "g" || word == "o") group_ = groups_.index(in_.rest_of_line());
-    else if (word == "usemtl") material_ = materials_.index(in_.rest_of_line());
-    else if (word == "mtllib") file.material_libraries.emplace_back(in_.rest_of_line());
-    else if (std::ranges::find(kPassedOver, word) == kPassedOver.end()) warn_unknown(word);
+    if (word == "v")
+      read_vertex();
+    else if (word == "vt")
+      read_texture();
+    else if (word == "f" || word == "fo")
+      read_face();
+    else if (word == "l")
+      read_line();
+    else if (word == "g" || word == "o")
+      group_ = groups_.index(in_.rest_of_line());
+    else if (word == "usemtl")
+      material_ = materials_.index(in_.rest_of_line());
+    else if (word == "mtllib")
+      file.material_libraries.emplace_back(in_.rest_of_line());
+    else if (std::ranges::find(kPassedOver, word) == kPassedOver.end())
+      warn_unknown(word);
   }
 
   bool comment() {
@@ -90,8 +82,8 @@ class ObjReader {
   void warn_unknown(std::string_view word) {
     if (warned_) return;
     warned_ = true;
-    file.warnings.push_back(in_.name() + ":" + std::to_string(in_.line()) + ": unknown statement " + in_quotes(word) +
-                            "; it and others like it are passed over");
+    file.warnings.push_back(in_.name() + ":" + std::to_string(in_.line()) + ": unknown statement " +
+                            in_quotes(word) + "; it and others like it are passed over");
   }
 
   void read_vertex() {
@@ -101,7 +93,8 @@ class ObjReader {
       if (n == c.size()) in_.fail("a vertex has more than seven numbers; x y z, w or a colour may follow");
       c[n] = in_.finite_number(word, n < 3 ? "coordinate of a vertex" : "w or colour of a vertex");
     }
-    if (n < 3 || n == 5) in_.fail("a vertex has " + std::to_string(n) + " numbers; 3, 4 (w), 6 or 7 (colour) are read");
+    if (n < 3 || n == 5)
+      in_.fail("a vertex has " + std::to_string(n) + " numbers; 3, 4 (w), 6 or 7 (colour) are read");
     const auto point = from_file(c[0], c[1], c[2], options_);
     if (!point) in_.fail(kBadCoordinate);
     soup.points.push_back(*point);
@@ -112,7 +105,8 @@ class ObjReader {
 
   void read_texture() {
     TextureCoordinate t{in_.finite_number(in_.word(), "u of a texture coordinate"), 0};
-    if (const std::string_view v = in_.word(); !v.empty()) t[1] = in_.finite_number(v, "v of a texture coordinate");
+    if (const std::string_view v = in_.word(); !v.empty())
+      t[1] = in_.finite_number(v, "v of a texture coordinate");
     textures_.push_back(t);
   }
 
@@ -140,7 +134,8 @@ class ObjReader {
       const std::string_view normal = second == rest.npos ? std::string_view() : rest.substr(second + 1);
       if (!normal.empty()) in_.integer(normal, "normal of a face");
     }
-    if (soup.corners.size() < first + 3) in_.fail("a face has fewer than three corners; add them or drop the line");
+    if (soup.corners.size() < first + 3)
+      in_.fail("a face has fewer than three corners; add them or drop the line");
     soup.close_face();
     soup.face_lines.push_back(in_.line());
     soup.groups.push_back(group_);
@@ -150,7 +145,8 @@ class ObjReader {
   void read_line() {
     LineElement element{{}, in_.line()};
     for (std::string_view word = in_.word(); !word.empty(); word = in_.word())
-      element.vertices.push_back(resolve(word.substr(0, word.find('/')), soup.points.size(), "vertex of a line"));
+      element.vertices.push_back(
+          resolve(word.substr(0, word.find('/')), soup.points.size(), "vertex of a line"));
     if (element.vertices.size() < 2) in_.fail("a line has fewer than two vertices; add them or drop it");
     lines_.push_back(std::move(element));
   }
@@ -178,13 +174,15 @@ class ObjReader {
     for (const LineElement& element : lines_) {
       for (const std::size_t v : element.vertices)
         if (v >= soup.points.size())
-          fail_at(element.line, "a line names a vertex beyond the last of " + std::to_string(soup.points.size()) +
+          fail_at(element.line, "a line names a vertex beyond the last of " +
+                                    std::to_string(soup.points.size()) +
                                     "; correct the index or add the vertex");
       if (element.vertices.size() == 2) {
         segments.push_back({element.vertices[0], element.vertices[1]});
         continue;
       }
-      Chain chain{element.vertices, element.vertices.size() > 3 && element.vertices.front() == element.vertices.back()};
+      Chain chain{element.vertices,
+                  element.vertices.size() > 3 && element.vertices.front() == element.vertices.back()};
       if (chain.closed) chain.vertices.pop_back();
       chains.push_back(std::move(chain));
     }
@@ -212,7 +210,7 @@ class ObjReader {
   std::vector<TextureCoordinate> textures_;
   std::vector<std::size_t> face_textures_;
   std::vector<LineElement> lines_;
-  Names groups_{file.group_names}, materials_{file.material_names};
+  NameTable groups_{file.group_names}, materials_{file.material_names};
   int group_ = -1, material_ = -1;
   bool warned_ = false;
 };

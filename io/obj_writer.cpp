@@ -78,7 +78,8 @@ class ObjWriter {
     out_ += word;
     if (index >= 0 && static_cast<std::size_t>(index) < names.size() && !names[index].empty())
       out_ += ' ' + one_line(names[index]);
-    else if (index >= 0) out_ += ' ' + std::to_string(index);
+    else if (index >= 0)
+      out_ += ' ' + std::to_string(index);
     out_ += '\n';
   }
 
@@ -113,7 +114,8 @@ class ObjWriter {
     std::vector<std::array<std::size_t, 2>> segments;
     if (const auto line_edges = find_map(mesh_, kLineEdge))
       for (const Edge e : mesh_.edges())
-        if ((*line_edges)[e]) segments.push_back({numbers_[mesh_.vertex(e, 0)], numbers_[mesh_.vertex(e, 1)]});
+        if ((*line_edges)[e])
+          segments.push_back({numbers_[mesh_.vertex(e, 0)], numbers_[mesh_.vertex(e, 1)]});
     for (const Chain& chain : chain_segments(segments)) write_line(chain.vertices, chain.closed);
     if (segments.empty()) write_polylines();
   }

@@ -42,7 +42,8 @@ void read_counts(TextScanner& in, std::size_t file_size, OffHeader& header) {
   const std::int64_t faces = in.integer(in.word(), "number of faces");
   if (const std::string_view edges = in.word(); !edges.empty()) in.integer(edges, "number of edges");
   if (vertices < 0 || faces < 0) in.fail("a negative count; correct it");
-  // A vertex takes at least the six bytes of "0 0 0\n" (the last may lack its line's end), a face the two of "0\n".
+  // A vertex takes at least the six bytes of "0 0 0\n" (the last may lack its line's end), a face the two of
+  // "0\n".
   header.vertices = static_cast<std::size_t>(vertices);
   header.faces = static_cast<std::size_t>(faces);
   if (header.vertices > (file_size + 1) / 6 || header.faces > (file_size + 1) / 2)
@@ -72,8 +73,8 @@ class OffReader {
 
  private:
   void fail_short(const char* what, std::size_t i, std::size_t n) const {
-    in_.fail("the file ends before " + std::string(what) + " " + std::to_string(i) + " of " + std::to_string(n) +
-             ": it is cut short");
+    in_.fail("the file ends before " + std::string(what) + " " + std::to_string(i) + " of " +
+             std::to_string(n) + ": it is cut short");
   }
 
   void read_vertex(std::size_t i) {
@@ -89,7 +90,8 @@ class OffReader {
     if (header_.colors) word = read_color(word);
     if (!header_.textures) return;
     TextureCoordinate t{};
-    for (int k = 0; k < 2; ++k, word = in_.word()) t[k] = in_.finite_number(word, "texture coordinate of a vertex");
+    for (int k = 0; k < 2; ++k, word = in_.word())
+      t[k] = in_.finite_number(word, "texture coordinate of a vertex");
     textures_.push_back(t);
   }
 

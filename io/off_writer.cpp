@@ -36,7 +36,8 @@ void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& opti
   }
   for (const Face f : mesh.faces()) {
     text += '3';
-    for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) text += ' ', append_number(text, numbers[v]);
+    for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+      text += ' ', append_number(text, numbers[v]);
     text += '\n';
   }
   out << text;

@@ -30,7 +30,8 @@ std::vector<MeshEdge> sorted_edges(const SoupMesh& mesh) {
   return edges;
 }
 
-double length(const PlyRow& row, std::optional<std::size_t> column, const PlyRows& rows, double metres_per_unit) {
+double length(const PlyRow& row, std::optional<std::size_t> column, const PlyRows& rows,
+              double metres_per_unit) {
   if (!column) return kUnset;
   const double value = row.numbers[*column] * metres_per_unit;
   if (value <= 0 || std::isinf(value)) rows.fail("a rest length must be > 0 and finite, or nan for none");
@@ -40,7 +41,8 @@ double length(const PlyRow& row, std::optional<std::size_t> column, const PlyRow
 int small_count(const PlyRow& row, std::optional<std::size_t> column, const PlyRows& rows) {
   if (!column) return 0;
   const double value = row.numbers[*column];
-  if (!(value >= 0 && value <= 1e6) || value != std::floor(value)) rows.fail("a count must be whole, from 0 to 1e6");
+  if (!(value >= 0 && value <= 1e6) || value != std::floor(value))
+    rows.fail("a count must be whole, from 0 to 1e6");
   return static_cast<int>(value);
 }
 
@@ -62,8 +64,8 @@ void PlyEdges::add(const PlyRow& row, const PlyRows& rows, double metres_per_uni
   if (!is_index(a) || !is_index(b)) rows.fail("an end of an edge is no index of a vertex; correct it");
   edges_.push_back({static_cast<std::size_t>(std::min(a, b)), static_cast<std::size_t>(std::max(a, b)),
                     length(row, rest_length_, rows, metres_per_unit),
-                    length(row, bending_rest_length_, rows, metres_per_unit), small_count(row, bending_count_, rows),
-                    small_count(row, line_edge_, rows)});
+                    length(row, bending_rest_length_, rows, metres_per_unit),
+                    small_count(row, bending_count_, rows), small_count(row, line_edge_, rows)});
 }
 
 void PlyEdges::fill_maps(SoupMesh& mesh, const std::string& name) const {

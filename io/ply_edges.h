@@ -27,7 +27,8 @@ class PlyEdges {
     int bending_count, line_edge;
   };
   std::vector<Values> edges_;
-  std::optional<std::size_t> vertex1_, vertex2_, rest_length_, bending_rest_length_, bending_count_, line_edge_;
+  std::optional<std::size_t> vertex1_, vertex2_, rest_length_, bending_rest_length_, bending_count_,
+      line_edge_;
 };
 
 }  // namespace furrow::io

@@ -27,7 +27,8 @@ PlyType read_type(TextScanner& in) {
   const std::string_view word = in.word();
   for (const auto& [name, type] : kTypes)
     if (word == name) return type;
-  in.fail(in_quotes(word) + " is no type of a property; char, uchar, short, ushort, int, uint, float, double are");
+  in.fail(in_quotes(word) +
+          " is no type of a property; char, uchar, short, ushort, int, uint, float, double are");
 }
 
 PlyEncoding read_encoding(TextScanner& in) {
@@ -35,7 +36,8 @@ PlyEncoding read_encoding(TextScanner& in) {
   if (word == "ascii") return PlyEncoding::ascii;
   if (word == "binary_little_endian") return PlyEncoding::little_endian;
   if (word == "binary_big_endian") return PlyEncoding::big_endian;
-  in.fail("unknown format " + in_quotes(word) + "; ascii, binary_little_endian and binary_big_endian are read");
+  in.fail("unknown format " + in_quotes(word) +
+          "; ascii, binary_little_endian and binary_big_endian are read");
 }
 
 PlyElement read_element(TextScanner& in) {
@@ -78,7 +80,8 @@ std::size_t size_of(PlyType type) {
 
 std::size_t PlyElement::smallest_size(PlyEncoding encoding) const {
   std::size_t bytes = 0;
-  for (const PlyProperty& p : properties) bytes += encoding == PlyEncoding::ascii ? 2 : size_of(p.count_type.value_or(p.type));
+  for (const PlyProperty& p : properties)
+    bytes += encoding == PlyEncoding::ascii ? 2 : size_of(p.count_type.value_or(p.type));
   return bytes;
 }
 
@@ -101,7 +104,8 @@ PlyHeader read_ply_header(TextScanner& in, std::size_t file_size) {
     } else if (word == "element") {
       PlyElement element = read_element(in);
       for (const PlyElement& other : header.elements)
-        if (other.name == element.name) in.fail("a second element " + in_quotes(element.name) + "; remove it");
+        if (other.name == element.name)
+          in.fail("a second element " + in_quotes(element.name) + "; remove it");
       header.elements.push_back(std::move(element));
     } else if (word == "property") {
       if (header.elements.empty()) in.fail("a property before the first element; move it");

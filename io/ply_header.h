@@ -36,8 +36,8 @@ struct PlyHeader {
   std::vector<std::string> comments;
 };
 
-/// Reads up to the line end_header; the scanner stands at that line's end. Throws geometry::ContentError with the
-/// line; no element may announce more than could stand in `file_size` bytes.
+/// Reads up to the line end_header; the scanner stands at that line's end. Throws geometry::ContentError with
+/// the line; no element may announce more than could stand in `file_size` bytes.
 PlyHeader read_ply_header(TextScanner& in, std::size_t file_size);
 
 }  // namespace furrow::io

@@ -19,16 +19,23 @@ using Column = std::optional<std::size_t>;
 class PlyReader {
  public:
   PlyReader(std::string_view text, const std::string& name, const ReadOptions& options)
-      : name_(name), options_(options), scanner_(text, name), header_(read_ply_header(scanner_, text.size())),
+      : name_(name),
+        options_(options),
+        scanner_(text, name),
+        header_(read_ply_header(scanner_, text.size())),
         rows_(scanner_, text, header_.encoding) {}
 
   MeshFile read() {
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;
-      if (element.name == "vertex") read_vertices(element);
-      else if (element.name == "face") read_faces(element);
-      else if (element.name == "edge" && edges_.set_columns(element)) read_edges(element);
-      else skip(element);
+      if (element.name == "vertex")
+        read_vertices(element);
+      else if (element.name == "face")
+        read_faces(element);
+      else if (element.name == "edge" && edges_.set_columns(element))
+        read_edges(element);
+      else
+        skip(element);
     }
     finish_textures();
     take_comments();
@@ -43,8 +50,10 @@ class PlyReader {
   void warn_of_unknown(const PlyElement& element, std::initializer_list<std::string_view> known) {
     std::string names;
     for (const PlyProperty& p : element.properties)
-      if (std::find(known.begin(), known.end(), p.name) == known.end()) names += (names.empty() ? "" : ", ") + p.name;
-    if (!names.empty()) file_.warnings.push_back(name_ + ": properties of '" + element.name + "' not read: " + names);
+      if (std::find(known.begin(), known.end(), p.name) == known.end())
+        names += (names.empty() ? "" : ", ") + p.name;
+    if (!names.empty())
+      file_.warnings.push_back(name_ + ": properties of '" + element.name + "' not read: " + names);
   }
 
   void skip(const PlyElement& element) {
@@ -57,14 +66,16 @@ class PlyReader {
   }
 
   void read_vertices(const PlyElement& element) {
-    const std::array<Column, 3> xyz = {number(element, {"x"}), number(element, {"y"}), number(element, {"z"})};
+    const std::array<Column, 3> xyz = {number(element, {"x"}), number(element, {"y"}),
+                                       number(element, {"z"})};
     const std::array<Column, 4> rgba = {number(element, {"red", "r"}), number(element, {"green", "g"}),
                                         number(element, {"blue", "b"}), number(element, {"alpha", "a"})};
     const std::array<Column, 2> st = {number(element, {"s", "u", "texture_u"}),
                                       number(element, {"t", "v", "texture_v"})};
     const Column line = number(element, {"line"}), mass = number(element, {"mass"});
-    warn_of_unknown(element, {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha", "r", "g", "b", "a", "s",
-                              "t", "u", "v", "texture_u", "texture_v", "line", "mass"});
+    warn_of_unknown(element,
+                    {"x", "y", "z", "nx", "ny", "nz", "red", "green",     "blue",      "alpha", "r",
+                     "g", "b", "a", "s",  "t",  "u",  "v",   "texture_u", "texture_v", "line",  "mass"});
     if (!xyz[0] || !xyz[1] || !xyz[2]) rows_.fail("the vertices have no x, y and z");
     for (std::size_t i = 0; i < element.count; ++i) {
       rows_.read(element, i, row_);
@@ -84,7 +95,10 @@ class PlyReader {
     for (std::size_t k = 0; k < 4; ++k) {
       if (!rgba[k]) continue;
       const PlyType type = element.properties[*rgba[k]].type;
-      const double most = !is_integer(type) ? 1 : size_of(type) == 1 ? 255 : size_of(type) == 2 ? 65535 : 4294967295.0;
+      const double most = !is_integer(type)    ? 1
+                          : size_of(type) == 1 ? 255
+                          : size_of(type) == 2 ? 65535
+                                               : 4294967295.0;
       c[k] = row_.numbers[*rgba[k]] / most;
       if (!std::isfinite(c[k])) rows_.fail("a colour is not finite; correct it");
     }
@@ -99,7 +113,8 @@ class PlyReader {
   }
 
   double checked_mass(double value) const {
-    if (value < 0 || std::isinf(value)) rows_.fail("a mass must be at least 0 kg and finite, or nan for none");
+    if (value < 0 || std::isinf(value))
+      rows_.fail("a mass must be at least 0 kg and finite, or nan for none");
     return value;
   }
 
@@ -113,7 +128,8 @@ class PlyReader {
       rows_.read(element, i, row_);
       const auto& corners = row_.lists[*indices];
       for (const double c : corners) {
-        if (!(c >= 0 && c < 9e15) || c != std::floor(c)) rows_.fail("a corner is no index of a vertex; correct it");
+        if (!(c >= 0 && c < 9e15) || c != std::floor(c))
+          rows_.fail("a corner is no index of a vertex; correct it");
         soup_.corners.push_back(static_cast<std::size_t>(c));
       }
       soup_.close_face();
@@ -124,15 +140,16 @@ class PlyReader {
   }
 
   void add_textures(const std::vector<double>& values, std::size_t corners) {
-    if (values.size() != 2 * corners && !values.empty()) rows_.fail("texcoord must hold two numbers a corner, or none");
+    if (values.size() != 2 * corners && !values.empty())
+      rows_.fail("texcoord must hold two numbers a corner, or none");
     for (std::size_t k = 0; k < corners; ++k)
       soup_.textures.push_back(values.empty() ? kTexture.default_value
                                               : TextureCoordinate{values[2 * k], values[2 * k + 1]});
   }
 
   void read_edges(const PlyElement& element) {
-    warn_of_unknown(element,
-                    {"vertex1", "vertex2", "rest_length", "bending_rest_length", "bending_count", "line_edge"});
+    warn_of_unknown(
+        element, {"vertex1", "vertex2", "rest_length", "bending_rest_length", "bending_count", "line_edge"});
     for (std::size_t i = 0; i < element.count; ++i) {
       rows_.read(element, i, row_);
       edges_.add(row_, rows_, options_.metres_per_unit);

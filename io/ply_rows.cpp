@@ -22,14 +22,22 @@ double number_of(std::string_view bytes, bool swapped) {
 
 double number_of(std::string_view bytes, PlyType type, bool swapped) {
   switch (type) {
-    case PlyType::int8: return number_of<std::int8_t>(bytes, swapped);
-    case PlyType::uint8: return number_of<std::uint8_t>(bytes, swapped);
-    case PlyType::int16: return number_of<std::int16_t>(bytes, swapped);
-    case PlyType::uint16: return number_of<std::uint16_t>(bytes, swapped);
-    case PlyType::int32: return number_of<std::int32_t>(bytes, swapped);
-    case PlyType::uint32: return number_of<std::uint32_t>(bytes, swapped);
-    case PlyType::float32: return number_of<float>(bytes, swapped);
-    default: return number_of<double>(bytes, swapped);
+    case PlyType::int8:
+      return number_of<std::int8_t>(bytes, swapped);
+    case PlyType::uint8:
+      return number_of<std::uint8_t>(bytes, swapped);
+    case PlyType::int16:
+      return number_of<std::int16_t>(bytes, swapped);
+    case PlyType::uint16:
+      return number_of<std::uint16_t>(bytes, swapped);
+    case PlyType::int32:
+      return number_of<std::int32_t>(bytes, swapped);
+    case PlyType::uint32:
+      return number_of<std::uint32_t>(bytes, swapped);
+    case PlyType::float32:
+      return number_of<float>(bytes, swapped);
+    default:
+      return number_of<double>(bytes, swapped);
   }
 }
 
@@ -65,7 +73,8 @@ double PlyRows::read_value(PlyType type) {
   const std::size_t size = size_of(type);
   if (bytes_.size() < size) fail("the file is cut short");
   const bool file_is_big = encoding_ == PlyEncoding::big_endian;
-  const double value = number_of(bytes_.substr(0, size), type, file_is_big != (std::endian::native == std::endian::big));
+  const double value =
+      number_of(bytes_.substr(0, size), type, file_is_big != (std::endian::native == std::endian::big));
   bytes_.remove_prefix(size);
   return value;
 }
@@ -75,7 +84,8 @@ void PlyRows::read_list(const PlyProperty& property, std::vector<double>& list) 
   const double count = read_value(*property.count_type);
   if (count < 0) fail("a list of negative length");
   const std::size_t least = encoding_ == PlyEncoding::ascii ? 1 : size_of(property.type);
-  if (count > static_cast<double>(bytes_left() / least)) fail("a list is longer than the file: it is damaged");
+  if (count > static_cast<double>(bytes_left() / least))
+    fail("a list is longer than the file: it is damaged");
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) list.push_back(read_value(property.type));
 }
 
@@ -86,8 +96,10 @@ void PlyRows::read(const PlyElement& element, std::size_t index, PlyRow& row) {
   row.lists.resize(element.properties.size());
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& p = element.properties[i];
-    if (p.count_type) read_list(p, row.lists[i]);
-    else row.numbers[i] = read_value(p.type);
+    if (p.count_type)
+      read_list(p, row.lists[i]);
+    else
+      row.numbers[i] = read_value(p.type);
   }
 }
 

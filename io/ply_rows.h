@@ -15,8 +15,8 @@ struct PlyRow {
   std::vector<std::vector<double>> lists;
 };
 
-/// The index of the element's first property of one of these names; nothing if it has none, or if that property
-/// is a list where none is wanted, or the other way round.
+/// The index of the element's first property of one of these names; nothing if it has none, or if that
+/// property is a list where none is wanted, or the other way round.
 enum class PlyKind { number, list };
 std::optional<std::size_t> find_column(const PlyElement& element, std::initializer_list<const char*> names,
                                        PlyKind kind);

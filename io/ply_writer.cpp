@@ -17,14 +17,23 @@ using namespace geometry;
 class PlyWriter {
  public:
   PlyWriter(const MeshFile& file, const WriteOptions& options)
-      : file_(file), mesh_(file.mesh), options_(options), colors_(find_map(mesh_, kColor)),
-        lines_(find_map(mesh_, kLine)), masses_(find_map(mesh_, kMass)), textures_(find_map(mesh_, kTexture)),
-        groups_(find_map(mesh_, kGroup)), materials_(find_map(mesh_, kMaterial)),
-        rest_lengths_(find_map(mesh_, kRestLength)), bending_rest_lengths_(find_map(mesh_, kBendingRestLength)),
-        bending_counts_(find_map(mesh_, kBendingCount)), line_edges_(find_map(mesh_, kLineEdge)) {
-    byte_colors_ = colors_ && std::ranges::all_of(mesh_.vertices(), [&](Vertex v) {
-      return std::ranges::all_of((*colors_)[v], [](double c) { return std::round(c * 255) / 255 == c; });
-    });
+      : file_(file),
+        mesh_(file.mesh),
+        options_(options),
+        colors_(find_map(mesh_, kColor)),
+        lines_(find_map(mesh_, kLine)),
+        masses_(find_map(mesh_, kMass)),
+        textures_(find_map(mesh_, kTexture)),
+        groups_(find_map(mesh_, kGroup)),
+        materials_(find_map(mesh_, kMaterial)),
+        rest_lengths_(find_map(mesh_, kRestLength)),
+        bending_rest_lengths_(find_map(mesh_, kBendingRestLength)),
+        bending_counts_(find_map(mesh_, kBendingCount)),
+        line_edges_(find_map(mesh_, kLineEdge)) {
+    byte_colors_ =
+        colors_ && std::ranges::all_of(mesh_.vertices(), [&](Vertex v) {
+          return std::ranges::all_of((*colors_)[v], [](double c) { return std::round(c * 255) / 255 == c; });
+        });
   }
 
   std::string bytes() {
@@ -50,7 +59,8 @@ class PlyWriter {
 
   void write_names(const char* kind, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < names.size(); ++i)
-      out_ += std::string("comment furrow ") + kind + " " + std::to_string(i) + " " + one_line(names[i]) + "\n";
+      out_ +=
+          std::string("comment furrow ") + kind + " " + std::to_string(i) + " " + one_line(names[i]) + "\n";
   }
 
   void declare(const char* element, std::size_t count) {

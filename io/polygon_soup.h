@@ -10,12 +10,12 @@ namespace furrow::io {
 /// Points and polygons as a file gave them: any connectivity, nothing checked but the coordinates.
 /// Every reader fills one; soup_to_mesh() makes the mesh.
 struct PolygonSoup {
-  std::vector<geometry::Point> points;                ///< in the file's order; metres, y up; finite
-  std::vector<geometry::Color> colors;                ///< empty, or one a point
-  std::vector<int> lines;                             ///< empty, or one a point: geometry::kLine
-  std::vector<double> masses;                         ///< empty, or one a point: geometry::kMass [kg]
-  std::vector<std::size_t> first_corner = {0};        ///< F + 1 numbers: face f has corners [f], …, [f + 1] - 1
-  std::vector<std::size_t> corners;                   ///< point of each corner, from 0; may be out of range
+  std::vector<geometry::Point> points;          ///< in the file's order; metres, y up; finite
+  std::vector<geometry::Color> colors;          ///< empty, or one a point
+  std::vector<int> lines;                       ///< empty, or one a point: geometry::kLine
+  std::vector<double> masses;                   ///< empty, or one a point: geometry::kMass [kg]
+  std::vector<std::size_t> first_corner = {0};  ///< F + 1 numbers: face f has corners [f], …, [f + 1] - 1
+  std::vector<std::size_t> corners;             ///< point of each corner, from 0; may be out of range
   std::vector<geometry::TextureCoordinate> textures;  ///< empty, or one a corner
   std::vector<int> groups;                            ///< empty, or one a face
   std::vector<int> materials;                         ///< empty, or one a face

@@ -17,8 +17,9 @@ struct SoupFile {
 
 /// As bytes for the same machine (not for files), and back.
 std::string to_bytes(const SoupFile& file);
-/// Throws geometry::ContentError if the bytes are not what to_bytes() makes, or their arrays do not fit together
-/// (lengths; positions not finite; corners beyond the last point). Allocates no more than the bytes hold.
+/// Throws geometry::ContentError if the bytes are not what to_bytes() makes, or their arrays do not fit
+/// together (lengths; positions not finite; corners beyond the last point). Allocates no more than the bytes
+/// hold.
 SoupFile soup_from_bytes(std::string_view bytes);
 
 }  // namespace furrow::io

@@ -154,7 +154,8 @@ SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name) {
     out.repairs.duplicated_vertices = parted.added_points.size();
     out.origin.insert(out.origin.end(), parted.added_points.begin(), parted.added_points.end());
     if (!build(soup, triangles, out))
-      throw ContentError(name + ": the faces cannot be parted into a manifold; repair the mesh in a modeller");
+      throw ContentError(name +
+                         ": the faces cannot be parted into a manifold; repair the mesh in a modeller");
   }
   fill_maps(soup, triangles, out);
   for (const Vertex v : out.mesh.vertices()) out.repairs.isolated_vertices += out.mesh.is_isolated(v);

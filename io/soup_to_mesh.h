@@ -10,16 +10,17 @@ namespace furrow::io {
 struct SoupMesh {
   geometry::Mesh mesh;
   RepairReport repairs;
-  std::vector<std::size_t> origin;  ///< the soup's point of each vertex; vertex i is point i for all but the added
+  /// The soup's point of each vertex: i for vertex i, but for those added at the end.
+  std::vector<std::size_t> origin;
 };
 
-/// Makes an oriented manifold of triangles from a soup, in order: vertex i is point i, triangles follow the faces.
-/// Faces are cut by triangulate_polygon(). Triangles with a repeated corner, and those with the three vertices of
-/// an earlier one (whichever way they wind), are dropped. If the rest is no oriented manifold already,
-/// make_manifold() turns faces and appends copies of vertices. Unused points stay as isolated vertices.
-/// Sets v:color, v:line, v:mass, h:texture, f:group, f:material where the soup has them; copies carry them along.
-/// Throws geometry::ContentError ("name:line: …" or "name: face i: …") if a corner's index is out of range, and
-/// if no face is left. Cost: O(F log F).
+/// Makes an oriented manifold of triangles from a soup, in order: vertex i is point i, triangles follow the
+/// faces. Faces are cut by triangulate_polygon(). Triangles with a repeated corner, and those with the three
+/// vertices of an earlier one (whichever way they wind), are dropped. If the rest is no oriented manifold
+/// already, make_manifold() turns faces and appends copies of vertices. Unused points stay as isolated
+/// vertices. Sets v:color, v:line, v:mass, h:texture, f:group, f:material where the soup has them; copies
+/// carry them along. Throws geometry::ContentError ("name:line: …" or "name: face i: …") if a corner's index
+/// is out of range, and if no face is left. Cost: O(F log F).
 SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name);
 
 }  // namespace furrow::io

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 
 #include "geometry/errors.h"
 #include "io/file_frame.h"
 #include "io/merge_points.h"
 #include "io/mesh_readers.h"
+#include "io/name_table.h"
 #include "io/text_scanner.h"
 
 namespace furrow::io {
@@ -31,8 +30,10 @@ class StlReader {
       : bytes_(bytes), name_(name), options_(options) {}
 
   void read() {
-    if (is_binary()) read_binary();
-    else read_text();
+    if (is_binary())
+      read_binary();
+    else
+      read_text();
     if (file.group_names.empty()) soup.groups.clear();
   }
 
@@ -50,8 +51,10 @@ class StlReader {
 
   void add_corner(const Point& point) {
     const auto [index, is_new] = numbers_.number(point);
-    if (is_new) soup.points.push_back(point);
-    else ++shared_;
+    if (is_new)
+      soup.points.push_back(point);
+    else
+      ++shared_;
     soup.corners.push_back(index);
   }
 
@@ -59,15 +62,17 @@ class StlReader {
     if (bytes_.size() < kHeader) throw ContentError(name_ + ": shorter than the header of an STL file");
     const std::size_t count = word_at(bytes_, 80), room = (bytes_.size() - kHeader) / kFacet;
     if (count > room)
-      throw ContentError(name_ + ": the header announces " + std::to_string(count) + " triangles, the file holds " +
-                         std::to_string(room) + ": it is cut short or no STL file");
+      throw ContentError(name_ + ": the header announces " + std::to_string(count) +
+                         " triangles, the file holds " + std::to_string(room) +
+                         ": it is cut short or no STL file");
     if (bytes_.size() > kHeader + kFacet * count)
       file.warnings.push_back(name_ + ": bytes after the last triangle not read");
     for (std::size_t f = 0; f < count; ++f) {
       const std::size_t at = kHeader + kFacet * f;
       for (int k = 0; k < 3; ++k) {
         const std::size_t v = at + 12 + 12 * k;
-        const auto point = from_file(float_at(bytes_, v), float_at(bytes_, v + 4), float_at(bytes_, v + 8), options_);
+        const auto point =
+            from_file(float_at(bytes_, v), float_at(bytes_, v + 4), float_at(bytes_, v + 8), options_);
         if (!point) throw ContentError(name_ + ": face " + std::to_string(f) + ": " + kBadCoordinate);
         add_corner(*point);
       }
@@ -89,26 +94,21 @@ class StlReader {
     int group = -1;
     std::string_view word = in.next_word();
     for (; word == "facet"; word = in.next_word()) {
-      if (group < 0 && !title.empty()) group = add_group(title);
+      if (group < 0) group = groups_.index(title);
       read_facet(in);
       soup.groups.push_back(group);
     }
     if (word.empty()) in.fail("no 'endsolid': the file is cut short");
-    if (word != "endsolid") in.fail(in_quotes(word) + " where 'facet' or 'endsolid' should stand; correct it");
+    if (word != "endsolid")
+      in.fail(in_quotes(word) + " where 'facet' or 'endsolid' should stand; correct it");
     in.rest_of_line();
-  }
-
-  int add_group(std::string_view title) {
-    const auto known = std::ranges::find(file.group_names, title);
-    if (known == file.group_names.end()) file.group_names.emplace_back(title);
-    const auto index = std::ranges::find(file.group_names, title) - file.group_names.begin();
-    return static_cast<int>(index);
   }
 
   static void expect(TextScanner& in, std::string_view wanted) {
     const std::string_view word = in.next_word();
     if (word.empty()) in.fail("the file is cut short: '" + std::string(wanted) + "' should follow");
-    if (word != wanted) in.fail(in_quotes(word) + " where '" + std::string(wanted) + "' should stand; correct it");
+    if (word != wanted)
+      in.fail(in_quotes(word) + " where '" + std::string(wanted) + "' should stand; correct it");
   }
 
   void read_facet(TextScanner& in) {
@@ -135,6 +135,7 @@ class StlReader {
   std::string_view bytes_;
   std::string name_;
   ReadOptions options_;
+  NameTable groups_{file.group_names};
   PointNumbers numbers_;
   std::size_t shared_ = 0;
 };

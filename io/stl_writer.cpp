@@ -30,7 +30,8 @@ void write_stl(std::ostream& out, const MeshFile& file, const WriteOptions& opti
   for (const Face f : mesh.faces()) {
     Vector corners[3];
     int k = 0;
-    for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) corners[k++] = to_file(mesh.point(v), options);
+    for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+      corners[k++] = to_file(mesh.point(v), options);
     const Vector area = CGAL::cross_product(corners[1] - corners[0], corners[2] - corners[0]);
     const double length = std::sqrt(area.squared_length());
     put(bytes, length > 0 && std::isfinite(length) ? area / length : Vector(0, 0, 0));

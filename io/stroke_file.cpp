@@ -72,14 +72,16 @@ class StrokeReader {
   }
 
   double number(const Json& value, const char* key) const {
-    if (!value.is_number()) fail(std::string("'") + key + "' must hold numbers, holds a " + value.type_name());
+    if (!value.is_number())
+      fail(std::string("'") + key + "' must hold numbers, holds a " + value.type_name());
     const double x = value.get<double>();
     if (!std::isfinite(x)) fail(std::string("'") + key + "' holds a number that is not finite");
     return x;
   }
 
   std::array<double, 3> triple(const Json& value, const char* key) const {
-    if (!value.is_array() || value.size() != 3) fail(std::string("'") + key + "': three numbers [x, y, z] are needed");
+    if (!value.is_array() || value.size() != 3)
+      fail(std::string("'") + key + "': three numbers [x, y, z] are needed");
     return {number(value[0], key), number(value[1], key), number(value[2], key)};
   }
 
@@ -111,7 +113,8 @@ class StrokeReader {
       if (!item["closed"].is_boolean()) fail("'closed' must be true or false");
       stroke.closed = item["closed"].get<bool>();
     }
-    if (stroke.closed && stroke.points.size() < 3) fail("'closed': a closed stroke needs at least three points");
+    if (stroke.closed && stroke.points.size() < 3)
+      fail("'closed': a closed stroke needs at least three points");
     if (item.contains("direction")) {
       const auto [x, y, z] = triple(item["direction"], "direction");
       if (x == 0 && y == 0 && z == 0) fail("'direction' must not be zero");
@@ -145,18 +148,22 @@ Json to_json(const Stroke& stroke, const WriteOptions& options) {
   if (!stroke.name.empty()) item["name"] = stroke.name;
   item["height"] = stroke.height;
   if (stroke.closed) item["closed"] = true;
-  if (stroke.direction) item["direction"] = to_json(to_file(CGAL::ORIGIN + *stroke.direction, {1, options.up}));
+  if (stroke.direction)
+    item["direction"] = to_json(to_file(CGAL::ORIGIN + *stroke.direction, {1, options.up}));
   for (const Point& p : stroke.points) item["points"].push_back(to_json(to_file(p, options)));
   return item;
 }
 
 void check(const std::vector<Stroke>& strokes) {
-  const auto finite = [](const auto& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); };
+  const auto finite = [](const auto& p) {
+    return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+  };
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const Stroke& s = strokes[i];
     bool good = std::isfinite(s.height) && !s.points.empty() && (!s.direction || finite(*s.direction));
     for (const Point& p : s.points) good = good && finite(p);
-    if (!good) throw std::invalid_argument("strokes: stroke " + std::to_string(i) + " has no points or is not finite");
+    if (!good)
+      throw std::invalid_argument("strokes: stroke " + std::to_string(i) + " has no points or is not finite");
   }
 }
 

@@ -11,12 +11,12 @@ namespace furrow::io {
 
 /// Reads strokes by the file name's ending.
 /// json: {"strokes": [{"height": 0.02, "points": [[x, y, z], …], "name": "…", "closed": false,
-/// "direction": [x, y, z]}, …]}, where only points must be there (closed strokes: at least three). Strict: other
-/// keys, other types and numbers that are not finite are errors.
-/// obj: the polylines (`l` elements, two-point ones chained), all with the default height.
-/// Points and directions are turned, and points scaled, by `options`; heights are in metres always.
-/// Throws geometry::ContentError with the place in the text, or the stroke's index and key; also if there is no
-/// stroke. Throws std::invalid_argument if default_height [m] is not finite.
+/// "direction": [x, y, z]}, …]}, where only points must be there (closed strokes: at least three). Strict:
+/// other keys, other types and numbers that are not finite are errors. obj: the polylines (`l` elements,
+/// two-point ones chained), all with the default height. Points and directions are turned, and points scaled,
+/// by `options`; heights are in metres always. Throws geometry::ContentError with the place in the text, or
+/// the stroke's index and key; also if there is no stroke. Throws std::invalid_argument if default_height [m]
+/// is not finite.
 std::vector<geometry::Stroke> read_strokes(const std::filesystem::path& path, double default_height = 0.01,
                                            const ReadOptions& options = {});
 

@@ -9,9 +9,9 @@ namespace furrow::io {
 /// The text without a UTF-8 byte order mark. Throws geometry::ContentError for UTF-16 and UTF-32.
 std::string_view plain_text(std::string_view text, const std::string& name);
 
-/// Words and numbers of a text, with the line that an error names. Lines end with LF, CR LF or (if the text has
-/// no LF at all) CR; '#' where a word could begin ends a line's words. Numbers are read in double, whatever the
-/// locale. Keeps a view: the text must outlive the scanner.
+/// Words and numbers of a text, with the line that an error names. Lines end with LF, CR LF or (if the text
+/// has no LF at all) CR; '#' where a word could begin ends a line's words. Numbers are read in double,
+/// whatever the locale. Keeps a view: the text must outlive the scanner.
 class TextScanner {
  public:
   enum class Continuation { none, backslash };  ///< a backslash at a line's end joins the next line to it

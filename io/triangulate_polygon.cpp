@@ -15,7 +15,8 @@ using Corners = std::span<const Point>;
 /// Twice the polygon's vector area.
 Vector newell_normal(Corners p) {
   Vector normal = CGAL::NULL_VECTOR;
-  for (std::size_t i = 2; i < p.size(); ++i) normal = normal + CGAL::cross_product(p[i - 1] - p[0], p[i] - p[0]);
+  for (std::size_t i = 2; i < p.size(); ++i)
+    normal = normal + CGAL::cross_product(p[i - 1] - p[0], p[i] - p[0]);
   return normal;
 }
 
@@ -45,7 +46,8 @@ class Ring {
     std::size_t at = 0;
     for (std::size_t left = p_.size(); left > 2; --left) {
       std::size_t tried = 0;
-      while (!ear_[at] && tried++ < left) at = next_[at];  // none at all: the polygon crosses itself, cut anyway
+      while (!ear_[at] && tried++ < left)
+        at = next_[at];  // none at all: the polygon crosses itself, cut anyway
       out.push_back({previous_[at], at, next_[at]});
       const std::size_t before = previous_[at], after = next_[at];
       next_[before] = after;
@@ -85,8 +87,9 @@ void triangulate_polygon(Corners corners, std::vector<std::array<std::size_t, 3>
     return;
   }
   if (n > kMostConcaveCorners)
-    throw geometry::ContentError("a face that is not convex has " + std::to_string(n) + " corners, the most is " +
-                                 std::to_string(kMostConcaveCorners) + "; cut it in the modeller");
+    throw geometry::ContentError("a face that is not convex has " + std::to_string(n) +
+                                 " corners, the most is " + std::to_string(kMostConcaveCorners) +
+                                 "; cut it in the modeller");
   Ring(corners, normal).clip(out);
 }
 

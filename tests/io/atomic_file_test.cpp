@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 std::size_t files_in(const TemporaryFolder& folder) {
-  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ TEST_CASE("run_in_child: what happens in the child is a content error here") {
   };
   CHECK(error([]() -> std::string { throw std::runtime_error("bad file"); }) == "bad file");
   CHECK(error([]() -> std::string { throw 7; }) == "unknown error");
-  CHECK(error([]() -> std::string { ::raise(SIGSEGV), ::_exit(9); }).find("crashed (signal 11)") != std::string::npos);
+  CHECK(error([]() -> std::string { ::raise(SIGSEGV), ::_exit(9); }).find("crashed (signal 11)") !=
+        std::string::npos);
   CHECK(error([]() -> std::string { ::abort(); }).find("crashed (signal 6)") != std::string::npos);
   CHECK(error([]() -> std::string { ::_exit(9); }).find("status 9") != std::string::npos);
   const auto spin = []() -> std::string {
@@ -38,15 +39,17 @@ TEST_CASE("run_in_child: what happens in the child is a content error here") {
   CHECK(error(spin, {.cpu_seconds = 1}).find("CPU time") != std::string::npos);
   const auto sleep = [] { return ::pause(), std::string(); };
   CHECK(error(sleep, {.seconds = 1}).find("more than 1 s") != std::string::npos);
-  CHECK(error([] { return std::string(5000, 'x'); }, {.answer_bytes = 4000}).find("larger than") != std::string::npos);
+  CHECK(error([] { return std::string(5000, 'x'); }, {.answer_bytes = 4000}).find("larger than") !=
+        std::string::npos);
   CHECK_THROWS_AS(run_in_child([] { return std::string(); }, {.seconds = 0}), std::invalid_argument);
 }
 
 #ifndef __SANITIZE_ADDRESS__
 TEST_CASE("run_in_child: memory is limited") {
   const auto devour = [] { return std::string(std::size_t{1} << 29, 'x'); };
-  CHECK(content_error([&] { run_in_child(devour, {.memory_bytes = std::size_t{1} << 27}); })
-            .find("too much memory") != std::string::npos);
+  CHECK(content_error([&] {
+          run_in_child(devour, {.memory_bytes = std::size_t{1} << 27});
+        }).find("too much memory") != std::string::npos);
 }
 #endif
 

@@ -19,17 +19,21 @@ std::string valid_file(MeshFormat format) {
 }
 
 std::string text_ply() {
-  return "ply\nformat ascii 1.0\ncomment furrow group 0 front\nelement vertex 4\nproperty float x\nproperty float y\n"
+  return "ply\nformat ascii 1.0\ncomment furrow group 0 front\nelement vertex 4\nproperty float x\nproperty "
+         "float y\n"
          "property float z\nproperty int line\nproperty double mass\nelement face 2\n"
          "property list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty int group\n"
-         "element edge 2\nproperty int vertex1\nproperty int vertex2\nproperty double rest_length\nend_header\n"
+         "element edge 2\nproperty int vertex1\nproperty int vertex2\nproperty double "
+         "rest_length\nend_header\n"
          "0 0 0 -1 0.1\n1 0 0 0 0.1\n1 1 0 1 nan\n0 1 0 -1 0.1\n3 0 1 2 6 0 0 1 0 1 1 0\n3 0 2 3 0 -1\n"
          "0 1 0.9\n2 0 1.5\n";
 }
 
 std::string text_stl() {
-  return "solid front\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-         "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+  return "solid front\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+         "0\nendloop\nendfacet\n"
+         "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 "
+         "0\nendloop\nendfacet\nendsolid\n";
 }
 
 /// Reads damaged bytes: a mesh that is whole, or a content error.
@@ -52,9 +56,11 @@ std::string damaged(std::string bytes, const std::vector<std::pair<unsigned shor
 
 void check_damage(const std::string& valid, MeshFormat format) {
   REQUIRE(read_from(valid, format).mesh.number_of_faces() > 1);
-  CHECK(rc::check("cut short", [&](unsigned short at) { survive(valid.substr(0, at % valid.size()), format); }));
+  CHECK(rc::check("cut short",
+                  [&](unsigned short at) { survive(valid.substr(0, at % valid.size()), format); }));
   using Changes = std::vector<std::pair<unsigned short, unsigned char>>;
-  CHECK(rc::check("bytes changed", [&](const Changes& changes) { survive(damaged(valid, changes), format); }));
+  CHECK(
+      rc::check("bytes changed", [&](const Changes& changes) { survive(damaged(valid, changes), format); }));
   CHECK(rc::check("a digit changed", [&](unsigned short at, unsigned char digit) {
     const std::size_t i = valid.find_first_of("0123456789", at % valid.size());
     std::string bytes = valid;
@@ -70,12 +76,16 @@ void check_damage(const std::string& valid, MeshFormat format) {
 
 }  // namespace
 
-TEST_CASE("damaged OBJ files are read or refused") { check_damage(valid_file(MeshFormat::obj), MeshFormat::obj); }
+TEST_CASE("damaged OBJ files are read or refused") {
+  check_damage(valid_file(MeshFormat::obj), MeshFormat::obj);
+}
 TEST_CASE("damaged binary PLY files are read or refused") {
   check_damage(valid_file(MeshFormat::ply), MeshFormat::ply);
 }
 TEST_CASE("damaged text PLY files are read or refused") { check_damage(text_ply(), MeshFormat::ply); }
-TEST_CASE("damaged OFF files are read or refused") { check_damage(valid_file(MeshFormat::off), MeshFormat::off); }
+TEST_CASE("damaged OFF files are read or refused") {
+  check_damage(valid_file(MeshFormat::off), MeshFormat::off);
+}
 TEST_CASE("damaged binary STL files are read or refused") {
   check_damage(valid_file(MeshFormat::stl), MeshFormat::stl);
 }

@@ -16,12 +16,14 @@
 
 namespace furrow::tests {
 
-inline io::MeshFile read_from(const std::string& text, io::MeshFormat format, const io::ReadOptions& options = {}) {
+inline io::MeshFile read_from(const std::string& text, io::MeshFormat format,
+                              const io::ReadOptions& options = {}) {
   std::istringstream in(text);
   return io::read_mesh(in, format, "test", options);
 }
 
-inline std::string written(const io::MeshFile& file, io::MeshFormat format, const io::WriteOptions& options = {}) {
+inline std::string written(const io::MeshFile& file, io::MeshFormat format,
+                           const io::WriteOptions& options = {}) {
   std::ostringstream out;
   io::write_mesh(out, format, file, options);
   return out.str();
@@ -75,7 +77,9 @@ inline io::MeshFile decorated_grid(int n) {
     for (int i = 0; i <= n; ++i) mesh.add_vertex(Point(i / 3.0, std::sin(i + 2.0 * j) / 7, -j / 7.0));
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
-      const auto v = [&](int a, int b) { return Vertex(static_cast<Mesh::size_type>((j + b) * (n + 1) + i + a)); };
+      const auto v = [&](int a, int b) {
+        return Vertex(static_cast<Mesh::size_type>((j + b) * (n + 1) + i + a));
+      };
       mesh.add_face(v(0, 0), v(1, 0), v(1, 1));
       mesh.add_face(v(0, 0), v(1, 1), v(0, 1));
     }

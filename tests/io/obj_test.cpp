@@ -40,8 +40,9 @@ TEST_CASE("OBJ: the same cube in many spellings") {
   continued.replace(continued.find("f 4 1 5 8"), 9, "f 4 \\\n1\\\r\n \\\n5 8");
   const auto first_face = kCubeObj.find('f');
   const std::string faces_first = kCubeObj.substr(first_face) + kCubeObj.substr(0, first_face);
-  for (const std::string& text : {crlf, cr, "\xEF\xBB\xBF" + kCubeObj, kCubeObj.substr(0, kCubeObj.size() - 1),
-                                  negative, continued, faces_first, "  \t" + kCubeObj + "\n\n#end"}) {
+  for (const std::string& text :
+       {crlf, cr, "\xEF\xBB\xBF" + kCubeObj, kCubeObj.substr(0, kCubeObj.size() - 1), negative, continued,
+        faces_first, "  \t" + kCubeObj + "\n\n#end"}) {
     const io::MeshFile file = obj(text);
     CHECK(same_positions(file.mesh, expected.mesh));
     CHECK(corners_of(file.mesh) == corners_of(expected.mesh));
@@ -52,7 +53,8 @@ TEST_CASE("OBJ: numbers are read in double, and malformed ones are errors") {
   const io::MeshFile file = obj("v +1.5 -2.e1 .1\nv 1e-400 0.1234567890123456789 1E2\nv 0 1 0\nf 1 2 3\n");
   CHECK(file.mesh.point(Vertex(0)) == Point(1.5, -20, 0.1));
   CHECK(file.mesh.point(Vertex(1)) == Point(0, 0.1234567890123456789, 100));
-  for (const char* bad : {"1,5", "abc", "0x10", "1e", "--1", "+-1", "1.#IND", "1e999", "nan", "-inf", "1e10", "1_0"}) {
+  for (const char* bad :
+       {"1,5", "abc", "0x10", "1e", "--1", "+-1", "1.#IND", "1e999", "nan", "-inf", "1e10", "1_0"}) {
     INFO(bad);
     CHECK(error_of(kThree + "v 0 " + bad + " 0\nf 1 2 3\n").starts_with("test:4: "));
   }
@@ -65,7 +67,8 @@ TEST_CASE("OBJ: errors name the line") {
   CHECK(error_of(kThree + "f 1 2\n").starts_with("test:4: a face has fewer than three corners"));
   CHECK(error_of(kThree + "f 1 2 x\n").starts_with("test:4: 'x' is not a whole number"));
   CHECK(error_of(kThree + "f 1 2 3.5\n").starts_with("test:4: '3.5' is not a whole number"));
-  CHECK(error_of(kThree + "vt 0 0\nf 1/1 2/1 3/2\n").starts_with("test:5: a corner names a texture coordinate"));
+  CHECK(error_of(kThree + "vt 0 0\nf 1/1 2/1 3/2\n")
+            .starts_with("test:5: a corner names a texture coordinate"));
   CHECK(error_of(kThree + "f 1 2 3\nl 1 9\n").starts_with("test:5: a line names a vertex beyond"));
   CHECK(error_of("v 1 2\n").starts_with("test:1: a vertex has 2 numbers"));
   CHECK(error_of("v 1 2 3 4 5\n").starts_with("test:1: a vertex has 5 numbers"));
@@ -160,7 +163,8 @@ TEST_CASE("OBJ: what can be written comes back with the same bits") {
       return g < 0 ? "" : m.group_names[g];
     };
     CHECK(name(file) == name(back));
-    CHECK(file.material_names[(*find_map(a, kMaterial))[f]] == back.material_names[(*find_map(b, kMaterial))[f]]);
+    CHECK(file.material_names[(*find_map(a, kMaterial))[f]] ==
+          back.material_names[(*find_map(b, kMaterial))[f]]);
     if (f == Face(3)) continue;  // a corner of it has no texture coordinate
     for (const Halfedge h : a.halfedges_around_face(a.halfedge(f)))
       CHECK((*find_map(a, kTexture))[h] == (*find_map(b, kTexture))[h]);

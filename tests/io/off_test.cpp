@@ -40,8 +40,9 @@ TEST_CASE("OFF: spellings of the header and of faces") {
 }
 
 TEST_CASE("OFF: normals, colours and texture coordinates of vertices") {
-  const io::MeshFile file = off("STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 51 255 0.5 0.25\n"
-                                "1 0 0 0 0 1 0.0 0.5 1.0 1.0 0 1\n0 1 0 0 0 1 0 0 0 0 0 0\n3 0 1 2\n");
+  const io::MeshFile file =
+      off("STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 51 255 0.5 0.25\n"
+          "1 0 0 0 0 1 0.0 0.5 1.0 1.0 0 1\n0 1 0 0 0 1 0 0 0 0 0 0\n3 0 1 2\n");
   const auto color = *find_map(file.mesh, kColor);
   CHECK(color[Vertex(0)] == Color{1, 0, 0.2, 1});
   CHECK(color[Vertex(1)] == Color{0, 0.5, 1, 1});
@@ -54,11 +55,14 @@ TEST_CASE("OFF: errors name the line; a header cannot announce more than the fil
   CHECK(error_of("PLY\n").starts_with("test:1: the first word is not OFF"));
   CHECK(error_of("OFF BINARY\n").find("binary OFF") != std::string::npos);
   CHECK(error_of("OFF\n2000000000 6 0\n0 0 0\n").find("more than the file can hold") != std::string::npos);
-  CHECK(error_of("OFF\n1 900719925474099 0\n0 0 0\n").find("more than the file can hold") != std::string::npos);
+  CHECK(error_of("OFF\n1 900719925474099 0\n0 0 0\n").find("more than the file can hold") !=
+        std::string::npos);
   CHECK(error_of("OFF\n3 -1 0\n").starts_with("test:2: a negative count"));
   CHECK(error_of("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n").starts_with("test:4: a number is missing"));
-  CHECK(error_of("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n").starts_with("test:6: a whole number is missing"));
-  CHECK(error_of("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n").starts_with("test:6: a corner names a vertex beyond"));
+  CHECK(
+      error_of("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n").starts_with("test:6: a whole number is missing"));
+  CHECK(error_of("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n")
+            .starts_with("test:6: a corner names a vertex beyond"));
   CHECK(error_of("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").find("face 1 of 2: it is cut short") !=
         std::string::npos);
 }

@@ -23,10 +23,12 @@ void check_same_map(const Mesh& a, const Mesh& b, const PropertyName<K, V>& name
   REQUIRE(q.has_value());
   std::size_t differ = 0;
   for (const K key : keys) {
-    if constexpr (std::is_same_v<V, double>) differ += !same_bits((*p)[key], (*q)[key]);
+    if constexpr (std::is_same_v<V, double>)
+      differ += !same_bits((*p)[key], (*q)[key]);
     else if constexpr (std::is_same_v<V, TextureCoordinate>)
       differ += !same_bits((*p)[key][0], (*q)[key][0]) || !same_bits((*p)[key][1], (*q)[key][1]);
-    else differ += (*p)[key] != (*q)[key];
+    else
+      differ += (*p)[key] != (*q)[key];
   }
   CHECK(differ == 0);
 }
@@ -131,7 +133,8 @@ TEST_CASE("PLY: lengths are written in the file's unit, masses stay kilograms") 
   const io::MeshFile raw = read_from(bytes, MeshFormat::ply);
   const io::MeshFile back = read_from(bytes, MeshFormat::ply, {.metres_per_unit = 0.25, .up = io::Axis::z});
   CHECK((*find_map(raw.mesh, kRestLength))[Edge(2)] == 4 * (*find_map(file.mesh, kRestLength))[Edge(2)]);
-  CHECK(raw.mesh.point(Vertex(3)) == Point(4 * file.mesh.point(Vertex(3)).x(), -4 * file.mesh.point(Vertex(3)).z(),
+  CHECK(raw.mesh.point(Vertex(3)) == Point(4 * file.mesh.point(Vertex(3)).x(),
+                                           -4 * file.mesh.point(Vertex(3)).z(),
                                            4 * file.mesh.point(Vertex(3)).y()));
   CHECK(same_positions(back.mesh, file.mesh));
   check_same_map(file.mesh, back.mesh, kRestLength, file.mesh.edges());
@@ -144,8 +147,9 @@ TEST_CASE("PLY: text and big-endian bytes of other programs are read") {
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty short quality\n"
       "element face 1\nproperty uchar flags\nproperty list uchar uint vertex_index\n"
       "property list uchar float texcoord\nelement extra 2\nproperty list int double stuff\nend_header\n";
-  std::string text = kHead + body + "0 0 0 255 0 51 7\n1 0 0 0 0 0 7\n1 1 0 0 0 0 7\n0 1 0.5 0 0 0 7\n"
-                                    "9 4 0 1 2 3 8 0 0 1 0 1 1 0 0.5\n2 1.5 2.5\n0\n";
+  std::string text = kHead + body +
+                     "0 0 0 255 0 51 7\n1 0 0 0 0 0 7\n1 1 0 0 0 0 7\n0 1 0.5 0 0 0 7\n"
+                     "9 4 0 1 2 3 8 0 0 1 0 1 1 0 0.5\n2 1.5 2.5\n0\n";
   std::string big = "ply\nformat binary_big_endian 1.0\n" + body;
   const float points[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5F}};
   for (int v = 0; v < 4; ++v) {
@@ -176,9 +180,10 @@ TEST_CASE("PLY: text and big-endian bytes of other programs are read") {
 
 TEST_CASE("PLY: texture coordinates of vertices go to the corners") {
   const std::string text = std::string(kHead) +
-      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float s\nproperty float t\n"
-      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-      "0 0 0 0.5 0.25\n1 0 0 0.75 0\n0 1 0 0 1\n3 0 1 2\n";
+                           "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty "
+                           "float s\nproperty float t\n"
+                           "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                           "0 0 0 0.5 0.25\n1 0 0 0.75 0\n0 1 0 0 1\n3 0 1 2\n";
   const io::MeshFile file = read_from(text, MeshFormat::ply);
   const Halfedge h = file.mesh.halfedge(Vertex(2), Vertex(0));
   CHECK((*find_map(file.mesh, kTexture))[h] == TextureCoordinate{0.5, 0.25});
@@ -192,13 +197,17 @@ TEST_CASE("PLY: errors name the line, or the element in binary files") {
   CHECK(error_of(head + triangle).find("cut short") != std::string::npos);
   CHECK(error_of(head + triangle + triangle + "end_header\n").find("second element") != std::string::npos);
   CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 0 0\n0 1 zero\n").starts_with("test:12: 'zero'"));
-  CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n").starts_with("test:11: vertex 1: "));
-  CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n").find("face 0") != std::string::npos);
-  const std::string edge = "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty double rest_length\n";
-  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 0.5\n") == "(none)");
-  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 -0.5\n").starts_with("test:18: edge 0: a rest"));
-  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 7 0.5\n").find("between vertices 0 and 7") !=
+  CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n")
+            .starts_with("test:11: vertex 1: "));
+  CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n").find("face 0") !=
         std::string::npos);
+  const std::string edge =
+      "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty double rest_length\n";
+  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 0.5\n") == "(none)");
+  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 -0.5\n")
+            .starts_with("test:18: edge 0: a rest"));
+  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 7 0.5\n")
+            .find("between vertices 0 and 7") != std::string::npos);
   std::string bytes = written(decorated_grid(2), MeshFormat::ply);
   bytes.resize(bytes.size() - 1);
   CHECK(error_of(bytes).starts_with("test: edge 15: the file is cut short"));
@@ -206,7 +215,9 @@ TEST_CASE("PLY: errors name the line, or the element in binary files") {
 
 TEST_CASE("PLY: a header cannot announce more than the file holds") {
   const std::string head = kHead;
-  CHECK(error_of(head + "element vertex 2000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n")
+  CHECK(error_of(
+            head +
+            "element vertex 2000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n")
             .find("more than the file can hold") != std::string::npos);
   const std::string bytes = std::string("ply\nformat binary_little_endian 1.0\n") + kTriangle +
                             "property list int double huge\nend_header\n" + std::string(36, '\0') + "\3" +

@@ -24,13 +24,14 @@ TEST_CASE("real meshes have the manifest's numbers of vertices and faces") {
     WARN("skipped: no shared data");
     return;
   }
-  const Fact fact = GENERATE(values<Fact>({{"pairs/mh_male/body.obj", 13380, 13378, 13378, 26756, true},
-                                           {"pairs/mh_male/tshirt.obj", 810, 764, 764, 1528, false},
-                                           {"pairs/mh_female/skirt.obj", 720, 684, 684, 1368, false},
-                                           {"bodies/smpl_f_average_A40.obj", 6890, 6900, 6876, 13776, true},
-                                           {"cloth/cipc_square8K.obj", 8282, 16154, 0, 16154, false},
-                                           {"closed/torus.obj", 2304, 4608, 0, 4608, true},
-                                           {"accuracy/spot_catmullclark_x2.ply", 2930, 5856, 0, 5856, true}}));
+  const Fact fact =
+      GENERATE(values<Fact>({{"pairs/mh_male/body.obj", 13380, 13378, 13378, 26756, true},
+                             {"pairs/mh_male/tshirt.obj", 810, 764, 764, 1528, false},
+                             {"pairs/mh_female/skirt.obj", 720, 684, 684, 1368, false},
+                             {"bodies/smpl_f_average_A40.obj", 6890, 6900, 6876, 13776, true},
+                             {"cloth/cipc_square8K.obj", 8282, 16154, 0, 16154, false},
+                             {"closed/torus.obj", 2304, 4608, 0, 4608, true},
+                             {"accuracy/spot_catmullclark_x2.ply", 2930, 5856, 0, 5856, true}}));
   INFO(fact.path);
   const io::MeshFile file = io::read_mesh(shared_dir() / "meshes" / fact.path);
   CHECK(file.mesh.number_of_vertices() == fact.vertices);

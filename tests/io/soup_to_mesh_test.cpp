@@ -39,7 +39,8 @@ bool is_manifold(const Mesh& mesh) {
   for (const Vertex v : mesh.vertices()) {
     if (mesh.is_isolated(v)) continue;
     std::size_t faces = 0, borders = 0;
-    for (const Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v))) ++(mesh.is_border(h) ? borders : faces);
+    for (const Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))
+      ++(mesh.is_border(h) ? borders : faces);
     if (faces != corners[v] || borders > 1) return false;
   }
   return true;
@@ -56,7 +57,8 @@ TEST_CASE("soup_to_mesh: an oriented manifold is left as it is") {
 }
 
 TEST_CASE("soup_to_mesh: degenerate and duplicate triangles are dropped and counted") {
-  const auto out = io::soup_to_mesh(soup_of(4, {{0, 1, 1}, {0, 1, 2}, {0, 1}, {2, 1, 0}, {1, 2, 0}, {0, 2, 3, 0}}), "t");
+  const auto out =
+      io::soup_to_mesh(soup_of(4, {{0, 1, 1}, {0, 1, 2}, {0, 1}, {2, 1, 0}, {1, 2, 0}, {0, 2, 3, 0}}), "t");
   CHECK(out.repairs.degenerate_faces == 3);
   CHECK(out.repairs.duplicate_faces == 2);
   CHECK(out.repairs.triangulated_faces == 1);
@@ -145,7 +147,8 @@ TEST_CASE("soup_to_mesh: any soup becomes a manifold with the same triangles") {
       std::set<std::set<std::size_t>> seen;
       for (const Face f : out.mesh.faces()) {  // the faces that are left, in their order
         std::set<std::size_t> corners;
-        for (const Vertex v : out.mesh.vertices_around_face(out.mesh.halfedge(f))) corners.insert(out.origin[v]);
+        for (const Vertex v : out.mesh.vertices_around_face(out.mesh.halfedge(f)))
+          corners.insert(out.origin[v]);
         while (face < faces.size() && std::set(faces[face].begin(), faces[face].end()) != corners) ++face;
         RC_ASSERT(face < faces.size());
         RC_ASSERT(seen.insert(corners).second);
@@ -158,13 +161,15 @@ TEST_CASE("soup_to_mesh: any soup becomes a manifold with the same triangles") {
 
 TEST_CASE("soup_to_mesh: a corner out of range is named with its face or line") {
   io::PolygonSoup soup = soup_of(3, {{0, 1, 2}, {0, 1, 3}});
-  CHECK(content_error([&] { io::soup_to_mesh(soup, "t"); }).starts_with("t: face 1: a corner names a vertex"));
+  CHECK(
+      content_error([&] { io::soup_to_mesh(soup, "t"); }).starts_with("t: face 1: a corner names a vertex"));
   soup.face_lines = {11, 12};
   CHECK(content_error([&] { io::soup_to_mesh(soup, "t"); }).starts_with("t:12: a corner names a vertex"));
 }
 
 TEST_CASE("make_manifold: a component is turned whole where that turns fewer faces") {
-  std::vector<io::SoupTriangle> t = {{{0, 2, 1}, {0, 1, 2}, 0}, {{0, 2, 3}, {3, 4, 5}, 1}, {{0, 3, 4}, {6, 7, 8}, 2}};
+  std::vector<io::SoupTriangle> t = {
+      {{0, 2, 1}, {0, 1, 2}, 0}, {{0, 2, 3}, {3, 4, 5}, 1}, {{0, 3, 4}, {6, 7, 8}, 2}};
   const io::ManifoldReport report = io::make_manifold(t, 5);
   CHECK(report.reversed_faces == 1);
   CHECK(report.added_points.empty());

@@ -16,7 +16,8 @@ std::string error_of(const std::string& bytes) {
 }
 
 std::string facet(const std::string& a, const std::string& b, const std::string& c) {
-  return "facet normal 0 0 1\nouter loop\nvertex " + a + "\nvertex " + b + "\nvertex " + c + "\nendloop\nendfacet\n";
+  return "facet normal 0 0 1\nouter loop\nvertex " + a + "\nvertex " + b + "\nvertex " + c +
+         "\nendloop\nendfacet\n";
 }
 
 }  // namespace
@@ -33,8 +34,9 @@ TEST_CASE("STL: a mesh of float positions comes back, vertices in the order of t
 }
 
 TEST_CASE("STL: solids of text become groups, only exactly equal positions are merged") {
-  const std::string text = "solid left\n" + facet("0 0 0", "1 0 0", "0 1 0") + "endsolid left\nsolid empty\nendsolid\n" +
-                           "solid right\n" + facet("1 0 0", "1 1 0", "-0 1 0") +
+  const std::string text = "solid left\n" + facet("0 0 0", "1 0 0", "0 1 0") +
+                           "endsolid left\nsolid empty\nendsolid\n" + "solid right\n" +
+                           facet("1 0 0", "1 1 0", "-0 1 0") +
                            facet("1.0000000000000002 0 0", "3 0 0", "3 1 0") + "endsolid right\n";
   const io::MeshFile file = stl(text);
   CHECK(file.group_names == std::vector<std::string>{"left", "right"});
@@ -54,7 +56,8 @@ TEST_CASE("STL: errors name the line or the face") {
   CHECK(error_of(good + "endsolid\n") == "(none)");
   CHECK(error_of(good).find("no 'endsolid'") != std::string::npos);
   CHECK(error_of("solid\n" + facet("0 0 0", "1 x 0", "0 1 0")).starts_with("test:5: 'x' is not a number"));
-  CHECK(error_of("solid\nfacet normal 0 0 1\nloop\n").starts_with("test:3: 'loop' where 'outer' should stand"));
+  CHECK(
+      error_of("solid\nfacet normal 0 0 1\nloop\n").starts_with("test:3: 'loop' where 'outer' should stand"));
   CHECK(error_of("").find("shorter than the header") != std::string::npos);
   std::string bytes = written(read_from(kCubeObj, MeshFormat::obj), MeshFormat::stl);
   CHECK(error_of(bytes.substr(0, bytes.size() - 1)).find("announces 12 triangles, the file holds 11") !=

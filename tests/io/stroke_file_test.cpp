@@ -51,17 +51,25 @@ TEST_CASE("strokes: what is not allowed is named with stroke and key") {
   CHECK(error_of(R"({"strokes": []})") == " no strokes; add one to the list");
   CHECK(error_of(R"({"strokes": [7]})").starts_with(" stroke 0: must be an object"));
   CHECK(error_of(R"({"strokes": [{"height": 1}]})") == " stroke 0: 'points' is missing");
-  CHECK(error_of(R"({"strokes": [{"points": []}]})").starts_with(" stroke 0: 'points' must be a list of at least one"));
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0],[1,2]]}]})").starts_with(" stroke 0: point 1: 'points': three"));
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,"1"]]}]})").starts_with(" stroke 0: point 0: 'points' must hold num"));
+  CHECK(error_of(R"({"strokes": [{"points": []}]})")
+            .starts_with(" stroke 0: 'points' must be a list of at least one"));
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0],[1,2]]}]})")
+            .starts_with(" stroke 0: point 1: 'points': three"));
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,"1"]]}]})")
+            .starts_with(" stroke 0: point 0: 'points' must hold num"));
   CHECK(error_of(R"({"strokes": [{"points": [[0,0,1e10]]}]})").find("beyond 1e9 m") != std::string::npos);
   CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "height": true}]})").find("holds a boolean") !=
         std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "height": null}]})").find("'height' must") != std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "closed": 1}]})").find("true or false") != std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "closed": true}]})").find("three points") != std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "name": 1}]})").find("'name' must") != std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "direction": [0,0,0]}]})").find("zero") != std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "height": null}]})").find("'height' must") !=
+        std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "closed": 1}]})").find("true or false") !=
+        std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "closed": true}]})").find("three points") !=
+        std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "name": 1}]})").find("'name' must") !=
+        std::string::npos);
+  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "direction": [0,0,0]}]})").find("zero") !=
+        std::string::npos);
 }
 
 TEST_CASE("strokes: broken JSON is named with line and column") {
@@ -75,7 +83,11 @@ TEST_CASE("strokes: broken JSON is named with line and column") {
 }
 
 TEST_CASE("strokes: what is written comes back with the same bits, also in another unit and axis") {
-  Stroke fold{"Falte \"1\"\n", 0.1 + 0.2, {{1.0 / 3, 2, -3e-5}, {0.7, 0.1, 1}, {4, 5, 6}}, true, Vector(0.1, 0.2, 0.3)};
+  Stroke fold{"Falte \"1\"\n",
+              0.1 + 0.2,
+              {{1.0 / 3, 2, -3e-5}, {0.7, 0.1, 1}, {4, 5, 6}},
+              true,
+              Vector(0.1, 0.2, 0.3)};
   Stroke plain{"", -0.01, {{1, 2, 3}}, false, {}};
   TemporaryFolder folder;
   for (const io::Axis up : {io::Axis::y, io::Axis::z}) {
@@ -87,7 +99,8 @@ TEST_CASE("strokes: what is written comes back with the same bits, also in anoth
     CHECK(back[0].points == fold.points);
     CHECK(back[0].closed);
     CHECK(*back[0].direction == *fold.direction);
-    CHECK((back[1].points == plain.points && !back[1].closed && !back[1].direction && back[1].height == -0.01));
+    CHECK(
+        (back[1].points == plain.points && !back[1].closed && !back[1].direction && back[1].height == -0.01));
   }
   plain.points.clear();
   CHECK_THROWS_AS(io::write_strokes(folder / "s.json", {plain}), std::invalid_argument);
@@ -97,14 +110,16 @@ TEST_CASE("strokes: what is written comes back with the same bits, also in anoth
 
 TEST_CASE("strokes: the polylines of an OBJ file, which needs no faces") {
   TemporaryFolder folder;
-  spit(folder / "lines.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 5 5 5\nv 6 5 5\nv 5 6 5\nl 1 2\nl 2 3\nl 4 5\nl 5 6\nl 6 4\n");
+  spit(folder / "lines.obj",
+       "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 5 5 5\nv 6 5 5\nv 5 6 5\nl 1 2\nl 2 3\nl 4 5\nl 5 6\nl 6 4\n");
   const auto read = io::read_strokes(folder / "lines.obj", -0.03);
   REQUIRE(read.size() == 2);
   CHECK(read[0].points == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}});
   CHECK((read[0].height == -0.03 && !read[0].closed));
   CHECK((read[1].points.size() == 3 && read[1].closed));
   spit(folder / "none.obj", kCubeObj);
-  CHECK(content_error([&] { io::read_strokes(folder / "none.obj"); }).find("no polylines") != std::string::npos);
+  CHECK(content_error([&] { io::read_strokes(folder / "none.obj"); }).find("no polylines") !=
+        std::string::npos);
   CHECK_THROWS_AS(io::read_strokes(folder / "strokes.svg"), ContentError);
   CHECK_THROWS_AS(io::read_strokes(folder / "lines.obj", kUnset), std::invalid_argument);
 }

@@ -40,7 +40,8 @@ TEST_CASE("triangulate_polygon: quads are cut at the first corner, also concave 
 
 TEST_CASE("triangulate_polygon: convex polygons become fans") {
   std::vector<Point> hexagon;
-  for (int i = 0; i < 6; ++i) hexagon.emplace_back(std::cos(i * std::numbers::pi / 3), 0, -std::sin(i * std::numbers::pi / 3));
+  for (int i = 0; i < 6; ++i)
+    hexagon.emplace_back(std::cos(i * std::numbers::pi / 3), 0, -std::sin(i * std::numbers::pi / 3));
   CHECK(cut(hexagon) == Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}});
 }
 
@@ -83,7 +84,8 @@ TEST_CASE("triangulate_polygon: star-shaped polygons in any plane are covered on
 TEST_CASE("triangulate_polygon: flat, crossing and huge polygons end") {
   CHECK(cut(std::vector<Point>(7, Point(1, 2, 3))).size() == 5);
   std::vector<Point> pentagram;
-  for (int i = 0; i < 5; ++i) pentagram.emplace_back(std::cos(i * 0.8 * std::numbers::pi), std::sin(i * 0.8 * std::numbers::pi), 0);
+  for (int i = 0; i < 5; ++i)
+    pentagram.emplace_back(std::cos(i * 0.8 * std::numbers::pi), std::sin(i * 0.8 * std::numbers::pi), 0);
   CHECK(cut(pentagram).size() == 3);
   std::vector<Point> zigzag;
   for (int i = 0; i < 2000; ++i) zigzag.emplace_back(i, i % 2 ? 2 : 0, 0);
