@@ -21,8 +21,8 @@ geometry::Mesh single_triangle();
 geometry::Mesh grid(int nx, int ny, double width = 1, double height = 1);
 /// The same with diagonals that alternate like a union jack: valences of four and eight.
 geometry::Mesh union_jack(int nx, int ny, double width = 1, double height = 1);
-/// A grid whose inner vertices are moved in the plane by up to `amount` cells (< 0.5), the same for the same
-/// seed.
+/// A grid whose inner vertices are moved in the plane by up to `amount` cells (< 0.5; faces may turn over
+/// from 0.25 on), the same for the same seed.
 geometry::Mesh jittered(int nx, int ny, double amount, unsigned seed, double width = 1, double height = 1);
 /// Open tube around the y axis from y = 0, `around` x `up` cells.
 geometry::Mesh cylinder(double radius, double height, int around, int up);

@@ -24,7 +24,7 @@ Mesh sheet_with_line(double k, double half_width = 0.31) {
   for (Edge e : mesh.edges()) rest[e] = spatial_length(mesh, e);
   auto line = ensure_map(mesh, kLine);
   for (Vertex v : mesh.vertices())
-    if (std::abs(mesh.point(v).y() - 0.5) < 0.02 && std::abs(mesh.point(v).x()) < half_width) {
+    if (std::abs(mesh.point(v).y() - 0.52) < 0.02 && std::abs(mesh.point(v).x()) < half_width) {
       line[v] = 4;
       mesh.point(v) = mesh.point(v) + Vector(0, 0, k);
     }
@@ -55,7 +55,7 @@ TEST_CASE("line_heights: a line lifted out of a plane has its k, also where it r
 TEST_CASE("line_heights: the two-ring may be as bumpy as it likes, only its border counts") {
   Mesh mesh = sheet_with_line(0.02);
   for (Vertex v : mesh.vertices())
-    if ((*find_map(mesh, kLine))[v] < 0 && std::abs(mesh.point(v).y() - 0.5) < 0.06 &&
+    if ((*find_map(mesh, kLine))[v] < 0 && std::abs(mesh.point(v).y() - 0.52) < 0.06 &&
         std::abs(mesh.point(v).x()) < 0.3)
       mesh.point(v) = mesh.point(v) + Vector(0, 0, 0.013);
   CHECK(line_heights(mesh)[0].height == Approx(0.02).margin(1e-13));
