@@ -39,20 +39,20 @@ void tell_repairs(const std::string& path, const io::MeshFile& file, const Commo
   tell(r.duplicated_vertices, "vertices duplicated where the surface was not manifold");
 }
 
-void print_text(const Json& value, const std::string& indent) {
+void print_text(std::ostream& out, const Json& value, const std::string& indent) {
   for (const auto& [key, item] : value.items()) {
-    std::cout << indent << key << ":";
+    out << indent << key << ":";
     if (item.is_structured() && !item.empty() && !(item.is_array() && item[0].is_number())) {
-      std::cout << "\n";
-      print_text(item, indent + "  ");
+      out << "\n";
+      print_text(out, item, indent + "  ");
     } else if (item.is_string()) {
-      std::cout << " " << item.get<std::string>() << "\n";
+      out << " " << item.get<std::string>() << "\n";
     } else if (item.is_number_float()) {
       char text[32];
       std::snprintf(text, sizeof text, "%.6g", item.get<double>());
-      std::cout << " " << text << "\n";
+      out << " " << text << "\n";
     } else {
-      std::cout << " " << item.dump() << "\n";
+      out << " " << item.dump() << "\n";
     }
   }
 }
@@ -74,7 +74,6 @@ void add_common_options(CLI::App& sub, CommonArguments& common) {
 }
 
 io::ReadOptions read_options(const CommonArguments& common) { return {units().at(common.unit), axis(common)}; }
-io::WriteOptions write_options(const CommonArguments& common) { return {units().at(common.unit), axis(common)}; }
 
 io::MeshFile read_mesh(const std::string& path, const CommonArguments& common) {
   io::MeshFile file = io::read_mesh(path, read_options(common));
@@ -95,15 +94,26 @@ io::MeshFile read_garment(const std::string& path, const CommonArguments& common
   return file;
 }
 
+void write_mesh(const io::MeshFile& file, const CommonArguments& common) { write_mesh(common.out, file, common); }
+
+void write_mesh(const std::string& path, const io::MeshFile& file, const CommonArguments& common) {
+  const io::WriteOptions options{units().at(common.unit), axis(common)};
+  if (path == "-")
+    io::write_mesh(std::cout, io::MeshFormat::obj, file, options);
+  else
+    io::write_mesh(path, file, options);
+}
+
 void print_report(const Json& report, const CommonArguments& common) {
+  std::ostream& out = common.out == "-" ? std::cerr : std::cout;
   if (common.json) {
     Json versioned{{"schema", 1}};
     versioned.update(report);
-    std::cout << versioned.dump(2) << "\n";
+    out << versioned.dump(2) << "\n";
   } else if (!common.quiet) {
-    print_text(report, "");
+    print_text(out, report, "");
   }
-  std::cout.flush();
+  out.flush();
 }
 
 void warn(const std::string& message, const CommonArguments& common) {

@@ -23,17 +23,22 @@ struct UsageError : std::runtime_error {
 struct CommonArguments {
   std::string unit = "m";  ///< of the meshes read and written
   std::string up = "y";    ///< axis of the meshes read and written that points up
+  std::string out;         ///< what is written; "-": OBJ to stdout, and the report goes to stderr
   bool json = false;       ///< the report as JSON
   bool quiet = false;      ///< no report, no progress
 };
 void add_common_options(CLI::App& sub, CommonArguments& common);
 io::ReadOptions read_options(const CommonArguments& common);
-io::WriteOptions write_options(const CommonArguments& common);
 
 /// Reads a mesh and tells on stderr what was repaired.
 io::MeshFile read_mesh(const std::string& path, const CommonArguments& common);
 /// As read_mesh, and refuses a garment taller than 10 m with a hint at --unit.
 io::MeshFile read_garment(const std::string& path, const CommonArguments& common);
+
+/// Writes the mesh to common.out.
+void write_mesh(const io::MeshFile& file, const CommonArguments& common);
+/// Writes it to another file.
+void write_mesh(const std::string& path, const io::MeshFile& file, const CommonArguments& common);
 
 /// Prints a report to stdout: a line a key, or JSON with a schema version. Nested objects are indented.
 void print_report(const Json& report, const CommonArguments& common);

@@ -17,7 +17,7 @@ namespace {
 
 struct RenderArguments : CommonArguments {
   std::vector<std::string> meshes;
-  std::string body, strokes, out, size = "1200,1200", view = "three-quarter", eye, target, captions, quality = "normal";
+  std::string body, strokes, size = "1200,1200", view = "three-quarter", eye, target, captions, quality = "normal";
   double field_of_view = io::View{}.field_of_view_deg;
   bool strip = false, no_lines = false;
 };

@@ -13,7 +13,7 @@ namespace {
 
 struct SdfArguments : CommonArguments {
   BodyArguments body;
-  std::string out, slice, at;
+  std::string slice, at;
 };
 
 const char* to_text(physics::SignRule rule) {

@@ -24,7 +24,7 @@ namespace furrow::cli {
 namespace {
 
 struct SimulateArguments : CommonArguments {
-  std::string in, out;
+  std::string in;
   BodyArguments body;
   PinArguments pins;
   std::optional<double> density, dt;
@@ -104,7 +104,7 @@ int simulate(SimulateArguments a) {
   }
   if (report.outcome != physics::Outcome::diverged) {
     bridge::scatter(cloth.particles, file.mesh);
-    io::write_mesh(a.out, file, write_options(a));
+    write_mesh(file, a);
   }
   print_report(to_json(report, file, record, heights, body, a.options.contact_gap), a);
   return finish(report, a);
@@ -141,7 +141,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
                                      "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
                                      "  furrow simulate skirt.ply --body body.obj --pin-loop top --seconds 3 -o worn.ply");
   sub->add_option("mesh", a->in, "garment to read; PLY of furrow wrinkle brings rest lengths and masses")->required();
-  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl")->required();
+  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output")->required();
   add_body_options(*sub, a->body);
   add_pin_options(*sub, a->pins);
   add_physics_options(*sub, *a);

@@ -13,7 +13,7 @@ namespace furrow::cli {
 namespace {
 
 struct SubdivideArguments : CommonArguments {
-  std::string in, out, strokes, rule = "safe";
+  std::string in, strokes, rule = "safe";
   bool all = false;
   int loop = 0, sqrt3 = 0;
   geometry::InsertionOptions options;
@@ -45,7 +45,7 @@ void subdivide(SubdivideArguments a) {
   if (a.all) report = insert_everywhere(file.mesh, a);
   if (a.loop > 0) geometry::loop_subdivide(file.mesh, a.loop);
   if (a.sqrt3 > 0) geometry::sqrt3_subdivide(file.mesh, a.sqrt3);
-  io::write_mesh(a.out, file, write_options(a));
+  write_mesh(file, a);
   report["vertices"] = file.mesh.number_of_vertices();
   report["faces"] = file.mesh.number_of_faces();
   report["written"] = a.out;
@@ -61,7 +61,7 @@ void add_subdivide(CLI::App& app) {
                                      "  furrow subdivide shirt.obj --loop 2 -o fine.obj\n"
                                      "  furrow subdivide shirt.obj --strokes lines.json -o lined.ply");
   sub->add_option("mesh", a->in, "mesh to read")->required();
-  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl")->required();
+  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output")->required();
   sub->add_option("--strokes", a->strokes, "insert lines: JSON, or the l elements of an OBJ file");
   sub->add_flag("--all", a->all, "insert a vertex in every face and flip every edge");
   sub->add_option("--loop", a->loop, "steps of Loop subdivision")->check(CLI::Range(0, 6));

@@ -13,7 +13,7 @@ namespace furrow::cli {
 namespace {
 
 struct WrinkleArguments : CommonArguments {
-  std::string in, strokes, out, inserted;
+  std::string in, strokes, inserted;
   double height = geometry::Stroke{}.height;
   std::string rule = "safe", rest = "drawn", region = "two-ring";
   geometry::WrinkleOptions options;
@@ -57,11 +57,11 @@ void wrinkle(const WrinkleArguments& a) {
   const geometry::WrinkleReport report = geometry::wrinkle(file.mesh, strokes, to_options(a), keep_stage);
   for (const std::string& w : report.insertion.warnings) warn(w, a);
   set_wrinkle_record(file, record_of(a, report));
-  io::write_mesh(a.out, file, write_options(a));
+  write_mesh(file, a);
   const Json json = to_json(report, file.mesh);
   if (displaced) {
     file.mesh = std::move(*displaced);
-    io::write_mesh(a.inserted, file, write_options(a));
+    write_mesh(a.inserted, file, a);
   }
   print_report(json, a);
 }
