@@ -194,6 +194,9 @@ TEST_CASE("subdivision bears lone vertices and single triangles, and refuses the
     const Vertex lone = mesh.add_vertex(Point(3, 3, 3));
     subdivide(mesh, 2);
     CHECK(mesh.point(lone) == Point(3, 3, 3));
+    CHECK(mesh.is_isolated(lone));
+    CHECK(mesh.is_valid());
+    CHECK(measure(mesh).euler_characteristic == 1);
     Mesh none;
     subdivide(none, 1);
     CHECK(none.number_of_vertices() == 0);
