@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bridge/body.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 using namespace furrow;

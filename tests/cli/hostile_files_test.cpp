@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "run_furrow.h"
-#include "test_paths.h"
+#include "tests/test_paths.h"
 
 using namespace furrow::tests;
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run_furrow.h"
-#include "test_paths.h"
+#include "tests/test_paths.h"
 
 using namespace furrow::tests;
 using nlohmann::json;
