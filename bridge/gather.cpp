@@ -8,7 +8,9 @@
 
 #include "bridge/convert.h"
 #include "geometry/bending_springs.h"
+#include "geometry/errors.h"
 #include "geometry/property_names.h"
+#include "geometry/stiffness.h"
 
 namespace furrow::bridge {
 namespace {
@@ -29,12 +31,14 @@ void check(const Mesh& mesh, const GatherOptions& o) {
   if (!find_map(mesh, kRestLength)) fail(std::string("the mesh has no map ") + kRestLength.name);
 }
 
-physics::Spring spring(Vertex a, Vertex b, double rest, double stiffness) {
+/// The spring between two vertices, stiff by S1.7's law, as `count` springs side by side.
+physics::Spring spring(Vertex a, Vertex b, double rest, double r_avg, double k_std, int count = 1) {
   const int i = static_cast<int>(a), j = static_cast<int>(b);
   if (!(rest > 0) || !std::isfinite(rest))
-    throw std::invalid_argument("gather: the spring between vertices " + std::to_string(i) + " and " + std::to_string(j) +
-                                " has rest length " + std::to_string(rest));
-  return {std::min(i, j), std::max(i, j), rest, stiffness};
+    throw ContentError("the spring between vertices " + std::to_string(i) + " and " + std::to_string(j) +
+                       " has rest length " + std::to_string(rest) +
+                       "; remove the edge (furrow info counts degenerate faces)");
+  return {std::min(i, j), std::max(i, j), rest, count * spring_stiffness(rest, r_avg, k_std)};
 }
 
 void sort_by_pair(std::vector<physics::Spring>& springs) {
@@ -49,7 +53,8 @@ physics::Particles particles_of(const Mesh& mesh) {
   for (Vertex v : mesh.vertices()) {
     const double m = mesh.is_isolated(v) ? 0 : mass[v];
     if (!(m >= 0) || (m == 0 && !mesh.is_isolated(v)))
-      throw std::invalid_argument("gather: vertex " + std::to_string(v) + " has mass " + std::to_string(m));
+      throw ContentError("vertex " + std::to_string(v) + " has mass " + std::to_string(m) +
+                         "; remove its faces (furrow info counts degenerate ones)");
     p.x.push_back(to_eigen(mesh.point(v)));
     p.v.push_back(physics::Vec3::Zero());
     p.mass.push_back(m);
@@ -66,11 +71,11 @@ physics::Cloth gather(const Mesh& mesh, const GatherOptions& o) {
   cloth.particles = particles_of(mesh);
   const auto rest = *find_map(mesh, kRestLength);
   for (Edge e : mesh.edges())
-    cloth.structural.push_back(spring(mesh.vertex(e, 0), mesh.vertex(e, 1), rest[e],
-                                      rest[e] / o.mean_structural_length * o.structural_stiffness));
+    cloth.structural.push_back(spring(mesh.vertex(e, 0), mesh.vertex(e, 1), rest[e], o.mean_structural_length,
+                                      o.structural_stiffness));
   for (const BendingSpring& b : bending_springs(mesh))
     cloth.bending.push_back(
-        spring(b.a, b.b, b.rest_length, b.count * b.rest_length / o.mean_bending_length * o.bending_stiffness));
+        spring(b.a, b.b, b.rest_length, o.mean_bending_length, o.bending_stiffness, b.count));
   sort_by_pair(cloth.structural);
   sort_by_pair(cloth.bending);
   cloth.triangles = triangles_of(mesh);

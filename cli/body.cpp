@@ -23,8 +23,8 @@ void tell_repairs(const std::string& path, const geometry::BodyReport& r, const 
 physics::DistanceFieldOptions to_options(const BodyArguments& a) {
   physics::DistanceFieldOptions o;
   o.tolerance = a.tolerance;
-  o.gradient =
-      a.gradient == "exact" ? physics::GradientRule::exact_derivative : physics::GradientRule::interpolated_corners;
+  o.gradient = a.gradient == "exact" ? physics::GradientRule::exact_derivative
+                                     : physics::GradientRule::interpolated_corners;
   o.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   return o;
 }
@@ -32,8 +32,11 @@ physics::DistanceFieldOptions to_options(const BodyArguments& a) {
 }  // namespace
 
 void add_field_options(CLI::App& sub, BodyArguments& a) {
-  sub.add_option("--tolerance", a.tolerance, "error of the body's distance field [m]; default 1/1000 of its diagonal, at most 0.002");
-  sub.add_option("--gradient", a.gradient, "of the field: exact (of the interpolated distance) or interpolated (of the corners', as in the paper)")
+  sub.add_option("--tolerance", a.tolerance,
+                 "error of the body's distance field [m]; default 1/1000 of its diagonal, at most 0.002");
+  sub.add_option("--gradient", a.gradient,
+                 "of the field: exact (of the interpolated distance) or interpolated (of the corners', as in "
+                 "the paper)")
       ->check(CLI::IsMember({"exact", "interpolated"}))
       ->capture_default_str();
 }
@@ -45,6 +48,9 @@ void add_body_options(CLI::App& sub, BodyArguments& a) {
 }
 
 BodyCollider load_body(const BodyArguments& a, const CommonArguments& common) {
+  if (!a.field.empty() && (a.tolerance || a.gradient != "exact"))
+    throw UsageError(
+        "--tolerance and --gradient are those of the saved --field; make another with furrow sdf");
   const geometry::Body repaired = geometry::repair_body(read_mesh(a.path, common).mesh);
   tell_repairs(a.path, repaired.report, common);
   physics::TriangleMesh triangles = bridge::to_triangle_mesh(repaired);

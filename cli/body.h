@@ -29,8 +29,9 @@ struct BodyCollider {
 /// Reads and repairs a body, and builds its field or loads the saved one. Warns of what was repaired.
 BodyCollider load_body(const BodyArguments& a, const CommonArguments& common);
 
-/// The gap that a garment keeps: at least `wanted`, and never less than the sag of a long edge (95th percentile) over
-/// a limb of 5 cm radius plus 1.5 field tolerances, so that faces and edges stay outside when vertices do [m].
+/// The gap that a garment keeps: at least `wanted`, and never less than the sag of a long edge (95th
+/// percentile) over a limb of 5 cm radius plus 1.5 field tolerances, so that faces and edges stay outside
+/// when vertices do [m].
 double contact_gap(double wanted, const BodyCollider& body, const geometry::Mesh& garment);
 
 }  // namespace furrow::cli

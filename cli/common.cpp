@@ -12,6 +12,7 @@
 #include <map>
 
 #include "geometry/errors.h"
+#include "io/wrinkle_record.h"
 
 namespace furrow::cli {
 namespace {
@@ -21,7 +22,9 @@ const std::map<std::string, double>& units() {
   return metres;
 }
 
-io::Axis axis(const CommonArguments& common) { return common.up == "z" ? io::Axis::z : io::Axis::y; }
+std::string unit_of(const CommonArguments& common) { return common.unit.value_or("m"); }
+std::string up_of(const CommonArguments& common) { return common.up.value_or("y"); }
+io::Axis axis(const std::string& up) { return up == "z" ? io::Axis::z : io::Axis::y; }
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -63,20 +66,32 @@ void on_interrupt(int) { interrupt_flag = 1; }
 }  // namespace
 
 void add_common_options(CLI::App& sub, CommonArguments& common) {
-  sub.add_option("--unit", common.unit, "unit of length in the mesh files: m, cm, mm or inch")
-      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}))
-      ->capture_default_str();
-  sub.add_option("--up", common.up, "axis that points up in the mesh files: y or z")
-      ->check(CLI::IsMember({"y", "z"}))
-      ->capture_default_str();
+  sub.add_option("--unit", common.unit,
+                 "unit of length in the mesh and stroke files: m, cm, mm or inch; heights are metres always "
+                 "(default m, or what "
+                 "furrow wrinkle noted in a PLY)")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
+  sub.add_option("--up", common.up, "axis that points up in those files: y or z (default y, or as noted)")
+      ->check(CLI::IsMember({"y", "z"}));
   sub.add_flag("--json", common.json, "print the report as JSON");
   sub.add_flag("-q,--quiet", common.quiet, "print neither report nor progress");
 }
 
-io::ReadOptions read_options(const CommonArguments& common) { return {units().at(common.unit), axis(common)}; }
+io::ReadOptions read_options(const CommonArguments& common) {
+  return {units().at(unit_of(common)), axis(up_of(common))};
+}
 
 io::MeshFile read_mesh(const std::string& path, const CommonArguments& common) {
   io::MeshFile file = io::read_mesh(path, read_options(common));
+  const auto record = io::find_wrinkle_record(file);
+  const bool noted = record && units().count(record->unit);
+  CommonArguments actual;
+  actual.unit = noted && !common.unit ? record->unit : unit_of(common);
+  actual.up = noted && !common.up ? record->up : up_of(common);
+  if (actual.unit != unit_of(common) || actual.up != up_of(common))
+    file = io::read_mesh(path, read_options(actual));
+  if (noted && (record->unit != actual.unit || record->up != actual.up))
+    warn(path + ": was written with --unit " + record->unit + " --up " + record->up, common);
   tell_repairs(path, file, common);
   return file;
 }
@@ -94,14 +109,50 @@ io::MeshFile read_garment(const std::string& path, const CommonArguments& common
   return file;
 }
 
-void write_mesh(const io::MeshFile& file, const CommonArguments& common) { write_mesh(common.out, file, common); }
+void write_mesh(const io::MeshFile& file, const CommonArguments& common) {
+  write_mesh(common.out, file, common);
+}
 
 void write_mesh(const std::string& path, const io::MeshFile& file, const CommonArguments& common) {
-  const io::WriteOptions options{units().at(common.unit), axis(common)};
-  if (path == "-")
+  const io::WriteOptions options{units().at(unit_of(common)), axis(up_of(common))};
+  if (path == "-") {
     io::write_mesh(std::cout, io::MeshFormat::obj, file, options);
-  else
+    flush_output();
+  } else if (auto record = io::find_wrinkle_record(file)) {
+    record->unit = unit_of(common);
+    record->up = up_of(common);
+    io::MeshFile noted = file;
+    io::set_wrinkle_record(noted, *record);
+    io::write_mesh(path, noted, options);
+  } else {
     io::write_mesh(path, file, options);
+  }
+}
+
+void check_output(const std::string& path) {
+  if (path == "-") return;
+  try {
+    if (io::mesh_format(path) == io::MeshFormat::gltf)
+      throw UsageError(path + ": glTF is read, not written; choose obj, ply, off or stl");
+  } catch (const geometry::ContentError&) {
+    throw UsageError(path + ": the ending names no format that can be written; choose obj, ply, off or stl");
+  }
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw std::runtime_error(path + ": cannot be written, there is no folder " + folder.string() +
+                             "; make it first");
+}
+
+void refuse_same(const std::string& output, const std::string& other) {
+  std::error_code none;
+  if (!output.empty() && (output == other || std::filesystem::equivalent(output, other, none)))
+    throw UsageError(output + ": would replace " + other + "; choose another name");
+}
+
+void flush_output() {
+  std::cout.flush();
+  if (!std::cout)
+    throw std::runtime_error("standard output: cannot be written; is its disk full or its reader gone?");
 }
 
 void print_report(const Json& report, const CommonArguments& common) {
@@ -114,6 +165,7 @@ void print_report(const Json& report, const CommonArguments& common) {
     print_text(out, report, "");
   }
   out.flush();
+  flush_output();
 }
 
 void warn(const std::string& message, const CommonArguments& common) {
@@ -133,7 +185,8 @@ std::vector<double> parse_numbers(const std::string& text, std::size_t n, const 
     ++at;
   }
   if (*at != 0 || numbers.size() != n)
-    throw UsageError(option + " takes " + std::to_string(n) + " numbers parted by commas, not '" + text + "'");
+    throw UsageError(option + " takes " + std::to_string(n) + " numbers parted by commas, not '" + text +
+                     "'");
   return numbers;
 }
 

@@ -21,11 +21,13 @@ struct UsageError : std::runtime_error {
 
 /// Options that every subcommand has.
 struct CommonArguments {
-  std::string unit = "m";  ///< of the meshes read and written
-  std::string up = "y";    ///< axis of the meshes read and written that points up
-  std::string out;         ///< what is written; "-": OBJ to stdout, and the report goes to stderr
-  bool json = false;       ///< the report as JSON
-  bool quiet = false;      ///< no report, no progress
+  std::optional<std::string>
+      unit;  ///< of the meshes read and written; none: what a file says of itself, else m
+  std::optional<std::string>
+      up;              ///< axis of the meshes read and written that points up; none: likewise, else y
+  std::string out;     ///< what is written; "-": OBJ to stdout, and the report goes to stderr
+  bool json = false;   ///< the report as JSON
+  bool quiet = false;  ///< no report, no progress
 };
 void add_common_options(CLI::App& sub, CommonArguments& common);
 io::ReadOptions read_options(const CommonArguments& common);
@@ -35,10 +37,18 @@ io::MeshFile read_mesh(const std::string& path, const CommonArguments& common);
 /// As read_mesh, and refuses a garment taller than 10 m with a hint at --unit.
 io::MeshFile read_garment(const std::string& path, const CommonArguments& common);
 
+/// Throws UsageError for a file that could not be written in the end: a format that is read only, a missing
+/// folder.
+void check_output(const std::string& path);
+/// Throws UsageError if the output would replace a file that is read or written beside it.
+void refuse_same(const std::string& output, const std::string& other);
 /// Writes the mesh to common.out.
 void write_mesh(const io::MeshFile& file, const CommonArguments& common);
 /// Writes it to another file.
 void write_mesh(const std::string& path, const io::MeshFile& file, const CommonArguments& common);
+
+/// Throws std::runtime_error if what was written to standard output did not arrive.
+void flush_output();
 
 /// Prints a report to stdout: a line a key, or JSON with a schema version. Nested objects are indented.
 void print_report(const Json& report, const CommonArguments& common);
@@ -47,7 +57,8 @@ void warn(const std::string& message, const CommonArguments& common);
 /// `text` as exactly n numbers parted by commas. Throws UsageError that names the option.
 std::vector<double> parse_numbers(const std::string& text, std::size_t n, const std::string& option);
 
-/// Draws a progress bar on stderr if that is a terminal and the user wants to hear of it; cleans up after itself.
+/// Draws a progress bar on stderr if that is a terminal and the user wants to hear of it; cleans up after
+/// itself.
 class Progress {
  public:
   Progress(std::string what, const CommonArguments& common);

@@ -25,7 +25,7 @@ void info(const InfoArguments& a) {
               {"boundary_loops", i.boundary_loops},
               {"euler_characteristic", i.euler_characteristic},
               {"closed", i.closed},
-              {"manifold", i.manifold},
+              {"manifold", i.manifold && file.repairs.duplicated_vertices == 0},
               {"degenerate_faces", i.degenerate_faces},
               {"self_intersections", geometry::count_self_intersections(file.mesh)},
               {"area", i.area},
@@ -34,10 +34,11 @@ void info(const InfoArguments& a) {
               {"mean_edge_length", i.mean_edge_length},
               {"min_angle_deg", i.min_angle_deg}};
   const io::RepairReport& r = file.repairs;
-  report["repairs"] = {{"triangulated_faces", r.triangulated_faces}, {"degenerate_faces", r.degenerate_faces},
-                       {"duplicate_faces", r.duplicate_faces},       {"reversed_faces", r.reversed_faces},
-                       {"duplicated_vertices", r.duplicated_vertices}, {"isolated_vertices", r.isolated_vertices},
-                       {"merged_vertices", r.merged_vertices}};
+  report["repairs"] = {
+      {"triangulated_faces", r.triangulated_faces},   {"degenerate_faces", r.degenerate_faces},
+      {"duplicate_faces", r.duplicate_faces},         {"reversed_faces", r.reversed_faces},
+      {"duplicated_vertices", r.duplicated_vertices}, {"isolated_vertices", r.isolated_vertices},
+      {"merged_vertices", r.merged_vertices}};
   print_report(report, a);
 }
 
@@ -46,7 +47,8 @@ void info(const InfoArguments& a) {
 void add_info(CLI::App& app) {
   auto a = std::make_shared<InfoArguments>();
   CLI::App* sub = app.add_subcommand("info", "Say what a mesh is: counts, topology, lengths, areas, faults");
-  sub->add_option("mesh", a->mesh, "mesh to read: obj, ply, off, stl, gltf, glb; - is OBJ from standard input")
+  sub->add_option("mesh", a->mesh,
+                  "mesh to read: obj, ply, off, stl, gltf, glb; - is OBJ from standard input")
       ->required();
   add_common_options(*sub, *a);
   sub->callback([a] { info(*a); });

@@ -50,11 +50,12 @@ int fail(int code, const std::string& message) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Furrow: cloth that wrinkles where you draw.\n"
-               "Lengths are metres, masses kilograms, times seconds, unless an option says otherwise.\n\n"
-               "  furrow wrinkle shirt.obj lines.json -o wrinkled.ply\n"
-               "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
-               "  furrow render worn.ply --body body.obj -o worn.png"};
+  CLI::App app{
+      "Furrow: cloth that wrinkles where you draw.\n"
+      "Lengths are metres, masses kilograms, times seconds, unless an option says otherwise.\n\n"
+      "  furrow wrinkle shirt.obj lines.json -o wrinkled.ply\n"
+      "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
+      "  furrow render worn.ply --body body.obj -o worn.png"};
   app.name("furrow");
   app.set_version_flag("--version", cli::version_text());
   app.require_subcommand(1);
@@ -73,7 +74,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    return fail(cli::kUsage, std::string(e.what()) + "; furrow " + (argc > 1 ? argv[1] : "") + " --help tells more");
+    return fail(cli::kUsage,
+                std::string(e.what()) + "; furrow " + (argc > 1 ? argv[1] : "") + " --help tells more");
   }
   return exit_code;
 }

@@ -32,10 +32,16 @@ std::vector<Vertex> group(const io::MeshFile& file, const std::string& name) {
 }  // namespace
 
 void add_pin_options(CLI::App& sub, PinArguments& a) {
-  sub.add_option("--pin-box", a.boxes, "hold the vertices in a box x0,y0,z0,x1,y1,z1 [m]; may be given again");
-  sub.add_option("--pin-loop", a.loops, "hold a boundary loop: top, bottom, or its index (the longest is 0)");
-  sub.add_option("--pin-group", a.groups, "hold the vertices of a group, by its name");
-  sub.add_option("--pin-vertices", a.vertices, "hold vertices, by their indices from 0")->delimiter(',');
+  sub.add_option("--pin-box", a.boxes,
+                 "hold the vertices in a box x0,y0,z0,x1,y1,z1 [m, y up]; may be given again")
+      ->allow_extra_args(false);
+  sub.add_option("--pin-loop", a.loops, "hold a boundary loop: top, bottom, or its index (the longest is 0)")
+      ->allow_extra_args(false);
+  sub.add_option("--pin-group", a.groups, "hold the vertices of a group, by its name")
+      ->allow_extra_args(false);
+  sub.add_option("--pin-vertices", a.vertices, "hold vertices, by their indices from 0")
+      ->delimiter(',')
+      ->allow_extra_args(false);
 }
 
 std::vector<int> pin(physics::Cloth& cloth, const io::MeshFile& file, const PinArguments& a) {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/render.h"
+
+#include <cmath>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -6,10 +9,9 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "io/render.h"
 #include "io/render_scene.h"
-#include "io/stroke_file.h"
 #include "io/strip.h"
+#include "io/stroke_file.h"
 #include "io/wrinkle_record.h"
 
 namespace furrow::cli {
@@ -17,14 +19,16 @@ namespace {
 
 struct RenderArguments : CommonArguments {
   std::vector<std::string> meshes;
-  std::string body, strokes, size = "1200,1200", view = "three-quarter", eye, target, captions, quality = "normal";
+  std::string body, strokes, size = "1200,1200", view = "three-quarter", eye, target, captions,
+                             quality = "normal";
   double field_of_view = io::View{}.field_of_view_deg;
   bool strip = false, no_lines = false;
 };
 
 /// Azimuth and elevation [degrees] of the named views.
-const std::map<std::string, std::pair<double, double>> kViews{
-    {"three-quarter", {25, 8}}, {"front", {0, 0}}, {"back", {180, 0}}, {"left", {90, 0}}, {"right", {-90, 0}}, {"top", {0, 85}}};
+const std::map<std::string, std::pair<double, double>> kViews{{"three-quarter", {25, 8}}, {"front", {0, 0}},
+                                                              {"back", {180, 0}},         {"left", {90, 0}},
+                                                              {"right", {-90, 0}},        {"top", {0, 85}}};
 const std::map<std::string, io::Quality> kQualities{
     {"draft", io::Quality::draft}, {"normal", io::Quality::normal}, {"fine", io::Quality::fine}};
 
@@ -40,10 +44,12 @@ void add_garment(io::RenderScene& scene, const std::string& path, const RenderAr
   std::vector<double> heights;
   if (const auto record = io::find_wrinkle_record(file))
     for (const auto& line : record->lines) heights.push_back(line.height);
-  for (io::RenderLine& line : io::render_lines_from(file.mesh, heights)) scene.lines.push_back(std::move(line));
+  for (io::RenderLine& line : io::render_lines_from(file.mesh, heights))
+    scene.lines.push_back(std::move(line));
 }
 
-/// One scene with all meshes, or for a strip one a mesh (the strokes are drawn on its first); the body stands in each.
+/// One scene with all meshes, or for a strip one a mesh (the strokes are drawn on its first); the body stands
+/// in each.
 std::vector<io::RenderScene> scenes(const RenderArguments& a) {
   std::vector<io::RenderScene> list(a.strip ? a.meshes.size() : 1);
   for (std::size_t i = 0; i < a.meshes.size(); ++i) add_garment(list[a.strip ? i : 0], a.meshes[i], a);
@@ -62,6 +68,9 @@ std::vector<io::RenderScene> scenes(const RenderArguments& a) {
 io::RenderOptions to_options(const RenderArguments& a) {
   io::RenderOptions o;
   const std::vector<double> size = parse_numbers(a.size, 2, "--size");
+  for (double side : size)
+    if (!(side >= 1 && side <= 16384) || side != std::floor(side))
+      throw UsageError("--size takes two whole numbers from 1 to 16384, not '" + a.size + "'");
   o.width = static_cast<int>(size[0]);
   o.height = static_cast<int>(size[1]);
   o.quality = kQualities.at(a.quality);
@@ -80,12 +89,15 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 void render(const RenderArguments& a) {
+  if (a.out == "-") throw UsageError("-o: a picture needs a file name");
+  for (const std::string& mesh : a.meshes) refuse_same(a.out, mesh);
   if (a.eye.empty() != a.target.empty()) throw UsageError("--eye and --target go together");
   const std::vector<io::RenderScene> list = scenes(a);
   io::RenderOptions options = to_options(a);
   options.camera = io::automatic_camera(list, options);
   if (!a.eye.empty())
-    options.camera = io::Camera{position(a.eye, "--eye"), position(a.target, "--target"), {0, 1, 0}, a.field_of_view};
+    options.camera =
+        io::Camera{position(a.eye, "--eye"), position(a.target, "--target"), {0, 1, 0}, a.field_of_view};
   const std::vector<std::string> captions = split(a.captions);
   std::vector<io::Panel> panels;
   Progress progress("rendering", a);
@@ -102,8 +114,9 @@ void add_camera_options(CLI::App& sub, RenderArguments& a) {
   sub.add_option("--view", a.view, "from where: front, back, left, right, top or three-quarter")
       ->check(CLI::IsMember(kViews))
       ->capture_default_str();
-  sub.add_option("--eye", a.eye, "where the camera stands: x,y,z [m]; with --target, in place of --view");
-  sub.add_option("--target", a.target, "what it looks at: x,y,z [m]");
+  sub.add_option("--eye", a.eye,
+                 "where the camera stands: x,y,z [m, y up]; with --target, in place of --view");
+  sub.add_option("--target", a.target, "what it looks at: x,y,z [m, y up]");
   sub.add_option("--fov", a.field_of_view, "vertical opening of the camera [degrees]")->capture_default_str();
 }
 
@@ -111,10 +124,11 @@ void add_camera_options(CLI::App& sub, RenderArguments& a) {
 
 void add_render(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
-  CLI::App* sub = app.add_subcommand("render",
-                                     "Make a picture of meshes, without a display\n\n"
-                                     "  furrow render worn.ply --body body.obj -o worn.png\n"
-                                     "  furrow render --strip a.obj b.ply c.ply --captions drawn,smoothed,hung -o strip.png");
+  CLI::App* sub = app.add_subcommand(
+      "render",
+      "Make a picture of meshes, without a display\n\n"
+      "  furrow render worn.ply --body body.obj -o worn.png\n"
+      "  furrow render --strip a.obj b.ply c.ply --captions drawn,smoothed,hung -o strip.png");
   sub->add_option("meshes", a->meshes, "garments to show; ridges are red, valleys blue")->required();
   sub->add_option("-o,--output", a->out, "PNG to write")->required();
   sub->add_option("--body", a->body, "a body to show with them");

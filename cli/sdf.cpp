@@ -18,9 +18,12 @@ struct SdfArguments : CommonArguments {
 
 const char* to_text(physics::SignRule rule) {
   switch (rule) {
-    case physics::SignRule::pseudonormal: return "pseudonormal";
-    case physics::SignRule::sides: return "sides of the uncrossed parts, winding number where they cross";
-    case physics::SignRule::winding: return "winding number";
+    case physics::SignRule::pseudonormal:
+      return "pseudonormal";
+    case physics::SignRule::sides:
+      return "sides of the uncrossed parts, winding number where they cross";
+    case physics::SignRule::winding:
+      return "winding number";
   }
   return "";
 }
@@ -44,12 +47,16 @@ Json errors(const BodyCollider& body) {
 }
 
 void sdf(const SdfArguments& a) {
+  if (a.out == "-") throw UsageError("-o: a field needs a file name");
+  refuse_same(a.out, a.body.path);
+  refuse_same(a.slice, a.body.path);
   const auto start = std::chrono::steady_clock::now();
   const BodyCollider body = load_body(a.body, a);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const physics::DistanceFieldReport& r = body.field.report();
   if (!a.out.empty()) io::write_field(a.out, body.field, body.triangles);
-  if (!a.slice.empty()) io::write_png(a.slice, io::render_slice(body.field, body.exact.low(), body.exact.high()));
+  if (!a.slice.empty())
+    io::write_png(a.slice, io::render_slice(body.field, body.exact.low(), body.exact.high()));
   Json report{{"tolerance", r.tolerance},
               {"leaves", r.leaves},
               {"samples", r.samples},

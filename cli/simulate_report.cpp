@@ -12,18 +12,22 @@
 namespace furrow::cli {
 namespace {
 
-Json lines_to_json(const io::MeshFile& file, const io::WrinkleRecord& record, const std::vector<double>& before) {
+Json lines_to_json(const io::MeshFile& file, const io::WrinkleRecord& record,
+                   const std::vector<double>& before) {
   Json lines = Json::array();
   const std::vector<double> now = line_heights_by_id(file.mesh);
   for (std::size_t i = 0; i < now.size(); ++i) {
+    if (!std::isfinite(now[i])) continue;  // its vertices went to later lines
     Json line{{"id", i}};
     if (i < record.lines.size()) {
       line["name"] = record.lines[i].name;
       line["drawn_height"] = record.lines[i].drawn_height;
     }
-    line["smoothed_height"] = before[i];
+    const bool known = i < record.lines.size() && std::isfinite(record.lines[i].smoothed_height);
+    const double smoothed = known ? record.lines[i].smoothed_height : before[i];
+    line["smoothed_height"] = smoothed;
     line["height"] = now[i];
-    line["kept"] = now[i] / before[i];
+    line["kept"] = now[i] / smoothed;
     lines.push_back(line);
   }
   return lines;
@@ -32,8 +36,9 @@ Json lines_to_json(const io::MeshFile& file, const io::WrinkleRecord& record, co
 Json borders_to_json(const geometry::Mesh& mesh) {
   Json loops = Json::array();
   for (const geometry::BorderLoop& loop : geometry::border_loops(mesh))
-    loops.push_back(
-        {{"rest_length", geometry::rest_length(mesh, loop)}, {"length", loop.length}, {"mean_height", loop.mean_height}});
+    loops.push_back({{"rest_length", geometry::rest_length(mesh, loop)},
+                     {"length", loop.length},
+                     {"mean_height", loop.mean_height}});
   return loops;
 }
 

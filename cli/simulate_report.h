@@ -6,8 +6,8 @@
 
 namespace furrow::cli {
 
-/// What a simulation reached: the work done, strain, rest, penetration by exact distance, self-intersections, and the
-/// height of each line against what it was (`before`, by line id).
+/// What a simulation reached: the work done, strain, rest, penetration by exact distance, self-intersections,
+/// and the height of each line against what it was (`before`, by line id).
 Json to_json(const physics::SimulateReport& report, const io::MeshFile& file, const io::WrinkleRecord& record,
              const std::vector<double>& before, const std::optional<BodyCollider>& body, double contact_gap);
 

@@ -4,7 +4,8 @@
 namespace furrow::cli {
 
 void add_smoothing_options(CLI::App& sub, SmoothingArguments& a) {
-  sub.add_option("--iterations", a.iterations, "pairs of smoothing steps, a shrinking and an inflating one; 0 = none")
+  sub.add_option("--iterations", a.iterations,
+                 "pairs of smoothing steps, a shrinking and an inflating one; 0 = none")
       ->capture_default_str();
   sub.add_option("--lambda", a.lambda, "factor of the shrinking step")->capture_default_str();
   sub.add_option("--mu", a.mu, "factor of the inflating step; < -lambda")->capture_default_str();

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/subdivide.h"
+
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_reports.h"
+#include "geometry/bending_springs.h"
 #include "geometry/insert_along_stroke.h"
 #include "geometry/insert_in_faces.h"
-#include "geometry/subdivide.h"
+#include "geometry/property_names.h"
 #include "io/stroke_file.h"
 
 namespace furrow::cli {
@@ -19,26 +22,35 @@ struct SubdivideArguments : CommonArguments {
   geometry::InsertionOptions options;
 };
 
+/// Springs follow the new edges; masses are lumped anew by whoever needs them.
+Json conclude(geometry::Mesh& mesh, const geometry::InsertionReport& report) {
+  if (geometry::find_map(mesh, geometry::kBendingRestLength))
+    geometry::rebuild_bending_springs(mesh, report.changed_faces);
+  if (auto mass = geometry::find_map(mesh, geometry::kMass)) mesh.remove_property_map(*mass);
+  return to_json(report, mesh);
+}
+
 Json insert_strokes(geometry::Mesh& mesh, const SubdivideArguments& a) {
   geometry::InsertionReport sum;
-  int id = 0;
-  for (const geometry::Stroke& stroke : io::read_strokes(a.strokes, geometry::Stroke{}.height, read_options(a)))
+  int id = next_line(mesh);
+  const auto strokes = io::read_strokes(a.strokes, geometry::Stroke{}.height, read_options(a));
+  for (const geometry::Stroke& stroke : strokes)
     sum += geometry::insert_along_stroke(mesh, stroke, id++, a.options).report;
   for (const std::string& w : sum.warnings) warn(w, a);
-  return to_json(sum, mesh);
+  return conclude(mesh, sum);
 }
 
 Json insert_everywhere(geometry::Mesh& mesh, const SubdivideArguments& a) {
   std::vector<geometry::FacePoint> centroids;
   for (geometry::Face f : mesh.faces()) centroids.push_back({f, {1. / 3, 1. / 3, 1. / 3}});
-  const geometry::InsertionReport report = geometry::insert_in_faces(mesh, centroids, a.options);
-  return to_json(report, mesh);
+  return conclude(mesh, geometry::insert_in_faces(mesh, centroids, a.options));
 }
 
 void subdivide(SubdivideArguments a) {
   if (!a.strokes.empty() + a.all + (a.loop > 0) + (a.sqrt3 > 0) != 1)
     throw UsageError("subdivide takes one of --strokes, --all, --loop and --sqrt3");
   a.options.rule = a.rule == "paper" ? geometry::InsertionRule::paper : geometry::InsertionRule::safe;
+  check_output(a.out);
   io::MeshFile file = read_mesh(a.in, a);
   Json report = Json::object();
   if (!a.strokes.empty()) report = insert_strokes(file.mesh, a);
@@ -56,12 +68,14 @@ void subdivide(SubdivideArguments a) {
 
 void add_subdivide(CLI::App& app) {
   auto a = std::make_shared<SubdivideArguments>();
-  CLI::App* sub = app.add_subcommand("subdivide",
-                                     "Refine a mesh along strokes or everywhere; strokes leave its shape as it is\n\n"
-                                     "  furrow subdivide shirt.obj --loop 2 -o fine.obj\n"
-                                     "  furrow subdivide shirt.obj --strokes lines.json -o lined.ply");
+  CLI::App* sub =
+      app.add_subcommand("subdivide",
+                         "Refine a mesh along strokes or everywhere; strokes leave its shape as it is\n\n"
+                         "  furrow subdivide shirt.obj --loop 2 -o fine.obj\n"
+                         "  furrow subdivide shirt.obj --strokes lines.json -o lined.ply");
   sub->add_option("mesh", a->in, "mesh to read")->required();
-  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output")->required();
+  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output")
+      ->required();
   sub->add_option("--strokes", a->strokes, "insert lines: JSON, or the l elements of an OBJ file");
   sub->add_flag("--all", a->all, "insert a vertex in every face and flip every edge");
   sub->add_option("--loop", a->loop, "steps of Loop subdivision")->check(CLI::Range(0, 6));

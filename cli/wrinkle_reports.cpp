@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/wrinkle_reports.h"
 
+#include <algorithm>
+
 #include "geometry/audit_rest_metric.h"
+#include "geometry/property_names.h"
 
 namespace furrow::cli {
 
@@ -27,7 +30,14 @@ Json to_json(const geometry::InsertionReport& r, const geometry::Mesh& mesh) {
           {"min_angle_deg", audit.min_angle_deg}};
 }
 
-Json to_json(const geometry::WrinkleReport& r, const geometry::Mesh& mesh) {
+int next_line(const geometry::Mesh& mesh) {
+  int next = 0;
+  if (const auto line = geometry::find_map(mesh, geometry::kLine))
+    for (geometry::Vertex v : mesh.vertices()) next = std::max(next, (*line)[v] + 1);
+  return next;
+}
+
+Json to_json(const geometry::WrinkleReport& r, const geometry::Mesh& mesh, int first_line) {
   Json report = to_json(r.insertion, mesh);
   report["structural_springs"] = r.structural_springs;
   report["bending_springs"] = r.bending_springs;
@@ -37,7 +47,7 @@ Json to_json(const geometry::WrinkleReport& r, const geometry::Mesh& mesh) {
   report["max_deviation"] = r.insertion.max_deviation;
   report["lines"] = Json::array();
   for (std::size_t i = 0; i < r.lines.size(); ++i)
-    report["lines"].push_back({{"id", i},
+    report["lines"].push_back({{"id", first_line + static_cast<int>(i)},
                                {"name", r.lines[i].name},
                                {"parts", r.lines[i].chains.size()},
                                {"height", r.lines[i].height},

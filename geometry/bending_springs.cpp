@@ -171,4 +171,9 @@ std::size_t count_hinges_without_spring(const Mesh& mesh) {
   return n;
 }
 
+void ensure_bending_springs(Mesh& mesh) {
+  const bool known = find_map(mesh, kBendingRestLength) && find_map(mesh, kBendingCount);
+  if (!known || bending_springs(mesh).empty()) rebuild_bending_springs(mesh);
+}
+
 }  // namespace furrow::geometry

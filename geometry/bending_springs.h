@@ -22,6 +22,8 @@ struct BendingSpring {
 /// [m]. Changes no position and no connectivity. O(edges log edges). Throws ContentError if a face is no
 /// triangle. Source: Shi and Saito, section 3 (the springs are rebuilt after the flips).
 void rebuild_bending_springs(Mesh& mesh);
+/// rebuild_bending_springs(mesh), unless the mesh has bending springs already: those keep their rest lengths.
+void ensure_bending_springs(Mesh& mesh);
 
 /// The same where connectivity changed. `changed` holds every face that was added or has got other corners
 /// since the last rebuild (more do no harm). The springs are those of a whole rebuild. A spring that was held

@@ -157,8 +157,9 @@ class LineDrawing {
     }
   }
 
-  /// Where a stroke leaves the cloth or comes onto it, the line goes to the nearer end of the border edge there: a hem
-  /// that is drawn over takes part in the wrinkle. That end is a corner of the face, so an edge leads to it.
+  /// Where a stroke leaves the cloth or comes onto it, the line goes to the nearer end of the border edge
+  /// there: a hem that is drawn over takes part in the wrinkle. That end is a corner of the face, so an edge
+  /// leads to it.
   std::optional<Vertex> border_end(const SubStroke& part, const CrossedFace& visit,
                                    const std::optional<EdgeCrossing>& x) {
     const Mesh& mesh = editor_.mesh();

@@ -7,6 +7,8 @@
 
 #include "geometry/improve_line.h"
 #include "geometry/insert_in_faces.h"
+#include "geometry/preconditions.h"
+#include "geometry/stiffness.h"
 
 namespace furrow::geometry {
 namespace {
@@ -34,11 +36,11 @@ Insertion insert_along_stroke(Mesh& mesh, const Stroke& stroke, int line_id,
   check(options);
   if (line_id < 0)
     throw std::invalid_argument("insertion: line_id must be >= 0, not " + std::to_string(line_id));
-  check_triangles(mesh);
+  require_triangles(mesh, "insert_along_stroke");
   const SurfaceProjector projector(mesh);
   Mesh original = mesh;
   const auto rest = ensure_rest_lengths(original);
-  const double h = options.mean_edge.value_or(mean_rest_length(original, rest));
+  const double h = options.mean_edge ? *options.mean_edge : mean_rest_length(original);
   const TracedStroke traced = trace_stroke(mesh, projector, stroke, {options.max_distance, h});
   const double wanted = options.min_angle_deg * std::numbers::pi / 180;
   const double least_angle = std::min(wanted, smallest_angle_around(original, rest, traced)) - 1e-9;

@@ -8,6 +8,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/flip_rules.h"
+#include "geometry/preconditions.h"
 #include "geometry/restore_delaunay.h"
 
 namespace furrow::geometry {
@@ -38,15 +39,6 @@ Barycentrics clamped(const Barycentrics& barycentrics, double least) {
   for (int i = 0; i < 3; ++i) excess += result[i] = std::max(barycentrics[i] - least, 0.0);
   for (double& b : result) b = least + (excess > 0 ? b * (1 - 3 * least) / excess : 0);
   return result;
-}
-
-void check_triangles(const Mesh& mesh) {
-  for (Face f : mesh.faces()) {
-    if (mesh.degree(f) != 3) {
-      throw ContentError("face " + std::to_string(f) + " has " + std::to_string(mesh.degree(f)) +
-                         " corners; cut the mesh into triangles first");
-    }
-  }
 }
 
 void check_face(const Mesh& mesh, const EdgeMap<double>& rest, Face face) {
@@ -102,7 +94,7 @@ void conclude(const MeshEditor& editor, InsertionReport& report) {
 InsertionReport insert_in_faces(Mesh& mesh, std::span<const FacePoint> points,
                                 const InsertionOptions& options) {
   check(options);
-  check_triangles(mesh);
+  require_triangles(mesh, "insert_in_faces");
   check_points(mesh, points);
   Mesh work = mesh;
   MeshEditor editor(work);

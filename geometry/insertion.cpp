@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/insertion_report.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "geometry/insertion_report.h"
 
 namespace furrow::geometry {
 
@@ -60,7 +60,8 @@ InsertionReport& operator+=(InsertionReport& sum, const InsertionReport& line) {
   const bool first = sum.changed_faces.empty();
   append(sum.changed_faces, line.changed_faces);
   std::sort(sum.changed_faces.begin(), sum.changed_faces.end());
-  sum.changed_faces.erase(std::unique(sum.changed_faces.begin(), sum.changed_faces.end()), sum.changed_faces.end());
+  sum.changed_faces.erase(std::unique(sum.changed_faces.begin(), sum.changed_faces.end()),
+                          sum.changed_faces.end());
   sum.min_angle_deg = first ? line.min_angle_deg : std::min(sum.min_angle_deg, line.min_angle_deg);
   sum.max_deviation = std::max(sum.max_deviation, line.max_deviation);
   return sum;

@@ -4,21 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/edge_metric.h"
+
 namespace furrow::geometry {
 
 EdgeMap<double> ensure_rest_lengths(Mesh& mesh) {
   EdgeMap<double> rest = ensure_map(mesh, kRestLength);
   for (Edge e : mesh.edges()) {
     if (!std::isnan(rest[e])) continue;
-    rest[e] = std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
+    rest[e] = spatial_length(mesh, e);
   }
   return rest;
-}
-
-double mean_rest_length(const Mesh& mesh, const EdgeMap<double>& rest) {
-  double sum = 0;
-  for (Edge e : mesh.edges()) sum += rest[e];
-  return mesh.number_of_edges() == 0 ? 0 : sum / static_cast<double>(mesh.number_of_edges());
 }
 
 TriangleLengths rest_lengths_of(const Mesh& mesh, const EdgeMap<double>& rest, Face face) {
@@ -28,12 +24,7 @@ TriangleLengths rest_lengths_of(const Mesh& mesh, const EdgeMap<double>& rest, F
 
 double triangle_area(const TriangleLengths& lengths) {
   if (std::isnan(lengths[0] + lengths[1] + lengths[2])) return kUnset;
-  auto [c, b, a] = lengths;
-  if (a < b) std::swap(a, b);
-  if (b < c) std::swap(b, c);
-  if (a < b) std::swap(a, b);
-  const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
-  return 0.25 * std::sqrt(std::max(product, 0.0));
+  return triangle_area(lengths[0], lengths[1], lengths[2]);
 }
 
 std::array<double, 3> triangle_angles(const TriangleLengths& lengths) {

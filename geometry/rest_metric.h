@@ -16,8 +16,6 @@ using TriangleLengths = std::array<double, 3>;
 /// The map e:rest_length; edges where it is not set get their length in space.
 EdgeMap<double> ensure_rest_lengths(Mesh& mesh);
 
-/// Mean rest length of all edges [m]; 0 for a mesh without edges.
-double mean_rest_length(const Mesh& mesh, const EdgeMap<double>& rest);
 
 TriangleLengths rest_lengths_of(const Mesh& mesh, const EdgeMap<double>& rest, Face face);
 

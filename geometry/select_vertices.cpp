@@ -12,7 +12,8 @@ std::vector<Vertex> vertices_in_box(const Mesh& mesh, const Point& low, const Po
   for (Vertex v : mesh.vertices()) {
     bool in = true;
     for (int k = 0; k < 3; ++k)
-      in = in && mesh.point(v)[k] >= std::min(low[k], high[k]) && mesh.point(v)[k] <= std::max(low[k], high[k]);
+      in = in && mesh.point(v)[k] >= std::min(low[k], high[k]) &&
+           mesh.point(v)[k] <= std::max(low[k], high[k]);
     if (in) inside.push_back(v);
   }
   return inside;

@@ -4,7 +4,8 @@
 
 #include "geometry/mesh.h"
 
-/// Ways to name vertices, for pins and for what is smoothed. All return vertices in the order of their indices.
+/// Ways to name vertices, for pins and for what is smoothed. All return vertices in the order of their
+/// indices.
 namespace furrow::geometry {
 
 /// Vertices with low <= position <= high in every coordinate [m]; the corners may be given in any order.

@@ -18,7 +18,8 @@ namespace furrow::geometry {
 namespace {
 
 /// The vertices of all lines, each with the displacement of the last line that has it.
-std::vector<Displacement> displacements(const std::vector<InsertedLine>& lines, std::span<const Stroke> strokes) {
+std::vector<Displacement> displacements(const std::vector<InsertedLine>& lines,
+                                        std::span<const Stroke> strokes) {
   std::map<Vertex, Displacement> last;
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (const LineVertex& v : lines[i].vertices) last[v.vertex] = {v.vertex, v.normal, strokes[i].height};
@@ -27,13 +28,14 @@ std::vector<Displacement> displacements(const std::vector<InsertedLine>& lines, 
   return list;
 }
 
-std::vector<InsertedLine> insert_lines(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options,
-                                       WrinkleReport& report) {
+std::vector<InsertedLine> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
+                                       const WrinkleOptions& options, WrinkleReport& report) {
   InsertionOptions insertion = options.insertion;
   if (!insertion.mean_edge) insertion.mean_edge = report.mean_structural_length;
   std::vector<InsertedLine> lines;
   for (const Stroke& stroke : strokes) {
-    Insertion one = insert_along_stroke(mesh, stroke, static_cast<int>(lines.size()), insertion);
+    const int id = options.first_line + static_cast<int>(lines.size());
+    Insertion one = insert_along_stroke(mesh, stroke, id, insertion);
     report.insertion += one.report;
     report.lines.push_back({stroke.name, stroke.height, 0, 0, one.line.chains});
     lines.push_back(std::move(one.line));
@@ -41,10 +43,11 @@ std::vector<InsertedLine> insert_lines(Mesh& mesh, std::span<const Stroke> strok
   return lines;
 }
 
-/// Heights by line id; NaN for a line whose vertices all went to later lines.
-std::vector<double> heights(const Mesh& mesh, std::size_t lines) {
-  std::vector<double> by_id(lines, kUnset);
-  for (const LineHeight& h : line_heights(mesh)) by_id.at(h.line) = h.height;
+/// Heights of `count` lines from id `first` on; NaN for a line whose vertices all went to later lines.
+std::vector<double> heights(const Mesh& mesh, int first, std::size_t count) {
+  std::vector<double> by_id(count, kUnset);
+  for (const LineHeight& h : line_heights(mesh))
+    if (h.line >= first && static_cast<std::size_t>(h.line - first) < count) by_id[h.line - first] = h.height;
   return by_id;
 }
 
@@ -64,6 +67,11 @@ void smooth(Mesh& mesh, std::span<const Displacement> lines, const WrinkleOption
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options,
                       const StageObserver& observer) {
   if (!(options.density > 0)) throw std::invalid_argument("wrinkle: density must be > 0 kg/m^2");
+  if (options.first_line < 0)
+    throw std::invalid_argument("wrinkle: first_line must be >= 0, not " +
+                                std::to_string(options.first_line));
+  for (const auto& r_avg : {options.mean_structural_length, options.mean_bending_length})
+    if (r_avg && !(*r_avg > 0)) throw std::invalid_argument("wrinkle: a mean rest length must be > 0 m");
   check(options.insertion);
   const auto tell = [&](Stage stage, const Mesh& m) {
     if (observer) observer(stage, m);
@@ -71,9 +79,9 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   Mesh work = mesh;
   WrinkleReport report;
   ensure_rest_lengths(work);
-  rebuild_bending_springs(work);
-  report.mean_structural_length = mean_rest_length(work);
-  report.mean_bending_length = mean_bending_rest_length(work);
+  ensure_bending_springs(work);
+  report.mean_structural_length = options.mean_structural_length.value_or(mean_rest_length(work));
+  report.mean_bending_length = options.mean_bending_length.value_or(mean_bending_rest_length(work));
   report.rest_area_before = rest_area(work);
 
   const std::vector<InsertedLine> lines = insert_lines(work, strokes, options, report);
@@ -83,12 +91,12 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   const RestSnapshot before = take_rest_snapshot(work);
   const std::vector<Displacement> moves = displacements(lines, strokes);
   displace_line(work, moves);
-  const std::vector<double> drawn = heights(work, lines.size());
+  const std::vector<double> drawn = heights(work, options.first_line, lines.size());
   tell(Stage::displaced, work);
 
   smooth(work, moves, options);
-  const std::vector<double> smoothed = heights(work, lines.size());
   apply_rest_rule(work, before, options.rest);
+  const std::vector<double> smoothed = heights(work, options.first_line, lines.size());
   report.total_mass = lump_masses(work, options.density);
   report.rest_area_after = rest_area(work);
   report.structural_springs = work.number_of_edges();

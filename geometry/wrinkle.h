@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,36 +20,41 @@ struct WrinkleOptions {
   SmoothingRegion region = SmoothingRegion::two_ring;
   RestRule rest = RestRule::drawn;
   double density = 0.15;  ///< rho [kg/m^2]; > 0
+  int first_line = 0;     ///< id of the first stroke's line; above those that the mesh has
+  /// r_avg of the garment before its first line [m]; > 0; none: of the mesh given. For a second round of
+  /// lines.
+  std::optional<double> mean_structural_length, mean_bending_length;
 };
 
 struct WrinkledLine {
   std::string name;
-  double height = 0;                            ///< k as asked for [m]
-  double drawn_height = 0;                      ///< after displacement, see line_height() [m]
-  double smoothed_height = 0;                   ///< after smoothing [m]
-  std::vector<std::vector<Vertex>> chains;      ///< its vertices, a list for each connected part
+  double height = 0;                        ///< k as asked for [m]
+  double drawn_height = 0;                  ///< after displacement, see line_height() [m]
+  double smoothed_height = 0;               ///< after smoothing [m]
+  std::vector<std::vector<Vertex>> chains;  ///< its vertices, a list for each connected part
 };
 
 struct WrinkleReport {
-  InsertionReport insertion;                    ///< sums over all lines
-  std::vector<WrinkledLine> lines;              ///< line i is stroke i; a later line owns the vertices that two share
+  InsertionReport insertion;        ///< sums over all lines
+  std::vector<WrinkledLine> lines;  ///< of stroke i, id first_line + i; a later line owns what two share
   std::size_t structural_springs = 0, bending_springs = 0;
   double rest_area_before = 0, rest_area_after = 0;  ///< [m^2]
   double total_mass = 0;                             ///< [kg]
-  double mean_structural_length = 0, mean_bending_length = 0;  ///< r_avg of the mesh before any line [m] (S1.7)
+  double mean_structural_length = 0,
+         mean_bending_length = 0;  ///< r_avg of the mesh before any line [m] (S1.7)
 };
 
 /// The stages of method S1.21 that geometry makes.
 enum class Stage { inserted, displaced, smoothed };
 using StageObserver = std::function<void(Stage, const Mesh&)>;
 
-/// Turns strokes into wrinkles: inserts their lines (Algorithm 2), displaces their vertices along the normals,
-/// smooths, rebuilds the bending springs, and updates rest lengths and masses (method, Algorithm 1, steps 2 to 4).
-/// All lines are inserted into the undisplaced surface, one after the other; then all are displaced, and smoothed
-/// once. Sets kLine, kLineEdge, kRestLength, kBendingRestLength, kBendingCount, kMass. An unset rest length is the
-/// length as it is.
-/// Throws std::invalid_argument for an option out of its range and ContentError for a stroke that cannot be used;
-/// the mesh is then as it was. Cost: about O(faces log faces) for each stroke.
+/// Turns strokes into wrinkles: inserts their lines (Algorithm 2), displaces their vertices along the
+/// normals, smooths, rebuilds the bending springs, and updates rest lengths and masses (method, Algorithm 1,
+/// steps 2 to 4). All lines are inserted into the undisplaced surface, one after the other; then all are
+/// displaced, and smoothed once. Sets kLine, kLineEdge, kRestLength, kBendingRestLength, kBendingCount,
+/// kMass. An unset rest length is the length as it is. Throws std::invalid_argument for an option out of its
+/// range and ContentError for a stroke that cannot be used; the mesh is then as it was. Cost: about O(faces
+/// log faces) for each stroke.
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options = {},
                       const StageObserver& observer = {});
 

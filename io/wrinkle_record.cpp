@@ -5,9 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "geometry/property_names.h"
 
 namespace furrow::io {
 namespace {
+
+/// JSON has no NaN: a height that could not be measured is null.
+double height_of(const nlohmann::json& value) {
+  return value.is_null() ? geometry::kUnset : value.get<double>();
+}
 
 constexpr const char* kPrefix = "furrow wrinkle ";
 bool is_record(const std::string& comment) { return comment.rfind(kPrefix, 0) == 0; }
@@ -18,7 +24,8 @@ void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record) {
   nlohmann::ordered_json json{{"r_avg_structural", record.mean_structural_length},
                               {"r_avg_bending", record.mean_bending_length},
                               {"density", record.density},
-                              {"unit", "m"},
+                              {"unit", record.unit},
+                              {"up", record.up},
                               {"options", record.options},
                               {"lines", nlohmann::ordered_json::array()}};
   for (const WrinkleRecord::Line& line : record.lines)
@@ -36,10 +43,16 @@ std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file) {
   if (comment == file.comments.end()) return std::nullopt;
   try {
     const auto json = nlohmann::json::parse(comment->substr(std::string(kPrefix).size()));
-    WrinkleRecord record{json.at("r_avg_structural"), json.at("r_avg_bending"), json.at("density"), json.at("options"), {}};
+    WrinkleRecord record{json.at("r_avg_structural"),
+                         json.at("r_avg_bending"),
+                         json.at("density"),
+                         json.at("options"),
+                         json.at("unit"),
+                         json.at("up"),
+                         {}};
     for (const auto& line : json.at("lines"))
-      record.lines.push_back(
-          {line.at("name"), line.at("height"), line.at("drawn_height"), line.at("smoothed_height")});
+      record.lines.push_back({line.at("name"), line.at("height"), height_of(line.at("drawn_height")),
+                              height_of(line.at("smoothed_height"))});
     return record;
   } catch (const nlohmann::json::exception& e) {
     throw geometry::ContentError(std::string("the comment 'furrow wrinkle' is damaged (") + e.what() +

@@ -20,7 +20,8 @@ struct WrinkleRecord {
   double mean_structural_length = 0;  ///< r_avg of the mesh before any line [m]
   double mean_bending_length = 0;     ///< [m]
   double density = 0;                 ///< [kg/m^2]
-  std::string options;                ///< the flags that made it
+  std::string options;                ///< the flags that made the last lines
+  std::string unit = "m", up = "y";   ///< of the file's positions and rest lengths: m, cm, mm or inch; y or z
   std::vector<Line> lines;            ///< by line id
 };
 

@@ -6,6 +6,7 @@
 
 #include "bridge/scatter.h"
 #include "geometry/bending_springs.h"
+#include "geometry/errors.h"
 #include "geometry/masses.h"
 #include "geometry/property_names.h"
 #include "geometry/rest_metric.h"
@@ -61,7 +62,7 @@ TEST_CASE("gather refuses a mesh that lacks what it needs") {
   CHECK_THROWS_AS(bridge::gather(bare, kOptions), std::invalid_argument);
   Mesh unset = square();
   (*geometry::find_map(unset, geometry::kRestLength))[*unset.edges().begin()] = NAN;
-  CHECK_THROWS_AS(bridge::gather(unset, kOptions), std::invalid_argument);
+  CHECK_THROWS_AS(bridge::gather(unset, kOptions), geometry::ContentError);
   bridge::GatherOptions bad = kOptions;
   bad.mean_structural_length = 0;
   CHECK_THROWS_AS(bridge::gather(square(), bad), std::invalid_argument);

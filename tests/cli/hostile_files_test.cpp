@@ -12,7 +12,8 @@ TEST_CASE("every hostile file is read or refused, without a signal") {
     return;
   }
   int files = 0, read = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(shared_dir() / "meshes" / "hostile")) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(shared_dir() / "meshes" / "hostile")) {
     if (!entry.is_regular_file()) continue;
     const Run run = run_furrow("info --json '" + entry.path().string() + "'");
     INFO(entry.path() << ": exit " << run.exit_code << " " << run.err);

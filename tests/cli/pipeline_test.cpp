@@ -14,7 +14,8 @@ namespace {
 /// A level sheet of n x n squares, 1 m wide, and one ridge across it.
 struct Sheet {
   ScratchDirectory scratch;
-  std::string mesh = scratch / "sheet.obj", strokes = scratch / "strokes.json", wrinkled = scratch / "wrinkled.ply";
+  std::string mesh = scratch / "sheet.obj", strokes = scratch / "strokes.json",
+              wrinkled = scratch / "wrinkled.ply";
   explicit Sheet(int n = 12) {
     std::string text;
     for (int i = 0; i <= n; ++i)
@@ -27,7 +28,8 @@ struct Sheet {
                 std::to_string(a + 1) + "\n";
       }
     write_text(mesh, text);
-    write_text(strokes, R"({"strokes":[{"name":"fold","height":0.03,"points":[[0.2,0,-0.52],[0.8,0,-0.47]]}]})");
+    write_text(strokes,
+               R"({"strokes":[{"name":"fold","height":0.03,"points":[[0.2,0,-0.52],[0.8,0,-0.47]]}]})");
   }
   json wrinkle(const std::string& more = "") {
     const Run run = run_furrow("wrinkle --json " + mesh + " " + strokes + " -o " + wrinkled + " " + more);
@@ -48,24 +50,29 @@ TEST_CASE("wrinkle reports what it did and writes what simulate needs") {
   CHECK(report["rest_area_after"].get<double>() > report["rest_area_before"].get<double>());
   CHECK(report["total_mass"].get<double>() == Approx(0.15 * report["rest_area_after"].get<double>()));
   CHECK(report["lines"][0]["name"] == "fold");
-  CHECK(report["lines"][0]["drawn_height"].get<double>() > report["lines"][0]["smoothed_height"].get<double>());
+  CHECK(report["lines"][0]["drawn_height"].get<double>() >
+        report["lines"][0]["smoothed_height"].get<double>());
   const std::string ply = read_text(sheet.wrinkled);
   for (const char* word : {"property double x", "property int line", "property double mass", "element edge",
-                           "property int vertex1", "property int vertex2", "property double rest_length", "comment furrow wrinkle"})
+                           "property int vertex1", "property int vertex2", "property double rest_length",
+                           "comment furrow wrinkle"})
     CHECK(ply.find(word) != std::string::npos);
 }
 
 TEST_CASE("flat rest adds no cloth, drawn rest does") {
   Sheet sheet;
   const json flat = sheet.wrinkle("--rest flat");
-  CHECK(flat["rest_area_after"].get<double>() == Approx(flat["rest_area_before"].get<double>()).epsilon(1e-12));
+  CHECK(flat["rest_area_after"].get<double>() ==
+        Approx(flat["rest_area_before"].get<double>()).epsilon(1e-12));
 }
 
-TEST_CASE("a wrinkled mesh without gravity stays as drawn, and its lines are measured against what they were") {
+TEST_CASE(
+    "a wrinkled mesh without gravity stays as drawn, and its lines are measured against what they were") {
   Sheet sheet;
   sheet.wrinkle();
   const std::string out = sheet.scratch / "still.ply";
-  const Run run = run_furrow("simulate --json " + sheet.wrinkled + " -o " + out + " --gravity 0 --seconds 0.05");
+  const Run run =
+      run_furrow("simulate --json " + sheet.wrinkled + " -o " + out + " --gravity 0 --seconds 0.05");
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
   const json report = json::parse(run.out);
@@ -80,8 +87,9 @@ TEST_CASE("two runs, and runs with one and two threads, write the same bytes") {
   std::string first;
   for (const char* threads : {"1", "2", "2"}) {
     const std::string out = sheet.scratch / (std::string("hung") + threads + ".ply");
-    REQUIRE(run_furrow("simulate -q " + sheet.wrinkled + " -o " + out + " --seconds 0.1 --pin-box 0,-1,-1,0,1,0 --threads " +
-                       threads).exit_code == 0);
+    REQUIRE(run_furrow("simulate -q " + sheet.wrinkled + " -o " + out +
+                       " --seconds 0.1 --pin-box 0,-1,-1,0,1,0 --threads " + threads)
+                .exit_code == 0);
     if (first.empty()) first = read_text(out);
     CHECK(read_text(out) == first);
   }
@@ -94,8 +102,8 @@ TEST_CASE("the sheet comes to rest on a box, no vertex inside it by exact distan
              "v -0.5 -0.02 -1.5\nv 1.5 -0.02 -1.5\nv 1.5 -0.02 0.5\nv -0.5 -0.02 0.5\n"
              "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
   sheet.wrinkle();
-  const Run run = run_furrow("simulate --json " + sheet.wrinkled + " -o " + (sheet.scratch / "lying.ply") + " --body " +
-                             (sheet.scratch / "box.obj") + " --seconds 0.3");
+  const Run run = run_furrow("simulate --json " + sheet.wrinkled + " -o " + (sheet.scratch / "lying.ply") +
+                             " --body " + (sheet.scratch / "box.obj") + " --seconds 0.3");
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
   const json report = json::parse(run.out);
@@ -107,7 +115,9 @@ TEST_CASE("the sheet comes to rest on a box, no vertex inside it by exact distan
 TEST_CASE("an interrupted simulation writes the state it reached and exits with 130") {
   Sheet sheet;
   const std::string out = sheet.scratch / "part.ply", code = sheet.scratch / "code";
-  const std::string command = "simulate " + sheet.mesh + " -o " + out + " --seconds 100000 & p=$!; sleep 1; kill -INT $p; wait $p; echo $? >" + code + "; true";
+  const std::string command = "simulate " + sheet.mesh + " -o " + out +
+                              " --seconds 100000 & p=$!; sleep 1; kill -INT $p; wait $p; echo $? >" + code +
+                              "; true";
   const Run run = run_furrow(command);
   CHECK(read_text(code) == "130\n");
   CHECK(run_furrow("info " + out).exit_code == 0);
@@ -117,7 +127,8 @@ TEST_CASE("an interrupted simulation writes the state it reached and exits with 
 TEST_CASE("a step above the limit diverges when it is forced, and nothing is written") {
   Sheet sheet;
   const std::string out = sheet.scratch / "gone.ply";
-  const Run run = run_furrow("simulate " + sheet.mesh + " -o " + out + " --pin-vertices 0,12 --dt 0.02 --force-dt --seconds 5");
+  const Run run = run_furrow("simulate " + sheet.mesh + " -o " + out +
+                             " --pin-vertices 0,12 --dt 0.02 --force-dt --seconds 5");
   CHECK(run.exit_code == 4);
   CHECK(run.err.rfind("error: ", 0) == 0);
   CHECK_FALSE(std::filesystem::exists(out));
@@ -126,20 +137,109 @@ TEST_CASE("a step above the limit diverges when it is forced, and nothing is wri
 TEST_CASE("render writes a picture, and a strip of several") {
   Sheet sheet;
   sheet.wrinkle();
-  REQUIRE(run_furrow("render -q " + sheet.wrinkled + " -o " + (sheet.scratch / "one.png") + " --size 200,150").exit_code == 0);
+  REQUIRE(run_furrow("render -q " + sheet.wrinkled + " -o " + (sheet.scratch / "one.png") + " --size 200,150")
+              .exit_code == 0);
   CHECK(read_text(sheet.scratch / "one.png").rfind("\x89PNG", 0) == 0);
-  REQUIRE(run_furrow("render -q --strip " + sheet.mesh + " " + sheet.wrinkled + " -o " + (sheet.scratch / "strip.png") +
-                     " --size 200,150 --captions before,after").exit_code == 0);
+  REQUIRE(run_furrow("render -q --strip " + sheet.mesh + " " + sheet.wrinkled + " -o " +
+                     (sheet.scratch / "strip.png") + " --size 200,150 --captions before,after")
+              .exit_code == 0);
   CHECK(read_text(sheet.scratch / "strip.png").rfind("\x89PNG", 0) == 0);
 }
 
 TEST_CASE("a saved field serves another run, and is refused for another body") {
   Sheet sheet;
-  const std::string body = sheet.scratch / "tetra.obj", other = sheet.scratch / "other.obj", field = sheet.scratch / "tetra.field";
+  const std::string body = sheet.scratch / "tetra.obj", other = sheet.scratch / "other.obj",
+                    field = sheet.scratch / "tetra.field";
   write_text(body, "v 0 -1 0\nv 1 -1 0\nv 0 -1 -1\nv 0 -0.1 0\nf 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 3 2\n");
   write_text(other, "v 0 -2 0\nv 1 -1 0\nv 0 -1 -1\nv 0 -0.1 0\nf 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 3 2\n");
   REQUIRE(run_furrow("sdf -q " + body + " -o " + field).exit_code == 0);
-  const std::string call = "simulate -q --seconds 0.01 " + sheet.mesh + " --field " + field + " -o " + (sheet.scratch / "o.ply") + " --body ";
+  const std::string call = "simulate -q --seconds 0.01 " + sheet.mesh + " --field " + field + " -o " +
+                           (sheet.scratch / "o.ply") + " --body ";
   CHECK(run_furrow(call + body).exit_code == 0);
   CHECK(run_furrow(call + other).exit_code == 3);
+}
+
+TEST_CASE("a second round of lines keeps the first: ids, records, mean rest lengths, density") {
+  Sheet sheet;
+  sheet.wrinkle("--density 0.3");
+  const std::string second = sheet.scratch / "second.json", both = sheet.scratch / "both.ply";
+  write_text(second, R"({"strokes":[{"name":"more","height":-0.02,"points":[[0.2,0,-0.2],[0.8,0,-0.2]]}]})");
+  const Run run = run_furrow("wrinkle --json " + sheet.wrinkled + " " + second + " -o " + both);
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  const json report = json::parse(run.out);
+  CHECK(report["lines"][0]["id"] == 1);
+  CHECK(report["total_mass"].get<double>() == Approx(0.3 * report["rest_area_after"].get<double>()));
+  const auto record = [](const std::string& path) {
+    const std::string ply = read_text(path);
+    const std::size_t at = ply.find("furrow wrinkle ") + 15;
+    return json::parse(ply.substr(at, ply.find('\n', at) - at));
+  };
+  CHECK(record(both)["r_avg_structural"] == record(sheet.wrinkled)["r_avg_structural"]);
+  CHECK(record(both)["lines"].size() == 2);
+  const Run still =
+      run_furrow("simulate --json --gravity 0 --seconds 0.02 " + both + " -o " + (sheet.scratch / "o.ply"));
+  REQUIRE(still.exit_code == 0);
+  const json lines = json::parse(still.out)["lines"];
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0]["name"] == "fold");
+  CHECK(lines[1]["name"] == "more");
+  // The second line lies in the slope of the first: a flip across it keeps its length on the cloth, not in
+  // space.
+  CHECK(json::parse(still.out)["strain"]["max"].get<double>() < 1e-4);
+}
+
+TEST_CASE("the same stroke twice gives the height of the second, and the mesh can be simulated") {
+  Sheet sheet;
+  write_text(sheet.strokes,
+             R"({"strokes":[{"height":0.03,"points":[[0.2,0,-0.52],[0.8,0,-0.47]]},
+                            {"height":0.01,"points":[[0.2,0,-0.52],[0.8,0,-0.47]]}]})");
+  const json report = sheet.wrinkle();
+  CHECK(report["lines"][1]["drawn_height"].get<double>() == Approx(0.01).margin(1e-3));
+  const Run run =
+      run_furrow("simulate --json --seconds 0.01 " + sheet.wrinkled + " -o " + (sheet.scratch / "o.ply"));
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+}
+
+TEST_CASE("a wrinkled mesh that is refined again still has its springs and gets its masses") {
+  Sheet sheet;
+  sheet.wrinkle();
+  write_text(sheet.strokes, R"({"strokes":[{"points":[[0.3,0,-0.15],[0.7,0,-0.15]]}]})");
+  const std::string finer = sheet.scratch / "finer.ply";
+  for (const std::string& how :
+       {"--strokes " + sheet.strokes, std::string("--all"), std::string("--loop 1")}) {
+    INFO(how);
+    REQUIRE(run_furrow("subdivide -q " + sheet.wrinkled + " " + how + " -o " + finer).exit_code == 0);
+    const Run run = run_furrow("simulate --json --gravity 0 --seconds 0.001 " + finer + " -o " +
+                               (sheet.scratch / "o.ply"));
+    INFO(run.err);
+    CHECK(run.exit_code == 0);
+  }
+}
+
+TEST_CASE("a PLY in centimetres says so, and is read as such without a flag") {
+  Sheet sheet;
+  const std::string cm = sheet.scratch / "cm.ply";
+  write_text(sheet.scratch / "cm.obj", "v 0 0 0\nv 100 0 0\nv 100 100 0\nv 0 100 0\nf 1 2 3 4\n");
+  write_text(sheet.strokes, R"({"strokes":[{"height":0.1,"points":[[60,40,0]]}]})");
+  REQUIRE(run_furrow("wrinkle -q --iterations 0 --unit cm " + (sheet.scratch / "cm.obj") + " " +
+                     sheet.strokes + " -o " + cm)
+              .exit_code == 0);
+  const json report = json::parse(run_furrow("info --json " + cm).out);
+  CHECK(report["bounding_box"]["max"][0].get<double>() == Approx(1));
+}
+
+TEST_CASE("what cannot be written is said before the work is done") {
+  Sheet sheet;
+  CHECK(
+      run_furrow("simulate --seconds 100000 " + sheet.mesh + " -o " + (sheet.scratch / "o.gltf")).exit_code ==
+      2);
+  CHECK(run_furrow("simulate --seconds 100000 " + sheet.mesh + " -o " + (sheet.scratch / "no/o.ply"))
+            .exit_code == 1);
+  CHECK(run_furrow("simulate --field none.field " + sheet.mesh + " -o " + (sheet.scratch / "o.ply"))
+            .exit_code == 2);
+  const std::string err = sheet.scratch / "err";
+  run_furrow("smooth " + sheet.mesh + " -o - >/dev/full 2>" + err + "; true");
+  CHECK(read_text(err).find("error: standard output") != std::string::npos);
 }

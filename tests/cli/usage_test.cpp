@@ -63,7 +63,8 @@ TEST_CASE("a file that cannot be read exits with 3") {
 TEST_CASE("a file that cannot be written exits with 1 and leaves nothing behind") {
   const ScratchDirectory scratch;
   write_text(scratch / "square.obj", kSquare);
-  const Run run = run_furrow("smooth " + (scratch / "square.obj") + " -o " + (scratch / "no/such/folder.obj"));
+  const Run run =
+      run_furrow("smooth " + (scratch / "square.obj") + " -o " + (scratch / "no/such/folder.obj"));
   CHECK(run.exit_code == 1);
   CHECK(run.err.rfind("error: ", 0) == 0);
 }
@@ -90,10 +91,11 @@ TEST_CASE("units and the up axis turn what is read and turn it back when written
   write_text(scratch / "square.obj", kSquare);
   const Run run = run_furrow("info --json --unit cm " + (scratch / "square.obj"));
   CHECK(nlohmann::json::parse(run.out)["area"].get<double>() == Approx(1e-4));
-  const Run tall = run_furrow("wrinkle --unit m " + (scratch / "square.obj") + " " + (scratch / "none.json") + " -o " +
-                              (scratch / "o.ply"));
+  const Run tall = run_furrow("wrinkle --unit m " + (scratch / "square.obj") + " " + (scratch / "none.json") +
+                              " -o " + (scratch / "o.ply"));
   CHECK(tall.exit_code == 3);
-  REQUIRE(run_furrow("smooth --iterations 0 --up z --unit mm " + (scratch / "square.obj") + " -o " + (scratch / "same.obj"))
+  REQUIRE(run_furrow("smooth --iterations 0 --up z --unit mm " + (scratch / "square.obj") + " -o " +
+                     (scratch / "same.obj"))
               .exit_code == 0);
   const auto same = nlohmann::json::parse(run_furrow("info --json " + (scratch / "same.obj")).out);
   CHECK(same["bounding_box"]["max"] == nlohmann::json::parse("[1.0, 1.0, 0.0]"));

@@ -4,6 +4,7 @@
 
 #include "geometry/audit_rest_metric.h"
 #include "geometry/rest_metric.h"
+#include "geometry/stiffness.h"
 #include "tests/insertion/insertion_checks.h"
 #include "tests/insertion/insertion_meshes.h"
 
@@ -15,7 +16,8 @@ namespace {
 
 void draw_all(const MeshCase& on, const StrokeCase& kind) {
   Mesh mesh = on.mesh;
-  const double h = mean_rest_length(mesh, ensure_rest_lengths(mesh));
+  ensure_rest_lengths(mesh);
+  const double h = mean_rest_length(mesh);
   const double least = std::min(8.0, 0.8 * audit_rest_metric(mesh).min_angle_deg);
   InsertionOptions options;
   options.mean_edge = h;
@@ -50,7 +52,8 @@ TEST_CASE("the third time along the same stroke adds next to nothing") {
     const Stroke stroke = strokes_for(on)[1].strokes[0];
     Mesh mesh = on.mesh;
     InsertionOptions options;
-    options.mean_edge = mean_rest_length(mesh, ensure_rest_lengths(mesh));
+    ensure_rest_lengths(mesh);
+    options.mean_edge = mean_rest_length(mesh);
     const std::size_t first = insert_along_stroke(mesh, stroke, 0, options).report.inserted;
     const Insertion second = insert_along_stroke(mesh, stroke, 1, options);
     const Insertion third = insert_along_stroke(mesh, stroke, 2, options);

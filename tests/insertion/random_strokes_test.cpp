@@ -5,6 +5,7 @@
 
 #include "geometry/audit_rest_metric.h"
 #include "geometry/rest_metric.h"
+#include "geometry/stiffness.h"
 #include "tests/insertion/insertion_checks.h"
 #include "tests/insertion/insertion_meshes.h"
 
@@ -38,7 +39,8 @@ void draw_random_lines() {
   Mesh mesh = random_sheet(static_cast<std::uint64_t>(any_of(0, 1 << 30)), 15);
   InsertionOptions options;
   options.max_distance = 0.3;
-  const double h = mean_rest_length(mesh, ensure_rest_lengths(mesh));
+  ensure_rest_lengths(mesh);
+  const double h = mean_rest_length(mesh);
   options.mean_edge = h;
   const double least = std::min(5.0, 0.4 * audit_rest_metric(mesh).min_angle_deg);
   const int lines = any_of(1, 4);

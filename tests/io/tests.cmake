@@ -11,6 +11,7 @@ furrow_add_tests(io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   ply_test.cpp
   real_files_test.cpp
   soup_to_mesh_test.cpp
+  wrinkle_record_test.cpp
   stl_test.cpp
   stroke_file_test.cpp
   text_scanner_test.cpp

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs the build into a prefix of its own, builds the consumer against it, and runs what it built.
+cmake_minimum_required(VERSION 3.25)
+set(prefix ${BINARY}/installed)
+file(REMOVE_RECURSE ${prefix} ${BINARY}/consumer)
+function(must)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\n${out}")
+  endif()
+endfunction()
+must(${CMAKE_COMMAND} --install ${BINARY} --prefix ${prefix})
+must(${CMAKE_COMMAND} -G Ninja -S ${ROOT}/tests/consumer -B ${BINARY}/consumer -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release)
+must(${CMAKE_COMMAND} --build ${BINARY}/consumer)
+must(${BINARY}/consumer/falls)
+must(${BINARY}/consumer/wrinkles ${ROOT}/meshes/sheet.obj)
+must(${prefix}/bin/furrow info ${ROOT}/meshes/sheet.obj)
