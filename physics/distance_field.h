@@ -51,6 +51,9 @@ class DistanceField : public Collider {
 
   /// 10 to 25 ns; NaN for a NaN point.
   SignedDistance at(const Vec3& x) const override;
+  /// The same bits for many points at once, `result[i]` for x[i]: what a point needs is fetched while others are
+  /// computed, so points in no order cost about what ordered ones do. std::invalid_argument if the lengths differ.
+  void at_many(std::span<const Vec3> x, std::span<SignedDistance> result) const;
 
   const DistanceFieldReport& report() const { return report_; }
   double allowed_error(double distance) const;  ///< tolerance, and more beyond the band [m]
@@ -78,12 +81,18 @@ class DistanceField : public Collider {
   void fill_brick(Entry entry, int level, const std::array<int, 3>& low, int left, int depth,
                   std::size_t base);
   int depth_below(Entry entry) const;
+  struct Cell {
+    std::array<double, 3> t;  ///< lattice coordinates, clamped into the cube
+    std::array<int, 3> i;     ///< of the finest cell there
+  };
   struct Place {
     std::uint32_t leaf;
     int level;
   };
   Place find(int ix, int iy, int iz) const;
-  SignedDistance inside_at(double tx, double ty, double tz) const;
+  Cell cell_of(const Vec3& x) const;
+  SignedDistance value_at(const Vec3& x, const Cell& cell, const Place& place) const;
+  SignedDistance inside_at(const Cell& cell, const Place& place) const;
   Vec3 corner_gradient_at(std::size_t leaf, const Vec3& u) const;
 
   Vec3 low_;

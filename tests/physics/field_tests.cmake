@@ -3,6 +3,7 @@ furrow_add_tests(field LIBRARIES furrow::physics CGAL::CGAL SOURCES
   triangle_bvh_test.cpp
   winding_number_test.cpp
   exact_distance_test.cpp
+  distance_field_at_many_test.cpp
   distance_field_test.cpp
   distance_field_bytes_test.cpp
 )
