@@ -43,6 +43,9 @@ void check(const TaubinOptions& o, double k_max) {
   if (!(k_max <= k_stab))
     refuse(pair + " is unstable: it bears waves up to k_stab = " + std::to_string(k_stab) +
            ", these weights can have k_max = " + std::to_string(k_max) + "; use lambda 0.33, mu -0.34");
+  if (const double pass_band = 1 / o.lambda + 1 / o.mu; !(pass_band < k_max))
+    refuse(pair + ": every wave would grow, the pass band reaches k_PB = " + std::to_string(pass_band) +
+           "; use lambda 0.33, mu -0.34");
 }
 
 }  // namespace

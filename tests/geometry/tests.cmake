@@ -14,5 +14,7 @@ furrow_add_tests(geometry LIBRARIES furrow::geometry SOURCES
   measures_test.cpp
   self_intersections_test.cpp
   repair_body_test.cpp
+  select_vertices_test.cpp
   sheet_test.cpp
+  wrinkle_test.cpp
 )

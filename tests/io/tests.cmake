@@ -5,6 +5,7 @@ furrow_add_tests(io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   chain_segments_test.cpp
   child_process_test.cpp
   damaged_files_test.cpp
+  field_file_test.cpp
   hostile_files_test.cpp
   obj_test.cpp
   off_test.cpp
