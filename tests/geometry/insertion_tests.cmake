@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Strokes and Algorithm 2.
 furrow_add_tests(insertion LIBRARIES furrow::io SOURCES
+  flip_rules_test.cpp
   insert_along_stroke_test.cpp
   insert_in_faces_test.cpp
   insertion_checks.cpp

@@ -29,6 +29,7 @@ void draw_all(const MeshCase& on, const StrokeCase& kind) {
     CHECK(audit_rest_metric(mesh).min_angle_deg >= least);
     CHECK(relative_deviation(before, mesh, kind.strokes[id], insertion, h) <= 1);
     CHECK(insertion.report.warnings.empty());
+    if (kind.name == "through vertices" || kind.name == "along edges") CHECK(insertion.report.nudges >= 1);
     CHECK(insertion.line.chains.size() == 1);
     CHECK(insertion.line.vertices.size() >= 10);
     if (kind.strokes[id].closed) CHECK(insertion.line.chains[0].front() == insertion.line.chains[0].back());
