@@ -65,12 +65,13 @@ void drift_range(Vec4* x, const Vec4* v, double seconds, int begin, int end) {
 ContactCounts drift_with_contact(PackedCloth& cloth, BodyContact& contact, double seconds, int begin,
                                  int end) {
   ContactCounts counts;
+  const bool asks_in_world = contact.asks_in_world();
   for (int i = begin; i < end; ++i) {
     if (cloth.inv_mass[i] == 0) continue;
     Vec4 &x4 = cloth.x[i], &v4 = cloth.v[i];
     const Vec3 before(x4.x, x4.y, x4.z);
     Vec3 v(v4.x, v4.y, v4.z), x = before + seconds * v;
-    if (contact.is_clear(i, x)) {
+    if (asks_in_world && contact.is_clear(i, x)) {
       x4 = {x.x(), x.y(), x.z(), 0};
       continue;
     }
@@ -83,11 +84,13 @@ ContactCounts drift_with_contact(PackedCloth& cloth, BodyContact& contact, doubl
 
 }  // namespace
 
-Motion::Motion(const Cloth& cloth, const Loads& loads, ThreadPool& pool, BodyContact* contact)
-    : cloth_(pack(cloth)), loads_(loads), pool_(pool), contact_(contact) {
+Motion::Motion(const Cloth& cloth, const Loads& loads, ThreadPool& pool, const Surroundings& around,
+               double time)
+    : cloth_(pack(cloth)), loads_(loads), pool_(pool), around_(around), from_(time), to_(time) {
   check_not_negative(loads.air_drag, "air drag");
   check_not_negative(loads.spring_damping, "spring damping");
   if (!loads.gravity.allFinite()) throw std::invalid_argument("gravity is not finite");
+  if (around_.pins) around_.pins->attach(cloth_);
   update_forces();
 }
 
@@ -100,32 +103,59 @@ const DampingSweep& Motion::damping(double seconds) {
 void Motion::damp_forward(double seconds) { damping(seconds).forward(cloth_, pool_); }
 void Motion::damp_reverse(double seconds) { damping(seconds).reverse(cloth_, pool_); }
 
+void Motion::begin_step(double from, double to) {
+  from_ = from, to_ = to;
+  if (around_.pins) around_.pins->begin_step(cloth_, to, to - from);
+  if (around_.contact) around_.contact->begin_step(from, to);
+}
+
 void Motion::drag_and_kick(double seconds) {
-  kick(cloth_, loads_, pool_, seconds, std::exp(-loads_.air_drag * seconds), 1);
+  const double decay = std::exp(-loads_.air_drag * seconds);
+  if (around_.wind) blow(cloth_, *around_.wind, from_, decay, pool_);
+  kick(cloth_, loads_, pool_, seconds, around_.wind ? 1 : decay, 1);
 }
 
 void Motion::kick_and_drag(double seconds) {
-  kick(cloth_, loads_, pool_, seconds, 1, std::exp(-loads_.air_drag * seconds));
+  const double decay = std::exp(-loads_.air_drag * seconds);
+  kick(cloth_, loads_, pool_, seconds, 1, around_.wind ? 1 : decay);
+  if (around_.wind) blow(cloth_, *around_.wind, to_, decay, pool_);
 }
 
 void Motion::drift(double seconds) {
-  if (!contact_) {
+  if (around_.contact) {
+    std::mutex mutex;
+    pool_.run(cloth_.particles(), [&](int begin, int end) {
+      const ContactCounts counts = drift_with_contact(cloth_, *around_.contact, seconds, begin, end);
+      const std::lock_guard lock(mutex);
+      work_.contact += counts;
+    });
+  } else {
     pool_.run(cloth_.particles(), [&](int begin, int end) {
       drift_range(cloth_.x.data(), cloth_.v.data(), seconds, begin, end);
     });
-    return;
   }
-  std::mutex mutex;
-  pool_.run(cloth_.particles(), [&](int begin, int end) {
-    const ContactCounts counts = drift_with_contact(cloth_, *contact_, seconds, begin, end);
-    const std::lock_guard lock(mutex);
-    work_.contact += counts;
-  });
+  if (around_.pins) around_.pins->arrive(cloth_);
 }
 
 void Motion::update_forces() {
   update_spring_forces(cloth_, pool_);
+  if (around_.compensation) compensate();
   ++work_.force_evaluations;
+}
+
+void Motion::compensate() {
+  const double share = share_left(*around_.compensation, to_);
+  if (share == 0) return;
+  for (std::size_t i = 0; i < cloth_.force.size(); ++i) {
+    const Vec3 f = share * around_.compensation->force[std::size_t(cloth_.particle[i])];
+    Vec4& force = cloth_.force[i];
+    force = {force.x - f.x(), force.y - f.y(), force.z - f.z(), 0};
+  }
+}
+
+void Motion::unpack(Particles& particles) const {
+  physics::unpack(cloth_, particles);
+  if (around_.pins) around_.pins->unpack(cloth_, particles);
 }
 
 }  // namespace furrow::physics

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "physics/compensation.h"
 #include "physics/contact.h"
 #include "physics/damping_sweep.h"
+#include "physics/moved_pins.h"
 #include "physics/packed_cloth.h"
 #include "physics/thread_pool.h"
+#include "physics/wind.h"
 
 namespace furrow::physics {
 
@@ -14,22 +17,35 @@ struct Loads {
   double spring_damping = 0;  ///< share of critical damping of each spring [-]; >= 0
 };
 
+/// What else acts; each may be null, and must outlive the motion.
+struct Surroundings {
+  BodyContact* contact = nullptr;
+  PinLeader* pins = nullptr;
+  const Wind* wind = nullptr;
+  const Compensation* compensation = nullptr;
+};
+
 struct WorkCounts {
   std::int64_t steps = 0, force_evaluations = 0;
   ContactCounts contact;
 };
 
-/// A cloth in motion, and the phases that a step is made of. Particles with inv_mass 0 never move.
+/// A cloth in motion, and the phases that a step is made of. Particles with inv_mass 0 move only as
+/// Surroundings::pins leads them.
 class Motion {
  public:
-  /// contact may be null; pool and contact must outlive the motion. The springs' forces are those of the
-  /// cloth's positions. Throws std::invalid_argument as pack() does, or if a load is out of its range.
-  Motion(const Cloth& cloth, const Loads& loads, ThreadPool& pool, BodyContact* contact = nullptr);
+  /// The pool must outlive the motion. The springs' forces are those of the cloth's positions. Throws
+  /// std::invalid_argument as pack() does, or if a load is out of its range.
+  Motion(const Cloth& cloth, const Loads& loads, ThreadPool& pool, const Surroundings& around = {},
+         double time = 0);
 
+  /// Before the phases of a step from one time to another [s]: needed if the surroundings depend on time.
+  void begin_step(double from, double to);
   /// v decays over `seconds` by the springs' damping, forward or in the reverse order (see DampingSweep).
   void damp_forward(double seconds);
   void damp_reverse(double seconds);
-  /// v *= exp(-air_drag seconds), before or after  v += seconds (force / m + gravity).
+  /// v - w decays by exp(-air_drag seconds), w the air's velocity (0 without wind), before or after
+  /// v += seconds (force / m + gravity).
   void drag_and_kick(double seconds);
   void kick_and_drag(double seconds);
   /// x += seconds v, then the body's answer to it.
@@ -37,15 +53,18 @@ class Motion {
   void update_forces();
 
   const PackedCloth& cloth() const { return cloth_; }
+  void unpack(Particles& particles) const;  ///< positions and velocities
   WorkCounts& work() { return work_; }
 
  private:
   const DampingSweep& damping(double seconds);
+  void compensate();
 
   PackedCloth cloth_;
   Loads loads_;
   ThreadPool& pool_;
-  BodyContact* contact_;
+  Surroundings around_;
+  double from_, to_;
   DampingSweep damping_;
   double damping_seconds_ = -1;
   WorkCounts work_;

@@ -5,21 +5,22 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <limits>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
 
+#include "physics/animated_contact.h"
 #include "physics/euler_step.h"
 #include "physics/leapfrog_step.h"
+#include "physics/posed_collider.h"
 #include "physics/residual_force.h"
-#include "physics/stable_step.h"
+#include "physics/rigid_contact.h"
+#include "physics/step_length.h"
 
 namespace furrow::physics {
 namespace {
 
 constexpr int divergence_steps = 16;  // steps between two looks for divergence
-constexpr int strain_steps = 200;     // steps between two looks at the strain
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
@@ -35,6 +36,7 @@ void require_positive(double value, const char* name) {
 
 void check(const SimulateOptions& o) {
   if (!(o.seconds >= 0) || !std::isfinite(o.seconds)) refuse("seconds = ", o.seconds, " is not >= 0");
+  if (o.stop_at && std::isnan(*o.stop_at)) refuse("stop_at is not a number");
   if (o.dt) require_positive(*o.dt, "dt");
   if (!(o.dt_factor > 0 && o.dt_factor <= 1)) refuse("dt_factor = ", o.dt_factor, " is not in (0, 1]");
   if (o.step_rule == StepRule::forced && !o.dt) refuse("a forced step needs dt");
@@ -51,63 +53,6 @@ double cpu_time() {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-/// The step's length: re-estimates the limit as the cloth strains and divides the time left into equal steps.
-class StepLength {
- public:
-  StepLength(const Cloth& cloth, const SimulateOptions& options, SimulateReport& report)
-      : cloth_(cloth), options_(options), report_(report) {
-    report.dt_limit_smallest = std::numeric_limits<double>::infinity();
-    estimate();
-    if (options.dt && options.step_rule == StepRule::limited && *options.dt > report.dt_limit) {
-      refuse("dt = ", *options.dt, " s is above the stability limit of ", report.dt_limit, " s");
-    }
-    divide(options.seconds);
-  }
-
-  double dt() const { return dt_; }
-  std::int64_t steps_left() const { return steps_left_; }
-  bool due(std::int64_t step) const {
-    return step % strain_steps == 0 || step - estimated_at_ >= options_.limit_steps;
-  }
-
-  /// After a step; the cloth must hold its state if due(step).
-  void advance(std::int64_t step) {
-    --steps_left_;
-    if (!due(step) || steps_left_ == 0 || options_.step_rule == StepRule::forced) return;
-    const double strain = strain_statistics(cloth_.particles.x, cloth_.structural).max;
-    if (step - estimated_at_ < options_.limit_steps && !(strain > strain_ + options_.limit_strain)) return;
-    if (!std::isfinite(strain)) return;  // diverged: seen elsewhere
-    estimate();
-    estimated_at_ = step;
-    divide(double(steps_left_) * dt_);
-  }
-
- private:
-  void estimate() {
-    const StepLimit limit = stable_step(cloth_);
-    strain_ = strain_statistics(cloth_.particles.x, cloth_.structural).max;
-    report_.dt_limit = limit.dt_limit;
-    report_.dt_limit_smallest = std::min(report_.dt_limit_smallest, limit.dt_limit);
-    ++report_.limit_estimates;
-  }
-
-  void divide(double rest) {
-    double longest = std::min(options_.dt_factor * report_.dt_limit, options_.dt_max);
-    if (options_.dt)
-      longest =
-          options_.step_rule == StepRule::forced ? *options_.dt : std::min(*options_.dt, report_.dt_limit);
-    // A hair above, so that 2 s / 0.1 ms is 20000 steps and not 20001.
-    steps_left_ = std::int64_t(std::ceil(rest / longest * (1 - 1e-12)));
-    dt_ = steps_left_ > 0 ? rest / double(steps_left_) : 0;
-  }
-
-  const Cloth& cloth_;
-  const SimulateOptions& options_;
-  SimulateReport& report_;
-  double strain_ = 0, dt_ = 0;
-  std::int64_t steps_left_ = 0, estimated_at_ = 0;
-};
-
 bool has_diverged(const PackedCloth& cloth, double speed_limit) {
   const double most = speed_limit * speed_limit;
   for (std::size_t i = 0; i < cloth.v.size(); ++i) {
@@ -117,69 +62,201 @@ bool has_diverged(const PackedCloth& cloth, double speed_limit) {
   return false;
 }
 
-/// The steps, one phase after another; fills steps, time, dt and outcome.
-void run(Cloth& cloth, Motion& motion, StepLength& length, const SimulateOptions& options,
-         const Observer& observer, SimulateReport& report) {
-  const auto step = options.integrator == Integrator::leapfrog ? leapfrog_step : euler_step;
-  report.dt = report.dt_smallest = length.dt();
-  while (length.steps_left() > 0) {
-    report.dt = length.dt();
-    report.dt_smallest = std::min(report.dt_smallest, report.dt);
-    step(motion, report.dt);
-    ++report.steps;
-    report.time = length.steps_left() == 1 ? options.seconds : report.time + report.dt;
+/// All that a call works with besides cloth, world and options.
+class Simulation {
+ public:
+  Simulation(Cloth& cloth, const World& world, const SimulateOptions& options, SimulateState& state);
+  void run(const Observer& observer, SimulateReport& report);
+  /// Brings cloth and state up to date and fills the report but for the clocks.
+  void finish(SimulateReport& report);
 
-    const bool last = length.steps_left() == 1,
-               observed = observer && (report.steps % options.observe_steps == 0 || last);
-    const bool checked = report.steps % divergence_steps == 0 || observed || last;
-    if (observed || length.due(report.steps)) unpack(motion.cloth(), cloth.particles);
-    if (checked && has_diverged(motion.cloth(), options.speed_limit)) {
-      report.outcome = Outcome::diverged;
-      return;
-    }
-    if (observed && !observer({report.time, report.steps, report.dt, kinetic_energy(cloth.particles)}) &&
-        !last) {
-      report.outcome = Outcome::stopped_by_observer;
-      return;
-    }
-    length.advance(report.steps);
+ private:
+  void make_contact();
+  void lead_pins();
+  void recall();
+  void remember();
+  void measure(SimulateReport& report) const;
+
+  Cloth& cloth_;
+  const World& world_;
+  const SimulateOptions& options_;
+  SimulateState& state_;
+  ThreadPool pool_;
+  bool body_moves_;
+  int frames_before_ = 0;
+  double frame_seconds_before_ = 0;
+  std::unique_ptr<BodyContact> contact_;
+  std::optional<PinLeader> leader_;
+  std::optional<Motion> motion_;
+  std::optional<StepLength> length_;
+};
+
+Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& options, SimulateState& state)
+    : cloth_(cloth), world_(world), options_(options), state_(state), pool_(options.threads) {
+  if (world.collider && world.animated) refuse("a rigid and an animated body at once");
+  if (!(state.time >= 0) || !std::isfinite(state.time)) refuse("state.time = ", state.time, " is not >= 0");
+  check(world.wind);
+  check(world.body_motion);
+  check(state.compensation, cloth.particles.size());
+  body_moves_ = !is_identity(world.body_motion);
+  make_contact();
+  lead_pins();
+  const Surroundings around{contact_.get(), leader_ ? &*leader_ : nullptr,
+                            is_still(world.wind) ? nullptr : &world.wind,
+                            state.compensation.force.empty() ? nullptr : &state.compensation};
+  motion_.emplace(cloth, Loads{options.gravity, options.air_drag, options.spring_damping}, pool_, around,
+                  state.time);
+  if (state.step > 0) motion_->work().force_evaluations = 0;  // counted by the call that ended here
+  recall();
+  length_.emplace(cloth, options, state);
+}
+
+void Simulation::make_contact() {
+  const ContactOptions options{options_.friction, options_.contact_gap, options_.recovery_speed};
+  const int n = int(cloth_.particles.size());
+  if (world_.animated) {
+    frames_before_ = world_.animated->frames_built();
+    frame_seconds_before_ = world_.animated->build_seconds();
+    contact_ = std::make_unique<AnimatedContact>(*world_.animated, options, n, state_.body_travel);
+  } else if (world_.collider && body_moves_) {
+    contact_ = std::make_unique<RigidContact>(*world_.collider, world_.body_motion, options, n);
+  } else if (world_.collider) {
+    contact_ = std::make_unique<BodyContact>(*world_.collider, options, n);
   }
 }
 
-void measure(const Cloth& cloth, const Collider* collider, const SimulateOptions& options,
-             const WorkCounts& work, SimulateReport& report) {
-  report.strain = strain_statistics(cloth.particles.x, cloth.structural);
-  report.kinetic_energy = kinetic_energy(cloth.particles);
+void Simulation::lead_pins() {
+  if (world_.pins.empty()) return;
+  std::vector<Vec3> homes = homes_of(world_.pins, cloth_.particles, state_.time);
+  if (!state_.homes.empty() && state_.homes.size() != homes.size()) {
+    refuse("the state knows ", state_.homes.size(), " moved pins, but there are ", homes.size());
+  }
+  if (state_.homes.empty()) state_.homes = std::move(homes);
+  leader_.emplace(world_.pins, state_.homes);
+}
+
+void Simulation::recall() {
+  const std::size_t n = cloth_.particles.size();
+  if (!state_.planned) state_.contact.clear();
+  if (state_.contact.empty() || !contact_) return;
+  if (state_.contact.size() != n) {
+    refuse("the state is of a cloth with ", state_.contact.size(), " particles instead of ", n);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    contact_->memory()[i] = state_.contact[std::size_t(motion_->cloth().particle[i])];
+  }
+}
+
+void Simulation::remember() {
+  state_.contact.resize(contact_ ? cloth_.particles.size() : 0);
+  for (std::size_t i = 0; i < state_.contact.size(); ++i) {
+    state_.contact[std::size_t(motion_->cloth().particle[i])] = contact_->memory()[i];
+  }
+  if (share_left(state_.compensation, state_.time) == 0) state_.compensation.force.clear();
+  if (world_.animated) {
+    state_.body_travel = static_cast<AnimatedContact&>(*contact_).travel();
+    state_.totals.frames_built += world_.animated->frames_built() - frames_before_;
+    state_.totals.frame_seconds += world_.animated->build_seconds() - frame_seconds_before_;
+  }
+  state_.totals.force_evaluations += motion_->work().force_evaluations;
+  state_.totals.collider_queries += motion_->work().contact.queries;
+  state_.totals.truncated_moves += motion_->work().contact.truncations;
+}
+
+void Simulation::run(const Observer& observer, SimulateReport& report) {
+  const auto step = options_.integrator == Integrator::leapfrog ? leapfrog_step : euler_step;
+  SimulateState& s = state_;
+  report.dt = s.dt;
+  while (s.steps_left > 0) {
+    if (options_.stop_at && s.time >= *options_.stop_at) {
+      report.outcome = Outcome::stopped_at;
+      return;
+    }
+    const bool last = s.steps_left == 1;
+    const double to = last ? s.end : s.time + s.dt;
+    report.dt = s.dt;
+    s.totals.dt_smallest = std::min(s.totals.dt_smallest, s.dt);
+    motion_->begin_step(s.time, to);
+    step(*motion_, s.dt);
+    ++s.step;
+    s.time = to;
+
+    const bool observed = observer && (s.step % options_.observe_steps == 0 || last);
+    const bool checked = s.step % divergence_steps == 0 || observed || last;
+    if (observed || length_->due()) motion_->unpack(cloth_.particles);
+    if (checked && has_diverged(motion_->cloth(), options_.speed_limit)) {
+      report.outcome = Outcome::diverged;
+      return;
+    }
+    length_->advance();
+    if (observed && !observer({s.time, s.step, report.dt, kinetic_energy(cloth_.particles)}) && !last) {
+      report.outcome = Outcome::stopped_by_observer;
+      return;
+    }
+  }
+}
+
+void Simulation::finish(SimulateReport& report) {
+  motion_->unpack(cloth_.particles);
+  if (world_.animated) world_.animated->prepare(state_.time, state_.time);
+  remember();
+  measure(report);
+}
+
+void Simulation::measure(SimulateReport& report) const {
+  const SimulateTotals& totals = state_.totals;
+  report.steps = state_.step;
+  report.time = state_.time;
+  report.dt_smallest = state_.step > 0 ? totals.dt_smallest : report.dt;
+  report.dt_limit = state_.dt_limit;
+  report.dt_limit_smallest = totals.dt_limit_smallest;
+  report.limit_estimates = int(totals.limit_estimates);
+  report.force_evaluations = totals.force_evaluations;
+  report.collider_queries = totals.collider_queries;
+  report.truncated_moves = totals.truncated_moves;
+  report.frames_built = totals.frames_built;
+  report.frame_seconds = totals.frame_seconds;
+  report.compensation_left = share_left(state_.compensation, state_.time);
+  report.compensation_force = net_force(state_.compensation, state_.time);
+  report.strain = strain_statistics(cloth_.particles.x, cloth_.structural);
+  report.kinetic_energy = kinetic_energy(cloth_.particles);
+
+  const Collider* body = world_.animated ? world_.animated : world_.collider;
+  std::optional<PosedCollider> posed;
+  if (world_.collider && body_moves_) {
+    body = &posed.emplace(*world_.collider, pose(world_.body_motion, state_.time));
+  }
   report.residual_force =
-      residual_force(cloth, options.gravity, collider, options.friction, options.contact_gap);
-  if (collider) report.contacts = count_contacts(cloth.particles.x, *collider, options.contact_gap);
-  report.force_evaluations = work.force_evaluations;
-  report.collider_queries = work.contact.queries;
-  report.truncated_moves = work.contact.truncations;
+      residual_force(cloth_, options_.gravity, body, options_.friction, options_.contact_gap);
+  if (body) report.contacts = count_contacts(cloth_.particles.x, *body, options_.contact_gap);
 }
 
 }  // namespace
 
-SimulateReport simulate(Cloth& cloth, const Collider* collider, const SimulateOptions& options,
-                        const Observer& observer) {
+SimulateReport simulate(Cloth& cloth, const World& world, const SimulateOptions& options,
+                        SimulateState* state, const Observer& observer) {
   const auto started = std::chrono::steady_clock::now();
   const double cpu_started = cpu_time();
   check(options);
-  ThreadPool pool(options.threads);
-  std::unique_ptr<BodyContact> contact;
-  if (collider) {
-    const ContactOptions contact_options{options.friction, options.contact_gap, options.recovery_speed};
-    contact = std::make_unique<BodyContact>(*collider, contact_options, int(cloth.particles.size()));
-  }
-  Motion motion(cloth, {options.gravity, options.air_drag, options.spring_damping}, pool, contact.get());
+  SimulateState present = state ? *state : SimulateState{};
   SimulateReport report;
-  StepLength length(cloth, options, report);
-  run(cloth, motion, length, options, observer, report);
-  unpack(motion.cloth(), cloth.particles);
-  measure(cloth, collider, options, motion.work(), report);
-  report.cpu_seconds = cpu_time() - cpu_started;
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  {
+    Simulation simulation(cloth, world, options, present);
+    simulation.run(observer, report);
+    simulation.finish(report);
+  }
+  report.cpu_seconds = present.totals.cpu_seconds += cpu_time() - cpu_started;
+  report.seconds = present.totals.seconds +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (state) *state = std::move(present);
   return report;
+}
+
+SimulateReport simulate(Cloth& cloth, const Collider* collider, const SimulateOptions& options,
+                        const Observer& observer) {
+  World world;
+  world.collider = collider;
+  return simulate(cloth, world, options, nullptr, observer);
 }
 
 }  // namespace furrow::physics

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "physics/collider.h"
+#include "physics/rigid_motion.h"
+
+namespace furrow::physics {
+
+/// A body somewhere else: `body`, given in its own frame, at a pose. The body must outlive it.
+class PosedCollider : public Collider {
+ public:
+  PosedCollider(const Collider& body, const Pose& pose) : body_(body), pose_(pose) {}
+  SignedDistance at(const Vec3& x) const override {
+    const SignedDistance d = body_.at(pose_.to_body(x));
+    return {d.value, pose_.rotation * d.gradient};
+  }
+
+ private:
+  const Collider& body_;
+  Pose pose_;
+};
+
+}  // namespace furrow::physics

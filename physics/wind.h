@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <vector>
+
+#include "physics/packed_cloth.h"
+#include "physics/rigid_motion.h"
+#include "physics/thread_pool.h"
+
+namespace furrow::physics {
+
+struct Gust {
+  double time;    ///< [s]; strictly increasing
+  double factor;  ///< [-]
+};
+
+/// Moving air:  w(x, t) = factor(t) velocity + rate(t) axis x (x - centre).  The drag then pulls towards it:
+/// v - w decays by exp(-air_drag t), exactly, whichever way the cloth faces. Without drag wind does nothing.
+struct Wind {
+  Vec3 velocity = Vec3::Zero();  ///< [m/s]
+  std::vector<Gust> gusts;       ///< factor; linear between, held outside; none: 1
+  std::optional<Spin> swirl;     ///< air that turns like a rigid body
+};
+
+/// Throws std::invalid_argument for a number that is not finite or times that do not increase.
+void check(const Wind& wind);
+/// Whether the air is at rest everywhere at all times.
+bool is_still(const Wind& wind);
+double gust_factor(const Wind& wind, double time);
+/// w [m/s]; needs check(wind).
+Vec3 air_velocity(const Wind& wind, const Vec3& x, double time);
+
+/// v = w + (v - w) decay for what is not pinned, with the air of one time.
+void blow(PackedCloth& cloth, const Wind& wind, double time, double decay, ThreadPool& pool);
+
+}  // namespace furrow::physics
