@@ -49,6 +49,7 @@ void sort_by_pair(std::vector<physics::Spring>& springs) {
 
 physics::Particles particles_of(const Mesh& mesh) {
   const auto mass = *find_map(mesh, kMass);
+  const auto velocity = find_map(mesh, kVelocity);
   physics::Particles p;
   for (Vertex v : mesh.vertices()) {
     const double m = mesh.is_isolated(v) ? 0 : mass[v];
@@ -56,7 +57,7 @@ physics::Particles particles_of(const Mesh& mesh) {
       throw ContentError("vertex " + std::to_string(v) + " has mass " + std::to_string(m) +
                          "; remove its faces (furrow info counts degenerate ones)");
     p.x.push_back(to_eigen(mesh.point(v)));
-    p.v.push_back(physics::Vec3::Zero());
+    p.v.push_back(velocity ? to_eigen(CGAL::ORIGIN + (*velocity)[v]) : physics::Vec3::Zero());
     p.mass.push_back(m);
     p.inv_mass.push_back(m > 0 ? 1 / m : 0);
   }

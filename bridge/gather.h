@@ -13,7 +13,8 @@ struct GatherOptions {
   double mean_bending_length = 0;  ///< r_avg of the initial model's bending springs [m]; > 0 if there are any
 };
 
-/// The mesh as plain arrays: particle i is vertex i, at rest. Masses from v:mass, rest lengths from
+/// The mesh as plain arrays: particle i is vertex i, its velocity that of v:velocity (0 without
+/// that map). Masses from v:mass, rest lengths from
 /// e:rest_length and e:bending_rest_length, stiffness k = (r / r_avg) k_std (method S1.7), times
 /// e:bending_count where one bending spring stands for several hinges. A vertex without faces gets mass 0 and
 /// stays where it is. Throws std::invalid_argument if an option is out of its range, a map is missing, or the

@@ -5,14 +5,28 @@
 #include <string>
 
 #include "bridge/convert.h"
+#include "geometry/property_names.h"
 
 namespace furrow::bridge {
+namespace {
 
-void scatter(const physics::Particles& particles, geometry::Mesh& mesh) {
+void check(const physics::Particles& particles, const geometry::Mesh& mesh) {
   if (particles.size() != mesh.number_of_vertices())
     throw std::invalid_argument("scatter: " + std::to_string(particles.size()) + " particles for " +
                                 std::to_string(mesh.number_of_vertices()) + " vertices");
+}
+
+}  // namespace
+
+void scatter(const physics::Particles& particles, geometry::Mesh& mesh) {
+  check(particles, mesh);
   for (geometry::Vertex v : mesh.vertices()) mesh.point(v) = to_cgal(particles.x[v]);
+}
+
+void scatter_velocities(const physics::Particles& particles, geometry::Mesh& mesh) {
+  check(particles, mesh);
+  auto velocity = geometry::ensure_map(mesh, geometry::kVelocity);
+  for (geometry::Vertex v : mesh.vertices()) velocity[v] = to_cgal(particles.v[v]) - CGAL::ORIGIN;
 }
 
 }  // namespace furrow::bridge

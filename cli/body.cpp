@@ -20,47 +20,21 @@ void tell_repairs(const std::string& path, const geometry::BodyReport& r, const 
   tell(r.reversed_faces, "faces of the body turned outwards");
 }
 
-physics::DistanceFieldOptions to_options(const BodyArguments& a) {
-  physics::DistanceFieldOptions o;
-  o.tolerance = a.tolerance;
-  o.gradient = a.gradient == "exact" ? physics::GradientRule::exact_derivative
-                                     : physics::GradientRule::interpolated_corners;
-  o.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  return o;
-}
-
 }  // namespace
 
-void add_field_options(CLI::App& sub, BodyArguments& a) {
-  sub.add_option("--tolerance", a.tolerance,
-                 "error of the body's distance field [m]; default 1/1000 of its diagonal, at most 0.002");
-  sub.add_option("--gradient", a.gradient,
-                 "of the field: exact (of the interpolated distance) or interpolated (of the corners', as in "
-                 "the paper)")
-      ->check(CLI::IsMember({"exact", "interpolated"}))
-      ->capture_default_str();
-}
-
-void add_body_options(CLI::App& sub, BodyArguments& a) {
-  sub.add_option("--body", a.path, "rigid body that the garment rests on");
-  sub.add_option("--field", a.field, "the body's distance field, saved by furrow sdf");
-  add_field_options(sub, a);
-}
-
-BodyCollider load_body(const BodyArguments& a, const CommonArguments& common) {
-  if (!a.field.empty() && (a.tolerance || a.gradient != "exact"))
-    throw UsageError(
-        "--tolerance and --gradient are those of the saved --field; make another with furrow sdf");
-  const geometry::Body repaired = geometry::repair_body(read_mesh(a.path, common).mesh);
-  tell_repairs(a.path, repaired.report, common);
+BodyCollider load_body(const io::SceneBody& body, const CommonArguments& common) {
+  const geometry::Body repaired = geometry::repair_body(read_mesh(body.mesh.string(), common).mesh);
+  tell_repairs(body.mesh.string(), repaired.report, common);
   physics::TriangleMesh triangles = bridge::to_triangle_mesh(repaired);
   physics::ExactDistance exact(triangles);
-  physics::DistanceField field = a.field.empty() ? physics::DistanceField::build(exact, to_options(a))
-                                                 : io::read_field(a.field, triangles);
+  physics::DistanceFieldOptions options = body.options;
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  physics::DistanceField field = body.field.empty() ? physics::DistanceField::build(exact, options)
+                                                    : io::read_field(body.field, triangles);
   return {std::move(triangles), std::move(exact), std::move(field)};
 }
 
-double contact_gap(double wanted, const BodyCollider& body, const geometry::Mesh& garment) {
+double contact_gap(double wanted, double field_tolerance, const geometry::Mesh& garment) {
   constexpr double kLimbRadius = 0.05;
   std::vector<double> lengths;
   const auto rest = *geometry::find_map(garment, geometry::kRestLength);
@@ -68,7 +42,7 @@ double contact_gap(double wanted, const BodyCollider& body, const geometry::Mesh
   const auto long_edge = lengths.begin() + static_cast<std::ptrdiff_t>(0.95 * double(lengths.size() - 1));
   std::nth_element(lengths.begin(), long_edge, lengths.end());
   const double sag = *long_edge * *long_edge / (8 * kLimbRadius);
-  return std::max(wanted, sag + 1.5 * body.field.report().tolerance);
+  return std::max(wanted, sag + 1.5 * field_tolerance);
 }
 
 }  // namespace furrow::cli

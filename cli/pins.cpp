@@ -2,11 +2,11 @@
 #include "cli/pins.h"
 
 #include <algorithm>
+#include <set>
 
 #include "cli/common.h"
 #include "geometry/border_loops.h"
 #include "geometry/select_vertices.h"
-#include "physics/pins.h"
 
 namespace furrow::cli {
 namespace {
@@ -18,9 +18,10 @@ void add_named(std::vector<int>& pins, const std::vector<Vertex>& vertices, cons
   for (Vertex v : vertices) pins.push_back(static_cast<int>(v));
 }
 
-std::vector<Vertex> box(const geometry::Mesh& mesh, const std::string& text) {
-  const std::vector<double> b = parse_numbers(text, 6, "--pin-box");
-  return geometry::vertices_in_box(mesh, {b[0], b[1], b[2]}, {b[3], b[4], b[5]});
+std::string box_text(const std::vector<double>& box) {
+  std::string text;
+  for (double x : box) text += (text.empty() ? "" : ",") + Json(x).dump();
+  return text;
 }
 
 std::vector<Vertex> group(const io::MeshFile& file, const std::string& name) {
@@ -31,34 +32,47 @@ std::vector<Vertex> group(const io::MeshFile& file, const std::string& name) {
 
 }  // namespace
 
-void add_pin_options(CLI::App& sub, PinArguments& a) {
-  sub.add_option("--pin-box", a.boxes,
-                 "hold the vertices in a box x0,y0,z0,x1,y1,z1 [m, y up]; may be given again")
-      ->allow_extra_args(false);
-  sub.add_option("--pin-loop", a.loops, "hold a boundary loop: top, bottom, or its index (the longest is 0)")
-      ->allow_extra_args(false);
-  sub.add_option("--pin-group", a.groups, "hold the vertices of a group, by its name")
-      ->allow_extra_args(false);
-  sub.add_option("--pin-vertices", a.vertices, "hold vertices, by their indices from 0")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+std::vector<std::vector<int>> find_pins(const io::MeshFile& file, const std::vector<io::ScenePins>& scene) {
+  std::vector<std::vector<int>> all;
+  std::set<int> taken;
+  for (const io::ScenePins& p : scene) {
+    std::vector<int> pins = p.vertices;
+    for (int v : pins)
+      if (v >= static_cast<int>(file.mesh.number_of_vertices()))
+        throw UsageError("pinned vertex " + std::to_string(v) + ": the mesh has vertices 0 to " +
+                         std::to_string(file.mesh.number_of_vertices() - 1));
+    if (const std::vector<double>& b = p.box; !b.empty())
+      add_named(pins, geometry::vertices_in_box(file.mesh, {b[0], b[1], b[2]}, {b[3], b[4], b[5]}),
+                "the pin box " + box_text(b));
+    if (!p.loop.empty()) {
+      const std::vector<geometry::BorderLoop> loops = geometry::border_loops(file.mesh);
+      add_named(pins, loops.at(geometry::find_border_loop(loops, p.loop)).vertices, "the pin loop " + p.loop);
+    }
+    if (!p.group.empty()) add_named(pins, group(file, p.group), "the pin group " + p.group);
+    std::erase_if(pins, [&](int v) { return !taken.insert(v).second; });  // the first that names it leads it
+    all.push_back(std::move(pins));
+  }
+  return all;
 }
 
-std::vector<int> pin(physics::Cloth& cloth, const io::MeshFile& file, const PinArguments& a) {
-  std::vector<int> pins;
-  for (const std::string& text : a.boxes) add_named(pins, box(file.mesh, text), "--pin-box " + text);
-  const std::vector<geometry::BorderLoop> loops = geometry::border_loops(file.mesh);
-  for (const std::string& name : a.loops)
-    add_named(pins, loops.at(geometry::find_border_loop(loops, name)).vertices, "--pin-loop " + name);
-  for (const std::string& name : a.groups) add_named(pins, group(file, name), "--pin-group " + name);
-  for (int v : a.vertices) {
-    if (v < 0 || v >= static_cast<int>(cloth.particles.size()))
-      throw UsageError("--pin-vertices " + std::to_string(v) + ": the mesh has vertices 0 to " +
-                       std::to_string(cloth.particles.size() - 1));
-    pins.push_back(v);
+void pin_new_border_vertices(const geometry::Mesh& mesh, std::size_t old_count,
+                             std::vector<std::vector<int>>& pins) {
+  for (std::vector<int>& list : pins) {
+    std::set<int> pinned(list.begin(), list.end());
+    for (bool grown = true; std::exchange(grown, false);)
+      for (std::size_t i = old_count; i < mesh.number_of_vertices(); ++i) {
+        const Vertex v(static_cast<Vertex::size_type>(i));
+        if (mesh.is_isolated(v) || !mesh.is_border(v) || pinned.count(static_cast<int>(i))) continue;
+        const geometry::Halfedge in = mesh.halfedge(v);  // the border's one, as CGAL keeps it
+        const geometry::Vertex before = mesh.source(in), after = mesh.target(mesh.next(in));
+        if (!mesh.is_border(in) || !pinned.count(static_cast<int>(before)) ||
+            !pinned.count(static_cast<int>(after)))
+          continue;
+        pinned.insert(static_cast<int>(i));
+        list.push_back(static_cast<int>(i));
+        grown = true;
+      }
   }
-  physics::pin(cloth.particles, pins);
-  return pins;
 }
 
 }  // namespace furrow::cli

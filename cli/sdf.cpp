@@ -12,7 +12,8 @@ namespace furrow::cli {
 namespace {
 
 struct SdfArguments : CommonArguments {
-  BodyArguments body;
+  std::string body_path, gradient = "exact";
+  io::SceneBody body;
   std::string slice, at;
 };
 
@@ -46,10 +47,13 @@ Json errors(const BodyCollider& body) {
   return {{"points", points}, {"max", largest}, {"mean", points ? sum / points : 0}};
 }
 
-void sdf(const SdfArguments& a) {
+void sdf(SdfArguments a) {
+  a.body.mesh = a.body_path;
+  a.body.options.gradient = a.gradient == "exact" ? physics::GradientRule::exact_derivative
+                                                  : physics::GradientRule::interpolated_corners;
   if (a.out == "-") throw UsageError("-o: a field needs a file name");
-  refuse_same(a.out, a.body.path);
-  refuse_same(a.slice, a.body.path);
+  refuse_same(a.out, a.body_path);
+  refuse_same(a.slice, a.body_path);
   const auto start = std::chrono::steady_clock::now();
   const BodyCollider body = load_body(a.body, a);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -84,11 +88,16 @@ void add_sdf(CLI::App& app) {
   CLI::App* sub = app.add_subcommand("sdf",
                                      "Make the signed distance field of a body; negative inside\n\n"
                                      "  furrow sdf body.obj -o body.field --slice body.png");
-  sub->add_option("body", a->body.path, "body to read")->required();
+  sub->add_option("body", a->body_path, "body to read")->required();
   sub->add_option("-o,--output", a->out, "file to keep the field in, for furrow simulate --field");
   sub->add_option("--slice", a->slice, "PNG of the field in the body's middle plane, seen from the front");
   sub->add_option("--at", a->at, "report distance and gradient at x,y,z [m]");
-  add_field_options(*sub, a->body);
+  sub->add_option("--tolerance", a->body.options.tolerance,
+                  "error of the field [m]; default 1/1000 of the body's diagonal, at most 0.002");
+  sub->add_option("--gradient", a->gradient,
+                  "exact (of the interpolated distance) or interpolated (of the corners', as in the paper)")
+      ->check(CLI::IsMember({"exact", "interpolated"}))
+      ->capture_default_str();
   add_common_options(*sub, *a);
   sub->callback([a] { sdf(*a); });
 }

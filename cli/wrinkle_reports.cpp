@@ -30,6 +30,15 @@ Json to_json(const geometry::InsertionReport& r, const geometry::Mesh& mesh) {
           {"min_angle_deg", audit.min_angle_deg}};
 }
 
+Json to_json(const bridge::DrawMoreReport& r, double time) {
+  const auto list = [](const physics::Vec3& v) { return Json{v.x(), v.y(), v.z()}; };
+  return {{"time", time},
+          {"mean_strain", r.mean_strain},
+          {"momentum_before", list(r.momentum_before)},
+          {"momentum_after", list(r.momentum_after)},
+          {"largest_force_jump", r.largest_jump}};
+}
+
 int next_line(const geometry::Mesh& mesh) {
   int next = 0;
   if (const auto line = geometry::find_map(mesh, geometry::kLine))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "bridge/draw_more.h"
 #include "cli/common.h"
 #include "geometry/wrinkle.h"
 
@@ -9,6 +10,9 @@ namespace furrow::cli {
 Json to_json(const geometry::InsertionReport& report, const geometry::Mesh& mesh);
 /// `first_line` is the id of the first line.
 Json to_json(const geometry::WrinkleReport& report, const geometry::Mesh& mesh, int first_line);
+
+/// What drawing into a cloth in motion did to it, at a time [s].
+Json to_json(const bridge::DrawMoreReport& report, double time);
 
 /// The first id above those of the lines that a mesh has.
 int next_line(const geometry::Mesh& mesh);

@@ -32,6 +32,7 @@ MeshEditor::MeshEditor(Mesh& mesh)
       generation_(ensure_map(mesh, kGeneration)),
       texture_(find_map(mesh, kTexture)),
       color_(find_map(mesh, kColor)),
+      velocity_(find_map(mesh, kVelocity)),
       group_(find_map(mesh, kGroup)),
       material_(find_map(mesh, kMaterial)),
       bending_(find_map(mesh, kBendingRestLength)),
@@ -56,7 +57,13 @@ void MeshEditor::unset_springs(Edge edge) {
   if (bending_count_) (*bending_count_)[edge] = 0;
 }
 
-void MeshEditor::set_color(Vertex vertex, const std::array<Vertex, 3>& corners, const Barycentrics& weights) {
+void MeshEditor::interpolate(Vertex vertex, const std::array<Vertex, 3>& corners,
+                             const Barycentrics& weights) {
+  if (velocity_) {
+    Vector sum(0, 0, 0);
+    for (int i = 0; i < 3; ++i) sum += weights[i] * (*velocity_)[corners[i]];
+    (*velocity_)[vertex] = sum;
+  }
   if (!color_) return;
   Color sum{};
   for (int i = 0; i < 3; ++i) {
@@ -78,7 +85,7 @@ Vertex MeshEditor::split_face(const FacePoint& point) {
   const Halfedge in = CGAL::Euler::add_center_vertex(mesh_.halfedge(point.face), mesh_);
   const Vertex centre = mesh_.target(in);
   mesh_.point(centre) = position;
-  set_color(centre, corners, point.barycentrics);
+  interpolate(centre, corners, point.barycentrics);
   for (int i = 0; i < 3; ++i) {
     // The part on side i: corner i, corner i + 1, centre.
     const Halfedge to_centre = mesh_.next(sides[i]), from_centre = mesh_.next(to_centre);
@@ -118,7 +125,7 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
       CGAL::Euler::split_edge(halfedge, mesh_);  // a to the new vertex; halfedge goes on to b
   const Vertex middle = mesh_.target(first);
   mesh_.point(middle) = position;
-  set_color(middle, {a, b, b}, {1 - t, t, 0});
+  interpolate(middle, {a, b, b}, {1 - t, t, 0});
   rest_[mesh_.edge(first)] = t * length;
   rest_[mesh_.edge(halfedge)] = (1 - t) * length;
   for (Halfedge part : {first, halfedge}) {

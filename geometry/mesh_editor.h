@@ -9,10 +9,10 @@
 namespace furrow::geometry {
 
 /// The three local operators of insertion on a triangle mesh. Each sets, beside the half-edges, the position,
-/// the rest lengths and every other map of property_names.h that the mesh has: corner texture coordinates and
-/// colours are interpolated, groups and materials copied; masses and bending springs of what changed become
-/// unset (their own operations compute them anew). Other maps get their defaults. Each operator is
-/// O(valence).
+/// the rest lengths and every other map of property_names.h that the mesh has: corner texture coordinates,
+/// colours and velocities are interpolated, groups and materials copied; masses and bending springs of what
+/// changed become unset (their own operations compute them anew). Other maps get their defaults. Each
+/// operator is O(valence).
 class MeshEditor {
  public:
   /// Adds the maps for rest lengths (in-space lengths where unset), lines, line edges and generations.
@@ -45,7 +45,7 @@ class MeshEditor {
                   const std::array<TextureCoordinate, 3>& texture, double t);
   void copy_face(Face from, Face to);
   void unset_springs(Edge edge);
-  void set_color(Vertex vertex, const std::array<Vertex, 3>& corners, const Barycentrics& weights);
+  void interpolate(Vertex vertex, const std::array<Vertex, 3>& corners, const Barycentrics& weights);
 
   Mesh& mesh_;
   EdgeMap<double> rest_;
@@ -54,6 +54,7 @@ class MeshEditor {
   FaceMap<int> generation_;
   std::optional<HalfedgeMap<TextureCoordinate>> texture_;
   std::optional<VertexMap<Color>> color_;
+  std::optional<VertexMap<Vector>> velocity_;
   std::optional<FaceMap<int>> group_, material_;
   std::optional<EdgeMap<double>> bending_;
   std::optional<EdgeMap<int>> bending_count_;

@@ -27,6 +27,13 @@ using Color = std::array<double, 4>;              ///< red, green, blue, alpha i
 inline constexpr PropertyName<Vertex, int> kLine{"v:line", -1};
 /// Mass lumped to a vertex [kg].
 inline constexpr PropertyName<Vertex, double> kMass{"v:mass", kUnset};
+/// Velocity [m/s]; insertion interpolates it. (Not constexpr: CGAL's vectors are not.)
+inline const PropertyName<Vertex, Vector> kVelocity{"v:velocity", {0, 0, 0}};
+/// Spring force that insertion added to a vertex and that a simulation fades in [N], see bridge/draw_more.h.
+inline const PropertyName<Vertex, Vector> kForceJump{"v:force_jump", {0, 0, 0}};
+/// Where contact last asked the body's field (in the body's frame) [m], and its value there [m]; NaN = never.
+inline const PropertyName<Vertex, Vector> kContactPoint{"v:contact_point", {0, 0, 0}};
+inline constexpr PropertyName<Vertex, double> kContactLevel{"v:contact_level", kUnset};
 inline constexpr PropertyName<Vertex, Color> kColor{"v:color", {1, 1, 1, 1}};
 /// Rest length of the structural spring on an edge [m].
 inline constexpr PropertyName<Edge, double> kRestLength{"e:rest_length", kUnset};

@@ -55,7 +55,8 @@ void smooth(Mesh& mesh, std::span<const Displacement> lines, const WrinkleOption
   std::vector<Vertex> region;
   if (options.region == SmoothingRegion::two_ring) {
     std::vector<Vertex> centres;
-    for (const Displacement& d : lines) centres.push_back(d.vertex);
+    for (const Displacement& d : lines)
+      if (d.height != 0) centres.push_back(d.vertex);  // a line of height 0 changes no shape
     region = two_ring(mesh, centres);
     if (region.empty()) return;
   }

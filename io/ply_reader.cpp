@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include "io/file_frame.h"
 #include "io/mesh_readers.h"
 #include "io/ply_edges.h"
+#include "io/ply_motion.h"
 #include "io/ply_rows.h"
 #include "io/soup_to_mesh.h"
 
@@ -41,16 +43,24 @@ class PlyReader {
     take_comments();
     SoupMesh mesh = soup_to_mesh(soup_, name_);
     edges_.fill_maps(mesh, name_);
+    motion_.fill_maps(mesh);
     file_.mesh = std::move(mesh.mesh);
     file_.repairs = mesh.repairs;
     return std::move(file_);
   }
 
  private:
+  /// Whether the columns of a cloth in motion are ours; in another program's file they may mean anything.
+  bool is_state() const {
+    return std::ranges::any_of(header_.comments,
+                               [](const std::string& c) { return c.starts_with("furrow state "); });
+  }
+
   void warn_of_unknown(const PlyElement& element, std::initializer_list<std::string_view> known) {
     std::string names;
     for (const PlyProperty& p : element.properties)
-      if (std::find(known.begin(), known.end(), p.name) == known.end())
+      if (std::find(known.begin(), known.end(), p.name) == known.end() &&
+          !(is_state() && std::ranges::count(PlyMotion::names(), p.name)))
         names += (names.empty() ? "" : ", ") + p.name;
     if (!names.empty())
       file_.warnings.push_back(name_ + ": properties of '" + element.name + "' not read: " + names);
@@ -76,6 +86,7 @@ class PlyReader {
     warn_of_unknown(element,
                     {"x", "y", "z", "nx", "ny", "nz", "red", "green",     "blue",      "alpha", "r",
                      "g", "b", "a", "s",  "t",  "u",  "v",   "texture_u", "texture_v", "line",  "mass"});
+    if (is_state()) motion_.set_columns(element);
     if (!xyz[0] || !xyz[1] || !xyz[2]) rows_.fail("the vertices have no x, y and z");
     for (std::size_t i = 0; i < element.count; ++i) {
       rows_.read(element, i, row_);
@@ -87,6 +98,7 @@ class PlyReader {
       if (st[0] && st[1]) vertex_textures_.push_back({n[*st[0]], n[*st[1]]});
       if (line) soup_.lines.push_back(whole(n[*line], "line"));
       if (mass) soup_.masses.push_back(checked_mass(n[*mass]));
+      motion_.add(row_, rows_);
     }
   }
 
@@ -122,7 +134,9 @@ class PlyReader {
     const Column indices = find_column(element, {"vertex_indices", "vertex_index"}, PlyKind::list);
     const Column texcoord = find_column(element, {"texcoord"}, PlyKind::list);
     const Column group = number(element, {"group"}), material = number(element, {"material"});
-    warn_of_unknown(element, {"vertex_indices", "vertex_index", "texcoord", "group", "material"});
+    const Column generation = number(element, {"generation"});
+    warn_of_unknown(element,
+                    {"vertex_indices", "vertex_index", "texcoord", "group", "material", "generation"});
     if (!indices) rows_.fail("the faces have no list vertex_indices");
     for (std::size_t i = 0; i < element.count; ++i) {
       rows_.read(element, i, row_);
@@ -136,6 +150,7 @@ class PlyReader {
       if (texcoord) add_textures(row_.lists[*texcoord], corners.size());
       if (group) soup_.groups.push_back(whole(row_.numbers[*group], "group"));
       if (material) soup_.materials.push_back(whole(row_.numbers[*material], "material"));
+      if (generation) soup_.generations.push_back(whole(row_.numbers[*generation], "generation"));
     }
   }
 
@@ -192,6 +207,7 @@ class PlyReader {
   PlyRow row_;
   PolygonSoup soup_;
   PlyEdges edges_;
+  PlyMotion motion_;
   std::vector<TextureCoordinate> vertex_textures_;
   MeshFile file_;
 };

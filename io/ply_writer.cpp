@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <ostream>
+#include <tuple>
 
 #include "geometry/property_names.h"
 #include "io/mesh_writers.h"
 #include "io/number_text.h"
+#include "io/ply_motion.h"
 
 namespace furrow::io {
 namespace {
@@ -26,6 +28,7 @@ class PlyWriter {
         textures_(find_map(mesh_, kTexture)),
         groups_(find_map(mesh_, kGroup)),
         materials_(find_map(mesh_, kMaterial)),
+        generations_(find_map(mesh_, kGeneration)),
         rest_lengths_(find_map(mesh_, kRestLength)),
         bending_rest_lengths_(find_map(mesh_, kBendingRestLength)),
         bending_counts_(find_map(mesh_, kBendingCount)),
@@ -79,11 +82,13 @@ class PlyWriter {
         out_ += std::string("property ") + (byte_colors_ ? "uchar " : "double ") + channel + "\n";
     if (lines_) out_ += "property int line\n";
     if (masses_) out_ += "property double mass\n";
+    out_ += ply_motion_header(mesh_);
     declare("face", mesh_.number_of_faces());
     out_ += "property list uchar int vertex_indices\n";
     if (textures_) out_ += "property list uchar double texcoord\n";
     if (groups_) out_ += "property int group\n";
     if (materials_) out_ += "property int material\n";
+    if (generations_) out_ += "property int generation\n";
     if (has_edges()) {
       declare("edge", mesh_.number_of_edges());
       out_ += "property int vertex1\nproperty int vertex2\n";
@@ -104,6 +109,7 @@ class PlyWriter {
           byte_colors_ ? put(static_cast<std::uint8_t>(std::lround(c * 255))) : put(c);
       if (lines_) put(static_cast<std::int32_t>((*lines_)[v]));
       if (masses_) put((*masses_)[v]);
+      put_ply_motion(mesh_, v, [&](double x) { put(x); });
     }
   }
 
@@ -118,18 +124,30 @@ class PlyWriter {
       }
       if (groups_) put(static_cast<std::int32_t>((*groups_)[f]));
       if (materials_) put(static_cast<std::int32_t>((*materials_)[f]));
+      if (generations_) put(static_cast<std::int32_t>((*generations_)[f]));
     }
   }
 
   void write_edges() {
-    for (const Edge e : mesh_.edges()) {
-      put_index(numbers_[mesh_.vertex(e, 0)]);
-      put_index(numbers_[mesh_.vertex(e, 1)]);
+    for (const auto& [a, b, e] : sorted_edges()) {
+      put_index(a);
+      put_index(b);
       if (rest_lengths_) put_length((*rest_lengths_)[e]);
       if (bending_rest_lengths_) put_length((*bending_rest_lengths_)[e]);
       if (bending_counts_) put(static_cast<std::int32_t>((*bending_counts_)[e]));
       if (line_edges_) put(static_cast<std::uint8_t>((*line_edges_)[e]));
     }
+  }
+
+  /// By their vertices, so that a mesh that is read and written again gives the same bytes.
+  std::vector<std::tuple<std::size_t, std::size_t, Edge>> sorted_edges() const {
+    std::vector<std::tuple<std::size_t, std::size_t, Edge>> edges;
+    for (const Edge e : mesh_.edges()) {
+      const std::size_t a = numbers_[mesh_.vertex(e, 0)], b = numbers_[mesh_.vertex(e, 1)];
+      edges.emplace_back(std::min(a, b), std::max(a, b), e);
+    }
+    std::ranges::sort(edges);
+    return edges;
   }
 
   const MeshFile& file_;
@@ -140,7 +158,7 @@ class PlyWriter {
   std::optional<VertexMap<int>> lines_;
   std::optional<VertexMap<double>> masses_;
   std::optional<HalfedgeMap<TextureCoordinate>> textures_;
-  std::optional<FaceMap<int>> groups_, materials_;
+  std::optional<FaceMap<int>> groups_, materials_, generations_;
   std::optional<EdgeMap<double>> rest_lengths_, bending_rest_lengths_;
   std::optional<EdgeMap<int>> bending_counts_;
   std::optional<EdgeMap<bool>> line_edges_;

@@ -19,6 +19,7 @@ struct PolygonSoup {
   std::vector<geometry::TextureCoordinate> textures;  ///< empty, or one a corner
   std::vector<int> groups;                            ///< empty, or one a face
   std::vector<int> materials;                         ///< empty, or one a face
+  std::vector<int> generations;                       ///< empty, or one a face: geometry::kGeneration
   std::vector<std::size_t> face_lines;                ///< line of the file of each face, for errors; or empty
 
   std::size_t faces() const { return first_corner.size() - 1; }

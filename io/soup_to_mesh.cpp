@@ -124,6 +124,10 @@ void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& ou
     auto materials = ensure_map(mesh, kMaterial);
     for (const Face f : mesh.faces()) materials[f] = soup.materials[triangles[f].face];
   }
+  if (!soup.generations.empty()) {
+    auto generations = ensure_map(mesh, kGeneration);
+    for (const Face f : mesh.faces()) generations[f] = soup.generations[triangles[f].face];
+  }
   if (soup.textures.empty()) return;
   auto textures = ensure_map(mesh, kTexture);
   for (const Face f : mesh.faces())

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/draw_more.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "bridge/convert.h"
+#include "bridge/scatter.h"
+#include "geometry/property_names.h"
+#include "physics/strain.h"
+
+namespace furrow::bridge {
+namespace {
+
+using namespace geometry;
+using physics::Vec3;
+
+Vec3 momentum(const physics::Particles& p) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < p.size(); ++i) sum += p.mass[i] * p.v[i];
+  return sum;
+}
+
+/// Shares the momentum that insertion took or brought among the vertices of the changed faces.
+void keep_momentum(Mesh& mesh, physics::Particles& p, const Vec3& wanted, std::span<const Face> changed) {
+  std::set<Vertex> around;
+  for (Face f : changed)
+    for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) around.insert(v);
+  double mass = 0;
+  for (Vertex v : around) mass += p.mass[v];
+  if (!(mass > 0)) return;
+  const Vec3 change = (wanted - momentum(p)) / mass;
+  for (Vertex v : around) p.v[v] += change;
+  scatter_velocities(p, mesh);
+}
+
+}  // namespace
+
+DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<const Stroke> strokes,
+                         const DrawMoreOptions& options, const StageObserver& observer) {
+  if (!(options.fade > 0))
+    throw std::invalid_argument("draw_more: fade = " + std::to_string(options.fade) + " s is not > 0");
+  const physics::Cloth before = gather(mesh, options.springs);
+  Mesh work = mesh;
+  ensure_map(work, kVelocity);
+  DrawMoreReport report;
+  report.wrinkle = wrinkle(work, strokes, options.wrinkle, observer);
+  physics::Cloth after = gather(work, options.springs);
+  report.momentum_before = momentum(before.particles);
+  keep_momentum(work, after.particles, report.momentum_before, report.wrinkle.insertion.changed_faces);
+  report.momentum_after = momentum(after.particles);
+  report.mean_strain = physics::strain_statistics(before.particles.x, before.structural).mean;
+
+  const std::vector<Vec3> jump = physics::force_jump(before, after);
+  for (const Vec3& f : jump) report.largest_jump = std::max(report.largest_jump, f.norm());
+  if (state.compensation.force.empty()) state.compensation.time_constant = options.fade;
+  physics::add(state.compensation, jump, state.time);
+  state.planned = false;
+  state.contact.clear();
+  state.homes.clear();
+  mesh = std::move(work);
+  return report;
+}
+
+}  // namespace furrow::bridge

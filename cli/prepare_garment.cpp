@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/prepare_garment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/bending_springs.h"
+#include "geometry/masses.h"
+#include "geometry/property_names.h"
+#include "geometry/rest_metric.h"
+#include "geometry/stiffness.h"
+#include "geometry/wrinkle.h"
+
+namespace furrow::cli {
+namespace {
+
+bool has_masses(const geometry::Mesh& mesh) {
+  const auto mass = geometry::find_map(mesh, geometry::kMass);
+  const auto known = [&](geometry::Vertex v) { return mesh.is_isolated(v) || std::isfinite((*mass)[v]); };
+  return mass && std::all_of(mesh.vertices().begin(), mesh.vertices().end(), known);
+}
+
+}  // namespace
+
+void complete_garment(io::MeshFile& file, const io::SceneMaterial& material) {
+  using namespace geometry;
+  Mesh& mesh = file.mesh;
+  ensure_rest_lengths(mesh);
+  ensure_bending_springs(mesh);
+  io::WrinkleRecord record = io::find_wrinkle_record(file).value_or(io::WrinkleRecord{});
+  if (material.density || !(record.density > 0))
+    record.density = material.density.value_or(WrinkleOptions{}.density);
+  if (material.density || !has_masses(mesh)) lump_masses(mesh, record.density);
+  if (!(record.mean_structural_length > 0)) record.mean_structural_length = mean_rest_length(mesh);
+  if (!(record.mean_bending_length > 0)) record.mean_bending_length = mean_bending_rest_length(mesh);
+  io::set_wrinkle_record(file, record);
+}
+
+bridge::GatherOptions spring_options(const io::MeshFile& file, const io::SceneMaterial& material) {
+  const io::WrinkleRecord record = io::find_wrinkle_record(file).value();
+  return {material.stiffness, material.bending, record.mean_structural_length, record.mean_bending_length};
+}
+
+}  // namespace furrow::cli

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <CLI/CLI.hpp>
+#include <list>
+#include <string>
+#include <vector>
+
+#include "io/toml_document.h"
+
+namespace furrow::cli {
+
+/// The flags of `simulate`: each sets one setting of a scene (docs/scenes.md), and --set sets any.
+class SceneFlags {
+ public:
+  void add_to(CLI::App& sub);
+  /// Writes what was given on the command line into the document, flags first, then --set in their order.
+  /// Throws UsageError for a --set without a key or with one that cannot be.
+  void apply(io::TomlDocument& document) const;
+
+ private:
+  struct Given {
+    const char* path;
+    bool is_text;
+    std::string flag, text;
+    CLI::Option* option = nullptr;
+  };
+  std::list<Given> given_;  // a list: CLI11 keeps pointers to the texts
+  bool force_dt_ = false;
+  std::vector<std::string> pin_boxes_, pin_loops_, pin_groups_, sets_;
+  std::vector<int> pin_vertices_;
+};
+
+/// The command line that says the same as these settings, without the program's name: flags where there is
+/// one,
+/// --set for the rest.
+std::string equivalent_flags(const io::Json& settings);
+
+}  // namespace furrow::cli

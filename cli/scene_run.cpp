@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/scene_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "bridge/scatter.h"
+#include "cli/body.h"
+#include "cli/line_round.h"
+#include "cli/pins.h"
+#include "cli/prepare_garment.h"
+#include "cli/scene_flags.h"
+#include "cli/simulate_report.h"
+#include "cli/wrinkle_reports.h"
+#include "geometry/property_names.h"
+#include "geometry/subdivide.h"
+#include "io/scene_file.h"
+#include "io/stroke_file.h"
+#include "io/wrinkle_record.h"
+#include "physics/pins.h"
+#include "physics/push_out.h"
+
+namespace furrow::cli {
+namespace {
+
+class SceneRun {
+ public:
+  SceneRun(const io::Scene& scene, const io::TomlDocument& document, std::filesystem::path folder,
+           const CommonArguments& common)
+      : scene_(scene), document_(document), folder_(std::move(folder)), common_(common) {}
+
+  int run(std::optional<io::SavedState> saved) {
+    resumed_ = saved.has_value();
+    if (saved)
+      now_ = std::move(*saved);
+    else
+      begin();
+    load_body_and_pins();
+    heights_ = line_heights_by_id(now_.file.mesh);
+    catch_interrupts();
+    while (draw_due_lines() && simulate_to(next_stop()) && now_.simulation.time < scene_.simulation.seconds &&
+           !stopped_) {
+    }
+    return finish();
+  }
+
+ private:
+  void begin() {
+    now_.file = read_garment(scene_.garment.string(), common_);
+    io::drop_motion(now_.file.mesh);  // of a state that is used as a garment
+    if (scene_.subdivide > 0) geometry::loop_subdivide(now_.file.mesh, scene_.subdivide);
+  }
+
+  void load_body_and_pins() {
+    if (scene_.body) body_.emplace(load_body(*scene_.body, common_));
+    if (resumed_ && now_.pins.size() != scene_.pins.size())
+      throw UsageError("the state has " + std::to_string(now_.pins.size()) + " sets of pins, the scene " +
+                       std::to_string(scene_.pins.size()) + "; go on with the same pins");
+    if (!resumed_) now_.pins = find_pins(now_.file, scene_.pins);
+  }
+
+  /// Draws the rounds of lines whose time has come.
+  bool draw_due_lines() {
+    const auto& rounds = scene_.lines;
+    while (now_.lines_drawn < static_cast<int>(rounds.size()) &&
+           rounds[now_.lines_drawn].time <= now_.simulation.time)
+      draw(rounds[now_.lines_drawn]);
+    if (now_.simulation.step == 0 && !resumed_) start_simulation();
+    return true;
+  }
+
+  void draw(const io::SceneLines& lines) {
+    std::vector<geometry::Stroke> strokes =
+        io::read_strokes(lines.strokes, lines.height, read_options(common_));
+    leave_out(strokes, lines.without);
+    const bool moving = now_.simulation.step > 0;
+    if (moving)
+      now_ = io::parse_state(io::state_bytes(std::move(now_)), "state");  // as if it had been saved here
+    const std::size_t old_count = now_.file.mesh.number_of_vertices();
+    const LineRound round =
+        draw_lines(now_.file, strokes, lines, scene_.material.density, stage_writer(now_.lines_drawn == 0),
+                   moving ? &now_.simulation : nullptr,
+                   moving ? spring_options(now_.file, scene_.material) : bridge::GatherOptions{});
+    if (moving)
+      pin_new_border_vertices(now_.file.mesh, old_count, now_.pins);
+    else
+      now_.pins = find_pins(now_.file, scene_.pins);
+    ++now_.lines_drawn;
+    for (const std::string& w : round.report.insertion.warnings) warn(w, common_);
+    Json json = to_json(round.report, now_.file.mesh, round.first_line);
+    if (round.moving) json["moving"] = to_json(*round.moving, now_.simulation.time);
+    rounds_.push_back(std::move(json));
+    if (moving) heights_ = line_heights_by_id(now_.file.mesh);
+  }
+
+  geometry::StageObserver stage_writer(bool first) {
+    if (!first) return {};
+    return [this](geometry::Stage stage, const geometry::Mesh& mesh) {
+      write_stage(stage == geometry::Stage::displaced  ? scene_.output.inserted
+                  : stage == geometry::Stage::smoothed ? scene_.output.smoothed
+                                                       : std::filesystem::path{},
+                  mesh);
+    };
+  }
+
+  void write_stage(const std::filesystem::path& path, const geometry::Mesh& mesh) {
+    if (path.empty()) return;
+    io::MeshFile stage = now_.file;
+    stage.mesh = mesh;
+    io::drop_motion(stage.mesh);
+    write_mesh(path.string(), stage, common_);
+  }
+
+  /// The garment is complete now: masses and springs, pins out of the body.
+  void start_simulation() {
+    complete_garment(now_.file, scene_.material);
+    heights_ = line_heights_by_id(now_.file.mesh);
+    started_ = true;
+  }
+
+  double next_stop() const {
+    double stop = scene_.simulation.seconds;
+    const auto& rounds = scene_.lines;
+    if (now_.lines_drawn < static_cast<int>(rounds.size()))
+      stop = std::min(stop, rounds[now_.lines_drawn].time);
+    if (scene_.stop_at && *scene_.stop_at > now_.simulation.time) stop = std::min(stop, *scene_.stop_at);
+    return stop;
+  }
+
+  /// Whether the simulation is to go on after it.
+  bool simulate_to(double stop) {
+    physics::Cloth cloth = bridge::gather(now_.file.mesh, spring_options(now_.file, scene_.material));
+    pin_cloth(cloth);
+    physics::SimulateOptions options = scene_.simulation;
+    if (body_)
+      options.contact_gap = gap_ =
+          contact_gap(options.contact_gap, body_->field.report().tolerance, now_.file.mesh);
+    if (stop < options.seconds) options.stop_at = stop;
+    Progress progress("simulating", common_);
+    report_ =
+        physics::simulate(cloth, world(), options, &now_.simulation, [&](const physics::SimulateProgress& p) {
+          progress.show(p.time / scene_.simulation.seconds);
+          return !interrupted();
+        });
+    bridge::scatter(cloth.particles, now_.file.mesh);
+    bridge::scatter_velocities(cloth.particles, now_.file.mesh);
+    stopped_ = report_.outcome == physics::Outcome::stopped_at && scene_.stop_at &&
+               now_.simulation.time >= *scene_.stop_at;
+    return report_.outcome == physics::Outcome::finished || report_.outcome == physics::Outcome::stopped_at;
+  }
+
+  physics::World world() const {
+    physics::World world;
+    world.wind = scene_.wind;
+    if (body_) {
+      world.collider = &body_->field;
+      world.body_motion = scene_.body->motion;
+    }
+    for (std::size_t i = 0; i < now_.pins.size(); ++i)
+      if (!physics::at_rest(scene_.pins[i].motion))
+        world.pins.push_back({now_.pins[i], scene_.pins[i].motion});
+    return world;
+  }
+
+  /// The simulation moves pins only as the scene says, so those that start inside the body are put on its
+  /// surface.
+  void pin_cloth(physics::Cloth& cloth) {
+    for (const std::vector<int>& pins : now_.pins) {
+      physics::pin(cloth.particles, pins);
+      if (!body_ || !started_) continue;
+      constexpr double kOutside = 1e-6;  // [m], so that rounding leaves none inside
+      const physics::PushOutReport r = physics::push_out(cloth.particles.x, pins, body_->exact, kOutside);
+      if (r.moved)
+        warn(std::to_string(r.moved) + " pinned vertices were inside the body; moved onto it, by " +
+                 std::to_string(1000 * r.farthest) + " mm at most",
+             common_);
+      if (r.still_inside) warn(std::to_string(r.still_inside) + " of them could not be brought out", common_);
+    }
+    started_ = false;
+  }
+
+  int finish() {
+    const bool diverged = report_.outcome == physics::Outcome::diverged;
+    if (!diverged) write_outputs();
+    Json json = to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_, body_, gap_);
+    if (!rounds_.empty()) json["rounds"] = rounds_;
+    json["flags"] = equivalent_flags(io::relocated(document_, folder_, ""));
+    print_report(json, common_);
+    if (diverged) return tell_divergence();
+    if (report_.outcome == physics::Outcome::stopped_by_observer) {
+      warn("interrupted at " + std::to_string(report_.time) + " s; the state reached was written", common_);
+      return kInterrupted;
+    }
+    return kOk;
+  }
+
+  void write_outputs() {
+    const io::SceneOutput& out = scene_.output;
+    if (!out.state.empty()) {
+      io::SavedState state = now_;
+      state.scene = io::relocated(document_, folder_, out.state.parent_path());
+      state.scene.erase("output");  // it and stop_at belong to one call
+      if (state.scene.contains("simulation")) state.scene["simulation"].erase("stop_at");
+      io::write_state(out.state, std::move(state));
+    }
+    io::drop_motion(now_.file.mesh);
+    if (!out.mesh.empty()) write_mesh(out.mesh.string(), now_.file, common_);
+  }
+
+  int tell_divergence() const {
+    std::cerr << "error: the simulation diverged at " << report_.time << " s with steps of " << report_.dt
+              << " s (stable below " << report_.dt_limit << " s); nothing was written; "
+              << (scene_.simulation.integrator == physics::Integrator::explicit_euler
+                      ? "explicit Euler always does in the end: use leapfrog"
+                  : scene_.simulation.dt ? "leave --dt away"
+                                         : "look for pins or cloth that start deep inside the body")
+              << "\n";
+    return kNotConverged;
+  }
+
+  const io::Scene& scene_;
+  const io::TomlDocument& document_;
+  std::filesystem::path folder_;
+  const CommonArguments& common_;
+  io::SavedState now_;
+  bool resumed_ = false, started_ = false, stopped_ = false;
+  std::optional<BodyCollider> body_;
+  double gap_ = 0;
+  std::vector<double> heights_;
+  physics::SimulateReport report_;
+  Json rounds_ = Json::array();
+};
+
+}  // namespace
+
+int run_scene(const io::Scene& scene, const io::TomlDocument& document, const std::filesystem::path& folder,
+              std::optional<io::SavedState> state, const CommonArguments& common) {
+  return SceneRun(scene, document, folder, common).run(std::move(state));
+}
+
+}  // namespace furrow::cli

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+
+#include "cli/common.h"
+#include "io/scene.h"
+#include "io/state_file.h"
+#include "io/toml_document.h"
+
+namespace furrow::cli {
+
+/// Runs a scene from its beginning, or from a saved state on: lines are drawn at their times, between them
+/// the cloth is simulated; writes what scene.output names and prints the report. `document` is what the scene
+/// was read from, `folder` what its paths are relative to. Returns the exit code.
+int run_scene(const io::Scene& scene, const io::TomlDocument& document, const std::filesystem::path& folder,
+              std::optional<io::SavedState> state, const CommonArguments& common);
+
+}  // namespace furrow::cli

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/scene_file.h"
+
+#include <algorithm>
+
+#include "io/settings_table.h"
+
+namespace furrow::io {
+namespace {
+
+using physics::RigidMotion;
+using physics::Spin;
+
+/// Whether a setting is the file's own, and not one of the command line.
+bool is_of_file(const TomlDocument& document, const std::string& path) {
+  const std::string place = document.place(path);
+  return place == document.name || place.rfind(document.name + ":", 0) == 0;
+}
+
+class SceneReader {
+ public:
+  SceneReader(const TomlDocument& document, std::filesystem::path folder)
+      : document_(document), folder_(std::move(folder)) {}
+
+  Scene read() {
+    SettingsTable root(document_);
+    std::string title;
+    root.read("title", title);
+    root.choose("unit", scene_.unit, words({"m", "cm", "mm", "inch"}));
+    root.choose("up", scene_.up, words({"y", "z"}));
+    read_garment(root);
+    read_lines(root);
+    if (auto body = root.table("body")) read_body(*body);
+    if (auto material = root.table("material")) read_material(*material);
+    for (SettingsTable& pins : root.tables("pins")) read_pins(pins);
+    if (auto forces = root.table("forces")) read_forces(*forces);
+    if (auto simulation = root.table("simulation")) read_simulation(*simulation);
+    if (auto output = root.table("output")) read_output(*output);
+    root.finish();
+    return std::move(scene_);
+  }
+
+ private:
+  static std::vector<std::pair<std::string, std::optional<std::string>>> words(
+      std::initializer_list<const char*> list) {
+    std::vector<std::pair<std::string, std::optional<std::string>>> pairs;
+    for (const char* word : list) pairs.emplace_back(word, word);
+    return pairs;
+  }
+
+  void read_path(SettingsTable& table, const char* key, std::filesystem::path& path) {
+    std::string text;
+    table.read(key, text);
+    if (text.empty()) return;
+    const bool from_file = is_of_file(document_, table.path_of(key));
+    path = from_file && text != "-" ? (folder_ / text).lexically_normal() : std::filesystem::path(text);
+  }
+
+  void read_garment(SettingsTable& root) {
+    auto garment = root.table("garment");
+    if (!garment) return;
+    read_path(*garment, "mesh", scene_.garment);
+    garment->read("subdivide", scene_.subdivide, 0, 4);
+    garment->finish();
+  }
+
+  void read_lines(SettingsTable& root) {
+    for (SettingsTable& table : root.tables("lines")) {
+      SceneLines lines;
+      read_path(table, "strokes", lines.strokes);
+      if (lines.strokes.empty()) table.fail("strokes", "is missing: name a stroke file");
+      table.read("time", lines.time, not_negative("s"));
+      table.read("height", lines.height, any("m"));
+      table.read("fade", lines.fade, positive("s"));
+      table.read("without", lines.without);
+      read_wrinkle_options(table, lines.options);
+      table.finish();
+      if (!scene_.lines.empty() && lines.time < scene_.lines.back().time)
+        table.fail("time", "is before that of the lines above; write rounds of lines in their order");
+      scene_.lines.push_back(std::move(lines));
+    }
+  }
+
+  static void read_wrinkle_options(SettingsTable& table, geometry::WrinkleOptions& o) {
+    using namespace geometry;
+    table.choose<InsertionRule>("rule", o.insertion.rule,
+                                {{"safe", InsertionRule::safe}, {"paper", InsertionRule::paper}});
+    table.choose<RestRule>("rest", o.rest, {{"drawn", RestRule::drawn}, {"flat", RestRule::flat}});
+    table.choose<SmoothingRegion>(
+        "region", o.region,
+        {{"two-ring", SmoothingRegion::two_ring}, {"whole-mesh", SmoothingRegion::whole_mesh}});
+    table.read("max_distance", o.insertion.max_distance, positive("m"));
+    table.read("iterations", o.smoothing.iterations, 0, 100000);
+    table.read("lambda", o.smoothing.lambda, positive());
+    table.read("mu", o.smoothing.mu, {-kNoLimit, 0});
+    table.choose<SmoothingWeights>(
+        "weights", o.smoothing.weights,
+        {{"uniform", SmoothingWeights::uniform}, {"cotangent", SmoothingWeights::cotangent}});
+    bool keep_lines = false, keep_border = false;
+    table.read("keep_lines", keep_lines);
+    table.read("keep_border", keep_border);
+    o.smoothing.lines = keep_lines ? LineRule::keep : LineRule::free;
+    o.smoothing.border = keep_border ? BorderRule::keep : BorderRule::free;
+  }
+
+  void read_body(SettingsTable& table) {
+    SceneBody& body = scene_.body.emplace();
+    read_path(table, "mesh", body.mesh);
+    read_path(table, "field", body.field);
+    read_path(table, "frames", body.frames);
+    if (body.mesh.empty()) table.fail("mesh", "is missing: name the body's mesh");
+    table.read("fps", body.fps, positive("1/s"));
+    table.read("tolerance", body.options.tolerance, positive("m"));
+    table.choose<physics::GradientRule>("gradient", body.options.gradient,
+                                        {{"exact", physics::GradientRule::exact_derivative},
+                                         {"interpolated", physics::GradientRule::interpolated_corners}});
+    if (!body.field.empty() && (table.has("tolerance") || table.has("gradient")))
+      table.fail("field", "has its own tolerance and gradient; leave those settings away");
+    if (!body.field.empty() && !body.frames.empty())
+      table.fail("field", "is that of a rigid body; frames have a field each");
+    read_motion(table, body.motion);
+    if (!body.frames.empty() && !physics::at_rest(body.motion))
+      table.fail("frames", "move the body already; leave its motion away");
+    table.finish();
+  }
+
+  /// The table `motion` beside other settings.
+  void read_motion(SettingsTable& parent, RigidMotion& motion) {
+    auto table = parent.table("motion");
+    if (!table) return;
+    table->read("pivot", motion.pivot);
+    for (SettingsTable& key : table->tables("keyframes")) {
+      physics::Keyframe keyframe{0};
+      key.read("time", keyframe.time, not_negative("s"));
+      key.read("translation", keyframe.translation);
+      key.read("rotation", keyframe.rotation);
+      key.finish();
+      if (!motion.keyframes.empty() && keyframe.time <= motion.keyframes.back().time)
+        key.fail("time", "must be later than that of the keyframe before");
+      motion.keyframes.push_back(keyframe);
+    }
+    motion.spin = read_spin(*table, "spin");
+    table->finish();
+  }
+
+  std::optional<Spin> read_spin(SettingsTable& parent, const char* key) {
+    auto table = parent.table(key);
+    if (!table) return std::nullopt;
+    Spin spin;
+    table->read("centre", spin.centre);
+    table->read("axis", spin.axis);
+    table->read("rate", spin.rate, any("rad/s"));
+    table->read("start", spin.start, not_negative("s"));
+    table->read("ramp", spin.ramp, not_negative("s"));
+    table->finish();
+    if (!(spin.axis.norm() > 1e-12)) table->fail("axis", "must not be of length 0");
+    return spin;
+  }
+
+  void read_material(SettingsTable& table) {
+    physics::SimulateOptions& o = scene_.simulation;
+    table.read("density", scene_.material.density, positive("kg/m^2"));
+    table.read("stiffness", scene_.material.stiffness, positive("N/m"));
+    table.read("bending", scene_.material.bending, not_negative("N/m"));
+    table.read("damping", o.spring_damping, not_negative());
+    table.read("drag", o.air_drag, not_negative("1/s"));
+    table.read("friction", o.friction, not_negative());
+    table.read("gap", o.contact_gap, positive("m"));
+    table.finish();
+  }
+
+  void read_pins(SettingsTable& table) {
+    ScenePins pins;
+    table.read("box", pins.box, 6);
+    table.read("loop", pins.loop);
+    table.read("group", pins.group);
+    table.read("vertices", pins.vertices, 0, 1 << 30);
+    if (pins.box.empty() && pins.loop.empty() && pins.group.empty() && pins.vertices.empty())
+      table.fail("loop", "is missing: say which vertices with box, loop, group or vertices");
+    read_motion(table, pins.motion);
+    table.finish();
+    scene_.pins.push_back(std::move(pins));
+  }
+
+  void read_forces(SettingsTable& table) {
+    if (table.has("gravity") && document_.root["forces"]["gravity"].is_array()) {
+      table.read("gravity", scene_.simulation.gravity);
+    } else {
+      double down = 9.81;
+      table.read("gravity", down, any("m/s^2"));
+      scene_.simulation.gravity = {0, -down, 0};
+    }
+    table.read("wind", scene_.wind.velocity);
+    scene_.wind.swirl = read_spin(table, "swirl");
+    for (SettingsTable& gust : table.tables("gusts")) {
+      physics::Gust g{};
+      gust.read("time", g.time, not_negative("s"));
+      gust.read("factor", g.factor, any());
+      gust.finish();
+      if (!scene_.wind.gusts.empty() && g.time <= scene_.wind.gusts.back().time)
+        gust.fail("time", "must be later than that of the gust before");
+      scene_.wind.gusts.push_back(g);
+    }
+    table.finish();
+  }
+
+  void read_simulation(SettingsTable& table) {
+    physics::SimulateOptions& o = scene_.simulation;
+    table.read("seconds", o.seconds, not_negative("s"));
+    table.read("stop_at", scene_.stop_at, not_negative("s"));
+    table.read("dt", o.dt, positive("s"));
+    bool force = false;
+    table.read("force_dt", force);
+    o.step_rule = force ? physics::StepRule::forced : physics::StepRule::limited;
+    if (force && !o.dt) table.fail("force_dt", "needs dt");
+    table.choose<physics::Integrator>(
+        "integrator", o.integrator,
+        {{"leapfrog", physics::Integrator::leapfrog}, {"euler", physics::Integrator::explicit_euler}});
+    table.read("threads", o.threads, 1, 256);
+    table.finish();
+  }
+
+  void read_output(SettingsTable& table) {
+    SceneOutput& o = scene_.output;
+    read_path(table, "mesh", o.mesh);
+    read_path(table, "state", o.state);
+    read_path(table, "inserted", o.inserted);
+    read_path(table, "smoothed", o.smoothed);
+    read_path(table, "animation", o.animation);
+    table.read("fps", o.fps, positive("1/s"));
+    table.finish();
+  }
+
+  const TomlDocument& document_;
+  std::filesystem::path folder_;
+  Scene scene_;
+};
+
+}  // namespace
+
+Scene read_scene(const TomlDocument& document, const std::filesystem::path& folder) {
+  return SceneReader(document, folder).read();
+}
+
+Json relocated(const TomlDocument& document, const std::filesystem::path& folder,
+               const std::filesystem::path& target) {
+  namespace fs = std::filesystem;
+  Json root = document.root;
+  const fs::path here = fs::current_path();
+  const auto move = [&](Json& table, const char* key, const std::string& path) {
+    if (!table.is_object() || !table.contains(key) || table[key] == "-") return;
+    const fs::path given(table[key].get<std::string>());
+    const fs::path full = (here / (is_of_file(document, path) ? folder / given : given)).lexically_normal();
+    const fs::path relative = full.lexically_relative((here / target).lexically_normal());
+    table[key] = (relative.empty() ? full : relative).generic_string();
+  };
+  for (const auto& [table, keys] : std::map<std::string, std::vector<const char*>>{
+           {"garment", {"mesh"}},
+           {"body", {"mesh", "field", "frames"}},
+           {"output", {"mesh", "state", "inserted", "smoothed", "animation"}}})
+    for (const char* key : keys)
+      if (root.contains(table)) move(root[table], key, table + "." + key);
+  if (!root.contains("lines")) return root;
+  if (root["lines"].is_object()) root["lines"] = Json::array({root["lines"]});
+  for (std::size_t i = 0; i < root["lines"].size(); ++i)
+    move(root["lines"][i], "strokes", "lines." + std::to_string(i) + ".strokes");
+  return root;
+}
+
+}  // namespace furrow::io

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "io/scene.h"
+#include "io/toml_document.h"
+
+namespace furrow::io {
+
+/// Reads the settings of a scene (docs/scenes.md lists them). Paths are relative to `folder`, but those that
+/// a flag set (their place names no file) to the working directory. Throws geometry::ContentError with file,
+/// line and column for an unknown setting (and names the nearest), a wrong type, a value out of its range, or
+/// one that is missing.
+Scene read_scene(const TomlDocument& document, const std::filesystem::path& folder);
+
+/// The settings with all paths relative to `target` (or absolute where there is no way). `folder` as in
+/// read_scene().
+Json relocated(const TomlDocument& document, const std::filesystem::path& folder,
+               const std::filesystem::path& target);
+
+}  // namespace furrow::io

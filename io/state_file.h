@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/mesh_file.h"
+#include "physics/simulate_state.h"
+
+namespace furrow::io {
+
+/// A simulation that was stopped: all that is needed to go on with it, bit for bit.
+struct SavedState {
+  MeshFile file;  ///< the garment as it is now, with kVelocity, kMass and rest lengths
+  physics::SimulateState simulation;
+  nlohmann::ordered_json scene;  ///< its settings (docs/scenes.md); paths relative to the state's folder
+  std::vector<std::vector<int>> pins;  ///< the vertices of each of the scene's pins
+  int lines_drawn = 0;                 ///< rounds of the scene's lines that are in the garment already
+};
+
+/// The file is a binary PLY that other programs open as a mesh: velocities, contact memory and compensating
+/// forces are scalar columns of the vertices (vx, …), rest lengths and bending springs columns of edges that
+/// name their two vertices; time, step, plan, scene and lines are comments (`furrow state {…}`, JSON in one
+/// line). Metres, y up. Reading and writing again gives the same bytes.
+void write_state(const std::filesystem::path& path, SavedState state);
+/// The file's bytes, as a string.
+std::string state_bytes(SavedState state);
+
+/// Throws geometry::ContentError if the file is no state or damaged.
+SavedState read_state(const std::filesystem::path& path);
+SavedState parse_state(const std::string& bytes, const std::string& name);
+
+/// The maps that belong to a cloth in motion are taken from the mesh; what is left is an ordinary garment.
+void drop_motion(geometry::Mesh& mesh);
+
+}  // namespace furrow::io
