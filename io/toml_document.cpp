@@ -119,7 +119,10 @@ void set_value(TomlDocument& document, const std::string& path, Json value, cons
   *at = std::move(value);
   document.root = std::move(changed);
   std::erase_if(document.where, [&](const auto& entry) { return entry.first.rfind(path + ".", 0) == 0; });
-  document.where[path] = where;
+  for (std::string at = path;; at.erase(at.rfind('.'))) {  // a table made on the way was set by the same
+    if (at == path || !document.where.count(at)) document.where[at] = where;
+    if (at.find('.') == std::string::npos) break;
+  }
 }
 
 Json parse_value(const std::string& text) {

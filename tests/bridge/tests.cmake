@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(bridge LIBRARIES furrow::bridge SOURCES
+  draw_more_test.cpp
   gather_test.cpp
   body_test.cpp
 )

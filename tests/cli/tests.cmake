@@ -4,6 +4,7 @@ furrow_add_tests(cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   run_furrow.cpp
   usage_test.cpp
   pipeline_test.cpp
+  resume_test.cpp
   hostile_files_test.cpp
 )
 add_dependencies(test_cli furrow)

@@ -11,7 +11,9 @@ furrow_add_tests(io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   off_test.cpp
   ply_test.cpp
   real_files_test.cpp
+  scene_file_test.cpp
   soup_to_mesh_test.cpp
+  state_file_test.cpp
   wrinkle_record_test.cpp
   stl_test.cpp
   stroke_file_test.cpp

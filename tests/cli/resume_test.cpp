@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <random>
+
+#include "geometry/sheet.h"
+#include "io/mesh_file.h"
+#include "tests/cli/run_furrow.h"
+#include "tests/test_meshes.h"
+
+using namespace furrow;
+using namespace furrow::tests;
+
+namespace {
+
+void write(const std::string& path, const geometry::Mesh& mesh) {
+  io::MeshFile file;
+  file.mesh = mesh;
+  io::write_mesh(path, file);
+}
+
+/// A sheet that falls on a ball with friction, turns with it, and gets lines before and on the way.
+class FallingSheet {
+ public:
+  FallingSheet() {
+    geometry::Mesh sheet = grid(10, 10, 0.5, 0.5);
+    for (auto v : sheet.vertices()) {
+      const geometry::Point p = sheet.point(v);
+      sheet.point(v) = {p.x() - 0.25, 0.012, 0.25 - p.y()};
+    }
+    write(scratch / "sheet.ply", sheet);
+    write(scratch / "ball.ply", icosphere(3, 0.15, {0.02, -0.15, 0}));
+    write_text(
+        scratch / "first.json",
+        R"({"strokes": [{"name": "ridge", "height": 0.02, "points": [[-0.2, 0.012, -0.2], [-0.15, 0.012, 0.2]]}]})");
+    write_text(
+        scratch / "second.json",
+        R"({"strokes": [{"name": "late", "height": -0.01, "points": [[0.1, -0.03, -0.1], [0.12, -0.03, 0.15]]}]})");
+    write_text(scratch / "scene.toml", R"(
+[garment]
+mesh = "sheet.ply"
+[[lines]]
+strokes = "first.json"
+[[lines]]
+strokes = "second.json"
+time = 0.12
+[body]
+mesh = "ball.ply"
+tolerance = 0.006
+motion.spin = {axis = [0, 1, 0], rate = 2.0, ramp = 0.1}
+[material]
+stiffness = 100
+bending = 1
+friction = 0.4
+[[pins]]
+box = [-0.26, -1, -0.26, -0.24, 1, 0.26]
+motion.keyframes = [{time = 0}, {time = 0.3, translation = [0.02, 0, 0]}]
+[forces]
+wind = [0.5, 0, 0]
+[simulation]
+seconds = 0.3
+)");
+  }
+
+  /// The bytes of the garment at the end.
+  std::string run(const std::string& arguments) {
+    const Run run = run_furrow("simulate " + arguments + " -q -o " + (scratch / "end.ply"));
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    return read_text(scratch / "end.ply");
+  }
+
+  ScratchDirectory scratch;
+};
+
+}  // namespace
+
+TEST_CASE("a simulation stopped anywhere goes on as if it had not been stopped") {
+  FallingSheet sheet;
+  const std::string scene = sheet.scratch / "scene.toml", state = sheet.scratch / "state.ply";
+  const std::string whole = sheet.run(scene + " --threads 1");
+  REQUIRE(sheet.run(scene + " --threads 2") == whole);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> time(0.001, 0.299);
+  for (int i = 0; i < 20; ++i) {
+    const std::string stop = std::to_string(time(random));
+    const int threads = i % 2 + 1;
+    CAPTURE(stop, threads);
+    const Run first = run_furrow("simulate " + scene + " -q --stop-at " + stop + " --save-state " + state +
+                                 " --threads " + std::to_string(threads));
+    REQUIRE(first.exit_code == 0);
+    REQUIRE(sheet.run("--state " + state + " --threads " + std::to_string(3 - threads)) == whole);
+  }
+}
+
+TEST_CASE("a simulation stopped twice, and one whose state went to another folder, end the same") {
+  FallingSheet sheet;
+  const std::string scene = sheet.scratch / "scene.toml", one = sheet.scratch / "one.ply";
+  const std::string whole = sheet.run(scene);
+  std::filesystem::create_directory(sheet.scratch.path() / "kept");
+  const std::string two = sheet.scratch / "kept/two.ply";
+  REQUIRE(run_furrow("simulate " + scene + " -q --stop-at 0.05 --save-state " + one).exit_code == 0);
+  REQUIRE(run_furrow("simulate -q --state " + one + " --stop-at 0.2 --save-state " + two).exit_code == 0);
+  CHECK(sheet.run("--state " + two) == whole);
+  CHECK(sheet.run(scene + " --state " + two) == whole);
+}
+
+TEST_CASE("a state that does not fit is refused") {
+  FallingSheet sheet;
+  const std::string state = sheet.scratch / "state.ply";
+  REQUIRE(run_furrow("simulate " + (sheet.scratch / "scene.toml") + " -q --stop-at 0.1 --save-state " + state)
+              .exit_code == 0);
+  const std::string out = " -o " + (sheet.scratch / "o.ply");
+  CHECK(run_furrow("simulate --state " + (sheet.scratch / "sheet.ply") + out).exit_code == 3);
+  CHECK(run_furrow("simulate --state " + state + " " + (sheet.scratch / "sheet.ply") + out).exit_code == 2);
+  CHECK(run_furrow("simulate --state " + state).exit_code == 2);
+  CHECK(run_furrow("simulate --state " + state + out + " --set pins=[]").exit_code == 2);
+  std::string bytes = read_text(state);
+  write_text(state, bytes.substr(0, bytes.size() - 100));
+  CHECK(run_furrow("simulate --state " + state + out).exit_code == 3);
+  CHECK_FALSE(std::filesystem::exists(sheet.scratch / "o.ply"));
+}
