@@ -34,6 +34,7 @@ void PinLeader::attach(const PackedCloth& packed) {
 }
 
 void PinLeader::begin_step(PackedCloth& packed, double to, double dt) {
+  targets_.resize(homes_.size());
   std::size_t next = 0;
   for (const MovedPins& group : pins_) {
     const Pose at_end = pose(group.motion, to);
@@ -54,6 +55,7 @@ void PinLeader::arrive(PackedCloth& packed) const {
 }
 
 void PinLeader::unpack(const PackedCloth& packed, Particles& particles) const {
+  if (targets_.empty()) return;  // no step yet
   for (const int place : places_) {
     const Vec4 &x = packed.x[std::size_t(place)], &v = packed.v[std::size_t(place)];
     const auto to = std::size_t(packed.particle[std::size_t(place)]);

@@ -24,15 +24,14 @@ std::vector<Vec3> homes_of(std::span<const MovedPins> pins, const Particles& par
 class PinLeader {
  public:
   /// homes as of homes_of(); both are kept by reference.
-  PinLeader(std::span<const MovedPins> pins, std::span<const Vec3> homes)
-      : pins_(pins), homes_(homes), targets_(homes.size()) {}
+  PinLeader(std::span<const MovedPins> pins, std::span<const Vec3> homes) : pins_(pins), homes_(homes) {}
   /// Finds the particles in a packed cloth, before all below.
   void attach(const PackedCloth& packed);
   /// Sets the velocities that lead to the places at the time `to` in dt.
   void begin_step(PackedCloth& packed, double to, double dt);
   /// Puts the pins there.
   void arrive(PackedCloth& packed) const;
-  /// Positions and velocities, which unpack() leaves out.
+  /// Positions and velocities after a step; physics::unpack() leaves pinned particles out.
   void unpack(const PackedCloth& packed, Particles& particles) const;
 
  private:
