@@ -31,26 +31,23 @@ struct ContactMemory {
 /// a step brings closer than the gap is moved back along the field's gradient, then Coulomb friction shortens
 /// its tangential motion relative to the body, then its velocity is what it moved; no bounce.
 ///  - Depth already there before the step is no motion: only what the step adds is pushed back with friction
-///    and velocity. The old depth is taken out at recovery_speed without touching the velocity, so a garment
-///    that starts inside the body is not shot out of it.
+///    and velocity. The old depth is taken out at recovery_speed without touching the velocity.
 ///  - Up to 3 moves of at most 2 cm bring back a deep particle. A depth below 0.1 mm, which is all that
 ///    a resting particle sinks in a step, takes one move of depth/|g|, so that friction sees the whole normal
 ///    motion of small steps, too.
 ///  - A move (relative to the body) longer than max(psi, 0) + gap/2 is made in pieces of that length and ends
 ///    where one enters the body; from inside, a move is at most gap/2 (tunnelling).
 ///  - The field is taken to change by at most 2 m a metre; a particle that has not moved far enough since its
-///    last query to be in contact is not asked for.
+///    last query is not asked for.
 /// This class: a body at rest. RigidContact and AnimatedContact: bodies that move.
 class BodyContact {
  public:
   /// The collider must outlive this object. Throws std::invalid_argument if an option is out of its range.
   BodyContact(const Collider& collider, const ContactOptions& options, int particles);
   virtual ~BodyContact() = default;
-
-  /// Moves the body from where it is at one time to where it is at the other [s].
+  /// The body's motion in the next step [s].
   virtual void begin_step(double /*from*/, double /*to*/) {}
-  /// Whether particle i at x (in the body's frame) cannot be in contact, for all that is known; then
-  /// respond() would do nothing.
+  /// Whether particle i at x (in the body's frame) cannot be in contact; then respond() does nothing.
   bool is_clear(int i, const Vec3& x) const {
     const ContactMemory& known = memory_[std::size_t(i)];
     const double clearance = known.level - clear_level_;
@@ -58,16 +55,14 @@ class BodyContact {
   }
   /// Whether is_clear() takes positions in the world.
   bool asks_in_world() const { return asks_in_world_; }
-  /// Particle i moved from `before` to x in dt with velocity v: corrects x and v. Particles are independent
-  /// of each other, so different i may be handled by several threads. Positions that are not finite are left
-  /// alone.
+  /// Particle i moved from `before` to x in dt with velocity v: corrects x and v. Different i may be handled
+  /// by several threads. Positions that are not finite are left alone.
   virtual void respond(int i, const Vec3& before, double dt, Vec3& x, Vec3& v, ContactCounts& counts);
 
   std::vector<ContactMemory>& memory() { return memory_; }  ///< one a particle
 
  protected:
-  /// Corrects x in the frame of a body at rest; if the particle was pushed, where it came to before the
-  /// recovery from old depth: that is its motion. `known` is up to date or about `before`.
+  /// Corrects x in the body's frame. If it was pushed: where it came to before the recovery from old depth.
   std::optional<Vec3> resolve(const Collider& body, ContactMemory& known, const Vec3& before, double dt,
                               Vec3& x, ContactCounts& counts) const;
 

@@ -13,7 +13,7 @@ struct Particles {
   std::vector<Vec3> x;           ///< positions [m]
   std::vector<Vec3> v;           ///< velocities [m/s]
   std::vector<double> mass;      ///< [kg]; > 0, but 0 for a vertex that no face uses
-  std::vector<double> inv_mass;  ///< [1/kg]; 0 = pinned, it moves only with its prescribed velocity v = 0
+  std::vector<double> inv_mass;  ///< [1/kg]; 0 = pinned: it moves only as World::pins leads it
 
   std::size_t size() const { return x.size(); }
 };

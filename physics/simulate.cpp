@@ -12,8 +12,6 @@
 #include "physics/animated_contact.h"
 #include "physics/euler_step.h"
 #include "physics/leapfrog_step.h"
-#include "physics/posed_collider.h"
-#include "physics/residual_force.h"
 #include "physics/rigid_contact.h"
 #include "physics/step_length.h"
 
@@ -75,14 +73,13 @@ class Simulation {
   void lead_pins();
   void recall();
   void remember();
-  void measure(SimulateReport& report) const;
 
   Cloth& cloth_;
   const World& world_;
   const SimulateOptions& options_;
   SimulateState& state_;
   ThreadPool pool_;
-  bool body_moves_;
+  ContactOptions contact_options_;
   int frames_before_ = 0;
   double frame_seconds_before_ = 0;
   std::unique_ptr<BodyContact> contact_;
@@ -92,17 +89,20 @@ class Simulation {
 };
 
 Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& options, SimulateState& state)
-    : cloth_(cloth), world_(world), options_(options), state_(state), pool_(options.threads) {
+    : cloth_(cloth),
+      world_(world),
+      options_(options),
+      state_(state),
+      pool_(options.threads),
+      contact_options_{options.friction, options.contact_gap, options.recovery_speed} {
   if (world.collider && world.animated) refuse("a rigid and an animated body at once");
-  if (!(state.time >= 0) || !std::isfinite(state.time)) refuse("state.time = ", state.time, " is not >= 0");
   check(world.wind);
   check(world.body_motion);
-  check(state.compensation, cloth.particles.size());
-  body_moves_ = !is_identity(world.body_motion);
+  check(state, cloth.particles.size());
   make_contact();
   lead_pins();
   const Surroundings around{contact_.get(), leader_ ? &*leader_ : nullptr,
-                            is_still(world.wind) ? nullptr : &world.wind,
+                            is_still(world.wind) || options.air_drag == 0 ? nullptr : &world.wind,
                             state.compensation.force.empty() ? nullptr : &state.compensation};
   motion_.emplace(cloth, Loads{options.gravity, options.air_drag, options.spring_damping}, pool_, around,
                   state.time);
@@ -112,16 +112,16 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
 }
 
 void Simulation::make_contact() {
-  const ContactOptions options{options_.friction, options_.contact_gap, options_.recovery_speed};
   const int n = int(cloth_.particles.size());
   if (world_.animated) {
     frames_before_ = world_.animated->frames_built();
     frame_seconds_before_ = world_.animated->build_seconds();
-    contact_ = std::make_unique<AnimatedContact>(*world_.animated, options, n, state_.body_travel);
-  } else if (world_.collider && body_moves_) {
-    contact_ = std::make_unique<RigidContact>(*world_.collider, world_.body_motion, options, n);
+    world_.animated->prepare(state_.time, state_.time);
+    contact_ = std::make_unique<AnimatedContact>(*world_.animated, contact_options_, n, state_.body_travel);
+  } else if (world_.collider && !is_identity(world_.body_motion)) {
+    contact_ = std::make_unique<RigidContact>(*world_.collider, world_.body_motion, contact_options_, n);
   } else if (world_.collider) {
-    contact_ = std::make_unique<BodyContact>(*world_.collider, options, n);
+    contact_ = std::make_unique<BodyContact>(*world_.collider, contact_options_, n);
   }
 }
 
@@ -136,13 +136,9 @@ void Simulation::lead_pins() {
 }
 
 void Simulation::recall() {
-  const std::size_t n = cloth_.particles.size();
   if (!state_.planned) state_.contact.clear();
   if (state_.contact.empty() || !contact_) return;
-  if (state_.contact.size() != n) {
-    refuse("the state is of a cloth with ", state_.contact.size(), " particles instead of ", n);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < state_.contact.size(); ++i) {
     contact_->memory()[i] = state_.contact[std::size_t(motion_->cloth().particle[i])];
   }
 }
@@ -198,37 +194,8 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
 
 void Simulation::finish(SimulateReport& report) {
   motion_->unpack(cloth_.particles);
-  if (world_.animated) world_.animated->prepare(state_.time, state_.time);
   remember();
-  measure(report);
-}
-
-void Simulation::measure(SimulateReport& report) const {
-  const SimulateTotals& totals = state_.totals;
-  report.steps = state_.step;
-  report.time = state_.time;
-  report.dt_smallest = state_.step > 0 ? totals.dt_smallest : report.dt;
-  report.dt_limit = state_.dt_limit;
-  report.dt_limit_smallest = totals.dt_limit_smallest;
-  report.limit_estimates = int(totals.limit_estimates);
-  report.force_evaluations = totals.force_evaluations;
-  report.collider_queries = totals.collider_queries;
-  report.truncated_moves = totals.truncated_moves;
-  report.frames_built = totals.frames_built;
-  report.frame_seconds = totals.frame_seconds;
-  report.compensation_left = share_left(state_.compensation, state_.time);
-  report.compensation_force = net_force(state_.compensation, state_.time);
-  report.strain = strain_statistics(cloth_.particles.x, cloth_.structural);
-  report.kinetic_energy = kinetic_energy(cloth_.particles);
-
-  const Collider* body = world_.animated ? world_.animated : world_.collider;
-  std::optional<PosedCollider> posed;
-  if (world_.collider && body_moves_) {
-    body = &posed.emplace(*world_.collider, pose(world_.body_motion, state_.time));
-  }
-  report.residual_force =
-      residual_force(cloth_, options_.gravity, body, options_.friction, options_.contact_gap);
-  if (body) report.contacts = count_contacts(cloth_.particles.x, *body, options_.contact_gap);
+  measure(cloth_, world_, state_, options_.gravity, contact_options_, report);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "physics/simulate_report.h"
 #include "physics/simulate_state.h"
-#include "physics/strain.h"
 #include "physics/world.h"
 
 namespace furrow::physics {
@@ -46,31 +46,6 @@ struct SimulateProgress {
 /// Called every observe_steps steps and at the end; the cloth holds the state of that time. false: stop here.
 using Observer = std::function<bool(const SimulateProgress&)>;
 
-enum class Outcome { finished, stopped_by_observer, diverged, stopped_at };
-
-/// Counts, times and smallest steps are of all calls that shared a state.
-struct SimulateReport {
-  Outcome outcome = Outcome::finished;
-  std::int64_t steps = 0;
-  double time = 0;                      ///< reached [s]
-  double dt = 0, dt_smallest = 0;       ///< of the last step, and the smallest [s]
-  double dt_limit = 0;                  ///< stability limit last estimated [s]; infinity without springs
-  double dt_limit_smallest = 0;         ///< [s]
-  double seconds = 0, cpu_seconds = 0;  ///< clock and processor time (all threads) [s]
-  StrainStatistics strain;              ///< structural springs at the end
-  double kinetic_energy = 0;            ///< [J]; what rests on the body keeps the last half-kick, g dt/2
-  double residual_force =
-      0;             ///< see residual_force() [-]; of springs, weight and contact with a body at rest
-  int contacts = 0;  ///< particles at the body at the end
-  int limit_estimates = 0;
-  std::int64_t force_evaluations = 0, collider_queries = 0;
-  std::int64_t truncated_moves = 0;        ///< cut short against tunnelling
-  std::int64_t frames_built = 0;           ///< fields of an animated body
-  double frame_seconds = 0;                ///< clock time spent on them [s]
-  double compensation_left = 0;            ///< share of the compensating forces that still acts [-]
-  Vec3 compensation_force = Vec3::Zero();  ///< their sum now [N]
-};
-
 /// Moves the cloth to the time options.seconds under springs, gravity, air, damping and contact. Steps have
 /// equal length between two estimates of the limit, and the end is hit exactly. A state that is not finite or
 /// faster than speed_limit ends the run with Outcome::diverged and is left as it is (checked every 16 steps).
@@ -78,7 +53,7 @@ struct SimulateReport {
 ///
 /// Without `state` a call begins at time 0. With it a call continues from the state's time, and does nothing
 /// if that is options.seconds already; see SimulateState. If the end or the longest step is not the state's,
-/// the rest is divided anew.
+/// the rest is divided anew; other options may change at a stop, too.
 /// Throws std::invalid_argument, cloth and state untouched, if an option is out of its range, dt is above the
 /// limit under StepRule::limited, the cloth's arrays are broken, or world or state do not fit the cloth.
 SimulateReport simulate(Cloth& cloth, const World& world, const SimulateOptions& options,

@@ -150,7 +150,15 @@ TEST_CASE("a state that does not fit is refused and nothing changes") {
   scene.state.compensation.time_constant = 0;
   refused("time constant = 0");
   scene.state.time = -1;
-  refused("state.time = -1");
+  refused("time = -1");
+  scene.state.steps_left += 3;
+  refused("do not lead from");
+  scene.state.dt = 0;
+  refused("dt = 0");
+  scene.state.steps_left = -1;
+  refused("steps_left = -1");
+  scene.state.homes[0].x() = NAN;
+  refused("home is not finite");
 }
 
 TEST_CASE("a cloth that was changed is planned anew") {
