@@ -72,7 +72,7 @@ DistanceField::Entry DistanceField::add_brick(Entry entry, int level) {
   const int depth = std::min(depth_below(entry), brick_depth);
   bricks_.resize(base + (std::size_t{1} << (3 * depth)));
   if (bricks_.size() > brick_mask)
-    throw std::length_error("DistanceField: too many leaves; raise the tolerance");
+    throw std::invalid_argument("DistanceField: too many leaves; raise the tolerance");
   fill_brick(entry, level, {0, 0, 0}, depth, depth, base);
   return static_cast<Entry>(base) | static_cast<Entry>(depth) << brick_shift;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/exact_distance.h"
+#include "physics/progress.h"
 
 namespace furrow::physics {
 
@@ -44,15 +45,19 @@ struct DistanceFieldReport {
 /// cube. Sources: method S1.9 and S1.20; Frisken et al. 2000.
 class DistanceField : public Collider {
  public:
-  /// Any soup that ExactDistance takes. std::invalid_argument names a bad option or vertex.
+  /// Any soup that ExactDistance takes. std::invalid_argument names a bad option or vertex, or says that the
+  /// tolerance asks for more leaves than a field can hold; Cancelled if `progress` said no.
   /// Cost: about 1 us for each of the body's samples, some 300,000 at the default tolerance.
-  static DistanceField build(const TriangleMesh& mesh, const DistanceFieldOptions& options = {});
-  static DistanceField build(const ExactDistance& exact, const DistanceFieldOptions& options = {});
+  static DistanceField build(const TriangleMesh& mesh, const DistanceFieldOptions& options = {},
+                             const Progress& progress = {});
+  static DistanceField build(const ExactDistance& exact, const DistanceFieldOptions& options = {},
+                             const Progress& progress = {});
 
   /// 10 to 25 ns; NaN for a NaN point.
   SignedDistance at(const Vec3& x) const override;
-  /// The same bits for many points at once, `result[i]` for x[i]: what a point needs is fetched while others are
-  /// computed, so points in no order cost about what ordered ones do. std::invalid_argument if the lengths differ.
+  /// The same bits for many points at once, `result[i]` for x[i]: what a point needs is fetched while others
+  /// are computed, so points in no order cost about what ordered ones do. std::invalid_argument if the
+  /// lengths differ.
   void at_many(std::span<const Vec3> x, std::span<SignedDistance> result) const;
 
   const DistanceFieldReport& report() const { return report_; }

@@ -33,13 +33,15 @@ void check(const DistanceFieldOptions& o) {
 
 }  // namespace
 
-DistanceField DistanceField::build(const TriangleMesh& mesh, const DistanceFieldOptions& options) {
+DistanceField DistanceField::build(const TriangleMesh& mesh, const DistanceFieldOptions& options,
+                                   const Progress& progress) {
   check(options);
   check_body(mesh, "DistanceField");
-  return build(ExactDistance(mesh), options);
+  return build(ExactDistance(mesh), options, progress);
 }
 
-DistanceField DistanceField::build(const ExactDistance& exact, const DistanceFieldOptions& options) {
+DistanceField DistanceField::build(const ExactDistance& exact, const DistanceFieldOptions& options,
+                                   const Progress& progress) {
   check(options);
   DistanceField field;
   field.report_.tolerance = options.tolerance.value_or(std::min(1e-3 * exact.diagonal(), 2e-3));
@@ -56,10 +58,11 @@ DistanceField DistanceField::build(const ExactDistance& exact, const DistanceFie
   const DistanceOctree octree(samples,
                               {field.report_.tolerance, options.outer_band, options.inner_band,
                                options.far_slope, 3, options.band_depth, options.max_depth},
-                              unit);
+                              unit, progress);
   field.report_.samples = samples.size();
   field.take(octree);
   field.index();
+  if (progress) progress(1);
   return field;
 }
 
@@ -97,7 +100,7 @@ void DistanceField::take(const DistanceOctree& octree) {
   take_node(take_node, octree.cells()[0]);
   report_.leaves = static_cast<int>(leaves_.size());
   if (leaves_.size() > index_mask)
-    throw std::length_error("DistanceField: too many leaves; raise the tolerance");
+    throw std::invalid_argument("DistanceField: too many leaves; raise the tolerance");
 }
 
 }  // namespace furrow::physics

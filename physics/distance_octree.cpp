@@ -37,9 +37,10 @@ double RefinementRule::allowed_error(double d) const {
   return tolerance + far_slope * std::max(0.0, d > 0 ? d - outer_band : -d - inner_band);
 }
 
-DistanceOctree::DistanceOctree(LatticeSamples& samples, const RefinementRule& rule, double unit)
+DistanceOctree::DistanceOctree(LatticeSamples& samples, const RefinementRule& rule, double unit,
+                               const Progress& progress)
     : samples_(samples), rule_(rule), unit_(unit) {
-  refine();
+  refine(progress);
   balance();
   samples_.evaluate();
   values_.resize(samples_.size());
@@ -105,7 +106,11 @@ void DistanceOctree::append_children(int parent) {
   }
 }
 
-void DistanceOctree::refine() {
+void DistanceOctree::refine(const Progress& progress) {
+  const auto tell = [&](double levels) {
+    if (progress && !progress(std::min(levels / (rule_.max_depth + 1), 1.0)))
+      throw Cancelled("DistanceField: cancelled");
+  };
   OctreeCell root{{0, 0, 0}, 0, 0, {}};
   for (int c = 0; c < 8; ++c) root.corner[c] = samples_.add(corner_point(root, c));
   samples_.evaluate();
@@ -115,7 +120,8 @@ void DistanceOctree::refine() {
     const std::size_t last = cells_.size();
     lattices.clear();
     for (std::size_t i = first; i < last; ++i) lattices.push_back(add_lattice(cells_[i]));
-    samples_.evaluate();
+    const int level = cells_[first].level;
+    samples_.evaluate([&](double share) { tell(level + share); });
     for (std::size_t i = first; i < last; ++i)
       if (must_split(cells_[i], lattices[i - first])) append_children(static_cast<int>(i));
     first = last;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "physics/lattice_samples.h"
+#include "physics/progress.h"
 
 namespace furrow::physics {
 
@@ -36,7 +37,9 @@ struct OctreeCell {
 /// coarsest wins". Sources: Frisken et al. 2000; method S1.9.
 class DistanceOctree {
  public:
-  DistanceOctree(LatticeSamples& samples, const RefinementRule& rule, double unit);
+  /// Throws Cancelled if `progress` says no; its share counts levels.
+  DistanceOctree(LatticeSamples& samples, const RefinementRule& rule, double unit,
+                 const Progress& progress = {});
 
   const std::vector<OctreeCell>& cells() const { return cells_; }  ///< the root first
   const std::vector<double>& values() const { return values_; }    ///< a sample: its value, continuous [m]
@@ -50,7 +53,7 @@ class DistanceOctree {
     int sample;
     int coarse;  ///< the coarsest leaf around it, of which it is no corner
   };
-  void refine();
+  void refine(const Progress& progress);
   bool must_split(const OctreeCell& cell, const std::array<int, 27>& lattice) const;
   std::array<int, 27> add_lattice(const OctreeCell& cell);
   void append_children(int cell);

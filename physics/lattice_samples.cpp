@@ -58,18 +58,27 @@ void LatticeSamples::evaluate_range(int begin, int end) {
   }
 }
 
-void LatticeSamples::evaluate() {
+void LatticeSamples::evaluate(const std::function<void(double)>& tell) {
   constexpr int block = 512;
   std::atomic<int> next = evaluated_;
-  const auto work = [&] {
-    for (int begin; (begin = next.fetch_add(block)) < size();)
-      evaluate_range(begin, std::min(begin + block, size()));
+  std::atomic<bool> stop = false;
+  const auto work = [&](const std::function<void(double)>& after_block) {
+    for (int begin; !stop && (begin = next.fetch_add(block)) < size();) {
+      const int end = std::min(begin + block, size());
+      evaluate_range(begin, end);
+      if (after_block) after_block(static_cast<double>(end - evaluated_) / (size() - evaluated_));
+    }
   };
   const int helpers = std::min(threads_ - 1, (size() - evaluated_) / block);
   {
     std::vector<std::jthread> pool;
-    for (int i = 0; i < helpers; ++i) pool.emplace_back(work);
-    work();
+    for (int i = 0; i < helpers; ++i) pool.emplace_back(work, std::function<void(double)>());
+    try {
+      work(tell);
+    } catch (...) {
+      stop = true;
+      throw;
+    }
   }
   evaluated_ = size();
 }

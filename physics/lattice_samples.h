@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "physics/exact_distance.h"
@@ -21,8 +22,10 @@ class LatticeSamples {
   int add(const LatticePoint& p, int guess);
   /// The same without a guess.
   int add(const LatticePoint& p) { return add(p, static_cast<int>(samples_.size())); }
-  /// Evaluates what was added since the last call. Same values for any number of threads.
-  void evaluate();
+  /// Evaluates what was added since the last call. Same values for any number of threads. `tell` is called by
+  /// this thread, about every millisecond, with the share of the call that is done [0, 1]; what it throws
+  /// ends the call, and the samples are then good for nothing.
+  void evaluate(const std::function<void(double)>& tell = {});
 
   double value(int index) const { return samples_[index].value; }  ///< [m]
   int size() const { return static_cast<int>(samples_.size()); }

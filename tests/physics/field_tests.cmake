@@ -6,4 +6,5 @@ furrow_add_tests(field LIBRARIES furrow::physics CGAL::CGAL SOURCES
   distance_field_at_many_test.cpp
   distance_field_test.cpp
   distance_field_bytes_test.cpp
+  distance_field_progress_test.cpp
 )
