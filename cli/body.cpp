@@ -5,6 +5,8 @@
 #include <thread>
 
 #include "bridge/body.h"
+#include "bridge/convert.h"
+#include "geometry/errors.h"
 #include "geometry/property_names.h"
 #include "io/field_file.h"
 
@@ -20,6 +22,11 @@ void tell_repairs(const std::string& path, const geometry::BodyReport& r, const 
   tell(r.reversed_faces, "faces of the body turned outwards");
 }
 
+physics::DistanceFieldOptions threaded(physics::DistanceFieldOptions options) {
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return options;
+}
+
 }  // namespace
 
 BodyCollider load_body(const io::SceneBody& body, const CommonArguments& common) {
@@ -27,11 +34,72 @@ BodyCollider load_body(const io::SceneBody& body, const CommonArguments& common)
   tell_repairs(body.mesh.string(), repaired.report, common);
   physics::TriangleMesh triangles = bridge::to_triangle_mesh(repaired);
   physics::ExactDistance exact(triangles);
-  physics::DistanceFieldOptions options = body.options;
-  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  physics::DistanceField field = body.field.empty() ? physics::DistanceField::build(exact, options)
-                                                    : io::read_field(body.field, triangles);
+  Progress progress("distance field", common);
+  const auto show = [&](double share) {
+    progress.show(share);
+    return true;
+  };
+  physics::DistanceField field = body.field.empty()
+                                     ? physics::DistanceField::build(exact, threaded(body.options), show)
+                                     : io::read_field(body.field, triangles);
   return {std::move(triangles), std::move(exact), std::move(field)};
+}
+
+WorldBody::WorldBody(const io::SceneBody& body, const CommonArguments& common) : motion_(body.motion) {
+  if (!body.frames.empty()) {
+    read_frames(body, common);
+  } else {
+    rigid_ = std::make_unique<BodyCollider>(load_body(body, common));
+    tolerance_ = rigid_->field.report().tolerance;
+  }
+}
+
+void WorldBody::read_frames(const io::SceneBody& body, const CommonArguments& common) {
+  const geometry::Mesh mesh = read_mesh(body.mesh.string(), common).mesh;
+  for (geometry::Halfedge h : mesh.halfedges())
+    if (mesh.is_border(h))
+      throw geometry::ContentError(body.mesh.string() +
+                                   ": a body with frames must be closed, this one has holes; close them");
+  io::FrameSourceOptions options;
+  if (body.fps > 0) options.fps = body.fps;
+  options.frame = read_options(common);
+  frames_ = io::open_frames(body.frames, mesh.number_of_vertices(), options);
+  if (frames_->frames() < 2)
+    throw geometry::ContentError(body.frames.string() + ": has one frame; motion takes two or more");
+  triangles_ = bridge::triangles_of(mesh);
+  const auto read = [this](int i) { return frames_->positions(static_cast<std::size_t>(i)); };
+  physics::DistanceFieldOptions field = threaded(body.options);
+  if (!field.tolerance) field.tolerance = 0.002;
+  tolerance_ = *field.tolerance;
+  animated_ =
+      std::make_unique<physics::AnimatedBody>(physics::BodyFrames{triangles_, frames_->times(), read}, field);
+}
+
+void WorldBody::add_to(physics::World& world) const {
+  world.collider = rigid_ ? &rigid_->field : nullptr;
+  world.body_motion = motion_;
+  world.animated = animated_.get();
+}
+
+std::vector<physics::Vec3> WorldBody::vertices_at(double time) const {
+  const std::vector<double>& times = frames_->times();
+  const auto next = std::upper_bound(times.begin(), times.end(), time);
+  if (next == times.begin()) return frames_->positions(0);
+  if (next == times.end()) return frames_->positions(times.size() - 1);
+  const auto i = static_cast<std::size_t>(next - times.begin());
+  std::vector<physics::Vec3> x = frames_->positions(i - 1);
+  const std::vector<physics::Vec3> y = frames_->positions(i);
+  const double share = (time - times[i - 1]) / (times[i] - times[i - 1]);
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] += share * (y[k] - x[k]);
+  return x;
+}
+
+physics::Penetration WorldBody::penetration(std::vector<physics::Vec3> points, double time) const {
+  if (animated_) return physics::penetration(physics::ExactDistance({vertices_at(time), triangles_}), points);
+  const physics::Pose pose = physics::pose(motion_, time);
+  if (!physics::at_rest(motion_) || !motion_.keyframes.empty())
+    for (physics::Vec3& x : points) x = pose.to_body(x);
+  return physics::penetration(rigid_->exact, points);
 }
 
 double contact_gap(double wanted, double field_tolerance, const geometry::Mesh& garment) {

@@ -3,7 +3,9 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "io/frame_source.h"
 #include "io/scene.h"
+#include "physics/animated_body.h"
 #include "physics/distance_field.h"
 #include "physics/exact_distance.h"
 
@@ -16,8 +18,35 @@ struct BodyCollider {
   physics::DistanceField field;
 };
 
-/// Reads and repairs a body, and builds its field or loads the saved one. Warns of what was repaired.
+/// Reads and repairs a body, and builds its field or loads the saved one; shows progress. Warns of what was
+/// repaired.
 BodyCollider load_body(const io::SceneBody& body, const CommonArguments& common);
+
+/// A body as a scene has it: rigid, perhaps moved, or changing its shape.
+class WorldBody {
+ public:
+  /// Throws geometry::ContentError for frames that are not those of the mesh, or a mesh of frames that is not
+  /// closed (it cannot be repaired without losing the order of its vertices).
+  WorldBody(const io::SceneBody& body, const CommonArguments& common);
+
+  void add_to(physics::World& world) const;
+  double tolerance() const { return tolerance_; }  ///< of the field [m]
+  /// The body at time 0, in its own frame, by exact distance: rigid bodies only; else null.
+  const physics::ExactDistance* rigid() const { return rigid_ ? &rigid_->exact : nullptr; }
+  /// Of points in the world, at a time, by exact distance.
+  physics::Penetration penetration(std::vector<physics::Vec3> points, double time) const;
+
+ private:
+  void read_frames(const io::SceneBody& body, const CommonArguments& common);
+  std::vector<physics::Vec3> vertices_at(double time) const;
+
+  physics::RigidMotion motion_;
+  double tolerance_ = 0;
+  std::unique_ptr<BodyCollider> rigid_;
+  std::vector<std::array<int, 3>> triangles_;  ///< of the frames
+  std::unique_ptr<io::FrameSource> frames_;
+  std::unique_ptr<physics::AnimatedBody> animated_;
+};
 
 /// The gap that a garment keeps: at least `wanted`, and never less than the sag of a long edge (95th
 /// percentile) over a limb of 5 cm radius plus 1.5 field tolerances, so that faces and edges stay outside

@@ -81,6 +81,10 @@ io::ReadOptions read_options(const CommonArguments& common) {
   return {units().at(unit_of(common)), axis(up_of(common))};
 }
 
+io::WriteOptions write_options(const CommonArguments& common) {
+  return {units().at(unit_of(common)), axis(up_of(common))};
+}
+
 io::MeshFile read_mesh(const std::string& path, const CommonArguments& common) {
   io::MeshFile file = io::read_mesh(path, read_options(common));
   const auto record = io::find_wrinkle_record(file);
@@ -114,7 +118,7 @@ void write_mesh(const io::MeshFile& file, const CommonArguments& common) {
 }
 
 void write_mesh(const std::string& path, const io::MeshFile& file, const CommonArguments& common) {
-  const io::WriteOptions options{units().at(unit_of(common)), axis(up_of(common))};
+  const io::WriteOptions options = write_options(common);
   if (path == "-") {
     io::write_mesh(std::cout, io::MeshFormat::obj, file, options);
     flush_output();

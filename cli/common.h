@@ -31,6 +31,7 @@ struct CommonArguments {
 };
 void add_common_options(CLI::App& sub, CommonArguments& common);
 io::ReadOptions read_options(const CommonArguments& common);
+io::WriteOptions write_options(const CommonArguments& common);
 
 /// Reads a mesh and tells on stderr what was repaired.
 io::MeshFile read_mesh(const std::string& path, const CommonArguments& common);

@@ -7,6 +7,7 @@
 
 #include "bridge/scatter.h"
 #include "cli/body.h"
+#include "cli/frame_recorder.h"
 #include "cli/line_round.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
@@ -53,7 +54,7 @@ class SceneRun {
   }
 
   void load_body_and_pins() {
-    if (scene_.body) body_.emplace(load_body(*scene_.body, common_));
+    if (scene_.body) body_.emplace(*scene_.body, common_);
     if (resumed_ && now_.pins.size() != scene_.pins.size())
       throw UsageError("the state has " + std::to_string(now_.pins.size()) + " sets of pins, the scene " +
                        std::to_string(scene_.pins.size()) + "; go on with the same pins");
@@ -75,6 +76,7 @@ class SceneRun {
         io::read_strokes(lines.strokes, lines.height, read_options(common_));
     leave_out(strokes, lines.without);
     const bool moving = now_.simulation.step > 0;
+    finish_recording();
     if (moving)
       now_ = io::parse_state(io::state_bytes(std::move(now_)), "state");  // as if it had been saved here
     const std::size_t old_count = now_.file.mesh.number_of_vertices();
@@ -134,9 +136,9 @@ class SceneRun {
     pin_cloth(cloth);
     physics::SimulateOptions options = scene_.simulation;
     if (body_)
-      options.contact_gap = gap_ =
-          contact_gap(options.contact_gap, body_->field.report().tolerance, now_.file.mesh);
+      options.contact_gap = gap_ = contact_gap(options.contact_gap, body_->tolerance(), now_.file.mesh);
     if (stop < options.seconds) options.stop_at = stop;
+    if (!scene_.output.animation.empty()) start_recording(cloth, options);
     Progress progress("simulating", common_);
     report_ =
         physics::simulate(cloth, world(), options, &now_.simulation, [&](const physics::SimulateProgress& p) {
@@ -150,13 +152,24 @@ class SceneRun {
     return report_.outcome == physics::Outcome::finished || report_.outcome == physics::Outcome::stopped_at;
   }
 
+  /// A file of positions is of one mesh: after a round of lines another one begins (hang.pc2, hang-2.pc2).
+  void start_recording(const physics::Cloth& cloth, physics::SimulateOptions& options) {
+    options.observe_steps = 20;  // frames are interpolated between two observed times
+    if (recorder_) return;
+    std::filesystem::path path = scene_.output.animation;
+    if (!animations_.empty())
+      path.replace_filename(path.stem().string() + "-" + std::to_string(animations_.size() + 1) +
+                            path.extension().string());
+    recorder_.emplace(
+        path, now_.file.mesh,
+        io::AnimationOptions{scene_.output.fps, now_.simulation.time, write_options(common_), {}});
+    recorder_->observe(now_.simulation.time, cloth.particles.x);
+  }
+
   physics::World world() const {
     physics::World world;
     world.wind = scene_.wind;
-    if (body_) {
-      world.collider = &body_->field;
-      world.body_motion = scene_.body->motion;
-    }
+    if (body_) body_->add_to(world);
     for (std::size_t i = 0; i < now_.pins.size(); ++i)
       if (!physics::at_rest(scene_.pins[i].motion))
         world.pins.push_back({now_.pins[i], scene_.pins[i].motion});
@@ -168,9 +181,9 @@ class SceneRun {
   void pin_cloth(physics::Cloth& cloth) {
     for (const std::vector<int>& pins : now_.pins) {
       physics::pin(cloth.particles, pins);
-      if (!body_ || !started_) continue;
+      if (!body_ || !body_->rigid() || !started_) continue;
       constexpr double kOutside = 1e-6;  // [m], so that rounding leaves none inside
-      const physics::PushOutReport r = physics::push_out(cloth.particles.x, pins, body_->exact, kOutside);
+      const physics::PushOutReport r = physics::push_out(cloth.particles.x, pins, *body_->rigid(), kOutside);
       if (r.moved)
         warn(std::to_string(r.moved) + " pinned vertices were inside the body; moved onto it, by " +
                  std::to_string(1000 * r.farthest) + " mm at most",
@@ -180,11 +193,18 @@ class SceneRun {
     started_ = false;
   }
 
+  void finish_recording() {
+    if (recorder_) animations_.push_back(recorder_->close());
+    recorder_.reset();
+  }
+
   int finish() {
     const bool diverged = report_.outcome == physics::Outcome::diverged;
     if (!diverged) write_outputs();
-    Json json = to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_, body_, gap_);
+    Json json = to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_,
+                        body_ ? &*body_ : nullptr, gap_);
     if (!rounds_.empty()) json["rounds"] = rounds_;
+    if (!animations_.empty()) json["animations"] = animations_;
     json["flags"] = equivalent_flags(io::relocated(document_, folder_, ""));
     print_report(json, common_);
     if (diverged) return tell_divergence();
@@ -204,6 +224,7 @@ class SceneRun {
       if (state.scene.contains("simulation")) state.scene["simulation"].erase("stop_at");
       io::write_state(out.state, std::move(state));
     }
+    finish_recording();
     io::drop_motion(now_.file.mesh);
     if (!out.mesh.empty()) write_mesh(out.mesh.string(), now_.file, common_);
   }
@@ -225,11 +246,12 @@ class SceneRun {
   const CommonArguments& common_;
   io::SavedState now_;
   bool resumed_ = false, started_ = false, stopped_ = false;
-  std::optional<BodyCollider> body_;
+  std::optional<WorldBody> body_;
+  std::optional<FrameRecorder> recorder_;
   double gap_ = 0;
   std::vector<double> heights_;
   physics::SimulateReport report_;
-  Json rounds_ = Json::array();
+  Json rounds_ = Json::array(), animations_ = Json::array();
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "cli/scene_run.h"
 #include "cli/subcommands.h"
 #include "geometry/errors.h"
+#include "io/animation_file.h"
 #include "io/scene_file.h"
 #include "io/state_file.h"
 
@@ -63,6 +64,8 @@ void check_outputs(const io::Scene& scene, const SimulateArguments& a) {
     if (is_scene(a.in)) refuse_same(path.string(), a.in);
     for (const io::SceneLines& lines : scene.lines) refuse_same(path.string(), lines.strokes.string());
   }
+  if (!out.animation.empty() && !io::animation_format(out.animation))
+    throw UsageError(out.animation.string() + ": the ending names no animation; choose pc2, mdd or glb");
   if (!out.state.empty()) {
     if (out.state.extension() != ".ply") throw UsageError(out.state.string() + ": a state is a .ply file");
     check_output(out.state.string());

@@ -54,7 +54,7 @@ std::vector<double> line_heights_by_id(const geometry::Mesh& mesh) {
 }
 
 Json to_json(const physics::SimulateReport& r, const io::MeshFile& file, const io::WrinkleRecord& record,
-             const std::vector<double>& before, const std::optional<BodyCollider>& body, double contact_gap) {
+             const std::vector<double>& before, const WorldBody* body, double contact_gap) {
   Json report{{"outcome", r.outcome == physics::Outcome::finished   ? "finished"
                           : r.outcome == physics::Outcome::diverged ? "diverged"
                                                                     : "interrupted"},
@@ -70,12 +70,13 @@ Json to_json(const physics::SimulateReport& r, const io::MeshFile& file, const i
               {"residual_force", r.residual_force}};
   if (r.outcome == physics::Outcome::diverged) return report;
   if (body) {
-    const physics::Penetration p = physics::penetration(body->exact, bridge::positions_of(file.mesh));
+    const physics::Penetration p = body->penetration(bridge::positions_of(file.mesh), r.time);
     report["contact_gap"] = contact_gap;
     report["contacts"] = r.contacts;
     report["vertices_inside"] = p.inside;
     report["deepest_penetration"] = p.deepest;
     report["truncated_moves"] = r.truncated_moves;
+    if (r.frames_built) report["body_frames"] = {{"built", r.frames_built}, {"seconds", r.frame_seconds}};
   }
   report["self_intersections"] = geometry::count_self_intersections(file.mesh);
   report["borders"] = borders_to_json(file.mesh);

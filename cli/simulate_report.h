@@ -9,7 +9,7 @@ namespace furrow::cli {
 /// What a simulation reached: the work done, strain, rest, penetration by exact distance, self-intersections,
 /// and the height of each line against what it was (`before`, by line id).
 Json to_json(const physics::SimulateReport& report, const io::MeshFile& file, const io::WrinkleRecord& record,
-             const std::vector<double>& before, const std::optional<BodyCollider>& body, double contact_gap);
+             const std::vector<double>& before, const WorldBody* body, double contact_gap);
 
 /// Heights of the lines of a mesh by id; NaN where a line has no vertices [m].
 std::vector<double> line_heights_by_id(const geometry::Mesh& mesh);
