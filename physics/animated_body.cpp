@@ -124,19 +124,24 @@ void AnimatedBody::advance_to(double from, int last) {
   }
 }
 
-Vec3 AnimatedBody::way_at_start(const Vec3& x) const {
-  const ClosestPoint q = first_->exact->closest(x);
-  const auto& t = frames_.triangles[std::size_t(q.triangle)];
-  const std::vector<Vec3>&from = first_->vertices, &to = second_->vertices;
+/// Of a point of a frame's surface.
+Vec3 AnimatedBody::way_of(const ClosestPoint& point, const Frame& frame) const {
+  const auto& t = frames_.triangles[std::size_t(point.triangle)];
   const auto i = std::size_t(t[0]), j = std::size_t(t[1]), k = std::size_t(t[2]);
-  const Vec3 w = weights(q.point, from[i], from[j], from[k]);
+  const Vec3 w = weights(point.point, frame.vertices[i], frame.vertices[j], frame.vertices[k]);
+  const std::vector<Vec3>&from = first_->vertices, &to = second_->vertices;
   return w[0] * (to[i] - from[i]) + w[1] * (to[j] - from[j]) + w[2] * (to[k] - from[k]);
 }
 
 Vec3 AnimatedBody::way(const Vec3& x) const {
   if (longest_way_ == 0) return Vec3::Zero();
-  const Vec3 u = way_at_start(x);
-  return fraction_ * longest_way_ < small_shift ? u : way_at_start(x - fraction_ * u);
+  const bool is_early = fraction_ < 0.5;
+  const Frame& frame = is_early ? *first_ : *second_;
+  const double shift = is_early ? -fraction_ : 1 - fraction_;  // share of the way from now to that frame
+  const ClosestPoint q = frame.exact->closest(x);
+  const Vec3 u = way_of(q, frame);
+  if (std::abs(shift) * longest_way_ < small_shift) return u;
+  return way_of(frame.exact->closest(x + shift * u, q.triangle), frame);
 }
 
 SignedDistance AnimatedBody::at(const Vec3& x) const { return at(x, way(x)); }

@@ -27,7 +27,9 @@ struct BodyFrames {
 /// time between them, the distance is
 ///   (1 - s) F0(x - s u) + s F1(x + (1 - s) u):
 /// blended linearly, along with the surface, so that it is exact where the surface only shifts, however far.
-/// (Blending at a fixed x thins a limb of radius r that shifts by its diameter to nothing.)
+/// (Blending at a fixed x thins a limb of radius r that shifts by its diameter to nothing.) "Next to x" is
+/// found in the frame that is nearer in time; where parts that move differently lie about equally near, the
+/// distance may be off by a part of the difference of their ways: give frames closer in time there.
 class AnimatedBody : public Collider {
  public:
   /// Nothing is read yet. Throws std::invalid_argument if times or triangles are broken.
@@ -61,7 +63,7 @@ class AnimatedBody : public Collider {
   void enter(int interval);
   void advance_to(double from, int last);
   void build(Frame& frame);
-  Vec3 way_at_start(const Vec3& x) const;
+  Vec3 way_of(const ClosestPoint& point, const Frame& frame) const;
 
   BodyFrames frames_;
   DistanceFieldOptions options_;

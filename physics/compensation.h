@@ -8,7 +8,9 @@ namespace furrow::physics {
 
 /// Forces that keep a cloth from jumping when its springs were changed under strain: applied as
 ///   -force exp(-(t - start) / time_constant),
-/// forgotten when the factor falls below 1e-9. geometry.md's and decisions' "no-pop" rule.
+/// forgotten when the factor falls below 1e-9. Springs along a line that splits an edge do not pull as the
+/// edge did, whatever their rest lengths (unlike a membrane's triangles), so an insertion under strain jumps
+/// without it.
 struct Compensation {
   std::vector<Vec3> force;     ///< one a particle [N]; empty: none
   double start = 0;            ///< [s]

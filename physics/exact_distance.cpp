@@ -53,6 +53,7 @@ ExactDistance::Sample ExactDistance::sample(const Vec3& x, const Vec3& y, const 
 }
 
 ClosestPoint ExactDistance::closest(const Vec3& x) const { return parts_->bvh.closest(x); }
+ClosestPoint ExactDistance::closest(const Vec3& x, int guess) const { return parts_->bvh.closest(x, guess); }
 double ExactDistance::winding_number(const Vec3& x) const { return parts_->sides.winding_number(x); }
 const SignReport& ExactDistance::report() const { return parts_->sides.report(); }
 double ExactDistance::diagonal() const { return parts_->diagonal; }

@@ -31,6 +31,7 @@ class ExactDistance : public Collider {
   Sample sample(const Vec3& x, const Vec3& y, const Sample& at_y) const;
 
   ClosestPoint closest(const Vec3& x) const;
+  ClosestPoint closest(const Vec3& x, int guess) const;  ///< faster if the triangle `guess` is near x
   double winding_number(const Vec3& x) const;
   const SignReport& report() const;
   double diagonal() const;   ///< of the bounding box [m]
