@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes the small inputs of this folder: make_meshes FOLDER writes FOLDER/sheet.obj and
-// FOLDER/strokes/sheet.json.
+// Makes the inputs of this folder: make_meshes FOLDER writes sheet.obj, mannequin.obj, shirt.obj, skirt.obj
+// and strokes/sheet.json into FOLDER.
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +13,8 @@
 #include <string>
 
 #include "geometry/sheet.h"
+#include "meshes/garments.h"
+#include "meshes/mannequin.h"
 
 namespace {
 
@@ -49,6 +51,26 @@ std::string obj(const Mesh& mesh, const std::string& comment) {
     out += "\n";
   }
   return out;
+}
+
+/// To 10 micrometres, which is finer than any tool needs.
+void round_positions(Mesh& mesh) {
+  const auto to_grid = [](double x) { return std::round(x * 1e5) / 1e5; };
+  for (Vertex v : mesh.vertices()) {
+    const Point p = mesh.point(v);
+    mesh.point(v) = {to_grid(p.x()), to_grid(p.y()), to_grid(p.z())};
+  }
+}
+
+void make_figure(const std::filesystem::path& folder) {
+  const auto save = [&](const char* name, Mesh mesh, const char* comment) {
+    round_positions(mesh);
+    write(folder / name, obj(mesh, std::string(comment) + "; metres, y up, made by make_meshes"));
+  };
+  save("mannequin.obj", furrow::meshes::make_mannequin(),
+       "a woman of 1.70 m who looks along +z, arms away from the body");
+  save("shirt.obj", furrow::meshes::make_shirt(), "T-shirt for mannequin.obj");
+  save("skirt.obj", furrow::meshes::make_skirt(), "flared skirt for mannequin.obj");
 }
 
 /// Points every `spacing` metres on the way from a to b, both included.
@@ -93,6 +115,7 @@ int main(int argc, char** argv) {
   try {
     if (argc != 2) throw std::invalid_argument("usage: make_meshes FOLDER");
     make(argv[1]);
+    make_figure(argv[1]);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+cmake_minimum_required(VERSION 3.25)
+# Runs PROGRAM and compares what it writes into OUTPUT with the files in COMMITTED, byte for byte.
+file(REMOVE_RECURSE ${OUTPUT})
+execute_process(COMMAND ${PROGRAM} ${OUTPUT} COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB_RECURSE made RELATIVE ${OUTPUT} ${OUTPUT}/*)
+list(LENGTH made count)
+if(count LESS 5)
+  message(FATAL_ERROR "only ${count} files were made")
+endif()
+foreach(name ${made})
+  file(SHA256 ${OUTPUT}/${name} new)
+  file(SHA256 ${COMMITTED}/${name} old)
+  if(NOT new STREQUAL old)
+    message(FATAL_ERROR "${name} is not what make_meshes writes")
+  endif()
+endforeach()
+message(STATUS "${count} files are what make_meshes writes")
