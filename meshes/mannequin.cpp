@@ -78,7 +78,7 @@ double arm_and_hand(const Vec& p) {
 double head(const Vec& p) {
   const double skull = ellipsoid(p, {0, 1.608, -0.008}, {0.073, 0.092, 0.092});
   const double face = ellipsoid(p, {0, 1.555, 0.028}, {0.054, 0.074, 0.058});
-  const double nose = round_cone(p, {0, 1.600, 0.080}, {0, 1.568, 0.094}, 0.007, 0.010);
+  const double nose = round_cone(p, {0, 1.600, 0.080}, {0, 1.568, 0.098}, 0.008, 0.011);
   const double lips = round_cone(p, {-0.012, 1.537, 0.079}, {0.012, 1.537, 0.079}, 0.008, 0.008);
   const double chin = ellipsoid(p, {0, 1.498, 0.055}, {0.024, 0.018, 0.022});
   double d = smooth_union(skull, face, 0.03);
@@ -120,7 +120,7 @@ double mannequin(const Vec& p) {
 }
 
 geometry::Mesh make_mannequin() {
-  geometry::Mesh mesh = mesh_surface(mannequin, {0, 1, 0}, 1.2, {.radius = 0.0155, .distance = 0.001});
+  geometry::Mesh mesh = mesh_surface(mannequin, {-0.62, -0.02, -0.2}, {0.62, 1.74, 0.22}, 0.0176);
   stand_on_ground(mesh);
   return mesh;
 }

@@ -50,7 +50,7 @@ double from_hole(const Vec& p) {  // > 0: cloth
 
 geometry::Mesh make_shirt() {
   geometry::Mesh mesh =
-      cut(mesh_surface(inside_of_shirt, {0, 1.1, 0}, 0.8, {.radius = 0.008, .distance = 0.0008}), from_hole);
+      cut(mesh_surface(inside_of_shirt, {-0.45, 0.80, -0.25}, {0.45, 1.60, 0.25}, 0.010), from_hole);
   remesh(mesh, 0.014);
   return mesh;
 }

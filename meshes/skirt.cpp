@@ -25,7 +25,7 @@ const Loft kSkirt({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1},
 }  // namespace
 
 geometry::Mesh make_skirt() {
-  const geometry::Mesh tube = mesh_surface(kSkirt, {0, 0.8, 0}, 0.6, {.radius = 0.009, .distance = 0.0008});
+  const geometry::Mesh tube = mesh_surface(kSkirt, {-0.3, 0.42, -0.3}, {0.3, 1.14, 0.3}, 0.010);
   geometry::Mesh mesh = cut(tube, [](const Vec& p) { return std::min(p.y() - kHem, kWaist - p.y()); });
   remesh(mesh, 0.0145);
   return mesh;

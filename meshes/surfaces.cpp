@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/surfaces.h"
 
-#include <CGAL/Complex_2_in_triangulation_3.h>
-#include <CGAL/IO/facets_in_complex_2_to_triangle_mesh.h>
-#include <CGAL/Implicit_surface_3.h>
-#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
-#include <CGAL/Random.h>
-#include <CGAL/Surface_mesh_default_triangulation_3.h>
-#include <CGAL/make_surface_mesh.h>
 
 #include <algorithm>
 #include <limits>
@@ -19,12 +12,9 @@
 namespace furrow::meshes {
 namespace {
 
-using geometry::Face;
 using geometry::Mesh;
 using geometry::Point;
 using geometry::Vertex;
-using Triangulation = CGAL::Surface_mesh_default_triangulation_3;
-using Traits = Triangulation::Geom_traits;
 
 Vec vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -37,7 +27,7 @@ class Cutter {
   }
 
   Mesh cut() {
-    for (Face f : mesh_.faces()) {
+    for (geometry::Face f : mesh_.faces()) {
       std::vector<Vertex> polygon;
       for (auto h : mesh_.halfedges_around_face(mesh_.halfedge(f))) {
         const Vertex a = mesh_.source(h), b = mesh_.target(h);
@@ -56,8 +46,8 @@ class Cutter {
   }
   Vertex crossing(Vertex a, Vertex b) {
     if (b < a) std::swap(a, b);
-    const auto [at, isNew] = crossings_.try_emplace({a, b});
-    if (isNew) {
+    const auto [at, is_new] = crossings_.try_emplace({a, b});
+    if (is_new) {
       const double fa = value_[a.idx()], fb = value_[b.idx()];
       at->second = out_.add_vertex(mesh_.point(a) + fa / (fa - fb) * (mesh_.point(b) - mesh_.point(a)));
     }
@@ -70,6 +60,22 @@ class Cutter {
   std::map<std::pair<Vertex, Vertex>, Vertex> crossings_;
   Mesh out_;
 };
+
+/// Moves the vertices onto the surface by Newton's steps along the gradient.
+void settle(Mesh& mesh, const Solid& solid) {
+  constexpr double kStep = 1e-5;  // of the differences [m]
+  for (int step = 0; step < 4; ++step)
+    for (Vertex v : mesh.vertices()) {
+      const Vec p = vec(mesh.point(v));
+      Vec gradient;
+      for (int k = 0; k < 3; ++k) {
+        const Vec e = kStep * Vec::Unit(k);
+        gradient[k] = (solid(p + e) - solid(p - e)) / (2 * kStep);
+      }
+      const Vec q = p - solid(p) / gradient.squaredNorm() * gradient;
+      mesh.point(v) = {q.x(), q.y(), q.z()};
+    }
+}
 
 /// Slides the vertices of the borders along them: CGAL splits and collapses border edges, but leaves the rest
 /// where it was.
@@ -86,35 +92,18 @@ void space_borders_evenly(Mesh& mesh) {
 
 }  // namespace
 
-Mesh mesh_surface(const Solid& solid, const Vec& center, double reach, const SurfaceOptions& options) {
-  CGAL::get_default_random() = CGAL::Random(1);  // it chooses the first points
-  Triangulation triangulation;
-  CGAL::Complex_2_in_triangulation_3<Triangulation> complex(triangulation);
-  const auto function = [&](const Traits::Point_3& p) { return solid({p.x(), p.y(), p.z()}); };
-  const Traits::Sphere_3 ball({center.x(), center.y(), center.z()}, reach * reach);
-  const CGAL::Implicit_surface_3<Traits> surface(function, ball, 1e-7);
-  const CGAL::Surface_mesh_default_criteria_3<Triangulation> criteria(25, options.radius, options.distance);
-  CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_tag(), 50);
-  CGAL::Surface_mesh<Traits::Point_3> exact;
-  CGAL::facets_in_complex_2_to_triangle_mesh(complex, exact);
-  Mesh mesh;
-  for (auto v : exact.vertices())
-    mesh.add_vertex({exact.point(v).x(), exact.point(v).y(), exact.point(v).z()});
-  for (auto f : exact.faces()) {
-    std::vector<Vertex> corners;
-    for (auto v : exact.vertices_around_face(exact.halfedge(f))) corners.emplace_back(v.idx());
-    mesh.add_face(corners);
-  }
-  if (!CGAL::Polygon_mesh_processing::is_outward_oriented(mesh))
-    CGAL::Polygon_mesh_processing::reverse_face_orientations(mesh);
+Mesh mesh_surface(const Solid& solid, const Vec& low, const Vec& high, double edge) {
+  Mesh mesh = march(solid, low, high, 0.7 * edge);
+  remesh(mesh, edge, 1);
+  settle(mesh, solid);
   return mesh;
 }
 
 Mesh cut(const Mesh& mesh, const Solid& keep) { return Cutter(mesh, keep).cut(); }
 
-void remesh(Mesh& mesh, double edge) {
+void remesh(Mesh& mesh, double edge, int rounds) {
   namespace pmp = CGAL::Polygon_mesh_processing;
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     pmp::isotropic_remeshing(mesh.faces(), edge, mesh,
                              pmp::parameters::number_of_iterations(3).number_of_relaxation_steps(3));
     mesh.collect_garbage();

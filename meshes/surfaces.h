@@ -1,31 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <functional>
-
 #include "geometry/mesh.h"
-#include "meshes/implicit_shapes.h"
+#include "meshes/marching.h"
 
 /// From functions of a point to triangles. The same input gives the same mesh.
 namespace furrow::meshes {
 
-using Solid = std::function<double(const Vec&)>;  ///< < 0 inside
-
-struct SurfaceOptions {
-  double radius = 0.012;    ///< largest circumradius of a triangle [m]
-  double distance = 0.001;  ///< largest distance of its circumcentre from the surface [m]
-};
-
-/// The surface of a solid by Delaunay refinement (CGAL's Surface_mesher; Boissonnat & Oudot 2005): closed,
-/// wound outward, no angle below 25 degrees. The ball around `center`, a point inside, of `reach` [m] must
-/// hold it all.
-geometry::Mesh mesh_surface(const Solid& solid, const Vec& center, double reach,
-                            const SurfaceOptions& options);
+/// The surface of a solid in triangles of about this edge [m], closed, wound outward: marching tetrahedra,
+/// remeshed, each vertex moved onto the surface. The box from `low` to `high` must hold it all.
+geometry::Mesh mesh_surface(const Solid& solid, const Vec& low, const Vec& high, double edge);
 
 /// Where `keep` > 0; triangles that its zero crosses are cut, the cut being straight in each of them.
 geometry::Mesh cut(const geometry::Mesh& mesh, const Solid& keep);
 
 /// Triangles of about this edge [m] on the same surface; the borders stay the curves that they are.
-void remesh(geometry::Mesh& mesh, double edge);
+void remesh(geometry::Mesh& mesh, double edge, int rounds = 3);
 
 /// Moves the mesh upwards or downwards until its lowest vertex is at y = 0.
 void stand_on_ground(geometry::Mesh& mesh);
