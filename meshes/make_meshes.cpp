@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes the inputs of this folder: make_meshes FOLDER writes sheet.obj, mannequin.obj, shirt.obj, skirt.obj
-// and strokes/sheet.json into FOLDER.
+// Makes the inputs of this folder: make_meshes FOLDER writes FOLDER/*.obj and FOLDER/strokes/*.json.
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include "geometry/sheet.h"
 #include "meshes/garments.h"
 #include "meshes/mannequin.h"
+#include "meshes/panelled.h"
 
 namespace {
 
@@ -94,6 +94,12 @@ json ring(const Point& center, double radius, int n) {
   return points;
 }
 
+void write_strokes(const std::filesystem::path& path, const json& strokes) {
+  std::string content = "{\"strokes\": [\n";
+  for (const json& stroke : strokes) content += stroke.dump() + (&stroke == &strokes.back() ? "\n" : ",\n");
+  write(path, content + "]}\n");
+}
+
 void make(const std::filesystem::path& folder) {
   write(folder / "sheet.obj",
         obj(furrow::geometry::equilateral_sheet(1, 1, 0.02),
@@ -103,10 +109,9 @@ void make(const std::filesystem::path& folder) {
       {{"name", "ridge"}, {"height", 0.02}, {"points", segment({-0.36, 0.86, 0}, {-0.06, 0.46, 0}, 0.005)}},
       {{"name", "valley"}, {"height", -0.02}, {"points", segment({0.36, 0.86, 0}, {0.06, 0.46, 0}, 0.005)}},
       {{"name", "ring"}, {"height", 0.03}, {"closed", true}, {"points", ring({0, 0.22, 0}, 0.12, 150)}}};
-  std::string text_of_strokes = "{\"strokes\": [\n";
-  for (const json& stroke : strokes)
-    text_of_strokes += stroke.dump() + (&stroke == &strokes.back() ? "\n" : ",\n");
-  write(folder / "strokes" / "sheet.json", text_of_strokes + "]}\n");
+  write_strokes(folder / "strokes" / "sheet.json", strokes);
+  write(folder / "panelled.obj", furrow::meshes::panelled_obj());
+  write_strokes(folder / "strokes" / "panelled.json", furrow::meshes::panelled_strokes());
 }
 
 }  // namespace
