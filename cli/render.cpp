@@ -9,6 +9,7 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
+#include "io/checker_texture.h"
 #include "io/render_scene.h"
 #include "io/strip.h"
 #include "io/stroke_file.h"
@@ -19,8 +20,8 @@ namespace {
 
 struct RenderArguments : CommonArguments {
   std::vector<std::string> meshes;
-  std::string body, strokes, size = "1200,1200", view = "three-quarter", eye, target, captions,
-                             quality = "normal";
+  std::string texture, body, strokes, size = "1200,1200", view = "three-quarter", eye, target, captions,
+                                      quality = "normal";
   double field_of_view = io::View{}.field_of_view_deg;
   bool strip = false, no_lines = false;
 };
@@ -37,9 +38,15 @@ io::Position position(const std::string& text, const std::string& option) {
   return {x[0], x[1], x[2]};
 }
 
-void add_garment(io::RenderScene& scene, const std::string& path, const RenderArguments& a) {
+std::shared_ptr<const io::Image> read_texture(const std::string& name) {
+  if (name.empty()) return nullptr;
+  return std::make_shared<io::Image>(name == "checker" ? io::checker_texture() : io::read_png(name));
+}
+
+void add_garment(io::RenderScene& scene, const std::string& path,
+                 const std::shared_ptr<const io::Image>& texture, const RenderArguments& a) {
   const io::MeshFile file = read_mesh(path, a);
-  scene.meshes.push_back(io::render_mesh_from(file.mesh));
+  scene.meshes.push_back(io::render_mesh_from(file.mesh, io::Style::cloth, texture));
   if (a.no_lines) return;
   std::vector<double> heights;
   if (const auto record = io::find_wrinkle_record(file))
@@ -52,7 +59,9 @@ void add_garment(io::RenderScene& scene, const std::string& path, const RenderAr
 /// in each.
 std::vector<io::RenderScene> scenes(const RenderArguments& a) {
   std::vector<io::RenderScene> list(a.strip ? a.meshes.size() : 1);
-  for (std::size_t i = 0; i < a.meshes.size(); ++i) add_garment(list[a.strip ? i : 0], a.meshes[i], a);
+  const auto texture = read_texture(a.texture);
+  for (std::size_t i = 0; i < a.meshes.size(); ++i)
+    add_garment(list[a.strip ? i : 0], a.meshes[i], texture, a);
   if (!a.body.empty()) {
     io::RenderMesh body = io::render_mesh_from(read_mesh(a.body, a).mesh, io::Style::body);
     body.colour = io::kBodyColour;
@@ -131,6 +140,7 @@ void add_render(CLI::App& app) {
       "  furrow render --strip a.obj b.ply c.ply --captions drawn,smoothed,hung -o strip.png");
   sub->add_option("meshes", a->meshes, "garments to show; ridges are red, valleys blue")->required();
   sub->add_option("-o,--output", a->out, "PNG to write")->required();
+  sub->add_option("--texture", a->texture, "PNG to lay on the garments, or checker: numbered squares");
   sub->add_option("--body", a->body, "a body to show with them");
   sub->add_option("--strokes", a->strokes, "strokes to draw on the first garment");
   sub->add_flag("--no-lines", a->no_lines, "leave out the lines that the garments carry");

@@ -143,6 +143,7 @@ class SceneRun {
     report_ =
         physics::simulate(cloth, world(), options, &now_.simulation, [&](const physics::SimulateProgress& p) {
           progress.show(p.time / scene_.simulation.seconds);
+          if (recorder_) recorder_->observe(p.time, cloth.particles.x);
           return !interrupted();
         });
     bridge::scatter(cloth.particles, now_.file.mesh);

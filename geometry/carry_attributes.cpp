@@ -17,8 +17,6 @@ SavedAttributes::SavedAttributes(const Mesh& mesh) : old_vertices_(mesh.number_o
     if (group) group_.push_back((*group)[f]);
     if (material) material_.push_back((*material)[f]);
   }
-  if (const auto color = find_map(mesh, kColor))
-    for (Vertex v : mesh.vertices()) color_.push_back((*color)[v]);
 }
 
 std::size_t SavedAttributes::corner(Face face, Vertex v) const {
@@ -41,7 +39,7 @@ void SavedAttributes::restore(Mesh& mesh, const std::function<Face(Face)>& paren
                               const std::function<Origin(Vertex, Face)>& origin) const {
   const auto texture = find_map(mesh, kTexture);
   const auto group = find_map(mesh, kGroup), material = find_map(mesh, kMaterial);
-  const auto color = find_map(mesh, kColor);
+  const VertexBlend blend(mesh);
   if (texture)
     for (Halfedge h : mesh.halfedges()) (*texture)[h] = kTexture.default_value;
   for (Face f : mesh.faces()) {
@@ -52,12 +50,7 @@ void SavedAttributes::restore(Mesh& mesh, const std::function<Face(Face)>& paren
       const Vertex v = mesh.target(h);
       const Origin at = origin(v, from);
       if (texture) (*texture)[h] = texture_at(at);
-      if (!color || v.idx() < old_vertices_) continue;
-      Color sum{0, 0, 0, 0};
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 4; ++k)
-          sum[k] += at.weights[i] * color_[corners_[at.face.idx()][i].idx()][k];
-      (*color)[v] = sum;
+      if (v.idx() >= old_vertices_) blend.set(v, corners_[at.face.idx()], at.weights);
     }
   }
 }

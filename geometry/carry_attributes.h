@@ -7,6 +7,7 @@
 
 #include "geometry/mesh.h"
 #include "geometry/property_names.h"
+#include "geometry/vertex_attributes.h"
 
 namespace furrow::geometry {
 
@@ -16,7 +17,8 @@ struct Origin {
   std::array<double, 3> weights{0, 0, 0};  ///< sum 1
 };
 
-/// Texture coordinates, groups, materials and colours of a mesh before its faces are replaced by finer ones.
+/// Texture coordinates, groups and materials of a mesh before its faces are replaced by finer ones. What its
+/// vertices carry (VertexBlend) stays with the old vertices meanwhile.
 /// Triangles only, no removed elements.
 class SavedAttributes {
  public:
@@ -35,7 +37,6 @@ class SavedAttributes {
   std::vector<std::array<Vertex, 3>> corners_;
   std::vector<std::array<TextureCoordinate, 3>> texture_;  // empty: the mesh has none; the same below
   std::vector<int> group_, material_;
-  std::vector<Color> color_;
 };
 
 /// Rest lengths, bending springs and masses of the whole mesh become unset, where the mesh has such maps.

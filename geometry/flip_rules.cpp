@@ -18,6 +18,14 @@ bool convex(const MeshEditor& editor, Edge edge, double least_part) {
   return areas[0] > 0 && areas[1] > 0 && areas[0] >= least && areas[1] >= least;  // false for NaN
 }
 
+/// Whether the flip keeps the texture's triangles the right way round; where they are not now, it may.
+bool convex_in_texture(const MeshEditor& editor, Edge edge) {
+  const auto areas = editor.texture_areas(edge);
+  if (!areas || !((*areas)[0] * (*areas)[1] > 0)) return true;  // none, NaN, folded or flat already
+  const double whole = (*areas)[0] + (*areas)[1];
+  return (*areas)[2] / whole >= kLeastArea && (*areas)[3] / whole >= kLeastArea;
+}
+
 }  // namespace
 
 std::optional<Refusal> refusal_of_flip(const MeshEditor& editor, Edge edge, const InsertionOptions& options) {
@@ -32,7 +40,7 @@ std::optional<Refusal> refusal_of_flip(const MeshEditor& editor, Edge edge, cons
   if (editor.line_edge()[edge]) return Refusal::line_edge;
   if (editor.is_seam(edge)) return Refusal::seam;
   if (duplicate) return Refusal::duplicate_edge;
-  if (!convex(editor, edge, kLeastArea)) return Refusal::not_convex;
+  if (!convex(editor, edge, kLeastArea) || !convex_in_texture(editor, edge)) return Refusal::not_convex;
   if (too_few_edges_left(mesh, a) || too_few_edges_left(mesh, b)) return Refusal::valence;
   if (options.may_flip && !options.may_flip({mesh.point(a), mesh.point(b), mesh.point(c), mesh.point(d)})) {
     return Refusal::layer;

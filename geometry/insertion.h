@@ -20,7 +20,7 @@ enum class Refusal {
   seam,            ///< texture coordinates, group or material differ across it
   line_edge,       ///< an edge of a drawn line
   duplicate_edge,  ///< the flipped edge exists already
-  not_convex,      ///< the flip would fold a face over in the rest metric
+  not_convex,      ///< the flip would fold a face over in the rest metric or in the texture chart
   valence,         ///< a vertex would keep fewer than three edges (two on the border)
   layer,           ///< InsertionOptions::may_flip said no
   quality,         ///< the flip led to an angle below min_angle_deg: the line goes through a corner instead

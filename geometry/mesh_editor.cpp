@@ -9,12 +9,27 @@
 namespace furrow::geometry {
 namespace {
 
-TextureCoordinate blend(const std::array<TextureCoordinate, 3>& corners, const Barycentrics& weights) {
+TextureCoordinate blend_corners(const std::array<TextureCoordinate, 3>& corners,
+                                const Barycentrics& weights) {
   TextureCoordinate result{};
   for (int k = 0; k < 2; ++k) {
     result[k] = weights[0] * corners[0][k] + weights[1] * corners[1][k] + weights[2] * corners[2][k];
   }
   return result;
+}
+
+/// Rest positions of a mesh that no line was drawn on yet are its positions.
+Mesh& with_rest_positions(Mesh& mesh) {
+  auto rest = ensure_map(mesh, kRestPosition);
+  for (Vertex v : mesh.vertices()) {
+    const Point& p = mesh.point(v);
+    if (std::isnan(rest[v][0])) rest[v] = {p.x(), p.y(), p.z()};
+  }
+  return mesh;
+}
+
+double cross(const TextureCoordinate& o, const TextureCoordinate& p, const TextureCoordinate& q) {
+  return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
 }
 
 bool same(const TextureCoordinate& a, const TextureCoordinate& b) {
@@ -31,8 +46,7 @@ MeshEditor::MeshEditor(Mesh& mesh)
       line_edge_(ensure_map(mesh, kLineEdge)),
       generation_(ensure_map(mesh, kGeneration)),
       texture_(find_map(mesh, kTexture)),
-      color_(find_map(mesh, kColor)),
-      velocity_(find_map(mesh, kVelocity)),
+      blend_(with_rest_positions(mesh)),
       group_(find_map(mesh, kGroup)),
       material_(find_map(mesh, kMaterial)),
       bending_(find_map(mesh, kBendingRestLength)),
@@ -57,21 +71,6 @@ void MeshEditor::unset_springs(Edge edge) {
   if (bending_count_) (*bending_count_)[edge] = 0;
 }
 
-void MeshEditor::interpolate(Vertex vertex, const std::array<Vertex, 3>& corners,
-                             const Barycentrics& weights) {
-  if (velocity_) {
-    Vector sum(0, 0, 0);
-    for (int i = 0; i < 3; ++i) sum += weights[i] * (*velocity_)[corners[i]];
-    (*velocity_)[vertex] = sum;
-  }
-  if (!color_) return;
-  Color sum{};
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 4; ++k) sum[k] += weights[i] * (*color_)[corners[i]][k];
-  }
-  (*color_)[vertex] = sum;
-}
-
 Vertex MeshEditor::split_face(const FacePoint& point) {
   const Point position = position_of(mesh_, point);
   const auto corners = corners_of(mesh_, point.face);
@@ -85,7 +84,7 @@ Vertex MeshEditor::split_face(const FacePoint& point) {
   const Halfedge in = CGAL::Euler::add_center_vertex(mesh_.halfedge(point.face), mesh_);
   const Vertex centre = mesh_.target(in);
   mesh_.point(centre) = position;
-  interpolate(centre, corners, point.barycentrics);
+  blend_.set(centre, corners, point.barycentrics);
   for (int i = 0; i < 3; ++i) {
     // The part on side i: corner i, corner i + 1, centre.
     const Halfedge to_centre = mesh_.next(sides[i]), from_centre = mesh_.next(to_centre);
@@ -95,7 +94,7 @@ Vertex MeshEditor::split_face(const FacePoint& point) {
     unset_springs(mesh_.edge(sides[i]));
     copy_face(point.face, mesh_.face(sides[i]));
     if (!texture_) continue;
-    (*texture_)[to_centre] = blend(texture, point.barycentrics);
+    (*texture_)[to_centre] = blend_corners(texture, point.barycentrics);
     (*texture_)[from_centre] = texture[i];
   }
   return centre;
@@ -125,7 +124,7 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
       CGAL::Euler::split_edge(halfedge, mesh_);  // a to the new vertex; halfedge goes on to b
   const Vertex middle = mesh_.target(first);
   mesh_.point(middle) = position;
-  interpolate(middle, {a, b, b}, {1 - t, t, 0});
+  blend_.set(middle, {a, b, b}, {1 - t, t, 0});
   rest_[mesh_.edge(first)] = t * length;
   rest_[mesh_.edge(halfedge)] = (1 - t) * length;
   for (Halfedge part : {first, halfedge}) {
@@ -155,7 +154,7 @@ void MeshEditor::split_side(Halfedge to_middle, double spoke_length, const std::
       unset_springs(mesh_.edge(h));
       if (!texture_) continue;
       const Vertex v = mesh_.target(h);
-      if (v == middle) (*texture_)[h] = blend({texture[0], texture[1], texture[1]}, {1 - t, t, 0});
+      if (v == middle) (*texture_)[h] = blend_corners({texture[0], texture[1], texture[1]}, {1 - t, t, 0});
       if (v == apex) (*texture_)[h] = texture[2];
       if (v == ends[0]) (*texture_)[h] = texture[0];
       if (v == ends[1]) (*texture_)[h] = texture[1];
@@ -191,6 +190,14 @@ bool MeshEditor::is_seam(Edge edge) const {
   if (material_ && (*material_)[f] != (*material_)[g]) return true;
   return texture_ && !(same((*texture_)[h], (*texture_)[mesh_.prev(o)]) &&
                        same((*texture_)[o], (*texture_)[mesh_.prev(h)]));
+}
+
+std::optional<std::array<double, 4>> MeshEditor::texture_areas(Edge edge) const {
+  if (!texture_) return std::nullopt;
+  const Halfedge h = mesh_.halfedge(edge), o = mesh_.opposite(h);
+  const TextureCoordinate &a = (*texture_)[o], &b = (*texture_)[h], &c = (*texture_)[mesh_.next(h)],
+                          &d = (*texture_)[mesh_.next(o)];
+  return std::array{cross(a, b, c), cross(b, a, d), cross(a, d, c), cross(d, b, c)};
 }
 
 std::optional<Edge> MeshEditor::edge_between(Vertex a, Vertex b) const {

@@ -5,17 +5,19 @@
 #include <vector>
 
 #include "geometry/rest_metric.h"
+#include "geometry/vertex_attributes.h"
 
 namespace furrow::geometry {
 
 /// The three local operators of insertion on a triangle mesh. Each sets, beside the half-edges, the position,
 /// the rest lengths and every other map of property_names.h that the mesh has: corner texture coordinates,
-/// colours and velocities are interpolated, groups and materials copied; masses and bending springs of what
-/// changed become unset (their own operations compute them anew). Other maps get their defaults. Each
-/// operator is O(valence).
+/// colours, rest positions and attributes of vertices are interpolated, groups and materials copied; masses
+/// and bending springs of what changed become unset (their own operations compute them anew). Other maps get
+/// their defaults. Each operator is O(valence).
 class MeshEditor {
  public:
-  /// Adds the maps for rest lengths (in-space lengths where unset), lines, line edges and generations.
+  /// Adds the maps for rest lengths (in-space lengths where unset), rest positions (positions where unset),
+  /// lines, line edges and generations.
   explicit MeshEditor(Mesh& mesh);
 
   /// Splits a face in three at a point strictly inside.
@@ -34,6 +36,10 @@ class MeshEditor {
   const FaceMap<int>& generation() const { return generation_; }
   /// Texture coordinates, group or material differ across this inner edge (NaN equals NaN).
   bool is_seam(Edge edge) const;
+  /// Areas in the texture chart of the two faces of an inner edge that is no seam, and of the two that a flip
+  /// would make, twice each, signed: (a, b, c), (b, a, d), (a, d, c), (d, b, c). None: the mesh has no
+  /// texture.
+  std::optional<std::array<double, 4>> texture_areas(Edge edge) const;
   /// The edge that joins two vertices.
   std::optional<Edge> edge_between(Vertex a, Vertex b) const;
   /// Faces that are new or have other corners than before; ascending.
@@ -45,7 +51,6 @@ class MeshEditor {
                   const std::array<TextureCoordinate, 3>& texture, double t);
   void copy_face(Face from, Face to);
   void unset_springs(Edge edge);
-  void interpolate(Vertex vertex, const std::array<Vertex, 3>& corners, const Barycentrics& weights);
 
   Mesh& mesh_;
   EdgeMap<double> rest_;
@@ -53,8 +58,7 @@ class MeshEditor {
   EdgeMap<bool> line_edge_;
   FaceMap<int> generation_;
   std::optional<HalfedgeMap<TextureCoordinate>> texture_;
-  std::optional<VertexMap<Color>> color_;
-  std::optional<VertexMap<Vector>> velocity_;
+  VertexBlend blend_;
   std::optional<FaceMap<int>> group_, material_;
   std::optional<EdgeMap<double>> bending_;
   std::optional<EdgeMap<int>> bending_count_;

@@ -22,6 +22,7 @@ struct PropertyName {
 inline constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
 using TextureCoordinate = std::array<double, 2>;  ///< (u, v); NaN = none
 using Color = std::array<double, 4>;              ///< red, green, blue, alpha in [0, 1]
+using RestPosition = std::array<double, 3>;       ///< x, y, z [m]; NaN = not known
 
 /// Line that a vertex belongs to: the index of its stroke, -1 = none.
 inline constexpr PropertyName<Vertex, int> kLine{"v:line", -1};
@@ -35,9 +36,14 @@ inline const PropertyName<Vertex, Vector> kForceJump{"v:force_jump", {0, 0, 0}};
 inline const PropertyName<Vertex, Vector> kContactPoint{"v:contact_point", {0, 0, 0}};
 inline constexpr PropertyName<Vertex, double> kContactLevel{"v:contact_level", kUnset};
 inline constexpr PropertyName<Vertex, Color> kColor{"v:color", {1, 1, 1, 1}};
+/// Where a vertex lay before lines, pose and motion: on the surface of the mesh that the first line was drawn
+/// on. Insertion sets it where it is unset and gives new vertices the interpolated one; nothing moves it.
+inline constexpr PropertyName<Vertex, RestPosition> kRestPosition{"v:rest_position",
+                                                                  {kUnset, kUnset, kUnset}};
 /// Rest length of the structural spring on an edge [m].
 inline constexpr PropertyName<Edge, double> kRestLength{"e:rest_length", kUnset};
-/// Rest length of the bending spring that joins the two vertices opposite an edge [m]; NaN = this edge has none.
+/// Rest length of the bending spring that joins the two vertices opposite an edge [m]; NaN = this edge has
+/// none.
 inline constexpr PropertyName<Edge, double> kBendingRestLength{"e:bending_rest_length", kUnset};
 /// How many edges share the bending spring of this one (two hinges with one vertex pair); 0 = no spring.
 inline constexpr PropertyName<Edge, int> kBendingCount{"e:bending_count", 0};

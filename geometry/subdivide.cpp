@@ -36,6 +36,23 @@ class KeepIsolated : public Mask {
   const Mesh& mesh_;
 };
 
+/// The mask of no smoothing: mid-points, and old vertices where they are.
+class MidpointMask : public CGAL::PQQ_stencil_3<Mesh, PointMap> {
+ public:
+  explicit MidpointMask(Mesh& mesh) : PQQ_stencil_3(&mesh, mesh.points()), mesh_(mesh) {}
+  void edge_node(Halfedge h, Point& p) {
+    p = CGAL::midpoint(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)));
+  }
+  void vertex_node(Vertex v, Point& p) { p = mesh_.point(v); }
+  void border_node(Halfedge h, Point& on_edge, Point& at_target) {
+    edge_node(h, on_edge);
+    at_target = mesh_.point(mesh_.target(h));
+  }
+
+ private:
+  const Mesh& mesh_;
+};
+
 void check(Mesh& mesh, int steps, int faces_per_face, const char* operation) {
   if (steps < 0 || steps > 6)
     throw std::invalid_argument(std::string(operation) + ": steps is " + std::to_string(steps) +
@@ -65,7 +82,14 @@ void carry_lines(Mesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& old_e
   }
 }
 
-void loop_step(Mesh& mesh) {
+/// A face keeps its index for one of its four parts; the other three are appended, face by face.
+Face old_parent(Face f, std::size_t old_faces) {
+  return f.idx() < old_faces ? f : Face(static_cast<Face::size_type>((f.idx() - old_faces) / 3));
+}
+
+/// A step of a mask that keeps the topology of Loop's scheme.
+template <class Mask>
+void quadrisect(Mesh& mesh) {
   const SavedAttributes saved(mesh);
   const std::size_t old_vertices = mesh.number_of_vertices(), old_faces = mesh.number_of_faces();
   std::vector<std::pair<Vertex, Vertex>> ends;  // CGAL appends the mid-points in the order of the edges
@@ -75,17 +99,14 @@ void loop_step(Mesh& mesh) {
     ends.emplace_back(mesh.vertex(e, 0), mesh.vertex(e, 1));
     was_line_edge.push_back(line_edge && (*line_edge)[e]);
   }
-  KeepIsolated<CGAL::Loop_mask_3<Mesh, PointMap>> mask(mesh);
+  Mask mask(mesh);
   cgal::PTQ(mesh, mask, CGAL::parameters::number_of_iterations(1));
-  // A face keeps its index for one of its four parts; the other three are appended, face by face.
-  const auto parent = [&](Face f) {
-    return f.idx() < old_faces ? f : Face(static_cast<Face::size_type>((f.idx() - old_faces) / 3));
-  };
+  const auto parent = [&](Face f) { return old_parent(f, old_faces); };
   const auto origin = [&](Vertex v, Face in) {
     Origin at{in};
     const auto [a, b] = v.idx() < old_vertices ? std::pair(v, v) : ends[v.idx() - old_vertices];
     if (saved.corner(in, a) == 3 || saved.corner(in, b) == 3)
-      throw std::logic_error("loop_subdivide: CGAL numbers its faces in an unknown way");
+      throw std::logic_error("subdivide: CGAL numbers its faces in an unknown way");
     at.weights[saved.corner(in, a)] += 0.5;
     at.weights[saved.corner(in, b)] += 0.5;
     return at;
@@ -146,8 +167,22 @@ void sqrt3_step(Mesh& mesh, bool refine_border) {
 
 void loop_subdivide(Mesh& mesh, int steps) {
   check(mesh, steps, 4, "loop_subdivide");
-  for (int i = 0; i < steps; ++i) loop_step(mesh);
+  for (int i = 0; i < steps; ++i) quadrisect<KeepIsolated<CGAL::Loop_mask_3<Mesh, PointMap>>>(mesh);
   if (steps > 0) unset_rest_state(mesh);
+}
+
+std::vector<Face> midpoint_subdivide(Mesh& mesh, int steps) {
+  check(mesh, steps, 4, "midpoint_subdivide");
+  mesh.collect_garbage();
+  std::vector<Face> parents(mesh.faces().begin(), mesh.faces().end());
+  for (int i = 0; i < steps; ++i) {
+    const std::size_t old_faces = parents.size();
+    quadrisect<MidpointMask>(mesh);
+    for (std::size_t f = old_faces; f < mesh.number_of_faces(); ++f)
+      parents.push_back(parents[old_parent(Face(static_cast<Face::size_type>(f)), old_faces).idx()]);
+  }
+  if (steps > 0) unset_rest_state(mesh);
+  return parents;
 }
 
 void sqrt3_subdivide(Mesh& mesh, int steps) {

@@ -8,6 +8,7 @@
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
 #include <cmath>
+#include <map>
 
 #include "geometry/errors.h"
 #include "io/bytes_file.h"
@@ -41,6 +42,7 @@ class SceneReader {
     const auto is_none = [](const TextureCoordinate& t) { return std::isnan(t[0]); };
     if (std::ranges::all_of(out_.soup.textures, is_none)) out_.soup.textures.clear();
     if (!has_colors_) out_.soup.colors.clear();
+    for (SoupAttribute& weights : out_.soup.attributes) weights.values.resize(out_.soup.points.size(), 0);
     return std::move(out_);
   }
 
@@ -55,6 +57,7 @@ class SceneReader {
       if (node.mMeshes[i] >= scene_.mNumMeshes) throw ContentError("a node names a mesh that is not there");
       const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
       const std::vector<std::size_t> points = read_points(mesh, transform, numbers, base);
+      read_weights(mesh, points);
       read_faces(mesh, points, group, mirrored);
     }
   }
@@ -81,6 +84,34 @@ class SceneReader {
       has_colors_ = true;
     }
     return points;
+  }
+
+  /// A skin's joints become attributes "weight_<joint>"; of points merged into one, the first with weights
+  /// counts. (The positions are those of the bind pose.)
+  void read_weights(const aiMesh& mesh, const std::vector<std::size_t>& points) {
+    std::map<std::size_t, unsigned> taken_from;
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+      const aiBone& bone = *mesh.mBones[b];
+      std::string name = std::string("weight_") + bone.mName.C_Str();
+      for (char& c : name)
+        if (static_cast<unsigned char>(c) <= ' ') c = '_';
+      std::vector<double>& values = weights_of(name);
+      for (unsigned i = 0; i < bone.mNumWeights; ++i) {
+        const aiVertexWeight& weight = bone.mWeights[i];
+        if (weight.mVertexId >= points.size() || !(weight.mWeight >= 0) || std::isinf(weight.mWeight))
+          throw ContentError("joint " + name + " has a weight that cannot be used; repair the file");
+        const std::size_t point = points[weight.mVertexId];
+        if (taken_from.emplace(point, weight.mVertexId).first->second != weight.mVertexId) continue;
+        values.resize(std::max(values.size(), point + 1), 0);
+        values[point] = weight.mWeight;
+      }
+    }
+  }
+
+  std::vector<double>& weights_of(const std::string& name) {
+    for (SoupAttribute& attribute : out_.soup.attributes)
+      if (attribute.name == name) return attribute.values;
+    return out_.soup.attributes.emplace_back(SoupAttribute{name, {}}).values;
   }
 
   void read_faces(const aiMesh& mesh, const std::vector<std::size_t>& points, int group, bool mirrored) {

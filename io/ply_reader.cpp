@@ -59,8 +59,7 @@ class PlyReader {
   void warn_of_unknown(const PlyElement& element, std::initializer_list<std::string_view> known) {
     std::string names;
     for (const PlyProperty& p : element.properties)
-      if (std::find(known.begin(), known.end(), p.name) == known.end() &&
-          !(is_state() && std::ranges::count(PlyMotion::names(), p.name)))
+      if (std::find(known.begin(), known.end(), p.name) == known.end())
         names += (names.empty() ? "" : ", ") + p.name;
     if (!names.empty())
       file_.warnings.push_back(name_ + ": properties of '" + element.name + "' not read: " + names);
@@ -83,10 +82,10 @@ class PlyReader {
     const std::array<Column, 2> st = {number(element, {"s", "u", "texture_u"}),
                                       number(element, {"t", "v", "texture_v"})};
     const Column line = number(element, {"line"}), mass = number(element, {"mass"});
-    warn_of_unknown(element,
-                    {"x", "y", "z", "nx", "ny", "nz", "red", "green",     "blue",      "alpha", "r",
-                     "g", "b", "a", "s",  "t",  "u",  "v",   "texture_u", "texture_v", "line",  "mass"});
     if (is_state()) motion_.set_columns(element);
+    const std::array<Column, 3> rest = {number(element, {"rest_x"}), number(element, {"rest_y"}),
+                                        number(element, {"rest_z"})};
+    const std::vector<std::size_t> others = attribute_columns(element);
     if (!xyz[0] || !xyz[1] || !xyz[2]) rows_.fail("the vertices have no x, y and z");
     for (std::size_t i = 0; i < element.count; ++i) {
       rows_.read(element, i, row_);
@@ -99,7 +98,41 @@ class PlyReader {
       if (line) soup_.lines.push_back(whole(n[*line], "line"));
       if (mass) soup_.masses.push_back(checked_mass(n[*mass]));
       motion_.add(row_, rows_);
+      if (rest[0] && rest[1] && rest[2])
+        soup_.rest_positions.push_back(rest_position(n[*rest[0]], n[*rest[1]], n[*rest[2]]));
+      for (std::size_t k = 0; k < others.size(); ++k) soup_.attributes[k].values.push_back(n[others[k]]);
     }
+  }
+
+  /// Numbers at vertices that we have no use for are kept under their names (vertex_attributes.h); normals
+  /// and lists are not.
+  std::vector<std::size_t> attribute_columns(const PlyElement& element) {
+    constexpr std::array kKnown = {"x",     "y",      "z",      "nx",    "ny",        "nz",        "red",
+                                   "green", "blue",   "alpha",  "r",     "g",         "b",         "a",
+                                   "s",     "t",      "u",      "v",     "texture_u", "texture_v", "line",
+                                   "mass",  "rest_x", "rest_y", "rest_z"};
+    std::vector<std::size_t> columns;
+    std::string lists;
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& p = element.properties[i];
+      if (std::ranges::find(kKnown, p.name) != kKnown.end()) continue;
+      if (is_state() && std::ranges::count(PlyMotion::names(), p.name)) continue;
+      if (p.count_type) {
+        lists += (lists.empty() ? "" : ", ") + p.name;
+      } else if (std::ranges::none_of(soup_.attributes, [&](const auto& a) { return a.name == p.name; })) {
+        columns.push_back(i);
+        soup_.attributes.push_back({p.name, {}});
+      }
+    }
+    if (!lists.empty()) file_.warnings.push_back(name_ + ": lists of 'vertex' not read: " + lists);
+    return columns;
+  }
+
+  RestPosition rest_position(double x, double y, double z) const {
+    if (std::isnan(x) && std::isnan(y) && std::isnan(z)) return kRestPosition.default_value;
+    const auto point = from_file(x, y, z, options_);
+    if (!point) rows_.fail(std::string("a rest position: ") + kBadCoordinate);
+    return {point->x(), point->y(), point->z()};
   }
 
   Color color(const PlyElement& element, const std::array<Column, 4>& rgba) const {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "geometry/property_names.h"
+#include "geometry/vertex_attributes.h"
 #include "io/mesh_writers.h"
 #include "io/number_text.h"
 #include "io/ply_motion.h"
@@ -25,6 +26,8 @@ class PlyWriter {
         colors_(find_map(mesh_, kColor)),
         lines_(find_map(mesh_, kLine)),
         masses_(find_map(mesh_, kMass)),
+        rest_positions_(find_map(mesh_, kRestPosition)),
+        attributes_(vertex_attributes(mesh_)),
         textures_(find_map(mesh_, kTexture)),
         groups_(find_map(mesh_, kGroup)),
         materials_(find_map(mesh_, kMaterial)),
@@ -83,6 +86,9 @@ class PlyWriter {
     if (lines_) out_ += "property int line\n";
     if (masses_) out_ += "property double mass\n";
     out_ += ply_motion_header(mesh_);
+    if (rest_positions_) out_ += "property double rest_x\nproperty double rest_y\nproperty double rest_z\n";
+    for (const VertexAttribute& attribute : attributes_)
+      out_ += "property double " + one_line(attribute.name) + "\n";
     declare("face", mesh_.number_of_faces());
     out_ += "property list uchar int vertex_indices\n";
     if (textures_) out_ += "property list uchar double texcoord\n";
@@ -110,7 +116,14 @@ class PlyWriter {
       if (lines_) put(static_cast<std::int32_t>((*lines_)[v]));
       if (masses_) put((*masses_)[v]);
       put_ply_motion(mesh_, v, [&](double x) { put(x); });
+      if (rest_positions_) put_rest_position((*rest_positions_)[v]);
+      for (const VertexAttribute& attribute : attributes_) put(attribute.values[v]);
     }
+  }
+
+  void put_rest_position(const RestPosition& p) {
+    const Vector v = to_file({p[0], p[1], p[2]}, options_);
+    for (int k = 0; k < 3; ++k) put(v[k]);
   }
 
   void write_faces() {
@@ -157,6 +170,8 @@ class PlyWriter {
   std::optional<VertexMap<Color>> colors_;
   std::optional<VertexMap<int>> lines_;
   std::optional<VertexMap<double>> masses_;
+  std::optional<VertexMap<RestPosition>> rest_positions_;
+  std::vector<VertexAttribute> attributes_;
   std::optional<HalfedgeMap<TextureCoordinate>> textures_;
   std::optional<FaceMap<int>> groups_, materials_, generations_;
   std::optional<EdgeMap<double>> rest_lengths_, bending_rest_lengths_;

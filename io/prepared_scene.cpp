@@ -37,6 +37,17 @@ void check_colour(const Colour& colour, const std::string& owner) {
   }
 }
 
+void check_texture(const RenderMesh& mesh, const std::string& owner) {
+  if (!mesh.texture) return;
+  const Image& image = *mesh.texture;
+  const std::size_t pixels = std::size_t(std::max(image.width, 0)) * std::size_t(std::max(image.height, 0));
+  if (pixels == 0 || image.rgb.size() != 3 * pixels)
+    refuse(owner + ": the pixels of its texture do not match its sides");
+  if (mesh.texture_coordinates.size() != mesh.triangles.size())
+    refuse(owner + ": texture coordinates of " + std::to_string(mesh.texture_coordinates.size()) +
+           " triangles for " + std::to_string(mesh.triangles.size()));
+}
+
 void check_mesh(const RenderMesh& mesh, const std::string& owner) {
   if (mesh.vertices.empty() || mesh.triangles.empty()) refuse(owner + " is empty: no triangles to draw");
   check_positions(mesh.vertices, owner);
@@ -52,6 +63,7 @@ void check_mesh(const RenderMesh& mesh, const std::string& owner) {
     refuse(owner + ": " + std::to_string(mesh.vertex_colours.size()) + " colours for " +
            std::to_string(count) + " vertices");
   }
+  check_texture(mesh, owner);
   check_colour(mesh.colour, owner);
   for (const Colour& colour : mesh.vertex_colours) check_colour(colour, owner);
 }
@@ -125,12 +137,15 @@ PreparedMesh prepare_mesh(const RenderMesh& mesh, const Frame& frame) {
   result.style = mesh.style;
   for (const Position& p : mesh.vertices) result.vertices.push_back(frame(p));
   result.normals.assign(mesh.vertices.size(), Vector3d::Zero());
-  for (const auto& t : mesh.triangles) {
+  result.texture = mesh.texture;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
     const Vector3d a = result.vertices[t[1]] - result.vertices[t[0]];
     const Vector3d b = result.vertices[t[2]] - result.vertices[t[0]];
     const Vector3d cross = a.cross(b);
     if (!(cross.norm() > 1e-15)) continue;  // degenerate: no normal, nothing to see
     result.triangles.push_back(t);
+    if (mesh.texture) result.texture_coordinates.push_back(mesh.texture_coordinates[i]);
     add_normals(t, cross.normalized(), result);
   }
   for (Vector3d& n : result.normals) n = n.norm() > 1e-6 ? Vector3d(n.normalized()) : Vector3d(0, 0, 0);

@@ -18,6 +18,8 @@ struct PreparedMesh {
   /// How much the surface bulges at a vertex: towards 1 on a sharp ridge, −1 in a sharp valley, ±0.5 on a
   /// fold whose radius is 1/100 of the scene's diagonal. Cloth only, else empty.
   std::vector<double> bulges;
+  std::shared_ptr<const Image> texture;                                   ///< none, or with coordinates
+  std::vector<std::array<std::array<double, 2>, 3>> texture_coordinates;  ///< one a triangle
   Style style = Style::cloth;
 };
 

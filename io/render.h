@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -27,6 +28,11 @@ struct RenderMesh {
   std::vector<std::array<int, 3>> triangles;  ///< at least one; indices into vertices; ccw from outside
   Colour colour = kClothColour;
   std::vector<Colour> vertex_colours;  ///< empty, or one for each vertex: then `colour` is not used
+  /// Seen in place of the colours, where a triangle has texture coordinates.
+  std::shared_ptr<const Image> texture;
+  /// Empty, or for each triangle and corner (u, v), NaN for none: (0, 0) is the lower left corner of the
+  /// texture, (1, 1) the upper right one; beyond them it repeats.
+  std::vector<std::array<std::array<double, 2>, 3>> texture_coordinates;
   Style style = Style::cloth;
   bool framed = true;  ///< the automatic camera holds it in the picture
 };

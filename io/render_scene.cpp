@@ -54,9 +54,13 @@ std::vector<Edge> line_edges(const Mesh& mesh) {
 
 }  // namespace
 
-RenderMesh render_mesh_from(const Mesh& mesh, Style style) {
+RenderMesh render_mesh_from(const Mesh& mesh, Style style, std::shared_ptr<const Image> texture) {
+  const auto coordinates = geometry::find_map(mesh, geometry::kTexture);
+  if (texture && !coordinates)
+    throw geometry::ContentError("the mesh has no texture coordinates to lay a texture on with");
   RenderMesh result;
   result.style = style;
+  result.texture = std::move(texture);
   result.colour = style == Style::cloth ? kClothColour : kBodyColour;
   std::vector<int> index(mesh.num_vertices(), 0);
   const auto colour = geometry::find_map(mesh, geometry::kColor);
@@ -78,6 +82,9 @@ RenderMesh render_mesh_from(const Mesh& mesh, Style style) {
     }
     result.triangles.push_back(
         {index[mesh.source(h)], index[mesh.target(h)], index[mesh.target(mesh.next(h))]});
+    if (result.texture)
+      result.texture_coordinates.push_back(
+          {(*coordinates)[mesh.prev(h)], (*coordinates)[h], (*coordinates)[mesh.next(h)]});
   }
   return result;
 }

@@ -18,7 +18,9 @@ struct LineColours {
 /// The faces of a mesh to be drawn; vertices removed but not yet collected are left out.
 /// With the map v:color, where any vertex has a colour other than white, the vertices keep their colours.
 /// Throws geometry::ContentError if a face is no triangle.
-RenderMesh render_mesh_from(const geometry::Mesh& mesh, Style style = Style::cloth);
+/// A texture is laid on by the mesh's texture coordinates; ContentError if it has none.
+RenderMesh render_mesh_from(const geometry::Mesh& mesh, Style style = Style::cloth,
+                            std::shared_ptr<const Image> texture = nullptr);
 
 /// The lines that a mesh carries, one piece an edge, ordered by edge. A line edge is one of e:line_edge;
 /// without this map, an edge whose ends lie on one line (v:line), except the longest side of a triangle whose

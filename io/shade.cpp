@@ -57,6 +57,38 @@ Vector3d raised_point(const Vector3d& p, const std::array<Vector3d, 3>& corners,
   return raised;
 }
 
+/// Linear light of a texture at (u, v), between the middles of its pixels.
+Vector3d texel(const Image& image, double u, double v) {
+  static const std::array<double, 256> light = [] {
+    std::array<double, 256> table;
+    for (int i = 0; i < 256; ++i) table[i] = linear_light(i / 255.0);
+    return table;
+  }();
+  const double x = (u - std::floor(u)) * image.width - 0.5,
+               y = (1 - (v - std::floor(v))) * image.height - 0.5;
+  const int column = int(std::floor(x)), row = int(std::floor(y));
+  Vector3d sum = Vector3d::Zero();
+  for (int k = 0; k < 4; ++k) {
+    const int i = (column + k % 2 + image.width) % image.width,
+              j = (row + k / 2 + image.height) % image.height;
+    const double weight = (k % 2 ? x - column : column + 1 - x) * (k / 2 ? y - row : row + 1 - y);
+    const std::uint8_t* rgb = &image.rgb[3 * (std::size_t(j) * image.width + i)];
+    sum += weight * Vector3d(light[rgb[0]], light[rgb[1]], light[rgb[2]]);
+  }
+  return sum;
+}
+
+/// The texture's colour at a hit, or `colour` where the triangle has no coordinates.
+Vector3d painted(const PreparedMesh& mesh, const SurfaceHit& hit, const std::array<double, 3>& weights,
+                 const Vector3d& colour) {
+  if (!mesh.texture) return colour;
+  double uv[2] = {0, 0};
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 2; ++k) uv[k] += weights[i] * mesh.texture_coordinates[hit.triangle][i][k];
+  constexpr double kMost = 1e6;  // squares from the first; false for NaN
+  return std::abs(uv[0]) < kMost && std::abs(uv[1]) < kMost ? texel(*mesh.texture, uv[0], uv[1]) : colour;
+}
+
 /// What is seen at a hit, turned to the eye.
 struct Seen {
   Vector3d point, normal, colour;
@@ -79,6 +111,7 @@ Seen see(const PreparedMesh& mesh, const SurfaceHit& hit, const Vector3d& direct
     smooth += weights[i] * normals[i];
     colour += weights[i] * mesh.colours[mesh.colours.size() == 1 ? 0 : t[i]];
   }
+  colour = painted(mesh, hit, weights, colour);
   if (mesh.style == Style::cloth) {
     double bulge = 0;
     for (int i = 0; i < 3; ++i) bulge += weights[i] * mesh.bulges[t[i]];

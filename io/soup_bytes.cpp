@@ -72,6 +72,8 @@ void check(const SoupFile& file) {
   if (!fits(s.colors.size(), s.points.size()) || !fits(s.textures.size(), s.corners.size()) ||
       !fits(s.groups.size(), s.faces()) || !fits(s.materials.size(), s.faces()))
     fail();
+  if (std::ranges::any_of(s.attributes, [&](const auto& a) { return a.values.size() != s.points.size(); }))
+    fail();
   if (std::ranges::any_of(s.corners, [&](std::size_t c) { return c >= s.points.size(); })) fail();
   for (const Point& p : s.points)
     if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) fail();
@@ -85,11 +87,15 @@ std::string to_bytes(const SoupFile& file) {
   for (const Point& p : file.soup.points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
   put(bytes, coordinates);
   put(bytes, file.soup.colors);
+  std::vector<std::string> names;
+  for (const SoupAttribute& attribute : file.soup.attributes) names.push_back(attribute.name);
+  put(bytes, names);
   put(bytes, file.soup.first_corner);
   put(bytes, file.soup.corners);
   put(bytes, file.soup.textures);
   put(bytes, file.soup.groups);
   put(bytes, file.soup.materials);
+  for (const SoupAttribute& attribute : file.soup.attributes) put(bytes, attribute.values);
   put(bytes, file.group_names);
   put(bytes, file.material_names);
   put(bytes, file.warnings);
@@ -104,11 +110,15 @@ SoupFile soup_from_bytes(std::string_view bytes) {
   std::vector<std::size_t> merged;
   in.get(coordinates);
   in.get(file.soup.colors);
+  std::vector<std::string> names;
+  in.get(names);
+  for (std::string& name : names) file.soup.attributes.push_back({std::move(name), {}});
   in.get(file.soup.first_corner);
   in.get(file.soup.corners);
   in.get(file.soup.textures);
   in.get(file.soup.groups);
   in.get(file.soup.materials);
+  for (SoupAttribute& attribute : file.soup.attributes) in.get(attribute.values);
   in.get(file.group_names);
   in.get(file.material_names);
   in.get(file.warnings);

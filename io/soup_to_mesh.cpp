@@ -6,6 +6,7 @@
 #include <span>
 
 #include "geometry/errors.h"
+#include "geometry/vertex_attributes.h"
 #include "io/make_manifold.h"
 #include "io/triangulate_polygon.h"
 
@@ -115,6 +116,11 @@ void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& ou
   fill_vertex_map(out, kColor, soup.colors);
   fill_vertex_map(out, kLine, soup.lines);
   fill_vertex_map(out, kMass, soup.masses);
+  fill_vertex_map(out, kRestPosition, soup.rest_positions);
+  for (const SoupAttribute& attribute : soup.attributes) {
+    auto values = ensure_vertex_attribute(out.mesh, attribute.name);
+    for (const Vertex v : out.mesh.vertices()) values[v] = attribute.values[out.origin[v]];
+  }
   Mesh& mesh = out.mesh;
   if (!soup.groups.empty()) {
     auto groups = ensure_map(mesh, kGroup);
