@@ -14,6 +14,9 @@ void add_wrinkle(CLI::App& app);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_sdf(CLI::App& app);
 void add_render(CLI::App& app);
+void add_transfer(CLI::App& app);
+/// Sets exit_code where the run was interrupted.
+void add_bake(CLI::App& app, int& exit_code);
 
 /// The program's version and those of the libraries that it was built with.
 std::string version_text();

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/max_weights.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_reports.h"
 #include "geometry/bending_springs.h"
@@ -18,7 +19,8 @@ namespace {
 struct SubdivideArguments : CommonArguments {
   std::string in, strokes, rule = "safe";
   bool all = false;
-  int loop = 0, sqrt3 = 0;
+  int loop = 0, sqrt3 = 0, linear = 0;
+  std::optional<int> max_weights;
   geometry::InsertionOptions options;
 };
 
@@ -47,8 +49,8 @@ Json insert_everywhere(geometry::Mesh& mesh, const SubdivideArguments& a) {
 }
 
 void subdivide(SubdivideArguments a) {
-  if (!a.strokes.empty() + a.all + (a.loop > 0) + (a.sqrt3 > 0) != 1)
-    throw UsageError("subdivide takes one of --strokes, --all, --loop and --sqrt3");
+  if (!a.strokes.empty() + a.all + (a.loop > 0) + (a.sqrt3 > 0) + (a.linear > 0) != 1)
+    throw UsageError("subdivide takes one of --strokes, --all, --loop, --sqrt3 and --linear");
   a.options.rule = a.rule == "paper" ? geometry::InsertionRule::paper : geometry::InsertionRule::safe;
   check_output(a.out);
   io::MeshFile file = read_mesh(a.in, a);
@@ -57,6 +59,8 @@ void subdivide(SubdivideArguments a) {
   if (a.all) report = insert_everywhere(file.mesh, a);
   if (a.loop > 0) geometry::loop_subdivide(file.mesh, a.loop);
   if (a.sqrt3 > 0) geometry::sqrt3_subdivide(file.mesh, a.sqrt3);
+  if (a.linear > 0) geometry::midpoint_subdivide(file.mesh, a.linear);
+  if (a.max_weights) geometry::normalize_skin_weights(file.mesh, *a.max_weights);
   write_mesh(file, a);
   report["vertices"] = file.mesh.number_of_vertices();
   report["faces"] = file.mesh.number_of_faces();
@@ -80,6 +84,9 @@ void add_subdivide(CLI::App& app) {
   sub->add_flag("--all", a->all, "insert a vertex in every face and flip every edge");
   sub->add_option("--loop", a->loop, "steps of Loop subdivision")->check(CLI::Range(0, 6));
   sub->add_option("--sqrt3", a->sqrt3, "steps of sqrt(3) subdivision")->check(CLI::Range(0, 6));
+  sub->add_option("--linear", a->linear, "steps of cutting every triangle into four; the surface stays")
+      ->check(CLI::Range(0, 6));
+  add_max_weights(*sub, a->max_weights);
   sub->add_option("--rule", a->rule, "safe or paper, for --strokes and --all")
       ->check(CLI::IsMember({"safe", "paper"}))
       ->capture_default_str();

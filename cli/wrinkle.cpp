@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/max_weights.h"
 #include "cli/smoothing_options.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_reports.h"
@@ -19,6 +20,7 @@ struct WrinkleArguments : CommonArguments {
   double height = geometry::Stroke{}.height;
   std::string rule = "safe", rest = "drawn", region = "two-ring";
   std::optional<double> density;
+  std::optional<int> max_weights;
   geometry::WrinkleOptions options;
   SmoothingArguments smoothing;
 };
@@ -88,6 +90,7 @@ void wrinkle(const WrinkleArguments& a) {
   };
   const geometry::WrinkleReport report = geometry::wrinkle(file.mesh, strokes, options, keep_stage);
   for (const std::string& w : report.insertion.warnings) warn(w, a);
+  if (a.max_weights) geometry::normalize_skin_weights(file.mesh, *a.max_weights);
   set_wrinkle_record(file, record_of(a, options, earlier, report));
   write_mesh(file, a);
   const Json json = to_json(report, file.mesh, options.first_line);
@@ -115,6 +118,7 @@ void add_options(CLI::App& sub, WrinkleArguments& a) {
       ->check(CLI::IsMember({"two-ring", "whole-mesh"}))
       ->capture_default_str();
   sub.add_option("--density", a.density, "mass of the cloth [kg/m^2]; default that of the file, else 0.15");
+  add_max_weights(sub, a.max_weights);
   sub.add_option("--inserted", a.inserted, "also write the mesh after insertion and before smoothing");
 }
 

@@ -18,6 +18,20 @@ struct Image {
 /// write.
 void write_png(const std::filesystem::path& path, const Image& image);
 
+/// A picture of three numbers a pixel that are no colours: displacements, normals.
+struct Image16 {
+  int width = 0;                   ///< [pixels]
+  int height = 0;                  ///< [pixels]
+  std::vector<std::uint16_t> rgb;  ///< 3 · width · height values; rows from the top, pixels from the left
+};
+
+/// Writes and reads PNG of 16 bits a channel; the numbers are stored as they are, without any gamma or
+/// colour space. Writing: atomically, errors as in the 8-bit write_png. Reading: alpha is left out; throws
+/// geometry::ContentError also for a PNG of fewer bits or without three colours, whose numbers would be
+/// coarser than they seem.
+void write_png(const std::filesystem::path& path, const Image16& image);
+Image16 read_png16(const std::filesystem::path& path);
+
 /// Reads a PNG of any kind; transparent pixels lie on white. Throws geometry::ContentError if the file cannot
 /// be read as one, or if it has more than 100 million pixels.
 Image read_png(const std::filesystem::path& path);

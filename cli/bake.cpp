@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/subcommands.h"
+#include "geometry/apply_displacement.h"
+#include "geometry/bake_maps.h"
+#include "geometry/project_onto_surface.h"
+#include "geometry/subdivide.h"
+#include "geometry/surface_deviation.h"
+#include "io/baked_maps.h"
+
+namespace furrow::cli {
+namespace {
+
+using geometry::Face;
+using geometry::Mesh;
+
+struct BakeArguments : CommonArguments {
+  std::string low, high, applied;
+  int check = -1;
+  geometry::BakeOptions options;
+};
+
+constexpr double kMoved = 1e-4;  // from the low surface: such faces are reported as wrinkled [m]
+
+std::vector<Face> faces_away_from(const Mesh& mesh, const Mesh& low) {
+  const geometry::SurfaceProjector surface(low);
+  std::vector<Face> faces;
+  for (Face f : mesh.faces())
+    for (geometry::Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+      if (surface.closest(mesh.point(v)).distance > kMoved) {
+        faces.push_back(f);
+        break;
+      }
+  return faces;
+}
+
+Json to_json(const geometry::SurfaceDeviation& d) {
+  return {{"median", d.median}, {"p95", d.p95}, {"max", d.largest}, {"area", d.area}};
+}
+
+/// Reads the maps back from their files, applies them, and measures how well they tell the high mesh.
+Json check(const io::MeshFile& low, const Mesh& high, const io::BakedFiles& files, const BakeArguments& a) {
+  io::MeshFile applied = low;
+  geometry::apply_displacement(applied.mesh, io::read_displacement(files.record), a.check);
+  if (!a.applied.empty()) write_mesh(a.applied, applied, a);
+  Json report{{"vertices", applied.mesh.number_of_vertices()},
+              {"to_high", to_json(geometry::surface_deviation(applied.mesh, high))},
+              {"from_high", to_json(geometry::surface_deviation(high, applied.mesh))}};
+  const std::vector<Face> ours = faces_away_from(applied.mesh, low.mesh),
+                          theirs = faces_away_from(high, low.mesh);
+  if (!ours.empty())
+    report["wrinkled_to_high"] = to_json(geometry::surface_deviation(applied.mesh, high, ours));
+  if (!theirs.empty())
+    report["wrinkled_from_high"] = to_json(geometry::surface_deviation(high, applied.mesh, theirs));
+  return report;
+}
+
+void bake(const BakeArguments& a, int& exit_code) {
+  if (a.out == "-") throw UsageError("-o: maps need a prefix for their names");
+  const std::filesystem::path folder = std::filesystem::path(a.out).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw std::runtime_error(a.out + ": cannot be written, there is no folder " + folder.string() +
+                             "; make it first");
+  if (!a.applied.empty() && a.check < 0) throw UsageError("--applied goes with --check");
+  if (!a.applied.empty()) check_output(a.applied);
+  const io::MeshFile low = read_mesh(a.low, a), high = read_mesh(a.high, a);
+  catch_interrupts();
+  std::optional<geometry::BakedMaps> maps;
+  {
+    Progress progress("baking", a);
+    maps = geometry::bake_maps(low.mesh, high.mesh, a.options, [&](double share) {
+      progress.show(share);
+      return !interrupted();
+    });
+  }
+  if (!maps) {
+    exit_code = kInterrupted;
+    return warn("interrupted; nothing is written", a);
+  }
+  if (maps->overlapping > 0)
+    warn(a.low + ": " + std::to_string(maps->overlapping) +
+             " texels lie in two faces; charts that overlap cannot both be right",
+         a);
+  const io::BakedFiles files = io::write_baked_maps(a.out, *maps);
+  Json report{{"size", a.options.size},
+              {"covered_texels", maps->covered},
+              {"unmatched_texels", maps->unmatched},
+              {"overlapping_texels", maps->overlapping},
+              {"largest_displacement", maps->largest}};
+  if (a.check >= 0) report["check"] = check(low, high.mesh, files, a);
+  report["written"] = {files.displacement.string(), files.normal.string(), files.record.string()};
+  print_report(report, a);
+}
+
+}  // namespace
+
+void add_bake(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<BakeArguments>();
+  CLI::App* sub = app.add_subcommand(
+      "bake",
+      "Bake a wrinkled mesh into textures of the mesh it was made of\n\n"
+      "Writes PREFIX_normal.png, PREFIX_displacement.png (16 bits, tangent space) and PREFIX_maps.json.\n\n"
+      "  furrow bake shirt.obj worn.ply -o shirt --size 2048");
+  sub->add_option("low", a->low, "mesh that the maps are for; its texture charts must not overlap")
+      ->required();
+  sub->add_option("high", a->high, "wrinkled mesh with the same charts, in the same pose")->required();
+  sub->add_option("-o,--output", a->out, "what the names of the files begin with")->required();
+  sub->add_option("--size", a->options.size, "width and height of the maps [texels]")
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str();
+  sub->add_option("--padding", a->options.padding, "how far the charts go on beyond their borders [texels]")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  sub->add_option("--check", a->check,
+                  "apply the written map to the low mesh cut so many times into four, and report the "
+                  "distances between the result and the high mesh [m]")
+      ->check(CLI::Range(0, 6));
+  sub->add_option("--applied", a->applied, "mesh to write the result of --check to");
+  add_common_options(*sub, *a);
+  sub->callback([a, &exit_code] { bake(*a, exit_code); });
+}
+
+}  // namespace furrow::cli
