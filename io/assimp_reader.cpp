@@ -89,7 +89,6 @@ class SceneReader {
   /// A skin's joints become attributes "weight_<joint>"; of points merged into one, the first with weights
   /// counts. (The positions are those of the bind pose.)
   void read_weights(const aiMesh& mesh, const std::vector<std::size_t>& points) {
-    std::map<std::size_t, unsigned> taken_from;
     for (unsigned b = 0; b < mesh.mNumBones; ++b) {
       const aiBone& bone = *mesh.mBones[b];
       std::string name = std::string("weight_") + bone.mName.C_Str();
@@ -101,7 +100,8 @@ class SceneReader {
         if (weight.mVertexId >= points.size() || !(weight.mWeight >= 0) || std::isinf(weight.mWeight))
           throw ContentError("joint " + name + " has a weight that cannot be used; repair the file");
         const std::size_t point = points[weight.mVertexId];
-        if (taken_from.emplace(point, weight.mVertexId).first->second != weight.mVertexId) continue;
+        const std::pair source(&mesh, weight.mVertexId);
+        if (taken_from_.emplace(point, source).first->second != source) continue;
         values.resize(std::max(values.size(), point + 1), 0);
         values[point] = weight.mWeight;
       }
@@ -140,6 +140,7 @@ class SceneReader {
   ReadOptions options_;
   SoupFile out_;
   NameTable groups_{out_.group_names}, materials_{out_.material_names};
+  std::map<std::size_t, std::pair<const aiMesh*, unsigned>> taken_from_;  // whose weights a point has
   bool has_colors_ = false;
 };
 

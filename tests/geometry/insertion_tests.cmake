@@ -13,5 +13,6 @@ furrow_add_tests(insertion LIBRARIES furrow::io SOURCES
   random_strokes_test.cpp
   real_garments_test.cpp
   rest_metric_test.cpp
+  seams_test.cpp
   trace_stroke_test.cpp
 )

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "geometry/errors.h"
+#include "geometry/face_point.h"
 #include "geometry/measures.h"
 #include "geometry/property_names.h"
 #include "tests/test_meshes.h"
@@ -48,6 +49,26 @@ std::map<int, double> texture_area_by_material(const Mesh& mesh) {
 }
 
 }  // namespace
+
+TEST_CASE("midpoint_subdivide: the surface stays, each face knows what it is a part of") {
+  Mesh mesh = dressed(jittered(5, 5, 0.2, 9));
+  lift(mesh, [](double x, double y) { return x * y; });
+  mesh.add_vertex(Point(7, 8, 9));
+  const Mesh before = mesh;
+  const std::vector<Face> parents = midpoint_subdivide(mesh, 2);
+  REQUIRE(parents.size() == mesh.number_of_faces());
+  CHECK(mesh.number_of_faces() == 16 * before.number_of_faces());
+  for (Vertex v : before.vertices()) CHECK(mesh.point(v) == before.point(v));
+  for (Face f : mesh.faces()) {
+    CHECK((*find_map(mesh, kMaterial))[f] == static_cast<int>(parents[f.idx()].idx()));
+    const Vector n = area_normal_of(mesh, f), whole = area_normal_of(before, parents[f.idx()]);
+    CHECK((16 * n - whole).squared_length() < 1e-28);
+  }
+  const auto texture = *find_map(mesh, kTexture);
+  for (Halfedge h : mesh.halfedges())
+    if (!mesh.is_border(h)) CHECK(texture[h][0] == Approx(mesh.point(mesh.target(h)).x()).margin(1e-15));
+  CHECK_THROWS_AS(midpoint_subdivide(mesh, 7), std::invalid_argument);
+}
 
 TEST_CASE("loop_subdivide: counts, and known points of the octahedron") {
   Mesh mesh =

@@ -10,6 +10,9 @@ furrow_add_tests(geometry LIBRARIES furrow::geometry SOURCES
   stiffness_test.cpp
   line_height_test.cpp
   subdivide_test.cpp
+  vertex_attributes_test.cpp
+  transfer_shape_test.cpp
+  bake_maps_test.cpp
   border_loops_test.cpp
   measures_test.cpp
   self_intersections_test.cpp
