@@ -81,8 +81,8 @@ BakedFiles write_baked_maps(const std::string& prefix, const geometry::BakedMaps
   const double step = largest > 0 ? largest / kSteps : 1e-3 / kSteps;
   const Image16 displacement = image_of(maps.displacement, [&](double x) { return kZero + x / step; });
   const Image16 normal = image_of(maps.normal, [](double x) { return (x + 1) / 2 * 65535; });
-  write_png(files.displacement, displacement);
-  write_png(files.normal, normal);
+  write_png16(files.displacement, displacement);
+  write_png16(files.normal, normal);
   const std::string record = record_of(maps, files, step).dump(2) + "\n";
   write_atomically(files.record, [&](std::ostream& out) { out << record; });
   return files;

@@ -134,7 +134,7 @@ bool decode(Stream& stream, Image16& image, std::vector<png_bytep>& rows) {
 
 }  // namespace
 
-void write_png(const std::filesystem::path& path, const Image16& image) {
+void write_png16(const std::filesystem::path& path, const Image16& image) {
   check(image);
   std::string bytes;
   Stream stream;

@@ -29,7 +29,7 @@ struct Image16 {
 /// colour space. Writing: atomically, errors as in the 8-bit write_png. Reading: alpha is left out; throws
 /// geometry::ContentError also for a PNG of fewer bits or without three colours, whose numbers would be
 /// coarser than they seem.
-void write_png(const std::filesystem::path& path, const Image16& image);
+void write_png16(const std::filesystem::path& path, const Image16& image);
 Image16 read_png16(const std::filesystem::path& path);
 
 /// Reads a PNG of any kind; transparent pixels lie on white. Throws geometry::ContentError if the file cannot

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "geometry/vertex_attributes.h"
 #include "io_test_helpers.h"
 
 using namespace furrow;
@@ -98,6 +99,46 @@ TEST_CASE("glTF: a mirrored node's faces are turned") {
     std::vector<Point> p;
     for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) p.push_back(mesh.point(v));
     CHECK(CGAL::cross_product(p[1] - p[0], p[2] - p[0]).z() > 0);
+  }
+}
+
+TEST_CASE("glTF: skin weights become attributes by the joints' names") {
+  Seam seam;
+  const std::size_t at = seam.buffer.size();
+  for (int v = 0; v < 6; ++v)
+    for (const std::uint8_t joint : {0, 1, 0, 0}) put(seam.buffer, joint);
+  for (int v = 0; v < 6; ++v)
+    for (const float w : {v < 3 ? 0.25F : 1.F, v < 3 ? 0.75F : 0.F, 0.F, 0.F}) put(seam.buffer, w);
+  for (int joint = 0; joint < 2; ++joint)  // assimp wants inverse bind matrices
+    for (int i = 0; i < 16; ++i) put(seam.buffer, i % 5 == 0 ? 1.F : 0.F);
+  json& scene = seam.scene;
+  scene["buffers"][0]["byteLength"] = seam.buffer.size();
+  scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", 24}});
+  scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at + 24}, {"byteLength", 96}});
+  scene["accessors"].push_back({{"bufferView", 3}, {"componentType", 5121}, {"count", 6}, {"type", "VEC4"}});
+  scene["accessors"].push_back({{"bufferView", 4}, {"componentType", 5126}, {"count", 6}, {"type", "VEC4"}});
+  scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at + 120}, {"byteLength", 128}});
+  scene["accessors"].push_back({{"bufferView", 5}, {"componentType", 5126}, {"count", 2}, {"type", "MAT4"}});
+  json& attributes = scene["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_0"] = 3;
+  attributes["WEIGHTS_0"] = 4;
+  scene["nodes"][0]["skin"] = 0;
+  scene["nodes"].push_back({{"name", "upper arm"}, {"children", {2}}});
+  scene["nodes"].push_back({{"name", "hand"}});
+  scene["scenes"][0]["nodes"].push_back(1);
+  scene["skins"] = json::array({{{"joints", {1, 2}}, {"inverseBindMatrices", 5}}});
+  TemporaryFolder folder;
+  spit(folder / "a.glb", seam.glb());
+  const io::MeshFile file = io::read_mesh(folder / "a.glb");
+  const auto list = vertex_attributes(file.mesh);
+  REQUIRE(list.size() == 2);
+  CHECK(list[0].name == "weight_upper_arm");
+  CHECK(list[1].name == "weight_hand");
+  REQUIRE(file.mesh.number_of_vertices() == 4);
+  for (const Vertex v : file.mesh.vertices()) {
+    const bool first = v.idx() < 3;  // merged points keep the weights of the first
+    CHECK(list[0].values[v] == (first ? 0.25 : 1));
+    CHECK(list[1].values[v] == (first ? 0.75 : 0));
   }
 }
 

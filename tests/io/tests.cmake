@@ -3,6 +3,7 @@ furrow_add_tests(io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   animation_file_test.cpp
   assimp_reader_test.cpp
   atomic_file_test.cpp
+  baked_maps_test.cpp
   chain_segments_test.cpp
   child_process_test.cpp
   damaged_files_test.cpp

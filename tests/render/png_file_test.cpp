@@ -43,6 +43,32 @@ TEST_CASE("A written PNG reads back pixel by pixel") {
   CHECK(folder.files() == 1);  // no temporary is left
 }
 
+TEST_CASE("A PNG of 16 bits reads back number by number; one of 8 bits is no such") {
+  const Folder folder("sixteen");
+  CHECK(rc::check([&] {
+    io::Image16 image{*rc::gen::inRange(1, 20), *rc::gen::inRange(1, 20), {}};
+    image.rgb = *rc::gen::container<std::vector<std::uint16_t>>(std::size_t(3 * image.width * image.height),
+                                                                rc::gen::arbitrary<std::uint16_t>());
+    io::write_png16(folder.path / "a.png", image);
+    const io::Image16 back = io::read_png16(folder.path / "a.png");
+    RC_ASSERT(back.width == image.width);
+    RC_ASSERT(back.height == image.height);
+    RC_ASSERT(back.rgb == image.rgb);
+  }));
+  CHECK(folder.files() == 1);
+  io::write_png(folder.path / "b.png", io::Image{1, 1, {1, 2, 3}});
+  CHECK_THROWS_WITH(io::read_png16(folder.path / "b.png"), Catch::Contains("16 bits"));
+  const auto whole = fs::file_size(folder.path / "a.png");
+  for (std::uintmax_t size = 0; size < whole; size += 7) {
+    fs::copy_file(folder.path / "a.png", folder.path / "cut.png", fs::copy_options::overwrite_existing);
+    fs::resize_file(folder.path / "cut.png", size);
+    CHECK_THROWS_AS(io::read_png16(folder.path / "cut.png"), geometry::ContentError);
+  }
+  CHECK_THROWS_AS(io::write_png16(folder.path / "c.png", io::Image16{2, 2, {1, 2}}), std::invalid_argument);
+  CHECK_THROWS_AS(io::write_png16(folder.path / "no" / "c.png", io::Image16{1, 1, {1, 2, 3}}),
+                  std::runtime_error);
+}
+
 TEST_CASE("A PNG that cannot be written leaves nothing behind") {
   const Folder folder("unwritable");
   const io::Image image{1, 1, {1, 2, 3}};
