@@ -27,11 +27,10 @@ struct RenderMesh {
   std::vector<Position> vertices;             ///< [m], finite, each coordinate at most 1e9
   std::vector<std::array<int, 3>> triangles;  ///< at least one; indices into vertices; ccw from outside
   Colour colour = kClothColour;
-  std::vector<Colour> vertex_colours;  ///< empty, or one for each vertex: then `colour` is not used
-  /// Seen in place of the colours, where a triangle has texture coordinates.
-  std::shared_ptr<const Image> texture;
-  /// Empty, or for each triangle and corner (u, v), NaN for none: (0, 0) is the lower left corner of the
-  /// texture, (1, 1) the upper right one; beyond them it repeats.
+  std::vector<Colour> vertex_colours;    ///< empty, or one for each vertex: then `colour` is not used
+  std::shared_ptr<const Image> texture;  ///< seen in place of the colours; none: nullptr
+  /// With a texture (u, v) of each triangle's corners: (0, 0) is its lower left corner; it repeats; NaN:
+  /// none.
   std::vector<std::array<std::array<double, 2>, 3>> texture_coordinates;
   Style style = Style::cloth;
   bool framed = true;  ///< the automatic camera holds it in the picture
@@ -48,8 +47,7 @@ struct RenderScene {
   std::vector<RenderLine> lines;
 };
 
-/// Rays a pixel: 4 / 16 / 36 for the shape; each that hits adds 1 for the key light and 1 / 2 / 4 for the
-/// sky.
+/// Rays a pixel: 4 / 16 / 36 for the shape; each that hits adds 1 for the key light, 1 / 2 / 4 for the sky.
 enum class Quality { draft, normal, fine };
 
 struct RenderOptions {
