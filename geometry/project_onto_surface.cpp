@@ -82,9 +82,19 @@ SurfaceHit SurfaceProjector::closest_among(const Point& query, std::span<const F
 
 std::optional<SurfaceHit> SurfaceProjector::first_hit(const Point& origin, const Vector& direction) const {
   const Mesh& mesh = tree_->mesh;
+  // Rounding may let a ray slip through the edge between two faces: two neighbours of it do not both.
+  const auto box = tree_->tree.bbox();
+  const double size = std::max({box.x_span(), box.y_span(), box.z_span()});
+  const Vector axis = std::abs(direction.x()) < 0.5 * std::sqrt(direction.squared_length()) ? Vector(1, 0, 0)
+                                                                                            : Vector(0, 1, 0);
+  const Vector u = normalized(CGAL::cross_product(direction, axis));
+  const Vector v = normalized(CGAL::cross_product(direction, u));
   std::vector<Face> crossed;
-  tree_->tree.all_intersected_primitives(Kernel::Ray_3(origin, direction), std::back_inserter(crossed));
+  for (const Vector& aside : {Vector(0, 0, 0), u + 0.3 * v, v - 0.3 * u})
+    tree_->tree.all_intersected_primitives(Kernel::Ray_3(origin + 1e-9 * size * aside, direction),
+                                           std::back_inserter(crossed));
   std::sort(crossed.begin(), crossed.end());
+  crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
   std::optional<SurfaceHit> best;
   bool best_faces_origin = false;
   for (Face face : crossed) {

@@ -31,7 +31,7 @@ class SurfaceProjector {
   /// The closest point on one of the given faces (at least one); O(faces).
   SurfaceHit closest_among(const Point& query, std::span<const Face> faces) const;
   /// The nearest face along the ray that faces its origin; if none does, the nearest of all; none if the ray
-  /// misses.
+  /// misses. A ray through an edge or a vertex hits, too: a face within 1e-9 of the mesh's size counts.
   std::optional<SurfaceHit> first_hit(const Point& origin, const Vector& direction) const;
 
  private:

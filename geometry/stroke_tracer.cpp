@@ -29,7 +29,7 @@ EdgeCrossing seen_from_beyond(const Mesh& mesh, const EdgeCrossing& x) {
 
 StrokeHit StrokeTracer::hit_at(const SurfaceHit& hit, const Point& target, double parameter) const {
   StrokeHit result{hit.point, hit.position, parameter, hit.beyond_border > 0.5 * options_.mean_edge,
-                   false,     target};
+                   false,     target,       false};
   Barycentrics& b = result.point.barycentrics;
   result.degenerate = !hit.on_border && *std::min_element(b.begin(), b.end()) < kDegenerate;
   double excess = 0;
@@ -198,6 +198,7 @@ void StrokeTracer::run(const std::vector<StrokeHit>& hits, bool closed, const st
   for (std::size_t i = 0; i < steps; ++i) {
     const StrokeHit& hit = hits[(offset + i) % n];
     const StrokeHit* previous = i > 0 ? &hits[(offset + i - 1) % n] : nullptr;
+    if (hit.starts) on_cloth = false;
     if (hit.off_cloth) {
       if (on_cloth) leave(current_, hit);
       on_cloth = false;
@@ -205,7 +206,7 @@ void StrokeTracer::run(const std::vector<StrokeHit>& hits, bool closed, const st
     }
     if (on_cloth) {
       advance(StrokeHit(current_), hit);
-    } else if (previous) {
+    } else if (previous && !hit.starts) {
       enter(*previous, hit);
     } else {
       start(hit);

@@ -9,12 +9,13 @@ namespace furrow::geometry {
 
 /// A projected point on the way of a stroke.
 struct StrokeHit {
-  FacePoint point;   ///< strictly inside its face
-  Point position;    ///< [m]
-  double parameter;  ///< along the stroke [-]
-  bool off_cloth;    ///< beyond the border by more than h/2
-  bool degenerate;   ///< the projection lies on an inner edge or vertex
-  Point target;      ///< the stroke's own point [m]
+  FacePoint point;      ///< strictly inside its face
+  Point position;       ///< [m]
+  double parameter;     ///< along the stroke [-]
+  bool off_cloth;       ///< beyond the border by more than h/2
+  bool degenerate;      ///< the projection lies on an inner edge or vertex
+  Point target;         ///< the stroke's own point [m]
+  bool starts = false;  ///< a new part of the stroke: not joined to the hit before
 };
 
 /// Joins hits, given in order, into sub-strokes. Used by trace_stroke alone.

@@ -29,6 +29,12 @@ void check_content(const Stroke& stroke) {
   if (stroke.direction && !(stroke.direction->squared_length() > 0)) {
     throw ContentError(name_of(stroke) + ": its direction has no length");
   }
+  for (std::size_t i = 0; i < stroke.breaks.size(); ++i) {
+    const std::size_t at = stroke.breaks[i], least = i > 0 ? stroke.breaks[i - 1] + 1 : 1;
+    if (stroke.closed || at < least || at >= stroke.points.size())
+      throw ContentError(name_of(stroke) + ": the break at point " + std::to_string(at) +
+                         " is out of place; breaks ascend from 1, in a stroke that is not closed");
+  }
 }
 
 /// Positions of the points along the stroke by chord length, from 0 to 1.
@@ -65,6 +71,7 @@ std::vector<StrokeHit> project(const SurfaceProjector& projector, const StrokeTr
                  " m; check the unit, or raise the limit");
     }
     hits.push_back(tracer.hit_at(hit, points[i], parameters[i]));
+    hits.back().starts = std::binary_search(stroke.breaks.begin(), stroke.breaks.end(), i);
   }
   return hits;
 }

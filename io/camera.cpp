@@ -36,7 +36,40 @@ struct Support {
   double apex_coordinate() const { return (plus - minus) / 2; }
 };
 
+Vector3d vector(const Position& p) { return {p[0], p[1], p[2]}; }
+
 }  // namespace
+
+void check(const CameraPicture& picture) {
+  const Camera& c = picture.camera;
+  for (const Position* p : {&c.eye, &c.target, &c.up})
+    if (!vector(*p).allFinite())
+      throw std::invalid_argument("camera: a number of eye, target or up is not finite");
+  check_range("camera: width", picture.width, 1, 16384);
+  check_range("camera: height", picture.height, 1, 16384);
+  check_range("camera: field of view", c.field_of_view_deg, 1, 150);
+  if (c.parallel_height && !(*c.parallel_height > 0 && std::isfinite(*c.parallel_height)))
+    throw std::invalid_argument("camera: the height of a parallel picture must be > 0 m, not " +
+                                std::to_string(*c.parallel_height));
+  const Vector3d sight = vector(c.target) - vector(c.eye), up = vector(c.up);
+  if (!(sight.norm() > 0)) throw std::invalid_argument("camera: eye and target are at one place");
+  if (!(sight.cross(up).norm() > 1e-6 * sight.norm() * up.norm()))
+    throw std::invalid_argument("camera: up is zero or lies along the line of sight");
+}
+
+geometry::SightLine line_of_sight(const CameraPicture& picture, double column, double row) {
+  const Camera& c = picture.camera;
+  const Vector3d forward = (vector(c.target) - vector(c.eye)).normalized();
+  const Vector3d right = forward.cross(vector(c.up)).normalized(), up = right.cross(forward);
+  const double half =
+      c.parallel_height ? *c.parallel_height / 2 : std::tan(c.field_of_view_deg / 2 * kDegree);
+  const double x = (column + 0.5 - picture.width / 2.0) * 2 / picture.height * half;
+  const double y = (1 - 2 * (row + 0.5) / picture.height) * half;
+  const Vector3d aside = x * right + y * up, eye = vector(c.eye);
+  const Vector3d origin = c.parallel_height ? Vector3d(eye + aside) : eye;
+  const Vector3d direction = c.parallel_height ? forward : Vector3d((forward + aside).normalized());
+  return {{origin.x(), origin.y(), origin.z()}, {direction.x(), direction.y(), direction.z()}};
+}
 
 Camera frame_points(const std::vector<Position>& points, double aspect, const View& view) {
   check_range("aspect", aspect, 0.01, 100);
@@ -56,7 +89,7 @@ Camera frame_points(const std::vector<Position>& points, double aspect, const Vi
   Support horizontal, vertical;
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Position& position : points) {
-    const Vector3d p(position[0], position[1], position[2]);
+    const Vector3d p = vector(position);
     if (!p.allFinite()) throw std::invalid_argument("points: a coordinate is not finite");
     horizontal.add(right.dot(p), forward.dot(p), slope_x);
     vertical.add(up.dot(p), forward.dot(p), slope_y);

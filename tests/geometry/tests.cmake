@@ -19,5 +19,8 @@ furrow_add_tests(geometry LIBRARIES furrow::geometry SOURCES
   repair_body_test.cpp
   select_vertices_test.cpp
   sheet_test.cpp
+  place_view_stroke_test.cpp
+  place_texture_stroke_test.cpp
+  place_path_stroke_test.cpp
   wrinkle_test.cpp
 )
