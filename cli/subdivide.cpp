@@ -11,6 +11,7 @@
 #include "geometry/insert_along_stroke.h"
 #include "geometry/insert_in_faces.h"
 #include "geometry/property_names.h"
+#include "io/resolve_strokes.h"
 #include "io/stroke_file.h"
 
 namespace furrow::cli {
@@ -32,11 +33,14 @@ Json conclude(geometry::Mesh& mesh, const geometry::InsertionReport& report) {
   return to_json(report, mesh);
 }
 
-Json insert_strokes(geometry::Mesh& mesh, const SubdivideArguments& a) {
+Json insert_strokes(io::MeshFile& file, const SubdivideArguments& a) {
+  geometry::Mesh& mesh = file.mesh;
   geometry::InsertionReport sum;
   int id = next_line(mesh);
-  const auto strokes = io::read_strokes(a.strokes, geometry::Stroke{}.height, read_options(a));
-  for (const geometry::Stroke& stroke : strokes)
+  const auto drawn = io::read_drawn_strokes(a.strokes, geometry::Stroke{}.height, read_options(a));
+  const io::ResolvedStrokes resolved = io::resolve_strokes(drawn, file);
+  for (const std::string& w : resolved.warnings) warn(w, a);
+  for (const geometry::Stroke& stroke : resolved.strokes)
     sum += geometry::insert_along_stroke(mesh, stroke, id++, a.options).report;
   for (const std::string& w : sum.warnings) warn(w, a);
   return conclude(mesh, sum);
@@ -55,7 +59,7 @@ void subdivide(SubdivideArguments a) {
   check_output(a.out);
   io::MeshFile file = read_mesh(a.in, a);
   Json report = Json::object();
-  if (!a.strokes.empty()) report = insert_strokes(file.mesh, a);
+  if (!a.strokes.empty()) report = insert_strokes(file, a);
   if (a.all) report = insert_everywhere(file.mesh, a);
   if (a.loop > 0) geometry::loop_subdivide(file.mesh, a.loop);
   if (a.sqrt3 > 0) geometry::sqrt3_subdivide(file.mesh, a.sqrt3);

@@ -67,7 +67,7 @@ Json to_json(const CameraPicture& picture) {
 
 void write_camera(const std::filesystem::path& path, const CameraPicture& picture) {
   const Json object = to_json(picture);
-  write_atomically(path, [&](std::ostream& out) { out << object.dump(1) << '\n'; });
+  write_atomically(path, [&](std::ostream& out) { out << object.dump() << '\n'; });
 }
 
 }  // namespace furrow::io

@@ -64,7 +64,12 @@ void check_mesh(const RenderMesh& mesh, const std::string& owner) {
            std::to_string(count) + " vertices");
   }
   check_texture(mesh, owner);
+  if (!mesh.triangle_colours.empty() && mesh.triangle_colours.size() != mesh.triangles.size()) {
+    refuse(owner + ": " + std::to_string(mesh.triangle_colours.size()) + " colours for " +
+           std::to_string(mesh.triangles.size()) + " triangles");
+  }
   check_colour(mesh.colour, owner);
+  for (const Colour& colour : mesh.triangle_colours) check_colour(colour, owner);
   for (const Colour& colour : mesh.vertex_colours) check_colour(colour, owner);
 }
 
@@ -146,6 +151,7 @@ PreparedMesh prepare_mesh(const RenderMesh& mesh, const Frame& frame) {
     if (!(cross.norm() > 1e-15)) continue;  // degenerate: no normal, nothing to see
     result.triangles.push_back(t);
     if (mesh.texture) result.texture_coordinates.push_back(mesh.texture_coordinates[i]);
+    if (!mesh.triangle_colours.empty()) result.triangle_colours.push_back(linear(mesh.triangle_colours[i]));
     add_normals(t, cross.normalized(), result);
   }
   for (Vector3d& n : result.normals) n = n.norm() > 1e-6 ? Vector3d(n.normalized()) : Vector3d(0, 0, 0);
@@ -171,12 +177,16 @@ PreparedCamera prepare_camera(const Camera& camera, const Frame& frame) {
   if (!(sight.normalized().cross(up).norm() > 1e-6 * up.norm())) {
     refuse("camera: up is zero or lies along the line of sight");
   }
+  if (camera.parallel_height && !(*camera.parallel_height > 0 && std::isfinite(*camera.parallel_height)))
+    refuse("camera: parallel_height " + std::to_string(*camera.parallel_height) + " m is not > 0");
   PreparedCamera result;
   result.eye = eye;
   result.forward = sight.normalized();
   result.right = result.forward.cross(up).normalized();
   result.up = result.right.cross(result.forward);
-  result.slope = std::tan(camera.field_of_view_deg / 2 * std::numbers::pi / 180);
+  result.parallel = camera.parallel_height.has_value();
+  result.slope = result.parallel ? *camera.parallel_height / 2 / frame.diagonal
+                                 : std::tan(camera.field_of_view_deg / 2 * std::numbers::pi / 180);
   return result;
 }
 
@@ -193,7 +203,8 @@ void check_options(const RenderOptions& options) {
 }
 
 LineRadius line_radius(const Frame& frame, const PreparedCamera& camera, const RenderOptions& options) {
-  if (!options.line_radius) return {0, options.line_radius_pixels * 2 * camera.slope / options.height};
+  const double pixels = options.line_radius_pixels * 2 * camera.slope / options.height;
+  if (!options.line_radius) return camera.parallel ? LineRadius{pixels, 0} : LineRadius{0, pixels};
   if (!(*options.line_radius > 0 && *options.line_radius <= frame.diagonal)) {
     refuse("line_radius " + std::to_string(*options.line_radius) + " m is not in (0, the scene's diagonal]");
   }
@@ -202,15 +213,21 @@ LineRadius line_radius(const Frame& frame, const PreparedCamera& camera, const R
 
 std::vector<PreparedSegment> prepare_lines(const RenderScene& scene, const Frame& frame,
                                            const PreparedCamera& camera, const LineRadius& radius) {
-  const auto radius_at = [&](const Vector3d& p) {
-    return radius.at(std::max(camera.forward.dot(p - camera.eye), 1e-4));
+  const auto radius_at = [&](const Vector3d& p, const RenderLine& line) {
+    return line.width * radius.at(std::max(camera.forward.dot(p - camera.eye), 1e-4));
   };
   std::vector<PreparedSegment> segments;
   for (const RenderLine& line : scene.lines) {
+    if (line.points.size() == 1) {
+      const Vector3d p = frame(line.points[0]);
+      const double r = radius_at(p, line);
+      segments.push_back(
+          {{p - 0.01 * r * camera.right, p + 0.01 * r * camera.right}, {r, r}, linear(line.colour)});
+    }
     for (std::size_t i = 1; i < line.points.size(); ++i) {
       const Vector3d a = frame(line.points[i - 1]), b = frame(line.points[i]);
       if (!((b - a).norm() > 1e-7)) continue;
-      segments.push_back({{a, b}, {radius_at(a), radius_at(b)}, linear(line.colour)});
+      segments.push_back({{a, b}, {radius_at(a, line), radius_at(b, line)}, linear(line.colour)});
     }
   }
   return segments;
@@ -228,6 +245,9 @@ void check_scene(const RenderScene& scene) {
   for (std::size_t i = 0; i < scene.lines.size(); ++i) {
     check_positions(scene.lines[i].points, "line " + std::to_string(i));
     check_colour(scene.lines[i].colour, "line " + std::to_string(i));
+    const double width = scene.lines[i].width;
+    if (!(width >= 0.01 && width <= 100))
+      refuse("line " + std::to_string(i) + ": width " + std::to_string(width) + " is not in [0.01, 100]");
   }
 }
 

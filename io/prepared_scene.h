@@ -12,9 +12,10 @@ namespace furrow::io {
 /// light.
 struct PreparedMesh {
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<Eigen::Vector3d> normals;       ///< unit, weighted by angle; 0 where the triangles cancel
-  std::vector<std::array<int, 3>> triangles;  ///< none degenerate
-  std::vector<Eigen::Vector3d> colours;       ///< one, or one a vertex
+  std::vector<Eigen::Vector3d> normals;           ///< unit, weighted by angle; 0 where the triangles cancel
+  std::vector<std::array<int, 3>> triangles;      ///< none degenerate
+  std::vector<Eigen::Vector3d> colours;           ///< one, or one a vertex
+  std::vector<Eigen::Vector3d> triangle_colours;  ///< none, or one a triangle: before `colours`
   /// How much the surface bulges at a vertex: towards 1 on a sharp ridge, −1 in a sharp valley, ±0.5 on a
   /// fold whose radius is 1/100 of the scene's diagonal. Cloth only, else empty.
   std::vector<double> bulges;
@@ -33,7 +34,8 @@ struct PreparedSegment {
 /// The camera's frame: right, up and forward are orthonormal.
 struct PreparedCamera {
   Eigen::Vector3d eye, right, up, forward;
-  double slope = 0;  ///< half the picture's height at depth 1
+  double slope = 0;       ///< half the picture's height: at depth 1, or everywhere if `parallel`
+  bool parallel = false;  ///< all lines of sight run along `forward`
 };
 
 /// Radius of the lines' tubes: either the same everywhere, or growing with the depth.

@@ -67,21 +67,26 @@ class Picture {
       for (int i = 0; i < n; ++i) {
         // n² places in n² columns and n² rows of the pixel: the smoothest edges that so many rays give.
         const double x = column + (i + (j + 0.5) / n) / n, y = row + (j + (i + 0.5) / n) / n;
-        sum += light_along(direction(x, y), j * n + i, turn, background);
+        sum += light_along(sight(x, y), j * n + i, turn, background);
       }
     }
     return sum / (n * n);
   }
 
-  Vector3d direction(double x, double y) const {
+  struct Sight {
+    Vector3d eye, direction;
+  };
+  Sight sight(double x, double y) const {
     const PreparedCamera& c = scene_.camera;
     const double a = (x - width_ / 2.0) * 2 / height_ * c.slope, b = (1 - 2 * y / height_) * c.slope;
-    return (c.forward + a * c.right + b * c.up).normalized();
+    const Vector3d aside = a * c.right + b * c.up;
+    if (c.parallel) return {c.eye + aside, c.forward};
+    return {c.eye, (c.forward + aside).normalized()};
   }
 
-  Vector3d light_along(const Vector3d& ray, int sample, const PixelTurn& turn,
+  Vector3d light_along(const Sight& sight, int sample, const PixelTurn& turn,
                        const Vector3d& background) const {
-    const Vector3d& eye = scene_.camera.eye;
+    const auto& [eye, ray] = sight;
     const auto hit = rays_.nearest_surface(eye, ray);
     // Half a radius in front of the surface: the sides of a valley must not swallow its line.
     const double reach = hit ? hit->distance + 0.5 * scene_.line_radius.at(hit->distance)

@@ -32,14 +32,16 @@ struct RenderMesh {
   /// With a texture (u, v) of each triangle's corners: (0, 0) is its lower left corner; it repeats; NaN:
   /// none.
   std::vector<std::array<std::array<double, 2>, 3>> texture_coordinates;
+  std::vector<Colour> triangle_colours;  ///< empty, or one for each triangle: before all other colours
   Style style = Style::cloth;
   bool framed = true;  ///< the automatic camera holds it in the picture
 };
 
-/// A line drawn as a tube, hidden where a surface hides it. Fewer than two points: nothing is drawn.
+/// A line drawn as a tube, hidden where a surface hides it. One point is a ball, none is nothing.
 struct RenderLine {
   std::vector<Position> points;  ///< [m], finite, each coordinate at most 1e9
   Colour colour = kRidgeColour;
+  double width = 1;  ///< of the tube or ball, in tubes of the options [-], in [0.01, 100]
 };
 
 struct RenderScene {

@@ -115,16 +115,4 @@ std::vector<RenderLine> render_lines_from(const Mesh& mesh, const std::vector<do
   return result;
 }
 
-std::vector<RenderLine> render_lines_from(const std::vector<geometry::Stroke>& strokes,
-                                          const LineColours& colours) {
-  std::vector<RenderLine> result;
-  for (const geometry::Stroke& stroke : strokes) {
-    RenderLine line{{}, colour_of(stroke.height, colours)};
-    for (const auto& p : stroke.points) line.points.push_back(position(p));
-    if (stroke.closed && !line.points.empty()) line.points.push_back(line.points.front());
-    result.push_back(std::move(line));
-  }
-  return result;
-}
-
 }  // namespace furrow::io

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <string>
 #include <vector>
 
 #include "geometry/mesh.h"
@@ -30,8 +31,12 @@ RenderMesh render_mesh_from(const geometry::Mesh& mesh, Style style = Style::clo
 std::vector<RenderLine> render_lines_from(const geometry::Mesh& mesh, const std::vector<double>& heights,
                                           const LineColours& colours = {});
 
-/// Strokes as they were drawn, before they are inserted; a closed one is joined to its start.
-std::vector<RenderLine> render_lines_from(const std::vector<geometry::Stroke>& strokes,
+/// Strokes before they are inserted, as they lie on the surface: traced from face to face (trace_stroke.h),
+/// so that a line never runs behind the cloth that it was drawn on. One that cannot be traced is drawn as it
+/// is, with a warning.
+std::vector<RenderLine> render_lines_from(const geometry::Mesh& mesh,
+                                          const std::vector<geometry::Stroke>& strokes,
+                                          std::vector<std::string>& warnings,
                                           const LineColours& colours = {});
 
 }  // namespace furrow::io

@@ -112,6 +112,7 @@ Seen see(const PreparedMesh& mesh, const SurfaceHit& hit, const Vector3d& direct
     colour += weights[i] * mesh.colours[mesh.colours.size() == 1 ? 0 : t[i]];
   }
   colour = painted(mesh, hit, weights, colour);
+  if (!mesh.triangle_colours.empty()) colour = mesh.triangle_colours[hit.triangle];
   if (mesh.style == Style::cloth) {
     double bulge = 0;
     for (int i = 0; i < 3; ++i) bulge += weights[i] * mesh.bulges[t[i]];

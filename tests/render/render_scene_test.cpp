@@ -122,18 +122,37 @@ TEST_CASE("At a crossing an edge keeps the colour of the line that runs through 
   CHECK(count(lines, kColours.valley) == 2);
 }
 
-TEST_CASE("Strokes are drawn as they are, a closed one to its start") {
-  geometry::Stroke open{"a", 0.01, {Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0)}, false, {}};
-  geometry::Stroke closed = open;
-  closed.height = -0.01;
-  closed.closed = true;
-  const auto lines = io::render_lines_from({open, closed});
+TEST_CASE("Strokes are drawn on the surface, face by face, a closed one to its start") {
+  Mesh mesh = grid_mesh(8);
+  for (Vertex v : mesh.vertices())
+    mesh.point(v) = Point(mesh.point(v).x(), mesh.point(v).y(), 0.3 * std::abs(mesh.point(v).x() - 4));
+  // The stroke's chord runs through the air over the valley at x = 4; its line does not.
+  geometry::Stroke open{"a", 0.01, {Point(1.1, 3.3, 0.87), Point(6.9, 3.4, 0.87)}, false, {}};
+  geometry::Stroke closed{
+      "b", -0.01, {Point(1.1, 1.2, 0.87), Point(3.1, 1.3, 0.27), Point(2.2, 2.6, 0.54)}, true, {}};
+  std::vector<std::string> warnings;
+  const auto lines = io::render_lines_from(mesh, {open, closed}, warnings);
+  CHECK(warnings.empty());
   REQUIRE(lines.size() == 2);
-  CHECK(lines[0].points.size() == 3);
   CHECK(lines[0].colour == kColours.ridge);
-  REQUIRE(lines[1].points.size() == 4);
-  CHECK(lines[1].points.back() == lines[1].points.front());
   CHECK(lines[1].colour == kColours.valley);
+  CHECK(lines[0].points.size() > 15);
+  for (const auto& line : lines)
+    for (const auto& p : line.points) CHECK(p[2] == Approx(0.3 * std::abs(p[0] - 4)).margin(1e-9));
+  const auto &first = lines[1].points.front(), &last = lines[1].points.back();
+  CHECK(std::hypot(first[0] - last[0], first[1] - last[1]) < 1e-9);
+}
+
+TEST_CASE("A stroke that lies nowhere near is drawn as it is, with a warning, in its parts") {
+  geometry::Stroke far{"far", 0.01, {Point(1, 1, 5), Point(2, 1, 5), Point(4, 4, 5), Point(5, 4, 5)},
+                       false, {},   {2}};
+  std::vector<std::string> warnings;
+  const auto lines = io::render_lines_from(grid_mesh(8), {far}, warnings);
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0].points.size() == 2);
+  CHECK(lines[1].points.front() == io::Position{4, 4, 5});
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find("stroke \"far\"") != std::string::npos);
 }
 
 }  // namespace
