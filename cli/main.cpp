@@ -64,6 +64,7 @@ int run(int argc, char** argv) {
   cli::add_subdivide(app);
   cli::add_smooth(app);
   cli::add_wrinkle(app);
+  cli::add_strokes(app);
   cli::add_simulate(app, exit_code);
   cli::add_sdf(app);
   cli::add_render(app);

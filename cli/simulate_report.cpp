@@ -25,9 +25,10 @@ Json lines_to_json(const io::MeshFile& file, const io::WrinkleRecord& record,
     }
     const bool known = i < record.lines.size() && std::isfinite(record.lines[i].smoothed_height);
     const double smoothed = known ? record.lines[i].smoothed_height : before[i];
+    const double height = known ? now[i] - record.lines[i].base_height : now[i];
     line["smoothed_height"] = smoothed;
-    line["height"] = now[i];
-    line["kept"] = now[i] / smoothed;
+    line["height"] = height;
+    line["kept"] = height / smoothed;
     lines.push_back(line);
   }
   return lines;

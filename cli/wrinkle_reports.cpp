@@ -2,9 +2,11 @@
 #include "cli/wrinkle_reports.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/audit_rest_metric.h"
 #include "geometry/property_names.h"
+#include "io/render_preview.h"
 
 namespace furrow::cli {
 
@@ -39,6 +41,14 @@ Json to_json(const bridge::DrawMoreReport& r, double time) {
           {"largest_force_jump", r.largest_jump}};
 }
 
+io::RenderScene preview_of(const geometry::Mesh& inserted, const geometry::Mesh& before,
+                           const geometry::WrinkleReport& report, const io::WrinkleRecord& record) {
+  std::vector<double> heights;
+  for (const io::WrinkleRecord::Line& line : record.lines)
+    heights.push_back(std::isfinite(line.height) ? line.height : 0);
+  return io::preview_scene(inserted, report.insertion.changed_faces, before.num_vertices(), heights);
+}
+
 int next_line(const geometry::Mesh& mesh) {
   int next = 0;
   if (const auto line = geometry::find_map(mesh, geometry::kLine))
@@ -60,6 +70,7 @@ Json to_json(const geometry::WrinkleReport& r, const geometry::Mesh& mesh, int f
                                {"name", r.lines[i].name},
                                {"parts", r.lines[i].chains.size()},
                                {"height", r.lines[i].height},
+                               {"base_height", r.lines[i].base_height},
                                {"drawn_height", r.lines[i].drawn_height},
                                {"smoothed_height", r.lines[i].smoothed_height}});
   return report;

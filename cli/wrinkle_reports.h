@@ -3,6 +3,8 @@
 #include "bridge/draw_more.h"
 #include "cli/common.h"
 #include "geometry/wrinkle.h"
+#include "io/render.h"
+#include "io/wrinkle_record.h"
 
 namespace furrow::cli {
 
@@ -13,6 +15,11 @@ Json to_json(const geometry::WrinkleReport& report, const geometry::Mesh& mesh, 
 
 /// What drawing into a cloth in motion did to it, at a time [s].
 Json to_json(const bridge::DrawMoreReport& report, double time);
+
+/// A mesh at the stage of inserted vertices as a picture, before anything is displaced; `before` is the mesh
+/// without the lines.
+io::RenderScene preview_of(const geometry::Mesh& inserted, const geometry::Mesh& before,
+                           const geometry::WrinkleReport& report, const io::WrinkleRecord& record);
 
 /// The first id above those of the lines that a mesh has.
 int next_line(const geometry::Mesh& mesh);

@@ -21,8 +21,9 @@ struct LineHeight {
 /// the unit normal of the fill there, weighted by area. Vertices of other lines in the two-ring count as
 /// vertices like any other. On a flat surface it is the displacement minus the lift of the two-ring's border;
 /// on a surface of radius R the fill of a two-ring of half-width w sags by about w^2 / 2R, which then counts
-/// as height. Throws ContentError if a position is not finite or a face no triangle. Cost: a sparse Cholesky
-/// factorisation of the two-ring for each line. Used for drawn, smoothed and kept heights of reports.
+/// as height: wrinkle() takes the height before displacement off. Throws ContentError if a position is not
+/// finite or a face no triangle. Cost: a sparse Cholesky factorisation of the two-ring for each line. Used
+/// for drawn, smoothed and kept heights of reports.
 std::vector<LineHeight> line_heights(const Mesh& mesh);
 
 }  // namespace furrow::geometry

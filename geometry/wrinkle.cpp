@@ -37,7 +37,7 @@ std::vector<InsertedLine> insert_lines(Mesh& mesh, std::span<const Stroke> strok
     const int id = options.first_line + static_cast<int>(lines.size());
     Insertion one = insert_along_stroke(mesh, stroke, id, insertion);
     report.insertion += one.report;
-    report.lines.push_back({stroke.name, stroke.height, 0, 0, one.line.chains});
+    report.lines.push_back({stroke.name, stroke.height, 0, 0, 0, one.line.chains});
     lines.push_back(std::move(one.line));
   }
   return lines;
@@ -91,6 +91,7 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
 
   const RestSnapshot before = take_rest_snapshot(work);
   const std::vector<Displacement> moves = displacements(lines, strokes);
+  const std::vector<double> base = heights(work, options.first_line, lines.size());
   displace_line(work, moves);
   const std::vector<double> drawn = heights(work, options.first_line, lines.size());
   tell(Stage::displaced, work);
@@ -103,8 +104,9 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   report.structural_springs = work.number_of_edges();
   report.bending_springs = bending_springs(work).size();
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    report.lines[i].drawn_height = drawn[i];
-    report.lines[i].smoothed_height = smoothed[i];
+    report.lines[i].base_height = base[i];
+    report.lines[i].drawn_height = drawn[i] - base[i];
+    report.lines[i].smoothed_height = smoothed[i] - base[i];
   }
   tell(Stage::smoothed, work);
   mesh = std::move(work);

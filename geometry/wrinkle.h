@@ -28,9 +28,11 @@ struct WrinkleOptions {
 
 struct WrinkledLine {
   std::string name;
-  double height = 0;                        ///< k as asked for [m]
-  double drawn_height = 0;                  ///< after displacement, see line_height() [m]
-  double smoothed_height = 0;               ///< after smoothing [m]
+  double height = 0;  ///< k as asked for [m]
+  /// line_heights() before displacement: of the curvature of the cloth, or of earlier lines [m].
+  double base_height = 0;
+  double drawn_height = 0;                  ///< line_heights() after displacement, less base_height [m]
+  double smoothed_height = 0;               ///< after smoothing, less base_height [m]
   std::vector<std::vector<Vertex>> chains;  ///< its vertices, a list for each connected part
 };
 

@@ -57,4 +57,12 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
   });
 }
 
+std::string content_hash(const std::filesystem::path& path) {
+  std::uint64_t hash = 14695981039346656037ull;
+  for (unsigned char byte : read_text(path)) hash = (hash ^ byte) * 1099511628211ull;
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+  return digits;
+}
+
 }  // namespace furrow::io

@@ -22,4 +22,8 @@ std::vector<std::byte> read_bytes(const std::filesystem::path& path);
 /// Writes by write_atomically(), whose errors it has.
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
+/// 16 hexadecimal digits that tell one file's content from another's (not safe against forgery). Throws what
+/// read_text() throws. Source: FNV-1a, 64 bits (RFC 9923).
+std::string content_hash(const std::filesystem::path& path);
+
 }  // namespace furrow::io

@@ -11,7 +11,7 @@ namespace furrow::io {
 namespace {
 
 /// JSON has no NaN: a height that could not be measured is null.
-double height_of(const nlohmann::json& value) {
+double height_of(const nlohmann::ordered_json& value) {
   return value.is_null() ? geometry::kUnset : value.get<double>();
 }
 
@@ -27,12 +27,16 @@ void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record) {
                               {"unit", record.unit},
                               {"up", record.up},
                               {"options", record.options},
-                              {"lines", nlohmann::ordered_json::array()}};
+                              {"lines", nlohmann::ordered_json::array()},
+                              {"garment", record.garment},
+                              {"garment_hash", record.garment_hash}};
+  if (!record.strokes.empty()) json["strokes"] = nlohmann::ordered_json::parse(record.strokes);
   for (const WrinkleRecord::Line& line : record.lines)
     json["lines"].push_back({{"name", line.name},
                              {"height", line.height},
                              {"drawn_height", line.drawn_height},
-                             {"smoothed_height", line.smoothed_height}});
+                             {"smoothed_height", line.smoothed_height},
+                             {"base_height", line.base_height}});
   std::erase_if(file.comments, is_record);
   using Handler = nlohmann::ordered_json::error_handler_t;
   file.comments.push_back(kPrefix + json.dump(-1, ' ', true, Handler::replace));
@@ -42,17 +46,21 @@ std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file) {
   const auto comment = std::find_if(file.comments.begin(), file.comments.end(), is_record);
   if (comment == file.comments.end()) return std::nullopt;
   try {
-    const auto json = nlohmann::json::parse(comment->substr(std::string(kPrefix).size()));
+    const auto json = nlohmann::ordered_json::parse(comment->substr(std::string(kPrefix).size()));
     WrinkleRecord record{json.at("r_avg_structural"),
                          json.at("r_avg_bending"),
                          json.at("density"),
                          json.at("options"),
                          json.at("unit"),
                          json.at("up"),
-                         {}};
+                         {},
+                         json.value("garment", ""),
+                         json.value("garment_hash", ""),
+                         json.contains("strokes") ? json["strokes"].dump() : ""};
     for (const auto& line : json.at("lines"))
       record.lines.push_back({line.at("name"), line.at("height"), height_of(line.at("drawn_height")),
-                              height_of(line.at("smoothed_height"))});
+                              height_of(line.at("smoothed_height")),
+                              line.contains("base_height") ? height_of(line["base_height"]) : 0});
     return record;
   } catch (const nlohmann::json::exception& e) {
     throw geometry::ContentError(std::string("the comment 'furrow wrinkle' is damaged (") + e.what() +

@@ -16,6 +16,7 @@ struct WrinkleRecord {
     double height = 0;           ///< k [m]
     double drawn_height = 0;     ///< [m]
     double smoothed_height = 0;  ///< [m]
+    double base_height = 0;      ///< of the line before it was displaced; the two above are without it [m]
   };
   double mean_structural_length = 0;  ///< r_avg of the mesh before any line [m]
   double mean_bending_length = 0;     ///< [m]
@@ -23,10 +24,14 @@ struct WrinkleRecord {
   std::string options;                ///< the flags that made the last lines
   std::string unit = "m", up = "y";   ///< of the file's positions and rest lengths: m, cm, mm or inch; y or z
   std::vector<Line> lines;            ///< by line id
+  std::string garment;                ///< the file that the last lines were drawn on; empty: not known
+  std::string garment_hash;           ///< its content_hash()
+  std::string strokes;  ///< the last lines as a stroke file's text (metres, y up); empty: not known
 };
 
 void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record);
-/// The record, or nothing if the file has none. Throws geometry::ContentError if it is damaged.
+/// The record, or nothing if the file has none. Fields of later versions that are not there keep their
+/// defaults. Throws geometry::ContentError if it is damaged.
 std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file);
 
 }  // namespace furrow::io

@@ -11,8 +11,16 @@ using namespace furrow::io;
 TEST_CASE("a wrinkle record reads back as written, heights that were not measured included") {
   MeshFile file;
   file.comments = {"made by hand"};
-  const WrinkleRecord record{
-      0.02, 0.035, 0.3, "--rule safe", "cm", "z", {{"größe \n \"x\"", -0.01, NAN, 0.004}}};
+  const WrinkleRecord record{0.02,
+                             0.035,
+                             0.3,
+                             "--rule safe",
+                             "cm",
+                             "z",
+                             {{"größe \n \"x\"", -0.01, NAN, 0.004, 0.001}},
+                             "a shirt.obj",
+                             "00ff",
+                             R"({"strokes":[{"name":"é","height":0.01,"points":[[0.1,2.0,3.0]]}]})"};
   set_wrinkle_record(file, {});
   set_wrinkle_record(file, record);
   REQUIRE(file.comments.size() == 2);
@@ -29,6 +37,22 @@ TEST_CASE("a wrinkle record reads back as written, heights that were not measure
   CHECK(back->lines[0].height == -0.01);
   CHECK(std::isnan(back->lines[0].drawn_height));
   CHECK(back->lines[0].smoothed_height == 0.004);
+  CHECK(back->lines[0].base_height == 0.001);
+  CHECK(back->garment == "a shirt.obj");
+  CHECK(back->garment_hash == "00ff");
+  CHECK(back->strokes == record.strokes);
+}
+
+TEST_CASE("a record of an earlier version has no strokes, garment and base heights") {
+  MeshFile file;
+  file.comments = {
+      R"(furrow wrinkle {"r_avg_structural":1,"r_avg_bending":2,"density":3,"unit":"m","up":"y","options":"",)"
+      R"("lines":[{"name":"a","height":1,"drawn_height":1,"smoothed_height":1}]})"};
+  const auto record = find_wrinkle_record(file);
+  REQUIRE(record);
+  CHECK(record->strokes.empty());
+  CHECK(record->garment.empty());
+  CHECK(record->lines[0].base_height == 0);
 }
 
 TEST_CASE("a mesh without a record has none, a damaged one is an error") {
