@@ -6,6 +6,7 @@ furrow_add_tests(cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   pipeline_test.cpp
   resume_test.cpp
   transfer_test.cpp
+  strokes_test.cpp
   hostile_files_test.cpp
 )
 add_dependencies(test_cli furrow)

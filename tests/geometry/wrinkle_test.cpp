@@ -7,6 +7,7 @@
 #include "geometry/errors.h"
 #include "geometry/property_names.h"
 #include "geometry/sheet.h"
+#include "tests/test_meshes.h"
 
 using namespace furrow::geometry;
 
@@ -75,4 +76,26 @@ TEST_CASE("wrinkle changes nothing when a stroke or an option is refused") {
   CHECK_THROWS_AS(wrinkle(mesh, strokes, bad), std::invalid_argument);
   CHECK(mesh.number_of_vertices() == vertices);
   CHECK_FALSE(find_map(mesh, kLine));
+}
+
+TEST_CASE("on coarse curved cloth a line of height 0 reads 0, and one of height k about k") {
+  // Half a tube of radius 0.15 m with edges of about 5 cm: the fill of two rings sags by some 8 mm.
+  Mesh curved = furrow::tests::grid(10, 10, 0.47, 0.5);
+  for (Vertex v : curved.vertices()) {
+    const Point p = curved.point(v);
+    curved.point(v) = Point(0.15 * std::cos(p.x() / 0.15), p.y(), -0.15 * std::sin(p.x() / 0.15));
+  }
+  Stroke along;
+  along.points = {{0.01, 0.06, -0.15}, {0.012, 0.44, -0.15}};
+  WrinkleOptions plain;
+  plain.smoothing.iterations = 0;
+  for (double k : {0., 0.02, -0.015}) {
+    Mesh mesh = curved;
+    along.height = k;
+    const WrinkledLine line = wrinkle(mesh, std::vector<Stroke>{along}, plain).lines[0];
+    CHECK(line.base_height > 0.002);
+    // The lifted line also lifts the fill's natural border; on a plane it would not.
+    CHECK(line.drawn_height == Approx(k).margin(0.1 * std::abs(k)));
+    CHECK(line.smoothed_height == Approx(line.drawn_height).epsilon(0.02));  // the rest metric has changed
+  }
 }

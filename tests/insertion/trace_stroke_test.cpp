@@ -202,4 +202,33 @@ TEST_CASE("projection tells distance and how far a point lies beyond the border"
   CHECK_THROWS_AS(SurfaceProjector(Mesh()), ContentError);
 }
 
+TEST_CASE("a stroke with breaks has parts that nothing joins") {
+  const Mesh mesh = union_jack_sheet(20);
+  Stroke stroke = polyline({Point(0.11, 0.21, 0), Point(0.32, 0.22, 0), Point(0.61, 0.51, 0),
+                            Point(0.91, 0.52, 0), Point(0.73, 0.84, 0)});
+  stroke.breaks = {2, 4};
+  const TracedStroke traced = trace(mesh, stroke, 0.05);
+  REQUIRE(traced.sub_strokes.size() == 3);
+  CHECK(traced.warnings.empty());
+  CHECK(traced.sub_strokes[2].faces.size() == 1);
+  for (const CrossedFace& visit : traced.sub_strokes[0].faces)
+    CHECK(position_of(mesh, {visit.face, visit.node}).x() < 0.35);
+  for (const CrossedFace& visit : traced.sub_strokes[1].faces)
+    CHECK(position_of(mesh, {visit.face, visit.node}).x() > 0.58);
+  // A part may begin beyond the border: it enters there, and the one before does not leave.
+  stroke.points[2] = Point(0.6, 1.04, 0);
+  const TracedStroke entering = trace(mesh, stroke, 0.05);
+  REQUIRE(entering.sub_strokes.size() == 3);
+  CHECK_FALSE(entering.sub_strokes[0].faces.back().exit);
+  REQUIRE(entering.sub_strokes[1].faces.front().entry);
+  CHECK(mesh.is_border(mesh.edge(entering.sub_strokes[1].faces.front().entry->halfedge)));
+  for (const auto& breaks : {std::vector<std::size_t>{0}, {5}, {2, 2}, {3, 1}}) {
+    stroke.breaks = breaks;
+    CHECK_THROWS_WITH(trace(mesh, stroke, 0.05), Catch::Contains("out of place"));
+  }
+  stroke.breaks = {2};
+  stroke.closed = true;
+  CHECK_THROWS_AS(trace(mesh, stroke, 0.05), ContentError);
+}
+
 }  // namespace furrow::tests

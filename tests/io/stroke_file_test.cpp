@@ -50,7 +50,8 @@ TEST_CASE("strokes: what is not allowed is named with stroke and key") {
   CHECK(error_of(R"([])").find("must hold an object") != std::string::npos);
   CHECK(error_of(R"({"strokes": []})") == " no strokes; add one to the list");
   CHECK(error_of(R"({"strokes": [7]})").starts_with(" stroke 0: must be an object"));
-  CHECK(error_of(R"({"strokes": [{"height": 1}]})") == " stroke 0: 'points' is missing");
+  CHECK(error_of(R"({"strokes": [{"height": 1}]})") ==
+        " stroke 0: 'points' is missing, or one of 'pixels', 'texture' and 'vertices'");
   CHECK(error_of(R"({"strokes": [{"points": []}]})")
             .starts_with(" stroke 0: 'points' must be a list of at least one"));
   CHECK(error_of(R"({"strokes": [{"points": [[0,0,0],[1,2]]}]})")

@@ -21,6 +21,8 @@ furrow_add_tests(io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   wrinkle_record_test.cpp
   stl_test.cpp
   stroke_file_test.cpp
+  drawn_stroke_test.cpp
+  resolve_strokes_test.cpp
   text_scanner_test.cpp
   triangulate_polygon_test.cpp
 )

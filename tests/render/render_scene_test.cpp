@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "geometry/errors.h"
+#include "geometry/insert_along_stroke.h"
 #include "geometry/property_names.h"
+#include "io/render_preview.h"
 
 namespace furrow::tests {
 namespace {
@@ -153,6 +155,24 @@ TEST_CASE("A stroke that lies nowhere near is drawn as it is, with a warning, in
   CHECK(lines[1].points.front() == io::Position{4, 4, 5});
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].find("stroke \"far\"") != std::string::npos);
+}
+
+TEST_CASE("A preview highlights the changed triangles, dots new vertices and colours lines") {
+  Mesh mesh = grid_mesh(8);
+  const std::size_t before = mesh.num_vertices();
+  geometry::Stroke ridge{"", 0.01, {Point(1.1, 2.3, 0), Point(6.7, 2.4, 0)}, false, {}};
+  const auto report = geometry::insert_along_stroke(mesh, ridge, 0).report;
+  const io::PreviewColours colours;
+  const io::RenderScene scene = io::preview_scene(mesh, report.changed_faces, before, {0.01});
+  const auto& triangles = scene.meshes[0].triangle_colours;
+  REQUIRE(triangles.size() == mesh.number_of_faces());
+  CHECK(std::size_t(std::count(triangles.begin(), triangles.end(), colours.selected)) ==
+        report.changed_faces.size());
+  std::size_t dots = 0;
+  for (const auto& line : scene.lines) dots += line.points.size() == 1;
+  CHECK(dots == report.inserted);
+  CHECK(count(scene.lines, colours.lines.ridge) == io::render_lines_from(mesh, {0.01}).size());
+  CHECK(count(scene.lines, colours.edge) > report.changed_faces.size());
 }
 
 }  // namespace

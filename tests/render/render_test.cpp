@@ -229,5 +229,48 @@ TEST_CASE("The automatic camera holds the framed meshes and one camera serves se
   CHECK(io::automatic_camera(both, options).target[0] == Approx(1.0));
 }
 
+TEST_CASE("Triangle colours come before all others") {
+  io::RenderScene scene{{square({0, 0, 0}, 0.9, kBlue)}, {}};
+  scene.meshes[0].vertex_colours.assign(4, kBlue);
+  scene.meshes[0].triangle_colours = {kRed, kGreen};
+  const io::Image image = io::render(scene, from_the_front(64, 4));
+  CHECK(is_reddish(pixel(image, 44, 44)));
+  CHECK(is_greenish(pixel(image, 20, 20)));
+  scene.meshes[0].triangle_colours.pop_back();
+  CHECK_THROWS_WITH(io::render(scene, from_the_front(8, 4)), Catch::Contains("1 colours for 2 triangles"));
+}
+
+TEST_CASE("One point is a ball, as wide as asked for") {
+  io::RenderScene scene{{square({0, 0, 0}, 0.9, kBlue)}, {{{{0, 0, 0}}, kRed, 2.5}}};
+  io::RenderOptions options = from_the_front(100, 4);
+  options.line_radius_pixels = 4;
+  const io::Image image = io::render(scene, options);
+  int red = 0;
+  for (int x = 0; x < 100; ++x)
+    for (int y = 0; y < 100; ++y) red += is_reddish(pixel(image, x, y));
+  CHECK(red == Approx(3.14159 * 10 * 10).epsilon(0.06));
+  CHECK(is_reddish(pixel(image, 50, 50)));
+  scene.lines[0].width = 0;
+  CHECK_THROWS_WITH(io::render(scene, options), Catch::Contains("line 0: width"));
+}
+
+TEST_CASE("Parallel lines of sight show near and far alike, and as large as they are") {
+  // Two squares of 0.4 m, one 2 m behind the other, in a picture 2 m high.
+  io::RenderScene scene{{square({-0.5, 0, 1}, 0.2, kRed), square({0.5, 0, -1}, 0.2, kGreen)}, {}};
+  io::RenderOptions options = from_the_front(100, 4);
+  options.camera->parallel_height = 2;
+  const io::Image image = io::render(scene, options);
+  int red = 0, green = 0;
+  for (int x = 0; x < 100; ++x)
+    for (int y = 0; y < 100; ++y)
+      red += is_reddish(pixel(image, x, y)), green += is_greenish(pixel(image, x, y));
+  CHECK(red == 400);
+  CHECK(green == 400);
+  CHECK(is_reddish(pixel(image, 25, 50)));
+  CHECK(is_greenish(pixel(image, 75, 50)));
+  options.camera->parallel_height = -1;
+  CHECK_THROWS_WITH(io::render(scene, options), Catch::Contains("parallel_height"));
+}
+
 }  // namespace
 }  // namespace furrow::tests
