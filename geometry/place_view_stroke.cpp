@@ -50,9 +50,23 @@ class ViewPlacing {
       placing_.refuse(0,
                       "it and all others miss the garment; is this the camera that the picture was made "
                       "with, and the size the picture's?");
+    tell_misses();
     if (inside > 0)
       placing_.warn("at " + std::to_string(inside) +
                     " of its points the picture shows the inside of the cloth");
+  }
+
+  void tell_misses() {
+    for (std::size_t i = 0; i < hits_.size(); ++i) {
+      std::size_t end = i;
+      while (end < hits_.size() && !hits_[end]) ++end;
+      if (end == i) continue;
+      const std::string last = std::to_string(end - 1);
+      placing_.warn((end == i + 1 ? "point " + last + " misses"
+                                  : "points " + std::to_string(i) + " to " + last + " miss") +
+                    " the garment: the line is cut there");
+      i = end;
+    }
   }
 
   std::size_t first_hit() const {
@@ -77,8 +91,6 @@ class ViewPlacing {
         placing_.add_over_border(hits_[a]->position, way);
       else
         placing_.add_between(way);
-      if (!hits_[b])
-        placing_.warn("point " + std::to_string(b) + " misses the garment: the line ends before it");
     }
     placing_.begin_part();
     if (hits_[b]) {
@@ -89,8 +101,6 @@ class ViewPlacing {
         for (std::size_t i = way.size(); i-- > 1;)
           placing_.add(CGAL::midpoint(way[i].position, way[i - 1].position));
       }
-      if (!hits_[a])
-        placing_.warn("point " + std::to_string(a) + " misses the garment: the line starts after it");
     }
   }
 

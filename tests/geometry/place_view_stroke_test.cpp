@@ -158,6 +158,17 @@ TEST_CASE("place_view_stroke: closed strokes and parallel lines of sight") {
   }
 }
 
+TEST_CASE("place_view_stroke tells each run of misses once") {
+  const Mesh mesh = grid(20, 20);
+  const PlacedStroke placed =
+      place(mesh, sight_of({{-2, 0.5, 0}, {-1, 0.5, 0}, {0.3, 0.52, 0}, {0.4, 3, 0}, {0.6, 0.52, 0}}));
+  REQUIRE(placed.warnings.size() == 2);
+  CHECK(placed.warnings[0].find("points 0 to 1 miss the garment") != std::string::npos);
+  CHECK(placed.warnings[1].find("point 3 misses the garment") != std::string::npos);
+  CHECK(placed.breaks.size() == 1);
+  CHECK(placed.points.front().x() < -0.02);
+}
+
 TEST_CASE("place_view_stroke: the inside of the cloth is told, a stroke that misses everything is refused") {
   Mesh mesh = grid(8, 8);
   const PlacedStroke inside = place(mesh, sight_of({{0.2, 0.3, 0}, {0.8, 0.6, 0}}, {0.5, 0.5, -3}));
