@@ -103,6 +103,9 @@ std::optional<SurfaceHit> SurfaceProjector::first_hit(const Point& origin, const
     if (slope == 0) continue;
     const double along = (n * (mesh.point(corners_of(mesh, face)[0]) - origin)) / slope;
     const SurfaceHit hit = make_hit(mesh, face, origin + along * direction, origin);
+    // A neighbour of the ray may hit a face seen edge-on that the ray itself passes by.
+    const Barycentrics& b = hit.point.barycentrics;
+    if (std::min({b[0], b[1], b[2]}) < -1e-3) continue;
     const bool faces_origin = slope < 0;
     const bool better = !best || (faces_origin && !best_faces_origin) ||
                         (faces_origin == best_faces_origin && hit.distance < best->distance);

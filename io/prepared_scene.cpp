@@ -166,17 +166,15 @@ PreparedCamera prepare_camera(const Camera& camera, const Frame& frame) {
       !vector(camera.up).allFinite()) {
     refuse("camera: a coordinate of eye, target or up is not finite");
   }
-  if (!(camera.field_of_view_deg >= 1 && camera.field_of_view_deg <= 150)) {
+  if (!(camera.field_of_view_deg >= 1 && camera.field_of_view_deg <= 150))
     refuse("camera: field_of_view_deg " + std::to_string(camera.field_of_view_deg) + " is not in [1, 150]");
-  }
   const Vector3d eye = frame(camera.eye);
   if (!(eye.norm() <= 1e5)) refuse("camera: the eye is more than 100,000 scene diagonals away");
   const Vector3d sight = (vector(camera.target) - vector(camera.eye)) / frame.diagonal;
   const Vector3d up = vector(camera.up);
   if (!(sight.norm() > 1e-9)) refuse("camera: eye and target are at one place");
-  if (!(sight.normalized().cross(up).norm() > 1e-6 * up.norm())) {
+  if (!(sight.normalized().cross(up).norm() > 1e-6 * up.norm()))
     refuse("camera: up is zero or lies along the line of sight");
-  }
   if (camera.parallel_height && !(*camera.parallel_height > 0 && std::isfinite(*camera.parallel_height)))
     refuse("camera: parallel_height " + std::to_string(*camera.parallel_height) + " m is not > 0");
   PreparedCamera result;
