@@ -90,7 +90,8 @@ void bake(const BakeArguments& a, int& exit_code) {
               {"unmatched_texels", maps->unmatched},
               {"overlapping_texels", maps->overlapping},
               {"largest_displacement", maps->largest}};
-  if (a.check >= 0) report["check"] = check(low, high.mesh, files, a);
+  if (interrupted()) exit_code = kInterrupted;  // the maps are written; what follows is only a measurement
+  if (a.check >= 0 && !interrupted()) report["check"] = check(low, high.mesh, files, a);
   report["written"] = {files.displacement.string(), files.normal.string(), files.record.string()};
   print_report(report, a);
 }
@@ -109,7 +110,7 @@ void add_bake(CLI::App& app, int& exit_code) {
   sub->add_option("high", a->high, "wrinkled mesh with the same charts, in the same pose")->required();
   sub->add_option("-o,--output", a->out, "what the names of the files begin with")->required();
   sub->add_option("--size", a->options.size, "width and height of the maps [texels]")
-      ->check(CLI::Range(1, 16384))
+      ->check(CLI::Range(1, 8192))
       ->capture_default_str();
   sub->add_option("--padding", a->options.padding, "how far the charts go on beyond their borders [texels]")
       ->check(CLI::Range(0, 1024))

@@ -16,7 +16,7 @@ struct VectorMap {
 };
 
 struct BakeOptions {
-  int size = 2048;  ///< of the square maps [texels]; [1, 16384]
+  int size = 2048;  ///< of the square maps [texels]; [1, 8192]
   int padding = 8;  ///< how far values go on beyond the charts' borders [texels]; [0, 1024]
 };
 

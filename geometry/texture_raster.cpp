@@ -28,8 +28,8 @@ Barycentrics texture_barycentrics(const Mesh& mesh, const HalfedgeMap<TextureCoo
 }
 
 TextureRaster rasterize_texture(const Mesh& mesh, int size) {
-  if (size < 1 || size > 16384)
-    throw std::invalid_argument("texture size must be in [1, 16384], not " + std::to_string(size));
+  if (size < 1 || size > 8192)
+    throw std::invalid_argument("texture size must be in [1, 8192], not " + std::to_string(size));
   const auto texture = find_map(mesh, kTexture);
   if (!texture) throw ContentError("the mesh has no texture coordinates");
   TextureRaster raster;

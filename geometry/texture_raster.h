@@ -18,7 +18,7 @@ struct TextureRaster {
 };
 
 /// Texels on an edge between two faces go to the lower one. Faces without coordinates are left out. `size`
-/// in [1, 16384]: std::invalid_argument. ContentError if the mesh has no texture coordinates. O(faces +
+/// in [1, 8192]: std::invalid_argument. ContentError if the mesh has no texture coordinates. O(faces +
 /// texels in them).
 TextureRaster rasterize_texture(const Mesh& mesh, int size);
 

@@ -17,14 +17,16 @@ MeshFile read_obj(std::string_view text, const std::string& name, const ReadOpti
 /// Only the polylines of an OBJ file, which needs no faces.
 std::vector<Polyline> read_obj_polylines(std::string_view text, const std::string& name,
                                          const ReadOptions& options);
-/// Stanford PLY, ascii and binary of both byte orders, with our own properties (decision 0005).
+/// Stanford PLY, ascii and binary of both byte orders, with our own properties (decision 0005). Other
+/// numbers at vertices become vertex attributes.
 MeshFile read_ply(std::string_view text, const std::string& name, const ReadOptions& options);
 /// Geomview OFF, COFF, NOFF, CNOFF, STOFF …, text only.
 MeshFile read_off(std::string_view text, const std::string& name, const ReadOptions& options);
 /// STL, text (solids become groups) and binary. Vertices of exactly equal position are merged.
 MeshFile read_stl(std::string_view text, const std::string& name, const ReadOptions& options);
 /// glTF and GLB by assimp, in a child process with limits: single precision, vertices of equal position in
-/// one node merged. Throws geometry::ContentError too if the child crashes, hangs or sends nonsense.
+/// one node merged; skin weights become vertex attributes. Throws geometry::ContentError too if the child
+/// crashes, hangs or sends nonsense.
 MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options);
 
 /// The mesh of a soup put into the file's other content.

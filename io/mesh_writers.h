@@ -17,8 +17,8 @@ namespace furrow::io {
 /// line edges (e:line_edge) or, where the mesh has none, `polylines` (those without vertices of the mesh get
 /// vertices of their own at the end).
 void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& options);
-/// PLY, binary little-endian, double: every map of geometry/property_names.h that the mesh has (decision
-/// 0005).
+/// PLY, binary little-endian, double: every map of geometry/property_names.h that the mesh has, and its
+/// vertex attributes (decision 0005).
 void write_ply(std::ostream& out, const MeshFile& file, const WriteOptions& options);
 /// OFF, or COFF where the mesh has colours, in double. Everything else is left out.
 void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& options);
