@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "furrow/version.h"
+
 #include <CGAL/version.h>
 #include <assimp/version.h>
 #include <embree3/rtcore_config.h>

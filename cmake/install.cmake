@@ -7,6 +7,7 @@ install(EXPORT furrow_targets NAMESPACE furrow:: FILE furrow-targets.cmake
 foreach(folder geometry physics bridge io)
   install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/furrow FILES_MATCHING PATTERN "*.h")
 endforeach()
+install(FILES ${PROJECT_BINARY_DIR}/generated/furrow/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/furrow/furrow)
 configure_package_config_file(cmake/furrow-config.cmake.in furrow-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/furrow)
 write_basic_package_version_file(furrow-config-version.cmake COMPATIBILITY SameMinorVersion)

@@ -2,6 +2,8 @@
 # What every target of ours compiles with. No global flags: targets link furrow_options.
 add_library(furrow_options INTERFACE)
 target_compile_features(furrow_options INTERFACE cxx_std_20)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/version.h.in ${PROJECT_BINARY_DIR}/generated/furrow/version.h @ONLY)
+target_include_directories(furrow_options INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>)
 target_include_directories(furrow_options INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/furrow>)
 # The same input gives the same bits: no contraction of a*b+c that depends on the compiler's mood.

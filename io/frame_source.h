@@ -39,10 +39,10 @@ class FrameSource {
 
 /// Opens the frames of a mesh of that many vertices:
 /// - a PC2 or MDD file, by its ending. Times of PC2: (first frame + i * frames a sample) / fps;
-/// - a sequence of OBJ, PLY or OFF files: one run of # in the file's name stands for the frame's number, with
-/// at
-///   least as many digits as # (body_####.obj: body_0001.obj … body_12000.obj). Time: (number - first number)
-///   / fps; a number that is missing is time without a frame.
+/// - a sequence of OBJ, PLY or OFF files: one run of # in the file's name stands for the number of the frame,
+///   with at least as many digits (body_####.obj: body_0001.obj … body_12000.obj). Its time:
+///   (number - first number) / fps; a number that is missing is time without a frame.
+///
 /// Throws std::invalid_argument for an option out of its range; geometry::ContentError for a file that is
 /// missing, damaged, cut or longer than its head says, or for another number of vertices. Reads only heads
 /// (of a sequence: the first file). Cost and memory: O(frames).

@@ -38,6 +38,27 @@ struct Bounds {
   Float3 low, high;
 };
 
+/// Accessors in the order of the binary chunk, a view each.
+class Accessors {
+ public:
+  json accessors = json::array(), views = json::array();
+
+  int add(std::size_t count, int component, const char* type, std::size_t bytes, int target) {
+    views.push_back({{"buffer", 0}, {"byteOffset", offset_}, {"byteLength", bytes}});
+    if (target) views.back()["target"] = target;
+    accessors.push_back(
+        {{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
+    offset_ += bytes;
+    return static_cast<int>(accessors.size()) - 1;
+  }
+  void bound(const json& low, const json& high) {
+    accessors.back()["min"] = low, accessors.back()["max"] = high;
+  }
+
+ private:
+  std::size_t offset_ = 0;
+};
+
 /// The binary chunk: indices, texture coordinates | frame 0: positions, normals | frame i > 0: what is added
 /// to both in it | times, weights. Mesh vertex i is vertex i; its copies for other texture coordinates follow
 /// the last.
@@ -161,6 +182,7 @@ class GlbEncoder : public AnimationEncoder {
     return static_data_.size() + 24 * source_.size() * frames + animation;
   }
 
+  json weights_over_time(std::size_t frames, Accessors& a) const;
   json document(std::size_t frames, std::size_t binary) const;
 
   AnimationOptions options_;
@@ -172,26 +194,16 @@ class GlbEncoder : public AnimationEncoder {
   std::vector<Bounds> bounds_;  ///< of the positions (or what is added to them) of each frame
 };
 
-/// Accessors in the order of the binary chunk, a view each.
-class Accessors {
- public:
-  json accessors = json::array(), views = json::array();
-
-  int add(std::size_t count, int component, const char* type, std::size_t bytes, int target) {
-    views.push_back({{"buffer", 0}, {"byteOffset", offset_}, {"byteLength", bytes}});
-    if (target) views.back()["target"] = target;
-    accessors.push_back(
-        {{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
-    offset_ += bytes;
-    return static_cast<int>(accessors.size()) - 1;
-  }
-  void bound(const json& low, const json& high) {
-    accessors.back()["min"] = low, accessors.back()["max"] = high;
-  }
-
- private:
-  std::size_t offset_ = 0;
-};
+json GlbEncoder::weights_over_time(std::size_t frames, Accessors& a) const {
+  const std::size_t weights = frames * (frames - 1);
+  const int input = a.add(frames, kFloat, "SCALAR", 4 * frames, 0);
+  a.bound(json::array({static_cast<float>(frame_time(options_, 0))}),
+          json::array({static_cast<float>(frame_time(options_, frames - 1))}));
+  json sampler = {{"input", input}, {"output", a.add(weights, kFloat, "SCALAR", 4 * weights, 0)}};
+  sampler["interpolation"] = options_.interpolation == Interpolation::step ? "STEP" : "LINEAR";
+  const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}};
+  return {{"samplers", json::array({sampler})}, {"channels", json::array({channel})}};
+}
 
 json GlbEncoder::document(std::size_t frames, std::size_t binary) const {
   Accessors a;
@@ -216,16 +228,7 @@ json GlbEncoder::document(std::size_t frames, std::size_t binary) const {
   root["materials"][0]["pbrMetallicRoughness"] = {{"metallicFactor", 0}, {"roughnessFactor", 0.9}};
   root["buffers"] = json::array({{{"byteLength", binary}}});
   if (frames > 1) {
-    const std::size_t weights = frames * (frames - 1);
-    const int input = a.add(frames, kFloat, "SCALAR", 4 * frames, 0);
-    a.bound(json::array({static_cast<float>(frame_time(options_, 0))}),
-            json::array({static_cast<float>(frame_time(options_, frames - 1))}));
-    json sampler = {{"input", input}, {"output", a.add(weights, kFloat, "SCALAR", 4 * weights, 0)}};
-    sampler["interpolation"] = options_.interpolation == Interpolation::step ? "STEP" : "LINEAR";
-    const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}};
-    root["animations"] = json::array();
-    root["animations"].push_back(
-        {{"samplers", json::array({sampler})}, {"channels", json::array({channel})}});
+    root["animations"] = json::array({weights_over_time(frames, a)});
     primitive["targets"] = targets;
     mesh["weights"] = std::vector<int>(frames - 1, 0);
   }

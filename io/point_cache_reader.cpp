@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -76,13 +77,11 @@ void check_counts(const fs::path& path, const Layout& layout, std::uint64_t size
   if (layout.frames <= 0 || layout.points <= 0)
     fail("its head says " + std::to_string(layout.frames) + " frames of " + std::to_string(layout.points) +
          " vertices: damaged, or its writer did not finish");
-  const std::uint64_t wanted = layout.first + std::uint64_t{kPointBytes} *
-                                                  static_cast<std::uint64_t>(layout.frames) *
-                                                  static_cast<std::uint64_t>(layout.points);
-  if (wanted != size)
-    fail(std::to_string(size) + " bytes, but " + std::to_string(layout.frames) + " frames of " +
-         std::to_string(layout.points) + " vertices take " + std::to_string(wanted) +
-         ": cut, damaged, or another format");
+  const std::uint64_t a_frame = kPointBytes * static_cast<std::uint64_t>(layout.points);
+  const std::uint64_t rest = size - std::min(size, layout.first);
+  if (rest % a_frame != 0 || rest / a_frame != static_cast<std::uint64_t>(layout.frames))
+    fail(std::to_string(layout.frames) + " frames of " + std::to_string(layout.points) +
+         " vertices do not fit its " + std::to_string(size) + " bytes: cut, damaged, or another format");
   if (static_cast<std::size_t>(layout.points) != vertices)
     fail(std::to_string(layout.points) + " vertices, but the mesh has " + std::to_string(vertices) +
          "; give the mesh that it was made for");

@@ -37,6 +37,10 @@ def evaluated(obj):
     return [tuple(obj.matrix_world @ v.co) for v in mesh.vertices]
 
 
+def y_up(points):  # Blender's importers turn y up into z up
+    return [(x, z, -y) for x, y, z in points]
+
+
 def farthest(found, wanted):
     return max(abs(a - b) for p, q in zip(found, wanted) for a, b in zip(p, q))
 
@@ -50,7 +54,7 @@ def judge(what, error):
 
 def load_sheet():
     clear()
-    bpy.ops.wm.obj_import(filepath=os.path.join(folder, "sheet.obj"), forward_axis="Y", up_axis="Z")
+    bpy.ops.wm.obj_import(filepath=os.path.join(folder, "sheet.obj"))  # y up, as a user's click does it
     return bpy.context.selected_objects[0]
 
 
@@ -65,12 +69,8 @@ def check_cache(name, kind):
     worst = 0
     for i, wanted in enumerate(frames):
         bpy.context.scene.frame_set(i)
-        worst = max(worst, farthest(evaluated(obj), wanted))
+        worst = max(worst, farthest(y_up(evaluated(obj)), wanted))
     judge(f"{name} through a Mesh Cache modifier, {len(frames)} frames of {len(obj.data.vertices)} vertices", worst)
-
-
-def y_up(points):  # Blender's importer turns y up into z up
-    return [(x, z, -y) for x, y, z in points]
 
 
 def check_glb(name, halfway):

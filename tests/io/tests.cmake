@@ -7,6 +7,7 @@ furrow_add_tests(io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   chain_segments_test.cpp
   child_process_test.cpp
   damaged_files_test.cpp
+  error_types_test.cpp
   field_file_test.cpp
   frame_source_test.cpp
   glb_writer_test.cpp
