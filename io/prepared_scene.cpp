@@ -162,10 +162,8 @@ PreparedMesh prepare_mesh(const RenderMesh& mesh, const Frame& frame) {
 }
 
 PreparedCamera prepare_camera(const Camera& camera, const Frame& frame) {
-  if (!vector(camera.eye).allFinite() || !vector(camera.target).allFinite() ||
-      !vector(camera.up).allFinite()) {
+  if (!vector(camera.eye).allFinite() || !vector(camera.target).allFinite() || !vector(camera.up).allFinite())
     refuse("camera: a coordinate of eye, target or up is not finite");
-  }
   if (!(camera.field_of_view_deg >= 1 && camera.field_of_view_deg <= 150))
     refuse("camera: field_of_view_deg " + std::to_string(camera.field_of_view_deg) + " is not in [1, 150]");
   const Vector3d eye = frame(camera.eye);

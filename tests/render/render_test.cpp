@@ -272,5 +272,28 @@ TEST_CASE("Parallel lines of sight show near and far alike, and as large as they
   CHECK_THROWS_WITH(io::render(scene, options), Catch::Contains("parallel_height"));
 }
 
+TEST_CASE("The line of sight through a pixel leads to what the picture shows there") {
+  io::RenderOptions options = from_the_front(100, 4);
+  options.width = 140;
+  options.camera = io::Camera{{0.3, 1, 4}, {0.1, 0.2, 0}, {0.2, 1, 0.1}, 35};
+  options.quality = io::Quality::normal;
+  for (const bool parallel : {false, true}) {
+    if (parallel) options.camera->parallel_height = 2.5;
+    for (const auto& [column, row] : {std::pair{30, 70}, {70, 12}, {128, 50}}) {
+      const auto [origin, direction] = io::line_of_sight({*options.camera, 140, 100}, column, row);
+      const auto p = origin + 3.5 * direction;
+      io::RenderScene scene{{square({0, 0, -2}, 3, kBlue)}, {{{{p.x(), p.y(), p.z()}}, kRed, 2}}};
+      const io::Image image = io::render(scene, options);
+      double x = 0, y = 0, n = 0;
+      for (int i = 0; i < 140; ++i)
+        for (int j = 0; j < 100; ++j)
+          if (is_reddish(pixel(image, i, j))) x += i, y += j, ++n;
+      REQUIRE(n > 20);
+      CHECK(x / n == Approx(column).margin(0.2));
+      CHECK(y / n == Approx(row).margin(0.2));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace furrow::tests
