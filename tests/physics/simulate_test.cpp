@@ -229,3 +229,51 @@ TEST_CASE("simulate refuses options out of range before it moves anything") {
   CHECK(simulate(cloth, nullptr, none).steps == 0);
   CHECK(same_bits(cloth, start));
 }
+
+TEST_CASE("surroundings that do nothing change no bit") {
+  const Ball ball({0.3, -0.3, -0.16}, 0.2);
+  Cloth plain = hung_sheet(), still = plain;
+  SimulateOptions options;
+  options.seconds = 0.2;
+  const SimulateReport a = simulate(plain, &ball, options);
+  World world;
+  world.collider = &ball;
+  world.body_motion.keyframes = {{0}, {0.1}};
+  world.body_motion.spin = Spin{};
+  world.wind.gusts = {{0, 5}};
+  SimulateState state;
+  const SimulateReport b = simulate(still, world, options, &state);
+  CHECK(a.contacts > 0);
+  CHECK(same_bits(plain, still));
+  CHECK(a.collider_queries == b.collider_queries);
+  CHECK(state.time == 0.2);
+  CHECK(state.step == b.steps);
+}
+
+TEST_CASE("wind without drag is no wind") {
+  Cloth calm = hung_sheet(), windy = calm;
+  SimulateOptions options;
+  options.seconds = 0.05;
+  options.air_drag = 0;
+  World world;
+  simulate(calm, world, options);
+  world.wind.velocity = Vec3(0, 0, 5);
+  simulate(windy, world, options);
+  CHECK(same_bits(calm, windy));
+  options.air_drag = 1;
+  simulate(windy, world, options);
+  CHECK(windy.particles.v.back().z() > 0.1);
+}
+
+TEST_CASE("one body at a time") {
+  const Ball ball(Vec3::Zero(), 0.2);
+  AnimatedBody body({{{0, 1, 2}}, {0, 1}, [](int) {
+                       return std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+                     }});
+  World world;
+  world.collider = &ball;
+  world.animated = &body;
+  Cloth cloth = hung_sheet();
+  CHECK_THROWS_WITH(simulate(cloth, world, SimulateOptions{}),
+                    Catch::Contains("a rigid and an animated body"));
+}
