@@ -37,7 +37,7 @@ BodyCollider load_body(const io::SceneBody& body, const CommonArguments& common)
   Progress progress("distance field", common);
   const auto show = [&](double share) {
     progress.show(share);
-    return true;
+    return !interrupted();
   };
   physics::DistanceField field = body.field.empty()
                                      ? physics::DistanceField::build(exact, threaded(body.options), show)

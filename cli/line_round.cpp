@@ -2,11 +2,14 @@
 #include "cli/line_round.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "cli/common.h"
 #include "cli/wrinkle_reports.h"
 #include "geometry/property_names.h"
-#include "io/nearest_word.h"
+#include "io/bytes_file.h"
+#include "io/resolve_strokes.h"
+#include "io/stroke_file.h"
 
 namespace furrow::cli {
 namespace {
@@ -49,38 +52,52 @@ io::WrinkleRecord record_of(const geometry::WrinkleOptions& o,
   record.options = flags(o);
   record.lines.resize(o.first_line, {"", geometry::kUnset, geometry::kUnset, geometry::kUnset});
   for (const geometry::WrinkledLine& line : report.lines)
-    record.lines.push_back({line.name, line.height, line.drawn_height, line.smoothed_height});
+    record.lines.push_back(
+        {line.name, line.height, line.drawn_height, line.smoothed_height, line.base_height});
   return record;
+}
+
+/// So that the lines can be drawn again, without some of them, from the wrinkled mesh alone.
+void note_strokes(io::WrinkleRecord& record, const std::string& garment,
+                  const std::vector<io::DrawnStroke>& strokes) {
+  const bool is_file = !garment.empty() && garment != "-";
+  record.garment = is_file ? garment : "";
+  record.garment_hash = is_file ? io::content_hash(garment) : "";
+  std::ostringstream text;
+  io::write_strokes(text, strokes);
+  record.strokes = text.str();
 }
 
 }  // namespace
 
-LineRound draw_lines(io::MeshFile& file, const std::vector<geometry::Stroke>& strokes,
-                     const io::SceneLines& lines, std::optional<double> density,
-                     const geometry::StageObserver& observer, physics::SimulateState* state,
-                     const bridge::GatherOptions& springs) {
-  const std::optional<io::WrinkleRecord> earlier = io::find_wrinkle_record(file);
-  const geometry::WrinkleOptions options = continued(lines.options, file.mesh, earlier, density);
+LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke>& strokes,
+                     const io::SceneLines& lines, const geometry::StageObserver& observer) {
+  const std::optional<io::WrinkleRecord> earlier = io::find_wrinkle_record(target.file);
+  const geometry::WrinkleOptions options =
+      continued(lines.options, target.file.mesh, earlier, target.density);
+  io::ResolvedStrokes resolved = io::resolve_strokes(strokes, target.file);
   LineRound round;
   round.first_line = options.first_line;
-  if (state) {
-    round.moving = bridge::draw_more(file.mesh, *state, strokes, {options, springs, lines.fade}, observer);
+  round.warnings = std::move(resolved.warnings);
+  if (target.moving) {
+    round.moving = bridge::draw_more(target.file.mesh, *target.moving, resolved.strokes,
+                                     {options, target.springs, lines.fade}, observer);
     round.report = round.moving->wrinkle;
   } else {
-    round.report = geometry::wrinkle(file.mesh, strokes, options, observer);
+    round.report = geometry::wrinkle(target.file.mesh, resolved.strokes, options, observer);
   }
-  io::set_wrinkle_record(file, record_of(options, earlier, round.report));
+  const auto& more = round.report.insertion.warnings;
+  round.warnings.insert(round.warnings.end(), more.begin(), more.end());
+  io::WrinkleRecord record = record_of(options, earlier, round.report);
+  note_strokes(record, target.moving ? "" : target.garment, strokes);
+  io::set_wrinkle_record(target.file, record);
   return round;
 }
 
-void leave_out(std::vector<geometry::Stroke>& strokes, const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    std::vector<std::string> known;
-    for (const geometry::Stroke& s : strokes) known.push_back(s.name);
-    if (!std::erase_if(strokes, [&](const geometry::Stroke& s) { return s.name == name; }))
-      throw UsageError("no stroke is named '" + name + "'" +
-                       (known.empty() ? "" : "; did you mean '" + io::nearest_word(name, known) + "'?"));
-  }
+void leave_out(std::vector<io::DrawnStroke>& strokes, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    strokes.erase(strokes.begin() + static_cast<std::ptrdiff_t>(io::find_stroke(strokes, name)));
+  if (strokes.empty()) throw UsageError("--without leaves no stroke to draw");
 }
 
 }  // namespace furrow::cli

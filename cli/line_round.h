@@ -3,27 +3,35 @@
 #include <optional>
 
 #include "bridge/draw_more.h"
+#include "io/drawn_stroke.h"
 #include "io/scene.h"
 #include "io/wrinkle_record.h"
 
 namespace furrow::cli {
+
+/// What a round of lines is drawn into.
+struct LineTarget {
+  io::MeshFile& file;
+  std::string garment;                       ///< the file that it was read from, for drawing it again; or ""
+  std::optional<double> density;             ///< [kg/m^2]; none: as before, or the default
+  physics::SimulateState* moving = nullptr;  ///< the garment is in motion
+  bridge::GatherOptions springs;             ///< of its simulation, if it is
+};
 
 /// A round of lines: what `wrinkle` and the rounds of a scene share.
 struct LineRound {
   geometry::WrinkleReport report;
   int first_line = 0;                            ///< id of the round's first line
   std::optional<bridge::DrawMoreReport> moving;  ///< drawn into a cloth in motion: the rest of the report
+  std::vector<std::string> warnings;
 };
 
 /// Draws the lines into the garment and notes them in its wrinkle record, going on from earlier rounds: their
-/// ids, the mean rest lengths before any line, the density (unless `density` is given). With `state` the
-/// garment is in motion, and `springs` are those of its simulation.
-LineRound draw_lines(io::MeshFile& file, const std::vector<geometry::Stroke>& strokes,
-                     const io::SceneLines& lines, std::optional<double> density,
-                     const geometry::StageObserver& observer = {}, physics::SimulateState* state = nullptr,
-                     const bridge::GatherOptions& springs = {});
+/// ids, the mean rest lengths before any line, the density.
+LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke>& strokes,
+                     const io::SceneLines& lines, const geometry::StageObserver& observer = {});
 
-/// Leaves out the strokes with these names. Throws UsageError for a name that no stroke has.
-void leave_out(std::vector<geometry::Stroke>& strokes, const std::vector<std::string>& names);
+/// Leaves out the strokes with these names. Throws UsageError if none is left.
+void leave_out(std::vector<io::DrawnStroke>& strokes, const std::vector<std::string>& names);
 
 }  // namespace furrow::cli

@@ -2,29 +2,16 @@
 #include <algorithm>
 #include <iostream>
 #include <new>
-#include <numeric>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
 #include "geometry/errors.h"
+#include "io/nearest_word.h"
+#include "physics/progress.h"
 
 namespace {
 
 using namespace furrow;
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-    }
-  }
-  return row.back();
-}
 
 bool has_subcommand(const CLI::App& app, const std::string& word) {
   const auto subs = app.get_subcommands({});
@@ -36,7 +23,7 @@ std::string unknown_subcommand(const CLI::App& app, const std::string& word) {
   std::string nearest;
   std::size_t least = 4;
   for (const CLI::App* sub : app.get_subcommands({}))
-    if (const std::size_t d = edit_distance(word, sub->get_name()); d < least) {
+    if (const std::size_t d = io::edit_distance(word, sub->get_name()); d < least) {
       least = d;
       nearest = sub->get_name();
     }
@@ -88,6 +75,8 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const physics::Cancelled&) {
+    return fail(cli::kInterrupted, "interrupted before anything was written");
   } catch (const cli::UsageError& e) {
     return fail(cli::kUsage, e.what());
   } catch (const std::invalid_argument& e) {

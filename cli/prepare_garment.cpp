@@ -9,6 +9,7 @@
 #include "geometry/property_names.h"
 #include "geometry/rest_metric.h"
 #include "geometry/stiffness.h"
+#include "geometry/vertex_attributes.h"
 #include "geometry/wrinkle.h"
 
 namespace furrow::cli {
@@ -25,6 +26,7 @@ bool has_masses(const geometry::Mesh& mesh) {
 void complete_garment(io::MeshFile& file, const io::SceneMaterial& material) {
   using namespace geometry;
   Mesh& mesh = file.mesh;
+  ensure_rest_positions(mesh);
   ensure_rest_lengths(mesh);
   ensure_bending_springs(mesh);
   io::WrinkleRecord record = io::find_wrinkle_record(file).value_or(io::WrinkleRecord{});

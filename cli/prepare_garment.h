@@ -6,9 +6,9 @@
 
 namespace furrow::cli {
 
-/// Masses, rest lengths and bending springs where the garment has none (the shape as it is, at rest), and a
-/// wrinkle record with the density and the mean rest lengths. Nothing changes in a garment that is complete
-/// already, unless the material names another density.
+/// Masses, rest positions, rest lengths and bending springs where the garment has none (the shape as it is,
+/// at rest), and a wrinkle record with the density and the mean rest lengths. Nothing changes in a garment
+/// that is complete already, unless the material names another density.
 void complete_garment(io::MeshFile& file, const io::SceneMaterial& material);
 
 /// How a complete garment's maps become springs.

@@ -32,6 +32,7 @@ class SceneRun {
       : scene_(scene), document_(document), folder_(std::move(folder)), common_(common) {}
 
   int run(std::optional<io::SavedState> saved) {
+    catch_interrupts();
     resumed_ = saved.has_value();
     if (saved)
       now_ = std::move(*saved);
@@ -39,7 +40,6 @@ class SceneRun {
       begin();
     load_body_and_pins();
     heights_ = line_heights_by_id(now_.file.mesh);
-    catch_interrupts();
     while (draw_due_lines() && simulate_to(next_stop()) && now_.simulation.time < scene_.simulation.seconds &&
            !stopped_) {
     }
@@ -72,24 +72,26 @@ class SceneRun {
   }
 
   void draw(const io::SceneLines& lines) {
-    std::vector<geometry::Stroke> strokes =
-        io::read_strokes(lines.strokes, lines.height, read_options(common_));
-    leave_out(strokes, lines.without);
+    std::vector<io::DrawnStroke> strokes =
+        io::read_drawn_strokes(lines.strokes, lines.height, read_options(common_));
+    if (!lines.without.empty()) leave_out(strokes, lines.without);
     const bool moving = now_.simulation.step > 0;
     finish_recording();
-    if (moving)
-      now_ = io::parse_state(io::state_bytes(std::move(now_)), "state");  // as if it had been saved here
+    if (moving) now_ = io::parse_state(io::state_bytes(std::move(now_)), "state");  // as if it had been saved
     const std::size_t old_count = now_.file.mesh.number_of_vertices();
-    const LineRound round =
-        draw_lines(now_.file, strokes, lines, scene_.material.density, stage_writer(now_.lines_drawn == 0),
-                   moving ? &now_.simulation : nullptr,
-                   moving ? spring_options(now_.file, scene_.material) : bridge::GatherOptions{});
+    LineTarget target{
+        now_.file, scene_.subdivide ? "" : scene_.garment.string(), scene_.material.density, nullptr, {}};
+    if (moving) {
+      target.moving = &now_.simulation;
+      target.springs = spring_options(now_.file, scene_.material);
+    }
+    const LineRound round = draw_lines(target, strokes, lines, stage_writer(now_.lines_drawn == 0));
     if (moving)
       pin_new_border_vertices(now_.file.mesh, old_count, now_.pins);
     else
       now_.pins = find_pins(now_.file, scene_.pins);
     ++now_.lines_drawn;
-    for (const std::string& w : round.report.insertion.warnings) warn(w, common_);
+    for (const std::string& w : round.warnings) warn(w, common_);
     Json json = to_json(round.report, now_.file.mesh, round.first_line);
     if (round.moving) json["moving"] = to_json(*round.moving, now_.simulation.time);
     rounds_.push_back(std::move(json));

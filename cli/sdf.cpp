@@ -54,6 +54,7 @@ void sdf(SdfArguments a) {
   if (a.out == "-") throw UsageError("-o: a field needs a file name");
   refuse_same(a.out, a.body_path);
   refuse_same(a.slice, a.body_path);
+  catch_interrupts();
   const auto start = std::chrono::steady_clock::now();
   const BodyCollider body = load_body(a.body, a);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -56,9 +56,10 @@ std::vector<double> line_heights_by_id(const geometry::Mesh& mesh) {
 
 Json to_json(const physics::SimulateReport& r, const io::MeshFile& file, const io::WrinkleRecord& record,
              const std::vector<double>& before, const WorldBody* body, double contact_gap) {
-  Json report{{"outcome", r.outcome == physics::Outcome::finished   ? "finished"
-                          : r.outcome == physics::Outcome::diverged ? "diverged"
-                                                                    : "interrupted"},
+  Json report{{"outcome", r.outcome == physics::Outcome::finished     ? "finished"
+                          : r.outcome == physics::Outcome::diverged   ? "diverged"
+                          : r.outcome == physics::Outcome::stopped_at ? "stopped"
+                                                                      : "interrupted"},
               {"time", r.time},
               {"steps", r.steps},
               {"dt", r.dt},

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <memory>
-#include <sstream>
 
 #include "cli/camera_options.h"
 #include "cli/common.h"
+#include "cli/line_round.h"
 #include "cli/max_weights.h"
+#include "cli/pins.h"
+#include "cli/prepare_garment.h"
 #include "cli/smoothing_options.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_reports.h"
@@ -15,6 +17,8 @@
 #include "geometry/property_names.h"
 #include "io/bytes_file.h"
 #include "io/resolve_strokes.h"
+#include "io/scene_file.h"
+#include "io/state_file.h"
 #include "io/stroke_file.h"
 #include "io/wrinkle_record.h"
 
@@ -22,9 +26,9 @@ namespace furrow::cli {
 namespace {
 
 struct WrinkleArguments : CommonArguments {
-  std::string in, strokes, inserted, preview;
+  std::string in, strokes, state, inserted, preview;
   std::vector<std::string> without;
-  double height = geometry::Stroke{}.height;
+  double height = geometry::Stroke{}.height, fade = io::SceneLines{}.fade;
   std::string rule = "safe", rest = "drawn", region = "two-ring";
   std::optional<double> density;
   std::optional<int> max_weights;
@@ -33,11 +37,12 @@ struct WrinkleArguments : CommonArguments {
   CameraArguments camera;
 };
 
-/// A garment and the strokes to be drawn on it.
+/// A garment, perhaps in motion, and the strokes to be drawn on it.
 struct Drawing {
   io::MeshFile file;
   std::string path;
   std::vector<io::DrawnStroke> strokes;
+  std::optional<io::SavedState> state;  ///< its mesh is in `file`
 };
 
 geometry::WrinkleOptions to_options(const WrinkleArguments& a) {
@@ -48,52 +53,6 @@ geometry::WrinkleOptions to_options(const WrinkleArguments& a) {
   o.rest = a.rest == "flat" ? RestRule::flat : RestRule::drawn;
   o.region = a.region == "whole-mesh" ? SmoothingRegion::whole_mesh : SmoothingRegion::two_ring;
   return o;
-}
-
-/// The flags that say the same, for the record in the file.
-std::string flags(const WrinkleArguments& a, const geometry::WrinkleOptions& o) {
-  const auto number = [](double x) { return Json(x).dump(); };
-  return "--rule " + a.rule + " --rest " + a.rest + " --region " + a.region + " --max-distance " +
-         number(a.options.insertion.max_distance) + " --density " + number(o.density) + " --iterations " +
-         std::to_string(a.smoothing.iterations) + " --lambda " + number(a.smoothing.lambda) + " --mu " +
-         number(a.smoothing.mu) + " --weights " + a.smoothing.weights +
-         (a.smoothing.keep_lines ? " --keep-lines" : "") + (a.smoothing.keep_border ? " --keep-border" : "");
-}
-
-/// Continues what an earlier round of lines left: their ids, the mean rest lengths before any line, the
-/// density.
-geometry::WrinkleOptions continued(geometry::WrinkleOptions o, const WrinkleArguments& a,
-                                   const io::MeshFile& file, const std::optional<io::WrinkleRecord>& record) {
-  o.first_line = next_line(file.mesh);
-  if (record) {
-    o.first_line = std::max(o.first_line, static_cast<int>(record->lines.size()));
-    o.mean_structural_length = record->mean_structural_length;
-    if (record->mean_bending_length > 0) o.mean_bending_length = record->mean_bending_length;
-  }
-  o.density = a.density.value_or(record ? record->density : o.density);
-  return o;
-}
-
-/// The record of the lines of earlier rounds and of this one.
-io::WrinkleRecord record_of(const WrinkleArguments& a, const geometry::WrinkleOptions& o,
-                            const std::optional<io::WrinkleRecord>& earlier, const Drawing& drawing,
-                            const geometry::WrinkleReport& report) {
-  io::WrinkleRecord record = earlier.value_or(io::WrinkleRecord{});
-  record.mean_structural_length = report.mean_structural_length;
-  record.mean_bending_length = report.mean_bending_length;
-  record.density = o.density;
-  record.options = flags(a, o);
-  record.lines.resize(o.first_line, {"", geometry::kUnset, geometry::kUnset, geometry::kUnset});
-  for (const geometry::WrinkledLine& line : report.lines)
-    record.lines.push_back(
-        {line.name, line.height, line.drawn_height, line.smoothed_height, line.base_height});
-  const bool from_pipe = drawing.path == "-";
-  record.garment = from_pipe ? "" : drawing.path;
-  record.garment_hash = from_pipe ? "" : io::content_hash(drawing.path);
-  std::ostringstream strokes;
-  io::write_strokes(strokes, drawing.strokes);
-  record.strokes = strokes.str();
-  return record;
 }
 
 void add_options(CLI::App& sub, WrinkleArguments& a) {
@@ -145,19 +104,23 @@ Drawing drawing_again(WrinkleArguments& a) {
   if (!a.unit) a.unit = record->unit;
   if (!a.up) a.up = record->up;
   const std::string garment = find_garment(*record, a.in);
-  return {read_garment(garment, a), garment, io::drawn_strokes_from(record->strokes, a.in)};
+  return {read_garment(garment, a), garment, io::drawn_strokes_from(record->strokes, a.in), {}};
 }
 
 Drawing read_drawing(WrinkleArguments& a) {
   Drawing drawing;
-  if (a.strokes.empty()) {
+  if (!a.state.empty()) {
+    // With --state the one file that is named is that of the strokes.
+    if (!a.strokes.empty()) throw UsageError(a.in + ": --state has its garment; leave the mesh away");
+    drawing.state = io::read_state(a.state);
+    drawing.file = std::move(drawing.state->file);
+    drawing.strokes = io::read_drawn_strokes(a.in, a.height, read_options(a));
+  } else if (a.strokes.empty()) {
     drawing = drawing_again(a);
   } else {
-    drawing = {read_garment(a.in, a), a.in, io::read_drawn_strokes(a.strokes, a.height, read_options(a))};
+    drawing = {read_garment(a.in, a), a.in, io::read_drawn_strokes(a.strokes, a.height, read_options(a)), {}};
   }
-  for (const std::string& name : a.without)
-    drawing.strokes.erase(drawing.strokes.begin() + io::find_stroke(drawing.strokes, name));
-  if (drawing.strokes.empty()) throw UsageError("--without leaves no stroke to draw");
+  if (!a.without.empty()) leave_out(drawing.strokes, a.without);
   return drawing;
 }
 
@@ -166,6 +129,8 @@ void check_outputs(const WrinkleArguments& a) {
     throw UsageError("wrinkle writes a mesh (-o) or a picture (--preview)");
   if (a.out.empty() && !a.inserted.empty()) throw UsageError("--inserted goes with -o");
   if (!a.out.empty()) check_output(a.out);
+  if (!a.state.empty() && !a.out.empty() && std::filesystem::path(a.out).extension() != ".ply")
+    throw UsageError(a.out + ": lines drawn into a state make a state, a .ply file");
   if (!a.inserted.empty()) {
     check_output(a.inserted);
     refuse_same(a.inserted, a.out);
@@ -179,30 +144,54 @@ void write_preview(const io::RenderScene& scene, const WrinkleArguments& a) {
   save_camera(options, a.camera);
 }
 
+/// The springs of the simulation that a state belongs to.
+bridge::GatherOptions springs_of(const io::SavedState& state, const io::MeshFile& file,
+                                 const std::string& path) {
+  io::TomlDocument document;
+  document.root = state.scene;
+  document.name = path;
+  return spring_options(file, io::read_scene(document, std::filesystem::path(path).parent_path()).material);
+}
+
+void write_result(const WrinkleArguments& a, Drawing& drawing, std::size_t old_count) {
+  if (!drawing.state) return write_mesh(drawing.file, a);
+  pin_new_border_vertices(drawing.file.mesh, old_count, drawing.state->pins);
+  io::SavedState state = *drawing.state;
+  state.file = drawing.file;
+  const auto folder = [](const std::string& path) { return std::filesystem::path(path).parent_path(); };
+  io::TomlDocument document{state.scene, {}, a.state};
+  state.scene = io::relocated(document, folder(a.state), folder(a.out));
+  io::write_state(a.out, std::move(state));
+}
+
 void wrinkle(WrinkleArguments a) {
   check_outputs(a);
   Drawing drawing = read_drawing(a);
   io::MeshFile& file = drawing.file;
-  const io::ResolvedStrokes resolved = io::resolve_strokes(drawing.strokes, file);
-  for (const std::string& w : resolved.warnings) warn(w, a);
-  const std::optional<io::WrinkleRecord> earlier = io::find_wrinkle_record(file);
-  const geometry::WrinkleOptions options = continued(to_options(a), a, file, earlier);
+  LineTarget target{file, drawing.path, a.density, nullptr, {}};
+  if (drawing.state) {
+    target.moving = &drawing.state->simulation;
+    target.springs = springs_of(*drawing.state, file, a.state);
+  }
+  io::SceneLines lines;
+  lines.options = to_options(a);
+  lines.fade = a.fade;
   std::optional<geometry::Mesh> inserted, displaced;
   const auto keep_stage = [&](geometry::Stage stage, const geometry::Mesh& mesh) {
     if (!a.preview.empty() && stage == geometry::Stage::inserted) inserted = mesh;
     if (!a.inserted.empty() && stage == geometry::Stage::displaced) displaced = mesh;
   };
   const geometry::Mesh before = file.mesh;
-  const geometry::WrinkleReport report = geometry::wrinkle(file.mesh, resolved.strokes, options, keep_stage);
-  for (const std::string& w : report.insertion.warnings) warn(w, a);
+  const LineRound round = draw_lines(target, drawing.strokes, lines, keep_stage);
+  for (const std::string& w : round.warnings) warn(w, a);
   if (a.max_weights) geometry::normalize_skin_weights(file.mesh, *a.max_weights);
-  const io::WrinkleRecord record = record_of(a, options, earlier, drawing, report);
-  if (inserted) write_preview(preview_of(*inserted, before, report, record), a);
-  set_wrinkle_record(file, record);
-  if (!a.out.empty()) write_mesh(file, a);
-  const Json json = to_json(report, file.mesh, options.first_line);
+  if (inserted) write_preview(preview_of(*inserted, before, round.report, *io::find_wrinkle_record(file)), a);
+  if (!a.out.empty()) write_result(a, drawing, before.number_of_vertices());
+  Json json = to_json(round.report, file.mesh, round.first_line);
+  if (round.moving) json["moving"] = to_json(*round.moving, drawing.state->simulation.time);
   if (displaced) {
     file.mesh = std::move(*displaced);
+    io::drop_motion(file.mesh);
     write_mesh(a.inserted, file, a);
   }
   print_report(json, a);
@@ -218,13 +207,20 @@ void add_wrinkle(CLI::App& app) {
                          "  furrow wrinkle shirt.obj lines.json -o wrinkled.ply\n"
                          "  furrow wrinkle shirt.obj lines.json --preview lines.png --view front\n"
                          "  furrow wrinkle wrinkled.ply --without fold -o less.ply\n"
+                         "  furrow wrinkle --state at1.ply more.json -o at1-more.ply\n"
                          "  furrow wrinkle skirt.obj lines.obj --height -0.02 -o wrinkled.ply");
-  sub->add_option("mesh", a->in, "garment to read")->required();
+  sub->add_option("mesh", a->in, "garment to read; with --state: the file of strokes")->required();
   sub->add_option(
       "strokes", a->strokes,
       "lines: JSON, or the l elements of an OBJ file; none: those that the mesh, a wrinkled PLY, was "
       "made with are drawn again on its garment, with its options");
   sub->add_option("-o,--output", a->out, "mesh to write; PLY keeps rest lengths, masses and lines");
+  sub->add_option(
+      "--state", a->state,
+      "draw into a simulation that was stopped (furrow simulate --save-state); -o is a state, too");
+  sub->add_option("--fade", a->fade,
+                  "with --state: how slowly the forces of the new lines set in [s]; inf: never")
+      ->capture_default_str();
   sub->add_option("--without", a->without, "leave out the stroke of this name; may be given several times")
       ->allow_extra_args(false);
   sub->add_option("--inserted", a->inserted, "also write the mesh after insertion and before smoothing");

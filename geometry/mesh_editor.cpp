@@ -18,16 +18,6 @@ TextureCoordinate blend_corners(const std::array<TextureCoordinate, 3>& corners,
   return result;
 }
 
-/// Rest positions of a mesh that no line was drawn on yet are its positions.
-Mesh& with_rest_positions(Mesh& mesh) {
-  auto rest = ensure_map(mesh, kRestPosition);
-  for (Vertex v : mesh.vertices()) {
-    const Point& p = mesh.point(v);
-    if (std::isnan(rest[v][0])) rest[v] = {p.x(), p.y(), p.z()};
-  }
-  return mesh;
-}
-
 double cross(const TextureCoordinate& o, const TextureCoordinate& p, const TextureCoordinate& q) {
   return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
 }
@@ -46,7 +36,7 @@ MeshEditor::MeshEditor(Mesh& mesh)
       line_edge_(ensure_map(mesh, kLineEdge)),
       generation_(ensure_map(mesh, kGeneration)),
       texture_(find_map(mesh, kTexture)),
-      blend_(with_rest_positions(mesh)),
+      blend_((ensure_rest_positions(mesh), mesh)),
       group_(find_map(mesh, kGroup)),
       material_(find_map(mesh, kMaterial)),
       bending_(find_map(mesh, kBendingRestLength)),

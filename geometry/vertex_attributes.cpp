@@ -55,6 +55,15 @@ VertexMap<double> ensure_vertex_attribute(Mesh& mesh, const std::string& name) {
   return ensure_map(mesh, PropertyName<Vertex, double>{full.c_str(), 0});
 }
 
+VertexMap<RestPosition> ensure_rest_positions(Mesh& mesh) {
+  auto rest = ensure_map(mesh, kRestPosition);
+  for (Vertex v : mesh.vertices()) {
+    const Point& p = mesh.point(v);
+    if (std::isnan(rest[v][0])) rest[v] = {p.x(), p.y(), p.z()};
+  }
+  return rest;
+}
+
 VertexBlend::VertexBlend(const Mesh& mesh)
     : color_(find_map(mesh, kColor)),
       rest_position_(find_map(mesh, kRestPosition)),

@@ -21,6 +21,10 @@ std::vector<VertexAttribute> vertex_attributes(const Mesh& mesh);
 /// The attribute of that name, added with 0 everywhere if the mesh has none.
 VertexMap<double> ensure_vertex_attribute(Mesh& mesh, const std::string& name);
 
+/// Rest positions, added and set to the positions where a vertex has none: before the cloth moves or lines
+/// are drawn.
+VertexMap<RestPosition> ensure_rest_positions(Mesh& mesh);
+
 /// Everything at vertices that is interpolated where a vertex is added: colours, rest positions,
 /// velocities, attributes.
 class VertexBlend {
