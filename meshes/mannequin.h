@@ -19,7 +19,7 @@ double with_mirror_image(const Vec& p, double blend, const Solid& solid) {
   return smooth_union(solid(p), solid(Vec(-p.x(), p.y(), p.z())), blend);
 }
 
-/// Closed, wound outward, about 12,000 triangles.
+/// Closed, wound outward, about 14,000 triangles.
 geometry::Mesh make_mannequin();
 
 }  // namespace furrow::meshes

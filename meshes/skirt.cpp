@@ -12,12 +12,12 @@ constexpr double kWaist = 1.055, kHem = 0.49;  // heights [m]
 
 /// A little beyond the waist and the hem, where it is cut.
 const Loft kSkirt({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1},
-                  {{0.44, 0.271, 0.249, -0.006},
-                   {0.52, 0.258, 0.236, -0.006},
-                   {0.60, 0.246, 0.224, -0.008},
-                   {0.72, 0.226, 0.203, -0.010},
-                   {0.84, 0.202, 0.178, -0.012},
-                   {0.92, 0.183, 0.157, -0.010},
+                  {{0.44, 0.218, 0.194, -0.010},
+                   {0.52, 0.215, 0.191, -0.010},
+                   {0.62, 0.211, 0.187, -0.010},
+                   {0.72, 0.207, 0.182, -0.011},
+                   {0.84, 0.199, 0.174, -0.012},
+                   {0.92, 0.183, 0.156, -0.010},
                    {1.00, 0.153, 0.122, 0.000},
                    {1.055, 0.131, 0.101, 0.005},
                    {1.12, 0.131, 0.101, 0.005}});
@@ -25,9 +25,9 @@ const Loft kSkirt({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1},
 }  // namespace
 
 geometry::Mesh make_skirt() {
-  const geometry::Mesh tube = mesh_surface(kSkirt, {-0.3, 0.42, -0.3}, {0.3, 1.14, 0.3}, 0.010);
+  const geometry::Mesh tube = mesh_surface(kSkirt, {-0.3, 0.42, -0.3}, {0.3, 1.14, 0.3}, 0.012);
   geometry::Mesh mesh = cut(tube, [](const Vec& p) { return std::min(p.y() - kHem, kWaist - p.y()); });
-  remesh(mesh, 0.0145);
+  remesh(mesh, 0.021);
   return mesh;
 }
 
