@@ -45,7 +45,8 @@ BodyCollider load_body(const io::SceneBody& body, const CommonArguments& common)
   return {std::move(triangles), std::move(exact), std::move(field)};
 }
 
-WorldBody::WorldBody(const io::SceneBody& body, const CommonArguments& common) : motion_(body.motion) {
+WorldBody::WorldBody(const io::SceneBody& body, const CommonArguments& common)
+    : path_(body.mesh.string()), motion_(body.motion) {
   if (!body.frames.empty()) {
     read_frames(body, common);
   } else {
@@ -97,9 +98,18 @@ std::vector<physics::Vec3> WorldBody::vertices_at(double time) const {
 physics::Penetration WorldBody::penetration(std::vector<physics::Vec3> points, double time) const {
   if (animated_) return physics::penetration(physics::ExactDistance({vertices_at(time), triangles_}), points);
   const physics::Pose pose = physics::pose(motion_, time);
-  if (!physics::at_rest(motion_) || !motion_.keyframes.empty())
+  if (!physics::is_identity(motion_))
     for (physics::Vec3& x : points) x = pose.to_body(x);
   return physics::penetration(rigid_->exact, points);
+}
+
+io::MeshFile WorldBody::at(double time, const CommonArguments& common) const {
+  io::MeshFile file = read_mesh(path_, common);
+  const physics::Pose pose = physics::pose(motion_, time);
+  std::vector<physics::Vec3> x = animated_ ? vertices_at(time) : bridge::positions_of(file.mesh);
+  for (geometry::Vertex v : file.mesh.vertices())
+    file.mesh.point(v) = bridge::to_cgal(animated_ ? x[v] : pose.to_world(x[v]));
+  return file;
 }
 
 double contact_gap(double wanted, double field_tolerance, const geometry::Mesh& garment) {

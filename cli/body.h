@@ -35,11 +35,14 @@ class WorldBody {
   const physics::ExactDistance* rigid() const { return rigid_ ? &rigid_->exact : nullptr; }
   /// Of points in the world, at a time, by exact distance.
   physics::Penetration penetration(std::vector<physics::Vec3> points, double time) const;
+  /// Its mesh as it is at a time, for writing.
+  io::MeshFile at(double time, const CommonArguments& common) const;
 
  private:
   void read_frames(const io::SceneBody& body, const CommonArguments& common);
   std::vector<physics::Vec3> vertices_at(double time) const;
 
+  std::string path_;
   physics::RigidMotion motion_;
   double tolerance_ = 0;
   std::unique_ptr<BodyCollider> rigid_;

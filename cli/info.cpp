@@ -2,9 +2,12 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/simulate_report.h"
 #include "cli/subcommands.h"
 #include "geometry/measures.h"
+#include "geometry/property_names.h"
 #include "geometry/self_intersections.h"
+#include "io/wrinkle_record.h"
 
 namespace furrow::cli {
 namespace {
@@ -33,6 +36,12 @@ void info(const InfoArguments& a) {
               {"bounding_box", {{"min", to_json(i.box_min)}, {"max", to_json(i.box_max)}}},
               {"mean_edge_length", i.mean_edge_length},
               {"min_angle_deg", i.min_angle_deg}};
+  report["borders"] = borders_to_json(file.mesh);
+  report["groups"] = file.group_names;
+  report["materials"] = file.material_names;
+  report["texture_coordinates"] = geometry::find_map(file.mesh, geometry::kTexture).has_value();
+  if (const auto record = io::find_wrinkle_record(file))
+    for (const io::WrinkleRecord::Line& line : record->lines) report["lines"].push_back(line.name);
   const io::RepairReport& r = file.repairs;
   report["repairs"] = {
       {"triangulated_faces", r.triangulated_faces},   {"degenerate_faces", r.degenerate_faces},

@@ -85,7 +85,7 @@ class SceneRun {
       target.moving = &now_.simulation;
       target.springs = spring_options(now_.file, scene_.material);
     }
-    const LineRound round = draw_lines(target, strokes, lines, stage_writer(now_.lines_drawn == 0));
+    const LineRound round = draw_lines(target, strokes, lines, stage_writer(lines.time == 0));
     if (moving)
       pin_new_border_vertices(now_.file.mesh, old_count, now_.pins);
     else
@@ -229,6 +229,8 @@ class SceneRun {
     }
     finish_recording();
     io::drop_motion(now_.file.mesh);
+    if (body_ && !out.body.empty())
+      write_mesh(out.body.string(), body_->at(now_.simulation.time, common_), common_);
     if (!out.mesh.empty()) write_mesh(out.mesh.string(), now_.file, common_);
   }
 

@@ -56,9 +56,9 @@ void check_outputs(const io::Scene& scene, const SimulateArguments& a) {
   const io::SceneOutput& out = scene.output;
   if (out.mesh.empty() && out.state.empty() && out.animation.empty())
     throw UsageError("nothing to write: name --output, --save-state or --animation");
-  for (const auto& path : {out.mesh, out.inserted, out.smoothed})
+  for (const auto& path : {out.mesh, out.inserted, out.smoothed, out.body})
     if (!path.empty()) check_output(path.string());
-  for (const auto& path : {out.mesh, out.state, out.inserted, out.smoothed, out.animation}) {
+  for (const auto& path : {out.mesh, out.state, out.inserted, out.smoothed, out.animation, out.body}) {
     if (path.empty() || path == "-") continue;
     if (scene.body) refuse_same(path.string(), scene.body->mesh.string());
     if (is_scene(a.in)) refuse_same(path.string(), a.in);

@@ -34,16 +34,17 @@ Json lines_to_json(const io::MeshFile& file, const io::WrinkleRecord& record,
   return lines;
 }
 
+}  // namespace
+
 Json borders_to_json(const geometry::Mesh& mesh) {
   Json loops = Json::array();
   for (const geometry::BorderLoop& loop : geometry::border_loops(mesh))
     loops.push_back({{"rest_length", geometry::rest_length(mesh, loop)},
                      {"length", loop.length},
-                     {"mean_height", loop.mean_height}});
+                     {"mean_height", loop.mean_height},
+                     {"mean_radius", loop.mean_radius}});
   return loops;
 }
-
-}  // namespace
 
 std::vector<double> line_heights_by_id(const geometry::Mesh& mesh) {
   std::vector<double> heights;

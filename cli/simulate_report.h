@@ -11,6 +11,9 @@ namespace furrow::cli {
 Json to_json(const physics::SimulateReport& report, const io::MeshFile& file, const io::WrinkleRecord& record,
              const std::vector<double>& before, const WorldBody* body, double contact_gap);
 
+/// The border loops, longest first: lengths at rest and in space, mean height, mean horizontal radius [m].
+Json borders_to_json(const geometry::Mesh& mesh);
+
 /// Heights of the lines of a mesh by id; NaN where a line has no vertices [m].
 std::vector<double> line_heights_by_id(const geometry::Mesh& mesh);
 

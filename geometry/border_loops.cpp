@@ -11,6 +11,17 @@
 namespace furrow::geometry {
 namespace {
 
+double mean_radius(const Mesh& mesh, const std::vector<Vertex>& loop) {
+  const double n = static_cast<double>(loop.size());
+  double x = 0, z = 0, sum = 0;
+  for (Vertex v : loop) {
+    x += mesh.point(v).x() / n;
+    z += mesh.point(v).z() / n;
+  }
+  for (Vertex v : loop) sum += std::hypot(mesh.point(v).x() - x, mesh.point(v).z() - z);
+  return sum / n;
+}
+
 BorderLoop walk(const Mesh& mesh, Halfedge start, std::vector<char>& seen) {
   BorderLoop loop;
   double height_integral = 0, height_sum = 0;
@@ -27,6 +38,7 @@ BorderLoop walk(const Mesh& mesh, Halfedge start, std::vector<char>& seen) {
   } while (h != start);
   loop.mean_height = loop.length > 0 ? height_integral / loop.length
                                      : height_sum / static_cast<double>(loop.vertices.size());
+  loop.mean_radius = mean_radius(mesh, loop.vertices);
   std::rotate(loop.vertices.begin(), std::min_element(loop.vertices.begin(), loop.vertices.end()),
               loop.vertices.end());
   return loop;

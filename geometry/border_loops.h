@@ -14,6 +14,7 @@ struct BorderLoop {
   std::vector<Vertex> vertices;  ///< in order, the border on the left hand of outside; the lowest index first
   double length = 0;             ///< in space [m]
   double mean_height = 0;        ///< mean y along the curve [m]; of its vertices if the length is 0
+  double mean_radius = 0;        ///< mean horizontal (x, z) distance of its vertices from their mean [m]
 };
 
 /// All border loops, longest first; of equal length, the one with the lower first vertex first. O(edges).

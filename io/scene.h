@@ -45,7 +45,7 @@ struct ScenePins {
 };
 
 struct SceneOutput {
-  std::filesystem::path mesh, state, inserted, smoothed, animation;  ///< empty: not written
+  std::filesystem::path mesh, state, inserted, smoothed, animation, body;  ///< empty: not written
   double fps = 25;                                                   ///< of the animation [1/s]; > 0
 };
 

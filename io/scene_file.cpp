@@ -227,6 +227,7 @@ class SceneReader {
     read_path(table, "inserted", o.inserted);
     read_path(table, "smoothed", o.smoothed);
     read_path(table, "animation", o.animation);
+    read_path(table, "body", o.body);
     table.read("fps", o.fps, positive("1/s"));
     table.finish();
   }
@@ -257,7 +258,7 @@ Json relocated(const TomlDocument& document, const std::filesystem::path& folder
   for (const auto& [table, keys] : std::map<std::string, std::vector<const char*>>{
            {"garment", {"mesh"}},
            {"body", {"mesh", "field", "frames"}},
-           {"output", {"mesh", "state", "inserted", "smoothed", "animation"}}})
+           {"output", {"mesh", "state", "inserted", "smoothed", "animation", "body"}}})
     for (const char* key : keys)
       if (root.contains(table)) move(root[table], key, table + "." + key);
   if (!root.contains("lines")) return root;

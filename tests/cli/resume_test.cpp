@@ -43,7 +43,7 @@ mesh = "sheet.ply"
 strokes = "first.json"
 [[lines]]
 strokes = "second.json"
-time = 0.12
+time = 0.07
 [body]
 mesh = "ball.ply"
 tolerance = 0.006
@@ -54,11 +54,11 @@ bending = 1
 friction = 0.4
 [[pins]]
 box = [-0.26, -1, -0.26, -0.24, 1, 0.26]
-motion.keyframes = [{time = 0}, {time = 0.3, translation = [0.02, 0, 0]}]
+motion.keyframes = [{time = 0}, {time = 0.16, translation = [0.02, 0, 0]}]
 [forces]
 wind = [0.5, 0, 0]
 [simulation]
-seconds = 0.3
+seconds = 0.16
 )");
   }
 
@@ -81,7 +81,7 @@ TEST_CASE("a simulation stopped anywhere goes on as if it had not been stopped")
   const std::string whole = sheet.run(scene + " --threads 1");
   REQUIRE(sheet.run(scene + " --threads 2") == whole);
   std::mt19937 random(11);
-  std::uniform_real_distribution<double> time(0.001, 0.299);
+  std::uniform_real_distribution<double> time(0.001, 0.159);
   for (int i = 0; i < 20; ++i) {
     const std::string stop = std::to_string(time(random));
     const int threads = i % 2 + 1;

@@ -23,6 +23,8 @@ TEST_CASE("border_loops of a tube that widens: two circles, the longer first, fo
   CHECK(loops[0].length == Approx(80 * 1.5 * std::sin(std::numbers::pi / 40)).epsilon(1e-12));
   CHECK(loops[0].mean_height == Approx(2));
   CHECK(loops[1].mean_height == Approx(0).margin(1e-15));
+  CHECK(loops[0].mean_radius == Approx(1.5));
+  CHECK(loops[1].mean_radius == Approx(0.5));
   CHECK(loops[1].vertices.front() == Vertex(0));
   CHECK(find_border_loop(loops, "top") == 0);
   CHECK(find_border_loop(loops, "bottom") == 1);
