@@ -19,7 +19,8 @@ namespace {
 
 struct RenderArguments : CommonArguments {
   std::vector<std::string> meshes;
-  std::string texture, body, strokes, captions;
+  std::vector<std::string> bodies, strokes;
+  std::string texture, captions;
   CameraArguments camera;
   bool strip = false, no_lines = false;
 };
@@ -41,30 +42,36 @@ void add_garment(io::RenderScene& scene, const std::string& path,
     scene.lines.push_back(std::move(line));
 }
 
-/// The strokes as they lie on the first garment.
-void add_strokes(io::RenderScene& scene, const RenderArguments& a) {
+/// The strokes of a file as they lie on the first garment.
+void add_strokes(io::RenderScene& scene, const std::string& strokes, const RenderArguments& a) {
   const io::MeshFile garment = read_mesh(a.meshes[0], a);
-  const auto drawn = io::read_drawn_strokes(a.strokes, geometry::Stroke{}.height, read_options(a));
+  const auto drawn = io::read_drawn_strokes(strokes, geometry::Stroke{}.height, read_options(a));
   io::ResolvedStrokes resolved = io::resolve_strokes(drawn, garment);
   for (io::RenderLine& line : io::render_lines_from(garment.mesh, resolved.strokes, resolved.warnings))
     scene.lines.push_back(std::move(line));
   for (const std::string& w : resolved.warnings) warn(w, a);
 }
 
-/// One scene with all meshes, or for a strip one a mesh (the strokes are drawn on its first); the body stands
-/// in each.
+/// Bodies stand in each scene, or one in each if there are as many.
+void add_bodies(std::vector<io::RenderScene>& scenes, const RenderArguments& a) {
+  const bool one_each = scenes.size() > 1 && a.bodies.size() == scenes.size();
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+    io::RenderMesh body = io::render_mesh_from(read_mesh(a.bodies[i], a).mesh, io::Style::body);
+    body.colour = io::kBodyColour;
+    body.framed = false;
+    for (std::size_t k = 0; k < scenes.size(); ++k)
+      if (!one_each || k == i) scenes[k].meshes.push_back(body);
+  }
+}
+
+/// One scene with all meshes, or for a strip one a mesh (the strokes are drawn on its first).
 std::vector<io::RenderScene> scenes(const RenderArguments& a) {
   std::vector<io::RenderScene> list(a.strip ? a.meshes.size() : 1);
   const auto texture = read_texture(a.texture);
   for (std::size_t i = 0; i < a.meshes.size(); ++i)
     add_garment(list[a.strip ? i : 0], a.meshes[i], texture, a);
-  if (!a.body.empty()) {
-    io::RenderMesh body = io::render_mesh_from(read_mesh(a.body, a).mesh, io::Style::body);
-    body.colour = io::kBodyColour;
-    body.framed = false;
-    for (io::RenderScene& scene : list) scene.meshes.push_back(body);
-  }
-  if (!a.strokes.empty()) add_strokes(list[0], a);
+  add_bodies(list, a);
+  for (const std::string& strokes : a.strokes) add_strokes(list[0], strokes, a);
   return list;
 }
 
@@ -81,6 +88,9 @@ void render(const RenderArguments& a) {
   const std::vector<io::RenderScene> list = scenes(a);
   const io::RenderOptions options = render_options(list, a.camera);
   const std::vector<std::string> captions = split(a.captions);
+  if (captions.size() > list.size())
+    throw UsageError("--captions: " + std::to_string(captions.size()) + " for " +
+                     std::to_string(list.size()) + " pictures");
   std::vector<io::Panel> panels;
   Progress progress("rendering", a);
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -106,8 +116,11 @@ void add_render(CLI::App& app) {
   sub->add_option("meshes", a->meshes, "garments to show; ridges are red, valleys blue")->required();
   sub->add_option("-o,--output", a->out, "PNG to write")->required();
   sub->add_option("--texture", a->texture, "PNG to lay on the garments, or checker: numbered squares");
-  sub->add_option("--body", a->body, "a body to show with them");
-  sub->add_option("--strokes", a->strokes, "strokes to draw on the first garment");
+  sub->add_option("--body", a->bodies,
+                  "a body to show with them; may be given again: in a strip with as many, one a picture")
+      ->allow_extra_args(false);
+  sub->add_option("--strokes", a->strokes, "strokes to draw on the first garment; may be given again")
+      ->allow_extra_args(false);
   sub->add_flag("--no-lines", a->no_lines, "leave out the lines that the garments carry");
   sub->add_flag("--strip", a->strip, "one picture a garment, side by side from the same camera");
   sub->add_option("--captions", a->captions, "words under the pictures of a strip, parted by commas");
