@@ -43,7 +43,7 @@ constexpr Flag kFlags[] = {
     {"--integrator", "simulation.integrator", true,
      "leapfrog (default), or euler (the baseline that diverges)"},
     {"--threads", "simulation.threads", false,
-     "threads (default: all cores); the result does not depend on them"},
+     "threads (default: one for each 10,000 vertices, at most all cores); the result does not depend on them"},
     {"--subdivide", "garment.subdivide", false,
      "refine the garment so many times (Loop) before the first line"},
     {"--body", "body.mesh", true, "body that the garment rests on"},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <thread>
 
 #include "bridge/scatter.h"
 #include "cli/body.h"
@@ -24,6 +25,13 @@
 
 namespace furrow::cli {
 namespace {
+
+/// Threads wait for each other some five times a step; below some 10,000 vertices each, that costs more than
+/// it saves.
+int worthwhile_threads(std::size_t vertices) {
+  return static_cast<int>(
+      std::clamp<std::size_t>(vertices / 10000, 1, std::max(1u, std::thread::hardware_concurrency())));
+}
 
 class SceneRun {
  public:
@@ -140,6 +148,7 @@ class SceneRun {
     if (body_)
       options.contact_gap = gap_ = contact_gap(options.contact_gap, body_->tolerance(), now_.file.mesh);
     if (stop < options.seconds) options.stop_at = stop;
+    options.threads = scene_.threads ? scene_.threads : worthwhile_threads(cloth.particles.size());
     if (!scene_.output.animation.empty()) start_recording(cloth, options);
     Progress progress("simulating", common_);
     report_ =

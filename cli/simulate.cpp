@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 #include "cli/common.h"
 #include "cli/scene_flags.h"
@@ -80,8 +79,6 @@ int simulate(SimulateArguments& a) {
   const std::filesystem::path folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
   io::Scene scene = scene_of(document, folder);
   if (scene.garment.empty() && !state) throw UsageError(document.name + ": garment.mesh is missing");
-  if (!document.root.contains("simulation") || !document.root["simulation"].contains("threads"))
-    scene.simulation.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   check_outputs(scene, a);
   CommonArguments common = a;
   common.unit = scene.unit;

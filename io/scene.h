@@ -46,7 +46,7 @@ struct ScenePins {
 
 struct SceneOutput {
   std::filesystem::path mesh, state, inserted, smoothed, animation, body;  ///< empty: not written
-  double fps = 25;                                                   ///< of the animation [1/s]; > 0
+  double fps = 25;                                                         ///< of the animation [1/s]; > 0
 };
 
 /// All that a simulation is made of; what a scene file, flags and a saved state say. Paths are as the program
@@ -61,6 +61,7 @@ struct Scene {
   std::vector<ScenePins> pins;
   physics::Wind wind;
   physics::SimulateOptions simulation;  ///< with gravity, friction, damping
+  int threads = 0;                      ///< 0: as many as the garment's size is worth
   std::optional<double> stop_at;  ///< [s]; the state then is kept, the plan goes on to simulation.seconds
   SceneOutput output;
 };

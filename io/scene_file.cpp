@@ -216,7 +216,7 @@ class SceneReader {
     table.choose<physics::Integrator>(
         "integrator", o.integrator,
         {{"leapfrog", physics::Integrator::leapfrog}, {"euler", physics::Integrator::explicit_euler}});
-    table.read("threads", o.threads, 1, 256);
+    table.read("threads", scene_.threads, 1, 256);
     table.finish();
   }
 
@@ -251,6 +251,7 @@ Json relocated(const TomlDocument& document, const std::filesystem::path& folder
   const auto move = [&](Json& table, const char* key, const std::string& path) {
     if (!table.is_object() || !table.contains(key) || table[key] == "-") return;
     const fs::path given(table[key].get<std::string>());
+    if (given.is_absolute()) return;
     const fs::path full = (here / (is_of_file(document, path) ? folder / given : given)).lexically_normal();
     const fs::path relative = full.lexically_relative((here / target).lexically_normal());
     table[key] = (relative.empty() ? full : relative).generic_string();

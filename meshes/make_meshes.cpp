@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Makes the inputs of this folder: make_meshes FOLDER writes FOLDER/*.obj and FOLDER/strokes/*.json.
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/boost/graph/generators.h>
+
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +15,7 @@
 #include <string>
 
 #include "geometry/sheet.h"
+#include "geometry/subdivide.h"
 #include "meshes/garments.h"
 #include "meshes/mannequin.h"
 #include "meshes/panelled.h"
@@ -73,6 +77,33 @@ void make_figure(const std::filesystem::path& folder) {
   save("skirt.obj", furrow::meshes::make_skirt(), "flared skirt for mannequin.obj");
 }
 
+/// What the scenes with known answers are made of.
+void make_validation(const std::filesystem::path& folder) {
+  const auto save = [&](const char* name, Mesh mesh, const char* comment) {
+    round_positions(mesh);
+    write(folder / name, obj(mesh, std::string(comment) + "; metres, y up, made by make_meshes"));
+  };
+  Mesh patch = furrow::geometry::equilateral_sheet(0.1, 0.1, 0.01);
+  for (Vertex v : patch.vertices()) patch.point(v) = {patch.point(v).x(), 0.003, 0.05 - patch.point(v).y()};
+  save("patch.obj", patch, "0.1 m x 0.1 m of cloth, flat, 3 mm above y = 0");
+
+  Mesh slab;
+  const Point p[] = {{-0.5, -0.2, -0.5}, {0.5, -0.2, -0.5}, {0.5, 0, -0.5}, {-0.5, 0, -0.5},
+                     {-0.5, 0, 0.5},     {-0.5, -0.2, 0.5}, {0.5, -0.2, 0.5}, {0.5, 0, 0.5}};
+  CGAL::make_hexahedron(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], slab);
+  CGAL::Polygon_mesh_processing::triangulate_faces(slab);
+  save("slab.obj", slab, "a block of 1 m x 0.2 m x 1 m, its upper face on y = 0");
+
+  Mesh ball;
+  CGAL::make_icosahedron(ball, Point(0, 0, 0), 0.15);
+  furrow::geometry::midpoint_subdivide(ball, 4);
+  for (Vertex v : ball.vertices()) {
+    const auto d = ball.point(v) - CGAL::ORIGIN;
+    ball.point(v) = CGAL::ORIGIN + d * (0.15 / std::sqrt(d.squared_length()));
+  }
+  save("ball.obj", ball, "a ball of radius 0.15 m about the origin");
+}
+
 /// Points every `spacing` metres on the way from a to b, both included.
 json segment(const Point& a, const Point& b, double spacing) {
   const int n = static_cast<int>(std::ceil(std::sqrt(CGAL::squared_distance(a, b)) / spacing - 1e-9));
@@ -121,6 +152,7 @@ int main(int argc, char** argv) {
     if (argc != 2) throw std::invalid_argument("usage: make_meshes FOLDER");
     make(argv[1]);
     make_figure(argv[1]);
+    make_validation(std::filesystem::path(argv[1]) / "validation");
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());

@@ -5,6 +5,8 @@ furrow_add_tests(cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   usage_test.cpp
   pipeline_test.cpp
   resume_test.cpp
+  scene_outputs_test.cpp
+  validation_scenes_test.cpp
   transfer_test.cpp
   strokes_test.cpp
   hostile_files_test.cpp

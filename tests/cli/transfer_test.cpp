@@ -78,7 +78,7 @@ TEST_CASE("transfer after subdivision, through another format with --rest, and w
   CHECK(run_furrow("transfer " + skirt.mesh + " " + skirt.wrinkled + " -o " + at("c.glb")).exit_code == 2);
 }
 
-TEST_CASE("skin weights and other columns of a PLY survive wrinkle; --max-weights limits them") {
+TEST_CASE("skin weights and other columns of a PLY survive wrinkle, --max-weights limits them") {
   const ScratchDirectory scratch;
   std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 121\nproperty float x\nproperty float y\n"

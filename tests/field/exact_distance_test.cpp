@@ -164,7 +164,7 @@ TEST_CASE("penetration counts and measures points inside") {
   CHECK(penetration(exact, {}).inside == 0);
 }
 
-TEST_CASE("one triangle is a body without an inside; unusable bodies are refused") {
+TEST_CASE("one triangle is a body without an inside, unusable bodies are refused") {
   TriangleMesh m;
   m.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   CHECK_THROWS_AS(ExactDistance(m), std::invalid_argument);

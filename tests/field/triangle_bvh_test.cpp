@@ -106,7 +106,7 @@ TEST_CASE("the feature of a closest point tells face, edge and corner") {
   CHECK((closest_on_triangle({0.4, 5, 0}, a, b, Vec3(0.5, 0, 0)).point - Vec3(0.4, 0, 0)).norm() < 1e-15);
 }
 
-TEST_CASE("crossed triangles are found; neighbours and flat faces are not taken for them") {
+TEST_CASE("crossed triangles are found, neighbours and flat faces are not taken for them") {
   const auto crossed_of = [](const TriangleMesh& m) {
     const auto crossed = crossed_triangles(TriangleBvh(m), surface_topology(m));
     return std::count(crossed.begin(), crossed.end(), 1);

@@ -41,7 +41,7 @@ double largest_difference(const std::array<float, 3>& a, const std::array<double
 
 }  // namespace
 
-TEST_CASE("tangent frames of a plane follow the texture; a mirrored one has the other sign") {
+TEST_CASE("tangent frames of a plane follow the texture, a mirrored one has the other sign") {
   for (double mirror : {1.0, -1.0}) {
     const Mesh mesh = textured(jittered(5, 5, 0.2, 2), [&](const Point& p) {
       return TextureCoordinate{mirror * (p.x() + 0.5 * p.y()), 2 * p.y()};  // sheared: u grows along x
@@ -59,7 +59,7 @@ TEST_CASE("tangent frames of a plane follow the texture; a mirrored one has the 
   }
 }
 
-TEST_CASE("tangents are not averaged over a seam; normals are") {
+TEST_CASE("tangents are not averaged over a seam, normals are") {
   Mesh mesh = flat(4);
   auto texture = *find_map(mesh, kTexture);
   for (Face f : mesh.faces()) {  // the right half lies turned by 90 degrees in the texture
@@ -83,7 +83,7 @@ TEST_CASE("tangents are not averaged over a seam; normals are") {
   }
 }
 
-TEST_CASE("texture raster: each texel's face holds its middle; overlaps and the outside are counted") {
+TEST_CASE("texture raster: each texel's face holds its middle, overlaps and the outside are counted") {
   const Mesh mesh = flat(7);
   const TextureRaster raster = rasterize_texture(mesh, 50);
   CHECK(raster.covered == 1600);

@@ -100,7 +100,7 @@ TEST_CASE("around a vertex of valence four two edges share a spring, held by the
   CHECK((*find_map(mesh, kBendingCount))[other] == 0);
 }
 
-TEST_CASE("no bending spring joins two vertices that an edge joins; none is there twice; they are sorted") {
+TEST_CASE("no bending spring joins two vertices that an edge joins, none is there twice, they are sorted") {
   for (const Mesh& mesh :
        {union_jack(6, 5), jittered(6, 5, 0.3, 1), cylinder(1, 1, 3, 4), torus_lattice(3, 4)}) {
     const auto springs = rebuilt(mesh);

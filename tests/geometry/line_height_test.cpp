@@ -98,7 +98,7 @@ TEST_CASE("line_heights: several lines by their ids, each among the others as th
   CHECK(heights[1].height == Approx(0.02).margin(1e-13));
 }
 
-TEST_CASE("line_heights: no lines, nothing; a two-ring without a border has no height") {
+TEST_CASE("line_heights: no lines, nothing, a two-ring without a border has no height") {
   CHECK(line_heights(grid(3, 3)).empty());
   Mesh mesh = cube();
   ensure_map(mesh, kLine)[Vertex(0)] = 0;

@@ -64,7 +64,7 @@ TEST_CASE("the drawn rest state carries the strain over and leaves everything el
   CHECK(rest_area(mesh) > rest_area(before));
 }
 
-TEST_CASE("the flat rest state changes nothing; neither does a line of height zero") {
+TEST_CASE("the flat rest state changes nothing, neither does a line of height zero") {
   Mesh mesh = strained_sheet();
   const double area = rest_area(mesh);
   const RestSnapshot snapshot = take_rest_snapshot(mesh);

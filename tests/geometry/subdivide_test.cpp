@@ -159,7 +159,7 @@ TEST_CASE("loop_subdivide carries a seam of the texture: its two sides stay apar
       CHECK(((*find_map(mesh, kTexture))[h][0] > 5) == ((*find_map(mesh, kGroup))[f] == 1));
 }
 
-TEST_CASE("loop_subdivide carries lines; rest lengths, springs and masses become unset") {
+TEST_CASE("loop_subdivide carries lines, rest lengths, springs and masses become unset") {
   Mesh mesh = grid(4, 4);
   auto line = ensure_map(mesh, kLine);
   auto line_edge = ensure_map(mesh, kLineEdge);

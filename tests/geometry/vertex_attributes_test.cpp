@@ -98,7 +98,7 @@ TEST_CASE("insertion notes where vertices lie at rest, and a moved mesh keeps th
   }
 }
 
-TEST_CASE("skin weights: the strongest are kept and sum to 1; the others keep their bits") {
+TEST_CASE("skin weights: the strongest are kept and sum to 1, the others keep their bits") {
   Mesh mesh = grid(1, 1);
   const std::array<std::array<double, 5>, 4> weights = {
       {{0.1, 0.2, 0.3, 0.25, 0.15}, {1, 0, 0, 0, 0}, {0, 0, 0, 0, 0}, {0.5, 0.5, 0.5, 0.5, 0}}};

@@ -77,7 +77,7 @@ void check_dress(const Mesh& mesh, bool seam) {
 
 }  // namespace
 
-TEST_CASE("texture, colour, groups and materials survive; masses and bending springs become unset") {
+TEST_CASE("texture, colour, groups and materials survive, masses and bending springs become unset") {
   Mesh mesh = dressed_sheet(false);
   const std::size_t old_vertices = mesh.number_of_vertices();
   const Insertion insertion = insert_along_stroke(mesh, diagonal(), 3);

@@ -64,7 +64,7 @@ TEST_CASE("write_atomically: what cannot be written is an error, devices are wri
   CHECK_THROWS_AS(io::write_atomically("/dev/full", write), std::runtime_error);
 }
 
-TEST_CASE("bytes_file: any bytes come back; what cannot be read is a content error") {
+TEST_CASE("bytes_file: any bytes come back, what cannot be read is a content error") {
   TemporaryFolder folder;
   std::vector<std::byte> bytes;
   for (int i = 0; i < 200000; ++i) bytes.push_back(static_cast<std::byte>(i % 251 * (i % 241) % 256));
@@ -76,7 +76,7 @@ TEST_CASE("bytes_file: any bytes come back; what cannot be read is a content err
   CHECK(content_error([&] { io::read_text(folder.path()); }).find("is a folder") != std::string::npos);
 }
 
-TEST_CASE("write_mesh: by ending, into place; nothing is written for what we do not write") {
+TEST_CASE("write_mesh: by ending, into place, nothing is written for what we do not write") {
   TemporaryFolder folder;
   const io::MeshFile cube = read_from(kCubeObj, io::MeshFormat::obj);
   for (const char* name : {"a.obj", "a.PLY", "a.off", "a.Stl"}) {

@@ -27,7 +27,7 @@ geometry::BakedMaps maps() {
 
 }  // namespace
 
-TEST_CASE("baked maps read back to half a step; zero is exact, the largest fills the range") {
+TEST_CASE("baked maps read back to half a step, zero is exact, the largest fills the range") {
   const TemporaryFolder folder;
   const geometry::BakedMaps baked = maps();
   const io::BakedFiles files = io::write_baked_maps((folder / "shirt").string(), baked);

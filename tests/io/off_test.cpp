@@ -50,7 +50,7 @@ TEST_CASE("OFF: normals, colours and texture coordinates of vertices") {
   CHECK((*find_map(file.mesh, kTexture))[h] == TextureCoordinate{0.5, 0.25});
 }
 
-TEST_CASE("OFF: errors name the line; a header cannot announce more than the file holds") {
+TEST_CASE("OFF: errors name the line, a header cannot announce more than the file holds") {
   CHECK(error_of("").find("no OFF file") != std::string::npos);
   CHECK(error_of("PLY\n").starts_with("test:1: the first word is not OFF"));
   CHECK(error_of("OFF BINARY\n").find("binary OFF") != std::string::npos);

@@ -54,7 +54,7 @@ TEST_CASE("still air is no wind, whichever way it is written") {
   CHECK_FALSE(is_still(wind));
 }
 
-TEST_CASE("gusts are linear between their times and held outside; the cloth follows with order two") {
+TEST_CASE("gusts are linear between their times and held outside, the cloth follows with order two") {
   Wind wind;
   wind.velocity = Vec3(2, 0, 0);
   wind.gusts = {{1, 0.5}, {2, 1.5}, {4, 0}};

@@ -43,7 +43,7 @@ TEST_CASE("A written PNG reads back pixel by pixel") {
   CHECK(folder.files() == 1);  // no temporary is left
 }
 
-TEST_CASE("A PNG of 16 bits reads back number by number; one of 8 bits is no such") {
+TEST_CASE("A PNG of 16 bits reads back number by number, one of 8 bits is no such") {
   const Folder folder("sixteen");
   CHECK(rc::check([&] {
     io::Image16 image{*rc::gen::inRange(1, 20), *rc::gen::inRange(1, 20), {}};

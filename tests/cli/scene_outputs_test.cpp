@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What scenes promise beyond the garment at the end: the same run as flags, animations, moved bodies, states.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "bridge/convert.h"
+#include "geometry/border_loops.h"
+#include "geometry/property_names.h"
+#include "io/frame_source.h"
+#include "io/mesh_file.h"
+#include "io/state_file.h"
+#include "run_furrow.h"
+#include "tests/test_meshes.h"
+#include "tests/test_paths.h"
+
+using namespace furrow;
+using namespace furrow::tests;
+using nlohmann::json;
+using physics::Vec3;
+
+namespace {
+
+const std::string kMeshes = FURROW_SOURCE_DIR "/meshes/validation/";
+
+/// The patch on the turning slab with a line, in a folder of its own.
+struct Turning {
+  ScratchDirectory scratch;
+  std::string scene = scratch / "scene.toml", strokes = scratch / "lines.json";
+  explicit Turning(const std::string& more = "") {
+    write_text(
+        strokes,
+        R"({"strokes": [{"name": "a b", "height": 0.004, "points": [[-0.03, 0.003, -0.03], [0.03, 0.003, 0.01]]}]})");
+    write_text(scene, R"(
+title = "it's a 'test'"
+[garment]
+mesh = ")" + kMeshes + R"(patch.obj"
+[[lines]]
+strokes = "lines.json"
+[body]
+mesh = ")" + kMeshes + R"(slab.obj"
+motion.spin = {axis = [0, 1, 0], rate = 3.0, ramp = 0.02}
+[[pins]]
+vertices = [0]
+motion.spin = {axis = [0, 1, 0], rate = 3.0, ramp = 0.02}
+[material]
+stiffness = 200
+bending = 1
+friction = 0.7
+[forces]
+gusts = [{time = 0, factor = 0.5}, {time = 0.05, factor = 1}]
+wind = [0.3, 0, 0]
+[simulation]
+seconds = 0.1
+)" + more);
+  }
+  json run(const std::string& arguments) {
+    const Run run = run_furrow("simulate --json " + arguments);
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    return json::parse(run.out);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the flags that a scene's report names do the same, byte for byte") {
+  Turning t;
+  const std::string one = t.scratch / "one.ply", two = t.scratch / "two.ply";
+  const json report = t.run(t.scene + " -o " + one);
+  std::string flags = report["flags"];
+  REQUIRE(flags.substr(0, 9) == "simulate ");
+  flags = flags.substr(9);
+  const std::size_t output = flags.find(one);
+  REQUIRE(output != std::string::npos);
+  const json again = t.run(flags.replace(output, one.size(), two));
+  CHECK((read_text(one) == read_text(two)));
+  CHECK(again["lines"] == report["lines"]);
+}
+
+TEST_CASE(
+    "an animation has the frames of the run, the last of them at its end, and the body is where it went") {
+  Turning t;
+  const std::string end = t.scratch / "end.ply", body = t.scratch / "body.ply", pc2 = t.scratch / "run.pc2";
+  t.run(t.scene + " -o " + end + " --animation " + pc2 + " --fps 50 --save-body " + body);
+  const auto last = bridge::positions_of(io::read_mesh(end).mesh);
+  const auto frames = io::open_frames(pc2, last.size(), {});
+  REQUIRE(frames->frames() == 6);
+  const auto shown = frames->positions(5);
+  for (std::size_t i = 0; i < last.size(); ++i) CHECK((shown[i] - last[i]).norm() < 1e-6);
+
+  const auto before = bridge::positions_of(io::read_mesh(kMeshes + "slab.obj").mesh);
+  const auto after = bridge::positions_of(io::read_mesh(body).mesh);
+  const Eigen::AngleAxisd turn(3.0 * (0.1 - 0.01), Vec3::UnitY());
+  for (std::size_t i = 0; i < before.size(); ++i) CHECK((after[i] - turn * before[i]).norm() < 1e-12);
+}
+
+TEST_CASE("a body that rises as frames lifts the cloth, and the report says what its fields cost") {
+  const ScratchDirectory scratch;
+  const io::MeshFile slab = io::read_mesh(kMeshes + "slab.obj");
+  for (int frame = 0; frame < 3; ++frame) {
+    io::MeshFile moved = slab;
+    for (auto v : moved.mesh.vertices()) {
+      const auto p = moved.mesh.point(v);
+      moved.mesh.point(v) = {p.x(), p.y() + 0.01 * frame, p.z()};
+    }
+    io::write_mesh(scratch / ("rise_" + std::to_string(frame) + ".obj"), moved);
+  }
+  const std::string end = scratch / "end.ply";
+  const Run run = run_furrow("simulate --json " + kMeshes + "patch.obj --body " + kMeshes +
+                             "slab.obj --tolerance 0.005 --body-frames '" + (scratch / "rise_#.obj") +
+                             "' --body-fps 10 --seconds 0.2 --gap 0.01 --stiffness 100 -o " + end);
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  const json report = json::parse(run.out);
+  CHECK(report["body_frames"]["built"] == 3);
+  CHECK(report["body_frames"]["seconds"].get<double>() > 0);
+  CHECK(report["vertices_inside"] == 0);
+  const double gap = report["contact_gap"];
+  for (const Vec3& x : bridge::positions_of(io::read_mesh(end).mesh)) {
+    CHECK(x.y() > 0.02 + gap - 2e-4);
+    CHECK(x.y() < 0.02 + gap + 2e-3);
+  }
+}
+
+TEST_CASE("wrinkle --state draws into a stopped simulation, and the result goes on") {
+  Turning t;
+  const std::string state = t.scratch / "state.ply", more = t.scratch / "more.ply",
+                    end = t.scratch / "end.ply";
+  t.run(t.scene + " --stop-at 0.05 --save-state " + state);
+  write_text(
+      t.scratch / "late.json",
+      R"({"strokes": [{"name": "late", "height": -0.003, "points": [[-0.03, 0.003, 0.03], [0.03, 0.003, 0.035]]}]})");
+  const Run drawn =
+      run_furrow("wrinkle --json --state " + state + " " + (t.scratch / "late.json") + " -o " + more);
+  INFO(drawn.err);
+  REQUIRE(drawn.exit_code == 0);
+  const json report = json::parse(drawn.out);
+  CHECK(report["inserted"].get<int>() > 2);
+  const io::SavedState before = io::read_state(state), after = io::read_state(more);
+  CHECK(after.simulation.time == before.simulation.time);
+  CHECK(after.file.mesh.number_of_vertices() ==
+        before.file.mesh.number_of_vertices() + report["inserted"].get<std::size_t>());
+  CHECK(after.simulation.compensation.force.size() == after.file.mesh.number_of_vertices());
+  const json run = t.run("--state " + more + " -o " + end);
+  CHECK(run["time"].get<double>() == Approx(0.1));
+  CHECK(run["lines"].size() == 2);
+  CHECK(run["lines"][1]["name"] == "late");
+}
+
+TEST_CASE("the scenes of the demo are read, and begin", "[scenes]") {
+  for (const std::string name : {"bulge", "skirt", "shirt"}) {
+    const ScratchDirectory scratch;
+    CAPTURE(name);
+    const std::string out = scratch / "out.ply";
+    // The body is left away: its field takes longer than all the rest.
+    const Run run =
+        run_furrow("simulate --json " FURROW_SOURCE_DIR "/scenes/" + name + ".toml --set body='{mesh=\"" +
+                   kMeshes + "ball.obj\"}' --stop-at 0.001 --set output='{mesh=\"" + out + "\"}'");
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    const json report = json::parse(run.out);
+    CHECK(report["lines"].size() >= 2);
+    CHECK(io::read_mesh(out).mesh.number_of_vertices() > 1500);
+  }
+}
+
+TEST_CASE("lines over the hem make it longer and wider") {
+  const ScratchDirectory scratch;
+  const std::string skirt = FURROW_SOURCE_DIR "/meshes/skirt.obj", wrinkled = scratch / "w.ply";
+  const Run run =
+      run_furrow("wrinkle --json " + skirt +
+                 " " FURROW_SOURCE_DIR "/meshes/strokes/figure_skirt.json --iterations 25 -o " + wrinkled);
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  const auto hem = [](const std::string& path) {
+    for (const auto& loop : geometry::border_loops(io::read_mesh(path).mesh))
+      if (loop.mean_height < 0.7) return loop;
+    FAIL("no hem in " + path);
+    return geometry::BorderLoop{};
+  };
+  const auto before = hem(skirt), after = hem(wrinkled);
+  CHECK(before.length == Approx(1.283).margin(0.005));
+  CHECK(after.length > 1.3 * before.length);
+  CHECK(after.mean_radius > 1.05 * before.mean_radius);
+}
