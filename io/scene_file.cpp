@@ -249,7 +249,7 @@ Json relocated(const TomlDocument& document, const std::filesystem::path& folder
   Json root = document.root;
   const fs::path here = fs::current_path();
   const auto move = [&](Json& table, const char* key, const std::string& path) {
-    if (!table.is_object() || !table.contains(key) || table[key] == "-") return;
+    if (!table.is_object() || !table.contains(key) || table[key] == "-" || table[key] == "") return;
     const fs::path given(table[key].get<std::string>());
     if (given.is_absolute()) return;
     const fs::path full = (here / (is_of_file(document, path) ? folder / given : given)).lexically_normal();
