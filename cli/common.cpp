@@ -11,6 +11,7 @@
 #include <iostream>
 #include <map>
 
+#include "cli/print_text.h"
 #include "geometry/errors.h"
 #include "io/wrinkle_record.h"
 
@@ -40,24 +41,6 @@ void tell_repairs(const std::string& path, const io::MeshFile& file, const Commo
   tell(r.duplicate_faces, "duplicate faces dropped");
   tell(r.reversed_faces, "faces turned to agree with their neighbours");
   tell(r.duplicated_vertices, "vertices duplicated where the surface was not manifold");
-}
-
-void print_text(std::ostream& out, const Json& value, const std::string& indent) {
-  for (const auto& [key, item] : value.items()) {
-    out << indent << key << ":";
-    if (item.is_structured() && !item.empty() && !(item.is_array() && item[0].is_number())) {
-      out << "\n";
-      print_text(out, item, indent + "  ");
-    } else if (item.is_string()) {
-      out << " " << item.get<std::string>() << "\n";
-    } else if (item.is_number_float()) {
-      char text[32];
-      std::snprintf(text, sizeof text, "%.6g", item.get<double>());
-      out << " " << text << "\n";
-    } else {
-      out << " " << item.dump() << "\n";
-    }
-  }
 }
 
 volatile std::sig_atomic_t interrupt_flag = 0;
@@ -166,7 +149,7 @@ void print_report(const Json& report, const CommonArguments& common) {
     versioned.update(report);
     out << versioned.dump(2) << "\n";
   } else if (!common.quiet) {
-    print_text(out, report, "");
+    print_text(out, report);
   }
   out.flush();
   flush_output();

@@ -51,7 +51,7 @@ void write_mesh(const std::string& path, const io::MeshFile& file, const CommonA
 /// Throws std::runtime_error if what was written to standard output did not arrive.
 void flush_output();
 
-/// Prints a report to stdout: a line a key, or JSON with a schema version. Nested objects are indented.
+/// Prints a report to stdout: as text (print_text.h), or JSON with a schema version.
 void print_report(const Json& report, const CommonArguments& common);
 void warn(const std::string& message, const CommonArguments& common);
 

@@ -43,7 +43,8 @@ constexpr Flag kFlags[] = {
     {"--integrator", "simulation.integrator", true,
      "leapfrog (default), or euler (the baseline that diverges)"},
     {"--threads", "simulation.threads", false,
-     "threads (default: one for each 10,000 vertices, at most all cores); the result does not depend on them"},
+     "threads (default: one for each 10,000 vertices, at most all cores); the result does not depend on "
+     "them"},
     {"--subdivide", "garment.subdivide", false,
      "refine the garment so many times (Loop) before the first line"},
     {"--body", "body.mesh", true, "body that the garment rests on"},
@@ -94,6 +95,8 @@ void list_flags(const io::Json& value, const std::string& path, std::string& tex
     text = " " + quoted(value.get<std::string>()) + text;
   } else if (path == "unit" || path == "up") {
     text += " --" + path + " " + quoted(value.get<std::string>());
+  } else if (path == "title") {
+    // for people only
   } else if (path == "simulation.force_dt") {
     if (value == true) text += " --force-dt";
   } else if (value.is_object()) {

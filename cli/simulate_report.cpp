@@ -28,7 +28,11 @@ Json lines_to_json(const io::MeshFile& file, const io::WrinkleRecord& record,
     const double height = known ? now[i] - record.lines[i].base_height : now[i];
     line["smoothed_height"] = smoothed;
     line["height"] = height;
-    line["kept"] = height / smoothed;
+    // Lines so close together that smoothing made one shape of them have no height of their own to keep.
+    if (std::abs(smoothed) > 0.1 * std::abs(line.value("drawn_height", smoothed)))
+      line["kept"] = height / smoothed;
+    else
+      line["kept"] = nullptr;
     lines.push_back(line);
   }
   return lines;
