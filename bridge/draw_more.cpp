@@ -17,21 +17,25 @@ namespace {
 using namespace geometry;
 using physics::Vec3;
 
-Vec3 momentum(const physics::Particles& p) {
+/// Of what is not held.
+Vec3 momentum(const physics::Particles& p, const std::set<Vertex>& held) {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < p.size(); ++i) sum += p.mass[i] * p.v[i];
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (!held.count(Vertex(static_cast<Vertex::size_type>(i)))) sum += p.mass[i] * p.v[i];
   return sum;
 }
 
 /// Shares the momentum that insertion took or brought among the vertices of the changed faces.
-void keep_momentum(Mesh& mesh, physics::Particles& p, const Vec3& wanted, std::span<const Face> changed) {
+void keep_momentum(Mesh& mesh, physics::Particles& p, const Vec3& wanted, std::span<const Face> changed,
+                   const std::set<Vertex>& held) {
   std::set<Vertex> around;
   for (Face f : changed)
-    for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) around.insert(v);
+    for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+      if (!held.count(v)) around.insert(v);
   double mass = 0;
   for (Vertex v : around) mass += p.mass[v];
   if (!(mass > 0)) return;
-  const Vec3 change = (wanted - momentum(p)) / mass;
+  const Vec3 change = (wanted - momentum(p, held)) / mass;
   for (Vertex v : around) p.v[v] += change;
   scatter_velocities(p, mesh);
 }
@@ -48,15 +52,16 @@ DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<co
   DrawMoreReport report;
   report.wrinkle = wrinkle(work, strokes, options.wrinkle, observer);
   physics::Cloth after = gather(work, options.springs);
-  report.momentum_before = momentum(before.particles);
-  keep_momentum(work, after.particles, report.momentum_before, report.wrinkle.insertion.changed_faces);
-  report.momentum_after = momentum(after.particles);
+  const std::set<Vertex> held(options.wrinkle.held.begin(), options.wrinkle.held.end());
+  report.momentum_before = momentum(before.particles, held);
+  keep_momentum(work, after.particles, report.momentum_before, report.wrinkle.insertion.changed_faces, held);
+  report.momentum_after = momentum(after.particles, held);
   report.mean_strain = physics::strain_statistics(before.particles.x, before.structural).mean;
 
   const std::vector<Vec3> jump = physics::force_jump(before, after);
   for (const Vec3& f : jump) report.largest_jump = std::max(report.largest_jump, f.norm());
-  if (state.compensation.force.empty()) state.compensation.time_constant = options.fade;
   physics::add(state.compensation, jump, state.time);
+  state.compensation.time_constant = options.fade;  // of what is left of earlier jumps, too
   state.planned = false;
   state.contact.clear();
   state.homes.clear();

@@ -2,13 +2,16 @@
 #include "cli/body.h"
 
 #include <algorithm>
+#include <span>
 #include <thread>
 
 #include "bridge/body.h"
 #include "bridge/convert.h"
 #include "geometry/errors.h"
 #include "geometry/property_names.h"
+#include "io/bytes_file.h"
 #include "io/field_file.h"
+#include "physics/posed_collider.h"
 
 namespace furrow::cli {
 namespace {
@@ -25,6 +28,12 @@ void tell_repairs(const std::string& path, const geometry::BodyReport& r, const 
 physics::DistanceFieldOptions threaded(physics::DistanceFieldOptions options) {
   options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   return options;
+}
+
+std::string fingerprint_of(const std::vector<physics::Vec3>& vertices, double tolerance) {
+  std::string bytes(reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof(physics::Vec3));
+  bytes.append(reinterpret_cast<const char*>(&tolerance), sizeof tolerance);
+  return io::content_hash(std::as_bytes(std::span(bytes)));
 }
 
 }  // namespace
@@ -52,6 +61,7 @@ WorldBody::WorldBody(const io::SceneBody& body, const CommonArguments& common)
   } else {
     rigid_ = std::make_unique<BodyCollider>(load_body(body, common));
     tolerance_ = rigid_->field.report().tolerance;
+    fingerprint_ = fingerprint_of(rigid_->triangles.vertices, tolerance_);
   }
 }
 
@@ -74,6 +84,8 @@ void WorldBody::read_frames(const io::SceneBody& body, const CommonArguments& co
   tolerance_ = *field.tolerance;
   animated_ =
       std::make_unique<physics::AnimatedBody>(physics::BodyFrames{triangles_, frames_->times(), read}, field);
+  fingerprint_ = fingerprint_of(frames_->positions(0), tolerance_) +
+                 fingerprint_of(frames_->positions(frames_->frames() - 1), frames_->times().back());
 }
 
 void WorldBody::add_to(physics::World& world) const {
@@ -101,6 +113,14 @@ physics::Penetration WorldBody::penetration(std::vector<physics::Vec3> points, d
   if (!physics::is_identity(motion_))
     for (physics::Vec3& x : points) x = pose.to_body(x);
   return physics::penetration(rigid_->exact, points);
+}
+
+physics::PushOutReport WorldBody::push_out(std::vector<physics::Vec3>& points, const std::vector<int>& which,
+                                           double time) const {
+  constexpr double kOutside = 1e-6;  // [m], so that rounding leaves none inside
+  if (!rigid_) return {};
+  const physics::PosedCollider posed(rigid_->exact, physics::pose(motion_, time));
+  return physics::push_out(points, which, posed, kOutside);
 }
 
 io::MeshFile WorldBody::at(double time, const CommonArguments& common) const {

@@ -8,6 +8,7 @@
 #include "physics/animated_body.h"
 #include "physics/distance_field.h"
 #include "physics/exact_distance.h"
+#include "physics/push_out.h"
 
 namespace furrow::cli {
 
@@ -31,8 +32,12 @@ class WorldBody {
 
   void add_to(physics::World& world) const;
   double tolerance() const { return tolerance_; }  ///< of the field [m]
-  /// The body at time 0, in its own frame, by exact distance: rigid bodies only; else null.
-  const physics::ExactDistance* rigid() const { return rigid_ ? &rigid_->exact : nullptr; }
+  /// Tells one body's shape and field from another's (not its motion).
+  const std::string& fingerprint() const { return fingerprint_; }
+  /// Puts the points `which` that lie inside at a time onto the surface, by exact distance; rigid bodies
+  /// only.
+  physics::PushOutReport push_out(std::vector<physics::Vec3>& points, const std::vector<int>& which,
+                                  double time) const;
   /// Of points in the world, at a time, by exact distance.
   physics::Penetration penetration(std::vector<physics::Vec3> points, double time) const;
   /// Its mesh as it is at a time, for writing.
@@ -42,7 +47,7 @@ class WorldBody {
   void read_frames(const io::SceneBody& body, const CommonArguments& common);
   std::vector<physics::Vec3> vertices_at(double time) const;
 
-  std::string path_;
+  std::string path_, fingerprint_;
   physics::RigidMotion motion_;
   double tolerance_ = 0;
   std::unique_ptr<BodyCollider> rigid_;

@@ -13,6 +13,7 @@
 
 #include "cli/print_text.h"
 #include "geometry/errors.h"
+#include "io/state_file.h"
 #include "io/wrinkle_record.h"
 
 namespace furrow::cli {
@@ -80,6 +81,7 @@ io::MeshFile read_mesh(const std::string& path, const CommonArguments& common) {
   if (noted && (record->unit != actual.unit || record->up != actual.up))
     warn(path + ": was written with --unit " + record->unit + " --up " + record->up, common);
   tell_repairs(path, file, common);
+  io::drop_motion(file);  // a state that is used as a mesh is one
   return file;
 }
 
@@ -147,7 +149,7 @@ void print_report(const Json& report, const CommonArguments& common) {
   if (common.json) {
     Json versioned{{"schema", 1}};
     versioned.update(report);
-    out << versioned.dump(2) << "\n";
+    out << versioned.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
   } else if (!common.quiet) {
     print_text(out, report);
   }

@@ -73,8 +73,9 @@ void note_strokes(io::WrinkleRecord& record, const std::string& garment,
 LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke>& strokes,
                      const io::SceneLines& lines, const geometry::StageObserver& observer) {
   const std::optional<io::WrinkleRecord> earlier = io::find_wrinkle_record(target.file);
-  const geometry::WrinkleOptions options =
-      continued(lines.options, target.file.mesh, earlier, target.density);
+  geometry::WrinkleOptions options = continued(lines.options, target.file.mesh, earlier, target.density);
+  for (const std::vector<int>& list : target.pins)
+    for (int v : list) options.held.emplace_back(static_cast<geometry::Vertex::size_type>(v));
   io::ResolvedStrokes resolved = io::resolve_strokes(strokes, target.file);
   LineRound round;
   round.first_line = options.first_line;

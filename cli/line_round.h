@@ -16,6 +16,7 @@ struct LineTarget {
   std::optional<double> density;             ///< [kg/m^2]; none: as before, or the default
   physics::SimulateState* moving = nullptr;  ///< the garment is in motion
   bridge::GatherOptions springs;             ///< of its simulation, if it is
+  std::vector<std::vector<int>> pins = {};   ///< of its simulation: these vertices keep their places
 };
 
 /// A round of lines: what `wrinkle` and the rounds of a scene share.

@@ -30,6 +30,21 @@ std::vector<Vertex> group(const io::MeshFile& file, const std::string& name) {
   return geometry::vertices_of_group(file.mesh, static_cast<int>(at - file.group_names.begin()));
 }
 
+/// On the border: whether both neighbours along it are pinned. Inside: whether all its neighbours that were
+/// there before are.
+template <class IsPinned>
+bool belongs_to(const geometry::Mesh& mesh, Vertex v, std::size_t old_count, IsPinned is_pinned) {
+  const geometry::Halfedge in = mesh.halfedge(v);  // the border's one, as CGAL keeps it
+  if (mesh.is_border(in)) return is_pinned(mesh.source(in)) && is_pinned(mesh.target(mesh.next(in)));
+  int old = 0;
+  for (Vertex w : mesh.vertices_around_target(in)) {
+    if (w.idx() >= old_count) continue;
+    if (!is_pinned(w)) return false;
+    ++old;
+  }
+  return old >= 2;
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> find_pins(const io::MeshFile& file, const std::vector<io::ScenePins>& scene) {
@@ -55,19 +70,15 @@ std::vector<std::vector<int>> find_pins(const io::MeshFile& file, const std::vec
   return all;
 }
 
-void pin_new_border_vertices(const geometry::Mesh& mesh, std::size_t old_count,
-                             std::vector<std::vector<int>>& pins) {
+void pin_new_vertices(const geometry::Mesh& mesh, std::size_t old_count,
+                      std::vector<std::vector<int>>& pins) {
   for (std::vector<int>& list : pins) {
     std::set<int> pinned(list.begin(), list.end());
+    const auto is_pinned = [&](Vertex v) { return pinned.count(static_cast<int>(v)) > 0; };
     for (bool grown = true; std::exchange(grown, false);)
       for (std::size_t i = old_count; i < mesh.number_of_vertices(); ++i) {
         const Vertex v(static_cast<Vertex::size_type>(i));
-        if (mesh.is_isolated(v) || !mesh.is_border(v) || pinned.count(static_cast<int>(i))) continue;
-        const geometry::Halfedge in = mesh.halfedge(v);  // the border's one, as CGAL keeps it
-        const geometry::Vertex before = mesh.source(in), after = mesh.target(mesh.next(in));
-        if (!mesh.is_border(in) || !pinned.count(static_cast<int>(before)) ||
-            !pinned.count(static_cast<int>(after)))
-          continue;
+        if (mesh.is_isolated(v) || is_pinned(v) || !belongs_to(mesh, v, old_count, is_pinned)) continue;
         pinned.insert(static_cast<int>(i));
         list.push_back(static_cast<int>(i));
         grown = true;

@@ -109,6 +109,25 @@ void list_flags(const io::Json& value, const std::string& path, std::string& tex
   }
 }
 
+bool is_tables(const io::Json& value) { return value.is_array() && !value.empty() && value[0].is_object(); }
+
+/// What is in `now` and not, or otherwise, in `before`; lists of tables keep their length.
+io::Json difference(const io::Json& now, const io::Json& before) {
+  io::Json result = now;
+  if (now.is_object() && before.is_object()) {
+    for (const auto& [key, item] : now.items()) {
+      if (!before.contains(key)) continue;
+      if (item == before[key])
+        result.erase(key);
+      else
+        result[key] = difference(item, before[key]);
+    }
+  } else if (is_tables(now) && is_tables(before) && now.size() == before.size()) {
+    for (std::size_t i = 0; i < now.size(); ++i) result[i] = difference(now[i], before[i]);
+  }
+  return result;
+}
+
 }  // namespace
 
 void SceneFlags::add_to(CLI::App& sub) {
@@ -154,10 +173,10 @@ void SceneFlags::apply(io::TomlDocument& document) const {
   }
 }
 
-std::string equivalent_flags(const io::Json& settings) {
+std::string equivalent_flags(const io::Json& settings, const std::string& state, const io::Json& before) {
   std::string text;
-  list_flags(settings, "", text);
-  return "simulate" + text;
+  list_flags(state.empty() ? settings : difference(settings, before), "", text);
+  return "simulate" + (state.empty() ? "" : " --state " + quoted(state)) + text;
 }
 
 }  // namespace furrow::cli

@@ -31,8 +31,7 @@ class SceneFlags {
 };
 
 /// The command line that says the same as these settings, without the program's name: flags where there is
-/// one,
-/// --set for the rest.
-std::string equivalent_flags(const io::Json& settings);
+/// one, --set for the rest. With a state: what differs from the settings that the state had.
+std::string equivalent_flags(const io::Json& settings, const std::string& state, const io::Json& before);
 
 }  // namespace furrow::cli

@@ -36,20 +36,37 @@ int worthwhile_threads(std::size_t vertices) {
 class SceneRun {
  public:
   SceneRun(const io::Scene& scene, const io::TomlDocument& document, std::filesystem::path folder,
-           const CommonArguments& common)
-      : scene_(scene), document_(document), folder_(std::move(folder)), common_(common) {}
+           std::string state_path, const CommonArguments& common)
+      : scene_(scene),
+        document_(document),
+        folder_(std::move(folder)),
+        state_path_(std::move(state_path)),
+        common_(common) {}
 
   int run(std::optional<io::SavedState> saved) {
     catch_interrupts();
     resumed_ = saved.has_value();
-    if (saved)
+    if (saved) {
+      settings_before_ = io::relocated(io::document_of(saved->scene, state_path_),
+                                       std::filesystem::path(state_path_).parent_path(), "");
       now_ = std::move(*saved);
-    else
+    } else
       begin();
     load_body_and_pins();
     heights_ = line_heights_by_id(now_.file.mesh);
-    while (draw_due_lines() && simulate_to(next_stop()) && now_.simulation.time < scene_.simulation.seconds &&
-           !stopped_) {
+    read_strokes();
+    try {
+      while (draw_due_lines() && simulate_to(next_stop()) &&
+             now_.simulation.time < scene_.simulation.seconds && !stopped_) {
+      }
+    } catch (const std::exception&) {  // a round of lines that cannot be drawn
+      if (now_.simulation.step > 0 && !scene_.output.state.empty()) {
+        write_state();
+        warn("the state reached at " + std::to_string(now_.simulation.time) + " s was written to " +
+                 scene_.output.state.string(),
+             common_);
+      }
+      throw;
     }
     return finish();
   }
@@ -57,7 +74,6 @@ class SceneRun {
  private:
   void begin() {
     now_.file = read_garment(scene_.garment.string(), common_);
-    io::drop_motion(now_.file.mesh);  // of a state that is used as a garment
     if (scene_.subdivide > 0) geometry::loop_subdivide(now_.file.mesh, scene_.subdivide);
   }
 
@@ -67,6 +83,36 @@ class SceneRun {
       throw UsageError("the state has " + std::to_string(now_.pins.size()) + " sets of pins, the scene " +
                        std::to_string(scene_.pins.size()) + "; go on with the same pins");
     if (!resumed_) now_.pins = find_pins(now_.file, scene_.pins);
+    const std::string body = body_ ? body_->fingerprint() : "";
+    if (now_.body != body) now_.simulation.contact.clear();
+    if (now_.body != body) now_.simulation.body_travel = 0;
+    now_.body = body;
+    if (resumed_) change_plan();
+  }
+
+  /// What is not the state's any more.
+  void change_plan() {
+    const auto value = [](const Json& settings, const char* key) {
+      return settings.contains(key) ? settings[key] : Json();
+    };
+    if (value(now_.scene, "pins") != value(document_.root, "pins")) now_.simulation.homes.clear();
+    const auto density = scene_.material.density;
+    if (density && *density != io::find_wrinkle_record(now_.file)->density)
+      complete_garment(now_.file, scene_.material);
+  }
+
+  /// Of all rounds to come, so that a fault is known before the work.
+  void read_strokes() {
+    strokes_.resize(now_.lines_drawn);
+    for (std::size_t i = strokes_.size(); i < scene_.lines.size(); ++i) {
+      const io::SceneLines& lines = scene_.lines[i];
+      strokes_.push_back(io::read_drawn_strokes(lines.strokes, lines.height, read_options(common_)));
+      if (!lines.without.empty()) leave_out(strokes_.back(), lines.without);
+      if (lines.time >= scene_.simulation.seconds && lines.time > 0)
+        warn(lines.strokes.string() + ": its lines come at " + Json(lines.time).dump() +
+                 " s, when the simulation is over; they are not drawn",
+             common_);
+    }
   }
 
   /// Draws the rounds of lines whose time has come.
@@ -74,15 +120,12 @@ class SceneRun {
     const auto& rounds = scene_.lines;
     while (now_.lines_drawn < static_cast<int>(rounds.size()) &&
            rounds[now_.lines_drawn].time <= now_.simulation.time)
-      draw(rounds[now_.lines_drawn]);
+      draw(rounds[now_.lines_drawn], strokes_[now_.lines_drawn]);
     if (now_.simulation.step == 0 && !resumed_) start_simulation();
     return true;
   }
 
-  void draw(const io::SceneLines& lines) {
-    std::vector<io::DrawnStroke> strokes =
-        io::read_drawn_strokes(lines.strokes, lines.height, read_options(common_));
-    if (!lines.without.empty()) leave_out(strokes, lines.without);
+  void draw(const io::SceneLines& lines, const std::vector<io::DrawnStroke>& strokes) {
     const bool moving = now_.simulation.step > 0;
     finish_recording();
     if (moving) now_ = io::parse_state(io::state_bytes(std::move(now_)), "state");  // as if it had been saved
@@ -92,12 +135,10 @@ class SceneRun {
     if (moving) {
       target.moving = &now_.simulation;
       target.springs = spring_options(now_.file, scene_.material);
+      target.pins = now_.pins;
     }
     const LineRound round = draw_lines(target, strokes, lines, stage_writer(lines.time == 0));
-    if (moving)
-      pin_new_border_vertices(now_.file.mesh, old_count, now_.pins);
-    else
-      now_.pins = find_pins(now_.file, scene_.pins);
+    pin_new_vertices(now_.file.mesh, old_count, now_.pins);
     ++now_.lines_drawn;
     for (const std::string& w : round.warnings) warn(w, common_);
     Json json = to_json(round.report, now_.file.mesh, round.first_line);
@@ -120,7 +161,7 @@ class SceneRun {
     if (path.empty()) return;
     io::MeshFile stage = now_.file;
     stage.mesh = mesh;
-    io::drop_motion(stage.mesh);
+    io::drop_motion(stage);
     write_mesh(path.string(), stage, common_);
   }
 
@@ -136,7 +177,7 @@ class SceneRun {
     const auto& rounds = scene_.lines;
     if (now_.lines_drawn < static_cast<int>(rounds.size()))
       stop = std::min(stop, rounds[now_.lines_drawn].time);
-    if (scene_.stop_at && *scene_.stop_at > now_.simulation.time) stop = std::min(stop, *scene_.stop_at);
+    if (scene_.stop_at) stop = std::min(stop, *scene_.stop_at);
     return stop;
   }
 
@@ -193,9 +234,8 @@ class SceneRun {
   void pin_cloth(physics::Cloth& cloth) {
     for (const std::vector<int>& pins : now_.pins) {
       physics::pin(cloth.particles, pins);
-      if (!body_ || !body_->rigid() || !started_) continue;
-      constexpr double kOutside = 1e-6;  // [m], so that rounding leaves none inside
-      const physics::PushOutReport r = physics::push_out(cloth.particles.x, pins, *body_->rigid(), kOutside);
+      if (!body_ || !started_) continue;
+      const physics::PushOutReport r = body_->push_out(cloth.particles.x, pins, now_.simulation.time);
       if (r.moved)
         warn(std::to_string(r.moved) + " pinned vertices were inside the body; moved onto it, by " +
                  std::to_string(1000 * r.farthest) + " mm at most",
@@ -217,7 +257,7 @@ class SceneRun {
                         body_ ? &*body_ : nullptr, gap_);
     if (!rounds_.empty()) json["rounds"] = rounds_;
     if (!animations_.empty()) json["animations"] = animations_;
-    json["flags"] = equivalent_flags(io::relocated(document_, folder_, ""));
+    json["flags"] = equivalent_flags(io::relocated(document_, folder_, ""), state_path_, settings_before_);
     print_report(json, common_);
     if (diverged) return tell_divergence();
     if (report_.outcome == physics::Outcome::stopped_by_observer) {
@@ -229,23 +269,26 @@ class SceneRun {
 
   void write_outputs() {
     const io::SceneOutput& out = scene_.output;
-    if (!out.state.empty()) {
-      io::SavedState state = now_;
-      state.scene = io::relocated(document_, folder_, out.state.parent_path());
-      state.scene.erase("output");  // it and stop_at belong to one call
-      if (state.scene.contains("simulation")) state.scene["simulation"].erase("stop_at");
-      io::write_state(out.state, std::move(state));
-    }
+    if (!out.state.empty()) write_state();
     finish_recording();
-    io::drop_motion(now_.file.mesh);
+    io::drop_motion(now_.file);
     if (body_ && !out.body.empty())
       write_mesh(out.body.string(), body_->at(now_.simulation.time, common_), common_);
     if (!out.mesh.empty()) write_mesh(out.mesh.string(), now_.file, common_);
   }
 
+  void write_state() const {
+    const std::filesystem::path& path = scene_.output.state;
+    io::SavedState state = now_;
+    state.scene = io::relocated(document_, folder_, path.parent_path());
+    state.scene.erase("output");  // it and stop_at belong to one call
+    if (state.scene.contains("simulation")) state.scene["simulation"].erase("stop_at");
+    io::write_state(path, std::move(state));
+  }
+
   int tell_divergence() const {
     std::cerr << "error: the simulation diverged at " << report_.time << " s with steps of " << report_.dt
-              << " s (stable below " << report_.dt_limit << " s); nothing was written; "
+              << " s (stable below " << report_.dt_limit << " s); the garment was not written; "
               << (scene_.simulation.integrator == physics::Integrator::explicit_euler
                       ? "explicit Euler always does in the end: use leapfrog"
                   : scene_.simulation.dt ? "leave --dt away"
@@ -257,6 +300,8 @@ class SceneRun {
   const io::Scene& scene_;
   const io::TomlDocument& document_;
   std::filesystem::path folder_;
+  std::string state_path_;
+  Json settings_before_;  ///< of the state that is gone on from
   const CommonArguments& common_;
   io::SavedState now_;
   bool resumed_ = false, started_ = false, stopped_ = false;
@@ -264,6 +309,7 @@ class SceneRun {
   std::optional<FrameRecorder> recorder_;
   double gap_ = 0;
   std::vector<double> heights_;
+  std::vector<std::vector<io::DrawnStroke>> strokes_;  ///< of each round
   physics::SimulateReport report_;
   Json rounds_ = Json::array(), animations_ = Json::array();
 };
@@ -271,8 +317,9 @@ class SceneRun {
 }  // namespace
 
 int run_scene(const io::Scene& scene, const io::TomlDocument& document, const std::filesystem::path& folder,
-              std::optional<io::SavedState> state, const CommonArguments& common) {
-  return SceneRun(scene, document, folder, common).run(std::move(state));
+              std::optional<io::SavedState> state, const std::string& state_path,
+              const CommonArguments& common) {
+  return SceneRun(scene, document, folder, state_path, common).run(std::move(state));
 }
 
 }  // namespace furrow::cli

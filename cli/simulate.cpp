@@ -28,15 +28,16 @@ io::TomlDocument settings(const SimulateArguments& a, const std::optional<io::Sa
     document = io::read_toml(a.in);
   } else if (state) {
     if (!a.in.empty()) throw UsageError(a.in + ": --state has its garment; leave the mesh away");
-    document.root = state->scene;
-    document.name = a.state;
+    document = io::document_of(state->scene, a.state);
   } else {
     if (a.in.empty()) throw UsageError("simulate takes a garment, a scene (.toml), or --state");
     io::set_value(document, "garment.mesh", a.in, "the garment");
   }
   if (a.unit) io::set_value(document, "unit", *a.unit, "--unit");
   if (a.up) io::set_value(document, "up", *a.up, "--up");
+  for (const char* list : {"lines", "pins"}) io::make_list(document, list);
   a.flags.apply(document);
+  for (const char* list : {"lines", "pins"}) io::make_list(document, list);
   return document;
 }
 
@@ -50,25 +51,46 @@ io::Scene scene_of(const io::TomlDocument& document, const std::filesystem::path
   }
 }
 
+/// Files that are read; no output may replace one, but the garment itself, by its result.
+std::vector<std::string> inputs(const io::Scene& scene, const SimulateArguments& a) {
+  std::vector<std::string> files;
+  if (is_scene(a.in)) files.push_back(a.in);
+  if (scene.body)
+    for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
+      files.push_back(path.string());
+  for (const io::SceneLines& lines : scene.lines) files.push_back(lines.strokes.string());
+  std::erase(files, "");
+  return files;
+}
+
+void check_output_formats(const io::SceneOutput& out, bool has_body) {
+  for (const auto& path : {out.mesh, out.inserted, out.smoothed, out.body})
+    if (!path.empty()) check_output(path.string());
+  for (const auto& path : {out.inserted, out.smoothed, out.body})
+    if (path == "-") throw UsageError("only the garment at the end (-o) can go to standard output");
+  if (!out.animation.empty() && !io::animation_format(out.animation))
+    throw UsageError(out.animation.string() + ": the ending names no animation; choose pc2, mdd or glb");
+  if (!out.state.empty() && out.state.extension() != ".ply")
+    throw UsageError(out.state.string() + ": a state is a .ply file");
+  if (!out.state.empty()) check_output(out.state.string());
+  if (!out.body.empty() && !has_body) throw UsageError("--save-body: there is no body; name one with --body");
+}
+
 /// What can be known to fail is said before the work.
 void check_outputs(const io::Scene& scene, const SimulateArguments& a) {
   const io::SceneOutput& out = scene.output;
   if (out.mesh.empty() && out.state.empty() && out.animation.empty())
     throw UsageError("nothing to write: name --output, --save-state or --animation");
-  for (const auto& path : {out.mesh, out.inserted, out.smoothed, out.body})
-    if (!path.empty()) check_output(path.string());
+  check_output_formats(out, scene.body.has_value());
+  const std::vector<std::string> read = inputs(scene, a);
+  std::vector<std::string> written;
   for (const auto& path : {out.mesh, out.state, out.inserted, out.smoothed, out.animation, out.body}) {
     if (path.empty() || path == "-") continue;
-    if (scene.body) refuse_same(path.string(), scene.body->mesh.string());
-    if (is_scene(a.in)) refuse_same(path.string(), a.in);
-    for (const io::SceneLines& lines : scene.lines) refuse_same(path.string(), lines.strokes.string());
-  }
-  if (!out.animation.empty() && !io::animation_format(out.animation))
-    throw UsageError(out.animation.string() + ": the ending names no animation; choose pc2, mdd or glb");
-  if (!out.state.empty()) {
-    if (out.state.extension() != ".ply") throw UsageError(out.state.string() + ": a state is a .ply file");
-    check_output(out.state.string());
-    refuse_same(out.state.string(), out.mesh.string());
+    for (const std::string& other : read) refuse_same(path.string(), other);
+    if (path != out.mesh) refuse_same(path.string(), scene.garment.string());
+    if (path != out.state) refuse_same(path.string(), a.state);
+    for (const std::string& other : written) refuse_same(path.string(), other);
+    written.push_back(path.string());
   }
 }
 
@@ -79,12 +101,14 @@ int simulate(SimulateArguments& a) {
   const std::filesystem::path folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
   io::Scene scene = scene_of(document, folder);
   if (scene.garment.empty() && !state) throw UsageError(document.name + ": garment.mesh is missing");
+  if (state && scene.subdivide != state->scene.value("garment", io::Json::object()).value("subdivide", 0))
+    throw UsageError("--subdivide: the garment of a state is in motion; refine it before the first step");
   check_outputs(scene, a);
   CommonArguments common = a;
   common.unit = scene.unit;
   common.up = scene.up;
   common.out = scene.output.mesh.string();
-  return run_scene(scene, document, folder, std::move(state), common);
+  return run_scene(scene, document, folder, std::move(state), a.state, common);
 }
 
 }  // namespace

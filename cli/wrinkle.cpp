@@ -112,7 +112,11 @@ Drawing read_drawing(WrinkleArguments& a) {
   if (!a.state.empty()) {
     // With --state the one file that is named is that of the strokes.
     if (!a.strokes.empty()) throw UsageError(a.in + ": --state has its garment; leave the mesh away");
+    if (a.density) throw UsageError("--density: furrow simulate --state S --density changes that of a state");
     drawing.state = io::read_state(a.state);
+    const Json& scene = drawing.state->scene;
+    if (!a.unit && scene.contains("unit")) a.unit = scene["unit"].get<std::string>();
+    if (!a.up && scene.contains("up")) a.up = scene["up"].get<std::string>();
     drawing.file = std::move(drawing.state->file);
     drawing.strokes = io::read_drawn_strokes(a.in, a.height, read_options(a));
   } else if (a.strokes.empty()) {
@@ -135,7 +139,14 @@ void check_outputs(const WrinkleArguments& a) {
     check_output(a.inserted);
     refuse_same(a.inserted, a.out);
   }
-  for (const std::string& file : {a.in, a.strokes, a.out, a.inserted}) refuse_same(a.preview, file);
+  if (a.preview == "-") throw UsageError("--preview writes a file; name one");
+  for (const std::string& file : {a.in, a.strokes, a.state, a.out, a.inserted}) {
+    refuse_same(a.preview, file);
+    refuse_same(a.camera.save_camera, file);
+  }
+  refuse_same(a.camera.save_camera, a.preview);
+  for (const std::string& file : {a.in, a.strokes, a.state}) refuse_same(a.inserted, file);
+  if (!a.strokes.empty()) refuse_same(a.out, a.strokes);
 }
 
 void write_preview(const io::RenderScene& scene, const WrinkleArguments& a) {
@@ -147,19 +158,17 @@ void write_preview(const io::RenderScene& scene, const WrinkleArguments& a) {
 /// The springs of the simulation that a state belongs to.
 bridge::GatherOptions springs_of(const io::SavedState& state, const io::MeshFile& file,
                                  const std::string& path) {
-  io::TomlDocument document;
-  document.root = state.scene;
-  document.name = path;
+  const io::TomlDocument document = io::document_of(state.scene, path);
   return spring_options(file, io::read_scene(document, std::filesystem::path(path).parent_path()).material);
 }
 
 void write_result(const WrinkleArguments& a, Drawing& drawing, std::size_t old_count) {
   if (!drawing.state) return write_mesh(drawing.file, a);
-  pin_new_border_vertices(drawing.file.mesh, old_count, drawing.state->pins);
+  pin_new_vertices(drawing.file.mesh, old_count, drawing.state->pins);
   io::SavedState state = *drawing.state;
   state.file = drawing.file;
   const auto folder = [](const std::string& path) { return std::filesystem::path(path).parent_path(); };
-  io::TomlDocument document{state.scene, {}, a.state};
+  const io::TomlDocument document = io::document_of(state.scene, a.state);
   state.scene = io::relocated(document, folder(a.state), folder(a.out));
   io::write_state(a.out, std::move(state));
 }
@@ -172,6 +181,7 @@ void wrinkle(WrinkleArguments a) {
   if (drawing.state) {
     target.moving = &drawing.state->simulation;
     target.springs = springs_of(*drawing.state, file, a.state);
+    target.pins = drawing.state->pins;
   }
   io::SceneLines lines;
   lines.options = to_options(a);
@@ -191,7 +201,7 @@ void wrinkle(WrinkleArguments a) {
   if (round.moving) json["moving"] = to_json(*round.moving, drawing.state->simulation.time);
   if (displaced) {
     file.mesh = std::move(*displaced);
-    io::drop_motion(file.mesh);
+    io::drop_motion(file);
     write_mesh(a.inserted, file, a);
   }
   print_report(json, a);

@@ -2,6 +2,7 @@
 #include "geometry/wrinkle.h"
 
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "geometry/bending_springs.h"
@@ -19,12 +20,13 @@ namespace {
 
 /// The vertices of all lines, each with the displacement of the last line that has it.
 std::vector<Displacement> displacements(const std::vector<InsertedLine>& lines,
-                                        std::span<const Stroke> strokes) {
+                                        std::span<const Stroke> strokes, const std::set<Vertex>& held) {
   std::map<Vertex, Displacement> last;
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (const LineVertex& v : lines[i].vertices) last[v.vertex] = {v.vertex, v.normal, strokes[i].height};
   std::vector<Displacement> list;
-  for (const auto& [vertex, displacement] : last) list.push_back(displacement);
+  for (const auto& [vertex, displacement] : last)
+    if (!held.count(vertex)) list.push_back(displacement);
   return list;
 }
 
@@ -51,15 +53,17 @@ std::vector<double> heights(const Mesh& mesh, int first, std::size_t count) {
   return by_id;
 }
 
-void smooth(Mesh& mesh, std::span<const Displacement> lines, const WrinkleOptions& options) {
-  std::vector<Vertex> region;
+void smooth(Mesh& mesh, std::span<const Displacement> lines, const WrinkleOptions& options,
+            const std::set<Vertex>& held) {
+  std::vector<Vertex> region(mesh.vertices().begin(), mesh.vertices().end());
   if (options.region == SmoothingRegion::two_ring) {
     std::vector<Vertex> centres;
     for (const Displacement& d : lines)
       if (d.height != 0) centres.push_back(d.vertex);  // a line of height 0 changes no shape
     region = two_ring(mesh, centres);
-    if (region.empty()) return;
   }
+  std::erase_if(region, [&](Vertex v) { return held.count(v) > 0; });
+  if (region.empty()) return;
   taubin_smooth(mesh, region, options.smoothing);
 }
 
@@ -74,6 +78,10 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   for (const auto& r_avg : {options.mean_structural_length, options.mean_bending_length})
     if (r_avg && !(*r_avg > 0)) throw std::invalid_argument("wrinkle: a mean rest length must be > 0 m");
   check(options.insertion);
+  const std::set<Vertex> held(options.held.begin(), options.held.end());
+  if (!held.empty() && (*held.rbegin()).idx() >= mesh.num_vertices())
+    throw std::invalid_argument("wrinkle: held vertex " + std::to_string((*held.rbegin()).idx()) +
+                                " is not in the mesh");
   const auto tell = [&](Stage stage, const Mesh& m) {
     if (observer) observer(stage, m);
   };
@@ -90,13 +98,13 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   tell(Stage::inserted, work);
 
   const RestSnapshot before = take_rest_snapshot(work);
-  const std::vector<Displacement> moves = displacements(lines, strokes);
+  const std::vector<Displacement> moves = displacements(lines, strokes, held);
   const std::vector<double> base = heights(work, options.first_line, lines.size());
   displace_line(work, moves);
   const std::vector<double> drawn = heights(work, options.first_line, lines.size());
   tell(Stage::displaced, work);
 
-  smooth(work, moves, options);
+  smooth(work, moves, options, held);
   apply_rest_rule(work, before, options.rest);
   const std::vector<double> smoothed = heights(work, options.first_line, lines.size());
   report.total_mass = lump_masses(work, options.density);

@@ -19,8 +19,9 @@ struct WrinkleOptions {
   TaubinOptions smoothing;
   SmoothingRegion region = SmoothingRegion::two_ring;
   RestRule rest = RestRule::drawn;
-  double density = 0.15;  ///< rho [kg/m^2]; > 0
-  int first_line = 0;     ///< id of the first stroke's line; above those that the mesh has
+  double density = 0.15;     ///< rho [kg/m^2]; > 0
+  std::vector<Vertex> held;  ///< vertices of the mesh given that keep their places, as pins do
+  int first_line = 0;        ///< id of the first stroke's line; above those that the mesh has
   /// r_avg of the garment before its first line [m]; > 0; none: of the mesh given. For a second round of
   /// lines.
   std::optional<double> mean_structural_length, mean_bending_length;

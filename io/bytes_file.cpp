@@ -58,8 +58,13 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 }
 
 std::string content_hash(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  return content_hash(std::as_bytes(std::span(text)));
+}
+
+std::string content_hash(std::span<const std::byte> bytes) {
   std::uint64_t hash = 14695981039346656037ull;
-  for (unsigned char byte : read_text(path)) hash = (hash ^ byte) * 1099511628211ull;
+  for (const std::byte byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ull;
   char digits[17];
   std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
   return digits;

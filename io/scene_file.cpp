@@ -2,6 +2,7 @@
 #include "io/scene_file.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/settings_table.h"
 
@@ -71,7 +72,7 @@ class SceneReader {
       if (lines.strokes.empty()) table.fail("strokes", "is missing: name a stroke file");
       table.read("time", lines.time, not_negative("s"));
       table.read("height", lines.height, any("m"));
-      table.read("fade", lines.fade, positive("s"));
+      table.read("fade", lines.fade, {0, kNoLimit, true, "s", true});
       table.read("without", lines.without);
       read_wrinkle_options(table, lines.options);
       table.finish();
@@ -153,7 +154,8 @@ class SceneReader {
     table->read("start", spin.start, not_negative("s"));
     table->read("ramp", spin.ramp, not_negative("s"));
     table->finish();
-    if (!(spin.axis.norm() > 1e-12)) table->fail("axis", "must not be of length 0");
+    if (!(spin.axis.norm() > 1e-12) || !std::isfinite(spin.axis.norm()))
+      table->fail("axis", "must have a length above 0 that is no overflow; write a unit vector");
     return spin;
   }
 

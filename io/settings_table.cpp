@@ -64,7 +64,8 @@ bool SettingsTable::has(const char* key) { return find(key) != nullptr; }
 double SettingsTable::number(const char* key, const Json& item, const Limits& limits) const {
   const double value = item.is_number() ? item.get<double>() : NAN;
   const bool high_enough = limits.open ? value > limits.least : value >= limits.least;
-  if (!std::isfinite(value) || !high_enough || value > limits.most)
+  if (!(std::isfinite(value) || (limits.infinite && std::isinf(value))) || !high_enough ||
+      value > limits.most)
     fail(key, "must be " + range_text(limits));
   return value;
 }

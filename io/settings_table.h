@@ -17,6 +17,7 @@ struct Limits {
   double least, most;
   bool open = false;  ///< `least` itself is refused
   const char* unit = "";
+  bool infinite = false;  ///< inf is allowed
 };
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 inline constexpr Limits any(const char* unit = "") { return {-kNoLimit, kNoLimit, false, unit}; }

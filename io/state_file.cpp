@@ -12,6 +12,7 @@
 #include "io/bytes_file.h"
 #include "io/mesh_readers.h"
 #include "io/mesh_writers.h"
+#include "io/wrinkle_record.h"
 
 namespace furrow::io {
 namespace {
@@ -66,6 +67,8 @@ Json to_json(const SavedState& saved) {
             {"estimated_at", s.estimated_at},
             {"dt_limit", number(s.dt_limit)},
             {"strain_at_estimate", s.strain_at_estimate},
+            {"cloth", s.cloth},
+            {"body", saved.body},
             {"body_travel", s.body_travel},
             {"homes", Json::array()},
             {"force_jump_start", s.compensation.start},
@@ -79,7 +82,23 @@ Json to_json(const SavedState& saved) {
   return json;
 }
 
-SavedState from_json(const Json& json) {
+/// Lists of indices of the mesh's vertices.
+std::vector<std::vector<int>> pins_of(const Json& json, std::size_t vertices) {
+  std::vector<std::vector<int>> pins;
+  for (const Json& list : json) {
+    pins.emplace_back();
+    for (const Json& index : list) {
+      const double i = index.get<double>();
+      if (!(i >= 0 && i < double(vertices)))
+        throw std::invalid_argument("pin " + index.dump() + " is no vertex");
+      pins.back().push_back(static_cast<int>(i));
+    }
+  }
+  return pins;
+}
+
+SavedState from_json(const Json& json, std::size_t vertices) {
+  if (json.value("version", 0) != 1) throw std::invalid_argument("its version is not 1");
   SavedState saved;
   SimulateState& s = saved.simulation;
   s.time = json.at("time");
@@ -92,16 +111,21 @@ SavedState from_json(const Json& json) {
   s.estimated_at = json.at("estimated_at");
   s.dt_limit = number(json.at("dt_limit"));
   s.strain_at_estimate = json.at("strain_at_estimate");
+  s.cloth = json.at("cloth");
+  saved.body = json.at("body");
   s.body_travel = json.at("body_travel");
   const std::vector<double> homes = json.at("homes");
+  if (homes.size() % 3 != 0) throw std::invalid_argument("a home of a pin is cut short");
   for (std::size_t i = 0; i + 2 < homes.size(); i += 3)
     s.homes.emplace_back(homes[i], homes[i + 1], homes[i + 2]);
   s.compensation.start = json.at("force_jump_start");
   s.compensation.time_constant = number(json.at("force_jump_fade"));
   s.totals = totals_of(json.at("totals"));
-  saved.pins = json.at("pins").get<std::vector<std::vector<int>>>();
+  saved.pins = pins_of(json.at("pins"), vertices);
   saved.lines_drawn = json.at("lines_drawn");
+  if (saved.lines_drawn < 0) throw std::invalid_argument("lines_drawn is below 0");
   saved.scene = json.at("scene");
+  if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
   return saved;
 }
 
@@ -151,7 +175,9 @@ void drop(Mesh& mesh, const Name& name) {
 
 }  // namespace
 
-void drop_motion(Mesh& mesh) {
+void drop_motion(MeshFile& file) {
+  Mesh& mesh = file.mesh;
+  std::erase_if(file.comments, is_state);
   drop(mesh, kVelocity);
   drop(mesh, kForceJump);
   drop(mesh, kContactPoint);
@@ -184,15 +210,24 @@ SavedState parse_state(const std::string& bytes, const std::string& name) {
     throw ContentError(name + ": is no saved state; furrow simulate --save-state writes one");
   if (file.repairs.any())
     throw ContentError(name + ": the mesh of the saved state is damaged; write the state again");
+  const auto refuse = [&](const std::string& what) {
+    throw ContentError(name + ": the saved state is damaged (" + what + "); write it again");
+  };
+  if (!find_wrinkle_record(file)) refuse("the comment 'furrow wrinkle' is missing");
+  SavedState state;
   try {
-    SavedState state = from_json(Json::parse(comment->substr(std::string(kPrefix).size())));
+    const std::size_t vertices = file.mesh.number_of_vertices();
+    state = from_json(Json::parse(comment->substr(std::string(kPrefix).size())), vertices);
     file.comments.erase(comment);
     state.file = std::move(file);
     take_maps(state);
-    return state;
+    physics::check(state.simulation, vertices);
   } catch (const nlohmann::json::exception& e) {
-    throw ContentError(name + ": the comment 'furrow state' is damaged (" + e.what() + "); write it again");
+    refuse(e.what());
+  } catch (const std::invalid_argument& e) {
+    refuse(e.what());
   }
+  return state;
 }
 
 SavedState read_state(const std::filesystem::path& path) {

@@ -12,9 +12,11 @@ namespace furrow::io {
 struct SavedState {
   MeshFile file;  ///< the garment as it is now, with kVelocity, kMass and rest lengths
   physics::SimulateState simulation;
-  nlohmann::ordered_json scene;  ///< its settings (docs/scenes.md); paths relative to the state's folder
+  nlohmann::ordered_json scene = nlohmann::ordered_json::object();  ///< its settings (docs/scenes.md); paths
+                                                                    ///< relative to the state's folder
   std::vector<std::vector<int>> pins;  ///< the vertices of each of the scene's pins
-  int lines_drawn = 0;                 ///< rounds of the scene's lines that are in the garment already
+  std::string body;     ///< what the contact memory is about (WorldBody::fingerprint); "" without
+  int lines_drawn = 0;  ///< rounds of the scene's lines that are in the garment already
 };
 
 /// The file is a binary PLY that other programs open as a mesh: velocities, contact memory and compensating
@@ -29,7 +31,7 @@ std::string state_bytes(SavedState state);
 SavedState read_state(const std::filesystem::path& path);
 SavedState parse_state(const std::string& bytes, const std::string& name);
 
-/// The maps that belong to a cloth in motion are taken from the mesh; what is left is an ordinary garment.
-void drop_motion(geometry::Mesh& mesh);
+/// What belongs to a cloth in motion is taken away; what is left is an ordinary garment.
+void drop_motion(MeshFile& file);
 
 }  // namespace furrow::io

@@ -3,7 +3,8 @@
 
 #include <toml++/toml.h>
 
-#include <charconv>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "geometry/errors.h"
@@ -112,6 +113,32 @@ TomlDocument read_toml(const std::filesystem::path& path) {
   return parse_toml(read_text(path), path.string());
 }
 
+TomlDocument document_of(Json root, const std::string& name) {
+  TomlDocument document{std::move(root), {}, name};
+  const Json flat = document.root.flatten();
+  for (const auto& [pointer, item] : flat.items()) {  // "/pins/0/loop"
+    std::string path = pointer.empty() ? "" : pointer.substr(1);
+    std::replace(path.begin(), path.end(), '/', '.');
+    for (; !path.empty(); path.erase(path.rfind('.') == std::string::npos ? 0 : path.rfind('.')))
+      document.where[path] = name;
+  }
+  return document;
+}
+
+void make_list(TomlDocument& document, const std::string& key) {
+  if (!document.root.contains(key) || !document.root[key].is_object()) return;
+  document.root[key] = Json::array({document.root[key]});
+  std::map<std::string, std::string> where;
+  for (const auto& [path, place] : document.where) {
+    if (path.rfind(key + ".", 0) == 0)
+      where[key + ".0" + path.substr(key.size())] = place;
+    else
+      where[path] = place;
+  }
+  if (where.count(key)) where[key + ".0"] = where[key];
+  document.where = std::move(where);
+}
+
 void set_value(TomlDocument& document, const std::string& path, Json value, const std::string& where) {
   Json changed = document.root;  // nothing is changed if a later key fails
   Json* at = &changed;
@@ -144,7 +171,9 @@ std::string value_text(const Json& value) {
     for (const Json& item : value) text += (text.empty() ? "[" : ", ") + value_text(item);
     return text.empty() ? "[]" : text + "]";
   }
-  return value.dump();
+  if (value.is_number_float() && !std::isfinite(value.get<double>()))  // JSON has no words for these
+    return std::isnan(value.get<double>()) ? "nan" : value.get<double>() > 0 ? "inf" : "-inf";
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace furrow::io

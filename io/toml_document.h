@@ -25,6 +25,11 @@ TomlDocument read_toml(const std::filesystem::path& path);
 /// The same from text; `name` stands in messages.
 TomlDocument parse_toml(const std::string& text, const std::string& name);
 
+/// A document of settings that were made elsewhere, all of them from `name`.
+TomlDocument document_of(Json root, const std::string& name);
+/// Where a table stands in place of a list of tables, makes it the list's only one.
+void make_list(TomlDocument& document, const std::string& key);
+
 /// Sets one value, making the tables and arrays on the way; an index may be at most one past an array's end.
 /// Throws std::invalid_argument if the path runs through a value that is no table or array.
 void set_value(TomlDocument& document, const std::string& path, Json value, const std::string& where);

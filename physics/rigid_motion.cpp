@@ -68,7 +68,7 @@ double spin_angle(const Spin& spin, double time) {
 
 void check(const Spin& spin) {
   if (!spin.centre.allFinite()) refuse("the spin's centre is not finite");
-  if (!spin.axis.allFinite() || !(spin.axis.norm() > 0)) refuse("the spin's axis has no direction");
+  if (!std::isfinite(spin.axis.norm()) || !(spin.axis.norm() > 0)) refuse("the spin's axis has no direction");
   if (!std::isfinite(spin.rate)) refuse("the spin's rate is not finite");
   if (!std::isfinite(spin.start)) refuse("the spin's start is not finite");
   if (!(spin.ramp >= 0) || !std::isfinite(spin.ramp)) {

@@ -73,6 +73,7 @@ class Simulation {
   void lead_pins();
   void recall();
   void remember();
+  bool observe(const Observer& observer, const SimulateReport& report);
 
   Cloth& cloth_;
   const World& world_;
@@ -163,9 +164,11 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
   const auto step = options_.integrator == Integrator::leapfrog ? leapfrog_step : euler_step;
   SimulateState& s = state_;
   report.dt = s.dt;
+  bool observed = true;  // of the present state; before the first step there is nothing new
   while (s.steps_left > 0) {
     if (options_.stop_at && s.time >= *options_.stop_at) {
       report.outcome = Outcome::stopped_at;
+      if (observer && !observed) observe(observer, report);
       return;
     }
     const bool last = s.steps_left == 1;
@@ -177,19 +180,24 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
     ++s.step;
     s.time = to;
 
-    const bool observed = observer && (s.step % options_.observe_steps == 0 || last);
+    observed = observer && (s.step % options_.observe_steps == 0 || last);
     const bool checked = s.step % divergence_steps == 0 || observed || last;
-    if (observed || length_->due()) motion_->unpack(cloth_.particles);
+    if (length_->due()) motion_->unpack(cloth_.particles);
     if (checked && has_diverged(motion_->cloth(), options_.speed_limit)) {
       report.outcome = Outcome::diverged;
       return;
     }
     length_->advance();
-    if (observed && !observer({s.time, s.step, report.dt, kinetic_energy(cloth_.particles)}) && !last) {
+    if (observed && !observe(observer, report) && !last) {
       report.outcome = Outcome::stopped_by_observer;
       return;
     }
   }
+}
+
+bool Simulation::observe(const Observer& observer, const SimulateReport& report) {
+  motion_->unpack(cloth_.particles);
+  return observer({state_.time, state_.step, report.dt, kinetic_energy(cloth_.particles)});
 }
 
 void Simulation::finish(SimulateReport& report) {

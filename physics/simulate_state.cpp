@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 #include <stdexcept>
 
@@ -18,7 +19,33 @@ void require(bool condition, const Parts&... parts) {
   throw std::invalid_argument(text.str());
 }
 
+/// FNV-1a, 64 bits (RFC 9923).
+class Hash {
+ public:
+  template <class Number>
+  void add(Number number) {
+    unsigned char bytes[sizeof number];
+    std::memcpy(bytes, &number, sizeof number);
+    for (const unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 0x100000001b3;
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325;
+};
+
 }  // namespace
+
+std::uint64_t fingerprint(const Cloth& cloth) {
+  Hash hash;
+  for (const double inv_mass : cloth.particles.inv_mass) hash.add(inv_mass);
+  for (const auto* springs : {&cloth.structural, &cloth.bending}) {
+    hash.add(springs->size());
+    for (const Spring& s : *springs)
+      hash.add(s.a), hash.add(s.b), hash.add(s.rest_length), hash.add(s.stiffness);
+  }
+  return hash.value();
+}
 
 void check(const SimulateState& s, std::size_t particles) {
   require(s.time >= 0 && std::isfinite(s.time), "time = ", s.time, " is not >= 0");
@@ -30,6 +57,8 @@ void check(const SimulateState& s, std::size_t particles) {
   if (!s.planned) return;
   require(s.steps_left >= 0, "steps_left = ", s.steps_left, " is not >= 0");
   require(s.steps_left == 0 || (s.dt > 0 && std::isfinite(s.dt)), "dt = ", s.dt, " is not > 0");
+  require(s.steps_left > 0 || s.time >= s.end, "no steps left at ", s.time, " s, before the end at ", s.end,
+          " s");
   const double rest = double(s.steps_left) * s.dt;
   require(s.steps_left == 0 || std::abs(s.time + rest - s.end) <= 1e-6 * std::max(s.end, s.dt), s.steps_left,
           " steps of ", s.dt, " s do not lead from ", s.time, " s to ", s.end, " s");

@@ -6,6 +6,7 @@
 
 #include "physics/compensation.h"
 #include "physics/contact.h"
+#include "physics/springs.h"
 
 namespace furrow::physics {
 
@@ -37,6 +38,7 @@ struct SimulateState {
   std::int64_t estimated_at = 0;  ///< step of the last estimate of the limit
   double dt_limit = 0;            ///< the estimate [s]
   double strain_at_estimate = 0;  ///< largest strain then [-]
+  std::uint64_t cloth = 0;        ///< fingerprint() of the cloth that the plan is for
 
   std::vector<ContactMemory> contact;  ///< one a particle, or empty
   double body_travel = 0;              ///< of an animated body since the beginning, a bound [m]
@@ -46,6 +48,9 @@ struct SimulateState {
   Compensation compensation;
   SimulateTotals totals;
 };
+
+/// Tells one cloth's springs and masses from another's: a plan is made anew when they changed at a stop.
+std::uint64_t fingerprint(const Cloth& cloth);
 
 /// Throws std::invalid_argument if the state contradicts itself or does not fit a cloth of so many particles.
 void check(const SimulateState& state, std::size_t particles);

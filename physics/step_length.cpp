@@ -12,22 +12,31 @@ namespace furrow::physics {
 namespace {
 
 constexpr int strain_steps = 200;  // steps between two looks at the strain
+constexpr double most_steps = 1e12;
+
+template <typename... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  std::ostringstream text;
+  text << "simulate: ";
+  (text << ... << parts);
+  throw std::invalid_argument(text.str());
+}
 
 }  // namespace
 
 StepLength::StepLength(const Cloth& cloth, const SimulateOptions& options, SimulateState& state)
     : cloth_(cloth), options_(options), state_(state) {
-  if (!state.planned) {
-    estimate();
-    if (options.dt && options.step_rule == StepRule::limited && *options.dt > state.dt_limit) {
-      std::ostringstream text;
-      text << "simulate: dt = " << *options.dt << " s is above the stability limit of " << state.dt_limit
-           << " s";
-      throw std::invalid_argument(text.str());
-    }
-  }
-  if (state.planned && state.end == options.seconds && state.dt_longest == longest()) return;
+  const std::uint64_t present = fingerprint(cloth);
+  if (state.cloth != present) state.planned = false;
+  const bool planned = state.planned;
+  if (!planned) estimate();
+  const double wanted = longest();
+  if (planned && state.dt_longest == wanted && state.end == options.seconds) return;
+  const bool limited = options.dt && options.step_rule == StepRule::limited;
+  if (limited && *options.dt > state.dt_limit && !(planned && state.dt_longest == wanted))
+    refuse("dt = ", *options.dt, " s is above the stability limit of ", state.dt_limit, " s");
   state.planned = true;
+  state.cloth = present;
   state.end = options.seconds;
   divide(std::max(state.end - state.time, 0.0));
 }
@@ -63,6 +72,9 @@ double StepLength::longest() const {
 
 void StepLength::divide(double rest) {
   state_.dt_longest = longest();
+  if (!(rest / state_.dt_longest < most_steps))
+    refuse("steps of ", state_.dt_longest, " s for ", rest,
+           " s are too many; shorten the time, or choose a longer dt ", "or a softer or heavier cloth");
   // A hair above, so that 2 s / 0.1 ms is 20000 steps and not 20001.
   state_.steps_left = std::int64_t(std::ceil(rest / state_.dt_longest * (1 - 1e-12)));
   state_.dt = state_.steps_left > 0 ? rest / double(state_.steps_left) : 0;

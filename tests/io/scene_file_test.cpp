@@ -133,7 +133,7 @@ TEST_CASE("a scene's faults are told with file, line, column and the nearest set
   CHECK(has(fault("[[pins]]\n"), "pins.0.loop is missing"));
   CHECK(has(fault("garment = 3\n"), "garment = 3 must be a table"));
   CHECK(has(fault("[garment]\nsubdivide = 1.5\n"), "whole number from 0 to 4"));
-  CHECK(has(fault("[body]\nmesh = \"b\"\nmotion.spin = {axis = [0, 0, 0]}\n"), "must not be of length 0"));
+  CHECK(has(fault("[body]\nmesh = \"b\"\nmotion.spin = {axis = [0, 0, 0]}\n"), "must have a length above 0"));
   CHECK(has(fault("[body]\nmesh = \"b\"\nmotion.keyframes = [{time = 1}, {time = 1}]\n"), "must be later"));
   CHECK(has(fault("[simulation]\nforce_dt = true\n"), "needs dt"));
   CHECK(has(fault("[simulation]\nseconds = 1979-05-27\n"),

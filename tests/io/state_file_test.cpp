@@ -11,6 +11,7 @@
 #include "geometry/masses.h"
 #include "geometry/property_names.h"
 #include "geometry/wrinkle.h"
+#include "io/wrinkle_record.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;
@@ -26,6 +27,7 @@ io::SavedState state() {
   stroke.points = {{0.2, 0.2, 0}, {0.8, 0.7, 0}};
   geometry::wrinkle(mesh, std::span(&stroke, 1));
   s.file.comments = {"made by hand"};
+  io::set_wrinkle_record(s.file, {});
   auto velocity = geometry::ensure_map(mesh, geometry::kVelocity);
   physics::SimulateState& sim = s.simulation;
   for (auto v : mesh.vertices()) {
@@ -37,10 +39,12 @@ io::SavedState state() {
   sim.time = 0.1 + 0.2;
   sim.step = 1234567890123;
   sim.planned = true;
-  sim.end = 2;
   sim.dt = 1.0 / 3e4;
   sim.dt_longest = sim.dt;
   sim.steps_left = 99;
+  sim.end = sim.time + 99 * sim.dt;
+  sim.cloth = 0xfedcba9876543210;
+  s.body = "0123456789abcdef";
   sim.estimated_at = 17;
   sim.dt_limit = std::numeric_limits<double>::infinity();
   sim.strain_at_estimate = 0.01;
@@ -71,6 +75,8 @@ TEST_CASE("a state holds everything to the last bit") {
   CHECK(a.dt == b.dt);
   CHECK(a.dt_longest == b.dt_longest);
   CHECK(a.steps_left == b.steps_left);
+  CHECK(a.cloth == b.cloth);
+  CHECK(was.body == is.body);
   CHECK(a.estimated_at == b.estimated_at);
   CHECK(a.dt_limit == b.dt_limit);
   CHECK(a.strain_at_estimate == b.strain_at_estimate);
@@ -107,7 +113,7 @@ TEST_CASE("a state is a mesh to others, and no state is no state") {
   CHECK(mesh.mesh.number_of_vertices() == state().file.mesh.number_of_vertices());
   CHECK(mesh.warnings.empty());
   io::MeshFile plain = state().file;
-  io::drop_motion(plain.mesh);
+  io::drop_motion(plain);
   std::ostringstream out;
   io::write_mesh(out, io::MeshFormat::ply, plain);
   CHECK(out.str().find("property double vx") == std::string::npos);
