@@ -50,6 +50,7 @@ class SceneRun {
       settings_before_ = io::relocated(io::document_of(saved->scene, state_path_),
                                        std::filesystem::path(state_path_).parent_path(), "");
       now_ = std::move(*saved);
+      steps_before_ = now_.simulation.step;
     } else
       begin();
     load_body_and_pins();
@@ -255,16 +256,46 @@ class SceneRun {
     if (!diverged) write_outputs();
     Json json = to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_,
                         body_ ? &*body_ : nullptr, gap_);
+    if (!scene_.title.empty()) json = with_title(json);
     if (!rounds_.empty()) json["rounds"] = rounds_;
     if (!animations_.empty()) json["animations"] = animations_;
     json["flags"] = equivalent_flags(io::relocated(document_, folder_, ""), state_path_, settings_before_);
     print_report(json, common_);
+    if (!diverged) warn_of_oddities();
     if (diverged) return tell_divergence();
     if (report_.outcome == physics::Outcome::stopped_by_observer) {
-      warn("interrupted at " + std::to_string(report_.time) + " s; the state reached was written", common_);
+      warn(
+          "interrupted at " + std::to_string(report_.time) + " s; " +
+              (scene_.output.state.empty() ? "the shape reached was written; with --save-state it could go on"
+                                           : "the state reached was written"),
+          common_);
       return kInterrupted;
     }
     return kOk;
+  }
+
+  Json with_title(const Json& report) const {
+    Json json{{"title", scene_.title}};
+    json.update(report);
+    return json;
+  }
+
+  /// What is no error and hardly what was meant.
+  void warn_of_oddities() const {
+    if (report_.strain.max > 0.5)
+      warn("the cloth is strained by " + std::to_string(int(100 * report_.strain.max)) +
+               " % somewhere; look for lines that are far too high, or pins that do not go with the body",
+           common_);
+    if (resumed_ && report_.time >= scene_.simulation.seconds && report_.steps == steps_before_)
+      warn("the state is at the end already; --seconds puts that off", common_);
+    const bool body_moves = scene_.body && !physics::at_rest(scene_.body->motion);
+    for (const io::ScenePins& pins : scene_.pins)
+      if (body_moves && physics::at_rest(pins.motion)) {
+        warn("the body moves and pins do not; give them the same motion if they belong to it", common_);
+        break;
+      }
+    if (!scene_.wind.gusts.empty() && scene_.wind.velocity.isZero())
+      warn("gusts do nothing without wind", common_);
   }
 
   void write_outputs() {
@@ -308,6 +339,7 @@ class SceneRun {
   std::optional<WorldBody> body_;
   std::optional<FrameRecorder> recorder_;
   double gap_ = 0;
+  std::int64_t steps_before_ = 0;
   std::vector<double> heights_;
   std::vector<std::vector<io::DrawnStroke>> strokes_;  ///< of each round
   physics::SimulateReport report_;

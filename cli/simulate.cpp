@@ -79,7 +79,7 @@ void check_output_formats(const io::SceneOutput& out, bool has_body) {
 /// What can be known to fail is said before the work.
 void check_outputs(const io::Scene& scene, const SimulateArguments& a) {
   const io::SceneOutput& out = scene.output;
-  if (out.mesh.empty() && out.state.empty() && out.animation.empty())
+  if (out.mesh.empty() && out.state.empty() && out.animation.empty() && (a.quiet || !is_scene(a.in)))
     throw UsageError("nothing to write: name --output, --save-state or --animation");
   check_output_formats(out, scene.body.has_value());
   const std::vector<std::string> read = inputs(scene, a);

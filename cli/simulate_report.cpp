@@ -38,6 +38,19 @@ Json lines_to_json(const io::MeshFile& file, const io::WrinkleRecord& record,
   return lines;
 }
 
+Json centre_of_mass(const geometry::Mesh& mesh) {
+  const auto mass = *geometry::find_map(mesh, geometry::kMass);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (geometry::Vertex v : mesh.vertices()) {
+    if (mesh.is_isolated(v)) continue;
+    sum += mass[v] * bridge::to_eigen(mesh.point(v));
+    total += mass[v];
+  }
+  sum /= total;
+  return {sum.x(), sum.y(), sum.z()};
+}
+
 }  // namespace
 
 Json borders_to_json(const geometry::Mesh& mesh) {
@@ -76,6 +89,7 @@ Json to_json(const physics::SimulateReport& r, const io::MeshFile& file, const i
               {"kinetic_energy", r.kinetic_energy},
               {"residual_force", r.residual_force}};
   if (r.outcome == physics::Outcome::diverged) return report;
+  report["centre"] = centre_of_mass(file.mesh);
   if (body) {
     const physics::Penetration p = body->penetration(bridge::positions_of(file.mesh), r.time);
     report["contact_gap"] = contact_gap;

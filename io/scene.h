@@ -52,6 +52,7 @@ struct SceneOutput {
 /// All that a simulation is made of; what a scene file, flags and a saved state say. Paths are as the program
 /// can open them; SI units; y up.
 struct Scene {
+  std::string title;
   std::filesystem::path garment;
   int subdivide = 0;                    ///< times that Loop subdivision is applied before the first line
   std::optional<std::string> unit, up;  ///< of the mesh and stroke files

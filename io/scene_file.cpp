@@ -25,8 +25,7 @@ class SceneReader {
 
   Scene read() {
     SettingsTable root(document_);
-    std::string title;
-    root.read("title", title);
+    root.read("title", scene_.title);
     root.choose("unit", scene_.unit, words({"m", "cm", "mm", "inch"}));
     root.choose("up", scene_.up, words({"y", "z"}));
     read_garment(root);

@@ -123,3 +123,61 @@ TEST_CASE("a state that does not fit is refused") {
   CHECK(run_furrow("simulate --state " + state + out).exit_code == 3);
   CHECK_FALSE(std::filesystem::exists(sheet.scratch / "o.ply"));
 }
+
+TEST_CASE("what changes at a stop is noticed") {
+  FallingSheet sheet;
+  const std::string state = sheet.scratch / "state.ply", out = " -q -o " + (sheet.scratch / "o.ply");
+  REQUIRE(
+      run_furrow("simulate " + (sheet.scratch / "scene.toml") + " -q --stop-at 0.05 --save-state " + state)
+          .exit_code == 0);
+  const std::string same = sheet.run("--state " + state);
+  SECTION("stiffer springs have a shorter step") {
+    CHECK(run_furrow("simulate --state " + state + out + " --stiffness 20000").exit_code == 0);
+  }
+  SECTION("a step above the limit is refused") {
+    CHECK(run_furrow("simulate --state " + state + out + " --dt 0.1").exit_code == 2);
+  }
+  SECTION("another body is not known yet: nothing falls into it") {
+    write(sheet.scratch / "near.ply", icosphere(3, 0.15, {0.02, -0.151, 0}));
+    const Run run =
+        run_furrow("simulate --json --state " + state + " -o " + (sheet.scratch / "o.ply") +
+                   " --set body='{mesh=\"" + (sheet.scratch / "near.ply") + "\", tolerance=0.006}'");
+    INFO(run.err);
+    CHECK(run.out.find("\"vertices_inside\": 0") != std::string::npos);
+  }
+  SECTION("a density makes the cloth heavier") {
+    CHECK(sheet.run("--state " + state + " --density 0.15") == same);
+    CHECK(sheet.run("--state " + state + " --density 1") != same);
+  }
+  SECTION("pins that stop where they are do not jump") {
+    CHECK(run_furrow("simulate --state " + state + out + " --set pins.0.motion.keyframes=[]").exit_code == 0);
+  }
+  SECTION("a time that is past stops at once") {
+    const std::string again = sheet.scratch / "again.ply";
+    REQUIRE(run_furrow("simulate -q --state " + state + " --stop-at 0.01 --save-state " + again).exit_code ==
+            0);
+    CHECK(sheet.run("--state " + again) == same);
+  }
+  SECTION("a setting does not move the paths of the others") {
+    std::filesystem::create_directory(sheet.scratch.path() / "elsewhere");
+    const Run run = run_furrow("simulate --state " + state + out + " --set lines.1.fade=0.2 --friction 0.1");
+    INFO(run.err);
+    CHECK(run.exit_code == 0);
+  }
+}
+
+TEST_CASE("no output replaces an input or another output") {
+  FallingSheet sheet;
+  const std::string scene = sheet.scratch / "scene.toml", mesh = sheet.scratch / "sheet.ply";
+  const std::string field = sheet.scratch / "ball.field", out = sheet.scratch / "o.ply";
+  const std::string bytes = read_text(field);
+  for (const std::string more :
+       {" -o " + out + " --save-state " + out, " -o " + out + " --inserted " + out,
+        " -o " + out + " --inserted " + mesh, " -o " + field, " -o " + (sheet.scratch / "ball.ply"),
+        " -o " + (sheet.scratch / "first.json")}) {
+    CAPTURE(more);
+    CHECK(run_furrow("simulate -q " + scene + more).exit_code == 2);
+  }
+  CHECK(read_text(field) == bytes);
+  CHECK_FALSE(std::filesystem::exists(out));
+}
