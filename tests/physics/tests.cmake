@@ -4,6 +4,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   compensation_test.cpp
   contact_test.cpp
   damping_sweep_test.cpp
+  elements_test.cpp
   euler_step_test.cpp
   hanging_chain_test.cpp
   leapfrog_step_test.cpp

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "physics/elements.h"
+
+#include "physics/spring_forces.h"
+
+namespace furrow::physics {
+
+double potential_energy(const Cloth& cloth, std::span<const Vec3> x) {
+  return spring_energy(x, cloth.structural) + spring_energy(x, cloth.bending);
+}
+
+void add_forces(const Cloth& cloth, std::span<const Vec3> x, std::span<Vec3> force) {
+  add_spring_forces(x, cloth.structural, force);
+  add_spring_forces(x, cloth.bending, force);
+}
+
+void add_stiffness(const Cloth& cloth, std::span<const Vec3> x, Stiffness stiffness, const BlockSink& sink) {
+  add_spring_stiffness(x, cloth.structural, stiffness, sink);
+  add_spring_stiffness(x, cloth.bending, stiffness, sink);
+}
+
+}  // namespace furrow::physics
