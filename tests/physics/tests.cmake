@@ -4,9 +4,12 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   compensation_test.cpp
   contact_test.cpp
   damping_sweep_test.cpp
+  elements_test.cpp
   euler_step_test.cpp
   hanging_chain_test.cpp
+  hinge_forces_test.cpp
   leapfrog_step_test.cpp
+  membrane_test.cpp
   moved_pins_test.cpp
   packed_cloth_test.cpp
   pins_test.cpp
