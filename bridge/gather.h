@@ -5,21 +5,46 @@
 
 namespace furrow::bridge {
 
-/// How a mesh's maps become masses and springs.
+/// What resists stretching. The springs' laws differ on uneven meshes only.
+enum class Membrane {
+  paper,       ///< springs of k = (r / r_avg) k_std (method S1.7)
+  uniform,     ///< k = k_std
+  inverse,     ///< k = (r_avg / r) k_std: that of a thread
+  van_gelder,  ///< k = Y sum of the rest areas beside the edge / r^2 (Van Gelder 1998)
+  triangles    ///< triangles of constant strain: a plane sheet of Y and Poisson's ratio on every mesh
+};
+
+/// What resists bending.
+enum class Bending {
+  cross,  ///< springs across the edges (method S1.1): a look, without a rigidity about flat
+  hinge,  ///< signed hinges with a rest angle, k = B l^2 / (A1 + A2): a plate of rigidity B
+  cosine  ///< the same k in the law of method S2.3: none of first order about rest
+};
+
+/// How a mesh's maps become masses, springs, triangles and hinges.
 struct GatherOptions {
   double structural_stiffness = 1000;  ///< k_std of the structural springs [N/m]; > 0
   double bending_stiffness = 10;       ///< k_std of the bending springs [N/m]; >= 0
   double mean_structural_length = 0;   ///< r_avg of the initial model's structural springs [m]; > 0
   double mean_bending_length = 0;  ///< r_avg of the initial model's bending springs [m]; > 0 if there are any
+  Membrane membrane = Membrane::paper;
+  Bending bending = Bending::cross;
+  double stretch = 1000;   ///< Y, Young's modulus times thickness [N/m], of van_gelder and triangles; > 0
+  double poisson = 0.3;    ///< of triangles [-]; in (-1, 1)
+  double rigidity = 1e-5;  ///< B of hinge and cosine [N m]; >= 0
 };
 
-/// The mesh as plain arrays: particle i is vertex i, its velocity that of v:velocity (0 without
-/// that map). Masses from v:mass, rest lengths from
-/// e:rest_length and e:bending_rest_length, stiffness k = (r / r_avg) k_std (method S1.7), times
-/// e:bending_count where one bending spring stands for several hinges. A vertex without faces gets mass 0 and
-/// stays where it is. Throws std::invalid_argument if an option is out of its range, a map is missing, or the
-/// mesh has removed elements (collect its garbage first); ContentError for a rest length or a mass that is
-/// not > 0. Cost: O(edges log edges).
+/// The mesh as plain arrays: particle i is vertex i, its velocity that of v:velocity (0 without that map).
+/// Masses from v:mass, rest lengths from e:rest_length and e:bending_rest_length, rest angles from
+/// e:rest_angle (where it is unset: 0); a bending spring that stands for several hinges has their number
+/// (e:bending_count) times the stiffness. Only what the options choose is filled. A vertex without faces gets
+/// mass 0 and stays where it is. Throws std::invalid_argument if an option is out of its range, a map is
+/// missing, or the mesh has removed elements (collect its garbage first); ContentError for a rest length or a
+/// mass that is not > 0. Cost: O(edges log edges).
 physics::Cloth gather(const geometry::Mesh& mesh, const GatherOptions& options);
+
+/// k_std [N/m] with which springs on equilateral triangles are a sheet of Y [N/m] (and of Poisson's ratio
+/// 1/3): k = sqrt(3)/2 Y.
+double spring_constant_of(double stretch);
 
 }  // namespace furrow::bridge

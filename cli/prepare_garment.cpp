@@ -7,6 +7,7 @@
 #include "geometry/bending_springs.h"
 #include "geometry/masses.h"
 #include "geometry/property_names.h"
+#include "geometry/rest_angles.h"
 #include "geometry/rest_metric.h"
 #include "geometry/stiffness.h"
 #include "geometry/vertex_attributes.h"
@@ -29,6 +30,7 @@ void complete_garment(io::MeshFile& file, const io::SceneMaterial& material) {
   ensure_rest_positions(mesh);
   ensure_rest_lengths(mesh);
   ensure_bending_springs(mesh);
+  ensure_rest_angles(mesh);
   io::WrinkleRecord record = io::find_wrinkle_record(file).value_or(io::WrinkleRecord{});
   if (material.density || !(record.density > 0))
     record.density = material.density.value_or(WrinkleOptions{}.density);
@@ -40,7 +42,19 @@ void complete_garment(io::MeshFile& file, const io::SceneMaterial& material) {
 
 bridge::GatherOptions spring_options(const io::MeshFile& file, const io::SceneMaterial& material) {
   const io::WrinkleRecord record = io::find_wrinkle_record(file).value();
-  return {material.stiffness, material.bending, record.mean_structural_length, record.mean_bending_length};
+  bridge::GatherOptions o;
+  o.structural_stiffness =
+      material.stretch ? bridge::spring_constant_of(*material.stretch) : material.stiffness;
+  o.bending_stiffness = material.bending;
+  o.mean_structural_length = record.mean_structural_length;
+  o.mean_bending_length = record.mean_bending_length;
+  o.membrane = material.membrane;
+  o.bending = material.bending_law;
+  // A sheet as stiff as the springs would be on equilateral triangles.
+  o.stretch = material.stretch.value_or(material.stiffness / bridge::spring_constant_of(1));
+  o.poisson = material.poisson;
+  o.rigidity = material.rigidity;
+  return o;
 }
 
 }  // namespace furrow::cli

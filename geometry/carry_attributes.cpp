@@ -58,10 +58,12 @@ void SavedAttributes::restore(Mesh& mesh, const std::function<Face(Face)>& paren
 void unset_rest_state(Mesh& mesh) {
   const auto rest = find_map(mesh, kRestLength), bending = find_map(mesh, kBendingRestLength);
   const auto count = find_map(mesh, kBendingCount);
+  const auto angle = find_map(mesh, kRestAngle);
   for (Edge e : mesh.edges()) {
     if (rest) (*rest)[e] = kRestLength.default_value;
     if (bending) (*bending)[e] = kBendingRestLength.default_value;
     if (count) (*count)[e] = kBendingCount.default_value;
+    if (angle) (*angle)[e] = kRestAngle.default_value;
   }
   if (const auto mass = find_map(mesh, kMass))
     for (Vertex v : mesh.vertices()) (*mass)[v] = kMass.default_value;

@@ -35,7 +35,6 @@ void flip_edges(MeshEditor& editor, std::span<const Edge> edges, const Insertion
 /// Fills in what the report says about the mesh afterwards: changed faces, smallest angle.
 void conclude(const MeshEditor& editor, InsertionReport& report);
 
-
 /// Throws ContentError if a face's rest lengths make no proper triangle, or if it has no area in space.
 void check_face(const Mesh& mesh, const EdgeMap<double>& rest, Face face);
 

@@ -40,7 +40,8 @@ MeshEditor::MeshEditor(Mesh& mesh)
       group_(find_map(mesh, kGroup)),
       material_(find_map(mesh, kMaterial)),
       bending_(find_map(mesh, kBendingRestLength)),
-      bending_count_(find_map(mesh, kBendingCount)) {}
+      bending_count_(find_map(mesh, kBendingCount)),
+      rest_angle_(find_map(mesh, kRestAngle)) {}
 
 /// Texture coordinate of `vertex` in the face of `inside`.
 TextureCoordinate MeshEditor::corner_in(Halfedge inside, Vertex vertex) const {
@@ -59,6 +60,7 @@ void MeshEditor::copy_face(Face from, Face to) {
 void MeshEditor::unset_springs(Edge edge) {
   if (bending_) (*bending_)[edge] = kUnset;
   if (bending_count_) (*bending_count_)[edge] = 0;
+  if (rest_angle_) (*rest_angle_)[edge] = kUnset;
 }
 
 Vertex MeshEditor::split_face(const FacePoint& point) {

@@ -62,6 +62,7 @@ class MeshEditor {
   std::optional<FaceMap<int>> group_, material_;
   std::optional<EdgeMap<double>> bending_;
   std::optional<EdgeMap<int>> bending_count_;
+  std::optional<EdgeMap<double>> rest_angle_;
   std::set<Face> changed_;
 };
 

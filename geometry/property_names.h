@@ -47,6 +47,8 @@ inline constexpr PropertyName<Edge, double> kRestLength{"e:rest_length", kUnset}
 inline constexpr PropertyName<Edge, double> kBendingRestLength{"e:bending_rest_length", kUnset};
 /// How many edges share the bending spring of this one (two hinges with one vertex pair); 0 = no spring.
 inline constexpr PropertyName<Edge, int> kBendingCount{"e:bending_count", 0};
+/// Angle at rest between the two faces of an edge [rad]; NaN = as the shape lies, or a border.
+inline constexpr PropertyName<Edge, double> kRestAngle{"e:rest_angle", kUnset};
 /// Edge of a drawn line, in a chain of line vertices: it is never flipped.
 inline constexpr PropertyName<Edge, bool> kLineEdge{"e:line_edge", false};
 /// Texture coordinate of the corner of face(h) at target(h).

@@ -16,7 +16,6 @@ using TriangleLengths = std::array<double, 3>;
 /// The map e:rest_length; edges where it is not set get their length in space.
 EdgeMap<double> ensure_rest_lengths(Mesh& mesh);
 
-
 TriangleLengths rest_lengths_of(const Mesh& mesh, const EdgeMap<double>& rest, Face face);
 
 /// Heron's area [m^2] in Kahan's stable order; 0 where the triangle inequality fails, NaN for NaN.

@@ -2,6 +2,7 @@
 #include "geometry/rest_state.h"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "geometry/edge_metric.h"
 #include "geometry/preconditions.h"
 #include "geometry/property_names.h"
+#include "geometry/rest_angles.h"
 
 namespace furrow::geometry {
 namespace {
@@ -32,12 +34,30 @@ class Change {
   const RestSnapshot& before_;
 };
 
+/// Carries the rest angles over; returns how many changed.
+std::size_t turn_hinges(Mesh& mesh, const RestSnapshot& before) {
+  const auto rest = find_map(mesh, kRestAngle);
+  std::size_t turned = 0;
+  for (Edge e : mesh.edges()) {
+    if (!rest || before.angles.empty() || mesh.is_border(e)) continue;
+    const double grown = dihedral_angle(mesh, e) - before.angles[e.idx()];
+    if (grown == 0 || std::isnan((*rest)[e])) continue;
+    (*rest)[e] = std::remainder((*rest)[e] + grown, 2 * std::numbers::pi);
+    ++turned;
+  }
+  return turned;
+}
+
 }  // namespace
 
 RestSnapshot take_rest_snapshot(const Mesh& mesh) {
   RestSnapshot snapshot;
   snapshot.positions.assign(mesh.points().begin(), mesh.points().end());
   snapshot.edges = mesh.num_edges();
+  if (find_map(mesh, kRestAngle)) {
+    snapshot.angles.resize(mesh.num_edges());
+    for (Edge e : mesh.edges()) snapshot.angles[e.idx()] = dihedral_angle(mesh, e);
+  }
   return snapshot;
 }
 
@@ -63,6 +83,7 @@ RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule
     (*find_map(mesh, kBendingRestLength))[s.across] = change.carried(s.rest_length, s.a, s.b);
     ++report.scaled_bending_springs;
   }
+  report.turned_hinges = turn_hinges(mesh, before);
   return report;
 }
 

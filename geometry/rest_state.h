@@ -15,6 +15,7 @@ enum class RestRule { drawn, flat };
 /// The shape before a displacement, to compare with after it.
 struct RestSnapshot {
   std::vector<Point> positions;  ///< by vertex index [m]
+  std::vector<double> angles;    ///< between the faces of each edge, by its index [rad]
   std::size_t edges = 0;         ///< of the mesh, to notice a changed connectivity
 };
 
@@ -24,14 +25,16 @@ RestSnapshot take_rest_snapshot(const Mesh& mesh);
 struct RestReport {
   std::size_t scaled_edges = 0;            ///< structural rest lengths that were scaled
   std::size_t scaled_bending_springs = 0;  ///< bending rest lengths that were scaled
+  std::size_t turned_hinges = 0;           ///< rest angles that were changed
 };
 
 /// After displacement and smoothing, rule drawn: the rest length of every edge and bending spring with a
 /// vertex that has moved is multiplied by length after / length before, so that strain that was there is
 /// carried over; where the rest length was unset, or the length before was 0, it becomes the length after.
-/// All others keep their bits. Changes kRestLength (added if missing) and kBendingRestLength. Rule flat:
-/// changes nothing. Throws std::invalid_argument, the mesh untouched, if the snapshot is of another
-/// connectivity; ContentError if a position is not finite. O(vertices + edges).
+/// A rest angle (kRestAngle, if there is one) grows by what the angle grew. All others keep their bits.
+/// Changes kRestLength (added if missing), kBendingRestLength and kRestAngle. Rule flat: changes nothing.
+/// Throws std::invalid_argument, the mesh untouched, if the snapshot is of another connectivity; ContentError
+/// if a position is not finite. O(vertices + edges).
 RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule);
 
 /// apply_rest_rule(mesh, before, RestRule::drawn).

@@ -47,9 +47,10 @@ double stability_limit(double lambda, double mu);
 /// same bits. Changes positions; connectivity and every property map stay. Triangles are asked for by
 /// cotangents only. Cost: O(iterations x edges of the region), two copies of its positions, and O(mesh) once.
 /// Throws std::invalid_argument, the mesh untouched, for an option out of its range, where k_max > k_stab:
-/// the shortest waves would grow, and where k_PB = 1/lambda + 1/mu >= k_max: all would. k_max = 2 for uniform weights, 3 for cotangents (reached by needles only,
-/// but 2.45 has been seen on real meshes). Throws ContentError if a position is not finite. Source: G.
-/// Taubin, "A signal processing approach to fair surface design", SIGGRAPH 1995.
+/// the shortest waves would grow, and where k_PB = 1/lambda + 1/mu >= k_max: all would. k_max = 2 for uniform
+/// weights, 3 for cotangents (reached by needles only, but 2.45 has been seen on real meshes). Throws
+/// ContentError if a position is not finite. Source: G. Taubin, "A signal processing approach to fair surface
+/// design", SIGGRAPH 1995.
 SmoothReport taubin_smooth(Mesh& mesh, std::span<const Vertex> region, const TaubinOptions& options = {});
 
 }  // namespace furrow::geometry

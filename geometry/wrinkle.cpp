@@ -11,6 +11,7 @@
 #include "geometry/line_height.h"
 #include "geometry/masses.h"
 #include "geometry/property_names.h"
+#include "geometry/rest_angles.h"
 #include "geometry/rest_metric.h"
 #include "geometry/stiffness.h"
 #include "geometry/two_ring.h"
@@ -89,12 +90,14 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   WrinkleReport report;
   ensure_rest_lengths(work);
   ensure_bending_springs(work);
+  ensure_rest_angles(work);
   report.mean_structural_length = options.mean_structural_length.value_or(mean_rest_length(work));
   report.mean_bending_length = options.mean_bending_length.value_or(mean_bending_rest_length(work));
   report.rest_area_before = rest_area(work);
 
   const std::vector<InsertedLine> lines = insert_lines(work, strokes, options, report);
   rebuild_bending_springs(work, report.insertion.changed_faces);
+  ensure_rest_angles(work);
   tell(Stage::inserted, work);
 
   const RestSnapshot before = take_rest_snapshot(work);

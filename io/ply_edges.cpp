@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "geometry/errors.h"
@@ -38,6 +39,13 @@ double length(const PlyRow& row, std::optional<std::size_t> column, const PlyRow
   return value;
 }
 
+double angle(const PlyRow& row, std::optional<std::size_t> column, const PlyRows& rows) {
+  if (!column) return kUnset;
+  const double value = row.numbers[*column];
+  if (std::abs(value) > std::numbers::pi) rows.fail("a rest angle must be in [-pi, pi], or nan for none");
+  return value;
+}
+
 int small_count(const PlyRow& row, std::optional<std::size_t> column, const PlyRows& rows) {
   if (!column) return 0;
   const double value = row.numbers[*column];
@@ -54,8 +62,10 @@ bool PlyEdges::set_columns(const PlyElement& element) {
   rest_length_ = find_column(element, {"rest_length"}, PlyKind::number);
   bending_rest_length_ = find_column(element, {"bending_rest_length"}, PlyKind::number);
   bending_count_ = find_column(element, {"bending_count"}, PlyKind::number);
+  rest_angle_ = find_column(element, {"rest_angle"}, PlyKind::number);
   line_edge_ = find_column(element, {"line_edge"}, PlyKind::number);
-  return vertex1_ && vertex2_ && (rest_length_ || bending_rest_length_ || bending_count_ || line_edge_);
+  return vertex1_ && vertex2_ &&
+         (rest_length_ || bending_rest_length_ || bending_count_ || rest_angle_ || line_edge_);
 }
 
 void PlyEdges::add(const PlyRow& row, const PlyRows& rows, double metres_per_unit) {
@@ -64,17 +74,18 @@ void PlyEdges::add(const PlyRow& row, const PlyRows& rows, double metres_per_uni
   if (!is_index(a) || !is_index(b)) rows.fail("an end of an edge is no index of a vertex; correct it");
   edges_.push_back({static_cast<std::size_t>(std::min(a, b)), static_cast<std::size_t>(std::max(a, b)),
                     length(row, rest_length_, rows, metres_per_unit),
-                    length(row, bending_rest_length_, rows, metres_per_unit),
+                    length(row, bending_rest_length_, rows, metres_per_unit), angle(row, rest_angle_, rows),
                     small_count(row, bending_count_, rows), small_count(row, line_edge_, rows)});
 }
 
 void PlyEdges::fill_maps(SoupMesh& mesh, const std::string& name) const {
-  std::optional<EdgeMap<double>> rest_length, bending_rest_length;
+  std::optional<EdgeMap<double>> rest_length, bending_rest_length, rest_angle;
   std::optional<EdgeMap<int>> bending_count;
   std::optional<EdgeMap<bool>> line_edge;
   if (rest_length_) rest_length = ensure_map(mesh.mesh, kRestLength);
   if (bending_rest_length_) bending_rest_length = ensure_map(mesh.mesh, kBendingRestLength);
   if (bending_count_) bending_count = ensure_map(mesh.mesh, kBendingCount);
+  if (rest_angle_) rest_angle = ensure_map(mesh.mesh, kRestAngle);
   if (line_edge_) line_edge = ensure_map(mesh.mesh, kLineEdge);
   if (edges_.empty()) return;
   const std::vector<MeshEdge> sorted = sorted_edges(mesh);
@@ -89,6 +100,7 @@ void PlyEdges::fill_maps(SoupMesh& mesh, const std::string& name) const {
       if (rest_length) (*rest_length)[m.edge] = e.rest_length;
       if (bending_rest_length) (*bending_rest_length)[m.edge] = e.bending_rest_length;
       if (bending_count) (*bending_count)[m.edge] = e.bending_count;
+      if (rest_angle) (*rest_angle)[m.edge] = e.rest_angle;
       if (line_edge) (*line_edge)[m.edge] = e.line_edge != 0;
     }
   }

@@ -23,12 +23,12 @@ class PlyEdges {
  private:
   struct Values {
     std::size_t a, b;
-    double rest_length, bending_rest_length;
+    double rest_length, bending_rest_length, rest_angle;
     int bending_count, line_edge;
   };
   std::vector<Values> edges_;
   std::optional<std::size_t> vertex1_, vertex2_, rest_length_, bending_rest_length_, bending_count_,
-      line_edge_;
+      rest_angle_, line_edge_;
 };
 
 }  // namespace furrow::io

@@ -35,6 +35,7 @@ class PlyWriter {
         rest_lengths_(find_map(mesh_, kRestLength)),
         bending_rest_lengths_(find_map(mesh_, kBendingRestLength)),
         bending_counts_(find_map(mesh_, kBendingCount)),
+        rest_angles_(find_map(mesh_, kRestAngle)),
         line_edges_(find_map(mesh_, kLineEdge)) {
     byte_colors_ =
         colors_ && std::ranges::all_of(mesh_.vertices(), [&](Vertex v) {
@@ -51,7 +52,9 @@ class PlyWriter {
   }
 
  private:
-  bool has_edges() const { return rest_lengths_ || bending_rest_lengths_ || bending_counts_ || line_edges_; }
+  bool has_edges() const {
+    return rest_lengths_ || bending_rest_lengths_ || bending_counts_ || rest_angles_ || line_edges_;
+  }
 
   template <class T>
   void put(T value) {
@@ -101,6 +104,7 @@ class PlyWriter {
       if (rest_lengths_) out_ += "property double rest_length\n";
       if (bending_rest_lengths_) out_ += "property double bending_rest_length\n";
       if (bending_counts_) out_ += "property int bending_count\n";
+      if (rest_angles_) out_ += "property double rest_angle\n";
       if (line_edges_) out_ += "property uchar line_edge\n";
     }
     out_ += "end_header\n";
@@ -148,6 +152,7 @@ class PlyWriter {
       if (rest_lengths_) put_length((*rest_lengths_)[e]);
       if (bending_rest_lengths_) put_length((*bending_rest_lengths_)[e]);
       if (bending_counts_) put(static_cast<std::int32_t>((*bending_counts_)[e]));
+      if (rest_angles_) put((*rest_angles_)[e]);
       if (line_edges_) put(static_cast<std::uint8_t>((*line_edges_)[e]));
     }
   }
@@ -174,7 +179,7 @@ class PlyWriter {
   std::vector<VertexAttribute> attributes_;
   std::optional<HalfedgeMap<TextureCoordinate>> textures_;
   std::optional<FaceMap<int>> groups_, materials_, generations_;
-  std::optional<EdgeMap<double>> rest_lengths_, bending_rest_lengths_;
+  std::optional<EdgeMap<double>> rest_lengths_, bending_rest_lengths_, rest_angles_;
   std::optional<EdgeMap<int>> bending_counts_;
   std::optional<EdgeMap<bool>> line_edges_;
   bool byte_colors_ = false;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bridge/gather.h"
 #include "geometry/wrinkle.h"
 #include "physics/distance_field.h"
 #include "physics/simulate.h"
@@ -31,9 +32,15 @@ struct SceneBody {
 };
 
 struct SceneMaterial {
+  std::string preset;             ///< name of a Fabric; what else is said goes before it
   std::optional<double> density;  ///< [kg/m^2]; none: that of the file, else 0.15
   double stiffness = 1000;        ///< k_std of the structural springs [N/m]
   double bending = 10;            ///< k_std of the bending springs [N/m]
+  bridge::Membrane membrane = bridge::Membrane::paper;
+  bridge::Bending bending_law = bridge::Bending::cross;
+  std::optional<double> stretch;  ///< Y [N/m]; of springs: in place of stiffness
+  double poisson = 0.3;           ///< of triangles [-]
+  double rigidity = 1e-5;         ///< B of hinges [N m]
 };
 
 /// Vertices that are held, or moved. Several kinds may be named in one.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/fabrics.h"
 #include "io/settings_table.h"
 
 namespace furrow::io {
@@ -160,14 +161,48 @@ class SceneReader {
 
   void read_material(SettingsTable& table) {
     physics::SimulateOptions& o = scene_.simulation;
-    table.read("density", scene_.material.density, positive("kg/m^2"));
-    table.read("stiffness", scene_.material.stiffness, positive("N/m"));
-    table.read("bending", scene_.material.bending, not_negative("N/m"));
+    SceneMaterial& m = scene_.material;
+    read_preset(table);
+    table.read("density", m.density, positive("kg/m^2"));
+    table.read("stiffness", m.stiffness, positive("N/m"));
+    table.read("bending", m.bending, not_negative("N/m"));
+    using bridge::Bending, bridge::Membrane;
+    table.choose<Membrane>("membrane", m.membrane,
+                           {{"paper", Membrane::paper},
+                            {"uniform", Membrane::uniform},
+                            {"inverse", Membrane::inverse},
+                            {"van-gelder", Membrane::van_gelder},
+                            {"triangles", Membrane::triangles}});
+    table.choose<Bending>(
+        "bending_law", m.bending_law,
+        {{"cross", Bending::cross}, {"hinge", Bending::hinge}, {"cosine", Bending::cosine}});
+    table.read("stretch", m.stretch, positive("N/m"));
+    table.read("poisson", m.poisson, {-1, 1, true});
+    table.read("rigidity", m.rigidity, not_negative("N m"));
+    if (table.has("stretch") && table.has("stiffness"))
+      table.fail("stretch", "stands in place of stiffness; leave one away");
     table.read("damping", o.spring_damping, not_negative());
     table.read("drag", o.air_drag, not_negative("1/s"));
     table.read("friction", o.friction, not_negative());
     table.read("gap", o.contact_gap, positive("m"));
     table.finish();
+  }
+
+  /// A fabric is a plate in SI units: what the file says beside it goes before it.
+  void read_preset(SettingsTable& table) {
+    SceneMaterial& m = scene_.material;
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const Fabric& fabric : fabrics()) names.emplace_back(fabric.name, fabric.name);
+    table.choose<std::string>("preset", m.preset, names);
+    if (m.preset.empty()) return;
+    const Fabric& fabric = fabric_named(m.preset);
+    m.density = fabric.density;
+    m.membrane = bridge::Membrane::triangles;
+    m.bending_law = bridge::Bending::hinge;
+    if (!table.has("stiffness")) m.stretch = fabric.stretch;
+    m.rigidity = fabric.rigidity;
+    scene_.simulation.spring_damping = fabric.damping;
+    scene_.simulation.friction = fabric.friction;
   }
 
   void read_pins(SettingsTable& table) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <span>
+#include <string>
+
+namespace furrow::io {
+
+/// What was measured of a fabric, as far as an isotropic sheet has a place for it. SI units.
+struct Fabric {
+  const char* name;
+  double density;    ///< [kg/m^2]
+  double stretch;    ///< Young's modulus times thickness, mean of warp and weft at small strain [N/m]
+  double shear;      ///< shear modulus times thickness [N/m]; for the record: an isotropic sheet has its own
+  double rigidity;   ///< B, mean over the directions at the lowest curvature [N m]
+  double thickness;  ///< [m]
+  double damping;    ///< share of critical damping of each edge [-]
+  double friction;   ///< Coulomb's with skin [-]
+  const char* source;   ///< of what was measured
+  const char* assumed;  ///< which of the numbers are ours
+};
+
+std::span<const Fabric> fabrics();
+/// Throws std::invalid_argument if there is none of this name.
+const Fabric& fabric_named(const std::string& name);
+
+}  // namespace furrow::io
