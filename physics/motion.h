@@ -10,8 +10,7 @@
 
 namespace furrow::physics {
 
-/// What acts on a cloth besides its springs.
-struct Loads {
+struct Loads {                ///< what acts on a cloth besides its springs
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   double air_drag = 0;        ///< c of dv/dt = -c v [1/s]; >= 0
   double spring_damping = 0;  ///< share of critical damping of each spring [-]; >= 0
@@ -25,8 +24,8 @@ struct Surroundings {
   const Compensation* compensation = nullptr;
 };
 
-struct WorkCounts {
-  std::int64_t steps = 0, force_evaluations = 0;
+struct WorkCounts {  // iterations: of Newton's method, or sweeps over all springs
+  std::int64_t steps = 0, force_evaluations = 0, linear_solves = 0, factorisations = 0, iterations = 0;
   ContactCounts contact;
 };
 
@@ -50,15 +49,24 @@ class Motion {
   void kick_and_drag(double seconds);
   /// x += seconds v, then the body's answer to it.
   void drift(double seconds);
-  void update_forces();
+  /// Of the springs, and what compensates at the step's end or another time [s]; or without the springs.
+  void update_forces() { update_forces(to_); }
+  void update_forces(double time);
+  void update_forces_without_springs(double time);
 
   const PackedCloth& cloth() const { return cloth_; }
   void unpack(Particles& particles) const;  ///< positions and velocities
   WorkCounts& work() { return work_; }
+  PackedCloth& cloth() { return cloth_; }  ///< this and all below: for steps of more than these phases
+  const Loads& loads() const { return loads_; }
+  const Wind* wind() const { return around_.wind; }
+  ThreadPool& pool() { return pool_; }
+  double from() const { return from_; }
+  double to() const { return to_; }
 
  private:
   const DampingSweep& damping(double seconds);
-  void compensate();
+  void compensate(double time);
 
   PackedCloth cloth_;
   Loads loads_;

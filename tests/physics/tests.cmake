@@ -18,6 +18,9 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   simulate_test.cpp
   spring_forces_test.cpp
   stable_step_test.cpp
+  stepper_test.cpp
+  stepper_contact_test.cpp
+  stepper_stability_test.cpp
   strain_test.cpp
   sweep_order_test.cpp
   thread_pool_test.cpp
