@@ -24,6 +24,16 @@ TEST_CASE("the limits of stability are where theory has them") {
   CHECK(!(amplitude(1.005 * limit.z) < 1000));
 }
 
+TEST_CASE("damping shortens the limit neither of leapfrog nor of semi-implicit Euler") {
+  const Integrator integrator = GENERATE(Integrator::leapfrog, Integrator::semi_implicit);
+  const double damping = GENERATE(0.02, 0.3, 3.0);
+  const Cloth start = pendulum(1, 1, 1e6, {1e6 + 1, 0, 0});
+  const Loads loads{.gravity = Vec3::Zero(), .air_drag = 0.1, .spring_damping = damping};
+  const Particles end = after(start, loads, {integrator, {}, {}}, 0.995 * 2, 3000);
+  CAPTURE(int(integrator), damping);
+  CHECK(std::hypot(end.x[1].x() - 1e6, end.v[1].x()) < 1);
+}
+
 TEST_CASE("backward Euler and XPBD stay stable at a hundred times the limit") {
   const Integrator integrator = GENERATE(Integrator::backward_euler, Integrator::xpbd);
   const bool newton = GENERATE(false, true);
