@@ -33,7 +33,7 @@ void check(const SimulateState& s, std::size_t particles) {
   const double rest = double(s.steps_left) * s.dt;
   require(s.steps_left == 0 || std::abs(s.time + rest - s.end) <= 1e-6 * std::max(s.end, s.dt), s.steps_left,
           " steps of ", s.dt, " s do not lead from ", s.time, " s to ", s.end, " s");
-  require(s.dt_limit > 0, "dt_limit = ", s.dt_limit, " is not > 0");
+  require(s.dt_limit >= 0, "dt_limit = ", s.dt_limit, " is not >= 0");
   require(s.contact.empty() || s.contact.size() == particles, "of a cloth with ", s.contact.size(),
           " particles instead of ", particles);
   for (const ContactMemory& known : s.contact) require(known.x.allFinite(), "a contact is not finite");

@@ -12,9 +12,10 @@ namespace furrow::physics {
 /// What a report counts over all calls that shared a state.
 struct SimulateTotals {
   std::int64_t force_evaluations = 0, collider_queries = 0, truncated_moves = 0;
+  std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
   std::int64_t limit_estimates = 0, frames_built = 0;
   double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
-  double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< [s]
+  double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< of leapfrog [s]
   double seconds = 0, cpu_seconds = 0, frame_seconds = 0;              ///< [s]
 };
 
@@ -35,7 +36,7 @@ struct SimulateState {
   double dt_longest = 0;  ///< that the plan allows [s]
   std::int64_t steps_left = 0;
   std::int64_t estimated_at = 0;  ///< step of the last estimate of the limit
-  double dt_limit = 0;            ///< the estimate [s]
+  double dt_limit = 0;            ///< the estimate, of leapfrog, whatever integrates [s]; 0: none was made
   double strain_at_estimate = 0;  ///< largest strain then [-]
 
   std::vector<ContactMemory> contact;  ///< one a particle, or empty

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "physics/dashpots.h"
 #include "physics/stable_step.h"
 
 namespace furrow::physics {
@@ -17,12 +19,16 @@ constexpr int strain_steps = 200;  // steps between two looks at the strain
 
 StepLength::StepLength(const Cloth& cloth, const SimulateOptions& options, SimulateState& state)
     : cloth_(cloth), options_(options), state_(state) {
-  if (!state.planned) {
-    estimate();
-    if (options.dt && options.step_rule == StepRule::limited && *options.dt > state.dt_limit) {
+  if (options.integrator == Integrator::rk4)
+    fastest_decay_ = fastest_decay(cloth, options.spring_damping) + options.air_drag;
+  const bool limited = !is_unconditionally_stable(options.integrator);
+  if (!state.planned || (limited && state.dt_limit == 0)) {
+    state.dt_limit = 0;
+    if (limited) estimate();
+    const double most = limit(state.dt_limit);
+    if (options.dt && options.step_rule == StepRule::limited && *options.dt > most) {
       std::ostringstream text;
-      text << "simulate: dt = " << *options.dt << " s is above the stability limit of " << state.dt_limit
-           << " s";
+      text << "simulate: dt = " << *options.dt << " s is above the stability limit of " << most << " s";
       throw std::invalid_argument(text.str());
     }
   }
@@ -32,7 +38,15 @@ StepLength::StepLength(const Cloth& cloth, const SimulateOptions& options, Simul
   divide(std::max(state.end - state.time, 0.0));
 }
 
+double StepLength::limit(double leapfrog) const {
+  if (is_unconditionally_stable(options_.integrator)) return std::numeric_limits<double>::infinity();
+  if (options_.integrator != Integrator::rk4) return leapfrog;
+  const double oscillation = rk4_limit / 2 * leapfrog;
+  return fastest_decay_ > 0 ? std::min(oscillation, rk4_damped_limit / fastest_decay_) : oscillation;
+}
+
 bool StepLength::due() const {
+  if (is_unconditionally_stable(options_.integrator)) return false;
   return state_.step % strain_steps == 0 || state_.step - state_.estimated_at >= options_.limit_steps;
 }
 
@@ -57,8 +71,11 @@ void StepLength::estimate() {
 }
 
 double StepLength::longest() const {
-  if (!options_.dt) return std::min(options_.dt_factor * state_.dt_limit, options_.dt_max);
-  return options_.step_rule == StepRule::forced ? *options_.dt : std::min(*options_.dt, state_.dt_limit);
+  if (is_unconditionally_stable(options_.integrator))
+    return options_.dt.value_or(std::min(default_dt(options_.integrator), options_.dt_max));
+  const double most = limit(state_.dt_limit);
+  if (!options_.dt) return std::min(options_.dt_factor * most, options_.dt_max);
+  return options_.step_rule == StepRule::forced ? *options_.dt : std::min(*options_.dt, most);
 }
 
 void StepLength::divide(double rest) {

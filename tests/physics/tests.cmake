@@ -14,6 +14,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   residual_force_test.cpp
   rigid_contact_test.cpp
   rigid_motion_test.cpp
+  simulate_integrators_test.cpp
   simulate_state_test.cpp
   simulate_test.cpp
   spring_forces_test.cpp
