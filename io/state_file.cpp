@@ -32,18 +32,19 @@ double number(const Json& json) {
 
 /// Without the clock times: the same simulation gives the same bytes.
 Json to_json(const physics::SimulateTotals& t) {
-  return {{"force_evaluations", t.force_evaluations},
-          {"collider_queries", t.collider_queries},
-          {"truncated_moves", t.truncated_moves},
-          {"limit_estimates", t.limit_estimates},
-          {"frames_built", t.frames_built},
-          {"dt_smallest", number(t.dt_smallest)},
-          {"dt_limit_smallest", number(t.dt_limit_smallest)}};
+  return {{"force_evaluations", t.force_evaluations}, {"linear_solves", t.linear_solves},
+          {"factorisations", t.factorisations},       {"iterations", t.iterations},
+          {"collider_queries", t.collider_queries},   {"truncated_moves", t.truncated_moves},
+          {"limit_estimates", t.limit_estimates},     {"frames_built", t.frames_built},
+          {"dt_smallest", number(t.dt_smallest)},     {"dt_limit_smallest", number(t.dt_limit_smallest)}};
 }
 
 physics::SimulateTotals totals_of(const Json& j) {
   physics::SimulateTotals t;
   t.force_evaluations = j.at("force_evaluations");
+  t.linear_solves = j.value("linear_solves", std::int64_t{0});  // files of the first version have none
+  t.factorisations = j.value("factorisations", std::int64_t{0});
+  t.iterations = j.value("iterations", std::int64_t{0});
   t.collider_queries = j.at("collider_queries");
   t.truncated_moves = j.at("truncated_moves");
   t.limit_estimates = j.at("limit_estimates");
