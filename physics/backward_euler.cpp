@@ -8,6 +8,7 @@
 #include <string>
 
 #include "physics/dashpots.h"
+#include "physics/elements.h"
 
 namespace furrow::physics {
 namespace {
@@ -18,11 +19,20 @@ constexpr double rounding = 1e-14;  // of an energy
 
 Vec3 vec3(const Vec4& v) { return {v.x, v.y, v.z}; }
 
+std::vector<Vec3> positions(const PackedCloth& cloth) {
+  std::vector<Vec3> x;
+  for (const Vec4& p : cloth.x) x.push_back(vec3(p));
+  return x;
+}
+
 BlockSystem make_system(const PackedCloth& cloth) {
   std::vector<char> is_free;
   for (const double inv : cloth.inv_mass) is_free.push_back(inv > 0);
   std::vector<std::array<int, 2>> pairs;
   for (int i = 0; i < cloth.springs(); ++i) pairs.push_back({cloth.a[i], cloth.b[i]});
+  add_stiffness(cloth.shell, positions(cloth), Stiffness::positive_part, [&](int i, int j, const Mat3&) {
+    pairs.push_back({i, j});
+  });
   return BlockSystem(is_free, pairs);
 }
 
@@ -52,10 +62,18 @@ BackwardEuler::BackwardEuler(Motion& motion, const BackwardEulerOptions& options
   }
   const PackedCloth& cloth = motion.cloth();
   dashpots_.resize(cloth.a.size(), 0.0);
+  find_places();
+}
+
+void BackwardEuler::find_places() {
+  const PackedCloth& cloth = motion_.cloth();
   for (int i = 0; i < cloth.particles(); ++i) diagonal_.push_back(system_.place(i, i));
-  for (int i = 0; i < cloth.springs(); ++i)
+  for (int i = 0; i < cloth.springs(); ++i) {
     off_diagonal_.push_back(
         std::max(system_.place(cloth.a[i], cloth.b[i]), system_.place(cloth.b[i], cloth.a[i])));
+  }
+  add_stiffness(cloth.shell, positions(cloth), Stiffness::positive_part,
+                [&](int i, int j, const Mat3&) { shell_.push_back(system_.place(i, j)); });
 }
 
 void BackwardEuler::find_directions() {
@@ -87,6 +105,18 @@ void BackwardEuler::add_springs(double dt, bool first) {
   }
 }
 
+/// The same of membrane and hinges, which have no dashpots of their own.
+void BackwardEuler::add_shell(double dt, bool first) {
+  const PackedCloth& cloth = motion_.cloth();
+  if (shell_.empty()) return;
+  std::size_t next = 0;
+  add_stiffness(cloth.shell, positions(cloth), Stiffness::positive_part, [&](int i, int j, const Mat3& k) {
+    const Mat3 block = dt * dt * k;
+    if (first) change_[std::size_t(i)] -= block * vec3(cloth.v[std::size_t(j)]);
+    system_.add(shell_[next++], block);
+  });
+}
+
 /// M (1 + c dt) + dt D + dt^2 K  and  -(M (v - v_0) + dt D v - dt (f + M g + c M (air - v))).
 void BackwardEuler::assemble(double dt, bool first) {
   const PackedCloth& cloth = motion_.cloth();
@@ -102,6 +132,7 @@ void BackwardEuler::assemble(double dt, bool first) {
     system_.add(diagonal_[i], m * (1 + dt * loads.air_drag) * Mat3::Identity());
   }
   add_springs(dt, first);
+  add_shell(dt, first);
 }
 
 bool BackwardEuler::solve() {
@@ -132,7 +163,7 @@ double BackwardEuler::energy(double dt) const {
   const Motion& motion = motion_;
   const PackedCloth& cloth = motion.cloth();
   const Loads& loads = motion.loads();
-  double sum = 0;
+  double sum = shell_.empty() ? 0 : potential_energy(cloth.shell, positions(cloth));
   for (std::size_t i = 0; i < cloth.v.size(); ++i) {
     if (cloth.inv_mass[i] == 0) continue;
     const Vec3 v = vec3(cloth.v[i]), air = motion.wind() ? vec3(air_[i]) : Vec3::Zero();
@@ -177,7 +208,7 @@ void BackwardEuler::step(double dt) {
   v_ = cloth.v;
   if (options_.newton_iterations > 1) {
     load_ = cloth.force;
-    motion_.update_forces_without_springs(motion_.from());
+    motion_.update_compensation(motion_.from());
     load_.swap(cloth.force);
   }
   if (motion_.wind()) air_at(cloth, *motion_.wind(), motion_.to(), air_, motion_.pool());

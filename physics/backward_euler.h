@@ -24,9 +24,11 @@ class BackwardEuler : public Stepper {
   void step(double dt) override;
 
  private:
+  void find_places();
   void find_directions();
   void assemble(double dt, bool first);
   void add_springs(double dt, bool first);
+  void add_shell(double dt, bool first);
   bool solve();
   void improve(double dt);
   double advance(double share, double dt);
@@ -37,9 +39,10 @@ class BackwardEuler : public Stepper {
   std::vector<double> dashpots_;
   BlockSystem system_;
   std::vector<int> diagonal_, off_diagonal_;  // places of particles' and springs' blocks
-  std::vector<Vec3> direction_;               // of each spring at x [-]
-  std::vector<Vec3> change_;                  // right-hand side, then the change of v
-  std::vector<Vec4> x_, v_, air_, load_;      // at the beginning of the step; load_: what compensates
+  std::vector<int> shell_;                // places of the blocks of membrane and hinges, in their sequence
+  std::vector<Vec3> direction_;           // of each spring at x [-]
+  std::vector<Vec3> change_;              // right-hand side, then the change of v
+  std::vector<Vec4> x_, v_, air_, load_;  // at the beginning of the step; load_: what compensates
 };
 
 }  // namespace furrow::physics

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "physics/spring_forces.h"
+#include "physics/elements.h"
 
 namespace furrow::physics {
 namespace {
@@ -14,8 +14,7 @@ constexpr double least_share = 1e-9;
 
 std::vector<Vec3> loads(const Cloth& cloth, const Vec3& gravity) {
   std::vector<Vec3> force(cloth.particles.size(), Vec3::Zero());
-  add_spring_forces(cloth.particles.x, cloth.structural, force);
-  add_spring_forces(cloth.particles.x, cloth.bending, force);
+  add_forces(cloth, cloth.particles.x, force);
   for (std::size_t i = 0; i < force.size(); ++i) force[i] += cloth.particles.mass[i] * gravity;
   return force;
 }

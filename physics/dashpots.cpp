@@ -32,7 +32,7 @@ std::vector<double> dashpots(const PackedCloth& cloth, double zeta) {
   std::vector<double> c;
   if (zeta == 0) return c;
   for (std::size_t i = 0; i < cloth.a.size(); ++i)
-    c.push_back(dashpot(cloth.k[i], cloth.inv_mass[cloth.a[i]], cloth.inv_mass[cloth.b[i]], zeta));
+    c.push_back(dashpot(cloth.damping_k[i], cloth.inv_mass[cloth.a[i]], cloth.inv_mass[cloth.b[i]], zeta));
   return c;
 }
 
@@ -46,16 +46,13 @@ void add_dashpot_forces(PackedCloth& cloth, const std::vector<double>& c, Thread
   resist(cloth, c, group[std::size_t(block.back())], group.back());
 }
 
-double fastest_decay(const Cloth& cloth, double zeta) {
-  const std::vector<double>& inv_mass = cloth.particles.inv_mass;
-  std::vector<double> rows(inv_mass.size(), 0.0);
-  for (const auto* springs : {&cloth.structural, &cloth.bending}) {
-    for (const Spring& s : *springs) {
-      const double inv_a = inv_mass[std::size_t(s.a)], inv_b = inv_mass[std::size_t(s.b)];
-      const double c = dashpot(s.stiffness, inv_a, inv_b, zeta);
-      rows[std::size_t(s.a)] += inv_a * (inv_b > 0 ? 2 : 1) * c;
-      rows[std::size_t(s.b)] += inv_b * (inv_a > 0 ? 2 : 1) * c;
-    }
+double fastest_decay(const PackedCloth& cloth, const std::vector<double>& c) {
+  std::vector<double> rows(cloth.inv_mass.size(), 0.0);
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const auto a = std::size_t(cloth.a[i]), b = std::size_t(cloth.b[i]);
+    const double inv_a = cloth.inv_mass[a], inv_b = cloth.inv_mass[b];
+    rows[a] += inv_a * (inv_b > 0 ? 2 : 1) * c[i];
+    rows[b] += inv_b * (inv_a > 0 ? 2 : 1) * c[i];
   }
   return rows.empty() ? 0 : *std::max_element(rows.begin(), rows.end());
 }

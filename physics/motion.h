@@ -10,14 +10,13 @@
 
 namespace furrow::physics {
 
-struct Loads {                ///< what acts on a cloth besides its springs
+struct Loads {                ///< what acts on a cloth besides its elements
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   double air_drag = 0;        ///< c of dv/dt = -c v [1/s]; >= 0
-  double spring_damping = 0;  ///< share of critical damping of each spring [-]; >= 0
+  double spring_damping = 0;  ///< share of critical damping of each spring and edge of membrane [-]; >= 0
 };
 
-/// What else acts; each may be null, and must outlive the motion.
-struct Surroundings {
+struct Surroundings {  ///< what else acts; each may be null, and must outlive the motion
   BodyContact* contact = nullptr;
   PinLeader* pins = nullptr;
   const Wind* wind = nullptr;
@@ -26,14 +25,14 @@ struct Surroundings {
 
 struct WorkCounts {  // iterations: of Newton's method, or sweeps over all springs
   std::int64_t steps = 0, force_evaluations = 0, linear_solves = 0, factorisations = 0, iterations = 0;
+  std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   ContactCounts contact;
 };
 
-/// A cloth in motion, and the phases that a step is made of. Particles with inv_mass 0 move only as
-/// Surroundings::pins leads them.
+/// A cloth in motion and the phases of a step. What has inv_mass 0 moves only as Surroundings::pins leads it.
 class Motion {
  public:
-  /// The pool must outlive the motion. The springs' forces are those of the cloth's positions. Throws
+  /// The pool must outlive the motion. The elements' forces are those of the cloth's positions. Throws
   /// std::invalid_argument as pack() does, or if a load is out of its range.
   Motion(const Cloth& cloth, const Loads& loads, ThreadPool& pool, const Surroundings& around = {},
          double time = 0);
@@ -49,10 +48,10 @@ class Motion {
   void kick_and_drag(double seconds);
   /// x += seconds v, then the body's answer to it.
   void drift(double seconds);
-  /// Of the springs, and what compensates at the step's end or another time [s]; or without the springs.
+  /// Of all elements, and what compensates at the step's end or another time [s]; or the latter alone.
   void update_forces() { update_forces(to_); }
   void update_forces(double time);
-  void update_forces_without_springs(double time);
+  void update_compensation(double time);
 
   const PackedCloth& cloth() const { return cloth_; }
   void unpack(Particles& particles) const;  ///< positions and velocities

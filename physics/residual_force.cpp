@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/spring_forces.h"
+#include "physics/elements.h"
 
 namespace furrow::physics {
 namespace {
@@ -26,8 +26,7 @@ double residual_force(const Cloth& cloth, const Vec3& gravity, const Collider* c
                       double gap) {
   const Particles& p = cloth.particles;
   std::vector<Vec3> force(p.size(), Vec3::Zero());
-  add_spring_forces(p.x, cloth.structural, force);
-  add_spring_forces(p.x, cloth.bending, force);
+  add_forces(cloth, p.x, force);
   const double g = gravity.norm() > 0 ? gravity.norm() : standard_gravity;
   double largest = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {

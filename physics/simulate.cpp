@@ -106,7 +106,7 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
                             state.compensation.force.empty() ? nullptr : &state.compensation};
   motion_.emplace(cloth, Loads{options.gravity, options.air_drag, options.spring_damping}, pool_, around,
                   state.time);
-  if (state.step > 0) motion_->work().force_evaluations = 0;  // counted by the call that ended here
+  if (state.step > 0) motion_->work() = {};  // counted by the call that ended here
   recall();
   stepper_ = make_stepper(*motion_, {options.integrator, options.backward_euler, options.xpbd});
   length_.emplace(cloth, options, state);
@@ -157,6 +157,9 @@ void Simulation::remember() {
   }
   const WorkCounts& work = motion_->work();
   state_.totals.force_evaluations += work.force_evaluations;
+  state_.totals.spring_evaluations += work.spring_evaluations;
+  state_.totals.triangle_evaluations += work.triangle_evaluations;
+  state_.totals.hinge_evaluations += work.hinge_evaluations;
   state_.totals.linear_solves += work.linear_solves;
   state_.totals.factorisations += work.factorisations;
   state_.totals.iterations += work.iterations;

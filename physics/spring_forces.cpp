@@ -63,4 +63,24 @@ void add_spring_stiffness_product(std::span<const Vec3> x, std::span<const Sprin
   }
 }
 
+void add_spring_stiffness(std::span<const Vec3> x, std::span<const Spring> springs, Stiffness stiffness,
+                          const BlockSink& sink) {
+  check(springs, x.size(), x.size(), "add_spring_stiffness");
+  for (const Spring& s : springs) {
+    const Vec3 d = x[s.b] - x[s.a];
+    const double l2 = d.squaredNorm();
+    Mat3 block = Mat3::Zero();
+    if (l2 > 0) {
+      double transverse = s.stiffness * (1 - s.rest_length / std::sqrt(l2));
+      if (stiffness == Stiffness::positive_part) transverse = std::max(transverse, 0.0);
+      block = ((s.stiffness - transverse) / l2) * d * d.transpose();
+      block.diagonal().array() += transverse;
+    }
+    sink(s.a, s.a, block);
+    sink(s.a, s.b, -block);
+    sink(s.b, s.a, -block);
+    sink(s.b, s.b, block);
+  }
+}
+
 }  // namespace furrow::physics

@@ -3,14 +3,9 @@
 #include <span>
 
 #include "physics/springs.h"
+#include "physics/stiffness.h"
 
 namespace furrow::physics {
-
-/// Which part of a spring's second derivative counts.
-enum class Stiffness {
-  exact,         ///< the Hessian itself; indefinite where springs are compressed
-  positive_part  ///< without the transverse part of compressed springs: positive semidefinite, >= exact
-};
 
 /// Springs of energy  E = 1/2 k (l - L)^2,  l = |x_b - x_a|,  n = (x_b - x_a)/l.  A spring of length 0 has no
 /// direction and exerts no force. Sums run in the order of `springs`. Method S1.1.
@@ -27,5 +22,10 @@ void add_spring_forces(std::span<const Vec3> x, std::span<const Spring> springs,
 ///   K_ab-block = k n n^T + k (1 - L/l) (I - n n^T),  applied to u_a - u_b, on a plus, on b minus.
 void add_spring_stiffness_product(std::span<const Vec3> x, std::span<const Spring> springs,
                                   std::span<const Vec3> u, Stiffness stiffness, std::span<Vec3> product);
+
+/// Hands out the blocks of K: of each spring (a, a), (a, b), (b, a), (b, b), zero if its length is 0, so that
+/// the sequence of (i, j) is the same for all x.
+void add_spring_stiffness(std::span<const Vec3> x, std::span<const Spring> springs, Stiffness stiffness,
+                          const BlockSink& sink);
 
 }  // namespace furrow::physics

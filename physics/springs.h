@@ -22,13 +22,29 @@ struct Hinge {
   double stiffness;   ///< [N m]
 };
 
+/// What a hinge does about its rest angle, phi = theta - rest_angle.
+enum class HingeLaw {
+  linear,  ///< moment stiffness * phi
+  cosine   ///< moment stiffness * (1 - cos phi) against phi: none of first order about rest
+};
+
+/// Membrane of constant strain (St. Venant-Kirchhoff). It knows its rest state by lengths alone.
+struct MembraneTriangle {
+  std::array<int, 3> vertices;  ///< counter-clockwise from outside
+  std::array<double, 3>
+      rest_lengths;   ///< [m] of the edge opposite each vertex; > 0, triangle inequality strict
+  double lambda, mu;  ///< Lame parameters of the plane [N/m]; mu >= 0, lambda + mu >= 0
+};
+
 /// The whole state of a cloth as plain arrays.
 struct Cloth {
   Particles particles;
-  std::vector<Spring> structural;              ///< one for each edge
-  std::vector<Spring> bending;                 ///< one for each pair of vertices opposite an interior edge
-  std::vector<Hinge> hinges;                   ///< foreseen; no force reads them yet
-  std::vector<std::array<int, 3>> triangles;   ///< counter-clockwise from outside
+  std::vector<Spring> structural;  ///< one for each edge
+  std::vector<Spring> bending;     ///< one for each pair of vertices opposite an interior edge
+  std::vector<MembraneTriangle> membrane;
+  std::vector<Hinge> hinges;
+  HingeLaw hinge_law = HingeLaw::linear;      ///< of all hinges
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
 };
 
 }  // namespace furrow::physics

@@ -19,8 +19,10 @@ constexpr int strain_steps = 200;  // steps between two looks at the strain
 
 StepLength::StepLength(const Cloth& cloth, const SimulateOptions& options, SimulateState& state)
     : cloth_(cloth), options_(options), state_(state) {
-  if (options.integrator == Integrator::rk4)
-    fastest_decay_ = fastest_decay(cloth, options.spring_damping) + options.air_drag;
+  if (options.integrator == Integrator::rk4) {
+    const PackedCloth packed = pack(cloth);
+    fastest_decay_ = fastest_decay(packed, dashpots(packed, options.spring_damping)) + options.air_drag;
+  }
   const bool limited = !is_unconditionally_stable(options.integrator);
   if (!state.planned || (limited && state.dt_limit == 0)) {
     state.dt_limit = 0;
@@ -53,7 +55,7 @@ bool StepLength::due() const {
 void StepLength::advance() {
   --state_.steps_left;
   if (!due() || state_.steps_left == 0 || options_.step_rule == StepRule::forced) return;
-  const double strain = strain_statistics(cloth_.particles.x, cloth_.structural).max;
+  const double strain = strain_statistics(cloth_).max;
   if (state_.step - state_.estimated_at < options_.limit_steps &&
       !(strain > state_.strain_at_estimate + options_.limit_strain))
     return;
@@ -64,7 +66,7 @@ void StepLength::advance() {
 
 void StepLength::estimate() {
   state_.dt_limit = stable_step(cloth_).dt_limit;
-  state_.strain_at_estimate = strain_statistics(cloth_.particles.x, cloth_.structural).max;
+  state_.strain_at_estimate = strain_statistics(cloth_).max;
   state_.estimated_at = state_.step;
   state_.totals.dt_limit_smallest = std::min(state_.totals.dt_limit_smallest, state_.dt_limit);
   ++state_.totals.limit_estimates;

@@ -102,6 +102,11 @@ Xpbd::Xpbd(Motion& motion, const XpbdOptions& options) : motion_(motion), option
     throw std::invalid_argument("xpbd: tolerance = " + std::to_string(options.tolerance) + " is not >= 0");
   }
   const PackedCloth& cloth = motion.cloth();
+  if (!cloth.shell.membrane.empty() || !cloth.shell.hinges.empty()) {
+    throw std::invalid_argument("xpbd knows springs only: not " +
+                                std::to_string(cloth.shell.membrane.size()) + " membrane triangles and " +
+                                std::to_string(cloth.shell.hinges.size()) + " hinges");
+  }
   dashpots_ = dashpots(cloth, motion.loads().spring_damping);
   dashpots_.resize(cloth.a.size(), 0.0);
   for (std::size_t i = 0; i < cloth.a.size(); ++i)
@@ -144,7 +149,7 @@ double Xpbd::sweep(double dt, bool forward) {
 
 void Xpbd::step(double dt) {
   if (!(dt > 0)) throw std::invalid_argument("xpbd: dt = " + std::to_string(dt) + " is not > 0");
-  motion_.update_forces_without_springs(motion_.from());
+  motion_.update_compensation(motion_.from());
   motion_.drag_and_kick(dt);
   impulse_.assign(dashpots_.size(), 0.0);
   for (int i = 0; i < options_.iterations; ++i) {

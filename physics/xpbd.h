@@ -19,7 +19,7 @@ namespace furrow::physics {
 /// Sources: Macklin, Müller, Chentanez, XPBD, MIG 2016; Macklin et al., Small Steps, SCA 2019.
 class Xpbd : public Stepper {
  public:
-  /// Throws std::invalid_argument if an option is out of its range.
+  /// Throws std::invalid_argument if an option is out of its range, or the cloth has a membrane or hinges.
   explicit Xpbd(Motion& motion, const XpbdOptions& options = {});
   void step(double dt) override;
 

@@ -4,11 +4,15 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   compensation_test.cpp
   contact_test.cpp
   damping_sweep_test.cpp
+  elements_test.cpp
   euler_step_test.cpp
   hanging_chain_test.cpp
+  hinge_forces_test.cpp
   leapfrog_step_test.cpp
+  membrane_test.cpp
   moved_pins_test.cpp
   packed_cloth_test.cpp
+  packed_elements_test.cpp
   pins_test.cpp
   push_out_test.cpp
   residual_force_test.cpp
@@ -21,6 +25,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   stable_step_test.cpp
   stepper_test.cpp
   stepper_contact_test.cpp
+  stepper_shell_test.cpp
   stepper_stability_test.cpp
   strain_test.cpp
   sweep_order_test.cpp

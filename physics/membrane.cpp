@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "physics/membrane.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace furrow::physics {
+namespace {
+
+/// The three edges of a triangle, edge i opposite corner i, from corner i + 1 to corner i + 2.
+struct Edges {
+  std::array<Vec3, 3> vector;
+  Eigen::Vector3d tension;  // dW/dd [N/m]
+};
+
+Edges edges_of(std::span<const Vec3> x, const MembraneTriangle& t, const MembraneConstants& c) {
+  Edges e;
+  Eigen::Vector3d d;
+  for (int i = 0; i < 3; ++i) {
+    e.vector[i] = x[t.vertices[(i + 2) % 3]] - x[t.vertices[(i + 1) % 3]];
+    d[i] = e.vector[i].squaredNorm() - c.length2[i];
+  }
+  e.tension = c.quadratic * d;
+  return e;
+}
+
+std::vector<MembraneConstants> checked(std::span<const MembraneTriangle> triangles, std::size_t n,
+                                       std::size_t others, const char* function) {
+  if (others != n) {
+    throw std::invalid_argument(std::string(function) + ": " + std::to_string(n) +
+                                " positions, but arrays of " + std::to_string(others));
+  }
+  std::vector<MembraneConstants> constants;
+  constants.reserve(triangles.size());
+  for (const MembraneTriangle& t : triangles) {
+    for (const int v : t.vertices) {
+      if (v >= 0 && std::size_t(v) < n) continue;
+      throw std::invalid_argument(std::string(function) + ": a membrane triangle names particle " +
+                                  std::to_string(v) + " of " + std::to_string(n));
+    }
+    constants.push_back(membrane_constants(t));
+  }
+  return constants;
+}
+
+/// The quadratic form sum 2 tension_i |u_{i+2} - u_{i+1}|^2 as a matrix over the corners.
+Eigen::Matrix3d tension_matrix(const Eigen::Vector3d& tension) {
+  Eigen::Matrix3d m;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    m(j, k) = m(k, j) = -2 * tension[i];
+    m(i, i) = 2 * (tension[j] + tension[k]);
+  }
+  return m;
+}
+
+Eigen::Matrix3d positive_part(const Eigen::Matrix3d& m) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m);
+  const Eigen::Matrix3d& v = solver.eigenvectors();
+  return v * solver.eigenvalues().cwiseMax(0).asDiagonal() * v.transpose();
+}
+
+}  // namespace
+
+PlaneLame plane_stress(double young_times_thickness, double poisson) {
+  const double y = young_times_thickness;
+  if (!(y >= 0) || !std::isfinite(y)) {
+    throw std::invalid_argument("plane_stress: young_times_thickness = " + std::to_string(y) +
+                                " is not >= 0");
+  }
+  if (!(poisson > -1 && poisson < 1)) {
+    throw std::invalid_argument("plane_stress: poisson = " + std::to_string(poisson) + " is not in (-1, 1)");
+  }
+  return {y * poisson / (1 - poisson * poisson), y / (2 * (1 + poisson))};
+}
+
+MembraneConstants membrane_constants(const MembraneTriangle& t) {
+  const Eigen::Vector3d l(t.rest_lengths[0], t.rest_lengths[1], t.rest_lengths[2]);
+  const double half = l.sum() / 2,
+               area = std::sqrt(half * (half - l[0]) * (half - l[1]) * (half - l[2]));  // Heron
+  if (!(l.minCoeff() > 0) || !(half - l.maxCoeff() > 0) || !(area > 0) || !std::isfinite(area)) {
+    throw std::invalid_argument("membrane triangle: rest lengths " + std::to_string(l[0]) + ", " +
+                                std::to_string(l[1]) + ", " + std::to_string(l[2]) + " make no triangle");
+  }
+  if (!(t.mu >= 0) || !(t.lambda + t.mu >= 0) || !std::isfinite(t.lambda + t.mu)) {
+    throw std::invalid_argument("membrane triangle: lambda = " + std::to_string(t.lambda) +
+                                " and mu = " + std::to_string(t.mu) + " are not mu >= 0, lambda + mu >= 0");
+  }
+  MembraneConstants c{area, l.cwiseAbs2(), {}};
+  // cot a_i / (4 A),  cot a_i = (sum L^2 - 2 L_i^2) / (4 A)
+  const Eigen::Vector3d trace = (c.length2.sum() - 2 * c.length2.array()) / (16 * area * area);
+  Eigen::Matrix3d determinant = Eigen::Matrix3d::Constant(2);
+  determinant.diagonal().setConstant(-2);
+  determinant /= 64 * area * area;
+  c.quadratic = area * ((t.lambda + 2 * t.mu) * trace * trace.transpose() - 2 * t.mu * determinant);
+  return c;
+}
+
+double edge_stiffness(const MembraneConstants& c, int edge) {
+  return 4 * c.length2[edge] * c.quadratic(edge, edge);
+}
+
+double membrane_energy(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles) {
+  const auto constants = checked(triangles, x.size(), x.size(), "membrane_energy");
+  double energy = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Edges e = edges_of(x, triangles[i], constants[i]);
+    Eigen::Vector3d d;
+    for (int j = 0; j < 3; ++j) d[j] = e.vector[j].squaredNorm() - constants[i].length2[j];
+    energy += 0.5 * d.dot(e.tension);
+  }
+  return energy;
+}
+
+void add_membrane_forces(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
+                         std::span<Vec3> force) {
+  const auto constants = checked(triangles, x.size(), force.size(), "add_membrane_forces");
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Edges e = edges_of(x, triangles[i], constants[i]);
+    for (int j = 0; j < 3; ++j) {
+      const Vec3 f = 2 * e.tension[j] * e.vector[j];
+      force[triangles[i].vertices[(j + 1) % 3]] += f;
+      force[triangles[i].vertices[(j + 2) % 3]] -= f;
+    }
+  }
+}
+
+void add_membrane_stiffness(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
+                            Stiffness stiffness, const BlockSink& sink) {
+  const auto constants = checked(triangles, x.size(), x.size(), "add_membrane_stiffness");
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Edges e = edges_of(x, triangles[i], constants[i]);
+    Eigen::Matrix3d geometric = tension_matrix(e.tension);
+    if (stiffness == Stiffness::positive_part) geometric = positive_part(geometric);
+    // Columns: dd_i/dx of a corner.
+    std::array<Eigen::Matrix3d, 3> slope;
+    for (int j = 0; j < 3; ++j) {
+      slope[(j + 1) % 3].col(j) = -2 * e.vector[j];
+      slope[(j + 2) % 3].col(j) = 2 * e.vector[j];
+      slope[j].col(j).setZero();
+    }
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        Mat3 block = slope[r] * constants[i].quadratic * slope[c].transpose();
+        block.diagonal().array() += geometric(r, c);
+        sink(triangles[i].vertices[r], triangles[i].vertices[c], block);
+      }
+    }
+  }
+}
+
+}  // namespace furrow::physics
