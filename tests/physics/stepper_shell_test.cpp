@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include "physics/stable_step.h"
 #include "tests/physics/shell_cloths.h"
 #include "tests/physics/stepper_runs.h"
 
@@ -43,7 +42,7 @@ TEST_CASE("backward Euler keeps a shell's momentum and is stable at a hundred ti
   Cloth cloth = swinging_shell(1000, 1e-4);
   Particles& p = cloth.particles;
   for (std::size_t i = 0; i < p.size(); ++i) p.inv_mass[i] = 1 / p.mass[i];
-  const double dt = 100 * stable_step(cloth).dt_limit;
+  const double dt = 0.1;  // 2 / omega is about 1 ms
   const Particles end =
       after(cloth, {.gravity = Vec3::Zero()}, {Integrator::backward_euler, {}, {}}, dt, 200);
   Vec3 change = Vec3::Zero();
@@ -53,7 +52,6 @@ TEST_CASE("backward Euler keeps a shell's momentum and is stable at a hundred ti
     scale += p.mass[i] * p.v[i].norm();
     fastest = std::max(fastest, end.v[i].norm());
   }
-  CAPTURE(dt);
   CHECK(fastest < 2);
   CHECK(change.norm() < 1e-9 * scale);  // of systems whose stiffness outweighs the masses ten thousand times
 }
