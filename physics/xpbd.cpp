@@ -38,13 +38,28 @@ FURROW_INLINE void push(const Sweep& s, int i, double p, const Lanes& d) {
 
 /// Solves spring i with p its impulse so far, w the sum of its ends' inverse masses, C = l - L:
 ///   dp = -(h k C + p + h c (v_b - v_a) . n) / (1 + h (h k + c) w).
-/// Returns the largest change of a spring's length, h w dp.
-FURROW_VECTOR_CLONES
-double solve_group(const Sweep* sweep, int begin, int end) {
-  const Sweep s = *sweep;
+/// Returns the change of the spring's length, h w |dp|.
+FURROW_INLINE double solve_one(const Sweep& s, int i) {
   const double h = s.h;
   Lanes hh;
   spread(h, hh);
+  const Lanes u = lanes(s.v[s.b[i]]) - lanes(s.v[s.a[i]]);
+  const Lanes d = (lanes(s.x[s.b[i]]) - lanes(s.x[s.a[i]])) + hh * u, p2 = d * d, du = d * u;
+  const double l = std::sqrt(std::max((p2[0] + p2[1]) + p2[2], least_l2)), inv = 1 / l;
+  const double dv = (du[0] + du[1]) + du[2], p = s.impulse[i];
+  const double dp = -(h * (s.k[i] * l - s.kL[i]) + p + h * (s.c[i] * (dv * inv))) /
+                    (1 + h * ((h * s.k[i] + s.c[i]) * s.inv_sum[i]));
+  s.impulse[i] = p + dp;
+  push(s, i, dp * inv, d);
+  return std::abs(h * (s.inv_sum[i] * dp));
+}
+
+/// Springs of one group share no particle, so four go at once; returns the largest change.
+FURROW_VECTOR_CLONES
+double solve_group(const Sweep* sweep, int begin, int end) {
+  const Sweep s = *sweep;
+  Lanes hh;
+  spread(s.h, hh);
   double most = 0;
   int i = begin;
   for (; i + 4 <= end; i += 4) {
@@ -69,17 +84,7 @@ double solve_group(const Sweep* sweep, int begin, int end) {
       most = std::max(most, std::abs(change[j]));
     }
   }
-  for (; i < end; ++i) {
-    const Lanes u = lanes(s.v[s.b[i]]) - lanes(s.v[s.a[i]]);
-    const Lanes d = (lanes(s.x[s.b[i]]) - lanes(s.x[s.a[i]])) + hh * u, p2 = d * d, du = d * u;
-    const double l = std::sqrt(std::max((p2[0] + p2[1]) + p2[2], least_l2)), inv = 1 / l;
-    const double dv = (du[0] + du[1]) + du[2], p = s.impulse[i];
-    const double dp = -(h * (s.k[i] * l - s.kL[i]) + p + h * (s.c[i] * (dv * inv))) /
-                      (1 + h * ((h * s.k[i] + s.c[i]) * s.inv_sum[i]));
-    s.impulse[i] = p + dp;
-    push(s, i, dp * inv, d);
-    most = std::max(most, std::abs(h * (s.inv_sum[i] * dp)));
-  }
+  for (; i < end; ++i) most = std::max(most, solve_one(s, i));
   return most;
 }
 
