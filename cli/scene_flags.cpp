@@ -49,9 +49,10 @@ constexpr Flag kFlags[] = {
      "0.003)"},
     {"--gravity", "forces.gravity", false, "acceleration downwards [m/s^2] (default 9.81), or x,y,z"},
     {"--wind", "forces.wind", false, "velocity of the air x,y,z [m/s]; acts through the drag"},
-    {"--dt", "simulation.dt", false, "time step [s]; default 0.9 of the limit"},
+    {"--dt", "simulation.dt", false,
+     "time step [s]; default 0.9 of the limit, 1/240 with backward-euler, 1/1200 with xpbd"},
     {"--integrator", "simulation.integrator", true,
-     "leapfrog (default), or euler (the baseline that diverges)"},
+     "leapfrog (default), semi-implicit, rk4, backward-euler, xpbd, or euler (the baseline that diverges)"},
     {"--threads", "simulation.threads", false,
      "threads (default: one for each 10,000 vertices, at most all cores); the result does not depend on "
      "them"},

@@ -249,9 +249,13 @@ class SceneReader {
     table.read("force_dt", force);
     o.step_rule = force ? physics::StepRule::forced : physics::StepRule::limited;
     if (force && !o.dt) table.fail("force_dt", "needs dt");
-    table.choose<physics::Integrator>(
-        "integrator", o.integrator,
-        {{"leapfrog", physics::Integrator::leapfrog}, {"euler", physics::Integrator::explicit_euler}});
+    table.choose<physics::Integrator>("integrator", o.integrator,
+                                      {{"leapfrog", physics::Integrator::leapfrog},
+                                       {"euler", physics::Integrator::explicit_euler},
+                                       {"semi-implicit", physics::Integrator::semi_implicit},
+                                       {"rk4", physics::Integrator::rk4},
+                                       {"backward-euler", physics::Integrator::backward_euler},
+                                       {"xpbd", physics::Integrator::xpbd}});
     table.read("threads", scene_.threads, 1, 256);
     table.finish();
   }

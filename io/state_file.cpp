@@ -37,6 +37,9 @@ Json to_json(const physics::SimulateTotals& t) {
           {"spring_evaluations", t.spring_evaluations},
           {"triangle_evaluations", t.triangle_evaluations},
           {"hinge_evaluations", t.hinge_evaluations},
+          {"linear_solves", t.linear_solves},
+          {"factorisations", t.factorisations},
+          {"iterations", t.iterations},
           {"collider_queries", t.collider_queries},
           {"truncated_moves", t.truncated_moves},
           {"limit_estimates", t.limit_estimates},
@@ -51,6 +54,9 @@ physics::SimulateTotals totals_of(const Json& j) {
   t.spring_evaluations = j.value("spring_evaluations", std::int64_t{0});  // absent in older files
   t.triangle_evaluations = j.value("triangle_evaluations", std::int64_t{0});
   t.hinge_evaluations = j.value("hinge_evaluations", std::int64_t{0});
+  t.linear_solves = j.value("linear_solves", std::int64_t{0});  // files of the first version have none
+  t.factorisations = j.value("factorisations", std::int64_t{0});
+  t.iterations = j.value("iterations", std::int64_t{0});
   t.collider_queries = j.at("collider_queries");
   t.truncated_moves = j.at("truncated_moves");
   t.limit_estimates = j.at("limit_estimates");

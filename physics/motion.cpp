@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "physics/motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <stdexcept>
@@ -142,18 +143,23 @@ void Motion::drift(double seconds) {
   if (around_.pins) around_.pins->arrive(cloth_);
 }
 
-void Motion::update_forces() {
+void Motion::update_forces(double time) {
   update_spring_forces(cloth_, pool_);
   add_element_forces(cloth_.elements, cloth_.x, cloth_.force, pool_);
-  if (around_.compensation) compensate();
+  if (around_.compensation) compensate(time);
   ++work_.force_evaluations;
   work_.spring_evaluations += cloth_.springs() - cloth_.dashpots;
   work_.triangle_evaluations += cloth_.elements.triangle_count;
   work_.hinge_evaluations += cloth_.elements.hinge_count;
 }
 
-void Motion::compensate() {
-  const double share = share_left(*around_.compensation, to_);
+void Motion::update_compensation(double time) {
+  std::fill(cloth_.force.begin(), cloth_.force.end(), Vec4{});
+  if (around_.compensation) compensate(time);
+}
+
+void Motion::compensate(double time) {
+  const double share = share_left(*around_.compensation, time);
   if (share == 0) return;
   for (std::size_t i = 0; i < cloth_.force.size(); ++i) {
     const Vec3 f = share * around_.compensation->force[std::size_t(cloth_.particle[i])];

@@ -10,29 +10,26 @@
 
 namespace furrow::physics {
 
-/// What acts on a cloth besides its elements.
-struct Loads {
+struct Loads {                ///< what acts on a cloth besides its elements
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   double air_drag = 0;        ///< c of dv/dt = -c v [1/s]; >= 0
   double spring_damping = 0;  ///< share of critical damping of each spring and edge of membrane [-]; >= 0
 };
 
-/// What else acts; each may be null, and must outlive the motion.
-struct Surroundings {
+struct Surroundings {  ///< what else acts; each may be null, and must outlive the motion
   BodyContact* contact = nullptr;
   PinLeader* pins = nullptr;
   const Wind* wind = nullptr;
   const Compensation* compensation = nullptr;
 };
 
-struct WorkCounts {
-  std::int64_t steps = 0, force_evaluations = 0;
+struct WorkCounts {  // iterations: of Newton's method, or sweeps over all springs
+  std::int64_t steps = 0, force_evaluations = 0, linear_solves = 0, factorisations = 0, iterations = 0;
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   ContactCounts contact;
 };
 
-/// A cloth in motion, and the phases that a step is made of. Particles with inv_mass 0 move only as
-/// Surroundings::pins leads them.
+/// A cloth in motion and the phases of a step. What has inv_mass 0 moves only as Surroundings::pins leads it.
 class Motion {
  public:
   /// The pool must outlive the motion. The elements' forces are those of the cloth's positions. Throws
@@ -51,15 +48,24 @@ class Motion {
   void kick_and_drag(double seconds);
   /// x += seconds v, then the body's answer to it.
   void drift(double seconds);
-  void update_forces();
+  /// Of all elements, and what compensates at the step's end or another time [s]; or the latter alone.
+  void update_forces() { update_forces(to_); }
+  void update_forces(double time);
+  void update_compensation(double time);
 
   const PackedCloth& cloth() const { return cloth_; }
   void unpack(Particles& particles) const;  ///< positions and velocities
   WorkCounts& work() { return work_; }
+  PackedCloth& cloth() { return cloth_; }  ///< this and all below: for steps of more than these phases
+  const Loads& loads() const { return loads_; }
+  const Wind* wind() const { return around_.wind; }
+  ThreadPool& pool() { return pool_; }
+  double from() const { return from_; }
+  double to() const { return to_; }
 
  private:
   const DampingSweep& damping(double seconds);
-  void compensate();
+  void compensate(double time);
 
   PackedCloth cloth_;
   Loads loads_;

@@ -107,6 +107,18 @@ void pack_springs(const std::vector<PackedSpring>& springs, PackedCloth& packed)
   packed.inv_length2.assign(springs.size(), 0.0);
 }
 
+Cloth renumbered_shell(const Cloth& cloth, const std::vector<int>& place) {
+  Cloth shell;
+  shell.membrane = cloth.membrane;
+  shell.hinges = cloth.hinges;
+  shell.hinge_law = cloth.hinge_law;
+  for (MembraneTriangle& t : shell.membrane)
+    for (int& v : t.vertices) v = place[std::size_t(v)];
+  for (Hinge& h : shell.hinges)
+    for (int& v : h.vertices) v = place[std::size_t(v)];
+  return shell;
+}
+
 /// Which particles act on each other.
 std::vector<std::array<int, 2>> neighbour_pairs(const Cloth& cloth) {
   std::vector<std::array<int, 2>> pairs;
@@ -142,6 +154,7 @@ PackedCloth pack(const Cloth& cloth, bool dashpots) {
   packed.dashpots = int(edges.size());
   pack_springs(renumbered_springs(cloth, place, edges), packed);
   packed.elements = pack_elements(cloth, place);
+  packed.shell = renumbered_shell(cloth, place);
   return packed;
 }
 

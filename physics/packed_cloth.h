@@ -23,6 +23,7 @@ struct PackedCloth {
   SweepOrder sweep;                 ///< groups and blocks of the springs; `pairs` is empty (already applied)
   int dashpots = 0;                 ///< how many of the springs
   PackedElements elements;
+  Cloth shell;  ///< membrane and hinges alone, their vertices places, for the functions of elements.h
 
   int particles() const { return int(x.size()); }
   int springs() const { return int(a.size()); }  ///< with dashpots

@@ -10,10 +10,9 @@
 #include <stdexcept>
 
 #include "physics/animated_contact.h"
-#include "physics/euler_step.h"
-#include "physics/leapfrog_step.h"
 #include "physics/rigid_contact.h"
 #include "physics/step_length.h"
+#include "physics/stepper.h"
 
 namespace furrow::physics {
 namespace {
@@ -86,6 +85,7 @@ class Simulation {
   std::unique_ptr<BodyContact> contact_;
   std::optional<PinLeader> leader_;
   std::optional<Motion> motion_;
+  std::unique_ptr<Stepper> stepper_;
   std::optional<StepLength> length_;
 };
 
@@ -109,6 +109,7 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
                   state.time);
   if (state.step > 0) motion_->work() = {};  // counted by the call that ended here
   recall();
+  stepper_ = make_stepper(*motion_, {options.integrator, options.backward_euler, options.xpbd});
   length_.emplace(cloth, options, state);
 }
 
@@ -155,16 +156,19 @@ void Simulation::remember() {
     state_.totals.frames_built += world_.animated->frames_built() - frames_before_;
     state_.totals.frame_seconds += world_.animated->build_seconds() - frame_seconds_before_;
   }
-  state_.totals.force_evaluations += motion_->work().force_evaluations;
-  state_.totals.spring_evaluations += motion_->work().spring_evaluations;
-  state_.totals.triangle_evaluations += motion_->work().triangle_evaluations;
-  state_.totals.hinge_evaluations += motion_->work().hinge_evaluations;
-  state_.totals.collider_queries += motion_->work().contact.queries;
-  state_.totals.truncated_moves += motion_->work().contact.truncations;
+  const WorkCounts& work = motion_->work();
+  state_.totals.force_evaluations += work.force_evaluations;
+  state_.totals.spring_evaluations += work.spring_evaluations;
+  state_.totals.triangle_evaluations += work.triangle_evaluations;
+  state_.totals.hinge_evaluations += work.hinge_evaluations;
+  state_.totals.linear_solves += work.linear_solves;
+  state_.totals.factorisations += work.factorisations;
+  state_.totals.iterations += work.iterations;
+  state_.totals.collider_queries += work.contact.queries;
+  state_.totals.truncated_moves += work.contact.truncations;
 }
 
 void Simulation::run(const Observer& observer, SimulateReport& report) {
-  const auto step = options_.integrator == Integrator::leapfrog ? leapfrog_step : euler_step;
   SimulateState& s = state_;
   report.dt = s.dt;
   bool observed = true;  // of the present state; before the first step there is nothing new
@@ -179,7 +183,7 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
     report.dt = s.dt;
     s.totals.dt_smallest = std::min(s.totals.dt_smallest, s.dt);
     motion_->begin_step(s.time, to);
-    step(*motion_, s.dt);
+    stepper_->step(s.dt);
     ++s.step;
     s.time = to;
 
@@ -207,6 +211,8 @@ void Simulation::finish(SimulateReport& report) {
   motion_->unpack(cloth_.particles);
   remember();
   measure(cloth_, world_, state_, options_.gravity, contact_options_, report);
+  report.dt_limit = length_->limit(state_.dt_limit);
+  report.dt_limit_smallest = length_->limit(state_.totals.dt_limit_smallest);
 }
 
 }  // namespace

@@ -4,13 +4,13 @@
 #include <functional>
 #include <optional>
 
+#include "physics/integrator.h"
 #include "physics/simulate_report.h"
 #include "physics/simulate_state.h"
 #include "physics/world.h"
 
 namespace furrow::physics {
 
-enum class Integrator { leapfrog, explicit_euler };
 enum class StepRule {
   limited,  ///< dt never exceeds the stability limit; a larger `dt` is refused
   forced    ///< `dt` is used as it is
@@ -19,9 +19,10 @@ enum class StepRule {
 struct SimulateOptions {
   double seconds = 2;             ///< the end, counted from the state's time 0 [s]; >= 0
   std::optional<double> stop_at;  ///< pause after the first step that reaches this time; the plan stays [s]
-  std::optional<double> dt;       ///< step [s]; > 0; none: dt_factor times the stability limit
-  double dt_factor = 0.9;         ///< [-]; in (0, 1]
-  double dt_max = 0.005;          ///< longest step chosen without `dt` [s]; > 0
+  /// Step [s]; > 0; none: dt_factor times the stability limit, or of what is stable at any step the default.
+  std::optional<double> dt;
+  double dt_factor = 0.9;  ///< [-]; in (0, 1]
+  double dt_max = 0.005;   ///< longest step chosen without `dt` [s]; > 0
   StepRule step_rule = StepRule::limited;
   int limit_steps = 2000;        ///< steps after which the limit is estimated anew; >= 1
   double limit_strain = 0.02;    ///< and sooner when the largest strain grew by this [-]; > 0
@@ -32,6 +33,8 @@ struct SimulateOptions {
   double contact_gap = 0.003;    ///< distance at which cloth rests on the body [m]; > 0
   double recovery_speed = 0.1;   ///< how fast vertices that start too deep are taken out [m/s]; > 0
   Integrator integrator = Integrator::leapfrog;
+  BackwardEulerOptions backward_euler;
+  XpbdOptions xpbd;
   int threads = 1;            ///< >= 1; the result is the same for any number
   int observe_steps = 100;    ///< steps between two calls of the observer; >= 1
   double speed_limit = 1000;  ///< a faster particle means that the motion diverged [m/s]; > 0

@@ -14,10 +14,11 @@ void take_counts(const SimulateState& state, SimulateReport& report) {
   report.steps = state.step;
   report.time = state.time;
   report.dt_smallest = state.step > 0 ? totals.dt_smallest : report.dt;
-  report.dt_limit = state.dt_limit;
-  report.dt_limit_smallest = totals.dt_limit_smallest;
   report.limit_estimates = int(totals.limit_estimates);
   report.force_evaluations = totals.force_evaluations;
+  report.linear_solves = totals.linear_solves;
+  report.factorisations = totals.factorisations;
+  report.iterations = totals.iterations;
   report.spring_evaluations = totals.spring_evaluations;
   report.triangle_evaluations = totals.triangle_evaluations;
   report.hinge_evaluations = totals.hinge_evaluations;

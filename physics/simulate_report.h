@@ -17,7 +17,7 @@ struct SimulateReport {
   std::int64_t steps = 0;
   double time = 0;                      ///< reached [s]
   double dt = 0, dt_smallest = 0;       ///< of the last step, and the smallest [s]
-  double dt_limit = 0;                  ///< stability limit last estimated [s]; infinity without stiffness
+  double dt_limit = 0;                  ///< of the integrator, as last estimated [s]; infinity: there is none
   double dt_limit_smallest = 0;         ///< [s]
   double seconds = 0, cpu_seconds = 0;  ///< clock and processor time (all threads) [s]
   StrainStatistics strain;              ///< structural springs (else edges of the membrane) at the end
@@ -27,6 +27,7 @@ struct SimulateReport {
   int contacts = 0;  ///< particles at the body at the end
   int limit_estimates = 0;
   std::int64_t force_evaluations = 0, collider_queries = 0;
+  std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
   /// Elements times evaluations; 0 shows that a kind that is absent cost nothing.
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   std::int64_t truncated_moves = 0;        ///< cut short against tunnelling
@@ -36,8 +37,8 @@ struct SimulateReport {
   Vec3 compensation_force = Vec3::Zero();  ///< their sum now [N]
 };
 
-/// Fills all but outcome and dt from the state, and from cloth and world as they are at its time (an animated
-/// body prepared for it). Cost: one force evaluation, two queries a particle.
+/// Fills all but outcome, dt and its limits from the state, and from cloth and world as they are at its time
+/// (an animated body prepared for it). Cost: one force evaluation, two queries a particle.
 void measure(const Cloth& cloth, const World& world, const SimulateState& state, const Vec3& gravity,
              const ContactOptions& contact, SimulateReport& report);
 

@@ -13,10 +13,11 @@ namespace furrow::physics {
 /// What a report counts over all calls that shared a state.
 struct SimulateTotals {
   std::int64_t force_evaluations = 0, collider_queries = 0, truncated_moves = 0;
+  std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   std::int64_t limit_estimates = 0, frames_built = 0;
   double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
-  double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< [s]
+  double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< of leapfrog [s]
   double seconds = 0, cpu_seconds = 0, frame_seconds = 0;              ///< [s]
 };
 
@@ -37,7 +38,7 @@ struct SimulateState {
   double dt_longest = 0;  ///< that the plan allows [s]
   std::int64_t steps_left = 0;
   std::int64_t estimated_at = 0;  ///< step of the last estimate of the limit
-  double dt_limit = 0;            ///< the estimate [s]
+  double dt_limit = 0;            ///< the estimate, of leapfrog, whatever integrates [s]; 0: none was made
   double strain_at_estimate = 0;  ///< largest strain then [-]
   std::uint64_t cloth = 0;        ///< fingerprint() of the cloth that the plan is for
 

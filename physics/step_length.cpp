@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "physics/dashpots.h"
 #include "physics/stable_step.h"
 
 namespace furrow::physics {
@@ -28,20 +30,36 @@ StepLength::StepLength(const Cloth& cloth, const SimulateOptions& options, Simul
     : cloth_(cloth), options_(options), state_(state) {
   const std::uint64_t present = fingerprint(cloth);
   if (state.cloth != present) state.planned = false;
-  const bool planned = state.planned;
-  if (!planned) estimate();
-  const double wanted = longest();
-  if (planned && state.dt_longest == wanted && state.end == options.seconds) return;
-  const bool limited = options.dt && options.step_rule == StepRule::limited;
-  if (limited && *options.dt > state.dt_limit && !(planned && state.dt_longest == wanted))
-    refuse("dt = ", *options.dt, " s is above the stability limit of ", state.dt_limit, " s");
+  if (options.integrator == Integrator::rk4) {
+    const PackedCloth packed = pack(cloth);
+    fastest_decay_ = fastest_decay(packed, dashpots(packed, options.spring_damping)) + options.air_drag;
+  }
+  const bool has_limit = !is_unconditionally_stable(options.integrator);
+  if (!state.planned) state.dt_limit = 0;
+  if (has_limit && state.dt_limit == 0) {
+    state.planned = false;
+    estimate();
+  }
+  const bool as_planned = state.planned && state.dt_longest == longest();
+  if (as_planned && state.end == options.seconds) return;
+  const double most = limit(state.dt_limit);
+  if (options.dt && options.step_rule == StepRule::limited && *options.dt > most && !as_planned)
+    refuse("dt = ", *options.dt, " s is above the stability limit of ", most, " s");
   state.planned = true;
   state.cloth = present;
   state.end = options.seconds;
   divide(std::max(state.end - state.time, 0.0));
 }
 
+double StepLength::limit(double leapfrog) const {
+  if (is_unconditionally_stable(options_.integrator)) return std::numeric_limits<double>::infinity();
+  if (options_.integrator != Integrator::rk4) return leapfrog;
+  const double oscillation = rk4_limit / 2 * leapfrog;
+  return fastest_decay_ > 0 ? std::min(oscillation, rk4_damped_limit / fastest_decay_) : oscillation;
+}
+
 bool StepLength::due() const {
+  if (is_unconditionally_stable(options_.integrator)) return false;
   return state_.step % strain_steps == 0 || state_.step - state_.estimated_at >= options_.limit_steps;
 }
 
@@ -66,8 +84,11 @@ void StepLength::estimate() {
 }
 
 double StepLength::longest() const {
-  if (!options_.dt) return std::min(options_.dt_factor * state_.dt_limit, options_.dt_max);
-  return options_.step_rule == StepRule::forced ? *options_.dt : std::min(*options_.dt, state_.dt_limit);
+  if (is_unconditionally_stable(options_.integrator))
+    return options_.dt.value_or(std::min(default_dt(options_.integrator), options_.dt_max));
+  const double most = limit(state_.dt_limit);
+  if (!options_.dt) return std::min(options_.dt_factor * most, options_.dt_max);
+  return options_.step_rule == StepRule::forced ? *options_.dt : std::min(*options_.dt, most);
 }
 
 void StepLength::divide(double rest) {

@@ -15,6 +15,8 @@ class StepLength {
   bool due() const;
   /// After a step, which state.step counts already.
   void advance();
+  /// The limit of the integrator [s] where leapfrog's without damping is `leapfrog`; infinity if it has none.
+  double limit(double leapfrog) const;
 
  private:
   void estimate();
@@ -24,6 +26,7 @@ class StepLength {
   const Cloth& cloth_;
   const SimulateOptions& options_;
   SimulateState& state_;
+  double fastest_decay_ = 0;  // of damping and drag, if they bound the step [1/s]
 };
 
 }  // namespace furrow::physics

@@ -70,4 +70,17 @@ void blow(PackedCloth& cloth, const Wind& wind, double time, double decay, Threa
   });
 }
 
+void air_at(const PackedCloth& cloth, const Wind& wind, double time, std::vector<Vec4>& velocity,
+            ThreadPool& pool) {
+  const Air air(wind, time);
+  velocity.resize(cloth.x.size());
+  pool.run(cloth.particles(), [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const Vec4& x = cloth.x[i];
+      const Vec3 w = air.at(Vec3(x.x, x.y, x.z));
+      velocity[i] = {w.x(), w.y(), w.z(), 0};
+    }
+  });
+}
+
 }  // namespace furrow::physics

@@ -32,4 +32,8 @@ Vec3 air_velocity(const Wind& wind, const Vec3& x, double time);
 /// v = w + (v - w) decay for what is not pinned, with the air of one time.
 void blow(PackedCloth& cloth, const Wind& wind, double time, double decay, ThreadPool& pool);
 
+/// The air's velocity at each place of the cloth at one time [m/s].
+void air_at(const PackedCloth& cloth, const Wind& wind, double time, std::vector<Vec4>& air,
+            ThreadPool& pool);
+
 }  // namespace furrow::physics

@@ -57,6 +57,9 @@ void check_same(const Scene& a, const SimulateReport& ra, const Scene& b, const 
   CHECK(ra.dt_limit_smallest == rb.dt_limit_smallest);
   CHECK(ra.limit_estimates == rb.limit_estimates);
   CHECK(ra.force_evaluations == rb.force_evaluations);
+  CHECK(ra.linear_solves == rb.linear_solves);
+  CHECK(ra.factorisations == rb.factorisations);
+  CHECK(ra.iterations == rb.iterations);
   CHECK(ra.collider_queries == rb.collider_queries);
   CHECK(ra.truncated_moves == rb.truncated_moves);
   CHECK(ra.compensation_left == rb.compensation_left);
@@ -107,6 +110,30 @@ TEST_CASE("a run that is stopped twenty times gives the bits of one that is not"
   CHECK(nothing.steps == rest.steps);
   CHECK(parts.cloth.particles.x == end.particles.x);
   CHECK(parts.cloth.particles.v == end.particles.v);
+}
+
+TEST_CASE("a run with any integrator that is stopped in the middle gives the bits of one that is not") {
+  const Sphere ball(Vec3::Zero(), 0.2);
+  const Integrator integrator =
+      GENERATE(Integrator::leapfrog, Integrator::explicit_euler, Integrator::semi_implicit, Integrator::rk4,
+               Integrator::backward_euler, Integrator::xpbd);
+  Scene whole = busy_scene(ball);
+  whole.options.integrator = integrator;
+  whole.options.spring_damping = 0.3;
+  whole.options.backward_euler.newton_iterations = 4;
+  if (integrator == Integrator::explicit_euler) whole.options.dt_factor = 0.2, whole.options.seconds = 0.1;
+  Scene parts = whole;
+  const SimulateReport one = simulate(whole.cloth, whole.world, whole.options, &whole.state);
+  CAPTURE(int(integrator));
+  CHECK(one.outcome == Outcome::finished);
+  CHECK((one.contacts > 3 || integrator == Integrator::explicit_euler));
+  for (const double stop : {0.02, 0.0501, 0.09}) {
+    parts.options.stop_at = stop;
+    parts.options.threads = stop > 0.05 ? 2 : 1;
+    CHECK(simulate(parts.cloth, parts.world, parts.options, &parts.state).outcome == Outcome::stopped_at);
+  }
+  parts.options.stop_at.reset();
+  check_same(whole, one, parts, simulate(parts.cloth, parts.world, parts.options, &parts.state));
 }
 
 TEST_CASE("a later end divides the rest anew and is hit exactly") {

@@ -222,6 +222,7 @@ TEST_CASE("simulate refuses options out of range before it moves anything") {
   refused([](SimulateOptions& o) { o.limit_steps = 0; });
   refused([](SimulateOptions& o) { o.air_drag = -1; });
   refused([](SimulateOptions& o) { o.threads = 0; });
+  refused([](SimulateOptions& o) { o.integrator = Integrator::xpbd, o.xpbd.iterations = 0; });
   refused([](SimulateOptions& o) { o.observe_steps = 0; });
   refused([](SimulateOptions& o) { o.speed_limit = 0; });
   SimulateOptions none;

@@ -18,10 +18,15 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   residual_force_test.cpp
   rigid_contact_test.cpp
   rigid_motion_test.cpp
+  simulate_integrators_test.cpp
   simulate_state_test.cpp
   simulate_test.cpp
   spring_forces_test.cpp
   stable_step_test.cpp
+  stepper_test.cpp
+  stepper_contact_test.cpp
+  stepper_shell_test.cpp
+  stepper_stability_test.cpp
   strain_test.cpp
   shell_motion_test.cpp
   sweep_order_test.cpp
