@@ -6,7 +6,10 @@
 #include "cli/subcommands.h"
 #include "geometry/apply_displacement.h"
 #include "geometry/bake_maps.h"
+#include "geometry/errors.h"
+#include "geometry/measures.h"
 #include "geometry/project_onto_surface.h"
+#include "geometry/property_names.h"
 #include "geometry/subdivide.h"
 #include "geometry/surface_deviation.h"
 #include "io/baked_maps.h"
@@ -30,7 +33,7 @@ std::vector<Face> faces_away_from(const Mesh& mesh, const Mesh& low) {
   std::vector<Face> faces;
   for (Face f : mesh.faces())
     for (geometry::Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
-      if (surface.closest(mesh.point(v)).distance > kMoved) {
+      if (!interrupted() && surface.closest(mesh.point(v)).distance > kMoved) {
         faces.push_back(f);
         break;
       }
@@ -41,32 +44,61 @@ Json to_json(const geometry::SurfaceDeviation& d) {
   return {{"median", d.median}, {"p95", d.p95}, {"max", d.largest}, {"area", d.area}};
 }
 
-/// Reads the maps back from their files, applies them, and measures how well they tell the high mesh.
+/// Reads the maps back from their files, applies them, and measures how well they tell the high mesh. What is
+/// not measured yet when the user interrupts is left out.
 Json check(const io::MeshFile& low, const Mesh& high, const io::BakedFiles& files, const BakeArguments& a) {
   io::MeshFile applied = low;
   geometry::apply_displacement(applied.mesh, io::read_displacement(files.record), a.check);
   if (!a.applied.empty()) write_mesh(a.applied, applied, a);
-  Json report{{"vertices", applied.mesh.number_of_vertices()},
-              {"to_high", to_json(geometry::surface_deviation(applied.mesh, high))},
-              {"from_high", to_json(geometry::surface_deviation(high, applied.mesh))}};
+  Json report{{"vertices", applied.mesh.number_of_vertices()}};
+  const auto measure = [&](const char* name, const Mesh& from, const Mesh& to, const auto&... faces) {
+    if (!interrupted()) report[name] = to_json(geometry::surface_deviation(from, to, faces...));
+  };
+  measure("to_high", applied.mesh, high);
+  measure("from_high", high, applied.mesh);
   const std::vector<Face> ours = faces_away_from(applied.mesh, low.mesh),
                           theirs = faces_away_from(high, low.mesh);
-  if (!ours.empty())
-    report["wrinkled_to_high"] = to_json(geometry::surface_deviation(applied.mesh, high, ours));
-  if (!theirs.empty())
-    report["wrinkled_from_high"] = to_json(geometry::surface_deviation(high, applied.mesh, theirs));
+  if (!ours.empty()) measure("wrinkled_to_high", applied.mesh, high, ours);
+  if (!theirs.empty()) measure("wrinkled_from_high", high, applied.mesh, theirs);
   return report;
 }
 
-void bake(const BakeArguments& a, int& exit_code) {
+void check_call(const BakeArguments& a) {
   if (a.out == "-") throw UsageError("-o: maps need a prefix for their names");
-  const std::filesystem::path folder = std::filesystem::path(a.out).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder))
-    throw std::runtime_error(a.out + ": cannot be written, there is no folder " + folder.string() +
-                             "; make it first");
   if (!a.applied.empty() && a.check < 0) throw UsageError("--applied goes with --check");
+  check_folder(a.out);
   if (!a.applied.empty()) check_output(a.applied);
-  const io::MeshFile low = read_mesh(a.low, a), high = read_mesh(a.high, a);
+  const io::BakedFiles files = io::baked_files(a.out);
+  refuse_same({files.displacement.string(), files.normal.string(), files.record.string(), a.applied},
+              {a.low, a.high});
+}
+
+/// Both meshes must have texture coordinates.
+io::MeshFile read_textured(const std::string& path, const BakeArguments& a) {
+  io::MeshFile file = read_mesh(path, a);
+  if (!geometry::find_map(file.mesh, geometry::kTexture))
+    throw geometry::ContentError(path + ": has no texture coordinates; export them, maps lie in their space");
+  return file;
+}
+
+/// What maps look like that are of no use.
+void check_maps(const geometry::BakedMaps& maps, const Mesh& low, const BakeArguments& a) {
+  if (maps.covered == 0)
+    throw geometry::ContentError(a.low +
+                                 ": its texture coordinates have no area, no texel lies in a face; "
+                                 "unwrap it, or raise --size");
+  const geometry::MeshInfo info = geometry::measure(low);
+  const double diagonal = std::sqrt(CGAL::squared_distance(info.box_min, info.box_max));
+  if (maps.largest > diagonal / 2)
+    throw geometry::ContentError(a.high + ": lies " + std::to_string(maps.largest) + " m from " + a.low +
+                                 ", more than half of its diagonal; maps need both in one unit (--unit) and "
+                                 "one pose (furrow transfer)");
+}
+
+void bake(BakeArguments a, int& exit_code) {
+  check_call(a);
+  take_noted_frame(a, {a.low, a.high});
+  const io::MeshFile low = read_textured(a.low, a), high = read_textured(a.high, a);
   catch_interrupts();
   std::optional<geometry::BakedMaps> maps;
   {
@@ -84,14 +116,18 @@ void bake(const BakeArguments& a, int& exit_code) {
     warn(a.low + ": " + std::to_string(maps->overlapping) +
              " texels lie in two faces; charts that overlap cannot both be right",
          a);
+  check_maps(*maps, low.mesh, a);
   const io::BakedFiles files = io::write_baked_maps(a.out, *maps);
   Json report{{"size", a.options.size},
               {"covered_texels", maps->covered},
               {"unmatched_texels", maps->unmatched},
               {"overlapping_texels", maps->overlapping},
               {"largest_displacement", maps->largest}};
-  if (interrupted()) exit_code = kInterrupted;  // the maps are written; what follows is only a measurement
   if (a.check >= 0 && !interrupted()) report["check"] = check(low, high.mesh, files, a);
+  if (interrupted()) {  // the maps are written; what follows them is only a measurement
+    exit_code = kInterrupted;
+    warn("interrupted; the maps are written, the check is not complete", a);
+  }
   report["written"] = {files.displacement.string(), files.normal.string(), files.record.string()};
   print_report(report, a);
 }

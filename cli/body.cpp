@@ -39,7 +39,8 @@ std::string fingerprint_of(const std::vector<physics::Vec3>& vertices, double to
 }  // namespace
 
 BodyCollider load_body(const io::SceneBody& body, const CommonArguments& common) {
-  const geometry::Body repaired = geometry::repair_body(read_mesh(body.mesh.string(), common).mesh);
+  const geometry::Body repaired =
+      geometry::repair_body(read_garment(body.mesh.string(), common, "body").mesh);
   tell_repairs(body.mesh.string(), repaired.report, common);
   physics::TriangleMesh triangles = bridge::to_triangle_mesh(repaired);
   physics::ExactDistance exact(triangles);
@@ -66,7 +67,7 @@ WorldBody::WorldBody(const io::SceneBody& body, const CommonArguments& common)
 }
 
 void WorldBody::read_frames(const io::SceneBody& body, const CommonArguments& common) {
-  const geometry::Mesh mesh = read_mesh(body.mesh.string(), common).mesh;
+  const geometry::Mesh mesh = read_garment(body.mesh.string(), common, "body").mesh;
   for (geometry::Halfedge h : mesh.halfedges())
     if (mesh.is_border(h))
       throw geometry::ContentError(body.mesh.string() +
@@ -130,6 +131,20 @@ io::MeshFile WorldBody::at(double time, const CommonArguments& common) const {
   for (geometry::Vertex v : file.mesh.vertices())
     file.mesh.point(v) = bridge::to_cgal(animated_ ? x[v] : pose.to_world(x[v]));
   return file;
+}
+
+Eigen::AlignedBox3d box_of(const std::vector<physics::Vec3>& points) {
+  Eigen::AlignedBox3d box;
+  for (const physics::Vec3& p : points) box.extend(p);
+  return box;
+}
+
+Eigen::AlignedBox3d WorldBody::box(double time) const {
+  if (animated_) return box_of(vertices_at(time));
+  const physics::Pose pose = physics::pose(motion_, time);
+  std::vector<physics::Vec3> x = rigid_->triangles.vertices;
+  for (physics::Vec3& p : x) p = pose.to_world(p);
+  return box_of(x);
 }
 
 double contact_gap(double wanted, double field_tolerance, const geometry::Mesh& garment) {

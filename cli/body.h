@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <Eigen/Geometry>
 #include <memory>
 
 #include "cli/common.h"
@@ -40,6 +41,8 @@ class WorldBody {
                                   double time) const;
   /// Of points in the world, at a time, by exact distance.
   physics::Penetration penetration(std::vector<physics::Vec3> points, double time) const;
+  /// Around it at a time [m].
+  Eigen::AlignedBox3d box(double time) const;
   /// Its mesh as it is at a time, for writing.
   io::MeshFile at(double time, const CommonArguments& common) const;
 
@@ -55,6 +58,8 @@ class WorldBody {
   std::unique_ptr<io::FrameSource> frames_;
   std::unique_ptr<physics::AnimatedBody> animated_;
 };
+
+Eigen::AlignedBox3d box_of(const std::vector<physics::Vec3>& points);
 
 /// The gap that a garment keeps: at least `wanted`, and never less than the sag of a long edge (95th
 /// percentile) over a limb of 5 cm radius plus 1.5 field tolerances, so that faces and edges stay outside

@@ -58,6 +58,8 @@ io::RenderOptions render_options(std::span<const io::RenderScene> scenes, const 
     options.height = picture.height;
     return options;
   }
+  if (!(a.field_of_view >= 1 && a.field_of_view <= 150))
+    throw UsageError("--fov takes 1 to 150 degrees, not " + Json(a.field_of_view).dump());
   set_size(options, a.size);
   options.view.azimuth_deg = kViews.at(a.view).first;
   options.view.elevation_deg = kViews.at(a.view).second;

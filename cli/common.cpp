@@ -13,6 +13,7 @@
 
 #include "cli/print_text.h"
 #include "geometry/errors.h"
+#include "geometry/vertex_attributes.h"
 #include "io/state_file.h"
 #include "io/wrinkle_record.h"
 
@@ -24,8 +25,8 @@ const std::map<std::string, double>& units() {
   return metres;
 }
 
-std::string unit_of(const CommonArguments& common) { return common.unit.value_or("m"); }
-std::string up_of(const CommonArguments& common) { return common.up.value_or("y"); }
+std::string unit_of(const CommonArguments& common) { return common.unit.value_or(common.noted_unit); }
+std::string up_of(const CommonArguments& common) { return common.up.value_or(common.noted_up); }
 io::Axis axis(const std::string& up) { return up == "z" ? io::Axis::z : io::Axis::y; }
 
 double now() {
@@ -44,6 +45,19 @@ void tell_repairs(const std::string& path, const io::MeshFile& file, const Commo
   tell(r.duplicated_vertices, "vertices duplicated where the surface was not manifold");
 }
 
+/// Formats other than PLY have no place for them.
+void warn_of_lost_attributes(const std::string& path, const io::MeshFile& file,
+                             const CommonArguments& common) {
+  if (io::mesh_format(path) == io::MeshFormat::ply) return;
+  std::string names;
+  for (const geometry::VertexAttribute& attribute : geometry::vertex_attributes(file.mesh))
+    names += (names.empty() ? "" : ", ") + attribute.name;
+  if (!names.empty())
+    warn((path == "-" ? "standard output" : path) +
+             ": only PLY keeps vertex attributes; not written: " + names,
+         common);
+}
+
 volatile std::sig_atomic_t interrupt_flag = 0;
 void on_interrupt(int) { interrupt_flag = 1; }
 
@@ -53,12 +67,22 @@ void add_common_options(CLI::App& sub, CommonArguments& common) {
   sub.add_option("--unit", common.unit,
                  "unit of length in the mesh and stroke files: m, cm, mm or inch; heights are metres always "
                  "(default m, or what "
-                 "furrow wrinkle noted in a PLY)")
+                 "a mesh of furrow notes)")
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
   sub.add_option("--up", common.up, "axis that points up in those files: y or z (default y, or as noted)")
       ->check(CLI::IsMember({"y", "z"}));
   sub.add_flag("--json", common.json, "print the report as JSON");
   sub.add_flag("-q,--quiet", common.quiet, "print neither report nor progress");
+}
+
+void take_noted_frame(CommonArguments& common, const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    const auto record = io::read_wrinkle_record(file);
+    if (!record || !units().count(record->unit)) continue;
+    common.noted_unit = record->unit;
+    common.noted_up = record->up;
+    return;
+  }
 }
 
 io::ReadOptions read_options(const CommonArguments& common) {
@@ -85,16 +109,21 @@ io::MeshFile read_mesh(const std::string& path, const CommonArguments& common) {
   return file;
 }
 
-io::MeshFile read_garment(const std::string& path, const CommonArguments& common) {
-  io::MeshFile file = read_mesh(path, common);
+std::string too_tall(const geometry::Mesh& mesh, const std::string& what) {
   double low = INFINITY, high = -INFINITY;
-  for (geometry::Vertex v : file.mesh.vertices()) {
-    low = std::min(low, file.mesh.point(v).y());
-    high = std::max(high, file.mesh.point(v).y());
+  for (geometry::Vertex v : mesh.vertices()) {
+    low = std::min(low, mesh.point(v).y());
+    high = std::max(high, mesh.point(v).y());
   }
-  if (high - low > 10)
-    throw geometry::ContentError(path + ": the garment is " + std::to_string(high - low) +
-                                 " m tall; if its file is not in metres, say so with --unit cm, mm or inch");
+  if (!(high - low > 10)) return "";
+  return "the " + what + " is " + std::to_string(high - low) +
+         " m tall; if its file is not in metres, say so with --unit cm, mm or inch";
+}
+
+io::MeshFile read_garment(const std::string& path, const CommonArguments& common, const std::string& what) {
+  io::MeshFile file = read_mesh(path, common);
+  if (const std::string fault = too_tall(file.mesh, what); !fault.empty())
+    throw geometry::ContentError(path + ": " + fault);
   return file;
 }
 
@@ -104,6 +133,7 @@ void write_mesh(const io::MeshFile& file, const CommonArguments& common) {
 
 void write_mesh(const std::string& path, const io::MeshFile& file, const CommonArguments& common) {
   const io::WriteOptions options = write_options(common);
+  warn_of_lost_attributes(path, file, common);
   if (path == "-") {
     io::write_mesh(std::cout, io::MeshFormat::obj, file, options);
     flush_output();
@@ -116,26 +146,6 @@ void write_mesh(const std::string& path, const io::MeshFile& file, const CommonA
   } else {
     io::write_mesh(path, file, options);
   }
-}
-
-void check_output(const std::string& path) {
-  if (path == "-") return;
-  try {
-    if (io::mesh_format(path) == io::MeshFormat::gltf)
-      throw UsageError(path + ": glTF is read, not written; choose obj, ply, off or stl");
-  } catch (const geometry::ContentError&) {
-    throw UsageError(path + ": the ending names no format that can be written; choose obj, ply, off or stl");
-  }
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder))
-    throw std::runtime_error(path + ": cannot be written, there is no folder " + folder.string() +
-                             "; make it first");
-}
-
-void refuse_same(const std::string& output, const std::string& other) {
-  std::error_code none;
-  if (!output.empty() && (output == other || std::filesystem::equivalent(output, other, none)))
-    throw UsageError(output + ": would replace " + other + "; choose another name");
 }
 
 void flush_output() {

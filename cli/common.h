@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/output_checks.h"
 #include "io/mesh_file.h"
 
 /// What the subcommands share: units, reports, progress, interruption, exit codes.
@@ -21,28 +22,27 @@ struct UsageError : std::runtime_error {
 
 /// Options that every subcommand has.
 struct CommonArguments {
-  std::optional<std::string>
-      unit;  ///< of the meshes read and written; none: what a file says of itself, else m
-  std::optional<std::string>
-      up;              ///< axis of the meshes read and written that points up; none: likewise, else y
+  /// Unit and upward axis of the meshes read and written; none: what a file notes of itself, else these:
+  std::optional<std::string> unit, up;
+  std::string noted_unit = "m", noted_up = "y";  ///< what an input notes, for those that note none
   std::string out;     ///< what is written; "-": OBJ to stdout, and the report goes to stderr
   bool json = false;   ///< the report as JSON
   bool quiet = false;  ///< no report, no progress
 };
 void add_common_options(CLI::App& sub, CommonArguments& common);
+/// Takes over what the first of these files that notes its unit and axis says of them.
+void take_noted_frame(CommonArguments& common, const std::vector<std::string>& files);
 io::ReadOptions read_options(const CommonArguments& common);
 io::WriteOptions write_options(const CommonArguments& common);
 
 /// Reads a mesh and tells on stderr what was repaired.
 io::MeshFile read_mesh(const std::string& path, const CommonArguments& common);
-/// As read_mesh, and refuses a garment taller than 10 m with a hint at --unit.
-io::MeshFile read_garment(const std::string& path, const CommonArguments& common);
+/// What is odd about the size of a mesh that is taller than 10 m, with a hint at --unit; else "".
+std::string too_tall(const geometry::Mesh& mesh, const std::string& what);
+/// As read_mesh, and refuses a garment, or what else it is, that is too tall.
+io::MeshFile read_garment(const std::string& path, const CommonArguments& common,
+                          const std::string& what = "garment");
 
-/// Throws UsageError for a file that could not be written in the end: a format that is read only, a missing
-/// folder.
-void check_output(const std::string& path);
-/// Throws UsageError if the output would replace a file that is read or written beside it.
-void refuse_same(const std::string& output, const std::string& other);
 /// Writes the mesh to common.out.
 void write_mesh(const io::MeshFile& file, const CommonArguments& common);
 /// Writes it to another file.

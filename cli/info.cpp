@@ -20,6 +20,7 @@ Json to_json(const geometry::Point& p) { return Json::array({p.x(), p.y(), p.z()
 
 void info(const InfoArguments& a) {
   const io::MeshFile file = read_mesh(a.mesh, a);
+  if (const std::string hint = too_tall(file.mesh, "mesh"); !hint.empty()) warn(a.mesh + ": " + hint, a);
   const geometry::MeshInfo i = geometry::measure(file.mesh);
   Json report{{"vertices", i.vertices},
               {"edges", i.edges},

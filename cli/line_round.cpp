@@ -76,7 +76,7 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
   geometry::WrinkleOptions options = continued(lines.options, target.file.mesh, earlier, target.density);
   for (const std::vector<int>& list : target.pins)
     for (int v : list) options.held.emplace_back(static_cast<geometry::Vertex::size_type>(v));
-  io::ResolvedStrokes resolved = io::resolve_strokes(strokes, target.file);
+  io::ResolvedStrokes resolved = io::resolve_strokes(strokes, target.file, options.insertion.max_distance);
   LineRound round;
   round.first_line = options.first_line;
   round.warnings = std::move(resolved.warnings);

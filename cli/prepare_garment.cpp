@@ -37,6 +37,7 @@ void complete_garment(io::MeshFile& file, const io::SceneMaterial& material) {
   if (material.density || !has_masses(mesh)) lump_masses(mesh, record.density);
   if (!(record.mean_structural_length > 0)) record.mean_structural_length = mean_rest_length(mesh);
   if (!(record.mean_bending_length > 0)) record.mean_bending_length = mean_bending_rest_length(mesh);
+  record.unit = "m", record.up = "y";  // as the mesh is here; who writes it in another unit notes that one
   io::set_wrinkle_record(file, record);
 }
 

@@ -7,6 +7,8 @@
 #include "cli/camera_options.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
+#include "geometry/errors.h"
+#include "geometry/property_names.h"
 #include "io/checker_texture.h"
 #include "io/render_scene.h"
 #include "io/resolve_strokes.h"
@@ -33,6 +35,8 @@ std::shared_ptr<const io::Image> read_texture(const std::string& name) {
 void add_garment(io::RenderScene& scene, const std::string& path,
                  const std::shared_ptr<const io::Image>& texture, const RenderArguments& a) {
   const io::MeshFile file = read_mesh(path, a);
+  if (texture && !geometry::find_map(file.mesh, geometry::kTexture))
+    throw geometry::ContentError(path + ": has no texture coordinates to lay --texture on with");
   scene.meshes.push_back(io::render_mesh_from(file.mesh, io::Style::cloth, texture));
   if (a.no_lines) return;
   std::vector<double> heights;
@@ -82,9 +86,21 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-void render(const RenderArguments& a) {
-  if (a.out == "-") throw UsageError("-o: a picture needs a file name");
-  for (const std::string& mesh : a.meshes) refuse_same(a.out, mesh);
+/// What can be known to fail is said before the work.
+void check_call(const RenderArguments& a) {
+  check_picture(a.out, "-o");
+  check_folder(a.camera.save_camera);
+  std::vector<std::string> inputs = a.meshes;
+  inputs.insert(inputs.end(), a.bodies.begin(), a.bodies.end());
+  inputs.insert(inputs.end(), a.strokes.begin(), a.strokes.end());
+  inputs.insert(inputs.end(), {a.texture, a.camera.camera});
+  refuse_same({a.out, a.camera.save_camera}, inputs);
+  if (!a.captions.empty() && !a.strip) throw UsageError("--captions stand under the pictures of a --strip");
+}
+
+void render(RenderArguments a) {
+  check_call(a);
+  take_noted_frame(a, a.meshes);
   const std::vector<io::RenderScene> list = scenes(a);
   const io::RenderOptions options = render_options(list, a.camera);
   const std::vector<std::string> captions = split(a.captions);

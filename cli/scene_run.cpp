@@ -6,6 +6,7 @@
 #include <iostream>
 #include <thread>
 
+#include "bridge/convert.h"
 #include "bridge/scatter.h"
 #include "cli/body.h"
 #include "cli/frame_recorder.h"
@@ -17,6 +18,7 @@
 #include "cli/wrinkle_reports.h"
 #include "geometry/property_names.h"
 #include "geometry/subdivide.h"
+#include "io/ply_motion.h"
 #include "io/scene_file.h"
 #include "io/stroke_file.h"
 #include "io/wrinkle_record.h"
@@ -75,6 +77,7 @@ class SceneRun {
  private:
   void begin() {
     now_.file = read_garment(scene_.garment.string(), common_);
+    if (!scene_.output.state.empty()) io::check_state_attributes(now_.file.mesh);
     if (scene_.subdivide > 0) geometry::loop_subdivide(now_.file.mesh, scene_.subdivide);
   }
 
@@ -88,7 +91,20 @@ class SceneRun {
     if (now_.body != body) now_.simulation.contact.clear();
     if (now_.body != body) now_.simulation.body_travel = 0;
     now_.body = body;
-    if (resumed_) change_plan();
+    if (resumed_)
+      change_plan();
+    else if (body_)
+      warn_if_apart();
+  }
+
+  /// Mostly a body in another unit, or with another axis up.
+  void warn_if_apart() {
+    const auto cloth = box_of(bridge::positions_of(now_.file.mesh)), body = body_->box(0);
+    if (!cloth.intersects(body))
+      warn(scene_.body->mesh.string() + ": body and garment lie apart, their bounding boxes by " +
+               std::to_string(cloth.exteriorDistance(body)) +
+               " m; if they should touch, look at --unit, --up and their places",
+           common_);
   }
 
   /// What is not the state's any more.

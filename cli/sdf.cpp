@@ -52,8 +52,9 @@ void sdf(SdfArguments a) {
   a.body.options.gradient = a.gradient == "exact" ? physics::GradientRule::exact_derivative
                                                   : physics::GradientRule::interpolated_corners;
   if (a.out == "-") throw UsageError("-o: a field needs a file name");
-  refuse_same(a.out, a.body_path);
-  refuse_same(a.slice, a.body_path);
+  check_folder(a.out);
+  check_picture(a.slice, "--slice");
+  refuse_same({a.out, a.slice}, {a.body_path});
   catch_interrupts();
   const auto start = std::chrono::steady_clock::now();
   const BodyCollider body = load_body(a.body, a);

@@ -63,6 +63,49 @@ std::vector<std::string> inputs(const io::Scene& scene, const SimulateArguments&
   return files;
 }
 
+/// A garment that notes its unit brings it for the body, the strokes and what is written.
+void take_noted_frame(io::Scene& scene, io::TomlDocument& document) {
+  CommonArguments noted;
+  cli::take_noted_frame(noted, {scene.garment.string()});
+  const auto take = [&](std::optional<std::string>& value, const char* key, const std::string& found,
+                        const char* usual) {
+    if (value || found == usual) return;
+    value = found;
+    io::set_value(document, key, found, scene.garment.string());
+  };
+  take(scene.unit, "unit", noted.noted_unit, "m");
+  take(scene.up, "up", noted.noted_up, "y");
+}
+
+/// Folders that a scene file names are made, so that a fresh copy of it runs; those of flags must be there.
+void make_folders(const io::Scene& scene, const io::TomlDocument& document) {
+  const io::SceneOutput& out = scene.output;
+  const std::pair<const char*, std::filesystem::path> outputs[] = {
+      {"mesh", out.mesh},         {"state", out.state},         {"inserted", out.inserted},
+      {"smoothed", out.smoothed}, {"animation", out.animation}, {"body", out.body}};
+  for (const auto& [key, path] : outputs)
+    if (!path.parent_path().empty() &&
+        document.place("output." + std::string(key)).rfind(document.name + ":", 0) == 0)
+      std::filesystem::create_directories(path.parent_path());
+}
+
+/// A file that a scene or a state names and that is not there: says where it is named.
+void check_inputs(const io::Scene& scene, const io::TomlDocument& document, int lines_drawn) {
+  const auto check = [&](const std::string& key, const std::filesystem::path& path) {
+    const std::string place = document.place(key);
+    if (document.name.empty() || place.rfind(document.name, 0) != 0 || path.empty() || path == "-" ||
+        std::filesystem::exists(path))
+      return;
+    throw geometry::ContentError(place + ": " + key + ": there is no file " + path.string() +
+                                 "; paths are relative to the file that names them");
+  };
+  if (lines_drawn < 0) check("garment.mesh", scene.garment);
+  if (scene.body) check("body.mesh", scene.body->mesh);
+  if (scene.body) check("body.field", scene.body->field);
+  for (std::size_t i = static_cast<std::size_t>(std::max(0, lines_drawn)); i < scene.lines.size(); ++i)
+    check("lines." + std::to_string(i) + ".strokes", scene.lines[i].strokes);
+}
+
 void check_output_formats(const io::SceneOutput& out, bool has_body) {
   for (const auto& path : {out.mesh, out.inserted, out.smoothed, out.body})
     if (!path.empty()) check_output(path.string());
@@ -70,6 +113,7 @@ void check_output_formats(const io::SceneOutput& out, bool has_body) {
     if (path == "-") throw UsageError("only the garment at the end (-o) can go to standard output");
   if (!out.animation.empty() && !io::animation_format(out.animation))
     throw UsageError(out.animation.string() + ": the ending names no animation; choose pc2, mdd or glb");
+  check_folder(out.animation.string());
   if (!out.state.empty() && out.state.extension() != ".ply")
     throw UsageError(out.state.string() + ": a state is a .ply file");
   if (!out.state.empty()) check_output(out.state.string());
@@ -97,12 +141,15 @@ void check_outputs(const io::Scene& scene, const SimulateArguments& a) {
 int simulate(SimulateArguments& a) {
   std::optional<io::SavedState> state;
   if (!a.state.empty()) state = io::read_state(a.state);
-  const io::TomlDocument document = settings(a, state);
+  io::TomlDocument document = settings(a, state);
   const std::filesystem::path folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
   io::Scene scene = scene_of(document, folder);
   if (scene.garment.empty() && !state) throw UsageError(document.name + ": garment.mesh is missing");
   if (state && scene.subdivide != state->scene.value("garment", io::Json::object()).value("subdivide", 0))
     throw UsageError("--subdivide: the garment of a state is in motion; refine it before the first step");
+  check_inputs(scene, document, state ? state->lines_drawn : -1);
+  if (!state) take_noted_frame(scene, document);
+  if (is_scene(a.in)) make_folders(scene, document);
   check_outputs(scene, a);
   CommonArguments common = a;
   common.unit = scene.unit;

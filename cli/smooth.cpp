@@ -14,8 +14,9 @@ struct SmoothArguments : CommonArguments {
   SmoothingArguments smoothing;
 };
 
-void smooth(const SmoothArguments& a) {
+void smooth(SmoothArguments a) {
   check_output(a.out);
+  take_noted_frame(a, {a.in});
   io::MeshFile file = read_mesh(a.in, a);
   geometry::taubin_smooth(file.mesh, {}, to_options(a.smoothing));
   write_mesh(file, a);

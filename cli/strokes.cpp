@@ -6,6 +6,7 @@
 #include "cli/common.h"
 #include "cli/subcommands.h"
 #include "geometry/errors.h"
+#include "io/lower_case.h"
 #include "io/resolve_strokes.h"
 #include "io/stroke_file.h"
 #include "io/wrinkle_record.h"
@@ -19,10 +20,14 @@ struct StrokesArguments : CommonArguments {
   bool in_space = false;
 };
 
+std::string ending_of(const std::string& path) {
+  return io::lower_case(std::filesystem::path(path).extension().string());
+}
+
 /// Of a stroke file, or those that a wrinkled mesh was made with.
 std::vector<io::DrawnStroke> read(const StrokesArguments& a) {
-  const std::string ending = std::filesystem::path(a.in).extension().string();
-  if (ending != ".ply") return io::read_drawn_strokes(a.in, geometry::Stroke{}.height, read_options(a));
+  if (ending_of(a.in) != ".ply")
+    return io::read_drawn_strokes(a.in, geometry::Stroke{}.height, read_options(a));
   const auto record = io::find_wrinkle_record(read_mesh(a.in, a));
   if (!record || record->strokes.empty())
     throw geometry::ContentError(a.in + ": holds no strokes; furrow wrinkle writes them into a PLY");
@@ -42,6 +47,7 @@ void edit(std::vector<io::DrawnStroke>& strokes, const StrokesArguments& a) {
     return strokes[io::find_stroke(strokes, name)];
   };
   for (const std::string& name : a.remove) strokes.erase(strokes.begin() + io::find_stroke(strokes, name));
+  if (strokes.empty()) throw UsageError("--remove leaves no stroke to write");
   for (const std::string& text : a.move) {
     const auto [name, value] = parted(text, "--move");
     io::DrawnStroke& stroke = named(name);
@@ -66,11 +72,21 @@ Json to_json(const io::DrawnStroke& drawn) {
   return item;
 }
 
-void strokes(const StrokesArguments& a) {
+/// Strokes may take the place of the file that they were read from; nothing else may be replaced.
+void check_output_name(const StrokesArguments& a) {
+  if (a.out.empty() || a.out == "-") return;
+  check_folder(a.out);
+  refuse_same(a.out, a.garment);
+  if (ending_of(a.in) != ".json") refuse_same(a.out, a.in);
+}
+
+void strokes(StrokesArguments a) {
   const bool edits = !a.remove.empty() || !a.move.empty() || !a.height.empty() || !a.rename.empty();
   if (a.out.empty() && (edits || a.in_space)) throw UsageError("changed strokes are written to -o");
   if (a.in_space && a.garment.empty())
     throw UsageError("--in-space needs --garment, which the strokes lie on");
+  check_output_name(a);
+  take_noted_frame(a, {a.in, a.garment});
   std::vector<io::DrawnStroke> list = read(a);
   edit(list, a);
   Json report{{"strokes", Json::array()}};

@@ -38,7 +38,7 @@ Json insert_strokes(io::MeshFile& file, const SubdivideArguments& a) {
   geometry::InsertionReport sum;
   int id = next_line(mesh);
   const auto drawn = io::read_drawn_strokes(a.strokes, geometry::Stroke{}.height, read_options(a));
-  const io::ResolvedStrokes resolved = io::resolve_strokes(drawn, file);
+  const io::ResolvedStrokes resolved = io::resolve_strokes(drawn, file, a.options.max_distance);
   for (const std::string& w : resolved.warnings) warn(w, a);
   for (const geometry::Stroke& stroke : resolved.strokes)
     sum += geometry::insert_along_stroke(mesh, stroke, id++, a.options).report;
@@ -57,6 +57,8 @@ void subdivide(SubdivideArguments a) {
     throw UsageError("subdivide takes one of --strokes, --all, --loop, --sqrt3 and --linear");
   a.options.rule = a.rule == "paper" ? geometry::InsertionRule::paper : geometry::InsertionRule::safe;
   check_output(a.out);
+  refuse_same(a.out, a.strokes);
+  take_noted_frame(a, {a.in});
   io::MeshFile file = read_mesh(a.in, a);
   Json report = Json::object();
   if (!a.strokes.empty()) report = insert_strokes(file, a);

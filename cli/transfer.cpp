@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
 #include <memory>
 
 #include "cli/common.h"
@@ -6,6 +7,9 @@
 #include "geometry/errors.h"
 #include "geometry/property_names.h"
 #include "geometry/transfer_shape.h"
+#include "io/atomic_file.h"
+#include "io/bytes_file.h"
+#include "io/rewrite_obj_vertices.h"
 
 namespace furrow::cli {
 namespace {
@@ -29,13 +33,36 @@ void set_rest_positions(geometry::Mesh& mesh, const TransferArguments& a) {
   }
 }
 
-void transfer(const TransferArguments& a) {
+/// An OBJ file for an OBJ file: its text with other positions, so that polygons stay polygons.
+void write_as_read(const io::MeshFile& file, const std::string& text, const TransferArguments& a) {
+  std::vector<geometry::Point> positions;
+  for (geometry::Vertex v : file.mesh.vertices()) positions.push_back(file.mesh.point(v));
+  const std::string changed = io::rewrite_obj_vertices(text, a.original, positions, write_options(a));
+  if (a.out != "-") return io::write_atomically(a.out, [&](std::ostream& out) { out << changed; });
+  std::cout << changed;
+  flush_output();
+}
+
+void write_result(const io::MeshFile& file, const TransferArguments& a) {
+  const auto is_obj = [](const std::string& path) { return io::mesh_format(path) == io::MeshFormat::obj; };
+  if (is_obj(a.original) && is_obj(a.out) && a.original != "-")
+    return write_as_read(file, io::read_text(a.original), a);
+  if (const std::size_t cut = file.repairs.triangulated_faces)
+    warn(a.out + ": " + std::to_string(cut) +
+             " faces with more than three corners are written as triangles; from OBJ to OBJ they stay whole",
+         a);
+  write_mesh(file, a);
+}
+
+void transfer(TransferArguments a) {
   check_output(a.out);
+  refuse_same({a.out}, {a.original, a.wrinkled, a.rest});
+  take_noted_frame(a, {a.original, a.wrinkled, a.rest});
   io::MeshFile original = read_mesh(a.original, a);
   io::MeshFile wrinkled = read_mesh(a.wrinkled, a);
   if (!a.rest.empty()) set_rest_positions(wrinkled.mesh, a);
   const geometry::TransferReport r = geometry::transfer_shape(original.mesh, wrinkled.mesh, a.options);
-  write_mesh(original, a);
+  write_result(original, a);
   print_report({{"vertices", original.mesh.number_of_vertices()},
                 {"copied", r.copied},
                 {"interpolated", r.interpolated},
@@ -52,7 +79,9 @@ void add_transfer(CLI::App& app) {
   CLI::App* sub = app.add_subcommand(
       "transfer",
       "Bring the shape of a wrinkled mesh back to the mesh it was made of\n\n"
-      "The original's faces, texture coordinates, groups and attributes stay as they are.\n\n"
+      "The original's texture coordinates, groups and attributes stay as they are. From OBJ to OBJ all but\n"
+      "the coordinates of its vertices is copied as it stands, polygons too; otherwise faces are written as\n"
+      "triangles.\n\n"
       "  furrow transfer shirt.obj worn.ply -o shirt-worn.obj");
   sub->add_option("original", a->original, "mesh whose vertices are to move")->required();
   sub->add_option("wrinkled", a->wrinkled, "mesh of wrinkle or simulate; PLY knows where its vertices lay")

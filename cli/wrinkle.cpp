@@ -10,6 +10,7 @@
 #include "cli/max_weights.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
+#include "cli/recorded_options.h"
 #include "cli/smoothing_options.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_reports.h"
@@ -35,6 +36,7 @@ struct WrinkleArguments : CommonArguments {
   geometry::WrinkleOptions options;
   SmoothingArguments smoothing;
   CameraArguments camera;
+  const CLI::App* typed = nullptr;  ///< what was on the command line
 };
 
 /// A garment, perhaps in motion, and the strokes to be drawn on it.
@@ -87,23 +89,29 @@ std::string find_garment(const io::WrinkleRecord& record, const std::string& wri
       "file, or write the strokes with furrow strokes and draw them on another");
 }
 
-/// The untouched garment and the strokes of a wrinkled mesh, and the options that it was made with.
-Drawing drawing_again(WrinkleArguments& a) {
-  const io::MeshFile wrinkled = read_mesh(a.in, a);
-  const auto record = io::find_wrinkle_record(wrinkled);
-  if (!record || record->strokes.empty() || record->garment.empty())
-    throw UsageError(a.in + " holds no strokes to draw again: name a file of strokes");
+/// The options that a wrinkled mesh was made with, and over them those of the command line.
+void take_options(WrinkleArguments& a, const io::WrinkleRecord& record) {
   CLI::App flags;
   add_options(flags, a);
   add_smoothing_options(flags, a.smoothing);
   try {
-    flags.parse(record->options);
+    parse_recorded(flags, record.options, *a.typed);
   } catch (const CLI::ParseError& e) {
     throw geometry::ContentError(a.in + ": the options in its record cannot be read: " + e.what());
   }
-  if (!a.unit) a.unit = record->unit;
-  if (!a.up) a.up = record->up;
+}
+
+/// The untouched garment and the strokes of a wrinkled mesh, and the options that it was made with.
+Drawing drawing_again(WrinkleArguments& a) {
+  const auto record = io::find_wrinkle_record(read_mesh(a.in, a));
+  if (!record || record->strokes.empty() || record->garment.empty())
+    throw UsageError(a.in + " holds no strokes to draw again: name a file of strokes");
+  if (a.typed->count("--height"))
+    throw UsageError("--height: the strokes of " + a.in +
+                     " have theirs; change them with furrow strokes --height, and draw that file");
+  take_options(a, *record);
   const std::string garment = find_garment(*record, a.in);
+  refuse_same({a.out, a.inserted, a.preview, a.camera.save_camera}, {garment});
   return {read_garment(garment, a), garment, io::drawn_strokes_from(record->strokes, a.in), {}};
 }
 
@@ -135,18 +143,13 @@ void check_outputs(const WrinkleArguments& a) {
   if (!a.out.empty()) check_output(a.out);
   if (!a.state.empty() && !a.out.empty() && std::filesystem::path(a.out).extension() != ".ply")
     throw UsageError(a.out + ": lines drawn into a state make a state, a .ply file");
-  if (!a.inserted.empty()) {
-    check_output(a.inserted);
-    refuse_same(a.inserted, a.out);
-  }
-  if (a.preview == "-") throw UsageError("--preview writes a file; name one");
-  for (const std::string& file : {a.in, a.strokes, a.state, a.out, a.inserted}) {
-    refuse_same(a.preview, file);
-    refuse_same(a.camera.save_camera, file);
-  }
-  refuse_same(a.camera.save_camera, a.preview);
-  for (const std::string& file : {a.in, a.strokes, a.state}) refuse_same(a.inserted, file);
-  if (!a.strokes.empty()) refuse_same(a.out, a.strokes);
+  if (!a.inserted.empty()) check_output(a.inserted);
+  check_picture(a.preview, "--preview");
+  check_folder(a.camera.save_camera);
+  refuse_same({a.out, a.inserted, a.preview, a.camera.save_camera}, {a.strokes, a.camera.camera});
+  // The result alone may take the place of what it was made of.
+  refuse_same({a.inserted, a.preview, a.camera.save_camera}, {a.in, a.state});
+  if (!a.state.empty()) refuse_same(a.out, a.in);  // with --state these are the strokes
 }
 
 void write_preview(const io::RenderScene& scene, const WrinkleArguments& a) {
@@ -175,6 +178,7 @@ void write_result(const WrinkleArguments& a, Drawing& drawing, std::size_t old_c
 
 void wrinkle(WrinkleArguments a) {
   check_outputs(a);
+  take_noted_frame(a, {a.in});
   Drawing drawing = read_drawing(a);
   io::MeshFile& file = drawing.file;
   LineTarget target{file, drawing.path, a.density, nullptr, {}};
@@ -194,7 +198,7 @@ void wrinkle(WrinkleArguments a) {
   const geometry::Mesh before = file.mesh;
   const LineRound round = draw_lines(target, drawing.strokes, lines, keep_stage);
   for (const std::string& w : round.warnings) warn(w, a);
-  if (a.max_weights) geometry::normalize_skin_weights(file.mesh, *a.max_weights);
+  if (a.max_weights) limit_noted_weights(file, *a.max_weights);
   if (inserted) write_preview(preview_of(*inserted, before, round.report, *io::find_wrinkle_record(file)), a);
   if (!a.out.empty()) write_result(a, drawing, before.number_of_vertices());
   Json json = to_json(round.report, file.mesh, round.first_line);
@@ -241,6 +245,7 @@ void add_wrinkle(CLI::App& app) {
   add_smoothing_options(*sub, a->smoothing);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);
+  a->typed = sub;
   sub->callback([a] { wrinkle(*a); });
 }
 

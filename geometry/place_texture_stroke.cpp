@@ -33,8 +33,8 @@ struct TextureWalk {
 class TexturePlacing {
  public:
   TexturePlacing(const Mesh& mesh, std::span<const TextureCoordinate> points, const TextureChoice& choice,
-                 const std::string& name)
-      : mesh_(mesh), charts_(mesh), points_(points), choice_(choice), placing_(mesh, name) {}
+                 const std::string& name, double max_distance)
+      : mesh_(mesh), charts_(mesh), points_(points), choice_(choice), placing_(mesh, name, max_distance) {}
 
   PlacedStroke run(bool closed) {
     std::vector<std::vector<Face>> faces;
@@ -183,9 +183,10 @@ class TexturePlacing {
 }  // namespace
 
 PlacedStroke place_texture_stroke(const Mesh& mesh, std::span<const TextureCoordinate> points, bool closed,
-                                  const TextureChoice& choice, const std::string& stroke_name) {
+                                  const TextureChoice& choice, const std::string& stroke_name,
+                                  double max_distance) {
   if (points.empty()) StrokePlacing(mesh, stroke_name).refuse("has no points");
-  return TexturePlacing(mesh, points, choice, stroke_name).run(closed);
+  return TexturePlacing(mesh, points, choice, stroke_name, max_distance).run(closed);
 }
 
 }  // namespace furrow::geometry

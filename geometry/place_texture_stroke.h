@@ -22,9 +22,10 @@ struct TextureChoice {
 /// Among several faces at a point the first point takes the one in `choice`, else that of the lowest index (a
 /// warning if they lie apart); later points stay on the chart of the one before where they
 /// can. `closed`: the last point is joined to the first. Throws ContentError, naming stroke and point, if a
-/// point lies in no face's texture triangle or is not finite, or the mesh has no texture coordinates. Cost:
-/// O(faces) for each point.
+/// point lies in no face's texture triangle or is not finite, or the mesh has no texture coordinates.
+/// `max_distance` is that of the trace that follows [m] (placed_stroke.h). Cost: O(faces) for each point.
 PlacedStroke place_texture_stroke(const Mesh& mesh, std::span<const TextureCoordinate> points, bool closed,
-                                  const TextureChoice& choice, const std::string& stroke_name);
+                                  const TextureChoice& choice, const std::string& stroke_name,
+                                  double max_distance = TraceOptions{}.max_distance);
 
 }  // namespace furrow::geometry

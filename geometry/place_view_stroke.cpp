@@ -13,8 +13,12 @@ constexpr double kInside = 1e-4;  ///< least barycentric of a hit, as trace_stro
 class ViewPlacing {
  public:
   ViewPlacing(const Mesh& mesh, const SurfaceProjector& projector, std::span<const SightLine> sight,
-              bool parallel, const std::string& name)
-      : mesh_(mesh), projector_(projector), sight_(sight), parallel_(parallel), placing_(mesh, name) {}
+              bool parallel, const std::string& name, double max_distance)
+      : mesh_(mesh),
+        projector_(projector),
+        sight_(sight),
+        parallel_(parallel),
+        placing_(mesh, name, max_distance) {}
 
   PlacedStroke run(bool closed) {
     look();
@@ -147,8 +151,8 @@ class ViewPlacing {
 
 PlacedStroke place_view_stroke(const Mesh& mesh, const SurfaceProjector& projector,
                                std::span<const SightLine> sight, bool parallel, bool closed,
-                               const std::string& stroke_name) {
-  return ViewPlacing(mesh, projector, sight, parallel, stroke_name).run(closed);
+                               const std::string& stroke_name, double max_distance) {
+  return ViewPlacing(mesh, projector, sight, parallel, stroke_name, max_distance).run(closed);
 }
 
 }  // namespace furrow::geometry

@@ -22,9 +22,11 @@ struct SightLine {
 /// warning). Lines of sight that miss the mesh cut the stroke at the outline (a warning); at the border of
 /// the mesh it runs over it. `parallel`: the lines of sight are; otherwise all have one origin. `closed`: the
 /// last point is joined to the first. Throws ContentError that names stroke and point if all miss or a number
-/// is not finite. Cost: O(log faces) a point and a crossed face.
+/// is not finite. `max_distance` is that of the trace
+/// that follows [m] (placed_stroke.h). Cost: O(log faces) a point and a crossed face.
 PlacedStroke place_view_stroke(const Mesh& mesh, const SurfaceProjector& projector,
                                std::span<const SightLine> sight, bool parallel, bool closed,
-                               const std::string& stroke_name);
+                               const std::string& stroke_name,
+                               double max_distance = TraceOptions{}.max_distance);
 
 }  // namespace furrow::geometry

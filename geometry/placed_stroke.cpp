@@ -6,12 +6,12 @@
 
 #include "geometry/edge_metric.h"
 #include "geometry/errors.h"
-#include "geometry/trace_stroke.h"
 
 namespace furrow::geometry {
 
-StrokePlacing::StrokePlacing(const Mesh& mesh, const std::string& stroke_name)
-    : name_(stroke_name.empty() ? "the stroke" : "stroke \"" + stroke_name + "\"") {
+StrokePlacing::StrokePlacing(const Mesh& mesh, const std::string& stroke_name, double max_distance)
+    : name_(stroke_name.empty() ? "the stroke" : "stroke \"" + stroke_name + "\""),
+      max_distance_(max_distance) {
   if (mesh.number_of_faces() == 0) throw ContentError("the mesh has no faces to draw on");
   double sum = 0;
   for (Edge e : mesh.edges()) sum += spatial_length(mesh, e);
@@ -41,8 +41,7 @@ void StrokePlacing::add_between(std::span<const EdgeCrossing> crossings) {
 /// point lie from the surface the line ends in the last face.
 Point StrokePlacing::beyond_border(const Point& from, const Point& border) const {
   const double step = 0.6 * mean_edge_;
-  return step < TraceOptions{}.max_distance ? border + step * normalized(border - from)
-                                            : CGAL::midpoint(from, border);
+  return step < max_distance_ ? border + step * normalized(border - from) : CGAL::midpoint(from, border);
 }
 
 void StrokePlacing::add_over_border(const Point& from, std::span<const EdgeCrossing> crossings) {

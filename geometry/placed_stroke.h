@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/stroke.h"
+#include "geometry/trace_stroke.h"
 #include "geometry/walk_surface.h"
 
 namespace furrow::geometry {
@@ -22,8 +23,10 @@ struct PlacedStroke {
 /// Builds a PlacedStroke part by part. Used by place_view_stroke, place_texture_stroke, place_path_stroke.
 class StrokePlacing {
  public:
-  /// Throws ContentError for a mesh without edges.
-  StrokePlacing(const Mesh& mesh, const std::string& stroke_name);
+  /// `max_distance` is how far trace_stroke will let a point lie from the surface [m], so that none that is
+  /// made beyond the border lies farther. Throws ContentError for a mesh without edges.
+  StrokePlacing(const Mesh& mesh, const std::string& stroke_name,
+                double max_distance = TraceOptions{}.max_distance);
 
   /// The next point, of a new part after begin_part().
   void add(const Point& p);
@@ -46,7 +49,7 @@ class StrokePlacing {
  private:
   Point beyond_border(const Point& from, const Point& border) const;
   std::string name_;
-  double mean_edge_ = 0;
+  double mean_edge_ = 0, max_distance_;
   bool broken_ = false;
   PlacedStroke placed_;
 };

@@ -74,7 +74,8 @@ class Transfer {
     if (!(hit.distance <= options_.max_distance))
       throw ContentError("transfer: vertex " + std::to_string(v.idx()) + " of the original lies " +
                          std::to_string(hit.distance) + " m from the wrinkled mesh at rest, more than " +
-                         std::to_string(options_.max_distance) + " m; are they the same garment?");
+                         std::to_string(options_.max_distance) +
+                         " m; are they the same garment, in one unit (--unit)?");
     report.max_distance = std::max(report.max_distance, hit.distance);
     const auto corners = corners_of(rest_, hit.point.face);
     if (!moved(corners[0]) && !moved(corners[1]) && !moved(corners[2])) return p;

@@ -81,9 +81,11 @@ BakedFiles write_baked_maps(const std::string& prefix, const geometry::BakedMaps
   const double step = largest > 0 ? largest / kSteps : 1e-3 / kSteps;
   const Image16 displacement = image_of(maps.displacement, [&](double x) { return kZero + x / step; });
   const Image16 normal = image_of(maps.normal, [](double x) { return (x + 1) / 2 * 65535; });
+  // A prefix that is no UTF-8 cannot stand in JSON; what can be read of it does.
+  const std::string record =
+      record_of(maps, files, step).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   write_png16(files.displacement, displacement);
   write_png16(files.normal, normal);
-  const std::string record = record_of(maps, files, step).dump(2) + "\n";
   write_atomically(files.record, [&](std::ostream& out) { out << record; });
   return files;
 }

@@ -45,7 +45,8 @@ physics::DistanceField read_field(const std::filesystem::path& path, const physi
   std::memcpy(&mark, bytes.data(), sizeof mark);
   try {
     physics::DistanceField field = physics::DistanceField::from_bytes(std::span(bytes).subspan(sizeof mark));
-    if (mark != fingerprint(body)) throw fail("the distance field of another body");
+    if (mark != fingerprint(body))
+      throw fail("the distance field of another body, or of this one in another unit (--unit, --up)");
     return field;
   } catch (const std::invalid_argument& e) {
     throw fail(e.what());

@@ -10,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "io/bytes_file.h"
 #include "io/file_frame.h"
+#include "io/lower_case.h"
 #include "io/mesh_readers.h"
 #include "io/mesh_writers.h"
 #include "io/soup_to_mesh.h"
@@ -44,9 +45,7 @@ MeshFile parse(std::string_view text, MeshFormat format, const std::string& name
 
 MeshFormat mesh_format(const std::filesystem::path& path) {
   if (path == "-") return MeshFormat::obj;
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  const std::string ending = lower_case(path.extension().string());
   for (const auto& [known, format] : kEndings)
     if (ending == known) return format;
   throw geometry::ContentError(path.string() + ": unknown format '" + ending +

@@ -18,7 +18,8 @@ namespace furrow::io {
 /// vertices of their own at the end).
 void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& options);
 /// PLY, binary little-endian, double: every map of geometry/property_names.h that the mesh has, and its
-/// vertex attributes (decision 0005).
+/// vertex attributes (decision 0005). Throws geometry::ContentError for an attribute that is named like
+/// another column of the vertices.
 void write_ply(std::ostream& out, const MeshFile& file, const WriteOptions& options);
 /// OFF, or COFF where the mesh has colours, in double. Everything else is left out.
 void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& options);

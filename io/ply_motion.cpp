@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/ply_motion.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "geometry/errors.h"
 #include "geometry/property_names.h"
+#include "geometry/vertex_attributes.h"
 
 namespace furrow::io {
 namespace {
@@ -42,6 +45,18 @@ void PlyMotion::set_columns(const PlyElement& element) {
     columns_.push_back(find_column(element, {name.c_str()}, PlyKind::number));
 }
 
+std::vector<std::string> PlyMotion::used() const {
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const std::size_t first = i - i % 3,
+                      last = std::min(first + 3, columns_.size());  // the last stands alone
+    bool whole = true;
+    for (std::size_t k = first; k < last; ++k) whole = whole && columns_[k];
+    if (whole) list.push_back(names()[i]);
+  }
+  return list;
+}
+
 void PlyMotion::add(const PlyRow& row, const PlyRows& rows) {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const double value = columns_[i] ? row.numbers[*columns_[i]] : kUnset;
@@ -64,6 +79,13 @@ void PlyMotion::fill_maps(SoupMesh& mesh) const {
   if (columns_.empty() || !columns_.back()) return;
   auto level = ensure_map(mesh.mesh, kContactLevel);
   for (const Vertex v : mesh.mesh.vertices()) level[v] = values_[(mesh.origin[v] + 1) * columns_.size() - 1];
+}
+
+void check_state_attributes(const Mesh& mesh) {
+  for (const VertexAttribute& attribute : vertex_attributes(mesh))
+    if (std::ranges::count(PlyMotion::names(), attribute.name))
+      throw ContentError("the vertex attribute '" + attribute.name +
+                         "' has the name of a column of saved states; rename it in the garment's file");
 }
 
 std::string ply_motion_header(const Mesh& mesh) {

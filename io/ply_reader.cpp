@@ -10,6 +10,7 @@
 #include "io/ply_edges.h"
 #include "io/ply_motion.h"
 #include "io/ply_rows.h"
+#include "io/ply_vertex_columns.h"
 #include "io/soup_to_mesh.h"
 
 namespace furrow::io {
@@ -75,57 +76,43 @@ class PlyReader {
   }
 
   void read_vertices(const PlyElement& element) {
-    const std::array<Column, 3> xyz = {number(element, {"x"}), number(element, {"y"}),
-                                       number(element, {"z"})};
-    const std::array<Column, 4> rgba = {number(element, {"red", "r"}), number(element, {"green", "g"}),
-                                        number(element, {"blue", "b"}), number(element, {"alpha", "a"})};
-    const std::array<Column, 2> st = {number(element, {"s", "u", "texture_u"}),
-                                      number(element, {"t", "v", "texture_v"})};
-    const Column line = number(element, {"line"}), mass = number(element, {"mass"});
     if (is_state()) motion_.set_columns(element);
-    const std::array<Column, 3> rest = {number(element, {"rest_x"}), number(element, {"rest_y"}),
-                                        number(element, {"rest_z"})};
-    const std::vector<std::size_t> others = attribute_columns(element);
-    if (!xyz[0] || !xyz[1] || !xyz[2]) rows_.fail("the vertices have no x, y and z");
+    const PlyVertexColumns columns = find_vertex_columns(element, faces_have_texture(), motion_.used());
+    if (columns.xyz.empty()) rows_.fail("the vertices have no x, y and z");
+    take_names(element, columns);
     for (std::size_t i = 0; i < element.count; ++i) {
       rows_.read(element, i, row_);
-      const auto& n = row_.numbers;
-      const auto point = from_file(n[*xyz[0]], n[*xyz[1]], n[*xyz[2]], options_);
-      if (!point) rows_.fail(kBadCoordinate);
-      soup_.points.push_back(*point);
-      if (rgba[0] && rgba[1] && rgba[2]) soup_.colors.push_back(color(element, rgba));
-      if (st[0] && st[1]) vertex_textures_.push_back({n[*st[0]], n[*st[1]]});
-      if (line) soup_.lines.push_back(whole(n[*line], "line"));
-      if (mass) soup_.masses.push_back(checked_mass(n[*mass]));
-      motion_.add(row_, rows_);
-      if (rest[0] && rest[1] && rest[2])
-        soup_.rest_positions.push_back(rest_position(n[*rest[0]], n[*rest[1]], n[*rest[2]]));
-      for (std::size_t k = 0; k < others.size(); ++k) soup_.attributes[k].values.push_back(n[others[k]]);
+      read_vertex(element, columns);
     }
   }
 
-  /// Numbers at vertices that we have no use for are kept under their names (vertex_attributes.h); normals
-  /// and lists are not.
-  std::vector<std::size_t> attribute_columns(const PlyElement& element) {
-    constexpr std::array kKnown = {"x",     "y",      "z",      "nx",    "ny",        "nz",        "red",
-                                   "green", "blue",   "alpha",  "r",     "g",         "b",         "a",
-                                   "s",     "t",      "u",      "v",     "texture_u", "texture_v", "line",
-                                   "mass",  "rest_x", "rest_y", "rest_z"};
-    std::vector<std::size_t> columns;
+  void read_vertex(const PlyElement& element, const PlyVertexColumns& c) {
+    const auto& n = row_.numbers;
+    const auto point = from_file(n[c.xyz[0]], n[c.xyz[1]], n[c.xyz[2]], options_);
+    if (!point) rows_.fail(kBadCoordinate);
+    soup_.points.push_back(*point);
+    if (!c.rgba.empty()) soup_.colors.push_back(color(element, c.rgba));
+    if (!c.texture.empty()) vertex_textures_.push_back({n[c.texture[0]], n[c.texture[1]]});
+    if (c.line) soup_.lines.push_back(whole(n[*c.line], "line"));
+    if (c.mass) soup_.masses.push_back(checked_mass(n[*c.mass]));
+    motion_.add(row_, rows_);
+    if (!c.rest.empty())
+      soup_.rest_positions.push_back(rest_position(n[c.rest[0]], n[c.rest[1]], n[c.rest[2]]));
+    for (std::size_t k = 0; k < c.others.size(); ++k) soup_.attributes[k].values.push_back(n[c.others[k]]);
+  }
+
+  bool faces_have_texture() const {
+    return std::ranges::any_of(header_.elements, [](const PlyElement& e) {
+      return e.name == "face" && find_column(e, {"texcoord"}, PlyKind::list);
+    });
+  }
+
+  /// Numbers at vertices that we have no use for are kept under their names (vertex_attributes.h).
+  void take_names(const PlyElement& element, const PlyVertexColumns& columns) {
+    for (const std::size_t i : columns.others) soup_.attributes.push_back({element.properties[i].name, {}});
     std::string lists;
-    for (std::size_t i = 0; i < element.properties.size(); ++i) {
-      const PlyProperty& p = element.properties[i];
-      if (std::ranges::find(kKnown, p.name) != kKnown.end()) continue;
-      if (is_state() && std::ranges::count(PlyMotion::names(), p.name)) continue;
-      if (p.count_type) {
-        lists += (lists.empty() ? "" : ", ") + p.name;
-      } else if (std::ranges::none_of(soup_.attributes, [&](const auto& a) { return a.name == p.name; })) {
-        columns.push_back(i);
-        soup_.attributes.push_back({p.name, {}});
-      }
-    }
+    for (const std::string& name : columns.not_read) lists += (lists.empty() ? "" : ", ") + name;
     if (!lists.empty()) file_.warnings.push_back(name_ + ": lists of 'vertex' not read: " + lists);
-    return columns;
   }
 
   RestPosition rest_position(double x, double y, double z) const {
@@ -135,16 +122,15 @@ class PlyReader {
     return {point->x(), point->y(), point->z()};
   }
 
-  Color color(const PlyElement& element, const std::array<Column, 4>& rgba) const {
+  Color color(const PlyElement& element, const std::vector<std::size_t>& rgba) const {
     Color c = kColor.default_value;
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (!rgba[k]) continue;
-      const PlyType type = element.properties[*rgba[k]].type;
+    for (std::size_t k = 0; k < rgba.size(); ++k) {
+      const PlyType type = element.properties[rgba[k]].type;
       const double most = !is_integer(type)    ? 1
                           : size_of(type) == 1 ? 255
                           : size_of(type) == 2 ? 65535
                                                : 4294967295.0;
-      c[k] = row_.numbers[*rgba[k]] / most;
+      c[k] = row_.numbers[rgba[k]] / most;
       if (!std::isfinite(c[k])) rows_.fail("a colour is not finite; correct it");
     }
     return c;

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <tuple>
 
+#include "geometry/errors.h"
 #include "geometry/property_names.h"
 #include "geometry/vertex_attributes.h"
 #include "io/mesh_writers.h"
@@ -76,11 +77,20 @@ class PlyWriter {
     out_ += std::string("element ") + element + " " + std::to_string(count) + "\n";
   }
 
+  /// `vertex` is where the element begins.
+  void declare_attribute(const std::string& name, std::size_t vertex) {
+    if (out_.find(" " + name + "\n", vertex) != std::string::npos)
+      throw ContentError("the vertex attribute '" + name +
+                         "' has the name of another column of the PLY; rename it in the garment's file");
+    out_ += "property double " + name + "\n";
+  }
+
   void write_header() {
     out_ = "ply\nformat binary_little_endian 1.0\n";
     for (const std::string& comment : file_.comments) out_ += "comment " + one_line(comment) + "\n";
     write_names("group", file_.group_names);
     write_names("material", file_.material_names);
+    const std::size_t vertex = out_.size();
     declare("vertex", mesh_.number_of_vertices());
     out_ += "property double x\nproperty double y\nproperty double z\n";
     if (colors_)
@@ -90,8 +100,7 @@ class PlyWriter {
     if (masses_) out_ += "property double mass\n";
     out_ += ply_motion_header(mesh_);
     if (rest_positions_) out_ += "property double rest_x\nproperty double rest_y\nproperty double rest_z\n";
-    for (const VertexAttribute& attribute : attributes_)
-      out_ += "property double " + one_line(attribute.name) + "\n";
+    for (const VertexAttribute& attribute : attributes_) declare_attribute(one_line(attribute.name), vertex);
     declare("face", mesh_.number_of_faces());
     out_ += "property list uchar int vertex_indices\n";
     if (textures_) out_ += "property list uchar double texcoord\n";

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/trace_stroke.h"
 #include "io/drawn_stroke.h"
 #include "io/mesh_file.h"
 
@@ -18,6 +19,9 @@ struct ResolvedStrokes {
 /// strokes in space whose points lie on it; those drawn in space stay as they are. Vertices are those of
 /// `garment.mesh`. Throws geometry::ContentError, naming the stroke, for one that cannot be laid on: see
 /// geometry/place_view_stroke.h, place_texture_stroke.h, place_path_stroke.h, also for the cost.
-ResolvedStrokes resolve_strokes(std::span<const DrawnStroke> strokes, const MeshFile& garment);
+/// `max_distance` is that of the insertion or the trace that follows [m]: a line that runs over the border
+/// gets a point beyond it, but none farther than this.
+ResolvedStrokes resolve_strokes(std::span<const DrawnStroke> strokes, const MeshFile& garment,
+                                double max_distance = geometry::TraceOptions{}.max_distance);
 
 }  // namespace furrow::io

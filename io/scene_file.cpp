@@ -208,7 +208,7 @@ class SceneReader {
   void read_pins(SettingsTable& table) {
     ScenePins pins;
     table.read("box", pins.box, 6);
-    table.read("loop", pins.loop);
+    table.read_name_or_index("loop", pins.loop);
     table.read("group", pins.group);
     table.read("vertices", pins.vertices, 0, 1 << 30);
     if (pins.box.empty() && pins.loop.empty() && pins.group.empty() && pins.vertices.empty())

@@ -7,6 +7,7 @@
 
 #include "geometry/errors.h"
 #include "io/nearest_word.h"
+#include "io/scene_keys.h"
 
 namespace furrow::io {
 namespace {
@@ -33,9 +34,14 @@ std::string range_text(const Limits& l) {
 
 SettingsTable::SettingsTable(const TomlDocument& document, std::string path)
     : document_(document), path_(std::move(path)), node_(&node_at(document, path_)) {
-  if (!node_->is_object())
-    throw geometry::ContentError(document_.place(path_) + ": " + path_ + " = " + value_text(*node_) +
-                                 " must be a table of settings");
+  if (!node_->is_object()) refuse_list(path_, *node_);
+}
+
+void SettingsTable::refuse_list(const std::string& path, const Json& item) const {
+  const bool tables = item.is_array() && !item.empty() && item[0].is_object();
+  throw geometry::ContentError(document_.place(path) + ": " + path +
+                               (tables ? " may be there once; write [" + path + "], not [[" + path + "]]"
+                                       : " = " + value_text(item) + " must be a table of settings"));
 }
 
 void SettingsTable::fail(const std::string& key, const std::string& what) const {
@@ -46,11 +52,14 @@ void SettingsTable::fail(const std::string& key, const std::string& what) const 
 
 void SettingsTable::finish() const {
   const std::vector<std::string> words(known_.begin(), known_.end());
-  for (const auto& [key, item] : node_->items())
-    if (!known_.count(key))
-      throw geometry::ContentError(
-          place_of(key) + ": there is no setting '" + path_of(key) + "'" +
-          (words.empty() ? "" : "; did you mean '" + nearest_word(key, words) + "'?"));
+  for (const auto& [key, item] : node_->items()) {
+    if (known_.count(key)) continue;
+    const std::string tables = tables_of_key(key);
+    throw geometry::ContentError(place_of(key) + ": there is no setting '" + path_of(key) + "'" +
+                                 (!tables.empty() ? "; '" + key + "' belongs into " + tables
+                                  : words.empty() ? ""
+                                                  : "; did you mean '" + nearest_word(key, words) + "'?"));
+  }
 }
 
 const Json* SettingsTable::find(const char* key) {
@@ -103,6 +112,13 @@ void SettingsTable::read(const char* key, std::optional<std::string>& value) {
   if (const Json* item = find(key)) value = text(key, *item);
 }
 
+void SettingsTable::read_name_or_index(const char* key, std::string& value) {
+  const Json* item = find(key);
+  if (!item) return;
+  if (!item->is_number_integer()) return read(key, value);
+  value = std::to_string(whole(key, *item, 0, 1 << 30));
+}
+
 void SettingsTable::read(const char* key, std::vector<double>& values, std::size_t count) {
   const Json* item = find(key);
   if (!item) return;
@@ -151,7 +167,7 @@ std::size_t SettingsTable::choice(const char* key, const std::vector<std::string
 std::optional<SettingsTable> SettingsTable::table(const char* key) {
   const Json* item = find(key);
   if (!item) return std::nullopt;
-  if (!item->is_object()) fail(key, "must be a table of settings");
+  if (!item->is_object()) refuse_list(path_of(key), *item);
   return SettingsTable(document_, path_of(key));
 }
 

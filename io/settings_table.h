@@ -40,6 +40,7 @@ class SettingsTable {
   void read(const char* key, bool& value);
   void read(const char* key, std::string& value);
   void read(const char* key, std::optional<std::string>& value);
+  void read_name_or_index(const char* key, std::string& value);  ///< a text, or a whole number >= 0
   void read(const char* key, Eigen::Vector3d& value);
   void read(const char* key, std::vector<double>& values, std::size_t count);  ///< exactly `count` of them
   void read(const char* key, std::vector<int>& values, int least, int most);
@@ -59,6 +60,7 @@ class SettingsTable {
 
  private:
   const nlohmann::ordered_json* find(const char* key);
+  [[noreturn]] void refuse_list(const std::string& path, const nlohmann::ordered_json& item) const;
   double number(const char* key, const nlohmann::ordered_json& item, const Limits& limits) const;
   int whole(const char* key, const nlohmann::ordered_json& item, int least, int most) const;
   std::string text(const char* key, const nlohmann::ordered_json& item) const;

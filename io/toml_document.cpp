@@ -4,7 +4,10 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
+#include <sstream>
 #include <stdexcept>
 
 #include "geometry/errors.h"
@@ -88,6 +91,27 @@ Json& child(Json& parent, const std::string& key, const std::string& path) {
   return parent[index];
 }
 
+/// What the writer of a line that is no TOML may have wanted; the line counts from 1.
+std::string advice(const std::string& text, std::size_t line) {
+  std::istringstream lines(text);
+  std::string found;
+  for (std::size_t i = 0; i < line && std::getline(lines, found); ++i) {
+  }
+  const auto from = [&](std::size_t at) { return found.find_first_not_of(" \t", at); };
+  const std::size_t start = from(0), equals = found.find('=');
+  if (start != std::string::npos && found[start] == '[') {
+    for (const char* list : {"lines", "pins"})
+      if (found.compare(start, std::strlen(list) + 2, "[" + std::string(list) + "]") == 0)
+        return "several of them are written [[" + std::string(list) + "]] each";
+    return "correct it";
+  }
+  const std::size_t value = equals == std::string::npos ? equals : from(equals + 1);
+  const char first = value == std::string::npos ? '0' : found[value];
+  if (std::isalpha(static_cast<unsigned char>(first)) || first == '/' || first == '~' || first == '.')
+    return "a text needs quotes: " + found.substr(start, equals - start) + "= \"…\"";
+  return "correct it";
+}
+
 }  // namespace
 
 std::string TomlDocument::place(const std::string& path) const {
@@ -103,8 +127,8 @@ TomlDocument parse_toml(const std::string& text, const std::string& name) {
     const toml::table table = toml::parse(text, name);
     document.root = Copier(document).copy(table, "");
   } catch (const toml::parse_error& e) {
-    throw geometry::ContentError(position(name, e.source()) + ": " + std::string(e.description()) +
-                                 "; correct it");
+    throw geometry::ContentError(position(name, e.source()) + ": " + std::string(e.description()) + "; " +
+                                 advice(text, e.source().begin.line));
   }
   return document;
 }

@@ -2,10 +2,12 @@
 #include "io/wrinkle_record.h"
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
 #include "geometry/property_names.h"
+#include "io/lower_case.h"
 
 namespace furrow::io {
 namespace {
@@ -66,6 +68,25 @@ std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file) {
     throw geometry::ContentError(std::string("the comment 'furrow wrinkle' is damaged (") + e.what() +
                                  "); write the mesh again with furrow wrinkle");
   }
+}
+
+std::optional<WrinkleRecord> read_wrinkle_record(const std::filesystem::path& path) {
+  const std::string ending = lower_case(path.extension().string());
+  std::error_code none;
+  if ((ending != ".ply" && ending != ".obj") || !std::filesystem::is_regular_file(path, none))
+    return std::nullopt;
+  const std::string mark = std::string(ending == ".ply" ? "comment " : "# ") + kPrefix;
+  std::ifstream in(path, std::ios::binary);
+  for (std::string line; std::getline(in, line);) {
+    const bool is_header = ending == ".ply" ? line.rfind("end_header", 0) != 0 : line[0] == '#';
+    if (!is_header) break;
+    if (line.rfind(mark, 0) != 0) continue;
+    if (line.back() == '\r') line.pop_back();
+    MeshFile header;
+    header.comments.push_back(line.substr(mark.size() - std::string(kPrefix).size()));
+    return find_wrinkle_record(header);
+  }
+  return std::nullopt;
 }
 
 }  // namespace furrow::io

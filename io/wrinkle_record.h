@@ -33,5 +33,7 @@ void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record);
 /// The record, or nothing if the file has none. Fields of later versions that are not there keep their
 /// defaults. Throws geometry::ContentError if it is damaged.
 std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file);
+/// The same from the first lines of a PLY or OBJ file; nothing for any other, also one that is not there.
+std::optional<WrinkleRecord> read_wrinkle_record(const std::filesystem::path& path);
 
 }  // namespace furrow::io

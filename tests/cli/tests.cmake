@@ -9,6 +9,7 @@ furrow_add_tests(cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   validation_scenes_test.cpp
   transfer_test.cpp
   strokes_test.cpp
+  outputs_test.cpp
   hostile_files_test.cpp
 )
 add_dependencies(test_cli furrow)

@@ -62,6 +62,12 @@ TEST_CASE("no displacement at all is written and read") {
     CHECK(texel == std::array<float, 3>{0, 0, 0});
 }
 
+TEST_CASE("a prefix that is no UTF-8 does not stop the record") {
+  const TemporaryFolder folder;
+  const io::BakedFiles files = io::write_baked_maps((folder / "a\xFF").string(), maps());
+  CHECK(json::parse(slurp(files.record))["displacement"]["bits"] == 16);
+}
+
 TEST_CASE("records and maps that cannot be used are refused") {
   const TemporaryFolder folder;
   const io::BakedFiles files = io::write_baked_maps((folder / "a").string(), maps());

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "geometry/vertex_attributes.h"
 #include "io_test_helpers.h"
 
 using namespace furrow;
@@ -222,4 +223,37 @@ TEST_CASE("PLY: a header cannot announce more than the file holds") {
                             "property list int double huge\nend_header\n" + std::string(36, '\0') + "\3" +
                             std::string(12, '\0') + "\xff\xff\xff\x7f";
   CHECK(error_of(bytes).starts_with("test: face 0: a list is longer than the file"));
+}
+
+TEST_CASE("PLY: a name of a group is an attribute where the group is not whole") {
+  const std::string head =
+      std::string(kHead) + "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string tail =
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n3 0 1 2\n";
+  const auto names_of = [&](const char* a, const char* b) {
+    const std::string text = head + "property float " + a + "\nproperty float " + b + "\n" + tail;
+    const io::MeshFile file = read_from(text, MeshFormat::ply);
+    const io::MeshFile back = read_from(written(file, MeshFormat::ply), MeshFormat::ply);
+    std::vector<std::string> names;
+    for (const VertexAttribute& attribute : vertex_attributes(file.mesh)) names.push_back(attribute.name);
+    CHECK(vertex_attributes(back.mesh).size() == names.size());
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  for (const auto& [a, b] : {std::pair("t", "r"), {"u", "t"}, {"v", "a"}, {"rest_x", "nx"}, {"vx", "red"}})
+    CHECK(names_of(a, b) == Names{a, b});
+  CHECK(names_of("s", "t").empty());
+  CHECK(names_of("v", "u").empty());
+  CHECK(names_of("mass", "q") == Names{"q"});
+}
+
+TEST_CASE("PLY: an attribute with the name of another column is not written") {
+  const std::string head = std::string(kHead) +
+                           "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                           "property float rest_x\nelement face 1\nproperty list uchar int vertex_indices\n"
+                           "end_header\n0 0 0 1\n1 0 0 2\n0 1 0 3\n3 0 1 2\n";
+  io::MeshFile named = read_from(head, MeshFormat::ply);
+  ensure_map(named.mesh, kRestPosition);
+  CHECK(content_error([&] { written(named, MeshFormat::ply); }).find("'rest_x'") != std::string::npos);
 }

@@ -64,7 +64,8 @@ TEST_CASE("resolve_strokes: a stroke drawn in the pixels of a picture lies where
     }
     drawn.on = on;
     const io::ResolvedStrokes resolved = io::resolve_strokes({&drawn, 1}, garment);
-    RC_ASSERT(resolved.warnings.empty());
+    for (const std::string& warning : resolved.warnings)  // a camera may look past a point
+      RC_ASSERT(warning.find("outside of the camera's picture") != std::string::npos);
     const Stroke& stroke = resolved.strokes.at(0);
     std::size_t at = 0;
     for (const Point& p : points) {

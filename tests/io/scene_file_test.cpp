@@ -139,7 +139,18 @@ TEST_CASE("a scene's faults are told with file, line, column and the nearest set
   CHECK(has(fault("[simulation]\nseconds = 1979-05-27\n"),
             "a/s.toml:2:11: simulation.seconds is a date or a time"));
   CHECK(has(fault("[simulation\n"), "a/s.toml:1:"));
+  CHECK(has(fault("[lines]\nstrokes = \"a\"\n[lines]\n"), "written [[lines]] each"));
+  CHECK(fault("[[body]]\nmesh = \"b\"\n") ==
+        "a/s.toml:1:3: body may be there once; write [body], not [[body]]");
+  CHECK(has(fault("[garment]\nmesh = skirt.obj\n"), "a text needs quotes: mesh = "));
+  CHECK(has(fault("[output]\nseconds = 4\n"), "'seconds' belongs into [simulation]"));
+  CHECK(has(fault("[[pins]]\nloop = -1\n"), "whole number from 0"));
   CHECK(has(fault("[simulation]\nseconds = 1\nseconds = 2\n"), "a/s.toml:3:"));
+}
+
+TEST_CASE("a pinned loop is named, or numbered without quotes") {
+  CHECK(scene("[[pins]]\nloop = 5\n").pins.at(0).loop == "5");
+  CHECK(scene("[[pins]]\nloop = \"top\"\n").pins.at(0).loop == "top");
 }
 
 TEST_CASE("settings of the command line go over those of the file and say so in faults") {

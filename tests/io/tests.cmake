@@ -24,6 +24,7 @@ furrow_add_tests(io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   stroke_file_test.cpp
   drawn_stroke_test.cpp
   resolve_strokes_test.cpp
+  rewrite_obj_vertices_test.cpp
   text_scanner_test.cpp
   triangulate_polygon_test.cpp
 )
