@@ -14,6 +14,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   moved_pins_test.cpp
   packed_cloth_test.cpp
   patch_test.cpp
+  packed_elements_test.cpp
   pins_test.cpp
   push_out_test.cpp
   residual_force_test.cpp
