@@ -12,6 +12,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   membrane_laws_test.cpp
   membrane_test.cpp
   moved_pins_test.cpp
+  oscillations_test.cpp
   packed_cloth_test.cpp
   patch_test.cpp
   packed_elements_test.cpp
