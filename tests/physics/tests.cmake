@@ -8,6 +8,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   euler_step_test.cpp
   hanging_chain_test.cpp
   hinge_forces_test.cpp
+  invariants_test.cpp
   leapfrog_step_test.cpp
   membrane_laws_test.cpp
   membrane_test.cpp
