@@ -39,8 +39,8 @@ void check_elements(const Cloth& cloth);
 PackedElements pack_elements(const Cloth& cloth, const std::vector<int>& place);
 
 /// Adds the elements' forces at x to force, as add_membrane_forces and add_hinge_forces but for rounding. A
-/// hinge whose edge or flap has collapsed (see dihedral.h) exerts none. Cost: three and six divisions and
-/// square roots a triangle and hinge, no allocation; nothing without elements.
+/// hinge whose edge or flap has collapsed (see dihedral.h) exerts none. Cost: no division a triangle, five
+/// and a square root a hinge (and a sine by the cosine law); no allocation; nothing without elements.
 void add_element_forces(PackedElements& elements, const std::vector<Vec4>& x, std::vector<Vec4>& force,
                         ThreadPool& pool);
 

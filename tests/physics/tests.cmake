@@ -27,6 +27,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   spring_forces_test.cpp
   stable_step_test.cpp
   strain_test.cpp
+  shell_motion_test.cpp
   sweep_order_test.cpp
   thread_pool_test.cpp
   wind_test.cpp
