@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // accuracy_cases FOLDER [patch|oscillations|friction|twist ...] : writes what cases with known answers
 // measure into CSV files in the folder; by default all.
+#include <algorithm>
+
 #include "bench/accuracy_table.h"
 #include "bench/cases/flat_meshes.h"
 #include "bench/cases/patch_test.h"

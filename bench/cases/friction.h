@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <functional>
+
 #include "physics/collider.h"
 #include "physics/simulate.h"
 
 namespace furrow::cases {
 
-/// Bodies, each endless along z.
-
-/// The half-space below a plane through the origin; slope != 1: a field that is off by a factor, as an
-/// interpolated one is in places.
+/// Bodies, each endless along z. First the half-space below a plane through the origin; slope != 1: a field
+/// that is off by a factor, as an interpolated one is in places.
 struct Plane : physics::Collider {
   physics::Vec3 n;
   double slope;

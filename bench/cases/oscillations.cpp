@@ -195,7 +195,7 @@ LeapfrogRun run_oscillator(double z, int steps) {
   return run;
 }
 
-double located_limit(const Cloth& cloth, double omega_max, int steps, const std::vector<bool>& axes) {
+double located_limit(const Cloth& cloth, double omega_max, int steps, const std::array<bool, 3>& axes) {
   Cloth start = cloth;
   for (std::size_t i = 0; i < start.particles.size(); ++i) {
     for (int c = 0; c < 3; ++c) {

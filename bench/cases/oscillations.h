@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "physics/springs.h"
@@ -51,6 +51,6 @@ LeapfrogRun run_oscillator(double z, int steps);
 /// The step beyond which a run of `steps` steps from tiny noise grows 1e6-fold, over 2/omega_max [-], by
 /// bisection to 1e-4. The cloth lies at rest; no weight. axes: along which the noise acts; omega_max [1/s].
 double located_limit(const physics::Cloth& cloth, double omega_max, int steps,
-                     const std::vector<bool>& axes = {true, true, true});
+                     const std::array<bool, 3>& axes);
 
 }  // namespace furrow::cases
