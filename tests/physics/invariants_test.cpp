@@ -2,10 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "bench/cases/flat_meshes.h"
-#include "bench/cases/modes.h"
 #include "bench/cases/twisted_ribbon.h"
+#include "physics/elements.h"
 #include "physics/leapfrog_step.h"
 #include "physics/membrane_laws.h"
+#include "physics/stable_step.h"
 #include "tests/physics/test_cloths.h"
 
 using namespace furrow::physics;
@@ -55,19 +56,13 @@ Invariants measure(const Cloth& cloth) {
   return sum;
 }
 
-double step_limit(const Cloth& cloth) {
-  const Unknowns all(cloth, {true, true, true});
-  const auto k = stiffness(cloth, cloth.particles.x, all, Stiffness::positive_part);
-  return 2 / highest_frequency(k, masses(cloth, all));
-}
-
 }  // namespace
 
 TEST_CASE("a free spinning sheet keeps momentum and angular momentum, and its energy stays in a band") {
   const bool springs = GENERATE(true, false);
   Cloth cloth = spinning_sheet(springs);
   const Invariants start = measure(cloth);
-  const double dt = 0.3 * step_limit(cloth);
+  const double dt = 0.3 * stable_step(cloth).dt_limit;
   ThreadPool pool(1);
   Motion motion(cloth, {.gravity = Vec3::Zero()}, pool);
   double band[2] = {0, 0}, momentum = 0, angular = 0;
