@@ -96,7 +96,8 @@ TEST_CASE("frequencies of plates of hinges") {
   CHECK(supported == Approx(10.2603986413).epsilon(1e-10));
   CHECK(clamped == Approx(1.82761723863).epsilon(1e-10));
   // Columns for which the rows are equilateral to a thousandth: the rigidity of hinges depends on that.
-  const double coarse = error(computed_frequencies(supported_plate(1e-5, 0.15, 0.05, 13), 2, 1)[0], supported),
+  const double coarse =
+                   error(computed_frequencies(supported_plate(1e-5, 0.15, 0.05, 13), 2, 1)[0], supported),
                fine = error(computed_frequencies(supported_plate(1e-5, 0.15, 0.05, 26), 2, 1)[0], supported);
   CAPTURE(coarse, fine);
   CHECK(std::abs(coarse) < 0.02);
