@@ -3,22 +3,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "bench/cases/friction.h"
 #include "physics/simulate.h"
 #include "tests/physics/test_cloths.h"
 
 using namespace furrow::physics;
+using namespace furrow::cases;
 using namespace furrow::tests;
 
 namespace {
-
-/// The half-space below a plane through the origin; slope != 1: a field that is off by a factor, as an
-/// interpolated one is in places.
-struct Plane : Collider {
-  Vec3 n;
-  double slope;
-  explicit Plane(const Vec3& normal, double s = 1) : n(normal.normalized()), slope(s) {}
-  SignedDistance at(const Vec3& x) const override { return {slope * n.dot(x), slope * n}; }
-};
 
 struct Ball : Collider {
   double radius;
@@ -32,56 +25,6 @@ SimulateOptions frictional(double friction, double dt) {
   o.dt = dt;
   o.air_drag = 0;
   return o;
-}
-
-/// A horizontal cylinder along z.
-struct Cylinder : Collider {
-  double radius;
-  explicit Cylinder(double r) : radius(r) {}
-  SignedDistance at(const Vec3& x) const override {
-    const double l = std::hypot(x.x(), x.y());
-    return {l - radius, Vec3(x.x() / l, x.y() / l, 0)};
-  }
-};
-
-constexpr double pi = 3.14159265358979323846;
-
-/// A heavy strip over the upper half of a cylinder, `left` and `right` hanging down beside it, half_turn
-/// springs on it.
-Cloth strip_over_cylinder(double radius, double left, double right, int half_turn) {
-  const double h = pi * radius / half_turn;
-  Cloth cloth;
-  const auto add = [&](const Vec3& x) { add_particle(cloth, x, 0.15 * h); };
-  for (int i = int(std::lround(left / h)); i > 0; --i) add({-radius, -i * h, 0});
-  for (int i = 0; i <= half_turn; ++i) {
-    add(radius * Vec3(-std::cos(pi * i / half_turn), std::sin(pi * i / half_turn), 0));
-  }
-  for (int i = 1; i <= int(std::lround(right / h)); ++i) add({radius, -i * h, 0});
-  for (int i = 0; i + 1 < int(cloth.particles.size()); ++i) cloth.structural.push_back({i, i + 1, 0, 0});
-  return cloth;
-}
-
-/// Stretches the strip's springs so that every node is in balance with the friction mu N against sliding to
-/// the right; returns the upward force that is left over at the lower right end.
-double balance(Cloth& strip, double mu) {
-  const double membrane = 300;  // N
-  const auto& x = strip.particles.x;
-  double tension = 0;
-  Vec3 along_before = Vec3::UnitY();
-  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-    const Vec3 load = -tension * along_before - strip.particles.mass[i] * 9.81 * Vec3::UnitY();
-    const double l = (x[i + 1] - x[i]).norm();
-    const Vec3 along = (x[i + 1] - x[i]) / l;
-    const bool on_body = x[i].y() >= 0;
-    const Vec3 n = x[i].normalized(), tangent(n.y(), -n.x(), 0);
-    const Vec3 test = on_body ? Vec3(tangent + mu * n) : along;
-    tension = -load.dot(test) / along.dot(test);
-    const double r = l / (1 + tension / membrane);
-    strip.structural[i].rest_length = r;
-    strip.structural[i].stiffness = membrane / r;
-    along_before = along;
-  }
-  return tension - strip.particles.mass.back() * 9.81;
 }
 
 /// How far a particle that starts at rest on an incline slides in 2 s [m]; and its speed [m/s].
@@ -124,34 +67,47 @@ TEST_CASE("friction is right where the field's slope is not 1") {
   CHECK(slide(0.8, options, 1.2).first == Approx(exact).epsilon(0.01));
 }
 
+TEST_CASE("on an incline a cloth lets go at the angle of friction and does not creep below") {
+  const double friction = GENERATE(0.05, 0.3, 0.75, 1.45), dt = GENERATE(1e-3, 2e-4);
+  const double degree = 3.14159265358979323846 / 180, exact = std::atan(friction);
+  CHECK(std::abs(incline_threshold(friction, dt) - exact) < 0.02 * degree);
+  CHECK(slide_of_sheet(exact - 0.2 * degree, friction, dt) < 1e-9);  // in 2 s
+}
+
 TEST_CASE("a strip over a cylinder slips beyond the heavy capstan's length and holds below it") {
-  // l2 = l1 e^(mu pi) + 2 mu R (1 + e^(mu pi)) / (1 + mu^2)
-  const double mu = GENERATE(0.2, 0.4), R = 0.1, l1 = 0.2, e = std::exp(mu * pi);
-  const double critical = l1 * e + 2 * mu * R * (1 + e) / (1 + mu * mu);
+  const double mu = GENERATE(0.2, 0.4), R = 0.1, l1 = 0.2, critical = capstan_length(mu, R, l1);
+  const int half_turn = GENERATE(32, 64);
   const Cylinder cylinder(R - 0.003);
-  SimulateOptions options;
-  options.friction = mu;
-  options.seconds = 0.8;
-  const auto slip = [&](double right) {
-    Cloth cloth = strip_over_cylinder(R, l1, right, 64);
-    double low = 0, high = 1;  // the share of friction that holds the strip as it lies
-    for (int i = 0; i < 60; ++i) (balance(cloth, (low + high) / 2) > 0 ? high : low) = (low + high) / 2;
-    CHECK(std::abs(low - mu) > 0.01 * mu);  // the strip as built knows the closed form, too
-    CHECK((low > mu) == (right > critical));
-    const double start = cloth.particles.x[0].y();
-    CHECK(simulate(cloth, &cylinder, options).outcome == Outcome::finished);
-    return cloth.particles.x[0].y() - start;
-  };
-  CHECK(std::abs(slip(0.97 * critical)) < 1e-6);
-  CHECK(slip(1.03 * critical) > 0.01);
+  for (const double factor : {0.97, 1.03}) {
+    const Slip result = slip(strip_over_cylinder(R, l1, factor * critical, half_turn), cylinder, {mu});
+    CHECK(std::abs(result.share - mu) > 0.01 * mu);  // the strip as built knows the closed form, too
+    CHECK((result.share > mu) == (factor > 1));
+    if (factor < 1) CHECK(result.moved < 1e-6);
+    if (factor > 1) CHECK(result.moved > 0.01);
+  }
+}
+
+TEST_CASE("a tablecloth slips over the rounded edge when enough of it hangs down") {
+  const double mu = GENERATE(0.2, 0.5), R = 0.02, l1 = 0.2, critical = tablecloth_length(mu, R, l1);
+  const RoundedTable table(R - 0.003);
+  CHECK(slip(strip_over_edge(R, l1, 0.97 * critical, 16), table, {mu}).moved < 1e-6);
+  CHECK(slip(strip_over_edge(R, l1, 1.03 * critical, 16), table, {mu}).moved > 1e-3);
+}
+
+TEST_CASE("the closed forms of strips are those of an independent program") {
+  CHECK(capstan_length(0.2, 0.05, 0.1) == Approx(0.242723610443).epsilon(1e-11));
+  CHECK(capstan_length(0.4, 0.02, 0.05) == Approx(0.237935634653).epsilon(1e-11));
+  CHECK(tablecloth_length(0.2, 0.005, 0.2) == Approx(0.0503684288067).epsilon(1e-11));
+  CHECK(tablecloth_length(0.8, 0.02, 0.4) == Approx(1.12843409703).epsilon(1e-11));
 }
 
 TEST_CASE("a braking particle stops after v^2 / (2 mu g)") {
   const Plane floor(Vec3::UnitY());
+  const double dt = GENERATE(1e-3, 1e-4), speed = GENERATE(2.0, 5.0), mu = GENERATE(0.4, 0.8);
   Cloth cloth;
-  add_particle(cloth, {0, 0.003, 0}, 1e-4, {2, 0, 0});
-  simulate(cloth, &floor, frictional(0.4, GENERATE(1e-3, 1e-4)));
-  CHECK(cloth.particles.x[0].x() == Approx(4 / (2 * 0.4 * 9.81)).epsilon(0.01));
+  add_particle(cloth, {0, 0.003, 0}, 1e-4, {speed, 0, 0});
+  simulate(cloth, &floor, frictional(mu, dt));
+  CHECK(cloth.particles.x[0].x() == Approx(speed * speed / (2 * mu * 9.81)).epsilon(0.005));
   CHECK(std::abs(cloth.particles.v[0].x()) < 1e-12);
 }
 

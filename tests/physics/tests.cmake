@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
+furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   animated_body_test.cpp
   compensation_test.cpp
   contact_test.cpp
@@ -8,10 +8,14 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   euler_step_test.cpp
   hanging_chain_test.cpp
   hinge_forces_test.cpp
+  invariants_test.cpp
   leapfrog_step_test.cpp
+  membrane_laws_test.cpp
   membrane_test.cpp
   moved_pins_test.cpp
+  oscillations_test.cpp
   packed_cloth_test.cpp
+  patch_test.cpp
   packed_elements_test.cpp
   pins_test.cpp
   push_out_test.cpp
