@@ -72,6 +72,9 @@ Json to_json(const physics::SimulateReport& r, const io::MeshFile& file, const i
               {"seconds", r.seconds},
               {"cpu_seconds", r.cpu_seconds},
               {"force_evaluations", r.force_evaluations},
+              {"spring_evaluations", r.spring_evaluations},
+              {"triangle_evaluations", r.triangle_evaluations},
+              {"hinge_evaluations", r.hinge_evaluations},
               {"strain", {{"max", r.strain.max}, {"p99", r.strain.p99}, {"mean", r.strain.mean}}},
               {"kinetic_energy", r.kinetic_energy},
               {"residual_force", r.residual_force}};

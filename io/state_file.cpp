@@ -33,6 +33,9 @@ double number(const Json& json) {
 /// Without the clock times: the same simulation gives the same bytes.
 Json to_json(const physics::SimulateTotals& t) {
   return {{"force_evaluations", t.force_evaluations},
+          {"spring_evaluations", t.spring_evaluations},
+          {"triangle_evaluations", t.triangle_evaluations},
+          {"hinge_evaluations", t.hinge_evaluations},
           {"collider_queries", t.collider_queries},
           {"truncated_moves", t.truncated_moves},
           {"limit_estimates", t.limit_estimates},
@@ -44,6 +47,9 @@ Json to_json(const physics::SimulateTotals& t) {
 physics::SimulateTotals totals_of(const Json& j) {
   physics::SimulateTotals t;
   t.force_evaluations = j.at("force_evaluations");
+  t.spring_evaluations = j.value("spring_evaluations", std::int64_t{0});  // absent in older files
+  t.triangle_evaluations = j.value("triangle_evaluations", std::int64_t{0});
+  t.hinge_evaluations = j.value("hinge_evaluations", std::int64_t{0});
   t.collider_queries = j.at("collider_queries");
   t.truncated_moves = j.at("truncated_moves");
   t.limit_estimates = j.at("limit_estimates");

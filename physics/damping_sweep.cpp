@@ -74,7 +74,7 @@ DampingSweep::DampingSweep(const PackedCloth& packed, double zeta, double second
   for (std::size_t i = 0; i < packed.a.size(); ++i) {
     const double inv_a = packed.inv_mass[packed.a[i]], inv_b = packed.inv_mass[packed.b[i]],
                  inv = inv_a + inv_b;
-    const double gamma = 2 * zeta * std::sqrt(packed.k[i] * inv);
+    const double gamma = 2 * zeta * std::sqrt(packed.damping_k[i] * inv);
     const double share = inv > 0 ? -std::expm1(-gamma * seconds) / inv : 0;  // m (1 - exp(-gamma t))
     decay_a_.push_back(share * inv_a);
     decay_b_.push_back(share * inv_b);

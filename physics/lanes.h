@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "physics/packed_cloth.h"
+#include "physics/vec4.h"
 
 /// FURROW_VECTOR_CLONES: compiled for AVX2 too, chosen when the program starts. Every operation on lanes is
 /// one IEEE operation in one order, without contraction, so all versions give the same bits.

@@ -86,7 +86,12 @@ ContactCounts drift_with_contact(PackedCloth& cloth, BodyContact& contact, doubl
 
 Motion::Motion(const Cloth& cloth, const Loads& loads, ThreadPool& pool, const Surroundings& around,
                double time)
-    : cloth_(pack(cloth)), loads_(loads), pool_(pool), around_(around), from_(time), to_(time) {
+    : cloth_(pack(cloth, loads.spring_damping > 0)),
+      loads_(loads),
+      pool_(pool),
+      around_(around),
+      from_(time),
+      to_(time) {
   check_not_negative(loads.air_drag, "air drag");
   check_not_negative(loads.spring_damping, "spring damping");
   if (!loads.gravity.allFinite()) throw std::invalid_argument("gravity is not finite");
@@ -139,8 +144,12 @@ void Motion::drift(double seconds) {
 
 void Motion::update_forces() {
   update_spring_forces(cloth_, pool_);
+  add_element_forces(cloth_.elements, cloth_.x, cloth_.force, pool_);
   if (around_.compensation) compensate();
   ++work_.force_evaluations;
+  work_.spring_evaluations += cloth_.springs() - cloth_.dashpots;
+  work_.triangle_evaluations += cloth_.elements.triangle_count;
+  work_.hinge_evaluations += cloth_.elements.hinge_count;
 }
 
 void Motion::compensate() {

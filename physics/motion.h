@@ -10,11 +10,11 @@
 
 namespace furrow::physics {
 
-/// What acts on a cloth besides its springs.
+/// What acts on a cloth besides its elements.
 struct Loads {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   double air_drag = 0;        ///< c of dv/dt = -c v [1/s]; >= 0
-  double spring_damping = 0;  ///< share of critical damping of each spring [-]; >= 0
+  double spring_damping = 0;  ///< share of critical damping of each spring and edge of membrane [-]; >= 0
 };
 
 /// What else acts; each may be null, and must outlive the motion.
@@ -27,6 +27,7 @@ struct Surroundings {
 
 struct WorkCounts {
   std::int64_t steps = 0, force_evaluations = 0;
+  std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   ContactCounts contact;
 };
 
@@ -34,7 +35,7 @@ struct WorkCounts {
 /// Surroundings::pins leads them.
 class Motion {
  public:
-  /// The pool must outlive the motion. The springs' forces are those of the cloth's positions. Throws
+  /// The pool must outlive the motion. The elements' forces are those of the cloth's positions. Throws
   /// std::invalid_argument as pack() does, or if a load is out of its range.
   Motion(const Cloth& cloth, const Loads& loads, ThreadPool& pool, const Surroundings& around = {},
          double time = 0);

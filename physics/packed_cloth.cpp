@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <tuple>
+
+#include "physics/membrane.h"
 
 namespace furrow::physics {
 namespace {
@@ -45,48 +48,87 @@ void check_springs(const std::vector<Spring>& springs, std::size_t n, const char
   }
 }
 
-/// All springs with their ends as places, sorted by (a, b), structural before bending.
-std::vector<Spring> renumbered_springs(const Cloth& cloth, const std::vector<int>& particle) {
+std::vector<int> places(const std::vector<int>& particle) {
   std::vector<int> place(particle.size());
   for (std::size_t i = 0; i < particle.size(); ++i) place[std::size_t(particle[i])] = int(i);
-  std::vector<Spring> springs = cloth.structural;
-  springs.insert(springs.end(), cloth.bending.begin(), cloth.bending.end());
-  for (Spring& s : springs) {
-    const auto [a, b] = std::minmax(place[std::size_t(s.a)], place[std::size_t(s.b)]);
-    s.a = a, s.b = b;
+  return place;
+}
+
+struct PackedSpring {
+  int a, b;
+  double k, kL, damping_k;
+};
+
+/// One for each edge of the membrane, sorted; damping_k: the sum of its triangles' edge_stiffness().
+std::vector<PackedSpring> membrane_dashpots(const Cloth& cloth, const std::vector<int>& place) {
+  std::map<std::pair<int, int>, double> edges;
+  for (const MembraneTriangle& t : cloth.membrane) {
+    const MembraneConstants constants = membrane_constants(t);
+    for (int i = 0; i < 3; ++i) {
+      edges[std::minmax(place[std::size_t(t.vertices[(i + 1) % 3])],
+                        place[std::size_t(t.vertices[(i + 2) % 3])])] += edge_stiffness(constants, i);
+    }
   }
-  std::stable_sort(springs.begin(), springs.end(),
-                   [](const Spring& s, const Spring& t) { return std::tie(s.a, s.b) < std::tie(t.a, t.b); });
+  std::vector<PackedSpring> dashpots;
+  for (const auto& [edge, k] : edges) dashpots.push_back({edge.first, edge.second, 0, 0, k});
+  return dashpots;
+}
+
+/// All springs with their ends as places, sorted by (a, b), structural before bending before dashpots.
+std::vector<PackedSpring> renumbered_springs(const Cloth& cloth, const std::vector<int>& place,
+                                             const std::vector<PackedSpring>& dashpots) {
+  std::vector<PackedSpring> springs;
+  for (const auto* kind : {&cloth.structural, &cloth.bending}) {
+    for (const Spring& s : *kind) {
+      const auto [a, b] = std::minmax(place[std::size_t(s.a)], place[std::size_t(s.b)]);
+      springs.push_back({a, b, s.stiffness, s.stiffness * s.rest_length, s.stiffness});
+    }
+  }
+  springs.insert(springs.end(), dashpots.begin(), dashpots.end());
+  std::stable_sort(springs.begin(), springs.end(), [](const PackedSpring& s, const PackedSpring& t) {
+    return std::tie(s.a, s.b) < std::tie(t.a, t.b);
+  });
   return springs;
 }
 
-void pack_springs(const std::vector<Spring>& springs, PackedCloth& packed) {
+void pack_springs(const std::vector<PackedSpring>& springs, PackedCloth& packed) {
   std::vector<std::array<int, 2>> pairs;
-  for (const Spring& s : springs) pairs.push_back({s.a, s.b});
+  for (const PackedSpring& s : springs) pairs.push_back({s.a, s.b});
   packed.sweep = sweep_order(packed.particles(), pairs);
   for (const int p : packed.sweep.pairs) {
-    const Spring& s = springs[std::size_t(p)];
+    const PackedSpring& s = springs[std::size_t(p)];
     packed.a.push_back(s.a);
     packed.b.push_back(s.b);
-    packed.k.push_back(s.stiffness);
-    packed.kL.push_back(s.stiffness * s.rest_length);
+    packed.k.push_back(s.k);
+    packed.kL.push_back(s.kL);
+    packed.damping_k.push_back(s.damping_k);
   }
   packed.sweep.pairs.clear();
   packed.inv_length2.assign(springs.size(), 0.0);
 }
 
+/// Which particles act on each other.
+std::vector<std::array<int, 2>> neighbour_pairs(const Cloth& cloth) {
+  std::vector<std::array<int, 2>> pairs;
+  for (const Spring& s : cloth.structural) pairs.push_back({s.a, s.b});
+  for (const Spring& s : cloth.bending) pairs.push_back({s.a, s.b});
+  for (const MembraneTriangle& t : cloth.membrane)
+    for (std::size_t i = 0; i < 3; ++i) pairs.push_back({t.vertices[i], t.vertices[(i + 1) % 3]});
+  for (const Hinge& h : cloth.hinges)
+    for (std::size_t i = 0; i < 4; ++i) pairs.push_back({h.vertices[i], h.vertices[(i + 1) % 4]});
+  return pairs;
+}
+
 }  // namespace
 
-PackedCloth pack(const Cloth& cloth) {
+PackedCloth pack(const Cloth& cloth, bool dashpots) {
   const Particles& from = cloth.particles;
   check_particles(from);
   check_springs(cloth.structural, from.size(), "structural");
   check_springs(cloth.bending, from.size(), "bending");
-  std::vector<std::array<int, 2>> pairs;
-  for (const Spring& s : cloth.structural) pairs.push_back({s.a, s.b});
-  for (const Spring& s : cloth.bending) pairs.push_back({s.a, s.b});
+  check_elements(cloth);
   PackedCloth packed;
-  packed.particle = breadth_first_order(int(from.size()), pairs);
+  packed.particle = breadth_first_order(int(from.size()), neighbour_pairs(cloth));
   packed.force.assign(from.size(), Vec4{});
   for (const int i : packed.particle) {
     packed.x.push_back({from.x[i].x(), from.x[i].y(), from.x[i].z(), 0});
@@ -94,7 +136,12 @@ PackedCloth pack(const Cloth& cloth) {
     const bool moves = from.inv_mass[i] > 0;
     packed.v.push_back(moves ? Vec4{from.v[i].x(), from.v[i].y(), from.v[i].z(), 0} : Vec4{});
   }
-  pack_springs(renumbered_springs(cloth, packed.particle), packed);
+  const std::vector<int> place = places(packed.particle);
+  std::vector<PackedSpring> edges;
+  if (dashpots) edges = membrane_dashpots(cloth, place);
+  packed.dashpots = int(edges.size());
+  pack_springs(renumbered_springs(cloth, place, edges), packed);
+  packed.elements = pack_elements(cloth, place);
   return packed;
 }
 

@@ -106,7 +106,7 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
                             state.compensation.force.empty() ? nullptr : &state.compensation};
   motion_.emplace(cloth, Loads{options.gravity, options.air_drag, options.spring_damping}, pool_, around,
                   state.time);
-  if (state.step > 0) motion_->work().force_evaluations = 0;  // counted by the call that ended here
+  if (state.step > 0) motion_->work() = {};  // counted by the call that ended here
   recall();
   length_.emplace(cloth, options, state);
 }
@@ -155,6 +155,9 @@ void Simulation::remember() {
     state_.totals.frame_seconds += world_.animated->build_seconds() - frame_seconds_before_;
   }
   state_.totals.force_evaluations += motion_->work().force_evaluations;
+  state_.totals.spring_evaluations += motion_->work().spring_evaluations;
+  state_.totals.triangle_evaluations += motion_->work().triangle_evaluations;
+  state_.totals.hinge_evaluations += motion_->work().hinge_evaluations;
   state_.totals.collider_queries += motion_->work().contact.queries;
   state_.totals.truncated_moves += motion_->work().contact.truncations;
 }

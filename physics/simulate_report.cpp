@@ -18,6 +18,9 @@ void take_counts(const SimulateState& state, SimulateReport& report) {
   report.dt_limit_smallest = totals.dt_limit_smallest;
   report.limit_estimates = int(totals.limit_estimates);
   report.force_evaluations = totals.force_evaluations;
+  report.spring_evaluations = totals.spring_evaluations;
+  report.triangle_evaluations = totals.triangle_evaluations;
+  report.hinge_evaluations = totals.hinge_evaluations;
   report.collider_queries = totals.collider_queries;
   report.truncated_moves = totals.truncated_moves;
   report.frames_built = totals.frames_built;
@@ -33,7 +36,7 @@ void take_counts(const SimulateState& state, SimulateReport& report) {
 void measure(const Cloth& cloth, const World& world, const SimulateState& state, const Vec3& gravity,
              const ContactOptions& contact, SimulateReport& report) {
   take_counts(state, report);
-  report.strain = strain_statistics(cloth.particles.x, cloth.structural);
+  report.strain = strain_statistics(cloth);
   report.kinetic_energy = kinetic_energy(cloth.particles);
   const Collider* body = world.collider;
   std::optional<PosedCollider> posed;

@@ -12,6 +12,7 @@ namespace furrow::physics {
 /// What a report counts over all calls that shared a state.
 struct SimulateTotals {
   std::int64_t force_evaluations = 0, collider_queries = 0, truncated_moves = 0;
+  std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   std::int64_t limit_estimates = 0, frames_built = 0;
   double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
   double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< [s]

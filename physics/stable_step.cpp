@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/element_product.h"
 #include "physics/spring_forces.h"
 
 namespace furrow::physics {
@@ -32,7 +33,8 @@ double pseudo_random(std::uint64_t i) {
 /// q -> M^-1/2 K M^-1/2 q.
 class Operator {
  public:
-  explicit Operator(const Cloth& cloth) : cloth_(cloth), u_(cloth.particles.size()), ku_(u_.size()) {
+  explicit Operator(const Cloth& cloth)
+      : cloth_(cloth), elements_(cloth), u_(cloth.particles.size()), ku_(u_.size()) {
     for (const double w : cloth.particles.inv_mass) scale_.push_back(std::sqrt(w));
   }
   Index size() const { return Index(3 * u_.size()); }
@@ -44,11 +46,13 @@ class Operator {
     for (const auto* springs : {&cloth_.structural, &cloth_.bending}) {
       add_spring_stiffness_product(cloth_.particles.x, *springs, u_, Stiffness::positive_part, ku_);
     }
+    elements_.add(u_, ku_);
     for (std::size_t i = 0; i < u_.size(); ++i) result.segment<3>(Index(3 * i)) = scale_[i] * ku_[i];
   }
 
-  /// Twice the largest sum of k/m around a particle bounds every eigenvalue: a block of K is at most k, and
-  /// the other end's share enters as the geometric mean of both masses.
+  /// Twice the largest sum of k/m around a particle bounds every eigenvalue of springs: a block of K is at
+  /// most k, and the other end's share enters as the geometric mean of both masses. Elements: sums of blocks'
+  /// norms.
   double gershgorin() const {
     std::vector<double> row(u_.size(), 0.0);
     for (const auto* springs : {&cloth_.structural, &cloth_.bending}) {
@@ -58,11 +62,13 @@ class Operator {
         row[std::size_t(s.b)] += s.stiffness * b * (a + b);
       }
     }
+    elements_.add_row_sums(scale_, row);
     return row.empty() ? 0 : *std::max_element(row.begin(), row.end());
   }
 
  private:
   const Cloth& cloth_;
+  ElementProduct elements_;
   std::vector<Vec3> u_, ku_;
   std::vector<double> scale_;
 };
@@ -125,8 +131,9 @@ StepLimit stable_step(const Cloth& cloth, const StableStepOptions& options) {
     }
     basis.push_back(w / beta.back());
   }
-  const double largest = std::min(ritz.theta + ritz.residual, bound) * (1 + 1e-12),
-               omega = std::sqrt(largest);
+  const double largest = std::min(ritz.theta + ritz.residual, bound) * (1 + 1e-12);
+  if (!(largest > 0)) return {std::numeric_limits<double>::infinity(), 0, 0, int(alpha.size())};
+  const double omega = std::sqrt(largest);
   return {2 / omega, omega, ritz.theta > 0 ? ritz.residual / ritz.theta : 0, int(alpha.size())};
 }
 

@@ -39,7 +39,7 @@ bool StepLength::due() const {
 void StepLength::advance() {
   --state_.steps_left;
   if (!due() || state_.steps_left == 0 || options_.step_rule == StepRule::forced) return;
-  const double strain = strain_statistics(cloth_.particles.x, cloth_.structural).max;
+  const double strain = strain_statistics(cloth_).max;
   if (state_.step - state_.estimated_at < options_.limit_steps &&
       !(strain > state_.strain_at_estimate + options_.limit_strain))
     return;
@@ -50,7 +50,7 @@ void StepLength::advance() {
 
 void StepLength::estimate() {
   state_.dt_limit = stable_step(cloth_).dt_limit;
-  state_.strain_at_estimate = strain_statistics(cloth_.particles.x, cloth_.structural).max;
+  state_.strain_at_estimate = strain_statistics(cloth_).max;
   state_.estimated_at = state_.step;
   state_.totals.dt_limit_smallest = std::min(state_.totals.dt_limit_smallest, state_.dt_limit);
   ++state_.totals.limit_estimates;

@@ -29,6 +29,17 @@ StrainStatistics strain_statistics(std::span<const Vec3> x, std::span<const Spri
   return result;
 }
 
+StrainStatistics strain_statistics(const Cloth& cloth) {
+  if (!cloth.structural.empty()) return strain_statistics(cloth.particles.x, cloth.structural);
+  std::vector<Spring> edges;
+  edges.reserve(3 * cloth.membrane.size());
+  for (const MembraneTriangle& t : cloth.membrane) {
+    for (std::size_t i = 0; i < 3; ++i)
+      edges.push_back({t.vertices[(i + 1) % 3], t.vertices[(i + 2) % 3], t.rest_lengths[i], 0});
+  }
+  return strain_statistics(cloth.particles.x, edges);
+}
+
 double kinetic_energy(const Particles& particles) {
   double energy = 0;
   for (std::size_t i = 0; i < particles.size(); ++i) {

@@ -12,6 +12,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   membrane_test.cpp
   moved_pins_test.cpp
   packed_cloth_test.cpp
+  packed_elements_test.cpp
   pins_test.cpp
   push_out_test.cpp
   residual_force_test.cpp
@@ -22,6 +23,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   spring_forces_test.cpp
   stable_step_test.cpp
   strain_test.cpp
+  shell_motion_test.cpp
   sweep_order_test.cpp
   thread_pool_test.cpp
   wind_test.cpp
