@@ -13,7 +13,7 @@
 namespace furrow::physics {
 namespace {
 
-constexpr double first_shift = 1e-7;   // relative to K's mean diagonal
+constexpr double first_shift = 1e-12;  // relative to K's mean diagonal
 constexpr double largest_shift = 1e3;  // a step this short changes nothing
 constexpr int most_idle = 3;
 constexpr double standard_gravity = 9.81;
@@ -105,7 +105,7 @@ class Newton {
   /// Solves (K + shift I) move = force with a shift that makes it positive definite; false if there is none.
   bool find_move() {
     const double scale = stiffness_.mean_diagonal();
-    for (; shift_ <= largest_shift; shift_ = std::max(first_shift, 4 * shift_)) {
+    for (; shift_ <= largest_shift; shift_ = std::max(first_shift, 8 * shift_)) {
       ++report_.factorisations;
       if (stiffness_.factorise(shift_ * scale) != 0) continue;
       move_ = force_;

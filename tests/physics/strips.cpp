@@ -112,6 +112,12 @@ Strip ladder(const LadderOptions& o) {
     }
     join(i, i + 1);
     if (r == 0 || r == o.links + 1) continue;
+    if (o.bending > 0) {
+      for (const int a : {i - 2, i - 1}) {
+        cloth.bending.push_back({a, a + 4, 2 * h, o.bending * (r == 1 ? 8 : 1)});
+      }
+      continue;
+    }
     const double k = (r == 1 ? o.clamp_factor : 1) * 0.5 * o.rigidity * o.width / h;
     cloth.hinges.push_back({{i, i + 1, i + 2, i - 1}, 0, k});
     cloth.hinges.push_back({{i, i + 1, i + 3, i - 2}, 0, k});

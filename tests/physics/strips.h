@@ -47,6 +47,8 @@ struct LadderOptions {
   double density = 0.1;               ///< [kg/m^2]
   double stiffness = 1e4;             ///< [N/m]
   double clamp_factor = 2;
+  double bending = 0;  ///< k [N/m]; > 0: no hinges, but springs along both sides over each rung, 8 k at the
+                       ///< clamp: moment B_3 curvature^3 a width, B_3 = k h^5 / (4 b), h = length / links
 };
 Strip ladder(const LadderOptions& options);
 

@@ -6,6 +6,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   damping_sweep_test.cpp
   elements_test.cpp
   euler_step_test.cpp
+  free_stiffness_test.cpp
   hanging_chain_test.cpp
   hinge_forces_test.cpp
   leapfrog_step_test.cpp
@@ -22,7 +23,10 @@ furrow_add_tests(physics LIBRARIES furrow::physics SOURCES
   simulate_test.cpp
   spring_forces_test.cpp
   stable_step_test.cpp
+  static_cases_test.cpp
+  static_equilibrium_test.cpp
   strain_test.cpp
+  strips.cpp
   shell_motion_test.cpp
   sweep_order_test.cpp
   thread_pool_test.cpp
