@@ -75,7 +75,7 @@ TEST_CASE("cantilever: equilateral triangles meet the elastica but for the softe
 TEST_CASE("cantilever: irregular triangles are a little too stiff") {
   for (const auto& [gamma, bound] : {std::pair{1.0, 0.10}, {10.0, 0.05}}) {
     StripOptions o;
-    o.jitter = 0.2 * std::sqrt(0.75);  // of the cell's length along the strip
+    o.jitter = 0.2 * std::sqrt(0.75);  // 0.2 of the cell's length along; 0.2 edges give 1.4 % more
     double mean = 0;
     for (o.seed = 1; o.seed <= 5; ++o.seed) mean += chart_error(o, gamma) / 5;
     CAPTURE(gamma, mean);
