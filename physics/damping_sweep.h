@@ -5,12 +5,13 @@
 
 namespace furrow::physics {
 
-/// Viscous damping along springs over a fixed time, one spring after the other. Of each spring the relative
-/// velocity along it decays exactly, by exp(-gamma t), gamma = 2 zeta sqrt(k m) / m with the reduced mass
-/// m = 1/(1/m_a + 1/m_b) (zeta = 1: critical for the two ends alone). Each such update keeps momentum and
-/// angular momentum and never adds energy. A forward sweep before the kick and the reversed sweep after the
-/// last kick of a step are adjoint to each other, so a symmetric step stays symmetric and of order two;
-/// damping that enters as a force at the old velocity would drop the step to order one.
+/// Viscous damping along springs (and dashpots of PackedCloth, by damping_k) over a fixed time, one spring
+/// after the other. Of each spring the relative velocity along it decays exactly, by exp(-gamma t), gamma = 2
+/// zeta sqrt(k m) / m with the reduced mass m = 1/(1/m_a + 1/m_b) (zeta = 1: critical for the two ends
+/// alone). Each such update keeps momentum and angular momentum and never adds energy. A forward sweep before
+/// the kick and the reversed sweep after the last kick of a step are adjoint to each other, so a symmetric
+/// step stays symmetric and of order two; damping that enters as a force at the old velocity would drop the
+/// step to order one.
 class DampingSweep {
  public:
   DampingSweep() = default;

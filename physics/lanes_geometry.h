@@ -37,7 +37,7 @@ FURROW_INLINE void scattered(const Vectors& v, Vec4* slot, int stride) {
   for (int j = 0; j < 4; ++j) *(Lanes*)(slot + j * stride) = Lanes{v.x[j], v.y[j], v.z[j], 0};
 }
 
-/// As std::atan2 within 4e-16, four at once and the same bits on every machine; 0 where both are 0. Rational
+/// As std::atan2 within 9e-16, four at once and the same bits on every machine; 0 where both are 0. Rational
 /// approximation of Moshier's Cephes (atan.c), its three ranges chosen before the one division for the
 /// argument.
 FURROW_INLINE void arc_tangent(const Lanes& y, const Lanes& x, Lanes& angle) {

@@ -18,7 +18,7 @@ struct Spring {
 /// Signed hinge between the triangles (0, 1, 2) and (1, 0, 3) of its vertices; the edge is 0-1.
 struct Hinge {
   std::array<int, 4> vertices;
-  double rest_angle;  ///< [rad] in (-pi, pi); 0 = flat, > 0 = ridge
+  double rest_angle;  ///< [rad] in [-pi, pi]; 0 = flat, > 0 = ridge
   double stiffness;   ///< [N m]
 };
 
@@ -30,10 +30,9 @@ enum class HingeLaw {
 
 /// Membrane of constant strain (St. Venant-Kirchhoff). It knows its rest state by lengths alone.
 struct MembraneTriangle {
-  std::array<int, 3> vertices;  ///< counter-clockwise from outside
-  std::array<double, 3>
-      rest_lengths;   ///< [m] of the edge opposite each vertex; > 0, triangle inequality strict
-  double lambda, mu;  ///< Lame parameters of the plane [N/m]; mu >= 0, lambda + mu >= 0
+  std::array<int, 3> vertices;         ///< counter-clockwise from outside
+  std::array<double, 3> rest_lengths;  ///< [m] of the edges opposite them; > 0 and a triangle with area
+  double lambda, mu;                   ///< Lame parameters of the plane [N/m]; mu >= 0, lambda + mu >= 0
 };
 
 /// The whole state of a cloth as plain arrays.

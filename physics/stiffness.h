@@ -9,8 +9,7 @@ namespace furrow::physics {
 /// Which part of the second derivative of an energy counts.
 enum class Stiffness {
   exact,         ///< the Hessian itself; indefinite where springs are compressed or hinges bent
-  positive_part  ///< positive semidefinite; for springs >= exact: without the transverse part of compressed
-                 ///< ones
+  positive_part  ///< semidefinite: springs without the transverse part of compressed ones; see each element
 };
 
 /// Takes what one element adds to the block of the stiffness matrix K [N/m] in the rows of particle i and the
