@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes a table (CSV) of strips and chains at rest against theory: statics_cases > statics.csv
-// target: largest |error| asked for, 0 where none is. Errors are relative, but "tip" relative to the
-// length.
 #include <cmath>
 #include <cstdio>
 #include <numbers>

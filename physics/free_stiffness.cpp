@@ -9,6 +9,11 @@
 namespace furrow::physics {
 
 FreeStiffness::FreeStiffness(const Cloth& cloth) {
+  if (cloth.particles.inv_mass.size() != cloth.particles.size()) {
+    throw std::invalid_argument("FreeStiffness: " + std::to_string(cloth.particles.size()) +
+                                " positions, but " + std::to_string(cloth.particles.inv_mass.size()) +
+                                " inverse masses");
+  }
   for (const double w : cloth.particles.inv_mass) row_.push_back(w > 0 ? free_particles_++ : -1);
   std::vector<std::array<int, 2>> sequence;
   add_stiffness(cloth, cloth.particles.x, Stiffness::positive_part, [&](int i, int j, const Mat3&) {

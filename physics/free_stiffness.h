@@ -15,7 +15,8 @@ namespace furrow::physics {
 /// pattern are found once; assembly and factorisation use them again.
 class FreeStiffness {
  public:
-  /// Cost: O(blocks log blocks) and the symbolic factorisation. Throws as add_stiffness().
+  /// Cost: O(blocks log blocks) and the symbolic factorisation. Throws std::invalid_argument if the
+  /// particles' arrays differ in length, and as add_stiffness().
   explicit FreeStiffness(const Cloth& cloth);
 
   /// K at positions x [m]. The cloth has the elements and held particles of the constructor's; other

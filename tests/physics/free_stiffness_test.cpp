@@ -71,11 +71,7 @@ TEST_CASE("the stiffness of free particles: nothing free, and a cloth that chang
   FreeStiffness k(cloth);
   cloth.hinges.pop_back();
   CHECK_THROWS_AS(k.assemble(cloth, cloth.particles.x, Stiffness::exact), std::invalid_argument);
-  cloth.structural.push_back(cloth.structural.back());
-  cloth.structural.push_back(cloth.structural.back());
-  cloth.structural.push_back(cloth.structural.back());
-  cloth.structural.push_back(cloth.structural.back());
-  cloth.structural.push_back(cloth.structural.back());
+  for (int i = 0; i < 5; ++i) cloth.structural.push_back(cloth.structural.back());
   CHECK_THROWS_AS(k.assemble(cloth, cloth.particles.x, Stiffness::exact), std::invalid_argument);
   for (double& w : cloth.particles.inv_mass) w = 0;
   FreeStiffness none(cloth);
@@ -85,4 +81,6 @@ TEST_CASE("the stiffness of free particles: nothing free, and a cloth that chang
   std::vector<Vec3> b(cloth.particles.size(), Vec3::Ones());
   none.solve(b);
   CHECK(b[3] == Vec3::Zero());
+  cloth.particles.inv_mass.pop_back();
+  CHECK_THROWS_AS(FreeStiffness(cloth), std::invalid_argument);
 }
