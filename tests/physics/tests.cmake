@@ -6,6 +6,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   damping_sweep_test.cpp
   elements_test.cpp
   euler_step_test.cpp
+  free_stiffness_test.cpp
   hanging_chain_test.cpp
   hinge_forces_test.cpp
   invariants_test.cpp
@@ -31,7 +32,10 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   stepper_contact_test.cpp
   stepper_shell_test.cpp
   stepper_stability_test.cpp
+  static_cases_test.cpp
+  static_equilibrium_test.cpp
   strain_test.cpp
+  strips.cpp
   shell_motion_test.cpp
   sweep_order_test.cpp
   thread_pool_test.cpp

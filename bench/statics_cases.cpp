@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writes a table (CSV) of strips and chains at rest against theory: statics_cases > statics.csv
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "bench/statics_table.h"
+#include "tests/physics/hanging_chains.h"
+#include "tests/physics/strips.h"
+
+namespace furrow::bench {
+namespace {
+
+using namespace furrow::tests;
+using physics::StaticOptions;
+
+void catenaries() {
+  for (const double unevenness : {0.0, 0.7}) {
+    Cloth chain = hanging_chain(32, unevenness);
+    const auto exact = exact_chain(chain);
+    Row row{"catenary node [m]", unevenness > 0 ? "uneven" : "even", 32, 32, 0, 0, 0, 0, 1e-5};
+    rest(chain, {}, row);
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      const double error = (chain.particles.x[i] - Vec3(exact[i].x(), exact[i].y(), 0)).norm();
+      row.error = std::max(row.error, error);
+    }
+    print(row);
+  }
+  for (const int n : {4, 8, 16, 32, 64, 128, 256}) {
+    Cloth chain = hanging_chain(n, 0);
+    Row row{"catenary sag [m]", "even", double(n), n, 0, 0, 0.505865838778};
+    rest(chain, {}, row);
+    row.measured = -chain.particles.x[n / 2].y();
+    row.error = row.measured - row.reference;
+    print(row);
+  }
+}
+
+void ladders() {
+  for (const double gamma : {1.0, 10.0, 25.0, 100.0}) {
+    for (const int links : {10, 20, 40, 80, 160}) {
+      LadderOptions o;
+      o.links = links;
+      Strip strip = ladder(o);
+      StaticOptions options;
+      options.tolerance = 1e-4;
+      options.gravity = {0, 0, -gravity_for(gamma, o.density, o.length, o.rigidity)};
+      Row row{"ladder tip H/L", "ladder", gamma, links, 1};
+      rest(strip.cloth, options, row);
+      row.measured = -strip.tip().z() / o.length;
+      row.reference = heavy_elastica(gamma).height;
+      row.error = row.measured - row.reference;
+      if (links == 40) row.target = gamma > 1 ? 1e-3 : 1e-4;
+      print(row);
+      row.what = "ladder H/L";
+      row.error = row.measured / row.reference - 1;
+      print(row);
+    }
+  }
+}
+
+/// H/W of a cantilever.
+Row cantilever(const StripOptions& o, double gamma) {
+  Strip strip = equilateral_strip(o);
+  StaticOptions options;
+  options.tolerance = 1e-5;
+  options.gravity = {0, 0, -gravity_for(gamma, o.density, o.length, o.rigidity)};
+  Row row{"cantilever H/W", "equilateral", gamma, o.rows, o.columns};
+  rest(strip.cloth, options, row);
+  const Elastica exact = heavy_elastica(gamma);
+  row.measured = -strip.tip().z() / strip.tip().x();
+  row.reference = exact.height / exact.width;
+  row.error = row.measured / row.reference - 1;
+  return row;
+}
+
+void cantilevers() {
+  for (const double gamma : {1.0, 5.0, 10.0, 25.0, 100.0}) {
+    for (const auto& [rows, columns] : {std::pair{8, 4}, {16, 4}, {16, 8}, {32, 8}, {64, 16}}) {
+      StripOptions o;
+      o.rows = rows;
+      o.columns = columns;
+      Row row = cantilever(o, gamma);
+      if (rows == 16 && columns == 4) row.target = gamma >= 10 ? 0.01 : gamma >= 5 ? 0.02 : 0.04;
+      print(row);
+      if (rows > 16) continue;
+      o.clamp_factor = 1;
+      row = cantilever(o, gamma);
+      row.mesh = "equilateral, plain clamp";
+      print(row);
+    }
+  }
+}
+
+/// Mean over seeds 1, 2, ...
+Row mean_cantilever(StripOptions o, double gamma, int seeds) {
+  Row mean{"", "", gamma, o.rows, o.columns};
+  mean.report.converged = true;
+  for (o.seed = 1; o.seed <= std::uint64_t(seeds); ++o.seed) {
+    const Row row = cantilever(o, gamma);
+    mean.measured += row.measured / seeds;
+    mean.error += row.error / seeds;
+    mean.reference = row.reference;
+    mean.report.converged = mean.report.converged && row.report.converged;
+    mean.seconds += row.seconds;
+  }
+  return mean;
+}
+
+void jittered() {
+  for (const double gamma : {1.0, 5.0, 10.0, 25.0, 100.0}) {
+    for (const auto& [name, scale] :
+         {std::pair{"jitter 0.2 edges", 1.0}, {"jitter 0.2 cells", std::sqrt(0.75)}}) {
+      for (const int columns : {4, 8}) {
+        StripOptions o;
+        o.columns = columns;
+        o.jitter = 0.2 * scale;
+        Row row = mean_cantilever(o, gamma, 5);
+        row.what = "cantilever H/W of 5 seeds";
+        row.mesh = name;
+        row.target = gamma >= 10 ? 0.05 : 0.1;
+        print(row);
+        row = mean_cantilever(o, gamma, 30);
+        row.what = "cantilever H/W of 30 seeds";
+        row.mesh = name;
+        print(row);
+      }
+    }
+  }
+}
+
+/// Springs across edges: drops, and the slope of the drop against the load.
+void third_power() {
+  double last = 0;
+  for (const double gamma : {1e-3, 1e-2, 1e-1, 10.0, 30.0, 100.0}) {
+    StripOptions o;
+    o.young = 1e5;
+    Strip strip = equilateral_strip(o);
+    const double edge = strip.width / o.columns, spring = 1000;
+    replace_hinges_by_springs(strip, spring);
+    const Elastica exact = heavy_elastica(gamma, 3);
+    for (Vec3& x : strip.cloth.particles.x) {
+      if (x.x() > 0) x.z() = -exact.height * o.length * std::pow(x.x() / o.length, 5.0 / 3);
+    }
+    StaticOptions options;
+    options.tolerance = gamma < 1 ? 0.02 : 1e-4;
+    const double rigidity = 0.0608929 * spring * std::pow(edge, 4);
+    options.gravity = {0, 0, -gamma * rigidity / (o.density * std::pow(o.length, 5))};
+    Row row{"springs across edges H/L", "equilateral", gamma, o.rows, o.columns};
+    rest(strip.cloth, options, row);
+    row.measured = -strip.tip().z() / o.length;
+    row.reference = exact.height;
+    row.error = row.measured / row.reference - 1;
+    print(row);
+    if (last > 0 && gamma < 1) {
+      const double slope = std::log10(row.measured / last);
+      print({"springs across edges slope",
+             "equilateral",
+             gamma,
+             o.rows,
+             o.columns,
+             slope,
+             1.0 / 3,
+             slope - 1.0 / 3,
+             0.01,
+             {},
+             0});
+    }
+    last = row.measured;
+  }
+}
+
+void buckling() {
+  struct Theory {
+    const char* what;
+    Vec3 direction;
+    double below, above, gamma, target;
+  };
+  // Greenhill's 7.8373 and Timoshenko's lateral threshold; the lattice bends with nu = -1/3.
+  const Theory theories[] = {
+      {"self-buckling Gamma (EI = D(1-nu^2) b)", {-1, 0, 0}, 6, 8.5, 7.837347438943 * 8 / 9, 0.05},
+      {"self-buckling Gamma (EI = D b)", {-1, 0, 0}, 6, 8.5, 7.837347438943, 0},
+      {"lateral buckling Gamma (EI = D b)", {0, -1, 0}, 18, 24, 20.9901076079, 0.05},
+      {"lateral buckling Gamma (EI = D(1-nu^2) b)", {0, -1, 0}, 18, 24, 19.7896632365, 0}};
+  for (const double ratio : {0.05, 0.1}) {
+    for (const int columns : {4, 6, 8}) {
+      StripOptions o;
+      o.columns = columns;
+      o.rows = int(std::lround(columns / ratio / std::sqrt(0.75)));
+      const Strip strip = equilateral_strip(o);
+      for (const Theory& t : theories) {
+        const double gamma = critical_gamma(strip, t.direction, t.below, t.above);
+        print({t.what,
+               "equilateral",
+               ratio,
+               o.rows,
+               columns,
+               gamma,
+               t.gamma,
+               gamma / t.gamma - 1,
+               t.target,
+               {},
+               0});
+      }
+    }
+  }
+}
+
+void postbuckled() {
+  for (const auto& [e, height] : {std::pair{0.01, 0.0634627217646},
+                                  {0.1, 0.194924311376},
+                                  {0.3, 0.314312612956},
+                                  {0.5, 0.373306427445}}) {
+    for (const int rows : {16, 32, 64}) {
+      StripOptions o;
+      o.rows = rows;
+      o.far_clamp = true;
+      Strip strip = equilateral_strip(o);
+      for (Vec3& x : strip.cloth.particles.x) {
+        const double s = std::clamp(x.x() / o.length, 0.0, 1.0);
+        x += o.length * Vec3(-e * s, 0, 0.5 * height * (1 - std::cos(2 * std::numbers::pi * s)));
+      }
+      StaticOptions options;
+      options.gravity.setZero();
+      Row row{"post-buckled height/L", "equilateral", e, rows, o.columns};
+      rest(strip.cloth, options, row);
+      row.measured = strip.middle(std::size_t(rows) / 2 + 1).z() / o.length;
+      row.reference = height;
+      row.error = row.measured / height - 1;
+      row.target = 0.01;
+      print(row);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace furrow::bench
+
+int main() {
+  using namespace furrow::bench;
+  print_header();
+  catenaries();
+  ladders();
+  cantilevers();
+  jittered();
+  third_power();
+  buckling();
+  postbuckled();
+}

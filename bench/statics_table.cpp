@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench/statics_table.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+namespace furrow::bench {
+
+void print_header() {
+  std::puts(
+      "what,mesh,parameter,rows,columns,measured,reference,error,target,verdict,iterations,factorisations,"
+      "residual,converged,stable,seconds");
+}
+
+void print(const Row& r) {
+  const char* verdict = !(r.target > 0) ? "" : std::abs(r.error) <= r.target ? "met" : "missed";
+  std::printf("%s,%s,%g,%d,%d,%.9g,%.9g,%.3e,%g,%s,%d,%d,%.1e,%d,%d,%.2f\n", r.what, r.mesh, r.parameter,
+              r.rows, r.columns, r.measured, r.reference, r.error, r.target, verdict, r.report.iterations,
+              r.report.factorisations, r.report.residual, r.report.converged, r.report.stable, r.seconds);
+  std::fflush(stdout);
+}
+
+void rest(physics::Cloth& cloth, const physics::StaticOptions& options, Row& row) {
+  const auto start = std::chrono::steady_clock::now();
+  row.report = physics::find_static_equilibrium(cloth, options);
+  row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace furrow::bench

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "physics/elements.h"
+
+namespace furrow::physics {
+
+/// The stiffness matrix K [N/m] of the particles that are not held (inv_mass > 0), sparse, and its factors
+/// L D L^T. Where the blocks lie, the order of elimination (approximate minimum degree) and the factor's
+/// pattern are found once; assembly and factorisation use them again.
+class FreeStiffness {
+ public:
+  /// Cost: O(blocks log blocks) and the symbolic factorisation. Throws std::invalid_argument if the
+  /// particles' arrays differ in length, and as add_stiffness().
+  explicit FreeStiffness(const Cloth& cloth);
+
+  /// K at positions x [m]. The cloth has the elements and held particles of the constructor's; other
+  /// stiffnesses and rest states are welcome. Throws std::invalid_argument if it hands out another number of
+  /// blocks, and as add_stiffness().
+  void assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffness stiffness);
+
+  /// Factorises K + shift I, shift [N/m]. The number of its negative eigenvalues (negative pivots:
+  /// Sylvester's law of inertia), -1 if a pivot is 0 or not finite. Pivots are not permuted: what is not
+  /// positive definite should be used with care.
+  int factorise(double shift = 0);
+  /// b becomes the solution in rows of free particles, 0 in the others. Needs factorise() >= 0.
+  void solve(std::span<Vec3> b) const;
+
+  /// Mean of the diagonal of K [N/m], 0 if nothing is free: a scale for shifts.
+  double mean_diagonal() const;
+  int free_particles() const { return free_particles_; }
+
+ private:
+  using Sparse = Eigen::SparseMatrix<double>;
+  void make_pattern(std::span<const std::array<int, 2>> sequence);
+
+  int free_particles_ = 0;
+  std::vector<int> row_;                   ///< of each particle among the free ones; -1: held
+  std::vector<std::array<int, 3>> place_;  ///< of each block: its columns' first values; -1: left out
+  Sparse matrix_;                          ///< lower triangle
+  Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor_;
+};
+
+}  // namespace furrow::physics

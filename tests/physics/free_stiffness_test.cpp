@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/free_stiffness.h"
+
+#include <catch2/catch.hpp>
+
+#include "physics/pins.h"
+#include "tests/physics/finite_differences.h"
+#include "tests/physics/shell_cloths.h"
+
+using namespace furrow::physics;
+using namespace furrow::tests;
+
+namespace {
+
+/// All kinds of elements, crumpled, three particles held.
+Cloth crumpled(double crumple) {
+  Cloth cloth = sheet(4, 4, 0.1, 0.2, 3, 300, 40);
+  add_membrane(cloth, 500);
+  add_hinges(cloth, 0.01);
+  pin(cloth.particles, std::vector<int>{0, 5, 15});
+  Noise noise(4);
+  for (Vec3& x : cloth.particles.x) x += crumple * noise.vector();
+  return cloth;
+}
+
+Eigen::MatrixXd dense(const Cloth& cloth, Stiffness stiffness) {
+  const Eigen::MatrixXd all = stiffness_matrix(cloth, cloth.particles.x, stiffness);
+  std::vector<int> kept;
+  for (int i = 0; i < int(cloth.particles.size()); ++i) {
+    if (cloth.particles.inv_mass[i] > 0) kept.insert(kept.end(), {3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return all(kept, kept);
+}
+
+}  // namespace
+
+TEST_CASE("the stiffness of free particles: solutions, signs and scale agree with the dense matrix") {
+  for (const double crumple : {0.002, 0.03}) {
+    const Cloth cloth = crumpled(crumple);
+    FreeStiffness k(cloth);
+    for (const Stiffness stiffness : {Stiffness::exact, Stiffness::positive_part}) {
+      const Eigen::MatrixXd matrix = dense(cloth, stiffness);
+      const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues();
+      k.assemble(cloth, cloth.particles.x, stiffness);
+      CHECK(k.free_particles() == 13);
+      CHECK(k.mean_diagonal() == Approx(matrix.diagonal().mean()));
+      for (const double shift : {1e-3, -0.5 * (values[9] + values[10]), 2 * std::abs(values[0])}) {
+        CAPTURE(crumple, shift);
+        CHECK(k.factorise(shift) == int((values.array() + shift < 0).count()));
+      }
+      Noise noise(7);
+      std::vector<Vec3> b(cloth.particles.size());
+      for (Vec3& v : b) v = noise.vector();
+      std::vector<Vec3> u = b;
+      k.solve(u);
+      CHECK(u[5] == Vec3::Zero());
+      Eigen::VectorXd right(39), solution(39);
+      for (int i = 0, row = 0; i < 16; ++i) {
+        if (!(cloth.particles.inv_mass[i] > 0)) continue;
+        right.segment<3>(3 * row) = b[i];
+        solution.segment<3>(3 * row++) = u[i];
+      }
+      const Eigen::VectorXd rest = matrix * solution + 2 * std::abs(values[0]) * solution - right;
+      CHECK(rest.norm() < 1e-9 * right.norm());
+    }
+  }
+}
+
+TEST_CASE("the stiffness of free particles: nothing free, and a cloth that changed") {
+  Cloth cloth = crumpled(0);
+  FreeStiffness k(cloth);
+  cloth.hinges.pop_back();
+  CHECK_THROWS_AS(k.assemble(cloth, cloth.particles.x, Stiffness::exact), std::invalid_argument);
+  for (int i = 0; i < 5; ++i) cloth.structural.push_back(cloth.structural.back());
+  CHECK_THROWS_AS(k.assemble(cloth, cloth.particles.x, Stiffness::exact), std::invalid_argument);
+  for (double& w : cloth.particles.inv_mass) w = 0;
+  FreeStiffness none(cloth);
+  none.assemble(cloth, cloth.particles.x, Stiffness::exact);
+  CHECK(none.factorise() == 0);
+  CHECK(none.mean_diagonal() == 0);
+  std::vector<Vec3> b(cloth.particles.size(), Vec3::Ones());
+  none.solve(b);
+  CHECK(b[3] == Vec3::Zero());
+  cloth.particles.inv_mass.pop_back();
+  CHECK_THROWS_AS(FreeStiffness(cloth), std::invalid_argument);
+}
