@@ -9,7 +9,9 @@
 #include "geometry/errors.h"
 #include "geometry/masses.h"
 #include "geometry/property_names.h"
+#include "geometry/rest_angles.h"
 #include "geometry/rest_metric.h"
+#include "physics/elements.h"
 
 using namespace furrow;
 using geometry::Mesh;
@@ -76,4 +78,47 @@ TEST_CASE("scatter writes back what gather read, and refuses another mesh") {
   CHECK(mesh.point(Vertex(2)) == Point(2, 2, 0));
   cloth.particles.x.pop_back();
   CHECK_THROWS_AS(bridge::scatter(cloth.particles, mesh), std::invalid_argument);
+}
+
+TEST_CASE("gather fills only what the options choose") {
+  Mesh mesh = square();
+  for (Vertex v : mesh.vertices())  // a ridge along the diagonal: its ends are 0 and 2
+    if (v == Vertex(1) || v == Vertex(3)) mesh.point(v) = Point(mesh.point(v).x(), mesh.point(v).y(), -0.2);
+  geometry::ensure_rest_angles(mesh);
+  bridge::GatherOptions o = kOptions;
+  o.membrane = bridge::Membrane::triangles;
+  o.bending = bridge::Bending::hinge;
+  o.stretch = 300;
+  o.poisson = 0;
+  o.rigidity = 2e-5;
+  const physics::Cloth plate = bridge::gather(mesh, o);
+  CHECK(plate.structural.empty());
+  CHECK(plate.bending.empty());
+  REQUIRE(plate.membrane.size() == 2);
+  CHECK(plate.membrane[0].vertices == std::array{0, 1, 2});
+  CHECK(plate.membrane[0].rest_lengths[1] == Approx(std::sqrt(2)));  // opposite vertex 1
+  CHECK(plate.membrane[0].mu == Approx(150));
+  REQUIRE(plate.hinges.size() == 1);
+  CHECK(plate.hinges[0].vertices[0] == 0);
+  CHECK(plate.hinges[0].vertices[1] == 2);
+  CHECK(plate.hinges[0].rest_angle > 0.5);
+  CHECK(plate.hinges[0].stiffness == Approx(2e-5 * 2 / 1));  // B l^2 / (A1 + A2) of the square at rest
+  CHECK(physics::potential_energy(plate, plate.particles.x) > 0);  // lifted, its lengths are no rest lengths
+}
+
+TEST_CASE("the springs' laws: what an edge of length r gets") {
+  bridge::GatherOptions o = kOptions;
+  const auto stiffness = [&](bridge::Membrane law, int a, int b) {
+    o.membrane = law;
+    for (const physics::Spring& s : bridge::gather(square(), o).structural)
+      if (s.a == a && s.b == b) return s.stiffness;
+    return -1.0;
+  };
+  o.stretch = 60;
+  const double diagonal = std::sqrt(2);
+  CHECK(stiffness(bridge::Membrane::paper, 0, 2) == Approx(1000 * diagonal / 0.5));
+  CHECK(stiffness(bridge::Membrane::uniform, 0, 2) == Approx(1000));
+  CHECK(stiffness(bridge::Membrane::inverse, 0, 2) == Approx(1000 * 0.5 / diagonal));
+  CHECK(stiffness(bridge::Membrane::van_gelder, 0, 2) == Approx(60 * 1.0 / 2));
+  CHECK(stiffness(bridge::Membrane::van_gelder, 0, 1) == Approx(60 * 0.5 / 1));
 }

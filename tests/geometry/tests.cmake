@@ -5,6 +5,7 @@ furrow_add_tests(geometry LIBRARIES furrow::geometry SOURCES
   two_ring_test.cpp
   taubin_smooth_test.cpp
   bending_springs_test.cpp
+  rest_angles_test.cpp
   rest_state_test.cpp
   masses_test.cpp
   stiffness_test.cpp
