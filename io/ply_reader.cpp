@@ -182,8 +182,8 @@ class PlyReader {
   }
 
   void read_edges(const PlyElement& element) {
-    warn_of_unknown(
-        element, {"vertex1", "vertex2", "rest_length", "bending_rest_length", "bending_count", "line_edge"});
+    warn_of_unknown(element, {"vertex1", "vertex2", "rest_length", "bending_rest_length", "bending_count",
+                              "rest_angle", "line_edge"});
     for (std::size_t i = 0; i < element.count; ++i) {
       rows_.read(element, i, row_);
       edges_.add(row_, rows_, options_.metres_per_unit);

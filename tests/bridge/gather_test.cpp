@@ -102,7 +102,7 @@ TEST_CASE("gather fills only what the options choose") {
   CHECK(plate.hinges[0].vertices[0] == 0);
   CHECK(plate.hinges[0].vertices[1] == 2);
   CHECK(plate.hinges[0].rest_angle > 0.5);
-  CHECK(plate.hinges[0].stiffness == Approx(2e-5 * 2 / 1));  // B l^2 / (A1 + A2) of the square at rest
+  CHECK(plate.hinges[0].stiffness == Approx(2e-5 * 2 / 1));        // B l^2 / (A1 + A2) of the square at rest
   CHECK(physics::potential_energy(plate, plate.particles.x) > 0);  // lifted, its lengths are no rest lengths
 }
 

@@ -181,3 +181,17 @@ TEST_CASE("no output replaces an input or another output") {
   CHECK(read_text(field) == bytes);
   CHECK_FALSE(std::filesystem::exists(out));
 }
+
+TEST_CASE("fabrics, and every integrator that a scene can choose, go on as if they had not been stopped") {
+  FallingSheet sheet;
+  const std::string state = sheet.scratch / "state.ply", scene = sheet.scratch / "scene.toml";
+  const std::string more = GENERATE(
+      " --set 'material={preset=\"jet-set\"}'", " --set material.membrane=van-gelder --bending-law cosine",
+      " --integrator rk4", " --integrator semi-implicit", " --integrator xpbd --dt 0.001",
+      " --integrator backward-euler --dt 0.004");
+  CAPTURE(more);
+  const std::string whole = sheet.run(scene + more + " --threads 1");
+  REQUIRE(run_furrow("simulate " + scene + more + " -q --threads 2 --stop-at 0.1 --save-state " + state)
+              .exit_code == 0);
+  CHECK(sheet.run("--state " + state + " --threads 2") == whole);
+}
