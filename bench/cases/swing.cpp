@@ -35,7 +35,7 @@ bool has_diverged(const physics::PackedCloth& cloth) {
 Swing sheet_swing(const SheetOptions& o) {
   constexpr double side = 0.4, density = 0.15;
   const int rows = equilateral_rows(side, side, o.columns);
-  Swing swing{triangular_sheet(side, side, o.columns, rows, density, o.jitter), {}, o.seconds, side};
+  Swing swing{triangular_sheet(side, side, o.columns, rows, density, o.jitter), {}, o.seconds};
   physics::Cloth& cloth = swing.cloth;
   const std::vector<double> areas = physics::rest_areas(cloth);
   const double young = 2 / std::sqrt(3.0) * o.stiffness;
@@ -50,7 +50,7 @@ Swing sheet_swing(const SheetOptions& o) {
 Swing chain_swing() {
   constexpr int links = 32;
   constexpr double length = 1, mass = 0.1, axial = 147;
-  Swing swing{{}, {}, 0.5, length};
+  Swing swing{{}, {}, 0.5};
   physics::Cloth& cloth = swing.cloth;
   physics::Particles& p = cloth.particles;
   std::vector<double> rest(links);
@@ -92,13 +92,13 @@ SwingRun run(const Swing& swing, const physics::StepperOptions& options, double 
   return result;
 }
 
-double distance(const Swing& swing, const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double sum = 0, mass = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    sum += swing.cloth.particles.mass[i] * (a[i] - b[i]).squaredNorm();
-    mass += swing.cloth.particles.mass[i];
+double relative_error(const Swing& swing, const std::vector<Vec3>& end, const std::vector<Vec3>& exact) {
+  double away = 0, way = 0;
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    away += swing.cloth.particles.mass[i] * (end[i] - exact[i]).squaredNorm();
+    way += swing.cloth.particles.mass[i] * (swing.cloth.particles.x[i] - exact[i]).squaredNorm();
   }
-  return std::sqrt(sum / mass) / swing.length;
+  return std::sqrt(away / way);
 }
 
 double step_limit(const Swing& swing) { return stable_step(swing.cloth, {.tolerance = 1e-4}).dt_limit; }

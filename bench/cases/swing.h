@@ -10,7 +10,6 @@ struct Swing {
   physics::Cloth cloth;
   physics::Loads loads;
   double seconds;  ///< [s]
-  double length;   ///< by which errors are divided [m]
 };
 
 struct SheetOptions {
@@ -39,8 +38,10 @@ struct SwingRun {
 /// On one thread. Divergence is looked for every 16 steps and at the end.
 SwingRun run(const Swing& swing, const physics::StepperOptions& options, double dt);
 
-/// Root mean square, weighted by mass, of the distances between two ends, over swing.length [-].
-double distance(const Swing& swing, const std::vector<physics::Vec3>& a, const std::vector<physics::Vec3>& b);
+/// Root mean square, weighted by mass, of the distances between two ends, over that of the way from the start
+/// to `exact`: a cloth that does not move has 1 [-].
+double relative_error(const Swing& swing, const std::vector<physics::Vec3>& end,
+                      const std::vector<physics::Vec3>& exact);
 
 /// 2 / omega_max of the cloth as it lies, to 1e-4 [s].
 double step_limit(const Swing& swing);

@@ -46,8 +46,9 @@ double located(const Swing& swing, Integrator integrator, double limit, int step
 void chart_damping(const std::string& folder, Effort effort) {
   Table table(
       folder + "/damping.csv",
-      "Longest stable step over 2/omega_max of a sheet of 95 vertices at rest, found by running. rk4_bound: "
-      "as the library foresees it. naive: (sqrt(1 + z^2) - z), where damping is a force at the old velocity.",
+      "Longest stable step over 2/omega_max of a sheet of 95 vertices at rest, found by running. "
+      "rk4_bound: as the library foresees it. naive: (sqrt(1 + z^2) - z), where damping is a force at the "
+      "old velocity.",
       "damping[-],jitter[h],leapfrog[-],semi_implicit[-],rk4[-],explicit_euler[-],rk4_bound[-],naive[-]");
   const int steps = effort == Effort::quick ? 2000 : 20000;
   for (const double jitter : {0.0, 0.3}) {

@@ -28,10 +28,10 @@ constexpr Named carriers[] = {{"paper", MembraneLaw::paper},
 void chart_laws(const std::string& folder, Effort effort) {
   Table table(
       folder + "/laws.csv",
-      "Patch test on the unit square, 26 columns, means of the seeds. Errors: |energy - 1|; the largest "
-      "of three strains; farthest from the affine place. Jitter: uniform +- j h, then Delaunay.",
-      "law,jitter[h],seeds,dilation_error[-],largest_energy_error[-],non_affine[strain h],"
-      "dt_limit[h sqrt(rho/Y)]");
+      "Patch test on the unit square, 26 columns, means of the seeds. Errors: |energy - 1|; the largest of"
+      " three strains; farthest from the affine place. Jitter: uniform +- j h, then Delaunay.",
+      "law,jitter[h],seeds,dilation_error[-],largest_energy_error[-],non_affine[strain h],dt_limit[h "
+      "sqrt(rho/Y)]");
   const int rows = equilateral_rows(1, 1, 26), seeds = effort == Effort::quick ? 4 : 10;
   for (const auto& [name, carrier] : carriers) {
     for (const double jitter : {0.0, 0.1, 0.2, 0.3}) {

@@ -14,10 +14,12 @@ set multiplot layout 4,2 title (by_cpu ? \
 and a factorisation that is not counted)") font font.",13" margins 0.075,0.985,0.04,0.94 spacing 0.075,0.055
 set logscale xy
 set format xy "10^{%T}"
-set yrange [1e-9:4]
-set ytics 1e-9,100,1
+set yrange [1e-10:4]
+set xtics nomirror
+set ytics nomirror 1e-10,100,1
+unset mytics
 set xlabel (by_cpu ? "processor seconds per simulated second" : "passes per simulated second") offset 0,0.5
-set ylabel "error / size of the scene" offset 1,0
+set ylabel "error / way" offset 1,0
 shown(scene, method) = strcol(1) eq scene && strcol(2) eq method
 do for [scene in order] {
   if (scene eq "legend") {
@@ -29,9 +31,9 @@ do for [scene in order] {
       NaN with points pt 2 lc rgb "#555555" title "cross at the top: diverged", \
       NaN with lines dt 2 lw 1.5 lc rgb "#0072B2" title "leapfrog at its limit, dt = 2/ω_{max}", \
       NaN with lines lw 6 lc rgb "#e4e4e4" title "below the check of the reference"
-    set border 3 lc rgb "#555555"; set tics nomirror; set ytics 1e-9,100,1; set grid lc rgb "#dddddd" lt 1 lw 0.6
+    set border 3 lc rgb "#555555"; set xtics nomirror; set ytics nomirror 1e-10,100,1; unset mytics; set grid lc rgb "#dddddd" lt 1 lw 0.6
     set xlabel (by_cpu ? "processor seconds per simulated second" : "passes per simulated second") offset 0,0.5
-    set ylabel "error / size of the scene" offset 1,0
+    set ylabel "error / way" offset 1,0
     unset key
   } else {
     unset label; unset arrow; unset object; unset key
@@ -41,15 +43,15 @@ do for [scene in order] {
     limit = field(by_cpu ? 11 : 12)
     heading = system(sprintf("sed -n 's/^%s,\"\\([^\"]*\\)\".*/\\1/p' work_references.csv", scene))
     set title heading offset 0,-0.6
-    if (by_cpu) { set xrange [(scene eq "chain" ? 3e-5 : 6e-4):(scene eq "chain" ? 10 : 2e2)] } \
+    if (by_cpu) { set xrange [(scene eq "chain" ? 3e-5 : 6e-4):(scene eq "chain" ? 10 : 1e2)] } \
     else { set xrange [(scene eq "chain" ? 10 : 10):(scene eq "chain" ? 1e6 : 3e6)] }
-    set object 1 rectangle from graph 0, first 1e-9 to graph 1, first (check > 1e-9 ? check : 1e-9) \
+    set object 1 rectangle from graph 0, first 1e-10 to graph 1, first (check > 1e-10 ? check : 1e-10) \
       fc rgb "#e4e4e4" fs solid noborder behind
     set arrow 1 from first limit, graph 0 to first limit, graph 1 nohead dt 2 lw 1.5 lc rgb "#0072B2"
     set arrow 2 from graph 0, first 0.1 to graph 1, first 0.1 nohead dt 3 lw 1 lc rgb "#888888"
-    set label 2 "10 %" at graph 0.995, first 0.1 right offset 0,0.5 font font.",9" tc rgb "#666666"
+    set label 2 "10 %" at graph 0.985, first 0.1 right offset 0,0.5 font font.",9" tc rgb "#666666"
     set arrow 3 from graph 0, first 0.01 to graph 1, first 0.01 nohead dt 3 lw 1 lc rgb "#888888"
-    set label 3 "1 %" at graph 0.995, first 0.01 right offset 0,0.5 font font.",9" tc rgb "#666666"
+    set label 3 "1 %" at graph 0.985, first 0.01 right offset 0,0.5 font font.",9" tc rgb "#666666"
     plot for [i=1:8] "work.csv" using (shown(scene, word(methods, i)) && strcol(8) ne "diverged" ? column(column_x) : NaN) \
         :7 skip 1 with lines lw 1.6 lc rgb colour[i], \
       for [i=1:8] "work.csv" using (shown(scene, word(methods, i)) && strcol(8) eq "ok" ? column(column_x) : NaN) \
