@@ -23,6 +23,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   residual_force_test.cpp
   rigid_contact_test.cpp
   rigid_motion_test.cpp
+  speed_accuracy_test.cpp
   simulate_integrators_test.cpp
   simulate_state_test.cpp
   simulate_test.cpp

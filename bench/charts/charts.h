@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+
+namespace furrow::bench {
+
+enum class Effort { quick, full };
+
+/// Each writes CSV files into the folder.
+void chart_laws(const std::string& folder, Effort effort);  ///< laws.csv
+void chart_work_precision(const std::string& folder,
+                          Effort effort);                        ///< work*.csv: points, references, fronts
+void chart_stability(const std::string& folder, Effort effort);  ///< stability.csv
+void chart_damping(const std::string& folder, Effort effort);    ///< damping.csv
+
+}  // namespace furrow::bench
