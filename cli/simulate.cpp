@@ -4,6 +4,7 @@
 
 #include "cli/common.h"
 #include "cli/scene_flags.h"
+#include "cli/scene_input.h"
 #include "cli/scene_run.h"
 #include "cli/subcommands.h"
 #include "geometry/errors.h"
@@ -18,8 +19,6 @@ struct SimulateArguments : CommonArguments {
   std::string in, state;
   SceneFlags flags;
 };
-
-bool is_scene(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
 
 /// The settings: those of the scene file or the saved state, then what the command line says.
 io::TomlDocument settings(const SimulateArguments& a, const std::optional<io::SavedState>& state) {
@@ -41,16 +40,6 @@ io::TomlDocument settings(const SimulateArguments& a, const std::optional<io::Sa
   return document;
 }
 
-io::Scene scene_of(const io::TomlDocument& document, const std::filesystem::path& folder) {
-  try {
-    return io::read_scene(document, folder);
-  } catch (const geometry::ContentError& e) {
-    const bool a_flag = std::string(e.what()).rfind("--", 0) == 0;  // a fault of the call, not of a file
-    if (a_flag) throw UsageError(e.what());
-    throw;
-  }
-}
-
 /// Files that are read; no output may replace one, but the garment itself, by its result.
 std::vector<std::string> inputs(const io::Scene& scene, const SimulateArguments& a) {
   std::vector<std::string> files;
@@ -63,20 +52,6 @@ std::vector<std::string> inputs(const io::Scene& scene, const SimulateArguments&
   return files;
 }
 
-/// A garment that notes its unit brings it for the body, the strokes and what is written.
-void take_noted_frame(io::Scene& scene, io::TomlDocument& document) {
-  CommonArguments noted;
-  cli::take_noted_frame(noted, {scene.garment.string()});
-  const auto take = [&](std::optional<std::string>& value, const char* key, const std::string& found,
-                        const char* usual) {
-    if (value || found == usual) return;
-    value = found;
-    io::set_value(document, key, found, scene.garment.string());
-  };
-  take(scene.unit, "unit", noted.noted_unit, "m");
-  take(scene.up, "up", noted.noted_up, "y");
-}
-
 /// Folders that a scene file names are made, so that a fresh copy of it runs; those of flags must be there.
 void make_folders(const io::Scene& scene, const io::TomlDocument& document) {
   const io::SceneOutput& out = scene.output;
@@ -87,23 +62,6 @@ void make_folders(const io::Scene& scene, const io::TomlDocument& document) {
     if (!path.parent_path().empty() &&
         document.place("output." + std::string(key)).rfind(document.name + ":", 0) == 0)
       std::filesystem::create_directories(path.parent_path());
-}
-
-/// A file that a scene or a state names and that is not there: says where it is named.
-void check_inputs(const io::Scene& scene, const io::TomlDocument& document, int lines_drawn) {
-  const auto check = [&](const std::string& key, const std::filesystem::path& path) {
-    const std::string place = document.place(key);
-    if (document.name.empty() || place.rfind(document.name, 0) != 0 || path.empty() || path == "-" ||
-        std::filesystem::exists(path))
-      return;
-    throw geometry::ContentError(place + ": " + key + ": there is no file " + path.string() +
-                                 "; paths are relative to the file that names them");
-  };
-  if (lines_drawn < 0) check("garment.mesh", scene.garment);
-  if (scene.body) check("body.mesh", scene.body->mesh);
-  if (scene.body) check("body.field", scene.body->field);
-  for (std::size_t i = static_cast<std::size_t>(std::max(0, lines_drawn)); i < scene.lines.size(); ++i)
-    check("lines." + std::to_string(i) + ".strokes", scene.lines[i].strokes);
 }
 
 void check_output_formats(const io::SceneOutput& out, bool has_body) {
