@@ -26,12 +26,13 @@ namespace {
 class SceneRun {
  public:
   SceneRun(const io::Scene& scene, const io::TomlDocument& document, std::filesystem::path folder,
-           std::string state_path, const CommonArguments& common)
+           std::string state_path, const CommonArguments& common, const Json& choice)
       : scene_(scene),
         document_(document),
         folder_(std::move(folder)),
         state_path_(std::move(state_path)),
-        common_(common) {}
+        common_(common),
+        choice_(choice) {}
 
   int run(std::optional<io::SavedState> saved) {
     catch_interrupts();
@@ -228,6 +229,7 @@ class SceneRun {
     if (!scene_.title.empty()) json = with_title(json);
     if (!rounds_.empty()) json["rounds"] = rounds_;
     if (!animations_.empty()) json["animations"] = animations_;
+    if (!choice_.is_null()) json["choice"] = choice_;
     json["flags"] = equivalent_flags(io::relocated(document_, folder_, ""), state_path_, settings_before_);
     print_report(json, common_);
     if (!diverged) warn_of_oddities();
@@ -303,6 +305,7 @@ class SceneRun {
   std::string state_path_;
   Json settings_before_;  ///< of the state that is gone on from
   const CommonArguments& common_;
+  const Json& choice_;
   io::SavedState now_;
   bool resumed_ = false, started_ = false, stopped_ = false;
   std::optional<WorldBody> body_;
@@ -319,8 +322,8 @@ class SceneRun {
 
 int run_scene(const io::Scene& scene, const io::TomlDocument& document, const std::filesystem::path& folder,
               std::optional<io::SavedState> state, const std::string& state_path,
-              const CommonArguments& common) {
-  return SceneRun(scene, document, folder, state_path, common).run(std::move(state));
+              const CommonArguments& common, const Json& choice) {
+  return SceneRun(scene, document, folder, state_path, common, choice).run(std::move(state));
 }
 
 }  // namespace furrow::cli

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <iostream>
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/judge_report.h"
 #include "cli/scene_flags.h"
 #include "cli/scene_input.h"
 #include "cli/scene_run.h"
@@ -17,6 +19,7 @@ namespace {
 
 struct SimulateArguments : CommonArguments {
   std::string in, state;
+  double budget = 60;
   SceneFlags flags;
 };
 
@@ -96,6 +99,23 @@ void check_outputs(const io::Scene& scene, const SimulateArguments& a) {
   }
 }
 
+/// Integrator and step for --tolerance 1%: sets them in document and scene and returns the judgement.
+Judgement choose_setting(const SimulateArguments& a, const CommonArguments& common,
+                         io::TomlDocument& document, io::Scene& scene, const std::filesystem::path& folder) {
+  const JudgeOptions options{parse_share(a.flags.accuracy(), "--tolerance"), a.budget};
+  if (!a.state.empty())
+    throw UsageError("--tolerance " + a.flags.accuracy() +
+                     " judges a scene from its beginning; leave it or --state away");
+  CommonArguments silent = common;  // the run itself warns
+  silent.quiet = true;
+  const SceneCloth cloth = prepare_scene(scene, silent);
+  const Judgement j = judge(cloth, cloth.world(scene), options, common);
+  if (exit_code_of(j) != kOk) return j;
+  set_candidate(document, j.candidates[static_cast<std::size_t>(j.chosen)].candidate);
+  scene = scene_of(document, folder);
+  return j;
+}
+
 int simulate(SimulateArguments& a) {
   std::optional<io::SavedState> state;
   if (!a.state.empty()) state = io::read_state(a.state);
@@ -113,7 +133,17 @@ int simulate(SimulateArguments& a) {
   common.unit = scene.unit;
   common.up = scene.up;
   common.out = scene.output.mesh.string();
-  return run_scene(scene, document, folder, std::move(state), a.state, common);
+  Json choice;
+  if (!a.flags.accuracy().empty()) {
+    const bool scene_dt = scene.simulation.dt.has_value();
+    const Judgement j = choose_setting(a, common, document, scene, folder);
+    if (const int code = exit_code_of(j); code != kOk) {
+      std::cerr << "error: " << a.in << ": " << words(j, scene_dt) << "\n";
+      return code;
+    }
+    choice = to_json(j, scene_dt);
+  }
+  return run_scene(scene, document, folder, std::move(state), a.state, common, choice);
 }
 
 }  // namespace
@@ -133,6 +163,10 @@ void add_simulate(CLI::App& app, int& exit_code) {
       "garment to read (PLY of furrow wrinkle brings rest lengths and masses), or a scene: a .toml file");
   sub->add_option("--state", a->state, "go on from a saved state");
   a->flags.add_to(*sub);
+  sub->add_option(
+         "--budget", a->budget,
+         "predicted seconds of one thread that choosing for --tolerance 1% may take [s] (default 60)")
+      ->check(CLI::PositiveNumber);
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] { exit_code = simulate(*a); });
 }
