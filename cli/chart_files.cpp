@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "cli/judge_report.h"
@@ -43,34 +44,47 @@ struct Range {
   }
 };
 
-/// A data block of cost, error and name for what `wanted` takes.
-template <class Wanted>
-void block(std::ostream& out, const char* name, const Judgement& j, double top, Wanted wanted) {
-  out << "$" << name << " << END\n";
-  for (const JudgedCandidate& c : j.candidates)
-    if (wanted(c))
-      out << c.cost << " " << (c.fate == Fate::done ? drawn_error(c) : top) << " \"" << c.candidate.name
-          << "\"\n";
-  out << "END\n";
+/// One colour an integrator; of one integrator, each step has another sign.
+const char* colour_of(physics::Integrator integrator) {
+  switch (integrator) {
+    case physics::Integrator::leapfrog:
+      return "#1f4e9e";
+    case physics::Integrator::semi_implicit:
+      return "#2a9fd6";
+    case physics::Integrator::rk4:
+      return "#7b3fa0";
+    case physics::Integrator::backward_euler:
+      return "#2e7d32";
+    case physics::Integrator::xpbd:
+      return "#c77700";
+    case physics::Integrator::explicit_euler:
+      break;
+  }
+  return "#7a4a3a";
 }
 
-void write_blocks(std::ostream& out, const Judgement& j, double top) {
-  const JudgedCandidate& reference = j.candidates.back();
-  const JudgedCandidate* chosen = j.chosen < 0 ? nullptr : &j.candidates[static_cast<std::size_t>(j.chosen)];
-  const auto known = [&](const JudgedCandidate& c) {
-    return c.fate == Fate::done && std::isfinite(c.error) && &c != &reference;
-  };
-  block(out, "explicit", j, top, [&](const JudgedCandidate& c) {
-    return known(c) && !physics::is_unconditionally_stable(c.candidate.integrator);
-  });
-  block(out, "implicit", j, top, [&](const JudgedCandidate& c) {
-    return known(c) && physics::is_unconditionally_stable(c.candidate.integrator);
-  });
-  block(out, "reference", j, top, [&](const JudgedCandidate& c) {
-    return &c == &reference && c.fate == Fate::done && std::isfinite(c.error);
-  });
-  block(out, "diverged", j, top, [&](const JudgedCandidate& c) { return c.fate == Fate::diverged; });
-  block(out, "chosen", j, top, [&](const JudgedCandidate& c) { return &c == chosen; });
+/// One point, named in the key: labels beside points would cover each other.
+void plot_point(std::ostream& out, const JudgedCandidate& c, int sign, double top, bool is_reference) {
+  const bool diverged = c.fate == Fate::diverged;
+  const std::string name = c.candidate.name + (diverged ? " (diverged)" : is_reference ? " (reference)" : "");
+  out << ", \\\n  '+' using (" << c.cost << "):(" << (diverged ? top : drawn_error(c))
+      << ") every ::0::0 with points ps 1.6 lw 1.5 pt " << (diverged ? 2 : sign) << " lc rgb '"
+      << (is_reference ? "black" : colour_of(c.candidate.integrator)) << "' title " << quoted(name);
+}
+
+void plot_points(std::ostream& out, const Judgement& j, double top) {
+  constexpr int kSigns[] = {7, 5, 9, 11, 13};
+  std::map<physics::Integrator, int> seen;
+  for (const JudgedCandidate& c : j.candidates) {
+    if (c.fate != Fate::diverged && !(c.fate == Fate::done && std::isfinite(c.error))) continue;
+    const bool is_reference = &c == &j.candidates.back();
+    const int sign = is_reference ? 8 : kSigns[seen[c.candidate.integrator]++ % 5];
+    plot_point(out, c, sign, top, is_reference);
+  }
+  if (j.chosen < 0) return;
+  const JudgedCandidate& c = j.candidates[static_cast<std::size_t>(j.chosen)];
+  out << ", \\\n  '+' using (" << c.cost << "):(" << drawn_error(c)
+      << ") every ::0::0 with points pt 6 ps 3.5 lw 2 lc 'red' title 'chosen'";
 }
 
 std::string script(const std::string& path, const Judgement& j, const std::string& title) {
@@ -83,22 +97,21 @@ std::string script(const std::string& path, const Judgement& j, const std::strin
   y.take(100 * j.options.tolerance);
   const double top = std::pow(10, std::ceil(std::log10(y.high) + 0.3));
   std::ostringstream out;
-  out << (ending(path) == ".svg" ? "set terminal svg size 800,520 font 'sans,13' background 'white'\n"
-                                 : "set terminal pngcairo size 1000,650 font 'sans,13'\n")
+  out << (ending(path) == ".svg" ? "set terminal svg size 900,460 font 'sans,13' background 'white'\n"
+                                 : "set terminal pngcairo size 1000,520 font 'sans,13'\n")
       << "set output " << quoted(path) << "\nset title " << quoted(title) << " noenhanced\n"
-      << "set logscale xy\nset format y '%g %%'\nset grid\nset key outside bottom center horizontal\n"
+      << "set logscale xy\nset format y '%g %%'\nset grid\nset key outside right center Left reverse samplen "
+         "1 font ',11'\n"
       << "set xlabel 'predicted seconds a simulated second'\n"
       << "set ylabel 'error / size of the garment, " << (j.by_bulk ? "bulk" : "RMS of positions") << "'\n"
-      << "set xrange [" << x.low / 2 << ":" << x.high * 6 << "]\n"
+      << "set xrange [" << x.low / 2 << ":" << x.high * 2 << "]\n"
       << "set yrange [" << y.low / 3 << ":" << top << "]\n";
-  write_blocks(out, j, top);
-  const char* label = " using 1:2:3 with labels left offset 1,0.4 font ',10' noenhanced notitle";
-  out << "plot " << 100 * j.options.tolerance << " with lines dt 2 lw 2 lc 'red' title 'tolerance', "
-      << "$explicit with points pt 7 ps 1.2 lc 'blue' title 'explicit', $explicit" << label
-      << ", $implicit with points pt 5 ps 1.2 lc 'dark-green' title 'implicit', $implicit" << label
-      << ", $reference with points pt 8 ps 1.4 lc 'black' title 'reference, its own estimate', $reference"
-      << label << ", $diverged with points pt 2 ps 1.6 lc 'red' title 'diverged', $diverged" << label
-      << ", $chosen with points pt 6 ps 3 lw 2 lc 'orange' title 'chosen'\n";
+  out << "set style line 1 dt 2 lw 2 lc 'red'\nplot " << 100 * j.options.tolerance
+      << " ls 1 title 'tolerance'";
+  if (std::isfinite(j.reference_error) && 100 * j.reference_error > y.low / 3)
+    out << ", " << 100 * j.reference_error << " with lines dt 3 lc 'black' title 'known no better than'";
+  plot_points(out, j, top);
+  out << "\n";
   return out.str();
 }
 
