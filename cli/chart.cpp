@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -56,7 +57,8 @@ int chart(ChartArguments& a) {
   const Judgement j = judge(cloth, cloth.world(scene), options, common);
   if (!a.csv.empty()) write_chart_csv(a.csv, j);
   const std::string file = std::filesystem::path(a.in).filename().string();
-  if (!a.out.empty()) draw_chart(a.out, j, file + ", first " + Json(j.seconds).dump() + " s");
+  if (!a.out.empty() && std::isfinite(j.reference_error))
+    draw_chart(a.out, j, file + ", first " + Json(j.seconds).dump() + " s");
   common.out.clear();
   const bool scene_dt = scene.simulation.dt.has_value();
   Json report{{"scene", a.in}};

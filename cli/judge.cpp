@@ -16,7 +16,7 @@ using Shape = std::vector<physics::Vec3>;
 constexpr double kTwin = 1e-9;          // [m]
 constexpr double kChaos = 0.01;         // of the tolerance: a twin that drifts farther is chaotic
 constexpr double kShortest = 1.0 / 30;  // [s]
-constexpr double kClockOfBudget = 3;
+constexpr double kClockOfBudget = 3, kClockAtLeast = 60;  // [-], [s]
 
 /// Two digits, never above.
 double rounded_down(double x) {
@@ -110,7 +110,7 @@ class Judge {
     const double clock = Seconds(std::chrono::steady_clock::now() - started_).count();
     if (interrupted())
       j_.broken = Broken::interrupted;
-    else if (clock > kClockOfBudget * j_.options.budget)
+    else if (clock > kClockOfBudget * j_.options.budget + kClockAtLeast)
       j_.broken = Broken::clock;
     return j_.broken != Broken::no;
   }

@@ -57,9 +57,9 @@ struct Judgement {
 
 /// Runs reference, twin and candidates on the scene and chooses the cheapest that meets the tolerance. All by
 /// counts: the same on every machine. Where the budget is too small for the scene's seconds, judges what fits
-/// of them. A clock only breaks off, after 3 budgets; so does Ctrl-C; then what was done is in the result.
-/// Shows progress. Throws UsageError for an option out of its range, a budget too small for 1/30 s, or a
-/// scene that has no time.
+/// of them. A clock only breaks off, after 3 budgets and a minute; so does Ctrl-C; then what was done is in
+/// the result. Shows progress. Throws UsageError for an option out of its range, a budget too small for 1/30
+/// s, or a scene that has no time.
 Judgement judge(const SceneCloth& scene, const physics::World& world, const JudgeOptions& options,
                 const CommonArguments& common);
 

@@ -46,9 +46,10 @@ std::string judged_on(const Judgement& j) {
 }
 
 std::string broken_words(const Judgement& j) {
-  return j.broken == Broken::interrupted ? "interrupted; only what was done so far is shown"
-                                         : "broken off, this machine takes more than three times the budget; "
-                                           "lower --budget, or run fewer programs beside";
+  return j.broken == Broken::interrupted
+             ? "interrupted; only what was done so far is shown"
+             : "broken off, this machine takes more than three times the budget and a minute; "
+               "lower --budget, or run fewer programs beside";
 }
 
 }  // namespace
