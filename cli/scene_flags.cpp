@@ -63,11 +63,18 @@ constexpr Flag kFlags[] = {
     {"--body-fps", "body.fps", false, "frames a second of OBJ files (default 25)"},
     {"--field", "body.field", true, "the body's distance field, saved by furrow sdf"},
     {"--tolerance", "body.tolerance", false,
-     "error of the body's distance field [m]; default 1/1000 of its diagonal, at most 0.002"},
+     "error of the body's distance field [m]; default 1/1000 of its diagonal, at most 0.002. With a % sign, "
+     "--tolerance 1%: the error of the result, as a share of the garment's diagonal; integrator and step are "
+     "chosen for it first (docs/chart.md)"},
     {"--gradient", "body.gradient", true,
      "of the field: exact (of the interpolated distance, default) or interpolated (of the corners', as in "
      "the paper)"},
 };
+
+constexpr std::string_view kTolerance = "body.tolerance";
+
+/// Of the result, not of the field.
+bool is_share(const std::string& tolerance) { return !tolerance.empty() && tolerance.back() == '%'; }
 
 /// The flag's long name.
 std::string name_of(const Flag& f) {
@@ -165,14 +172,25 @@ void SceneFlags::add_to(CLI::App& sub) {
 
 void SceneFlags::apply(io::TomlDocument& document) const {
   for (const Given& g : given_)
-    if (g.option->count()) io::set_value(document, g.path, value_of(g.text, g.is_text), g.flag);
+    if (g.option->count() && !(g.path == kTolerance && is_share(g.text)))
+      io::set_value(document, g.path, value_of(g.text, g.is_text), g.flag);
   if (force_dt_) io::set_value(document, "simulation.force_dt", true, "--force-dt");
   for (const std::string& box : pin_boxes_)
     add_pins(document, "box", parse_numbers(box, 6, "--pin-box"), "--pin-box " + box);
   for (const std::string& loop : pin_loops_) add_pins(document, "loop", loop, "--pin-loop " + loop);
   for (const std::string& group : pin_groups_) add_pins(document, "group", group, "--pin-group " + group);
   if (!pin_vertices_.empty()) add_pins(document, "vertices", pin_vertices_, "--pin-vertices");
-  for (const std::string& text : sets_) {
+  apply_sets(document, sets_);
+}
+
+std::string SceneFlags::accuracy() const {
+  for (const Given& g : given_)
+    if (g.path == kTolerance && is_share(g.text)) return g.text;
+  return "";
+}
+
+void apply_sets(io::TomlDocument& document, const std::vector<std::string>& sets) {
+  for (const std::string& text : sets) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw UsageError("--set takes key=value, not '" + text + "'");

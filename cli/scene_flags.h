@@ -16,6 +16,8 @@ class SceneFlags {
   /// Writes what was given on the command line into the document, flags first, then --set in their order.
   /// Throws UsageError for a --set without a key or with one that cannot be.
   void apply(io::TomlDocument& document) const;
+  /// --tolerance as a share of the garment, "1%", for which integrator and step are chosen; else "".
+  std::string accuracy() const;
 
  private:
   struct Given {
@@ -29,6 +31,10 @@ class SceneFlags {
   std::vector<std::string> pin_boxes_, pin_loops_, pin_groups_, sets_;
   std::vector<int> pin_vertices_;
 };
+
+/// Writes each key=value of --set into the document, in their order. Throws UsageError as
+/// SceneFlags::apply().
+void apply_sets(io::TomlDocument& document, const std::vector<std::string>& sets);
 
 /// The command line that says the same as these settings, without the program's name: flags where there is
 /// one, --set for the rest. With a state: what differs from the settings that the state had.

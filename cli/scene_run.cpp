@@ -2,48 +2,37 @@
 #include "cli/scene_run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
-#include <thread>
 
-#include "bridge/convert.h"
 #include "bridge/scatter.h"
 #include "cli/body.h"
 #include "cli/frame_recorder.h"
 #include "cli/line_round.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
+#include "cli/scene_cloth.h"
 #include "cli/scene_flags.h"
 #include "cli/simulate_report.h"
 #include "cli/wrinkle_reports.h"
 #include "geometry/property_names.h"
-#include "geometry/subdivide.h"
 #include "io/ply_motion.h"
 #include "io/scene_file.h"
 #include "io/stroke_file.h"
 #include "io/wrinkle_record.h"
-#include "physics/pins.h"
-#include "physics/push_out.h"
 
 namespace furrow::cli {
 namespace {
 
-/// Threads wait for each other some five times a step; below some 10,000 vertices each, that costs more than
-/// it saves.
-int worthwhile_threads(std::size_t vertices) {
-  return static_cast<int>(
-      std::clamp<std::size_t>(vertices / 10000, 1, std::max(1u, std::thread::hardware_concurrency())));
-}
-
 class SceneRun {
  public:
   SceneRun(const io::Scene& scene, const io::TomlDocument& document, std::filesystem::path folder,
-           std::string state_path, const CommonArguments& common)
+           std::string state_path, const CommonArguments& common, const Json& choice)
       : scene_(scene),
         document_(document),
         folder_(std::move(folder)),
         state_path_(std::move(state_path)),
-        common_(common) {}
+        common_(common),
+        choice_(choice) {}
 
   int run(std::optional<io::SavedState> saved) {
     catch_interrupts();
@@ -76,9 +65,8 @@ class SceneRun {
 
  private:
   void begin() {
-    now_.file = read_garment(scene_.garment.string(), common_);
+    now_.file = begin_garment(scene_, common_);
     if (!scene_.output.state.empty()) io::check_state_attributes(now_.file.mesh);
-    if (scene_.subdivide > 0) geometry::loop_subdivide(now_.file.mesh, scene_.subdivide);
   }
 
   void load_body_and_pins() {
@@ -94,17 +82,7 @@ class SceneRun {
     if (resumed_)
       change_plan();
     else if (body_)
-      warn_if_apart();
-  }
-
-  /// Mostly a body in another unit, or with another axis up.
-  void warn_if_apart() {
-    const auto cloth = box_of(bridge::positions_of(now_.file.mesh)), body = body_->box(0);
-    if (!cloth.intersects(body))
-      warn(scene_.body->mesh.string() + ": body and garment lie apart, their bounding boxes by " +
-               std::to_string(cloth.exteriorDistance(body)) +
-               " m; if they should touch, look at --unit, --up and their places",
-           common_);
+      warn_if_apart(scene_, *body_, now_.file.mesh, common_);
   }
 
   /// What is not the state's any more.
@@ -201,16 +179,18 @@ class SceneRun {
   /// Whether the simulation is to go on after it.
   bool simulate_to(double stop) {
     physics::Cloth cloth = bridge::gather(now_.file.mesh, spring_options(now_.file, scene_.material));
-    pin_cloth(cloth);
+    pin_cloth(cloth, now_.pins, started_ && body_ ? &*body_ : nullptr, now_.simulation.time, common_);
+    started_ = false;
     physics::SimulateOptions options = scene_.simulation;
     if (body_)
       options.contact_gap = gap_ = contact_gap(options.contact_gap, body_->tolerance(), now_.file.mesh);
     if (stop < options.seconds) options.stop_at = stop;
-    options.threads = scene_.threads ? scene_.threads : worthwhile_threads(cloth.particles.size());
+    options.threads = threads_of(scene_, cloth.particles.size());
     if (!scene_.output.animation.empty()) start_recording(cloth, options);
+    const physics::World world = world_of(scene_, body_ ? &*body_ : nullptr, now_.pins);
     Progress progress("simulating", common_);
     report_ =
-        physics::simulate(cloth, world(), options, &now_.simulation, [&](const physics::SimulateProgress& p) {
+        physics::simulate(cloth, world, options, &now_.simulation, [&](const physics::SimulateProgress& p) {
           progress.show(p.time / scene_.simulation.seconds);
           if (recorder_) recorder_->observe(p.time, cloth.particles.x);
           return !interrupted();
@@ -236,32 +216,6 @@ class SceneRun {
     recorder_->observe(now_.simulation.time, cloth.particles.x);
   }
 
-  physics::World world() const {
-    physics::World world;
-    world.wind = scene_.wind;
-    if (body_) body_->add_to(world);
-    for (std::size_t i = 0; i < now_.pins.size(); ++i)
-      if (!physics::at_rest(scene_.pins[i].motion))
-        world.pins.push_back({now_.pins[i], scene_.pins[i].motion});
-    return world;
-  }
-
-  /// The simulation moves pins only as the scene says, so those that start inside the body are put on its
-  /// surface.
-  void pin_cloth(physics::Cloth& cloth) {
-    for (const std::vector<int>& pins : now_.pins) {
-      physics::pin(cloth.particles, pins);
-      if (!body_ || !started_) continue;
-      const physics::PushOutReport r = body_->push_out(cloth.particles.x, pins, now_.simulation.time);
-      if (r.moved)
-        warn(std::to_string(r.moved) + " pinned vertices were inside the body; moved onto it, by " +
-                 std::to_string(1000 * r.farthest) + " mm at most",
-             common_);
-      if (r.still_inside) warn(std::to_string(r.still_inside) + " of them could not be brought out", common_);
-    }
-    started_ = false;
-  }
-
   void finish_recording() {
     if (recorder_) animations_.push_back(recorder_->close());
     recorder_.reset();
@@ -275,6 +229,7 @@ class SceneRun {
     if (!scene_.title.empty()) json = with_title(json);
     if (!rounds_.empty()) json["rounds"] = rounds_;
     if (!animations_.empty()) json["animations"] = animations_;
+    if (!choice_.is_null()) json["choice"] = choice_;
     json["flags"] = equivalent_flags(io::relocated(document_, folder_, ""), state_path_, settings_before_);
     print_report(json, common_);
     if (!diverged) warn_of_oddities();
@@ -350,6 +305,7 @@ class SceneRun {
   std::string state_path_;
   Json settings_before_;  ///< of the state that is gone on from
   const CommonArguments& common_;
+  const Json& choice_;
   io::SavedState now_;
   bool resumed_ = false, started_ = false, stopped_ = false;
   std::optional<WorldBody> body_;
@@ -366,8 +322,8 @@ class SceneRun {
 
 int run_scene(const io::Scene& scene, const io::TomlDocument& document, const std::filesystem::path& folder,
               std::optional<io::SavedState> state, const std::string& state_path,
-              const CommonArguments& common) {
-  return SceneRun(scene, document, folder, state_path, common).run(std::move(state));
+              const CommonArguments& common, const Json& choice) {
+  return SceneRun(scene, document, folder, state_path, common, choice).run(std::move(state));
 }
 
 }  // namespace furrow::cli

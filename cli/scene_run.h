@@ -12,9 +12,9 @@ namespace furrow::cli {
 /// Runs a scene from its beginning, or from a saved state on: lines are drawn at their times, between them
 /// the cloth is simulated; writes what scene.output names and prints the report. `document` is what the scene
 /// was read from, `folder` what its paths are relative to, `state_path` where the state was read from.
-/// Returns the exit code.
+/// `choice`: what integrator and step were chosen by, for the report; null: by nobody. Returns the exit code.
 int run_scene(const io::Scene& scene, const io::TomlDocument& document, const std::filesystem::path& folder,
               std::optional<io::SavedState> state, const std::string& state_path,
-              const CommonArguments& common);
+              const CommonArguments& common, const Json& choice = {});
 
 }  // namespace furrow::cli

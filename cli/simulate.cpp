@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <iostream>
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/judge_report.h"
 #include "cli/scene_flags.h"
+#include "cli/scene_input.h"
 #include "cli/scene_run.h"
 #include "cli/subcommands.h"
 #include "geometry/errors.h"
@@ -16,10 +19,9 @@ namespace {
 
 struct SimulateArguments : CommonArguments {
   std::string in, state;
+  double budget = 60;
   SceneFlags flags;
 };
-
-bool is_scene(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
 
 /// The settings: those of the scene file or the saved state, then what the command line says.
 io::TomlDocument settings(const SimulateArguments& a, const std::optional<io::SavedState>& state) {
@@ -41,16 +43,6 @@ io::TomlDocument settings(const SimulateArguments& a, const std::optional<io::Sa
   return document;
 }
 
-io::Scene scene_of(const io::TomlDocument& document, const std::filesystem::path& folder) {
-  try {
-    return io::read_scene(document, folder);
-  } catch (const geometry::ContentError& e) {
-    const bool a_flag = std::string(e.what()).rfind("--", 0) == 0;  // a fault of the call, not of a file
-    if (a_flag) throw UsageError(e.what());
-    throw;
-  }
-}
-
 /// Files that are read; no output may replace one, but the garment itself, by its result.
 std::vector<std::string> inputs(const io::Scene& scene, const SimulateArguments& a) {
   std::vector<std::string> files;
@@ -63,20 +55,6 @@ std::vector<std::string> inputs(const io::Scene& scene, const SimulateArguments&
   return files;
 }
 
-/// A garment that notes its unit brings it for the body, the strokes and what is written.
-void take_noted_frame(io::Scene& scene, io::TomlDocument& document) {
-  CommonArguments noted;
-  cli::take_noted_frame(noted, {scene.garment.string()});
-  const auto take = [&](std::optional<std::string>& value, const char* key, const std::string& found,
-                        const char* usual) {
-    if (value || found == usual) return;
-    value = found;
-    io::set_value(document, key, found, scene.garment.string());
-  };
-  take(scene.unit, "unit", noted.noted_unit, "m");
-  take(scene.up, "up", noted.noted_up, "y");
-}
-
 /// Folders that a scene file names are made, so that a fresh copy of it runs; those of flags must be there.
 void make_folders(const io::Scene& scene, const io::TomlDocument& document) {
   const io::SceneOutput& out = scene.output;
@@ -87,23 +65,6 @@ void make_folders(const io::Scene& scene, const io::TomlDocument& document) {
     if (!path.parent_path().empty() &&
         document.place("output." + std::string(key)).rfind(document.name + ":", 0) == 0)
       std::filesystem::create_directories(path.parent_path());
-}
-
-/// A file that a scene or a state names and that is not there: says where it is named.
-void check_inputs(const io::Scene& scene, const io::TomlDocument& document, int lines_drawn) {
-  const auto check = [&](const std::string& key, const std::filesystem::path& path) {
-    const std::string place = document.place(key);
-    if (document.name.empty() || place.rfind(document.name, 0) != 0 || path.empty() || path == "-" ||
-        std::filesystem::exists(path))
-      return;
-    throw geometry::ContentError(place + ": " + key + ": there is no file " + path.string() +
-                                 "; paths are relative to the file that names them");
-  };
-  if (lines_drawn < 0) check("garment.mesh", scene.garment);
-  if (scene.body) check("body.mesh", scene.body->mesh);
-  if (scene.body) check("body.field", scene.body->field);
-  for (std::size_t i = static_cast<std::size_t>(std::max(0, lines_drawn)); i < scene.lines.size(); ++i)
-    check("lines." + std::to_string(i) + ".strokes", scene.lines[i].strokes);
 }
 
 void check_output_formats(const io::SceneOutput& out, bool has_body) {
@@ -138,6 +99,23 @@ void check_outputs(const io::Scene& scene, const SimulateArguments& a) {
   }
 }
 
+/// Integrator and step for --tolerance 1%: sets them in document and scene and returns the judgement.
+Judgement choose_setting(const SimulateArguments& a, const CommonArguments& common,
+                         io::TomlDocument& document, io::Scene& scene, const std::filesystem::path& folder) {
+  const JudgeOptions options{parse_share(a.flags.accuracy(), "--tolerance"), a.budget};
+  if (!a.state.empty())
+    throw UsageError("--tolerance " + a.flags.accuracy() +
+                     " judges a scene from its beginning; leave it or --state away");
+  CommonArguments silent = common;  // the run itself warns
+  silent.quiet = true;
+  const SceneCloth cloth = prepare_scene(scene, silent);
+  const Judgement j = judge(cloth, cloth.world(scene), options, common);
+  if (exit_code_of(j) != kOk) return j;
+  set_candidate(document, j.candidates[static_cast<std::size_t>(j.chosen)].candidate);
+  scene = scene_of(document, folder);
+  return j;
+}
+
 int simulate(SimulateArguments& a) {
   std::optional<io::SavedState> state;
   if (!a.state.empty()) state = io::read_state(a.state);
@@ -155,7 +133,17 @@ int simulate(SimulateArguments& a) {
   common.unit = scene.unit;
   common.up = scene.up;
   common.out = scene.output.mesh.string();
-  return run_scene(scene, document, folder, std::move(state), a.state, common);
+  Json choice;
+  if (!a.flags.accuracy().empty()) {
+    const bool scene_dt = scene.simulation.dt.has_value();
+    const Judgement j = choose_setting(a, common, document, scene, folder);
+    if (const int code = exit_code_of(j); code != kOk) {
+      std::cerr << "error: " << a.in << ": " << words(j, scene_dt) << "\n";
+      return code;
+    }
+    choice = to_json(j, scene_dt);
+  }
+  return run_scene(scene, document, folder, std::move(state), a.state, common, choice);
 }
 
 }  // namespace
@@ -175,6 +163,10 @@ void add_simulate(CLI::App& app, int& exit_code) {
       "garment to read (PLY of furrow wrinkle brings rest lengths and masses), or a scene: a .toml file");
   sub->add_option("--state", a->state, "go on from a saved state");
   a->flags.add_to(*sub);
+  sub->add_option(
+         "--budget", a->budget,
+         "predicted seconds of one thread that choosing for --tolerance 1% may take [s] (default 60)")
+      ->check(CLI::PositiveNumber);
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] { exit_code = simulate(*a); });
 }

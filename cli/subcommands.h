@@ -13,6 +13,8 @@ void add_wrinkle(CLI::App& app);
 void add_strokes(CLI::App& app);
 /// Sets exit_code where the run was interrupted or diverged.
 void add_simulate(CLI::App& app, int& exit_code);
+/// Sets exit_code where nothing meets the tolerance, or the judgement was broken off.
+void add_chart(CLI::App& app, int& exit_code);
 void add_sdf(CLI::App& app);
 void add_render(CLI::App& app);
 void add_transfer(CLI::App& app);

@@ -12,7 +12,7 @@ const char* const kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
 TEST_CASE("every subcommand has help with units, and help succeeds") {
   for (const char* sub :
-       {"info", "subdivide", "smooth", "wrinkle", "simulate", "sdf", "render", "transfer", "bake"}) {
+       {"info", "subdivide", "smooth", "wrinkle", "simulate", "sdf", "render", "transfer", "bake", "chart"}) {
     const Run run = run_furrow(std::string(sub) + " --help");
     INFO(sub);
     CHECK(run.exit_code == 0);

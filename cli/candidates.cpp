@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "cli/cost_table.h"
+#include "io/number_text.h"
+
+namespace furrow::cli {
+namespace {
+
+using physics::Integrator;
+
+constexpr double kCheapest = 0.9;  // of leapfrog's limit
+
+std::string text_of(double value) {
+  std::string text;
+  io::append_number(text, value);
+  return text;
+}
+
+/// Three digits, never above: readable as a flag, and still stable.
+double rounded_down(double dt) {
+  const double unit = std::pow(10, std::floor(std::log10(dt)) - 2);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", std::floor(dt / unit * (1 + 1e-12)) * unit);
+  return std::strtod(text, nullptr);
+}
+
+Candidate explicit_at(Integrator integrator, double factor, double dt_limit) {
+  Candidate c;
+  c.name = std::string(name_of(integrator)) + ", " + text_of(factor) + " of the limit";
+  c.integrator = integrator;
+  c.expected_dt = factor * dt_limit;
+  if (integrator == Integrator::rk4) c.expected_dt *= physics::rk4_limit / 2;
+  if (factor != kCheapest) c.expected_dt = *(c.dt = rounded_down(c.expected_dt));
+  return c;
+}
+
+Candidate implicit_at(Integrator integrator, int steps_a_second) {
+  Candidate c;
+  c.name = std::string(name_of(integrator)) + ", 1/" + std::to_string(steps_a_second) + " s";
+  c.integrator = integrator;
+  c.dt = c.expected_dt = 1.0 / steps_a_second;
+  return c;
+}
+
+/// The scene's own integrator and step, if it names what is not tried anyway.
+std::optional<Candidate> scenes_own(const SceneCloth& scene, double dt_limit) {
+  const physics::SimulateOptions& o = scene.options;
+  if (!o.dt && o.integrator != Integrator::explicit_euler) return {};
+  Candidate c;
+  c.name = std::string(name_of(o.integrator)) + ", as the scene says";
+  c.integrator = o.integrator;
+  c.dt = o.dt;
+  c.forced = o.step_rule == physics::StepRule::forced;
+  c.expected_dt = o.dt.value_or(kCheapest * dt_limit);
+  return c;
+}
+
+double cost_with(const Work& work, Integrator integrator) {
+  return cost_of(work, integrator == Integrator::rk4 ? kCosts.rk4_vertex_step : kCosts.vertex_step);
+}
+
+double springs_of(const physics::Cloth& cloth) {
+  return static_cast<double>(cloth.structural.size() + cloth.bending.size());
+}
+
+}  // namespace
+
+const char* name_of(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::leapfrog:
+      return "leapfrog";
+    case Integrator::explicit_euler:
+      return "euler";
+    case Integrator::semi_implicit:
+      return "semi-implicit";
+    case Integrator::rk4:
+      return "rk4";
+    case Integrator::backward_euler:
+      return "backward-euler";
+    case Integrator::xpbd:
+      return "xpbd";
+  }
+  return "";
+}
+
+Candidate reference_candidate(double dt_limit) {
+  return explicit_at(Integrator::leapfrog, kCheapest / 4, dt_limit);
+}
+
+std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit) {
+  std::vector<Candidate> all;
+  if (std::isfinite(dt_limit)) {
+    all.push_back(explicit_at(Integrator::leapfrog, kCheapest, dt_limit));
+    all.push_back(explicit_at(Integrator::leapfrog, kCheapest / 2, dt_limit));
+    all.push_back(explicit_at(Integrator::semi_implicit, kCheapest, dt_limit));
+    all.push_back(explicit_at(Integrator::rk4, kCheapest, dt_limit));
+  }
+  for (int rate : {60, 240, 960}) all.push_back(implicit_at(Integrator::backward_euler, rate));
+  if (scene.cloth.membrane.empty() && scene.cloth.hinges.empty())
+    for (int rate : {240, 1200}) all.push_back(implicit_at(Integrator::xpbd, rate));
+  if (auto own = scenes_own(scene, dt_limit)) all.push_back(*own);
+  return all;
+}
+
+physics::SimulateOptions options_of(const Candidate& c, const SceneCloth& scene, double seconds) {
+  physics::SimulateOptions o = scene.options;
+  o.integrator = c.integrator;
+  o.dt = c.dt;
+  o.step_rule = c.forced ? physics::StepRule::forced : physics::StepRule::limited;
+  o.seconds = seconds;
+  o.stop_at.reset();
+  return o;
+}
+
+std::string flags_of(const Candidate& c, bool scene_dt) {
+  std::string flags = std::string("--integrator ") + name_of(c.integrator);
+  const bool needs_dt = c.dt || scene_dt;
+  if (needs_dt) flags += " --dt " + text_of(c.dt.value_or(rounded_down(c.expected_dt)));
+  return flags + (c.forced ? " --force-dt" : "");
+}
+
+void set_candidate(io::TomlDocument& document, const Candidate& c) {
+  io::set_value(document, "simulation.integrator", name_of(c.integrator), "--tolerance");
+  document.root["simulation"].erase("dt");
+  document.root["simulation"].erase("force_dt");
+  if (c.dt) io::set_value(document, "simulation.dt", *c.dt, "--tolerance");
+  if (c.forced) io::set_value(document, "simulation.force_dt", true, "--tolerance");
+}
+
+double predicted_cost(const Candidate& c, const SceneCloth& scene, double seconds) {
+  const physics::Cloth& cloth = scene.cloth;
+  // Without dt no step is longer than dt_max; steps of equal length, as many as reach the end.
+  const double dt = c.dt ? *c.dt : std::min(c.expected_dt, scene.options.dt_max);
+  Work w;
+  w.vertices = static_cast<double>(cloth.particles.size());
+  w.steps = seconds / dt;
+  const double forces = w.steps * (c.integrator == Integrator::rk4 ? 4 : 1);
+  if (c.integrator == Integrator::xpbd) {
+    w.sweeps = w.steps * scene.options.xpbd.iterations * springs_of(cloth);
+  } else {
+    w.springs = forces * springs_of(cloth);
+    w.triangles = forces * static_cast<double>(cloth.membrane.size());
+    w.hinges = forces * static_cast<double>(cloth.hinges.size());
+  }
+  if (scene.body) w.queries = w.steps * w.vertices;
+  if (c.integrator == Integrator::backward_euler) w.factorisations = w.steps;
+  return cost_with(w, c.integrator);
+}
+
+double counted_cost(const physics::SimulateReport& r, const Candidate& c, const SceneCloth& scene) {
+  Work w;
+  w.vertices = static_cast<double>(scene.cloth.particles.size());
+  w.steps = static_cast<double>(r.steps);
+  w.springs = static_cast<double>(r.spring_evaluations);
+  w.triangles = static_cast<double>(r.triangle_evaluations);
+  w.hinges = static_cast<double>(r.hinge_evaluations);
+  w.queries = static_cast<double>(r.collider_queries);
+  w.factorisations = static_cast<double>(r.factorisations);
+  if (c.integrator == Integrator::xpbd)
+    w.sweeps = static_cast<double>(r.iterations) * springs_of(scene.cloth);
+  return cost_with(w, c.integrator);
+}
+
+}  // namespace furrow::cli

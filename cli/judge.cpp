@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/judge.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <random>
+
+#include "physics/stable_step.h"
+
+namespace furrow::cli {
+namespace {
+
+using Shape = std::vector<physics::Vec3>;
+
+constexpr double kTwin = 1e-9;          // [m]
+constexpr double kChaos = 0.01;         // of the tolerance: a twin that drifts farther is chaotic
+constexpr double kShortest = 1.0 / 30;  // [s]
+constexpr double kClockOfBudget = 3, kClockAtLeast = 60;  // [-], [s]
+
+/// Two digits, never above.
+double rounded_down(double x) {
+  const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
+  return std::floor(x / unit * (1 + 1e-12)) * unit;
+}
+
+class Judge {
+ public:
+  Judge(const SceneCloth& scene, const physics::World& world, const JudgeOptions& options,
+        const CommonArguments& common)
+      : scene_(scene),
+        world_(world),
+        progress_("trying settings", common),
+        started_(std::chrono::steady_clock::now()),
+        meter_(scene.file.mesh, scene.cloth.particles) {
+    j_.options = options;
+    j_.scene_seconds = scene.options.seconds;
+    j_.ends_at_lines = scene.ends_at_lines;
+    j_.size = meter_.size();
+    j_.dt_limit = physics::stable_step(scene.cloth).dt_limit;
+    if (!std::isfinite(j_.dt_limit))
+      throw UsageError(
+          "nothing in this cloth resists, so there is no step limit to judge by; raise the stiffness");
+  }
+
+  Judgement run() {
+    list();
+    fit_budget();
+    run_candidate(0);
+    run_twin();
+    run_candidate(1);
+    run_candidate(reference());
+    for (std::size_t i = 2; i < reference(); ++i)
+      if (j_.candidates[i].fate != Fate::too_dear) run_candidate(i);
+    measure();
+    choose();
+    return std::move(j_);
+  }
+
+ private:
+  std::size_t reference() const { return j_.candidates.size() - 1; }
+
+  void list() {
+    for (Candidate& c : candidates_for(scene_, j_.dt_limit)) j_.candidates.push_back({std::move(c)});
+    j_.candidates.push_back({reference_candidate(j_.dt_limit)});
+    shapes_.resize(j_.candidates.size());
+    for (JudgedCandidate& c : j_.candidates) c.cost = predicted_cost(c.candidate, scene_, 1);
+    for (JudgedCandidate& c : j_.candidates)
+      if (c.cost > j_.candidates.back().cost) c.fate = Fate::too_dear;
+  }
+
+  /// How long can be simulated for the budget.
+  void fit_budget() {
+    for (const JudgedCandidate& c : j_.candidates)
+      if (c.fate != Fate::too_dear) rate_ += c.cost;
+    rate_ += j_.candidates[0].cost;  // the twin
+    j_.seconds = scene_.seconds;
+    if (!(j_.seconds > 0))
+      throw UsageError("the scene has no time to judge; give it --set simulation.seconds=1");
+    if (rate_ * j_.seconds <= j_.options.budget) return;
+    const double fits = j_.options.budget / rate_;
+    if (fits < kShortest)
+      throw UsageError("--budget " + Json(j_.options.budget).dump() + ": judges only " + Json(fits).dump() +
+                       " s of this scene; raise it to " + std::to_string(int(rate_ * kShortest) + 1) +
+                       " or more");
+    j_.seconds = rounded_down(fits);
+    j_.shortened = true;
+  }
+
+  /// The cloth after the candidate's run; empty if it was broken off.
+  Shape simulate(JudgedCandidate& c, physics::Cloth cloth) {
+    if (j_.broken != Broken::no) return {};
+    physics::SimulateOptions o = options_of(c.candidate, scene_, j_.seconds);
+    o.observe_steps = physics::is_unconditionally_stable(o.integrator) ? 1 : 50;
+    const auto r = physics::simulate(cloth, world_, o, nullptr, [&](const physics::SimulateProgress& p) {
+      progress_.show((spent_ + c.cost * p.time) / (rate_ * j_.seconds));
+      return !must_stop();
+    });
+    spent_ += c.cost * j_.seconds;
+    if (r.outcome == physics::Outcome::stopped_by_observer) return {};
+    c.fate = r.outcome == physics::Outcome::diverged ? Fate::diverged : Fate::done;
+    if (c.fate == Fate::done) c.cost = counted_cost(r, c.candidate, scene_) / j_.seconds;
+    c.steps = r.steps;
+    c.dt = r.dt;
+    return std::move(cloth.particles.x);
+  }
+
+  bool must_stop() {
+    using Seconds = std::chrono::duration<double>;
+    const double clock = Seconds(std::chrono::steady_clock::now() - started_).count();
+    if (interrupted())
+      j_.broken = Broken::interrupted;
+    else if (clock > kClockOfBudget * j_.options.budget + kClockAtLeast)
+      j_.broken = Broken::clock;
+    return j_.broken != Broken::no;
+  }
+
+  void run_candidate(std::size_t i) { shapes_[i] = simulate(j_.candidates[i], scene_.cloth); }
+
+  /// The cheapest explicit run again, begun a nanometre beside.
+  void run_twin() {
+    physics::Cloth cloth = scene_.cloth;
+    std::mt19937 random(1);
+    for (std::size_t i = 0; i < cloth.particles.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double way = random() & 1 ? kTwin : -kTwin;
+        if (cloth.particles.inv_mass[i] > 0) cloth.particles.x[i][k] += way;
+      }
+    JudgedCandidate twin = j_.candidates[0];
+    const Shape shape = simulate(twin, std::move(cloth));
+    if (shape.empty() || shapes_[0].empty()) return;
+    twin_ = meter_.between(shape, shapes_[0]);
+    j_.twin_drift = twin_.rms;
+  }
+
+  void measure() {
+    if (j_.candidates.back().fate != Fate::done) return;
+    for (std::size_t i = 0; i < reference(); ++i) {
+      JudgedCandidate& c = j_.candidates[i];
+      c.off = {INFINITY, INFINITY, INFINITY};
+      if (c.fate == Fate::done) c.off = meter_.between(shapes_[i], shapes_.back());
+    }
+    choose_error();
+    for (JudgedCandidate& c : j_.candidates) c.error = error_of(c.off);
+    j_.candidates.back().error = j_.reference_error = reference_error();
+  }
+
+  double error_of(const ShapeDistance& d) const { return j_.by_bulk ? d.bulk : d.rms; }
+
+  void choose_error() {
+    const double drift = kChaos * j_.options.tolerance, halves = j_.candidates[1].off.rms;
+    j_.by_bulk = j_.twin_drift > drift || halves > j_.options.tolerance;
+    j_.why = "positions at the end (RMS by mass): two runs begun 1e-9 m apart stay together";
+    if (!j_.by_bulk) return;
+    j_.why = j_.twin_drift > drift
+                 ? "the motion is chaotic (two runs begun 1e-9 m apart part by "
+                 : "positions do not converge (steps of 0.45 and 0.225 of the limit part by ";
+    j_.why += Json(std::stod(percent(j_.twin_drift > drift ? j_.twin_drift : halves))).dump() +
+              " % of the size), so only centre, extent and border loops are compared";
+  }
+
+  static std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", 100 * share);
+    return text;
+  }
+
+  /// Richardson's: halves part by d, quarters by d 2^p, so the finer one is off by d / (2^p - 1); the order p
+  /// is what the three runs show, between 1/2 (contact) and 2. A chaotic motion has no order: there, what
+  /// equals parted by.
+  double reference_error() const {
+    const double fine = error_of(j_.candidates[1].off), coarse = error_of(j_.candidates[0].off);
+    if (j_.by_bulk) return std::max(fine, twin_.bulk);
+    const double ratio = std::clamp(fine > 0 ? (coarse - fine) / fine : 4.0, std::sqrt(2.0), 4.0);
+    return fine / (ratio - 1);
+  }
+
+  void choose() {
+    for (std::size_t i = 0; i < j_.candidates.size(); ++i) {
+      const JudgedCandidate& c = j_.candidates[i];
+      if (c.fate != Fate::done || !j_.meets(c)) continue;
+      if (j_.chosen < 0 || c.cost < j_.candidates[static_cast<std::size_t>(j_.chosen)].cost)
+        j_.chosen = static_cast<int>(i);
+    }
+  }
+
+  const SceneCloth& scene_;
+  const physics::World& world_;
+  Progress progress_;
+  std::chrono::steady_clock::time_point started_;
+  ShapeMeter meter_;
+  Judgement j_;
+  std::vector<Shape> shapes_;  ///< of the candidates
+  ShapeDistance twin_;
+  double rate_ = 0, spent_ = 0;  ///< predicted cost of all runs a simulated second; so far [s]
+};
+
+}  // namespace
+
+Judgement judge(const SceneCloth& scene, const physics::World& world, const JudgeOptions& options,
+                const CommonArguments& common) {
+  catch_interrupts();
+  return Judge(scene, world, options, common).run();
+}
+
+}  // namespace furrow::cli

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/judge_report.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace furrow::cli {
+namespace {
+
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+std::string percent(double share) { return text_of(100 * share) + " %"; }
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+const char* verdict(const Judgement& j, const JudgedCandidate& c) {
+  if (c.fate != Fate::done) return name_of(c.fate);
+  if (!std::isfinite(c.error)) return "unknown";
+  return j.meets(c) ? "meets" : "misses";
+}
+
+Json row_of(const Judgement& j, const JudgedCandidate& c, bool scene_dt) {
+  Json row{{"name", c.candidate.name},
+           {"cost", c.cost},
+           {"error", number(c.error)},
+           {"verdict", verdict(j, c)},
+           {"resolved", std::isfinite(c.error) && j.resolved(c)},
+           {"rms", number(c.off.rms)},
+           {"max", number(c.off.max)},
+           {"bulk", number(c.off.bulk)},
+           {"steps", c.steps},
+           {"dt", c.dt},
+           {"flags", flags_of(c.candidate, scene_dt)}};
+  if (c.fate != Fate::done) row["error"] = row["rms"] = row["max"] = row["bulk"] = nullptr;
+  return row;
+}
+
+std::string judged_on(const Judgement& j) {
+  if (j.seconds >= j.scene_seconds) return "";
+  return "; judged on the first " + text_of(j.seconds) + " s of " + text_of(j.scene_seconds) + " s, " +
+         (j.shortened ? "as much as fits the budget; --budget takes more" : "until lines are drawn");
+}
+
+std::string broken_words(const Judgement& j) {
+  return j.broken == Broken::interrupted
+             ? "interrupted; only what was done so far is shown"
+             : "broken off, this machine takes more than three times the budget and a minute; "
+               "lower --budget, or run fewer programs beside";
+}
+
+}  // namespace
+
+double parse_share(const std::string& text, const std::string& option) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || std::string(end) != "%" || !(value > 0 && value < 100))
+    throw UsageError(option + " takes a share of the garment's size such as 1%, not '" + text + "'");
+  return value / 100;
+}
+
+const char* name_of(Fate fate) {
+  switch (fate) {
+    case Fate::done:
+      return "done";
+    case Fate::diverged:
+      return "diverged";
+    case Fate::too_dear:
+      return "too dear";
+    case Fate::not_run:
+      return "not run";
+  }
+  return "";
+}
+
+std::string words(const Judgement& j, bool scene_dt) {
+  if (j.chosen < 0) {
+    if (j.broken != Broken::no) return broken_words(j);
+    const double best = j.candidates.back().error;
+    return "nothing that was tried is within " + percent(j.options.tolerance) +
+           " of the garment's size, the reference itself is known to " + percent(best) +
+           "; choose a larger --tolerance" + judged_on(j);
+  }
+  const JudgedCandidate& c = j.candidates[static_cast<std::size_t>(j.chosen)];
+  const bool is_reference = &c == &j.candidates.back();
+  std::string text = "the cheapest setting within " + percent(j.options.tolerance) + " is " +
+                     c.candidate.name + ": " + percent(c.error) +
+                     (is_reference ? " by its own estimate"
+                      : j.by_bulk  ? " (bulk)"
+                                   : " (RMS)") +
+                     ", " + text_of(c.cost) +
+                     " predicted seconds a simulated second; flags: " + flags_of(c.candidate, scene_dt) +
+                     judged_on(j);
+  if (j.broken != Broken::no) text += "; incomplete: " + broken_words(j);
+  return text;
+}
+
+Json to_json(const Judgement& j, bool scene_dt) {
+  Json rows = Json::array();
+  for (std::size_t i = 0; i + 1 < j.candidates.size(); ++i)
+    rows.push_back(row_of(j, j.candidates[i], scene_dt));
+  const JudgedCandidate& r = j.candidates.back();
+  Json report{{"tolerance", j.options.tolerance},
+              {"budget", j.options.budget},
+              {"size", j.size},
+              {"scene_seconds", j.scene_seconds},
+              {"judged_seconds", j.seconds},
+              {"shortened", j.shortened},
+              {"dt_limit", j.dt_limit},
+              {"error_is", j.by_bulk ? "bulk" : "positions"},
+              {"why", j.why},
+              {"twin_drift", j.twin_drift},
+              {"reference",
+               {{"name", r.candidate.name},
+                {"cost", r.cost},
+                {"error", number(j.reference_error)},
+                {"verdict", verdict(j, r)},
+                {"steps", r.steps},
+                {"dt", r.dt},
+                {"flags", flags_of(r.candidate, scene_dt)}}},
+              {"candidates", rows},
+              {"complete", j.broken == Broken::no}};
+  report["recommendation"] = nullptr;
+  if (j.chosen >= 0) {
+    const JudgedCandidate& c = j.candidates[static_cast<std::size_t>(j.chosen)];
+    report["recommendation"] = {{"name", c.candidate.name},
+                                {"cost", c.cost},
+                                {"error", c.error},
+                                {"flags", flags_of(c.candidate, scene_dt)}};
+  }
+  report["says"] = words(j, scene_dt);
+  return report;
+}
+
+int exit_code_of(const Judgement& j) {
+  if (j.broken == Broken::interrupted) return kInterrupted;
+  return j.broken == Broken::clock || j.chosen < 0 ? kNotConverged : kOk;
+}
+
+}  // namespace furrow::cli

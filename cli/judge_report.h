@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "cli/judge.h"
+
+namespace furrow::cli {
+
+/// "1%" as 0.01. Throws UsageError, naming the option, for anything but a percentage in (0, 100).
+double parse_share(const std::string& text, const std::string& option);
+
+/// What was judged, how, and what is recommended; times by the cost table only, so that two calls say the
+/// same.
+Json to_json(const Judgement& j, bool scene_dt);
+
+/// The recommendation, or why there is none, in words.
+std::string words(const Judgement& j, bool scene_dt);
+
+/// "done", "diverged", "too dear" or "not run".
+const char* name_of(Fate fate);
+
+/// kOk, kNotConverged where nothing meets the tolerance or the clock broke off, kInterrupted.
+int exit_code_of(const Judgement& j);
+
+}  // namespace furrow::cli
