@@ -80,7 +80,7 @@ TEST_CASE("chart: the same twice, to the byte") {
   CHECK(first.out == second.out);
 }
 
-TEST_CASE("chart: a motion without chaos is judged by positions; the order of leapfrog shows") {
+TEST_CASE("chart: a motion without chaos is judged by positions, and the order of leapfrog shows") {
   const ScratchDirectory scratch;
   const json report = report_of(run_furrow("chart --json --tolerance 5% " + write_scene(scratch, "0.04")));
   CHECK(report["error_is"] == "positions");
