@@ -70,6 +70,7 @@ void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& all, 
            common);
     if (r.still_inside) warn(std::to_string(r.still_inside) + " of them could not be brought out", common);
   }
+  physics::stiffen_clamps(cloth);
 }
 
 physics::World world_of(const io::Scene& scene, const WorldBody* body,

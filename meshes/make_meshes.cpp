@@ -87,8 +87,14 @@ void make_validation(const std::filesystem::path& folder) {
   for (Vertex v : patch.vertices()) patch.point(v) = {patch.point(v).x(), 0.003, 0.05 - patch.point(v).y()};
   save("patch.obj", patch, "0.1 m x 0.1 m of cloth, flat, 3 mm above y = 0");
 
+  const double row = 0.1 / 16, across = row / std::sqrt(0.75);
+  Mesh strip = furrow::geometry::equilateral_sheet(4 * across, 17 * row, across);
+  for (Vertex v : strip.vertices()) strip.point(v) = {strip.point(v).y() - row, 0, strip.point(v).x()};
+  save("strip.obj", strip,
+       "0.1 m along x by four triangles, flat, and one more row behind the clamp at x = 0");
+
   Mesh slab;
-  const Point p[] = {{-0.5, -0.2, -0.5}, {0.5, -0.2, -0.5}, {0.5, 0, -0.5}, {-0.5, 0, -0.5},
+  const Point p[] = {{-0.5, -0.2, -0.5}, {0.5, -0.2, -0.5}, {0.5, 0, -0.5},   {-0.5, 0, -0.5},
                      {-0.5, 0, 0.5},     {-0.5, -0.2, 0.5}, {0.5, -0.2, 0.5}, {0.5, 0, 0.5}};
   CGAL::make_hexahedron(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], slab);
   CGAL::Polygon_mesh_processing::triangulate_faces(slab);

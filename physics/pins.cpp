@@ -19,4 +19,12 @@ void pin(Particles& particles, std::span<const int> indices) {
   }
 }
 
+void stiffen_clamps(Cloth& cloth) {
+  const auto held = [&](int i) { return cloth.particles.inv_mass[i] == 0; };
+  for (Hinge& h : cloth.hinges) {
+    const auto& [a, b, left, right] = h.vertices;
+    if (held(a) && held(b) && held(left) != held(right)) h.stiffness *= 2;
+  }
+}
+
 }  // namespace furrow::physics

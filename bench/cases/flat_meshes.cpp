@@ -19,6 +19,13 @@ using physics::Cloth;
 using physics::Vec3;
 using Triangles = std::vector<std::array<int, 3>>;
 
+/// Uniform in [-1, 1), the same on every machine.
+struct Noise {
+  std::mt19937_64 random;
+  explicit Noise(std::uint64_t seed) : random(seed) {}
+  double operator()() { return double(random() >> 11) * 0x1p-52 - 1; }
+};
+
 /// Twice the signed area of a triangle of the plane.
 double turn(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
@@ -116,8 +123,7 @@ Cloth triangular_sheet(double width, double height, int columns, int rows, doubl
   check(columns >= 1, "columns", columns);
   check(rows >= 1, "rows", rows);
   check(jitter >= 0 && jitter <= 0.3, "jitter", jitter);
-  std::mt19937_64 random(seed);
-  const auto unit = [&] { return double(random() >> 11) * 0x1p-52 - 1; };  // the same on every machine
+  Noise unit(seed);
   const double h = width / columns;
   std::vector<Vec3> x, even;  // with and without jitter
   std::vector<int> start;
@@ -135,6 +141,31 @@ Cloth triangular_sheet(double width, double height, int columns, int rows, doubl
   start.push_back(int(x.size()));
   Triangles triangles;
   for (int r = 0; r < rows; ++r) zip(even, start[r], start[r + 1], start[r + 1], start[r + 2], triangles);
+  make_delaunay(x, triangles);
+  return finished(std::move(x), std::move(triangles), density);
+}
+
+Cloth hexagon(double half_diagonal, int rings, double density, double jitter, std::uint64_t seed) {
+  check(rings >= 1, "rings", rings);
+  check(jitter >= 0 && jitter <= 0.3, "jitter", jitter);
+  Noise unit(seed);
+  const double h = half_diagonal / rings;
+  std::vector<Vec3> x, even;
+  std::vector<int> start;
+  for (int r = -rings; r <= rings; ++r) {
+    start.push_back(int(x.size()));
+    const int edges = 2 * rings - std::abs(r);
+    for (int c = 0; c <= edges; ++c) {
+      const bool border = std::abs(r) == rings || c == 0 || c == edges;
+      even.emplace_back((c - 0.5 * edges) * h, r * h * std::sqrt(0.75), 0);
+      x.push_back(even.back());
+      if (!border) x.back() += jitter * h * Vec3(unit(), unit(), 0);
+    }
+  }
+  start.push_back(int(x.size()));
+  Triangles triangles;
+  for (int r = 0; r < 2 * rings; ++r)
+    zip(even, start[r], start[r + 1], start[r + 1], start[r + 2], triangles);
   make_delaunay(x, triangles);
   return finished(std::move(x), std::move(triangles), density);
 }

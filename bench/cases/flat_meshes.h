@@ -19,6 +19,11 @@ physics::Cloth triangular_sheet(double width, double height, int columns, int ro
 /// As many rows as make the triangles nearest to equilateral.
 int equilateral_rows(double width, double height, int columns);
 
+/// A hexagon around the origin with two corners on the x axis, of rings of equilateral triangles; the same
+/// under turns by 60 degrees but for jitter, which is as above. rings >= 1. Throws std::invalid_argument.
+physics::Cloth hexagon(double half_diagonal, int rings, double density = 0.1, double jitter = 0,
+                       std::uint64_t seed = 1);
+
 /// columns x rows rectangles with their diagonals; alternating: every other diagonal runs the other way.
 physics::Cloth right_sheet(double width, double height, int columns, int rows, double density = 0.1,
                            bool alternating = false);

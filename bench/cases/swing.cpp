@@ -15,21 +15,6 @@ using physics::Vec3;
 
 constexpr double fastest_speed = 1000;  // m/s
 
-double thread_seconds() {
-  std::timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
-bool has_diverged(const physics::PackedCloth& cloth) {
-  for (std::size_t i = 0; i < cloth.v.size(); ++i) {
-    const auto &v = cloth.v[i], &x = cloth.x[i];
-    const double square = v.x * v.x + v.y * v.y + v.z * v.z;
-    if (!(square <= fastest_speed * fastest_speed) || !std::isfinite(x.x + x.y + x.z)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Swing sheet_swing(const SheetOptions& o) {
@@ -72,6 +57,18 @@ Swing chain_swing() {
   return swing;
 }
 
+Swing elastic_pendulum() {
+  Swing swing{{}, {}, 2};
+  physics::Particles& p = swing.cloth.particles;
+  p.x = {Vec3::Zero(), Vec3(1.1, 0.2, 0)};
+  p.v.assign(2, Vec3::Zero());
+  p.mass = {0.1, 0.1};
+  p.inv_mass = {0, 10};
+  swing.cloth.structural.push_back({0, 1, 1, 50});
+  swing.loads.air_drag = swing.loads.spring_damping = 0;
+  return swing;
+}
+
 SwingRun run(const Swing& swing, const physics::StepperOptions& options, double dt) {
   const auto steps = std::int64_t(std::ceil(swing.seconds / dt * (1 - 1e-12)));
   SwingRun result;
@@ -90,6 +87,21 @@ SwingRun run(const Swing& swing, const physics::StepperOptions& options, double 
   motion.unpack(end);
   result.x = std::move(end.x);
   return result;
+}
+
+double thread_seconds() {
+  std::timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+bool has_diverged(const physics::PackedCloth& cloth) {
+  for (std::size_t i = 0; i < cloth.v.size(); ++i) {
+    const auto &v = cloth.v[i], &x = cloth.x[i];
+    const double square = v.x * v.x + v.y * v.y + v.z * v.z;
+    if (!(square <= fastest_speed * fastest_speed) || !std::isfinite(x.x + x.y + x.z)) return true;
+  }
+  return false;
 }
 
 double relative_error(const Swing& swing, const std::vector<Vec3>& end, const std::vector<Vec3>& exact) {

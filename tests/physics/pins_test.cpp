@@ -29,3 +29,22 @@ TEST_CASE("a pin out of range is refused and pins nothing") {
     CHECK(cloth.particles.inv_mass == before.inv_mass);
   }
 }
+
+TEST_CASE("hinges between a held and a free flap count double, others do not") {
+  // A row of triangles 0 1 2, 1 3 2, 3 5 2 ... : hinges over (1,2), (2,3), (3,4).
+  Cloth cloth;
+  cloth.particles.inv_mass.assign(6, 1);
+  for (const std::array<int, 4>& v : {std::array{1, 2, 0, 3}, {2, 3, 1, 4}, {3, 4, 2, 5}})
+    cloth.hinges.push_back({v, 0, 3});
+  const auto stiffness = [&](const std::vector<int>& pinned) {
+    Cloth copy = cloth;
+    for (const int i : pinned) copy.particles.inv_mass[i] = 0;
+    stiffen_clamps(copy);
+    return std::array{copy.hinges[0].stiffness, copy.hinges[1].stiffness, copy.hinges[2].stiffness};
+  };
+  CHECK(stiffness({}) == std::array{3.0, 3.0, 3.0});
+  CHECK(stiffness({1, 2}) == std::array{3.0, 3.0, 3.0});        // an axle, free on both sides
+  CHECK(stiffness({0, 1, 2}) == std::array{6.0, 3.0, 3.0});     // a clamp
+  CHECK(stiffness({0, 1, 2, 3}) == std::array{3.0, 6.0, 3.0});  // one flap further
+  CHECK(stiffness({0, 1, 2, 3, 4, 5}) == std::array{3.0, 3.0, 3.0});
+}

@@ -4,6 +4,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   compensation_test.cpp
   contact_test.cpp
   damping_sweep_test.cpp
+  drop_on_ball_test.cpp
   elements_test.cpp
   euler_step_test.cpp
   free_stiffness_test.cpp
