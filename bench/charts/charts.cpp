@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// charts FOLDER quick|full [laws|work|stability|damping ...] : writes the data of the charts of speed against
-// accuracy into CSV files in the folder; by default all. bench/charts/run calls it and draws.
+// charts FOLDER quick|full [laws|work|stability|damping|fields|smoothing ...] : writes the data of the charts
+// of speed against accuracy into CSV files in the folder; by default all. bench/charts/run calls it and
+// draws.
 #include "bench/charts/charts.h"
 
 #include <algorithm>
@@ -10,13 +11,11 @@
 int main(int argc, char** argv) {
   using namespace furrow::bench;
   const std::pair<std::string, void (*)(const std::string&, Effort)> charts[] = {
-      {"laws", chart_laws},
-      {"work", chart_work_precision},
-      {"stability", chart_stability},
-      {"damping", chart_damping}};
+      {"laws", chart_laws},       {"work", chart_work_precision}, {"stability", chart_stability},
+      {"damping", chart_damping}, {"fields", chart_fields},       {"smoothing", chart_smoothing}};
   const std::string effort = argc > 2 ? argv[2] : "";
   if (effort != "quick" && effort != "full") {
-    std::cerr << "charts FOLDER quick|full [laws|work|stability|damping ...]\n";
+    std::cerr << "charts FOLDER quick|full [laws|work|stability|damping|fields|smoothing ...]\n";
     return 2;
   }
   try {

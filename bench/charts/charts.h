@@ -12,5 +12,7 @@ void chart_work_precision(const std::string& folder,
                           Effort effort);                        ///< work*.csv: points, references, fronts
 void chart_stability(const std::string& folder, Effort effort);  ///< stability.csv
 void chart_damping(const std::string& folder, Effort effort);    ///< damping.csv
+void chart_fields(const std::string& folder, Effort effort);     ///< fields.csv
+void chart_smoothing(const std::string& folder, Effort effort);  ///< smoothing.csv
 
 }  // namespace furrow::bench
