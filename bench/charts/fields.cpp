@@ -139,7 +139,8 @@ class Chart {
   Chart(const std::string& folder, bool quick)
       : table_(
             folder + "/fields.csv",
-            "Sampled fields of signed distance, one thread, best of several runs. setting: tolerance, else "
+            "Sampled fields of signed distance, one thread, best of several runs. setting: tolerance "
+            "(max_depth 12), else "
             "edge of a cell. Build: from the triangles. Queries: value and gradient of 300,000 points of "
             "the band (30 mm outside, 20 mm inside) in no order, or along a Morton curve; value_*: the "
             "value alone, where that is offered. Errors: against the exact distance of the mesh, in the "

@@ -64,8 +64,8 @@ set yrange [0:1]
 set key at screen 0.5,0.04 center center horizontal maxrows 2 reverse Left samplen 3 spacing 1.15 width 1 font font.",11"
 plot NaN with linespoints lw 1.6 pt p[1] lc rgb c[1] title "Furrow's adaptive field (ring: default tolerance)", \
   NaN with linespoints lw 1.6 pt p[2] lc rgb c[2] title "uniform grid", \
-  NaN with linespoints lw 1.6 pt p[3] lc rgb c[3] title (peer ? "OpenVDB, the same band (value only)" : "OpenVDB: not measured"), \
-  NaN with linespoints lw 1.6 pt p[4] lc rgb c[4] title (peer ? "OpenVDB, 3 voxels (value only)" : " "), \
+  NaN with linespoints lw 1.6 pt p[3] lc rgb c[3] title (peer ? "OpenVDB, the same band (value only)" : "OpenVDB, the same band: not measured"), \
+  NaN with linespoints lw 1.6 pt p[4] lc rgb c[4] title (peer ? "OpenVDB, 3 voxels (value only)" : "OpenVDB, 3 voxels: not measured"), \
   NaN with linespoints lw 1.6 pt 7 lc rgb "#555555" title "largest error; query: in no order", \
   NaN with linespoints lw 1.2 dt 3 pt 6 lc rgb "#555555" title "99.9 percentile; query: along a curve"
 unset multiplot
