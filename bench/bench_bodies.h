@@ -10,6 +10,9 @@ namespace furrow::bench {
 /// edge lengths: the body that other distance libraries were measured with. Always the same one.
 physics::TriangleMesh noisy_sphere(int frequency);
 
+/// Geodesic ball of 20 * frequency^2 triangles; the vertices are on the sphere.
+physics::TriangleMesh geodesic_ball(int frequency, double radius);
+
 /// `v` and `f` of an OBJ file, polygons cut from their first corner.
 physics::TriangleMesh read_obj(const std::string& path);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// charts FOLDER quick|full [laws|work|stability|damping|contact|equilibria ...] : writes the data of the
-// charts of speed against accuracy into CSV files in the folder; by default all. bench/charts/run calls it
-// and draws.
+// charts FOLDER quick|full [NAME ...] : writes the data of the charts of speed against accuracy into CSV
+// files in the folder; by default all. bench/charts/run calls it and draws.
 #include "bench/charts/charts.h"
 
 #include <algorithm>
@@ -12,10 +11,13 @@ int main(int argc, char** argv) {
   using namespace furrow::bench;
   const std::pair<std::string, void (*)(const std::string&, Effort)> charts[] = {
       {"laws", chart_laws},       {"work", chart_work_precision}, {"stability", chart_stability},
-      {"damping", chart_damping}, {"contact", chart_contact},     {"equilibria", chart_equilibria}};
+      {"damping", chart_damping}, {"contact", chart_contact},     {"equilibria", chart_equilibria},
+      {"fields", chart_fields},   {"smoothing", chart_smoothing}};
   const std::string effort = argc > 2 ? argv[2] : "";
   if (effort != "quick" && effort != "full") {
-    std::cerr << "charts FOLDER quick|full [laws|work|stability|damping|contact|equilibria ...]\n";
+    std::cerr << "charts FOLDER quick|full";
+    for (const auto& chart : charts) std::cerr << " [" << chart.first << ']';
+    std::cerr << '\n';
     return 2;
   }
   try {
