@@ -24,4 +24,7 @@ void print(const Row& row);
 /// Finds the rest and notes in the row what it took.
 void rest(physics::Cloth& cloth, const physics::StaticOptions& options, Row& row);
 
+void buckling();
+void postbuckled();
+
 }  // namespace furrow::bench
