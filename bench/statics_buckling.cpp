@@ -10,6 +10,7 @@ namespace furrow::bench {
 
 using namespace furrow::tests;
 using physics::StaticOptions;
+using physics::Vec3;
 
 void buckling() {
   struct Theory {
