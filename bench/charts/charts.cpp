@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// charts FOLDER quick|full [laws|work|stability|damping ...] : writes the data of the charts of speed against
-// accuracy into CSV files in the folder; by default all. bench/charts/run calls it and draws.
+// charts FOLDER quick|full [laws|work|stability|damping|metamorphic ...] : writes the data of the charts of
+// speed against accuracy into CSV files in the folder; by default all. bench/charts/run calls it and draws.
 #include "bench/charts/charts.h"
 
 #include <algorithm>
@@ -13,10 +13,11 @@ int main(int argc, char** argv) {
       {"laws", chart_laws},
       {"work", chart_work_precision},
       {"stability", chart_stability},
-      {"damping", chart_damping}};
+      {"damping", chart_damping},
+      {"metamorphic", chart_metamorphic}};
   const std::string effort = argc > 2 ? argv[2] : "";
   if (effort != "quick" && effort != "full") {
-    std::cerr << "charts FOLDER quick|full [laws|work|stability|damping ...]\n";
+    std::cerr << "charts FOLDER quick|full [laws|work|stability|damping|metamorphic ...]\n";
     return 2;
   }
   try {
