@@ -88,7 +88,7 @@ Subject chain() {
 
 Subject cantilever() {
   tests::StripOptions o;
-  o.rigidity = 1e-4;
+  o.rows = 12, o.columns = 3, o.rigidity = 1e-4;
   RestCase c;
   c.cloth = tests::equilateral_strip(o).cloth;
   c.size = o.length;
@@ -123,7 +123,8 @@ Subject skirt_of_plates() {
   d.springs.membrane = bridge::Membrane::triangles;
   d.springs.bending = bridge::Bending::hinge;
   const auto first = [](const Method& m) { return m.integrator == Integrator::leapfrog; };
-  return {"skirt of hinges", [d](auto change) { return changed(d, change); }, d.garment, without_sweeps,
+  const auto explicit_ones = [](const Method& m) { return !is_unconditionally_stable(m.integrator); };
+  return {"skirt of hinges", [d](auto change) { return changed(d, change); }, d.garment, explicit_ones,
           first};
 }
 
