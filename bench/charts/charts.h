@@ -9,12 +9,13 @@ enum class Effort { quick, full };
 /// Each writes CSV files into the folder.
 void chart_laws(const std::string& folder, Effort effort);  ///< laws.csv
 void chart_work_precision(const std::string& folder,
-                          Effort effort);                         ///< work*.csv: points, references, fronts
-void chart_stability(const std::string& folder, Effort effort);   ///< stability.csv
-void chart_damping(const std::string& folder, Effort effort);     ///< damping.csv
-void chart_contact(const std::string& folder, Effort effort);     ///< contact.csv
-void chart_equilibria(const std::string& folder, Effort effort);  ///< equilibria.csv
-void chart_fields(const std::string& folder, Effort effort);      ///< fields.csv
-void chart_smoothing(const std::string& folder, Effort effort);   ///< smoothing.csv
+                          Effort effort);                          ///< work*.csv: points, references, fronts
+void chart_stability(const std::string& folder, Effort effort);    ///< stability.csv
+void chart_damping(const std::string& folder, Effort effort);      ///< damping.csv
+void chart_contact(const std::string& folder, Effort effort);      ///< contact.csv
+void chart_equilibria(const std::string& folder, Effort effort);   ///< equilibria.csv
+void chart_fields(const std::string& folder, Effort effort);       ///< fields.csv
+void chart_smoothing(const std::string& folder, Effort effort);    ///< smoothing.csv
+void chart_metamorphic(const std::string& folder, Effort effort);  ///< metamorphic.csv
 
 }  // namespace furrow::bench

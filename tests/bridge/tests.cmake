@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-furrow_add_tests(bridge LIBRARIES furrow::bridge SOURCES
+furrow_add_tests(bridge LIBRARIES furrow::bridge garment_cases SOURCES
   draw_more_test.cpp
   gather_test.cpp
   body_test.cpp
+  draped_test.cpp
 )

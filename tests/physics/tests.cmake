@@ -14,6 +14,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   leapfrog_step_test.cpp
   membrane_laws_test.cpp
   membrane_test.cpp
+  metamorphic_test.cpp
   moved_pins_test.cpp
   oscillations_test.cpp
   packed_cloth_test.cpp
