@@ -95,6 +95,19 @@ void WorldBody::add_to(physics::World& world) const {
   world.animated = animated_.get();
 }
 
+int WorldBody::fields_until(double seconds) const {
+  if (!animated_) return 0;
+  const std::vector<double>& times = frames_->times();
+  const auto reached = std::upper_bound(times.begin(), times.end(), seconds) - times.begin() + 1;
+  return static_cast<int>(std::clamp<std::ptrdiff_t>(reached, 2, std::ssize(times)));
+}
+
+double WorldBody::samples_of_field() const {
+  if (!animated_) return 0;
+  animated_->prepare(0, 0);
+  return double(animated_->samples_built()) / animated_->frames_built();
+}
+
 std::vector<physics::Vec3> WorldBody::vertices_at(double time) const {
   const std::vector<double>& times = frames_->times();
   const auto next = std::upper_bound(times.begin(), times.end(), time);

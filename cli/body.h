@@ -33,6 +33,11 @@ class WorldBody {
 
   void add_to(physics::World& world) const;
   double tolerance() const { return tolerance_; }  ///< of the field [m]
+  /// Fields that a run from time 0 to `seconds` builds on its way; 0: rigid.
+  int fields_until(double seconds) const;
+  /// Exact distances that one of them takes, as the first two do; builds those. 0: rigid.
+  double samples_of_field() const;
+  bool changes_shape() const { return animated_ != nullptr; }
   /// Tells one body's shape and field from another's (not its motion).
   const std::string& fingerprint() const { return fingerprint_; }
   /// Puts the points `which` that lie inside at a time onto the surface, by exact distance; rigid bodies

@@ -86,10 +86,12 @@ int threads_of(const io::Scene& scene, std::size_t vertices) {
   return scene.threads ? scene.threads : worthwhile_threads(vertices);
 }
 
-SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common) {
+SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common,
+                         std::shared_ptr<WorldBody> body) {
   SceneCloth result;
   result.file = begin_garment(scene, common);
-  if (scene.body) result.body = std::make_unique<WorldBody>(*scene.body, common);
+  if (scene.body && !body) body = std::make_shared<WorldBody>(*scene.body, common);
+  result.body = std::move(body);
   result.pins = find_pins(result.file, scene.pins);
   if (result.body) warn_if_apart(scene, *result.body, result.file.mesh, common);
   result.seconds = scene.simulation.seconds;

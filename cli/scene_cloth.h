@@ -29,7 +29,7 @@ int threads_of(const io::Scene& scene, std::size_t vertices);
 struct SceneCloth {
   io::MeshFile file;  ///< complete, with the lines of time 0
   std::vector<std::vector<int>> pins;
-  std::unique_ptr<WorldBody> body;   ///< null: none
+  std::shared_ptr<WorldBody> body;   ///< null: none
   physics::Cloth cloth;              ///< pinned
   physics::SimulateOptions options;  ///< the scene's, with gap and threads; without stop_at
   double seconds = 0;                ///< until the end, or the first lines that come later [s]
@@ -39,7 +39,8 @@ struct SceneCloth {
 };
 
 /// Reads garment, strokes and body, draws the lines of time 0, builds the field. Writes nothing; warns as a
-/// run does. Throws as a run does.
-SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common);
+/// run does. Throws as a run does. `body`: the scene's, if it is built already.
+SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common,
+                         std::shared_ptr<WorldBody> body = nullptr);
 
 }  // namespace furrow::cli

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/errors.h"
+#include "io/relocated.h"
 
 using namespace furrow;
 using io::parse_toml;
