@@ -73,6 +73,14 @@ double cost_with(const Work& work, Integrator integrator) {
   return cost_of(work, integrator == Integrator::rk4 ? kCosts.rk4_vertex_step : kCosts.vertex_step);
 }
 
+/// So many distances asked for, and the fields of the frames on the way.
+void add_body(Work& w, const SceneCloth& scene, double queries, double seconds) {
+  if (!scene.body) return;
+  const int fields = scene.body->fields_until(seconds);
+  (fields ? w.frame_queries : w.queries) = queries;
+  w.samples = fields * scene.field_samples;
+}
+
 double springs_of(const physics::Cloth& cloth) {
   return static_cast<double>(cloth.structural.size() + cloth.bending.size());
 }
@@ -163,7 +171,7 @@ double predicted_cost(const Candidate& c, const SceneCloth& scene, double second
     w.triangles = forces * static_cast<double>(cloth.membrane.size());
     w.hinges = forces * static_cast<double>(cloth.hinges.size());
   }
-  if (scene.body) w.queries = w.steps * w.vertices;
+  add_body(w, scene, w.steps * std::max(scene.near_body / 2.0, w.vertices / 10), seconds);
   w.factorisations = w.steps * solves;
   return cost_with(w, c.integrator);
 }
@@ -175,7 +183,7 @@ double counted_cost(const physics::SimulateReport& r, const Candidate& c, const 
   w.springs = static_cast<double>(r.spring_evaluations);
   w.triangles = static_cast<double>(r.triangle_evaluations);
   w.hinges = static_cast<double>(r.hinge_evaluations);
-  w.queries = static_cast<double>(r.collider_queries);
+  add_body(w, scene, static_cast<double>(r.collider_queries), r.time);
   w.factorisations = static_cast<double>(r.factorisations);
   if (c.integrator == Integrator::xpbd)
     w.sweeps = static_cast<double>(r.iterations) * springs_of(scene.cloth);

@@ -15,6 +15,8 @@
 namespace furrow::cli {
 namespace {
 
+constexpr double kNear = 0.02;  // [m]
+
 /// Threads wait for each other some five times a step; below some 10,000 vertices each, that costs more than
 /// it saves.
 int worthwhile_threads(std::size_t vertices) {
@@ -100,9 +102,12 @@ SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common,
   result.cloth = bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
   pin_cloth(result.cloth, result.pins, result.body.get(), 0, common);
   result.options = scene.simulation;
-  if (result.body)
+  if (result.body) {
     result.options.contact_gap =
         contact_gap(result.options.contact_gap, result.body->tolerance(), result.file.mesh);
+    result.near_body = result.body->count_near(result.cloth.particles.x, kNear);
+    result.field_samples = result.body->samples_of_field();
+  }
   result.options.threads = threads_of(scene, result.cloth.particles.size());
   return result;
 }
