@@ -19,8 +19,9 @@ constexpr double kClockOfBudget = 3, kClockAtLeast = 60;  // [-], [s]
 
 /// Two digits, never above.
 double rounded_down(double x) {
-  const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
-  return std::floor(x / unit * (1 + 1e-12)) * unit;
+  const double places = 1 - std::floor(std::log10(x)), units = std::pow(10, std::abs(places));
+  const double digits = std::floor((places > 0 ? x * units : x / units) * (1 + 1e-12));
+  return places > 0 ? digits / units : digits * units;
 }
 
 class Judge {

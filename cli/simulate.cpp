@@ -98,12 +98,13 @@ void check_outputs(const io::Scene& scene, const SimulateArguments& a) {
   }
 }
 
-/// Integrator and step for --tolerance 1%: sets them in document and scene and returns the judgement. `body`
-/// (null: none) is the scene's.
+/// Integrator and step for --tolerance 1%: sets them in document and scene and returns the judgement. Builds
+/// the scene's body, if it has one, for the run, too.
 Judgement choose_setting(const SimulateArguments& a, const CommonArguments& common,
-                         const std::shared_ptr<WorldBody>& body, io::TomlDocument& document, io::Scene& scene,
+                         std::shared_ptr<WorldBody>& body, io::TomlDocument& document, io::Scene& scene,
                          const std::filesystem::path& folder) {
   const JudgeOptions options{parse_share(a.flags.accuracy(), "--tolerance"), a.budget};
+  if (scene.body) body = std::make_shared<WorldBody>(*scene.body, common);
   CommonArguments silent = common;  // the run itself warns
   silent.quiet = true;
   const SceneCloth cloth = prepare_scene(scene, silent, body);
@@ -138,7 +139,6 @@ int simulate(SimulateArguments& a) {
   std::shared_ptr<WorldBody> body;
   if (!a.flags.accuracy().empty()) {
     const bool scene_dt = scene.simulation.dt.has_value();
-    if (scene.body) body = std::make_shared<WorldBody>(*scene.body, common);
     const Judgement j = choose_setting(a, common, body, document, scene, folder);
     if (const int code = exit_code_of(j); code != kOk) {
       std::cerr << "error: " << a.in << ": " << words(j, scene_dt) << "\n";
