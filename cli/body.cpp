@@ -11,6 +11,7 @@
 #include "geometry/property_names.h"
 #include "io/bytes_file.h"
 #include "io/field_file.h"
+#include "physics/contact.h"
 #include "physics/posed_collider.h"
 
 namespace furrow::cli {
@@ -95,6 +96,19 @@ void WorldBody::add_to(physics::World& world) const {
   world.animated = animated_.get();
 }
 
+int WorldBody::fields_until(double seconds) const {
+  if (!animated_) return 0;
+  const std::vector<double>& times = frames_->times();
+  const auto reached = std::upper_bound(times.begin(), times.end(), seconds) - times.begin() + 1;
+  return static_cast<int>(std::clamp<std::ptrdiff_t>(reached, 2, std::ssize(times)));
+}
+
+double WorldBody::samples_of_field() const {
+  if (!animated_) return 0;
+  animated_->prepare(0, 0);
+  return double(animated_->samples_built()) / animated_->frames_built();
+}
+
 std::vector<physics::Vec3> WorldBody::vertices_at(double time) const {
   const std::vector<double>& times = frames_->times();
   const auto next = std::upper_bound(times.begin(), times.end(), time);
@@ -114,6 +128,14 @@ physics::Penetration WorldBody::penetration(std::vector<physics::Vec3> points, d
   if (!physics::is_identity(motion_))
     for (physics::Vec3& x : points) x = pose.to_body(x);
   return physics::penetration(rigid_->exact, points);
+}
+
+int WorldBody::count_near(const std::vector<physics::Vec3>& points, double distance) const {
+  if (rigid_)
+    return physics::count_contacts(points, physics::PosedCollider(rigid_->field, physics::pose(motion_, 0)),
+                                   distance);
+  animated_->prepare(0, 0);
+  return physics::count_contacts(points, *animated_, distance);
 }
 
 physics::PushOutReport WorldBody::push_out(std::vector<physics::Vec3>& points, const std::vector<int>& which,

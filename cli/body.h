@@ -33,6 +33,10 @@ class WorldBody {
 
   void add_to(physics::World& world) const;
   double tolerance() const { return tolerance_; }  ///< of the field [m]
+  /// Fields that a run from time 0 to `seconds` builds on its way; 0: rigid.
+  int fields_until(double seconds) const;
+  /// Exact distances that one of them takes, as the first two do; builds those. 0: rigid.
+  double samples_of_field() const;
   /// Tells one body's shape and field from another's (not its motion).
   const std::string& fingerprint() const { return fingerprint_; }
   /// Puts the points `which` that lie inside at a time onto the surface, by exact distance; rigid bodies
@@ -41,6 +45,8 @@ class WorldBody {
                                   double time) const;
   /// Of points in the world, at a time, by exact distance.
   physics::Penetration penetration(std::vector<physics::Vec3> points, double time) const;
+  /// Points that are nearer than `distance` [m] at time 0, or inside; by the field.
+  int count_near(const std::vector<physics::Vec3>& points, double distance) const;
   /// Around it at a time [m].
   Eigen::AlignedBox3d box(double time) const;
   /// Its mesh as it is at a time, for writing.

@@ -40,11 +40,18 @@ Candidate explicit_at(Integrator integrator, double factor, double dt_limit) {
   return c;
 }
 
-Candidate implicit_at(Integrator integrator, int steps_a_second) {
+int iterations_of(const physics::SimulateOptions& o, Integrator integrator) {
+  return integrator == Integrator::xpbd             ? o.xpbd.iterations
+         : integrator == Integrator::backward_euler ? o.backward_euler.newton_iterations
+                                                    : 0;
+}
+
+Candidate implicit_at(Integrator integrator, int steps_a_second, const SceneCloth& scene) {
   Candidate c;
   c.name = std::string(name_of(integrator)) + ", 1/" + std::to_string(steps_a_second) + " s";
   c.integrator = integrator;
   c.dt = c.expected_dt = 1.0 / steps_a_second;
+  c.iterations = iterations_of(scene.options, integrator);
   return c;
 }
 
@@ -55,6 +62,7 @@ std::optional<Candidate> scenes_own(const SceneCloth& scene, double dt_limit) {
   Candidate c;
   c.name = std::string(name_of(o.integrator)) + ", as the scene says";
   c.integrator = o.integrator;
+  c.iterations = iterations_of(o, o.integrator);
   c.dt = o.dt;
   c.forced = o.step_rule == physics::StepRule::forced;
   c.expected_dt = o.dt.value_or(kCheapest * dt_limit);
@@ -63,6 +71,14 @@ std::optional<Candidate> scenes_own(const SceneCloth& scene, double dt_limit) {
 
 double cost_with(const Work& work, Integrator integrator) {
   return cost_of(work, integrator == Integrator::rk4 ? kCosts.rk4_vertex_step : kCosts.vertex_step);
+}
+
+/// So many distances asked for, and the fields of the frames on the way.
+void add_body(Work& w, const SceneCloth& scene, double queries, double seconds) {
+  if (!scene.body) return;
+  const int fields = scene.body->fields_until(seconds);
+  (fields ? w.frame_queries : w.queries) = queries;
+  w.samples = fields * scene.field_samples;
 }
 
 double springs_of(const physics::Cloth& cloth) {
@@ -101,9 +117,9 @@ std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit) 
     all.push_back(explicit_at(Integrator::semi_implicit, kCheapest, dt_limit));
     all.push_back(explicit_at(Integrator::rk4, kCheapest, dt_limit));
   }
-  for (int rate : {60, 240, 960}) all.push_back(implicit_at(Integrator::backward_euler, rate));
+  for (int rate : {60, 240, 960}) all.push_back(implicit_at(Integrator::backward_euler, rate, scene));
   if (scene.cloth.membrane.empty() && scene.cloth.hinges.empty())
-    for (int rate : {240, 1200}) all.push_back(implicit_at(Integrator::xpbd, rate));
+    for (int rate : {240, 1200}) all.push_back(implicit_at(Integrator::xpbd, rate, scene));
   if (auto own = scenes_own(scene, dt_limit)) all.push_back(*own);
   return all;
 }
@@ -122,6 +138,8 @@ std::string flags_of(const Candidate& c, bool scene_dt) {
   std::string flags = std::string("--integrator ") + name_of(c.integrator);
   const bool needs_dt = c.dt || scene_dt;
   if (needs_dt) flags += " --dt " + text_of(c.dt.value_or(rounded_down(c.expected_dt)));
+  if (c.integrator == Integrator::xpbd) flags += " --sweeps " + std::to_string(c.iterations);
+  if (c.integrator == Integrator::backward_euler) flags += " --newton " + std::to_string(c.iterations);
   return flags + (c.forced ? " --force-dt" : "");
 }
 
@@ -131,6 +149,10 @@ void set_candidate(io::TomlDocument& document, const Candidate& c) {
   document.root["simulation"].erase("force_dt");
   if (c.dt) io::set_value(document, "simulation.dt", *c.dt, "--tolerance");
   if (c.forced) io::set_value(document, "simulation.force_dt", true, "--tolerance");
+  if (c.integrator == Integrator::xpbd)
+    io::set_value(document, "simulation.sweeps", c.iterations, "--tolerance");
+  if (c.integrator == Integrator::backward_euler)
+    io::set_value(document, "simulation.newton", c.iterations, "--tolerance");
 }
 
 double predicted_cost(const Candidate& c, const SceneCloth& scene, double seconds) {
@@ -140,16 +162,17 @@ double predicted_cost(const Candidate& c, const SceneCloth& scene, double second
   Work w;
   w.vertices = static_cast<double>(cloth.particles.size());
   w.steps = seconds / dt;
-  const double forces = w.steps * (c.integrator == Integrator::rk4 ? 4 : 1);
+  const int solves = c.integrator == Integrator::backward_euler ? c.iterations : 0;
+  const double forces = w.steps * (c.integrator == Integrator::rk4 ? 4 : std::max(solves, 1));
   if (c.integrator == Integrator::xpbd) {
-    w.sweeps = w.steps * scene.options.xpbd.iterations * springs_of(cloth);
+    w.sweeps = w.steps * c.iterations * springs_of(cloth);
   } else {
     w.springs = forces * springs_of(cloth);
     w.triangles = forces * static_cast<double>(cloth.membrane.size());
     w.hinges = forces * static_cast<double>(cloth.hinges.size());
   }
-  if (scene.body) w.queries = w.steps * w.vertices;
-  if (c.integrator == Integrator::backward_euler) w.factorisations = w.steps;
+  add_body(w, scene, w.steps * std::max(scene.near_body / 2.0, w.vertices / 10), seconds);
+  w.factorisations = w.steps * solves;
   return cost_with(w, c.integrator);
 }
 
@@ -160,7 +183,7 @@ double counted_cost(const physics::SimulateReport& r, const Candidate& c, const 
   w.springs = static_cast<double>(r.spring_evaluations);
   w.triangles = static_cast<double>(r.triangle_evaluations);
   w.hinges = static_cast<double>(r.hinge_evaluations);
-  w.queries = static_cast<double>(r.collider_queries);
+  add_body(w, scene, static_cast<double>(r.collider_queries), r.time);
   w.factorisations = static_cast<double>(r.factorisations);
   if (c.integrator == Integrator::xpbd)
     w.sweeps = static_cast<double>(r.iterations) * springs_of(scene.cloth);

@@ -103,7 +103,8 @@ std::string script(const std::string& path, const Judgement& j, const std::strin
       << "set logscale xy\nset format y '%g %%'\nset grid\nset key outside right center Left reverse samplen "
          "1 font ',11'\n"
       << "set xlabel 'predicted seconds a simulated second'\n"
-      << "set ylabel 'error / size of the garment, " << (j.by_bulk ? "bulk" : "RMS of positions") << "'\n"
+      << "set ylabel 'error / size of the garment, " << (j.by_shape ? "of the shape" : "RMS of positions")
+      << "'\n"
       << "set xrange [" << x.low / 2 << ":" << x.high * 2 << "]\n"
       << "set yrange [" << y.low / 3 << ":" << top << "]\n";
   out << "set style line 1 dt 2 lw 2 lc 'red'\nplot " << 100 * j.options.tolerance
@@ -120,16 +121,22 @@ std::string script(const std::string& path, const Judgement& j, const std::strin
 void write_chart_csv(const std::string& path, const Judgement& j) {
   std::ofstream out(path, std::ios::binary);
   out.precision(9);
-  out << "name,integrator,dt,cost,error,rms,max,bulk,verdict\n";
+  out << "name,integrator,dt,cost,error,error_is";
+  for (const auto& distance : kDistances) out << "," << distance.first;
+  out << ",verdict\n";
   for (const JudgedCandidate& c : j.candidates) {
-    const bool known = std::isfinite(c.error) && c.fate == Fate::done;
-    out << '"' << c.candidate.name << "\"," << name_of(c.candidate.integrator) << "," << c.dt << ","
-        << c.cost;
+    const bool known = is_known(c);
+    out << '"' << c.candidate.name << "\"," << name_of(c.candidate.integrator) << "," << c.dt << "," << c.cost
+        << ",";
     if (known)
-      out << "," << c.error << "," << c.off.rms << "," << c.off.max << "," << c.off.bulk << ","
-          << (j.meets(c) ? "meets" : "misses") << "\n";
+      out << c.error << "," << kind_of_error(j, c);
     else
-      out << ",,,,," << name_of(c.fate) << "\n";
+      out << ",";
+    for (const auto& distance : kDistances) {
+      out << ",";
+      if (known) out << c.off.*distance.second;
+    }
+    out << "," << verdict_of(j, c) << "\n";
   }
   out.close();
   if (!out) throw std::runtime_error(path + ": cannot be written; is the disk full?");

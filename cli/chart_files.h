@@ -4,8 +4,8 @@
 
 namespace furrow::cli {
 
-/// One row a candidate, the reference last: name, integrator, dt [s], cost, error, rms, max, bulk [-],
-/// verdict. Throws std::runtime_error if it cannot be written.
+/// One row a candidate, the reference last: name, integrator, dt [s], cost, error and which it is, all
+/// distances [-], verdict. Throws std::runtime_error if it cannot be written.
 void write_chart_csv(const std::string& path, const Judgement& j);
 
 /// Throws UsageError for a picture that is not named .svg or .png, std::runtime_error without its folder or

@@ -11,17 +11,17 @@
 namespace furrow::cli {
 namespace {
 
-using Shape = std::vector<physics::Vec3>;
-
-constexpr double kTwin = 1e-9;          // [m]
-constexpr double kChaos = 0.01;         // of the tolerance: a twin that drifts farther is chaotic
-constexpr double kShortest = 1.0 / 30;  // [s]
+constexpr double kTwin = 1e-9;  // [m]
+constexpr double kChaos =
+    0.01;  // of the error that is to be told, the tolerance: a twin that drifts farther is chaotic
+constexpr double kShortest = 1.0 / 30;                    // [s]
 constexpr double kClockOfBudget = 3, kClockAtLeast = 60;  // [-], [s]
 
 /// Two digits, never above.
 double rounded_down(double x) {
-  const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
-  return std::floor(x / unit * (1 + 1e-12)) * unit;
+  const double places = 1 - std::floor(std::log10(x)), units = std::pow(10, std::abs(places));
+  const double digits = std::floor((places > 0 ? x * units : x / units) * (1 + 1e-12));
+  return places > 0 ? digits / units : digits * units;
 }
 
 class Judge {
@@ -32,7 +32,7 @@ class Judge {
         world_(world),
         progress_("trying settings", common),
         started_(std::chrono::steady_clock::now()),
-        meter_(scene.file.mesh, scene.cloth.particles) {
+        meter_(scene.file.mesh, scene.cloth, scene.options.gravity) {
     j_.options = options;
     j_.scene_seconds = scene.options.seconds;
     j_.ends_at_lines = scene.ends_at_lines;
@@ -102,7 +102,7 @@ class Judge {
     if (c.fate == Fate::done) c.cost = counted_cost(r, c.candidate, scene_) / j_.seconds;
     c.steps = r.steps;
     c.dt = r.dt;
-    return std::move(cloth.particles.x);
+    return meter_.shape_of(std::move(cloth));
   }
 
   bool must_stop() {
@@ -128,7 +128,7 @@ class Judge {
       }
     JudgedCandidate twin = j_.candidates[0];
     const Shape shape = simulate(twin, std::move(cloth));
-    if (shape.empty() || shapes_[0].empty()) return;
+    if (shape.x.empty() || shapes_[0].x.empty()) return;
     twin_ = meter_.between(shape, shapes_[0]);
     j_.twin_drift = twin_.rms;
   }
@@ -137,26 +137,25 @@ class Judge {
     if (j_.candidates.back().fate != Fate::done) return;
     for (std::size_t i = 0; i < reference(); ++i) {
       JudgedCandidate& c = j_.candidates[i];
-      c.off = {INFINITY, INFINITY, INFINITY};
-      if (c.fate == Fate::done) c.off = meter_.between(shapes_[i], shapes_.back());
+      c.off = c.fate == Fate::done ? meter_.between(shapes_[i], shapes_.back()) : kInfinitelyFar;
     }
     choose_error();
     for (JudgedCandidate& c : j_.candidates) c.error = error_of(c.off);
     j_.candidates.back().error = j_.reference_error = reference_error();
   }
 
-  double error_of(const ShapeDistance& d) const { return j_.by_bulk ? d.bulk : d.rms; }
+  double error_of(const ShapeDistance& d) const { return j_.by_shape ? d.shape() : d.rms; }
 
   void choose_error() {
     const double drift = kChaos * j_.options.tolerance, halves = j_.candidates[1].off.rms;
-    j_.by_bulk = j_.twin_drift > drift || halves > j_.options.tolerance;
+    j_.by_shape = j_.twin_drift > drift || halves > j_.options.tolerance;
     j_.why = "positions at the end (RMS by mass): two runs begun 1e-9 m apart stay together";
-    if (!j_.by_bulk) return;
+    if (!j_.by_shape) return;
     j_.why = j_.twin_drift > drift
                  ? "the motion is chaotic (two runs begun 1e-9 m apart part by "
                  : "positions do not converge (steps of 0.45 and 0.225 of the limit part by ";
     j_.why += Json(std::stod(percent(j_.twin_drift > drift ? j_.twin_drift : halves))).dump() +
-              " % of the size), so only centre, extent and border loops are compared";
+              " % of the size), so not where each vertex lies, but surface, centre and extent are compared";
   }
 
   static std::string percent(double share) {
@@ -170,7 +169,7 @@ class Judge {
   /// equals parted by.
   double reference_error() const {
     const double fine = error_of(j_.candidates[1].off), coarse = error_of(j_.candidates[0].off);
-    if (j_.by_bulk) return std::max(fine, twin_.bulk);
+    if (j_.by_shape) return std::max(fine, twin_.shape());
     const double ratio = std::clamp(fine > 0 ? (coarse - fine) / fine : 4.0, std::sqrt(2.0), 4.0);
     return fine / (ratio - 1);
   }

@@ -24,7 +24,7 @@ struct JudgedCandidate {
   std::int64_t steps = 0;
   double dt = 0;            ///< of the last step [s]
   ShapeDistance off{};      ///< from the reference at the end; infinity: diverged or unknown
-  double error = INFINITY;  ///< the one that judges: off.rms, or off.bulk
+  double error = INFINITY;  ///< the one that judges: off.rms, or off.shape()
 };
 
 enum class Broken { no, interrupted, clock };
@@ -36,7 +36,7 @@ struct Judgement {
   bool ends_at_lines = false;               ///< not judged further because lines come then
   double size = 0;                          ///< of the garment [m]
   double dt_limit = 0;                      ///< leapfrog's at the start [s]
-  bool by_bulk = false;                     ///< errors are of the bulk, because positions are chaotic
+  bool by_shape = false;                    ///< errors are of the shape, because positions are chaotic
   std::string why;                          ///< which error, and why
   double twin_drift = 0;                    ///< of a run that began 1e-9 m beside, RMS over size [-]
   double reference_error = INFINITY;        ///< estimate, as `error` [-]
@@ -47,7 +47,7 @@ struct Judgement {
   /// Whether error and the reference's own together stay within the tolerance; of chaotic motion, each does:
   /// what parts equals is in the candidate's error already.
   bool meets(const JudgedCandidate& c) const {
-    const bool alone = by_bulk || &c == &candidates.back();
+    const bool alone = by_shape || &c == &candidates.back();
     return c.error + (alone ? 0 : reference_error) <= options.tolerance &&
            reference_error <= options.tolerance;
   }

@@ -17,25 +17,17 @@ std::string percent(double share) { return text_of(100 * share) + " %"; }
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-const char* verdict(const Judgement& j, const JudgedCandidate& c) {
-  if (c.fate != Fate::done) return name_of(c.fate);
-  if (!std::isfinite(c.error)) return "unknown";
-  return j.meets(c) ? "meets" : "misses";
-}
-
 Json row_of(const Judgement& j, const JudgedCandidate& c, bool scene_dt) {
   Json row{{"name", c.candidate.name},
            {"cost", c.cost},
-           {"error", number(c.error)},
-           {"verdict", verdict(j, c)},
-           {"resolved", std::isfinite(c.error) && j.resolved(c)},
-           {"rms", number(c.off.rms)},
-           {"max", number(c.off.max)},
-           {"bulk", number(c.off.bulk)},
-           {"steps", c.steps},
-           {"dt", c.dt},
-           {"flags", flags_of(c.candidate, scene_dt)}};
-  if (c.fate != Fate::done) row["error"] = row["rms"] = row["max"] = row["bulk"] = nullptr;
+           {"error", nullptr},
+           {"error_is", nullptr},
+           {"verdict", verdict_of(j, c)},
+           {"resolved", std::isfinite(c.error) && j.resolved(c)}};
+  const bool known = is_known(c);
+  if (known) row["error"] = c.error, row["error_is"] = kind_of_error(j, c);
+  for (const auto& [name, member] : kDistances) row[name] = known ? Json(c.off.*member) : Json();
+  row.update({{"steps", c.steps}, {"dt", c.dt}, {"flags", flags_of(c.candidate, scene_dt)}});
   return row;
 }
 
@@ -53,6 +45,19 @@ std::string broken_words(const Judgement& j) {
 }
 
 }  // namespace
+
+bool is_known(const JudgedCandidate& c) { return c.fate == Fate::done && std::isfinite(c.error); }
+
+const char* kind_of_error(const Judgement& j, const JudgedCandidate& c) {
+  if (&c == &j.candidates.back()) return "estimate";
+  return j.by_shape ? c.off.largest() : "rms";
+}
+
+const char* verdict_of(const Judgement& j, const JudgedCandidate& c) {
+  if (c.fate != Fate::done) return name_of(c.fate);
+  if (!std::isfinite(c.error)) return "unknown";
+  return j.meets(c) ? "meets" : "misses";
+}
 
 double parse_share(const std::string& text, const std::string& option) {
   char* end = nullptr;
@@ -88,9 +93,7 @@ std::string words(const Judgement& j, bool scene_dt) {
   const bool is_reference = &c == &j.candidates.back();
   std::string text = "the cheapest setting within " + percent(j.options.tolerance) + " is " +
                      c.candidate.name + ": " + percent(c.error) +
-                     (is_reference ? " by its own estimate"
-                      : j.by_bulk  ? " (bulk)"
-                                   : " (RMS)") +
+                     (is_reference ? " by its own estimate" : std::string(" (") + kind_of_error(j, c) + ")") +
                      ", " + text_of(c.cost) +
                      " predicted seconds a simulated second; flags: " + flags_of(c.candidate, scene_dt) +
                      judged_on(j);
@@ -110,14 +113,14 @@ Json to_json(const Judgement& j, bool scene_dt) {
               {"judged_seconds", j.seconds},
               {"shortened", j.shortened},
               {"dt_limit", j.dt_limit},
-              {"error_is", j.by_bulk ? "bulk" : "positions"},
+              {"error_is", j.by_shape ? "shape" : "positions"},
               {"why", j.why},
               {"twin_drift", j.twin_drift},
               {"reference",
                {{"name", r.candidate.name},
                 {"cost", r.cost},
                 {"error", number(j.reference_error)},
-                {"verdict", verdict(j, r)},
+                {"verdict", verdict_of(j, r)},
                 {"steps", r.steps},
                 {"dt", r.dt},
                 {"flags", flags_of(r.candidate, scene_dt)}}},

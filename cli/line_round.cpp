@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <sstream>
 
-#include "cli/common.h"
 #include "cli/wrinkle_reports.h"
 #include "geometry/property_names.h"
 #include "io/bytes_file.h"
 #include "io/resolve_strokes.h"
+#include "io/state_file.h"
 #include "io/stroke_file.h"
 
 namespace furrow::cli {
@@ -99,6 +99,35 @@ void leave_out(std::vector<io::DrawnStroke>& strokes, const std::vector<std::str
   for (const std::string& name : names)
     strokes.erase(strokes.begin() + static_cast<std::ptrdiff_t>(io::find_stroke(strokes, name)));
   if (strokes.empty()) throw UsageError("--without leaves no stroke to draw");
+}
+
+std::vector<std::vector<io::DrawnStroke>> read_rounds(const io::Scene& scene, int first,
+                                                      const CommonArguments& common) {
+  std::vector<std::vector<io::DrawnStroke>> rounds(static_cast<std::size_t>(first));
+  for (std::size_t i = rounds.size(); i < scene.lines.size(); ++i) {
+    const io::SceneLines& lines = scene.lines[i];
+    rounds.push_back(io::read_drawn_strokes(lines.strokes, lines.height, read_options(common)));
+    if (!lines.without.empty()) leave_out(rounds.back(), lines.without);
+    if (lines.time >= scene.simulation.seconds && lines.time > 0)
+      warn(lines.strokes.string() + ": its lines come at " + Json(lines.time).dump() +
+               " s, when the simulation is over; they are not drawn",
+           common);
+  }
+  return rounds;
+}
+
+geometry::StageObserver stage_writer(const io::SceneOutput& output, const io::MeshFile& file,
+                                     const CommonArguments& common) {
+  return [&](geometry::Stage stage, const geometry::Mesh& mesh) {
+    const bool is_inserted = stage == geometry::Stage::displaced;
+    if (!is_inserted && stage != geometry::Stage::smoothed) return;
+    const std::filesystem::path& path = is_inserted ? output.inserted : output.smoothed;
+    if (path.empty()) return;
+    io::MeshFile written = file;
+    written.mesh = mesh;
+    io::drop_motion(written);
+    write_mesh(path.string(), written, common);
+  };
 }
 
 }  // namespace furrow::cli

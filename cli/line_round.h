@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "bridge/draw_more.h"
+#include "cli/common.h"
 #include "io/drawn_stroke.h"
 #include "io/scene.h"
 #include "io/wrinkle_record.h"
@@ -34,5 +35,14 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
 
 /// Leaves out the strokes with these names. Throws UsageError if none is left.
 void leave_out(std::vector<io::DrawnStroke>& strokes, const std::vector<std::string>& names);
+
+/// The strokes of each round of the scene, so that a fault is known before the work; empty for those before
+/// `first`. Warns of rounds that come too late to be drawn.
+std::vector<std::vector<io::DrawnStroke>> read_rounds(const io::Scene& scene, int first,
+                                                      const CommonArguments& common);
+
+/// Writes the stages of a round that the output names; `file` has all but the mesh. All must outlive it.
+geometry::StageObserver stage_writer(const io::SceneOutput& output, const io::MeshFile& file,
+                                     const CommonArguments& common);
 
 }  // namespace furrow::cli

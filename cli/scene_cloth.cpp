@@ -15,6 +15,8 @@
 namespace furrow::cli {
 namespace {
 
+constexpr double kNear = 0.02;  // [m]
+
 /// Threads wait for each other some five times a step; below some 10,000 vertices each, that costs more than
 /// it saves.
 int worthwhile_threads(std::size_t vertices) {
@@ -87,10 +89,12 @@ int threads_of(const io::Scene& scene, std::size_t vertices) {
   return scene.threads ? scene.threads : worthwhile_threads(vertices);
 }
 
-SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common) {
+SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common,
+                         std::shared_ptr<WorldBody> body) {
   SceneCloth result;
   result.file = begin_garment(scene, common);
-  if (scene.body) result.body = std::make_unique<WorldBody>(*scene.body, common);
+  if (scene.body && !body) body = std::make_shared<WorldBody>(*scene.body, common);
+  result.body = std::move(body);
   result.pins = find_pins(result.file, scene.pins);
   if (result.body) warn_if_apart(scene, *result.body, result.file.mesh, common);
   result.seconds = scene.simulation.seconds;
@@ -99,9 +103,12 @@ SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common) 
   result.cloth = bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
   pin_cloth(result.cloth, result.pins, result.body.get(), 0, common);
   result.options = scene.simulation;
-  if (result.body)
+  if (result.body) {
     result.options.contact_gap =
         contact_gap(result.options.contact_gap, result.body->tolerance(), result.file.mesh);
+    result.near_body = result.body->count_near(result.cloth.particles.x, kNear);
+    result.field_samples = result.body->samples_of_field();
+  }
   result.options.threads = threads_of(scene, result.cloth.particles.size());
   return result;
 }

@@ -29,9 +29,11 @@ int threads_of(const io::Scene& scene, std::size_t vertices);
 struct SceneCloth {
   io::MeshFile file;  ///< complete, with the lines of time 0
   std::vector<std::vector<int>> pins;
-  std::unique_ptr<WorldBody> body;   ///< null: none
+  std::shared_ptr<WorldBody> body;   ///< null: none
   physics::Cloth cloth;              ///< pinned
   physics::SimulateOptions options;  ///< the scene's, with gap and threads; without stop_at
+  int near_body = 0;                 ///< vertices within 2 cm of the body
+  double field_samples = 0;          ///< exact distances that the field of a frame of the body takes
   double seconds = 0;                ///< until the end, or the first lines that come later [s]
   bool ends_at_lines = false;
 
@@ -39,7 +41,8 @@ struct SceneCloth {
 };
 
 /// Reads garment, strokes and body, draws the lines of time 0, builds the field. Writes nothing; warns as a
-/// run does. Throws as a run does.
-SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common);
+/// run does. Throws as a run does. `body`: the scene's, if it is built already.
+SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common,
+                         std::shared_ptr<WorldBody> body = nullptr);
 
 }  // namespace furrow::cli

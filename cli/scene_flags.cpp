@@ -53,6 +53,10 @@ constexpr Flag kFlags[] = {
      "time step [s]; default 0.9 of the limit, 1/240 with backward-euler, 1/1200 with xpbd"},
     {"--integrator", "simulation.integrator", true,
      "leapfrog (default), semi-implicit, rk4, backward-euler, xpbd, or euler (the baseline that diverges)"},
+    {"--sweeps", "simulation.sweeps", false,
+     "of xpbd over all springs a step (default 10); few make the cloth softer"},
+    {"--newton", "simulation.newton", false,
+     "iterations of backward-euler a step, at most (default 1: linearised once)"},
     {"--threads", "simulation.threads", false,
      "threads (default: one for each 10,000 vertices, at most all cores); the result does not depend on "
      "them"},

@@ -2,22 +2,19 @@
 #include "cli/scene_run.h"
 
 #include <algorithm>
-#include <iostream>
 
 #include "bridge/scatter.h"
-#include "cli/body.h"
-#include "cli/frame_recorder.h"
+#include "cli/animation_series.h"
 #include "cli/line_round.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
+#include "cli/run_warnings.h"
 #include "cli/scene_cloth.h"
 #include "cli/scene_flags.h"
 #include "cli/simulate_report.h"
 #include "cli/wrinkle_reports.h"
-#include "geometry/property_names.h"
 #include "io/ply_motion.h"
-#include "io/scene_file.h"
-#include "io/stroke_file.h"
+#include "io/relocated.h"
 #include "io/wrinkle_record.h"
 
 namespace furrow::cli {
@@ -26,13 +23,16 @@ namespace {
 class SceneRun {
  public:
   SceneRun(const io::Scene& scene, const io::TomlDocument& document, std::filesystem::path folder,
-           std::string state_path, const CommonArguments& common, const Json& choice)
+           std::string state_path, const CommonArguments& common, std::shared_ptr<WorldBody> body,
+           const Json& choice)
       : scene_(scene),
         document_(document),
         folder_(std::move(folder)),
         state_path_(std::move(state_path)),
         common_(common),
-        choice_(choice) {}
+        choice_(choice),
+        body_(std::move(body)),
+        animations_(scene.output, common) {}
 
   int run(std::optional<io::SavedState> saved) {
     catch_interrupts();
@@ -46,7 +46,7 @@ class SceneRun {
       begin();
     load_body_and_pins();
     heights_ = line_heights_by_id(now_.file.mesh);
-    read_strokes();
+    strokes_ = read_rounds(scene_, now_.lines_drawn, common_);
     try {
       while (draw_due_lines() && simulate_to(next_stop()) &&
              now_.simulation.time < scene_.simulation.seconds && !stopped_) {
@@ -70,7 +70,7 @@ class SceneRun {
   }
 
   void load_body_and_pins() {
-    if (scene_.body) body_.emplace(*scene_.body, common_);
+    if (scene_.body && !body_) body_ = std::make_shared<WorldBody>(*scene_.body, common_);
     if (resumed_ && now_.pins.size() != scene_.pins.size())
       throw UsageError("the state has " + std::to_string(now_.pins.size()) + " sets of pins, the scene " +
                        std::to_string(scene_.pins.size()) + "; go on with the same pins");
@@ -96,20 +96,6 @@ class SceneRun {
       complete_garment(now_.file, scene_.material);
   }
 
-  /// Of all rounds to come, so that a fault is known before the work.
-  void read_strokes() {
-    strokes_.resize(now_.lines_drawn);
-    for (std::size_t i = strokes_.size(); i < scene_.lines.size(); ++i) {
-      const io::SceneLines& lines = scene_.lines[i];
-      strokes_.push_back(io::read_drawn_strokes(lines.strokes, lines.height, read_options(common_)));
-      if (!lines.without.empty()) leave_out(strokes_.back(), lines.without);
-      if (lines.time >= scene_.simulation.seconds && lines.time > 0)
-        warn(lines.strokes.string() + ": its lines come at " + Json(lines.time).dump() +
-                 " s, when the simulation is over; they are not drawn",
-             common_);
-    }
-  }
-
   /// Draws the rounds of lines whose time has come.
   bool draw_due_lines() {
     const auto& rounds = scene_.lines;
@@ -122,7 +108,7 @@ class SceneRun {
 
   void draw(const io::SceneLines& lines, const std::vector<io::DrawnStroke>& strokes) {
     const bool moving = now_.simulation.step > 0;
-    finish_recording();
+    animations_.finish();
     if (moving) now_ = io::parse_state(io::state_bytes(std::move(now_)), "state");  // as if it had been saved
     const std::size_t old_count = now_.file.mesh.number_of_vertices();
     LineTarget target{
@@ -132,7 +118,9 @@ class SceneRun {
       target.springs = spring_options(now_.file, scene_.material);
       target.pins = now_.pins;
     }
-    const LineRound round = draw_lines(target, strokes, lines, stage_writer(lines.time == 0));
+    const LineRound round = draw_lines(
+        target, strokes, lines,
+        lines.time == 0 ? stage_writer(scene_.output, now_.file, common_) : geometry::StageObserver{});
     pin_new_vertices(now_.file.mesh, old_count, now_.pins);
     ++now_.lines_drawn;
     for (const std::string& w : round.warnings) warn(w, common_);
@@ -140,24 +128,6 @@ class SceneRun {
     if (round.moving) json["moving"] = to_json(*round.moving, now_.simulation.time);
     rounds_.push_back(std::move(json));
     if (moving) heights_ = line_heights_by_id(now_.file.mesh);
-  }
-
-  geometry::StageObserver stage_writer(bool first) {
-    if (!first) return {};
-    return [this](geometry::Stage stage, const geometry::Mesh& mesh) {
-      write_stage(stage == geometry::Stage::displaced  ? scene_.output.inserted
-                  : stage == geometry::Stage::smoothed ? scene_.output.smoothed
-                                                       : std::filesystem::path{},
-                  mesh);
-    };
-  }
-
-  void write_stage(const std::filesystem::path& path, const geometry::Mesh& mesh) {
-    if (path.empty()) return;
-    io::MeshFile stage = now_.file;
-    stage.mesh = mesh;
-    io::drop_motion(stage);
-    write_mesh(path.string(), stage, common_);
   }
 
   /// The garment is complete now: masses and springs, pins out of the body.
@@ -179,20 +149,21 @@ class SceneRun {
   /// Whether the simulation is to go on after it.
   bool simulate_to(double stop) {
     physics::Cloth cloth = bridge::gather(now_.file.mesh, spring_options(now_.file, scene_.material));
-    pin_cloth(cloth, now_.pins, started_ && body_ ? &*body_ : nullptr, now_.simulation.time, common_);
+    pin_cloth(cloth, now_.pins, started_ ? body_.get() : nullptr, now_.simulation.time, common_);
     started_ = false;
     physics::SimulateOptions options = scene_.simulation;
     if (body_)
       options.contact_gap = gap_ = contact_gap(options.contact_gap, body_->tolerance(), now_.file.mesh);
     if (stop < options.seconds) options.stop_at = stop;
     options.threads = threads_of(scene_, cloth.particles.size());
-    if (!scene_.output.animation.empty()) start_recording(cloth, options);
-    const physics::World world = world_of(scene_, body_ ? &*body_ : nullptr, now_.pins);
+    if (animations_.is_on()) options.observe_steps = 20;  // frames are interpolated between observed times
+    animations_.start(now_.file.mesh, now_.simulation.time, cloth.particles.x);
+    const physics::World world = world_of(scene_, body_.get(), now_.pins);
     Progress progress("simulating", common_);
     report_ =
         physics::simulate(cloth, world, options, &now_.simulation, [&](const physics::SimulateProgress& p) {
           progress.show(p.time / scene_.simulation.seconds);
-          if (recorder_) recorder_->observe(p.time, cloth.particles.x);
+          animations_.observe(p.time, cloth.particles.x);
           return !interrupted();
         });
     bridge::scatter(cloth.particles, now_.file.mesh);
@@ -202,77 +173,36 @@ class SceneRun {
     return report_.outcome == physics::Outcome::finished || report_.outcome == physics::Outcome::stopped_at;
   }
 
-  /// A file of positions is of one mesh: after a round of lines another one begins (hang.pc2, hang-2.pc2).
-  void start_recording(const physics::Cloth& cloth, physics::SimulateOptions& options) {
-    options.observe_steps = 20;  // frames are interpolated between two observed times
-    if (recorder_) return;
-    std::filesystem::path path = scene_.output.animation;
-    if (!animations_.empty())
-      path.replace_filename(path.stem().string() + "-" + std::to_string(animations_.size() + 1) +
-                            path.extension().string());
-    recorder_.emplace(
-        path, now_.file.mesh,
-        io::AnimationOptions{scene_.output.fps, now_.simulation.time, write_options(common_), {}});
-    recorder_->observe(now_.simulation.time, cloth.particles.x);
-  }
-
-  void finish_recording() {
-    if (recorder_) animations_.push_back(recorder_->close());
-    recorder_.reset();
-  }
-
   int finish() {
     const bool diverged = report_.outcome == physics::Outcome::diverged;
     if (!diverged) write_outputs();
-    Json json = to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_,
-                        body_ ? &*body_ : nullptr, gap_);
-    if (!scene_.title.empty()) json = with_title(json);
+    Json json = Json::object();
+    if (!scene_.title.empty()) json["title"] = scene_.title;
+    json.update(
+        to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_, body_.get(), gap_));
     if (!rounds_.empty()) json["rounds"] = rounds_;
-    if (!animations_.empty()) json["animations"] = animations_;
+    if (!animations_.reports().empty()) json["animations"] = animations_.reports();
     if (!choice_.is_null()) json["choice"] = choice_;
     json["flags"] = equivalent_flags(io::relocated(document_, folder_, ""), state_path_, settings_before_);
     print_report(json, common_);
-    if (!diverged) warn_of_oddities();
-    if (diverged) return tell_divergence();
+    if (diverged) {
+      tell_divergence(scene_, report_);
+      return kNotConverged;
+    }
+    warn_of_oddities(scene_, report_, common_);
+    if (resumed_ && report_.time >= scene_.simulation.seconds && report_.steps == steps_before_)
+      warn("the state is at the end already; --seconds puts that off", common_);
     if (report_.outcome == physics::Outcome::stopped_by_observer) {
-      warn(
-          "interrupted at " + std::to_string(report_.time) + " s; " +
-              (scene_.output.state.empty() ? "the shape reached was written; with --save-state it could go on"
-                                           : "the state reached was written"),
-          common_);
+      warn_of_interruption(scene_, report_, common_);
       return kInterrupted;
     }
     return kOk;
   }
 
-  Json with_title(const Json& report) const {
-    Json json{{"title", scene_.title}};
-    json.update(report);
-    return json;
-  }
-
-  /// What is no error and hardly what was meant.
-  void warn_of_oddities() const {
-    if (report_.strain.max > 0.5)
-      warn("the cloth is strained by " + std::to_string(int(100 * report_.strain.max)) +
-               " % somewhere; look for lines that are far too high, or pins that do not go with the body",
-           common_);
-    if (resumed_ && report_.time >= scene_.simulation.seconds && report_.steps == steps_before_)
-      warn("the state is at the end already; --seconds puts that off", common_);
-    const bool body_moves = scene_.body && !physics::at_rest(scene_.body->motion);
-    for (const io::ScenePins& pins : scene_.pins)
-      if (body_moves && physics::at_rest(pins.motion)) {
-        warn("the body moves and pins do not; give them the same motion if they belong to it", common_);
-        break;
-      }
-    if (!scene_.wind.gusts.empty() && scene_.wind.velocity.isZero())
-      warn("gusts do nothing without wind", common_);
-  }
-
   void write_outputs() {
     const io::SceneOutput& out = scene_.output;
     if (!out.state.empty()) write_state();
-    finish_recording();
+    animations_.finish();
     io::drop_motion(now_.file);
     if (body_ && !out.body.empty())
       write_mesh(out.body.string(), body_->at(now_.simulation.time, common_), common_);
@@ -288,17 +218,6 @@ class SceneRun {
     io::write_state(path, std::move(state));
   }
 
-  int tell_divergence() const {
-    std::cerr << "error: the simulation diverged at " << report_.time << " s with steps of " << report_.dt
-              << " s (stable below " << report_.dt_limit << " s); the garment was not written; "
-              << (scene_.simulation.integrator == physics::Integrator::explicit_euler
-                      ? "explicit Euler always does in the end: use leapfrog"
-                  : scene_.simulation.dt ? "leave --dt away"
-                                         : "look for pins or cloth that start deep inside the body")
-              << "\n";
-    return kNotConverged;
-  }
-
   const io::Scene& scene_;
   const io::TomlDocument& document_;
   std::filesystem::path folder_;
@@ -308,22 +227,22 @@ class SceneRun {
   const Json& choice_;
   io::SavedState now_;
   bool resumed_ = false, started_ = false, stopped_ = false;
-  std::optional<WorldBody> body_;
-  std::optional<FrameRecorder> recorder_;
+  std::shared_ptr<WorldBody> body_;
   double gap_ = 0;
   std::int64_t steps_before_ = 0;
   std::vector<double> heights_;
   std::vector<std::vector<io::DrawnStroke>> strokes_;  ///< of each round
   physics::SimulateReport report_;
-  Json rounds_ = Json::array(), animations_ = Json::array();
+  Json rounds_ = Json::array();
+  AnimationSeries animations_;
 };
 
 }  // namespace
 
 int run_scene(const io::Scene& scene, const io::TomlDocument& document, const std::filesystem::path& folder,
               std::optional<io::SavedState> state, const std::string& state_path,
-              const CommonArguments& common, const Json& choice) {
-  return SceneRun(scene, document, folder, state_path, common, choice).run(std::move(state));
+              const CommonArguments& common, std::shared_ptr<WorldBody> body, const Json& choice) {
+  return SceneRun(scene, document, folder, state_path, common, std::move(body), choice).run(std::move(state));
 }
 
 }  // namespace furrow::cli

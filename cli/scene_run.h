@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "cli/common.h"
+#include "cli/body.h"
 #include "io/scene.h"
 #include "io/state_file.h"
 #include "io/toml_document.h"
@@ -12,9 +12,11 @@ namespace furrow::cli {
 /// Runs a scene from its beginning, or from a saved state on: lines are drawn at their times, between them
 /// the cloth is simulated; writes what scene.output names and prints the report. `document` is what the scene
 /// was read from, `folder` what its paths are relative to, `state_path` where the state was read from.
-/// `choice`: what integrator and step were chosen by, for the report; null: by nobody. Returns the exit code.
+/// `body`: the scene's, if it is built already. `choice`: what integrator and step were chosen by, for the
+/// report; null: by nobody. Returns the exit code.
 int run_scene(const io::Scene& scene, const io::TomlDocument& document, const std::filesystem::path& folder,
               std::optional<io::SavedState> state, const std::string& state_path,
-              const CommonArguments& common, const Json& choice = {});
+              const CommonArguments& common, std::shared_ptr<WorldBody> body = nullptr,
+              const Json& choice = {});
 
 }  // namespace furrow::cli

@@ -1,38 +1,64 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "geometry/mesh.h"
-#include "physics/particles.h"
+#include "physics/springs.h"
 
 namespace furrow::cli {
 
-/// How far two shapes of one garment are apart, each as a share of the garment's size [-].
-struct ShapeDistance {
-  double rms = 0;   ///< of the vertices, weighted with their masses
-  double max = 0;   ///< of the farthest vertex
-  double bulk = 0;  ///< of what a chaotic motion still determines: see ShapeMeter
+/// A cloth at some time.
+struct Shape {
+  std::vector<physics::Vec3> x;  ///< [m]; empty: unknown
+  double energy = 0;             ///< of elements, weight and motion [J], up to the same constant
 };
 
-/// Measures shapes of one garment against each other. The bulk of a shape is its centre of mass, its mean
-/// distance (RMS) from that, and of each border loop the centre and the mean distance from it; two shapes'
-/// bulks are apart by the largest difference of any.
+/// How far two shapes of one garment are apart, each as a share of the garment's size [-].
+struct ShapeDistance {
+  double rms = 0;      ///< of the vertices, weighted with their masses
+  double max = 0;      ///< of the farthest vertex
+  double surface = 0;  ///< from each surface to the other, RMS over both areas; sliding along it is none
+  double centre = 0;   ///< of the centres of mass
+  double extent = 0;   ///< of the distances (RMS) from those
+  double borders = 0;  ///< of centre or extent of the border loop where that is largest
+  double energy = 0;   ///< of the energies: how far the garment would have to be lifted for it
+
+  /// What a chaotic motion still determines: the largest of surface, centre and extent, never above `rms`.
+  double shape() const { return std::max({surface, centre, extent}); }
+  /// The name of that one.
+  const char* largest() const {
+    return surface == shape() ? "surface" : centre == shape() ? "centre" : "extent";
+  }
+};
+
+inline constexpr ShapeDistance kInfinitelyFar{INFINITY, INFINITY, INFINITY, INFINITY,
+                                              INFINITY, INFINITY, INFINITY};
+
+/// Measures shapes of one garment against each other.
 class ShapeMeter {
  public:
-  /// Size: the diagonal of the box of `particles`, > 0 [m]. Vertices without mass do not count.
-  ShapeMeter(const geometry::Mesh& mesh, const physics::Particles& particles);
+  /// Size: the diagonal of the box of the particles, > 0 [m]. Vertices without mass do not count. Energies
+  /// are divided by the weight (with 9.81 m/s^2 where gravity is 0) to be lengths.
+  ShapeMeter(const geometry::Mesh& mesh, const physics::Cloth& cloth, const physics::Vec3& gravity);
   double size() const { return size_; }
-  /// Cost: O(vertices). Of shapes that are not finite: infinity.
-  ShapeDistance between(const std::vector<physics::Vec3>& a, const std::vector<physics::Vec3>& b) const;
+  Shape shape_of(physics::Cloth cloth) const;
+  /// Cost: two exact closest points a vertex, about 2 us. Of shapes that are not finite: infinity.
+  ShapeDistance between(const Shape& a, const Shape& b) const;
 
  private:
   struct Ball {
     physics::Vec3 centre;  ///< [m]
     double radius;         ///< RMS distance from it [m]
   };
-  std::vector<Ball> bulk(const std::vector<physics::Vec3>& x) const;
+  std::vector<Ball> balls(const std::vector<physics::Vec3>& x) const;
+  double to_surface(const std::vector<physics::Vec3>& x, const std::vector<physics::Vec3>& surface) const;
 
-  std::vector<double> mass_;
+  std::vector<double> mass_;  ///< rest area times density
+  std::vector<std::array<int, 3>> triangles_;
   std::vector<std::vector<int>> groups_;  ///< all vertices with mass, then each border loop
-  double size_;
+  physics::Vec3 gravity_;
+  double size_, weight_;
 };
 
 }  // namespace furrow::cli

@@ -62,8 +62,7 @@ void make_folders(const io::Scene& scene, const io::TomlDocument& document) {
       {"mesh", out.mesh},         {"state", out.state},         {"inserted", out.inserted},
       {"smoothed", out.smoothed}, {"animation", out.animation}, {"body", out.body}};
   for (const auto& [key, path] : outputs)
-    if (!path.parent_path().empty() &&
-        document.place("output." + std::string(key)).rfind(document.name + ":", 0) == 0)
+    if (!path.parent_path().empty() && document.is_of_file("output." + std::string(key)))
       std::filesystem::create_directories(path.parent_path());
 }
 
@@ -99,16 +98,16 @@ void check_outputs(const io::Scene& scene, const SimulateArguments& a) {
   }
 }
 
-/// Integrator and step for --tolerance 1%: sets them in document and scene and returns the judgement.
+/// Integrator and step for --tolerance 1%: sets them in document and scene and returns the judgement. Builds
+/// the scene's body, if it has one, for the run, too.
 Judgement choose_setting(const SimulateArguments& a, const CommonArguments& common,
-                         io::TomlDocument& document, io::Scene& scene, const std::filesystem::path& folder) {
+                         std::shared_ptr<WorldBody>& body, io::TomlDocument& document, io::Scene& scene,
+                         const std::filesystem::path& folder) {
   const JudgeOptions options{parse_share(a.flags.accuracy(), "--tolerance"), a.budget};
-  if (!a.state.empty())
-    throw UsageError("--tolerance " + a.flags.accuracy() +
-                     " judges a scene from its beginning; leave it or --state away");
+  if (scene.body) body = std::make_shared<WorldBody>(*scene.body, common);
   CommonArguments silent = common;  // the run itself warns
   silent.quiet = true;
-  const SceneCloth cloth = prepare_scene(scene, silent);
+  const SceneCloth cloth = prepare_scene(scene, silent, body);
   const Judgement j = judge(cloth, cloth.world(scene), options, common);
   if (exit_code_of(j) != kOk) return j;
   set_candidate(document, j.candidates[static_cast<std::size_t>(j.chosen)].candidate);
@@ -122,6 +121,9 @@ int simulate(SimulateArguments& a) {
   io::TomlDocument document = settings(a, state);
   const std::filesystem::path folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
   io::Scene scene = scene_of(document, folder);
+  if (state && !a.flags.accuracy().empty())
+    throw UsageError("--tolerance " + a.flags.accuracy() +
+                     " judges a scene from its beginning; leave it or --state away");
   if (scene.garment.empty() && !state) throw UsageError(document.name + ": garment.mesh is missing");
   if (state && scene.subdivide != state->scene.value("garment", io::Json::object()).value("subdivide", 0))
     throw UsageError("--subdivide: the garment of a state is in motion; refine it before the first step");
@@ -134,16 +136,17 @@ int simulate(SimulateArguments& a) {
   common.up = scene.up;
   common.out = scene.output.mesh.string();
   Json choice;
+  std::shared_ptr<WorldBody> body;
   if (!a.flags.accuracy().empty()) {
     const bool scene_dt = scene.simulation.dt.has_value();
-    const Judgement j = choose_setting(a, common, document, scene, folder);
+    const Judgement j = choose_setting(a, common, body, document, scene, folder);
     if (const int code = exit_code_of(j); code != kOk) {
       std::cerr << "error: " << a.in << ": " << words(j, scene_dt) << "\n";
       return code;
     }
     choice = to_json(j, scene_dt);
   }
-  return run_scene(scene, document, folder, std::move(state), a.state, common, choice);
+  return run_scene(scene, document, folder, std::move(state), a.state, common, body, choice);
 }
 
 }  // namespace

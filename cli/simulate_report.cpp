@@ -88,6 +88,7 @@ Json to_json(const physics::SimulateReport& r, const io::MeshFile& file, const i
               {"spring_evaluations", r.spring_evaluations},
               {"triangle_evaluations", r.triangle_evaluations},
               {"hinge_evaluations", r.hinge_evaluations},
+              {"collider_queries", r.collider_queries},
               {"linear_solves", r.linear_solves},
               {"factorisations", r.factorisations},
               {"iterations", r.iterations},

@@ -1,140 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/wrinkle.h"
-
 #include <filesystem>
 #include <memory>
 
-#include "cli/camera_options.h"
-#include "cli/common.h"
 #include "cli/line_round.h"
 #include "cli/max_weights.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
-#include "cli/recorded_options.h"
-#include "cli/smoothing_options.h"
 #include "cli/subcommands.h"
+#include "cli/wrinkle_drawing.h"
 #include "cli/wrinkle_reports.h"
-#include "geometry/errors.h"
 #include "geometry/property_names.h"
-#include "io/bytes_file.h"
-#include "io/resolve_strokes.h"
+#include "io/relocated.h"
 #include "io/scene_file.h"
 #include "io/state_file.h"
-#include "io/stroke_file.h"
 #include "io/wrinkle_record.h"
 
 namespace furrow::cli {
 namespace {
-
-struct WrinkleArguments : CommonArguments {
-  std::string in, strokes, state, inserted, preview;
-  std::vector<std::string> without;
-  double height = geometry::Stroke{}.height, fade = io::SceneLines{}.fade;
-  std::string rule = "safe", rest = "drawn", region = "two-ring";
-  std::optional<double> density;
-  std::optional<int> max_weights;
-  geometry::WrinkleOptions options;
-  SmoothingArguments smoothing;
-  CameraArguments camera;
-  const CLI::App* typed = nullptr;  ///< what was on the command line
-};
-
-/// A garment, perhaps in motion, and the strokes to be drawn on it.
-struct Drawing {
-  io::MeshFile file;
-  std::string path;
-  std::vector<io::DrawnStroke> strokes;
-  std::optional<io::SavedState> state;  ///< its mesh is in `file`
-};
-
-geometry::WrinkleOptions to_options(const WrinkleArguments& a) {
-  using namespace geometry;
-  WrinkleOptions o = a.options;
-  o.smoothing = to_options(a.smoothing);
-  o.insertion.rule = a.rule == "paper" ? InsertionRule::paper : InsertionRule::safe;
-  o.rest = a.rest == "flat" ? RestRule::flat : RestRule::drawn;
-  o.region = a.region == "whole-mesh" ? SmoothingRegion::whole_mesh : SmoothingRegion::two_ring;
-  return o;
-}
-
-void add_options(CLI::App& sub, WrinkleArguments& a) {
-  sub.add_option("--height", a.height, "height of strokes that name none [m]; > 0 ridge, < 0 valley")
-      ->capture_default_str();
-  sub.add_option("--max-distance", a.options.insertion.max_distance,
-                 "how far a stroke may lie from the surface [m]")
-      ->capture_default_str();
-  sub.add_option("--rule", a.rule,
-                 "safe: flips that would spoil the mesh are refused; paper: the paper's plain rule")
-      ->check(CLI::IsMember({"safe", "paper"}))
-      ->capture_default_str();
-  sub.add_option("--rest", a.rest, "drawn: a line adds cloth; flat: rest lengths stay as they were")
-      ->check(CLI::IsMember({"drawn", "flat"}))
-      ->capture_default_str();
-  sub.add_option("--region", a.region, "what is smoothed: two-ring (around the lines) or whole-mesh")
-      ->check(CLI::IsMember({"two-ring", "whole-mesh"}))
-      ->capture_default_str();
-  sub.add_option("--density", a.density, "mass of the cloth [kg/m^2]; default that of the file, else 0.15");
-  add_max_weights(sub, a.max_weights);
-}
-
-/// The garment that a wrinkled mesh was made of: where it was, or beside the mesh; unchanged.
-std::string find_garment(const io::WrinkleRecord& record, const std::string& wrinkled) {
-  namespace fs = std::filesystem;
-  const fs::path named = record.garment, folder = fs::path(wrinkled).parent_path();
-  for (const fs::path& path : {named, folder / named, folder / named.filename()})
-    if (fs::is_regular_file(path) && io::content_hash(path) == record.garment_hash) return path.string();
-  throw geometry::ContentError(
-      wrinkled + ": the garment '" + record.garment +
-      "' that its lines were drawn on is not there, or has changed; lay it beside this "
-      "file, or write the strokes with furrow strokes and draw them on another");
-}
-
-/// The options that a wrinkled mesh was made with, and over them those of the command line.
-void take_options(WrinkleArguments& a, const io::WrinkleRecord& record) {
-  CLI::App flags;
-  add_options(flags, a);
-  add_smoothing_options(flags, a.smoothing);
-  try {
-    parse_recorded(flags, record.options, *a.typed);
-  } catch (const CLI::ParseError& e) {
-    throw geometry::ContentError(a.in + ": the options in its record cannot be read: " + e.what());
-  }
-}
-
-/// The untouched garment and the strokes of a wrinkled mesh, and the options that it was made with.
-Drawing drawing_again(WrinkleArguments& a) {
-  const auto record = io::find_wrinkle_record(read_mesh(a.in, a));
-  if (!record || record->strokes.empty() || record->garment.empty())
-    throw UsageError(a.in + " holds no strokes to draw again: name a file of strokes");
-  if (a.typed->count("--height"))
-    throw UsageError("--height: the strokes of " + a.in +
-                     " have theirs; change them with furrow strokes --height, and draw that file");
-  take_options(a, *record);
-  const std::string garment = find_garment(*record, a.in);
-  refuse_same({a.out, a.inserted, a.preview, a.camera.save_camera}, {garment});
-  return {read_garment(garment, a), garment, io::drawn_strokes_from(record->strokes, a.in), {}};
-}
-
-Drawing read_drawing(WrinkleArguments& a) {
-  Drawing drawing;
-  if (!a.state.empty()) {
-    // With --state the one file that is named is that of the strokes.
-    if (!a.strokes.empty()) throw UsageError(a.in + ": --state has its garment; leave the mesh away");
-    if (a.density) throw UsageError("--density: furrow simulate --state S --density changes that of a state");
-    drawing.state = io::read_state(a.state);
-    const Json& scene = drawing.state->scene;
-    if (!a.unit && scene.contains("unit")) a.unit = scene["unit"].get<std::string>();
-    if (!a.up && scene.contains("up")) a.up = scene["up"].get<std::string>();
-    drawing.file = std::move(drawing.state->file);
-    drawing.strokes = io::read_drawn_strokes(a.in, a.height, read_options(a));
-  } else if (a.strokes.empty()) {
-    drawing = drawing_again(a);
-  } else {
-    drawing = {read_garment(a.in, a), a.in, io::read_drawn_strokes(a.strokes, a.height, read_options(a)), {}};
-  }
-  if (!a.without.empty()) leave_out(drawing.strokes, a.without);
-  return drawing;
-}
 
 void check_outputs(const WrinkleArguments& a) {
   if (a.out.empty() && a.preview.empty())
@@ -241,7 +123,7 @@ void add_wrinkle(CLI::App& app) {
   sub->add_option(
       "--preview", a->preview,
       "PNG of what is inserted where, before anything is displaced; without -o no mesh is written");
-  add_options(*sub, *a);
+  add_drawing_options(*sub, *a);
   add_smoothing_options(*sub, a->smoothing);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);

@@ -5,19 +5,11 @@
 #include <cmath>
 
 #include "io/fabrics.h"
+#include "io/motion_settings.h"
 #include "io/settings_table.h"
 
 namespace furrow::io {
 namespace {
-
-using physics::RigidMotion;
-using physics::Spin;
-
-/// Whether a setting is the file's own, and not one of the command line.
-bool is_of_file(const TomlDocument& document, const std::string& path) {
-  const std::string place = document.place(path);
-  return place == document.name || place.rfind(document.name + ":", 0) == 0;
-}
 
 class SceneReader {
  public:
@@ -53,7 +45,7 @@ class SceneReader {
     std::string text;
     table.read(key, text);
     if (text.empty()) return;
-    const bool from_file = is_of_file(document_, table.path_of(key));
+    const bool from_file = document_.is_of_file(table.path_of(key));
     path = from_file && text != "-" ? (folder_ / text).lexically_normal() : std::filesystem::path(text);
   }
 
@@ -123,40 +115,6 @@ class SceneReader {
     if (!body.frames.empty() && !physics::at_rest(body.motion))
       table.fail("frames", "move the body already; leave its motion away");
     table.finish();
-  }
-
-  /// The table `motion` beside other settings.
-  void read_motion(SettingsTable& parent, RigidMotion& motion) {
-    auto table = parent.table("motion");
-    if (!table) return;
-    table->read("pivot", motion.pivot);
-    for (SettingsTable& key : table->tables("keyframes")) {
-      physics::Keyframe keyframe{0};
-      key.read("time", keyframe.time, not_negative("s"));
-      key.read("translation", keyframe.translation);
-      key.read("rotation", keyframe.rotation);
-      key.finish();
-      if (!motion.keyframes.empty() && keyframe.time <= motion.keyframes.back().time)
-        key.fail("time", "must be later than that of the keyframe before");
-      motion.keyframes.push_back(keyframe);
-    }
-    motion.spin = read_spin(*table, "spin");
-    table->finish();
-  }
-
-  std::optional<Spin> read_spin(SettingsTable& parent, const char* key) {
-    auto table = parent.table(key);
-    if (!table) return std::nullopt;
-    Spin spin;
-    table->read("centre", spin.centre);
-    table->read("axis", spin.axis);
-    table->read("rate", spin.rate, any("rad/s"));
-    table->read("start", spin.start, not_negative("s"));
-    table->read("ramp", spin.ramp, not_negative("s"));
-    table->finish();
-    if (!(spin.axis.norm() > 1e-12) || !std::isfinite(spin.axis.norm()))
-      table->fail("axis", "must have a length above 0 that is no overflow; write a unit vector");
-    return spin;
   }
 
   void read_material(SettingsTable& table) {
@@ -256,6 +214,8 @@ class SceneReader {
                                        {"rk4", physics::Integrator::rk4},
                                        {"backward-euler", physics::Integrator::backward_euler},
                                        {"xpbd", physics::Integrator::xpbd}});
+    table.read("sweeps", o.xpbd.iterations, 1, 100000);
+    table.read("newton", o.backward_euler.newton_iterations, 1, 100000);
     table.read("threads", scene_.threads, 1, 256);
     table.finish();
   }
@@ -281,32 +241,6 @@ class SceneReader {
 
 Scene read_scene(const TomlDocument& document, const std::filesystem::path& folder) {
   return SceneReader(document, folder).read();
-}
-
-Json relocated(const TomlDocument& document, const std::filesystem::path& folder,
-               const std::filesystem::path& target) {
-  namespace fs = std::filesystem;
-  Json root = document.root;
-  const fs::path here = fs::current_path();
-  const auto move = [&](Json& table, const char* key, const std::string& path) {
-    if (!table.is_object() || !table.contains(key) || table[key] == "-" || table[key] == "") return;
-    const fs::path given(table[key].get<std::string>());
-    if (given.is_absolute()) return;
-    const fs::path full = (here / (is_of_file(document, path) ? folder / given : given)).lexically_normal();
-    const fs::path relative = full.lexically_relative((here / target).lexically_normal());
-    table[key] = (relative.empty() ? full : relative).generic_string();
-  };
-  for (const auto& [table, keys] : std::map<std::string, std::vector<const char*>>{
-           {"garment", {"mesh"}},
-           {"body", {"mesh", "field", "frames"}},
-           {"output", {"mesh", "state", "inserted", "smoothed", "animation", "body"}}})
-    for (const char* key : keys)
-      if (root.contains(table)) move(root[table], key, table + "." + key);
-  if (!root.contains("lines")) return root;
-  if (root["lines"].is_object()) root["lines"] = Json::array({root["lines"]});
-  for (std::size_t i = 0; i < root["lines"].size(); ++i)
-    move(root["lines"][i], "strokes", "lines." + std::to_string(i) + ".strokes");
-  return root;
 }
 
 }  // namespace furrow::io

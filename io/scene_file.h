@@ -11,9 +11,4 @@ namespace furrow::io {
 /// one that is missing.
 Scene read_scene(const TomlDocument& document, const std::filesystem::path& folder);
 
-/// The settings with all paths relative to `target` (or absolute where there is no way). `folder` as in
-/// read_scene().
-Json relocated(const TomlDocument& document, const std::filesystem::path& folder,
-               const std::filesystem::path& target);
-
 }  // namespace furrow::io

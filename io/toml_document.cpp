@@ -120,6 +120,11 @@ std::string TomlDocument::place(const std::string& path) const {
   return name;
 }
 
+bool TomlDocument::is_of_file(const std::string& path) const {
+  const std::string here = place(path);
+  return here == name || here.rfind(name + ":", 0) == 0;
+}
+
 TomlDocument parse_toml(const std::string& text, const std::string& name) {
   TomlDocument document;
   document.name = name;
@@ -170,9 +175,9 @@ void set_value(TomlDocument& document, const std::string& path, Json value, cons
   *at = std::move(value);
   document.root = std::move(changed);
   std::erase_if(document.where, [&](const auto& entry) { return entry.first.rfind(path + ".", 0) == 0; });
-  for (std::string at = path;; at.erase(at.rfind('.'))) {  // a table made on the way was set by the same
-    if (at == path || !document.where.count(at)) document.where[at] = where;
-    if (at.find('.') == std::string::npos) break;
+  for (std::string key = path;; key.erase(key.rfind('.'))) {  // a table made on the way was set by the same
+    if (key == path || !document.where.count(key)) document.where[key] = where;
+    if (key.find('.') == std::string::npos) break;
   }
 }
 

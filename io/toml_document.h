@@ -17,6 +17,8 @@ struct TomlDocument {
 
   /// Where the value, or the nearest table around it, was written.
   std::string place(const std::string& path) const;
+  /// Whether the file says it, and not a flag.
+  bool is_of_file(const std::string& path) const;
 };
 
 /// Reads a TOML file (version 1.0). Throws geometry::ContentError with file, line and column if it cannot be

@@ -95,6 +95,7 @@ void AnimatedBody::build(Frame& frame) {
   frame.exact.emplace(TriangleMesh{frame.vertices, frames_.triangles});
   frame.field = DistanceField::build(*frame.exact, options_);
   ++frames_built_;
+  samples_built_ += frame.field->report().samples;
 }
 
 void AnimatedBody::prepare(double from, double to) {

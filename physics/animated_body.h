@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -53,6 +54,7 @@ class AnimatedBody : public Collider {
   double travel() const { return travel_; }
 
   int frames_built() const { return frames_built_; }
+  std::int64_t samples_built() const { return samples_built_; }  ///< exact distances that their fields took
   double build_seconds() const { return build_seconds_; }  ///< clock time spent on reading and building [s]
 
  private:
@@ -73,6 +75,7 @@ class AnimatedBody : public Collider {
   double longest_way_ = 0;                        ///< of a vertex in the interval [m]
   double fraction_ = 0, share_ = 0, travel_ = 0;  ///< fraction_: of the interval, at the prepared time
   int frames_built_ = 0;
+  std::int64_t samples_built_ = 0;
   double build_seconds_ = 0;
 };
 

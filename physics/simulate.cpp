@@ -6,10 +6,9 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
-#include <sstream>
-#include <stdexcept>
 
 #include "physics/animated_contact.h"
+#include "physics/refuse.h"
 #include "physics/rigid_contact.h"
 #include "physics/step_length.h"
 #include "physics/stepper.h"
@@ -18,14 +17,6 @@ namespace furrow::physics {
 namespace {
 
 constexpr int divergence_steps = 16;  // steps between two looks for divergence
-
-template <typename... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream text;
-  text << "simulate: ";
-  (text << ... << parts);
-  throw std::invalid_argument(text.str());
-}
 
 void require_positive(double value, const char* name) {
   if (!(value > 0) || !std::isfinite(value)) refuse(name, " = ", value, " is not > 0");

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 #include "physics/dashpots.h"
+#include "physics/refuse.h"
 #include "physics/stable_step.h"
 
 namespace furrow::physics {
@@ -15,14 +14,6 @@ namespace {
 
 constexpr int strain_steps = 200;  // steps between two looks at the strain
 constexpr double most_steps = 1e12;
-
-template <typename... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream text;
-  text << "simulate: ";
-  (text << ... << parts);
-  throw std::invalid_argument(text.str());
-}
 
 }  // namespace
 

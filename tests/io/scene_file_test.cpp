@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/errors.h"
+#include "io/relocated.h"
 
 using namespace furrow;
 using io::parse_toml;
@@ -74,6 +75,8 @@ gusts = [{time = 0, factor = 0}, {time = 1, factor = 2}]
 seconds = 3
 stop_at = 1
 integrator = "euler"
+sweeps = 4
+newton = 5
 threads = 2
 [output]
 mesh = "o.ply"
@@ -111,6 +114,8 @@ fps = 30
   CHECK(s.wind.gusts[1].factor == 2);
   CHECK(s.stop_at == 1.0);
   CHECK(s.simulation.integrator == physics::Integrator::explicit_euler);
+  CHECK(s.simulation.xpbd.iterations == 4);
+  CHECK(s.simulation.backward_euler.newton_iterations == 5);
   CHECK(s.output.animation == "a/o.pc2");
   CHECK(s.output.fps == 30);
 }

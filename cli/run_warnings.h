@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "cli/common.h"
+#include "io/scene.h"
+
+namespace furrow::cli {
+
+/// Warns of what is no error of a scene's run, and hardly what was meant.
+void warn_of_oddities(const io::Scene& scene, const physics::SimulateReport& report,
+                      const CommonArguments& common);
+
+/// Warns that the run was broken off by the user, and says what was kept.
+void warn_of_interruption(const io::Scene& scene, const physics::SimulateReport& report,
+                          const CommonArguments& common);
+
+/// Says on stderr that the run diverged, and what helps.
+void tell_divergence(const io::Scene& scene, const physics::SimulateReport& report);
+
+}  // namespace furrow::cli
