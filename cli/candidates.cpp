@@ -93,8 +93,6 @@ const char* name_of(Integrator integrator) {
       return "leapfrog";
     case Integrator::explicit_euler:
       return "euler";
-    case Integrator::semi_implicit:
-      return "semi-implicit";
     case Integrator::rk4:
       return "rk4";
     case Integrator::backward_euler:
@@ -114,7 +112,6 @@ std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit) 
   if (std::isfinite(dt_limit)) {
     all.push_back(explicit_at(Integrator::leapfrog, kCheapest, dt_limit));
     all.push_back(explicit_at(Integrator::leapfrog, kCheapest / 2, dt_limit));
-    all.push_back(explicit_at(Integrator::semi_implicit, kCheapest, dt_limit));
     all.push_back(explicit_at(Integrator::rk4, kCheapest, dt_limit));
   }
   for (int rate : {60, 240, 960}) all.push_back(implicit_at(Integrator::backward_euler, rate, scene));

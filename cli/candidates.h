@@ -15,7 +15,7 @@ struct Candidate {
   double expected_dt = 0;    ///< the first step, for predictions [s]
 };
 
-/// What is tried on a scene: leapfrog at 0.9 and 0.45 of the limit, semi-implicit and rk4 at 0.9, backward
+/// What is tried on a scene: leapfrog at 0.9 and 0.45 of the limit, rk4 at 0.9, backward
 /// Euler at 1/60, 1/240, 1/960 s, XPBD at 1/240, 1/1200 s where the cloth is of springs alone (both with the
 /// scene's iterations), and last what the scene itself says if that is none of these. `dt_limit` is
 /// leapfrog's [s].

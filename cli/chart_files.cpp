@@ -49,8 +49,6 @@ const char* colour_of(physics::Integrator integrator) {
   switch (integrator) {
     case physics::Integrator::leapfrog:
       return "#1f4e9e";
-    case physics::Integrator::semi_implicit:
-      return "#2a9fd6";
     case physics::Integrator::rk4:
       return "#7b3fa0";
     case physics::Integrator::backward_euler:

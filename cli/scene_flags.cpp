@@ -52,7 +52,7 @@ constexpr Flag kFlags[] = {
     {"--dt", "simulation.dt", false,
      "time step [s]; default 0.9 of the limit, 1/240 with backward-euler, 1/1200 with xpbd"},
     {"--integrator", "simulation.integrator", true,
-     "leapfrog (default), semi-implicit, rk4, backward-euler, xpbd, or euler (the baseline that diverges)"},
+     "leapfrog (default), rk4, backward-euler, xpbd, or euler (the baseline that diverges)"},
     {"--sweeps", "simulation.sweeps", false,
      "of xpbd over all springs a step (default 10); few make the cloth softer"},
     {"--newton", "simulation.newton", false,

@@ -210,7 +210,7 @@ class SceneReader {
     table.choose<physics::Integrator>("integrator", o.integrator,
                                       {{"leapfrog", physics::Integrator::leapfrog},
                                        {"euler", physics::Integrator::explicit_euler},
-                                       {"semi-implicit", physics::Integrator::semi_implicit},
+
                                        {"rk4", physics::Integrator::rk4},
                                        {"backward-euler", physics::Integrator::backward_euler},
                                        {"xpbd", physics::Integrator::xpbd}});

@@ -6,7 +6,6 @@ namespace furrow::physics {
 enum class Integrator {
   leapfrog,        ///< order 2, symplectic, one force a step; the choice for cloth that moves
   explicit_euler,  ///< order 1; gains energy at any step
-  semi_implicit,   ///< order 1, symplectic (v first, then x with the new v), one force a step
   rk4,             ///< order 4, four forces a step; loses energy slowly
   backward_euler,  ///< order 1, stable at any step, damps; a sparse Cholesky solve a step
   xpbd             ///< backward Euler by sweeps over the springs: stable at any step, stiffness needs sweeps

@@ -7,7 +7,6 @@
 #include "physics/euler_step.h"
 #include "physics/leapfrog_step.h"
 #include "physics/rk4_step.h"
-#include "physics/semi_implicit_step.h"
 #include "physics/xpbd.h"
 
 namespace furrow::physics {
@@ -33,8 +32,6 @@ std::unique_ptr<Stepper> make_stepper(Motion& motion, const StepperOptions& opti
       return std::make_unique<PlainStepper>(motion, leapfrog_step);
     case Integrator::explicit_euler:
       return std::make_unique<PlainStepper>(motion, euler_step);
-    case Integrator::semi_implicit:
-      return std::make_unique<PlainStepper>(motion, semi_implicit_step);
     case Integrator::rk4:
       return std::make_unique<Rk4>(motion);
     case Integrator::backward_euler:

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bench/cases/flat_meshes.h"
+#include "bench/cases/semi_implicit.h"
 #include "physics/elements.h"
 
 namespace furrow::cases {
@@ -61,7 +62,7 @@ DropRun run(const Drop& drop, const physics::StepperOptions& options, double dt)
   physics::BodyContact contact(ball, drop.contact, int(p.size()));
   physics::ThreadPool pool(1);
   physics::Motion motion(cloth, fall.loads, pool, {.contact = &contact});
-  const auto stepper = make_stepper(motion, options);
+  const auto stepper = cases::make_stepper(motion, options);
   double mass = 0;
   for (const double m : p.mass) mass += m;
   double last = total_energy(cloth), least = last;

@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "bench/cases/flat_meshes.h"
+#include "bench/cases/semi_implicit.h"
 #include "physics/pins.h"
 #include "physics/stable_step.h"
 
@@ -76,7 +77,7 @@ SwingRun run(const Swing& swing, const physics::StepperOptions& options, double 
   const double started = thread_seconds();
   physics::ThreadPool pool(1);
   physics::Motion motion(swing.cloth, swing.loads, pool);
-  const auto stepper = make_stepper(motion, options);
+  const auto stepper = cases::make_stepper(motion, options);
   for (std::int64_t i = 1; i <= steps && !result.diverged; ++i) {
     stepper->step(result.dt);
     if (i % 16 == 0 || i == steps) result.diverged = has_diverged(motion.cloth());

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bench/accuracy_table.h"
+#include "bench/cases/semi_implicit.h"
 #include "bench/cases/swing.h"
 #include "bench/charts/charts.h"
 #include "physics/dashpots.h"
@@ -17,7 +18,7 @@ using physics::Integrator;
 bool grows(const Swing& swing, Integrator integrator, double dt, int steps) {
   physics::ThreadPool pool(1);
   physics::Motion motion(swing.cloth, swing.loads, pool);
-  const auto stepper = make_stepper(motion, {integrator, {}, {}});
+  const auto stepper = cases::make_stepper(motion, {integrator, {}, {}});
   const auto energy = [&] {
     double sum = 0;
     for (const auto& v : motion.cloth().v) sum += v.x * v.x + v.y * v.y + v.z * v.z;
@@ -65,7 +66,7 @@ void chart_damping(const std::string& folder, Effort effort) {
       const physics::PackedCloth packed = physics::pack(swing.cloth);
       const double decay = z > 0 ? fastest_decay(packed, dashpots(packed, z)) : 0;
       const auto find = [&](Integrator i) { return located(swing, i, limit, steps); };
-      table.row(z, jitter, find(Integrator::leapfrog), find(Integrator::semi_implicit), find(Integrator::rk4),
+      table.row(z, jitter, find(Integrator::leapfrog), find(semi_implicit), find(Integrator::rk4),
                 find(Integrator::explicit_euler),
                 std::min(physics::rk4_limit / 2, physics::rk4_damped_limit / decay / limit),
                 std::sqrt(1 + z * z) - z);

@@ -39,7 +39,6 @@ struct Method {
   }
 };
 constexpr Method methods[] = {{"leapfrog", Integrator::leapfrog},
-                              {"semi-implicit Euler", Integrator::semi_implicit},
                               {"RK4", Integrator::rk4},
                               {"backward Euler", Integrator::backward_euler},
                               {"XPBD 100 sweeps", Integrator::xpbd, 100},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/accuracy_table.h"
+#include "bench/cases/semi_implicit.h"
 #include "bench/cases/swing.h"
 #include "bench/charts/charts.h"
 
@@ -77,7 +78,7 @@ std::vector<Method> methods() {
            1,
            true,
            {0.25, 0.06, 0.03, 0.015, 0.0075, 0.004}},
-          {"semi-implicit Euler", {Integrator::semi_implicit, {}, {}}, 1, true, symplectic},
+          {"semi-implicit Euler", {semi_implicit, {}, {}}, 1, true, symplectic},
           {"leapfrog", {Integrator::leapfrog, {}, {}}, 1, true, symplectic},
           {"RK4", {Integrator::rk4, {}, {}}, 4, true, {1.55, 1.35, 1.1, 0.8, 0.5, 0.4}},
           {"backward Euler", {Integrator::backward_euler, {1, 0}, {}}, 300, false, seconds},

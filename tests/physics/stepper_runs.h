@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "bench/cases/semi_implicit.h"
 #include "physics/pins.h"
-#include "physics/stepper.h"
 #include "tests/physics/test_cloths.h"
 
 namespace furrow::tests {
@@ -17,7 +17,7 @@ inline physics::StepperOptions solved(Integrator integrator) {
 }
 
 inline const std::vector<Integrator> all_integrators{Integrator::leapfrog,       Integrator::explicit_euler,
-                                                     Integrator::semi_implicit,  Integrator::rk4,
+                                                     cases::semi_implicit,       Integrator::rk4,
                                                      Integrator::backward_euler, Integrator::xpbd};
 
 /// After steps of dt from time 0.
@@ -26,7 +26,7 @@ inline Particles after(const Cloth& cloth, const physics::Loads& loads,
                        const physics::Surroundings& around = {}) {
   physics::ThreadPool pool(threads);
   physics::Motion motion(cloth, loads, pool, around);
-  const auto stepper = physics::make_stepper(motion, options);
+  const auto stepper = cases::make_stepper(motion, options);
   for (int i = 0; i < steps; ++i) {
     motion.begin_step(i * dt, (i + 1) * dt);
     stepper->step(dt);

@@ -12,7 +12,7 @@ TEST_CASE("the limits of stability are where theory has them") {
     Integrator integrator;
     double z;
   };
-  const Limit limit = GENERATE(Limit{Integrator::leapfrog, 2}, Limit{Integrator::semi_implicit, 2},
+  const Limit limit = GENERATE(Limit{Integrator::leapfrog, 2}, Limit{furrow::cases::semi_implicit, 2},
                                Limit{Integrator::rk4, rk4_limit});
   const auto amplitude = [&](double z) {
     const Cloth start = pendulum(1, 1, 1e6, {1e6 + 1, 0, 0});
@@ -25,7 +25,7 @@ TEST_CASE("the limits of stability are where theory has them") {
 }
 
 TEST_CASE("damping shortens the limit neither of leapfrog nor of semi-implicit Euler") {
-  const Integrator integrator = GENERATE(Integrator::leapfrog, Integrator::semi_implicit);
+  const Integrator integrator = GENERATE(Integrator::leapfrog, furrow::cases::semi_implicit);
   const double damping = GENERATE(0.02, 0.3, 3.0);
   const Cloth start = pendulum(1, 1, 1e6, {1e6 + 1, 0, 0});
   const Loads loads{.gravity = Vec3::Zero(), .air_drag = 0.1, .spring_damping = damping};
@@ -122,7 +122,8 @@ TEST_CASE("steppers refuse what is out of range") {
   ThreadPool pool(1);
   Motion motion(sheet(3, 3, 0.1), {}, pool);
   for (const Integrator integrator : all_integrators)
-    CHECK_THROWS_WITH(make_stepper(motion, {integrator, {}, {}})->step(0), Catch::Contains("dt = 0"));
+    CHECK_THROWS_WITH(furrow::cases::make_stepper(motion, {integrator, {}, {}})->step(0),
+                      Catch::Contains("dt = 0"));
   CHECK_THROWS_WITH(make_stepper(motion, {Integrator::xpbd, {}, {.iterations = 0}}),
                     Catch::Contains("iterations = 0"));
   CHECK_THROWS_WITH(make_stepper(motion, {Integrator::xpbd, {}, {.tolerance = -1}}),
