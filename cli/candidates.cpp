@@ -30,6 +30,12 @@ double rounded_down(double dt) {
   return std::strtod(text, nullptr);
 }
 
+/// The limit, or less: a step that is chosen without `dt` is at most dt_max, and halves and quarters are of
+/// that one.
+double usable(double dt_limit, const SceneCloth& scene) {
+  return std::min(dt_limit, scene.options.dt_max / kCheapest);
+}
+
 Candidate explicit_at(Integrator integrator, double factor, double dt_limit) {
   Candidate c;
   c.name = std::string(name_of(integrator)) + ", " + text_of(factor) + " of the limit";
@@ -103,15 +109,15 @@ const char* name_of(Integrator integrator) {
   return "";
 }
 
-Candidate reference_candidate(double dt_limit) {
-  return explicit_at(Integrator::leapfrog, kCheapest / 4, dt_limit);
+Candidate reference_candidate(const SceneCloth& scene, double dt_limit) {
+  return explicit_at(Integrator::leapfrog, kCheapest / 4, usable(dt_limit, scene));
 }
 
 std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit) {
   std::vector<Candidate> all;
   if (std::isfinite(dt_limit)) {
-    all.push_back(explicit_at(Integrator::leapfrog, kCheapest, dt_limit));
-    all.push_back(explicit_at(Integrator::leapfrog, kCheapest / 2, dt_limit));
+    all.push_back(explicit_at(Integrator::leapfrog, kCheapest, usable(dt_limit, scene)));
+    all.push_back(explicit_at(Integrator::leapfrog, kCheapest / 2, usable(dt_limit, scene)));
     all.push_back(explicit_at(Integrator::rk4, kCheapest, dt_limit));
   }
   for (int rate : {60, 240, 960}) all.push_back(implicit_at(Integrator::backward_euler, rate, scene));

@@ -20,8 +20,8 @@ struct Candidate {
 /// scene's iterations), and last what the scene itself says if that is none of these. `dt_limit` is
 /// leapfrog's [s].
 std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit);
-/// Leapfrog at a quarter of the cheapest explicit step, 0.225 of the limit.
-Candidate reference_candidate(double dt_limit);
+/// Leapfrog at a quarter of the cheapest explicit step, 0.225 of the limit (or of what dt_max leaves of it).
+Candidate reference_candidate(const SceneCloth& scene, double dt_limit);
 
 /// The scene's options with the candidate's, to run for `seconds`.
 physics::SimulateOptions options_of(const Candidate& candidate, const SceneCloth& scene, double seconds);

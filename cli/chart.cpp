@@ -42,13 +42,25 @@ void name_outputs(ChartArguments& a) {
   refuse_same({a.out, a.csv}, {a.in});
 }
 
+/// No output may replace what the scene reads.
+void spare_inputs(const io::Scene& scene, const ChartArguments& a) {
+  std::vector<std::string> files{scene.garment.string()};
+  if (scene.body)
+    for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
+      files.push_back(path.string());
+  for (const io::SceneLines& lines : scene.lines) files.push_back(lines.strokes.string());
+  refuse_same({a.out, a.csv}, files);
+}
+
 int chart(ChartArguments& a) {
   const JudgeOptions options{parse_share(a.tolerance, "--tolerance"), a.budget};
+  check(options);
   name_outputs(a);
   io::TomlDocument document = settings(a);
   io::Scene scene = scene_of(document, std::filesystem::path(a.in).parent_path());
   if (scene.garment.empty()) throw UsageError(document.name + ": garment.mesh is missing");
   check_inputs(scene, document, -1);
+  spare_inputs(scene, a);
   take_noted_frame(scene, document);
   CommonArguments common = a;
   common.unit = scene.unit;
@@ -87,10 +99,9 @@ void add_chart(CLI::App& app, int& exit_code) {
   sub->add_option("--tolerance", a->tolerance,
                   "error that is accepted, as a share of the garment's diagonal (default 1%)");
   sub->add_option(
-         "--budget", a->budget,
-         "predicted seconds of one thread for all runs [s] (default 60); where the scene takes more, "
-         "its beginning is judged")
-      ->check(CLI::PositiveNumber);
+      "--budget", a->budget,
+      "predicted seconds of one thread for all runs [s] (default 60); where the scene takes more, "
+      "its beginning is judged");
   sub->add_option("--set", a->sets, "any setting of the scene, as key=value; may be given again")
       ->allow_extra_args(false);
   add_common_options(*sub, *a);

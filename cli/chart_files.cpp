@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "cli/judge_report.h"
+#include "io/atomic_file.h"
 #include "io/lower_case.h"
 
 namespace furrow::cli {
@@ -114,10 +114,7 @@ std::string script(const std::string& path, const Judgement& j, const std::strin
   return out.str();
 }
 
-}  // namespace
-
-void write_chart_csv(const std::string& path, const Judgement& j) {
-  std::ofstream out(path, std::ios::binary);
+void write_rows(std::ostream& out, const Judgement& j) {
   out.precision(9);
   out << "name,integrator,dt,cost,error,error_is";
   for (const auto& distance : kDistances) out << "," << distance.first;
@@ -136,8 +133,12 @@ void write_chart_csv(const std::string& path, const Judgement& j) {
     }
     out << "," << verdict_of(j, c) << "\n";
   }
-  out.close();
-  if (!out) throw std::runtime_error(path + ": cannot be written; is the disk full?");
+}
+
+}  // namespace
+
+void write_chart_csv(const std::string& path, const Judgement& j) {
+  io::write_atomically(path, [&](std::ostream& out) { write_rows(out, j); });
 }
 
 void check_chart_picture(const std::string& path) {

@@ -33,6 +33,7 @@ class Judge {
         progress_("trying settings", common),
         started_(std::chrono::steady_clock::now()),
         meter_(scene.file.mesh, scene.cloth, scene.options.gravity) {
+    check(options);
     j_.options = options;
     j_.scene_seconds = scene.options.seconds;
     j_.ends_at_lines = scene.ends_at_lines;
@@ -40,7 +41,9 @@ class Judge {
     j_.dt_limit = physics::stable_step(scene.cloth).dt_limit;
     if (!std::isfinite(j_.dt_limit))
       throw UsageError(
-          "nothing in this cloth resists, so there is no step limit to judge by; raise the stiffness");
+          "nothing in this cloth moves or resists, so there is no step limit to judge by; leave "
+          "vertices free of pins, or raise the stiffness");
+    try_scenes_own();
   }
 
   Judgement run() {
@@ -60,9 +63,17 @@ class Judge {
  private:
   std::size_t reference() const { return j_.candidates.size() - 1; }
 
+  /// What the scene asks for and no run would do, such as a dt above the limit, is refused before the work.
+  void try_scenes_own() const {
+    physics::SimulateOptions o = scene_.options;
+    o.seconds = 0;
+    physics::Cloth cloth = scene_.cloth;
+    physics::simulate(cloth, world_, o, nullptr);
+  }
+
   void list() {
     for (Candidate& c : candidates_for(scene_, j_.dt_limit)) j_.candidates.push_back({std::move(c)});
-    j_.candidates.push_back({reference_candidate(j_.dt_limit)});
+    j_.candidates.push_back({reference_candidate(scene_, j_.dt_limit)});
     shapes_.resize(j_.candidates.size());
     for (JudgedCandidate& c : j_.candidates) c.cost = predicted_cost(c.candidate, scene_, 1);
     for (JudgedCandidate& c : j_.candidates)
@@ -81,7 +92,7 @@ class Judge {
     const double fits = j_.options.budget / rate_;
     if (fits < kShortest)
       throw UsageError("--budget " + Json(j_.options.budget).dump() + ": judges only " + Json(fits).dump() +
-                       " s of this scene; raise it to " + std::to_string(int(rate_ * kShortest) + 1) +
+                       " s of this scene; raise it to " + Json(std::floor(rate_ * kShortest) + 1).dump() +
                        " or more");
     j_.seconds = rounded_down(fits);
     j_.shortened = true;
@@ -154,14 +165,15 @@ class Judge {
     j_.why = j_.twin_drift > drift
                  ? "the motion is chaotic (two runs begun 1e-9 m apart part by "
                  : "positions do not converge (steps of 0.45 and 0.225 of the limit part by ";
-    j_.why += Json(std::stod(percent(j_.twin_drift > drift ? j_.twin_drift : halves))).dump() +
-              " % of the size), so not where each vertex lies, but surface, centre and extent are compared";
+    j_.why += far(j_.twin_drift > drift ? j_.twin_drift : halves) +
+              "), so not where each vertex lies, but surface, centre and extent are compared";
   }
 
-  static std::string percent(double share) {
+  static std::string far(double share) {
+    if (!std::isfinite(share)) return "more than can be told, as one diverged";
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", 100 * share);
-    return text;
+    return Json(std::stod(text)).dump() + " % of the size";
   }
 
   /// Richardson's: halves part by d, quarters by d 2^p, so the finer one is off by d / (2^p - 1); the order p
@@ -195,6 +207,13 @@ class Judge {
 };
 
 }  // namespace
+
+void check(const JudgeOptions& o) {
+  if (!(o.tolerance > 0 && o.tolerance < 1))
+    throw UsageError("--tolerance: " + std::to_string(o.tolerance) + " is not between 0 and 1");
+  if (!(o.budget > 0) || !std::isfinite(o.budget))
+    throw UsageError("--budget: " + std::to_string(o.budget) + " is no number above 0 [s]");
+}
 
 Judgement judge(const SceneCloth& scene, const physics::World& world, const JudgeOptions& options,
                 const CommonArguments& common) {

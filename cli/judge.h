@@ -10,6 +10,9 @@ struct JudgeOptions {
   double budget = 60;       ///< predicted seconds of one thread for all runs [s]; > 0
 };
 
+/// Throws UsageError for an option out of its range.
+void check(const JudgeOptions& options);
+
 enum class Fate {
   done,
   diverged,
@@ -58,8 +61,8 @@ struct Judgement {
 /// Runs reference, twin and candidates on the scene and chooses the cheapest that meets the tolerance. All by
 /// counts: the same on every machine. Where the budget is too small for the scene's seconds, judges what fits
 /// of them. A clock only breaks off, after 3 budgets and a minute; so does Ctrl-C; then what was done is in
-/// the result. Shows progress. Throws UsageError for an option out of its range, a budget too small for 1/30
-/// s, or a scene that has no time.
+/// the result. Shows progress. Throws UsageError as check() does, for a budget too small for 1/30 s, or
+/// a scene that has no time or whose own setting no run would take (std::invalid_argument as simulate()).
 Judgement judge(const SceneCloth& scene, const physics::World& world, const JudgeOptions& options,
                 const CommonArguments& common);
 

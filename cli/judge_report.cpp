@@ -84,6 +84,13 @@ const char* name_of(Fate fate) {
 std::string words(const Judgement& j, bool scene_dt) {
   if (j.chosen < 0) {
     if (j.broken != Broken::no) return broken_words(j);
+    if (!is_known(j.candidates.back()))
+      return "nothing can be judged: " +
+             std::string(j.candidates.back().fate == Fate::diverged ? "the reference"
+                                                                    : "a run that its error is told from") +
+             " diverged; look for pins or a body that move too fast, or cloth that starts deep inside the "
+             "body" +
+             judged_on(j);
     const double best = j.candidates.back().error;
     return "nothing that was tried is within " + percent(j.options.tolerance) +
            " of the garment's size, the reference itself is known to " + percent(best) +

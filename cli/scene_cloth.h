@@ -13,8 +13,8 @@ io::MeshFile begin_garment(const io::Scene& scene, const CommonArguments& common
 void warn_if_apart(const io::Scene& scene, const WorldBody& body, const geometry::Mesh& garment,
                    const CommonArguments& common);
 
-/// Pins the vertices, and doubles the hinges of clamps. The simulation moves pins only as the scene says, so with a body (null: none) those
-/// that lie inside it at `time` [s] are put on its surface; warns of them.
+/// Pins the vertices, and doubles the hinges of clamps. The simulation moves pins only as the scene says, so
+/// with a body (null: none) those that lie inside it at `time` [s] are put on its surface; warns of them.
 void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& pins, const WorldBody* body,
                double time, const CommonArguments& common);
 

@@ -20,6 +20,7 @@ namespace {
 struct SimulateArguments : CommonArguments {
   std::string in, state;
   double budget = 60;
+  CLI::Option* budget_option = nullptr;
   SceneFlags flags;
 };
 
@@ -104,6 +105,7 @@ Judgement choose_setting(const SimulateArguments& a, const CommonArguments& comm
                          std::shared_ptr<WorldBody>& body, io::TomlDocument& document, io::Scene& scene,
                          const std::filesystem::path& folder) {
   const JudgeOptions options{parse_share(a.flags.accuracy(), "--tolerance"), a.budget};
+  check(options);
   if (scene.body) body = std::make_shared<WorldBody>(*scene.body, common);
   CommonArguments silent = common;  // the run itself warns
   silent.quiet = true;
@@ -124,6 +126,8 @@ int simulate(SimulateArguments& a) {
   if (state && !a.flags.accuracy().empty())
     throw UsageError("--tolerance " + a.flags.accuracy() +
                      " judges a scene from its beginning; leave it or --state away");
+  if (a.flags.accuracy().empty() && a.budget_option->count())
+    throw UsageError("--budget bounds the choice for --tolerance 1%; give that, too, or leave --budget away");
   if (scene.garment.empty() && !state) throw UsageError(document.name + ": garment.mesh is missing");
   if (state && scene.subdivide != state->scene.value("garment", io::Json::object()).value("subdivide", 0))
     throw UsageError("--subdivide: the garment of a state is in motion; refine it before the first step");
@@ -166,10 +170,9 @@ void add_simulate(CLI::App& app, int& exit_code) {
       "garment to read (PLY of furrow wrinkle brings rest lengths and masses), or a scene: a .toml file");
   sub->add_option("--state", a->state, "go on from a saved state");
   a->flags.add_to(*sub);
-  sub->add_option(
-         "--budget", a->budget,
-         "predicted seconds of one thread that choosing for --tolerance 1% may take [s] (default 60)")
-      ->check(CLI::PositiveNumber);
+  a->budget_option = sub->add_option(
+      "--budget", a->budget,
+      "predicted seconds of one thread that choosing for --tolerance 1% may take [s] (default 60)");
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] { exit_code = simulate(*a); });
 }

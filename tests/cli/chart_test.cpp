@@ -237,3 +237,65 @@ TEST_CASE("simulate with --tolerance in percent reads and builds the body once")
   REQUIRE(first != std::string::npos);
   CHECK(run.err.find("holes of the body filled", first + 1) == std::string::npos);
 }
+
+TEST_CASE("chart: where dt_max bounds the cheapest step, the reference is still a quarter of it") {
+  const ScratchDirectory scratch;
+  const std::string soft = "[material]\nstiffness = 0.02\nbending = 0.002\ndensity = 1\n";
+  const json report =
+      report_of(run_furrow("chart --json --tolerance 50% " + write_scene(scratch, "2", soft)));
+  REQUIRE(report["dt_limit"] > 0.005 / 0.225);  // so that a quarter of it would be above dt_max
+  const double coarse = report["candidates"][0]["dt"];
+  CHECK(coarse == Approx(0.005).epsilon(0.01));
+  CHECK(report["candidates"][1]["dt"] == Approx(coarse / 2).epsilon(0.01));
+  CHECK(report["reference"]["dt"] == Approx(coarse / 4).epsilon(0.01));
+}
+
+TEST_CASE("chart replaces nothing that its scene reads") {
+  const ScratchDirectory scratch;
+  const std::string garment = scratch / "tent.obj",
+                    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.1\nf 1 2 3\nf 2 4 3\n";
+  write_text(garment, text);
+  write_text(scratch / "tent.toml", "garment.mesh = \"tent.obj\"\n");
+  const Run run = run_furrow("chart -q " + (scratch / "tent.toml") + " --csv " + garment);
+  CHECK(run.exit_code == 2);
+  CHECK(run.err.find("would replace") != std::string::npos);
+  CHECK(read_text(garment) == text);
+}
+
+TEST_CASE("chart: what diverges everywhere is no matter of the tolerance") {
+  const ScratchDirectory scratch;
+  const std::string scene = scratch / "torn.toml";
+  write_text(scene,
+             "[garment]\nmesh = \"" FURROW_SOURCE_DIR
+             "/meshes/validation/patch.obj\"\n[[pins]]\nvertices = [0, 10]\nmotion.keyframes = [{time = 0}, "
+             "{time = 0.01, translation = [1000, 0, 0]}]\n[simulation]\nseconds = 0.05\n");
+  const Run run = run_furrow("chart -q " + scene);
+  CHECK(run.exit_code == 4);
+  CHECK(run.err.find("diverged") != std::string::npos);
+  CHECK(run.err.find("inf") == std::string::npos);
+  CHECK(run.err.find("--tolerance") == std::string::npos);
+}
+
+TEST_CASE("chart: a setting of the scene that no run would take is refused before the work") {
+  const ScratchDirectory scratch;
+  const Run step = run_furrow("chart " + write_scene(scratch, "0.1", "dt = 0.5\n"));
+  CHECK(step.exit_code == 2);
+  CHECK(step.err.find("stability limit") != std::string::npos);
+  const Run denim = run_furrow(
+      "chart " + write_scene(scratch, "0.1", "integrator = \"xpbd\"\n[material]\npreset = \"denim\"\n"));
+  CHECK(denim.exit_code == 2);
+  CHECK(denim.err.find("choose springs") != std::string::npos);
+}
+
+TEST_CASE("a budget is a number above 0, and is for a choice") {
+  const ScratchDirectory scratch;
+  const std::string scene = write_scene(scratch, "0.01"), end = scratch / "end.ply";
+  for (const char* budget : {"0", "-1", "nan", "inf"}) {
+    const Run run = run_furrow("chart " + scene + " --budget " + budget);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err.find("--budget") != std::string::npos);
+  }
+  const Run alone = run_furrow("simulate " + scene + " -o " + end + " --budget 5");
+  CHECK(alone.exit_code == 2);
+  CHECK(alone.err.find("--budget") != std::string::npos);
+}
