@@ -136,6 +136,7 @@ class SceneReader {
         {{"cross", Bending::cross}, {"hinge", Bending::hinge}, {"cosine", Bending::cosine}});
     table.read("stretch", m.stretch, positive("N/m"));
     table.read("poisson", m.poisson, {-1, 1, true});
+    if (m.poisson == 1) table.fail("poisson", "must be below 1");
     table.read("rigidity", m.rigidity, not_negative("N m"));
     if (table.has("stretch") && table.has("stiffness"))
       table.fail("stretch", "stands in place of stiffness; leave one away");

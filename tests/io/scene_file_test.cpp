@@ -129,6 +129,7 @@ TEST_CASE("a scene's faults are told with file, line, column and the nearest set
         "a/s.toml:3:3: material.bending = \"soft\" must be a number >= 0 [N/m]");
   CHECK(has(fault("[material]\nbending = -1\n"), "a/s.toml:2:1: material.bending = -1"));
   CHECK(has(fault("[material]\nbending = inf\n"), "must be a number"));
+  CHECK(has(fault("[material]\npoisson = 1\n"), "must be below 1"));
   CHECK(has(fault("[[lines]]\nstrokes = \"l.json\"\nrest = \"drown\"\n"),
             "a/s.toml:3:1: lines.0.rest = \"drown\" is none of drawn, flat; did you mean drawn?"));
   CHECK(has(fault("[[lines]]\nstrokes = \"a\"\ntime = 2\n[[lines]]\nstrokes = \"b\"\ntime = 1\n"),
