@@ -56,7 +56,7 @@ DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<co
   report.momentum_before = momentum(before.particles, held);
   keep_momentum(work, after.particles, report.momentum_before, report.wrinkle.insertion.changed_faces, held);
   report.momentum_after = momentum(after.particles, held);
-  report.mean_strain = physics::strain_statistics(before.particles.x, before.structural).mean;
+  report.mean_strain = physics::strain_statistics(before).mean;
 
   const std::vector<Vec3> jump = physics::force_jump(before, after);
   for (const Vec3& f : jump) report.largest_jump = std::max(report.largest_jump, f.norm());

@@ -16,8 +16,8 @@ struct DrawMoreOptions {
 struct DrawMoreReport {
   geometry::WrinkleReport wrinkle;
   physics::Vec3 momentum_before, momentum_after;  ///< sum of m v over what is not held [kg m/s]
-  double mean_strain = 0;                         ///< of the structural springs before, mean |l - L| / L [-]
-  double largest_jump = 0;                        ///< of the compensated forces [N]
+  double mean_strain = 0;   ///< of springs or edges of membrane before, mean |l - L| / L [-]
+  double largest_jump = 0;  ///< of the compensated forces [N]
 };
 
 /// Stop and draw more (method S1.12): lines are drawn into a cloth that is strained and in motion. Vertices

@@ -117,6 +117,15 @@ double pop(Mesh& mesh, double stiffness, double gravity, double pin_from_y, doub
 
 }  // namespace
 
+TEST_CASE("the mean strain is told of a membrane of triangles, too") {
+  Mesh mesh = sheet();
+  bridge::DrawMoreOptions o = options_for(mesh);
+  o.springs.membrane = bridge::Membrane::triangles;
+  stretch(mesh, 1.05);
+  physics::SimulateState state;
+  CHECK(draw_more(mesh, state, strokes(0, 1.05), o).mean_strain == Approx(0.05));
+}
+
 TEST_CASE("lines of height 0 leave a strained cloth isometric") {
   Mesh mesh = sheet();
   const bridge::DrawMoreOptions o = options_for(mesh);
