@@ -110,7 +110,8 @@ Xpbd::Xpbd(Motion& motion, const XpbdOptions& options) : motion_(motion), option
   if (!cloth.shell.membrane.empty() || !cloth.shell.hinges.empty()) {
     throw std::invalid_argument("xpbd knows springs only: not " +
                                 std::to_string(cloth.shell.membrane.size()) + " membrane triangles and " +
-                                std::to_string(cloth.shell.hinges.size()) + " hinges");
+                                std::to_string(cloth.shell.hinges.size()) +
+                                " hinges; choose springs for both, or another integrator");
   }
   dashpots_ = dashpots(cloth, motion.loads().spring_damping);
   dashpots_.resize(cloth.a.size(), 0.0);
