@@ -155,7 +155,9 @@ class Judge {
     j_.candidates.back().error = j_.reference_error = reference_error();
   }
 
-  double error_of(const ShapeDistance& d) const { return j_.by_shape ? d.shape() : d.rms; }
+  double error_of(const ShapeDistance& d) const {
+    return std::max(j_.by_shape ? d.shape() : d.rms, d.energy);
+  }
 
   void choose_error() {
     const double drift = kChaos * j_.options.tolerance, halves = j_.candidates[1].off.rms;
@@ -181,7 +183,7 @@ class Judge {
   /// equals parted by.
   double reference_error() const {
     const double fine = error_of(j_.candidates[1].off), coarse = error_of(j_.candidates[0].off);
-    if (j_.by_shape) return std::max(fine, twin_.shape());
+    if (j_.by_shape) return std::max(fine, error_of(twin_));
     const double ratio = std::clamp(fine > 0 ? (coarse - fine) / fine : 4.0, std::sqrt(2.0), 4.0);
     return fine / (ratio - 1);
   }

@@ -50,6 +50,7 @@ bool is_known(const JudgedCandidate& c) { return c.fate == Fate::done && std::is
 
 const char* kind_of_error(const Judgement& j, const JudgedCandidate& c) {
   if (&c == &j.candidates.back()) return "estimate";
+  if (c.off.energy == c.error) return "energy";
   return j.by_shape ? c.off.largest() : "rms";
 }
 

@@ -131,6 +131,10 @@ int simulate(SimulateArguments& a) {
   if (scene.garment.empty() && !state) throw UsageError(document.name + ": garment.mesh is missing");
   if (state && scene.subdivide != state->scene.value("garment", io::Json::object()).value("subdivide", 0))
     throw UsageError("--subdivide: the garment of a state is in motion; refine it before the first step");
+  for (const char* key : {"simulation.integrator", "simulation.dt", "simulation.sweeps", "simulation.newton"})
+    if (!a.flags.accuracy().empty() && document.place(key).rfind("--", 0) == 0)
+      throw UsageError("--tolerance " + a.flags.accuracy() + " chooses integrator and step, and " +
+                       document.place(key) + " names one; leave one of them away");
   check_inputs(scene, document, state ? state->lines_drawn : -1);
   if (!state) take_noted_frame(scene, document);
   if (is_scene(a.in)) make_folders(scene, document);
