@@ -70,6 +70,14 @@ void FreeStiffness::assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffn
   if (next != place_.size()) throw std::invalid_argument("FreeStiffness: the cloth has fewer elements now");
 }
 
+void FreeStiffness::add(int particle, const Mat3& block) {
+  if (row_[particle] < 0) return;
+  for (int e = 0; e < 3; ++e) {  // each column begins with its diagonal
+    double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * row_[particle] + e];
+    for (int f = e; f < 3; ++f) column[f - e] += block(f, e);
+  }
+}
+
 int FreeStiffness::factorise(double shift) {
   if (free_particles_ == 0) return 0;
   factor_.setShift(shift);

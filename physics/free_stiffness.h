@@ -24,6 +24,10 @@ class FreeStiffness {
   /// blocks, and as add_stiffness().
   void assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffness stiffness);
 
+  /// Adds a symmetric block [N/m] to K's diagonal block of a particle, until the next assemble(); a held
+  /// particle's is left out.
+  void add(int particle, const Mat3& block);
+
   /// Factorises K + shift I, shift [N/m]. The number of its negative eigenvalues (negative pivots:
   /// Sylvester's law of inertia), -1 if a pivot is 0 or not finite. Pivots are not permuted: what is not
   /// positive definite should be used with care.

@@ -11,6 +11,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   hanging_chain_test.cpp
   hinge_forces_test.cpp
   invariants_test.cpp
+  invert_elements_test.cpp
   leapfrog_step_test.cpp
   membrane_laws_test.cpp
   membrane_test.cpp
@@ -20,9 +21,11 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   patch_test.cpp
   packed_elements_test.cpp
   pins_test.cpp
+  prestress_test.cpp
   push_out_test.cpp
   residual_force_test.cpp
   rigid_contact_test.cpp
+  rigid_imbalance_test.cpp
   rigid_motion_test.cpp
   speed_accuracy_test.cpp
   simulate_integrators_test.cpp
