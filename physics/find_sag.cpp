@@ -9,6 +9,7 @@ namespace {
 
 constexpr double largest_sag = 1e6;                     // m: gravity over the least shift
 constexpr double first_pull = 1e8, pull_factor = 0.03;  // [1/s^2], [-]
+constexpr double nearly_zero = 1e-7;                    // of the weight: the limits in reach are known
 constexpr int first_steps = 20, steps_a_pull = 8;
 
 using Forces = std::vector<Vec3>;
@@ -24,9 +25,9 @@ class Newton {
   Sag find() {
     restart();
     best_ = state_;
-    pull_ = 0;
-    minimise(first_steps);
-    if (best_.residual <= options_.tolerance) return result();
+    const bool descends = minimise(first_steps);
+    // Nothing is left but round-off, or the problem is linear and has no solution.
+    if (best_.residual <= nearly_zero || (descends && within_limits(state_))) return result();
     restart();
     for (pull_ = first_pull; pull_ > least_shift(); pull_ *= pull_factor) {
       state_ = at(w_);
@@ -69,13 +70,19 @@ class Newton {
     return s;
   }
 
-  void minimise(int steps) {
+  /// False if a step found no descent.
+  bool minimise(int steps) {
     const double enough = pull_ > 0 ? 1e-8 : options_.tolerance;
     for (int i = 0; i < steps && state_.slack > enough && iterations_ < options_.max_iterations; ++i) {
       ++iterations_;
-      if (!step()) return;
+      if (!step()) return false;
       if (state_.size < best_.size) best_ = state_;
     }
+    return true;
+  }
+
+  static bool within_limits(const State& s) {
+    return std::all_of(s.forces.scale.begin(), s.forces.scale.end(), [](double scale) { return scale == 1; });
   }
 
   void factorise() {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   animated_body_test.cpp
+  certificate_test.cpp
   compensation_test.cpp
   contact_test.cpp
   damping_sweep_test.cpp
@@ -21,6 +22,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   patch_test.cpp
   packed_elements_test.cpp
   pins_test.cpp
+  press_test.cpp
   prestress_test.cpp
   push_out_test.cpp
   residual_force_test.cpp
@@ -41,6 +43,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   static_equilibrium_test.cpp
   strain_test.cpp
   strips.cpp
+  struts_test.cpp
   shell_motion_test.cpp
   sweep_order_test.cpp
   thread_pool_test.cpp
