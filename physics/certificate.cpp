@@ -73,10 +73,11 @@ class Certifier {
   Certificate run() {
     result_.smallest_eigenvalue = std::numeric_limits<double>::infinity();
     if (stiffness_.free_particles() == 0) return result_;
-    result_.negative_eigenvalues = factorise(neutral);
     double shift = neutral;
+    assemble(shift);
+    result_.negative_eigenvalues = stiffness_.factorise();
     if (!result_.stable()) {
-      for (shift = 1; factorise(shift) != 0; shift *= 16) {
+      for (assemble(shift = 1); !stiffness_.factorise_definite(); assemble(shift *= 16)) {
         if (!(shift < 1e18)) throw std::runtime_error("certify: the stiffness has no Cholesky factor");
       }
     }
@@ -111,14 +112,13 @@ class Certifier {
     }
   }
 
-  int factorise(double shift) {
+  void assemble(double shift) {
     stiffness_.assemble(cloth_, cloth_.particles.x, Stiffness::exact);
     for (const Support& s : supports_) stiffness_.add(s.particle, s.stiffness);
     const auto& inverse = cloth_.particles.inv_mass;
     for (std::size_t i = 0; i < inverse.size(); ++i) {
       if (inverse[i] > 0) stiffness_.add(int(i), shift / inverse[i] * Mat3::Identity());
     }
-    return stiffness_.factorise();
   }
 
   double product(const Vectors& a, const Vectors& b) const {  // a.M b

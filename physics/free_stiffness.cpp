@@ -20,7 +20,7 @@ FreeStiffness::FreeStiffness(const Cloth& cloth) {
     sequence.push_back({row_[i], row_[j]});
   });
   make_pattern(sequence);
-  if (free_particles_ > 0) factor_.analyzePattern(matrix_);
+  if (free_particles_ > 0) definite_.analyse(matrix_);
 }
 
 /// Columns of the lower triangle: of block column c its diagonal block from the diagonal down, then the
@@ -78,8 +78,14 @@ void FreeStiffness::add(int particle, const Mat3& block) {
   }
 }
 
+bool FreeStiffness::factorise_definite(double shift) {
+  return is_definite_ = free_particles_ == 0 || definite_.factorise(matrix_, shift);
+}
+
 int FreeStiffness::factorise(double shift) {
-  if (free_particles_ == 0) return 0;
+  if (factorise_definite(shift)) return 0;
+  if (!analysed_) factor_.analyzePattern(matrix_);
+  analysed_ = true;
   factor_.setShift(shift);
   factor_.factorize(matrix_);
   if (factor_.info() != Eigen::Success || !factor_.vectorD().allFinite()) return -1;
@@ -91,7 +97,8 @@ void FreeStiffness::solve(std::span<Vec3> b) const {
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (row_[i] >= 0) y.segment<3>(3 * row_[i]) = b[i];
   }
-  if (free_particles_ > 0) y = factor_.solve(y).eval();
+  if (free_particles_ > 0 && is_definite_) definite_.solve(y);
+  if (free_particles_ > 0 && !is_definite_) y = factor_.solve(y).eval();
   for (std::size_t i = 0; i < b.size(); ++i) {
     b[i].setZero();
     if (row_[i] >= 0) b[i] = y.segment<3>(3 * row_[i]);

@@ -6,13 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "physics/block_cholesky.h"
 #include "physics/elements.h"
 
 namespace furrow::physics {
 
-/// The stiffness matrix K [N/m] of the particles that are not held (inv_mass > 0), sparse, and its factors
-/// L D L^T. Where the blocks lie, the order of elimination (approximate minimum degree) and the factor's
-/// pattern are found once; assembly and factorisation use them again.
+/// The stiffness matrix K [N/m] of the particles that are not held (inv_mass > 0), sparse, and its factors.
+/// Where the blocks lie, the order of elimination (approximate minimum degree) and the factor's pattern are
+/// found once; assembly and factorisation use them again.
 class FreeStiffness {
  public:
   /// Cost: O(blocks log blocks) and the symbolic factorisation. Throws std::invalid_argument if the
@@ -28,11 +29,14 @@ class FreeStiffness {
   /// particle's is left out.
   void add(int particle, const Mat3& block);
 
-  /// Factorises K + shift I, shift [N/m]. The number of its negative eigenvalues (negative pivots:
-  /// Sylvester's law of inertia), -1 if a pivot is 0 or not finite. Pivots are not permuted: what is not
-  /// positive definite should be used with care.
+  /// Factorises K + shift I = L L^T, shift [N/m]; false if it is not positive definite.
+  bool factorise_definite(double shift = 0);
+  /// The same, and if it is not positive definite L D L^T, which takes several times longer: the number of
+  /// its negative eigenvalues (negative pivots: Sylvester's law of inertia), -1 if a pivot is 0 or not
+  /// finite. Pivots are not permuted: what is not positive definite should be used with care.
   int factorise(double shift = 0);
-  /// b becomes the solution in rows of free particles, 0 in the others. Needs factorise() >= 0.
+  /// b becomes the solution in rows of free particles, 0 in the others. Needs the last
+  /// factorise_definite() true or factorise() >= 0.
   void solve(std::span<Vec3> b) const;
 
   /// Mean of the diagonal of K [N/m], 0 if nothing is free: a scale for shifts.
@@ -47,7 +51,9 @@ class FreeStiffness {
   std::vector<int> row_;                   ///< of each particle among the free ones; -1: held
   std::vector<std::array<int, 3>> place_;  ///< of each block: its columns' first values; -1: left out
   Sparse matrix_;                          ///< lower triangle
+  BlockCholesky definite_;
   Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor_;
+  bool analysed_ = false, is_definite_ = false;  // of factor_; which of both is the last one
 };
 
 }  // namespace furrow::physics

@@ -31,6 +31,8 @@ void check(const Cloth& cloth, const PrestressOptions& o, std::span<const Vec3> 
   range(o.friction >= 0, "friction", o.friction, " is not >= 0");
   range(o.gap > 0, "gap", o.gap, " is not > 0");
   range(o.max_strain > 0 && o.max_strain <= 0.15, "max_strain", o.max_strain, " is not in (0, 0.15]");
+  range(o.max_compression >= 0 && o.max_compression <= 0.15, "max_compression", o.max_compression,
+        " is not in [0, 0.15]");
   range(o.max_angle > 0 && o.max_angle <= 3, "max_angle", o.max_angle, " is not in (0, 3]");
   range(o.tolerance > 0, "tolerance", o.tolerance, " is not > 0");
   range(o.max_iterations >= 1, "max_iterations", o.max_iterations, " is not >= 1");
@@ -133,7 +135,8 @@ PrestressReport prestress(Cloth& cloth, const PrestressOptions& o, const Collide
   const Particles& p = cloth.particles;
   const double g = o.gravity.norm() > 0 ? o.gravity.norm() : standard_gravity;
   const std::vector<SagContact> contacts = contacts_of(p, collider, o.gap);
-  SagSystem system(cloth, {o.max_strain, o.max_angle, o.friction}, contacts);
+  SagSystem system(cloth, {o.max_strain, std::min(o.max_compression, o.max_strain), o.max_angle, o.friction},
+                   contacts);
   Forces load(p.size(), Vec3::Zero());
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!(p.inv_mass[i] > 0)) continue;

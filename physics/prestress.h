@@ -14,6 +14,9 @@ struct PrestressOptions {
   double friction = 0.3;      ///< Coulomb coefficient with the body [-]; >= 0; 0: without friction
   double gap = 0.003;         ///< a body at most this far (and 1e-5 m) carries [m]; > 0
   double max_strain = 0.1;    ///< bound of |l - L| / L, see SagSystem for triangles [-]; in (0, 0.15]
+  /// Bound of (L - l) / L of springs; less, down to 0, keeps cloth that buckles from bearing it [-]; in [0,
+  /// 0.15]
+  double max_compression = 0.15;
   double max_angle = 1.5707963267948966;  ///< bound of |theta - theta0| of hinges [rad]; in (0, 3]
   double tolerance = 1e-9;                ///< net force relative to weight at which it is done [-]; > 0
   int max_iterations = 200;               ///< Newton steps; >= 1

@@ -60,8 +60,8 @@ SagSystem::SagSystem(const Cloth& cloth, const SagLimits& limits, std::span<cons
       contacts_(contacts.begin(), contacts.end()),
       friction_(limits.friction),
       stiffness_(rest_) {
-  add_bars(rest_.structural, limits.strain);
-  add_bars(rest_.bending, limits.strain);
+  add_bars(rest_.structural, limits);
+  add_bars(rest_.bending, limits);
   add_plates(rest_, limits.strain);
   add_bends(cloth, limits.angle);
   if (contacts_.empty()) return;
@@ -70,12 +70,13 @@ SagSystem::SagSystem(const Cloth& cloth, const SagLimits& limits, std::span<cons
   if (!(contact_stiffness_ > 0)) contact_stiffness_ = 1;  // a cloth without stiffness
 }
 
-void SagSystem::add_bars(std::span<const Spring> springs, double strain) {
+void SagSystem::add_bars(std::span<const Spring> springs, const SagLimits& limits) {
   for (const Spring& s : springs) {
     const double k = s.stiffness, l = s.rest_length;
     const Vec3 d = rest_.particles.x[s.b] - rest_.particles.x[s.a];
     if (!(l > 0)) throw std::invalid_argument("prestress: a spring has no length");
-    bars_.push_back({s.a, s.b, d / l, k, -k * l * strain / (1 - strain), k * l * strain / (1 + strain)});
+    bars_.push_back({s.a, s.b, d / l, k, -k * l * limits.compression / (1 - limits.compression),
+                     k * l * limits.strain / (1 + limits.strain)});
   }
 }
 
@@ -201,7 +202,7 @@ void SagSystem::factorise(const SagForces& at, std::span<const Vec3> w, double s
   for (std::size_t v = 0; v < p.size(); ++v) {
     if (p.inv_mass[v] > 0) stiffness_.add(int(v), shift / p.inv_mass[v] * Mat3::Identity());
   }
-  if (stiffness_.factorise() != 0)
+  if (!stiffness_.factorise_definite())
     throw std::runtime_error("prestress: the stiffness has no Cholesky factor");
 }
 

@@ -15,9 +15,10 @@ struct SagContact {
   Vec3 normal;  ///< unit, away from the body
 };
 struct SagLimits {
-  double strain;    ///< largest |l - L| / L of springs, of triangles see SagForces [-]
-  double angle;     ///< largest |theta - theta0| of hinges [rad]
-  double friction;  ///< Coulomb coefficient [-]
+  double strain;       ///< largest (l - L) / L of springs, of triangles see SagSystem [-]
+  double compression;  ///< largest (L - l) / L of springs [-]
+  double angle;        ///< largest |theta - theta0| of hinges [rad]
+  double friction;     ///< Coulomb coefficient [-]
 };
 
 /// What elements and contacts answer to a sag w, as prestress() wants it.
@@ -28,7 +29,7 @@ struct SagForces {
   std::vector<Vec3> contact;                ///< the body's on the cloth [N]
   std::vector<double> scale;  ///< of each spring, bending spring, triangle, hinge, then contact: 1 free, less
                               ///< on its limit
-  double potential = 0;  ///< [J]; its derivative by w is what elements and contacts answer
+  double potential = 0;       ///< [J]; its derivative by w is what elements and contacts answer
 };
 
 /// A cloth that is at rest as it lies, and the forces of its elements to first order in a displacement w (the
@@ -71,7 +72,7 @@ class SagSystem {
     Eigen::Matrix3d quadratic;
     double reach;  // sqrt of twice the largest energy
   };
-  void add_bars(std::span<const Spring> springs, double strain);
+  void add_bars(std::span<const Spring> springs, const SagLimits& limits);
   void add_bends(const Cloth& cloth, double angle);
   void add_plates(const Cloth& cloth, double strain);
   void respond_bars(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   animated_body_test.cpp
+  block_cholesky_test.cpp
   certificate_test.cpp
   compensation_test.cpp
   contact_test.cpp
