@@ -7,10 +7,11 @@
 namespace furrow::physics {
 namespace {
 
-constexpr double largest_sag = 1e6;                     // m: gravity over the least shift
-constexpr double first_pull = 1e8, pull_factor = 0.03;  // [1/s^2], [-]
-constexpr double nearly_zero = 1e-7;                    // of the weight: the limits in reach are known
-constexpr int first_steps = 20, steps_a_pull = 8;
+constexpr double largest_sag = 1e6;                    // m: gravity over the least shift
+constexpr double first_pull = 1e8, pull_factor = 0.1;  // [1/s^2], [-]
+constexpr double nearly_zero = 1e-7;                   // of the weight: the limits in reach are known
+constexpr double slowest = 0.9;                        // factor at which it gives up
+constexpr int first_steps = 20, steps_a_pull = 20;
 
 using Forces = std::vector<Vec3>;
 
@@ -28,14 +29,7 @@ class Newton {
     const bool descends = minimise(first_steps);
     // Nothing is left but round-off, or the problem is linear and has no solution.
     if (best_.residual <= nearly_zero || (descends && within_limits(state_))) return result();
-    restart();
-    for (pull_ = first_pull; pull_ > least_shift(); pull_ *= pull_factor) {
-      state_ = at(w_);
-      minimise(steps_a_pull);
-    }
-    pull_ = 0;
-    state_ = at(w_);
-    minimise(first_steps);
+    lower_pull();
     return result();
   }
 
@@ -49,6 +43,29 @@ class Newton {
     double slack = 0;     // the same of slope
     double size = 0;      // net.M^-1 net
   };
+  /// From a pull that hardly lets anything move down to none, each from the last one's end; in smaller steps
+  /// where Newton's method does not arrive.
+  void lower_pull() {
+    pull_ = first_pull;
+    restart();
+    minimise(steps_a_pull);
+    for (double factor = pull_factor; factor < slowest && iterations_ < options_.max_iterations;) {
+      const double before = pull_, size = state_.size;
+      const Forces w = w_;
+      pull_ = before * factor > least_shift() ? before * factor : 0;
+      state_ = at(w_);
+      minimise(steps_a_pull);
+      if (pull_ == 0) return;
+      const bool arrived = state_.slack <= 1e-6 * std::max(1.0, state_.residual);
+      // Limits in reach, and a tenth of the pull hardly brought anything: that is as near as it comes.
+      if (arrived && factor <= pull_factor && !within_limits(state_) && state_.size > 0.99 * size) return;
+      factor = arrived ? std::max(pull_factor, factor * factor) : std::sqrt(factor);
+      if (arrived) continue;
+      pull_ = before;
+      w_ = w;
+      state_ = at(w_);
+    }
+  }
   void restart() {
     w_.assign(load_.size(), Vec3::Zero());
     state_ = at(w_);

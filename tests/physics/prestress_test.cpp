@@ -152,6 +152,26 @@ TEST_CASE("prestress: bounds are respected, and named") {
   }
 }
 
+TEST_CASE("prestress: springs bear no more compression than they are allowed to") {
+  Cloth cloth = bumpy(0.01);
+  pin_row(cloth);
+  balance_rigidly(cloth, gravity);
+  const auto compression = [](const Cloth& c) {
+    double most = 0;
+    for (const Spring& s : c.structural)
+      most = std::max(most, 1 - (c.particles.x[s.b] - c.particles.x[s.a]).norm() / s.rest_length);
+    return most;
+  };
+  Cloth free = cloth;
+  prestress(free);
+  PrestressOptions options;
+  options.max_compression = 0.5 * compression(free);
+  const PrestressReport report = prestress(cloth, options);
+  CHECK(report.structural.size() > 0);
+  CHECK(compression(cloth) == Approx(options.max_compression).epsilon(1e-9));
+  CHECK(report.residual <= 1e-8);
+}
+
 TEST_CASE("prestress: triangles on their bound") {
   Cloth cloth = with_triangles(bumpy(0.01));
   pin_row(cloth);
@@ -232,6 +252,9 @@ TEST_CASE("prestress: what cannot be is refused and nothing changes") {
   PrestressOptions o;
   o.max_strain = 0.2;
   refuses(good, o, "max_strain = 0.2");
+  o = {};
+  o.max_compression = -0.1;
+  refuses(good, o, "max_compression = -0.1");
   o = {};
   o.max_angle = 0;
   refuses(good, o, "max_angle = 0");
