@@ -4,7 +4,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/OrderingMethods>
 #include <algorithm>
-#include <numeric>
+
+#include "physics/elimination_tree.h"
 
 namespace furrow::physics {
 namespace {
@@ -32,46 +33,6 @@ Lists permuted(const Lists& below, const std::vector<int>& position) {
   }
   for (auto& list : result) std::sort(list.begin(), list.end());
   return result;
-}
-
-/// Parents in the elimination tree; -1: a root. Liu's algorithm with short cuts.
-std::vector<int> elimination_tree(const Lists& below) {
-  const int n = int(below.size());
-  Lists before(below.size());
-  for (int c = 0; c < n; ++c)
-    for (const int r : below[c]) before[r].push_back(c);
-  std::vector<int> parent(n, -1), ancestor(n, -1);
-  for (int r = 0; r < n; ++r) {
-    for (int c : before[r]) {
-      while (ancestor[c] >= 0 && ancestor[c] != r) {
-        const int next = ancestor[c];
-        ancestor[c] = r;
-        c = next;
-      }
-      if (ancestor[c] < 0 && c != r) ancestor[c] = parent[c] = r;
-    }
-  }
-  return parent;
-}
-
-/// Place of each node when children come right before their parents.
-std::vector<int> postorder(const std::vector<int>& parent) {
-  const int n = int(parent.size());
-  Lists children(parent.size());
-  std::vector<int> stack, place(n, -1);
-  for (int i = n - 1; i >= 0; --i) {
-    if (parent[i] < 0) stack.push_back(i);
-    if (parent[i] >= 0) children[parent[i]].push_back(i);  // the last one first
-  }
-  int next = n;  // from the roots downwards: a node, then its children from the last to the first
-  std::reverse(stack.begin(), stack.end());
-  while (!stack.empty()) {
-    const int i = stack.back();
-    stack.pop_back();
-    place[i] = --next;
-    for (auto c = children[i].rbegin(); c != children[i].rend(); ++c) stack.push_back(*c);
-  }
-  return place;
 }
 
 /// How much of a joined panel may be zeros.
@@ -187,35 +148,42 @@ void BlockCholesky::analyse(const Sparse& lower) {
   find_blocks(lower);
 }
 
+/// The matrix's own entries of a front.
+void BlockCholesky::fill(const Front& f, const double* values, double shift, Eigen::MatrixXd& a) {
+  for (const Block& b : f.blocks) {
+    const bool diagonal = b.row == b.column;
+    for (int e = 0; e < 3; ++e) {
+      for (int g = diagonal ? e : 0; g < 3; ++g) {
+        const double v = values[b.value[e] + g - (diagonal ? e : 0)];
+        a(3 * b.row + (b.transposed ? e : g), 3 * b.column + (b.transposed ? g : e)) += v;
+      }
+    }
+  }
+  a.diagonal().head(3 * f.width).array() += shift;
+}
+
+/// Adds to a front what a child left; lower triangles.
+void BlockCholesky::extend(const Front& child, const Eigen::MatrixXd& update, Eigen::MatrixXd& a) {
+  for (Eigen::Index c = 0; c < update.cols(); ++c) {
+    auto to = a.col(3 * child.place[std::size_t(c / 3)] + c % 3);
+    for (Eigen::Index r = c; r < update.rows(); ++r)
+      to[3 * child.place[std::size_t(r / 3)] + r % 3] += update(r, c);
+  }
+}
+
 bool BlockCholesky::factorise(const Sparse& lower, double shift) {
-  const double* values = lower.valuePtr();
   std::vector<Eigen::MatrixXd> update(fronts_.size());  // what a front leaves to its parent; lower triangle
   for (std::size_t i = 0; i < fronts_.size(); ++i) {
     Front& f = fronts_[i];
-    const int w = 3 * f.width, n = w + 3 * int(f.rows.size());
+    const Eigen::Index w = 3 * f.width, n = w + 3 * Eigen::Index(f.rows.size());
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
-    for (const Block& b : f.blocks) {
-      for (int e = 0; e < 3; ++e) {
-        const bool diagonal = b.row == b.column;
-        for (int g = diagonal ? e : 0; g < 3; ++g) {
-          const double v = values[b.value[e] + g - (diagonal ? e : 0)];
-          a(3 * b.row + (b.transposed ? e : g), 3 * b.column + (b.transposed ? g : e)) += v;
-        }
-      }
-    }
-    a.diagonal().head(w).array() += shift;
+    fill(f, lower.valuePtr(), shift, a);
     for (const int child : f.children) {
-      const Eigen::MatrixXd& u = update[std::size_t(child)];
-      const std::vector<int>& place = fronts_[std::size_t(child)].place;
-      for (int c = 0; c < u.cols(); ++c) {
-        double* to = a.data() + std::ptrdiff_t(3 * place[c / 3] + c % 3) * n;
-        const double* from = u.data() + std::ptrdiff_t(c) * u.rows();
-        for (int r = c; r < u.rows(); ++r) to[3 * place[r / 3] + r % 3] += from[r];
-      }
+      extend(fronts_[std::size_t(child)], update[std::size_t(child)], a);
       update[std::size_t(child)].resize(0, 0);
     }
     Eigen::Ref<Eigen::MatrixXd> pivot = a.topLeftCorner(w, w);
-    Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(pivot);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(pivot);  // in place
     if (factor.info() != Eigen::Success || !pivot.diagonal().allFinite()) return false;
     auto side = a.bottomLeftCorner(n - w, w);
     pivot.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(side);

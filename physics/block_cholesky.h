@@ -48,6 +48,8 @@ class BlockCholesky {
   void make_fronts(std::vector<std::vector<int>>& below);
   void join_parents(std::vector<Front>& fronts) const;
   void find_blocks(const Sparse& lower);
+  static void fill(const Front& front, const double* values, double shift, Eigen::MatrixXd& a);
+  static void extend(const Front& child, const Eigen::MatrixXd& update, Eigen::MatrixXd& a);
 
   int blocks_ = 0;             // rows of blocks
   std::vector<int> position_;  // of each row of blocks in the order of elimination

@@ -8,6 +8,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   damping_sweep_test.cpp
   drop_on_ball_test.cpp
   elements_test.cpp
+  elimination_tree_test.cpp
   euler_step_test.cpp
   free_stiffness_test.cpp
   hanging_chain_test.cpp
