@@ -75,8 +75,8 @@ class Certifier {
     if (stiffness_.free_particles() == 0) return result_;
     double shift = neutral;
     assemble(shift);
-    result_.negative_eigenvalues = stiffness_.factorise();
-    if (!result_.stable()) {
+    if (!stiffness_.factorise_definite()) {
+      result_.negative_eigenvalues = stiffness_.factorise();
       for (assemble(shift = 1); !stiffness_.factorise_definite(); assemble(shift *= 16)) {
         if (!(shift < 1e18)) throw std::runtime_error("certify: the stiffness has no Cholesky factor");
       }

@@ -20,7 +20,6 @@ FreeStiffness::FreeStiffness(const Cloth& cloth) {
     sequence.push_back({row_[i], row_[j]});
   });
   make_pattern(sequence);
-  if (free_particles_ > 0) definite_.analyse(matrix_);
 }
 
 /// Columns of the lower triangle: of block column c its diagonal block from the diagonal down, then the
@@ -79,11 +78,16 @@ void FreeStiffness::add(int particle, const Mat3& block) {
 }
 
 bool FreeStiffness::factorise_definite(double shift) {
-  return is_definite_ = free_particles_ == 0 || definite_.factorise(matrix_, shift);
+  is_definite_ = true;
+  if (free_particles_ == 0) return true;
+  if (!definite_analysed_) definite_.analyse(matrix_);
+  definite_analysed_ = true;
+  return definite_.factorise(matrix_, shift);
 }
 
 int FreeStiffness::factorise(double shift) {
-  if (factorise_definite(shift)) return 0;
+  is_definite_ = false;
+  if (free_particles_ == 0) return 0;
   if (!analysed_) factor_.analyzePattern(matrix_);
   analysed_ = true;
   factor_.setShift(shift);

@@ -16,7 +16,7 @@ namespace furrow::physics {
 /// found once; assembly and factorisation use them again.
 class FreeStiffness {
  public:
-  /// Cost: O(blocks log blocks) and the symbolic factorisation. Throws std::invalid_argument if the
+  /// Cost: O(blocks log blocks) and later the symbolic factorisation. Throws std::invalid_argument if the
   /// particles' arrays differ in length, and as add_stiffness().
   explicit FreeStiffness(const Cloth& cloth);
 
@@ -29,14 +29,15 @@ class FreeStiffness {
   /// particle's is left out.
   void add(int particle, const Mat3& block);
 
-  /// Factorises K + shift I = L L^T, shift [N/m]; false if it is not positive definite.
-  bool factorise_definite(double shift = 0);
-  /// The same, and if it is not positive definite L D L^T, which takes several times longer: the number of
-  /// its negative eigenvalues (negative pivots: Sylvester's law of inertia), -1 if a pivot is 0 or not
-  /// finite. Pivots are not permuted: what is not positive definite should be used with care.
+  /// Factorises K + shift I = L D L^T, shift [N/m]. The number of its negative eigenvalues (negative pivots:
+  /// Sylvester's law of inertia), -1 if a pivot is 0 or not finite. Pivots are not permuted: what is not
+  /// positive definite should be used with care.
   int factorise(double shift = 0);
-  /// b becomes the solution in rows of free particles, 0 in the others. Needs the last
-  /// factorise_definite() true or factorise() >= 0.
+  /// K + shift I = L L^T by dense fronts (BlockCholesky), several times faster for thousands of particles;
+  /// false if it is not positive definite.
+  bool factorise_definite(double shift = 0);
+  /// b becomes the solution in rows of free particles, 0 in the others. Needs
+  /// factorise() >= 0 or factorise_definite() true, whichever was last.
   void solve(std::span<Vec3> b) const;
 
   /// Mean of the diagonal of K [N/m], 0 if nothing is free: a scale for shifts.
@@ -51,9 +52,10 @@ class FreeStiffness {
   std::vector<int> row_;                   ///< of each particle among the free ones; -1: held
   std::vector<std::array<int, 3>> place_;  ///< of each block: its columns' first values; -1: left out
   Sparse matrix_;                          ///< lower triangle
-  BlockCholesky definite_;
   Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor_;
-  bool analysed_ = false, is_definite_ = false;  // of factor_; which of both is the last one
+  BlockCholesky definite_;
+  bool analysed_ = false, definite_analysed_ = false;  // each when it is first needed
+  bool is_definite_ = false;                           // whether the last factors are those of definite_
 };
 
 }  // namespace furrow::physics

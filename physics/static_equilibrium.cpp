@@ -68,7 +68,7 @@ class Newton {
   bool positive_definite() {
     stiffness_.assemble(cloth_, cloth_.particles.x, Stiffness::exact);
     ++report_.factorisations;
-    return stiffness_.factorise_definite();
+    return stiffness_.factorise() == 0;
   }
 
  private:
@@ -107,7 +107,7 @@ class Newton {
     const double scale = stiffness_.mean_diagonal();
     for (; shift_ <= largest_shift; shift_ = std::max(first_shift, 8 * shift_)) {
       ++report_.factorisations;
-      if (!stiffness_.factorise_definite(shift_ * scale)) continue;
+      if (stiffness_.factorise(shift_ * scale) != 0) continue;
       move_ = force_;
       stiffness_.solve(move_);
       return true;
