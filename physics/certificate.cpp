@@ -78,7 +78,7 @@ class Certifier {
     if (!stiffness_.factorise_definite()) {
       result_.negative_eigenvalues = stiffness_.factorise();
       for (assemble(shift = 1); !stiffness_.factorise_definite(); assemble(shift *= 16)) {
-        if (!(shift < 1e18)) throw std::runtime_error("certify: the stiffness has no Cholesky factor");
+        if (!(shift < 1e20)) throw std::invalid_argument("certify: a stiffness is not finite");
       }
     }
     find_smallest(shift);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "physics/elimination_tree.h"
 
+#include <algorithm>
+
 namespace furrow::physics {
 namespace {
 

@@ -90,8 +90,11 @@ void invert_triangles(const Particles& p, const SagForces& f, std::vector<Membra
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     MembraneTriangle& t = triangles[i];
     const std::array<Vec3, 3> x{p.x[t.vertices[0]], p.x[t.vertices[1]], p.x[t.vertices[2]]};
-    // Within the strain that options allow the law has an answer.
-    t.rest_lengths = rest_lengths_for(x, t.lambda, t.mu, f.membrane[i]).value();
+    // The law has an answer to all that the bounds allow, unless Poisson's ratio is near 1; then to less.
+    Eigen::Vector3d tension = f.membrane[i];
+    auto rest_lengths = rest_lengths_for(x, t.lambda, t.mu, tension);
+    for (; !rest_lengths; rest_lengths = rest_lengths_for(x, t.lambda, t.mu, tension)) tension *= 0.8;
+    t.rest_lengths = *rest_lengths;
     for (int e = 0; e < 3; ++e) {
       const double l = (x[(e + 2) % 3] - x[(e + 1) % 3]).norm(), rest = t.rest_lengths[e];
       report.max_strain = std::max(report.max_strain, std::abs(l - rest) / rest);

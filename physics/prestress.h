@@ -14,8 +14,7 @@ struct PrestressOptions {
   double friction = 0.3;      ///< Coulomb coefficient with the body [-]; >= 0; 0: without friction
   double gap = 0.003;         ///< a body at most this far (and 1e-5 m) carries [m]; > 0
   double max_strain = 0.1;    ///< bound of |l - L| / L, see SagSystem for triangles [-]; in (0, 0.15]
-  /// Bound of (L - l) / L of springs; less, down to 0, keeps cloth that buckles from bearing it [-]; in [0,
-  /// 0.15]
+  /// Bound of (L - l) / L of springs, where less than max_strain, for cloth that buckles [-]; in [0, 0.15]
   double max_compression = 0.15;
   double max_angle = 1.5707963267948966;  ///< bound of |theta - theta0| of hinges [rad]; in (0, 3]
   double tolerance = 1e-9;                ///< net force relative to weight at which it is done [-]; > 0
@@ -54,7 +53,8 @@ struct PrestressReport {
 /// body's contact cannot prevent it.
 ///
 /// loads: further forces that act whatever moves [N], one a particle; may be empty. Where the body is nearer
-/// than the gap, a simulation will push the cloth out; that motion is not foreseen.
+/// than the gap, a simulation will push the cloth out; that motion is not foreseen. A triangle with Poisson's
+/// ratio near 1 may bear less than its bound; it then gets the largest share of the stress that it can.
 /// Cost: a symbolic and, without bounds and body, one numeric factorisation, O(n^1.5) for n particles of a
 /// sheet, and some passes. Same input, same bits.
 /// Throws std::invalid_argument, nothing changed, if an option is out of its range, arrays differ in length,

@@ -8,11 +8,13 @@
 
 #include "physics/dihedral.h"
 #include "physics/hinge_forces.h"
+#include "physics/membrane.h"
 
 namespace furrow::physics {
 namespace {
 
-constexpr double body_stiffness = 10;  // over the mean diagonal
+constexpr double body_stiffness = 10;   // over the mean diagonal
+constexpr double largest_shift = 1e20;  // 1/s^2
 
 /// The cloth with its rest state as it lies.
 Cloth at_rest(Cloth cloth) {
@@ -198,12 +200,14 @@ void SagSystem::factorise(const SagForces& at, std::span<const Vec3> w, double s
     now_.hinges[h].stiffness = at.scale[i++] * rest_.hinges[h].stiffness;
   stiffness_.assemble(now_, now_.particles.x, Stiffness::positive_part);
   for (const SagContact& c : contacts_) stiffness_.add(c.particle, contact_stiffness(c, w[c.particle]));
-  const Particles& p = now_.particles;
-  for (std::size_t v = 0; v < p.size(); ++v) {
-    if (p.inv_mass[v] > 0) stiffness_.add(int(v), shift / p.inv_mass[v] * Mat3::Identity());
+  for (double added = shift;; added *= 100) {
+    const Particles& p = now_.particles;
+    for (std::size_t v = 0; v < p.size(); ++v) {
+      if (p.inv_mass[v] > 0) stiffness_.add(int(v), added / p.inv_mass[v] * Mat3::Identity());
+    }
+    if (stiffness_.factorise_definite()) return;
+    if (!(added < largest_shift)) throw std::invalid_argument("prestress: a stiffness is not finite");
   }
-  if (!stiffness_.factorise_definite())
-    throw std::runtime_error("prestress: the stiffness has no Cholesky factor");
 }
 
 }  // namespace furrow::physics

@@ -5,32 +5,9 @@
 #include <vector>
 
 #include "physics/free_stiffness.h"
-#include "physics/membrane.h"
+#include "physics/sag_forces.h"
 
 namespace furrow::physics {
-
-/// Where a cloth lies on a body: the body may push along the normal n and hold sideways.
-struct SagContact {
-  int particle;
-  Vec3 normal;  ///< unit, away from the body
-};
-struct SagLimits {
-  double strain;       ///< largest (l - L) / L of springs, of triangles see SagSystem [-]
-  double compression;  ///< largest (L - l) / L of springs [-]
-  double angle;        ///< largest |theta - theta0| of hinges [rad]
-  double friction;     ///< Coulomb coefficient [-]
-};
-
-/// What elements and contacts answer to a sag w, as prestress() wants it.
-struct SagForces {
-  std::vector<double> structural, bending;  ///< tension [N]
-  std::vector<Eigen::Vector3d> membrane;    ///< dW/d(l^2) of the edges [N/m]
-  std::vector<double> hinges;               ///< moment dE/dtheta [N m]
-  std::vector<Vec3> contact;                ///< the body's on the cloth [N]
-  std::vector<double> scale;  ///< of each spring, bending spring, triangle, hinge, then contact: 1 free, less
-                              ///< on its limit
-  double potential = 0;       ///< [J]; its derivative by w is what elements and contacts answer
-};
 
 /// A cloth that is at rest as it lies, and the forces of its elements to first order in a displacement w (the
 /// sag), each clamped to what its limits allow: the projection z = P(C^-1 A^T w) of keep-as-drawn's linear
@@ -50,8 +27,9 @@ class SagSystem {
   /// Answers to w [m], one a particle; 0 on pins. Adds what elements and contacts exert at first order, to
   /// force [N]. Cost: one pass.
   SagForces respond(std::span<const Vec3> w, std::span<Vec3> force) const;
-  /// Factorises the derivative of that answer with mass times shift [1/s^2] added; a triangle on its limit
-  /// counts with the secant, which is stiffer.
+  /// Factorises the derivative of that answer with mass times shift [1/s^2] added, more if round-off asks for
+  /// it; a triangle on its limit counts with the secant, which is stiffer. Throws std::invalid_argument if a
+  /// stiffness is not finite.
   void factorise(const SagForces& at, std::span<const Vec3> w, double shift);
   void solve(std::span<Vec3> b) const { stiffness_.solve(b); }
 

@@ -90,3 +90,21 @@ TEST_CASE("inverted elements: one axis bears compression to the law's limit and 
   CHECK_FALSE(along_x(-0.193));  // its largest is 1 / sqrt(27)
   CHECK(along_x(0.5));
 }
+
+TEST_CASE("inverted elements: the law has an answer to all stresses that prestress may ask for") {
+  Noise noise(8);
+  for (const double poisson : {-0.5, 0.0, 0.3, 0.5}) {
+    const PlaneLame lame = plane_stress(300, poisson);
+    for (int i = 0; i < 300; ++i) {
+      const std::array<Vec3, 3> x{Vec3(0, 0, 0), Vec3(0.01, 0, 0) + 0.003 * noise.vector(),
+                                  Vec3(0.004, 0.008, 0) + 0.003 * noise.vector()};
+      MembraneTriangle t{{0, 1, 2}, {}, lame.lambda, lame.mu};
+      for (int e = 0; e < 3; ++e) t.rest_lengths[e] = (x[(e + 2) % 3] - x[(e + 1) % 3]).norm();
+      const MembraneConstants c = membrane_constants(t);
+      // The energy of a strain of 0.15 along one axis, as SagSystem limits it.
+      const Vec3 d = noise.vector();
+      const double scale = 0.15 * std::sqrt(c.area * 300 / d.dot(c.quadratic * d));
+      CHECK(rest_lengths_for(x, lame.lambda, lame.mu, scale * c.quadratic * d));
+    }
+  }
+}

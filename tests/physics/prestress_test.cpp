@@ -2,7 +2,9 @@
 #include "physics/prestress.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
+#include "physics/certificate.h"
 #include "physics/pins.h"
 #include "physics/residual_force.h"
 #include "physics/simulate.h"
@@ -227,6 +229,44 @@ TEST_CASE("prestress: what lies beyond the edge of a body tips over") {
   CHECK(report.residual > 0.1);
   CHECK(report.imbalance[0].moment.z() < 0);
   for (const Vec3& f : report.contact_force) CHECK(f.y() >= 0);
+}
+
+TEST_CASE("prestress: cloth without bending bears what lies in its plane and says what it cannot") {
+  Cloth cloth = sheet(9, 9, 0.03, 0.1, 2, 300, 0);
+  pin_row(cloth);
+  for (int i = 0; i < 9; ++i) cloth.particles.x[i].y() = 0;
+  CHECK(prestress(cloth).residual <= 1e-8);
+  PrestressOptions across;
+  across.gravity = Vec3(0, 0, -9.81);
+  const PrestressReport report = prestress(cloth, across);
+  CHECK(report.residual > 0.1);
+  CHECK(report.imbalance.size() == 1);
+  Cloth bad = cloth;
+  bad.structural[40].stiffness = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(prestress(bad), std::invalid_argument);
+  CHECK_THROWS_AS(certify(bad), std::invalid_argument);
+}
+
+TEST_CASE("prestress: over a ball friction bears what slides without it") {
+  const Sphere ball(Vec3(0, -0.2, 0), 0.2);
+  Cloth cloth = bumpy(0);
+  for (Vec3& x : cloth.particles.x) {  // rolled on, its middle beside the top
+    const Vec3 flat(x.x() - 0.12, 0, -x.y() - 0.1);
+    const double angle = flat.norm() / 0.2;
+    x = Vec3(0, -0.2, 0) + 0.203 * (std::sin(angle) * flat.normalized() + std::cos(angle) * Vec3::UnitY());
+  }
+  PrestressOptions options;
+  CHECK(prestress(cloth, options, &ball).residual <= 1e-8);
+  options.friction = 0;
+  const PrestressReport report = prestress(cloth, options, &ball);
+  REQUIRE(report.imbalance.size() == 1);
+  CHECK(report.imbalance[0].freedoms == 6);
+  CHECK(report.residual > 1e-3);
+  for (std::size_t i = 0; i < report.touching.size(); ++i) {
+    const Vec3 n = (cloth.particles.x[report.touching[i]] - ball.centre).normalized();
+    CHECK(report.contact_force[i].dot(n) >= 0);
+    CHECK((report.contact_force[i] - report.contact_force[i].dot(n) * n).norm() < 1e-12);
+  }
 }
 
 TEST_CASE("prestress: what is solved stays as drawn in a simulation, hung and on the floor") {
