@@ -2,5 +2,6 @@
 furrow_add_tests(bridge LIBRARIES furrow::bridge SOURCES
   draw_more_test.cpp
   gather_test.cpp
+  store_rest_state_test.cpp
   body_test.cpp
 )
