@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "bridge/convert.h"
 #include "geometry/bending_springs.h"
@@ -13,6 +16,7 @@
 #include "geometry/property_names.h"
 #include "geometry/rest_metric.h"
 #include "geometry/stiffness.h"
+#include "geometry/struts.h"
 #include "physics/membrane.h"
 
 namespace furrow::bridge {
@@ -50,11 +54,29 @@ physics::Spring spring(Vertex a, Vertex b, double rest, double stiffness) {
   return {std::min(i, j), std::max(i, j), require_length(rest, a, b), stiffness};
 }
 
-void sort_by_pair(std::vector<physics::Spring>& springs) {
-  std::sort(springs.begin(), springs.end(), [](const physics::Spring& s, const physics::Spring& t) {
-    return s.a != t.a ? s.a < t.a : s.b < t.b;
-  });
+/// The value of a map where it is set, else `by_law()`.
+template <class Law>
+double stiffness_or(const std::optional<EdgeMap<double>>& map, const Mesh& mesh, Edge e, Law by_law) {
+  if (!map || std::isnan((*map)[e])) return by_law();
+  const double own = (*map)[e];
+  if (!(own >= 0) || !std::isfinite(own))
+    throw ContentError("edge " + std::to_string(mesh.vertex(e, 0).idx()) + "-" +
+                       std::to_string(mesh.vertex(e, 1).idx()) + " has the stiffness " + std::to_string(own) +
+                       "; it must be >= 0 and finite, or unset (nan)");
+  return own;
 }
+
+/// Sorts elements, and their origin with them, by their vertices.
+template <class Element, class Vertices>
+void sort_by(Vertices vertices, std::vector<Element>& elements, std::vector<Edge>& origin) {
+  std::vector<std::pair<Element, Edge>> both;
+  for (std::size_t i = 0; i < elements.size(); ++i) both.emplace_back(elements[i], origin[i]);
+  std::stable_sort(both.begin(), both.end(),
+                   [&](const auto& s, const auto& t) { return vertices(s.first) < vertices(t.first); });
+  for (std::size_t i = 0; i < both.size(); ++i) std::tie(elements[i], origin[i]) = both[i];
+}
+
+std::pair<int, int> ends(const physics::Spring& s) { return {s.a, s.b}; }
 
 physics::Particles particles_of(const Mesh& mesh) {
   const auto mass = *find_map(mesh, kMass);
@@ -79,7 +101,7 @@ class Gatherer {
   Gatherer(const Mesh& mesh, const GatherOptions& options)
       : mesh_(mesh), o_(options), rest_(*find_map(mesh, kRestLength)), rest_of_(rest_lengths(mesh)) {}
 
-  physics::Cloth gather() {
+  GatheredCloth gather() {
     cloth_.particles = particles_of(mesh_);
     cloth_.triangles = triangles_of(mesh_);
     for (Edge e : mesh_.edges()) require_length(rest_[e], mesh_.vertex(e, 0), mesh_.vertex(e, 1));
@@ -91,7 +113,8 @@ class Gatherer {
       add_bending_springs();
     else
       add_hinges();
-    return std::move(cloth_);
+    add_struts();
+    return std::move(result_);
   }
 
  private:
@@ -124,74 +147,102 @@ class Gatherer {
   }
 
   void add_structural_springs() {
-    for (Edge e : mesh_.edges())
-      cloth_.structural.push_back(spring(mesh_.vertex(e, 0), mesh_.vertex(e, 1), rest_[e], stiffness_of(e)));
-    sort_by_pair(cloth_.structural);
+    const auto own = find_map(mesh_, kStiffness);
+    for (Edge e : mesh_.edges()) {
+      const double k = stiffness_or(own, mesh_, e, [&] { return stiffness_of(e); });
+      cloth_.structural.push_back(spring(mesh_.vertex(e, 0), mesh_.vertex(e, 1), rest_[e], k));
+      result_.structural.push_back(e);
+    }
+    sort_by(ends, cloth_.structural, result_.structural);
+  }
+
+  /// The half-edge to the lowest corner, so that a mesh that was saved gives the same bits.
+  Halfedge first_of(Face f) const {
+    Halfedge first = mesh_.halfedge(f);
+    for (Halfedge h : mesh_.halfedges_around_face(first))
+      if (mesh_.target(h) < mesh_.target(first)) first = h;
+    return first;
   }
 
   void add_triangles() {
     const physics::PlaneLame lame = physics::plane_stress(o_.stretch, o_.poisson);
+    const auto own = find_map(mesh_, kTriangleRestLength);
     for (Face f : mesh_.faces()) {
       physics::MembraneTriangle t{{}, {}, lame.lambda, lame.mu};
       int i = 0;
-      Halfedge first =
-          mesh_.halfedge(f);  // to the lowest corner, so that a mesh that was saved gives the same bits
-      for (Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f)))
-        if (mesh_.target(h) < mesh_.target(first)) first = h;
-      for (Halfedge h : mesh_.halfedges_around_face(first)) {
+      for (Halfedge h : mesh_.halfedges_around_face(first_of(f))) {
+        const Halfedge opposite = mesh_.prev(h);  // joins the other two corners
+        const double rest =
+            own && !std::isnan((*own)[opposite]) ? (*own)[opposite] : rest_[mesh_.edge(opposite)];
         t.vertices[i] = static_cast<int>(mesh_.target(h));
-        t.rest_lengths[i] = rest_[mesh_.edge(mesh_.prev(h))];  // joins the other two corners
-        ++i;
+        t.rest_lengths[i++] = require_length(rest, mesh_.source(opposite), mesh_.target(opposite));
       }
-      if (!(rest_area(f) > 0))
+      if (!(triangle_area(t.rest_lengths[0], t.rest_lengths[1], t.rest_lengths[2]) > 0))
         throw ContentError("face " + std::to_string(f.idx()) +
                            " has no area at rest; remove it, or choose a law of springs");
       cloth_.membrane.push_back(t);
+      result_.membrane.push_back(first_of(f));
     }
   }
 
   void add_bending_springs() {
-    for (const BendingSpring& b : bending_springs(mesh_))
-      cloth_.bending.push_back(
-          spring(b.a, b.b, b.rest_length,
-                 b.count * spring_stiffness(b.rest_length, o_.mean_bending_length, o_.bending_stiffness)));
-    sort_by_pair(cloth_.bending);
+    const auto own = find_map(mesh_, kBendingStiffness);
+    for (const BendingSpring& b : bending_springs(mesh_)) {
+      const double k = stiffness_or(own, mesh_, b.across, [&] {
+        return b.count * spring_stiffness(b.rest_length, o_.mean_bending_length, o_.bending_stiffness);
+      });
+      cloth_.bending.push_back(spring(b.a, b.b, b.rest_length, k));
+      result_.bending.push_back(b.across);
+    }
+  }
+
+  void add_struts() {
+    for (const Strut& s : struts(mesh_)) {
+      cloth_.bending.push_back(spring(s.a, s.b, s.rest_length, s.stiffness));
+      result_.bending.push_back(Mesh::null_edge());
+    }
+    sort_by(ends, cloth_.bending, result_.bending);  // of one pair the strut comes last
   }
 
   void add_hinges() {
-    const auto angle = find_map(mesh_, kRestAngle);
+    const auto angle = find_map(mesh_, kRestAngle), own = find_map(mesh_, kHingeStiffness);
     cloth_.hinge_law = o_.bending == Bending::hinge ? physics::HingeLaw::linear : physics::HingeLaw::cosine;
     for (Edge e : mesh_.edges()) {
       if (mesh_.is_border(e)) continue;
       const double areas = areas_beside(e);
-      if (!(areas > 0)) continue;
-      Halfedge h =
-          mesh_.halfedge(e);  // from the lower end, so that a mesh that was saved gives the same bits
+      if (!(areas > 0) && !(own && !std::isnan((*own)[e]))) continue;
+      Halfedge h = mesh_.halfedge(e);  // from the lower end: a mesh that was saved gives the same bits
       if (mesh_.target(h) < mesh_.source(h)) h = mesh_.opposite(h);
       const auto index = [](Vertex v) { return static_cast<int>(v); };
       const double rest = angle && !std::isnan((*angle)[e]) ? (*angle)[e] : 0;
+      const double k = stiffness_or(own, mesh_, e, [&] { return o_.rigidity * rest_[e] * rest_[e] / areas; });
       cloth_.hinges.push_back(
           {{index(mesh_.source(h)), index(mesh_.target(h)), index(mesh_.target(mesh_.next(h))),
             index(mesh_.target(mesh_.next(mesh_.opposite(h))))},
            rest,
-           o_.rigidity * rest_[e] * rest_[e] / areas});
+           k});
+      result_.hinges.push_back(e);
     }
-    std::sort(cloth_.hinges.begin(), cloth_.hinges.end(),
-              [](const physics::Hinge& s, const physics::Hinge& t) { return s.vertices < t.vertices; });
+    sort_by([](const physics::Hinge& h) { return h.vertices; }, cloth_.hinges, result_.hinges);
   }
 
   const Mesh& mesh_;
   const GatherOptions& o_;
   EdgeMap<double> rest_;
   std::vector<double> rest_of_;
-  physics::Cloth cloth_;
+  GatheredCloth result_;
+  physics::Cloth& cloth_ = result_.cloth;
 };
 
 }  // namespace
 
-physics::Cloth gather(const Mesh& mesh, const GatherOptions& options) {
+GatheredCloth gather_with_origin(const Mesh& mesh, const GatherOptions& options) {
   check(mesh, options);
   return Gatherer(mesh, options).gather();
+}
+
+physics::Cloth gather(const Mesh& mesh, const GatherOptions& options) {
+  return gather_with_origin(mesh, options).cloth;
 }
 
 double spring_constant_of(double stretch) { return std::sqrt(3.0) / 2 * stretch; }

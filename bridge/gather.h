@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <vector>
+
 #include "geometry/mesh.h"
 #include "physics/springs.h"
 
@@ -35,13 +37,25 @@ struct GatherOptions {
 };
 
 /// The mesh as plain arrays: particle i is vertex i, its velocity that of v:velocity (0 without that map).
-/// Masses from v:mass, rest lengths from e:rest_length and e:bending_rest_length, rest angles from
-/// e:rest_angle (where it is unset: 0); a bending spring that stands for several hinges has their number
-/// (e:bending_count) times the stiffness. Only what the options choose is filled. A vertex without faces gets
-/// mass 0 and stays where it is. Throws std::invalid_argument if an option is out of its range, a map is
-/// missing, or the mesh has removed elements (collect its garbage first); ContentError for a rest length or a
-/// mass that is not > 0. Cost: O(edges log edges).
+/// Masses from v:mass, rest lengths from e:rest_length (of a triangle h:rest_length where it is set) and
+/// e:bending_rest_length, rest angles from e:rest_angle (where it is unset: 0). Stiffness from e:stiffness,
+/// e:bending_stiffness and e:hinge_stiffness where they are set, else by the options' law; there a bending
+/// spring that stands for several hinges has their number (e:bending_count) times the stiffness. Struts
+/// follow among the bending springs, whatever the law of bending. Only what the options choose is filled. A
+/// vertex without faces gets mass 0 and stays where it is. Throws std::invalid_argument if an option is out
+/// of its range, a map is missing, or the mesh has removed elements (collect its garbage first); ContentError
+/// for a rest length or a mass that is not > 0, a stiffness that is set and not >= 0 and finite, a triangle
+/// without area at rest. Cost: O(edges log edges).
 physics::Cloth gather(const geometry::Mesh& mesh, const GatherOptions& options);
+
+/// A cloth, and where its elements come from, in their order.
+struct GatheredCloth {
+  physics::Cloth cloth;
+  std::vector<geometry::Edge> structural, bending, hinges;  ///< bending: the null edge for a strut
+  std::vector<geometry::Halfedge> membrane;                 ///< to vertices[0] of each triangle, in its face
+};
+/// gather(), with the elements' origin.
+GatheredCloth gather_with_origin(const geometry::Mesh& mesh, const GatherOptions& options);
 
 /// k_std [N/m] with which springs on equilateral triangles are a sheet of Y [N/m] (and of Poisson's ratio
 /// 1/3): k = sqrt(3)/2 Y.

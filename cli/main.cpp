@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   cli::add_wrinkle(app);
   cli::add_strokes(app);
   cli::add_simulate(app, exit_code);
+  cli::add_keep(app, exit_code);
   cli::add_chart(app, exit_code);
   cli::add_sdf(app);
   cli::add_render(app);

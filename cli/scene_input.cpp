@@ -10,6 +10,27 @@ namespace furrow::cli {
 
 bool is_scene(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
 
+io::TomlDocument scene_settings(const std::string& in, const std::string& state_path,
+                                const std::optional<io::SavedState>& state, const SceneFlags& flags,
+                                const CommonArguments& common) {
+  io::TomlDocument document;
+  if (is_scene(in)) {
+    document = io::read_toml(in);
+  } else if (state) {
+    if (!in.empty()) throw UsageError(in + ": --state has its garment; leave the mesh away");
+    document = io::document_of(state->scene, state_path);
+  } else {
+    if (in.empty()) throw UsageError("name a garment, a scene (.toml), or --state");
+    io::set_value(document, "garment.mesh", in, "the garment");
+  }
+  if (common.unit) io::set_value(document, "unit", *common.unit, "--unit");
+  if (common.up) io::set_value(document, "up", *common.up, "--up");
+  for (const char* list : {"lines", "pins"}) io::make_list(document, list);
+  flags.apply(document);
+  for (const char* list : {"lines", "pins"}) io::make_list(document, list);
+  return document;
+}
+
 io::Scene scene_of(const io::TomlDocument& document, const std::filesystem::path& folder) {
   try {
     return io::read_scene(document, folder);

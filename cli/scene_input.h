@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "cli/common.h"
+#include "cli/scene_flags.h"
 #include "io/scene.h"
+#include "io/state_file.h"
 #include "io/toml_document.h"
 
-/// From a file's name to a scene that can be run: what `simulate` and `chart` share.
+/// From a file's name to a scene that can be run: what `simulate`, `keep` and `chart` share.
 namespace furrow::cli {
 
 /// Whether the name is that of a scene file: it ends in .toml.
 bool is_scene(const std::string& path);
+
+/// The settings: those of the scene file or the saved state (null: none), then what the command line says.
+io::TomlDocument scene_settings(const std::string& in, const std::string& state_path,
+                                const std::optional<io::SavedState>& state, const SceneFlags& flags,
+                                const CommonArguments& common);
 
 /// The document as a scene. Throws UsageError for a fault of a flag, geometry::ContentError for one of the
 /// file.

@@ -24,26 +24,6 @@ struct SimulateArguments : CommonArguments {
   SceneFlags flags;
 };
 
-/// The settings: those of the scene file or the saved state, then what the command line says.
-io::TomlDocument settings(const SimulateArguments& a, const std::optional<io::SavedState>& state) {
-  io::TomlDocument document;
-  if (is_scene(a.in)) {
-    document = io::read_toml(a.in);
-  } else if (state) {
-    if (!a.in.empty()) throw UsageError(a.in + ": --state has its garment; leave the mesh away");
-    document = io::document_of(state->scene, a.state);
-  } else {
-    if (a.in.empty()) throw UsageError("simulate takes a garment, a scene (.toml), or --state");
-    io::set_value(document, "garment.mesh", a.in, "the garment");
-  }
-  if (a.unit) io::set_value(document, "unit", *a.unit, "--unit");
-  if (a.up) io::set_value(document, "up", *a.up, "--up");
-  for (const char* list : {"lines", "pins"}) io::make_list(document, list);
-  a.flags.apply(document);
-  for (const char* list : {"lines", "pins"}) io::make_list(document, list);
-  return document;
-}
-
 /// Files that are read; no output may replace one, but the garment itself, by its result.
 std::vector<std::string> inputs(const io::Scene& scene, const SimulateArguments& a) {
   std::vector<std::string> files;
@@ -120,7 +100,7 @@ Judgement choose_setting(const SimulateArguments& a, const CommonArguments& comm
 int simulate(SimulateArguments& a) {
   std::optional<io::SavedState> state;
   if (!a.state.empty()) state = io::read_state(a.state);
-  io::TomlDocument document = settings(a, state);
+  io::TomlDocument document = scene_settings(a.in, a.state, state, a.flags, a);
   const std::filesystem::path folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
   io::Scene scene = scene_of(document, folder);
   if (state && !a.flags.accuracy().empty())

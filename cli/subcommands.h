@@ -15,6 +15,8 @@ void add_strokes(CLI::App& app);
 void add_simulate(CLI::App& app, int& exit_code);
 /// Sets exit_code where nothing meets the tolerance, or the judgement was broken off.
 void add_chart(CLI::App& app, int& exit_code);
+/// Sets exit_code where a line cannot hold, or the work was interrupted.
+void add_keep(CLI::App& app, int& exit_code);
 void add_sdf(CLI::App& app);
 void add_render(CLI::App& app);
 void add_transfer(CLI::App& app);

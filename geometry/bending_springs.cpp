@@ -48,28 +48,42 @@ std::vector<Candidate> candidates(const Mesh& mesh, std::span<const Edge> edges)
   return result;
 }
 
-/// Gives each pair's spring to its first candidate; `known_rest` (by pair, sorted) goes before the distance.
-void hand_out(Mesh& mesh, std::span<const Candidate> sorted,
-              std::span<const std::pair<Pair, double>> known_rest) {
+/// A spring that there was before, and stays.
+struct Known {
+  Pair pair;
+  double rest_length, stiffness;
+  int count;
+};
+
+/// Gives each pair's spring to its first candidate; what is `known` (sorted by pair) goes before the
+/// distance. A stiffness stays if as many edges share the spring as before.
+void hand_out(Mesh& mesh, std::span<const Candidate> sorted, std::span<const Known> all_known) {
   auto rest = ensure_map(mesh, kBendingRestLength);
   auto count = ensure_map(mesh, kBendingCount);
+  const auto stiffness = find_map(mesh, kBendingStiffness);
   for (std::size_t i = 0, next = 0; i < sorted.size(); i = next) {
     while (next < sorted.size() && sorted[next].pair == sorted[i].pair) ++next;
     const Pair& pair = sorted[i].pair;
-    const auto known = std::lower_bound(known_rest.begin(), known_rest.end(), pair,
-                                        [](const auto& entry, const Pair& p) { return entry.first < p; });
-    const bool is_known = known != known_rest.end() && known->first == pair;
+    const auto known = std::lower_bound(all_known.begin(), all_known.end(), pair,
+                                        [](const Known& k, const Pair& p) { return k.pair < p; });
+    const bool is_known = known != all_known.end() && known->pair == pair;
     rest[sorted[i].edge] =
-        is_known ? known->second
+        is_known ? known->rest_length
                  : std::sqrt(CGAL::squared_distance(mesh.point(pair.first), mesh.point(pair.second)));
     count[sorted[i].edge] = static_cast<int>(next - i);
+    if (stiffness && is_known && known->count == count[sorted[i].edge])
+      (*stiffness)[sorted[i].edge] = known->stiffness;
   }
 }
 
 void clear(Mesh& mesh, std::span<const Edge> edges) {
   auto rest = ensure_map(mesh, kBendingRestLength);
   auto count = ensure_map(mesh, kBendingCount);
-  for (Edge e : edges) rest[e] = kUnset, count[e] = 0;
+  const auto stiffness = find_map(mesh, kBendingStiffness);
+  for (Edge e : edges) {
+    rest[e] = kUnset, count[e] = 0;
+    if (stiffness) (*stiffness)[e] = kUnset;
+  }
 }
 
 /// Edges of all faces that touch a corner of `changed`, each once: whatever pair of vertices lost or gained
@@ -88,11 +102,12 @@ std::vector<Edge> edges_around(const Mesh& mesh, std::span<const Face> changed) 
   return edges;
 }
 
-/// Rest lengths of the springs across edges whose two faces did not change: their pairs are what they were.
-std::vector<std::pair<Pair, double>> known_rest_lengths(const Mesh& mesh, std::span<const Edge> edges,
-                                                        std::span<const Face> changed) {
-  std::vector<std::pair<Pair, double>> known;
-  const auto rest = find_map(mesh, kBendingRestLength);
+/// The springs across edges whose two faces did not change: their pairs are what they were.
+std::vector<Known> known_springs(const Mesh& mesh, std::span<const Edge> edges,
+                                 std::span<const Face> changed) {
+  std::vector<Known> known;
+  const auto rest = find_map(mesh, kBendingRestLength), stiffness = find_map(mesh, kBendingStiffness);
+  const auto count = find_map(mesh, kBendingCount);
   if (!rest) return known;
   std::vector<Face> sorted(changed.begin(), changed.end());
   std::sort(sorted.begin(), sorted.end());
@@ -103,9 +118,12 @@ std::vector<std::pair<Pair, double>> known_rest_lengths(const Mesh& mesh, std::s
     const Halfedge h = mesh.halfedge(e);
     if (mesh.is_border(e) || std::isnan((*rest)[e]) || is_changed(h) || is_changed(mesh.opposite(h)))
       continue;
-    known.emplace_back(opposite_pair(mesh, e), (*rest)[e]);
+    known.push_back(
+        {opposite_pair(mesh, e), (*rest)[e], stiffness ? (*stiffness)[e] : kUnset, count ? (*count)[e] : 0});
   }
-  std::sort(known.begin(), known.end());
+  std::sort(known.begin(), known.end(), [](const Known& k, const Known& l) {
+    return std::tie(k.pair, k.rest_length) < std::tie(l.pair, l.rest_length);
+  });
   return known;
 }
 
@@ -130,7 +148,7 @@ void rebuild_bending_springs(Mesh& mesh, std::span<const Face> changed) {
       if (!mesh.is_border(h) && mesh.next(mesh.next(mesh.next(h))) != h)
         throw ContentError("rebuild_bending_springs: face " + std::to_string(mesh.face(h).idx()) +
                            " is no triangle; triangulate the mesh first");
-  const auto known = known_rest_lengths(mesh, edges, changed);
+  const auto known = known_springs(mesh, edges, changed);
   const std::vector<Candidate> around = candidates(mesh, edges);
   // A pair with neither vertex at `changed` may be seen here in part only, and did not change: leave it
   // alone.

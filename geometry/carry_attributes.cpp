@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "geometry/struts.h"
+
 namespace furrow::geometry {
 
 SavedAttributes::SavedAttributes(const Mesh& mesh) : old_vertices_(mesh.number_of_vertices()) {
@@ -56,15 +58,15 @@ void SavedAttributes::restore(Mesh& mesh, const std::function<Face(Face)>& paren
 }
 
 void unset_rest_state(Mesh& mesh) {
-  const auto rest = find_map(mesh, kRestLength), bending = find_map(mesh, kBendingRestLength);
-  const auto count = find_map(mesh, kBendingCount);
-  const auto angle = find_map(mesh, kRestAngle);
-  for (Edge e : mesh.edges()) {
-    if (rest) (*rest)[e] = kRestLength.default_value;
-    if (bending) (*bending)[e] = kBendingRestLength.default_value;
-    if (count) (*count)[e] = kBendingCount.default_value;
-    if (angle) (*angle)[e] = kRestAngle.default_value;
-  }
+  for (const auto* name :
+       {&kRestLength, &kBendingRestLength, &kRestAngle, &kStiffness, &kBendingStiffness, &kHingeStiffness})
+    if (const auto map = find_map(mesh, *name))
+      for (Edge e : mesh.edges()) (*map)[e] = name->default_value;
+  if (const auto count = find_map(mesh, kBendingCount))
+    for (Edge e : mesh.edges()) (*count)[e] = kBendingCount.default_value;
+  if (const auto rest = find_map(mesh, kTriangleRestLength))
+    for (Halfedge h : mesh.halfedges()) (*rest)[h] = kTriangleRestLength.default_value;
+  set_struts(mesh, {});
   if (const auto mass = find_map(mesh, kMass))
     for (Vertex v : mesh.vertices()) (*mass)[v] = kMass.default_value;
 }

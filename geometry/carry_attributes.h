@@ -39,7 +39,8 @@ class SavedAttributes {
   std::vector<int> group_, material_;
 };
 
-/// Rest lengths, bending springs and masses of the whole mesh become unset, where the mesh has such maps.
+/// Rest lengths and angles, bending springs, stiffnesses and masses of the whole mesh become unset, where the
+/// mesh has such maps; its struts are dropped.
 void unset_rest_state(Mesh& mesh);
 
 }  // namespace furrow::geometry

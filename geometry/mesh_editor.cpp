@@ -40,8 +40,12 @@ MeshEditor::MeshEditor(Mesh& mesh)
       group_(find_map(mesh, kGroup)),
       material_(find_map(mesh, kMaterial)),
       bending_(find_map(mesh, kBendingRestLength)),
+      stiffness_(find_map(mesh, kStiffness)),
+      bending_stiffness_(find_map(mesh, kBendingStiffness)),
+      hinge_stiffness_(find_map(mesh, kHingeStiffness)),
       bending_count_(find_map(mesh, kBendingCount)),
-      rest_angle_(find_map(mesh, kRestAngle)) {}
+      rest_angle_(find_map(mesh, kRestAngle)),
+      triangle_rest_(find_map(mesh, kTriangleRestLength)) {}
 
 /// Texture coordinate of `vertex` in the face of `inside`.
 TextureCoordinate MeshEditor::corner_in(Halfedge inside, Vertex vertex) const {
@@ -54,13 +58,19 @@ void MeshEditor::copy_face(Face from, Face to) {
   if (group_) (*group_)[to] = (*group_)[from];
   if (material_) (*material_)[to] = (*material_)[from];
   generation_[to] = generation_[from];
+  unset_triangle(to);
   changed_.insert(to);
 }
 
 void MeshEditor::unset_springs(Edge edge) {
-  if (bending_) (*bending_)[edge] = kUnset;
+  for (auto* map : {&bending_, &rest_angle_, &stiffness_, &bending_stiffness_, &hinge_stiffness_})
+    if (*map) (**map)[edge] = kUnset;
   if (bending_count_) (*bending_count_)[edge] = 0;
-  if (rest_angle_) (*rest_angle_)[edge] = kUnset;
+}
+
+void MeshEditor::unset_triangle(Face face) {
+  if (!triangle_rest_) return;
+  for (Halfedge h : halfedges_of(mesh_, face)) (*triangle_rest_)[h] = kUnset;
 }
 
 Vertex MeshEditor::split_face(const FacePoint& point) {
@@ -168,6 +178,7 @@ void MeshEditor::flip_edge(Edge edge) {
   unset_springs(edge);
   for (Face face : faces) {
     generation_[face] = generation;
+    unset_triangle(face);
     changed_.insert(face);
   }
   if (!texture_) return;

@@ -17,7 +17,8 @@ namespace furrow::geometry {
 class MeshEditor {
  public:
   /// Adds the maps for rest lengths (in-space lengths where unset), rest positions (positions where unset),
-  /// lines, line edges and generations.
+  /// lines, line edges and generations. An edge of a changed face loses its bending spring, rest angle and
+  /// stiffnesses, a changed face the rest lengths of its own: they become unset.
   explicit MeshEditor(Mesh& mesh);
 
   /// Splits a face in three at a point strictly inside.
@@ -51,6 +52,7 @@ class MeshEditor {
                   const std::array<TextureCoordinate, 3>& texture, double t);
   void copy_face(Face from, Face to);
   void unset_springs(Edge edge);
+  void unset_triangle(Face face);
 
   Mesh& mesh_;
   EdgeMap<double> rest_;
@@ -60,9 +62,10 @@ class MeshEditor {
   std::optional<HalfedgeMap<TextureCoordinate>> texture_;
   VertexBlend blend_;
   std::optional<FaceMap<int>> group_, material_;
-  std::optional<EdgeMap<double>> bending_;
+  std::optional<EdgeMap<double>> bending_, stiffness_, bending_stiffness_, hinge_stiffness_;
   std::optional<EdgeMap<int>> bending_count_;
   std::optional<EdgeMap<double>> rest_angle_;
+  std::optional<HalfedgeMap<double>> triangle_rest_;
   std::set<Face> changed_;
 };
 

@@ -42,13 +42,18 @@ inline constexpr PropertyName<Vertex, RestPosition> kRestPosition{"v:rest_positi
                                                                   {kUnset, kUnset, kUnset}};
 /// Rest length of the structural spring on an edge [m].
 inline constexpr PropertyName<Edge, double> kRestLength{"e:rest_length", kUnset};
-/// Rest length of the bending spring that joins the two vertices opposite an edge [m]; NaN = this edge has
-/// none.
+/// Rest length of the bending spring that joins the two vertices opposite an edge [m]; NaN = none.
 inline constexpr PropertyName<Edge, double> kBendingRestLength{"e:bending_rest_length", kUnset};
 /// How many edges share the bending spring of this one (two hinges with one vertex pair); 0 = no spring.
 inline constexpr PropertyName<Edge, int> kBendingCount{"e:bending_count", 0};
 /// Angle at rest between the two faces of an edge [rad]; NaN = as the shape lies, or a border.
 inline constexpr PropertyName<Edge, double> kRestAngle{"e:rest_angle", kUnset};
+/// Stiffness of the structural spring of an edge [N/m], of its bending spring, whatever that one's count
+/// [N/m], and of its hinge [N m]; >= 0; NaN = by the law that the material chooses (bridge/gather.h).
+inline constexpr PropertyName<Edge, double> kStiffness{"e:stiffness", kUnset},
+    kBendingStiffness{"e:bending_stiffness", kUnset}, kHingeStiffness{"e:hinge_stiffness", kUnset};
+/// Rest length of edge(h) in the membrane triangle of face(h) alone [m]; NaN = kRestLength, as its neighbour.
+inline constexpr PropertyName<Halfedge, double> kTriangleRestLength{"h:rest_length", kUnset};
 /// Edge of a drawn line, in a chain of line vertices: it is never flipped.
 inline constexpr PropertyName<Edge, bool> kLineEdge{"e:line_edge", false};
 /// Texture coordinate of the corner of face(h) at target(h).

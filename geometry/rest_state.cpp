@@ -11,6 +11,7 @@
 #include "geometry/preconditions.h"
 #include "geometry/property_names.h"
 #include "geometry/rest_angles.h"
+#include "geometry/struts.h"
 
 namespace furrow::geometry {
 namespace {
@@ -48,6 +49,19 @@ std::size_t turn_hinges(Mesh& mesh, const RestSnapshot& before) {
   return turned;
 }
 
+/// Returns how many rest lengths changed.
+std::size_t carry_struts(Mesh& mesh, const Change& change) {
+  std::vector<Strut> list = struts(mesh);
+  std::size_t scaled = 0;
+  for (Strut& s : list) {
+    if (!change.touches(s.a, s.b)) continue;
+    s.rest_length = change.carried(s.rest_length, s.a, s.b);
+    ++scaled;
+  }
+  if (scaled) set_struts(mesh, list);
+  return scaled;
+}
+
 }  // namespace
 
 RestSnapshot take_rest_snapshot(const Mesh& mesh) {
@@ -72,10 +86,13 @@ RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule
   if (rule == RestRule::flat) return report;
   const Change change(mesh, before);
   auto rest = ensure_map(mesh, kRestLength);
+  const auto own = find_map(mesh, kTriangleRestLength);
   for (Edge e : mesh.edges()) {
     const Vertex a = mesh.vertex(e, 0), b = mesh.vertex(e, 1);
     if (!change.touches(a, b)) continue;
     rest[e] = change.carried(rest[e], a, b);
+    for (Halfedge h : {mesh.halfedge(e), mesh.opposite(mesh.halfedge(e))})
+      if (own && !std::isnan((*own)[h])) (*own)[h] = change.carried((*own)[h], a, b);
     ++report.scaled_edges;
   }
   for (const BendingSpring& s : bending_springs(mesh)) {
@@ -83,7 +100,8 @@ RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule
     (*find_map(mesh, kBendingRestLength))[s.across] = change.carried(s.rest_length, s.a, s.b);
     ++report.scaled_bending_springs;
   }
-  report.turned_hinges = turn_hinges(mesh, before);
+  report.scaled_struts = carry_struts(mesh, change);
+  if (rule == RestRule::copied) report.turned_hinges = turn_hinges(mesh, before);
   return report;
 }
 

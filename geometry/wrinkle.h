@@ -55,9 +55,10 @@ using StageObserver = std::function<void(Stage, const Mesh&)>;
 /// normals, smooths, rebuilds the bending springs, and updates rest lengths and masses (method, Algorithm 1,
 /// steps 2 to 4). All lines are inserted into the undisplaced surface, one after the other; then all are
 /// displaced, and smoothed once. Sets kLine, kLineEdge, kRestLength, kBendingRestLength, kBendingCount,
-/// kRestAngle, kMass. An unset rest length is the length as it is. Throws std::invalid_argument for an option
-/// out of its range and ContentError for a stroke that cannot be used; the mesh is then as it was. Cost:
-/// about O(faces log faces) for each stroke.
+/// kRestAngle, kMass; options.rest says what of the rest state learns of the displacement. An unset rest
+/// length is the length as it is. Throws std::invalid_argument for an option out of its range and
+/// ContentError for a stroke that cannot be used; the mesh is then as it was. Cost: about O(faces log faces)
+/// for each stroke.
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options = {},
                       const StageObserver& observer = {});
 

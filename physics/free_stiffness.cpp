@@ -20,7 +20,6 @@ FreeStiffness::FreeStiffness(const Cloth& cloth) {
     sequence.push_back({row_[i], row_[j]});
   });
   make_pattern(sequence);
-  if (free_particles_ > 0) factor_.analyzePattern(matrix_);
 }
 
 /// Columns of the lower triangle: of block column c its diagonal block from the diagonal down, then the
@@ -70,8 +69,27 @@ void FreeStiffness::assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffn
   if (next != place_.size()) throw std::invalid_argument("FreeStiffness: the cloth has fewer elements now");
 }
 
+void FreeStiffness::add(int particle, const Mat3& block) {
+  if (row_[particle] < 0) return;
+  for (int e = 0; e < 3; ++e) {  // each column begins with its diagonal
+    double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * row_[particle] + e];
+    for (int f = e; f < 3; ++f) column[f - e] += block(f, e);
+  }
+}
+
+bool FreeStiffness::factorise_definite(double shift) {
+  is_definite_ = true;
+  if (free_particles_ == 0) return true;
+  if (!definite_analysed_) definite_.analyse(matrix_);
+  definite_analysed_ = true;
+  return definite_.factorise(matrix_, shift);
+}
+
 int FreeStiffness::factorise(double shift) {
+  is_definite_ = false;
   if (free_particles_ == 0) return 0;
+  if (!analysed_) factor_.analyzePattern(matrix_);
+  analysed_ = true;
   factor_.setShift(shift);
   factor_.factorize(matrix_);
   if (factor_.info() != Eigen::Success || !factor_.vectorD().allFinite()) return -1;
@@ -83,7 +101,8 @@ void FreeStiffness::solve(std::span<Vec3> b) const {
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (row_[i] >= 0) y.segment<3>(3 * row_[i]) = b[i];
   }
-  if (free_particles_ > 0) y = factor_.solve(y).eval();
+  if (free_particles_ > 0 && is_definite_) definite_.solve(y);
+  if (free_particles_ > 0 && !is_definite_) y = factor_.solve(y).eval();
   for (std::size_t i = 0; i < b.size(); ++i) {
     b[i].setZero();
     if (row_[i] >= 0) b[i] = y.segment<3>(3 * row_[i]);

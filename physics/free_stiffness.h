@@ -6,16 +6,17 @@
 #include <span>
 #include <vector>
 
+#include "physics/block_cholesky.h"
 #include "physics/elements.h"
 
 namespace furrow::physics {
 
-/// The stiffness matrix K [N/m] of the particles that are not held (inv_mass > 0), sparse, and its factors
-/// L D L^T. Where the blocks lie, the order of elimination (approximate minimum degree) and the factor's
-/// pattern are found once; assembly and factorisation use them again.
+/// The stiffness matrix K [N/m] of the particles that are not held (inv_mass > 0), sparse, and its factors.
+/// Where the blocks lie, the order of elimination (approximate minimum degree) and the factor's pattern are
+/// found once; assembly and factorisation use them again.
 class FreeStiffness {
  public:
-  /// Cost: O(blocks log blocks) and the symbolic factorisation. Throws std::invalid_argument if the
+  /// Cost: O(blocks log blocks) and later the symbolic factorisation. Throws std::invalid_argument if the
   /// particles' arrays differ in length, and as add_stiffness().
   explicit FreeStiffness(const Cloth& cloth);
 
@@ -24,11 +25,19 @@ class FreeStiffness {
   /// blocks, and as add_stiffness().
   void assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffness stiffness);
 
-  /// Factorises K + shift I, shift [N/m]. The number of its negative eigenvalues (negative pivots:
+  /// Adds a symmetric block [N/m] to K's diagonal block of a particle, until the next assemble(); a held
+  /// particle's is left out.
+  void add(int particle, const Mat3& block);
+
+  /// Factorises K + shift I = L D L^T, shift [N/m]. The number of its negative eigenvalues (negative pivots:
   /// Sylvester's law of inertia), -1 if a pivot is 0 or not finite. Pivots are not permuted: what is not
   /// positive definite should be used with care.
   int factorise(double shift = 0);
-  /// b becomes the solution in rows of free particles, 0 in the others. Needs factorise() >= 0.
+  /// K + shift I = L L^T by dense fronts (BlockCholesky), several times faster for thousands of particles;
+  /// false if it is not positive definite.
+  bool factorise_definite(double shift = 0);
+  /// b becomes the solution in rows of free particles, 0 in the others. Needs
+  /// factorise() >= 0 or factorise_definite() true, whichever was last.
   void solve(std::span<Vec3> b) const;
 
   /// Mean of the diagonal of K [N/m], 0 if nothing is free: a scale for shifts.
@@ -44,6 +53,9 @@ class FreeStiffness {
   std::vector<std::array<int, 3>> place_;  ///< of each block: its columns' first values; -1: left out
   Sparse matrix_;                          ///< lower triangle
   Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor_;
+  BlockCholesky definite_;
+  bool analysed_ = false, definite_analysed_ = false;  // each when it is first needed
+  bool is_definite_ = false;                           // whether the last factors are those of definite_
 };
 
 }  // namespace furrow::physics

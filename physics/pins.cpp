@@ -19,12 +19,20 @@ void pin(Particles& particles, std::span<const int> indices) {
   }
 }
 
-void stiffen_clamps(Cloth& cloth) {
+namespace {
+
+void scale_clamps(Cloth& cloth, double factor) {
   const auto held = [&](int i) { return cloth.particles.inv_mass[i] == 0; };
   for (Hinge& h : cloth.hinges) {
     const auto& [a, b, left, right] = h.vertices;
-    if (held(a) && held(b) && held(left) != held(right)) h.stiffness *= 2;
+    if (held(a) && held(b) && held(left) != held(right)) h.stiffness *= factor;
   }
 }
+
+}  // namespace
+
+void stiffen_clamps(Cloth& cloth) { scale_clamps(cloth, 2); }
+
+void soften_clamps(Cloth& cloth) { scale_clamps(cloth, 0.5); }
 
 }  // namespace furrow::physics

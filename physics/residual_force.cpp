@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "physics/elements.h"
 
@@ -23,9 +25,14 @@ double after_contact(const Vec3& f, const Vec3& n, double friction) {
 }  // namespace
 
 double residual_force(const Cloth& cloth, const Vec3& gravity, const Collider* collider, double friction,
-                      double gap) {
+                      double gap, std::span<const Vec3> loads) {
   const Particles& p = cloth.particles;
   std::vector<Vec3> force(p.size(), Vec3::Zero());
+  if (!loads.empty() && loads.size() != p.size()) {
+    throw std::invalid_argument("residual_force: " + std::to_string(p.size()) + " particles, but " +
+                                std::to_string(loads.size()) + " loads");
+  }
+  std::copy(loads.begin(), loads.end(), force.begin());
   add_forces(cloth, p.x, force);
   const double g = gravity.norm() > 0 ? gravity.norm() : standard_gravity;
   double largest = 0;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <span>
+
 #include "physics/collider.h"
 #include "physics/springs.h"
 
@@ -10,8 +12,9 @@ namespace furrow::physics {
 /// + 1e-5 m away, relative to the particle's weight m |gravity| (standard gravity 9.81 m/s^2 where gravity is
 /// 0). With -f = w split along the field's normal, w_n and w_t, what contact cannot take is
 ///   0 if |w_t| <= mu w_n;   |w| if w_n <= -mu |w_t|;   (|w_t| - mu w_n) / sqrt(1 + mu^2) between.
-/// collider may be null. 0 if nothing can move. Cost: one force evaluation, one query a particle.
+/// collider may be null. loads: further forces that act whatever moves, one a particle [N]; may be empty. 0
+/// if nothing can move. Cost: one force evaluation, one query a particle.
 double residual_force(const Cloth& cloth, const Vec3& gravity, const Collider* collider, double friction,
-                      double gap);
+                      double gap, std::span<const Vec3> loads = {});
 
 }  // namespace furrow::physics

@@ -131,11 +131,11 @@ TEST_CASE("a local rebuild after random splits and flips equals the whole one") 
   }));
 }
 
-TEST_CASE("a local rebuild leaves the rest lengths elsewhere") {
+TEST_CASE("a local rebuild leaves rest lengths and stiffness elsewhere, a whole one none") {
   Mesh mesh = grid(8, 8);
   rebuild_bending_springs(mesh);
-  auto rest = *find_map(mesh, kBendingRestLength);
-  for (Edge e : mesh.edges()) rest[e] *= 3;
+  auto rest = *find_map(mesh, kBendingRestLength), stiffness = ensure_map(mesh, kBendingStiffness);
+  for (Edge e : mesh.edges()) rest[e] *= 3, stiffness[e] = rest[e] + 1;
   const auto before = bending_springs(mesh);
   const Edge e = mesh.edge(mesh.halfedge(Vertex(40), Vertex(41)));
   const Halfedge h = mesh.halfedge(e);
@@ -147,10 +147,16 @@ TEST_CASE("a local rebuild leaves the rest lengths elsewhere") {
     const auto old =
         std::find_if(before.begin(), before.end(), [&](const auto& t) { return t.across == s.across; });
     const double distance = std::sqrt(CGAL::squared_distance(mesh.point(s.a), mesh.point(s.b)));
-    if (old->rest_length == s.rest_length) continue;
+    if (old->rest_length == s.rest_length) {
+      CHECK((stiffness[s.across] == s.rest_length + 1 || old->count != s.count));
+      continue;
+    }
     ++anew;
+    CHECK(std::isnan(stiffness[s.across]));
     CHECK(s.rest_length == distance);
   }
   CHECK(anew == 5);  // the flipped edge and the four around it
   CHECK_THROWS_AS(rebuild_bending_springs(mesh, std::vector{Face(9999)}), std::invalid_argument);
+  rebuild_bending_springs(mesh);
+  for (Edge s : mesh.edges()) CHECK(std::isnan(stiffness[s]));
 }

@@ -46,7 +46,7 @@ TEST_CASE("rest angles are measured where they are unset, and only there") {
   CHECK(rest[ridge(mesh)] == Approx(0.7));
 }
 
-TEST_CASE("lines of height 0 leave rest angles, drawn lines bring their own") {
+TEST_CASE("lines of height 0 leave rest angles, copied lines bring their own, drawn and flat ones do not") {
   Mesh mesh = grid(12, 12);
   for (Vertex v : mesh.vertices()) {  // a cylinder
     const Point p = mesh.point(v);
@@ -63,17 +63,25 @@ TEST_CASE("lines of height 0 leave rest angles, drawn lines bring their own") {
   for (Edge e : mesh.edges())
     if (!mesh.is_border(e)) CHECK(rest[e] == Approx(dihedral_angle(mesh, e)).margin(1e-12));
 
-  Mesh drawn = before, flat = before;
   stroke.height = 0.05;
-  wrinkle(drawn, std::span(&stroke, 1), options);
-  options.rest = RestRule::flat;
-  wrinkle(flat, std::span(&stroke, 1), options);
+  const auto with = [&](RestRule rule) {
+    Mesh drawn = before;
+    options.rest = rule;
+    wrinkle(drawn, std::span(&stroke, 1), options);
+    return drawn;
+  };
+  const Mesh copied = with(RestRule::copied), drawn = with(RestRule::drawn), flat = with(RestRule::flat);
   double largest = 0;
-  for (Edge e : drawn.edges()) {
-    if (drawn.is_border(e)) continue;
-    const double angle = dihedral_angle(drawn, e);
-    CHECK((*find_map(drawn, kRestAngle))[e] == Approx(angle).margin(1e-12));
-    largest = std::max(largest, std::abs(angle - (*find_map(flat, kRestAngle))[e]));
+  for (Edge e : copied.edges()) {
+    const auto of = [&](const Mesh& m, const auto& name) { return (*find_map(m, name))[e]; };
+    CHECK(of(copied, kRestLength) == of(drawn, kRestLength));
+    if (!std::isnan(of(copied, kBendingRestLength)))
+      CHECK(of(copied, kBendingRestLength) == of(drawn, kBendingRestLength));
+    if (copied.is_border(e)) continue;
+    const double angle = dihedral_angle(copied, e);
+    CHECK(of(copied, kRestAngle) == Approx(angle).margin(1e-12));
+    CHECK(of(drawn, kRestAngle) == of(flat, kRestAngle));
+    largest = std::max(largest, std::abs(angle - of(drawn, kRestAngle)));
   }
   CHECK(largest > 0.2);
 }

@@ -74,6 +74,28 @@ TEST_CASE("the flat rest state changes nothing, neither does a line of height ze
   CHECK(rest_area(mesh) == area);
 }
 
+TEST_CASE("a face's own rest lengths carry their strain over, stiffness keeps its bits") {
+  Mesh mesh = strained_sheet();
+  auto own = ensure_map(mesh, kTriangleRestLength);
+  auto stiffness = ensure_map(mesh, kStiffness), hinge = ensure_map(mesh, kHingeStiffness);
+  const Vertex lifted(24);
+  for (Halfedge h : mesh.halfedges_around_target(mesh.halfedge(lifted)))
+    own[h] = spatial_length(mesh, mesh.edge(h)) / 1.1;  // of one of the two faces of each edge
+  for (Edge e : mesh.edges()) stiffness[e] = 1 + e.idx(), hinge[e] = 2 + e.idx();
+  const RestSnapshot snapshot = take_rest_snapshot(mesh);
+  mesh.point(lifted) += Vector(0, 0, 0.1);
+  apply_rest_rule(mesh, snapshot, RestRule::drawn);
+  for (Halfedge h : mesh.halfedges())
+    if (mesh.target(h) == lifted)
+      CHECK(spatial_length(mesh, mesh.edge(h)) / own[h] == Approx(1.1).epsilon(1e-14));
+    else
+      CHECK(std::isnan(own[h]));
+  for (Edge e : mesh.edges()) {
+    CHECK(stiffness[e] == 1 + e.idx());
+    CHECK(hinge[e] == 2 + e.idx());
+  }
+}
+
 TEST_CASE("rest lengths that nobody set become the length after, also where the length before was zero") {
   Mesh mesh = grid(3, 3);
   mesh.point(Vertex(5)) = mesh.point(Vertex(6));

@@ -7,6 +7,8 @@ furrow_add_tests(geometry LIBRARIES furrow::geometry SOURCES
   bending_springs_test.cpp
   rest_angles_test.cpp
   rest_state_test.cpp
+  struts_test.cpp
+  mesh_editor_test.cpp
   masses_test.cpp
   stiffness_test.cpp
   line_height_test.cpp

@@ -62,8 +62,32 @@ TEST_CASE("the stiffness of free particles: solutions, signs and scale agree wit
       }
       const Eigen::VectorXd rest = matrix * solution + 2 * std::abs(values[0]) * solution - right;
       CHECK(rest.norm() < 1e-9 * right.norm());
+      CHECK_FALSE(k.factorise_definite(-0.5 * (values[9] + values[10])));
+      REQUIRE(k.factorise_definite(2 * std::abs(values[0])));
+      std::vector<Vec3> same = b;
+      k.solve(same);
+      for (std::size_t i = 0; i < u.size(); ++i) CHECK((same[i] - u[i]).norm() < 1e-9 * u[1].norm());
     }
   }
+}
+
+TEST_CASE("the stiffness of free particles: blocks that are added count until the next assembly") {
+  Cloth cloth = crumpled(0);
+  FreeStiffness k(cloth);
+  k.assemble(cloth, cloth.particles.x, Stiffness::positive_part);
+  const double mean = k.mean_diagonal();
+  const Mat3 block = 1e4 * (Mat3::Identity() + 0.5 * Mat3::Ones());
+  for (int i = 0; i < 16; ++i) k.add(i, block);  // pins take none
+  CHECK(k.mean_diagonal() == Approx(mean + 1.5e4));
+  REQUIRE(k.factorise_definite());
+  Eigen::MatrixXd matrix = dense(cloth, Stiffness::positive_part);
+  for (int i = 0; i < 13; ++i) matrix.block<3, 3>(3 * i, 3 * i) += block;
+  std::vector<Vec3> u(16, Vec3(1, 2, 3));
+  k.solve(u);
+  const Eigen::VectorXd exact = matrix.llt().solve(Vec3(1, 2, 3).replicate(13, 1));
+  CHECK((u[1] - exact.head<3>()).norm() < 1e-12 * exact.norm());
+  k.assemble(cloth, cloth.particles.x, Stiffness::positive_part);
+  CHECK(k.mean_diagonal() == mean);
 }
 
 TEST_CASE("the stiffness of free particles: nothing free, and a cloth that changed") {
@@ -77,6 +101,7 @@ TEST_CASE("the stiffness of free particles: nothing free, and a cloth that chang
   FreeStiffness none(cloth);
   none.assemble(cloth, cloth.particles.x, Stiffness::exact);
   CHECK(none.factorise() == 0);
+  CHECK(none.factorise_definite());
   CHECK(none.mean_diagonal() == 0);
   std::vector<Vec3> b(cloth.particles.size(), Vec3::Ones());
   none.solve(b);

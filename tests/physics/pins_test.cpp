@@ -39,7 +39,11 @@ TEST_CASE("hinges between a held and a free flap count double, others do not") {
   const auto stiffness = [&](const std::vector<int>& pinned) {
     Cloth copy = cloth;
     for (const int i : pinned) copy.particles.inv_mass[i] = 0;
+    const Cloth before = copy;
     stiffen_clamps(copy);
+    Cloth back = copy;
+    soften_clamps(back);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(back.hinges[i].stiffness == before.hinges[i].stiffness);
     return std::array{copy.hinges[0].stiffness, copy.hinges[1].stiffness, copy.hinges[2].stiffness};
   };
   CHECK(stiffness({}) == std::array{3.0, 3.0, 3.0});

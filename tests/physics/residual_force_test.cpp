@@ -44,3 +44,14 @@ TEST_CASE("residual force takes the best contact force in the friction cone") {
   CHECK(residual({0.1, 2, 0}, 0.003) == Approx(std::hypot(0.1, 1)));                     // polar cone
   CHECK(residual({0.49, 0, 0}, 0.0031) == Approx(std::hypot(0.49, 1)));                  // no contact
 }
+
+TEST_CASE("residual force: loads count with the weight, one a particle") {
+  Cloth cloth = pendulum(0.2, 40, 1, {0, -1, 0});
+  const Vec3 g(0, -9.81, 0);
+  std::vector<Vec3> loads{Vec3(5, 5, 5), -0.2 * g};  // that on a pin does not count
+  CHECK(residual_force(cloth, g, nullptr, 0, 0.003, loads) < 1e-12);
+  loads[1].x() = 0.2 * 9.81;
+  CHECK(residual_force(cloth, g, nullptr, 0, 0.003, loads) == Approx(1));
+  loads.pop_back();
+  CHECK_THROWS_WITH(residual_force(cloth, g, nullptr, 0, 0.003, loads), Catch::Contains("1 loads"));
+}

@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   animated_body_test.cpp
+  block_cholesky_test.cpp
+  certificate_test.cpp
   compensation_test.cpp
   contact_test.cpp
   damping_sweep_test.cpp
   drop_on_ball_test.cpp
   elements_test.cpp
+  elimination_tree_test.cpp
   euler_step_test.cpp
   free_stiffness_test.cpp
   hanging_chain_test.cpp
   hinge_forces_test.cpp
   invariants_test.cpp
+  invert_elements_test.cpp
   leapfrog_step_test.cpp
   membrane_laws_test.cpp
   membrane_test.cpp
@@ -21,9 +25,12 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   patch_test.cpp
   packed_elements_test.cpp
   pins_test.cpp
+  press_test.cpp
+  prestress_test.cpp
   push_out_test.cpp
   residual_force_test.cpp
   rigid_contact_test.cpp
+  rigid_imbalance_test.cpp
   rigid_motion_test.cpp
   speed_accuracy_test.cpp
   simulate_integrators_test.cpp
@@ -39,6 +46,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   static_equilibrium_test.cpp
   strain_test.cpp
   strips.cpp
+  struts_test.cpp
   shell_motion_test.cpp
   sweep_order_test.cpp
   thread_pool_test.cpp

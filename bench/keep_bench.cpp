@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writes a table (CSV) of drawn ridges on a hanging sheet: what the solve for their rest state costs and what
+// is left of them after some seconds, beside a rest state that merely copies the shape: keep_bench
+// [vertices...] > keep.csv
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "physics/certificate.h"
+#include "physics/dihedral.h"
+#include "physics/hinge_forces.h"
+#include "physics/membrane_laws.h"
+#include "physics/pins.h"
+#include "physics/press.h"
+#include "physics/prestress.h"
+#include "physics/sag_system.h"
+#include "physics/simulate.h"
+#include "physics/struts.h"
+
+namespace furrow::bench {
+namespace {
+
+using namespace furrow::physics;
+
+constexpr double width = 0.6, height = 0.8, density = 0.15, young = 300;            // m, m, kg/m^2, N/m
+constexpr double ridge_height = 0.01, ridge_half_width = 0.03, ridge_length = 0.4;  // m
+constexpr double seconds = 2.5, air_drag = 4;                                       // s, 1/s
+const Vec3 gravity(0, -9.81, 0);
+
+struct Ridge {
+  Vec3 from, to;
+  double distance(const Vec3& x) const {
+    const Vec3 p(x.x(), x.y(), 0), along = to - from;
+    const double t = std::clamp((p - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    return (p - from - t * along).norm();
+  }
+  bool beside_middle(const Vec3& x) const {  // of its length, so that its ends do not count
+    const double t = (Vec3(x.x(), x.y(), 0) - from).dot(to - from) / (to - from).squaredNorm();
+    return t > 0.25 && t < 0.75;
+  }
+};
+Ridge ridge_about(const Vec3& centre, const Vec3& direction) {
+  const Vec3 half = 0.5 * ridge_length * direction.normalized();
+  return {centre - half, centre + half};
+}
+const Ridge ridges[] = {ridge_about({0.3, -0.12, 0}, {1, 0, 0}), ridge_about({0.12, -0.46, 0}, {0, 1, 0}),
+                        ridge_about({0.4, -0.46, 0}, {1, 1, 0})};
+
+double area(const std::vector<Vec3>& x, int a, int b, int c) {
+  return 0.5 * (x[b] - x[a]).cross(x[c] - x[a]).norm();
+}
+
+/// A flat sheet of equilateral triangles, springs after Van Gelder, hinges of rigidity B, its top row pinned.
+Cloth flat_sheet(int vertices, double rigidity) {
+  const double edge = std::sqrt(width * height / (vertices * std::sqrt(0.75)));
+  const int columns = int(width / edge) + 1, rows = int(height / (edge * std::sqrt(0.75))) + 1;
+  Cloth cloth;
+  Particles& p = cloth.particles;
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c)
+      p.x.push_back({edge * (c + 0.5 * (r % 2)), -edge * std::sqrt(0.75) * r, 0});
+  p.v.assign(p.size(), Vec3::Zero());
+  p.mass.assign(p.size(), 0);
+  std::map<std::pair<int, int>, int> tips;
+  for (int r = 0; r + 1 < rows; ++r) {
+    for (int c = 0; c + 1 < columns; ++c) {
+      const int a = r * columns + c, b = a + 1, d = a + columns, e = d + 1;
+      if (r % 2 == 0) cloth.triangles.insert(cloth.triangles.end(), {{a, d, b}, {b, d, e}});
+      if (r % 2 == 1) cloth.triangles.insert(cloth.triangles.end(), {{a, d, e}, {a, e, b}});
+    }
+  }
+  for (const auto& t : cloth.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      tips[{t[i], t[(i + 1) % 3]}] = t[(i + 2) % 3];
+      p.mass[t[i]] += density * area(p.x, t[0], t[1], t[2]) / 3;
+    }
+  }
+  std::map<std::pair<int, int>, double> beside;
+  for (const auto& [e, tip] : tips)
+    beside[std::minmax(e.first, e.second)] += area(p.x, e.first, e.second, tip);
+  for (const auto& [e, sum] : beside) {
+    const auto [a, b] = e;
+    const double l = (p.x[b] - p.x[a]).norm();
+    cloth.structural.push_back({a, b, l, young * sum / (l * l)});
+    const auto left = tips.find({a, b}), right = tips.find({b, a});
+    if (left == tips.end() || right == tips.end()) continue;
+    cloth.hinges.push_back({{a, b, left->second, right->second}, 0, rigidity * l * l / sum});
+  }
+  for (const double m : p.mass) p.inv_mass.push_back(1 / m);
+  for (int c = 0; c < columns; ++c) pin(p, std::vector<int>{c});
+  return cloth;
+}
+
+void draw(Cloth& cloth) {
+  for (Vec3& x : cloth.particles.x)
+    for (const Ridge& r : ridges) x.z() += ridge_height * std::max(0.0, 1 - r.distance(x) / ridge_half_width);
+}
+
+/// Mean height of a ridge's crest over the cloth beside it; `flat`: positions before drawing.
+double height_of(const Ridge& ridge, const std::vector<Vec3>& flat, const std::vector<Vec3>& x) {
+  double crest = 0, base = 0;
+  int crests = 0, bases = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!ridge.beside_middle(flat[i])) continue;
+    const double d = ridge.distance(flat[i]) / ridge_half_width;
+    if (d < 0.35) crest += x[i].z(), ++crests;
+    if (d > 1 && d < 1.5) base += x[i].z(), ++bases;
+  }
+  return crest / crests - base / bases;
+}
+
+/// Today's practice: rest lengths and angles as drawn.
+void copy_shape(Cloth& cloth) {
+  const auto& x = cloth.particles.x;
+  for (Spring& s : cloth.structural) s.rest_length = (x[s.b] - x[s.a]).norm();
+  for (Hinge& h : cloth.hinges)
+    h.rest_angle = dihedral_angle(x[h.vertices[0]], x[h.vertices[1]], x[h.vertices[2]], x[h.vertices[3]]);
+}
+
+double milliseconds(const std::function<void()>& work) {
+  const std::clock_t start = std::clock();  // of the processor: one thread, and machines are shared
+  work();
+  return 1e3 * double(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+/// Assembly with factorisation, a solve, and the symbolic part [ms]; the least of some.
+void print_times(const Cloth& cloth) {
+  std::vector<Vec3> w(cloth.particles.size(), Vec3::Zero()), net = w;
+  double symbolic = 1e9, assemble = 1e9, factor = 1e9, solve = 1e9, whole = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    std::unique_ptr<FreeStiffness> k;
+    const double first = milliseconds([&] {
+      k = std::make_unique<FreeStiffness>(cloth);
+      k->factorise_definite(1);
+    });
+    const double shape = milliseconds([&] { k->factorise_definite(1); });
+    symbolic = std::min(symbolic, first - shape);
+    assemble = std::min(
+        assemble, milliseconds([&] { k->assemble(cloth, cloth.particles.x, Stiffness::positive_part); }));
+    factor = std::min(factor, milliseconds([&] { k->factorise_definite(1e-6); }));
+    solve = std::min(solve, milliseconds([&] { k->solve(net); }));
+    Cloth copy = cloth;
+    whole = std::min(whole, milliseconds([&] { prestress(copy); }));
+  }
+  std::printf(",%.1f,%.1f,%.1f,%.1f,%.1f", symbolic, assemble, factor, solve, whole);
+}
+
+void print_kept(Cloth cloth, const std::vector<Vec3>& flat, const Certificate& c) {
+  const std::vector<Vec3> drawn = cloth.particles.x;
+  SimulateOptions o;
+  o.seconds = seconds;
+  o.air_drag = air_drag;
+  const SimulateReport run = simulate(cloth, nullptr, o);
+  double drift = 0;
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    drift = std::max(drift, (cloth.particles.x[i] - drawn[i]).norm());
+  std::printf(",%.2g,%d,%.3g", c.residual, c.negative_eigenvalues, c.smallest_eigenvalue);
+  for (const Ridge& r : ridges) {
+    std::printf(",%.1f", 100 * height_of(r, flat, cloth.particles.x) / height_of(r, flat, drawn));
+  }
+  std::printf(",%.3f,%.1f\n", 1e3 * drift, run.seconds);
+  std::fflush(stdout);
+}
+
+void row(int vertices, double rigidity) {
+  Cloth cloth = flat_sheet(vertices, rigidity);
+  const std::vector<Vec3> flat = cloth.particles.x;
+  draw(cloth);
+  balance_rigidly(cloth, gravity);
+  const auto begin = [&](const char* how, double angle) {
+    std::printf("%zu,%g,%s,%.2f", cloth.particles.size(), rigidity, how, angle * 57.29577951308232);
+  };
+  Cloth copy = cloth;
+  copy_shape(copy);
+  begin("copy", 0);
+  std::printf(",,,,,");
+  print_kept(copy, flat, certify(copy));
+  std::vector<int> patch;
+  for (std::size_t i = 0; i < flat.size(); ++i)
+    for (const Ridge& r : ridges)
+      if (r.distance(flat[i]) < 1.2 * ridge_half_width) patch.push_back(int(i));
+  const auto try_it = [&](const char* how, double pressed, double struts) {
+    Cloth solved = cloth;
+    press(solved, patch, pressed);
+    if (struts > 0) add_struts(solved, patch, {struts});
+    const Cloth before = solved;
+    const PrestressReport report = prestress(solved);
+    const Certificate c = certify(solved);
+    begin(how, report.max_angle);
+    print_times(before);
+    print_kept(solved, flat, c);
+    return c.stable();
+  };
+  if (try_it("prestress", 1, 0)) return;
+  try_it("struts of 3 N/m", 1, 3);
+  try_it("pressed x10", 10, 0) || try_it("pressed x30", 30, 0) || try_it("pressed x100", 100, 0);
+}
+
+}  // namespace
+}  // namespace furrow::bench
+
+int main(int argc, char** argv) {
+  std::printf(
+      "vertices,B [N m],rest state,max angle [deg],symbolic [ms],assembly [ms],factorisation [ms],solve "
+      "[ms],prestress [ms],"
+      "residual,negative eigenvalues,smallest eigenvalue [1/s^2],horizontal kept "
+      "[%%],vertical,diagonal,drift [mm],"
+      "simulation [s]\n");
+  std::vector<int> sizes;
+  for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
+  if (sizes.empty()) sizes = {1800, 10000};
+  for (const int n : sizes)
+    for (const double b : {1e-4, 3e-5, 1e-5}) furrow::bench::row(n, b);
+}

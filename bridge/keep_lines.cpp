@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/keep_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "bridge/keep_trial.h"
+#include "bridge/scatter.h"
+#include "geometry/property_names.h"
+#include "geometry/two_ring.h"
+#include "physics/posed_collider.h"
+#include "physics/press.h"
+#include "physics/rigid_motion.h"
+#include "physics/struts.h"
+
+namespace furrow::bridge {
+namespace {
+
+using physics::Vec3;
+
+constexpr double share_of_mode = 0.1;  // of an unstable motion's energy that makes it a line's
+constexpr double out_of_balance = 1e-6;
+
+/// A line and the help that it has.
+struct Line {
+  int id;
+  std::vector<int> patch;  ///< its vertices and two rings around them
+  double drawn;            ///< height [m]
+  int step = 0;            ///< of presses, then struts
+  double height = 1;       ///< over that as drawn [-]
+  double kept = NAN, kept_gust = NAN;
+};
+
+void check(const geometry::Mesh& mesh, const physics::Cloth& cloth, const physics::World& world,
+           const KeepOptions& o) {
+  const auto need = [](bool good, const char* what, double value) {
+    if (!good)
+      throw std::invalid_argument("keep_lines: " + std::string(what) + " = " + std::to_string(value));
+  };
+  need(mesh.number_of_vertices() == cloth.particles.size(), "particles for another mesh",
+       double(cloth.particles.size()));
+  need(o.seconds > 0, "seconds", o.seconds);
+  need(o.gust >= 0 && std::isfinite(o.gust), "gust", o.gust);
+  need(o.gust_seconds > 0, "gust_seconds", o.gust_seconds);
+  need(o.calm_seconds > 0, "calm_seconds", o.calm_seconds);
+  need(o.kept > 0 && o.kept < 1, "kept", o.kept);
+  need(o.height_trials >= 0, "height_trials", o.height_trials);
+  double last = 1;
+  for (const double factor : o.presses)
+    need(factor > last, "presses do not rise above 1", factor), last = factor;
+  for (const double k : o.struts) need(k > 0, "struts", k);
+  if (world.animated || !world.pins.empty() || !physics::at_rest(world.body_motion))
+    throw std::invalid_argument("keep_lines: body or pins move; a shape is kept on what stands still");
+}
+
+class Keeper {
+ public:
+  Keeper(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
+         const std::vector<double>& base, const KeepOptions& options,
+         const std::function<bool(double)>& go_on)
+      : mesh_(mesh), cloth_(cloth), world_(world), o_(options), go_on_(go_on), meter_(mesh, base) {
+    o_.bounds.gravity = o_.run.gravity;
+    o_.bounds.friction = o_.run.friction;
+    o_.bounds.gap = o_.run.contact_gap;
+    for (Vec3& v : cloth_.particles.v) v.setZero();
+    if (o_.balance) report_.turned = physics::balance_rigidly(cloth_, o_.run.gravity);
+    start_ = cloth_;
+    find_lines();
+  }
+
+  KeepReport run() {
+    help_by_stiffness();
+    if (!report_.interrupted && o_.height_trials > 0 && geometry::find_map(mesh_, geometry::kRestPosition))
+      help_by_height();
+    scatter(solved_.particles, mesh_);
+    cloth_ = solved_;
+    for (const Line& line : lines_) report_.lines.push_back(verdict(line));
+    return report_;
+  }
+
+ private:
+  void find_lines() {
+    const auto id = geometry::find_map(mesh_, geometry::kLine);
+    const std::vector<double> drawn = meter_.heights(start_.particles);
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      std::vector<geometry::Vertex> vertices;
+      for (const geometry::Vertex v : mesh_.vertices())
+        if ((*id)[v] == meter_.lines()[i]) vertices.push_back(v);
+      lines_.push_back({meter_.lines()[i], {}, drawn[i]});
+      for (const geometry::Vertex v : geometry::two_ring(mesh_, vertices))
+        lines_.back().patch.push_back(int(v));
+    }
+  }
+
+  int steps() const { return int(o_.presses.size() + o_.struts.size()); }
+  double press_of(const Line& line) const {
+    const int n = std::min(line.step, int(o_.presses.size()));
+    return n > 0 ? o_.presses[n - 1] : 1;
+  }
+  double struts_of(const Line& line) const {
+    const int n = line.step - int(o_.presses.size());
+    return n > 0 ? o_.struts[n - 1] : 0;
+  }
+
+  /// Where lines are lower, their patches are nearer to where they lay before.
+  void place(physics::Particles& p) const {
+    const auto rest = geometry::find_map(mesh_, geometry::kRestPosition);
+    for (const Line& line : lines_) {
+      if (line.height == 1) continue;
+      for (const int i : line.patch) {
+        const auto& at = (*rest)[geometry::Vertex(i)];
+        const Vec3 flat(at[0], at[1], at[2]);
+        if (p.inv_mass[i] > 0 && flat.allFinite())
+          p.x[i] = flat + line.height * (start_.particles.x[i] - flat);
+      }
+    }
+  }
+
+  /// Hinges of lines at the same step together, so that none is pressed twice.
+  void stiffen(physics::Cloth& cloth) const {
+    double last = 1;
+    for (std::size_t k = 0; k < o_.presses.size(); ++k) {
+      std::vector<int> patch;
+      for (const Line& line : lines_)
+        if (line.step > int(k)) patch.insert(patch.end(), line.patch.begin(), line.patch.end());
+      physics::press(cloth, patch, o_.presses[k] / last);
+      last = o_.presses[k];
+    }
+    for (const Line& line : lines_)
+      if (struts_of(line) > 0) physics::add_struts(cloth, line.patch, {.stiffness = struts_of(line)});
+  }
+
+  void solve() {
+    solved_ = start_;
+    place(solved_.particles);
+    stiffen(solved_);
+    std::optional<physics::PosedCollider> posed;
+    if (world_.collider) posed.emplace(*world_.collider, physics::pose(world_.body_motion, 0));
+    const physics::Collider* body = posed ? &*posed : nullptr;
+    report_.rest = physics::prestress(solved_, o_.bounds, body);
+    report_.certificate =
+        physics::certify(solved_, {o_.run.gravity, o_.run.friction, o_.run.contact_gap}, body);
+    ++report_.trials;
+    for (Line& line : lines_) line.kept = line.kept_gust = NAN;
+  }
+
+  void run_forward() {
+    ++report_.runs;
+    const KeepTrial trial = try_shape(solved_, world_, o_, meter_, go_on_);
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      lines_[i].kept = trial.kept[i];
+      lines_[i].kept_gust = trial.kept_gust[i];
+    }
+    report_.drift = trial.drift;
+    report_.interrupted = report_.interrupted || trial.stopped;
+  }
+
+  /// Lines with a good part in the motion that nothing holds back.
+  std::vector<Line*> lines_of_mode() {
+    std::vector<Line*> found;
+    const auto& mode = report_.certificate.mode;
+    if (report_.certificate.stable() || mode.empty()) return found;
+    const auto& mass = solved_.particles.mass;
+    double whole = 0;
+    for (std::size_t i = 0; i < mode.size(); ++i) whole += mass[i] * mode[i].squaredNorm();
+    for (Line& line : lines_) {
+      double part = 0;
+      for (const int i : line.patch) part += mass[i] * mode[i].squaredNorm();
+      if (part > share_of_mode * whole) found.push_back(&line);
+    }
+    return found;
+  }
+
+  bool holds(const Line& line) const { return line.kept >= o_.kept && line.kept_gust >= o_.kept; }
+
+  void help_by_stiffness() {
+    for (;;) {
+      solve();
+      const auto with_room = [&](std::vector<Line*> weak) {
+        std::erase_if(weak, [&](const Line* l) { return l->step == steps(); });
+        return weak;
+      };
+      std::vector<Line*> weak = with_room(lines_of_mode());
+      if (weak.empty()) {
+        run_forward();
+        for (Line& line : lines_)
+          if (!holds(line)) weak.push_back(&line);
+        weak = with_room(weak);
+      }
+      if (weak.empty() || report_.interrupted || !report_.rest.imbalance.empty()) return;
+      for (Line* line : weak) ++line->step;
+    }
+  }
+
+  /// Bisects the heights of all lines that fail at once.
+  void help_by_height() {
+    std::vector<std::pair<Line*, double>> low;  // the greatest height that held
+    for (Line& line : lines_)
+      if (!holds(line)) low.push_back({&line, 0});
+    if (low.empty() || !report_.rest.imbalance.empty()) return;
+    std::vector<double> high(low.size(), 1);
+    for (int trial = 0; trial < o_.height_trials && !report_.interrupted; ++trial) {
+      for (std::size_t i = 0; i < low.size(); ++i) low[i].first->height = (low[i].second + high[i]) / 2;
+      solve();
+      const std::vector<Line*> loose = lines_of_mode();
+      run_forward();
+      for (std::size_t i = 0; i < low.size(); ++i) {
+        Line* line = low[i].first;
+        const bool good = holds(*line) && std::find(loose.begin(), loose.end(), line) == loose.end();
+        (good ? low[i].second : high[i]) = line->height;
+      }
+    }
+    for (auto& [line, height] : low) line->height = height > 0 ? height : 1;
+    solve();
+    run_forward();
+  }
+
+  KeptLine verdict(const Line& line) {
+    KeptLine v;
+    v.line = line.id;
+    v.press = press_of(line);
+    v.struts = struts_of(line);
+    v.lowered = line.height;
+    v.height = line.height * line.drawn;
+    v.kept = line.kept;
+    v.kept_gust = line.kept_gust;
+    const std::vector<Line*> loose = lines_of_mode();
+    const bool of_mode =
+        std::any_of(loose.begin(), loose.end(), [&](const Line* l) { return l->id == line.id; });
+    if (!holds(line) || of_mode || report_.rest.residual > out_of_balance) {
+      v.reason = reason(of_mode);
+      return v;
+    }
+    v.verdict = line.height < 1 ? Verdict::lowered
+                : v.struts > 0  ? Verdict::strutted
+                : v.press > 1   ? Verdict::pressed
+                                : Verdict::held;
+    return v;
+  }
+
+  std::string reason(bool of_mode) const {
+    if (report_.interrupted) return "interrupted";
+    if (!report_.rest.imbalance.empty()) return "nothing holds the garment in balance as it lies";
+    if (report_.rest.residual > out_of_balance) return "the bounds on strain and angle leave no balance";
+    if (of_mode) return "the fold can give way without effort: the cloth bends too easily for it";
+    return "the fold goes over into another shape";
+  }
+
+  geometry::Mesh& mesh_;
+  physics::Cloth& cloth_;
+  const physics::World& world_;
+  KeepOptions o_;
+  const std::function<bool(double)>& go_on_;
+  LineMeter meter_;
+  physics::Cloth start_, solved_;
+  std::vector<Line> lines_;
+  KeepReport report_;
+};
+
+}  // namespace
+
+KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
+                      const std::vector<double>& base, const KeepOptions& options,
+                      const std::function<bool(double)>& go_on) {
+  check(mesh, cloth, world, options);
+  return Keeper(mesh, cloth, world, base, options, go_on).run();
+}
+
+}  // namespace furrow::bridge

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "physics/certificate.h"
+#include "physics/prestress.h"
+#include "physics/simulate.h"
+
+namespace furrow::bridge {
+
+struct KeepOptions {
+  physics::SimulateOptions
+      run;  ///< of the forward runs; gravity, friction and gap also of balance and certificate
+  physics::PrestressOptions bounds;  ///< of the rest state; its gravity, friction and gap are those of `run`
+  double seconds = 5;                ///< the first forward run, from rest [s]; > 0
+  double gust = 12;                  ///< then an acceleration to one side [m/s^2]; >= 0; 0: no gust
+  double gust_seconds = 0.4, calm_seconds = 2;  ///< [s]; > 0
+  physics::Vec3 gust_direction{0, 0, 0};        ///< 0: level, the way in which the cloth is thinnest
+  double kept = 0.95;                           ///< share of the height that a line holds with [-]; in (0, 1)
+  std::vector<double> presses{10, 30,
+                              100};        ///< factors on the hinges of a line, in the order tried; each > 1
+  std::vector<double> struts{0.3, 3, 30};  ///< then also struts [N/m]; each > 0
+  int height_trials = 4;                   ///< then bisections of the height; >= 0; 0: none
+  bool balance = false;                    ///< first turn what hangs crookedly about its pins
+};
+
+enum class Verdict { held, pressed, strutted, lowered, cannot_hold };
+
+struct KeptLine {
+  int line = -1;  ///< its id in kLine
+  Verdict verdict = Verdict::cannot_hold;
+  double press = 1;                ///< factor on its hinges [-]
+  double struts = 0;               ///< stiffness of its struts [N/m]; 0: none
+  double height = 0;               ///< that it was balanced at, after lowering [m]
+  double lowered = 1;              ///< that over the height as drawn [-]
+  double kept = 0, kept_gust = 0;  ///< shares of `height` after the two runs [-]; NaN: not run
+  std::string reason;              ///< of cannot_hold
+};
+
+struct KeepReport {
+  std::vector<KeptLine> lines;  ///< by id
+  physics::PrestressReport rest;
+  physics::Certificate certificate;
+  double turned = 0;         ///< by `balance` [rad]
+  int trials = 0, runs = 0;  ///< rest states that were solved for, and forward runs
+  double drift = 0;          ///< of any vertex in the last run, before the gust [m]
+  bool interrupted = false;  ///< the last rest state stands; lines say what is known
+};
+
+/// Gives a cloth the rest state that makes its drawn lines an equilibrium (physics/prestress.h), and tells of
+/// each line whether it will hold: by the certificate of stability (physics/certificate.h) and by a run
+/// forward, from rest and after a gust. Lines that do not hold are helped, one step more each time and no
+/// line more than it needs: press (their hinges stiffer), then struts on top of the strongest press, then a
+/// lower height; the least that holds stays.
+///
+/// mesh: the garment with kLine, from which `cloth` was gathered and pinned; its positions are the drawn
+/// shape, and follow where heights were lowered. kRestPosition tells where a line lies without its height;
+/// without it nothing is lowered. base: height that a line would have without displacement, by id [m]
+/// (curvature of the garment); may be empty. On return `cloth` has the new rest state, stiffnesses and
+/// struts, at the positions of the mesh, at rest. go_on: asked between and within runs; false: stop. May be
+/// empty. Cost: a factorisation or two each trial; the forward runs are most of it. Same input, same bits.
+/// Throws std::invalid_argument, nothing changed, if an option is out of its range or cloth and mesh do not
+/// fit; and as prestress() and simulate() do.
+KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
+                      const std::vector<double>& base, const KeepOptions& options,
+                      const std::function<bool(double)>& go_on = {});
+
+}  // namespace furrow::bridge

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/keep_trial.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "bridge/scatter.h"
+#include "geometry/line_height.h"
+
+namespace furrow::bridge {
+namespace {
+
+using physics::Vec3;
+
+/// Level, the way in which the cloth is thinnest, unless the options name another.
+Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
+  if (o.gust_direction.norm() > 0) return o.gust * o.gust_direction.normalized();
+  const Vec3 down = o.run.gravity.norm() > 0 ? Vec3(o.run.gravity.normalized()) : Vec3(Vec3::Zero());
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& p : x) centre += p / double(x.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3& p : x) spread += (p - centre) * (p - centre).transpose();
+  spread += 10 * spread.trace() * down * down.transpose();
+  return o.gust * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+}
+
+}  // namespace
+
+LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base) : shape_(mesh) {
+  for (const geometry::LineHeight& h : geometry::line_heights(shape_)) {
+    const bool known = std::size_t(h.line) < base.size() && std::isfinite(base[h.line]);
+    const double below = known ? base[h.line] : 0;
+    if (!std::isfinite(h.height) || h.height == below) continue;
+    lines_.push_back(h.line);
+    base_.push_back(below);
+  }
+}
+
+std::vector<double> LineMeter::heights(const physics::Particles& p) {
+  scatter(p, shape_);
+  std::vector<double> result;
+  const auto all = geometry::line_heights(shape_);
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const auto at = std::find_if(all.begin(), all.end(), [&](const auto& h) { return h.line == lines_[i]; });
+    result.push_back(at == all.end() ? NAN : at->height - base_[i]);
+  }
+  return result;
+}
+
+KeepTrial try_shape(const physics::Cloth& start, const physics::World& world, const KeepOptions& o,
+                    LineMeter& meter, const std::function<bool(double)>& go_on) {
+  const std::vector<double> drawn = meter.heights(start.particles);
+  KeepTrial trial{std::vector<double>(drawn.size(), NAN), std::vector<double>(drawn.size(), NAN)};
+  physics::Cloth cloth = start;
+  physics::SimulateState state;
+  const auto on_to = [&](double seconds, const Vec3& gravity) {
+    physics::SimulateOptions options = o.run;
+    options.seconds = seconds;
+    options.gravity = gravity;
+    const auto report = physics::simulate(cloth, world, options, &state, [&](const auto& now) {
+      return !go_on || go_on(now.time / (o.seconds + o.gust_seconds + o.calm_seconds));
+    });
+    trial.stopped = trial.stopped || report.outcome == physics::Outcome::stopped_by_observer;
+    return report.outcome == physics::Outcome::finished;
+  };
+  const auto note = [&](std::vector<double>& kept) {
+    kept = meter.heights(cloth.particles);
+    for (std::size_t i = 0; i < kept.size(); ++i) kept[i] /= drawn[i];
+  };
+  if (!on_to(o.seconds, o.run.gravity)) return trial;
+  note(trial.kept);
+  for (std::size_t i = 0; i < cloth.particles.size(); ++i)
+    trial.drift = std::max(trial.drift, (cloth.particles.x[i] - start.particles.x[i]).norm());
+  const double blown = o.seconds + o.gust_seconds;
+  const bool calm = o.gust == 0 || (on_to(blown, o.run.gravity + gust_of(o, start.particles.x)) &&
+                                    on_to(blown + o.calm_seconds, o.run.gravity));
+  if (calm) note(trial.kept_gust);
+  return trial;
+}
+
+}  // namespace furrow::bridge

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "bridge/keep_lines.h"
+
+namespace furrow::bridge {
+
+/// Measures the heights of a garment's lines at other positions of its vertices.
+class LineMeter {
+ public:
+  /// Lines that have a height where the mesh lies. base: see keep_lines().
+  LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base);
+  const std::vector<int>& lines() const { return lines_; }   ///< their ids, rising
+  std::vector<double> heights(const physics::Particles& p);  ///< of each [m]; NaN: no more known
+
+ private:
+  geometry::Mesh shape_;  ///< a copy that is moved about
+  std::vector<int> lines_;
+  std::vector<double> base_;  ///< of each [m]
+};
+
+struct KeepTrial {
+  std::vector<double> kept,
+      kept_gust;         ///< of each line, shares of the height at the start [-]; NaN: not reached
+  double drift = 0;      ///< of any particle from the start to before the gust [m]
+  bool stopped = false;  ///< by go_on
+};
+/// Runs a cloth forward from rest, then through a gust and a calm, as the options say; the cloth is not
+/// changed.
+KeepTrial try_shape(const physics::Cloth& start, const physics::World& world, const KeepOptions& options,
+                    LineMeter& meter, const std::function<bool(double)>& go_on);
+
+}  // namespace furrow::bridge

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/store_rest_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "geometry/edge_metric.h"
+#include "geometry/property_names.h"
+#include "geometry/struts.h"
+
+namespace furrow::bridge {
+namespace {
+
+using namespace geometry;
+using physics::Spring;
+
+[[noreturn]] void fail(const std::string& what) { throw std::invalid_argument("store_rest_state: " + what); }
+
+std::string name_of(const char* kind, std::size_t i) { return std::string(kind) + " " + std::to_string(i); }
+
+void check_value(const std::string& element, const char* what, double value, bool fine) {
+  if (!fine || !std::isfinite(value))
+    fail(element + ": " + what + " = " + std::to_string(value) + " is out of its range");
+}
+
+void check_spring(const std::string& element, const Spring& s) {
+  check_value(element, "rest length", s.rest_length, s.rest_length > 0);
+  check_value(element, "stiffness", s.stiffness, s.stiffness >= 0);
+}
+
+void check_count(const char* kind, std::size_t has, std::size_t wants) {
+  if (has != wants)
+    fail("the cloth has " + std::to_string(has) + " " + kind + " elements, the mesh " +
+         std::to_string(wants));
+}
+
+void check_structural(const std::vector<Spring>& springs, const std::vector<Spring>& expected) {
+  check_count("structural", springs.size(), expected.size());
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const std::string element = name_of("structural spring", i);
+    if (std::tie(springs[i].a, springs[i].b) != std::tie(expected[i].a, expected[i].b))
+      fail(element + " joins other vertices than in the mesh");
+    check_spring(element, springs[i]);
+  }
+}
+
+void check_membrane(const physics::Cloth& cloth, const physics::Cloth& expected) {
+  check_count("membrane", cloth.membrane.size(), expected.membrane.size());
+  for (std::size_t i = 0; i < cloth.membrane.size(); ++i) {
+    const physics::MembraneTriangle &t = cloth.membrane[i], &wanted = expected.membrane[i];
+    const std::string element = name_of("membrane triangle", i);
+    if (t.vertices != wanted.vertices) fail(element + " has other vertices than in the mesh");
+    if (t.lambda != wanted.lambda || t.mu != wanted.mu)
+      fail(element + " has Lame parameters of its own; these are the material's and cannot be stored");
+    const auto& [a, b, c] = t.rest_lengths;
+    for (const double l : t.rest_lengths) check_value(element, "rest length", l, l > 0);
+    if (!(triangle_area(a, b, c) > 0)) fail(element + ": its rest lengths span no area");
+  }
+}
+
+void check_hinges(const std::vector<physics::Hinge>& hinges, const std::vector<physics::Hinge>& expected) {
+  check_count("hinge", hinges.size(), expected.size());
+  for (std::size_t i = 0; i < hinges.size(); ++i) {
+    const std::string element = name_of("hinge", i);
+    if (hinges[i].vertices != expected[i].vertices) fail(element + " has other vertices than in the mesh");
+    check_value(element, "rest angle", hinges[i].rest_angle,
+                std::abs(hinges[i].rest_angle) <= std::numbers::pi);
+    check_value(element, "stiffness", hinges[i].stiffness, hinges[i].stiffness >= 0);
+  }
+}
+
+/// The cloth's bending springs, parted.
+struct BendingParts {
+  std::vector<std::pair<Edge, Spring>> cross;
+  std::vector<Strut> struts;
+};
+
+BendingParts part(std::vector<Spring> springs, const GatheredCloth& of_mesh) {
+  std::stable_sort(springs.begin(), springs.end(),
+                   [](const Spring& s, const Spring& t) { return std::tie(s.a, s.b) < std::tie(t.a, t.b); });
+  const std::size_t vertices = of_mesh.cloth.particles.size();
+  BendingParts result;
+  std::size_t next = 0;  // of the mesh's, which are sorted in the same way
+  const auto pass_struts = [&] {
+    while (next < of_mesh.bending.size() && of_mesh.bending[next] == Mesh::null_edge()) ++next;
+  };
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const Spring& s = springs[i];
+    check_spring(name_of("bending spring", i), s);
+    if (s.a < 0 || s.a >= s.b || static_cast<std::size_t>(s.b) >= vertices)
+      fail(name_of("bending spring", i) + " joins no two vertices of the mesh, the lower one first");
+    pass_struts();
+    const bool is_cross = next < of_mesh.bending.size() && of_mesh.cloth.bending[next].a == s.a &&
+                          of_mesh.cloth.bending[next].b == s.b;
+    if (is_cross) {
+      result.cross.emplace_back(of_mesh.bending[next++], s);
+    } else {
+      const auto vertex = [](int v) { return Vertex(static_cast<Vertex::size_type>(v)); };
+      result.struts.push_back({vertex(s.a), vertex(s.b), s.rest_length, s.stiffness});
+    }
+  }
+  pass_struts();
+  if (next != of_mesh.bending.size()) fail("a bending spring of the mesh is missing");
+  return result;
+}
+
+void write_springs(const std::vector<Spring>& springs, const std::vector<Edge>& origin, Mesh& mesh) {
+  if (springs.empty()) return;
+  auto rest = ensure_map(mesh, kRestLength), stiffness = ensure_map(mesh, kStiffness);
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    rest[origin[i]] = springs[i].rest_length;
+    stiffness[origin[i]] = springs[i].stiffness;
+  }
+}
+
+void write_membrane(const std::vector<physics::MembraneTriangle>& triangles,
+                    const std::vector<Halfedge>& origin, Mesh& mesh) {
+  if (triangles.empty()) return;
+  auto rest = ensure_map(mesh, kTriangleRestLength);
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    int i = 0;
+    for (Halfedge h : mesh.halfedges_around_face(origin[f]))
+      rest[mesh.prev(h)] = triangles[f].rest_lengths[i++];  // of the edge opposite target(h)
+  }
+}
+
+void write_bending(const BendingParts& bending, Mesh& mesh) {
+  set_struts(mesh, bending.struts);
+  if (bending.cross.empty()) return;
+  auto rest = ensure_map(mesh, kBendingRestLength), stiffness = ensure_map(mesh, kBendingStiffness);
+  for (const auto& [edge, spring] : bending.cross) {
+    rest[edge] = spring.rest_length;
+    stiffness[edge] = spring.stiffness;
+  }
+}
+
+void write_hinges(const std::vector<physics::Hinge>& hinges, const std::vector<Edge>& origin, Mesh& mesh) {
+  if (hinges.empty()) return;
+  auto angle = ensure_map(mesh, kRestAngle), stiffness = ensure_map(mesh, kHingeStiffness);
+  for (std::size_t i = 0; i < hinges.size(); ++i) {
+    angle[origin[i]] = hinges[i].rest_angle;
+    stiffness[origin[i]] = hinges[i].stiffness;
+  }
+}
+
+}  // namespace
+
+void store_rest_state(const physics::Cloth& cloth, const GatherOptions& options, Mesh& mesh) {
+  const GatheredCloth of_mesh = gather_with_origin(mesh, options);
+  check_structural(cloth.structural, of_mesh.cloth.structural);
+  check_membrane(cloth, of_mesh.cloth);
+  check_hinges(cloth.hinges, of_mesh.cloth.hinges);
+  const BendingParts bending = part(cloth.bending, of_mesh);
+  write_springs(cloth.structural, of_mesh.structural, mesh);
+  write_membrane(cloth.membrane, of_mesh.membrane, mesh);
+  write_bending(bending, mesh);
+  write_hinges(cloth.hinges, of_mesh.hinges, mesh);
+}
+
+}  // namespace furrow::bridge

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "bridge/convert.h"
+#include "bridge/gather.h"
+#include "bridge/store_rest_state.h"
+#include "cli/camera_options.h"
+#include "cli/keep_report.h"
+#include "cli/prepare_garment.h"
+#include "cli/scene_cloth.h"
+#include "cli/scene_flags.h"
+#include "cli/scene_input.h"
+#include "cli/subcommands.h"
+#include "geometry/errors.h"
+#include "io/relocated.h"
+#include "physics/pins.h"
+
+namespace furrow::cli {
+namespace {
+
+struct KeepArguments : CommonArguments {
+  std::string in, state, picture;
+  SceneFlags flags;
+  CameraArguments camera;
+  double run = 5, gust = 12;
+  bool balance = false, no_help = false;
+};
+
+/// The garment in its drawn shape, of a scene at its time 0 or of a state.
+SceneCloth drawn_garment(const io::Scene& scene, std::optional<io::SavedState>& state,
+                         const CommonArguments& common) {
+  if (!state) return prepare_scene(scene, common);
+  SceneCloth result;
+  result.file = state->file;
+  result.pins = state->pins;
+  if (scene.body) result.body = std::make_shared<WorldBody>(*scene.body, common);
+  complete_garment(result.file, scene.material);
+  result.cloth = bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
+  pin_cloth(result.cloth, result.pins, result.body.get(), state->simulation.time, common);
+  result.options = scene.simulation;
+  if (result.body)
+    result.options.contact_gap =
+        contact_gap(result.options.contact_gap, result.body->tolerance(), result.file.mesh);
+  result.options.threads = threads_of(scene, result.cloth.particles.size());
+  return result;
+}
+
+void check(const KeepArguments& a, const io::Scene& scene) {
+  const io::SceneOutput& out = scene.output;
+  for (const auto& path : {out.mesh, out.state})
+    if (!path.empty()) check_output(path.string());
+  if (!out.state.empty() && out.state.extension() != ".ply")
+    throw UsageError(out.state.string() + ": a state is a .ply file");
+  if (!a.picture.empty()) check_folder(a.picture);
+  std::vector<std::string> inputs{a.state};
+  if (is_scene(a.in)) inputs.push_back(a.in);
+  if (scene.body) inputs.push_back(scene.body->mesh.string());
+  for (const io::SceneLines& lines : scene.lines) inputs.push_back(lines.strokes.string());
+  refuse_same({out.mesh.string(), out.state.string(), a.picture}, inputs);
+}
+
+/// Heights that lines would have without displacement.
+std::vector<double> base_heights(const io::WrinkleRecord& record) {
+  std::vector<double> base;
+  for (const auto& line : record.lines) base.push_back(line.base_height);
+  return base;
+}
+
+/// From rest, with nothing that fades in any more.
+void write_kept_state(const io::Scene& scene, const io::TomlDocument& document,
+                      const std::filesystem::path& folder, const SceneCloth& cloth,
+                      std::optional<io::SavedState> state) {
+  io::SavedState kept;
+  if (state) kept = std::move(*state);
+  const double time = kept.simulation.time;
+  kept.simulation = {};
+  kept.simulation.time = time;
+  kept.file = cloth.file;
+  io::drop_motion(kept.file);
+  kept.pins = cloth.pins;
+  kept.body = cloth.body ? cloth.body->fingerprint() : "";
+  for (const io::SceneLines& lines : scene.lines)
+    kept.lines_drawn += lines.time <= time && kept.lines_drawn == 0;
+  kept.scene = io::relocated(document, folder, scene.output.state.parent_path());
+  kept.scene.erase("output");
+  io::write_state(scene.output.state, std::move(kept));
+}
+
+int keep(KeepArguments& a) {
+  catch_interrupts();
+  std::optional<io::SavedState> state;
+  if (!a.state.empty()) state = io::read_state(a.state);
+  io::TomlDocument document = scene_settings(a.in, a.state, state, a.flags, a);
+  const std::filesystem::path folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
+  io::Scene scene = scene_of(document, folder);
+  if (scene.garment.empty() && !state) throw UsageError(document.name + ": garment.mesh is missing");
+  check_inputs(scene, document, state ? state->lines_drawn : -1);
+  if (!state) take_noted_frame(scene, document);
+  check(a, scene);
+  CommonArguments common = a;
+  common.unit = scene.unit;
+  common.up = scene.up;
+  SceneCloth garment = drawn_garment(scene, state, common);
+  const io::WrinkleRecord record = *io::find_wrinkle_record(garment.file);
+  bridge::KeepOptions options;
+  options.run = garment.options;
+  options.run.stop_at.reset();
+  options.seconds = a.run;
+  options.gust = a.gust;
+  options.balance = a.balance;
+  if (a.no_help) options.presses.clear(), options.struts.clear(), options.height_trials = 0;
+  bridge::KeepReport report;
+  {
+    Progress progress("keeping", common);
+    report = bridge::keep_lines(garment.file.mesh, garment.cloth, garment.world(scene), base_heights(record),
+                                options, [&](double share) {
+                                  progress.show(share);
+                                  return !interrupted();
+                                });
+  }
+  physics::soften_clamps(garment.cloth);
+  bridge::store_rest_state(garment.cloth, spring_options(garment.file, scene.material), garment.file.mesh);
+  if (!scene.output.state.empty()) write_kept_state(scene, document, folder, garment, std::move(state));
+  if (!scene.output.mesh.empty()) write_mesh(scene.output.mesh.string(), garment.file, common);
+  if (!a.picture.empty()) {
+    const std::vector<io::RenderScene> scenes{verdict_scene(garment.file.mesh, report)};
+    io::write_png(a.picture, io::render(scenes[0], render_options(scenes, a.camera)));
+  }
+  print_report(to_json(report, record), common);
+  return exit_code_of(report);
+}
+
+}  // namespace
+
+void add_keep(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<KeepArguments>();
+  CLI::App* sub = app.add_subcommand(
+      "keep",
+      "Give a garment the rest state that keeps its drawn lines, and tell of each whether it will hold\n\n"
+      "  furrow keep scenes/kept_sheet.toml -o kept.ply --picture verdict.png\n"
+      "  furrow keep wrinkled.ply --pin-loop top --fabric cotton -o kept.ply --save-state kept-state.ply\n"
+      "  furrow keep --state worn.ply --save-state kept.ply\n"
+      "  furrow simulate --state kept.ply --seconds 5 -o after.ply");
+  sub->add_option("garment", a->in, "wrinkled garment, or a scene: a .toml file");
+  sub->add_option("--state", a->state, "a saved state, with lines drawn on the cloth as it hangs or lies");
+  sub->add_option("--run", a->run, "how long each trial runs forward from rest [s] (default 5)")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--gust", a->gust,
+                  "then an acceleration to one side for 0.4 s, and 2 s of calm [m/s^2] (default 12)")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_flag("--balance", a->balance, "first turn what hangs crookedly about its pins into balance");
+  sub->add_flag("--no-help", a->no_help,
+                "no press, struts or lower height where the rest state alone does not hold");
+  sub->add_option(
+      "--picture", a->picture,
+      "picture of the garment, lines coloured by verdict: green held, yellow pressed, orange struts, blue "
+      "lower, red cannot hold");
+  a->flags.add_to(*sub);
+  add_camera_options(*sub, a->camera);
+  add_common_options(*sub, *a);
+  sub->callback([a, &exit_code] { exit_code = keep(*a); });
+}
+
+}  // namespace furrow::cli

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "bridge/keep_lines.h"
+#include "cli/common.h"
+#include "io/render.h"
+#include "io/wrinkle_record.h"
+
+namespace furrow::cli {
+
+/// "held", "held with press x10", "held with struts of 3 N/m", "held at h = 4.2 mm", or "cannot hold, because
+/// ...".
+std::string words(const bridge::KeptLine& line);
+
+Json to_json(const bridge::KeepReport& report, const io::WrinkleRecord& record);
+
+/// The garment with its lines in the colours of their verdicts: green held, yellow pressed, orange struts,
+/// blue lowered, red cannot hold.
+io::RenderScene verdict_scene(const geometry::Mesh& mesh, const bridge::KeepReport& report);
+
+/// kOk; kNotConverged where a line cannot hold; kInterrupted.
+int exit_code_of(const bridge::KeepReport& report);
+
+}  // namespace furrow::cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+
+#include "physics/springs.h"
+
+namespace furrow::physics {
+
+struct StrutOptions {
+  double stiffness = 3;           ///< [N/m]; >= 0
+  int nearest = 2, farthest = 4;  ///< rings apart, counted in edges; 2 <= nearest <= farthest
+};
+
+/// Gives a fold depth, as a truss has: springs at rest as they lie, between particles of the patch that are
+/// so many rings apart. They become bending springs, sorted in, but where there is one already or both ends
+/// are pinned. Edges are those of cloth.triangles. Forces change only when the cloth moves, so that a balance
+/// stays; prestress() again shares it out anew. Returns how many. Cost: a search of `farthest` rings for each
+/// particle of the patch, a sort.
+/// Throws std::invalid_argument, nothing changed, if an option or an index is out of its range.
+int add_struts(Cloth& cloth, std::span<const int> patch, const StrutOptions& options = {});
+
+}  // namespace furrow::physics

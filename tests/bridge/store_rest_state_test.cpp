@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/store_rest_state.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+
+#include "geometry/bending_springs.h"
+#include "geometry/errors.h"
+#include "geometry/masses.h"
+#include "geometry/property_names.h"
+#include "geometry/rest_angles.h"
+#include "geometry/rest_metric.h"
+#include "geometry/stiffness.h"
+#include "geometry/struts.h"
+#include "tests/test_meshes.h"
+
+using namespace furrow;
+using bridge::Bending;
+using bridge::GatherOptions;
+using bridge::Membrane;
+using geometry::Edge;
+using geometry::Mesh;
+using geometry::Vertex;
+
+namespace {
+
+Mesh sheet() {
+  Mesh mesh = tests::jittered(5, 4, 0.2, 3);
+  tests::lift(mesh, [](double x, double y) { return 0.1 * std::sin(5 * x) * y; });
+  geometry::ensure_rest_lengths(mesh);
+  geometry::rebuild_bending_springs(mesh);
+  geometry::ensure_rest_angles(mesh);
+  geometry::lump_masses(mesh, 0.15);
+  return mesh;
+}
+
+GatherOptions options_for(const Mesh& mesh, Membrane membrane, Bending bending) {
+  GatherOptions o;
+  o.mean_structural_length = geometry::mean_rest_length(mesh);
+  o.mean_bending_length = geometry::mean_bending_rest_length(mesh);
+  o.membrane = membrane;
+  o.bending = bending;
+  return o;
+}
+
+bool same(const std::vector<physics::Spring>& a, const std::vector<physics::Spring>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& s, const auto& t) {
+    return s.a == t.a && s.b == t.b && s.rest_length == t.rest_length && s.stiffness == t.stiffness;
+  });
+}
+
+/// All elements, to the last bit.
+bool same(const physics::Cloth& a, const physics::Cloth& b) {
+  const auto triangle = [](const auto& s, const auto& t) {
+    return s.vertices == t.vertices && s.rest_lengths == t.rest_lengths && s.lambda == t.lambda &&
+           s.mu == t.mu;
+  };
+  const auto hinge = [](const auto& s, const auto& t) {
+    return s.vertices == t.vertices && s.rest_angle == t.rest_angle && s.stiffness == t.stiffness;
+  };
+  return same(a.structural, b.structural) && same(a.bending, b.bending) &&
+         std::equal(a.membrane.begin(), a.membrane.end(), b.membrane.begin(), b.membrane.end(), triangle) &&
+         std::equal(a.hinges.begin(), a.hinges.end(), b.hinges.begin(), b.hinges.end(), hinge);
+}
+
+/// Another value for every element, as a solver for prestress would give.
+void change(physics::Cloth& cloth) {
+  int i = 0;
+  const auto factor = [&] { return 1 + 0.01 * std::sin(++i); };
+  for (auto* springs : {&cloth.structural, &cloth.bending})
+    for (physics::Spring& s : *springs) s.rest_length *= factor(), s.stiffness *= factor();
+  for (physics::MembraneTriangle& t : cloth.membrane)
+    for (double& l : t.rest_lengths) l *= factor();
+  for (physics::Hinge& h : cloth.hinges) h.rest_angle += 0.1 * std::sin(++i), h.stiffness *= 10 * factor();
+}
+
+}  // namespace
+
+TEST_CASE("what is stored is gathered again with the same bits, under every law") {
+  for (const Membrane membrane :
+       {Membrane::paper, Membrane::uniform, Membrane::inverse, Membrane::van_gelder, Membrane::triangles})
+    for (const Bending bending : {Bending::cross, Bending::hinge, Bending::cosine}) {
+      CAPTURE(int(membrane), int(bending));
+      Mesh mesh = sheet();
+      const GatherOptions o = options_for(mesh, membrane, bending);
+      physics::Cloth cloth = bridge::gather(mesh, o);
+      bridge::store_rest_state(cloth, o, mesh);
+      CHECK(same(bridge::gather(mesh, o), cloth));
+      change(cloth);
+      CHECK_FALSE(same(bridge::gather(mesh, o), cloth));
+      bridge::store_rest_state(cloth, o, mesh);
+      CHECK(same(bridge::gather(mesh, o), cloth));
+      // What is stored goes before the material.
+      GatherOptions stiffer = o;
+      stiffer.structural_stiffness *= 3, stiffer.bending_stiffness *= 3, stiffer.rigidity *= 3;
+      CHECK(same(bridge::gather(mesh, stiffer), cloth));
+    }
+}
+
+TEST_CASE("bending springs that the mesh lacks are stored as struts, also beside a cross spring") {
+  for (const Bending bending : {Bending::cross, Bending::hinge}) {
+    Mesh mesh = sheet();
+    const GatherOptions o = options_for(mesh, Membrane::triangles, bending);
+    physics::Cloth cloth = bridge::gather(mesh, o);
+    const std::vector<physics::Spring> own = cloth.bending;
+    const geometry::BendingSpring pair = geometry::bending_springs(mesh)[3];
+    cloth.bending.push_back({int(pair.a), int(pair.b), 0.3, 7});
+    cloth.bending.push_back({0, 29, 0.5, 3});
+    cloth.bending.push_back({0, 17, 0.4, 3});
+    bridge::store_rest_state(cloth, o, mesh);
+    CHECK(geometry::struts(mesh).size() == 3);
+    const physics::Cloth again = bridge::gather(mesh, o);
+    REQUIRE(again.bending.size() == own.size() + 3);
+    CHECK(again.bending[0].b == 17);
+    bridge::store_rest_state(again, o, mesh);
+    CHECK(same(bridge::gather(mesh, o), again));
+    CHECK(geometry::struts(mesh).size() == 3);
+    physics::Cloth without = again;
+    without.bending = own;
+    bridge::store_rest_state(without, o, mesh);
+    CHECK(geometry::struts(mesh).empty());
+    CHECK(same(bridge::gather(mesh, o).bending, own));
+  }
+}
+
+TEST_CASE("a triangle of its own lengths changes no other triangle, and no metric") {
+  Mesh mesh = sheet();
+  const GatherOptions o = options_for(mesh, Membrane::triangles, Bending::hinge);
+  physics::Cloth cloth = bridge::gather(mesh, o);
+  const Mesh before = mesh;
+  for (double& l : cloth.membrane[7].rest_lengths) l *= 0.99;
+  bridge::store_rest_state(cloth, o, mesh);
+  const auto rest = *geometry::find_map(mesh, geometry::kRestLength),
+             was = *geometry::find_map(before, geometry::kRestLength);
+  for (Edge e : mesh.edges()) CHECK(rest[e] == was[e]);
+  CHECK(same(bridge::gather(mesh, o), cloth));
+}
+
+TEST_CASE("a cloth of another mesh, or with values out of range, is refused and nothing is stored") {
+  const auto refused = [](Membrane membrane, Bending bending, const char* word,
+                          const std::function<void(physics::Cloth&)>& spoil) {
+    Mesh mesh = sheet();
+    const GatherOptions o = options_for(mesh, membrane, bending);
+    const physics::Cloth good = bridge::gather(mesh, o);
+    physics::Cloth bad = good;
+    change(bad);
+    spoil(bad);
+    CHECK_THROWS_WITH(bridge::store_rest_state(bad, o, mesh), Catch::Contains(word));
+    CHECK(same(bridge::gather(mesh, o), good));
+  };
+  const auto springs = [&](const char* word, const std::function<void(physics::Cloth&)>& spoil) {
+    refused(Membrane::paper, Bending::cross, word, spoil);
+  };
+  const auto shell = [&](const char* word, const std::function<void(physics::Cloth&)>& spoil) {
+    refused(Membrane::triangles, Bending::hinge, word, spoil);
+  };
+  springs("structural", [](auto& c) { c.structural.pop_back(); });
+  springs("other vertices", [](auto& c) { std::swap(c.structural[0], c.structural[1]); });
+  springs("rest length", [](auto& c) { c.structural[2].rest_length = 0; });
+  springs("stiffness", [](auto& c) { c.structural[2].stiffness = NAN; });
+  springs("missing", [](auto& c) { c.bending.pop_back(); });
+  springs("joins no two", [](auto& c) { c.bending.push_back({3, 400, 1, 1}); });
+  shell("membrane", [](auto& c) { c.membrane.pop_back(); });
+  shell("Lame", [](auto& c) { c.membrane[1].mu *= 2; });
+  shell("no area", [](auto& c) { c.membrane[1].rest_lengths[0] = 9; });
+  shell("rest angle", [](auto& c) { c.hinges[1].rest_angle = 4; });
+  shell("stiffness", [](auto& c) { c.hinges[1].stiffness = -1; });
+  shell("hinge", [](auto& c) { c.hinges.clear(); });
+}
+
+TEST_CASE("gather refuses a stiffness that makes no sense") {
+  for (const double bad : {-1.0, HUGE_VAL}) {
+    Mesh mesh = sheet();
+    ensure_map(mesh, geometry::kHingeStiffness)[Edge(20)] = bad;
+    CHECK_NOTHROW(bridge::gather(mesh, options_for(mesh, Membrane::paper, Bending::cross)));
+    CHECK_THROWS_AS(bridge::gather(mesh, options_for(mesh, Membrane::paper, Bending::hinge)),
+                    geometry::ContentError);
+  }
+}
