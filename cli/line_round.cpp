@@ -19,11 +19,13 @@ std::string flags(const geometry::WrinkleOptions& o) {
   using namespace geometry;
   const auto number = [](double x) { return Json(x).dump(); };
   return std::string("--rule ") + (o.insertion.rule == InsertionRule::paper ? "paper" : "safe") + " --rest " +
-         (o.rest == RestRule::flat ? "flat" : "drawn") + " --region " +
-         (o.region == SmoothingRegion::whole_mesh ? "whole-mesh" : "two-ring") + " --max-distance " +
-         number(o.insertion.max_distance) + " --density " + number(o.density) + " --iterations " +
-         std::to_string(o.smoothing.iterations) + " --lambda " + number(o.smoothing.lambda) + " --mu " +
-         number(o.smoothing.mu) + " --weights " +
+         (o.rest == RestRule::flat     ? "flat"
+          : o.rest == RestRule::copied ? "copied"
+                                       : "drawn") +
+         " --region " + (o.region == SmoothingRegion::whole_mesh ? "whole-mesh" : "two-ring") +
+         " --max-distance " + number(o.insertion.max_distance) + " --density " + number(o.density) +
+         " --iterations " + std::to_string(o.smoothing.iterations) + " --lambda " +
+         number(o.smoothing.lambda) + " --mu " + number(o.smoothing.mu) + " --weights " +
          (o.smoothing.weights == SmoothingWeights::cotangent ? "cotangent" : "uniform") +
          (o.smoothing.lines == LineRule::keep ? " --keep-lines" : "") +
          (o.smoothing.border == BorderRule::keep ? " --keep-border" : "");

@@ -60,7 +60,7 @@ geometry::WrinkleOptions to_options(const WrinkleArguments& a) {
   WrinkleOptions o = a.options;
   o.smoothing = to_options(a.smoothing);
   o.insertion.rule = a.rule == "paper" ? InsertionRule::paper : InsertionRule::safe;
-  o.rest = a.rest == "flat" ? RestRule::flat : RestRule::drawn;
+  o.rest = a.rest == "flat" ? RestRule::flat : a.rest == "copied" ? RestRule::copied : RestRule::drawn;
   o.region = a.region == "whole-mesh" ? SmoothingRegion::whole_mesh : SmoothingRegion::two_ring;
   return o;
 }
@@ -75,8 +75,10 @@ void add_drawing_options(CLI::App& sub, WrinkleArguments& a) {
                  "safe: flips that would spoil the mesh are refused; paper: the paper's plain rule")
       ->check(CLI::IsMember({"safe", "paper"}))
       ->capture_default_str();
-  sub.add_option("--rest", a.rest, "drawn: a line adds cloth; flat: rest lengths stay as they were")
-      ->check(CLI::IsMember({"drawn", "flat"}))
+  sub.add_option(
+         "--rest", a.rest,
+         "drawn: a line adds cloth, rest angles stay; copied: they turn, too; flat: the rest stays as it was")
+      ->check(CLI::IsMember({"drawn", "flat", "copied"}))
       ->capture_default_str();
   sub.add_option("--region", a.region, "what is smoothed: two-ring (around the lines) or whole-mesh")
       ->check(CLI::IsMember({"two-ring", "whole-mesh"}))

@@ -31,19 +31,24 @@ std::vector<MeshEdge> sorted_edges(const SoupMesh& mesh) {
   return edges;
 }
 
-double length(const PlyRow& row, std::optional<std::size_t> column, const PlyRows& rows,
-              double metres_per_unit) {
-  if (!column) return kUnset;
-  const double value = row.numbers[*column] * metres_per_unit;
-  if (value <= 0 || std::isinf(value)) rows.fail("a rest length must be > 0 and finite, or nan for none");
-  return value;
-}
+constexpr std::array<PlyEdgeNumber, 6> kEdgeNumbers = {
+    {{"rest_length", kRestLength, PlyEdgeNumber::Kind::length},
+     {"bending_rest_length", kBendingRestLength, PlyEdgeNumber::Kind::length},
+     {"rest_angle", kRestAngle, PlyEdgeNumber::Kind::angle},
+     {"stiffness", kStiffness, PlyEdgeNumber::Kind::stiffness},
+     {"bending_stiffness", kBendingStiffness, PlyEdgeNumber::Kind::stiffness},
+     {"hinge_stiffness", kHingeStiffness, PlyEdgeNumber::Kind::stiffness}}};
 
-double angle(const PlyRow& row, std::optional<std::size_t> column, const PlyRows& rows) {
-  if (!column) return kUnset;
-  const double value = row.numbers[*column];
-  if (std::abs(value) > std::numbers::pi) rows.fail("a rest angle must be in [-pi, pi], or nan for none");
-  return value;
+double checked(const PlyEdgeNumber& number, double value, const PlyRows& rows, double metres_per_unit) {
+  switch (number.kind) {
+    case PlyEdgeNumber::Kind::length:
+      return checked_rest_length(value, rows, metres_per_unit);
+    case PlyEdgeNumber::Kind::stiffness:
+      return checked_stiffness(value, rows);
+    default:
+      if (std::abs(value) > std::numbers::pi) rows.fail("a rest angle must be in [-pi, pi], or nan for none");
+      return value;
+  }
 }
 
 int small_count(const PlyRow& row, std::optional<std::size_t> column, const PlyRows& rows) {
@@ -56,36 +61,59 @@ int small_count(const PlyRow& row, std::optional<std::size_t> column, const PlyR
 
 }  // namespace
 
+std::span<const PlyEdgeNumber> ply_edge_numbers() { return kEdgeNumbers; }
+
+double checked_rest_length(double value, const PlyRows& rows, double metres_per_unit) {
+  const double metres = value * metres_per_unit;
+  if (metres <= 0 || std::isinf(metres)) rows.fail("a rest length must be > 0 and finite, or nan for none");
+  return metres;
+}
+
+double checked_stiffness(double value, const PlyRows& rows) {
+  if (value < 0 || std::isinf(value)) rows.fail("a stiffness must be >= 0 and finite, or nan for none");
+  return value;
+}
+
 bool PlyEdges::set_columns(const PlyElement& element) {
-  vertex1_ = find_column(element, {"vertex1"}, PlyKind::number);
-  vertex2_ = find_column(element, {"vertex2"}, PlyKind::number);
-  rest_length_ = find_column(element, {"rest_length"}, PlyKind::number);
-  bending_rest_length_ = find_column(element, {"bending_rest_length"}, PlyKind::number);
-  bending_count_ = find_column(element, {"bending_count"}, PlyKind::number);
-  rest_angle_ = find_column(element, {"rest_angle"}, PlyKind::number);
-  line_edge_ = find_column(element, {"line_edge"}, PlyKind::number);
-  return vertex1_ && vertex2_ &&
-         (rest_length_ || bending_rest_length_ || bending_count_ || rest_angle_ || line_edge_);
+  const auto column = [&](const char* name) { return find_column(element, {name}, PlyKind::number); };
+  vertex1_ = column("vertex1");
+  vertex2_ = column("vertex2");
+  bending_count_ = column("bending_count");
+  line_edge_ = column("line_edge");
+  bool any = bending_count_ || line_edge_;
+  for (std::size_t k = 0; k < kNumbers; ++k) {
+    numbers_[k] = column(kEdgeNumbers[k].name);
+    any = any || numbers_[k];
+  }
+  return vertex1_ && vertex2_ && any;
+}
+
+std::vector<std::string> PlyEdges::names() {
+  std::vector<std::string> names{"vertex1", "vertex2", "bending_count", "line_edge"};
+  for (const PlyEdgeNumber& number : kEdgeNumbers) names.emplace_back(number.name);
+  return names;
 }
 
 void PlyEdges::add(const PlyRow& row, const PlyRows& rows, double metres_per_unit) {
   const double a = row.numbers[*vertex1_], b = row.numbers[*vertex2_];
   const auto is_index = [](double x) { return x >= 0 && x < 9e15 && x == std::floor(x); };
   if (!is_index(a) || !is_index(b)) rows.fail("an end of an edge is no index of a vertex; correct it");
-  edges_.push_back({static_cast<std::size_t>(std::min(a, b)), static_cast<std::size_t>(std::max(a, b)),
-                    length(row, rest_length_, rows, metres_per_unit),
-                    length(row, bending_rest_length_, rows, metres_per_unit), angle(row, rest_angle_, rows),
-                    small_count(row, bending_count_, rows), small_count(row, line_edge_, rows)});
+  Values values{static_cast<std::size_t>(std::min(a, b)), static_cast<std::size_t>(std::max(a, b)), {}, 0, 0};
+  for (std::size_t k = 0; k < kNumbers; ++k)
+    values.numbers[k] =
+        numbers_[k] ? checked(kEdgeNumbers[k], row.numbers[*numbers_[k]], rows, metres_per_unit) : kUnset;
+  values.bending_count = small_count(row, bending_count_, rows);
+  values.line_edge = small_count(row, line_edge_, rows);
+  edges_.push_back(values);
 }
 
 void PlyEdges::fill_maps(SoupMesh& mesh, const std::string& name) const {
-  std::optional<EdgeMap<double>> rest_length, bending_rest_length, rest_angle;
+  std::array<std::optional<EdgeMap<double>>, kNumbers> maps;
   std::optional<EdgeMap<int>> bending_count;
   std::optional<EdgeMap<bool>> line_edge;
-  if (rest_length_) rest_length = ensure_map(mesh.mesh, kRestLength);
-  if (bending_rest_length_) bending_rest_length = ensure_map(mesh.mesh, kBendingRestLength);
+  for (std::size_t k = 0; k < kNumbers; ++k)
+    if (numbers_[k]) maps[k] = ensure_map(mesh.mesh, kEdgeNumbers[k].map);
   if (bending_count_) bending_count = ensure_map(mesh.mesh, kBendingCount);
-  if (rest_angle_) rest_angle = ensure_map(mesh.mesh, kRestAngle);
   if (line_edge_) line_edge = ensure_map(mesh.mesh, kLineEdge);
   if (edges_.empty()) return;
   const std::vector<MeshEdge> sorted = sorted_edges(mesh);
@@ -97,10 +125,9 @@ void PlyEdges::fill_maps(SoupMesh& mesh, const std::string& name) const {
       throw ContentError(name + ": edge " + std::to_string(i) + ": no face has an edge between vertices " +
                          std::to_string(e.a) + " and " + std::to_string(e.b) + "; remove it");
     for (const MeshEdge& m : same) {
-      if (rest_length) (*rest_length)[m.edge] = e.rest_length;
-      if (bending_rest_length) (*bending_rest_length)[m.edge] = e.bending_rest_length;
+      for (std::size_t k = 0; k < kNumbers; ++k)
+        if (maps[k]) (*maps[k])[m.edge] = e.numbers[k];
       if (bending_count) (*bending_count)[m.edge] = e.bending_count;
-      if (rest_angle) (*rest_angle)[m.edge] = e.rest_angle;
       if (line_edge) (*line_edge)[m.edge] = e.line_edge != 0;
     }
   }

@@ -10,6 +10,8 @@
 #include "io/ply_edges.h"
 #include "io/ply_motion.h"
 #include "io/ply_rows.h"
+#include "io/ply_struts.h"
+#include "io/ply_triangles.h"
 #include "io/ply_vertex_columns.h"
 #include "io/soup_to_mesh.h"
 
@@ -36,7 +38,9 @@ class PlyReader {
       else if (element.name == "face")
         read_faces(element);
       else if (element.name == "edge" && edges_.set_columns(element))
-        read_edges(element);
+        read_into(edges_, element);
+      else if (element.name == "strut" && struts_.set_columns(element))
+        read_into(struts_, element);
       else
         skip(element);
     }
@@ -44,6 +48,7 @@ class PlyReader {
     take_comments();
     SoupMesh mesh = soup_to_mesh(soup_, name_);
     edges_.fill_maps(mesh, name_);
+    struts_.set(mesh, soup_.points.size(), name_);
     motion_.fill_maps(mesh);
     file_.mesh = std::move(mesh.mesh);
     file_.repairs = mesh.repairs;
@@ -57,7 +62,7 @@ class PlyReader {
                                [](const std::string& c) { return c.starts_with("furrow state "); });
   }
 
-  void warn_of_unknown(const PlyElement& element, std::initializer_list<std::string_view> known) {
+  void warn_of_unknown(const PlyElement& element, const std::vector<std::string>& known) {
     std::string names;
     for (const PlyProperty& p : element.properties)
       if (std::find(known.begin(), known.end(), p.name) == known.end())
@@ -154,8 +159,11 @@ class PlyReader {
     const Column texcoord = find_column(element, {"texcoord"}, PlyKind::list);
     const Column group = number(element, {"group"}), material = number(element, {"material"});
     const Column generation = number(element, {"generation"});
-    warn_of_unknown(element,
-                    {"vertex_indices", "vertex_index", "texcoord", "group", "material", "generation"});
+    std::vector<std::string> known{"vertex_indices", "vertex_index", "texcoord",
+                                   "group",          "material",     "generation"};
+    if (triangles_.set_columns(element))
+      known.insert(known.end(), kPlyTriangleLengths.begin(), kPlyTriangleLengths.end());
+    warn_of_unknown(element, known);
     if (!indices) rows_.fail("the faces have no list vertex_indices");
     for (std::size_t i = 0; i < element.count; ++i) {
       rows_.read(element, i, row_);
@@ -167,6 +175,7 @@ class PlyReader {
       }
       soup_.close_face();
       if (texcoord) add_textures(row_.lists[*texcoord], corners.size());
+      triangles_.add(row_, rows_, corners.size(), options_.metres_per_unit, soup_);
       if (group) soup_.groups.push_back(whole(row_.numbers[*group], "group"));
       if (material) soup_.materials.push_back(whole(row_.numbers[*material], "material"));
       if (generation) soup_.generations.push_back(whole(row_.numbers[*generation], "generation"));
@@ -181,12 +190,12 @@ class PlyReader {
                                               : TextureCoordinate{values[2 * k], values[2 * k + 1]});
   }
 
-  void read_edges(const PlyElement& element) {
-    warn_of_unknown(element, {"vertex1", "vertex2", "rest_length", "bending_rest_length", "bending_count",
-                              "rest_angle", "line_edge"});
+  template <class Part>
+  void read_into(Part& part, const PlyElement& element) {
+    warn_of_unknown(element, Part::names());
     for (std::size_t i = 0; i < element.count; ++i) {
       rows_.read(element, i, row_);
-      edges_.add(row_, rows_, options_.metres_per_unit);
+      part.add(row_, rows_, options_.metres_per_unit);
     }
   }
 
@@ -226,6 +235,8 @@ class PlyReader {
   PlyRow row_;
   PolygonSoup soup_;
   PlyEdges edges_;
+  PlyStruts struts_;
+  PlyTriangles triangles_;
   PlyMotion motion_;
   std::vector<TextureCoordinate> vertex_textures_;
   MeshFile file_;

@@ -8,15 +8,20 @@
 
 #include "geometry/errors.h"
 #include "geometry/property_names.h"
+#include "geometry/struts.h"
 #include "geometry/vertex_attributes.h"
 #include "io/mesh_writers.h"
 #include "io/number_text.h"
+#include "io/ply_edges.h"
 #include "io/ply_motion.h"
+#include "io/ply_triangles.h"
 
 namespace furrow::io {
 namespace {
 
 using namespace geometry;
+
+constexpr const char* kEnds = "property int vertex1\nproperty int vertex2\n";
 
 class PlyWriter {
  public:
@@ -33,11 +38,12 @@ class PlyWriter {
         groups_(find_map(mesh_, kGroup)),
         materials_(find_map(mesh_, kMaterial)),
         generations_(find_map(mesh_, kGeneration)),
-        rest_lengths_(find_map(mesh_, kRestLength)),
-        bending_rest_lengths_(find_map(mesh_, kBendingRestLength)),
+        triangle_lengths_(find_map(mesh_, kTriangleRestLength)),
         bending_counts_(find_map(mesh_, kBendingCount)),
-        rest_angles_(find_map(mesh_, kRestAngle)),
-        line_edges_(find_map(mesh_, kLineEdge)) {
+        line_edges_(find_map(mesh_, kLineEdge)),
+        struts_(struts(mesh_)) {
+    for (const PlyEdgeNumber& number : ply_edge_numbers())
+      if (const auto map = find_map(mesh_, number.map)) edge_numbers_.emplace_back(&number, *map);
     byte_colors_ =
         colors_ && std::ranges::all_of(mesh_.vertices(), [&](Vertex v) {
           return std::ranges::all_of((*colors_)[v], [](double c) { return std::round(c * 255) / 255 == c; });
@@ -49,13 +55,12 @@ class PlyWriter {
     write_vertices();
     write_faces();
     if (has_edges()) write_edges();
+    for (const Strut& s : struts_) write_strut(s);
     return std::move(out_);
   }
 
  private:
-  bool has_edges() const {
-    return rest_lengths_ || bending_rest_lengths_ || bending_counts_ || rest_angles_ || line_edges_;
-  }
+  bool has_edges() const { return !edge_numbers_.empty() || bending_counts_ || line_edges_; }
 
   template <class T>
   void put(T value) {
@@ -107,16 +112,24 @@ class PlyWriter {
     if (groups_) out_ += "property int group\n";
     if (materials_) out_ += "property int material\n";
     if (generations_) out_ += "property int generation\n";
-    if (has_edges()) {
-      declare("edge", mesh_.number_of_edges());
-      out_ += "property int vertex1\nproperty int vertex2\n";
-      if (rest_lengths_) out_ += "property double rest_length\n";
-      if (bending_rest_lengths_) out_ += "property double bending_rest_length\n";
-      if (bending_counts_) out_ += "property int bending_count\n";
-      if (rest_angles_) out_ += "property double rest_angle\n";
-      if (line_edges_) out_ += "property uchar line_edge\n";
+    if (triangle_lengths_)
+      for (const char* name : kPlyTriangleLengths) out_ += std::string("property double ") + name + "\n";
+    declare_edges();
+    if (!struts_.empty()) {
+      declare("strut", struts_.size());
+      out_ += std::string(kEnds) + "property double rest_length\nproperty double stiffness\n";
     }
     out_ += "end_header\n";
+  }
+
+  void declare_edges() {
+    if (!has_edges()) return;
+    declare("edge", mesh_.number_of_edges());
+    out_ += kEnds;
+    for (const auto& [number, map] : edge_numbers_)
+      out_ += std::string("property double ") + number->name + "\n";
+    if (bending_counts_) out_ += "property int bending_count\n";
+    if (line_edges_) out_ += "property uchar line_edge\n";
   }
 
   void write_vertices() {
@@ -151,6 +164,9 @@ class PlyWriter {
       if (groups_) put(static_cast<std::int32_t>((*groups_)[f]));
       if (materials_) put(static_cast<std::int32_t>((*materials_)[f]));
       if (generations_) put(static_cast<std::int32_t>((*generations_)[f]));
+      if (!triangle_lengths_) continue;
+      for (const Halfedge h : mesh_.halfedges_around_face(mesh_.next(mesh_.halfedge(f))))  // 01, 12, 20
+        put_length((*triangle_lengths_)[h]);
     }
   }
 
@@ -158,12 +174,18 @@ class PlyWriter {
     for (const auto& [a, b, e] : sorted_edges()) {
       put_index(a);
       put_index(b);
-      if (rest_lengths_) put_length((*rest_lengths_)[e]);
-      if (bending_rest_lengths_) put_length((*bending_rest_lengths_)[e]);
+      for (const auto& [number, map] : edge_numbers_)
+        number->kind == PlyEdgeNumber::Kind::length ? put_length(map[e]) : put(map[e]);
       if (bending_counts_) put(static_cast<std::int32_t>((*bending_counts_)[e]));
-      if (rest_angles_) put((*rest_angles_)[e]);
       if (line_edges_) put(static_cast<std::uint8_t>((*line_edges_)[e]));
     }
+  }
+
+  void write_strut(const Strut& s) {
+    put_index(numbers_[s.a]);
+    put_index(numbers_[s.b]);
+    put_length(s.rest_length);
+    put(s.stiffness);
   }
 
   /// By their vertices, so that a mesh that is read and written again gives the same bytes.
@@ -188,9 +210,11 @@ class PlyWriter {
   std::vector<VertexAttribute> attributes_;
   std::optional<HalfedgeMap<TextureCoordinate>> textures_;
   std::optional<FaceMap<int>> groups_, materials_, generations_;
-  std::optional<EdgeMap<double>> rest_lengths_, bending_rest_lengths_, rest_angles_;
+  std::optional<HalfedgeMap<double>> triangle_lengths_;
   std::optional<EdgeMap<int>> bending_counts_;
   std::optional<EdgeMap<bool>> line_edges_;
+  std::vector<std::pair<const PlyEdgeNumber*, EdgeMap<double>>> edge_numbers_;
+  std::vector<Strut> struts_;
   bool byte_colors_ = false;
   std::string out_;
 };

@@ -26,10 +26,12 @@ struct PolygonSoup {
   std::vector<std::size_t> first_corner = {0};  ///< F + 1 numbers: face f has corners [f], …, [f + 1] - 1
   std::vector<std::size_t> corners;             ///< point of each corner, from 0; may be out of range
   std::vector<geometry::TextureCoordinate> textures;  ///< empty, or one a corner
-  std::vector<int> groups;                            ///< empty, or one a face
-  std::vector<int> materials;                         ///< empty, or one a face
-  std::vector<int> generations;                       ///< empty, or one a face: geometry::kGeneration
-  std::vector<std::size_t> face_lines;                ///< line of the file of each face, for errors; or empty
+  /// Empty, or one a corner: rest length in its face alone of the edge to the next corner [m], NaN = unset.
+  std::vector<double> triangle_rest_lengths;
+  std::vector<int> groups;              ///< empty, or one a face
+  std::vector<int> materials;           ///< empty, or one a face
+  std::vector<int> generations;         ///< empty, or one a face: geometry::kGeneration
+  std::vector<std::size_t> face_lines;  ///< line of the file of each face, for errors; or empty
 
   std::size_t faces() const { return first_corner.size() - 1; }
   /// Ends the face whose corners were pushed last.

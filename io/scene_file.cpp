@@ -78,7 +78,8 @@ class SceneReader {
     using namespace geometry;
     table.choose<InsertionRule>("rule", o.insertion.rule,
                                 {{"safe", InsertionRule::safe}, {"paper", InsertionRule::paper}});
-    table.choose<RestRule>("rest", o.rest, {{"drawn", RestRule::drawn}, {"flat", RestRule::flat}});
+    table.choose<RestRule>(
+        "rest", o.rest, {{"drawn", RestRule::drawn}, {"flat", RestRule::flat}, {"copied", RestRule::copied}});
     table.choose<SmoothingRegion>(
         "region", o.region,
         {{"two-ring", SmoothingRegion::two_ring}, {"whole-mesh", SmoothingRegion::whole_mesh}});

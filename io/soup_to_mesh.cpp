@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "geometry/errors.h"
@@ -112,6 +113,27 @@ void fill_vertex_map(SoupMesh& out, const PropertyName<K, V>& name, const Values
   for (const Vertex v : out.mesh.vertices()) map[v] = values[out.origin[v]];
 }
 
+/// Texture coordinates of corners, and rest lengths of edges that are a face's own.
+void fill_corners(const PolygonSoup& soup, const Triangles& triangles, Mesh& mesh) {
+  std::optional<HalfedgeMap<TextureCoordinate>> textures;
+  std::optional<HalfedgeMap<double>> rest_lengths;
+  if (!soup.textures.empty()) textures = ensure_map(mesh, kTexture);
+  if (!soup.triangle_rest_lengths.empty()) rest_lengths = ensure_map(mesh, kTriangleRestLength);
+  if (!textures && !rest_lengths) return;
+  for (const Face f : mesh.faces())
+    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+      const auto corner_at = [&](std::size_t v) {
+        const SoupTriangle& t = triangles[f];
+        return t.corners[t.points[0] == v ? 0 : t.points[1] == v ? 1 : 2];
+      };
+      const std::size_t to = corner_at(mesh.target(h)), from = corner_at(mesh.source(h));
+      if (textures) (*textures)[h] = soup.textures[to];
+      // The corner before the other one on the way round; a face that was turned over is walked backwards.
+      const std::size_t low = std::min(from, to), high = std::max(from, to);
+      if (rest_lengths) (*rest_lengths)[h] = soup.triangle_rest_lengths[high - low == 1 ? low : high];
+    }
+}
+
 void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& out) {
   fill_vertex_map(out, kColor, soup.colors);
   fill_vertex_map(out, kLine, soup.lines);
@@ -134,15 +156,7 @@ void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& ou
     auto generations = ensure_map(mesh, kGeneration);
     for (const Face f : mesh.faces()) generations[f] = soup.generations[triangles[f].face];
   }
-  if (soup.textures.empty()) return;
-  auto textures = ensure_map(mesh, kTexture);
-  for (const Face f : mesh.faces())
-    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
-      const auto& p = triangles[f].points;
-      const std::size_t v = mesh.target(h);
-      const std::size_t k = p[0] == v ? 0 : p[1] == v ? 1 : 2;
-      textures[h] = soup.textures[triangles[f].corners[k]];
-    }
+  fill_corners(soup, triangles, mesh);
 }
 
 }  // namespace

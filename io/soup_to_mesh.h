@@ -18,9 +18,10 @@ struct SoupMesh {
 /// faces. Faces are cut by triangulate_polygon(). Triangles with a repeated corner, and those with the three
 /// vertices of an earlier one (whichever way they wind), are dropped. If the rest is no oriented manifold
 /// already, make_manifold() turns faces and appends copies of vertices. Unused points stay as isolated
-/// vertices. Sets v:color, v:line, v:mass, v:rest_position, vertex attributes, h:texture, f:group, f:material
-/// where the soup has them; copies carry them along. Throws geometry::ContentError ("name:line: …" or "name:
-/// face i: …") if a corner's index is out of range, and if no face is left. Cost: O(F log F).
+/// vertices. Sets v:color, v:line, v:mass, v:rest_position, vertex attributes, h:texture, h:rest_length,
+/// f:group, f:material where the soup has them; copies carry them along. Throws geometry::ContentError
+/// ("name:line: …" or "name: face i: …") if a corner's index is out of range, and if no face is left. Cost:
+/// O(F log F).
 SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name);
 
 }  // namespace furrow::io

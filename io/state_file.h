@@ -20,9 +20,10 @@ struct SavedState {
 };
 
 /// The file is a binary PLY that other programs open as a mesh: velocities, contact memory and compensating
-/// forces are scalar columns of the vertices (vx, …), rest lengths and bending springs columns of edges that
-/// name their two vertices; time, step, plan, scene and lines are comments (`furrow state {…}`, JSON in one
-/// line). Metres, y up. Reading and writing again gives the same bytes.
+/// forces are scalar columns of the vertices (vx, …); rest lengths, rest angles and stiffnesses columns of
+/// edges and faces, struts an element of their own (docs/rest-state.md); time, step, plan, scene and lines
+/// are comments (`furrow state {…}`, JSON in one line). Metres, y up. Reading and writing again gives the
+/// same bytes.
 void write_state(const std::filesystem::path& path, SavedState state);
 /// The file's bytes, as a string.
 std::string state_bytes(SavedState state);

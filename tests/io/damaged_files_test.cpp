@@ -24,9 +24,11 @@ std::string text_ply() {
          "property float z\nproperty int line\nproperty double mass\nelement face 2\n"
          "property list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty int group\n"
          "element edge 2\nproperty int vertex1\nproperty int vertex2\nproperty double "
-         "rest_length\nend_header\n"
+         "rest_length\nproperty double stiffness\nelement strut 1\nproperty int vertex1\nproperty int "
+         "vertex2\n"
+         "property double rest_length\nproperty double stiffness\nend_header\n"
          "0 0 0 -1 0.1\n1 0 0 0 0.1\n1 1 0 1 nan\n0 1 0 -1 0.1\n3 0 1 2 6 0 0 1 0 1 1 0\n3 0 2 3 0 -1\n"
-         "0 1 0.9\n2 0 1.5\n";
+         "0 1 0.9 5\n2 0 1.5 nan\n1 3 1.4 0.3\n";
 }
 
 std::string text_stl() {

@@ -12,6 +12,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/property_names.h"
+#include "geometry/struts.h"
 #include "io/mesh_file.h"
 
 namespace furrow::tests {
@@ -99,7 +100,15 @@ inline io::MeshFile decorated_grid(int n) {
     rest[e] = third(e) + 1;
     if (!mesh.is_border(e)) bending[e] = third(e), count[e] = 1 + static_cast<int>(std::size_t(e)) % 2;
     line_edge[e] = std::size_t(e) % 5 == 0;
+    for (const auto* name : {&kStiffness, &kBendingStiffness, &kHingeStiffness, &kRestAngle})
+      ensure_map(mesh, *name)[e] = std::size_t(e) % 7 == 2 ? kUnset : third(e);
   }
+  auto own = ensure_map(mesh, kTriangleRestLength);
+  for (const Halfedge h : mesh.halfedges())
+    if (!mesh.is_border(h)) own[h] = std::size_t(mesh.face(h)) % 4 == 3 ? kUnset : third(h) + 2;
+  const Vertex last(static_cast<Mesh::size_type>(mesh.number_of_vertices() - 1));
+  set_struts(mesh,
+             std::vector<Strut>{{Vertex(1), last, third(5), 0.1}, {Vertex(0), last, 1 / 7.0, third(1)}});
   auto texture = ensure_map(mesh, kTexture);
   auto group = ensure_map(mesh, kGroup), material = ensure_map(mesh, kMaterial);
   for (const Face f : mesh.faces()) {

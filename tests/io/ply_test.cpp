@@ -67,12 +67,24 @@ TEST_CASE("PLY: mesh, maps, names and comments come back with the same bits") {
   check_same_map(a, b, kBendingRestLength, a.edges());
   check_same_map(a, b, kBendingCount, a.edges());
   check_same_map(a, b, kLineEdge, a.edges());
+  for (const auto* name : {&kRestAngle, &kStiffness, &kBendingStiffness, &kHingeStiffness})
+    check_same_map(a, b, *name, a.edges());
   check_same_map(a, b, kGroup, a.faces());
   check_same_map(a, b, kMaterial, a.faces());
   std::vector<Halfedge> inner;
   for (const Halfedge h : a.halfedges())
     if (!a.is_border(h)) inner.push_back(h);
   check_same_map(a, b, kTexture, inner);
+  check_same_map(a, b, kTriangleRestLength, inner);
+  const auto p = struts(a), q = struts(b);
+  REQUIRE(p.size() == 2);
+  REQUIRE(q.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(p[i].a == q[i].a);
+    CHECK(p[i].b == q[i].b);
+    CHECK(same_bits(p[i].rest_length, q[i].rest_length));
+    CHECK(same_bits(p[i].stiffness, q[i].stiffness));
+  }
   CHECK(back.group_names == file.group_names);
   CHECK(back.material_names == file.material_names);
   CHECK(back.comments == file.comments);
@@ -114,7 +126,7 @@ TEST_CASE("PLY: edge values are found by their vertices after flips and removals
 TEST_CASE("PLY: a mesh without maps gets no properties and no edge element") {
   const std::string bytes = written(read_from(kCubeObj, MeshFormat::obj), MeshFormat::ply);
   const std::string header = bytes.substr(0, bytes.find("end_header"));
-  for (const char* absent : {"edge", "line", "mass", "red", "group", "texcoord"})
+  for (const char* absent : {"edge", "strut", "rest_length", "line", "mass", "red", "group", "texcoord"})
     CHECK(header.find(absent) == std::string::npos);
   CHECK(header.find("property double z") != std::string::npos);
 }
@@ -210,7 +222,66 @@ TEST_CASE("PLY: errors name the line, or the element in binary files") {
             .find("between vertices 0 and 7") != std::string::npos);
   std::string bytes = written(decorated_grid(2), MeshFormat::ply);
   bytes.resize(bytes.size() - 1);
-  CHECK(error_of(bytes).starts_with("test: edge 15: the file is cut short"));
+  CHECK(error_of(bytes).starts_with("test: strut 1: the file is cut short"));
+}
+
+TEST_CASE("PLY: hostile stiffnesses, rest angles, struts and lengths of triangles are refused") {
+  const std::string head = std::string(kHead) + kTriangle, rows = kTriangleRows;
+  const auto edge = [&](const std::string& column, const std::string& value) {
+    return error_of(head + "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty double " +
+                    column + "\nend_header\n" + rows + "0 1 " + value + "\n");
+  };
+  for (const char* column : {"stiffness", "bending_stiffness", "hinge_stiffness"}) {
+    CHECK(edge(column, "0") == "(none)");
+    CHECK(edge(column, "nan") == "(none)");
+    for (const char* bad : {"-1", "inf"})
+      CHECK(edge(column, bad).find("edge 0: a stiffness must be >= 0 and finite") != std::string::npos);
+  }
+  CHECK(edge("rest_angle", "4").find("edge 0: a rest angle must be in [-pi, pi]") != std::string::npos);
+  const auto strut = [&](const std::string& values) {
+    return error_of(head +
+                    "element strut 1\nproperty int vertex1\nproperty int vertex2\n"
+                    "property double rest_length\nproperty double stiffness\nend_header\n" +
+                    rows + values + "\n");
+  };
+  CHECK(strut("2 0 0.5 3") == "(none)");
+  for (const auto& [values, what] : {std::pair("0 3 0.5 3", "strut 0: names vertex 3 of 3"),
+                                     {"0 -1 0.5 3", "no index of a vertex"},
+                                     {"1 1 0.5 3", "one vertex"},
+                                     {"0 1 0 3", "a rest length must be > 0"},
+                                     {"0 1 nan 3", "a strut needs"},
+                                     {"0 1 0.5 -3", "a stiffness must be"},
+                                     {"0 1 0.5 nan", "a strut needs"}})
+    CHECK(strut(values).find(what) != std::string::npos);
+  const auto triangle = [&](const std::string& values) {
+    return error_of(head +
+                    "property double rest_length_01\nproperty double rest_length_12\n"
+                    "property double rest_length_20\nend_header\n0 0 0\n1 0 0\n0 1 0\n" +
+                    values + "\n");
+  };
+  CHECK(triangle("3 0 1 2 1 1.4 1") == "(none)");
+  CHECK(triangle("3 0 1 2 nan nan nan") == "(none)");
+  CHECK(triangle("3 0 1 2 1 -1.4 1").find("face 0: a rest length must be > 0") != std::string::npos);
+}
+
+TEST_CASE("PLY: lengths of a triangle stand for the edges between its corners, whichever way it winds") {
+  // The second face winds against the first and is turned over.
+  const io::MeshFile file =
+      read_from(std::string(kHead) +
+                    "element vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 3\n"
+                    "property list uchar int vertex_indices\nproperty double rest_length_01\n"
+                    "property double rest_length_12\nproperty double rest_length_20\nend_header\n"
+                    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 1 0\n3 0 1 2 101 112 120\n3 3 2 0 232 220 203\n"
+                    "3 1 4 2 314 342 321\n",
+                MeshFormat::ply);
+  REQUIRE(file.repairs.reversed_faces == 1);
+  const auto rest = *find_map(file.mesh, kTriangleRestLength);
+  for (const Halfedge h : file.mesh.halfedges()) {
+    if (file.mesh.is_border(h)) continue;
+    const int f = int(std::size_t(file.mesh.face(h))) + 1;
+    const int a = int(std::size_t(file.mesh.source(h))), b = int(std::size_t(file.mesh.target(h)));
+    CHECK((rest[h] == 100 * f + 10 * a + b || rest[h] == 100 * f + 10 * b + a));
+  }
 }
 
 TEST_CASE("PLY: a header cannot announce more than the file holds") {

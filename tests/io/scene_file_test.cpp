@@ -120,6 +120,16 @@ fps = 30
   CHECK(s.output.fps == 30);
 }
 
+TEST_CASE("the rules of the rest state have their names") {
+  using geometry::RestRule;
+  for (const auto& [name, rule] :
+       {std::pair("drawn", RestRule::drawn), {"flat", RestRule::flat}, {"copied", RestRule::copied}})
+    CHECK(scene(std::string("[garment]\nmesh = \"g.obj\"\n[[lines]]\nstrokes = \"l.json\"\nrest = \"") +
+                name + "\"\n")
+              .lines[0]
+              .options.rest == rule);
+}
+
 TEST_CASE("a scene's faults are told with file, line, column and the nearest setting") {
   CHECK(fault("[simulation]\nsecnds = 3\n") ==
         "a/s.toml:2:1: there is no setting 'simulation.secnds'; did you mean 'seconds'?");
@@ -131,7 +141,7 @@ TEST_CASE("a scene's faults are told with file, line, column and the nearest set
   CHECK(has(fault("[material]\nbending = inf\n"), "must be a number"));
   CHECK(has(fault("[material]\npoisson = 1\n"), "must be below 1"));
   CHECK(has(fault("[[lines]]\nstrokes = \"l.json\"\nrest = \"drown\"\n"),
-            "a/s.toml:3:1: lines.0.rest = \"drown\" is none of drawn, flat; did you mean drawn?"));
+            "a/s.toml:3:1: lines.0.rest = \"drown\" is none of drawn, flat, copied; did you mean drawn?"));
   CHECK(has(fault("[[lines]]\nstrokes = \"a\"\ntime = 2\n[[lines]]\nstrokes = \"b\"\ntime = 1\n"),
             "a/s.toml:6:1"));
   CHECK(has(fault("[[lines]]\ntime = 2\n"), "lines.0.strokes is missing"));
