@@ -46,6 +46,7 @@ void check(const geometry::Mesh& mesh, const physics::Cloth& cloth, const physic
   need(o.gust_seconds > 0, "gust_seconds", o.gust_seconds);
   need(o.calm_seconds > 0, "calm_seconds", o.calm_seconds);
   need(o.kept > 0 && o.kept < 1, "kept", o.kept);
+  need(o.largest_turn >= 0, "largest_turn", o.largest_turn);
   need(o.height_trials >= 0, "height_trials", o.height_trials);
   double last = 1;
   for (const double factor : o.presses)
@@ -65,8 +66,10 @@ class Keeper {
     o_.bounds.friction = o_.run.friction;
     o_.bounds.gap = o_.run.contact_gap;
     for (Vec3& v : cloth_.particles.v) v.setZero();
-    if (o_.balance) report_.turned = physics::balance_rigidly(cloth_, o_.run.gravity);
     start_ = cloth_;
+    physics::Cloth balanced = cloth_;
+    const double turn = world.collider ? 0 : physics::balance_rigidly(balanced, o_.run.gravity);
+    if (turn > 0 && turn <= o_.largest_turn) start_ = std::move(balanced), report_.turned = turn;
     find_lines();
   }
 
@@ -173,7 +176,10 @@ class Keeper {
     return found;
   }
 
-  bool holds(const Line& line) const { return line.kept >= o_.kept && line.kept_gust >= o_.kept; }
+  bool holds(const Line& line) const {
+    const double most = 1 - o_.kept;
+    return std::abs(line.kept - 1) <= most && std::abs(line.kept_gust - 1) <= most;
+  }
 
   void help_by_stiffness() {
     for (;;) {
@@ -242,7 +248,8 @@ class Keeper {
 
   std::string reason(bool of_mode) const {
     if (report_.interrupted) return "interrupted";
-    if (!report_.rest.imbalance.empty()) return "nothing holds the garment in balance as it lies";
+    if (!report_.rest.imbalance.empty())
+      return "nothing holds the garment in balance as it lies; see imbalance";
     if (report_.rest.residual > out_of_balance) return "the bounds on strain and angle leave no balance";
     if (of_mode) return "the fold can give way without effort: the cloth bends too easily for it";
     return "the fold goes over into another shape";

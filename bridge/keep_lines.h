@@ -19,12 +19,14 @@ struct KeepOptions {
   double gust = 12;                  ///< then an acceleration to one side [m/s^2]; >= 0; 0: no gust
   double gust_seconds = 0.4, calm_seconds = 2;  ///< [s]; > 0
   physics::Vec3 gust_direction{0, 0, 0};        ///< 0: level, the way in which the cloth is thinnest
-  double kept = 0.95;                           ///< share of the height that a line holds with [-]; in (0, 1)
+  double kept = 0.95;  ///< share of the height that a line must keep, and not outgrow by more [-]; in (0, 1)
   std::vector<double> presses{10, 30,
                               100};        ///< factors on the hinges of a line, in the order tried; each > 1
   std::vector<double> struts{0.3, 3, 30};  ///< then also struts [N/m]; each > 0
   int height_trials = 4;                   ///< then bisections of the height; >= 0; 0: none
-  bool balance = false;                    ///< first turn what hangs crookedly about its pins
+  /// What hangs on a line of pins or on one is first turned about it into balance, if by no more than this
+  /// [rad]; >= 0; 0: never.
+  double largest_turn = 0.2;
 };
 
 enum class Verdict { held, pressed, strutted, lowered, cannot_hold };
@@ -44,7 +46,7 @@ struct KeepReport {
   std::vector<KeptLine> lines;  ///< by id
   physics::PrestressReport rest;
   physics::Certificate certificate;
-  double turned = 0;         ///< by `balance` [rad]
+  double turned = 0;         ///< about its pins into balance [rad]
   int trials = 0, runs = 0;  ///< rest states that were solved for, and forward runs
   double drift = 0;          ///< of any vertex in the last run, before the gust [m]
   bool interrupted = false;  ///< the last rest state stands; lines say what is known

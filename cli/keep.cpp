@@ -7,6 +7,7 @@
 #include "bridge/gather.h"
 #include "bridge/store_rest_state.h"
 #include "cli/camera_options.h"
+#include "cli/judge_report.h"
 #include "cli/keep_report.h"
 #include "cli/prepare_garment.h"
 #include "cli/scene_cloth.h"
@@ -25,7 +26,8 @@ struct KeepArguments : CommonArguments {
   SceneFlags flags;
   CameraArguments camera;
   double run = 5, gust = 12;
-  bool balance = false, no_help = false;
+  std::string kept = "95%";
+  bool no_balance = false, no_help = false;
 };
 
 /// The garment in its drawn shape, of a scene at its time 0 or of a state.
@@ -108,8 +110,9 @@ int keep(KeepArguments& a) {
   options.run = garment.options;
   options.run.stop_at.reset();
   options.seconds = a.run;
+  options.kept = parse_share(a.kept, "--kept");
   options.gust = a.gust;
-  options.balance = a.balance;
+  if (a.no_balance) options.largest_turn = 0;
   if (a.no_help) options.presses.clear(), options.struts.clear(), options.height_trials = 0;
   bridge::KeepReport report;
   {
@@ -150,7 +153,11 @@ void add_keep(CLI::App& app, int& exit_code) {
   sub->add_option("--gust", a->gust,
                   "then an acceleration to one side for 0.4 s, and 2 s of calm [m/s^2] (default 12)")
       ->check(CLI::NonNegativeNumber);
-  sub->add_flag("--balance", a->balance, "first turn what hangs crookedly about its pins into balance");
+  sub->add_option("--kept", a->kept, "share of its height with which a line holds (default 95%)");
+  sub->add_flag(
+      "--no-balance", a->no_balance,
+      "do not turn a garment about a line of pins, or one, until its centre of mass hangs below them "
+      "(by at most 0.2 rad)");
   sub->add_flag("--no-help", a->no_help,
                 "no press, struts or lower height where the rest state alone does not hold");
   sub->add_option(

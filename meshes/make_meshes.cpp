@@ -147,13 +147,19 @@ void make(const std::filesystem::path& folder) {
       {{"name", "valley"}, {"height", -0.02}, {"points", segment({0.36, 0.86, 0}, {0.06, 0.46, 0}, 0.005)}},
       {{"name", "ring"}, {"height", 0.03}, {"closed", true}, {"points", ring({0, 0.22, 0}, 0.12, 150)}}};
   write_strokes(folder / "strokes" / "sheet.json", strokes);
-  write(folder / "hung_sheet.obj",
-        obj(furrow::geometry::equilateral_sheet(0.6, 0.8, 0.017),
-            "0.6 m x 0.8 m of cloth, equilateral triangles of edge 17 mm; metres, y up, made by make_meshes"));
-  const json three = {
-      {{"name", "horizontal"}, {"height", 0.01}, {"points", segment({-0.2, 0.68, 0}, {0.2, 0.68, 0}, 0.005)}},
-      {{"name", "vertical"}, {"height", 0.01}, {"points", segment({-0.18, 0.54, 0}, {-0.18, 0.14, 0}, 0.005)}},
-      {{"name", "diagonal"}, {"height", 0.01}, {"points", segment({-0.02, 0.18, 0}, {0.22, 0.5, 0}, 0.005)}}};
+  write(
+      folder / "hung_sheet.obj",
+      obj(furrow::geometry::equilateral_sheet(0.6, 0.8, 0.017),
+          "0.6 m x 0.8 m of cloth, equilateral triangles of edge 17 mm; metres, y up, made by make_meshes"));
+  const json three = {{{"name", "horizontal"},
+                       {"height", 0.0155},
+                       {"points", segment({-0.2, 0.68, 0}, {0.2, 0.68, 0}, 0.005)}},
+                      {{"name", "vertical"},
+                       {"height", 0.0155},
+                       {"points", segment({-0.18, 0.54, 0}, {-0.18, 0.14, 0}, 0.005)}},
+                      {{"name", "diagonal"},
+                       {"height", 0.0155},
+                       {"points", segment({-0.02, 0.18, 0}, {0.22, 0.5, 0}, 0.005)}}};
   write_strokes(folder / "strokes" / "hung_sheet.json", three);
   write(folder / "panelled.obj", furrow::meshes::panelled_obj());
   write_strokes(folder / "strokes" / "panelled.json", furrow::meshes::panelled_strokes());

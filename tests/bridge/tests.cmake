@@ -2,6 +2,7 @@
 furrow_add_tests(bridge LIBRARIES furrow::bridge garment_cases SOURCES
   draw_more_test.cpp
   gather_test.cpp
+  keep_lines_test.cpp
   store_rest_state_test.cpp
   body_test.cpp
   draped_test.cpp

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/keep_lines.h"
+
+#include <catch2/catch.hpp>
+
+#include "bridge/gather.h"
+#include "bridge/store_rest_state.h"
+#include "geometry/sheet.h"
+#include "geometry/wrinkle.h"
+#include "physics/pins.h"
+#include "physics/residual_force.h"
+
+using namespace furrow;
+using bridge::KeepOptions;
+using bridge::Verdict;
+
+namespace {
+
+const physics::Vec3 kGravity(0, -9.81, 0);
+
+/// A sheet that hangs by its upper edge, with a level ridge.
+struct Hung {
+  geometry::Mesh mesh = geometry::equilateral_sheet(0.3, 0.3, 0.02);
+  bridge::GatherOptions material;
+  physics::Cloth cloth;
+  KeepOptions options;
+
+  explicit Hung(double rigidity) {
+    geometry::Stroke ridge;
+    ridge.height = 0.012;
+    ridge.points = {{-0.08, 0.2, 0}, {0.08, 0.2, 0}};
+    const geometry::WrinkleReport report = geometry::wrinkle(mesh, std::span(&ridge, 1), {});
+    material.mean_structural_length = report.mean_structural_length;
+    material.mean_bending_length = report.mean_bending_length;
+    material.membrane = bridge::Membrane::triangles;
+    material.bending = bridge::Bending::hinge;
+    material.stretch = 300;
+    material.rigidity = rigidity;
+    cloth = gathered();
+    options.run.air_drag = 4;
+    options.seconds = 1;
+    options.calm_seconds = 1;
+  }
+  physics::Cloth gathered() const {
+    physics::Cloth c = bridge::gather(mesh, material);
+    std::vector<int> top;
+    for (const geometry::Vertex v : mesh.vertices())
+      if (mesh.point(v).y() > 0.2999) top.push_back(int(v));
+    physics::pin(c.particles, top);
+    return c;
+  }
+  bridge::KeepReport keep() { return bridge::keep_lines(mesh, cloth, {}, {}, options); }
+  double residual(const physics::Cloth& c) const {
+    return physics::residual_force(c, kGravity, nullptr, 0, 0.003);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("keep: a ridge in cloth that can bear it stays as drawn, and after a gust") {
+  Hung hung(1e-4);
+  const bridge::KeepReport report = hung.keep();
+  REQUIRE(report.lines.size() == 1);
+  CHECK(report.lines[0].verdict == Verdict::held);
+  CHECK(report.lines[0].kept == Approx(1).margin(1e-4));
+  CHECK(report.lines[0].kept_gust == Approx(1).margin(0.02));
+  CHECK(report.certificate.stable());
+  CHECK(report.drift < 1e-6);
+  CHECK(report.trials == 1);
+  CHECK(hung.residual(hung.cloth) < 1e-8);
+  CHECK(hung.residual(hung.gathered()) > 1e-3);
+}
+
+TEST_CASE("keep: what is stored on the mesh is gathered again as the same cloth at rest") {
+  Hung hung(1e-4);
+  hung.keep();
+  bridge::store_rest_state(hung.cloth, hung.material, hung.mesh);
+  CHECK(hung.residual(hung.gathered()) < 1e-8);
+}
+
+TEST_CASE("keep: soft cloth needs help, and without it no line is called held") {
+  Hung alone(1e-6), helped(1e-6);
+  alone.options.presses.clear();
+  alone.options.struts.clear();
+  alone.options.height_trials = 0;
+  const bridge::KeepReport bare = alone.keep(), report = helped.keep();
+  CHECK(bare.lines[0].verdict == Verdict::cannot_hold);
+  CHECK_FALSE(bare.lines[0].reason.empty());
+  CHECK(report.lines[0].press > 1);
+  CHECK(report.trials > 1);
+  if (report.lines[0].verdict != Verdict::cannot_hold) {
+    CHECK(report.lines[0].kept >= 0.95);
+    CHECK(report.lines[0].kept_gust >= 0.95);
+  }
+}
+
+TEST_CASE("keep: a garment that nothing holds is said to be out of balance") {
+  Hung hung(1e-4);
+  hung.cloth = bridge::gather(hung.mesh, hung.material);
+  hung.options.seconds = 0.05;
+  hung.options.gust = 0;
+  const bridge::KeepReport report = hung.keep();
+  CHECK_FALSE(report.rest.imbalance.empty());
+  CHECK(report.lines[0].verdict == Verdict::cannot_hold);
+  CHECK(report.lines[0].reason.find("balance") != std::string::npos);
+}
+
+TEST_CASE("keep refuses options out of range, and changes nothing") {
+  Hung hung(1e-4);
+  const double before = hung.cloth.hinges[0].rest_angle;
+  hung.options.kept = 1.5;
+  CHECK_THROWS_WITH(hung.keep(), Catch::Contains("kept = 1.5"));
+  hung.options.kept = 0.95;
+  hung.options.presses = {10, 5};
+  CHECK_THROWS_WITH(hung.keep(), Catch::Contains("presses"));
+  CHECK(hung.cloth.hinges[0].rest_angle == before);
+}
