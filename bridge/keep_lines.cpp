@@ -7,13 +7,12 @@
 #include <stdexcept>
 
 #include "bridge/keep_trial.h"
+#include "bridge/line_help.h"
 #include "bridge/scatter.h"
 #include "geometry/property_names.h"
 #include "geometry/two_ring.h"
 #include "physics/posed_collider.h"
-#include "physics/press.h"
 #include "physics/rigid_motion.h"
-#include "physics/struts.h"
 
 namespace furrow::bridge {
 namespace {
@@ -22,16 +21,6 @@ using physics::Vec3;
 
 constexpr double share_of_mode = 0.1;  // of an unstable motion's energy that makes it a line's
 constexpr double out_of_balance = 1e-6;
-
-/// A line and the help that it has.
-struct Line {
-  int id;
-  std::vector<int> patch;  ///< its vertices and two rings around them
-  double drawn;            ///< height [m]
-  int step = 0;            ///< of presses, then struts
-  double height = 1;       ///< over that as drawn [-]
-  double kept = NAN, kept_gust = NAN;
-};
 
 void check(const geometry::Mesh& mesh, const physics::Cloth& cloth, const physics::World& world,
            const KeepOptions& o) {
@@ -79,7 +68,7 @@ class Keeper {
       help_by_height();
     scatter(solved_.particles, mesh_);
     cloth_ = solved_;
-    for (const Line& line : lines_) report_.lines.push_back(verdict(line));
+    for (const HelpedLine& line : lines_) report_.lines.push_back(verdict(line));
     return report_;
   }
 
@@ -97,48 +86,10 @@ class Keeper {
     }
   }
 
-  int steps() const { return int(o_.presses.size() + o_.struts.size()); }
-  double press_of(const Line& line) const {
-    const int n = std::min(line.step, int(o_.presses.size()));
-    return n > 0 ? o_.presses[n - 1] : 1;
-  }
-  double struts_of(const Line& line) const {
-    const int n = line.step - int(o_.presses.size());
-    return n > 0 ? o_.struts[n - 1] : 0;
-  }
-
-  /// Where lines are lower, their patches are nearer to where they lay before.
-  void place(physics::Particles& p) const {
-    const auto rest = geometry::find_map(mesh_, geometry::kRestPosition);
-    for (const Line& line : lines_) {
-      if (line.height == 1) continue;
-      for (const int i : line.patch) {
-        const auto& at = (*rest)[geometry::Vertex(i)];
-        const Vec3 flat(at[0], at[1], at[2]);
-        if (p.inv_mass[i] > 0 && flat.allFinite())
-          p.x[i] = flat + line.height * (start_.particles.x[i] - flat);
-      }
-    }
-  }
-
-  /// Hinges of lines at the same step together, so that none is pressed twice.
-  void stiffen(physics::Cloth& cloth) const {
-    double last = 1;
-    for (std::size_t k = 0; k < o_.presses.size(); ++k) {
-      std::vector<int> patch;
-      for (const Line& line : lines_)
-        if (line.step > int(k)) patch.insert(patch.end(), line.patch.begin(), line.patch.end());
-      physics::press(cloth, patch, o_.presses[k] / last);
-      last = o_.presses[k];
-    }
-    for (const Line& line : lines_)
-      if (struts_of(line) > 0) physics::add_struts(cloth, line.patch, {.stiffness = struts_of(line)});
-  }
-
   void solve() {
     solved_ = start_;
-    place(solved_.particles);
-    stiffen(solved_);
+    place_lines(lines_, mesh_, start_.particles, solved_.particles);
+    stiffen_lines(lines_, o_, solved_);
     std::optional<physics::PosedCollider> posed;
     if (world_.collider) posed.emplace(*world_.collider, physics::pose(world_.body_motion, 0));
     const physics::Collider* body = posed ? &*posed : nullptr;
@@ -146,7 +97,7 @@ class Keeper {
     report_.certificate =
         physics::certify(solved_, {o_.run.gravity, o_.run.friction, o_.run.contact_gap}, body);
     ++report_.trials;
-    for (Line& line : lines_) line.kept = line.kept_gust = NAN;
+    for (HelpedLine& line : lines_) line.kept = line.kept_gust = NAN;
   }
 
   void run_forward() {
@@ -161,14 +112,14 @@ class Keeper {
   }
 
   /// Lines with a good part in the motion that nothing holds back.
-  std::vector<Line*> lines_of_mode() {
-    std::vector<Line*> found;
+  std::vector<HelpedLine*> lines_of_mode() {
+    std::vector<HelpedLine*> found;
     const auto& mode = report_.certificate.mode;
     if (report_.certificate.stable() || mode.empty()) return found;
     const auto& mass = solved_.particles.mass;
     double whole = 0;
     for (std::size_t i = 0; i < mode.size(); ++i) whole += mass[i] * mode[i].squaredNorm();
-    for (Line& line : lines_) {
+    for (HelpedLine& line : lines_) {
       double part = 0;
       for (const int i : line.patch) part += mass[i] * mode[i].squaredNorm();
       if (part > share_of_mode * whole) found.push_back(&line);
@@ -176,7 +127,7 @@ class Keeper {
     return found;
   }
 
-  bool holds(const Line& line) const {
+  bool holds(const HelpedLine& line) const {
     const double most = 1 - o_.kept;
     return std::abs(line.kept - 1) <= most && std::abs(line.kept_gust - 1) <= most;
   }
@@ -184,36 +135,36 @@ class Keeper {
   void help_by_stiffness() {
     for (;;) {
       solve();
-      const auto with_room = [&](std::vector<Line*> weak) {
-        std::erase_if(weak, [&](const Line* l) { return l->step == steps(); });
+      const auto with_room = [&](std::vector<HelpedLine*> weak) {
+        std::erase_if(weak, [&](const HelpedLine* l) { return l->step == help_steps(o_); });
         return weak;
       };
-      std::vector<Line*> weak = with_room(lines_of_mode());
+      std::vector<HelpedLine*> weak = with_room(lines_of_mode());
       if (weak.empty()) {
         run_forward();
-        for (Line& line : lines_)
+        for (HelpedLine& line : lines_)
           if (!holds(line)) weak.push_back(&line);
         weak = with_room(weak);
       }
       if (weak.empty() || report_.interrupted || !report_.rest.imbalance.empty()) return;
-      for (Line* line : weak) ++line->step;
+      for (HelpedLine* line : weak) ++line->step;
     }
   }
 
   /// Bisects the heights of all lines that fail at once.
   void help_by_height() {
-    std::vector<std::pair<Line*, double>> low;  // the greatest height that held
-    for (Line& line : lines_)
+    std::vector<std::pair<HelpedLine*, double>> low;  // the greatest height that held
+    for (HelpedLine& line : lines_)
       if (!holds(line)) low.push_back({&line, 0});
     if (low.empty() || !report_.rest.imbalance.empty()) return;
     std::vector<double> high(low.size(), 1);
     for (int trial = 0; trial < o_.height_trials && !report_.interrupted; ++trial) {
       for (std::size_t i = 0; i < low.size(); ++i) low[i].first->height = (low[i].second + high[i]) / 2;
       solve();
-      const std::vector<Line*> loose = lines_of_mode();
+      const std::vector<HelpedLine*> loose = lines_of_mode();
       run_forward();
       for (std::size_t i = 0; i < low.size(); ++i) {
-        Line* line = low[i].first;
+        HelpedLine* line = low[i].first;
         const bool good = holds(*line) && std::find(loose.begin(), loose.end(), line) == loose.end();
         (good ? low[i].second : high[i]) = line->height;
       }
@@ -223,18 +174,18 @@ class Keeper {
     run_forward();
   }
 
-  KeptLine verdict(const Line& line) {
+  KeptLine verdict(const HelpedLine& line) {
     KeptLine v;
     v.line = line.id;
-    v.press = press_of(line);
-    v.struts = struts_of(line);
+    v.press = press_of(line, o_);
+    v.struts = struts_of(line, o_);
     v.lowered = line.height;
     v.height = line.height * line.drawn;
     v.kept = line.kept;
     v.kept_gust = line.kept_gust;
-    const std::vector<Line*> loose = lines_of_mode();
+    const std::vector<HelpedLine*> loose = lines_of_mode();
     const bool of_mode =
-        std::any_of(loose.begin(), loose.end(), [&](const Line* l) { return l->id == line.id; });
+        std::any_of(loose.begin(), loose.end(), [&](const HelpedLine* l) { return l->id == line.id; });
     if (!holds(line) || of_mode || report_.rest.residual > out_of_balance) {
       v.reason = reason(of_mode);
       return v;
@@ -262,7 +213,7 @@ class Keeper {
   const std::function<bool(double)>& go_on_;
   LineMeter meter_;
   physics::Cloth start_, solved_;
-  std::vector<Line> lines_;
+  std::vector<HelpedLine> lines_;
   KeepReport report_;
 };
 

@@ -62,7 +62,7 @@ TEST_CASE("struts that make no sense are refused, and the old ones stay") {
   CHECK(struts(mesh).size() == 2);
 }
 
-TEST_CASE("struts stay with their vertices when lines are inserted; displacement carries their strain") {
+TEST_CASE("struts stay with their vertices when lines are inserted, and displacement carries their strain") {
   Mesh mesh = grid(6, 6);
   set_struts(mesh, kTwo);
   Stroke stroke;

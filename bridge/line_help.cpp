@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/line_help.h"
+
+#include <algorithm>
+
+#include "geometry/property_names.h"
+#include "physics/press.h"
+#include "physics/struts.h"
+
+namespace furrow::bridge {
+
+int help_steps(const KeepOptions& o) { return int(o.presses.size() + o.struts.size()); }
+
+double press_of(const HelpedLine& line, const KeepOptions& o) {
+  const int n = std::min(line.step, int(o.presses.size()));
+  return n > 0 ? o.presses[n - 1] : 1;
+}
+
+double struts_of(const HelpedLine& line, const KeepOptions& o) {
+  const int n = line.step - int(o.presses.size());
+  return n > 0 ? o.struts[n - 1] : 0;
+}
+
+void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mesh,
+                 const physics::Particles& drawn, physics::Particles& particles) {
+  const auto rest = geometry::find_map(mesh, geometry::kRestPosition);
+  for (const HelpedLine& line : lines) {
+    if (line.height == 1 || !rest) continue;
+    for (const int i : line.patch) {
+      const auto& at = (*rest)[geometry::Vertex(i)];
+      const physics::Vec3 flat(at[0], at[1], at[2]);
+      if (particles.inv_mass[i] > 0 && flat.allFinite())
+        particles.x[i] = flat + line.height * (drawn.x[i] - flat);
+    }
+  }
+}
+
+void stiffen_lines(const std::vector<HelpedLine>& lines, const KeepOptions& o, physics::Cloth& cloth) {
+  double last = 1;
+  for (std::size_t k = 0; k < o.presses.size(); ++k) {
+    std::vector<int>
+        patch;  // of all lines that are at this step or beyond, so that no hinge is pressed twice
+    for (const HelpedLine& line : lines)
+      if (line.step > int(k)) patch.insert(patch.end(), line.patch.begin(), line.patch.end());
+    physics::press(cloth, patch, o.presses[k] / last);
+    last = o.presses[k];
+  }
+  for (const HelpedLine& line : lines)
+    if (struts_of(line, o) > 0) physics::add_struts(cloth, line.patch, {.stiffness = struts_of(line, o)});
+}
+
+}  // namespace furrow::bridge

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <cmath>
+
+#include "bridge/keep_lines.h"
+
+namespace furrow::bridge {
+
+/// A line on the way to its verdict, and the help that it has so far.
+struct HelpedLine {
+  int id;
+  std::vector<int> patch;  ///< its vertices and two rings around them
+  double drawn;            ///< height [m]
+  int step = 0;            ///< of presses, then of struts on top of the strongest press
+  double height = 1;       ///< over that as drawn [-]
+  double kept = NAN, kept_gust = NAN;
+};
+
+int help_steps(const KeepOptions& options);                            ///< how many there are
+double press_of(const HelpedLine& line, const KeepOptions& options);   ///< factor on its hinges [-]
+double struts_of(const HelpedLine& line, const KeepOptions& options);  ///< [N/m]; 0: none
+
+/// Lines with height != 1: their patches move from `drawn` towards kRestPosition, where they lay without a
+/// line; pins stay.
+void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mesh,
+                 const physics::Particles& drawn, physics::Particles& particles);
+/// Presses the lines' hinges and adds their struts. Where patches overlap the stronger press counts.
+void stiffen_lines(const std::vector<HelpedLine>& lines, const KeepOptions& options, physics::Cloth& cloth);
+
+}  // namespace furrow::bridge
