@@ -13,7 +13,7 @@ array colour[5] = ["#999999", "#D55E00", "#E69F00", "#56B4E9", "#0072B2"]
 rigidities = "1e-4 3e-5 1e-5"
 heights = system("grep -v '^[#r]' keep.csv | cut -d, -f2 | uniq | sort -rn | uniq | paste -sd' ' -")
 set multiplot layout 1,2 title "Share of its height that a ridge keeps (5 s; kept: and after a gust)" font ",13"
-set yrange [-60:140]
+set yrange [-3:135]
 set ylabel "% of the height as drawn"
 set style fill solid
 set boxwidth 0.17
