@@ -141,7 +141,8 @@ TEST_CASE("chart: leapfrog's energy converges by order two, as its positions do"
 TEST_CASE("chart: sweeps and Newton's iterations are those of the scene, and flags set them") {
   const ScratchDirectory scratch;
   const std::string scene = write_scene(scratch, "0.02", "sweeps = 3\nnewton = 2\n"), end = scratch / "e.ply";
-  for (const json& c : report_of(run_furrow("chart --json --tolerance 50% " + scene))["candidates"]) {
+  const json report = report_of(run_furrow("chart --json --tolerance 50% " + scene));
+  for (const json& c : report["candidates"]) {
     const std::string name = c["name"], flags = c["flags"];
     CHECK((flags.find(" --sweeps 3") != flags.npos) == (name.rfind("xpbd", 0) == 0));
     CHECK((flags.find(" --newton 2") != flags.npos) == (name.rfind("backward-euler", 0) == 0));
