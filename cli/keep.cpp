@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -55,10 +56,14 @@ void check(const KeepArguments& a, const io::Scene& scene) {
     if (!path.empty()) check_output(path.string());
   if (!out.state.empty() && out.state.extension() != ".ply")
     throw UsageError(out.state.string() + ": a state is a .ply file");
+  if (!out.animation.empty() || !out.inserted.empty() || !out.smoothed.empty() || !out.body.empty())
+    if (!is_scene(a.in)) throw UsageError("keep writes --output, --save-state and --picture alone");
   if (!a.picture.empty()) check_folder(a.picture);
-  std::vector<std::string> inputs{a.state};
+  std::vector<std::string> inputs{a.state, scene.garment.string()};
   if (is_scene(a.in)) inputs.push_back(a.in);
-  if (scene.body) inputs.push_back(scene.body->mesh.string());
+  if (scene.body)
+    for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
+      inputs.push_back(path.string());
   for (const io::SceneLines& lines : scene.lines) inputs.push_back(lines.strokes.string());
   refuse_same({out.mesh.string(), out.state.string(), a.picture}, inputs);
 }
@@ -75,7 +80,11 @@ void write_kept_state(const io::Scene& scene, const io::TomlDocument& document,
                       const std::filesystem::path& folder, const SceneCloth& cloth,
                       std::optional<io::SavedState> state) {
   io::SavedState kept;
-  if (state) kept = std::move(*state);
+  if (state)
+    kept = std::move(*state);
+  else
+    kept.lines_drawn = int(std::count_if(scene.lines.begin(), scene.lines.end(),
+                                         [](const io::SceneLines& lines) { return lines.time == 0; }));
   const double time = kept.simulation.time;
   kept.simulation = {};
   kept.simulation.time = time;
@@ -83,8 +92,6 @@ void write_kept_state(const io::Scene& scene, const io::TomlDocument& document,
   io::drop_motion(kept.file);
   kept.pins = cloth.pins;
   kept.body = cloth.body ? cloth.body->fingerprint() : "";
-  for (const io::SceneLines& lines : scene.lines)
-    kept.lines_drawn += lines.time <= time && kept.lines_drawn == 0;
   kept.scene = io::relocated(document, folder, scene.output.state.parent_path());
   kept.scene.erase("output");
   io::write_state(scene.output.state, std::move(kept));

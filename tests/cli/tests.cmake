@@ -8,6 +8,7 @@ furrow_add_tests(cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   scene_outputs_test.cpp
   validation_scenes_test.cpp
   chart_test.cpp
+  keep_test.cpp
   transfer_test.cpp
   strokes_test.cpp
   outputs_test.cpp

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "run_furrow.h"
+#include "tests/test_paths.h"
+
+using namespace furrow::tests;
+using nlohmann::json;
+
+namespace {
+
+/// A patch that hangs by an edge, with two rounds of one ridge each.
+std::string write_scene(const ScratchDirectory& scratch) {
+  write_text(scratch / "a.json",
+             R"({"strokes": [{"name": "a", "points": [[-0.03, 0.003, 0.02], [0.03, 0.003, 0.02]]}]})");
+  write_text(scratch / "b.json",
+             R"({"strokes": [{"name": "b", "points": [[-0.03, 0.003, -0.02], [0.03, 0.003, -0.02]]}]})");
+  const std::string path = scratch / "hung.toml";
+  write_text(path, "[garment]\nmesh = \"" FURROW_SOURCE_DIR
+                   "/meshes/validation/patch.obj\"\n"
+                   R"(
+[[lines]]
+strokes = "a.json"
+height = 0.004
+[[lines]]
+strokes = "b.json"
+height = 0.004
+[[pins]]
+box = [-1, -1, 0.0499, 1, 1, 1]
+[material]
+membrane = "triangles"
+stretch = 100
+bending_law = "hinge"
+rigidity = 1e-4
+drag = 4
+[forces]
+gravity = [0, 0, -9.81]
+)");
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("furrow keep: the state goes on with the lines as drawn, all rounds of time 0 in it, at rest") {
+  const ScratchDirectory scratch;
+  const std::string scene = write_scene(scratch), state = scratch / "kept.ply";
+  const Run run = run_furrow("keep --json --run 0.1 " + scene + " --save-state " + state);
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  const json report = json::parse(run.out);
+  CHECK(report["residual"] < 1e-8);
+  REQUIRE(report["lines"].size() == 2);
+  for (const json& line : report["lines"]) CHECK(line["verdict"] == "held");
+  const Run on = run_furrow("simulate --json --state " + state + " --seconds 0.1 -o " + (scratch / "on.ply"));
+  INFO(on.err);
+  REQUIRE(on.exit_code == 0);
+  const json after = json::parse(on.out);
+  REQUIRE(after["lines"].size() == 2);
+  for (const json& line : after["lines"]) CHECK(line["kept"].get<double>() == Approx(1).margin(1e-6));
+}
+
+TEST_CASE("furrow keep: no output replaces what is read") {
+  const ScratchDirectory scratch;
+  const std::string scene = write_scene(scratch), strokes = read_text(scratch / "a.json");
+  for (const std::string& flags : {" --picture " + (scratch / "a.json"), " --save-state " + scene})
+    CHECK(run_furrow("keep --run 0.1 " + scene + flags).exit_code == 2);
+  CHECK(read_text(scratch / "a.json") == strokes);
+}
