@@ -12,6 +12,7 @@
 #include "geometry/property_names.h"
 #include "geometry/two_ring.h"
 #include "physics/posed_collider.h"
+#include "physics/push_out.h"
 #include "physics/rigid_motion.h"
 
 namespace furrow::bridge {
@@ -55,7 +56,11 @@ class Keeper {
     o_.bounds.friction = o_.run.friction;
     o_.bounds.gap = o_.run.contact_gap;
     for (Vec3& v : cloth_.particles.v) v.setZero();
+    if (world.collider) body_.emplace(*world.collider, physics::pose(world.body_motion, 0));
     start_ = cloth_;
+    const physics::PushOutReport pushed = push_out(start_);
+    report_.pushed_out = pushed.moved;
+    report_.farthest_push = pushed.farthest;
     physics::Cloth balanced = cloth_;
     const double turn = world.collider ? 0 : physics::balance_rigidly(balanced, o_.run.gravity);
     if (turn > 0 && turn <= o_.largest_turn) start_ = std::move(balanced), report_.turned = turn;
@@ -86,13 +91,20 @@ class Keeper {
     }
   }
 
+  physics::PushOutReport push_out(physics::Cloth& cloth) const {
+    if (!body_) return {};
+    std::vector<int> free;
+    for (std::size_t i = 0; i < cloth.particles.size(); ++i)
+      if (cloth.particles.inv_mass[i] > 0) free.push_back(int(i));
+    return physics::push_out(cloth.particles.x, free, *body_, o_.run.contact_gap);
+  }
+
   void solve() {
     solved_ = start_;
     place_lines(lines_, mesh_, start_.particles, solved_.particles);
+    push_out(solved_);
     stiffen_lines(lines_, o_, solved_);
-    std::optional<physics::PosedCollider> posed;
-    if (world_.collider) posed.emplace(*world_.collider, physics::pose(world_.body_motion, 0));
-    const physics::Collider* body = posed ? &*posed : nullptr;
+    const physics::Collider* body = body_ ? &*body_ : nullptr;
     report_.rest = physics::prestress(solved_, o_.bounds, body);
     report_.certificate =
         physics::certify(solved_, {o_.run.gravity, o_.run.friction, o_.run.contact_gap}, body);
@@ -100,15 +112,29 @@ class Keeper {
     for (HelpedLine& line : lines_) line.kept = line.kept_gust = NAN;
   }
 
-  void run_forward() {
+  /// The lines that may be helped and do not hold; with `may_end` the run ends early if one is far from it.
+  std::vector<HelpedLine*> run_forward(bool may_end) {
     ++report_.runs;
-    const KeepTrial trial = try_shape(solved_, world_, o_, meter_, go_on_);
+    const auto lost = [&](std::size_t i, double kept) {
+      return lines_[i].step < help_steps(o_) && std::abs(kept - 1) > 2 * (1 - o_.kept);
+    };
+    std::vector<HelpedLine*> weak;
+    const auto in_vain = [&](const std::vector<double>& kept) {
+      for (std::size_t i = 0; may_end && i < lines_.size(); ++i)
+        if (lost(i, kept[i])) weak.push_back(&lines_[i]);
+      return !weak.empty();
+    };
+    const KeepTrial trial = try_shape(solved_, world_, o_, meter_, in_vain, go_on_);
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       lines_[i].kept = trial.kept[i];
       lines_[i].kept_gust = trial.kept_gust[i];
     }
     report_.drift = trial.drift;
     report_.interrupted = report_.interrupted || trial.stopped;
+    if (!weak.empty()) return weak;
+    for (HelpedLine& line : lines_)
+      if (line.step < help_steps(o_) && !holds(line)) weak.push_back(&line);
+    return weak;
   }
 
   /// Lines with a good part in the motion that nothing holds back.
@@ -135,17 +161,9 @@ class Keeper {
   void help_by_stiffness() {
     for (;;) {
       solve();
-      const auto with_room = [&](std::vector<HelpedLine*> weak) {
-        std::erase_if(weak, [&](const HelpedLine* l) { return l->step == help_steps(o_); });
-        return weak;
-      };
-      std::vector<HelpedLine*> weak = with_room(lines_of_mode());
-      if (weak.empty()) {
-        run_forward();
-        for (HelpedLine& line : lines_)
-          if (!holds(line)) weak.push_back(&line);
-        weak = with_room(weak);
-      }
+      std::vector<HelpedLine*> weak = lines_of_mode();
+      std::erase_if(weak, [&](const HelpedLine* l) { return l->step == help_steps(o_); });
+      if (weak.empty()) weak = run_forward(true);
       if (weak.empty() || report_.interrupted || !report_.rest.imbalance.empty()) return;
       for (HelpedLine* line : weak) ++line->step;
     }
@@ -162,7 +180,7 @@ class Keeper {
       for (std::size_t i = 0; i < low.size(); ++i) low[i].first->height = (low[i].second + high[i]) / 2;
       solve();
       const std::vector<HelpedLine*> loose = lines_of_mode();
-      run_forward();
+      run_forward(false);
       for (std::size_t i = 0; i < low.size(); ++i) {
         HelpedLine* line = low[i].first;
         const bool good = holds(*line) && std::find(loose.begin(), loose.end(), line) == loose.end();
@@ -171,7 +189,7 @@ class Keeper {
     }
     for (auto& [line, height] : low) line->height = height > 0 ? height : 1;
     solve();
-    run_forward();
+    run_forward(false);
   }
 
   KeptLine verdict(const HelpedLine& line) {
@@ -213,6 +231,7 @@ class Keeper {
   const std::function<bool(double)>& go_on_;
   LineMeter meter_;
   physics::Cloth start_, solved_;
+  std::optional<physics::PosedCollider> body_;
   std::vector<HelpedLine> lines_;
   KeepReport report_;
 };

@@ -47,6 +47,8 @@ struct KeepReport {
   physics::PrestressReport rest;
   physics::Certificate certificate;
   double turned = 0;         ///< about its pins into balance [rad]
+  int pushed_out = 0;        ///< particles nearer to the body than the gap, brought there first
+  double farthest_push = 0;  ///< the longest way of one [m]
   int trials = 0, runs = 0;  ///< rest states that were solved for, and forward runs
   double drift = 0;          ///< of any vertex in the last run, before the gust [m]
   bool interrupted = false;  ///< the last rest state stands; lines say what is known
@@ -54,9 +56,10 @@ struct KeepReport {
 
 /// Gives a cloth the rest state that makes its drawn lines an equilibrium (physics/prestress.h), and tells of
 /// each line whether it will hold: by the certificate of stability (physics/certificate.h) and by a run
-/// forward, from rest and after a gust. Lines that do not hold are helped, one step more each time and no
-/// line more than it needs: press (their hinges stiffer), then struts on top of the strongest press, then a
-/// lower height; the least that holds stays.
+/// forward, from rest and after a gust. What is nearer to the body than the gap is first brought there: a
+/// valley on a body is as deep as there is room. Lines that do not hold are helped, one step more each time
+/// and no line more than it needs: press (their hinges stiffer), then struts on top of the strongest press,
+/// then a lower height; the least that holds stays.
 ///
 /// mesh: the garment with kLine, from which `cloth` was gathered and pinned; its positions are the drawn
 /// shape, and follow where heights were lowered. kRestPosition tells where a line lies without its height;

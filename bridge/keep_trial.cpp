@@ -13,6 +13,8 @@ namespace {
 
 using physics::Vec3;
 
+constexpr double first_part = 0.2;  // of the first run, before it is asked whether it is in vain
+
 /// Level, the way in which the cloth is thinnest, unless the options name another.
 Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
   if (o.gust_direction.norm() > 0) return o.gust * o.gust_direction.normalized();
@@ -49,7 +51,8 @@ std::vector<double> LineMeter::heights(const physics::Particles& p) {
 }
 
 KeepTrial try_shape(const physics::Cloth& start, const physics::World& world, const KeepOptions& o,
-                    LineMeter& meter, const std::function<bool(double)>& go_on) {
+                    LineMeter& meter, const std::function<bool(const std::vector<double>&)>& in_vain,
+                    const std::function<bool(double)>& go_on) {
   const std::vector<double> drawn = meter.heights(start.particles);
   KeepTrial trial{std::vector<double>(drawn.size(), NAN), std::vector<double>(drawn.size(), NAN)};
   physics::Cloth cloth = start;
@@ -68,6 +71,9 @@ KeepTrial try_shape(const physics::Cloth& start, const physics::World& world, co
     kept = meter.heights(cloth.particles);
     for (std::size_t i = 0; i < kept.size(); ++i) kept[i] /= drawn[i];
   };
+  if (!on_to(first_part * o.seconds, o.run.gravity)) return trial;
+  note(trial.kept);
+  if (in_vain(trial.kept)) return trial;
   if (!on_to(o.seconds, o.run.gravity)) return trial;
   note(trial.kept);
   for (std::size_t i = 0; i < cloth.particles.size(); ++i)

@@ -45,7 +45,8 @@ SceneCloth drawn_garment(const io::Scene& scene, std::optional<io::SavedState>& 
   result.options = scene.simulation;
   if (result.body)
     result.options.contact_gap =
-        contact_gap(result.options.contact_gap, result.body->tolerance(), result.file.mesh);
+        std::max(state->contact_gap,
+                 contact_gap(result.options.contact_gap, result.body->tolerance(), result.file.mesh));
   result.options.threads = threads_of(scene, result.cloth.particles.size());
   return result;
 }

@@ -128,6 +128,7 @@ Json to_json(const bridge::KeepReport& r, const io::WrinkleRecord& record) {
             {"trials", r.trials},
             {"runs", r.runs}};
   if (r.turned > 0) json["turned"] = r.turned;
+  if (r.pushed_out > 0) json["pushed_out"] = {{"vertices", r.pushed_out}, {"farthest", r.farthest_push}};
   if (!imbalance.empty()) json["imbalance"] = imbalance;
   return json;
 }

@@ -77,7 +77,7 @@ class SceneRun {
     if (!resumed_) now_.pins = find_pins(now_.file, scene_.pins);
     const std::string body = body_ ? body_->fingerprint() : "";
     if (now_.body != body) now_.simulation.contact.clear();
-    if (now_.body != body) now_.simulation.body_travel = 0;
+    if (now_.body != body) now_.simulation.body_travel = now_.contact_gap = 0;
     now_.body = body;
     if (resumed_)
       change_plan();
@@ -91,6 +91,8 @@ class SceneRun {
       return settings.contains(key) ? settings[key] : Json();
     };
     if (value(now_.scene, "pins") != value(document_.root, "pins")) now_.simulation.homes.clear();
+    if (value(value(now_.scene, "material"), "gap") != value(value(document_.root, "material"), "gap"))
+      now_.contact_gap = 0;
     const auto density = scene_.material.density;
     if (density && *density != io::find_wrinkle_record(now_.file)->density)
       complete_garment(now_.file, scene_.material);
@@ -153,7 +155,9 @@ class SceneRun {
     started_ = false;
     physics::SimulateOptions options = scene_.simulation;
     if (body_)
-      options.contact_gap = gap_ = contact_gap(options.contact_gap, body_->tolerance(), now_.file.mesh);
+      options.contact_gap = now_.contact_gap =
+          std::max(now_.contact_gap,
+                   contact_gap(options.contact_gap, body_->tolerance(), now_.file.mesh));
     if (stop < options.seconds) options.stop_at = stop;
     options.threads = threads_of(scene_, cloth.particles.size());
     if (animations_.is_on()) options.observe_steps = 20;  // frames are interpolated between observed times
@@ -179,7 +183,7 @@ class SceneRun {
     Json json = Json::object();
     if (!scene_.title.empty()) json["title"] = scene_.title;
     json.update(
-        to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_, body_.get(), gap_));
+        to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_, body_.get(), now_.contact_gap));
     if (!rounds_.empty()) json["rounds"] = rounds_;
     if (!animations_.reports().empty()) json["animations"] = animations_.reports();
     if (!choice_.is_null()) json["choice"] = choice_;
@@ -228,7 +232,6 @@ class SceneRun {
   io::SavedState now_;
   bool resumed_ = false, started_ = false, stopped_ = false;
   std::shared_ptr<WorldBody> body_;
-  double gap_ = 0;
   std::int64_t steps_before_ = 0;
   std::vector<double> heights_;
   std::vector<std::vector<io::DrawnStroke>> strokes_;  ///< of each round

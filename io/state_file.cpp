@@ -88,6 +88,7 @@ Json to_json(const SavedState& saved) {
             {"totals", to_json(s.totals)},
             {"pins", saved.pins},
             {"lines_drawn", saved.lines_drawn},
+            {"contact_gap", saved.contact_gap},
             {"scene", saved.scene}};
   for (const Vec3& home : s.homes)
     for (int k = 0; k < 3; ++k) json["homes"].push_back(home[k]);
@@ -136,6 +137,9 @@ SavedState from_json(const Json& json, std::size_t vertices) {
   saved.pins = pins_of(json.at("pins"), vertices);
   saved.lines_drawn = json.at("lines_drawn");
   if (saved.lines_drawn < 0) throw std::invalid_argument("lines_drawn is below 0");
+  saved.contact_gap = json.value("contact_gap", 0.0);  // absent in older files
+  if (!(saved.contact_gap >= 0 && saved.contact_gap < 1))
+    throw std::invalid_argument("contact_gap is not in [0, 1) m");
   saved.scene = json.at("scene");
   if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
   return saved;

@@ -17,6 +17,9 @@ struct SavedState {
   std::vector<std::vector<int>> pins;  ///< the vertices of each of the scene's pins
   std::string body;     ///< what the contact memory is about (WorldBody::fingerprint); "" without
   int lines_drawn = 0;  ///< rounds of the scene's lines that are in the garment already
+  /// At which the cloth has rested on the body so far [m]; 0: on none yet. A line's short edges do not lower
+  /// it: what lies on the body stays there.
+  double contact_gap = 0;
 };
 
 /// The file is a binary PLY that other programs open as a mesh: velocities, contact memory and compensating

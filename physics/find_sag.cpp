@@ -10,8 +10,9 @@ namespace {
 constexpr double largest_sag = 1e6;                    // m: gravity over the least shift
 constexpr double first_pull = 1e8, pull_factor = 0.1;  // [1/s^2], [-]
 constexpr double nearly_zero = 1e-7;                   // of the weight: the limits in reach are known
-constexpr double slowest = 0.9;                        // factor at which it gives up
-constexpr int first_steps = 20, steps_a_pull = 20;
+constexpr double free_pull = 1;  // [1/s^2]: 10 m of sag; with more, the limits are not in reach yet
+constexpr double slowest = 0.9;  // factor at which it gives up
+constexpr int first_steps = 60, steps_a_pull = 20;
 
 using Forces = std::vector<Vec3>;
 
@@ -58,7 +59,9 @@ class Newton {
       if (pull_ == 0) return;
       const bool arrived = state_.slack <= 1e-6 * std::max(1.0, state_.residual);
       // Limits in reach, and a tenth of the pull hardly brought anything: that is as near as it comes.
-      if (arrived && factor <= pull_factor && !within_limits(state_) && state_.size > 0.99 * size) return;
+      if (arrived && pull_ <= free_pull && factor <= pull_factor && !within_limits(state_) &&
+          state_.size > 0.99 * size)
+        return;
       factor = arrived ? std::max(pull_factor, factor * factor) : std::sqrt(factor);
       if (arrived) continue;
       pull_ = before;

@@ -105,6 +105,49 @@ TEST_CASE("keep: a garment that nothing holds is said to be out of balance") {
   CHECK(report.lines[0].reason.find("balance") != std::string::npos);
 }
 
+TEST_CASE("keep: a ridge in cloth that lies on a ball holds, and a valley is as deep as the ball allows") {
+  struct Ball : physics::Collider {
+    physics::SignedDistance at(const physics::Vec3& x) const override {
+      return {x.norm() - 0.2, x.normalized()};
+    }
+  } ball;
+  geometry::Mesh mesh = geometry::equilateral_sheet(0.3, 0.3, 0.02);
+  for (const geometry::Vertex v : mesh.vertices()) {  // laid onto it, outside up
+    const physics::Vec3 flat(mesh.point(v).x(), 0, 0.15 - mesh.point(v).y());
+    const double angle = flat.norm() / 0.2;
+    const physics::Vec3 x =
+        0.203 * (std::sin(angle) * flat.stableNormalized() + std::cos(angle) * physics::Vec3::UnitY());
+    mesh.point(v) = {x.x(), x.y(), x.z()};
+  }
+  std::vector<geometry::Stroke> lines(2);
+  for (const int side : {0, 1}) {
+    const double x = side ? 0.07 : -0.07, y = std::sqrt(0.203 * 0.203 - x * x - 0.05 * 0.05);
+    lines[side].height = side ? 0.01 : -0.01;
+    lines[side].points = {{x, y, -0.05}, {x, y, 0.05}};
+  }
+  const geometry::WrinkleReport report = geometry::wrinkle(mesh, lines, {});
+  Hung hung(1e-4);
+  hung.mesh = mesh;
+  hung.material.mean_structural_length = report.mean_structural_length;
+  hung.cloth = bridge::gather(mesh, hung.material);
+  hung.options.gust = 3;
+  physics::World world;
+  world.collider = &ball;
+  const double drawn_valley = report.lines[0].smoothed_height;
+  const bridge::KeepReport kept = bridge::keep_lines(
+      hung.mesh, hung.cloth, world, {report.lines[0].base_height, report.lines[1].base_height}, hung.options);
+  REQUIRE(kept.lines.size() == 2);
+  CHECK(kept.certificate.residual < 1e-8);
+  CHECK(kept.rest.imbalance.empty());
+  CHECK(kept.rest.touching.size() > 20);
+  CHECK(kept.pushed_out > 5);
+  CHECK(kept.farthest_push < 0.01);
+  CHECK(std::abs(kept.lines[0].height) < 0.5 * std::abs(drawn_valley));
+  CHECK(kept.lines[1].verdict == Verdict::held);
+  for (const physics::Vec3& x : hung.cloth.particles.x)
+    CHECK(x.norm() > 0.2 + hung.options.run.contact_gap - 1e-8);
+}
+
 TEST_CASE("keep refuses options out of range, and changes nothing") {
   Hung hung(1e-4);
   const double before = hung.cloth.hinges[0].rest_angle;
