@@ -25,8 +25,9 @@ struct KeepTrial {
   bool stopped = false;  ///< by go_on
 };
 /// Runs a cloth forward from rest, then through a gust and a calm, as the options say; the cloth is not
-/// changed.
-KeepTrial try_shape(const physics::Cloth& start, const physics::World& world, const KeepOptions& options,
-                    LineMeter& meter, const std::function<bool(double)>& go_on);
+/// changed. stable: whether its certificate says so. What is not stable would stand still like a pencil on
+/// its tip: each run (options.pushes of them) begins with another push, and of `kept` the worst counts.
+KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
+                    const KeepOptions& options, LineMeter& meter, const std::function<bool(double)>& go_on);
 
 }  // namespace furrow::bridge
