@@ -3,12 +3,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "bench/cases/random_garments.h"
 #include "bridge/gather.h"
+#include "bridge/keep_trial.h"
 #include "bridge/store_rest_state.h"
 #include "geometry/sheet.h"
 #include "geometry/wrinkle.h"
 #include "physics/pins.h"
 #include "physics/residual_force.h"
+#include "physics/rigid_imbalance.h"
 
 using namespace furrow;
 using bridge::KeepOptions;
@@ -148,12 +151,59 @@ TEST_CASE("keep: a ridge in cloth that lies on a ball holds, and a valley is as 
     CHECK(x.norm() > 0.2 + hung.options.run.contact_gap - 1e-8);
 }
 
+TEST_CASE("keep: a shape that stands like a pencil on its tip is pushed before it is believed") {
+  Hung standing(1e-3);
+  physics::Cloth cloth = bridge::gather(standing.mesh, standing.material);
+  std::vector<int> bottom;
+  for (const geometry::Vertex v : standing.mesh.vertices())
+    if (standing.mesh.point(v).y() < 1e-4) bottom.push_back(int(v));
+  physics::pin(cloth.particles, bottom);
+  physics::balance_rigidly(cloth, -kGravity);
+  REQUIRE(physics::prestress(cloth).residual < 1e-8);
+  REQUIRE_FALSE(physics::certify(cloth).stable());
+  standing.options.gust = 0;
+  standing.options.seconds = 0.5;
+  bridge::LineMeter meter(standing.mesh, {});
+  const auto drift = [&](bool stable) {
+    return bridge::try_shape(cloth, stable, {}, standing.options, meter, {}, {}).drift;
+  };
+  CHECK(drift(true) < 1e-4);
+  CHECK(drift(false) > 1e-3);
+}
+
+TEST_CASE("keep: lines drawn at random on coarse meshes and called held are held in another run, too") {
+  int held = 0;
+  for (const std::uint64_t seed : {20261125, 20261127, 20261132}) {
+    CAPTURE(seed);
+    cases::RandomGarment garment = cases::random_garment(seed, 4, 0.04);
+    physics::Cloth cloth = garment.cloth();
+    KeepOptions options;
+    options.seconds = options.calm_seconds = 1;
+    options.gust = 2;
+    options.presses = {100};
+    options.struts = {3};
+    options.height_trials = 0;
+    const bridge::KeepReport report = bridge::keep_lines(garment.mesh, cloth, {}, garment.base(), options);
+    const std::vector<double> left = cases::heights_after(garment, cloth, options.run, seed);
+    for (const bridge::KeptLine& line : report.lines) {
+      if (line.verdict == Verdict::cannot_hold) continue;
+      ++held;
+      CAPTURE(line.line, line.press, line.struts, line.kept, line.kept_gust);
+      CHECK(left[line.line] / line.height == Approx(1).margin(0.05));
+    }
+  }
+  CHECK(held >= 6);
+}
+
 TEST_CASE("keep refuses options out of range, and changes nothing") {
   Hung hung(1e-4);
   const double before = hung.cloth.hinges[0].rest_angle;
   hung.options.kept = 1.5;
   CHECK_THROWS_WITH(hung.keep(), Catch::Contains("kept = 1.5"));
   hung.options.kept = 0.95;
+  hung.options.push = 0;
+  CHECK_THROWS_WITH(hung.keep(), Catch::Contains("push = 0"));
+  hung.options.push = 5e-4;
   hung.options.presses = {10, 5};
   CHECK_THROWS_WITH(hung.keep(), Catch::Contains("presses"));
   CHECK(hung.cloth.hinges[0].rest_angle == before);

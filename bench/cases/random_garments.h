@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bridge/gather.h"
+#include "bridge/keep_lines.h"
+
+namespace furrow::cases {
+
+struct RandomLine {
+  double length = 0;  ///< [m]
+  double turn = 0;    ///< from its first direction to its last; 0: straight [rad]
+  double height = 0;  ///< as asked for [m]
+  double base = 0;    ///< height of that place without the line [m]
+};
+
+/// A garment of few vertices with some wrinkles drawn at random places.
+struct RandomGarment {
+  std::string kind;     ///< sheet, jittered, corners (a sheet that hangs by two) or skirt
+  double edge = 0;      ///< [m]
+  geometry::Mesh mesh;  ///< wrinkled; the garment hangs along y
+  bridge::GatherOptions springs;
+  std::vector<int> pins;
+  std::vector<RandomLine> lines;  ///< by id
+
+  physics::Cloth cloth() const;      ///< gathered and pinned, clamps stiffened
+  std::vector<double> base() const;  ///< of keep_lines()
+};
+
+/// Of so many lines, 0.1 to 0.5 m long and 3 to 15 mm high or deep, straight or bent; cloth of edges of 18 to
+/// 30 mm, rigidity 1e-6 to 1e-4 N m, stretch 100 to 1000 N/m. Same seed, same garment. edge:
+/// another [m].
+RandomGarment random_garment(std::uint64_t seed, int lines, double edge = 0);
+
+/// Of each line as the garment lies [m], by id, less `base`; NaN: it has none.
+std::vector<double> heights_of(const RandomGarment& garment);
+
+/// What is left of each line's height [m], by id, so many seconds after the garment was stored with the rest
+/// state of `cloth`, gathered again, each free vertex moved by 0.1 mm some way, and let go from rest: with
+/// half the step and half the drag of `run`. NaN: not known any more.
+std::vector<double> heights_after(const RandomGarment& garment, physics::Cloth cloth,
+                                  const physics::SimulateOptions& run, std::uint64_t seed,
+                                  double seconds = 2);
+
+}  // namespace furrow::cases
