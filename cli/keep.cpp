@@ -14,6 +14,7 @@
 #include "cli/scene_cloth.h"
 #include "cli/scene_flags.h"
 #include "cli/scene_input.h"
+#include "cli/scene_run.h"
 #include "cli/subcommands.h"
 #include "geometry/errors.h"
 #include "io/relocated.h"
@@ -31,7 +32,7 @@ struct KeepArguments : CommonArguments {
   bool no_balance = false, no_help = false;
 };
 
-/// The garment in its drawn shape, of a scene at its time 0 or of a state.
+/// The garment in its drawn shape, of a scene that draws at time 0 alone, or of a state.
 SceneCloth drawn_garment(const io::Scene& scene, std::optional<io::SavedState>& state,
                          const CommonArguments& common) {
   if (!state) return prepare_scene(scene, common);
@@ -112,6 +113,9 @@ int keep(KeepArguments& a) {
   CommonArguments common = a;
   common.unit = scene.unit;
   common.up = scene.up;
+  const bool later =
+      std::any_of(scene.lines.begin(), scene.lines.end(), [](const auto& l) { return l.time > 0; });
+  if (!state && later && !(state = run_until_drawn(scene, document, folder, common))) return kInterrupted;
   SceneCloth garment = drawn_garment(scene, state, common);
   const io::WrinkleRecord record = *io::find_wrinkle_record(garment.file);
   bridge::KeepOptions options;

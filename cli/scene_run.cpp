@@ -44,9 +44,7 @@ class SceneRun {
       steps_before_ = now_.simulation.step;
     } else
       begin();
-    load_body_and_pins();
-    heights_ = line_heights_by_id(now_.file.mesh);
-    strokes_ = read_rounds(scene_, now_.lines_drawn, common_);
+    load_inputs();
     try {
       while (draw_due_lines() && simulate_to(next_stop()) &&
              now_.simulation.time < scene_.simulation.seconds && !stopped_) {
@@ -63,7 +61,28 @@ class SceneRun {
     return finish();
   }
 
+  /// Nothing if it was interrupted.
+  std::optional<io::SavedState> run_until_drawn() {
+    catch_interrupts();
+    begin();
+    load_inputs();
+    while (draw_due_lines() && now_.lines_drawn < static_cast<int>(scene_.lines.size()) &&
+           now_.simulation.time < scene_.simulation.seconds)
+      if (!simulate_to(next_stop())) {
+        if (report_.outcome == physics::Outcome::stopped_by_observer) return std::nullopt;
+        throw std::runtime_error("the simulation diverged at " + std::to_string(report_.time) +
+                                 " s, before its last lines; furrow simulate tells more");
+      }
+    return std::move(now_);
+  }
+
  private:
+  void load_inputs() {
+    load_body_and_pins();
+    heights_ = line_heights_by_id(now_.file.mesh);
+    strokes_ = read_rounds(scene_, now_.lines_drawn, common_);
+  }
+
   void begin() {
     now_.file = begin_garment(scene_, common_);
     if (!scene_.output.state.empty()) io::check_state_attributes(now_.file.mesh);
@@ -156,8 +175,7 @@ class SceneRun {
     physics::SimulateOptions options = scene_.simulation;
     if (body_)
       options.contact_gap = now_.contact_gap =
-          std::max(now_.contact_gap,
-                   contact_gap(options.contact_gap, body_->tolerance(), now_.file.mesh));
+          std::max(now_.contact_gap, contact_gap(options.contact_gap, body_->tolerance(), now_.file.mesh));
     if (stop < options.seconds) options.stop_at = stop;
     options.threads = threads_of(scene_, cloth.particles.size());
     if (animations_.is_on()) options.observe_steps = 20;  // frames are interpolated between observed times
@@ -182,8 +200,8 @@ class SceneRun {
     if (!diverged) write_outputs();
     Json json = Json::object();
     if (!scene_.title.empty()) json["title"] = scene_.title;
-    json.update(
-        to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_, body_.get(), now_.contact_gap));
+    json.update(to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_, body_.get(),
+                        now_.contact_gap));
     if (!rounds_.empty()) json["rounds"] = rounds_;
     if (!animations_.reports().empty()) json["animations"] = animations_.reports();
     if (!choice_.is_null()) json["choice"] = choice_;
@@ -228,7 +246,7 @@ class SceneRun {
   std::string state_path_;
   Json settings_before_;  ///< of the state that is gone on from
   const CommonArguments& common_;
-  const Json& choice_;
+  const Json choice_;
   io::SavedState now_;
   bool resumed_ = false, started_ = false, stopped_ = false;
   std::shared_ptr<WorldBody> body_;
@@ -246,6 +264,15 @@ int run_scene(const io::Scene& scene, const io::TomlDocument& document, const st
               std::optional<io::SavedState> state, const std::string& state_path,
               const CommonArguments& common, std::shared_ptr<WorldBody> body, const Json& choice) {
   return SceneRun(scene, document, folder, state_path, common, std::move(body), choice).run(std::move(state));
+}
+
+std::optional<io::SavedState> run_until_drawn(const io::Scene& scene, const io::TomlDocument& document,
+                                              const std::filesystem::path& folder,
+                                              const CommonArguments& common) {
+  io::Scene silent = scene;
+  silent.output = {};
+  silent.stop_at.reset();
+  return SceneRun(silent, document, folder, "", common, nullptr, {}).run_until_drawn();
 }
 
 }  // namespace furrow::cli

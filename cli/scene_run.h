@@ -19,4 +19,10 @@ int run_scene(const io::Scene& scene, const io::TomlDocument& document, const st
               const CommonArguments& common, std::shared_ptr<WorldBody> body = nullptr,
               const Json& choice = {});
 
+/// Runs a scene until its last lines are drawn (or to its end), and writes nothing: the garment as it is then;
+/// nothing if it was interrupted. Throws std::runtime_error if it diverges.
+std::optional<io::SavedState> run_until_drawn(const io::Scene& scene, const io::TomlDocument& document,
+                                              const std::filesystem::path& folder,
+                                              const CommonArguments& common);
+
 }  // namespace furrow::cli
