@@ -81,7 +81,7 @@ TEST_CASE("keep: what is stored on the mesh is gathered again as the same cloth 
   CHECK(hung.residual(hung.gathered()) < 1e-8);
 }
 
-TEST_CASE("keep: soft cloth needs help, and without it no line is called held") {
+TEST_CASE("keep: soft cloth needs help, and without it no line is called held", "[accuracy]") {
   Hung alone(1e-6), helped(1e-6);
   alone.options.presses.clear();
   alone.options.struts.clear();

@@ -73,7 +73,8 @@ std::string box(double top, int missing = 0) {
 
 }  // namespace
 
-TEST_CASE("chart: the recommendation holds against a finer reference, the next cheaper does not") {
+TEST_CASE("chart: the recommendation holds against a finer reference, the next cheaper does not",
+          "[accuracy]") {
   const ScratchDirectory scratch;
   const std::string scene = write_scene(scratch);
   const json report = report_of(run_furrow("chart --json " + scene));
@@ -109,7 +110,7 @@ TEST_CASE("chart: a motion without chaos is judged by positions, and the order o
   CHECK(reference == Approx(fine / 3).epsilon(0.1));
 }
 
-TEST_CASE("chart: chaotic motion is judged by surface, centre, extent and energy") {
+TEST_CASE("chart: chaotic motion is judged by surface, centre, extent and energy", "[accuracy]") {
   const ScratchDirectory scratch;
   const std::string scene = write_scene(scratch, "0.2", "[material]\nbending = 0\n");
   const json report = report_of(run_furrow("chart --json --tolerance 2% " + scene));

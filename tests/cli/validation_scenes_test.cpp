@@ -61,7 +61,7 @@ TEST_CASE("scenes/validation/free_fall: g t^2 / 2 exactly, at any step") {
   }
 }
 
-TEST_CASE("scenes/validation/incline: no creep just above tan a, Coulomb's way below it") {
+TEST_CASE("scenes/validation/incline: no creep just above tan a, Coulomb's way below it", "[accuracy]") {
   Result r = run_scene("incline_holds");
   for (std::vector<Vec3>* points : {&r.before, &r.after})
     for (Vec3& x : *points) x = on_slab(x);
@@ -74,7 +74,8 @@ TEST_CASE("scenes/validation/incline: no creep just above tan a, Coulomb's way b
   CHECK(farthest(r, [&](const Vec3& x) { return Vec3(x + Vec3(way, 0, 0)); }) < 1e-9);
 }
 
-TEST_CASE("scenes/validation/turntable: cloth goes with the slab below w^2 r = mu g and leaves it above") {
+TEST_CASE("scenes/validation/turntable: cloth goes with the slab below w^2 r = mu g and leaves it above",
+          "[accuracy]") {
   const auto rotated = [](double rate) {
     physics::RigidMotion motion;
     motion.spin = physics::Spin{{0.2, 0, 0}, {0, 1, 0}, rate, 0, 0.5};
@@ -91,7 +92,7 @@ TEST_CASE("scenes/validation/turntable: cloth goes with the slab below w^2 r = m
   CHECK(farthest(r, rotated(5.5)) > 0.1);
 }
 
-TEST_CASE("scenes/validation/drop_on_ball: at rest on top, nothing inside") {
+TEST_CASE("scenes/validation/drop_on_ball: at rest on top, nothing inside", "[accuracy]") {
   const Result r = run_scene("drop_on_ball");
   CHECK(r.report["vertices_inside"] == 0);
   CHECK(r.report["kinetic_energy"].get<double>() < 1e-7);

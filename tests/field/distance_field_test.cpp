@@ -172,7 +172,7 @@ TEST_CASE("the field of a box is close to the analytic one and exact on its side
   CHECK((field.at({0, 0.02, 0.31}).gradient - Vec3(0, 0, 1)).norm() < 1e-5);
 }
 
-TEST_CASE("a finer tolerance means a smaller error") {
+TEST_CASE("a finer tolerance means a smaller error", "[accuracy]") {
   const TriangleMesh m = furrow::tests::box({-0.2, -0.1, 0}, {0.2, 0.15, 0.3});
   const ExactDistance exact(m);
   double before = 1;

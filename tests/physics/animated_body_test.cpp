@@ -176,7 +176,7 @@ TEST_CASE("a body that inflates or bends pushes cloth away and takes it along") 
   CHECK(deepest == 0);
 }
 
-TEST_CASE("a particle on a conveyor of frames gains mu g") {
+TEST_CASE("a particle on a conveyor of frames gains mu g", "[accuracy]") {
   // A long box whose vertices shift: the surface next to the particle moves, its distance does not change.
   TriangleMesh box;
   for (int i = 0; i < 8; ++i)

@@ -67,7 +67,7 @@ TEST_CASE("friction is right where the field's slope is not 1") {
   CHECK(slide(0.8, options, 1.2).first == Approx(exact).epsilon(0.01));
 }
 
-TEST_CASE("on an incline a cloth lets go at the angle of friction and does not creep below") {
+TEST_CASE("on an incline a cloth lets go at the angle of friction and does not creep below", "[accuracy]") {
   const double friction = GENERATE(0.05, 0.3, 0.75, 1.45), dt = GENERATE(1e-3, 2e-4);
   const double degree = 3.14159265358979323846 / 180, exact = std::atan(friction);
   CHECK(std::abs(incline_threshold(friction, dt) - exact) < 0.02 * degree);

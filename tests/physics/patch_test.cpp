@@ -91,7 +91,7 @@ TEST_CASE("patch test: on regular meshes springs score as an independent program
          {0, 1, 4.0 / 3, 2.0 / 3, 0.863654105176});
 }
 
-TEST_CASE("patch test: on jittered meshes each law is as soft as it is known to be") {
+TEST_CASE("patch test: on jittered meshes each law is as soft as it is known to be", "[accuracy]") {
   for (const Reference& r : references) {
     const PatchScore score = mean_score(r.jitter, r.law, 10);
     CAPTURE(int(r.law), r.jitter);

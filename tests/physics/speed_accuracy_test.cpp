@@ -57,7 +57,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("stability map: 2/omega_max parts stable from diverged for each law, mesh and stiffness") {
+TEST_CASE("stability map: 2/omega_max parts stable from diverged for each law, mesh and stiffness",
+          "[accuracy]") {
   for (const MembraneLaw law :
        {MembraneLaw::paper, MembraneLaw::uniform, MembraneLaw::inverse, MembraneLaw::van_gelder}) {
     for (const double jitter : {0.0, 0.3}) {

@@ -59,7 +59,8 @@ TEST_CASE("cantilever: a ladder of 40 hinges meets the elastica, and halving its
   }
 }
 
-TEST_CASE("cantilever: equilateral triangles meet the elastica but for the softening of free edges") {
+TEST_CASE("cantilever: equilateral triangles meet the elastica but for the softening of free edges",
+          "[accuracy]") {
   for (const auto& [gamma, bound] : {std::pair{1.0, 0.04}, {5.0, 0.02}, {10.0, 0.01}, {25.0, 0.01}}) {
     const double error = chart_error({}, gamma);
     CAPTURE(gamma);
@@ -72,7 +73,7 @@ TEST_CASE("cantilever: equilateral triangles meet the elastica but for the softe
   CHECK(std::abs(chart_error(fine, 100)) < 0.01);
 }
 
-TEST_CASE("cantilever: irregular triangles are a little too stiff") {
+TEST_CASE("cantilever: irregular triangles are a little too stiff", "[accuracy]") {
   for (const auto& [gamma, bound] : {std::pair{1.0, 0.10}, {10.0, 0.05}}) {
     StripOptions o;
     o.jitter = 0.2 * std::sqrt(0.75);  // 0.2 of the cell's length along; 0.2 edges give 1.4 % more

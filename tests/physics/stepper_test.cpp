@@ -87,7 +87,7 @@ TEST_CASE("each integrator has its order on the elastic pendulum") {
   CHECK(std::log2(errors[1] / errors[2]) == Approx(order.value).margin(order.margin));
 }
 
-TEST_CASE("drag and spring damping keep each integrator's order") {
+TEST_CASE("drag and spring damping keep each integrator's order", "[accuracy]") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const Loads loads =
       GENERATE(Loads{.air_drag = 5, .spring_damping = 0}, Loads{.air_drag = 0, .spring_damping = 0.3},
