@@ -27,6 +27,11 @@ struct KeepOptions {
   /// What hangs on a line of pins or on one is first turned about it into balance, if by no more than this
   /// [rad]; >= 0; 0: never.
   double largest_turn = 0.2;
+  /// Of the lines by id, as drawn: widths [m], NaN: none, for where they are measured and helped
+  /// (geometry/line_region.h), and presses [-] that the cloth's hinges have already, for the report. Missing
+  /// at the end: none, and 1.
+  std::vector<double> line_widths = {}, line_presses = {};
+  bool whole = false;  ///< the rest of the garment is pressed, too, until nothing in it is unstable
 };
 
 enum class Verdict { held, pressed, strutted, lowered, cannot_hold };
@@ -34,7 +39,7 @@ enum class Verdict { held, pressed, strutted, lowered, cannot_hold };
 struct KeptLine {
   int line = -1;  ///< its id in kLine
   Verdict verdict = Verdict::cannot_hold;
-  double press = 1;                ///< factor on its hinges [-]
+  double press = 1;                ///< factor on its hinges, its own and that of the help [-]
   double struts = 0;               ///< stiffness of its struts [N/m]; 0: none
   double height = 0;               ///< that it was balanced at, after lowering [m]
   double lowered = 1;              ///< that over the height as drawn [-]
@@ -46,6 +51,7 @@ struct KeepReport {
   std::vector<KeptLine> lines;  ///< by id
   physics::PrestressReport rest;
   physics::Certificate certificate;
+  double rest_press = 1;     ///< factor on the hinges outside of all lines' regions [-]
   double turned = 0;         ///< about its pins into balance [rad]
   int trials = 0, runs = 0;  ///< rest states that were solved for, and forward runs
   double drift = 0;          ///< of any vertex in the last run, before the gust [m]
@@ -56,7 +62,8 @@ struct KeepReport {
 /// each line whether it will hold: by the certificate of stability (physics/certificate.h) and by a run
 /// forward, from rest and after a gust. Lines that do not hold are helped, one step more each time and no
 /// line more than it needs: press (their hinges stiffer), then struts on top of the strongest press, then a
-/// lower height; the least that holds stays.
+/// lower height; the least that holds stays. With `whole` the hinges between the lines are pressed likewise
+/// where the motion that nothing holds back is theirs.
 ///
 /// mesh: the garment with kLine, from which `cloth` was gathered and pinned; its positions are the drawn
 /// shape, and follow where heights were lowered. kRestPosition tells where a line lies without its height;
