@@ -40,6 +40,17 @@ void keep_momentum(Mesh& mesh, physics::Particles& p, const Vec3& wanted, std::s
   scatter_velocities(p, mesh);
 }
 
+/// The springs' options with the presses of new lines.
+GatherOptions with_lines(GatherOptions springs, std::span<const Stroke> strokes, int first_line) {
+  springs.line_presses.resize(static_cast<std::size_t>(first_line), 1);
+  springs.line_widths.resize(static_cast<std::size_t>(first_line), kUnset);
+  for (const Stroke& stroke : strokes) {
+    springs.line_presses.push_back(stroke.press);
+    springs.line_widths.push_back(stroke.width.value_or(kUnset));
+  }
+  return springs;
+}
+
 }  // namespace
 
 DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<const Stroke> strokes,
@@ -51,7 +62,7 @@ DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<co
   ensure_map(work, kVelocity);
   DrawMoreReport report;
   report.wrinkle = wrinkle(work, strokes, options.wrinkle, observer);
-  physics::Cloth after = gather(work, options.springs);
+  physics::Cloth after = gather(work, with_lines(options.springs, strokes, options.wrinkle.first_line));
   const std::set<Vertex> held(options.wrinkle.held.begin(), options.wrinkle.held.end());
   report.momentum_before = momentum(before.particles, held);
   keep_momentum(work, after.particles, report.momentum_before, report.wrinkle.insertion.changed_faces, held);

@@ -8,7 +8,7 @@ namespace furrow::bridge {
 
 struct DrawMoreOptions {
   geometry::WrinkleOptions wrinkle;
-  GatherOptions springs;  ///< as the simulation's
+  GatherOptions springs;  ///< as the simulation's; what the new lines press is added
   double fade = 0.3;  ///< of what is left of earlier lines, too; tau of the forces that come with the lines
                       ///< [s]; > 0, may be infinite
 };

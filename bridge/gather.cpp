@@ -13,6 +13,7 @@
 #include "geometry/bending_springs.h"
 #include "geometry/edge_metric.h"
 #include "geometry/errors.h"
+#include "geometry/line_press.h"
 #include "geometry/property_names.h"
 #include "geometry/rest_metric.h"
 #include "geometry/stiffness.h"
@@ -105,14 +106,8 @@ class Gatherer {
     cloth_.particles = particles_of(mesh_);
     cloth_.triangles = triangles_of(mesh_);
     for (Edge e : mesh_.edges()) require_length(rest_[e], mesh_.vertex(e, 0), mesh_.vertex(e, 1));
-    if (o_.membrane == Membrane::triangles)
-      add_triangles();
-    else
-      add_structural_springs();
-    if (o_.bending == Bending::cross)
-      add_bending_springs();
-    else
-      add_hinges();
+    o_.membrane == Membrane::triangles ? add_triangles() : add_structural_springs();
+    o_.bending == Bending::cross ? add_bending_springs() : add_hinges();
     add_struts();
     return std::move(result_);
   }
@@ -206,6 +201,7 @@ class Gatherer {
 
   void add_hinges() {
     const auto angle = find_map(mesh_, kRestAngle), own = find_map(mesh_, kHingeStiffness);
+    const std::vector<double> presses = hinge_presses(mesh_, o_.line_presses, o_.line_widths);
     cloth_.hinge_law = o_.bending == Bending::hinge ? physics::HingeLaw::linear : physics::HingeLaw::cosine;
     for (Edge e : mesh_.edges()) {
       if (mesh_.is_border(e)) continue;
@@ -215,7 +211,8 @@ class Gatherer {
       if (mesh_.target(h) < mesh_.source(h)) h = mesh_.opposite(h);
       const auto index = [](Vertex v) { return static_cast<int>(v); };
       const double rest = angle && !std::isnan((*angle)[e]) ? (*angle)[e] : 0;
-      const double k = stiffness_or(own, mesh_, e, [&] { return o_.rigidity * rest_[e] * rest_[e] / areas; });
+      const double press = presses.empty() ? 1 : presses[e.idx()], b = o_.rigidity * press;
+      const double k = stiffness_or(own, mesh_, e, [&] { return b * rest_[e] * rest_[e] / areas; });
       cloth_.hinges.push_back(
           {{index(mesh_.source(h)), index(mesh_.target(h)), index(mesh_.target(mesh_.next(h))),
             index(mesh_.target(mesh_.next(mesh_.opposite(h))))},

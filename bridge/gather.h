@@ -34,12 +34,16 @@ struct GatherOptions {
   double stretch = 1000;   ///< Y, Young's modulus times thickness [N/m], of van_gelder and triangles; > 0
   double poisson = 0.3;    ///< of triangles [-]; in (-1, 1)
   double rigidity = 1e-5;  ///< B of hinge and cosine [N m]; >= 0
+  /// By line id: factors on the hinges in a line's region [-] >= 1, and the lines' widths [m], NaN: none
+  /// (geometry/line_press.h). Missing at the end: 1, and none.
+  std::vector<double> line_presses = {}, line_widths = {};
 };
 
 /// The mesh as plain arrays: particle i is vertex i, its velocity that of v:velocity (0 without that map).
 /// Masses from v:mass, rest lengths from e:rest_length (of a triangle h:rest_length where it is set) and
 /// e:bending_rest_length, rest angles from e:rest_angle (where it is unset: 0). Stiffness from e:stiffness,
-/// e:bending_stiffness and e:hinge_stiffness where they are set, else by the options' law; there a bending
+/// e:bending_stiffness and e:hinge_stiffness where they are set, else by the options' law, a hinge's times
+/// the press of its lines; there a bending
 /// spring that stands for several hinges has their number (e:bending_count) times the stiffness. Struts
 /// follow among the bending springs, whatever the law of bending. Only what the options choose is filled. A
 /// vertex without faces gets mass 0 and stays where it is. Throws std::invalid_argument if an option is out

@@ -9,8 +9,8 @@
 #include "bridge/keep_trial.h"
 #include "bridge/line_help.h"
 #include "bridge/scatter.h"
+#include "geometry/line_region.h"
 #include "geometry/property_names.h"
-#include "geometry/two_ring.h"
 #include "physics/posed_collider.h"
 #include "physics/push_out.h"
 #include "physics/rigid_motion.h"
@@ -54,7 +54,12 @@ class Keeper {
   Keeper(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
          const std::vector<double>& base, const KeepOptions& options,
          const std::function<bool(double)>& go_on)
-      : mesh_(mesh), cloth_(cloth), world_(world), o_(options), go_on_(go_on), meter_(mesh, base) {
+      : mesh_(mesh),
+        cloth_(cloth),
+        world_(world),
+        o_(options),
+        go_on_(go_on),
+        meter_(mesh, base, options.line_widths) {
     o_.bounds.gravity = o_.run.gravity;
     o_.bounds.friction = o_.run.friction;
     o_.bounds.gap = o_.run.contact_gap;
@@ -80,14 +85,22 @@ class Keeper {
  private:
   void find_lines() {
     const auto id = geometry::find_map(mesh_, geometry::kLine);
-    const std::vector<double> drawn = meter_.heights(start_.particles);
+    const std::vector<double> drawn = meter_.heights(start_.particles),
+                              lengths = geometry::lengths_before_lines(mesh_);
+    const auto of_line = [](const std::vector<double>& list, int line, double missing) {
+      return std::size_t(line) < list.size() ? list[line] : missing;
+    };
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       std::vector<geometry::Vertex> vertices;
       for (const geometry::Vertex v : mesh_.vertices())
         if ((*id)[v] == meter_.lines()[i]) vertices.push_back(v);
-      lines_.push_back({meter_.lines()[i], {}, drawn[i]});
-      for (const geometry::Vertex v : geometry::two_ring(mesh_, vertices))
-        lines_.back().patch.push_back(int(v));
+      HelpedLine line{meter_.lines()[i], {}, drawn[i]};
+      line.press = of_line(o_.line_presses, line.id, 1);
+      const double width = of_line(o_.line_widths, line.id, NAN);
+      line.width = width > 0 ? width : 0;
+      for (const geometry::Vertex v : geometry::line_region(mesh_, vertices, width, lengths))
+        line.patch.push_back(int(v));
+      lines_.push_back(std::move(line));
     }
   }
 
@@ -107,7 +120,8 @@ class Keeper {
     report_.turned = turn <= o_.largest_turn ? turn : 0;
     if (report_.turned > 0) solved_ = std::move(balanced);
     push_out(solved_);
-    stiffen_lines(lines_, o_, solved_);
+    report_.rest_press = rest_step_ > 0 ? o_.presses[rest_step_ - 1] : 1;
+    stiffen_lines(lines_, o_, report_.rest_press, solved_);
     const physics::Collider* body = body_ ? &*body_ : nullptr;
     report_.rest = physics::prestress(solved_, o_.bounds, body);
     report_.certificate =
@@ -142,19 +156,18 @@ class Keeper {
     return weak;
   }
 
-  /// Lines with a good part in the motion that nothing holds back.
+  /// Shares in the motion that nothing holds back; none if there is no such motion.
+  std::vector<double> loose_shares() const {
+    if (report_.certificate.stable()) return std::vector<double>(lines_.size() + 1, 0.0);
+    return shares_of(lines_, solved_.particles, report_.certificate.mode);
+  }
+
+  /// Lines with a good part in it.
   std::vector<HelpedLine*> lines_of_mode() {
     std::vector<HelpedLine*> found;
-    const auto& mode = report_.certificate.mode;
-    if (report_.certificate.stable() || mode.empty()) return found;
-    const auto& mass = solved_.particles.mass;
-    double whole = 0;
-    for (std::size_t i = 0; i < mode.size(); ++i) whole += mass[i] * mode[i].squaredNorm();
-    for (HelpedLine& line : lines_) {
-      double part = 0;
-      for (const int i : line.patch) part += mass[i] * mode[i].squaredNorm();
-      if (part > share_of_mode * whole) found.push_back(&line);
-    }
+    const std::vector<double> shares = loose_shares();
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+      if (shares[i] > share_of_mode) found.push_back(&lines_[i]);
     return found;
   }
 
@@ -179,6 +192,10 @@ class Keeper {
            any(rest.membrane, solved_.membrane) || any(rest.hinges, solved_.hinges);
   }
 
+  bool rest_needs_help() const {
+    return o_.whole && rest_step_ < o_.presses.size() && loose_shares().back() > share_of_mode;
+  }
+
   bool holds(const HelpedLine& line) const {
     // What is not stable ends elsewhere each time: a run is a sample, and the next one may be worse.
     const double most = (report_.certificate.stable() ? 1 : reserve) * (1 - o_.kept);
@@ -192,9 +209,11 @@ class Keeper {
       for (HelpedLine& line : lines_)
         if (is_bound(line) && std::find(weak.begin(), weak.end(), &line) == weak.end()) weak.push_back(&line);
       std::erase_if(weak, [&](const HelpedLine* l) { return l->step == help_steps(o_); });
-      if (weak.empty()) weak = run_forward(true);
-      if (weak.empty() || report_.interrupted || hangs_wrong()) return;
+      const bool rest = rest_needs_help();
+      if (weak.empty() && !rest) weak = run_forward(true);
+      if ((weak.empty() && !rest) || report_.interrupted || hangs_wrong()) return;
       for (HelpedLine* line : weak) ++line->step;
+      rest_step_ += rest ? 1 : 0;
     }
   }
 
@@ -225,7 +244,7 @@ class Keeper {
   KeptLine verdict(const HelpedLine& line) {
     KeptLine v;
     v.line = line.id;
-    v.press = press_of(line, o_);
+    v.press = line.press * press_of(line, o_);
     v.struts = struts_of(line, o_);
     v.lowered = line.height;
     v.height = line.height * line.drawn;
@@ -240,7 +259,7 @@ class Keeper {
     }
     v.verdict = line.height < 1 ? Verdict::lowered
                 : v.struts > 0  ? Verdict::strutted
-                : v.press > 1   ? Verdict::pressed
+                : line.step > 0 ? Verdict::pressed
                                 : Verdict::held;
     return v;
   }
@@ -262,6 +281,7 @@ class Keeper {
   physics::Cloth start_, solved_;
   std::optional<physics::PosedCollider> body_;
   std::vector<HelpedLine> lines_;
+  std::size_t rest_step_ = 0;  // of presses, on what lies in no line's patch
   KeepReport report_;
 };
 

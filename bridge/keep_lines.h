@@ -31,6 +31,11 @@ struct KeepOptions {
   /// What hangs on a line of pins or on one is first turned about it into balance, if by no more than this
   /// [rad]; >= 0; 0: never.
   double largest_turn = 0.2;
+  /// Of the lines by id, as drawn: widths [m], NaN: none, for where they are measured and helped
+  /// (geometry/line_region.h), and presses [-] that the cloth's hinges have already, for the report. Missing
+  /// at the end: none, and 1.
+  std::vector<double> line_widths = {}, line_presses = {};
+  bool whole = false;  ///< the rest of the garment is pressed, too, until nothing in it is unstable
 };
 
 enum class Verdict { held, pressed, strutted, lowered, cannot_hold };
@@ -38,7 +43,7 @@ enum class Verdict { held, pressed, strutted, lowered, cannot_hold };
 struct KeptLine {
   int line = -1;  ///< its id in kLine
   Verdict verdict = Verdict::cannot_hold;
-  double press = 1;                ///< factor on its hinges [-]
+  double press = 1;                ///< factor on its hinges, its own and that of the help [-]
   double struts = 0;               ///< stiffness of its struts [N/m]; 0: none
   double height = 0;               ///< that it was balanced at, after lowering [m]
   double lowered = 1;              ///< that over the height as drawn [-]
@@ -50,6 +55,7 @@ struct KeepReport {
   std::vector<KeptLine> lines;  ///< by id
   physics::PrestressReport rest;
   physics::Certificate certificate;
+  double rest_press = 1;     ///< factor on the hinges outside of all lines' regions [-]
   double turned = 0;         ///< about its pins into balance [rad]
   int pushed_out = 0;        ///< particles nearer to the body than the gap, brought there first
   double farthest_push = 0;  ///< the longest way of one [m]
@@ -63,7 +69,8 @@ struct KeepReport {
 /// forward, from rest and after a gust. What is nearer to the body than the gap is first brought there: a
 /// valley on a body is as deep as there is room. Lines that do not hold are helped, one step more each time
 /// and no line more than it needs: press (their hinges stiffer), then struts on top of the strongest press,
-/// then a lower height; the least that holds stays.
+/// then a lower height; the least that holds stays. With `whole` the hinges between the lines are pressed
+/// likewise where the motion that nothing holds back is theirs.
 ///
 /// mesh: the garment with kLine, from which `cloth` was gathered and pinned; its positions are the drawn
 /// shape, and follow where heights were lowered. kRestPosition tells where a line lies without its height;

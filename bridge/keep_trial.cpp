@@ -40,8 +40,9 @@ void push(physics::Particles& p, double by, std::uint64_t number) {
 
 }  // namespace
 
-LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base) : shape_(mesh) {
-  for (const geometry::LineHeight& h : geometry::line_heights(shape_)) {
+LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths)
+    : shape_(mesh), widths_(std::move(widths)) {
+  for (const geometry::LineHeight& h : geometry::line_heights(shape_, widths_)) {
     const bool known = std::size_t(h.line) < base.size() && std::isfinite(base[h.line]);
     const double below = known ? base[h.line] : 0;
     if (!std::isfinite(h.height) || h.height == below) continue;
@@ -53,7 +54,7 @@ LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base
 std::vector<double> LineMeter::heights(const physics::Particles& p) {
   scatter(p, shape_);
   std::vector<double> result;
-  const auto all = geometry::line_heights(shape_);
+  const auto all = geometry::line_heights(shape_, widths_);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const auto at = std::find_if(all.begin(), all.end(), [&](const auto& h) { return h.line == lines_[i]; });
     result.push_back(at == all.end() ? NAN : at->height - base_[i]);

@@ -7,13 +7,14 @@ namespace furrow::bridge {
 /// Measures the heights of a garment's lines at other positions of its vertices.
 class LineMeter {
  public:
-  /// Lines that have a height where the mesh lies. base: see keep_lines().
-  LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base);
+  /// Lines that have a height where the mesh lies. base: see keep_lines(); widths: KeepOptions::line_widths.
+  LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths);
   const std::vector<int>& lines() const { return lines_; }   ///< their ids, rising
   std::vector<double> heights(const physics::Particles& p);  ///< of each [m]; NaN: no more known
 
  private:
-  geometry::Mesh shape_;  ///< a copy that is moved about
+  geometry::Mesh shape_;        ///< a copy that is moved about
+  std::vector<double> widths_;  ///< by id [m]
   std::vector<int> lines_;
   std::vector<double> base_;  ///< of each [m]
 };

@@ -35,7 +35,22 @@ void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mes
   }
 }
 
-void stiffen_lines(const std::vector<HelpedLine>& lines, const KeepOptions& o, physics::Cloth& cloth) {
+namespace {
+
+std::vector<char> in_any(const std::vector<HelpedLine>& lines, std::size_t vertices) {
+  std::vector<char> inside(vertices, 0);
+  for (const HelpedLine& line : lines)
+    for (const int i : line.patch) inside[i] = 1;
+  return inside;
+}
+
+}  // namespace
+
+void stiffen_lines(const std::vector<HelpedLine>& lines, const KeepOptions& o, double rest_press,
+                   physics::Cloth& cloth) {
+  const std::vector<char> inside = in_any(lines, cloth.particles.size());
+  for (physics::Hinge& h : cloth.hinges)
+    if (!inside[h.vertices[0]] || !inside[h.vertices[1]]) h.stiffness *= rest_press;
   double last = 1;
   for (std::size_t k = 0; k < o.presses.size(); ++k) {
     std::vector<int>
@@ -46,7 +61,23 @@ void stiffen_lines(const std::vector<HelpedLine>& lines, const KeepOptions& o, p
     last = o.presses[k];
   }
   for (const HelpedLine& line : lines)
-    if (struts_of(line, o) > 0) physics::add_struts(cloth, line.patch, {.stiffness = struts_of(line, o)});
+    if (struts_of(line, o) > 0)
+      physics::add_struts(cloth, line.patch, {.stiffness = struts_of(line, o), .width = line.width});
+}
+
+std::vector<double> shares_of(const std::vector<HelpedLine>& lines, const physics::Particles& particles,
+                              const std::vector<physics::Vec3>& motion) {
+  std::vector<double> shares(lines.size() + 1, 0.0);
+  const auto energy = [&](std::size_t i) { return particles.mass[i] * motion[i].squaredNorm(); };
+  double whole = 0;
+  for (std::size_t i = 0; i < motion.size(); ++i) whole += energy(i);
+  if (!(whole > 0)) return shares;
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    for (const int i : lines[k].patch) shares[k] += energy(i) / whole;
+  const std::vector<char> inside = in_any(lines, particles.size());
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    if (!inside[i]) shares.back() += energy(i) / whole;
+  return shares;
 }
 
 }  // namespace furrow::bridge

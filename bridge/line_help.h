@@ -9,15 +9,16 @@ namespace furrow::bridge {
 /// A line on the way to its verdict, and the help that it has so far.
 struct HelpedLine {
   int id;
-  std::vector<int> patch;  ///< its vertices and two rings around them
+  std::vector<int> patch;  ///< its region, see geometry/line_region.h
   double drawn;            ///< height [m]
   int step = 0;            ///< of presses, then of struts on top of the strongest press
   double height = 1;       ///< over that as drawn [-]
   double kept = NAN, kept_gust = NAN;
+  double width = 0, press = 1;  ///< as drawn [m], 0: none; and [-]
 };
 
 int help_steps(const KeepOptions& options);                            ///< how many there are
-double press_of(const HelpedLine& line, const KeepOptions& options);   ///< factor on its hinges [-]
+double press_of(const HelpedLine& line, const KeepOptions& options);   ///< factor that helps [-]
 double struts_of(const HelpedLine& line, const KeepOptions& options);  ///< [N/m]; 0: none
 
 /// Lines with height != 1: their patches move from `drawn` towards kRestPosition, where they lay without a
@@ -25,6 +26,12 @@ double struts_of(const HelpedLine& line, const KeepOptions& options);  ///< [N/m
 void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mesh,
                  const physics::Particles& drawn, physics::Particles& particles);
 /// Presses the lines' hinges and adds their struts. Where patches overlap the stronger press counts.
-void stiffen_lines(const std::vector<HelpedLine>& lines, const KeepOptions& options, physics::Cloth& cloth);
+/// rest_press: factor on all hinges that are in no line's patch [-].
+void stiffen_lines(const std::vector<HelpedLine>& lines, const KeepOptions& options, double rest_press,
+                   physics::Cloth& cloth);
+/// Shares of a motion's kinetic energy [-]: of each line's patch (they may overlap), and last of what lies in
+/// none. All 0 for an empty motion.
+std::vector<double> shares_of(const std::vector<HelpedLine>& lines, const physics::Particles& particles,
+                              const std::vector<physics::Vec3>& motion);
 
 }  // namespace furrow::bridge

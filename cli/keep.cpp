@@ -11,6 +11,7 @@
 #include "cli/judge_report.h"
 #include "cli/keep_report.h"
 #include "cli/prepare_garment.h"
+#include "cli/run_warnings.h"
 #include "cli/scene_cloth.h"
 #include "cli/scene_flags.h"
 #include "cli/scene_input.h"
@@ -29,7 +30,7 @@ struct KeepArguments : CommonArguments {
   CameraArguments camera;
   double run = 5, gust = 12;
   std::string kept = "95%";
-  bool no_balance = false, no_help = false;
+  bool no_balance = false, no_help = false, whole = false;
 };
 
 /// The garment in its drawn shape, of a scene that draws at time 0 alone, or of a state.
@@ -124,6 +125,9 @@ int keep(KeepArguments& a) {
   options.seconds = a.run;
   options.kept = parse_share(a.kept, "--kept");
   options.gust = a.gust;
+  options.line_widths = io::line_widths(record);
+  options.line_presses = io::line_presses(record);
+  options.whole = a.whole;
   if (a.no_balance) options.largest_turn = 0;
   if (a.no_help) options.presses.clear(), options.struts.clear(), options.height_trials = 0;
   bridge::KeepReport report;
@@ -144,6 +148,7 @@ int keep(KeepArguments& a) {
     io::write_png(a.picture, io::render(scenes[0], render_options(scenes, a.camera)));
   }
   print_report(to_json(report, record), common);
+  warn_of_idle_press(scene.material, record, common);
   return exit_code_of(report);
 }
 
@@ -172,6 +177,9 @@ void add_keep(CLI::App& app, int& exit_code) {
       "(by at most 0.2 rad)");
   sub->add_flag("--no-help", a->no_help,
                 "no press, struts or lower height where the rest state alone does not hold");
+  sub->add_flag("--whole", a->whole,
+                "press what lies between the lines, too, where it could give way, so that all of the garment "
+                "stays as drawn");
   sub->add_option(
       "--picture", a->picture,
       "picture of the garment, lines coloured by verdict: green held, yellow pressed, orange struts, blue "

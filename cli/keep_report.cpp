@@ -127,6 +127,9 @@ Json to_json(const bridge::KeepReport& r, const io::WrinkleRecord& record) {
             {"drift", r.drift},
             {"trials", r.trials},
             {"runs", r.runs}};
+  if (r.rest_press > 1)
+    json["rest_of_garment"] = {{"press", r.rest_press},
+                               {"words", fmt::format("pressed x{:g} between the lines", r.rest_press)}};
   if (r.turned > 0) json["turned"] = r.turned;
   if (r.pushed_out > 0) json["pushed_out"] = {{"vertices", r.pushed_out}, {"farthest", r.farthest_push}};
   if (!imbalance.empty()) json["imbalance"] = imbalance;

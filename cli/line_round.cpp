@@ -54,8 +54,8 @@ io::WrinkleRecord record_of(const geometry::WrinkleOptions& o,
   record.options = flags(o);
   record.lines.resize(o.first_line, {"", geometry::kUnset, geometry::kUnset, geometry::kUnset});
   for (const geometry::WrinkledLine& line : report.lines)
-    record.lines.push_back(
-        {line.name, line.height, line.drawn_height, line.smoothed_height, line.base_height});
+    record.lines.push_back({line.name, line.height, line.drawn_height, line.smoothed_height, line.base_height,
+                            line.width, line.sharpness, line.press});
   return record;
 }
 
@@ -89,8 +89,8 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
   } else {
     round.report = geometry::wrinkle(target.file.mesh, resolved.strokes, options, observer);
   }
-  const auto& more = round.report.insertion.warnings;
-  round.warnings.insert(round.warnings.end(), more.begin(), more.end());
+  for (const auto* more : {&round.report.insertion.warnings, &round.report.warnings})
+    round.warnings.insert(round.warnings.end(), more->begin(), more->end());
   io::WrinkleRecord record = record_of(options, earlier, round.report);
   note_strokes(record, target.moving ? "" : target.garment, strokes);
   io::set_wrinkle_record(target.file, record);

@@ -55,6 +55,8 @@ bridge::GatherOptions spring_options(const io::MeshFile& file, const io::SceneMa
   o.stretch = material.stretch.value_or(material.stiffness / bridge::spring_constant_of(1));
   o.poisson = material.poisson;
   o.rigidity = material.rigidity;
+  o.line_presses = io::line_presses(record);
+  o.line_widths = io::line_widths(record);
   return o;
 }
 

@@ -21,6 +21,18 @@ void warn_of_oddities(const io::Scene& scene, const physics::SimulateReport& rep
     warn("gusts do nothing without wind", common);
 }
 
+void warn_of_idle_press(const io::SceneMaterial& material, const io::WrinkleRecord& record,
+                        const CommonArguments& common) {
+  if (material.bending_law != bridge::Bending::cross) return;
+  for (const io::WrinkleRecord::Line& line : record.lines)
+    if (line.press > 1)
+      warn(
+          "line '" + line.name +
+              "': its press has no effect, for cross springs have no hinges; choose a fabric, or bending_law "
+              "hinge",
+          common);
+}
+
 void warn_of_interruption(const io::Scene& scene, const physics::SimulateReport& report,
                           const CommonArguments& common) {
   warn("interrupted at " + std::to_string(report.time) + " s; " +

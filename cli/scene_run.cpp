@@ -79,7 +79,7 @@ class SceneRun {
  private:
   void load_inputs() {
     load_body_and_pins();
-    heights_ = line_heights_by_id(now_.file.mesh);
+    heights_ = line_heights_by_id(now_.file);
     strokes_ = read_rounds(scene_, now_.lines_drawn, common_);
   }
 
@@ -148,13 +148,13 @@ class SceneRun {
     Json json = to_json(round.report, now_.file.mesh, round.first_line);
     if (round.moving) json["moving"] = to_json(*round.moving, now_.simulation.time);
     rounds_.push_back(std::move(json));
-    if (moving) heights_ = line_heights_by_id(now_.file.mesh);
+    if (moving) heights_ = line_heights_by_id(now_.file);
   }
 
   /// The garment is complete now: masses and springs, pins out of the body.
   void start_simulation() {
     complete_garment(now_.file, scene_.material);
-    heights_ = line_heights_by_id(now_.file.mesh);
+    heights_ = line_heights_by_id(now_.file);
     started_ = true;
   }
 
@@ -212,6 +212,7 @@ class SceneRun {
       return kNotConverged;
     }
     warn_of_oddities(scene_, report_, common_);
+    warn_of_idle_press(scene_.material, *io::find_wrinkle_record(now_.file), common_);
     if (resumed_ && report_.time >= scene_.simulation.seconds && report_.steps == steps_before_)
       warn("the state is at the end already; --seconds puts that off", common_);
     if (report_.outcome == physics::Outcome::stopped_by_observer) {

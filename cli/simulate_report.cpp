@@ -5,6 +5,7 @@
 
 #include "bridge/convert.h"
 #include "geometry/border_loops.h"
+#include "geometry/hem_folds.h"
 #include "geometry/line_height.h"
 #include "geometry/property_names.h"
 #include "geometry/self_intersections.h"
@@ -15,13 +16,14 @@ namespace {
 Json lines_to_json(const io::MeshFile& file, const io::WrinkleRecord& record,
                    const std::vector<double>& before) {
   Json lines = Json::array();
-  const std::vector<double> now = line_heights_by_id(file.mesh);
+  const std::vector<double> now = line_heights_by_id(file);
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (!std::isfinite(now[i])) continue;  // its vertices went to later lines
     Json line{{"id", i}};
     if (i < record.lines.size()) {
       line["name"] = record.lines[i].name;
       line["drawn_height"] = record.lines[i].drawn_height;
+      if (record.lines[i].width) line["width"] = *record.lines[i].width;
     }
     const bool known = i < record.lines.size() && std::isfinite(record.lines[i].smoothed_height);
     const double smoothed = known ? record.lines[i].smoothed_height : before[i];
@@ -59,13 +61,16 @@ Json borders_to_json(const geometry::Mesh& mesh) {
     loops.push_back({{"rest_length", geometry::rest_length(mesh, loop)},
                      {"length", loop.length},
                      {"mean_height", loop.mean_height},
-                     {"mean_radius", loop.mean_radius}});
+                     {"mean_radius", loop.mean_radius},
+                     {"folds", geometry::count_folds(mesh, loop)}});
   return loops;
 }
 
-std::vector<double> line_heights_by_id(const geometry::Mesh& mesh) {
+std::vector<double> line_heights_by_id(const io::MeshFile& file) {
+  const auto record = io::find_wrinkle_record(file);
+  const std::vector<double> widths = record ? io::line_widths(*record) : std::vector<double>{};
   std::vector<double> heights;
-  for (const geometry::LineHeight& h : geometry::line_heights(mesh)) {
+  for (const geometry::LineHeight& h : geometry::line_heights(file.mesh, widths)) {
     heights.resize(std::max(heights.size(), static_cast<std::size_t>(h.line) + 1), geometry::kUnset);
     heights[h.line] = h.height;
   }

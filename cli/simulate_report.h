@@ -15,6 +15,6 @@ Json to_json(const physics::SimulateReport& report, const io::MeshFile& file, co
 Json borders_to_json(const geometry::Mesh& mesh);
 
 /// Heights of the lines of a mesh by id; NaN where a line has no vertices [m].
-std::vector<double> line_heights_by_id(const geometry::Mesh& mesh);
+std::vector<double> line_heights_by_id(const io::MeshFile& file);
 
 }  // namespace furrow::cli

@@ -16,7 +16,8 @@ namespace {
 
 struct StrokesArguments : CommonArguments {
   std::string in, garment;
-  std::vector<std::string> remove, move, height, rename;
+  std::vector<std::string> remove, move, height, width, sharpness, press, rename;
+  std::string order;
   bool in_space = false;
 };
 
@@ -54,20 +55,42 @@ void edit(std::vector<io::DrawnStroke>& strokes, const StrokesArguments& a) {
     const bool in_space = std::holds_alternative<std::monostate>(stroke.on);
     io::move_stroke(stroke, parse_numbers(value, in_space ? 3 : 2, "--move " + name));
   }
-  for (const std::string& text : a.height) {
-    const auto [name, value] = parted(text, "--height");
-    named(name).stroke.height = parse_numbers(value, 1, "--height " + name)[0];
-  }
+  const auto set = [&](const std::vector<std::string>& texts, const std::string& option, const auto& give) {
+    for (const std::string& text : texts) {
+      const auto [name, value] = parted(text, option);
+      geometry::Stroke& stroke = named(name).stroke;
+      if (option == "--width" && value == "none")
+        stroke.width.reset(), stroke.sharpness = geometry::Stroke{}.sharpness;
+      else
+        give(stroke, parse_numbers(value, 1, option + " " + name)[0]);
+    }
+  };
+  set(a.height, "--height", [](auto& stroke, double value) { stroke.height = value; });
+  set(a.width, "--width", [](auto& stroke, double value) { stroke.width = value; });
+  set(a.sharpness, "--sharpness", [](auto& stroke, double value) { stroke.sharpness = value; });
+  set(a.press, "--press", [](auto& stroke, double value) { stroke.press = value; });
+  for (const std::string& text : a.sharpness)
+    if (const std::string name = parted(text, "--sharpness").first; !named(name).stroke.width)
+      throw UsageError("--sharpness " + name + ": the stroke has no width; give it one with --width");
+  for (const io::DrawnStroke& drawn : strokes)
+    if (const std::string fault = geometry::shape_fault(drawn.stroke); !fault.empty())
+      throw UsageError("stroke '" + drawn.stroke.name + "': " + fault);
   for (const std::string& text : a.rename) {
     const auto [name, value] = parted(text, "--rename");
     named(name).stroke.name = value;
   }
+  if (!a.order.empty()) io::order_strokes(strokes, CLI::detail::split(a.order, ','));
 }
 
 Json to_json(const io::DrawnStroke& drawn) {
   Json item{{"name", drawn.stroke.name}, {"kind", io::kind_of(drawn)}, {"height", drawn.stroke.height}};
   if (const double length = io::drawn_length(drawn); std::isfinite(length))
     item["length"] = length, item["unit"] = io::unit_of(drawn);
+  if (drawn.stroke.width) {
+    item["width"] = *drawn.stroke.width;
+    item["sharpness"] = drawn.stroke.sharpness;
+  }
+  if (drawn.stroke.press != 1) item["press"] = drawn.stroke.press;
   if (drawn.stroke.closed) item["closed"] = true;
   return item;
 }
@@ -81,7 +104,9 @@ void check_output_name(const StrokesArguments& a) {
 }
 
 void strokes(StrokesArguments a) {
-  const bool edits = !a.remove.empty() || !a.move.empty() || !a.height.empty() || !a.rename.empty();
+  bool edits = !a.order.empty();
+  for (const auto* list : {&a.remove, &a.move, &a.height, &a.width, &a.sharpness, &a.press, &a.rename})
+    edits = edits || !list->empty();
   if (a.out.empty() && (edits || a.in_space)) throw UsageError("changed strokes are written to -o");
   if (a.in_space && a.garment.empty())
     throw UsageError("--in-space needs --garment, which the strokes lie on");
@@ -117,12 +142,13 @@ void strokes(StrokesArguments a) {
 
 void add_strokes(CLI::App& app) {
   auto a = std::make_shared<StrokesArguments>();
-  CLI::App* sub =
-      app.add_subcommand("strokes",
-                         "List and change strokes; those of a wrinkled PLY can be written as a file\n\n"
-                         "  furrow strokes lines.json --garment shirt.obj\n"
-                         "  furrow strokes lines.json --move fold=0,0.02,0 --height hem=-0.01 -o lines.json\n"
-                         "  furrow strokes wrinkled.ply --remove fold -o lines.json");
+  CLI::App* sub = app.add_subcommand(
+      "strokes",
+      "List and change strokes; those of a wrinkled PLY can be written as a file\n\n"
+      "  furrow strokes lines.json --garment shirt.obj\n"
+      "  furrow strokes lines.json --move fold=0,0.02,0 --height hem=-0.01 -o lines.json\n"
+      "  furrow strokes lines.json --width fold=0.06 --sharpness fold=0.2 --order hem,fold -o lines.json\n"
+      "  furrow strokes wrinkled.ply --remove fold -o lines.json");
   sub->add_option("strokes", a->in, "strokes: JSON, the l elements of an OBJ file, or a wrinkled PLY")
       ->required();
   sub->add_option("-o,--output", a->out, "JSON to write");
@@ -136,7 +162,15 @@ void add_strokes(CLI::App& app) {
   several("--move", a->move,
           "NAME=dx,dy,dz [m, y up], or =dx,dy in the pixels or texture that it is drawn in");
   several("--height", a->height, "NAME=height [m]; > 0 ridge, < 0 valley");
+  several("--width", a->width,
+          "NAME=width of the whole fold [m], > 0; =none: as wide as the smoothing of the mesh makes it");
+  several("--sharpness", a->sharpness, "NAME=sharpness of its crest [0, 1]; 0 round, 1 a tent");
+  several("--press", a->press, "NAME=factor on the stiffness of its hinges, >= 1");
   several("--rename", a->rename, "NAME=OTHER");
+  sub->add_option(
+      "--order", a->order,
+      "NAME,NAME,...: these come first, in this order, the others after them (where lines meet the "
+      "later one owns what they share); by their new names");
   add_common_options(*sub, *a);
   sub->callback([a] { strokes(*a); });
 }

@@ -65,14 +65,19 @@ Json to_json(const geometry::WrinkleReport& r, const geometry::Mesh& mesh, int f
   report["total_mass"] = r.total_mass;
   report["max_deviation"] = r.insertion.max_deviation;
   report["lines"] = Json::array();
-  for (std::size_t i = 0; i < r.lines.size(); ++i)
-    report["lines"].push_back({{"id", first_line + static_cast<int>(i)},
-                               {"name", r.lines[i].name},
-                               {"parts", r.lines[i].chains.size()},
-                               {"height", r.lines[i].height},
-                               {"base_height", r.lines[i].base_height},
-                               {"drawn_height", r.lines[i].drawn_height},
-                               {"smoothed_height", r.lines[i].smoothed_height}});
+  for (std::size_t i = 0; i < r.lines.size(); ++i) {
+    const geometry::WrinkledLine& line = r.lines[i];
+    Json item{{"id", first_line + static_cast<int>(i)},
+              {"name", line.name},
+              {"parts", line.chains.size()},
+              {"height", line.height},
+              {"base_height", line.base_height},
+              {"drawn_height", line.drawn_height},
+              {"smoothed_height", line.smoothed_height}};
+    if (line.width) item["width"] = *line.width, item["sharpness"] = line.sharpness;
+    if (line.press != 1) item["press"] = line.press;
+    report["lines"].push_back(std::move(item));
+  }
   return report;
 }
 

@@ -68,6 +68,7 @@ Insertion insert_along_stroke(Mesh& mesh, const Stroke& stroke, int line_id,
   report.nudges = traced.nudges;
   report.warnings = traced.warnings;
   report.max_deviation = best.deviation.largest;
+  best.drawn.insertion.path = stroke_path(traced);
   mesh = std::move(best.drawn.mesh);
   return std::move(best.drawn.insertion);
 }

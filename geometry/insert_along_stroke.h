@@ -2,12 +2,14 @@
 #pragma once
 #include "geometry/insertion_report.h"
 #include "geometry/stroke.h"
+#include "geometry/stroke_path.h"
 
 namespace furrow::geometry {
 
 struct Insertion {
   InsertedLine line;
   InsertionReport report;
+  std::vector<StrokeSegment> path;  ///< the stroke as it lies on the cloth
 };
 
 /// Draws one line into a mesh (method S1.2, S1.3, Algorithm 2), which is not displaced: the displacement

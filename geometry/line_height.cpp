@@ -7,6 +7,7 @@
 #include <map>
 
 #include "geometry/edge_metric.h"
+#include "geometry/line_region.h"
 #include "geometry/preconditions.h"
 #include "geometry/property_names.h"
 #include "geometry/two_ring.h"
@@ -16,16 +17,16 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// The two-ring of one line: `free` are the line's vertices and their neighbours.
+/// The cloth around one line: `free` are the line's vertices and those that its fold moves.
 struct Patch {
   std::vector<Vertex> line, free;
   std::vector<int> index;   ///< by vertex: its place in `free`, or -1
   std::vector<Face> faces;  ///< around the free vertices
 };
 
-Patch gather_patch(const Mesh& mesh, std::vector<Vertex> line) {
+Patch gather_patch(const Mesh& mesh, std::vector<Vertex> line, const std::vector<Vertex>& free) {
   Patch patch{std::move(line), {}, std::vector<int>(mesh.num_vertices(), -1), {}};
-  for (Vertex v : vertices_within_rings(mesh, patch.line, 1)) {
+  for (Vertex v : free) {
     if (mesh.is_isolated(v)) continue;
     patch.index[v.idx()] = static_cast<int>(patch.free.size());
     patch.free.push_back(v);
@@ -93,19 +94,24 @@ double mean_height(const Mesh& mesh, const Patch& patch, const Eigen::MatrixXd& 
 
 }  // namespace
 
-std::vector<LineHeight> line_heights(const Mesh& mesh) {
+std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> widths) {
   std::vector<LineHeight> heights;
   const auto line = find_map(mesh, kLine);
   if (!line) return heights;
   require_finite(mesh, "line_heights");
   require_triangles(mesh, "line_heights");
   const std::vector<double> lengths = rest_lengths(mesh);
+  const bool any_width = std::any_of(widths.begin(), widths.end(), [](double w) { return w > 0; });
+  const std::vector<double> before = any_width ? lengths_before_lines(mesh) : std::vector<double>{};
   std::map<int, std::vector<Vertex>> lines;
   for (Vertex v : line_vertices(mesh))
     if (!mesh.is_isolated(v)) lines[(*line)[v]].push_back(v);
   for (auto& [id, vertices] : lines) {
     LineHeight height{id, kUnset, vertices.size()};
-    const Patch patch = gather_patch(mesh, std::move(vertices));
+    const double width = static_cast<std::size_t>(id) < widths.size() ? widths[id] : kUnset;
+    const std::vector<Vertex> free =
+        width > 0 ? line_region(mesh, vertices, width, before) : vertices_within_rings(mesh, vertices, 1);
+    const Patch patch = gather_patch(mesh, std::move(vertices), free);
     const Eigen::MatrixXd fill = harmonic_fill(mesh, patch, lengths);
     if (fill.size() > 0) height.height = mean_height(mesh, patch, fill);
     heights.push_back(height);

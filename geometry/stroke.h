@@ -9,7 +9,7 @@
 
 namespace furrow::geometry {
 
-/// A line drawn near a surface: a ridge or a valley of the given height.
+/// A line drawn near a surface: a ridge or a valley of the given height, and the shape of its fold.
 struct Stroke {
   std::string name;                 ///< for reports; may be empty
   double height = 0.01;             ///< k [m]; > 0 ridge (outward), < 0 valley (inward)
@@ -19,6 +19,14 @@ struct Stroke {
   /// Points that are not joined to the one before: the stroke has several parts. Ascending, in [1, size of
   /// points); only for strokes that are not closed.
   std::vector<std::size_t> breaks = {};
+  /// Of the whole fold, from where it leaves the cloth to where it meets it again, on the cloth as it lies
+  /// before it is raised [m]; > 0. None: as wide as the smoothing of two rings of triangles makes it.
+  std::optional<double> width = {};
+  double sharpness = 0.5;  ///< of the crest, goes with a width [-]; [0, 1]: see line_profile()
+  double press = 1;        ///< factor on the stiffness of the hinges in the line's region [-]; >= 1
 };
+
+/// What is wrong with width, sharpness or press, with the key and its value; empty if nothing is.
+std::string shape_fault(const Stroke& stroke);
 
 }  // namespace furrow::geometry

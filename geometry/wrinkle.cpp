@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/wrinkle.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -9,61 +12,124 @@
 #include "geometry/displace_line.h"
 #include "geometry/errors.h"
 #include "geometry/line_height.h"
+#include "geometry/line_profile.h"
+#include "geometry/line_region.h"
 #include "geometry/masses.h"
 #include "geometry/property_names.h"
 #include "geometry/rest_angles.h"
 #include "geometry/rest_metric.h"
 #include "geometry/stiffness.h"
+#include "geometry/tangent_frames.h"
 #include "geometry/two_ring.h"
 
 namespace furrow::geometry {
 namespace {
 
-/// The vertices of all lines, each with the displacement of the last line that has it.
-std::vector<Displacement> displacements(const std::vector<InsertedLine>& lines,
-                                        std::span<const Stroke> strokes, const std::set<Vertex>& held) {
-  std::map<Vertex, Displacement> last;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    for (const LineVertex& v : lines[i].vertices) last[v.vertex] = {v.vertex, v.normal, strokes[i].height};
+struct Moves {
   std::vector<Displacement> list;
-  for (const auto& [vertex, displacement] : last)
-    if (!held.count(vertex)) list.push_back(displacement);
-  return list;
+  std::set<Vertex> profiled;  ///< by a line with a width, which gives them their final place
+};
+
+/// What lines with a width raise: the highest ridge and the deepest valley of each vertex, added.
+std::map<Vertex, double> profiled_heights(const Mesh& mesh, const std::vector<Insertion>& lines,
+                                          std::span<const Stroke> strokes) {
+  std::map<Vertex, std::array<double, 2>> extremes;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!strokes[i].width) continue;
+    std::vector<Vertex> own;
+    for (const LineVertex& v : lines[i].line.vertices) own.push_back(v.vertex);
+    for (const Lift& lift : lift_by_profile(mesh, own, lines[i].path, strokes[i])) {
+      auto& [lowest, highest] = extremes[lift.vertex];
+      lowest = std::min(lowest, lift.height);
+      highest = std::max(highest, lift.height);
+    }
+  }
+  std::map<Vertex, double> heights;
+  for (const auto& [vertex, both] : extremes) heights[vertex] = both[0] + both[1];
+  return heights;
 }
 
-std::vector<InsertedLine> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
-                                       const WrinkleOptions& options, WrinkleReport& report) {
+/// The vertices of lines without a width, each with the displacement of the last line that has it; then what
+/// lines with a width raise.
+Moves displacements(const Mesh& mesh, const std::vector<Insertion>& lines, std::span<const Stroke> strokes,
+                    const std::set<Vertex>& held) {
+  std::map<Vertex, Displacement> last;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (const LineVertex& v : lines[i].line.vertices)
+      if (strokes[i].width)
+        last.erase(v.vertex);
+      else
+        last[v.vertex] = {v.vertex, v.normal, strokes[i].height};
+  Moves moves;
+  const std::map<Vertex, double> profiled = profiled_heights(mesh, lines, strokes);
+  const std::vector<Vector> normals = profiled.empty() ? std::vector<Vector>{} : vertex_normals(mesh);
+  for (const auto& [vertex, height] : profiled) {
+    moves.profiled.insert(vertex);
+    const auto other = last.find(vertex);
+    const double own = other == last.end() ? 0 : other->second.height;
+    const double both =
+        own * height > 0 ? (own > 0 ? std::max(own, height) : std::min(own, height)) : own + height;
+    if (normals[vertex.idx()].squared_length() > 0) last[vertex] = {vertex, normals[vertex.idx()], both};
+  }
+  for (const auto& [vertex, displacement] : last)
+    if (!held.count(vertex)) moves.list.push_back(displacement);
+  return moves;
+}
+
+std::string millimetres(double length) { return std::to_string(std::lround(1000 * length)) + " mm"; }
+
+void warn_if_coarse(const Mesh& mesh, const std::vector<Insertion>& lines, std::span<const Stroke> strokes,
+                    WrinkleReport& report) {
+  const std::vector<double> lengths = lengths_before_lines(mesh);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!strokes[i].width) continue;
+    std::vector<Vertex> own;
+    for (const LineVertex& v : lines[i].line.vertices) own.push_back(v.vertex);
+    const double width = *strokes[i].width;
+    const double coarse = coarseness(mesh, line_region(mesh, own, width, lengths), width, lengths);
+    if (coarse > 1)
+      report.warnings.push_back("stroke \"" + strokes[i].name + "\": its width of " + millimetres(width) +
+                                " is less than three edges of the mesh there (" +
+                                millimetres(coarse * width / 3) +
+                                "); subdivide the garment, or draw the fold wider");
+  }
+}
+
+std::vector<Insertion> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
+                                    const WrinkleOptions& options, WrinkleReport& report) {
   InsertionOptions insertion = options.insertion;
   if (!insertion.mean_edge) insertion.mean_edge = report.mean_structural_length;
-  std::vector<InsertedLine> lines;
+  std::vector<Insertion> lines;
   for (const Stroke& stroke : strokes) {
     const int id = options.first_line + static_cast<int>(lines.size());
     Insertion one = insert_along_stroke(mesh, stroke, id, insertion);
     report.insertion += one.report;
-    report.lines.push_back({stroke.name, stroke.height, 0, 0, 0, one.line.chains});
-    lines.push_back(std::move(one.line));
+    report.lines.push_back(
+        {stroke.name, stroke.height, 0, 0, 0, one.line.chains, stroke.width, stroke.sharpness, stroke.press});
+    lines.push_back(std::move(one));
   }
   return lines;
 }
 
-/// Heights of `count` lines from id `first` on; NaN for a line whose vertices all went to later lines.
-std::vector<double> heights(const Mesh& mesh, int first, std::size_t count) {
-  std::vector<double> by_id(count, kUnset);
-  for (const LineHeight& h : line_heights(mesh))
-    if (h.line >= first && static_cast<std::size_t>(h.line - first) < count) by_id[h.line - first] = h.height;
-  return by_id;
+/// Heights of the strokes' lines, from id `first` on; NaN for one whose vertices all went to later lines.
+std::vector<double> heights(const Mesh& mesh, int first, std::span<const Stroke> strokes) {
+  std::vector<double> widths(static_cast<std::size_t>(first), kUnset), result(strokes.size(), kUnset);
+  for (const Stroke& stroke : strokes) widths.push_back(stroke.width.value_or(kUnset));
+  for (const LineHeight& h : line_heights(mesh, widths))
+    if (h.line >= first && static_cast<std::size_t>(h.line - first) < strokes.size())
+      result[h.line - first] = h.height;
+  return result;
 }
 
-void smooth(Mesh& mesh, std::span<const Displacement> lines, const WrinkleOptions& options,
-            const std::set<Vertex>& held) {
+void smooth(Mesh& mesh, const Moves& moves, const WrinkleOptions& options, const std::set<Vertex>& held) {
   std::vector<Vertex> region(mesh.vertices().begin(), mesh.vertices().end());
   if (options.region == SmoothingRegion::two_ring) {
     std::vector<Vertex> centres;
-    for (const Displacement& d : lines)
-      if (d.height != 0) centres.push_back(d.vertex);  // a line of height 0 changes no shape
+    for (const Displacement& d : moves.list)  // a line of height 0 changes no shape
+      if (d.height != 0 && !moves.profiled.count(d.vertex)) centres.push_back(d.vertex);
     region = two_ring(mesh, centres);
   }
-  std::erase_if(region, [&](Vertex v) { return held.count(v) > 0; });
+  std::erase_if(region, [&](Vertex v) { return held.count(v) > 0 || moves.profiled.count(v) > 0; });
   if (region.empty()) return;
   taubin_smooth(mesh, region, options.smoothing);
 }
@@ -79,6 +145,9 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   for (const auto& r_avg : {options.mean_structural_length, options.mean_bending_length})
     if (r_avg && !(*r_avg > 0)) throw std::invalid_argument("wrinkle: a mean rest length must be > 0 m");
   check(options.insertion);
+  for (const Stroke& stroke : strokes)
+    if (const std::string fault = shape_fault(stroke); !fault.empty())
+      throw ContentError("stroke \"" + stroke.name + "\": " + fault);
   const std::set<Vertex> held(options.held.begin(), options.held.end());
   if (!held.empty() && (*held.rbegin()).idx() >= mesh.num_vertices())
     throw std::invalid_argument("wrinkle: held vertex " + std::to_string((*held.rbegin()).idx()) +
@@ -95,21 +164,22 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   report.mean_bending_length = options.mean_bending_length.value_or(mean_bending_rest_length(work));
   report.rest_area_before = rest_area(work);
 
-  const std::vector<InsertedLine> lines = insert_lines(work, strokes, options, report);
+  const std::vector<Insertion> lines = insert_lines(work, strokes, options, report);
   rebuild_bending_springs(work, report.insertion.changed_faces);
   ensure_rest_angles(work);
+  warn_if_coarse(work, lines, strokes, report);
   tell(Stage::inserted, work);
 
   const RestSnapshot before = take_rest_snapshot(work);
-  const std::vector<Displacement> moves = displacements(lines, strokes, held);
-  const std::vector<double> base = heights(work, options.first_line, lines.size());
-  displace_line(work, moves);
-  const std::vector<double> drawn = heights(work, options.first_line, lines.size());
+  const Moves moves = displacements(work, lines, strokes, held);
+  const std::vector<double> base = heights(work, options.first_line, strokes);
+  displace_line(work, moves.list);
+  const std::vector<double> drawn = heights(work, options.first_line, strokes);
   tell(Stage::displaced, work);
 
   smooth(work, moves, options, held);
   apply_rest_rule(work, before, options.rest);
-  const std::vector<double> smoothed = heights(work, options.first_line, lines.size());
+  const std::vector<double> smoothed = heights(work, options.first_line, strokes);
   report.total_mass = lump_masses(work, options.density);
   report.rest_area_after = rest_area(work);
   report.structural_springs = work.number_of_edges();

@@ -35,6 +35,8 @@ struct WrinkledLine {
   double drawn_height = 0;                  ///< line_heights() after displacement, less base_height [m]
   double smoothed_height = 0;               ///< after smoothing, less base_height [m]
   std::vector<std::vector<Vertex>> chains;  ///< its vertices, a list for each connected part
+  std::optional<double> width = {};         ///< as asked for [m], as the next two
+  double sharpness = 0.5, press = 1;
 };
 
 struct WrinkleReport {
@@ -44,7 +46,8 @@ struct WrinkleReport {
   double rest_area_before = 0, rest_area_after = 0;  ///< [m^2]
   double total_mass = 0;                             ///< [kg]
   double mean_structural_length = 0,
-         mean_bending_length = 0;  ///< r_avg of the mesh before any line [m] (S1.7)
+         mean_bending_length = 0;     ///< r_avg of the mesh before any line [m] (S1.7)
+  std::vector<std::string> warnings;  ///< lines for whose width the mesh is too coarse
 };
 
 /// The stages of method S1.21 that geometry makes.
@@ -54,9 +57,12 @@ using StageObserver = std::function<void(Stage, const Mesh&)>;
 /// Turns strokes into wrinkles: inserts their lines (Algorithm 2), displaces their vertices along the
 /// normals, smooths, rebuilds the bending springs, and updates rest lengths and masses (method, Algorithm 1,
 /// steps 2 to 4). All lines are inserted into the undisplaced surface, one after the other; then all are
-/// displaced, and smoothed once. Sets kLine, kLineEdge, kRestLength, kBendingRestLength, kBendingCount,
-/// kRestAngle, kMass; options.rest says what of the rest state learns of the displacement. An unset rest
-/// length is the length as it is. Throws std::invalid_argument for an option out of its range and
+/// displaced, and smoothed once. A line with a width is raised by its profile (line_profile.h), along the
+/// angle-weighted normals, and not smoothed. Where several lines raise a vertex the highest ridge and the
+/// deepest valley count, and add up; lines without a width raise their own vertices alone. Presses are for
+/// who makes hinges of the mesh (line_press.h). Sets kLine, kLineEdge, kRestLength, kBendingRestLength,
+/// kBendingCount, kRestAngle, kMass; options.rest says what of the rest state learns of the displacement. An
+/// unset rest length is the length as it is. Throws std::invalid_argument for an option out of its range and
 /// ContentError for a stroke that cannot be used; the mesh is then as it was. Cost: about O(faces log faces)
 /// for each stroke.
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options = {},

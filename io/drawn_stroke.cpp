@@ -61,6 +61,20 @@ std::size_t find_stroke(std::span<const DrawnStroke> strokes, const std::string&
                                (names.empty() ? "" : "; did you mean '" + nearest_word(name, names) + "'?"));
 }
 
+void order_strokes(std::vector<DrawnStroke>& strokes, std::span<const std::string> names) {
+  std::vector<std::size_t> order;
+  for (const std::string& name : names) {
+    order.push_back(find_stroke(strokes, name));
+    if (std::count(order.begin(), order.end(), order.back()) > 1)
+      throw geometry::ContentError("the order names the stroke '" + name + "' twice");
+  }
+  for (std::size_t i = 0; i < strokes.size(); ++i)
+    if (std::find(order.begin(), order.end(), i) == order.end()) order.push_back(i);
+  std::vector<DrawnStroke> ordered;
+  for (const std::size_t i : order) ordered.push_back(std::move(strokes[i]));
+  strokes = std::move(ordered);
+}
+
 void move_stroke(DrawnStroke& stroke, std::span<const double> by) {
   const std::string who = "stroke '" + stroke.stroke.name + "' ";
   if (std::holds_alternative<VertexStroke>(stroke.on))

@@ -45,6 +45,10 @@ double drawn_length(const DrawnStroke& stroke);
 /// none, and if several have it.
 std::size_t find_stroke(std::span<const DrawnStroke> strokes, const std::string& name);
 
+/// The strokes of these names come first, in this order, the others after them in theirs. Of lines that meet
+/// the later one owns what they share. Throws as find_stroke(), and if a name is there twice.
+void order_strokes(std::vector<DrawnStroke>& strokes, std::span<const std::string> names);
+
 /// Moves all its points: by three numbers [m] in space, two in a picture [pixels] or in the texture.
 /// Throws std::invalid_argument for another count, numbers that are not finite, and strokes between vertices.
 void move_stroke(DrawnStroke& stroke, std::span<const double> by);

@@ -149,13 +149,26 @@ class StrokeReader {
     return *found;
   }
 
+  void read_shape(const Json& item, Stroke& stroke) const {
+    const auto read = [&](const char* key, auto& value) {
+      if (item.contains(key)) value = fields_.number(item[key], key);
+    };
+    read("width", stroke.width);
+    read("sharpness", stroke.sharpness);
+    read("press", stroke.press);
+    if (item.contains("sharpness") && !stroke.width) fields_.fail("'sharpness' goes with 'width'");
+    if (const std::string fault = shape_fault(stroke); !fault.empty()) fields_.fail(fault);
+  }
+
   DrawnStroke read_stroke(const Json& item) {
     if (!item.is_object()) fields_.fail("must be an object {\"points\": […], …}");
-    fields_.check_keys(item, {"height", "points", "name", "closed", "direction", "breaks", "pixels", "camera",
-                              "texture", "group", "near", "vertices"});
+    fields_.check_keys(
+        item, {"height", "width", "sharpness", "press", "points", "name", "closed", "direction", "breaks",
+               "pixels", "camera", "texture", "group", "near", "vertices"});
     DrawnStroke drawn;
     Stroke& stroke = drawn.stroke;
     stroke.height = item.contains("height") ? fields_.number(item["height"], "height") : default_height_;
+    read_shape(item, stroke);
     if (item.contains("name")) stroke.name = fields_.text(item["name"], "name");
     if (item.contains("closed")) stroke.closed = fields_.truth(item["closed"], "closed");
     const Kind& kind = kind_of(item);

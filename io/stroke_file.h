@@ -12,7 +12,8 @@
 namespace furrow::io {
 
 /// Reads strokes by the file name's ending.
-/// json: {"strokes": [{"name": "…", "height": 0.02, "closed": false, …}, …]}, each with one of
+/// json: {"strokes": [{"name": "…", "height": 0.02, "width": 0.06, "sharpness": 0.5, "press": 1,
+/// "closed": false, …}, …]}, each with one of
 ///   "points": [[x, y, z], …], with "direction": [x, y, z] and "breaks": [index, …];
 ///   "pixels": [[column, row], …], with "camera": an object or the name of a file (camera_file.h) beside this
 ///             one; a "camera" beside "strokes" is that of all;
@@ -20,10 +21,10 @@ namespace furrow::io {
 ///   "vertices": [index, …], counted from 0.
 /// Only this one must be there (of a closed stroke at least three items). Strict: other keys, other types and
 /// numbers that are not finite are errors. obj: the polylines (`l` elements, two-point ones chained), all
-/// with the default height. Points and directions are turned, and points scaled, by `options`; heights and
-/// cameras are in metres, y up, always. Throws geometry::ContentError with the place in the text, or the
-/// stroke's index and key; also if there is no stroke. Throws std::invalid_argument if default_height [m] is
-/// not finite.
+/// with the default height. Points and directions are turned, and points scaled, by `options`; heights,
+/// widths and cameras are in metres, y up, always. Throws geometry::ContentError with the place in the text,
+/// or the stroke's index and key; also if there is no stroke. Throws std::invalid_argument if default_height
+/// [m] is not finite.
 std::vector<DrawnStroke> read_drawn_strokes(const std::filesystem::path& path, double default_height = 0.01,
                                             const ReadOptions& options = {});
 /// The same of a json file's text, which may hold no stroke; `name` stands in messages.

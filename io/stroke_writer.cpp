@@ -22,6 +22,11 @@ Json to_json(const DrawnStroke& drawn, const WriteOptions& options) {
   Json item = Json::object();
   if (!stroke.name.empty()) item["name"] = stroke.name;
   item["height"] = stroke.height;
+  if (stroke.width) {
+    item["width"] = *stroke.width;
+    item["sharpness"] = stroke.sharpness;
+  }
+  if (stroke.press != 1) item["press"] = stroke.press;
   if (stroke.closed) item["closed"] = true;
   if (const auto* on = std::get_if<PictureStroke>(&drawn.on)) {
     item["camera"] = to_json(on->picture);
@@ -65,6 +70,8 @@ void check(const std::vector<DrawnStroke>& strokes, const WriteOptions& options)
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     if (!finite(strokes[i]))
       throw std::invalid_argument("strokes: stroke " + std::to_string(i) + " has no points or is not finite");
+    if (const std::string fault = shape_fault(strokes[i].stroke); !fault.empty())
+      throw std::invalid_argument("strokes: stroke " + std::to_string(i) + ": " + fault);
     if (const auto* on = std::get_if<PictureStroke>(&strokes[i].on)) io::check(on->picture);
   }
 }

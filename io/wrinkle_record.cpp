@@ -17,10 +17,47 @@ double height_of(const nlohmann::ordered_json& value) {
   return value.is_null() ? geometry::kUnset : value.get<double>();
 }
 
+nlohmann::ordered_json to_json(const WrinkleRecord::Line& line) {
+  nlohmann::ordered_json json{{"name", line.name},
+                              {"height", line.height},
+                              {"drawn_height", line.drawn_height},
+                              {"smoothed_height", line.smoothed_height},
+                              {"base_height", line.base_height}};
+  if (line.width) {
+    json["width"] = *line.width;
+    json["sharpness"] = line.sharpness;
+  }
+  if (line.press != 1) json["press"] = line.press;
+  return json;
+}
+
+WrinkleRecord::Line line_from(const nlohmann::ordered_json& json) {
+  WrinkleRecord::Line line{json.at("name"), json.at("height"), height_of(json.at("drawn_height")),
+                           height_of(json.at("smoothed_height"))};
+  if (json.contains("base_height")) line.base_height = height_of(json["base_height"]);
+  if (json.contains("width")) line.width = json["width"].get<double>();
+  line.sharpness = json.value("sharpness", line.sharpness);
+  line.press = json.value("press", line.press);
+  return line;
+}
+
 constexpr const char* kPrefix = "furrow wrinkle ";
 bool is_record(const std::string& comment) { return comment.rfind(kPrefix, 0) == 0; }
 
 }  // namespace
+
+std::vector<double> line_widths(const WrinkleRecord& record) {
+  std::vector<double> widths;
+  for (const WrinkleRecord::Line& line : record.lines)
+    widths.push_back(line.width.value_or(geometry::kUnset));
+  return widths;
+}
+
+std::vector<double> line_presses(const WrinkleRecord& record) {
+  std::vector<double> presses;
+  for (const WrinkleRecord::Line& line : record.lines) presses.push_back(line.press);
+  return presses;
+}
 
 void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record) {
   nlohmann::ordered_json json{{"r_avg_structural", record.mean_structural_length},
@@ -33,12 +70,7 @@ void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record) {
                               {"garment", record.garment},
                               {"garment_hash", record.garment_hash}};
   if (!record.strokes.empty()) json["strokes"] = nlohmann::ordered_json::parse(record.strokes);
-  for (const WrinkleRecord::Line& line : record.lines)
-    json["lines"].push_back({{"name", line.name},
-                             {"height", line.height},
-                             {"drawn_height", line.drawn_height},
-                             {"smoothed_height", line.smoothed_height},
-                             {"base_height", line.base_height}});
+  for (const WrinkleRecord::Line& line : record.lines) json["lines"].push_back(to_json(line));
   std::erase_if(file.comments, is_record);
   using Handler = nlohmann::ordered_json::error_handler_t;
   file.comments.push_back(kPrefix + json.dump(-1, ' ', true, Handler::replace));
@@ -59,10 +91,7 @@ std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file) {
                          json.value("garment", ""),
                          json.value("garment_hash", ""),
                          json.contains("strokes") ? json["strokes"].dump() : ""};
-    for (const auto& line : json.at("lines"))
-      record.lines.push_back({line.at("name"), line.at("height"), height_of(line.at("drawn_height")),
-                              height_of(line.at("smoothed_height")),
-                              line.contains("base_height") ? height_of(line["base_height"]) : 0});
+    for (const auto& line : json.at("lines")) record.lines.push_back(line_from(line));
     return record;
   } catch (const nlohmann::json::exception& e) {
     throw geometry::ContentError(std::string("the comment 'furrow wrinkle' is damaged (") + e.what() +

@@ -17,6 +17,8 @@ struct WrinkleRecord {
     double drawn_height = 0;     ///< [m]
     double smoothed_height = 0;  ///< [m]
     double base_height = 0;      ///< of the line before it was displaced; the two above are without it [m]
+    std::optional<double> width = {};  ///< as asked for [m], as the next two [-]
+    double sharpness = 0.5, press = 1;
   };
   double mean_structural_length = 0;  ///< r_avg of the mesh before any line [m]
   double mean_bending_length = 0;     ///< [m]
@@ -28,6 +30,10 @@ struct WrinkleRecord {
   std::string garment_hash;           ///< its content_hash()
   std::string strokes;  ///< the last lines as a stroke file's text (metres, y up); empty: not known
 };
+
+/// Of the lines by id: widths [m] (NaN: none), and presses [-].
+std::vector<double> line_widths(const WrinkleRecord& record);
+std::vector<double> line_presses(const WrinkleRecord& record);
 
 void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record);
 /// The record, or nothing if the file has none. Fields of later versions that are not there keep their

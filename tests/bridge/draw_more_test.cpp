@@ -263,3 +263,28 @@ TEST_CASE("drawing that fails leaves cloth and state as they were") {
   CHECK(state.planned);
   CHECK(state.compensation.force.empty());
 }
+
+TEST_CASE("draw more: a line with width and press is raised by its profile, and its press comes with it") {
+  Mesh mesh = sheet();
+  bridge::DrawMoreOptions options = options_for(mesh);
+  options.springs.bending = bridge::Bending::hinge;
+  std::vector<geometry::Stroke> list = strokes(0.02);
+  list.pop_back();
+  list[0].width = 0.3;
+  list[0].press = 20;
+  physics::SimulateState state;
+  const bridge::DrawMoreReport report = bridge::draw_more(mesh, state, list, options);
+  CHECK(report.wrinkle.lines[0].smoothed_height == Approx(0.02).epsilon(0.02));
+  bridge::GatherOptions pressed = options.springs;
+  pressed.line_presses = {20};
+  pressed.line_widths = {0.3};
+  const physics::Cloth with = bridge::gather(mesh, pressed), without = bridge::gather(mesh, options.springs);
+  double most = 0;
+  for (std::size_t i = 0; i < with.hinges.size(); ++i)
+    most = std::max(most, with.hinges[i].stiffness / without.hinges[i].stiffness);
+  CHECK(most == Approx(20));
+  Mesh plain = sheet();
+  list[0].press = 1;
+  physics::SimulateState other;
+  CHECK(bridge::draw_more(plain, other, list, options).largest_jump < report.largest_jump);
+}

@@ -122,3 +122,18 @@ TEST_CASE("the springs' laws: what an edge of length r gets") {
   CHECK(stiffness(bridge::Membrane::van_gelder, 0, 2) == Approx(60 * 1.0 / 2));
   CHECK(stiffness(bridge::Membrane::van_gelder, 0, 1) == Approx(60 * 0.5 / 1));
 }
+
+TEST_CASE("gather presses the hinges of lines by their ids, and leaves stiffnesses that are stored") {
+  Mesh mesh = square();
+  geometry::ensure_map(mesh, geometry::kLine)[Vertex(0)] = 1;
+  bridge::GatherOptions options = kOptions;
+  options.bending = bridge::Bending::hinge;
+  const double plain = bridge::gather(mesh, options).hinges[0].stiffness;
+  options.line_presses = {5, 30};
+  CHECK(bridge::gather(mesh, options).hinges[0].stiffness == Approx(30 * plain));
+  options.line_presses = {5};
+  CHECK(bridge::gather(mesh, options).hinges[0].stiffness == plain);
+  options.line_presses = {1, 30};
+  for (geometry::Edge e : mesh.edges()) geometry::ensure_map(mesh, geometry::kHingeStiffness)[e] = 7;
+  CHECK(bridge::gather(mesh, options).hinges[0].stiffness == 7);
+}

@@ -2,6 +2,8 @@
 #include "bridge/keep_lines.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <optional>
 
 #include "bench/cases/random_garments.h"
 #include "bridge/gather.h"
@@ -28,9 +30,13 @@ struct Hung {
   physics::Cloth cloth;
   KeepOptions options;
 
-  explicit Hung(double rigidity) {
+  explicit Hung(double rigidity, std::optional<double> width = {}, double press = 1) {
     geometry::Stroke ridge;
     ridge.height = 0.012;
+    ridge.width = width;
+    ridge.press = press;
+    options.line_widths = material.line_widths = {width.value_or(NAN)};
+    options.line_presses = material.line_presses = {press};
     ridge.points = {{-0.08, 0.2, 0}, {0.08, 0.2, 0}};
     const geometry::WrinkleReport report = geometry::wrinkle(mesh, std::span(&ridge, 1), {});
     material.mean_structural_length = report.mean_structural_length;
@@ -72,6 +78,33 @@ TEST_CASE("keep: a ridge in cloth that can bear it stays as drawn, and after a g
   CHECK(report.trials == 1);
   CHECK(hung.residual(hung.cloth) < 1e-8);
   CHECK(hung.residual(hung.gathered()) > 1e-3);
+}
+
+TEST_CASE("keep: a line starts from its own width and press, and help multiplies it") {
+  Hung stiff(1e-4, 0.08, 3), soft(1e-6, 0.08, 5);
+  const bridge::KeepReport held = stiff.keep();
+  CHECK(held.lines[0].verdict == Verdict::held);
+  CHECK(held.lines[0].press == 3);
+  CHECK(held.lines[0].height == Approx(0.012).epsilon(1e-3));
+  CHECK(held.lines[0].kept == Approx(1).margin(0.01));
+  soft.options.presses = {10};
+  soft.options.struts.clear();
+  soft.options.height_trials = 0;
+  soft.options.seconds = soft.options.calm_seconds = 0.2;
+  CHECK(soft.keep().lines[0].press == 50);
+}
+
+TEST_CASE("keep, whole: what lies between the lines is pressed until nothing in it gives way") {
+  Hung lines(3e-8), whole(3e-8);
+  for (Hung* hung : {&lines, &whole}) {
+    hung->options.seconds = hung->options.calm_seconds = 0.05;
+    hung->options.height_trials = 0;
+  }
+  whole.options.whole = true;
+  const bridge::KeepReport bare = lines.keep(), report = whole.keep();
+  CHECK(bare.rest_press == 1);
+  CHECK(report.rest_press > 1);
+  CHECK(report.certificate.negative_eigenvalues < bare.certificate.negative_eigenvalues);
 }
 
 TEST_CASE("keep: what is stored on the mesh is gathered again as the same cloth at rest") {

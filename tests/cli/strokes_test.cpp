@@ -167,3 +167,38 @@ TEST_CASE("pixels beside the garment cut a stroke with a warning, or are refused
   CHECK(run_furrow("wrinkle " + wall.mesh + " " + wall.strokes + " -o " + wall.wrinkled)
             .err.find("stroke \"out\", point 1: (1.500000, 0.500000) lies outside") != std::string::npos);
 }
+
+TEST_CASE("furrow strokes: width, sharpness, press and order, and the mesh carries them") {
+  Wall wall;
+  wall.draw();
+  const std::string edited = wall.scratch / "edited.json";
+  const Run run = run_furrow("strokes --json " + wall.strokes +
+                             " --width up=0.2 --sharpness up=0 --press up=10 --order path,up -o " + edited);
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  const json list = json::parse(run.out)["strokes"];
+  CHECK(list[0]["name"] == "path");
+  CHECK(list[1]["name"] == "up");
+  CHECK(list[2]["name"] == "across");
+  CHECK(list[1]["width"] == 0.2);
+  CHECK(list[1]["sharpness"] == 0);
+  CHECK(list[1]["press"] == 10);
+  CHECK_FALSE(list[0].contains("width"));
+  const json wrinkled = wall.wrinkle(wall.mesh + " " + edited + " -o " + wall.wrinkled);
+  CHECK(wrinkled["lines"][1]["width"] == 0.2);
+  CHECK(wrinkled["lines"][1]["smoothed_height"].get<double>() ==
+        Approx(-0.01).epsilon(0.25));  // another line is near
+  const Run again = run_furrow("strokes --json " + wall.wrinkled + " --width up=none -o " + edited);
+  CHECK_FALSE(json::parse(again.out)["strokes"][1].contains("width"));
+  CHECK(json::parse(again.out)["strokes"][1]["press"] == 10);
+  // The press has no effect on cross springs.
+  const Run idle =
+      run_furrow("simulate " + wall.wrinkled + " --seconds 0.001 -o " + (wall.scratch / "s.ply"));
+  CHECK(idle.err.find("'up': its press has no effect") != std::string::npos);
+  const Run hinges = run_furrow("simulate " + wall.wrinkled + " --fabric cotton --seconds 0.001 -o " +
+                                (wall.scratch / "s.ply"));
+  CHECK(hinges.err.find("press") == std::string::npos);
+  for (const std::string& flags : {"--width up=0", "--sharpness up=0.5", "--press up=0.1", "--order up,up",
+                                   "--order nobody", "--width up=0.1 --sharpness up=2"})
+    CHECK(run_furrow("strokes " + wall.strokes + " " + flags + " -o " + edited).exit_code != 0);
+}

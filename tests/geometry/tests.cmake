@@ -11,6 +11,10 @@ furrow_add_tests(geometry LIBRARIES furrow::geometry SOURCES
   mesh_editor_test.cpp
   masses_test.cpp
   stiffness_test.cpp
+  line_region_test.cpp
+  line_profile_test.cpp
+  line_press_test.cpp
+  hem_folds_test.cpp
   line_height_test.cpp
   subdivide_test.cpp
   vertex_attributes_test.cpp

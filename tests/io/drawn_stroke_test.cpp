@@ -137,3 +137,18 @@ TEST_CASE("strokes are found by name and moved in their own coordinates") {
   CHECK_THROWS_AS(io::move_stroke(strokes[2], std::array{1.0, 2.0}), std::invalid_argument);
   CHECK_THROWS_AS(io::move_stroke(strokes[1], std::array{1.0, std::nan("")}), std::invalid_argument);
 }
+
+TEST_CASE("order_strokes: those that are named come first, the others keep their order") {
+  const auto names = [](std::vector<std::string> order) {
+    auto list = drawn(R"({"strokes": [{"name": "a", "points": [[0, 0, 0]]}, {"points": [[0, 0, 0]]},
+      {"name": "b", "points": [[0, 0, 0]]}, {"name": "c", "points": [[0, 0, 0]]}]})");
+    io::order_strokes(list, order);
+    std::string result;
+    for (const io::DrawnStroke& s : list) result += s.stroke.name.empty() ? "-" : s.stroke.name;
+    return result;
+  };
+  CHECK(names({"c", "a"}) == "ca-b");
+  CHECK(names({}) == "a-bc");
+  CHECK_THROWS_WITH(names({"a", "a"}), Catch::Contains("twice"));
+  CHECK_THROWS_WITH(names({"d"}), Catch::Contains("'d'"));
+}

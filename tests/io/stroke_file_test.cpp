@@ -73,6 +73,38 @@ TEST_CASE("strokes: what is not allowed is named with stroke and key") {
         std::string::npos);
 }
 
+TEST_CASE("strokes: width, sharpness and press, in metres whatever the unit, and back again") {
+  const auto read = strokes(R"({"strokes": [
+    {"points": [[0, 0, 0]], "width": 0.06, "sharpness": 1, "press": 10},
+    {"points": [[0, 0, 0]], "width": 0.06}, {"points": [[0, 0, 0]]}]})",
+                            {.metres_per_unit = 0.01});
+  CHECK(*read[0].width == 0.06);
+  CHECK((read[0].sharpness == 1 && read[0].press == 10));
+  CHECK((*read[1].width == 0.06 && read[1].sharpness == 0.5 && read[1].press == 1));
+  CHECK_FALSE(read[2].width);
+  TemporaryFolder folder;
+  io::write_strokes(folder / "s.json", read);
+  const auto back = io::read_strokes(folder / "s.json");
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(back[i].width == read[i].width);
+    CHECK((back[i].sharpness == read[i].sharpness && back[i].press == read[i].press));
+  }
+  Stroke bad = read[0];
+  bad.press = 0;
+  CHECK_THROWS_AS(io::write_strokes(folder / "t.json", std::vector<Stroke>{bad}), std::invalid_argument);
+  const auto error = [](const std::string& keys) {
+    return error_of(R"({"strokes": [{"points": [[0, 0, 0]], )" + keys + "}]}");
+  };
+  CHECK(error(R"("width": 0)") == " stroke 0: 'width' = 0.000000 must be > 0 (metres)");
+  CHECK(error(R"("width": -1)").find("'width' = -1") != std::string::npos);
+  CHECK(error(R"("width": "6 cm")").find("'width'") != std::string::npos);
+  CHECK(error(R"("width": null)").find("'width'") != std::string::npos);
+  CHECK(error(R"("width": 0.1, "sharpness": 1.01)").find("must be in [0, 1]") != std::string::npos);
+  CHECK(error(R"("sharpness": 0.3)") == " stroke 0: 'sharpness' goes with 'width'");
+  CHECK(error(R"("press": 0.9)").find("must be >= 1") != std::string::npos);
+  CHECK(error(R"("press": 1e999)") != "");
+}
+
 TEST_CASE("strokes: broken JSON is named with line and column") {
   CHECK(error_of("{\"strokes\": [\n  {\"points\" [[0,0,0]]}]}").starts_with("2:13: no valid JSON: "));
   CHECK(error_of("").starts_with("1:1: no valid JSON: "));

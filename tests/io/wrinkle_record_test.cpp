@@ -11,16 +11,17 @@ using namespace furrow::io;
 TEST_CASE("a wrinkle record reads back as written, heights that were not measured included") {
   MeshFile file;
   file.comments = {"made by hand"};
-  const WrinkleRecord record{0.02,
-                             0.035,
-                             0.3,
-                             "--rule safe",
-                             "cm",
-                             "z",
-                             {{"größe \n \"x\"", -0.01, NAN, 0.004, 0.001}},
-                             "a shirt.obj",
-                             "00ff",
-                             R"({"strokes":[{"name":"é","height":0.01,"points":[[0.1,2.0,3.0]]}]})"};
+  const WrinkleRecord record{
+      0.02,
+      0.035,
+      0.3,
+      "--rule safe",
+      "cm",
+      "z",
+      {{"größe \n \"x\"", -0.01, NAN, 0.004, 0.001}, {"wide", 0.01, 0.01, 0.01, 0, 0.06, 0.25, 30}},
+      "a shirt.obj",
+      "00ff",
+      R"({"strokes":[{"name":"é","height":0.01,"points":[[0.1,2.0,3.0]]}]})"};
   set_wrinkle_record(file, {});
   set_wrinkle_record(file, record);
   REQUIRE(file.comments.size() == 2);
@@ -32,7 +33,13 @@ TEST_CASE("a wrinkle record reads back as written, heights that were not measure
   CHECK(back->density == 0.3);
   CHECK(back->unit == "cm");
   CHECK(back->up == "z");
-  REQUIRE(back->lines.size() == 1);
+  REQUIRE(back->lines.size() == 2);
+  CHECK_FALSE(back->lines[0].width);
+  CHECK(*back->lines[1].width == 0.06);
+  CHECK(back->lines[1].sharpness == 0.25);
+  CHECK(std::isnan(line_widths(*back)[0]));
+  CHECK(line_widths(*back)[1] == 0.06);
+  CHECK(line_presses(*back) == std::vector<double>{1, 30});
   CHECK(back->lines[0].name == record.lines[0].name);
   CHECK(back->lines[0].height == -0.01);
   CHECK(std::isnan(back->lines[0].drawn_height));

@@ -2,6 +2,7 @@
 #include "physics/struts.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "physics/elements.h"
@@ -63,6 +64,30 @@ TEST_CASE("struts: bending springs stay and no force appears") {
         Approx(potential_energy(before, cloth.particles.x)).epsilon(1e-12));
 }
 
+TEST_CASE("struts of a width: as long on a fine mesh as on a coarse one, and about as many") {
+  std::vector<int> counts;
+  for (const int n : {9, 17, 49}) {  // squares of an eighth of the width, and finer ones
+    Cloth cloth = sheet(n, n, 0.8 / (n - 1), 0, 1, 300, 0);
+    cloth.bending.clear();
+    std::vector<int> all;
+    for (int i = 0; i < n * n; ++i) all.push_back(i);
+    counts.push_back(add_struts(cloth, all, {.width = 0.8}));
+    CHECK(sorted(cloth.bending));
+    for (const Spring& s : cloth.bending) {
+      CHECK(s.rest_length >= 0.2 - 1e-9);
+      CHECK(s.rest_length <= (n == 9 ? 4 * std::sqrt(2) * 0.1 : 0.4) + 1e-9);
+    }
+  }
+  CHECK(counts[1] > 0.4 * counts[0]);
+  CHECK(counts[2] > 0.4 * counts[0]);
+  CHECK(counts[2] < 2 * counts[0]);
+  // Where edges are longer than an eighth of the width the rings count, as without a width.
+  Cloth coarse = sheet(9, 9, 0.1, 0, 1, 300, 0), rings = coarse;
+  std::vector<int> all;
+  for (int i = 0; i < 81; ++i) all.push_back(i);
+  CHECK(add_struts(coarse, all, {.width = 0.1}) == add_struts(rings, all));
+}
+
 TEST_CASE("struts: what cannot be is refused and nothing changes") {
   Cloth cloth = sheet(4, 4, 0.1);
   const std::size_t n = cloth.bending.size();
@@ -75,6 +100,9 @@ TEST_CASE("struts: what cannot be is refused and nothing changes") {
   o = {};
   o.farthest = 1;
   CHECK_THROWS_WITH(add_struts(cloth, std::vector<int>{0}, o), Catch::Contains("farthest = 1"));
+  o = {};
+  o.width = -1;
+  CHECK_THROWS_WITH(add_struts(cloth, std::vector<int>{0}, o), Catch::Contains("width = -1"));
   CHECK_THROWS_WITH(add_struts(cloth, std::vector<int>{16}), Catch::Contains("particle 16"));
   CHECK(cloth.bending.size() == n);
 }

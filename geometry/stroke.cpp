@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/stroke.h"
+
+#include <cmath>
+
+namespace furrow::geometry {
+
+std::string shape_fault(const Stroke& stroke) {
+  const auto fault = [](const char* key, double value, const char* range) {
+    return "'" + std::string(key) + "' = " + std::to_string(value) + " must be " + range;
+  };
+  if (stroke.width && (!(*stroke.width > 0) || !std::isfinite(*stroke.width)))
+    return fault("width", *stroke.width, "> 0 (metres)");
+  if (!(stroke.sharpness >= 0 && stroke.sharpness <= 1))
+    return fault("sharpness", stroke.sharpness, "in [0, 1]");
+  if (!(stroke.press >= 1) || !std::isfinite(stroke.press)) return fault("press", stroke.press, ">= 1");
+  return "";
+}
+
+}  // namespace furrow::geometry
