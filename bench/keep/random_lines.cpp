@@ -127,7 +127,7 @@ class TryHarder {
     const std::vector<double> kept = after(2);
     rows = keeping(kept, rows, most);
     if (rows.empty()) return;
-    bridge::LineMeter meter(h.garment.mesh, h.garment.base());
+    bridge::LineMeter meter(h.garment.mesh, h.garment.base(), {});
     const bridge::KeepTrial trial = bridge::try_shape(h.cloth, false, {}, o_, meter, {}, {});
     help.alone = only >= 0;
     for (Row* row : rows) {

@@ -196,7 +196,7 @@ TEST_CASE("keep: a shape that stands like a pencil on its tip is pushed before i
   REQUIRE_FALSE(physics::certify(cloth).stable());
   standing.options.gust = 0;
   standing.options.seconds = 0.5;
-  bridge::LineMeter meter(standing.mesh, {});
+  bridge::LineMeter meter(standing.mesh, {}, {});
   const auto drift = [&](bool stable) {
     return bridge::try_shape(cloth, stable, {}, standing.options, meter, {}, {}).drift;
   };
