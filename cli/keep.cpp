@@ -52,6 +52,8 @@ SceneCloth drawn_garment(const io::Scene& scene, std::optional<io::SavedState>& 
 }
 
 void check(const KeepArguments& a, const io::Scene& scene) {
+  if (a.whole && a.no_help)
+    throw UsageError("--whole is help for what lies between the lines; leave --no-help away");
   const io::SceneOutput& out = scene.output;
   for (const auto& path : {out.mesh, out.state})
     if (!path.empty()) check_output(path.string());
