@@ -100,6 +100,22 @@ void write_kept_state(const io::Scene& scene, const io::TomlDocument& document,
   io::write_state(scene.output.state, std::move(kept));
 }
 
+bridge::KeepOptions options_of(const KeepArguments& a, const physics::SimulateOptions& run,
+                               const io::WrinkleRecord& record) {
+  bridge::KeepOptions options;
+  options.run = run;
+  options.run.stop_at.reset();
+  options.seconds = a.run;
+  options.kept = parse_share(a.kept, "--kept");
+  options.gust = a.gust;
+  options.line_widths = io::line_widths(record);
+  options.line_presses = io::line_presses(record);
+  options.whole = a.whole;
+  if (a.no_balance) options.largest_turn = 0;
+  if (a.no_help) options.presses.clear(), options.struts.clear(), options.height_trials = 0;
+  return options;
+}
+
 int keep(KeepArguments& a) {
   catch_interrupts();
   std::optional<io::SavedState> state;
@@ -116,17 +132,7 @@ int keep(KeepArguments& a) {
   common.up = scene.up;
   SceneCloth garment = drawn_garment(scene, state, common);
   const io::WrinkleRecord record = *io::find_wrinkle_record(garment.file);
-  bridge::KeepOptions options;
-  options.run = garment.options;
-  options.run.stop_at.reset();
-  options.seconds = a.run;
-  options.kept = parse_share(a.kept, "--kept");
-  options.gust = a.gust;
-  options.line_widths = io::line_widths(record);
-  options.line_presses = io::line_presses(record);
-  options.whole = a.whole;
-  if (a.no_balance) options.largest_turn = 0;
-  if (a.no_help) options.presses.clear(), options.struts.clear(), options.height_trials = 0;
+  const bridge::KeepOptions options = options_of(a, garment.options, record);
   bridge::KeepReport report;
   {
     Progress progress("keeping", common);
