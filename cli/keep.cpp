@@ -54,6 +54,8 @@ SceneCloth drawn_garment(const io::Scene& scene, std::optional<io::SavedState>& 
 }
 
 void check(const KeepArguments& a, const io::Scene& scene) {
+  if (a.whole && a.no_help)
+    throw UsageError("--whole is help for what lies between the lines; leave --no-help away");
   const io::SceneOutput& out = scene.output;
   for (const auto& path : {out.mesh, out.state})
     if (!path.empty()) check_output(path.string());
@@ -100,6 +102,22 @@ void write_kept_state(const io::Scene& scene, const io::TomlDocument& document,
   io::write_state(scene.output.state, std::move(kept));
 }
 
+bridge::KeepOptions options_of(const KeepArguments& a, const physics::SimulateOptions& run,
+                               const io::WrinkleRecord& record) {
+  bridge::KeepOptions options;
+  options.run = run;
+  options.run.stop_at.reset();
+  options.seconds = a.run;
+  options.kept = parse_share(a.kept, "--kept");
+  options.gust = a.gust;
+  options.line_widths = io::line_widths(record);
+  options.line_presses = io::line_presses(record);
+  options.whole = a.whole;
+  if (a.no_balance) options.largest_turn = 0;
+  if (a.no_help) options.presses.clear(), options.struts.clear(), options.height_trials = 0;
+  return options;
+}
+
 int keep(KeepArguments& a) {
   catch_interrupts();
   std::optional<io::SavedState> state;
@@ -119,17 +137,7 @@ int keep(KeepArguments& a) {
   if (!state && later && !(state = run_until_drawn(scene, document, folder, common))) return kInterrupted;
   SceneCloth garment = drawn_garment(scene, state, common);
   const io::WrinkleRecord record = *io::find_wrinkle_record(garment.file);
-  bridge::KeepOptions options;
-  options.run = garment.options;
-  options.run.stop_at.reset();
-  options.seconds = a.run;
-  options.kept = parse_share(a.kept, "--kept");
-  options.gust = a.gust;
-  options.line_widths = io::line_widths(record);
-  options.line_presses = io::line_presses(record);
-  options.whole = a.whole;
-  if (a.no_balance) options.largest_turn = 0;
-  if (a.no_help) options.presses.clear(), options.struts.clear(), options.height_trials = 0;
+  const bridge::KeepOptions options = options_of(a, garment.options, record);
   bridge::KeepReport report;
   {
     Progress progress("keeping", common);

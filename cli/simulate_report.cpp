@@ -62,7 +62,7 @@ Json borders_to_json(const geometry::Mesh& mesh) {
                      {"length", loop.length},
                      {"mean_height", loop.mean_height},
                      {"mean_radius", loop.mean_radius},
-                     {"folds", geometry::count_folds(mesh, loop)}});
+                     {"radius_maxima", geometry::count_folds(mesh, loop)}});
   return loops;
 }
 

@@ -25,6 +25,22 @@
 namespace furrow::geometry {
 namespace {
 
+void check_all(const Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options) {
+  if (!(options.density > 0)) throw std::invalid_argument("wrinkle: density must be > 0 kg/m^2");
+  if (options.first_line < 0)
+    throw std::invalid_argument("wrinkle: first_line must be >= 0, not " +
+                                std::to_string(options.first_line));
+  for (const auto& r_avg : {options.mean_structural_length, options.mean_bending_length})
+    if (r_avg && !(*r_avg > 0)) throw std::invalid_argument("wrinkle: a mean rest length must be > 0 m");
+  check(options.insertion);
+  for (const Stroke& stroke : strokes)
+    if (const std::string fault = shape_fault(stroke); !fault.empty())
+      throw ContentError("stroke \"" + stroke.name + "\": " + fault);
+  for (Vertex v : options.held)
+    if (v.idx() >= mesh.num_vertices())
+      throw std::invalid_argument("wrinkle: held vertex " + std::to_string(v.idx()) + " is not in the mesh");
+}
+
 struct Moves {
   std::vector<Displacement> list;
   std::set<Vertex> profiled;  ///< by a line with a width, which gives them their final place
@@ -138,20 +154,8 @@ void smooth(Mesh& mesh, const Moves& moves, const WrinkleOptions& options, const
 
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options,
                       const StageObserver& observer) {
-  if (!(options.density > 0)) throw std::invalid_argument("wrinkle: density must be > 0 kg/m^2");
-  if (options.first_line < 0)
-    throw std::invalid_argument("wrinkle: first_line must be >= 0, not " +
-                                std::to_string(options.first_line));
-  for (const auto& r_avg : {options.mean_structural_length, options.mean_bending_length})
-    if (r_avg && !(*r_avg > 0)) throw std::invalid_argument("wrinkle: a mean rest length must be > 0 m");
-  check(options.insertion);
-  for (const Stroke& stroke : strokes)
-    if (const std::string fault = shape_fault(stroke); !fault.empty())
-      throw ContentError("stroke \"" + stroke.name + "\": " + fault);
+  check_all(mesh, strokes, options);
   const std::set<Vertex> held(options.held.begin(), options.held.end());
-  if (!held.empty() && (*held.rbegin()).idx() >= mesh.num_vertices())
-    throw std::invalid_argument("wrinkle: held vertex " + std::to_string((*held.rbegin()).idx()) +
-                                " is not in the mesh");
   const auto tell = [&](Stage stage, const Mesh& m) {
     if (observer) observer(stage, m);
   };

@@ -25,12 +25,13 @@ const physics::Vec3 kGravity(0, -9.81, 0);
 
 /// A sheet that hangs by its upper edge, with a level ridge.
 struct Hung {
-  geometry::Mesh mesh = geometry::equilateral_sheet(0.3, 0.3, 0.02);
+  geometry::Mesh mesh;
   bridge::GatherOptions material;
   physics::Cloth cloth;
   KeepOptions options;
 
-  explicit Hung(double rigidity, std::optional<double> width = {}, double press = 1) {
+  explicit Hung(double rigidity, std::optional<double> width = {}, double press = 1, double edge = 0.02)
+      : mesh(geometry::equilateral_sheet(0.3, 0.3, edge)) {
     geometry::Stroke ridge;
     ridge.height = 0.012;
     ridge.width = width;
@@ -92,6 +93,19 @@ TEST_CASE("keep: a line starts from its own width and press, and help multiplies
   soft.options.height_trials = 0;
   soft.options.seconds = soft.options.calm_seconds = 0.2;
   CHECK(soft.keep().lines[0].press == 50);
+}
+
+TEST_CASE("keep: a line with a width is the same fold on a coarse and on a fine mesh, and is kept on both") {
+  std::vector<bridge::KeptLine> lines;
+  for (const double edge : {0.02, 0.01}) {
+    Hung hung(1e-4, 0.06, 1, edge);
+    hung.options.seconds = 0.3;
+    hung.options.gust = 0;
+    lines.push_back(hung.keep().lines[0]);
+    CHECK(lines.back().verdict == Verdict::held);
+    CHECK(lines.back().kept == Approx(1).margin(1e-3));
+  }
+  CHECK(lines[1].height == Approx(lines[0].height).epsilon(0.01));
 }
 
 TEST_CASE("keep, whole: what lies between the lines is pressed until nothing in it gives way") {

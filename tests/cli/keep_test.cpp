@@ -67,3 +67,21 @@ TEST_CASE("furrow keep: no output replaces what is read") {
     CHECK(run_furrow("keep --run 0.1 " + scene + flags).exit_code == 2);
   CHECK(read_text(scratch / "a.json") == strokes);
 }
+
+TEST_CASE("furrow keep --whole: what gives way between the lines is pressed, and reported") {
+  const ScratchDirectory scratch;
+  const std::string scene = write_scene(scratch);
+  const auto keep = [&](const std::string& flags) {
+    const Run run = run_furrow("keep --json --run 0.05 --gust 0 " + scene + flags);
+    INFO(run.err);
+    REQUIRE((run.exit_code == 0 || run.exit_code == 4));
+    return json::parse(run.out);
+  };
+  CHECK_FALSE(keep(" --whole").contains("rest_of_garment"));  // it holds as it is
+  const json soft = keep(" --rigidity 1e-8"), whole = keep(" --rigidity 1e-8 --whole");
+  CHECK_FALSE(soft.contains("rest_of_garment"));
+  REQUIRE(whole.contains("rest_of_garment"));
+  CHECK(whole["rest_of_garment"]["press"] >= 10);
+  CHECK(whole["negative_eigenvalues"] < soft["negative_eigenvalues"]);
+  CHECK(run_furrow("keep --run 0.05 --whole --no-help " + scene).exit_code == 2);
+}
