@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 
+#include "bridge/keep_shape.h"
 #include "bridge/keep_trial.h"
 #include "bridge/line_help.h"
 #include "bridge/scatter.h"
 #include "geometry/property_names.h"
 #include "geometry/two_ring.h"
-#include "physics/posed_collider.h"
-#include "physics/rigid_motion.h"
 
 namespace furrow::bridge {
 namespace {
@@ -44,8 +42,7 @@ void check(const geometry::Mesh& mesh, const physics::Cloth& cloth, const physic
   for (const double factor : o.presses)
     need(factor > last, "presses do not rise above 1", factor), last = factor;
   for (const double k : o.struts) need(k > 0, "struts", k);
-  if (world.animated || !world.pins.empty() || !physics::at_rest(world.body_motion))
-    throw std::invalid_argument("keep_lines: body or pins move; a shape is kept on what stands still");
+  require_still(world);
 }
 
 class Keeper {
@@ -89,17 +86,11 @@ class Keeper {
   void solve() {
     solved_ = start_;
     place_lines(lines_, mesh_, start_.particles, solved_.particles);
-    physics::Cloth balanced = solved_;
-    const double turn = world_.collider ? 0 : physics::balance_rigidly(balanced, o_.run.gravity);
-    report_.turned = turn <= o_.largest_turn ? turn : 0;
-    if (report_.turned > 0) solved_ = std::move(balanced);
     stiffen_lines(lines_, o_, solved_);
-    std::optional<physics::PosedCollider> posed;
-    if (world_.collider) posed.emplace(*world_.collider, physics::pose(world_.body_motion, 0));
-    const physics::Collider* body = posed ? &*posed : nullptr;
-    report_.rest = physics::prestress(solved_, o_.bounds, body);
-    report_.certificate =
-        physics::certify(solved_, {o_.run.gravity, o_.run.friction, o_.run.contact_gap}, body);
+    KeptShape shape = keep_shape(solved_, world_, o_.bounds, o_.largest_turn);
+    report_.rest = std::move(shape.rest);
+    report_.certificate = std::move(shape.certificate);
+    report_.turned = shape.turned;
     ++report_.trials;
     for (HelpedLine& line : lines_) line.kept = line.kept_gust = NAN;
   }
@@ -136,21 +127,8 @@ class Keeper {
     return report_.rest.residual > out_of_balance && !report_.rest.imbalance.empty();
   }
 
-  /// Of the elements of a rest state out of balance that are on their bounds, some lie on the line.
   bool is_bound(const HelpedLine& line) const {
-    if (report_.rest.residual <= out_of_balance) return false;
-    const auto& rest = report_.rest;
-    const auto on = [&](int v) { return std::binary_search(line.patch.begin(), line.patch.end(), v); };
-    const auto any_spring = [&](const std::vector<int>& list, const std::vector<physics::Spring>& all) {
-      return std::any_of(list.begin(), list.end(), [&](int i) { return on(all[i].a) && on(all[i].b); });
-    };
-    const auto any = [&](const std::vector<int>& list, const auto& all) {
-      return std::any_of(list.begin(), list.end(), [&](int i) {
-        return std::all_of(all[i].vertices.begin(), all[i].vertices.end(), on);
-      });
-    };
-    return any_spring(rest.structural, solved_.structural) || any_spring(rest.bending, solved_.bending) ||
-           any(rest.membrane, solved_.membrane) || any(rest.hinges, solved_.hinges);
+    return report_.rest.residual > out_of_balance && on_bounds(line, report_.rest, solved_);
   }
 
   bool holds(const HelpedLine& line) const {
