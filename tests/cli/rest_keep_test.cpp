@@ -164,6 +164,19 @@ TEST_CASE("--rest keep: cloth without lines that is relaxed stays where it is, w
   }
 }
 
+TEST_CASE("--rest keep: cloth on a body is balanced by what the body bears") {
+  const ScratchDirectory scratch;
+  const json report =
+      run_json("simulate " FURROW_SOURCE_DIR
+               "/scenes/validation/incline_holds.toml --rest keep --fabric denim --friction 0.58"
+               " --seconds 0.1 -o " +
+               (scratch / "end.ply"));
+  CHECK(report["kept"]["residual"] < 1e-8);
+  CHECK(report["kept"]["touching"] > 50);
+  CHECK(report["kept"]["stable"] == true);
+  CHECK(report["kinetic_energy"] < 1e-8);
+}
+
 TEST_CASE("--rest keep: what it needs and what it refuses is told") {
   const ScratchDirectory scratch;
   const std::string a = write_strokes(scratch, "a", 0.02), out = " -o " + (scratch / "o.ply");
