@@ -3,17 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 
+#include "bridge/keep_shape.h"
 #include "bridge/keep_trial.h"
 #include "bridge/line_help.h"
 #include "bridge/scatter.h"
 #include "geometry/line_region.h"
 #include "geometry/property_names.h"
-#include "physics/posed_collider.h"
-#include "physics/push_out.h"
-#include "physics/rigid_motion.h"
 
 namespace furrow::bridge {
 namespace {
@@ -45,8 +42,7 @@ void check(const geometry::Mesh& mesh, const physics::Cloth& cloth, const physic
   for (const double factor : o.presses)
     need(factor > last, "presses do not rise above 1", factor), last = factor;
   for (const double k : o.struts) need(k > 0, "struts", k);
-  if (world.animated || !world.pins.empty() || !physics::at_rest(world.body_motion))
-    throw std::invalid_argument("keep_lines: body or pins move; a shape is kept on what stands still");
+  require_still(world);
 }
 
 class Keeper {
@@ -64,9 +60,8 @@ class Keeper {
     o_.bounds.friction = o_.run.friction;
     o_.bounds.gap = o_.run.contact_gap;
     for (Vec3& v : cloth_.particles.v) v.setZero();
-    if (world.collider) body_.emplace(*world.collider, physics::pose(world.body_motion, 0));
     start_ = cloth_;
-    const physics::PushOutReport pushed = push_out(start_);
+    const physics::PushOutReport pushed = bring_out(start_, world, o_.run.contact_gap);
     report_.pushed_out = pushed.moved;
     report_.farthest_push = pushed.farthest;
     find_lines();
@@ -104,28 +99,15 @@ class Keeper {
     }
   }
 
-  physics::PushOutReport push_out(physics::Cloth& cloth) const {
-    if (!body_) return {};
-    std::vector<int> free;
-    for (std::size_t i = 0; i < cloth.particles.size(); ++i)
-      if (cloth.particles.inv_mass[i] > 0) free.push_back(int(i));
-    return physics::push_out(cloth.particles.x, free, *body_, o_.run.contact_gap);
-  }
-
   void solve() {
     solved_ = start_;
     place_lines(lines_, mesh_, start_.particles, solved_.particles);
-    physics::Cloth balanced = solved_;
-    const double turn = world_.collider ? 0 : physics::balance_rigidly(balanced, o_.run.gravity);
-    report_.turned = turn <= o_.largest_turn ? turn : 0;
-    if (report_.turned > 0) solved_ = std::move(balanced);
-    push_out(solved_);
     report_.rest_press = rest_step_ > 0 ? o_.presses[rest_step_ - 1] : 1;
     stiffen_lines(lines_, o_, report_.rest_press, solved_);
-    const physics::Collider* body = body_ ? &*body_ : nullptr;
-    report_.rest = physics::prestress(solved_, o_.bounds, body);
-    report_.certificate =
-        physics::certify(solved_, {o_.run.gravity, o_.run.friction, o_.run.contact_gap}, body);
+    KeptShape shape = keep_shape(solved_, world_, o_.bounds, o_.largest_turn);
+    report_.rest = std::move(shape.rest);
+    report_.certificate = std::move(shape.certificate);
+    report_.turned = shape.turned;
     ++report_.trials;
     for (HelpedLine& line : lines_) line.kept = line.kept_gust = NAN;
   }
@@ -175,21 +157,8 @@ class Keeper {
     return report_.rest.residual > out_of_balance && !report_.rest.imbalance.empty();
   }
 
-  /// Of the elements of a rest state out of balance that are on their bounds, some lie on the line.
   bool is_bound(const HelpedLine& line) const {
-    if (report_.rest.residual <= out_of_balance) return false;
-    const auto& rest = report_.rest;
-    const auto on = [&](int v) { return std::binary_search(line.patch.begin(), line.patch.end(), v); };
-    const auto any_spring = [&](const std::vector<int>& list, const std::vector<physics::Spring>& all) {
-      return std::any_of(list.begin(), list.end(), [&](int i) { return on(all[i].a) && on(all[i].b); });
-    };
-    const auto any = [&](const std::vector<int>& list, const auto& all) {
-      return std::any_of(list.begin(), list.end(), [&](int i) {
-        return std::all_of(all[i].vertices.begin(), all[i].vertices.end(), on);
-      });
-    };
-    return any_spring(rest.structural, solved_.structural) || any_spring(rest.bending, solved_.bending) ||
-           any(rest.membrane, solved_.membrane) || any(rest.hinges, solved_.hinges);
+    return report_.rest.residual > out_of_balance && on_bounds(line, report_.rest, solved_);
   }
 
   bool rest_needs_help() const {
@@ -279,7 +248,6 @@ class Keeper {
   const std::function<bool(double)>& go_on_;
   LineMeter meter_;
   physics::Cloth start_, solved_;
-  std::optional<physics::PosedCollider> body_;
   std::vector<HelpedLine> lines_;
   std::size_t rest_step_ = 0;  // of presses, on what lies in no line's patch
   KeepReport report_;

@@ -21,6 +21,20 @@ double struts_of(const HelpedLine& line, const KeepOptions& o) {
   return n > 0 ? o.struts[n - 1] : 0;
 }
 
+bool on_bounds(const HelpedLine& line, const physics::PrestressReport& rest, const physics::Cloth& cloth) {
+  const auto on = [&](int v) { return std::binary_search(line.patch.begin(), line.patch.end(), v); };
+  const auto any_spring = [&](const std::vector<int>& list, const std::vector<physics::Spring>& springs) {
+    return std::any_of(list.begin(), list.end(), [&](int i) { return on(springs[i].a) && on(springs[i].b); });
+  };
+  const auto any = [&](const std::vector<int>& list, const auto& elements) {
+    return std::any_of(list.begin(), list.end(), [&](int i) {
+      return std::all_of(elements[i].vertices.begin(), elements[i].vertices.end(), on);
+    });
+  };
+  return any_spring(rest.structural, cloth.structural) || any_spring(rest.bending, cloth.bending) ||
+         any(rest.membrane, cloth.membrane) || any(rest.hinges, cloth.hinges);
+}
+
 void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mesh,
                  const physics::Particles& drawn, physics::Particles& particles) {
   const auto rest = geometry::find_map(mesh, geometry::kRestPosition);

@@ -21,6 +21,9 @@ int help_steps(const KeepOptions& options);                            ///< how 
 double press_of(const HelpedLine& line, const KeepOptions& options);   ///< factor that helps [-]
 double struts_of(const HelpedLine& line, const KeepOptions& options);  ///< [N/m]; 0: none
 
+/// Whether some element of its patch is on a bound of the rest state.
+bool on_bounds(const HelpedLine& line, const physics::PrestressReport& rest, const physics::Cloth& cloth);
+
 /// Lines with height != 1: their patches move from `drawn` towards kRestPosition, where they lay without a
 /// line; pins stay.
 void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mesh,

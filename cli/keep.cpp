@@ -36,7 +36,12 @@ struct KeepArguments : CommonArguments {
 /// The garment in its drawn shape, of a scene that draws at time 0 alone, or of a state.
 SceneCloth drawn_garment(const io::Scene& scene, std::optional<io::SavedState>& state,
                          const CommonArguments& common) {
-  if (!state) return prepare_scene(scene, common);
+  if (!state) {
+    io::Scene drawn = scene;  // what is kept, keep_lines() finds out
+    drawn.keep = false;
+    for (io::SceneLines& lines : drawn.lines) lines.keep = false;
+    return prepare_scene(drawn, common);
+  }
   SceneCloth result;
   result.file = state->file;
   result.pins = state->pins;

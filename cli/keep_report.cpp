@@ -106,33 +106,37 @@ std::string words(const KeptLine& line) {
   return "cannot hold" + (help.empty() ? "" : ", also with " + help) + ": " + line.reason;
 }
 
-Json to_json(const bridge::KeepReport& r, const io::WrinkleRecord& record) {
-  Json lines = Json::array(), imbalance = Json::array();
-  for (const KeptLine& line : r.lines) lines.push_back(to_json(line, record));
-  for (const physics::RigidImbalance& i : r.rest.imbalance)
+Json to_json(const physics::PrestressReport& rest, const physics::Certificate& certificate) {
+  Json imbalance = Json::array();
+  for (const physics::RigidImbalance& i : rest.imbalance)
     imbalance.push_back({{"vertices", i.piece.size()},
                          {"freedoms", i.freedoms},
                          {"axis", {i.axis.x(), i.axis.y(), i.axis.z()}},
                          {"point", {i.point.x(), i.point.y(), i.point.z()}},
                          {"acceleration", i.largest}});
-  Json json{{"lines", lines},
-            {"residual", r.certificate.residual},
-            {"stable", r.certificate.stable()},
-            {"negative_eigenvalues", r.certificate.negative_eigenvalues},
-            {"frequency", r.certificate.frequency},
-            {"max_strain", r.rest.max_strain},
-            {"max_angle", r.rest.max_angle},
-            {"bounds_active", r.rest.active_bounds()},
-            {"touching", r.rest.touching.size()},
-            {"drift", r.drift},
-            {"trials", r.trials},
-            {"runs", r.runs}};
+  Json json{{"residual", certificate.residual},
+            {"stable", certificate.stable()},
+            {"negative_eigenvalues", certificate.negative_eigenvalues},
+            {"frequency", certificate.frequency},
+            {"max_strain", rest.max_strain},
+            {"max_angle", rest.max_angle},
+            {"bounds_active", rest.active_bounds()},
+            {"touching", rest.touching.size()}};
+  if (!imbalance.empty()) json["imbalance"] = imbalance;
+  return json;
+}
+
+Json to_json(const bridge::KeepReport& r, const io::WrinkleRecord& record) {
+  Json lines = Json::array();
+  for (const KeptLine& line : r.lines) lines.push_back(to_json(line, record));
+  Json json{{"lines", lines}};
+  json.update(to_json(r.rest, r.certificate));
+  json.update({{"drift", r.drift}, {"trials", r.trials}, {"runs", r.runs}});
   if (r.rest_press > 1)
     json["rest_of_garment"] = {{"press", r.rest_press},
                                {"words", fmt::format("pressed x{:g} between the lines", r.rest_press)}};
   if (r.turned > 0) json["turned"] = r.turned;
   if (r.pushed_out > 0) json["pushed_out"] = {{"vertices", r.pushed_out}, {"farthest", r.farthest_push}};
-  if (!imbalance.empty()) json["imbalance"] = imbalance;
   return json;
 }
 

@@ -11,6 +11,8 @@ namespace furrow::cli {
 /// ...".
 std::string words(const bridge::KeptLine& line);
 
+/// A rest state's balance and stability.
+Json to_json(const physics::PrestressReport& rest, const physics::Certificate& certificate);
 Json to_json(const bridge::KeepReport& report, const io::WrinkleRecord& record);
 
 /// The garment with its lines in the colours of their verdicts: green held, yellow pressed, orange struts,

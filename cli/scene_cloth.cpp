@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "bridge/convert.h"
+#include "cli/keep_at_rest.h"
 #include "cli/line_round.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
@@ -100,6 +101,8 @@ SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common,
   result.seconds = scene.simulation.seconds;
   draw_first_lines(scene, result, common);
   complete_garment(result.file, scene.material);
+  if (keeps_first_shape(scene))
+    keep_at_rest(result.file, scene, result.pins, result.body.get(), 0, 0, nullptr, common);
   result.cloth = bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
   pin_cloth(result.cloth, result.pins, result.body.get(), 0, common);
   result.options = scene.simulation;

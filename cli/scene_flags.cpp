@@ -62,6 +62,10 @@ constexpr Flag kFlags[] = {
      "them"},
     {"--subdivide", "garment.subdivide", false,
      "refine the garment so many times (Loop) before the first line"},
+    {"--rest", "garment.rest", true,
+     "stored (default): the rest state that the file has; keep: that which holds the garment's shape at time "
+     "0 "
+     "(docs/keep.md)"},
     {"--body", "body.mesh", true, "body that the garment rests on"},
     {"--body-frames", "body.frames", true, "its motion: a PC2 or MDD file, or OBJ files as name_####.obj"},
     {"--body-fps", "body.fps", false, "frames a second of OBJ files (default 25)"},
@@ -79,6 +83,15 @@ constexpr std::string_view kTolerance = "body.tolerance";
 
 /// Of the result, not of the field.
 bool is_share(const std::string& tolerance) { return !tolerance.empty() && tolerance.back() == '%'; }
+
+/// Whether it says what a garment hangs in that stands still.
+bool is_of_rest(std::string_view path) {
+  constexpr std::string_view paths[] = {"material.preset",   "material.membrane", "material.bending_law",
+                                        "material.stretch",  "material.rigidity", "material.stiffness",
+                                        "material.friction", "material.gap",      "forces.gravity",
+                                        "body.mesh",         "body.field"};
+  return std::find(std::begin(paths), std::end(paths), path) != std::end(paths);
+}
 
 /// The flag's long name.
 std::string name_of(const Flag& f) {
@@ -152,12 +165,13 @@ io::Json difference(const io::Json& now, const io::Json& before) {
 
 }  // namespace
 
-void SceneFlags::add_to(CLI::App& sub) {
+void SceneFlags::add_to(CLI::App& sub, bool at_rest) {
   for (const Flag& f : kFlags) {
+    if (at_rest && !is_of_rest(f.path)) continue;
     Given& g = given_.emplace_back(Given{f.path, f.is_text, name_of(f), "", nullptr});
     g.option = sub.add_option(f.flag, g.text, f.help)->type_name(f.is_text ? "TEXT" : "NUMBER");
   }
-  sub.add_flag("--force-dt", force_dt_, "take a --dt above the stability limit");
+  if (!at_rest) sub.add_flag("--force-dt", force_dt_, "take a --dt above the stability limit");
   sub.add_option("--pin-box", pin_boxes_,
                  "hold the vertices in a box x0,y0,z0,x1,y1,z1 [m, y up]; may be given again")
       ->allow_extra_args(false);
@@ -169,6 +183,7 @@ void SceneFlags::add_to(CLI::App& sub) {
   sub.add_option("--pin-vertices", pin_vertices_, "hold vertices, by their indices from 0")
       ->delimiter(',')
       ->allow_extra_args(false);
+  if (at_rest) return;
   sub.add_option("--set", sets_,
                  "any setting of a scene, as key=value: --set body.motion.spin.rate=3; may be given again")
       ->allow_extra_args(false);
@@ -185,6 +200,15 @@ void SceneFlags::apply(io::TomlDocument& document) const {
   for (const std::string& group : pin_groups_) add_pins(document, "group", group, "--pin-group " + group);
   if (!pin_vertices_.empty()) add_pins(document, "vertices", pin_vertices_, "--pin-vertices");
   apply_sets(document, sets_);
+}
+
+std::string SceneFlags::first() const {
+  for (const Given& g : given_)
+    if (g.option->count()) return g.flag;
+  if (!pin_boxes_.empty()) return "--pin-box";
+  if (!pin_loops_.empty()) return "--pin-loop";
+  if (!pin_groups_.empty()) return "--pin-group";
+  return pin_vertices_.empty() ? "" : "--pin-vertices";
 }
 
 std::string SceneFlags::accuracy() const {

@@ -12,10 +12,12 @@ namespace furrow::cli {
 /// The flags of `simulate`: each sets one setting of a scene (docs/scenes.md), and --set sets any.
 class SceneFlags {
  public:
-  void add_to(CLI::App& sub);
+  /// at_rest: only those that say what a garment hangs in that stands still: material, gravity, pins, body.
+  void add_to(CLI::App& sub, bool at_rest = false);
   /// Writes what was given on the command line into the document, flags first, then --set in their order.
   /// Throws UsageError for a --set without a key or with one that cannot be.
   void apply(io::TomlDocument& document) const;
+  std::string first() const;  ///< the name of one of them that was given, but for --set; "": none was
   /// --tolerance as a share of the garment, "1%", for which integrator and step are chosen; else "".
   std::string accuracy() const;
 

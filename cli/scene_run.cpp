@@ -5,6 +5,7 @@
 
 #include "bridge/scatter.h"
 #include "cli/animation_series.h"
+#include "cli/keep_at_rest.h"
 #include "cli/line_round.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
@@ -147,13 +148,20 @@ class SceneRun {
     for (const std::string& w : round.warnings) warn(w, common_);
     Json json = to_json(round.report, now_.file.mesh, round.first_line);
     if (round.moving) json["moving"] = to_json(*round.moving, now_.simulation.time);
+    if (lines.keep && (moving || resumed_)) json["kept"] = keep_shape(&now_.simulation);
     rounds_.push_back(std::move(json));
     if (moving) heights_ = line_heights_by_id(now_.file);
+  }
+
+  Json keep_shape(physics::SimulateState* moving) {
+    return keep_at_rest(now_.file, scene_, now_.pins, body_.get(), now_.simulation.time, now_.contact_gap,
+                        moving, common_);
   }
 
   /// The garment is complete now: masses and springs, pins out of the body.
   void start_simulation() {
     complete_garment(now_.file, scene_.material);
+    if (keeps_first_shape(scene_)) kept_ = keep_shape(nullptr);
     heights_ = line_heights_by_id(now_.file);
     started_ = true;
   }
@@ -202,6 +210,7 @@ class SceneRun {
     if (!scene_.title.empty()) json["title"] = scene_.title;
     json.update(to_json(report_, now_.file, *io::find_wrinkle_record(now_.file), heights_, body_.get(),
                         now_.contact_gap));
+    if (!kept_.is_null()) json["kept"] = kept_;
     if (!rounds_.empty()) json["rounds"] = rounds_;
     if (!animations_.reports().empty()) json["animations"] = animations_.reports();
     if (!choice_.is_null()) json["choice"] = choice_;
@@ -255,7 +264,7 @@ class SceneRun {
   std::vector<double> heights_;
   std::vector<std::vector<io::DrawnStroke>> strokes_;  ///< of each round
   physics::SimulateReport report_;
-  Json rounds_ = Json::array();
+  Json rounds_ = Json::array(), kept_;
   AnimationSeries animations_;
 };
 

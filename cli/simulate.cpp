@@ -111,6 +111,9 @@ int simulate(SimulateArguments& a) {
   if (scene.garment.empty() && !state) throw UsageError(document.name + ": garment.mesh is missing");
   if (state && scene.subdivide != state->scene.value("garment", io::Json::object()).value("subdivide", 0))
     throw UsageError("--subdivide: the garment of a state is in motion; refine it before the first step");
+  if (state &&
+      scene.keep != (state->scene.value("garment", io::Json::object()).value("rest", "stored") == "keep"))
+    throw UsageError("--rest: the garment of a state is in motion; furrow keep --state keeps its shape");
   for (const char* key : {"simulation.integrator", "simulation.dt", "simulation.sweeps", "simulation.newton"})
     if (!a.flags.accuracy().empty() && document.place(key).rfind("--", 0) == 0)
       throw UsageError("--tolerance " + a.flags.accuracy() + " chooses integrator and step, and " +

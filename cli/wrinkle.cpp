@@ -2,10 +2,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/keep_at_rest.h"
 #include "cli/line_round.h"
 #include "cli/max_weights.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
+#include "cli/scene_input.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_drawing.h"
 #include "cli/wrinkle_reports.h"
@@ -32,6 +34,11 @@ void check_outputs(const WrinkleArguments& a) {
   // The result alone may take the place of what it was made of.
   refuse_same({a.inserted, a.preview, a.camera.save_camera}, {a.in, a.state});
   if (!a.state.empty()) refuse_same(a.out, a.in);  // with --state these are the strokes
+  const std::string flag = a.flags.first();
+  if (!flag.empty() && a.rest != "keep")
+    throw UsageError(flag + ": goes with --rest keep; furrow simulate chooses it otherwise");
+  if (!flag.empty() && !a.state.empty())
+    throw UsageError(flag + ": --state has material, pins and body; leave it away");
 }
 
 void write_preview(const io::RenderScene& scene, const WrinkleArguments& a) {
@@ -47,9 +54,19 @@ bridge::GatherOptions springs_of(const io::SavedState& state, const io::MeshFile
   return spring_options(file, io::read_scene(document, std::filesystem::path(path).parent_path()).material);
 }
 
-void write_result(const WrinkleArguments& a, Drawing& drawing, std::size_t old_count) {
+/// What a garment is kept in: material, forces, pins and body of the state, or of flags.
+io::Scene surroundings(const WrinkleArguments& a, const Drawing& drawing) {
+  io::TomlDocument document;
+  if (drawing.state) document = io::document_of(drawing.state->scene, a.state);
+  for (const char* list : {"lines", "pins"}) io::make_list(document, list);
+  a.flags.apply(document);
+  if (a.density) io::set_value(document, "material.density", *a.density, "--density");
+  io::set_value(document, "garment.rest", "keep", "--rest keep");
+  return scene_of(document, std::filesystem::path(a.state).parent_path());
+}
+
+void write_result(const WrinkleArguments& a, Drawing& drawing) {
   if (!drawing.state) return write_mesh(drawing.file, a);
-  pin_new_vertices(drawing.file.mesh, old_count, drawing.state->pins);
   io::SavedState state = *drawing.state;
   state.file = drawing.file;
   const auto folder = [](const std::string& path) { return std::filesystem::path(path).parent_path(); };
@@ -63,11 +80,19 @@ void wrinkle(WrinkleArguments a) {
   take_noted_frame(a, {a.in});
   Drawing drawing = read_drawing(a);
   io::MeshFile& file = drawing.file;
-  LineTarget target{file, drawing.path, a.density, nullptr, {}};
+  std::optional<io::Scene> scene;
+  if (a.rest == "keep") scene = surroundings(a, drawing);
+  const auto density = scene && !drawing.state ? scene->material.density : a.density;
+  LineTarget target{file, drawing.path, density, nullptr, {}};
+  std::vector<std::vector<int>> pins;
+  if (drawing.state)
+    pins = drawing.state->pins;
+  else if (scene)
+    pins = find_pins(file, scene->pins);
   if (drawing.state) {
     target.moving = &drawing.state->simulation;
     target.springs = springs_of(*drawing.state, file, a.state);
-    target.pins = drawing.state->pins;
+    target.pins = pins;
   }
   io::SceneLines lines;
   lines.options = to_options(a);
@@ -80,11 +105,21 @@ void wrinkle(WrinkleArguments a) {
   const geometry::Mesh before = file.mesh;
   const LineRound round = draw_lines(target, drawing.strokes, lines, keep_stage);
   for (const std::string& w : round.warnings) warn(w, a);
+  pin_new_vertices(file.mesh, before.number_of_vertices(), pins);
+  if (drawing.state) drawing.state->pins = pins;
+  Json kept;
+  if (scene) {
+    std::optional<WorldBody> body;
+    if (scene->body) body.emplace(*scene->body, a);
+    kept = keep_at_rest(file, *scene, pins, body ? &*body : nullptr, target.moving ? target.moving->time : 0,
+                        drawing.state ? drawing.state->contact_gap : 0, target.moving, a);
+  }
   if (a.max_weights) limit_noted_weights(file, *a.max_weights);
   if (inserted) write_preview(preview_of(*inserted, before, round.report, *io::find_wrinkle_record(file)), a);
-  if (!a.out.empty()) write_result(a, drawing, before.number_of_vertices());
+  if (!a.out.empty()) write_result(a, drawing);
   Json json = to_json(round.report, file.mesh, round.first_line);
   if (round.moving) json["moving"] = to_json(*round.moving, drawing.state->simulation.time);
+  if (scene) json["kept"] = std::move(kept);
   if (displaced) {
     file.mesh = std::move(*displaced);
     io::drop_motion(file);
@@ -97,14 +132,15 @@ void wrinkle(WrinkleArguments a) {
 
 void add_wrinkle(CLI::App& app) {
   auto a = std::make_shared<WrinkleArguments>();
-  CLI::App* sub =
-      app.add_subcommand("wrinkle",
-                         "Turn drawn ridge and valley lines into wrinkles\n\n"
-                         "  furrow wrinkle shirt.obj lines.json -o wrinkled.ply\n"
-                         "  furrow wrinkle shirt.obj lines.json --preview lines.png --view front\n"
-                         "  furrow wrinkle wrinkled.ply --without fold -o less.ply\n"
-                         "  furrow wrinkle --state at1.ply more.json -o at1-more.ply\n"
-                         "  furrow wrinkle skirt.obj lines.obj --height -0.02 -o wrinkled.ply");
+  CLI::App* sub = app.add_subcommand(
+      "wrinkle",
+      "Turn drawn ridge and valley lines into wrinkles\n\n"
+      "  furrow wrinkle shirt.obj lines.json -o wrinkled.ply\n"
+      "  furrow wrinkle shirt.obj lines.json --preview lines.png --view front\n"
+      "  furrow wrinkle wrinkled.ply --without fold -o less.ply\n"
+      "  furrow wrinkle --state at1.ply more.json -o at1-more.ply\n"
+      "  furrow wrinkle sheet.obj lines.json --rest keep --fabric denim --pin-loop top -o kept.ply\n"
+      "  furrow wrinkle skirt.obj lines.obj --height -0.02 -o wrinkled.ply");
   sub->add_option("mesh", a->in, "garment to read; with --state: the file of strokes")->required();
   sub->add_option(
       "strokes", a->strokes,
@@ -124,6 +160,7 @@ void add_wrinkle(CLI::App& app) {
       "--preview", a->preview,
       "PNG of what is inserted where, before anything is displaced; without -o no mesh is written");
   add_drawing_options(*sub, *a);
+  a->flags.add_to(*sub, true);
   add_smoothing_options(*sub, a->smoothing);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);

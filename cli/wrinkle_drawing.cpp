@@ -75,10 +75,11 @@ void add_drawing_options(CLI::App& sub, WrinkleArguments& a) {
                  "safe: flips that would spoil the mesh are refused; paper: the paper's plain rule")
       ->check(CLI::IsMember({"safe", "paper"}))
       ->capture_default_str();
-  sub.add_option(
-         "--rest", a.rest,
-         "drawn: a line adds cloth, rest angles stay; copied: they turn, too; flat: the rest stays as it was")
-      ->check(CLI::IsMember({"drawn", "flat", "copied"}))
+  sub.add_option("--rest", a.rest,
+                 "drawn: a line adds cloth, rest angles stay; copied: they turn, too; flat: the rest stays "
+                 "as it was; "
+                 "keep: the drawn shape bears its weight (needs --fabric or hinges; docs/keep.md)")
+      ->check(CLI::IsMember({"drawn", "flat", "copied", "keep"}))
       ->capture_default_str();
   sub.add_option("--region", a.region, "what is smoothed: two-ring (around the lines) or whole-mesh")
       ->check(CLI::IsMember({"two-ring", "whole-mesh"}))

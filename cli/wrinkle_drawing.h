@@ -2,6 +2,7 @@
 #pragma once
 #include "cli/camera_options.h"
 #include "cli/common.h"
+#include "cli/scene_flags.h"
 #include "cli/smoothing_options.h"
 #include "geometry/wrinkle.h"
 #include "io/drawn_stroke.h"
@@ -19,6 +20,7 @@ struct WrinkleArguments : CommonArguments {
   std::optional<int> max_weights;
   geometry::WrinkleOptions options;
   SmoothingArguments smoothing;
+  SceneFlags flags;  ///< of --rest keep
   CameraArguments camera;
   const CLI::App* typed = nullptr;  ///< what was on the command line
 };

@@ -19,6 +19,7 @@ struct SceneLines {
   double height = 0.01;              ///< of strokes that name none [m]
   double fade = 0.3;                 ///< tau of the forces that insertion adds and that fade in [s]; > 0
   std::vector<std::string> without;  ///< names of strokes that are left out
+  bool keep = false;                 ///< rest "keep": drawn, then the garment's shape is made its equilibrium
   geometry::WrinkleOptions options;
 };
 
@@ -62,6 +63,7 @@ struct Scene {
   std::string title;
   std::filesystem::path garment;
   int subdivide = 0;                    ///< times that Loop subdivision is applied before the first line
+  bool keep = false;                    ///< the garment's shape at time 0 is made its equilibrium
   std::optional<std::string> unit, up;  ///< of the mesh and stroke files
   std::vector<SceneLines> lines;        ///< by time
   std::optional<SceneBody> body;

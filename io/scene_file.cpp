@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/check_keep.h"
 #include "io/fabrics.h"
 #include "io/motion_settings.h"
 #include "io/settings_table.h"
+#include "io/wrinkle_settings.h"
 
 namespace furrow::io {
 namespace {
@@ -30,6 +32,7 @@ class SceneReader {
     if (auto simulation = root.table("simulation")) read_simulation(*simulation);
     if (auto output = root.table("output")) read_output(*output);
     root.finish();
+    check_keep(scene_, document_);
     return std::move(scene_);
   }
 
@@ -54,6 +57,7 @@ class SceneReader {
     if (!garment) return;
     read_path(*garment, "mesh", scene_.garment);
     garment->read("subdivide", scene_.subdivide, 0, 4);
+    garment->choose<bool>("rest", scene_.keep, {{"stored", false}, {"keep", true}});
     garment->finish();
   }
 
@@ -66,35 +70,12 @@ class SceneReader {
       table.read("height", lines.height, any("m"));
       table.read("fade", lines.fade, {0, kNoLimit, true, "s", true});
       table.read("without", lines.without);
-      read_wrinkle_options(table, lines.options);
+      read_wrinkle_options(table, lines);
       table.finish();
       if (!scene_.lines.empty() && lines.time < scene_.lines.back().time)
         table.fail("time", "is before that of the lines above; write rounds of lines in their order");
       scene_.lines.push_back(std::move(lines));
     }
-  }
-
-  static void read_wrinkle_options(SettingsTable& table, geometry::WrinkleOptions& o) {
-    using namespace geometry;
-    table.choose<InsertionRule>("rule", o.insertion.rule,
-                                {{"safe", InsertionRule::safe}, {"paper", InsertionRule::paper}});
-    table.choose<RestRule>(
-        "rest", o.rest, {{"drawn", RestRule::drawn}, {"flat", RestRule::flat}, {"copied", RestRule::copied}});
-    table.choose<SmoothingRegion>(
-        "region", o.region,
-        {{"two-ring", SmoothingRegion::two_ring}, {"whole-mesh", SmoothingRegion::whole_mesh}});
-    table.read("max_distance", o.insertion.max_distance, positive("m"));
-    table.read("iterations", o.smoothing.iterations, 0, 100000);
-    table.read("lambda", o.smoothing.lambda, positive());
-    table.read("mu", o.smoothing.mu, {-kNoLimit, 0});
-    table.choose<SmoothingWeights>(
-        "weights", o.smoothing.weights,
-        {{"uniform", SmoothingWeights::uniform}, {"cotangent", SmoothingWeights::cotangent}});
-    bool keep_lines = false, keep_border = false;
-    table.read("keep_lines", keep_lines);
-    table.read("keep_border", keep_border);
-    o.smoothing.lines = keep_lines ? LineRule::keep : LineRule::free;
-    o.smoothing.border = keep_border ? BorderRule::keep : BorderRule::free;
   }
 
   void read_body(SettingsTable& table) {

@@ -12,7 +12,7 @@ namespace furrow::io {
 inline std::string tables_of_key(std::string_view key) {
   using namespace std::string_view_literals;
   constexpr std::array kTables = {
-      std::pair{"[garment]"sv, " mesh subdivide "sv},
+      std::pair{"[garment]"sv, " mesh subdivide rest "sv},
       std::pair{"[[lines]]"sv,
                 " strokes time height fade without rule rest region max_distance iterations "
                 "lambda mu weights keep_lines keep_border "sv},

@@ -9,6 +9,7 @@ furrow_add_tests(cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   validation_scenes_test.cpp
   chart_test.cpp
   keep_test.cpp
+  rest_keep_test.cpp
   transfer_test.cpp
   strokes_test.cpp
   outputs_test.cpp

@@ -130,6 +130,20 @@ TEST_CASE("the rules of the rest state have their names") {
               .options.rest == rule);
 }
 
+TEST_CASE("a kept shape needs hinges, and a body and pins that stand still") {
+  const std::string keep = "[[lines]]\nstrokes = \"l.json\"\nrest = \"keep\"\n",
+                    hinges = "[material]\npreset = \"denim\"\n";
+  const io::Scene s = scene("[garment]\nmesh = \"g.obj\"\nrest = \"keep\"\n" + keep + hinges);
+  CHECK(s.keep);
+  CHECK(s.lines.at(0).keep);
+  CHECK(s.lines.at(0).options.rest == geometry::RestRule::drawn);
+  CHECK(has(fault(keep), "a/s.toml:3:1: lines.0.rest = \"keep\" needs hinges"));
+  CHECK(
+      has(fault("[garment]\nmesh = \"g.obj\"\nrest = \"keep\"\n"), "a/s.toml:3:1: garment.rest = \"keep\""));
+  CHECK(has(fault(keep + hinges + "[[pins]]\nloop = \"top\"\nmotion.spin = {rate = 2}\n"), "stand still"));
+  CHECK(has(fault(keep + hinges + "[body]\nmesh = \"b\"\nmotion.spin = {rate = 2}\n"), "stand still"));
+}
+
 TEST_CASE("a scene's faults are told with file, line, column and the nearest setting") {
   CHECK(fault("[simulation]\nsecnds = 3\n") ==
         "a/s.toml:2:1: there is no setting 'simulation.secnds'; did you mean 'seconds'?");
@@ -140,8 +154,9 @@ TEST_CASE("a scene's faults are told with file, line, column and the nearest set
   CHECK(has(fault("[material]\nbending = -1\n"), "a/s.toml:2:1: material.bending = -1"));
   CHECK(has(fault("[material]\nbending = inf\n"), "must be a number"));
   CHECK(has(fault("[material]\npoisson = 1\n"), "must be below 1"));
-  CHECK(has(fault("[[lines]]\nstrokes = \"l.json\"\nrest = \"drown\"\n"),
-            "a/s.toml:3:1: lines.0.rest = \"drown\" is none of drawn, flat, copied; did you mean drawn?"));
+  CHECK(has(
+      fault("[[lines]]\nstrokes = \"l.json\"\nrest = \"drown\"\n"),
+      "a/s.toml:3:1: lines.0.rest = \"drown\" is none of drawn, flat, copied, keep; did you mean drawn?"));
   CHECK(has(fault("[[lines]]\nstrokes = \"a\"\ntime = 2\n[[lines]]\nstrokes = \"b\"\ntime = 1\n"),
             "a/s.toml:6:1"));
   CHECK(has(fault("[[lines]]\ntime = 2\n"), "lines.0.strokes is missing"));

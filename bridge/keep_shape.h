@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "physics/certificate.h"
+#include "physics/prestress.h"
+#include "physics/push_out.h"
+#include "physics/world.h"
+
+namespace furrow::bridge {
+
+struct KeptShape {
+  physics::PrestressReport rest;
+  physics::Certificate certificate;
+  double turned = 0;              ///< about its pins into balance [rad]
+  physics::PushOutReport pushed;  ///< of particles nearer to the body than the gap
+};
+
+/// Gives a cloth, pinned, the rest state with which it is in equilibrium as it lies, on the body where that
+/// stands (physics/prestress.h), and tells whether that is a stable one (physics/certificate.h). Without a
+/// body, what hangs on a line of pins or on one is first turned about it into balance, if by no more than
+/// largest_turn [rad] (physics/rigid_imbalance.h); on a body, bring_out() comes first. Otherwise positions
+/// stay, and velocities and stiffnesses always. Wind is no load here. Throws std::invalid_argument, nothing
+/// changed, as require_still() and prestress() do. Cost: a factorisation or two.
+KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
+                     const physics::PrestressOptions& options, double largest_turn = 0);
+
+/// Moves the free particles that are nearer to the body than the gap [m] out to it, as a simulation would.
+physics::PushOutReport bring_out(physics::Cloth& cloth, const physics::World& world, double gap);
+
+/// Throws std::invalid_argument if body or pins move.
+void require_still(const physics::World& world);
+
+}  // namespace furrow::bridge

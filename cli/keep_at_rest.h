@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "cli/body.h"
+#include "cli/common.h"
+#include "io/scene.h"
+
+/// --rest keep: the shape of a garment, as drawn, becomes its equilibrium.
+namespace furrow::cli {
+
+/// Whether the scene says so of its garment or of a round of time 0.
+bool keeps_first_shape(const io::Scene& scene);
+
+/// Completes the garment and gives it the rest state with which it is in equilibrium as it lies, under the
+/// scene's material, gravity and pins and on its body (null: none), at a time [s]. Without a body, what hangs
+/// on a line of pins is first turned about it into balance, by at most 0.2 rad; what is nearer to the body
+/// than the gap is first brought out to it. settled_gap: at which it has rested on the body so far [m]; 0: on
+/// none. `moving`: it is in motion; it keeps its velocities, and no force of earlier lines fades in any more,
+/// for the shape bears itself. Warns of a shape that is not stable or that no rest state balances. Returns
+/// the report's "kept". Throws as bridge::keep_shape() and bridge::gather() do.
+Json keep_at_rest(io::MeshFile& file, const io::Scene& scene, const std::vector<std::vector<int>>& pins,
+                  const WorldBody* body, double time, double settled_gap, physics::SimulateState* moving,
+                  const CommonArguments& common);
+
+}  // namespace furrow::cli
