@@ -26,13 +26,23 @@ Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
   return o.gust * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
 }
 
-/// Moves each free particle by so much [m] in some direction; the same in every run of this number.
-void push(physics::Particles& p, double by, std::uint64_t number) {
+/// Moves each free particle by so much [m], or a tenth of the shortest edge at it, in some direction; the
+/// same in every run of this number.
+void push(physics::Cloth& cloth, double by, std::uint64_t number) {
+  physics::Particles& p = cloth.particles;
+  std::vector<double> most(p.size(), by);
+  for (const auto& t : cloth.triangles)
+    for (int c = 0; c < 3; ++c) {
+      const int a = t[c], b = t[(c + 1) % 3];
+      const double tenth = 0.1 * (p.x[a] - p.x[b]).norm();
+      most[a] = std::min(most[a], tenth);
+      most[b] = std::min(most[b], tenth);
+    }
   std::mt19937_64 engine(number);
   const auto random = [&] { return double(engine() >> 11) * 0x1p-52 - 1; };
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double a = random(), b = random(), c = random();
-    if (p.inv_mass[i] > 0) p.x[i] += by * Vec3(a, b, c).normalized();
+    if (p.inv_mass[i] > 0) p.x[i] += most[i] * Vec3(a, b, c).normalized();
   }
 }
 
@@ -87,7 +97,7 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   for (int run = 1; run <= runs; ++run, done += o.seconds) {
     cloth = start;
     state = {};
-    if (!stable) push(cloth.particles, o.push, std::uint64_t(run));
+    if (!stable) push(cloth, o.push, std::uint64_t(run));
     if (!on_to(o.seconds, o.run.gravity)) return {unknown, unknown, 0, trial.stopped};
     note(trial.kept);
     for (std::size_t i = 0; i < cloth.particles.size(); ++i)
