@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "bridge/scatter.h"
@@ -13,6 +14,9 @@ namespace furrow::bridge {
 namespace {
 
 using physics::Vec3;
+
+constexpr double first_look = 0.5,
+                 look = 0.1;  // at what is on its way elsewhere, when the push has calmed [s]
 
 /// Level, the way in which the cloth is thinnest, unless the options name another.
 Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
@@ -78,32 +82,34 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   physics::SimulateState state;
   const int runs = stable ? 1 : o.pushes;
   const double after = o.gust > 0 ? o.gust_seconds + o.calm_seconds : 0, whole = runs * o.seconds + after;
-  double done = 0;
-  const auto on_to = [&](double seconds, const Vec3& gravity) {
-    physics::SimulateOptions options = o.run;
-    options.seconds = seconds;
-    options.gravity = gravity;
-    const auto report = physics::simulate(cloth, world, options, &state, [&](const auto& now) {
-      return !go_on || go_on((done + now.time) / whole);
-    });
-    trial.stopped = trial.stopped || report.outcome == physics::Outcome::stopped_by_observer;
-    return report.outcome == physics::Outcome::finished;
-  };
+  double done = 0, next_look = std::numeric_limits<double>::infinity();
   const auto note = [&](std::vector<double>& kept) {
     const std::vector<double> now = meter.heights(cloth.particles);
     for (std::size_t i = 0; i < kept.size(); ++i)
       if (!(std::abs(now[i] / drawn[i] - 1) <= std::abs(kept[i] - 1))) kept[i] = now[i] / drawn[i];
   };
+  const auto on_to = [&](double seconds, const Vec3& gravity) {
+    physics::SimulateOptions options = o.run;
+    options.seconds = seconds;
+    options.gravity = gravity;
+    const auto report = physics::simulate(cloth, world, options, &state, [&](const auto& now) {
+      if (now.time >= next_look) note(trial.kept), next_look += look;
+      return !go_on || go_on((done + now.time) / whole);
+    });
+    trial.stopped = trial.stopped || report.outcome == physics::Outcome::stopped_by_observer;
+    return report.outcome == physics::Outcome::finished;
+  };
   for (int run = 1; run <= runs; ++run, done += o.seconds) {
     cloth = start;
     state = {};
-    if (!stable) push(cloth, o.push, std::uint64_t(run));
+    if (!stable) push(cloth, o.push, std::uint64_t(run)), next_look = first_look;
     if (!on_to(o.seconds, o.run.gravity)) return {unknown, unknown, 0, trial.stopped};
     note(trial.kept);
     for (std::size_t i = 0; i < cloth.particles.size(); ++i)
       trial.drift = std::max(trial.drift, (cloth.particles.x[i] - start.particles.x[i]).norm());
   }
   done -= o.seconds;
+  next_look = std::numeric_limits<double>::infinity();  // the gust may bend what comes back
   const double blown = o.seconds + o.gust_seconds;
   const bool calm = o.gust == 0 || (on_to(blown, o.run.gravity + gust_of(o, start.particles.x)) &&
                                     on_to(blown + o.calm_seconds, o.run.gravity));

@@ -26,7 +26,8 @@ struct KeepTrial {
 };
 /// Runs a cloth forward from rest, then through a gust and a calm, as the options say; the cloth is not
 /// changed. stable: whether its certificate says so. What is not stable would stand still like a pencil on
-/// its tip: each run (options.pushes of them) begins with another push, and of `kept` the worst counts.
+/// its tip: each run (options.pushes of them) begins with another push, and of `kept` the
+/// worst counts, at any time.
 KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
                     const KeepOptions& options, LineMeter& meter, const std::function<bool(double)>& go_on);
 
