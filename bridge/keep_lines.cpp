@@ -19,7 +19,7 @@ using physics::Vec3;
 
 constexpr double share_of_mode = 0.1;  // of an unstable motion's energy that makes it a line's
 constexpr double out_of_balance = 1e-6;
-constexpr double reserve = 0.6;  // of what a line may lose or win, where the shape is not stable
+constexpr double reserve = 0.4;  // of what a line may lose or win, where the shape is not stable
 
 void check(const geometry::Mesh& mesh, const physics::Cloth& cloth, const physics::World& world,
            const KeepOptions& o) {

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "bridge/scatter.h"
@@ -15,6 +16,8 @@ namespace {
 using physics::Vec3;
 
 constexpr double first_part = 0.2;  // of the first run, before it is asked whether it is in vain
+constexpr double first_look = 0.5,
+                 look = 0.1;  // at what is on its way elsewhere, when the push has calmed [s]
 
 /// Level, the way in which the cloth is thinnest, unless the options name another.
 Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
@@ -28,13 +31,23 @@ Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
   return o.gust * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
 }
 
-/// Moves each free particle by so much [m] in some direction; the same in every run of this number.
-void push(physics::Particles& p, double by, std::uint64_t number) {
+/// Moves each free particle by so much [m], or a tenth of the shortest edge at it, in some direction; the
+/// same in every run of this number.
+void push(physics::Cloth& cloth, double by, std::uint64_t number) {
+  physics::Particles& p = cloth.particles;
+  std::vector<double> most(p.size(), by);
+  for (const auto& t : cloth.triangles)
+    for (int c = 0; c < 3; ++c) {
+      const int a = t[c], b = t[(c + 1) % 3];
+      const double tenth = 0.1 * (p.x[a] - p.x[b]).norm();
+      most[a] = std::min(most[a], tenth);
+      most[b] = std::min(most[b], tenth);
+    }
   std::mt19937_64 engine(number);
   const auto random = [&] { return double(engine() >> 11) * 0x1p-52 - 1; };
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double a = random(), b = random(), c = random();
-    if (p.inv_mass[i] > 0) p.x[i] += by * Vec3(a, b, c).normalized();
+    if (p.inv_mass[i] > 0) p.x[i] += most[i] * Vec3(a, b, c).normalized();
   }
 }
 
@@ -73,31 +86,32 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   physics::SimulateState state;
   const int runs = stable ? 1 : o.pushes;
   const double after = o.gust > 0 ? o.gust_seconds + o.calm_seconds : 0, whole = runs * o.seconds + after;
-  double done = 0;
-  const auto on_to = [&](double seconds, const Vec3& gravity) {
-    physics::SimulateOptions options = o.run;
-    options.seconds = seconds;
-    options.gravity = gravity;
-    const auto report = physics::simulate(cloth, world, options, &state, [&](const auto& now) {
-      return !go_on || go_on((done + now.time) / whole);
-    });
-    trial.stopped = trial.stopped || report.outcome == physics::Outcome::stopped_by_observer;
-    return report.outcome == physics::Outcome::finished;
-  };
+  double done = 0, next_look = std::numeric_limits<double>::infinity();
   const auto shares = [&] {
     std::vector<double> now = meter.heights(cloth.particles);
     for (std::size_t i = 0; i < now.size(); ++i) now[i] /= drawn[i];
     return now;
   };
-  const auto note = [&](std::vector<double>& kept) {  // the worst of several runs
+  const auto note = [&](std::vector<double>& kept) {  // the worst of several runs, and on their way
     const std::vector<double> now = shares();
     for (std::size_t i = 0; i < kept.size(); ++i)
       if (!(std::abs(now[i] - 1) <= std::abs(kept[i] - 1))) kept[i] = now[i];
   };
+  const auto on_to = [&](double seconds, const Vec3& gravity) {
+    physics::SimulateOptions options = o.run;
+    options.seconds = seconds;
+    options.gravity = gravity;
+    const auto report = physics::simulate(cloth, world, options, &state, [&](const auto& now) {
+      if (now.time >= next_look) note(trial.kept), next_look += look;
+      return !go_on || go_on((done + now.time) / whole);
+    });
+    trial.stopped = trial.stopped || report.outcome == physics::Outcome::stopped_by_observer;
+    return report.outcome == physics::Outcome::finished;
+  };
   for (int run = 1; run <= runs; ++run, done += o.seconds) {
     cloth = start;
     state = {};
-    if (!stable) push(cloth.particles, o.push, std::uint64_t(run));
+    if (!stable) push(cloth, o.push, std::uint64_t(run)), next_look = first_look;
     if (!on_to(first_part * o.seconds, o.run.gravity)) return {unknown, unknown, 0, trial.stopped};
     if (const std::vector<double> early = shares(); in_vain && in_vain(early)) return {early, unknown};
     if (!on_to(o.seconds, o.run.gravity)) return {unknown, unknown, 0, trial.stopped};
@@ -106,6 +120,7 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
       trial.drift = std::max(trial.drift, (cloth.particles.x[i] - start.particles.x[i]).norm());
   }
   done -= o.seconds;
+  next_look = std::numeric_limits<double>::infinity();  // the gust may bend what comes back
   const double blown = o.seconds + o.gust_seconds;
   const bool calm = o.gust == 0 || (on_to(blown, o.run.gravity + gust_of(o, start.particles.x)) &&
                                     on_to(blown + o.calm_seconds, o.run.gravity));

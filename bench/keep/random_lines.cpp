@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far the verdicts of bridge::keep_lines can be trusted: 200 lines at random on 80 coarse garments. A
 // line that is called held must keep 95 to 105 % of the told height in another run than the verdict's own;
-// for one that cannot hold all help is tried that there is. random_lines [CSV [threads [garments]]]
+// for one that cannot hold all help is tried that there is. random_lines [CSV [threads [first [end]]]]
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
+#include <mutex>
+#include <optional>
 #include <thread>
 
 #include "bench/cases/random_garments.h"
@@ -181,14 +182,23 @@ void write(std::FILE* file, int number, const Judged& j) {
   }
 }
 
-void summarise(const std::vector<Judged>& all) {
+void write_header(std::FILE* file) {
+  std::fprintf(file, "# Lines at random and what became of them: bench/keep/random_lines.cpp\n");
+  std::fprintf(file,
+               "garment,mesh,edge[mm],membrane,rigidity[N m],stretch[N/m],line,length[mm],turn[rad],"
+               "height[mm],verdict,press,struts[N/m],lowered,kept,kept after gust,kept in another run,"
+               "held after all: press,struts[N/m],lowered,lines,kept,kept after gust,reason\n");
+}
+
+void summarise(const std::vector<std::optional<Judged>>& all) {
   struct Count {
     int lines = 0, wrong = 0, calm = 0;
     double farthest = 0;
   };
   Count counts[5];
-  for (const Judged& j : all) {
-    for (const Row& r : j.rows) {
+  for (const std::optional<Judged>& j : all) {
+    if (!j) continue;
+    for (const Row& r : j->rows) {
       Count& c = counts[int(r.line.verdict)];
       ++c.lines;
       if (r.line.verdict == Verdict::cannot_hold) {
@@ -213,28 +223,28 @@ void summarise(const std::vector<Judged>& all) {
 int main(int argc, char** argv) {
   using namespace furrow::bench;
   const char* path = argc > 1 ? argv[1] : "keep-random.csv";
-  const int threads = argc > 2 ? std::atoi(argv[2]) : 2, garments = argc > 3 ? std::atoi(argv[3]) : 80;
-  std::vector<Judged> all(garments);
-  std::atomic<int> next = 0, done = 0;
+  const auto number = [&](int i, int usual) { return argc > i ? std::atoi(argv[i]) : usual; };
+  const int threads = number(2, 2), first = number(3, 0), end = number(4, 80);
+  std::vector<std::optional<Judged>> all(end);
+  std::FILE* file = std::fopen(path, "w");
+  if (!file) return std::fprintf(stderr, "error: cannot write %s\n", path), 1;
+  write_header(file);
+  std::atomic<int> next = first;
+  std::mutex writing;
+  int written = first;
   std::vector<std::thread> pool;
   for (int t = 0; t < threads; ++t)
     pool.emplace_back([&] {
-      for (int i = next++; i < garments; i = next++) {
-        all[i] = judge(i);
-        std::fprintf(stderr, "\r%d of %d ", ++done, garments);
+      for (int i = next++; i < end; i = next++) {
+        Judged judged = judge(i);
+        const std::lock_guard lock(writing);
+        all[i] = std::move(judged);
+        for (; written < end && all[written]; ++written) write(file, written, *all[written]);
+        std::fflush(file);
+        std::fprintf(stderr, "%d of %d\n", written, end);
       }
     });
   for (std::thread& thread : pool) thread.join();
-  std::fprintf(stderr, "\n");
-  std::FILE* file = std::fopen(path, "w");
-  if (!file) return std::fprintf(stderr, "error: cannot write %s\n", path), 1;
-  std::fprintf(file, "# %d garments at random; bench/keep/random_lines.cpp\n", garments);
-  std::fprintf(file,
-               "garment,mesh,edge[mm],membrane,rigidity[N "
-               "m],stretch[N/m],line,length[mm],turn[rad],height[mm],verdict,"
-               "press,struts[N/m],lowered,kept,kept after gust,kept in another run,"
-               "held after all: press,struts[N/m],lowered,lines,kept,kept after gust,reason\n");
-  for (int i = 0; i < garments; ++i) write(file, i, all[i]);
   std::fclose(file);
   summarise(all);
 }
