@@ -74,6 +74,16 @@ class Keeper {
     scatter(solved_.particles, mesh_);
     cloth_ = solved_;
     for (const HelpedLine& line : lines_) report_.lines.push_back(verdict(line));
+    for (const int id : meter_.unmeasured()) {
+      KeptLine line;
+      line.line = id;
+      line.height = line.kept = line.kept_gust = NAN;
+      line.reason =
+          "its height cannot be measured: its fold leaves too little cloth around it, or runs along a border";
+      report_.lines.push_back(line);
+    }
+    std::sort(report_.lines.begin(), report_.lines.end(),
+              [](const KeptLine& a, const KeptLine& b) { return a.line < b.line; });
     return report_;
   }
 

@@ -58,6 +58,7 @@ LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base
   for (const geometry::LineHeight& h : geometry::line_heights(shape_, widths_)) {
     const bool known = std::size_t(h.line) < base.size() && std::isfinite(base[h.line]);
     const double below = known ? base[h.line] : 0;
+    if (!std::isfinite(h.height)) unmeasured_.push_back(h.line);
     if (!std::isfinite(h.height) || h.height == below) continue;
     lines_.push_back(h.line);
     base_.push_back(below);

@@ -9,13 +9,16 @@ class LineMeter {
  public:
   /// Lines that have a height where the mesh lies. base: see keep_lines(); widths: KeepOptions::line_widths.
   LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths);
-  const std::vector<int>& lines() const { return lines_; }   ///< their ids, rising
+  const std::vector<int>& lines() const { return lines_; }  ///< their ids, rising
+  const std::vector<int>& unmeasured() const {
+    return unmeasured_;
+  }                                                          ///< ids of those whose height is not known
   std::vector<double> heights(const physics::Particles& p);  ///< of each [m]; NaN: no more known
 
  private:
   geometry::Mesh shape_;        ///< a copy that is moved about
   std::vector<double> widths_;  ///< by id [m]
-  std::vector<int> lines_;
+  std::vector<int> lines_, unmeasured_;
   std::vector<double> base_;  ///< of each [m]
 };
 
@@ -27,9 +30,9 @@ struct KeepTrial {
 };
 /// Runs a cloth forward from rest, then through a gust and a calm, as the options say; the cloth is not
 /// changed. stable: whether its certificate says so. What is not stable would stand still like a pencil on
-/// its tip: each run (options.pushes of them) begins with another push, and of `kept` the worst counts, at any
-/// time from 0.5 s on. in_vain: asked at a fifth of each first run with what the lines have kept until then;
-/// true: that is enough, `kept` is what it was asked with. Both functions may be empty.
+/// its tip: each run (options.pushes of them) begins with another push, and of `kept` the worst counts, at
+/// any time from 0.5 s on. in_vain: asked at a fifth of each first run with what the lines have kept until
+/// then; true: that is enough, `kept` is what it was asked with. Both functions may be empty.
 KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
                     const KeepOptions& options, LineMeter& meter,
                     const std::function<bool(const std::vector<double>&)>& in_vain,

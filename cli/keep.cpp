@@ -50,10 +50,14 @@ SceneCloth drawn_garment(const io::Scene& scene, std::optional<io::SavedState>& 
   result.cloth = bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
   pin_cloth(result.cloth, result.pins, result.body.get(), state->simulation.time, common);
   result.options = scene.simulation;
+  double& gap = result.options.contact_gap;
+  const Json material = state->scene.value("material", Json::object());
+  const bool settled = result.body && result.body->fingerprint() == state->body &&
+                       material.value("gap", physics::SimulateOptions{}.contact_gap) == gap;
+  if (!settled) state->contact_gap = 0;
   if (result.body)
-    result.options.contact_gap =
-        std::max(state->contact_gap,
-                 contact_gap(result.options.contact_gap, result.body->tolerance(), result.file.mesh));
+    gap = state->contact_gap =
+        std::max(state->contact_gap, contact_gap(gap, result.body->tolerance(), result.file.mesh));
   result.options.threads = threads_of(scene, result.cloth.particles.size());
   return result;
 }
@@ -83,6 +87,13 @@ std::vector<double> base_heights(const io::WrinkleRecord& record) {
   std::vector<double> base;
   for (const auto& line : record.lines) base.push_back(line.base_height);
   return base;
+}
+
+/// Each line's press from now on, so that keeping it again goes on from there.
+void note_presses(const bridge::KeepReport& report, io::WrinkleRecord record, io::MeshFile& file) {
+  for (const bridge::KeptLine& line : report.lines)
+    if (std::size_t(line.line) < record.lines.size()) record.lines[line.line].press = line.press;
+  io::set_wrinkle_record(file, record);
 }
 
 /// From rest, with nothing that fades in any more.
@@ -152,6 +163,7 @@ int keep(KeepArguments& a) {
                                   return !interrupted();
                                 });
   }
+  note_presses(report, record, garment.file);
   physics::soften_clamps(garment.cloth);
   bridge::store_rest_state(garment.cloth, spring_options(garment.file, scene.material), garment.file.mesh);
   if (!scene.output.state.empty()) write_kept_state(scene, document, folder, garment, std::move(state));

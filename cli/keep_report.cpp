@@ -15,7 +15,7 @@ namespace {
 using bridge::KeptLine;
 using bridge::Verdict;
 
-/// Share of a height; null where nothing was run.
+/// A height or a share of it; null where it is not known.
 Json share(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 const char* name_of(Verdict verdict) {
@@ -61,7 +61,7 @@ Json to_json(const KeptLine& line, const io::WrinkleRecord& record) {
   Json json{{"id", line.line}};
   if (std::size_t(line.line) < record.lines.size()) json["name"] = record.lines[line.line].name;
   json.update({{"verdict", name_of(line.verdict)},
-               {"height", line.height},
+               {"height", share(line.height)},
                {"kept", share(line.kept)},
                {"kept_after_gust", share(line.kept_gust)},
                {"press", line.press},

@@ -32,9 +32,10 @@ void complete_garment(io::MeshFile& file, const io::SceneMaterial& material) {
   ensure_bending_springs(mesh);
   ensure_rest_angles(mesh);
   io::WrinkleRecord record = io::find_wrinkle_record(file).value_or(io::WrinkleRecord{});
+  const bool denser = material.density && *material.density != record.density;
   if (material.density || !(record.density > 0))
     record.density = material.density.value_or(WrinkleOptions{}.density);
-  if (material.density || !has_masses(mesh)) lump_masses(mesh, record.density);
+  if (denser || !has_masses(mesh)) lump_masses(mesh, record.density);
   if (!(record.mean_structural_length > 0)) record.mean_structural_length = mean_rest_length(mesh);
   if (!(record.mean_bending_length > 0)) record.mean_bending_length = mean_bending_rest_length(mesh);
   record.unit = "m", record.up = "y";  // as the mesh is here; who writes it in another unit notes that one

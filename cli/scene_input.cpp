@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "geometry/errors.h"
+#include "io/check_keep.h"
 #include "io/scene_file.h"
 
 namespace furrow::cli {
@@ -31,14 +32,23 @@ io::TomlDocument scene_settings(const std::string& in, const std::string& state_
   return document;
 }
 
-io::Scene scene_of(const io::TomlDocument& document, const std::filesystem::path& folder) {
+namespace {
+
+/// Does it; a fault of a flag is one of the call, not of a file.
+template <class Work>
+auto blaming_flags(const Work& work) {
   try {
-    return io::read_scene(document, folder);
+    return work();
   } catch (const geometry::ContentError& e) {
-    const bool a_flag = std::string(e.what()).rfind("--", 0) == 0;  // a fault of the call, not of a file
-    if (a_flag) throw UsageError(e.what());
+    if (std::string(e.what()).rfind("--", 0) == 0) throw UsageError(e.what());
     throw;
   }
+}
+
+}  // namespace
+
+io::Scene scene_of(const io::TomlDocument& document, const std::filesystem::path& folder) {
+  return blaming_flags([&] { return io::read_scene(document, folder); });
 }
 
 void take_noted_frame(io::Scene& scene, io::TomlDocument& document) {
@@ -63,6 +73,7 @@ void check_inputs(const io::Scene& scene, const io::TomlDocument& document, int 
     throw geometry::ContentError(place + ": " + key + ": there is no file " + path.string() +
                                  "; paths are relative to the file that names them");
   };
+  blaming_flags([&] { io::check_keep_stands_still(scene, document, lines_drawn); });
   if (lines_drawn < 0) check("garment.mesh", scene.garment);
   if (scene.body) check("body.mesh", scene.body->mesh);
   if (scene.body) check("body.field", scene.body->field);

@@ -60,7 +60,10 @@ io::Scene surroundings(const WrinkleArguments& a, const Drawing& drawing) {
   if (drawing.state) document = io::document_of(drawing.state->scene, a.state);
   for (const char* list : {"lines", "pins"}) io::make_list(document, list);
   a.flags.apply(document);
-  if (a.density) io::set_value(document, "material.density", *a.density, "--density");
+  // Of a mesh drawn again, a.density is that of its record: the fabric's goes before it.
+  const bool has_fabric = document.root.value("material", Json::object()).contains("preset");
+  if (a.density && (a.typed->count("--density") || !has_fabric))
+    io::set_value(document, "material.density", *a.density, "--density");
   io::set_value(document, "garment.rest", "keep", "--rest keep");
   return scene_of(document, std::filesystem::path(a.state).parent_path());
 }

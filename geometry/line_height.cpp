@@ -73,12 +73,29 @@ Eigen::MatrixXd harmonic_fill(const Mesh& mesh, const Patch& patch, const std::v
   return solver.solve(right);
 }
 
+/// A fold along a border has its foot on one side alone; the fill then shrinks towards that, and its normals
+/// mean nothing. True where it has less than a quarter of the cloth's area before lines around the line.
+bool has_shrunk(const Mesh& mesh, const Patch& patch, double fill_area) {
+  const auto is_border = [&](Vertex v) { return mesh.is_border(v); };
+  if (std::none_of(patch.free.begin(), patch.free.end(), is_border)) return false;
+  const std::vector<double> lengths = lengths_before_lines(mesh);
+  double area = 0;
+  for (Vertex v : patch.line)
+    for (Face f : mesh.faces_around_target(mesh.halfedge(v)))
+      if (f.is_valid()) {
+        const auto [a, b, c] = edge_lengths(mesh, f, lengths);
+        area += triangle_area(a, b, c);
+      }
+  return fill_area < 0.25 * area;
+}
+
+/// NaN where the fill is none.
 double mean_height(const Mesh& mesh, const Patch& patch, const Eigen::MatrixXd& fill) {
   const auto position = [&](Vertex v) {
     const int i = patch.index[v.idx()];
     return i < 0 ? mesh.point(v) : Point(fill(i, 0), fill(i, 1), fill(i, 2));
   };
-  double sum = 0;
+  double sum = 0, fill_area = 0;
   for (Vertex v : patch.line) {
     const Point foot = position(v);
     Vector normal(0, 0, 0);
@@ -87,8 +104,11 @@ double mean_height(const Mesh& mesh, const Patch& patch, const Eigen::MatrixXd& 
       normal +=
           CGAL::cross_product(position(mesh.target(mesh.next(h))) - foot, position(mesh.source(h)) - foot);
     }
-    sum += (mesh.point(v) - foot) * normal / std::sqrt(normal.squared_length());
+    const double length = std::sqrt(normal.squared_length());
+    sum += (mesh.point(v) - foot) * normal / length;
+    fill_area += length / 2;
   }
+  if (has_shrunk(mesh, patch, fill_area)) return kUnset;
   return sum / static_cast<double>(patch.line.size());
 }
 

@@ -22,7 +22,7 @@ struct Lift {
 /// half the width to the stroke by k line_profile(). `path` is the stroke as it lies on the cloth, so a
 /// coarse and a fine mesh give the same fold. Distances are straight ones in space; that no other layer of
 /// cloth moves that lies near by, or the other leg of a fold, only vertices count that ways along edges of
-/// rest length kDetour width / 2 join to the line. `mesh`: with the line, not displaced yet; it is not
+/// rest length 1.5 width / 2 join to the line. `mesh`: with the line, not displaced yet; it is not
 /// changed. By ascending vertex, none with height 0. Throws std::invalid_argument if the stroke has no width.
 /// Cost: vertices of the region times segments of the path.
 std::vector<Lift> lift_by_profile(const Mesh& mesh, std::span<const Vertex> line,

@@ -13,7 +13,7 @@ std::string shape_fault(const Stroke& stroke) {
     return fault("width", *stroke.width, "> 0 (metres)");
   if (!(stroke.sharpness >= 0 && stroke.sharpness <= 1))
     return fault("sharpness", stroke.sharpness, "in [0, 1]");
-  if (!(stroke.press >= 1) || !std::isfinite(stroke.press)) return fault("press", stroke.press, ">= 1");
+  if (!(stroke.press >= 1 && stroke.press <= 1e6)) return fault("press", stroke.press, "in [1, 1e6]");
   return "";
 }
 

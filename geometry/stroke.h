@@ -23,7 +23,7 @@ struct Stroke {
   /// before it is raised [m]; > 0. None: as wide as the smoothing of two rings of triangles makes it.
   std::optional<double> width = {};
   double sharpness = 0.5;  ///< of the crest, goes with a width [-]; [0, 1]: see line_profile()
-  double press = 1;        ///< factor on the stiffness of the hinges in the line's region [-]; >= 1
+  double press = 1;        ///< factor on the stiffness of the hinges in the line's region [-]; [1, 1e6]
 };
 
 /// What is wrong with width, sharpness or press, with the key and its value; empty if nothing is.

@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "geometry/bending_springs.h"
 #include "geometry/displace_line.h"
 #include "geometry/errors.h"
 #include "geometry/line_height.h"
+#include "geometry/line_press.h"
 #include "geometry/line_profile.h"
 #include "geometry/line_region.h"
 #include "geometry/masses.h"
@@ -42,8 +45,8 @@ void check_all(const Mesh& mesh, std::span<const Stroke> strokes, const WrinkleO
 }
 
 struct Moves {
-  std::vector<Displacement> list;
-  std::set<Vertex> profiled;  ///< by a line with a width, which gives them their final place
+  std::vector<Displacement> lines;     ///< of lines without a width; smoothed
+  std::vector<Displacement> profiles;  ///< of lines with one, on top of that; as they are
 };
 
 /// What lines with a width raise: the highest ridge and the deepest valley of each vertex, added.
@@ -65,34 +68,45 @@ std::map<Vertex, double> profiled_heights(const Mesh& mesh, const std::vector<In
   return heights;
 }
 
-/// The vertices of lines without a width, each with the displacement of the last line that has it; then what
-/// lines with a width raise.
+/// The vertices of lines without a width, each with the displacement of the last such line that has it, and
+/// what lines with a width raise.
 Moves displacements(const Mesh& mesh, const std::vector<Insertion>& lines, std::span<const Stroke> strokes,
                     const std::set<Vertex>& held) {
   std::map<Vertex, Displacement> last;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    for (const LineVertex& v : lines[i].line.vertices)
-      if (strokes[i].width)
-        last.erase(v.vertex);
-      else
+    if (!strokes[i].width)
+      for (const LineVertex& v : lines[i].line.vertices)
         last[v.vertex] = {v.vertex, v.normal, strokes[i].height};
   Moves moves;
+  for (const auto& [vertex, displacement] : last)
+    if (!held.count(vertex)) moves.lines.push_back(displacement);
   const std::map<Vertex, double> profiled = profiled_heights(mesh, lines, strokes);
   const std::vector<Vector> normals = profiled.empty() ? std::vector<Vector>{} : vertex_normals(mesh);
-  for (const auto& [vertex, height] : profiled) {
-    moves.profiled.insert(vertex);
-    const auto other = last.find(vertex);
-    const double own = other == last.end() ? 0 : other->second.height;
-    const double both =
-        own * height > 0 ? (own > 0 ? std::max(own, height) : std::min(own, height)) : own + height;
-    if (normals[vertex.idx()].squared_length() > 0) last[vertex] = {vertex, normals[vertex.idx()], both};
-  }
-  for (const auto& [vertex, displacement] : last)
-    if (!held.count(vertex)) moves.list.push_back(displacement);
+  for (const auto& [vertex, height] : profiled)
+    if (!held.count(vertex) && normals[vertex.idx()].squared_length() > 0)
+      moves.profiles.push_back({vertex, normals[vertex.idx()], height});
   return moves;
 }
 
-std::string millimetres(double length) { return std::to_string(std::lround(1000 * length)) + " mm"; }
+/// Stored stiffnesses of hinges know nothing of new lines; where none is stored, gather() sees to it.
+void press_stored_hinges(Mesh& mesh, std::span<const Stroke> strokes, int first_line) {
+  const auto stiffness = find_map(mesh, kHingeStiffness);
+  if (!stiffness) return;
+  std::vector<double> presses(static_cast<std::size_t>(first_line), 1), widths(presses.size(), kUnset);
+  for (const Stroke& stroke : strokes) {
+    presses.push_back(stroke.press);
+    widths.push_back(stroke.width.value_or(kUnset));
+  }
+  const std::vector<double> factors = hinge_presses(mesh, presses, widths);
+  if (factors.empty()) return;
+  for (Edge e : mesh.edges()) (*stiffness)[e] *= factors[e.idx()];  // unset: NaN stays
+}
+
+std::string millimetres(double length) {
+  std::ostringstream text;
+  text << std::setprecision(2) << 1000 * length << " mm";
+  return text.str();
+}
 
 void warn_if_coarse(const Mesh& mesh, const std::vector<Insertion>& lines, std::span<const Stroke> strokes,
                     WrinkleReport& report) {
@@ -141,11 +155,11 @@ void smooth(Mesh& mesh, const Moves& moves, const WrinkleOptions& options, const
   std::vector<Vertex> region(mesh.vertices().begin(), mesh.vertices().end());
   if (options.region == SmoothingRegion::two_ring) {
     std::vector<Vertex> centres;
-    for (const Displacement& d : moves.list)  // a line of height 0 changes no shape
-      if (d.height != 0 && !moves.profiled.count(d.vertex)) centres.push_back(d.vertex);
+    for (const Displacement& d : moves.lines)
+      if (d.height != 0) centres.push_back(d.vertex);  // a line of height 0 changes no shape
     region = two_ring(mesh, centres);
   }
-  std::erase_if(region, [&](Vertex v) { return held.count(v) > 0 || moves.profiled.count(v) > 0; });
+  std::erase_if(region, [&](Vertex v) { return held.count(v) > 0; });
   if (region.empty()) return;
   taubin_smooth(mesh, region, options.smoothing);
 }
@@ -177,11 +191,15 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   const RestSnapshot before = take_rest_snapshot(work);
   const Moves moves = displacements(work, lines, strokes, held);
   const std::vector<double> base = heights(work, options.first_line, strokes);
-  displace_line(work, moves.list);
-  const std::vector<double> drawn = heights(work, options.first_line, strokes);
-  tell(Stage::displaced, work);
+  displace_line(work, moves.lines);
+  Mesh displaced = work;
+  displace_line(displaced, moves.profiles);
+  const std::vector<double> drawn = heights(displaced, options.first_line, strokes);
+  tell(Stage::displaced, displaced);
 
   smooth(work, moves, options, held);
+  displace_line(work, moves.profiles);
+  press_stored_hinges(work, strokes, options.first_line);
   apply_rest_rule(work, before, options.rest);
   const std::vector<double> smoothed = heights(work, options.first_line, strokes);
   report.total_mass = lump_masses(work, options.density);

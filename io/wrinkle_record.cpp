@@ -7,6 +7,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/property_names.h"
+#include "geometry/stroke.h"
 #include "io/lower_case.h"
 
 namespace furrow::io {
@@ -38,6 +39,12 @@ WrinkleRecord::Line line_from(const nlohmann::ordered_json& json) {
   if (json.contains("width")) line.width = json["width"].get<double>();
   line.sharpness = json.value("sharpness", line.sharpness);
   line.press = json.value("press", line.press);
+  geometry::Stroke shape;
+  shape.width = line.width;
+  shape.sharpness = line.sharpness;
+  shape.press = line.press;
+  if (const std::string fault = shape_fault(shape); !fault.empty())
+    throw geometry::ContentError("the comment 'furrow wrinkle' is damaged: " + fault);
   return line;
 }
 

@@ -242,6 +242,24 @@ TEST_CASE("keep: lines drawn at random on coarse meshes and called held are held
   CHECK(held >= 6);
 }
 
+TEST_CASE("keep: a line whose height cannot be measured is told, and not held") {
+  Hung hung(1e-4);
+  hung.mesh = geometry::equilateral_sheet(0.3, 0.3, 0.02);
+  geometry::Stroke hem;
+  hem.height = 0.01;
+  hem.width = 0.08;
+  hem.points = {{-0.149, 0.03, 0}, {0.149, 0.03, 0}};
+  geometry::wrinkle(hung.mesh, std::span(&hem, 1), {});
+  hung.cloth = hung.gathered();
+  hung.options.line_widths = {0.08};
+  hung.options.seconds = 0.1;
+  hung.options.gust = 0;
+  const bridge::KeepReport report = hung.keep();
+  REQUIRE(report.lines.size() == 1);
+  CHECK(report.lines[0].verdict == Verdict::cannot_hold);
+  CHECK_THAT(report.lines[0].reason, Catch::Contains("measured"));
+}
+
 TEST_CASE("keep refuses options out of range, and changes nothing") {
   Hung hung(1e-4);
   const double before = hung.cloth.hinges[0].rest_angle;

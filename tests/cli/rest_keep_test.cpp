@@ -193,6 +193,10 @@ TEST_CASE("--rest keep: what it needs and what it refuses is told") {
           "lines.0.rest = \"keep\" needs hinges");
   run_json("simulate " + scene + " --stop-at 0.02 --save-state " + state);
   refuses("simulate --state " + state + " --rest keep" + out, 2, "furrow keep --state");
+  refuses("simulate --state " + state + kMoving + out, 3, "stand still");  // a round is still to come
+  const std::string all = scratch / "all.ply";
+  run_json("simulate " + scene + " --save-state " + all);
+  CHECK(run_furrow("simulate --state " + all + kMoving + " --seconds 0.2" + out).exit_code == 0);
 }
 
 TEST_CASE("--rest keep: a shape that nothing balances is warned of, with a way out") {

@@ -139,6 +139,71 @@ TEST_CASE("folds that meet: the highest ridge, the deepest valley, and both toge
   CHECK(height_at(mesh, 0.1, 0.201) == Approx(-0.01));
 }
 
+TEST_CASE("on a grid of right angles the fold goes to its feet, too, along the diagonals") {
+  Mesh mesh;
+  constexpr int n = 40;
+  constexpr double step = 0.005;
+  std::vector<Vertex> v;
+  for (int r = 0; r <= n; ++r)
+    for (int c = 0; c <= n; ++c) v.push_back(mesh.add_vertex({step * c, step * r, 0}));
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const int a = r * (n + 1) + c;
+      mesh.add_face(v[a], v[a + 1], v[a + n + 2]);
+      mesh.add_face(v[a], v[a + n + 2], v[a + n + 1]);
+    }
+  const Point from(0.05, 0.05, 0), to(0.15, 0.15, 0);
+  const Mesh folded = raised(mesh, {fold({from, to}, kHeight, 1)});
+  for (const Vertex u : mesh.vertices()) {  // new vertices come after these
+    const Point& p = mesh.point(u);
+    const double along = (p.x() + p.y()) / std::sqrt(2), across = std::abs(p.x() - p.y()) / std::sqrt(2);
+    if (along < 0.08 || along > 0.2 || across < 0.01) continue;
+    CHECK(folded.point(u).z() == Approx(kHeight * std::max(0.0, 1 - across / (kWidth / 2))).margin(2e-4));
+  }
+}
+
+TEST_CASE("a line without a width that crosses a fold is smoothed, whichever is first in the file") {
+  Stroke plain;
+  plain.height = 0.02;
+  plain.points = {{0, 0.08, 0}, {0, 0.26, 0}};
+  const Stroke wide = fold({{-0.1, 0.17, 0}, {0.1, 0.17, 0}});
+  const Mesh sheet = equilateral_sheet(0.3, 0.3, 0.01);
+  const Mesh alone = raised(sheet, {plain}), one = raised(sheet, {plain, wide}),
+             two = raised(sheet, {wide, plain});
+  CHECK(height_at(one, 0, 0.17) == Approx(height_at(two, 0, 0.17)).margin(2e-3));
+  CHECK(height_at(one, 0, 0.17) == Approx(height_at(alone, 0, 0.17) + kHeight).margin(2e-3));
+}
+
+TEST_CASE("a fold's press reaches hinges whose stiffness is stored") {
+  Mesh mesh = equilateral_sheet(0.3, 0.3, 0.01);
+  auto stiffness = mesh.add_property_map<Edge, double>(kHingeStiffness.name, kUnset).first;
+  for (Edge e : mesh.edges()) stiffness[e] = 2;
+  Stroke pressed = fold({{-0.1, 0.17, 0}, {0.1, 0.17, 0}});
+  pressed.press = 10;
+  wrinkle(mesh, std::vector<Stroke>{pressed});
+  const auto after = find_map(mesh, kHingeStiffness);
+  REQUIRE(after);
+  int near = 0, pressed_edges = 0;
+  for (Edge e : mesh.edges()) {
+    const Point &a = mesh.point(mesh.vertex(e, 0)), &b = mesh.point(mesh.vertex(e, 1));
+    if (!std::isfinite((*after)[e])) continue;  // of changed faces: gather() makes it, and presses it
+    if (std::abs(a.y() - 0.17) < 0.02 && std::abs(b.y() - 0.17) < 0.02 && std::abs(a.x()) < 0.1)
+      ++near, pressed_edges += (*after)[e] == 20;
+    if (std::abs(a.y() - 0.17) > 0.06 && std::abs(b.y() - 0.17) > 0.06) CHECK((*after)[e] == 2);
+  }
+  CHECK(pressed_edges == near);
+  CHECK(near > 50);
+}
+
+TEST_CASE("a fold along a border has a height that nobody can measure, and says so") {
+  Mesh mesh = equilateral_sheet(0.3, 0.3, 0.01);
+  Stroke hem = fold({{-0.149, 0.02, 0}, {0.149, 0.02, 0}});
+  const WrinkleReport report = wrinkle(mesh, std::vector<Stroke>{hem});
+  CHECK(std::isnan(report.lines.at(0).drawn_height));
+  CHECK(std::isfinite(height_at(mesh, 0, 0.02)));
+  CHECK(height_at(mesh, 0, 0.02) > 0.5 * kHeight);
+}
+
 TEST_CASE("a fold over the border raises the hem, and what is held stays") {
   Mesh sheet = equilateral_sheet(0.4, 0.4, 0.01);
   WrinkleOptions options;

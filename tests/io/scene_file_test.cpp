@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/errors.h"
+#include "io/check_keep.h"
 #include "io/relocated.h"
 
 using namespace furrow;
@@ -140,8 +141,24 @@ TEST_CASE("a kept shape needs hinges, and a body and pins that stand still") {
   CHECK(has(fault(keep), "a/s.toml:3:1: lines.0.rest = \"keep\" needs hinges"));
   CHECK(
       has(fault("[garment]\nmesh = \"g.obj\"\nrest = \"keep\"\n"), "a/s.toml:3:1: garment.rest = \"keep\""));
-  CHECK(has(fault(keep + hinges + "[[pins]]\nloop = \"top\"\nmotion.spin = {rate = 2}\n"), "stand still"));
-  CHECK(has(fault(keep + hinges + "[body]\nmesh = \"b\"\nmotion.spin = {rate = 2}\n"), "stand still"));
+  const auto moved = [&](const std::string& what, int lines_drawn) -> std::string {
+    const io::TomlDocument document =
+        io::parse_toml("[garment]\nmesh = \"g.obj\"\nrest = \"keep\"\n" + keep + hinges + what, "a/s.toml");
+    try {
+      io::check_keep_stands_still(io::read_scene(document, "a"), document, lines_drawn);
+    } catch (const geometry::ContentError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const std::string pins = "[[pins]]\nloop = \"top\"\nmotion.spin = {rate = 2}\n",
+                    body = "[body]\nmesh = \"b\"\nmotion.spin = {rate = 2}\n";
+  for (const std::string& what : {pins, body}) {
+    CHECK(has(moved(what, -1), "garment.rest = \"keep\" needs a body and pins that stand still"));
+    CHECK(has(moved(what, 0), "lines.0.rest = \"keep\""));  // resumed, a round is still to come
+    CHECK(moved(what, 1) == "");                            // resumed, all was kept before
+  }
+  CHECK(moved("", -1) == "");
 }
 
 TEST_CASE("a scene's faults are told with file, line, column and the nearest setting") {
