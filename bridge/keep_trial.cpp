@@ -95,8 +95,10 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   };
   const auto note = [&](std::vector<double>& kept) {  // the worst of several runs, and on their way
     const std::vector<double> now = shares();
-    for (std::size_t i = 0; i < kept.size(); ++i)
-      if (!(std::abs(now[i] - 1) <= std::abs(kept[i] - 1))) kept[i] = now[i];
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const double share = std::isfinite(now[i]) ? now[i] : std::numeric_limits<double>::infinity();
+      if (!(std::abs(share - 1) <= std::abs(kept[i] - 1))) kept[i] = share;  // the first time it is NaN
+    }
   };
   const auto on_to = [&](double seconds, const Vec3& gravity) {
     physics::SimulateOptions options = o.run;

@@ -9,6 +9,7 @@
 #include "bridge/store_rest_state.h"
 #include "cli/camera_options.h"
 #include "cli/judge_report.h"
+#include "cli/keep_at_rest.h"
 #include "cli/keep_report.h"
 #include "cli/prepare_garment.h"
 #include "cli/run_warnings.h"
@@ -167,6 +168,7 @@ int keep(KeepArguments& a) {
   physics::soften_clamps(garment.cloth);
   bridge::store_rest_state(garment.cloth, spring_options(garment.file, scene.material), garment.file.mesh);
   if (!scene.output.state.empty()) write_kept_state(scene, document, folder, garment, std::move(state));
+  warn_if_shape_only(scene.output.mesh, common);
   if (!scene.output.mesh.empty()) write_mesh(scene.output.mesh.string(), garment.file, common);
   if (!a.picture.empty()) {
     const std::vector<io::RenderScene> scenes{verdict_scene(garment.file.mesh, report)};

@@ -10,6 +10,7 @@
 #include "cli/keep_report.h"
 #include "cli/prepare_garment.h"
 #include "cli/scene_cloth.h"
+#include "io/lower_case.h"
 #include "physics/pins.h"
 
 namespace furrow::cli {
@@ -31,6 +32,11 @@ void warn_of(const bridge::KeptShape& shape, bool moving, const CommonArguments&
 }
 
 }  // namespace
+
+void warn_if_shape_only(const std::filesystem::path& mesh, const CommonArguments& common) {
+  if (!mesh.empty() && io::lower_case(mesh.extension().string()) != ".ply")
+    warn(mesh.string() + ": holds the shape alone; the rest state that keeps it goes into a .ply", common);
+}
 
 bool keeps_first_shape(const io::Scene& scene) {
   return scene.keep || std::any_of(scene.lines.begin(), scene.lines.end(),

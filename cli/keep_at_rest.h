@@ -21,4 +21,7 @@ Json keep_at_rest(io::MeshFile& file, const io::Scene& scene, const std::vector<
                   const WorldBody* body, double time, double settled_gap, physics::SimulateState* moving,
                   const CommonArguments& common);
 
+/// Warns that a file of that name holds the shape, and not the rest state that keeps it.
+void warn_if_shape_only(const std::filesystem::path& mesh, const CommonArguments& common);
+
 }  // namespace furrow::cli

@@ -119,6 +119,7 @@ void wrinkle(WrinkleArguments a) {
   }
   if (a.max_weights) limit_noted_weights(file, *a.max_weights);
   if (inserted) write_preview(preview_of(*inserted, before, round.report, *io::find_wrinkle_record(file)), a);
+  if (scene) warn_if_shape_only(a.out, a);
   if (!a.out.empty()) write_result(a, drawing);
   Json json = to_json(round.report, file.mesh, round.first_line);
   if (round.moving) json["moving"] = to_json(*round.moving, drawing.state->simulation.time);

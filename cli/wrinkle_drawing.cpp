@@ -7,6 +7,7 @@
 #include "cli/max_weights.h"
 #include "cli/recorded_options.h"
 #include "geometry/errors.h"
+#include "geometry/property_names.h"
 #include "io/bytes_file.h"
 #include "io/resolve_strokes.h"
 #include "io/stroke_file.h"
@@ -41,13 +42,16 @@ void take_options(WrinkleArguments& a, const io::WrinkleRecord& record) {
 
 /// The untouched garment and the strokes of a wrinkled mesh, and the options that it was made with.
 Drawing drawing_again(WrinkleArguments& a) {
-  const auto record = io::find_wrinkle_record(read_mesh(a.in, a));
+  const io::MeshFile wrinkled = read_mesh(a.in, a);
+  const auto record = io::find_wrinkle_record(wrinkled);
   if (!record || record->strokes.empty() || record->garment.empty())
     throw UsageError(a.in + " holds no strokes to draw again: name a file of strokes");
   if (a.typed->count("--height"))
     throw UsageError("--height: the strokes of " + a.in +
                      " have theirs; change them with furrow strokes --height, and draw that file");
   take_options(a, *record);
+  if (a.rest != "keep" && geometry::find_map(wrinkled.mesh, geometry::kHingeStiffness))
+    warn(a.in + " was kept; its lines are drawn again without that: add --rest keep, or keep the result", a);
   const std::string garment = find_garment(*record, a.in);
   refuse_same({a.out, a.inserted, a.preview, a.camera.save_camera}, {garment});
   return {read_garment(garment, a), garment, io::drawn_strokes_from(record->strokes, a.in), {}};
