@@ -19,8 +19,8 @@ struct KeepOptions {
   double gust = 12;                  ///< then an acceleration to one side [m/s^2]; >= 0; 0: no gust
   double gust_seconds = 0.4, calm_seconds = 2;  ///< [s]; > 0
   physics::Vec3 gust_direction{0, 0, 0};        ///< 0: level, the way in which the cloth is thinnest
-  /// A shape that is not stable is run so many times, each vertex pushed off by so much, or
-  /// a tenth of its shortest edge, another way each time.
+  /// Each run begins with every vertex pushed off by `push`, or a tenth of its shortest edge, another way each
+  /// time; a shape that is not stable is run so many times.
   int pushes = 2;      ///< >= 1
   double push = 5e-4;  ///< [m]; > 0
   double kept = 0.95;  ///< share of the height that a line must keep, and not outgrow by more [-]; in (0, 1)

@@ -114,7 +114,8 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   for (int run = 1; run <= runs; ++run, done += o.seconds) {
     cloth = start;
     state = {};
-    if (!stable) push(cloth, o.push, std::uint64_t(run)), next_look = first_look;
+    push(cloth, o.push, std::uint64_t(run));
+    if (!stable) next_look = first_look;
     if (!on_to(first_part * o.seconds, o.run.gravity)) return {unknown, unknown, 0, trial.stopped};
     if (const std::vector<double> early = shares(); in_vain && in_vain(early)) return {early, unknown};
     if (!on_to(o.seconds, o.run.gravity)) return {unknown, unknown, 0, trial.stopped};

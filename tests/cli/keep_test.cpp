@@ -45,7 +45,7 @@ gravity = [0, 0, -9.81]
 TEST_CASE("furrow keep: the state goes on with the lines as drawn, all rounds of time 0 in it, at rest") {
   const ScratchDirectory scratch;
   const std::string scene = write_scene(scratch), state = scratch / "kept.ply";
-  const Run run = run_furrow("keep --json --run 0.1 " + scene + " --save-state " + state);
+  const Run run = run_furrow("keep --json --run 1 " + scene + " --save-state " + state);
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
   const json report = json::parse(run.out);
