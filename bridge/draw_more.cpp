@@ -40,14 +40,15 @@ void keep_momentum(Mesh& mesh, physics::Particles& p, const Vec3& wanted, std::s
   scatter_velocities(p, mesh);
 }
 
-/// The springs' options with the presses of new lines.
+/// The springs' options with the presses of new lines; those of earlier ones stay.
 GatherOptions with_lines(GatherOptions springs, std::span<const Stroke> strokes, int first_line) {
-  springs.line_presses.resize(static_cast<std::size_t>(first_line), 1);
-  springs.line_widths.resize(static_cast<std::size_t>(first_line), kUnset);
-  for (const Stroke& stroke : strokes) {
-    springs.line_presses.push_back(stroke.press);
-    springs.line_widths.push_back(stroke.width.value_or(kUnset));
-  }
+  const LineShapes fresh = line_shapes(strokes, first_line);
+  const auto join = [&](std::vector<double>& list, const std::vector<double>& all, double missing) {
+    list.resize(static_cast<std::size_t>(first_line), missing);
+    list.insert(list.end(), all.begin() + first_line, all.end());
+  };
+  join(springs.line_presses, fresh.presses, 1);
+  join(springs.line_widths, fresh.widths, kUnset);
   return springs;
 }
 

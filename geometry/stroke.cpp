@@ -3,7 +3,19 @@
 
 #include <cmath>
 
+#include "geometry/property_names.h"
+
 namespace furrow::geometry {
+
+LineShapes line_shapes(std::span<const Stroke> strokes, int first_line) {
+  LineShapes shapes{std::vector<double>(static_cast<std::size_t>(first_line), 1),
+                    std::vector<double>(static_cast<std::size_t>(first_line), kUnset)};
+  for (const Stroke& stroke : strokes) {
+    shapes.presses.push_back(stroke.press);
+    shapes.widths.push_back(stroke.width.value_or(kUnset));
+  }
+  return shapes;
+}
 
 std::string shape_fault(const Stroke& stroke) {
   const auto fault = [](const char* key, double value, const char* range) {

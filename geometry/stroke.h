@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,13 @@ struct Stroke {
   double sharpness = 0.5;  ///< of the crest, goes with a width [-]; [0, 1]: see line_profile()
   double press = 1;        ///< factor on the stiffness of the hinges in the line's region [-]; [1, 1e6]
 };
+
+/// Presses [-] and widths [m, NaN: none] of lines by their ids: of the strokes from `first_line` on; of those
+/// before it 1, and none.
+struct LineShapes {
+  std::vector<double> presses, widths;
+};
+LineShapes line_shapes(std::span<const Stroke> strokes, int first_line);
 
 /// What is wrong with width, sharpness or press, with the key and its value; empty if nothing is.
 std::string shape_fault(const Stroke& stroke);

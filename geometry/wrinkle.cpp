@@ -92,12 +92,8 @@ Moves displacements(const Mesh& mesh, const std::vector<Insertion>& lines, std::
 void press_stored_hinges(Mesh& mesh, std::span<const Stroke> strokes, int first_line) {
   const auto stiffness = find_map(mesh, kHingeStiffness);
   if (!stiffness) return;
-  std::vector<double> presses(static_cast<std::size_t>(first_line), 1), widths(presses.size(), kUnset);
-  for (const Stroke& stroke : strokes) {
-    presses.push_back(stroke.press);
-    widths.push_back(stroke.width.value_or(kUnset));
-  }
-  const std::vector<double> factors = hinge_presses(mesh, presses, widths);
+  const LineShapes shapes = line_shapes(strokes, first_line);
+  const std::vector<double> factors = hinge_presses(mesh, shapes.presses, shapes.widths);
   if (factors.empty()) return;
   for (Edge e : mesh.edges()) (*stiffness)[e] *= factors[e.idx()];  // unset: NaN stays
 }
@@ -143,9 +139,8 @@ std::vector<Insertion> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
 
 /// Heights of the strokes' lines, from id `first` on; NaN for one whose vertices all went to later lines.
 std::vector<double> heights(const Mesh& mesh, int first, std::span<const Stroke> strokes) {
-  std::vector<double> widths(static_cast<std::size_t>(first), kUnset), result(strokes.size(), kUnset);
-  for (const Stroke& stroke : strokes) widths.push_back(stroke.width.value_or(kUnset));
-  for (const LineHeight& h : line_heights(mesh, widths))
+  std::vector<double> result(strokes.size(), kUnset);
+  for (const LineHeight& h : line_heights(mesh, line_shapes(strokes, first).widths))
     if (h.line >= first && static_cast<std::size_t>(h.line - first) < strokes.size())
       result[h.line - first] = h.height;
   return result;

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "hung_patch.h"
 #include "run_furrow.h"
 #include "tests/test_paths.h"
 
@@ -26,17 +27,8 @@ height = 0.004
 [[lines]]
 strokes = "b.json"
 height = 0.004
-[[pins]]
-box = [-1, -1, 0.0499, 1, 1, 1]
-[material]
-membrane = "triangles"
-stretch = 100
-bending_law = "hinge"
-rigidity = 1e-4
-drag = 4
-[forces]
-gravity = [0, 0, -9.81]
-)");
+)" + std::string(kHungPatch) +
+                       "drag = 4\n");
   return path;
 }
 

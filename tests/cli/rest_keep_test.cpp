@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "hung_patch.h"
 #include "io/mesh_file.h"
 #include "run_furrow.h"
 #include "tests/test_paths.h"
@@ -56,18 +57,7 @@ rest = "keep"
 strokes = "b.json"
 rest = "keep"
 time = 0.05
-[[pins]]
-box = [-1, -1, 0.0499, 1, 1, 1]
-[material]
-membrane = "triangles"
-stretch = 100
-bending_law = "hinge"
-rigidity = 1e-4
-[forces]
-gravity = [0, 0, -9.81]
-[simulation]
-seconds = 0.1
-)");
+)" + kHungPatch + "[simulation]\nseconds = 0.1\n");
   return path;
 }
 
