@@ -21,30 +21,6 @@ constexpr double share_of_mode = 0.1;  // of an unstable motion's energy that ma
 constexpr double out_of_balance = 1e-6;
 constexpr double reserve = 0.4;  // of what a line may lose or win, where the shape is not stable
 
-void check(const geometry::Mesh& mesh, const physics::Cloth& cloth, const physics::World& world,
-           const KeepOptions& o) {
-  const auto need = [](bool good, const char* what, double value) {
-    if (!good)
-      throw std::invalid_argument("keep_lines: " + std::string(what) + " = " + std::to_string(value));
-  };
-  need(mesh.number_of_vertices() == cloth.particles.size(), "particles for another mesh",
-       double(cloth.particles.size()));
-  need(o.seconds > 0, "seconds", o.seconds);
-  need(o.gust >= 0 && std::isfinite(o.gust), "gust", o.gust);
-  need(o.gust_seconds > 0, "gust_seconds", o.gust_seconds);
-  need(o.calm_seconds > 0, "calm_seconds", o.calm_seconds);
-  need(o.pushes >= 1, "pushes", o.pushes);
-  need(o.push > 0 && std::isfinite(o.push), "push", o.push);
-  need(o.kept > 0 && o.kept < 1, "kept", o.kept);
-  need(o.largest_turn >= 0, "largest_turn", o.largest_turn);
-  need(o.height_trials >= 0, "height_trials", o.height_trials);
-  double last = 1;
-  for (const double factor : o.presses)
-    need(factor > last, "presses do not rise above 1", factor), last = factor;
-  for (const double k : o.struts) need(k > 0, "struts", k);
-  require_still(world);
-}
-
 class Keeper {
  public:
   Keeper(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
@@ -69,6 +45,7 @@ class Keeper {
 
   KeepReport run() {
     help_by_stiffness();
+    if (!report_.interrupted) help_all();
     if (!report_.interrupted && o_.height_trials > 0 && geometry::find_map(mesh_, geometry::kRestPosition))
       help_by_height();
     scatter(solved_.particles, mesh_);
@@ -181,6 +158,11 @@ class Keeper {
     return std::abs(line.kept - 1) <= most && std::abs(line.kept_gust - 1) <= most;
   }
 
+  bool good(const HelpedLine& line, const std::vector<HelpedLine*>& loose) const {
+    return holds(line) && !is_bound(line) && !hangs_wrong() &&
+           std::none_of(loose.begin(), loose.end(), [&](const HelpedLine* l) { return l->id == line.id; });
+  }
+
   void help_by_stiffness() {
     for (;;) {
       solve();
@@ -194,6 +176,29 @@ class Keeper {
       for (HelpedLine* line : weak) ++line->step;
       rest_step_ += rest ? 1 : 0;
     }
+  }
+
+  std::size_t failing() {
+    const std::vector<HelpedLine*> loose = lines_of_mode();
+    return std::count_if(lines_.begin(), lines_.end(), [&](const auto& line) { return !good(line, loose); });
+  }
+
+  /// All help for all lines: a neighbour that holds by itself can let a line go. Stays if more lines hold.
+  void help_all() {
+    const std::size_t before = failing();
+    if (before == 0 || hangs_wrong()) return;
+    if (std::all_of(lines_.begin(), lines_.end(), [&](const auto& l) { return l.step == help_steps(o_); }))
+      return;
+    const std::vector<HelpedLine> least = lines_;
+    const KeepReport of_least = report_;
+    const physics::Cloth solved = solved_;
+    for (HelpedLine& line : lines_) line.step = help_steps(o_);
+    solve();
+    run_forward(false);
+    if (report_.interrupted || failing() < before) return;
+    KeepReport counted = of_least;
+    counted.trials = report_.trials, counted.runs = report_.runs;
+    lines_ = least, report_ = counted, solved_ = solved;
   }
 
   /// Bisects the heights of all lines that fail at once.
@@ -210,9 +215,7 @@ class Keeper {
       run_forward(false);
       for (std::size_t i = 0; i < low.size(); ++i) {
         HelpedLine* line = low[i].first;
-        const bool good =
-            holds(*line) && !is_bound(*line) && std::find(loose.begin(), loose.end(), line) == loose.end();
-        (good ? low[i].second : high[i]) = line->height;
+        (good(*line, loose) ? low[i].second : high[i]) = line->height;
       }
     }
     for (auto& [line, height] : low) line->height = height > 0 ? height : 1;
@@ -230,9 +233,9 @@ class Keeper {
     v.kept = line.kept;
     v.kept_gust = line.kept_gust;
     const std::vector<HelpedLine*> loose = lines_of_mode();
-    const bool of_mode =
-        std::any_of(loose.begin(), loose.end(), [&](const HelpedLine* l) { return l->id == line.id; });
-    if (!holds(line) || of_mode || is_bound(line) || hangs_wrong()) {
+    if (!good(line, loose)) {
+      const bool of_mode =
+          std::any_of(loose.begin(), loose.end(), [&](const HelpedLine* l) { return l->id == line.id; });
       v.reason = reason(of_mode, is_bound(line));
       return v;
     }
@@ -268,7 +271,11 @@ class Keeper {
 KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
                       const std::vector<double>& base, const KeepOptions& options,
                       const std::function<bool(double)>& go_on) {
-  check(mesh, cloth, world, options);
+  if (mesh.number_of_vertices() != cloth.particles.size())
+    throw std::invalid_argument("keep_lines: particles for another mesh = " +
+                                std::to_string(cloth.particles.size()));
+  require_legal(options);
+  require_still(world);
   return Keeper(mesh, cloth, world, base, options, go_on).run();
 }
 

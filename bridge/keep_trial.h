@@ -29,8 +29,8 @@ struct KeepTrial {
   bool stopped = false;  ///< by go_on
 };
 /// Runs a cloth forward from rest, then through a gust and a calm, as the options say; the cloth is not
-/// changed. Each run begins with a push of every vertex: what is not stable would stand still like a pencil on
-/// its tip, and what is may lie in a shallow hollow. stable: what its certificate says; if not, there are
+/// changed. Each run begins with a push of every vertex: what is not stable would stand still like a pencil
+/// on its tip, and what is may lie in a shallow hollow. stable: what its certificate says; if not, there are
 /// options.pushes runs, and of `kept` the worst counts, at any time from 0.5 s on. in_vain: asked at a fifth
 /// of each first run with what the lines have kept until then; true: that is enough, `kept` is what it was
 /// asked with. Both functions may be empty.

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/keep_options.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace furrow::bridge {
+
+void require_legal(const KeepOptions& o) {
+  const auto need = [](bool good, const char* what, double value) {
+    if (!good)
+      throw std::invalid_argument("keep_lines: " + std::string(what) + " = " + std::to_string(value));
+  };
+  need(o.seconds > 0, "seconds", o.seconds);
+  need(o.gust >= 0 && std::isfinite(o.gust), "gust", o.gust);
+  need(o.gust_seconds > 0, "gust_seconds", o.gust_seconds);
+  need(o.calm_seconds > 0, "calm_seconds", o.calm_seconds);
+  need(o.pushes >= 1, "pushes", o.pushes);
+  need(o.push > 0 && std::isfinite(o.push), "push", o.push);
+  need(o.kept > 0 && o.kept < 1, "kept", o.kept);
+  need(o.largest_turn >= 0, "largest_turn", o.largest_turn);
+  need(o.height_trials >= 0, "height_trials", o.height_trials);
+  double last = 1;
+  for (const double factor : o.presses)
+    need(factor > last, "presses do not rise above 1", factor), last = factor;
+  for (const double k : o.struts) need(k > 0, "struts", k);
+}
+
+}  // namespace furrow::bridge
