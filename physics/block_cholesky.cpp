@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "physics/block_cholesky.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/OrderingMethods>
 #include <algorithm>
 
@@ -146,78 +145,125 @@ void BlockCholesky::analyse(const Sparse& lower) {
   Lists below = order(lower);
   make_fronts(below);
   find_blocks(lower);
+  share_out();
+}
+
+/// Divides the tree of fronts: branches for each thread, and the trunk that they grow from.
+void BlockCholesky::share_out() {
+  std::vector<double> cost(fronts_.size());
+  std::vector<int> lowest(fronts_.size());  // front of its branch; a branch is a range
+  for (std::size_t i = 0; i < fronts_.size(); ++i) {
+    const double w = fronts_[i].width, n = w + double(fronts_[i].rows.size());
+    cost[i] += w * n * n;
+    lowest[i] = int(i);
+    for (const int child : fronts_[i].children) lowest[i] = std::min(lowest[i], lowest[std::size_t(child)]);
+    if (fronts_[i].parent >= 0) cost[std::size_t(fronts_[i].parent)] += cost[i];
+  }
+  const auto heavier = [&](int a, int b) { return cost[a] != cost[b] ? cost[a] > cost[b] : a < b; };
+  std::vector<int> branches;
+  for (std::size_t i = 0; i < fronts_.size(); ++i)
+    if (fronts_[i].parent < 0) branches.push_back(int(i));
+  trunk_.clear();
+  for (;;) {
+    std::sort(branches.begin(), branches.end(), heavier);
+    if (branches.empty() || branches.size() >= most_branches || fronts_[branches[0]].children.empty()) break;
+    trunk_.push_back(branches[0]);
+    branches.erase(branches.begin());
+    const std::vector<int>& children = fronts_[std::size_t(trunk_.back())].children;
+    branches.insert(branches.end(), children.begin(), children.end());
+  }
+  std::sort(trunk_.begin(), trunk_.end());
+  std::array<double, shares> load{};
+  for (auto& share : shares_) share.clear();
+  for (const int b : branches) {
+    const auto lightest = std::min_element(load.begin(), load.end()) - load.begin();
+    load[std::size_t(lightest)] += cost[b];
+    shares_[std::size_t(lightest)].push_back({lowest[b], b + 1});
+  }
 }
 
 /// The matrix's own entries of a front.
-void BlockCholesky::fill(const Front& f, const double* values, double shift, Eigen::MatrixXd& a) {
+void BlockCholesky::fill(const Front& f, const double* values, double shift, DenseFront a) {
   for (const Block& b : f.blocks) {
     const bool diagonal = b.row == b.column;
     for (int e = 0; e < 3; ++e) {
       for (int g = diagonal ? e : 0; g < 3; ++g) {
         const double v = values[b.value[e] + g - (diagonal ? e : 0)];
-        a(3 * b.row + (b.transposed ? e : g), 3 * b.column + (b.transposed ? g : e)) += v;
+        const std::ptrdiff_t row = 3 * b.row + (b.transposed ? e : g),
+                             column = 3 * b.column + (b.transposed ? g : e);
+        a.panel[row + column * a.stride] += v;
       }
     }
   }
-  a.diagonal().head(3 * f.width).array() += shift;
+  for (std::ptrdiff_t c = 0; c < a.width; ++c) a.panel[c + c * a.stride] += shift;
 }
 
 /// Adds to a front what a child left; lower triangles.
-void BlockCholesky::extend(const Front& child, const Eigen::MatrixXd& update, Eigen::MatrixXd& a) {
-  for (Eigen::Index c = 0; c < update.cols(); ++c) {
-    auto to = a.col(3 * child.place[std::size_t(c / 3)] + c % 3);
-    for (Eigen::Index r = c; r < update.rows(); ++r)
-      to[3 * child.place[std::size_t(r / 3)] + r % 3] += update(r, c);
+void BlockCholesky::extend(const Front& child, DenseFront a, std::vector<double>& update) {
+  const int n = 3 * int(child.rows.size()), from = padded(n), to = padded(a.height - a.width);
+  for (int c = 0; c < n; ++c) {
+    const int column = 3 * child.place[std::size_t(c / 3)] + c % 3;
+    const double* source = child.update.data() + std::ptrdiff_t(c) * from;
+    double* target = column < a.width ? a.panel + std::ptrdiff_t(column) * a.stride
+                                      : update.data() + std::ptrdiff_t(column - a.width) * to - a.width;
+    for (int r = c - c % 3; r < n; r += 3) {  // above the diagonal is what nobody reads
+      double* t = target + 3 * child.place[std::size_t(r / 3)];
+      t[0] += source[r], t[1] += source[r + 1], t[2] += source[r + 2];
+    }
   }
 }
 
-bool BlockCholesky::factorise(const Sparse& lower, double shift) {
-  std::vector<Eigen::MatrixXd> update(fronts_.size());  // what a front leaves to its parent; lower triangle
-  for (std::size_t i = 0; i < fronts_.size(); ++i) {
-    Front& f = fronts_[i];
-    const Eigen::Index w = 3 * f.width, n = w + 3 * Eigen::Index(f.rows.size());
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
-    fill(f, lower.valuePtr(), shift, a);
-    for (const int child : f.children) {
-      extend(fronts_[std::size_t(child)], update[std::size_t(child)], a);
-      update[std::size_t(child)].resize(0, 0);
-    }
-    Eigen::Ref<Eigen::MatrixXd> pivot = a.topLeftCorner(w, w);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(pivot);  // in place
-    if (factor.info() != Eigen::Success || !pivot.diagonal().allFinite()) return false;
-    auto side = a.bottomLeftCorner(n - w, w);
-    pivot.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(side);
-    if (n > w) {
-      update[i] = a.bottomRightCorner(n - w, n - w);
-      update[i].selfadjointView<Eigen::Lower>().rankUpdate(side, -1);
-    }
-    f.panel = a.leftCols(w);
+bool BlockCholesky::eliminate(int number, const double* values, double shift) {
+  Front& f = fronts_[std::size_t(number)];
+  const DenseFront a = f.dense();
+  const int rest = a.height - a.width;
+  std::fill(f.panel.begin(), f.panel.end(), 0.0);
+  f.update.assign(std::size_t(rest) * std::size_t(padded(rest)), 0.0);
+  fill(f, values, shift, a);
+  for (const int child : f.children) {
+    extend(fronts_[std::size_t(child)], a, f.update);
+    fronts_[std::size_t(child)].update = {};
   }
+  if (!physics::eliminate(a)) return false;
+  subtract_square(a, f.update.data(), padded(rest));
   return true;
 }
 
+bool BlockCholesky::factorise(const Sparse& lower, double shift, ThreadPool* pool) {
+  for (Front& f : fronts_) f.panel.resize(std::size_t(f.dense().stride) * std::size_t(3 * f.width) + 4);
+  std::array<char, shares> good;
+  good.fill(true);
+  const auto work = [&](int begin, int end) {
+    for (int s = begin; s < end; ++s)
+      for (const auto& [first, last] : shares_[std::size_t(s)])
+        for (int i = first; i < last && good[s]; ++i) good[s] = eliminate(i, lower.valuePtr(), shift);
+  };
+  if (pool)
+    pool->run(shares, work);
+  else
+    work(0, shares);
+  return std::count(good.begin(), good.end(), true) == shares &&
+         std::all_of(trunk_.begin(), trunk_.end(),
+                     [&](int i) { return eliminate(i, lower.valuePtr(), shift); });
+}
+
 void BlockCholesky::solve(Eigen::VectorXd& b) const {
-  Eigen::VectorXd x(b.size());
+  Eigen::VectorXd x(b.size()), below;
   for (int i = 0; i < blocks_; ++i) x.segment<3>(3 * position_[i]) = b.segment<3>(3 * i);
-  Eigen::VectorXd below;
   const auto gather = [&](const Front& f) {
     below.resize(3 * Eigen::Index(f.rows.size()));
     for (std::size_t r = 0; r < f.rows.size(); ++r)
       below.segment<3>(3 * Eigen::Index(r)) = x.segment<3>(3 * f.rows[r]);
   };
   for (const Front& f : fronts_) {
-    auto own = x.segment(3 * f.first, 3 * f.width);
-    f.panel.topRows(own.size()).triangularView<Eigen::Lower>().solveInPlace(own);
     gather(f);
-    below.noalias() -= f.panel.bottomRows(below.size()) * own;
+    substitute_forward(f.dense(), x.data() + 3 * f.first, below.data());
     for (std::size_t r = 0; r < f.rows.size(); ++r)
       x.segment<3>(3 * f.rows[r]) = below.segment<3>(3 * Eigen::Index(r));
   }
   for (auto f = fronts_.rbegin(); f != fronts_.rend(); ++f) {
-    auto own = x.segment(3 * f->first, 3 * f->width);
     gather(*f);
-    own.noalias() -= f->panel.bottomRows(below.size()).transpose() * below;
-    f->panel.topRows(own.size()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    substitute_backward(f->dense(), x.data() + 3 * f->first, below.data());
   }
   for (int i = 0; i < blocks_; ++i) b.segment<3>(3 * i) = x.segment<3>(3 * position_[i]);
 }

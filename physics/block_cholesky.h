@@ -5,6 +5,9 @@
 #include <array>
 #include <vector>
 
+#include "physics/dense_front.h"
+#include "physics/thread_pool.h"
+
 namespace furrow::physics {
 
 /// Cholesky factors L L^T of a sparse symmetric matrix of 3 x 3 blocks, by dense fronts (multifrontal
@@ -25,7 +28,7 @@ class BlockCholesky {
   void analyse(const Sparse& lower);
   /// Factorises matrix + shift I; false if it is not positive definite or not finite. Needs the pattern of
   /// analyse(). Same input, same bits.
-  bool factorise(const Sparse& lower, double shift);
+  bool factorise(const Sparse& lower, double shift, ThreadPool* pool = nullptr);
   /// b becomes the solution. Needs factorise() true.
   void solve(Eigen::VectorXd& b) const;
 
@@ -42,16 +45,26 @@ class BlockCholesky {
     std::vector<int> place;  // of these rows in the parent
     std::vector<int> children;
     std::vector<Block> blocks;
-    Eigen::MatrixXd panel;  // L, its columns
+    std::vector<double> panel, update;  // L, its columns; what it leaves to its parent, lower triangle
+    DenseFront dense() const {
+      const int height = 3 * (width + int(rows.size()));
+      return {const_cast<double*>(panel.data()), height, 3 * width, padded(height)};
+    }
   };
   std::vector<std::vector<int>> order(const Sparse& lower);
   void make_fronts(std::vector<std::vector<int>>& below);
   void join_parents(std::vector<Front>& fronts) const;
   void find_blocks(const Sparse& lower);
-  static void fill(const Front& front, const double* values, double shift, Eigen::MatrixXd& a);
-  static void extend(const Front& child, const Eigen::MatrixXd& update, Eigen::MatrixXd& a);
+  void share_out();
+  static void fill(const Front& front, const double* values, double shift, DenseFront a);
+  static void extend(const Front& child, DenseFront a, std::vector<double>& update);
+  bool eliminate(int front, const double* values, double shift);
 
-  int blocks_ = 0;             // rows of blocks
+  static constexpr int shares = 8;
+  static constexpr std::size_t most_branches = 32;
+  std::array<std::vector<std::array<int, 2>>, shares> shares_;  // ranges of fronts, of about the same cost
+  std::vector<int> trunk_;                                      // fronts that come after them
+  int blocks_ = 0;                                              // rows of blocks
   std::vector<int> position_;  // of each row of blocks in the order of elimination
   std::vector<Front> fronts_;  // children before parents
 };

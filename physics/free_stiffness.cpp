@@ -77,12 +77,12 @@ void FreeStiffness::add(int particle, const Mat3& block) {
   }
 }
 
-bool FreeStiffness::factorise_definite(double shift) {
+bool FreeStiffness::factorise_definite(double shift, ThreadPool* pool) {
   is_definite_ = true;
   if (free_particles_ == 0) return true;
   if (!definite_analysed_) definite_.analyse(matrix_);
   definite_analysed_ = true;
-  return definite_.factorise(matrix_, shift);
+  return definite_.factorise(matrix_, shift, pool);
 }
 
 int FreeStiffness::factorise(double shift) {

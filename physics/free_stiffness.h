@@ -34,8 +34,8 @@ class FreeStiffness {
   /// positive definite should be used with care.
   int factorise(double shift = 0);
   /// K + shift I = L L^T by dense fronts (BlockCholesky), several times faster for thousands of particles;
-  /// false if it is not positive definite.
-  bool factorise_definite(double shift = 0);
+  /// false if it is not positive definite. pool: threads that share the work (null: the caller alone).
+  bool factorise_definite(double shift = 0, ThreadPool* pool = nullptr);
   /// b becomes the solution in rows of free particles, 0 in the others. Needs
   /// factorise() >= 0 or factorise_definite() true, whichever was last.
   void solve(std::span<Vec3> b) const;

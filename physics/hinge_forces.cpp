@@ -124,7 +124,7 @@ void add_hinge_stiffness(std::span<const Vec3> x, std::span<const Hinge> hinges,
   for (const Hinge& h : hinges) {
     const Dihedral d = dihedral_of(x, h);
     const HingeMoment m = hinge_moment(law, h.stiffness, bend(d.angle, h.rest_angle));
-    hand_out(h, stiffness_of(x, h, d, m.curvature, stiffness == Stiffness::exact ? m.moment : 0), sink);
+    hand_out(h, stiffness_of(x, h, d, m.curvature, (1 - stiffness.clamped) * m.moment), sink);
   }
 }
 

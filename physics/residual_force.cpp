@@ -24,16 +24,8 @@ double after_contact(const Vec3& f, const Vec3& n, double friction) {
 
 }  // namespace
 
-double residual_force(const Cloth& cloth, const Vec3& gravity, const Collider* collider, double friction,
-                      double gap, std::span<const Vec3> loads) {
-  const Particles& p = cloth.particles;
-  std::vector<Vec3> force(p.size(), Vec3::Zero());
-  if (!loads.empty() && loads.size() != p.size()) {
-    throw std::invalid_argument("residual_force: " + std::to_string(p.size()) + " particles, but " +
-                                std::to_string(loads.size()) + " loads");
-  }
-  std::copy(loads.begin(), loads.end(), force.begin());
-  add_forces(cloth, p.x, force);
+double residual_of(std::span<const Vec3> force, const Particles& p, const Vec3& gravity,
+                   const Collider* collider, double friction, double gap) {
   const double g = gravity.norm() > 0 ? gravity.norm() : standard_gravity;
   double largest = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -51,6 +43,19 @@ double residual_force(const Cloth& cloth, const Vec3& gravity, const Collider* c
     if (std::isnan(largest)) return largest;
   }
   return largest;
+}
+
+double residual_force(const Cloth& cloth, const Vec3& gravity, const Collider* collider, double friction,
+                      double gap, std::span<const Vec3> loads) {
+  const Particles& p = cloth.particles;
+  std::vector<Vec3> force(p.size(), Vec3::Zero());
+  if (!loads.empty() && loads.size() != p.size()) {
+    throw std::invalid_argument("residual_force: " + std::to_string(p.size()) + " particles, but " +
+                                std::to_string(loads.size()) + " loads");
+  }
+  std::copy(loads.begin(), loads.end(), force.begin());
+  add_forces(cloth, p.x, force);
+  return residual_of(force, p, gravity, collider, friction, gap);
 }
 
 }  // namespace furrow::physics

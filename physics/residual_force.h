@@ -17,4 +17,8 @@ namespace furrow::physics {
 double residual_force(const Cloth& cloth, const Vec3& gravity, const Collider* collider, double friction,
                       double gap, std::span<const Vec3> loads = {});
 
+/// The same of forces [N] that are known: of elements and loads, without weight and contact, one a particle.
+double residual_of(std::span<const Vec3> force, const Particles& particles, const Vec3& gravity,
+                   const Collider* collider, double friction, double gap);
+
 }  // namespace furrow::physics

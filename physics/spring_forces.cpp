@@ -55,7 +55,7 @@ void add_spring_stiffness_product(std::span<const Vec3> x, std::span<const Sprin
     const double l2 = d.squaredNorm();
     if (l2 == 0) continue;
     double transverse = s.stiffness * (1 - s.rest_length / std::sqrt(l2));
-    if (stiffness == Stiffness::positive_part) transverse = std::max(transverse, 0.0);
+    if (transverse < 0) transverse *= 1 - stiffness.clamped;
     const Vec3 w = u[s.a] - u[s.b];
     const Vec3 f = transverse * w + ((s.stiffness - transverse) * d.dot(w) / l2) * d;
     product[s.a] += f;
@@ -72,7 +72,7 @@ void add_spring_stiffness(std::span<const Vec3> x, std::span<const Spring> sprin
     Mat3 block = Mat3::Zero();
     if (l2 > 0) {
       double transverse = s.stiffness * (1 - s.rest_length / std::sqrt(l2));
-      if (stiffness == Stiffness::positive_part) transverse = std::max(transverse, 0.0);
+      if (transverse < 0) transverse *= 1 - stiffness.clamped;
       block = ((s.stiffness - transverse) / l2) * d * d.transpose();
       block.diagonal().array() += transverse;
     }

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "physics/anchored_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace furrow::physics {
+
+AnchoredContact::AnchoredContact(const Collider& collider, const AnchoredContactOptions& options,
+                                 std::size_t particles)
+    : collider_(collider),
+      options_(options),
+      soft_(options.gap / 3),
+      slip_(options.gap / 30),
+      touches_(particles) {
+  const auto need = [](bool good, const char* name, double value, const char* range) {
+    if (good && std::isfinite(value)) return;
+    throw std::invalid_argument(std::string("AnchoredContact: ") + name + " = " + std::to_string(value) +
+                                " is not " + range);
+  };
+  need(options.friction >= 0, "friction", options.friction, ">= 0");
+  need(options.gap > 0, "gap", options.gap, "> 0");
+  need(options.stiffness > 0, "stiffness", options.stiffness, "> 0");
+}
+
+AnchoredContact::Push AnchoredContact::push_at(double d) const {
+  const double k = options_.stiffness, s = soft_;
+  if (!(d > 0)) return {0, 0, 0};
+  if (d < s) return {k * d * d * d / (6 * s), 0.5 * k * d * d / s, k * d / s};
+  return {k * (0.5 * d * d - 0.5 * s * d + s * s / 6), k * (d - 0.5 * s), k};
+}
+
+double AnchoredContact::energy(std::span<const Vec3> x, std::span<const double> inv_mass) const {
+  double energy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!(inv_mass[i] > 0)) continue;
+    energy += push_at(options_.gap - collider_.at(x[i]).value).energy;
+    const Touch& t = touches_[i];
+    if (t.limit < 0) continue;
+    const double u = t.way(x[i]).norm();
+    energy += t.limit * (u <= slip_ ? 0.5 * u * u / slip_ : u - 0.5 * slip_);
+  }
+  return energy;
+}
+
+void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_mass) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    Touch& t = touches_[i];
+    t.x = x[i];
+    t.push = t.stiffness = 0;
+    if (!(inv_mass[i] > 0)) continue;
+    const SignedDistance field = collider_.at(x[i]);
+    const double slope = field.gradient.norm();
+    const Push push = push_at(options_.gap - field.value);
+    if (!(push.force > 0) || !(slope > 0)) continue;
+    t.push = push.force * slope;
+    t.stiffness = push.stiffness * slope * slope;
+    t.normal = field.gradient / slope;
+  }
+}
+
+void AnchoredContact::add_forces(std::span<Vec3> force) const {
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const Touch& t = touches_[i];
+    if (t.push > 0) force[i] += t.push * t.normal;
+    if (t.limit < 0) continue;
+    const Vec3 u = t.way(t.x);
+    force[i] -= t.limit / std::max(slip_, u.norm()) * u;
+  }
+}
+
+void AnchoredContact::add_stiffness(FreeStiffness& stiffness) const {
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const Touch& t = touches_[i];
+    if (!(t.push > 0) && t.limit < 0) continue;
+    const Mat3 across = t.normal * t.normal.transpose();
+    Mat3 block = t.stiffness * across;
+    if (t.limit >= 0) {
+      const Vec3 u = t.way(t.x);
+      const double length = u.norm();
+      Mat3 along = Mat3::Identity() - across;
+      // Who slides goes on to: nothing holds it back along its way.
+      if (length > slip_ || (t.slides && length > 0)) along -= u * u.transpose() / (length * length);
+      block += t.limit / std::max(slip_, length) * along;
+    }
+    stiffness.add(int(i), block);
+  }
+}
+
+void AnchoredContact::expect(std::span<const Vec3> move) {
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    Touch& t = touches_[i];
+    if (t.limit < 0 || !(t.push > 0)) continue;
+    t.limit = options_.friction * std::max(0.0, t.push - t.stiffness * t.normal.dot(move[i]));
+  }
+}
+
+void AnchoredContact::move_anchors() {
+  for (Touch& t : touches_) {
+    if (!(t.push > 0)) {
+      t.limit = -1;
+      t.slides = false;
+      continue;
+    }
+    if (t.limit < 0) t.anchor = t.x;
+    t.limit = options_.friction * t.push;
+    const Vec3 u = t.way(t.x);
+    const double length = u.norm();
+    t.slides = length > slip_;
+    t.anchor = t.x - (t.slides ? slip_ / length : 1.0) * u;
+  }
+}
+
+int AnchoredContact::touching() const {
+  return int(std::count_if(touches_.begin(), touches_.end(), [](const Touch& t) { return t.push > 0; }));
+}
+
+}  // namespace furrow::physics

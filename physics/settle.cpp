@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "physics/settle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "physics/anchored_contact.h"
+#include "physics/elements.h"
+#include "physics/free_stiffness.h"
+#include "physics/residual_force.h"
+
+namespace furrow::physics {
+namespace {
+
+using Vectors = std::vector<Vec3>;
+
+constexpr double contact_share = 0.3;     // of the mean stiffness of a particle
+constexpr double first_time = 0.03;       // tau [s]
+constexpr double least_share = 1.0 / 32;  // of a step
+constexpr double least_clamp = 0.02;      // once the Hessian alone would not do
+constexpr double far_from_rest = 1e4;     // residual above which friction is not foreseen [-]
+
+void check(const Cloth& cloth, const SettleOptions& o) {
+  const auto need = [](bool good, const char* name, double value, const char* range) {
+    if (good && std::isfinite(value)) return;
+    throw std::invalid_argument(std::string("settle: ") + name + " = " + std::to_string(value) + " is not " +
+                                range);
+  };
+  const Particles& p = cloth.particles;
+  for (const double g : o.gravity) need(true, "gravity", g, "finite");
+  need(o.friction >= 0, "friction", o.friction, ">= 0");
+  need(o.gap > 0, "gap", o.gap, "> 0");
+  need(o.tolerance > 0, "tolerance", o.tolerance, "> 0");
+  need(o.max_iterations >= 0, "max_iterations", o.max_iterations, ">= 0");
+  need(o.longest_move > 0, "longest_move", o.longest_move, "> 0");
+  need(o.threads >= 1, "threads", o.threads, ">= 1");
+  if (p.v.size() != p.size() || p.mass.size() != p.size() || p.inv_mass.size() != p.size())
+    throw std::invalid_argument("settle: the particles' arrays differ in length");
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    for (const double x : p.x[i]) need(true, "a position", x, "finite");
+    if (p.inv_mass[i] > 0) need(p.mass[i] > 0, "mass of a free particle", p.mass[i], "> 0");
+  }
+}
+
+double dot(const Vectors& a, const Vectors& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
+class Settler {
+ public:
+  Settler(Cloth& cloth, const Collider* collider, const SettleOptions& options)
+      : cloth_(cloth),
+        p_(cloth.particles),
+        collider_(collider),
+        o_(options),
+        stiffness_(cloth),
+        pool_(options.threads) {
+    stiffness_.assemble(cloth, p_.x, Stiffness::positive_part);
+    if (!collider) return;
+    const double k = contact_share * stiffness_.mean_diagonal();
+    contact_ = std::make_unique<AnchoredContact>(
+        *collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
+    contact_->look(p_.x, p_.inv_mass);
+    contact_->move_anchors();
+  }
+
+  SettleReport run(const SettleObserver& observer) {
+    for (;; ++report_.iterations) {
+      find_forces();
+      report_.residual = residual_of(elastic_, p_, o_.gravity, collider_, o_.friction, o_.gap);
+      report_.converged = report_.residual <= o_.tolerance;
+      report_.stopped = observer && !observer({report_.iterations, report_.residual});
+      if (report_.converged || report_.stopped || report_.iterations == o_.max_iterations) break;
+      step();
+    }
+    report_.touching = contact_ ? contact_->touching() : 0;
+    return report_;
+  }
+
+ private:
+  double energy(const Vectors& x) const {
+    double e = potential_energy(cloth_, x);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (p_.inv_mass[i] > 0) e -= p_.mass[i] * o_.gravity.dot(x[i]);
+    return contact_ ? e + contact_->energy(x, p_.inv_mass) : e;
+  }
+
+  void find_forces() {
+    elastic_.assign(p_.size(), Vec3::Zero());
+    add_forces(cloth_, p_.x, elastic_);
+    if (contact_) contact_->look(p_.x, p_.inv_mass);
+    find_net();
+  }
+
+  void find_net() {
+    net_ = elastic_;
+    if (contact_) contact_->add_forces(net_);
+    for (std::size_t i = 0; i < net_.size(); ++i) {
+      if (p_.inv_mass[i] > 0)
+        net_[i] += p_.mass[i] * o_.gravity;
+      else
+        net_[i].setZero();
+    }
+  }
+
+  /// Clamps the Hessian until it is positive definite.
+  bool factorise() {
+    for (int failures = 0;; ++failures) {
+      stiffness_.assemble(cloth_, p_.x, {clamp_});
+      if (contact_) contact_->add_stiffness(stiffness_);
+      for (std::size_t i = 0; i < p_.size(); ++i)
+        if (p_.inv_mass[i] > 0) stiffness_.add(int(i), p_.mass[i] / (tau_ * tau_) * Mat3::Identity());
+      ++report_.factorisations;
+      if (stiffness_.factorise_definite(0, &pool_)) {
+        clamped_ = clamp_;
+        if (failures == 0) clamp_ = clamp_ < least_clamp / 2 ? 0 : 0.3 * clamp_;
+        return true;
+      }
+      if (clamp_ == 1) return false;
+      clamp_ = failures == 3 ? 1 : std::min(1.0, std::max(least_clamp, 2 * clamp_));
+    }
+  }
+
+  void find_move() {
+    move_ = net_;
+    stiffness_.solve(move_);
+    if (!contact_ || report_.residual > far_from_rest) return;
+    contact_->expect(move_);
+    find_net();
+    move_ = net_;
+    stiffness_.solve(move_);
+  }
+
+  /// The longest share of the move, from `first` halved, that lowers the energy; 0: none.
+  double search(double first) {
+    const double before = energy(p_.x), slope = -dot(net_, move_);
+    if (!(slope < 0)) return 0;
+    for (double share = first; share > least_share * first; share *= 0.5) {
+      trial_ = p_.x;
+      for (std::size_t i = 0; i < trial_.size(); ++i) trial_[i] += share * move_[i];
+      if (energy(trial_) <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return share;
+    }
+    return 0;
+  }
+
+  void step() {
+    if (!factorise()) {
+      tau_ *= 0.25;
+      return;
+    }
+    find_move();
+    double longest = 0;
+    for (const Vec3& m : move_) longest = std::max(longest, m.norm());
+    const double first = longest > o_.longest_move ? o_.longest_move / longest : 1;
+    const double share = search(first);
+    if (share == 0) {
+      tau_ *= 0.25;
+      clamp_ = std::min(1.0, 2 * clamped_ + least_clamp);
+      return;
+    }
+    p_.x = trial_;
+    if (share == 1) tau_ *= 4;
+    if (share < first) {
+      tau_ *= 0.9;
+      clamp_ = std::min(1.0, 1.5 * clamped_ + least_clamp / 2);
+    }
+    if (!contact_) return;
+    contact_->look(p_.x, p_.inv_mass);
+    contact_->move_anchors();
+  }
+
+  Cloth& cloth_;
+  Particles& p_;
+  const Collider* collider_;
+  const SettleOptions& o_;
+  FreeStiffness stiffness_;
+  ThreadPool pool_;
+  std::unique_ptr<AnchoredContact> contact_;
+  double tau_ = first_time, clamp_ = 1, clamped_ = 1;  // clamped_: of the last factorisation
+  Vectors elastic_, net_, move_, trial_;
+  SettleReport report_;
+};
+
+}  // namespace
+
+SettleReport settle(Cloth& cloth, const Collider* collider, const SettleOptions& options,
+                    const SettleObserver& observer) {
+  check(cloth, options);
+  const SettleReport report = Settler(cloth, collider, options).run(observer);
+  for (Vec3& v : cloth.particles.v) v.setZero();
+  return report;
+}
+
+}  // namespace furrow::physics
