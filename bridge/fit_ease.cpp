@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "bridge/convert.h"
 #include "geometry/edge_metric.h"
@@ -79,40 +80,102 @@ std::array<double, 2> kept_part(const SectionPoint& p, const SectionPoint& q, co
   return {from, to};
 }
 
-/// The straight lines that close what the cuts have opened: each from the first to the last crossing [m].
-double closing_length(const SectionLoop& loop, const std::vector<Cut>& cuts) {
+/// What is left of curves between the cuts, with the straight lines that close it.
+struct Girth {
+  double length = 0;  ///< with the closing lines [m]
+  double share = 1;   ///< rest length over length, of the cloth [-]
+  double angle = 0;   ///< that the cloth covers, seen from the middle of the torso [rad]
+};
+
+using Curves = std::vector<const SectionLoop*>;
+
+/// Calls visit(p, q, triangle) for the pieces of a curve.
+template <class Visit>
+void for_each_piece(const SectionLoop& loop, const Visit& visit) {
+  for (std::size_t i = 0; i < loop.triangles.size(); ++i)
+    visit(loop.points[i], loop.points[(i + 1) % loop.points.size()], loop.triangles[i]);
+}
+
+/// Each cut is closed from the first to the last crossing [m].
+double closing_length(const Curves& curves, const std::vector<Cut>& cuts) {
   double length = 0;
   for (const Cut& cut : cuts) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t i = 0; i < loop.points.size(); ++i) {
-      const SectionPoint &p = loop.points[i], &q = loop.points[(i + 1) % loop.points.size()];
-      const double a = cut.side(p), b = cut.side(q);
-      if ((a > 0) == (b > 0)) continue;
-      const double s = a / (a - b), along = cut.along(p.x + s * (q.x - p.x), p.z + s * (q.z - p.z));
-      low = std::min(low, along);
-      high = std::max(high, along);
-    }
+    for (const SectionLoop* loop : curves)
+      for_each_piece(*loop, [&](const SectionPoint& p, const SectionPoint& q, int) {
+        const double a = cut.side(p), b = cut.side(q);
+        if ((a > 0) == (b > 0)) return;
+        const double s = a / (a - b), along = cut.along(p.x + s * (q.x - p.x), p.z + s * (q.z - p.z));
+        low = std::min(low, along);
+        high = std::max(high, along);
+      });
     if (high > low) length += high - low;
   }
   return length;
 }
 
-void measure_girths(const Cloth& cloth, const SectionLoop& loop, const std::vector<Cut>& cuts,
-                    FitEase& ease) {
-  double length = 0, rest = 0;
-  for (std::size_t i = 0; i < loop.points.size(); ++i) {
-    const SectionPoint &p = loop.points[i], &q = loop.points[(i + 1) % loop.points.size()];
-    const auto [from, to] = kept_part(p, q, cuts);
-    if (!(to > from)) continue;
-    length += (to - from) * std::hypot(q.x - p.x, q.z - p.z);
-    if (!cloth.rest.empty()) rest += (to - from) * cloth.rest_length(p, q, loop.triangles[i]);
+Girth girth_of(const Cloth& cloth, const Curves& curves, const std::vector<Cut>& cuts,
+               const std::array<double, 2>& middle) {
+  Girth girth;
+  double rest = 0;
+  for (const SectionLoop* loop : curves)
+    for_each_piece(*loop, [&](const SectionPoint& p, const SectionPoint& q, int triangle) {
+      const auto [from, to] = kept_part(p, q, cuts);
+      if (!(to > from)) return;
+      girth.length += (to - from) * std::hypot(q.x - p.x, q.z - p.z);
+      if (!cloth.rest.empty()) rest += (to - from) * cloth.rest_length(p, q, triangle);
+      const double px = p.x - middle[0], pz = p.z - middle[1], qx = q.x - middle[0], qz = q.z - middle[1];
+      girth.angle += (to - from) * std::atan2(px * qz - pz * qx, px * qx + pz * qz);
+    });
+  if (girth.length > 0) girth.share = rest / girth.length;
+  girth.length += closing_length(curves, cuts);
+  return girth;
+}
+
+/// Whether a border of the cloth ends on the kept side.
+bool ends_inside(const SectionLoop& loop, const std::vector<Cut>& cuts) {
+  const auto kept = [&](const SectionPoint& p) {
+    return std::none_of(cuts.begin(), cuts.end(), [&](const Cut& cut) { return cut.side(p) > 0; });
+  };
+  return kept(loop.points.front()) || kept(loop.points.back());
+}
+
+/// The largest closed curve around the middle of the torso.
+const SectionLoop* curve_around(const std::vector<SectionLoop>& loops, const std::array<double, 2>& middle) {
+  const SectionLoop* around = nullptr;
+  for (const SectionLoop& loop : loops)
+    if (geometry::encloses(loop, middle[0], middle[1]) &&
+        (!around || std::abs(geometry::enclosed_area(loop)) > std::abs(geometry::enclosed_area(*around))))
+      around = &loop;
+  return around;
+}
+
+/// Cuts between the torso and the other curves of the body, or those that `around` runs around, too.
+std::vector<Cut> cuts_of(const geometry::TorsoSection& section, const SectionLoop* around) {
+  std::vector<Cut> cuts;
+  for (const SectionLoop& other : section.others) {
+    const auto [x, z] = geometry::centre_of(other);
+    if (!other.closed || geometry::encloses(section.torso, x, z)) continue;
+    if (!around || geometry::encloses(*around, x, z)) cuts.push_back(between(section.torso, other));
   }
-  const double closing = closing_length(loop, cuts);
-  ease.garment_girth = length + closing;
-  ease.ease = *ease.garment_girth - *ease.body_girth;
-  if (cloth.rest.empty() || !(length > 0)) return;
-  ease.rest_girth = (length + closing) * (rest / length);  // the closing lines as the rest of the curve
-  ease.rest_ease = *ease.rest_girth - *ease.body_girth;
+  return cuts;
+}
+
+/// The garment's girth around the torso; nothing where it does not close.
+std::optional<Girth> find_girth(const Cloth& cloth, const std::vector<SectionLoop>& loops,
+                                const geometry::TorsoSection& section) {
+  const std::array<double, 2> middle = geometry::centre_of(section.torso);
+  if (const SectionLoop* around = curve_around(loops, middle))
+    return girth_of(cloth, {around}, cuts_of(section, around), middle);
+  const std::vector<Cut> cuts = cuts_of(section, nullptr);
+  Curves open;
+  for (const SectionLoop& loop : loops)
+    if (!loop.closed) open.push_back(&loop);
+  for (const SectionLoop* loop : open)
+    if (ends_inside(*loop, cuts)) return std::nullopt;
+  const Girth girth = girth_of(cloth, open, cuts, middle);
+  if (!(std::abs(girth.angle) > std::numbers::pi)) return std::nullopt;
+  return girth;
 }
 
 FitEase ease_at(const std::string& name, double height, const Cloth& cloth, const FitBody& body) {
@@ -125,26 +188,18 @@ FitEase ease_at(const std::string& name, double height, const Cloth& cloth, cons
     return ease;
   }
   ease.body_girth = geometry::tape_measure(section->torso);
-  const auto [x, z] = geometry::centre_of(section->torso);
-  const std::vector<SectionLoop> loops = geometry::horizontal_section(cloth.points, cloth.triangles, height);
-  const SectionLoop* around = nullptr;
-  for (const SectionLoop& loop : loops)
-    if (geometry::encloses(loop, x, z) &&
-        (!around || std::abs(geometry::enclosed_area(loop)) > std::abs(geometry::enclosed_area(*around))))
-      around = &loop;
-  if (!around) {
+  const auto loops = geometry::horizontal_section(cloth.points, cloth.triangles, height);
+  const std::optional<Girth> girth = find_girth(cloth, loops, *section);
+  if (!girth) {
     ease.note = loops.empty() ? "the garment does not reach this height"
                               : "the garment does not close around the torso at this height";
     return ease;
   }
-  std::vector<Cut> cuts;
-  for (const SectionLoop& other : section->others) {
-    const auto [other_x, other_z] = geometry::centre_of(other);
-    if (other.closed && geometry::encloses(*around, other_x, other_z) &&
-        !geometry::encloses(section->torso, other_x, other_z))
-      cuts.push_back(between(section->torso, other));
-  }
-  measure_girths(cloth, *around, cuts, ease);
+  ease.garment_girth = girth->length;
+  ease.ease = girth->length - *ease.body_girth;
+  if (cloth.rest.empty()) return ease;
+  ease.rest_girth = girth->length * girth->share;  // the closing lines as the cloth between them
+  ease.rest_ease = *ease.rest_girth - *ease.body_girth;
   return ease;
 }
 

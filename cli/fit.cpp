@@ -44,6 +44,13 @@ void take_sections(FitArguments& a) {
   }
 }
 
+std::vector<std::string> parts_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> parts;
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
+}
+
 void check_call(const FitArguments& a) {
   if (a.worn.size() > 1 && !a.compare)
     throw UsageError(std::to_string(a.worn.size()) + " garments: say --compare to lay them side by side");
@@ -54,6 +61,9 @@ void check_call(const FitArguments& a) {
   if (!a.rest.empty() && a.worn.size() > 1) throw UsageError("--rest is that of one garment");
   if (a.picture.empty() && (a.view_chosen || !a.captions.empty() || !a.camera.save_camera.empty()))
     throw UsageError("a view, --captions and --save-camera are of use with --picture only");
+  if (parts_of(a.captions).size() > a.worn.size())
+    throw UsageError("--captions: " + std::to_string(parts_of(a.captions).size()) + " for " +
+                     std::to_string(a.worn.size()) + " garments");
   if (a.range && !(*a.range > 0 && std::isfinite(*a.range)))
     throw UsageError("--range takes a number > 0, not " + Json(*a.range).dump());
   if (!a.out.empty()) check_output(a.out);
@@ -115,12 +125,7 @@ io::FitQuantity quantity(const std::vector<Fitted>& all, const FitArguments& a) 
 }
 
 void set_captions(std::vector<Fitted>& all, const FitArguments& a) {
-  std::istringstream stream(a.captions);
-  std::vector<std::string> given;
-  for (std::string part; std::getline(stream, part, ',');) given.push_back(part);
-  if (given.size() > all.size())
-    throw UsageError("--captions: " + std::to_string(given.size()) + " for " + std::to_string(all.size()) +
-                     " garments");
+  const std::vector<std::string> given = parts_of(a.captions);
   for (std::size_t i = 0; i < all.size(); ++i)
     all[i].caption = (i < given.size() ? given[i] : all[i].name) + (all.size() > 1 ? "\n" : ": ") +
                      fit_words(all[i].report, a.options);

@@ -91,13 +91,13 @@ Json to_json(const bridge::FitReport& r, const bridge::FitOptions& o) {
 }
 
 std::string fit_words(const bridge::FitReport& report, const bridge::FitOptions& options) {
-  const std::string words = report.strain
-                                ? format("%.0f %% strained over ", 100 * report.strain->share_over) +
-                                      format("%.3g %%", 100 * options.tight_strain)
-                                : format("%.0f mm from the body (median)", 1000 * report.distance.median);
+  const std::string words =
+      report.strain ? format("%.1f %% of the cloth strained over ", 100 * report.strain->share_over) +
+                          format("%.3g %%", 100 * options.tight_strain)
+                    : format("%.0f mm from the body (median)", 1000 * report.distance.median);
   std::string rooms;
   for (const bridge::FitEase& e : report.ease)
-    if (e.ease) rooms += (rooms.empty() ? "" : ", ") + e.name + format(" %+.1f cm", 100 * *e.ease);
+    if (e.ease) rooms += (rooms.empty() ? "ease: " : ", ") + e.name + format(" %+.1f cm", 100 * *e.ease);
   return rooms.empty() ? words : words + "\n" + rooms;
 }
 
@@ -143,8 +143,7 @@ io::Image fit_picture(std::span<const FitPanel> panels, const io::FitScale& scal
     progress.show(double(i + 1) / double(pictures));
   }
   std::string words = both_sides ? panels[0].caption : "";
-  for (char& c : words)
-    if (c == '\n') c = ' ';
+  if (const std::size_t end = words.find('\n'); end != std::string::npos) words.replace(end, 1, "; ");
   io::StripOptions letters;
   letters.text_height = 0.02;
   return io::with_fit_legend(io::strip(strip, letters), scale, words);

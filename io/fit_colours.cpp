@@ -168,7 +168,8 @@ Image with_fit_legend(const Image& picture, const FitScale& scale, const std::st
   centred(image, strain ? "stretched: tight" : "far: loose", l.right, last, l.text);
   if (scale.mark > 0) {
     const std::string mark = (strain ? "tight from " : "loose from ") + number(scale.mark, scale);
-    if (l.column(scale.mark, scale) < l.right - 1 - text_width(mark, l.text))
+    const double left = l.column(scale.mark, scale) - text_width(mark, 0.8 * l.text) / 2;
+    if (left > middle + text_width(title, l.text) / 2 + l.text)  // else it would cover the title
       centred(image, mark, l.column(scale.mark, scale), offset + l.top - 0.8 * l.text, 0.8 * l.text);
   }
   return image;

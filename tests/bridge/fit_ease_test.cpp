@@ -107,6 +107,27 @@ TEST_CASE("sleeves that have grown together with the chest are cut halfway to th
   CHECK(*ease[0].body_girth == Approx(ngon(0.15, 64)).epsilon(1e-9));
 }
 
+TEST_CASE("where a sleeve ends at the section's height the chest is measured between the cuts") {
+  // As above, but the square tube lacks the faces beyond x = 0.3: two open curves, front and back.
+  geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
+  append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
+  append(figure, moved(cylinder(0.05, 1.7, 32, 17), -0.35, 0));
+  const Body body(figure);
+  geometry::Mesh sheets = grid(20, 4, 0.6, 1.7);
+  for (auto v : sheets.vertices()) sheets.point(v) = sheets.point(v) + geometry::Vector(-0.3, 0, 0.2);
+  const auto front_alone = bridge::measure_ease(sheets, body.view(), {1.0, {}, {}});
+  CHECK_FALSE(front_alone[0].ease);  // an apron covers less than half
+  geometry::Mesh back = grid(20, 4, 0.6, 1.7);
+  for (auto v : back.vertices()) {
+    const auto p = back.point(v);
+    back.point(v) = {0.3 - p.x(), p.y(), -0.2};
+  }
+  append(sheets, back);
+  const auto ease = bridge::measure_ease(sheets, body.view(), {1.0, {}, {}});
+  REQUIRE(ease[0].garment_girth);
+  CHECK(*ease[0].garment_girth == Approx(2 * 0.45 + 2 * 0.4).epsilon(1e-6));
+}
+
 TEST_CASE("a garment that is open in front has no girth") {
   const Body body(cylinder(0.15, 1.7, 64, 17));
   geometry::Mesh coat = cylinder(0.2, 1.7, 32, 17);
