@@ -124,11 +124,11 @@ io::FitQuantity quantity(const std::vector<Fitted>& all, const FitArguments& a) 
   return io::FitQuantity::strain;
 }
 
-void set_captions(std::vector<Fitted>& all, const FitArguments& a) {
+void set_captions(std::vector<Fitted>& all, io::FitQuantity shown, const FitArguments& a) {
   const std::vector<std::string> given = parts_of(a.captions);
   for (std::size_t i = 0; i < all.size(); ++i)
     all[i].caption = (i < given.size() ? given[i] : all[i].name) + (all.size() > 1 ? "\n" : ": ") +
-                     fit_words(all[i].report, a.options);
+                     fit_words(all[i].report, a.options, shown);
 }
 
 void write_picture(const std::vector<Fitted>& all, const io::FitScale& scale, const FitArguments& a) {
@@ -170,8 +170,8 @@ void fit(FitArguments a) {
   std::vector<Fitted> all;
   for (std::size_t i = 0; i < a.worn.size(); ++i)
     all.push_back(fit_one(a.worn[i], bodies[bodies.size() > 1 ? i : 0], a));
-  set_captions(all, a);
   const io::FitScale scale = fit_scale(quantity(all, a), a.options, a.range);
+  set_captions(all, scale.quantity, a);
   for (Fitted& fitted : all) colour_garment(fitted.file.mesh, scale);
   if (!a.picture.empty()) write_picture(all, scale, a);
   if (!a.out.empty()) write_mesh(all[0].file, a);

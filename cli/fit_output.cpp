@@ -90,11 +90,14 @@ Json to_json(const bridge::FitReport& r, const bridge::FitOptions& o) {
   return json;
 }
 
-std::string fit_words(const bridge::FitReport& report, const bridge::FitOptions& options) {
-  const std::string words =
-      report.strain ? format("%.1f %% of the cloth strained over ", 100 * report.strain->share_over) +
-                          format("%.3g %%", 100 * options.tight_strain)
-                    : format("%.0f mm from the body (median)", 1000 * report.distance.median);
+std::string fit_words(const bridge::FitReport& report, const bridge::FitOptions& options,
+                      io::FitQuantity quantity) {
+  std::string words;
+  if (quantity == io::FitQuantity::strain && report.strain)
+    words = format("%.1f %% of the cloth strained over ", 100 * report.strain->share_over) +
+            format("%.3g %%", 100 * options.tight_strain);
+  else
+    words = format("half of the cloth nearer than %.0f mm", 1000 * report.distance.median);
   std::string rooms;
   for (const bridge::FitEase& e : report.ease)
     if (e.ease) rooms += (rooms.empty() ? "ease: " : ", ") + e.name + format(" %+.1f cm", 100 * *e.ease);

@@ -15,8 +15,9 @@ namespace furrow::cli {
 /// All numbers of a report, SI units; what is not known is null.
 Json to_json(const bridge::FitReport& report, const bridge::FitOptions& options);
 
-/// A few words for under a picture, e.g. "3 % tight\nwaist +4.1 cm, hip +2.0 cm".
-std::string fit_words(const bridge::FitReport& report, const bridge::FitOptions& options);
+/// Words for under a picture of a quantity, e.g. "3.0 % of the cloth strained over 5 %\nease: waist +4.1 cm".
+std::string fit_words(const bridge::FitReport& report, const bridge::FitOptions& options,
+                      io::FitQuantity quantity);
 
 /// The colours that show a report's thresholds: strain to twice tight_strain, distance to 1.2 loose_distance,
 /// or to `limit` [-] or [m].

@@ -78,7 +78,7 @@ struct Layout {
 
 Layout layout_of(const Image& picture, bool words) {
   Layout l{};
-  l.text = std::max(6.0, std::min(0.0155 * std::min(picture.width, 1600), 22.0));
+  l.text = std::max(6.0, std::min(0.0155 * std::min(1.0 * picture.width, 1.2 * picture.height), 22.0));
   const double line = 2.1 * l.text;
   const int half = int(std::min(0.38 * picture.width, 26 * l.text));
   l.left = picture.width / 2 - half;
