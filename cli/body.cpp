@@ -39,11 +39,14 @@ std::string fingerprint_of(const std::vector<physics::Vec3>& vertices, double to
 
 }  // namespace
 
+physics::TriangleMesh read_body(const std::string& path, const CommonArguments& common) {
+  const geometry::Body repaired = geometry::repair_body(read_garment(path, common, "body").mesh);
+  tell_repairs(path, repaired.report, common);
+  return bridge::to_triangle_mesh(repaired);
+}
+
 BodyCollider load_body(const io::SceneBody& body, const CommonArguments& common) {
-  const geometry::Body repaired =
-      geometry::repair_body(read_garment(body.mesh.string(), common, "body").mesh);
-  tell_repairs(body.mesh.string(), repaired.report, common);
-  physics::TriangleMesh triangles = bridge::to_triangle_mesh(repaired);
+  physics::TriangleMesh triangles = read_body(body.mesh.string(), common);
   physics::ExactDistance exact(triangles);
   Progress progress("distance field", common);
   const auto show = [&](double share) {

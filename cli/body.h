@@ -20,6 +20,9 @@ struct BodyCollider {
   physics::DistanceField field;
 };
 
+/// Reads and repairs a body; warns of what was repaired.
+physics::TriangleMesh read_body(const std::string& path, const CommonArguments& common);
+
 /// Reads and repairs a body, and builds its field or loads the saved one; shows progress. Warns of what was
 /// repaired.
 BodyCollider load_body(const io::SceneBody& body, const CommonArguments& common);

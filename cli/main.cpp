@@ -57,6 +57,7 @@ int run(int argc, char** argv) {
   cli::add_chart(app, exit_code);
   cli::add_sdf(app);
   cli::add_render(app);
+  cli::add_fit(app);
   cli::add_transfer(app);
   cli::add_bake(app, exit_code);
   if (argc > 1 && argv[1][0] != '-' && !has_subcommand(app, argv[1]))

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(bridge LIBRARIES furrow::bridge garment_cases SOURCES
   draw_more_test.cpp
+  fit_ease_test.cpp
+  fit_report_test.cpp
+  fit_zones_test.cpp
   gather_test.cpp
   keep_lines_test.cpp
   store_rest_state_test.cpp

@@ -15,6 +15,9 @@ furrow_add_tests(geometry LIBRARIES furrow::geometry SOURCES
   line_profile_test.cpp
   line_press_test.cpp
   hem_folds_test.cpp
+  horizontal_section_test.cpp
+  torso_levels_test.cpp
+  principal_strain_test.cpp
   line_height_test.cpp
   subdivide_test.cpp
   vertex_attributes_test.cpp

@@ -8,5 +8,6 @@ furrow_add_tests(render LIBRARIES furrow::io SOURCES
   render_scene_test.cpp
   stroke_font_test.cpp
   strip_test.cpp
+  fit_colours_test.cpp
   texture_test.cpp
 )

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/fit_output.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "geometry/errors.h"
+#include "geometry/vertex_attributes.h"
+#include "io/render_scene.h"
+#include "io/strip.h"
+
+namespace furrow::cli {
+namespace {
+
+constexpr io::Colour kFigureColour{0.56f, 0.56f, 0.57f};  // no colour of either scale
+
+Json to_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json to_json(const std::vector<bridge::FitZone>& zones) {
+  Json rows = Json::array();
+  for (const bridge::FitZone& z : zones)
+    rows.push_back({{"side", z.side},
+                    {"height_share", z.height_share},
+                    {"area", z.area},
+                    {"peak", z.peak},
+                    {"x", z.centre.x()},
+                    {"y", z.centre.y()},
+                    {"z", z.centre.z()}});
+  return rows;
+}
+
+Json to_json(const std::vector<bridge::FitEase>& list) {
+  Json rows = Json::array();
+  for (const bridge::FitEase& e : list) {
+    rows.push_back({{"section", e.name},
+                    {"height", e.height},
+                    {"body_girth", to_json(e.body_girth)},
+                    {"garment_girth", to_json(e.garment_girth)},
+                    {"ease", to_json(e.ease)},
+                    {"rest_girth", to_json(e.rest_girth)},
+                    {"rest_ease", to_json(e.rest_ease)},
+                    {"note", e.note}});
+  }
+  return rows;
+}
+
+std::string format(const char* pattern, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
+io::RenderScene scene_of(const FitPanel& panel) {
+  io::RenderScene scene;
+  scene.meshes.push_back(io::render_mesh_from(*panel.garment, io::Style::cloth));
+  if (!panel.body) return scene;
+  io::RenderMesh body = io::render_mesh_from(*panel.body, io::Style::body);
+  body.colour = kFigureColour;
+  body.vertex_colours.clear();
+  body.framed = false;
+  scene.meshes.push_back(std::move(body));
+  return scene;
+}
+
+}  // namespace
+
+Json to_json(const bridge::FitReport& r, const bridge::FitOptions& o) {
+  Json json{{"area", r.area}, {"body_height", r.body_high - r.body_low}};
+  if (r.strain)
+    json["strain"] = {{"share_over", r.strain->share_over},
+                      {"over", o.tight_strain},
+                      {"p50", r.strain->p50},
+                      {"p99", r.strain->p99},
+                      {"max", r.strain->max},
+                      {"unknown_faces", r.strain->unknown_faces}};
+  else
+    json["strain"] = nullptr;
+  json["distance"] = {{"min", r.distance.min},
+                      {"median", r.distance.median},
+                      {"p95", r.distance.p95},
+                      {"share_in_contact", r.distance.share_in_contact},
+                      {"contact", o.contact_distance},
+                      {"vertices_inside", r.distance.vertices_inside},
+                      {"deepest_penetration", r.distance.deepest_penetration}};
+  json["ease"] = to_json(r.ease);
+  json["tight_zones"] = to_json(r.tight);
+  json["loose_zones"] = to_json(r.loose);
+  json["loose_over"] = o.loose_distance;
+  json["zones_left_out"] = r.left_out;
+  return json;
+}
+
+std::string fit_words(const bridge::FitReport& report, const bridge::FitOptions& options,
+                      io::FitQuantity quantity) {
+  std::string words;
+  if (quantity == io::FitQuantity::strain && report.strain)
+    words = format("%.1f %% of the cloth strained over ", 100 * report.strain->share_over) +
+            format("%.3g %%", 100 * options.tight_strain);
+  else
+    words = format("half of the cloth nearer than %.0f mm", 1000 * report.distance.median);
+  std::string rooms;
+  for (const bridge::FitEase& e : report.ease)
+    if (e.ease) rooms += (rooms.empty() ? "ease: " : ", ") + e.name + format(" %+.1f cm", 100 * *e.ease);
+  return rooms.empty() ? words : words + "\n" + rooms;
+}
+
+io::FitScale fit_scale(io::FitQuantity quantity, const bridge::FitOptions& options,
+                       const std::optional<double>& limit) {
+  const bool strain = quantity == io::FitQuantity::strain;
+  io::FitScale scale;
+  scale.quantity = quantity;
+  scale.limit = limit.value_or(strain ? 2 * options.tight_strain : 1.2 * options.loose_distance);
+  const double mark = strain ? options.tight_strain : options.loose_distance;
+  scale.mark = mark <= scale.limit ? mark : 0;
+  return scale;
+}
+
+void colour_garment(geometry::Mesh& garment, const io::FitScale& scale) {
+  const std::string name =
+      scale.quantity == io::FitQuantity::strain ? bridge::kFitStrain : bridge::kFitDistance;
+  for (const geometry::VertexAttribute& attribute : geometry::vertex_attributes(garment)) {
+    if (attribute.name != name) continue;
+    std::vector<double> values(garment.num_vertices(), 0);
+    for (geometry::Vertex v : garment.vertices()) values[v.idx()] = attribute.values[v];
+    return io::colour_by_fit(garment, values, scale);
+  }
+  throw geometry::ContentError("the garment has no vertex attribute '" + name + "' to colour it by");
+}
+
+io::Image fit_picture(std::span<const FitPanel> panels, const io::FitScale& scale,
+                      const CameraArguments& camera, bool view_chosen, const CommonArguments& common) {
+  std::vector<io::RenderScene> scenes;
+  for (const FitPanel& panel : panels) scenes.push_back(scene_of(panel));
+  io::RenderOptions options = render_options(scenes, camera);
+  const bool both_sides = panels.size() == 1 && !view_chosen;
+  const std::size_t pictures = both_sides ? 2 : scenes.size();
+  Progress progress("rendering", common);
+  std::vector<io::Panel> strip;
+  for (std::size_t i = 0; i < pictures; ++i) {
+    if (both_sides && i == 1) {
+      options.view.azimuth_deg += 180;
+      options.camera = io::automatic_camera(scenes, options);
+    }
+    strip.push_back({io::render(scenes[both_sides ? 0 : i], options),
+                     both_sides ? (i ? "back" : "front") : panels[i].caption});
+    progress.show(double(i + 1) / double(pictures));
+  }
+  std::string words = both_sides ? panels[0].caption : "";
+  if (const std::size_t end = words.find('\n'); end != std::string::npos) words.replace(end, 1, "; ");
+  io::StripOptions letters;
+  letters.text_height = 0.02;
+  return io::with_fit_legend(io::strip(strip, letters), scale, words);
+}
+
+}  // namespace furrow::cli
