@@ -49,6 +49,9 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   struts_test.cpp
   shell_motion_test.cpp
   sweep_order_test.cpp
+  tension_chains_test.cpp
+  tension_forces_test.cpp
+  tension_motion_test.cpp
   thread_pool_test.cpp
   wind_test.cpp
 )
