@@ -13,6 +13,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   free_stiffness_test.cpp
   hanging_chain_test.cpp
   hinge_forces_test.cpp
+  hinge_friction_test.cpp
   invariants_test.cpp
   invert_elements_test.cpp
   leapfrog_step_test.cpp
