@@ -14,8 +14,8 @@ namespace furrow::physics {
 /// these hinges are the state: keep them, not this list, from run to run.
 /// A hinge of stiffness k beside it has the loop of width  2 limit  in the moment, of area
 ///   4 limit (theta_m - limit / k_f)  [J]  a cycle between -theta_m and theta_m >= limit / k_f,
-/// and, let go from theta_m (and no lower than the limit allows), keeps the angle
-///   k_f / (k + k_f) (theta_m - limit / k_f),  but at most limit / k.
+/// and, let go from theta_m, keeps the angle  k_f / (k + k_f) (theta_m - limit / k_f), at least 0 and at most
+/// limit / k.
 struct HingeFriction {
   int first = 0;              ///< cloth.hinges[first + i] is the friction of hinge i
   std::vector<double> limit;  ///< of each [N m]; >= 0
