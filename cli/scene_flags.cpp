@@ -88,21 +88,10 @@ bool is_share(const std::string& tolerance) { return !tolerance.empty() && toler
 
 /// Whether it says what a garment hangs in that stands still.
 bool is_of_rest(std::string_view path) {
-  constexpr std::string_view paths[] = {"material.preset",
-                                        "material.membrane",
-                                        "material.bending_law",
-                                        "material.stretch",
-                                        "material.rigidity",
-                                        "material.stiffness",
-                                        "material.tension",
-                                        "material.compression",
-                                        "material.shear",
-                                        "material.mass_rule",
-                                        "material.friction",
-                                        "material.gap",
-                                        "forces.gravity",
-                                        "body.mesh",
-                                        "body.field"};
+  constexpr std::string_view paths[] = {"material.preset",  "material.membrane", "material.bending_law",
+                                        "material.stretch", "material.rigidity", "material.stiffness",
+                                        "material.tension", "material.friction", "material.gap",
+                                        "forces.gravity",   "body.mesh",         "body.field"};
   return std::find(std::begin(paths), std::end(paths), path) != std::end(paths);
 }
 
