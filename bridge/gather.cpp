@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bridge/convert.h"
+#include "bridge/tension_constants.h"
 #include "geometry/bending_springs.h"
 #include "geometry/edge_metric.h"
 #include "geometry/errors.h"
@@ -37,8 +38,8 @@ void check(const Mesh& mesh, const GatherOptions& o) {
   range("stretch", o.stretch, o.stretch > 0 && std::isfinite(o.stretch));
   range("poisson", o.poisson, o.poisson > -1 && o.poisson < 1);
   range("rigidity", o.rigidity, o.rigidity >= 0 && std::isfinite(o.rigidity));
+  range("compression", o.compression, o.compression >= 0 && o.compression <= 1);
   if (mesh.has_garbage()) fail("the mesh has removed elements");
-  if (!find_map(mesh, kMass)) fail(std::string("the mesh has no map ") + kMass.name);
   if (!find_map(mesh, kRestLength)) fail(std::string("the mesh has no map ") + kRestLength.name);
 }
 
@@ -77,23 +78,9 @@ void sort_by(Vertices vertices, std::vector<Element>& elements, std::vector<Edge
   for (std::size_t i = 0; i < both.size(); ++i) std::tie(elements[i], origin[i]) = both[i];
 }
 
-std::pair<int, int> ends(const physics::Spring& s) { return {s.a, s.b}; }
-
-physics::Particles particles_of(const Mesh& mesh) {
-  const auto mass = *find_map(mesh, kMass);
-  const auto velocity = find_map(mesh, kVelocity);
-  physics::Particles p;
-  for (Vertex v : mesh.vertices()) {
-    const double m = mesh.is_isolated(v) ? 0 : mass[v];
-    if (!(m >= 0) || (m == 0 && !mesh.is_isolated(v)))
-      throw ContentError("vertex " + std::to_string(v) + " has mass " + std::to_string(m) +
-                         "; remove its faces (furrow info counts degenerate ones)");
-    p.x.push_back(to_eigen(mesh.point(v)));
-    p.v.push_back(velocity ? to_eigen(CGAL::ORIGIN + (*velocity)[v]) : physics::Vec3::Zero());
-    p.mass.push_back(m);
-    p.inv_mass.push_back(m > 0 ? 1 / m : 0);
-  }
-  return p;
+template <class Element>
+std::pair<int, int> ends(const Element& e) {
+  return {e.a, e.b};
 }
 
 /// The cloth under construction.
@@ -103,10 +90,12 @@ class Gatherer {
       : mesh_(mesh), o_(options), rest_(*find_map(mesh, kRestLength)), rest_of_(rest_lengths(mesh)) {}
 
   GatheredCloth gather() {
-    cloth_.particles = particles_of(mesh_);
+    cloth_.particles = gather_particles(mesh_, o_.mass_rule);
     cloth_.triangles = triangles_of(mesh_);
     for (Edge e : mesh_.edges()) require_length(rest_[e], mesh_.vertex(e, 0), mesh_.vertex(e, 1));
-    o_.membrane == Membrane::triangles ? add_triangles() : add_structural_springs();
+    o_.membrane == Membrane::triangles ? add_triangles()
+    : o_.membrane == Membrane::tension ? add_tension()
+                                       : add_structural_springs();
     o_.bending == Bending::cross ? add_bending_springs() : add_hinges();
     add_struts();
     return std::move(result_);
@@ -148,7 +137,20 @@ class Gatherer {
       cloth_.structural.push_back(spring(mesh_.vertex(e, 0), mesh_.vertex(e, 1), rest_[e], k));
       result_.structural.push_back(e);
     }
-    sort_by(ends, cloth_.structural, result_.structural);
+    sort_by(ends<physics::Spring>, cloth_.structural, result_.structural);
+  }
+
+  void add_tension() {
+    const auto own = find_map(mesh_, kTension);
+    const std::vector<double> by_law = tension_constants(mesh_, o_.tension, o_.shear);
+    for (Edge e : mesh_.edges()) {
+      const double c = stiffness_or(own, mesh_, e, [&] { return by_law[e.idx()]; });
+      const auto [a, b] =
+          std::minmax({static_cast<int>(mesh_.vertex(e, 0)), static_cast<int>(mesh_.vertex(e, 1))});
+      cloth_.tension.push_back({a, b, rest_[e], c, o_.compression * c});
+      result_.tension.push_back(e);
+    }
+    sort_by(ends<physics::Tension>, cloth_.tension, result_.tension);
   }
 
   /// The half-edge to the lowest corner, so that a mesh that was saved gives the same bits.
@@ -196,7 +198,7 @@ class Gatherer {
       cloth_.bending.push_back(spring(s.a, s.b, s.rest_length, s.stiffness));
       result_.bending.push_back(Mesh::null_edge());
     }
-    sort_by(ends, cloth_.bending, result_.bending);  // of one pair the strut comes last
+    sort_by(ends<physics::Spring>, cloth_.bending, result_.bending);  // of one pair the strut comes last
   }
 
   void add_hinges() {

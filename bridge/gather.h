@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "bridge/gather_particles.h"
 #include "geometry/mesh.h"
 #include "physics/springs.h"
 
@@ -13,7 +14,8 @@ enum class Membrane {
   uniform,     ///< k = k_std
   inverse,     ///< k = (r_avg / r) k_std: that of a thread
   van_gelder,  ///< k = Y sum of the rest areas beside the edge / r^2 (Van Gelder 1998)
-  triangles    ///< triangles of constant strain: a plane sheet of Y and Poisson's ratio on every mesh
+  triangles,   ///< triangles of constant strain: a plane sheet of Y and Poisson's ratio on every mesh
+  tension      ///< quadratic, asymmetric tension (method S2.2, bridge/tension_constants.h)
 };
 
 /// What resists bending.
@@ -31,32 +33,35 @@ struct GatherOptions {
   double mean_bending_length = 0;  ///< r_avg of the initial model's bending springs [m]; > 0 if there are any
   Membrane membrane = Membrane::paper;
   Bending bending = Bending::cross;
-  double stretch = 1000;   ///< Y, Young's modulus times thickness [N/m], of van_gelder and triangles; > 0
-  double poisson = 0.3;    ///< of triangles [-]; in (-1, 1)
-  double rigidity = 1e-5;  ///< B of hinge and cosine [N m]; >= 0
+  double stretch = 1000;     ///< Y, Young's modulus times thickness [N/m], of van_gelder and triangles; > 0
+  double poisson = 0.3;      ///< of triangles [-]; in (-1, 1)
+  double rigidity = 1e-5;    ///< B of hinge and cosine [N m]; >= 0
+  double tension = 50000;    ///< c of tension, see tension_constants() [N/m]; > 0
+  double compression = 0.2;  ///< push over pull of tension at the same |e| [-]; in [0, 1]
+  double shear = 0.2;        ///< of diagonals over that of threads in tension [-]; in [0, 1]
+  MassRule mass_rule = MassRule::area;
   /// By line id: factors on the hinges in a line's region [-] >= 1, and the lines' widths [m], NaN: none
   /// (geometry/line_press.h). Missing at the end: 1, and none.
   std::vector<double> line_presses = {}, line_widths = {};
 };
 
-/// The mesh as plain arrays: particle i is vertex i, its velocity that of v:velocity (0 without that map).
-/// Masses from v:mass, rest lengths from e:rest_length (of a triangle h:rest_length where it is set) and
-/// e:bending_rest_length, rest angles from e:rest_angle (where it is unset: 0). Stiffness from e:stiffness,
-/// e:bending_stiffness and e:hinge_stiffness where they are set, else by the options' law, a hinge's times
-/// the press of its lines; there a bending
-/// spring that stands for several hinges has their number (e:bending_count) times the stiffness. Struts
-/// follow among the bending springs, whatever the law of bending. Only what the options choose is filled. A
-/// vertex without faces gets mass 0 and stays where it is. Throws std::invalid_argument if an option is out
-/// of its range, a map is missing, or the mesh has removed elements (collect its garbage first); ContentError
-/// for a rest length or a mass that is not > 0, a stiffness that is set and not >= 0 and finite, a triangle
-/// without area at rest. Cost: O(edges log edges).
+/// The mesh as plain arrays: particles after gather_particles(), rest lengths from e:rest_length (of a
+/// triangle h:rest_length where it is set) and e:bending_rest_length, rest angles from e:rest_angle (where it
+/// is unset: 0). Stiffness from e:stiffness, e:bending_stiffness, e:hinge_stiffness and e:tension where they
+/// are set, else by the options' law, a hinge's times the press of its lines; there a bending spring that
+/// stands for several hinges has their number (e:bending_count) times the stiffness. Struts follow among the
+/// bending springs, whatever the law of bending. Only what the options choose is filled. A vertex without
+/// faces gets mass 0 and stays where it is. Throws std::invalid_argument if an option is out of its range, a
+/// map is missing, or the mesh has removed elements (collect its garbage first); ContentError for a rest
+/// length or a mass that is not > 0, a stiffness that is set and not >= 0 and finite, a triangle without area
+/// at rest. Cost: O(edges log edges).
 physics::Cloth gather(const geometry::Mesh& mesh, const GatherOptions& options);
 
 /// A cloth, and where its elements come from, in their order.
 struct GatheredCloth {
   physics::Cloth cloth;
-  std::vector<geometry::Edge> structural, bending, hinges;  ///< bending: the null edge for a strut
-  std::vector<geometry::Halfedge> membrane;                 ///< to vertices[0] of each triangle, in its face
+  std::vector<geometry::Edge> structural, tension, bending, hinges;  ///< bending: the null edge for a strut
+  std::vector<geometry::Halfedge> membrane;  ///< to vertices[0] of each triangle, in its face
 };
 /// gather(), with the elements' origin.
 GatheredCloth gather_with_origin(const geometry::Mesh& mesh, const GatherOptions& options);

@@ -23,7 +23,7 @@ double struts_of(const HelpedLine& line, const KeepOptions& o) {
 
 bool on_bounds(const HelpedLine& line, const physics::PrestressReport& rest, const physics::Cloth& cloth) {
   const auto on = [&](int v) { return std::binary_search(line.patch.begin(), line.patch.end(), v); };
-  const auto any_spring = [&](const std::vector<int>& list, const std::vector<physics::Spring>& springs) {
+  const auto any_spring = [&](const std::vector<int>& list, const auto& springs) {
     return std::any_of(list.begin(), list.end(), [&](int i) { return on(springs[i].a) && on(springs[i].b); });
   };
   const auto any = [&](const std::vector<int>& list, const auto& elements) {
@@ -32,7 +32,8 @@ bool on_bounds(const HelpedLine& line, const physics::PrestressReport& rest, con
     });
   };
   return any_spring(rest.structural, cloth.structural) || any_spring(rest.bending, cloth.bending) ||
-         any(rest.membrane, cloth.membrane) || any(rest.hinges, cloth.hinges);
+         any_spring(rest.tension, cloth.tension) || any(rest.membrane, cloth.membrane) ||
+         any(rest.hinges, cloth.hinges);
 }
 
 void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mesh,

@@ -48,6 +48,21 @@ void check_structural(const std::vector<Spring>& springs, const std::vector<Spri
   }
 }
 
+void check_tension(const std::vector<physics::Tension>& tension,
+                   const std::vector<physics::Tension>& expected, double compression) {
+  check_count("tension", tension.size(), expected.size());
+  for (std::size_t i = 0; i < tension.size(); ++i) {
+    const physics::Tension& t = tension[i];
+    const std::string element = name_of("tension", i);
+    if (std::tie(t.a, t.b) != std::tie(expected[i].a, expected[i].b))
+      fail(element + " joins other vertices than in the mesh");
+    check_value(element, "rest length", t.rest_length, t.rest_length > 0);
+    check_value(element, "stretch", t.stretch, t.stretch >= 0);
+    if (t.compress != compression * t.stretch)
+      fail(element + " pushes otherwise than the material does; that cannot be stored");
+  }
+}
+
 void check_membrane(const physics::Cloth& cloth, const physics::Cloth& expected) {
   check_count("membrane", cloth.membrane.size(), expected.membrane.size());
   for (std::size_t i = 0; i < cloth.membrane.size(); ++i) {
@@ -117,6 +132,16 @@ void write_springs(const std::vector<Spring>& springs, const std::vector<Edge>& 
   }
 }
 
+void write_tension(const std::vector<physics::Tension>& tension, const std::vector<Edge>& origin,
+                   Mesh& mesh) {
+  if (tension.empty()) return;
+  auto rest = ensure_map(mesh, kRestLength), stretch = ensure_map(mesh, kTension);
+  for (std::size_t i = 0; i < tension.size(); ++i) {
+    rest[origin[i]] = tension[i].rest_length;
+    stretch[origin[i]] = tension[i].stretch;
+  }
+}
+
 void write_membrane(const std::vector<physics::MembraneTriangle>& triangles,
                     const std::vector<Halfedge>& origin, Mesh& mesh) {
   if (triangles.empty()) return;
@@ -152,10 +177,12 @@ void write_hinges(const std::vector<physics::Hinge>& hinges, const std::vector<E
 void store_rest_state(const physics::Cloth& cloth, const GatherOptions& options, Mesh& mesh) {
   const GatheredCloth of_mesh = gather_with_origin(mesh, options);
   check_structural(cloth.structural, of_mesh.cloth.structural);
+  check_tension(cloth.tension, of_mesh.cloth.tension, options.compression);
   check_membrane(cloth, of_mesh.cloth);
   check_hinges(cloth.hinges, of_mesh.cloth.hinges);
   const BendingParts bending = part(cloth.bending, of_mesh);
   write_springs(cloth.structural, of_mesh.structural, mesh);
+  write_tension(cloth.tension, of_mesh.tension, mesh);
   write_membrane(cloth.membrane, of_mesh.membrane, mesh);
   write_bending(bending, mesh);
   write_hinges(cloth.hinges, of_mesh.hinges, mesh);

@@ -88,7 +88,7 @@ void add_body(Work& w, const SceneCloth& scene, double queries, double seconds) 
 }
 
 double springs_of(const physics::Cloth& cloth) {
-  return static_cast<double>(cloth.structural.size() + cloth.bending.size());
+  return static_cast<double>(cloth.structural.size() + cloth.bending.size() + cloth.tension.size());
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit) 
     all.push_back(explicit_at(Integrator::rk4, kCheapest, dt_limit));
   }
   for (int rate : {60, 240, 960}) all.push_back(implicit_at(Integrator::backward_euler, rate, scene));
-  if (scene.cloth.membrane.empty() && scene.cloth.hinges.empty())
+  if (scene.cloth.membrane.empty() && scene.cloth.tension.empty() && scene.cloth.hinges.empty())
     for (int rate : {240, 1200}) all.push_back(implicit_at(Integrator::xpbd, rate, scene));
   if (auto own = scenes_own(scene, dt_limit)) all.push_back(*own);
   return all;

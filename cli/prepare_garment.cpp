@@ -12,6 +12,7 @@
 #include "geometry/stiffness.h"
 #include "geometry/vertex_attributes.h"
 #include "geometry/wrinkle.h"
+#include "io/fabrics.h"
 
 namespace furrow::cli {
 namespace {
@@ -56,6 +57,10 @@ bridge::GatherOptions spring_options(const io::MeshFile& file, const io::SceneMa
   o.stretch = material.stretch.value_or(material.stiffness / bridge::spring_constant_of(1));
   o.poisson = material.poisson;
   o.rigidity = material.rigidity;
+  o.tension = material.tension.value_or(io::tension_constant(o.stretch));
+  o.compression = material.compression;
+  o.shear = material.shear;
+  o.mass_rule = material.mass_rule;
   o.line_presses = io::line_presses(record);
   o.line_widths = io::line_widths(record);
   return o;

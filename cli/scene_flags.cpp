@@ -32,13 +32,15 @@ constexpr Flag kFlags[] = {
     {"--fabric", "material.preset", true,
      "a measured fabric: denim, interlock, rib-knit, … (docs/scenes.md)"},
     {"--membrane", "material.membrane", true,
-     "what resists stretching: paper (springs of the paper's law, default), uniform, inverse, van-gelder, or "
-     "triangles (of constant strain)"},
+     "what resists stretching: paper (springs of the paper's law, default), uniform, inverse, van-gelder, "
+     "triangles (of constant strain), or tension (quadratic and asymmetric)"},
     {"--bending-law", "material.bending_law", true,
      "what resists bending: cross (springs, default), hinge (of a rigidity), or cosine"},
     {"--stretch", "material.stretch", false,
      "Young's modulus times thickness [N/m], in place of --stiffness"},
     {"--rigidity", "material.rigidity", false, "bending rigidity of hinges [N m] (default 1e-5)"},
+    {"--tension", "material.tension", false,
+     "of membrane tension: force a metre of width at strain 1 [N/m]; default that of --stretch at 2 %"},
     {"--stiffness", "material.stiffness", false, "k_std of the structural springs [N/m] (default 1000)"},
     {"--bending", "material.bending", false, "k_std of the bending springs [N/m] (default 10)"},
     {"--damping", "material.damping", false, "damping of each spring, as a share of critical (default 0.02)"},
@@ -86,10 +88,10 @@ bool is_share(const std::string& tolerance) { return !tolerance.empty() && toler
 
 /// Whether it says what a garment hangs in that stands still.
 bool is_of_rest(std::string_view path) {
-  constexpr std::string_view paths[] = {"material.preset",   "material.membrane", "material.bending_law",
-                                        "material.stretch",  "material.rigidity", "material.stiffness",
-                                        "material.friction", "material.gap",      "forces.gravity",
-                                        "body.mesh",         "body.field"};
+  constexpr std::string_view paths[] = {"material.preset",  "material.membrane", "material.bending_law",
+                                        "material.stretch", "material.rigidity", "material.stiffness",
+                                        "material.tension", "material.friction", "material.gap",
+                                        "forces.gravity",   "body.mesh",         "body.field"};
   return std::find(std::begin(paths), std::end(paths), path) != std::end(paths);
 }
 

@@ -58,8 +58,8 @@ void SavedAttributes::restore(Mesh& mesh, const std::function<Face(Face)>& paren
 }
 
 void unset_rest_state(Mesh& mesh) {
-  for (const auto* name :
-       {&kRestLength, &kBendingRestLength, &kRestAngle, &kStiffness, &kBendingStiffness, &kHingeStiffness})
+  for (const auto* name : {&kRestLength, &kBendingRestLength, &kRestAngle, &kStiffness, &kBendingStiffness,
+                           &kHingeStiffness, &kTension})
     if (const auto map = find_map(mesh, *name))
       for (Edge e : mesh.edges()) (*map)[e] = name->default_value;
   if (const auto count = find_map(mesh, kBendingCount))

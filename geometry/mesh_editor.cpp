@@ -43,6 +43,8 @@ MeshEditor::MeshEditor(Mesh& mesh)
       stiffness_(find_map(mesh, kStiffness)),
       bending_stiffness_(find_map(mesh, kBendingStiffness)),
       hinge_stiffness_(find_map(mesh, kHingeStiffness)),
+      tension_(find_map(mesh, kTension)),
+      diagonal_(find_map(mesh, kDiagonal)),
       bending_count_(find_map(mesh, kBendingCount)),
       rest_angle_(find_map(mesh, kRestAngle)),
       triangle_rest_(find_map(mesh, kTriangleRestLength)) {}
@@ -63,7 +65,7 @@ void MeshEditor::copy_face(Face from, Face to) {
 }
 
 void MeshEditor::unset_springs(Edge edge) {
-  for (auto* map : {&bending_, &rest_angle_, &stiffness_, &bending_stiffness_, &hinge_stiffness_})
+  for (auto* map : {&bending_, &rest_angle_, &stiffness_, &bending_stiffness_, &hinge_stiffness_, &tension_})
     if (*map) (**map)[edge] = kUnset;
   if (bending_count_) (*bending_count_)[edge] = 0;
 }
@@ -131,6 +133,7 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
   rest_[mesh_.edge(halfedge)] = (1 - t) * length;
   for (Halfedge part : {first, halfedge}) {
     line_edge_[mesh_.edge(part)] = line_edge;
+    if (diagonal_) (*diagonal_)[mesh_.edge(part)] = false;
     unset_springs(mesh_.edge(part));
   }
   const std::array<Halfedge, 2> to_middle{first, mesh_.opposite(halfedge)};
@@ -175,6 +178,7 @@ void MeshEditor::flip_edge(Edge edge) {
   CGAL::Euler::flip_edge(h, mesh_);
   rest_[edge] = length;
   line_edge_[edge] = false;
+  if (diagonal_) (*diagonal_)[edge] = false;
   unset_springs(edge);
   for (Face face : faces) {
     generation_[face] = generation;

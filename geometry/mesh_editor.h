@@ -62,7 +62,8 @@ class MeshEditor {
   std::optional<HalfedgeMap<TextureCoordinate>> texture_;
   VertexBlend blend_;
   std::optional<FaceMap<int>> group_, material_;
-  std::optional<EdgeMap<double>> bending_, stiffness_, bending_stiffness_, hinge_stiffness_;
+  std::optional<EdgeMap<double>> bending_, stiffness_, bending_stiffness_, hinge_stiffness_, tension_;
+  std::optional<EdgeMap<bool>> diagonal_;
   std::optional<EdgeMap<int>> bending_count_;
   std::optional<EdgeMap<double>> rest_angle_;
   std::optional<HalfedgeMap<double>> triangle_rest_;

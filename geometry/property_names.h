@@ -48,10 +48,14 @@ inline constexpr PropertyName<Edge, double> kBendingRestLength{"e:bending_rest_l
 inline constexpr PropertyName<Edge, int> kBendingCount{"e:bending_count", 0};
 /// Angle at rest between the two faces of an edge [rad]; NaN = as the shape lies, or a border.
 inline constexpr PropertyName<Edge, double> kRestAngle{"e:rest_angle", kUnset};
-/// Stiffness of the structural spring of an edge [N/m], of its bending spring, whatever that one's count
-/// [N/m], and of its hinge [N m]; >= 0; NaN = by the law that the material chooses (bridge/gather.h).
+/// Of an edge: stiffness of its structural spring [N/m], of its bending spring, whatever that one's count
+/// [N/m], of its hinge [N m], its tension at the strain 1 [N]; >= 0; NaN = by the material (bridge/gather.h).
 inline constexpr PropertyName<Edge, double> kStiffness{"e:stiffness", kUnset},
-    kBendingStiffness{"e:bending_stiffness", kUnset}, kHingeStiffness{"e:hinge_stiffness", kUnset};
+    kBendingStiffness{"e:bending_stiffness", kUnset}, kHingeStiffness{"e:hinge_stiffness", kUnset},
+    kTension{"e:tension", kUnset};
+/// Diagonal of a cell of the cloth's threads: cuts a four-sided face, or is parallel to such in a
+/// subdivision.
+inline constexpr PropertyName<Edge, bool> kDiagonal{"e:diagonal", false};
 /// Rest length of edge(h) in the membrane triangle of face(h) alone [m]; NaN = kRestLength, as its neighbour.
 inline constexpr PropertyName<Halfedge, double> kTriangleRestLength{"h:rest_length", kUnset};
 /// Edge of a drawn line, in a chain of line vertices: it is never flipped.

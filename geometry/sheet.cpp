@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/property_names.h"
+
 namespace furrow::geometry {
 namespace {
 
@@ -26,12 +28,16 @@ std::vector<Vertex> add_row(Mesh& mesh, int columns, bool shifted, double width,
   return row;
 }
 
+void check_lengths(const char* name, double width, double height, double edge) {
+  for (double length : {width, height, edge})
+    if (!(length > 0) || !std::isfinite(length))
+      throw std::invalid_argument(std::string(name) + ": a length is " + std::to_string(length) + " m");
+}
+
 }  // namespace
 
 Mesh equilateral_sheet(double width, double height, double edge) {
-  for (double length : {width, height, edge})
-    if (!(length > 0) || !std::isfinite(length))
-      throw std::invalid_argument("equilateral_sheet: a length is " + std::to_string(length) + " m");
+  check_lengths("equilateral_sheet", width, height, edge);
   const double across = std::round(width / edge),
                upwards = std::round(height / (edge * std::numbers::sqrt3 / 2));
   if (edge > width || (across + 2) * (upwards + 1) > 1e7)
@@ -60,6 +66,32 @@ Mesh equilateral_sheet(double width, double height, double edge) {
         mesh.add_face(longer[i + 1], shorter[i + 1], shorter[i]);
     }
     below = row;
+  }
+  return mesh;
+}
+
+Mesh woven_sheet(double width, double height, double edge) {
+  check_lengths("woven_sheet", width, height, edge);
+  const double across = std::round(width / edge), upwards = std::round(height / edge);
+  if (edge > width || edge > height || (across + 1) * (upwards + 1) > 1e7)
+    throw std::invalid_argument("woven_sheet: edge is " + std::to_string(edge) + " m for a width of " +
+                                std::to_string(width) + " m and a height of " + std::to_string(height) +
+                                " m");
+  const int columns = static_cast<int>(across), rows = static_cast<int>(upwards);
+  Mesh mesh;
+  std::vector<Vertex> below = add_row(mesh, columns, false, width, 0);
+  auto diagonal = ensure_map(mesh, kDiagonal);
+  for (int j = 0; j < rows; ++j) {
+    const double y = j + 1 == rows ? height : height * (j + 1) / rows;
+    const std::vector<Vertex> above = add_row(mesh, columns, false, width, y);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(columns); ++i) {
+      const Vertex a = below[i], b = below[i + 1], c = above[i + 1], d = above[i];
+      const bool rises = (i + static_cast<std::size_t>(j)) % 2 == 0;  // the diagonal from a to c
+      mesh.add_face(a, b, rises ? c : d);
+      mesh.add_face(rises ? a : b, c, d);
+      diagonal[mesh.edge(rises ? mesh.halfedge(a, c) : mesh.halfedge(b, d))] = true;
+    }
+    below = above;
   }
   return mesh;
 }

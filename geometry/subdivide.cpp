@@ -7,6 +7,7 @@
 #include <CGAL/subdivision_method_3.h>
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -82,6 +83,37 @@ void carry_lines(Mesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& old_e
   }
 }
 
+/// Diagonals (kDiagonal) of a mesh before a step that cuts triangles into four.
+class Diagonals {
+ public:
+  explicit Diagonals(const Mesh& mesh) : map_(find_map(mesh, kDiagonal)) {
+    if (!map_) return;
+    for (Edge e : mesh.edges()) {
+      if (!(*map_)[e]) continue;
+      halved_.push_back(e);
+      for (Halfedge h : {mesh.halfedge(e), mesh.opposite(mesh.halfedge(e))})
+        if (!mesh.is_border(h)) parallel_.emplace_back(mesh.edge(mesh.next(h)), mesh.edge(mesh.prev(h)));
+    }
+  }
+  /// Marks their halves, and the new edges parallel to them: between the mid-points of a face's other sides.
+  void carry(const Mesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& old_edges,
+             std::size_t old_vertices) const {
+    if (!map_) return;
+    auto map = *map_;
+    const auto mid = [&](Edge e) { return Vertex(static_cast<Vertex::size_type>(old_vertices + e.idx())); };
+    for (Edge e : mesh.edges()) map[e] = false;
+    for (Edge e : halved_)
+      for (Vertex end : {old_edges[e.idx()].first, old_edges[e.idx()].second})
+        map[mesh.edge(mesh.halfedge(end, mid(e)))] = true;
+    for (const auto& [a, b] : parallel_) map[mesh.edge(mesh.halfedge(mid(a), mid(b)))] = true;
+  }
+
+ private:
+  std::optional<EdgeMap<bool>> map_;
+  std::vector<Edge> halved_;
+  std::vector<std::pair<Edge, Edge>> parallel_;  // the other two sides of each face beside a diagonal
+};
+
 /// A face keeps its index for one of its four parts; the other three are appended, face by face.
 Face old_parent(Face f, std::size_t old_faces) {
   return f.idx() < old_faces ? f : Face(static_cast<Face::size_type>((f.idx() - old_faces) / 3));
@@ -99,6 +131,7 @@ void quadrisect(Mesh& mesh) {
     ends.emplace_back(mesh.vertex(e, 0), mesh.vertex(e, 1));
     was_line_edge.push_back(line_edge && (*line_edge)[e]);
   }
+  const Diagonals diagonals(mesh);
   Mask mask(mesh);
   cgal::PTQ(mesh, mask, CGAL::parameters::number_of_iterations(1));
   const auto parent = [&](Face f) { return old_parent(f, old_faces); };
@@ -113,6 +146,7 @@ void quadrisect(Mesh& mesh) {
   };
   saved.restore(mesh, parent, origin);
   carry_lines(mesh, ends, was_line_edge, old_vertices);
+  diagonals.carry(mesh, ends, old_vertices);
 }
 
 /// Where CGAL's step will put the new vertices, in its order: the centroid of each face, or, where the border
@@ -159,8 +193,9 @@ void sqrt3_step(Mesh& mesh, bool refine_border) {
     return at;
   };
   saved.restore(mesh, parent, origin);
-  if (const auto line_edge = find_map(mesh, kLineEdge))
-    for (Edge e : mesh.edges()) (*line_edge)[e] = false;
+  for (const auto* name : {&kLineEdge, &kDiagonal})
+    if (const auto map = find_map(mesh, *name))
+      for (Edge e : mesh.edges()) (*map)[e] = false;
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/fabrics.h"
 
+#include <algorithm>
 #include <stdexcept>
+
+#include "physics/tension_forces.h"
 
 namespace furrow::io {
 namespace {
@@ -11,6 +14,8 @@ namespace {
 // c22 of the first sample, doubled as ARCSim does on loading; shear: c33 doubled; rigidity: mean of the three
 // directions' first entries.
 constexpr const char* kWang = "Wang, O'Brien, Ramamoorthi 2011 (ARCSim materials)";
+constexpr const char* kInterlock =
+    "no single jersey was measured there: the numbers of interlock, a double jersey (Wang et al. 2011)";
 constexpr const char* kOurs = "thickness, damping, friction";
 // B of three weaves: Matsudaira et al., J. Textile Eng. 61(6), 2015, 69.
 constexpr const char* kMatsudaira = "rigidity: Matsudaira et al. 2015";
@@ -23,6 +28,7 @@ constexpr Fabric kFabrics[] = {
      "rigidity: polyester faille of Matsudaira et al. 2015", kMostOurs},
     {"denim", 0.324, 1219.2, 106.8, 7.82e-5, 0.0007, 0.02, 0.4, kWang, kOurs},
     {"interlock", 0.187, 51.07, 73.7, 2.07e-5, 0.0007, 0.02, 0.4, kWang, kOurs},
+    {"jersey", 0.187, 51.07, 73.7, 2.07e-5, 0.0007, 0.02, 0.4, kInterlock, kOurs},
     {"rib-knit", 0.276, 108.0, 166.4, 3.62e-5, 0.001, 0.02, 0.4, kWang, kOurs},
     {"jet-set", 0.113, 214.5, 28.6, 1.89e-5, 0.0003, 0.02, 0.3, kWang, kOurs},
     {"dots", 0.128, 4029.6, 38.4, 4.12e-5, 0.0003, 0.02, 0.3, kWang, kOurs},
@@ -38,5 +44,9 @@ const Fabric& fabric_named(const std::string& name) {
     if (name == fabric.name) return fabric;
   throw std::invalid_argument("there is no fabric '" + name + "'");
 }
+
+double tension_constant(double stretch) { return stretch / physics::working_strain; }
+
+double shear_ratio(const Fabric& fabric) { return std::min(1.0, 4 * fabric.shear / fabric.stretch); }
 
 }  // namespace furrow::io

@@ -23,4 +23,12 @@ std::span<const Fabric> fabrics();
 /// Throws std::invalid_argument if there is none of this name.
 const Fabric& fabric_named(const std::string& name);
 
+/// c [N/m] of tension (bridge::GatherOptions) that stretches by physics::working_strain, 2 %, at the load at
+/// which the linear `stretch` Y does: c e^2 = Y e there, so c = 50 Y. Below that load the quadratic law is
+/// softer, beyond it stiffer.
+double tension_constant(double stretch);
+/// Of diagonals over threads [-] in [0, 1]: with which the diagonal of a cell, strained by 2 % at a shear of
+/// 4 %, answers as the shear modulus G does: c s g^2 / 8 = G g, so s = 4 G / Y; knits, where that is more, 1.
+double shear_ratio(const Fabric& fabric);
+
 }  // namespace furrow::io

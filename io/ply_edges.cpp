@@ -31,13 +31,14 @@ std::vector<MeshEdge> sorted_edges(const SoupMesh& mesh) {
   return edges;
 }
 
-constexpr std::array<PlyEdgeNumber, 6> kEdgeNumbers = {
+constexpr std::array<PlyEdgeNumber, 7> kEdgeNumbers = {
     {{"rest_length", kRestLength, PlyEdgeNumber::Kind::length},
      {"bending_rest_length", kBendingRestLength, PlyEdgeNumber::Kind::length},
      {"rest_angle", kRestAngle, PlyEdgeNumber::Kind::angle},
      {"stiffness", kStiffness, PlyEdgeNumber::Kind::stiffness},
      {"bending_stiffness", kBendingStiffness, PlyEdgeNumber::Kind::stiffness},
-     {"hinge_stiffness", kHingeStiffness, PlyEdgeNumber::Kind::stiffness}}};
+     {"hinge_stiffness", kHingeStiffness, PlyEdgeNumber::Kind::stiffness},
+     {"tension", kTension, PlyEdgeNumber::Kind::stiffness}}};
 
 double checked(const PlyEdgeNumber& number, double value, const PlyRows& rows, double metres_per_unit) {
   switch (number.kind) {
@@ -80,7 +81,8 @@ bool PlyEdges::set_columns(const PlyElement& element) {
   vertex2_ = column("vertex2");
   bending_count_ = column("bending_count");
   line_edge_ = column("line_edge");
-  bool any = bending_count_ || line_edge_;
+  diagonal_ = column("diagonal");
+  bool any = bending_count_ || line_edge_ || diagonal_;
   for (std::size_t k = 0; k < kNumbers; ++k) {
     numbers_[k] = column(kEdgeNumbers[k].name);
     any = any || numbers_[k];
@@ -89,7 +91,7 @@ bool PlyEdges::set_columns(const PlyElement& element) {
 }
 
 std::vector<std::string> PlyEdges::names() {
-  std::vector<std::string> names{"vertex1", "vertex2", "bending_count", "line_edge"};
+  std::vector<std::string> names{"vertex1", "vertex2", "bending_count", "line_edge", "diagonal"};
   for (const PlyEdgeNumber& number : kEdgeNumbers) names.emplace_back(number.name);
   return names;
 }
@@ -98,23 +100,26 @@ void PlyEdges::add(const PlyRow& row, const PlyRows& rows, double metres_per_uni
   const double a = row.numbers[*vertex1_], b = row.numbers[*vertex2_];
   const auto is_index = [](double x) { return x >= 0 && x < 9e15 && x == std::floor(x); };
   if (!is_index(a) || !is_index(b)) rows.fail("an end of an edge is no index of a vertex; correct it");
-  Values values{static_cast<std::size_t>(std::min(a, b)), static_cast<std::size_t>(std::max(a, b)), {}, 0, 0};
+  Values values{
+      static_cast<std::size_t>(std::min(a, b)), static_cast<std::size_t>(std::max(a, b)), {}, 0, 0, 0};
   for (std::size_t k = 0; k < kNumbers; ++k)
     values.numbers[k] =
         numbers_[k] ? checked(kEdgeNumbers[k], row.numbers[*numbers_[k]], rows, metres_per_unit) : kUnset;
   values.bending_count = small_count(row, bending_count_, rows);
   values.line_edge = small_count(row, line_edge_, rows);
+  values.diagonal = small_count(row, diagonal_, rows);
   edges_.push_back(values);
 }
 
 void PlyEdges::fill_maps(SoupMesh& mesh, const std::string& name) const {
   std::array<std::optional<EdgeMap<double>>, kNumbers> maps;
   std::optional<EdgeMap<int>> bending_count;
-  std::optional<EdgeMap<bool>> line_edge;
+  std::optional<EdgeMap<bool>> line_edge, diagonal;
   for (std::size_t k = 0; k < kNumbers; ++k)
     if (numbers_[k]) maps[k] = ensure_map(mesh.mesh, kEdgeNumbers[k].map);
   if (bending_count_) bending_count = ensure_map(mesh.mesh, kBendingCount);
   if (line_edge_) line_edge = ensure_map(mesh.mesh, kLineEdge);
+  if (diagonal_) diagonal = ensure_map(mesh.mesh, kDiagonal);
   if (edges_.empty()) return;
   const std::vector<MeshEdge> sorted = sorted_edges(mesh);
   for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -129,6 +134,7 @@ void PlyEdges::fill_maps(SoupMesh& mesh, const std::string& name) const {
         if (maps[k]) (*maps[k])[m.edge] = e.numbers[k];
       if (bending_count) (*bending_count)[m.edge] = e.bending_count;
       if (line_edge) (*line_edge)[m.edge] = e.line_edge != 0;
+      if (diagonal) (*diagonal)[m.edge] = e.diagonal != 0;
     }
   }
 }

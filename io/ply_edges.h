@@ -40,15 +40,15 @@ class PlyEdges {
   void fill_maps(SoupMesh& mesh, const std::string& name) const;
 
  private:
-  static constexpr std::size_t kNumbers = 6;
+  static constexpr std::size_t kNumbers = 7;
   struct Values {
     std::size_t a, b;
     std::array<double, kNumbers> numbers;
-    int bending_count, line_edge;
+    int bending_count, line_edge, diagonal;
   };
   std::vector<Values> edges_;
   std::array<std::optional<std::size_t>, kNumbers> numbers_;
-  std::optional<std::size_t> vertex1_, vertex2_, bending_count_, line_edge_;
+  std::optional<std::size_t> vertex1_, vertex2_, bending_count_, line_edge_, diagonal_;
 };
 
 }  // namespace furrow::io

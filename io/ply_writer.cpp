@@ -41,6 +41,7 @@ class PlyWriter {
         triangle_lengths_(find_map(mesh_, kTriangleRestLength)),
         bending_counts_(find_map(mesh_, kBendingCount)),
         line_edges_(find_map(mesh_, kLineEdge)),
+        diagonals_(find_map(mesh_, kDiagonal)),
         struts_(struts(mesh_)) {
     for (const PlyEdgeNumber& number : ply_edge_numbers())
       if (const auto map = find_map(mesh_, number.map)) edge_numbers_.emplace_back(&number, *map);
@@ -60,7 +61,7 @@ class PlyWriter {
   }
 
  private:
-  bool has_edges() const { return !edge_numbers_.empty() || bending_counts_ || line_edges_; }
+  bool has_edges() const { return !edge_numbers_.empty() || bending_counts_ || line_edges_ || diagonals_; }
 
   template <class T>
   void put(T value) {
@@ -130,6 +131,7 @@ class PlyWriter {
       out_ += std::string("property double ") + number->name + "\n";
     if (bending_counts_) out_ += "property int bending_count\n";
     if (line_edges_) out_ += "property uchar line_edge\n";
+    if (diagonals_) out_ += "property uchar diagonal\n";
   }
 
   void write_vertices() {
@@ -178,6 +180,7 @@ class PlyWriter {
         number->kind == PlyEdgeNumber::Kind::length ? put_length(map[e]) : put(map[e]);
       if (bending_counts_) put(static_cast<std::int32_t>((*bending_counts_)[e]));
       if (line_edges_) put(static_cast<std::uint8_t>((*line_edges_)[e]));
+      if (diagonals_) put(static_cast<std::uint8_t>((*diagonals_)[e]));
     }
   }
 
@@ -212,7 +215,7 @@ class PlyWriter {
   std::optional<FaceMap<int>> groups_, materials_, generations_;
   std::optional<HalfedgeMap<double>> triangle_lengths_;
   std::optional<EdgeMap<int>> bending_counts_;
-  std::optional<EdgeMap<bool>> line_edges_;
+  std::optional<EdgeMap<bool>> line_edges_, diagonals_;
   std::vector<std::pair<const PlyEdgeNumber*, EdgeMap<double>>> edge_numbers_;
   std::vector<Strut> struts_;
   bool byte_colors_ = false;

@@ -39,9 +39,12 @@ struct SceneMaterial {
   double bending = 10;            ///< k_std of the bending springs [N/m]
   bridge::Membrane membrane = bridge::Membrane::paper;
   bridge::Bending bending_law = bridge::Bending::cross;
-  std::optional<double> stretch;  ///< Y [N/m]; of springs: in place of stiffness
-  double poisson = 0.3;           ///< of triangles [-]
-  double rigidity = 1e-5;         ///< B of hinges [N m]
+  std::optional<double> stretch;          ///< Y [N/m]; of springs: in place of stiffness
+  double poisson = 0.3;                   ///< of triangles [-]
+  double rigidity = 1e-5;                 ///< B of hinges [N m]
+  std::optional<double> tension;          ///< c of tension [N/m]; none: tension_constant() of the stretch
+  double compression = 0.2, shear = 0.2;  ///< of tension [-]
+  bridge::MassRule mass_rule = bridge::MassRule::area;
 };
 
 /// Vertices that are held, or moved. Several kinds may be named in one.

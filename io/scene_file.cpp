@@ -112,7 +112,8 @@ class SceneReader {
                             {"uniform", Membrane::uniform},
                             {"inverse", Membrane::inverse},
                             {"van-gelder", Membrane::van_gelder},
-                            {"triangles", Membrane::triangles}});
+                            {"triangles", Membrane::triangles},
+                            {"tension", Membrane::tension}});
     table.choose<Bending>(
         "bending_law", m.bending_law,
         {{"cross", Bending::cross}, {"hinge", Bending::hinge}, {"cosine", Bending::cosine}});
@@ -120,6 +121,11 @@ class SceneReader {
     table.read("poisson", m.poisson, {-1, 1, true});
     if (m.poisson == 1) table.fail("poisson", "must be below 1");
     table.read("rigidity", m.rigidity, not_negative("N m"));
+    table.read("tension", m.tension, positive("N/m"));
+    table.read("compression", m.compression, {0, 1});
+    table.read("shear", m.shear, {0, 1});
+    table.choose<bridge::MassRule>("mass_rule", m.mass_rule,
+                                   {{"area", bridge::MassRule::area}, {"equal", bridge::MassRule::equal}});
     if (table.has("stretch") && table.has("stiffness"))
       table.fail("stretch", "stands in place of stiffness; leave one away");
     table.read("damping", o.spring_damping, not_negative());
@@ -142,6 +148,7 @@ class SceneReader {
     m.bending_law = bridge::Bending::hinge;
     if (!table.has("stiffness")) m.stretch = fabric.stretch;
     m.rigidity = fabric.rigidity;
+    m.shear = shear_ratio(fabric);
     scene_.simulation.spring_damping = fabric.damping;
     scene_.simulation.friction = fabric.friction;
   }

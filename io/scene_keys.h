@@ -17,10 +17,9 @@ inline std::string tables_of_key(std::string_view key) {
                 " strokes time height fade without rule rest region max_distance iterations "
                 "lambda mu weights keep_lines keep_border "sv},
       std::pair{"[body]"sv, " mesh field frames fps tolerance gradient motion "sv},
-      std::pair{
-          "[material]"sv,
-          " preset density stiffness bending membrane bending_law stretch poisson rigidity damping drag "
-          "friction gap "sv},
+      std::pair{"[material]"sv,
+                " preset density stiffness bending membrane bending_law stretch poisson rigidity tension "
+                "compression shear mass_rule damping drag friction gap "sv},
       std::pair{"[[pins]]"sv, " box loop group vertices motion "sv},
       std::pair{"[forces]"sv, " gravity wind gusts swirl "sv},
       std::pair{"[simulation]"sv, " seconds stop_at dt force_dt integrator sweeps newton threads "sv},

@@ -134,6 +134,19 @@ void fill_corners(const PolygonSoup& soup, const Triangles& triangles, Mesh& mes
     }
 }
 
+/// Where a face of four corners was cut.
+void mark_diagonals(const PolygonSoup& soup, const Triangles& triangles, Mesh& mesh) {
+  const auto is_quad = [&](std::size_t f) { return soup.first_corner[f + 1] - soup.first_corner[f] == 4; };
+  if (std::ranges::none_of(triangles, [&](const SoupTriangle& t) { return is_quad(t.face); })) return;
+  auto diagonal = ensure_map(mesh, kDiagonal);
+  for (const Edge e : mesh.edges()) {
+    if (mesh.is_border(e)) continue;
+    const std::size_t a = triangles[mesh.face(mesh.halfedge(e))].face,
+                      b = triangles[mesh.face(mesh.opposite(mesh.halfedge(e)))].face;
+    diagonal[e] = a == b && is_quad(a);
+  }
+}
+
 void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& out) {
   fill_vertex_map(out, kColor, soup.colors);
   fill_vertex_map(out, kLine, soup.lines);
@@ -157,6 +170,7 @@ void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& ou
     for (const Face f : mesh.faces()) generations[f] = soup.generations[triangles[f].face];
   }
   fill_corners(soup, triangles, mesh);
+  mark_diagonals(soup, triangles, mesh);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ struct SoupMesh {
 /// vertices of an earlier one (whichever way they wind), are dropped. If the rest is no oriented manifold
 /// already, make_manifold() turns faces and appends copies of vertices. Unused points stay as isolated
 /// vertices. Sets v:color, v:line, v:mass, v:rest_position, vertex attributes, h:texture, h:rest_length,
-/// f:group, f:material where the soup has them; copies carry them along. Throws geometry::ContentError
+/// f:group, f:material, and e:diagonal where a face of four corners was cut, where the soup has them; copies
+/// carry them along. Throws geometry::ContentError
 /// ("name:line: …" or "name: face i: …") if a corner's index is out of range, and if no face is left. Cost:
 /// O(F log F).
 SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name);

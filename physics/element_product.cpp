@@ -7,24 +7,27 @@
 #include "physics/hinge_forces.h"
 #include "physics/membrane.h"
 #include "physics/packed_elements.h"
+#include "physics/tension_forces.h"
 
 namespace furrow::physics {
 namespace {
 
 void hand_out(const Cloth& cloth, const BlockSink& sink) {
   add_membrane_stiffness(cloth.particles.x, cloth.membrane, Stiffness::positive_part, sink);
+  add_tension_stiffness_bound(cloth.particles.x, cloth.tension, sink);
   add_hinge_stiffness_bound(cloth.particles.x, cloth.hinges, cloth.hinge_law, sink);
 }
 
 /// (i, j) of all blocks, sorted, each once.
 std::vector<std::uint64_t> keys_of(const Cloth& cloth) {
   std::vector<std::uint64_t> keys;
-  keys.reserve(9 * cloth.membrane.size() + 16 * cloth.hinges.size());
+  keys.reserve(9 * cloth.membrane.size() + 4 * cloth.tension.size() + 16 * cloth.hinges.size());
   const auto add = [&](const auto& vertices) {
     for (const int i : vertices)
       for (const int j : vertices) keys.push_back(std::uint64_t(i) << 32 | std::uint64_t(j));
   };
   for (const MembraneTriangle& t : cloth.membrane) add(t.vertices);
+  for (const Tension& t : cloth.tension) add(std::array{t.a, t.b});
   for (const Hinge& h : cloth.hinges) add(h.vertices);
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
@@ -34,7 +37,7 @@ std::vector<std::uint64_t> keys_of(const Cloth& cloth) {
 }  // namespace
 
 ElementProduct::ElementProduct(const Cloth& cloth) {
-  if (cloth.membrane.empty() && cloth.hinges.empty()) return;
+  if (cloth.membrane.empty() && cloth.tension.empty() && cloth.hinges.empty()) return;
   check_elements(cloth);
   const std::vector<std::uint64_t> keys = keys_of(cloth);
   row_begin_.assign(cloth.particles.size() + 1, 0);

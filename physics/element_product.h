@@ -6,10 +6,10 @@
 
 namespace furrow::physics {
 
-/// The stiffness matrix of membrane triangles and hinges at a cloth's positions as a sparse matrix of blocks,
-/// for limits of steps: the membrane's positive part, hinges after add_hinge_stiffness_bound(). Memory: about
-/// 80 bytes times 13 blocks a particle; cost of building: one pass and a sort of (9 triangles + 16 hinges)
-/// keys.
+/// The stiffness matrix of membrane triangles, tension and hinges at a cloth's positions as a sparse matrix
+/// of blocks, for limits of steps: the membrane's positive part, tension after add_tension_stiffness_bound(),
+/// hinges after add_hinge_stiffness_bound(). Memory: about 80 bytes times 13 blocks a particle; cost of
+/// building: one pass and a sort of (9 triangles + 4 tensions + 16 hinges) keys.
 class ElementProduct {
  public:
   /// Throws std::invalid_argument as check_elements() does.

@@ -7,9 +7,9 @@
 
 namespace furrow::physics {
 
-/// All that stores energy in a cloth: structural and bending springs, membrane triangles, hinges, in this
-/// order, each kind in the order of its array. Kinds that are empty cost nothing. x: one position a particle
-/// [m], in place of cloth.particles.x; masses, velocities and pins do not count. Cost: one pass.
+/// All that stores energy in a cloth: structural and bending springs, membrane triangles, tension, hinges, in
+/// this order, each kind in the order of its array. Kinds that are empty cost nothing. x: one position a
+/// particle [m], in place of cloth.particles.x; masses, velocities and pins do not count. Cost: one pass.
 /// Throw std::invalid_argument, nothing changed, if lengths differ or an element names a particle out of
 /// range.
 

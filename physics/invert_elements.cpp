@@ -47,6 +47,14 @@ std::optional<double> rest_length_for(double length, double stiffness, double te
   return rest > 0 ? std::optional(rest) : std::nullopt;
 }
 
+std::optional<double> rest_length_for(const Tension& law, double length, double tension) {
+  if (tension == 0) return length;
+  const double c = tension > 0 ? law.stretch : law.compress;
+  if (!(c > 0)) return std::nullopt;
+  const double rest = length / (1 + std::copysign(std::sqrt(std::abs(tension) / c), tension));
+  return rest > 0 && std::isfinite(rest) ? std::optional(rest) : std::nullopt;
+}
+
 std::optional<double> rest_angle_for(HingeLaw law, double stiffness, double theta, double moment) {
   if (stiffness == 0) return moment == 0 ? std::optional(theta) : std::nullopt;
   const double share = std::abs(moment) / stiffness;

@@ -16,6 +16,11 @@ namespace furrow::physics {
 /// stiffness only t = 0, L = l.
 std::optional<double> rest_length_for(double length, double stiffness, double tension);
 
+/// L [m] of a Tension of length l [m] that pulls with t [N] (< 0: pushes), whatever its rest length:
+///   L = l / (1 + e),  e = sqrt(t / stretch), or  e = - sqrt(-t / compress).
+/// None if |t| >= compress where it pushes, or without stretch; t = 0 gives l.
+std::optional<double> rest_length_for(const Tension& law, double length, double tension);
+
 /// theta0 [rad] in [-pi, pi] of a hinge at the angle theta [rad] with the moment dE/dtheta = tau [N m]:
 /// linear  theta0 = theta - tau / k,  none if |tau| >= pi k;  cosine
 ///   theta0 = theta - phi,  sin(|phi| / 2) = sqrt(|tau| / (2 k)),  phi with the sign of tau;  none if |tau| >

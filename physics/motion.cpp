@@ -148,7 +148,7 @@ void Motion::update_forces(double time) {
   add_element_forces(cloth_.elements, cloth_.x, cloth_.force, pool_);
   if (around_.compensation) compensate(time);
   ++work_.force_evaluations;
-  work_.spring_evaluations += cloth_.springs() - cloth_.dashpots;
+  work_.spring_evaluations += cloth_.springs() - cloth_.dashpots + cloth_.elements.tension_count;
   work_.triangle_evaluations += cloth_.elements.triangle_count;
   work_.hinge_evaluations += cloth_.elements.hinge_count;
 }

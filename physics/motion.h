@@ -13,7 +13,7 @@ namespace furrow::physics {
 struct Loads {                ///< what acts on a cloth besides its elements
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   double air_drag = 0;        ///< c of dv/dt = -c v [1/s]; >= 0
-  double spring_damping = 0;  ///< share of critical damping of each spring and edge of membrane [-]; >= 0
+  double spring_damping = 0;  ///< share of critical damping: springs, tension, edges of membrane [-]; >= 0
 };
 
 struct Surroundings {  ///< what else acts; each may be null, and must outlive the motion
@@ -23,7 +23,7 @@ struct Surroundings {  ///< what else acts; each may be null, and must outlive t
   const Compensation* compensation = nullptr;
 };
 
-struct WorkCounts {  // iterations: of Newton's method, or sweeps over all springs
+struct WorkCounts {  // iterations: of Newton's method, or sweeps over all springs; tension counts as springs
   std::int64_t steps = 0, force_evaluations = 0, linear_solves = 0, factorisations = 0, iterations = 0;
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   ContactCounts contact;

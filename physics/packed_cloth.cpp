@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "physics/membrane.h"
+#include "physics/tension_forces.h"
 
 namespace furrow::physics {
 namespace {
@@ -59,8 +60,9 @@ struct PackedSpring {
   double k, kL, damping_k;
 };
 
-/// One for each edge of the membrane, sorted; damping_k: the sum of its triangles' edge_stiffness().
-std::vector<PackedSpring> membrane_dashpots(const Cloth& cloth, const std::vector<int>& place) {
+/// One for each edge of the membrane or tension, sorted; damping_k: the sum of its triangles'
+/// edge_stiffness() and of tension's slope at the working strain.
+std::vector<PackedSpring> element_dashpots(const Cloth& cloth, const std::vector<int>& place) {
   std::map<std::pair<int, int>, double> edges;
   for (const MembraneTriangle& t : cloth.membrane) {
     const MembraneConstants constants = membrane_constants(t);
@@ -68,6 +70,9 @@ std::vector<PackedSpring> membrane_dashpots(const Cloth& cloth, const std::vecto
       edges[std::minmax(place[std::size_t(t.vertices[(i + 1) % 3])],
                         place[std::size_t(t.vertices[(i + 2) % 3])])] += edge_stiffness(constants, i);
     }
+  }
+  for (const Tension& t : cloth.tension) {
+    edges[std::minmax(place[std::size_t(t.a)], place[std::size_t(t.b)])] += tension_slope(t, working_strain);
   }
   std::vector<PackedSpring> dashpots;
   for (const auto& [edge, k] : edges) dashpots.push_back({edge.first, edge.second, 0, 0, k});
@@ -110,10 +115,12 @@ void pack_springs(const std::vector<PackedSpring>& springs, PackedCloth& packed)
 Cloth renumbered_shell(const Cloth& cloth, const std::vector<int>& place) {
   Cloth shell;
   shell.membrane = cloth.membrane;
+  shell.tension = cloth.tension;
   shell.hinges = cloth.hinges;
   shell.hinge_law = cloth.hinge_law;
   for (MembraneTriangle& t : shell.membrane)
     for (int& v : t.vertices) v = place[std::size_t(v)];
+  for (Tension& t : shell.tension) t.a = place[std::size_t(t.a)], t.b = place[std::size_t(t.b)];
   for (Hinge& h : shell.hinges)
     for (int& v : h.vertices) v = place[std::size_t(v)];
   return shell;
@@ -126,6 +133,7 @@ std::vector<std::array<int, 2>> neighbour_pairs(const Cloth& cloth) {
   for (const Spring& s : cloth.bending) pairs.push_back({s.a, s.b});
   for (const MembraneTriangle& t : cloth.membrane)
     for (std::size_t i = 0; i < 3; ++i) pairs.push_back({t.vertices[i], t.vertices[(i + 1) % 3]});
+  for (const Tension& t : cloth.tension) pairs.push_back({t.a, t.b});
   for (const Hinge& h : cloth.hinges)
     for (std::size_t i = 0; i < 4; ++i) pairs.push_back({h.vertices[i], h.vertices[(i + 1) % 4]});
   return pairs;
@@ -150,7 +158,7 @@ PackedCloth pack(const Cloth& cloth, bool dashpots) {
   }
   const std::vector<int> place = places(packed.particle);
   std::vector<PackedSpring> edges;
-  if (dashpots) edges = membrane_dashpots(cloth, place);
+  if (dashpots) edges = element_dashpots(cloth, place);
   packed.dashpots = int(edges.size());
   pack_springs(renumbered_springs(cloth, place, edges), packed);
   packed.elements = pack_elements(cloth, place);

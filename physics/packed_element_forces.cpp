@@ -10,6 +10,7 @@ namespace furrow::physics {
 namespace {
 
 using FourTriangles = PackedElements::FourTriangles;
+using FourTensions = PackedElements::FourTensions;
 using FourHinges = PackedElements::FourHinges;
 
 /// Twice the tension times the edge: the force on the end it points away from.
@@ -36,6 +37,24 @@ void stretch(const FourTriangles* triangles, const Vec4* x, Vec4* slot, int begi
     scattered(f2 - f1, to, 3);
     scattered(f0 - f2, to + 1, 3);
     scattered(f1 - f0, to + 2, 3);
+  }
+}
+
+/// See tension_forces.h. Where the length is 0 the direction is, too.
+FURROW_VECTOR_CLONES
+void draw(const FourTensions* tensions, const Vec4* x, Vec4* slot, int begin, int end) {
+  for (int i = begin; i < end; ++i) {
+    const FourTensions& t = tensions[i];
+    const Vectors d = gathered(x, t.end[1]) - gathered(x, t.end[0]);
+    Lanes l2, l;
+    dot(d, d, l2);
+    const Lanes zero{};
+    square_root(l2, l);
+    const Lanes e = (l - at(t.rest_length)) / at(t.rest_length);
+    const Lanes ce = e > zero ? at(t.stretch) * e : -(at(t.compress) * e);
+    const Vectors pull = scaled(ce * e / (l > zero ? l : zero + 1), d);
+    scattered(pull, slot + 8 * i, 2);
+    scattered(scaled(zero - 1, pull), slot + 8 * i + 1, 2);
   }
 }
 
@@ -101,11 +120,15 @@ void gather(const int* first, const int* slots, const Vec4* slot, Vec4* force, i
 void add_element_forces(PackedElements& p, const std::vector<Vec4>& x, std::vector<Vec4>& force,
                         ThreadPool& pool) {
   if (p.slot.empty()) return;
-  const int triangles = int(p.triangles.size()), hinges = int(p.hinges.size());
-  Vec4* hinge_slot = p.slot.data() + 12 * p.triangles.size();
+  const int triangles = int(p.triangles.size()), tensions = int(p.tensions.size()),
+            hinges = int(p.hinges.size());
+  Vec4* tension_slot = p.slot.data() + 12 * p.triangles.size();
+  Vec4* hinge_slot = tension_slot + 8 * p.tensions.size();
   const bool cosine = p.law == HingeLaw::cosine;
   pool.run(triangles,
            [&](int begin, int end) { stretch(p.triangles.data(), x.data(), p.slot.data(), begin, end); });
+  pool.run(tensions,
+           [&](int begin, int end) { draw(p.tensions.data(), x.data(), tension_slot, begin, end); });
   pool.run(hinges,
            [&](int begin, int end) { fold(p.hinges.data(), cosine, x.data(), hinge_slot, begin, end); });
   pool.run(int(force.size()), [&](int begin, int end) {

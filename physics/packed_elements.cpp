@@ -7,6 +7,7 @@
 
 #include "physics/hinge_forces.h"
 #include "physics/membrane.h"
+#include "physics/tension_forces.h"
 
 namespace furrow::physics {
 namespace {
@@ -40,6 +41,25 @@ void put(const MembraneTriangle& t, int lane, PackedElements::FourTriangles& fou
     four.quadratic[i][lane] = c.quadratic(i, i);
     four.quadratic[3 + i][lane] = c.quadratic((i + 1) % 3, (i + 2) % 3);
   }
+}
+
+/// A Tension whose ends are in an array, as those of the other kinds.
+struct PlacedTension {
+  std::array<int, 2> vertices;
+  Tension law;
+};
+
+std::vector<PlacedTension> with_vertices(const std::vector<Tension>& tension) {
+  std::vector<PlacedTension> result;
+  for (const Tension& t : tension) result.push_back({{t.a, t.b}, t});
+  return result;
+}
+
+void put(const PlacedTension& t, int lane, PackedElements::FourTensions& four) {
+  for (int i = 0; i < 2; ++i) four.end[i][lane] = t.vertices[i];
+  four.rest_length[lane] = t.law.rest_length;
+  four.stretch[lane] = t.law.stretch;
+  four.compress[lane] = t.law.compress;
 }
 
 void put(const Hinge& h, int lane, PackedElements::FourHinges& four) {
@@ -76,23 +96,30 @@ void check_elements(const Cloth& cloth) {
     check_corners(t, cloth.particles.size());
     membrane_constants(t);
   }
+  for (const Tension& t : cloth.tension) check(t, cloth.particles.size());
   for (const Hinge& h : cloth.hinges) check(h, cloth.particles.size());
 }
 
 PackedElements pack_elements(const Cloth& cloth, const std::vector<int>& place) {
   const auto triangles = renumbered(cloth.membrane, place);
+  const auto tensions = renumbered(with_vertices(cloth.tension), place);
   const auto hinges = renumbered(cloth.hinges, place);
   PackedElements packed;
   packed.law = cloth.hinge_law;
   packed.triangle_count = int(triangles.size());
+  packed.tension_count = int(tensions.size());
   packed.hinge_count = int(hinges.size());
-  if (triangles.empty() && hinges.empty()) return packed;
+  if (triangles.empty() && tensions.empty() && hinges.empty()) return packed;
   packed.triangles = by_fours<PackedElements::FourTriangles>(triangles);
+  packed.tensions = by_fours<PackedElements::FourTensions>(tensions);
   packed.hinges = by_fours<PackedElements::FourHinges>(hinges);
-  const std::size_t first_hinge = 12 * packed.triangles.size();
+  const std::size_t first_tension = 12 * packed.triangles.size(),
+                    first_hinge = first_tension + 8 * packed.tensions.size();
   std::vector<int> slots(first_hinge + 16 * packed.hinges.size(), -1);
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) slots[3 * i + c] = triangles[i].vertices[c];
+  for (std::size_t i = 0; i < tensions.size(); ++i)
+    for (std::size_t c = 0; c < 2; ++c) slots[first_tension + 2 * i + c] = tensions[i].vertices[c];
   for (std::size_t i = 0; i < hinges.size(); ++i)
     for (std::size_t c = 0; c < 4; ++c) slots[first_hinge + 4 * i + c] = hinges[i].vertices[c];
   packed.slot.resize(slots.size());

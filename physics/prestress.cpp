@@ -85,6 +85,16 @@ void invert_springs(const Particles& p, std::span<const double> tension, std::ve
   }
 }
 
+void invert_tension(const Particles& p, std::span<const double> pull, std::vector<Tension>& tension,
+                    PrestressReport& report) {
+  for (std::size_t i = 0; i < tension.size(); ++i) {
+    Tension& t = tension[i];
+    const double l = (p.x[t.b] - p.x[t.a]).norm();
+    t.rest_length = rest_length_for(t, l, pull[i]).value();  // the bounds see to it
+    report.max_strain = std::max(report.max_strain, std::abs(l - t.rest_length) / t.rest_length);
+  }
+}
+
 void invert_triangles(const Particles& p, const SagForces& f, std::vector<MembraneTriangle>& triangles,
                       PrestressReport& report) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -116,6 +126,7 @@ void invert_hinges(const SagForces& f, Cloth& cloth, PrestressReport& report) {
 void invert(const SagForces& f, Cloth& cloth, PrestressReport& report) {
   invert_springs(cloth.particles, f.structural, cloth.structural, report);
   invert_springs(cloth.particles, f.bending, cloth.bending, report);
+  invert_tension(cloth.particles, f.tension, cloth.tension, report);
   invert_triangles(cloth.particles, f, cloth.membrane, report);
   invert_hinges(f, cloth, report);
   std::size_t place = 0;
@@ -126,6 +137,7 @@ void invert(const SagForces& f, Cloth& cloth, PrestressReport& report) {
   };
   list(cloth.structural.size(), report.structural);
   list(cloth.bending.size(), report.bending);
+  list(cloth.tension.size(), report.tension);
   list(cloth.membrane.size(), report.membrane);
   list(cloth.hinges.size(), report.hinges);
 }

@@ -14,7 +14,8 @@ struct PrestressOptions {
   double friction = 0.3;      ///< Coulomb coefficient with the body [-]; >= 0; 0: without friction
   double gap = 0.003;         ///< a body at most this far (and 1e-5 m) carries [m]; > 0
   double max_strain = 0.1;    ///< bound of |l - L| / L, see SagSystem for triangles [-]; in (0, 0.15]
-  /// Bound of (L - l) / L of springs, where less than max_strain, for cloth that buckles [-]; in [0, 0.15]
+  /// Bound of (L - l) / L of springs and tension, where less than max_strain, for cloth that buckles [-]; in
+  /// [0, 0.15]
   double max_compression = 0.15;
   double max_angle = 1.5707963267948966;  ///< bound of |theta - theta0| of hinges [rad]; in (0, 3]
   double tolerance = 1e-9;                ///< net force relative to weight at which it is done [-]; > 0
@@ -23,9 +24,10 @@ struct PrestressOptions {
 
 struct PrestressReport {
   double residual = 0;                    ///< residual_force() of the result [-]
-  double max_strain = 0;                  ///< |l - L| / L of springs and of triangles' edges [-]
+  double max_strain = 0;                  ///< |l - L| / L of springs, tension, triangles' edges [-]
   double max_angle = 0;                   ///< |theta - theta0| of hinges [rad]
   std::vector<int> structural, bending;   ///< springs on a bound
+  std::vector<int> tension;               ///< tension on a bound
   std::vector<int> membrane, hinges;      ///< triangles, hinges on a bound
   std::vector<int> touching;              ///< particles that the body may carry
   std::vector<Vec3> contact_force;        ///< on each of these [N]; in the friction cone
@@ -33,14 +35,15 @@ struct PrestressReport {
   int iterations = 0, factorisations = 0;
 
   std::size_t active_bounds() const {
-    return structural.size() + bending.size() + membrane.size() + hinges.size();
+    return structural.size() + bending.size() + tension.size() + membrane.size() + hinges.size();
   }
 };
 
-/// Sets the rest state (rest lengths of springs and triangles, rest angles of hinges) with which the cloth is
-/// in equilibrium as it lies: forces of elements, weight, `loads` and a contact force in the friction cone
-/// balance on each free particle. Stiffnesses, positions and all else stay; which rest state it has does not
-/// count. Among all such states the one whose elements store least energy, each by its own stiffness:
+/// Sets the rest state (rest lengths of springs, tension and triangles, rest angles of hinges) with which the
+/// cloth is in equilibrium as it lies: forces of elements, weight, `loads` and a contact force in the
+/// friction cone balance on each free particle. Stiffnesses, positions and all else stay; which rest state it
+/// has does not count. Among all such states the one whose elements store least energy, each by its own
+/// stiffness:
 ///   min 1/2 z^T C z  subject to  A z + f = 0  and the bounds,  z = -C^-1 A^T u,  (A C^-1 A^T) u = f,
 /// where A C^-1 A^T is the stiffness matrix of a cloth at rest as it lies; then each element's law is
 /// inverted (invert_elements.h). Bounds and the cone make it a convex problem without equations (Newton's

@@ -23,6 +23,7 @@ class Pieces {
       for (const Spring& s : *springs) join(s.a, s.b);
     for (const MembraneTriangle& t : cloth.membrane)
       for (const int v : t.vertices) join(t.vertices[0], v);
+    for (const Tension& t : cloth.tension) join(t.a, t.b);
     for (const Hinge& h : cloth.hinges)
       for (const int v : h.vertices) join(h.vertices[0], v);
   }

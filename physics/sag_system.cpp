@@ -9,6 +9,7 @@
 #include "physics/dihedral.h"
 #include "physics/hinge_forces.h"
 #include "physics/membrane.h"
+#include "physics/tension_forces.h"
 
 namespace furrow::physics {
 namespace {
@@ -16,9 +17,14 @@ namespace {
 constexpr double body_stiffness = 10;   // over the mean diagonal
 constexpr double largest_shift = 1e20;  // 1/s^2
 
-/// The cloth with its rest state as it lies.
+/// The cloth with its rest state as it lies; tension becomes linear.
 Cloth at_rest(Cloth cloth) {
   const std::vector<Vec3>& x = cloth.particles.x;
+  for (Tension t : cloth.tension) {
+    t.rest_length = (x[t.b] - x[t.a]).norm();
+    cloth.bending.push_back({t.a, t.b, t.rest_length, tension_slope(t, working_strain)});
+  }
+  cloth.tension.clear();
   for (auto* springs : {&cloth.structural, &cloth.bending})
     for (Spring& s : *springs) s.rest_length = (x[s.b] - x[s.a]).norm();
   for (MembraneTriangle& t : cloth.membrane)
@@ -63,7 +69,9 @@ SagSystem::SagSystem(const Cloth& cloth, const SagLimits& limits, std::span<cons
       friction_(limits.friction),
       stiffness_(rest_) {
   add_bars(rest_.structural, limits);
-  add_bars(rest_.bending, limits);
+  add_bars(std::span(rest_.bending).first(cloth.bending.size()), limits);
+  tension_begin_ = bars_.size();
+  add_tension(cloth, limits);
   add_plates(rest_, limits.strain);
   add_bends(cloth, limits.angle);
   if (contacts_.empty()) return;
@@ -79,6 +87,17 @@ void SagSystem::add_bars(std::span<const Spring> springs, const SagLimits& limit
     if (!(l > 0)) throw std::invalid_argument("prestress: a spring has no length");
     bars_.push_back({s.a, s.b, d / l, k, -k * l * limits.compression / (1 - limits.compression),
                      k * l * limits.strain / (1 + limits.strain)});
+  }
+}
+
+/// A law that cannot push has its lower limit at 0.
+void SagSystem::add_tension(const Cloth& cloth, const SagLimits& limits) {
+  for (std::size_t i = 0; i < cloth.tension.size(); ++i) {
+    const Tension& t = cloth.tension[i];
+    const Spring& s = rest_.bending[cloth.bending.size() + i];
+    if (!(s.rest_length > 0)) throw std::invalid_argument("prestress: a tension has no length");
+    bars_.push_back({s.a, s.b, (rest_.particles.x[s.b] - rest_.particles.x[s.a]) / s.rest_length, s.stiffness,
+                     tension_law(t, -limits.compression).force, tension_law(t, limits.strain).force});
   }
 }
 
@@ -113,7 +132,10 @@ void SagSystem::respond_bars(std::span<const Vec3> w, std::span<Vec3> force, Sag
   for (std::size_t i = 0; i < bars_.size(); ++i) {
     const Bar& b = bars_[i];
     const Clamped c = clamped(b.stiffness, b.direction.dot(w[b.b] - w[b.a]), b.low, b.high);
-    (i < rest_.structural.size() ? f.structural : f.bending).push_back(c.force);
+    (i < rest_.structural.size() ? f.structural
+     : i < tension_begin_        ? f.bending
+                                 : f.tension)
+        .push_back(c.force);
     f.potential += c.potential;
     f.scale.push_back(c.scale);
     force[b.a] += c.force * b.direction;

@@ -14,10 +14,11 @@ namespace furrow::physics {
 /// problem, in the norm of the element's own stiffness. So the potential is convex with a continuous
 /// derivative, and Newton's method with a line search finds its minimum, from where the load is met as well
 /// as the limits allow. Hinges count by their stiffness k, whatever their law; a cosine hinge's moment is at
-/// most k (1 - cos angle). A triangle's stress is at most that of the energy of the strain limit along one
-/// axis, 1/2 A Y strain^2: then no principal strain is beyond the limit, to first order. A contact's force
-/// lies in Coulomb's cone; its stiffness is high (10 times K's mean diagonal), so that the body carries what
-/// it can and the cloth the rest.
+/// most k (1 - cos angle). Tension, without stiffness at rest, counts with that at the working strain
+/// (tension_forces.h), within what its own law bears. A triangle's stress is at most that of the energy of
+/// the strain limit along one axis, 1/2 A Y strain^2: then no principal strain is beyond the limit, to first
+/// order. A contact's force lies in Coulomb's cone; its stiffness is high (10 times K's mean diagonal), so
+/// that the body carries what it can and the cloth the rest.
 class SagSystem {
  public:
   /// Cost: one pass, and the symbolic factorisation. Throws std::invalid_argument as elements do, and if a
@@ -51,6 +52,7 @@ class SagSystem {
     double reach;  // sqrt of twice the largest energy
   };
   void add_bars(std::span<const Spring> springs, const SagLimits& limits);
+  void add_tension(const Cloth& cloth, const SagLimits& limits);
   void add_bends(const Cloth& cloth, double angle);
   void add_plates(const Cloth& cloth, double strain);
   void respond_bars(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const;
@@ -59,9 +61,10 @@ class SagSystem {
   void respond_contacts(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const;
   Mat3 contact_stiffness(const SagContact& contact, const Vec3& w) const;
 
-  Cloth rest_;  // at rest as it lies; linear hinges
+  Cloth rest_;  // at rest as it lies; linear hinges; tension as springs behind those of bending
   Cloth now_;   // the same with the stiffness that elements have at their limits
   std::vector<Bar> bars_;
+  std::size_t tension_begin_;  // first of the bars that are tension
   std::vector<Plate> plates_;
   std::vector<Bend> bends_;
   std::vector<SagContact> contacts_;

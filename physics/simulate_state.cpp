@@ -49,6 +49,9 @@ std::uint64_t fingerprint(const Cloth& cloth) {
     for (int k = 0; k < 3; ++k) hash.add(t.vertices[k]), hash.add(t.rest_lengths[k]);
     hash.add(t.lambda), hash.add(t.mu);
   }
+  if (!cloth.tension.empty()) hash.add(cloth.tension.size());  // as ever where there is none
+  for (const Tension& t : cloth.tension)
+    hash.add(t.a), hash.add(t.b), hash.add(t.rest_length), hash.add(t.stretch), hash.add(t.compress);
   hash.add(cloth.hinges.size()), hash.add(int(cloth.hinge_law));
   for (const Hinge& h : cloth.hinges) {
     for (const int v : h.vertices) hash.add(v);

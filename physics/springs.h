@@ -15,6 +15,14 @@ struct Spring {
   double stiffness;    ///< k [N/m]; >= 0
 };
 
+/// Quadratic, asymmetric tension (Hanami and Tokoi; method S2.2): with the strain e = (l - L) / L a pull of
+/// stretch e^2 where e > 0, a push of compress e^2 where e < 0. No stiffness at rest.
+struct Tension {
+  int a, b;                  ///< particle indices, a < b
+  double rest_length;        ///< L [m]; > 0
+  double stretch, compress;  ///< force at e = 1 and e = -1 [N]; 0 <= compress <= stretch
+};
+
 /// Signed hinge between the triangles (0, 1, 2) and (1, 0, 3) of its vertices; the edge is 0-1.
 struct Hinge {
   std::array<int, 4> vertices;
@@ -41,6 +49,7 @@ struct Cloth {
   std::vector<Spring> structural;  ///< one for each edge
   std::vector<Spring> bending;     ///< one for each pair of vertices opposite an interior edge
   std::vector<MembraneTriangle> membrane;
+  std::vector<Tension> tension;  ///< sorted by (a, b)
   std::vector<Hinge> hinges;
   HingeLaw hinge_law = HingeLaw::linear;      ///< of all hinges
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside

@@ -18,7 +18,8 @@ struct StepLimit {
 
 /// dt_limit = 2 / omega_max,  omega_max^2 the largest eigenvalue of M^-1/2 K M^-1/2 at the present positions,
 /// K the stiffness of springs and membrane without the (destabilising) transverse part of what is compressed,
-/// and that of hinges: exact, but for cosine hinges with their largest E''. It bounds the exact K from above.
+/// that of tension as if strained by tension_margin more than it is, and that of hinges: exact, but for
+/// cosine hinges with their largest E''. It bounds the exact K from above.
 /// M the masses; what has inv_mass 0 is held. Lanczos with full reorthogonalisation from a fixed
 /// pseudo-random start, until the residual r is below the tolerance; then omega_max^2 = theta + r, at most
 /// Gershgorin's bound, so that dt_limit errs to the safe side, by at most about half the tolerance.

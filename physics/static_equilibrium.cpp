@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "physics/static_equilibrium.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,6 +48,9 @@ class Newton {
       : cloth_(cloth), stiffness_(stiffness), report_(report), options_(options) {
     const double g = options.gravity.norm();
     weight_per_mass_ = g > 0 ? g : standard_gravity;
+    Eigen::AlignedBox3d box;
+    for (const Vec3& x : cloth.particles.x) box.extend(x);
+    if (!cloth.particles.x.empty()) extent_ = box.diagonal().norm();
   }
 
   void run(const Vec3& gravity) {
@@ -92,6 +96,7 @@ class Newton {
     force_.assign(p.size(), Vec3::Zero());
     add_forces(cloth_, p.x, force_);
     report_.residual = 0;
+    double largest = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (!(p.inv_mass[i] > 0)) {
         force_[i].setZero();
@@ -99,12 +104,14 @@ class Newton {
       }
       force_[i] += p.mass[i] * gravity_;
       report_.residual = std::max(report_.residual, force_[i].norm() / (p.mass[i] * weight_per_mass_));
+      largest = std::max(largest, force_[i].norm());
     }
+    if (extent_ > 0) least_scale_ = largest / extent_;
   }
 
   /// Solves (K + shift I) move = force with a shift that makes it positive definite; false if there is none.
   bool find_move() {
-    const double scale = stiffness_.mean_diagonal();
+    const double scale = std::max(std::abs(stiffness_.mean_diagonal()), least_scale_);
     for (; shift_ <= largest_shift; shift_ = std::max(first_shift, 8 * shift_)) {
       ++report_.factorisations;
       if (stiffness_.factorise(shift_ * scale) != 0) continue;
@@ -142,9 +149,11 @@ class Newton {
   const StaticOptions& options_;
   double weight_per_mass_ = standard_gravity;
   Vec3 gravity_ = Vec3::Zero();
-  double shift_ = 0;  // relative to K's mean diagonal; carried from step to step
-  Energy before_{};   // of the last step
-  double slope_ = 0;  // of the energy along the last move [J]; < 0
+  double extent_ = 0;       // of the cloth [m]
+  double least_scale_ = 0;  // of shifts [N/m]: tension has no stiffness at rest
+  double shift_ = 0;        // relative to K's mean diagonal; carried from step to step
+  Energy before_{};         // of the last step
+  double slope_ = 0;        // of the energy along the last move [J]; < 0
   Positions force_, move_;
 };
 

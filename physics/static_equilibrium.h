@@ -24,11 +24,13 @@ struct StaticReport {
 /// Weight is m |gravity|, with 9.81 m/s^2 where gravity is 0.
 ///
 /// Newton's method from cloth.particles.x with the exact stiffness K; where K is not positive definite
-/// K + shift I with the least shift of a geometric sequence that is, so that every step goes downhill; the
-/// step is halved until the energy falls enough (Armijo, 1e-4). It ends when the tolerance is met, after
-/// max_iterations, or when round-off hides every descent (the residual tells; try a larger tolerance).
-/// A start within a plane of symmetry stays there, even where the equilibrium is not stable: disturb it, or
-/// ask report.stable. Many states of rest may exist; the one found depends on the start.
+/// K + shift I with the least shift of a geometric sequence that is, so that every step goes downhill (the
+/// sequence goes by the size of K's mean diagonal, or by largest force / extent where that is more, so that a
+/// cloth without stiffness at its start finds its way, too); the step is halved until the energy falls enough
+/// (Armijo, 1e-4). It ends when the tolerance is met, after max_iterations, or when round-off hides every
+/// descent (the residual tells; try a larger tolerance). A start within a plane of symmetry stays there, even
+/// where the equilibrium is not stable: disturb it, or ask report.stable. Many states of rest may exist; the
+/// one found depends on the start.
 ///
 /// Cost: a sparse factorisation, O(n^1.5) for a sheet of n particles, each step; one pass over the elements
 /// each energy. The same input gives the same bits.

@@ -30,8 +30,11 @@ StrainStatistics strain_statistics(std::span<const Vec3> x, std::span<const Spri
 }
 
 StrainStatistics strain_statistics(const Cloth& cloth) {
-  if (!cloth.structural.empty()) return strain_statistics(cloth.particles.x, cloth.structural);
-  std::vector<Spring> edges;
+  if (cloth.tension.empty() && !cloth.structural.empty())
+    return strain_statistics(cloth.particles.x, cloth.structural);
+  std::vector<Spring> edges = cloth.structural;
+  for (const Tension& t : cloth.tension) edges.push_back({t.a, t.b, t.rest_length, 0});
+  if (!edges.empty()) return strain_statistics(cloth.particles.x, edges);
   edges.reserve(3 * cloth.membrane.size());
   for (const MembraneTriangle& t : cloth.membrane) {
     for (std::size_t i = 0; i < 3; ++i)

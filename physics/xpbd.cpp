@@ -107,9 +107,10 @@ Xpbd::Xpbd(Motion& motion, const XpbdOptions& options) : motion_(motion), option
     throw std::invalid_argument("xpbd: tolerance = " + std::to_string(options.tolerance) + " is not >= 0");
   }
   const PackedCloth& cloth = motion.cloth();
-  if (!cloth.shell.membrane.empty() || !cloth.shell.hinges.empty()) {
+  if (!cloth.shell.membrane.empty() || !cloth.shell.tension.empty() || !cloth.shell.hinges.empty()) {
     throw std::invalid_argument("xpbd knows springs only: not " +
-                                std::to_string(cloth.shell.membrane.size()) + " membrane triangles and " +
+                                std::to_string(cloth.shell.membrane.size()) + " membrane triangles, " +
+                                std::to_string(cloth.shell.tension.size()) + " tensions and " +
                                 std::to_string(cloth.shell.hinges.size()) +
                                 " hinges; choose springs for both, or another integrator");
   }

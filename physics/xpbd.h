@@ -21,7 +21,8 @@ namespace furrow::physics {
 /// Macklin, Müller, Chentanez, XPBD, MIG 2016; Macklin et al., Small Steps, SCA 2019.
 class Xpbd : public Stepper {
  public:
-  /// Throws std::invalid_argument if an option is out of its range, or the cloth has a membrane or hinges.
+  /// Throws std::invalid_argument if an option is out of its range, or the cloth has a membrane, tension or
+  /// hinges.
   explicit Xpbd(Motion& motion, const XpbdOptions& options = {});
   void step(double dt) override;
 

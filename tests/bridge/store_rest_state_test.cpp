@@ -59,7 +59,13 @@ bool same(const physics::Cloth& a, const physics::Cloth& b) {
   const auto hinge = [](const auto& s, const auto& t) {
     return s.vertices == t.vertices && s.rest_angle == t.rest_angle && s.stiffness == t.stiffness;
   };
-  return same(a.structural, b.structural) && same(a.bending, b.bending) &&
+  const auto tension = [](const auto& s, const auto& t) {
+    return s.a == t.a && s.b == t.b && s.rest_length == t.rest_length && s.stretch == t.stretch &&
+           s.compress == t.compress;
+  };
+  return same(a.structural, b.structural) &&
+         std::equal(a.tension.begin(), a.tension.end(), b.tension.begin(), b.tension.end(), tension) &&
+         same(a.bending, b.bending) &&
          std::equal(a.membrane.begin(), a.membrane.end(), b.membrane.begin(), b.membrane.end(), triangle) &&
          std::equal(a.hinges.begin(), a.hinges.end(), b.hinges.begin(), b.hinges.end(), hinge);
 }
@@ -72,14 +78,18 @@ void change(physics::Cloth& cloth) {
     for (physics::Spring& s : *springs) s.rest_length *= factor(), s.stiffness *= factor();
   for (physics::MembraneTriangle& t : cloth.membrane)
     for (double& l : t.rest_lengths) l *= factor();
+  for (physics::Tension& t : cloth.tension) {
+    t.rest_length *= factor(), t.stretch *= factor();
+    t.compress = GatherOptions{}.compression * t.stretch;
+  }
   for (physics::Hinge& h : cloth.hinges) h.rest_angle += 0.1 * std::sin(++i), h.stiffness *= 10 * factor();
 }
 
 }  // namespace
 
 TEST_CASE("what is stored is gathered again with the same bits, under every law") {
-  for (const Membrane membrane :
-       {Membrane::paper, Membrane::uniform, Membrane::inverse, Membrane::van_gelder, Membrane::triangles})
+  for (const Membrane membrane : {Membrane::paper, Membrane::uniform, Membrane::inverse, Membrane::van_gelder,
+                                  Membrane::triangles, Membrane::tension})
     for (const Bending bending : {Bending::cross, Bending::hinge, Bending::cosine}) {
       CAPTURE(int(membrane), int(bending));
       Mesh mesh = sheet();
@@ -94,6 +104,7 @@ TEST_CASE("what is stored is gathered again with the same bits, under every law"
       // What is stored goes before the material.
       GatherOptions stiffer = o;
       stiffer.structural_stiffness *= 3, stiffer.bending_stiffness *= 3, stiffer.rigidity *= 3;
+      stiffer.tension *= 3;
       CHECK(same(bridge::gather(mesh, stiffer), cloth));
     }
 }

@@ -7,6 +7,7 @@ furrow_add_tests(bridge LIBRARIES furrow::bridge garment_cases SOURCES
   gather_test.cpp
   keep_lines_test.cpp
   store_rest_state_test.cpp
+  tension_constants_test.cpp
   body_test.cpp
   draped_test.cpp
 )

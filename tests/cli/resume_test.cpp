@@ -187,6 +187,7 @@ TEST_CASE("fabrics, and every integrator that a scene can choose, go on as if th
   const std::string state = sheet.scratch / "state.ply", scene = sheet.scratch / "scene.toml";
   const std::string more = GENERATE(
       " --set 'material={preset=\"jet-set\"}'", " --set material.membrane=van-gelder --bending-law cosine",
+      " --membrane tension --tension 2e4 --bending-law cosine --set material.mass_rule=equal",
       " --integrator rk4", " --integrator xpbd --dt 0.001", " --integrator backward-euler --dt 0.004");
   CAPTURE(more);
   const std::string whole = sheet.run(scene + more + " --threads 1");

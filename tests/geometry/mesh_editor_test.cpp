@@ -15,7 +15,7 @@ using namespace furrow::tests;
 namespace {
 
 const PropertyName<Edge, double>* const kOwn[] = {&kStiffness, &kBendingStiffness, &kHingeStiffness,
-                                                  &kRestAngle};
+                                                  &kTension, &kRestAngle};
 
 /// A grid with a value of its own for every element.
 Mesh set_mesh() {
@@ -70,4 +70,21 @@ TEST_CASE("a split edge takes stiffness, rest angles and rest lengths of its own
 
 TEST_CASE("a flipped edge takes stiffness, rest angles and rest lengths of its own from what it changes") {
   check_unset([](MeshEditor& e) { e.flip_edge(*e.edge_between(Vertex(6), Vertex(12))); });
+}
+
+TEST_CASE("a diagonal that is flipped or split is none") {
+  for (const bool flip : {true, false}) {
+    Mesh mesh = set_mesh();
+    auto diagonal = ensure_map(mesh, kDiagonal);
+    for (Edge e : mesh.edges()) diagonal[e] = true;
+    MeshEditor editor(mesh);
+    const std::size_t before = mesh.number_of_edges();
+    if (flip)
+      editor.flip_edge(*editor.edge_between(Vertex(6), Vertex(12)));
+    else
+      editor.split_edge(mesh.halfedge(Vertex(6), Vertex(12)), 0.4);
+    std::size_t marked = 0;
+    for (Edge e : mesh.edges()) marked += diagonal[e];
+    CHECK(marked == before - 1);
+  }
 }

@@ -9,6 +9,7 @@
 
 #include "geometry/edge_metric.h"
 #include "geometry/measures.h"
+#include "geometry/property_names.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 
@@ -54,4 +55,31 @@ TEST_CASE("meshes/sheet.obj is what equilateral_sheet makes") {
   REQUIRE(read.number_of_vertices() == made.number_of_vertices());
   REQUIRE(read.number_of_faces() == made.number_of_faces());
   for (Vertex v : made.vertices()) CHECK(read.point(v) == made.point(v));
+}
+
+TEST_CASE("woven_sheet: size, normal, cells and diagonals") {
+  const Mesh mesh = woven_sheet(0.4, 0.31, 0.1);
+  const MeshInfo info = measure(mesh);
+  CHECK(info.vertices == 20);
+  CHECK(info.area == Approx(0.124).epsilon(1e-12));
+  CHECK(info.box_min == Point(-0.2, 0, 0));
+  CHECK(info.box_max == Point(0.2, 0.31, 0));
+  const auto diagonal = *find_map(mesh, kDiagonal);
+  std::size_t diagonals = 0, valence_8 = 0;
+  for (Edge e : mesh.edges()) diagonals += diagonal[e];
+  for (Vertex v : mesh.vertices()) valence_8 += mesh.degree(v) == 8;
+  CHECK(diagonals == 12);
+  CHECK(valence_8 == 3);
+  for (Face f : mesh.faces()) {
+    const Halfedge h = mesh.halfedge(f);
+    const Point &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)),
+                &c = mesh.point(mesh.target(mesh.next(h)));
+    CHECK(CGAL::cross_product(b - a, c - a).z() > 0);
+    int of_face = 0;
+    for (Halfedge side : mesh.halfedges_around_face(h)) of_face += diagonal[mesh.edge(side)];
+    CHECK(of_face == 1);
+  }
+  CHECK_THROWS_AS(woven_sheet(0, 1, 0.1), std::invalid_argument);
+  CHECK_THROWS_AS(woven_sheet(1, 0.05, 0.1), std::invalid_argument);
+  CHECK_THROWS_AS(woven_sheet(1, 1, 1e-5), std::invalid_argument);
 }

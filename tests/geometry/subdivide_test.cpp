@@ -12,6 +12,7 @@
 #include "geometry/face_point.h"
 #include "geometry/measures.h"
 #include "geometry/property_names.h"
+#include "geometry/sheet.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 
@@ -145,6 +146,32 @@ TEST_CASE("texture, colours, groups and materials survive both subdivisions") {
     const Face from(static_cast<Face::size_type>((*find_map(mesh, kMaterial))[f]));
     CHECK((*find_map(mesh, kGroup))[f] == (*find_map(before, kGroup))[from]);
   }
+}
+
+TEST_CASE("halves of diagonals, and what is parallel to them, are diagonals") {
+  Mesh mesh = woven_sheet(0.3, 0.2, 0.1);
+  const auto count = [](const Mesh& m) {
+    std::size_t n = 0;
+    for (Edge e : m.edges()) {
+      const Vector d = m.point(m.vertex(e, 1)) - m.point(m.vertex(e, 0));
+      const bool slanted = std::abs(d.x()) > 1e-6 && std::abs(d.y()) > 1e-6;
+      CHECK((*find_map(m, kDiagonal))[e] == slanted);
+      n += slanted;
+    }
+    return n;
+  };
+  CHECK(count(mesh) == 6);
+  Mesh loop = mesh, sqrt3 = mesh;
+  midpoint_subdivide(mesh, 1);
+  CHECK(count(mesh) == 24);
+  midpoint_subdivide(mesh, 1);
+  CHECK(count(mesh) == 96);
+  loop_subdivide(loop, 2);
+  std::size_t marked = 0;
+  for (Edge e : loop.edges()) marked += (*find_map(loop, kDiagonal))[e];
+  CHECK(marked == 96);
+  sqrt3_subdivide(sqrt3, 1);
+  for (Edge e : sqrt3.edges()) CHECK_FALSE((*find_map(sqrt3, kDiagonal))[e]);
 }
 
 TEST_CASE("loop_subdivide carries a seam of the texture: its two sides stay apart") {

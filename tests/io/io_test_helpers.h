@@ -100,7 +100,8 @@ inline io::MeshFile decorated_grid(int n) {
     rest[e] = third(e) + 1;
     if (!mesh.is_border(e)) bending[e] = third(e), count[e] = 1 + static_cast<int>(std::size_t(e)) % 2;
     line_edge[e] = std::size_t(e) % 5 == 0;
-    for (const auto* name : {&kStiffness, &kBendingStiffness, &kHingeStiffness, &kRestAngle})
+    ensure_map(mesh, kDiagonal)[e] = std::size_t(e) % 3 == 1;
+    for (const auto* name : {&kStiffness, &kBendingStiffness, &kHingeStiffness, &kTension, &kRestAngle})
       ensure_map(mesh, *name)[e] = std::size_t(e) % 7 == 2 ? kUnset : third(e);
   }
   auto own = ensure_map(mesh, kTriangleRestLength);

@@ -67,7 +67,8 @@ TEST_CASE("PLY: mesh, maps, names and comments come back with the same bits") {
   check_same_map(a, b, kBendingRestLength, a.edges());
   check_same_map(a, b, kBendingCount, a.edges());
   check_same_map(a, b, kLineEdge, a.edges());
-  for (const auto* name : {&kRestAngle, &kStiffness, &kBendingStiffness, &kHingeStiffness})
+  check_same_map(a, b, kDiagonal, a.edges());
+  for (const auto* name : {&kRestAngle, &kStiffness, &kBendingStiffness, &kHingeStiffness, &kTension})
     check_same_map(a, b, *name, a.edges());
   check_same_map(a, b, kGroup, a.faces());
   check_same_map(a, b, kMaterial, a.faces());
@@ -124,8 +125,15 @@ TEST_CASE("PLY: edge values are found by their vertices after flips and removals
 }
 
 TEST_CASE("PLY: a mesh without maps gets no properties and no edge element") {
-  const std::string bytes = written(read_from(kCubeObj, MeshFormat::obj), MeshFormat::ply);
-  const std::string header = bytes.substr(0, bytes.find("end_header"));
+  io::MeshFile cube = read_from(kCubeObj, MeshFormat::obj);
+  const auto header_of = [&] {
+    const std::string bytes = written(cube, MeshFormat::ply);
+    return bytes.substr(0, bytes.find("end_header"));
+  };
+  CHECK(header_of().find("property uchar diagonal") != std::string::npos);  // its faces have four corners
+  auto diagonal = *find_map(cube.mesh, kDiagonal);
+  cube.mesh.remove_property_map(diagonal);
+  const std::string header = header_of();
   for (const char* absent : {"edge", "strut", "rest_length", "line", "mass", "red", "group", "texcoord"})
     CHECK(header.find(absent) == std::string::npos);
   CHECK(header.find("property double z") != std::string::npos);

@@ -5,6 +5,7 @@
 
 #include "geometry/errors.h"
 #include "io/check_keep.h"
+#include "io/fabrics.h"
 #include "io/relocated.h"
 
 using namespace furrow;
@@ -129,6 +130,34 @@ TEST_CASE("the rules of the rest state have their names") {
                 name + "\"\n")
               .lines[0]
               .options.rest == rule);
+}
+
+TEST_CASE("the cloth of fast fitting: quadratic tension, and the same mass for each vertex") {
+  const io::SceneMaterial m = scene(
+                                  "[garment]\nmesh = \"g.obj\"\n[material]\nmembrane = \"tension\"\n"
+                                  "tension = 3e4\ncompression = 0\nshear = 1\nmass_rule = \"equal\"\n")
+                                  .material;
+  CHECK(m.membrane == bridge::Membrane::tension);
+  CHECK(m.tension == 3e4);
+  CHECK(m.compression == 0);
+  CHECK(m.shear == 1);
+  CHECK(m.mass_rule == bridge::MassRule::equal);
+  CHECK(has(fault("[material]\ntension = 0\n"), "must be a number > 0 [N/m]"));
+  CHECK(has(fault("[material]\ncompression = 1.5\n"), "material.compression = 1.5"));
+  CHECK(has(fault("[material]\nshear = -1\n"), "material.shear = -1"));
+  CHECK(has(fault("[material]\nmass_rule = \"none\"\n"), "equal"));
+  const io::SceneMaterial denim =
+      scene("[garment]\nmesh = \"g.obj\"\n[material]\npreset = \"denim\"\nmembrane = \"tension\"\n").material;
+  CHECK(denim.membrane == bridge::Membrane::tension);
+  CHECK_FALSE(denim.tension);
+  CHECK(denim.shear == Approx(4 * 106.8 / 1219.2));
+  // At 2 % as much as the linear law: c e^2 = Y e.
+  CHECK(io::tension_constant(1219.2) * 0.02 * 0.02 == Approx(1219.2 * 0.02));
+  for (const io::Fabric& fabric : io::fabrics()) {
+    CHECK(io::shear_ratio(fabric) > 0);
+    CHECK(io::shear_ratio(fabric) <= 1);
+  }
+  CHECK(io::shear_ratio(io::fabric_named("jersey")) == 1);
 }
 
 TEST_CASE("a kept shape needs hinges, and a body and pins that stand still") {

@@ -176,3 +176,17 @@ TEST_CASE("make_manifold: a component is turned whole where that turns fewer fac
   CHECK(t[0].points == std::array<std::size_t, 3>{0, 1, 2});
   CHECK(t[0].corners == std::array<std::size_t, 3>{0, 2, 1});
 }
+
+TEST_CASE("the cut of a four-sided face is a diagonal, other edges are none") {
+  // A quad, a triangle beside it, a pentagon, and a quad that is wound the other way.
+  const io::SoupMesh out =
+      io::soup_to_mesh(soup_of(10, {{0, 1, 2, 3}, {1, 4, 2}, {5, 6, 7, 8, 9}, {0, 1, 6, 5}}), "soup");
+  const auto diagonal = *find_map(out.mesh, kDiagonal);
+  std::set<std::pair<std::size_t, std::size_t>> marked;
+  for (const Edge e : out.mesh.edges()) {
+    if (!diagonal[e]) continue;
+    marked.insert(std::minmax(out.origin[out.mesh.vertex(e, 0)], out.origin[out.mesh.vertex(e, 1)]));
+  }
+  CHECK(marked == std::set<std::pair<std::size_t, std::size_t>>{{0, 2}, {0, 6}});
+  CHECK_FALSE(find_map(io::soup_to_mesh(soup_of(5, {{0, 1, 2}, {0, 2, 3, 4, 1}}), "soup").mesh, kDiagonal));
+}

@@ -13,6 +13,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   free_stiffness_test.cpp
   hanging_chain_test.cpp
   hinge_forces_test.cpp
+  hinge_friction_test.cpp
   invariants_test.cpp
   invert_elements_test.cpp
   leapfrog_step_test.cpp
@@ -49,6 +50,9 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   struts_test.cpp
   shell_motion_test.cpp
   sweep_order_test.cpp
+  tension_chains_test.cpp
+  tension_forces_test.cpp
+  tension_motion_test.cpp
   thread_pool_test.cpp
   wind_test.cpp
 )
