@@ -77,7 +77,7 @@ void add_tension_stiffness(std::span<const Vec3> x, std::span<const Tension> ten
     const double l = d.norm();
     const TensionLaw law = tension_law(t, strain_of(t, l));
     double across = l > 0 ? law.force / l : 0;
-    if (stiffness == Stiffness::positive_part) across = std::max(across, 0.0);
+    if (across < 0) across *= 1 - stiffness.clamped;
     hand_out(t, d, law.slope, across, sink);
   }
 }
