@@ -17,7 +17,7 @@ namespace {
 
 using Vectors = std::vector<Vec3>;
 
-constexpr double contact_share = 0.3;     // of the mean stiffness of a particle
+constexpr double contact_share = 0.1;  // of the mean stiffness of a particle
 constexpr double first_time = 0.03;       // tau [s]
 constexpr double least_share = 1.0 / 32;  // of a step
 constexpr double least_clamp = 0.02;      // once the Hessian alone would not do
