@@ -11,7 +11,7 @@ struct CompareOptions {
   double outside = 0.02;  ///< farthest offset along the faces' normals, outwards [m]; > outside_margin
   double inside = 0.01;   ///< and inwards [m]; > inside_margin
   double outside_margin = 0.005;  ///< points nearer to the surface may lie on the wrong side [m]; >= 0
-  double inside_margin = 0.001;   ///< the same inside [m]; >= 0
+  double inside_margin = 0.002;   ///< the same inside [m]; >= 0
   double near = 0.005;            ///< up to where values outside are compared [m]; > 0
   std::uint64_t seed = 1;
 };

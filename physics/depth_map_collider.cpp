@@ -18,7 +18,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double wanted_reach = 0.02;                // m
 constexpr double least_reach = 4, most_reach = 100;  // texels
 constexpr int most_feet = 4;
-constexpr double clearly_behind = 12;  // texels: no sub-texel correction changes the side
+constexpr double crease_cosine = 0.906;  // 25 degrees between a face and a vertex normal: the edge is sharp
+constexpr double clearly_behind = 12;    // texels: no sub-texel correction changes the side
 
 void check_range(int value, int low, int high, const char* name) {
   if (value < low || value > high)
@@ -74,6 +75,7 @@ DepthMapCollider::DepthMapCollider(const TriangleMesh& mesh, const DepthMapOptio
   check_body(mesh, "depth maps");
   vertices_.resize(mesh.vertices.size());
   normals_.resize(mesh.vertices.size());
+  creases_.resize(mesh.triangles.size());
   maps_ = maps_of(options);
   rebuild(mesh.vertices);
 }
@@ -119,6 +121,19 @@ void DepthMapCollider::find_normals() {
     normals_[i] += normal / (a * c), normals_[j] += normal / (a * b), normals_[k] += normal / (b * c);
   }
   for (Vec3& n : normals_) n.normalize();  // leaves a zero alone
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const Vec3 normal = face_normal(int(t));
+    creases_[t] = 0;
+    for (int k = 0; k < 3; ++k)
+      if (normals_[std::size_t(triangles_[t][std::size_t(k)])].dot(normal) < crease_cosine)
+        creases_[t] |= char(1 << k);
+  }
+}
+
+Vec3 DepthMapCollider::face_normal(int face) const {
+  const auto& t = triangles_[std::size_t(face)];
+  const Vec3& a = vertices_[std::size_t(t[0])];
+  return (vertices_[std::size_t(t[1])] - a).cross(vertices_[std::size_t(t[2])] - a).normalized();
 }
 
 DepthMapCollider::Point DepthMapCollider::point_of(int face, const DepthMap& map, const Vec3& x) const {
@@ -126,7 +141,12 @@ DepthMapCollider::Point DepthMapCollider::point_of(int face, const DepthMap& map
   const auto i = std::size_t(t[0]), j = std::size_t(t[1]), k = std::size_t(t[2]);
   const DepthPlace place = map.nearest(x, vertices_[i], vertices_[j], vertices_[k]);
   const auto& w = place.weights;
-  const Vec3 n = w[0] * normals_[i] + w[1] * normals_[j] + w[2] * normals_[k];
+  Vec3 n = w[0] * normals_[i] + w[1] * normals_[j] + w[2] * normals_[k];
+  if (const char creases = creases_[std::size_t(face)]) {
+    n.setZero();
+    for (std::size_t c = 0; c < 3; ++c)
+      n += w[c] * (creases >> c & 1 ? face_normal(face) : normals_[std::size_t(t[c])]);
+  }
   return {w[0] * vertices_[i] + w[1] * vertices_[j] + w[2] * vertices_[k], n.normalized(), place.away};
 }
 
@@ -170,9 +190,15 @@ bool DepthMapCollider::is_before(const DepthMap& map, const DepthMap::Texel& tex
   }
   const double rim_away = texel.rim_away;
   if (texel.rim == DepthMap::none || rim_away * rim_away >= search.squared) return before;
-  const Point rim = point_of(texel.rim, map, x);
+  Point rim = point_of(texel.rim, map, x);
   // Under a triangle that covers less than half of the texel?
   if (texel.face == DepthMap::none && rim.away == 0) before = is_before(rim);
+  const Vec3 way = x - rim.x;
+  if (before && rim.away > 0 && way.dot(rim.n) <= 0) {  // beside a wall along the line of sight
+    rim.n = (way - way.dot(map.direction()) * map.direction()) / rim.away;
+    search.take(rim);
+    return before;
+  }
   descend(map, rim, search);
   if (before && rim.away > 0) climb(map, rim, search);
   return before;
@@ -219,7 +245,8 @@ SignedDistance DepthMapCollider::in_maps(const Vec3& x) const {
 }
 
 std::size_t DepthMapCollider::memory() const {
-  std::size_t bytes = 2 * vertices_.size() * sizeof(Vec3) + triangles_.size() * sizeof(triangles_[0]);
+  std::size_t bytes =
+      2 * vertices_.size() * sizeof(Vec3) + triangles_.size() * (sizeof(triangles_[0]) + sizeof(char));
   for (const DepthMap& map : maps_) bytes += map.memory();
   return bytes;
 }

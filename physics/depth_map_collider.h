@@ -30,8 +30,9 @@ struct DepthMapOptions {
 ///
 /// A map shows of a point x the surface under it, then that under the foot of x on its tangent plane, and the
 /// nearest rim. Of what all maps show the point p nearest to x counts: the value is (x - p) . n, the gradient
-/// n, the interpolated vertex normal. (The paper's solver would take the depth along the line of sight, which
-/// for a pixel seen at an angle is longer than the way out.)
+/// n, the interpolated vertex normal (at edges sharper than about 50 degrees the face's). (The paper's solver
+/// would take the depth along the line of sight, which for a pixel seen at an angle is longer than the way
+/// out.)
 ///
 /// What it cannot do:
 ///  - What no map sees is filled: a point between a torso and the arm that hides it is taken for inside.
@@ -68,11 +69,13 @@ class DepthMapCollider : public Collider {
   Point point_of(int face, const DepthMap& map, const Vec3& x) const;
   SignedDistance in_maps(const Vec3& x) const;
   void find_normals();
+  Vec3 face_normal(int face) const;
 
   DepthMapOptions options_;
   std::vector<std::array<int, 3>> triangles_;
   std::vector<Vec3> vertices_, normals_;
-  Vec3 low_, high_;  ///< of the body [m]
+  std::vector<char> creases_;  ///< a triangle: bit k: at corner k its own normal counts
+  Vec3 low_, high_;            ///< of the body [m]
   DepthRaster raster_;
   std::vector<DepthMap> maps_;
 };

@@ -6,4 +6,5 @@ furrow_add_tests(bridge LIBRARIES furrow::bridge garment_cases SOURCES
   store_rest_state_test.cpp
   body_test.cpp
   draped_test.cpp
+  posed_body_test.cpp
 )

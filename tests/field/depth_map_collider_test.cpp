@@ -113,6 +113,24 @@ TEST_CASE("DepthMapCollider: the sides of a box along the lines of sight") {
   }
 }
 
+TEST_CASE("DepthMapCollider: sharp edges stay sharp") {
+  const Vec3 low(-0.1, 0, -0.05), high(0.1, 0.4, 0.05);
+  const TriangleMesh m = furrow::tests::box(low, high);
+  const DepthMapCollider three(m), six(m, with(DepthMaps::six));
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const double u = uniform(random, 0.05, 0.95), v = uniform(random, 0.05, 0.95),
+                 gap = uniform(random, -0.002, 0.01);
+    const Vec3 front(low[0] + 0.2 * u, 0.4 * v, high[2] + gap), top(front[0], high[1] + gap, 0.1 * v - 0.05),
+        side(high[0] + gap, front[1], top[2]);
+    for (const Vec3& x : {front, top}) CHECK(three.at(x).value == Approx(gap).margin(1e-12));
+    for (const Vec3& x : {front, top, side}) CHECK(six.at(x).value == Approx(gap).margin(1e-12));
+    CHECK((six.at(side).gradient - Vec3(1, 0, 0)).norm() < 1e-12);
+    if (gap > 0) CHECK(three.at(side).value == Approx(gap).margin(1e-12));  // a wall along the lines of sight
+    if (gap > 0) CHECK((three.at(side).gradient - Vec3(1, 0, 0)).norm() < 1e-9);
+  }
+}
+
 TEST_CASE("DepthMapCollider: far values are at most the distance") {
   const TriangleMesh m = furrow::tests::sphere(40, 0.2);
   const ExactDistance exact(m);
