@@ -2,6 +2,9 @@
 // depth_maps_bench [-o TABLE.csv] [--loop N] [--write FOLDER]: the distance field and depth maps as colliders
 // of the mannequin (after N rounds of Loop subdivision), with its arms out and with them before its belly.
 // One thread, CPU time, the best of 5. --write: the two bodies as OBJ files, to look at.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -9,6 +12,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

@@ -62,6 +62,8 @@ AnimatedBody::AnimatedBody(BodyFrames frames, const FrameColliderOptions& option
 }
 
 AnimatedBody::~AnimatedBody() = default;
+AnimatedBody::AnimatedBody(AnimatedBody&&) noexcept = default;
+AnimatedBody& AnimatedBody::operator=(AnimatedBody&&) noexcept = default;
 
 int AnimatedBody::interval_at(double time) const {
   const std::vector<double>& t = frames_.times;

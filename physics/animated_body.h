@@ -41,6 +41,8 @@ class AnimatedBody : public Collider {
   /// Nothing is read yet. Throws std::invalid_argument if times or triangles are broken.
   explicit AnimatedBody(BodyFrames frames, const FrameColliderOptions& options = {});
   ~AnimatedBody() override;
+  AnimatedBody(AnimatedBody&&) noexcept;
+  AnimatedBody& operator=(AnimatedBody&&) noexcept;
 
   /// Reads and builds what the time `to` needs; from then on queries are about that time. `from`: the time
   /// before it (for travel()). Throws std::invalid_argument if a frame has another number of vertices or is
