@@ -15,8 +15,7 @@ namespace furrow::physics {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double wanted_reach = 0.02;                // m
-constexpr double least_reach = 4, most_reach = 100;  // texels
+constexpr double wanted_reach = 0.02, least_reach = 4, most_reach = 100;  // m, texels, texels
 constexpr int most_feet = 4;
 constexpr double crease_cosine = 0.906;  // 25 degrees between a face and a vertex normal: the edge is sharp
 constexpr double clearly_behind = 12;    // texels: no sub-texel correction changes the side
@@ -28,7 +27,7 @@ void check_range(int value, int low, int high, const char* name) {
 }
 
 void check(const DepthMapOptions& o) {
-  check_range(o.size, 16, 8192, "size");
+  check_range(o.size, 16, 4096, "size");
   check_range(o.up, 0, 2, "up");
   check_range(o.front, 0, 2, "front");
   check_range(o.threads, 1, 256, "threads");
@@ -54,7 +53,6 @@ struct DepthMapCollider::Point {
   Vec3 x, n;    // n: unit vertex normal, interpolated
   double away;  // as DepthPlace
 };
-
 /// For the nearest of the points that the maps show.
 struct DepthMapCollider::Search {
   Vec3 x;  // from here
@@ -230,8 +228,7 @@ SignedDistance DepthMapCollider::in_maps(const Vec3& x) const {
     least = std::min(least, depth[m]);
     if (texels[m]->face == DepthMap::none) aside = std::max(aside, double(texels[m]->rim_away));
   }
-  const Vec3 from_centre = x - (low_ + high_) / 2;
-  if (aside >= reach()) return {reach(), from_centre.normalized()};
+  if (aside >= reach()) return {reach(), (x - (low_ + high_) / 2).normalized()};
   const double near = std::max(least, clearly_behind * raster_.texel);
   Search search{x};
   bool outside = false;
@@ -245,8 +242,7 @@ SignedDistance DepthMapCollider::in_maps(const Vec3& x) const {
 }
 
 std::size_t DepthMapCollider::memory() const {
-  std::size_t bytes =
-      2 * vertices_.size() * sizeof(Vec3) + triangles_.size() * (sizeof(triangles_[0]) + sizeof(char));
+  std::size_t bytes = 2 * vertices_.size() * sizeof(Vec3) + triangles_.size() * (sizeof(triangles_[0]) + 1);
   for (const DepthMap& map : maps_) bytes += map.memory();
   return bytes;
 }

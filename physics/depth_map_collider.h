@@ -19,7 +19,7 @@ enum class DepthMaps {
 
 struct DepthMapOptions {
   DepthMaps maps = DepthMaps::front_back_top;
-  int size = 512;   ///< texels along the longest edge of the body's box; 16 ... 8192
+  int size = 512;   ///< texels along the longest edge of the body's box; 16 ... 4096
   int up = 1;       ///< the coordinate that grows to the top; 0 ... 2
   int front = 2;    ///< the coordinate that grows to the front; 0 ... 2, not `up`
   int threads = 1;  ///< of a build, at most one a map; 1 ... 256; the result does not depend on it
@@ -27,20 +27,17 @@ struct DepthMapOptions {
 
 /// A body by what is seen of it from a few sides: inside is what lies behind all maps. For bodies whose shape
 /// changes each frame: a rebuild takes milliseconds. The body must be closed, counter-clockwise from outside.
-///
 /// A map shows of a point x the surface under it, then that under the foot of x on its tangent plane, and the
 /// nearest rim. Of what all maps show the point p nearest to x counts: the value is (x - p) . n, the gradient
-/// n, the interpolated vertex normal (at edges sharper than about 50 degrees the face's). (The paper's solver
-/// would take the depth along the line of sight, which for a pixel seen at an angle is longer than the way
-/// out.)
+/// n, the interpolated vertex normal (at edges sharper than about 50 degrees the face's). The depth along the
+/// line of sight, which the pixel of a depth map gives, is longer where that is seen at an angle.
 ///
 /// What it cannot do:
 ///  - What no map sees is filled: a point between a torso and the arm that hides it is taken for inside.
 ///    compare_colliders() says how often. The value jumps at the edge of such a region.
 ///  - Near surfaces that all maps see at a grazing angle or not at all (with three maps: soles, the flat
 ///    sides of a chest) the depth is too large, and a value outside may be, too.
-///  - Nothing is known farther than reach() from the body: values are at most that, or the distance to the
-///    body's box where this is more.
+///  - Values are at most reach(), or the distance to the body's box where this is more.
 /// Source: method S2.8; Vassilev, Spanlang, Chrysanthou 2001.
 class DepthMapCollider : public Collider {
  public:
@@ -53,7 +50,7 @@ class DepthMapCollider : public Collider {
   /// of 512 texels and 30,000 triangles on one thread.
   void rebuild(std::span<const Vec3> vertices);
 
-  /// About 0.1 us for three maps; NaN for a NaN point.
+  /// About 0.2 us for three maps; NaN for a NaN point.
   SignedDistance at(const Vec3& x) const override;
 
   double texel() const { return raster_.texel; }                  ///< edge of a texel [m]
