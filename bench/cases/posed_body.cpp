@@ -54,9 +54,11 @@ std::vector<double> shares(const TriangleMesh& mesh, const Vec3& joint, const Ve
 
 void turn(TriangleMesh& mesh, const std::vector<double>& share, const Vec3& pivot,
           const Eigen::AngleAxisd& rotation) {
-  for (std::size_t i = 0; i < share.size(); ++i)
-    mesh.vertices[i] =
-        pivot + Eigen::AngleAxisd(share[i] * rotation.angle(), rotation.axis()) * (mesh.vertices[i] - pivot);
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    if (share[i] == 0) continue;
+    const Eigen::AngleAxisd part(share[i] * rotation.angle(), rotation.axis());
+    mesh.vertices[i] = pivot + part * (mesh.vertices[i] - pivot);
+  }
 }
 
 Eigen::AngleAxisd between(const Vec3& from, const Vec3& to) {
