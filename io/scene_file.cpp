@@ -93,11 +93,9 @@ class SceneReader {
       table.fail("field", "has its own tolerance and gradient; leave those settings away");
     table.choose<bool>("collider", body.depth_maps, {{"field", false}, {"depth-maps", true}});
     if (body.depth_maps && body.frames.empty())
-      table.fail("collider",
-                 "depth-maps are for frames; of a rigid body the field is built once, and is right "
-                 "where they are not");
+      table.fail("collider", "is for frames: a rigid body's field is built once, and right everywhere");
     if (body.depth_maps && (table.has("tolerance") || table.has("gradient")))
-      table.fail("collider", "depth-maps have no tolerance and no gradient; leave those settings away");
+      table.fail("collider", "has no tolerance and no gradient; leave those settings away");
     if (!body.field.empty() && !body.frames.empty())
       table.fail("field", "is that of a rigid body; frames have a field each");
     read_motion(table, body.motion);
