@@ -2,7 +2,9 @@
 #include "cli/body.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <span>
+#include <sstream>
 #include <thread>
 
 #include "bridge/body.h"
@@ -11,7 +13,9 @@
 #include "geometry/property_names.h"
 #include "io/bytes_file.h"
 #include "io/field_file.h"
+#include "physics/compare_colliders.h"
 #include "physics/contact.h"
+#include "physics/depth_map_collider.h"
 #include "physics/posed_collider.h"
 
 namespace furrow::cli {
@@ -27,6 +31,13 @@ void tell_repairs(const std::string& path, const geometry::BodyReport& r, const 
 }
 
 physics::DistanceFieldOptions threaded(physics::DistanceFieldOptions options) {
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return options;
+}
+
+physics::DepthMapOptions six_maps() {
+  physics::DepthMapOptions options;
+  options.maps = physics::DepthMaps::six;
   options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   return options;
 }
@@ -86,11 +97,33 @@ void WorldBody::read_frames(const io::SceneBody& body, const CommonArguments& co
   const auto read = [this](int i) { return frames_->positions(static_cast<std::size_t>(i)); };
   physics::DistanceFieldOptions field = threaded(body.options);
   if (!field.tolerance) field.tolerance = 0.002;
-  tolerance_ = *field.tolerance;
-  animated_ =
-      std::make_unique<physics::AnimatedBody>(physics::BodyFrames{triangles_, frames_->times(), read}, field);
+  tolerance_ = *field.tolerance;  // and of depth maps, 95 times of 100
+  physics::FrameColliderOptions collider = field;
+  if (body.depth_maps) collider = six_maps();
+  animated_ = std::make_unique<physics::AnimatedBody>(physics::BodyFrames{triangles_, frames_->times(), read},
+                                                      collider);
+  if (body.depth_maps) check_maps(common);
   fingerprint_ = fingerprint_of(frames_->positions(0), tolerance_) +
                  fingerprint_of(frames_->positions(frames_->frames() - 1), frames_->times().back());
+  if (body.depth_maps) fingerprint_ += "maps";
+}
+
+/// Warns where depth maps of the first, a middle or the last frame do not see enough of the body.
+void WorldBody::check_maps(const CommonArguments& common) const {
+  const std::size_t last = frames_->frames() - 1;
+  for (const std::size_t i : {std::size_t(0), last / 2, last}) {
+    const physics::TriangleMesh mesh{frames_->positions(i), triangles_};
+    const auto test = physics::compare_colliders(physics::DepthMapCollider(mesh, six_maps()),
+                                                 physics::ExactDistance(mesh), mesh);
+    if (!test.disagrees()) continue;
+    std::ostringstream text;
+    text << path_ << ": depth maps of frame " << i << " take " << std::setprecision(2)
+         << 100 * test.false_inside_share() << " % of the points beside the body for inside and "
+         << 100 * test.false_outside_share()
+         << " % of those inside for outside, where no map sees it; collider = \"field\" is right there";
+    warn(text.str(), common);
+    return;
+  }
 }
 
 void WorldBody::add_to(physics::World& world) const {

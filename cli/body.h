@@ -57,6 +57,7 @@ class WorldBody {
 
  private:
   void read_frames(const io::SceneBody& body, const CommonArguments& common);
+  void check_maps(const CommonArguments& common) const;
   std::vector<physics::Vec3> vertices_at(double time) const;
 
   std::string path_, fingerprint_;

@@ -91,6 +91,11 @@ class SceneReader {
                                          {"interpolated", physics::GradientRule::interpolated_corners}});
     if (!body.field.empty() && (table.has("tolerance") || table.has("gradient")))
       table.fail("field", "has its own tolerance and gradient; leave those settings away");
+    table.choose<bool>("collider", body.depth_maps, {{"field", false}, {"depth-maps", true}});
+    if (body.depth_maps && body.frames.empty())
+      table.fail("collider", "is for frames: a rigid body's field is built once, and right everywhere");
+    if (body.depth_maps && (table.has("tolerance") || table.has("gradient")))
+      table.fail("collider", "has no tolerance and no gradient; leave those settings away");
     if (!body.field.empty() && !body.frames.empty())
       table.fail("field", "is that of a rigid body; frames have a field each");
     read_motion(table, body.motion);

@@ -16,7 +16,7 @@ inline std::string tables_of_key(std::string_view key) {
       std::pair{"[[lines]]"sv,
                 " strokes time height fade without rule rest region max_distance iterations "
                 "lambda mu weights keep_lines keep_border "sv},
-      std::pair{"[body]"sv, " mesh field frames fps tolerance gradient motion "sv},
+      std::pair{"[body]"sv, " mesh field frames fps tolerance gradient collider motion "sv},
       std::pair{"[material]"sv,
                 " preset density stiffness bending membrane bending_law stretch poisson rigidity tension "
                 "compression shear mass_rule damping drag friction gap "sv},

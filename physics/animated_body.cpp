@@ -32,13 +32,23 @@ Vec3 weights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
+/// A frame with what its distance is asked from, once it is built: either the first two or the others.
 struct AnimatedBody::Frame {
   std::vector<Vec3> vertices;
   std::optional<ExactDistance> exact;
   std::optional<DistanceField> field;
+  std::optional<TriangleBvh> bvh;
+  std::unique_ptr<DepthMapCollider> maps;
+
+  bool is_built() const { return field || maps; }
+  SignedDistance at(const Vec3& x) const { return maps ? maps->at(x) : field->at(x); }
+  ClosestPoint closest(const Vec3& x) const { return maps ? bvh->closest(x) : exact->closest(x); }
+  ClosestPoint closest(const Vec3& x, int guess) const {
+    return maps ? bvh->closest(x, guess) : exact->closest(x, guess);
+  }
 };
 
-AnimatedBody::AnimatedBody(BodyFrames frames, const DistanceFieldOptions& options)
+AnimatedBody::AnimatedBody(BodyFrames frames, const FrameColliderOptions& options)
     : frames_(std::move(frames)), options_(options) {
   const std::vector<double>& times = frames_.times;
   if (times.size() < 2) refuse(std::to_string(times.size()) + " frames; at least two are needed");
@@ -52,6 +62,8 @@ AnimatedBody::AnimatedBody(BodyFrames frames, const DistanceFieldOptions& option
 }
 
 AnimatedBody::~AnimatedBody() = default;
+AnimatedBody::AnimatedBody(AnimatedBody&&) noexcept = default;
+AnimatedBody& AnimatedBody::operator=(AnimatedBody&&) noexcept = default;
 
 int AnimatedBody::interval_at(double time) const {
   const std::vector<double>& t = frames_.times;
@@ -81,6 +93,7 @@ std::shared_ptr<AnimatedBody::Frame> AnimatedBody::read(int index) {
 void AnimatedBody::enter(int interval) {
   std::shared_ptr<Frame> first = interval == interval_ + 1 && second_ ? second_ : read(interval);
   std::shared_ptr<Frame> second = read(interval + 1);
+  if (first_ && first_->maps) spare_ = std::move(first_->maps);
   first_ = std::move(first), second_ = std::move(second);
   interval_ = interval;
   longest_way_ = 0;
@@ -91,16 +104,27 @@ void AnimatedBody::enter(int interval) {
 }
 
 void AnimatedBody::build(Frame& frame) {
-  if (frame.field) return;
-  frame.exact.emplace(TriangleMesh{frame.vertices, frames_.triangles});
-  frame.field = DistanceField::build(*frame.exact, options_);
+  if (frame.is_built()) return;
+  const TriangleMesh mesh{frame.vertices, frames_.triangles};
+  if (const auto* maps = std::get_if<DepthMapOptions>(&options_)) {
+    frame.bvh.emplace(mesh);
+    if (spare_) {
+      spare_->rebuild(mesh.vertices);
+      frame.maps = std::move(spare_);
+    } else {
+      frame.maps = std::make_unique<DepthMapCollider>(mesh, *maps);
+    }
+  } else {
+    frame.exact.emplace(mesh);
+    frame.field = DistanceField::build(*frame.exact, std::get<DistanceFieldOptions>(options_));
+    samples_built_ += frame.field->report().samples;
+  }
   ++frames_built_;
-  samples_built_ += frame.field->report().samples;
 }
 
 void AnimatedBody::prepare(double from, double to) {
   const int last = interval_at(to);
-  if (interval_ != last || !first_ || !first_->field || !second_->field) {
+  if (interval_ != last || !first_ || !first_->is_built() || !second_->is_built()) {
     const auto started = std::chrono::steady_clock::now();
     advance_to(from, last);
     build(*first_);
@@ -139,19 +163,19 @@ Vec3 AnimatedBody::way(const Vec3& x) const {
   const bool is_early = fraction_ < 0.5;
   const Frame& frame = is_early ? *first_ : *second_;
   const double shift = is_early ? -fraction_ : 1 - fraction_;  // share of the way from now to that frame
-  const ClosestPoint q = frame.exact->closest(x);
+  const ClosestPoint q = frame.closest(x);
   const Vec3 u = way_of(q, frame);
   if (std::abs(shift) * longest_way_ < small_shift) return u;
-  return way_of(frame.exact->closest(x + shift * u, q.triangle), frame);
+  return way_of(frame.closest(x + shift * u, q.triangle), frame);
 }
 
 SignedDistance AnimatedBody::at(const Vec3& x) const { return at(x, way(x)); }
 
 SignedDistance AnimatedBody::at(const Vec3& x, const Vec3& u) const {
   const double s = fraction_;
-  if (s == 0) return first_->field->at(x);
-  if (s == 1) return second_->field->at(x);
-  const SignedDistance a = first_->field->at(x - s * u), b = second_->field->at(x + (1 - s) * u);
+  if (s == 0) return first_->at(x);
+  if (s == 1) return second_->at(x);
+  const SignedDistance a = first_->at(x - s * u), b = second_->at(x + (1 - s) * u);
   return {(1 - s) * a.value + s * b.value, (1 - s) * a.gradient + s * b.gradient};
 }
 

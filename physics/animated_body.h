@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <variant>
 #include <vector>
 
+#include "physics/depth_map_collider.h"
 #include "physics/distance_field.h"
 #include "physics/exact_distance.h"
 
@@ -19,10 +21,13 @@ struct BodyFrames {
   std::function<std::vector<Vec3>(int)> vertices;
 };
 
+/// What each frame's distance is asked from. A DistanceField is right everywhere and takes tenths of a second
+/// a frame; a DepthMapCollider takes milliseconds, and its header says what it does not see.
+using FrameColliderOptions = std::variant<DistanceFieldOptions, DepthMapOptions>;
+
 /// A body that changes its shape. Between two frames every vertex moves on a straight line at constant speed;
 /// before the first frame and after the last the body is held. Only the two frames around the present time
-/// are in memory, each with its field, which is built when time reaches it (see DistanceField::build for the
-/// cost).
+/// are in memory, each with its field or depth maps, which are built when time reaches it.
 ///
 /// With u the way that the surface next to x goes from the one frame to the other, and s the share of the
 /// time between them, the distance is
@@ -34,8 +39,10 @@ struct BodyFrames {
 class AnimatedBody : public Collider {
  public:
   /// Nothing is read yet. Throws std::invalid_argument if times or triangles are broken.
-  explicit AnimatedBody(BodyFrames frames, const DistanceFieldOptions& options = {});
+  explicit AnimatedBody(BodyFrames frames, const FrameColliderOptions& options = {});
   ~AnimatedBody() override;
+  AnimatedBody(AnimatedBody&&) noexcept;
+  AnimatedBody& operator=(AnimatedBody&&) noexcept;
 
   /// Reads and builds what the time `to` needs; from then on queries are about that time. `from`: the time
   /// before it (for travel()). Throws std::invalid_argument if a frame has another number of vertices or is
@@ -54,7 +61,9 @@ class AnimatedBody : public Collider {
   double travel() const { return travel_; }
 
   int frames_built() const { return frames_built_; }
-  std::int64_t samples_built() const { return samples_built_; }  ///< exact distances that their fields took
+  std::int64_t samples_built() const {
+    return samples_built_;
+  }  ///< exact distances that their fields took; maps: 0
   double build_seconds() const { return build_seconds_; }  ///< clock time spent on reading and building [s]
 
  private:
@@ -68,10 +77,11 @@ class AnimatedBody : public Collider {
   Vec3 way_of(const ClosestPoint& point, const Frame& frame) const;
 
   BodyFrames frames_;
-  DistanceFieldOptions options_;
+  FrameColliderOptions options_;
   std::size_t vertex_count_ = 0;
   int interval_ = -1;  ///< from its frame to the next one
   std::shared_ptr<Frame> first_, second_;
+  std::unique_ptr<DepthMapCollider> spare_;       ///< of a frame that is over: its memory serves the next one
   double longest_way_ = 0;                        ///< of a vertex in the interval [m]
   double fraction_ = 0, share_ = 0, travel_ = 0;  ///< fraction_: of the interval, at the prepared time
   int frames_built_ = 0;

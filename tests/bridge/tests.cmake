@@ -10,4 +10,5 @@ furrow_add_tests(bridge LIBRARIES furrow::bridge garment_cases SOURCES
   tension_constants_test.cpp
   body_test.cpp
   draped_test.cpp
+  posed_body_test.cpp
 )

@@ -212,6 +212,10 @@ TEST_CASE("a scene's faults are told with file, line, column and the nearest set
   CHECK(has(fault("[garment]\nsubdivide = 1.5\n"), "whole number from 0 to 4"));
   CHECK(has(fault("[body]\nmesh = \"b\"\nmotion.spin = {axis = [0, 0, 0]}\n"), "must have a length above 0"));
   CHECK(has(fault("[body]\nmesh = \"b\"\nmotion.keyframes = [{time = 1}, {time = 1}]\n"), "must be later"));
+  const std::string maps = "[body]\nmesh = \"b\"\ncollider = \"depth-maps\"\n";
+  CHECK(has(fault(maps), "a/s.toml:3:1: body.collider"));
+  CHECK(has(fault(maps), "is for frames"));
+  CHECK(has(fault(maps + "frames = \"f.pc2\"\ntolerance = 0.01\n"), "no tolerance"));
   CHECK(has(fault("[simulation]\nforce_dt = true\n"), "needs dt"));
   CHECK(has(fault("[simulation]\nseconds = 1979-05-27\n"),
             "a/s.toml:2:11: simulation.seconds is a date or a time"));

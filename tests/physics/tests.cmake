@@ -6,6 +6,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   compensation_test.cpp
   contact_test.cpp
   damping_sweep_test.cpp
+  depth_map_contact_test.cpp
   drop_on_ball_test.cpp
   elements_test.cpp
   elimination_tree_test.cpp
