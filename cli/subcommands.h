@@ -19,6 +19,7 @@ void add_chart(CLI::App& app, int& exit_code);
 void add_keep(CLI::App& app, int& exit_code);
 void add_sdf(CLI::App& app);
 void add_render(CLI::App& app);
+void add_drape(CLI::App& app, int& exit_code);
 void add_fit(CLI::App& app);
 void add_transfer(CLI::App& app);
 /// Sets exit_code where the run was interrupted.

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/drape.h"
+
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "bridge/convert.h"
+#include "bridge/scatter.h"
+#include "geometry/subdivide.h"
+
+namespace furrow::bridge {
+namespace {
+
+using physics::Vec3;
+
+void check(const DrapeOptions& o) {
+  const auto need = [](bool good, const char* name, double value, const char* range) {
+    if (good && std::isfinite(value)) return;
+    throw std::invalid_argument(std::string("drape: ") + name + " = " + std::to_string(value) + " is not " +
+                                range);
+  };
+  need(o.refinements >= 0, "refinements", o.refinements, ">= 0");
+  need(o.coarse_tolerance > 0, "coarse_tolerance", o.coarse_tolerance, "> 0");
+  need(o.disturbance >= 0, "disturbance", o.disturbance, ">= 0");
+}
+
+/// The triangles alone, at other positions.
+geometry::Mesh bare(const geometry::Mesh& mesh, const std::vector<Vec3>& x) {
+  geometry::Mesh result;
+  for (const Vec3& p : x) result.add_vertex({p.x(), p.y(), p.z()});
+  for (const geometry::Face f : mesh.faces()) {
+    std::vector<geometry::Vertex> corners;
+    for (const geometry::Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) corners.push_back(v);
+    result.add_face(corners);
+  }
+  return result;
+}
+
+/// Moves each free particle by so much of the mean edge, the same way in every run.
+double disturb(physics::Cloth& cloth, double share) {
+  double sum = 0;
+  for (const auto& t : cloth.triangles)
+    for (int c = 0; c < 3; ++c) sum += (cloth.particles.x[t[c]] - cloth.particles.x[t[(c + 1) % 3]]).norm();
+  const double by = cloth.triangles.empty() ? 0 : share * sum / (3 * double(cloth.triangles.size()));
+  std::mt19937_64 engine(1);
+  const auto random = [&] { return double(engine() >> 11) * 0x1p-52 - 1; };
+  for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
+    const double a = random(), b = random(), c = random();
+    if (cloth.particles.inv_mass[i] > 0) cloth.particles.x[i] += by * Vec3(a, b, c);
+  }
+  return by;
+}
+
+physics::PushOutReport bring_out(physics::Cloth& cloth, const physics::Collider* body, double gap) {
+  if (!body) return {};
+  std::vector<int> free;
+  for (std::size_t i = 0; i < cloth.particles.size(); ++i)
+    if (cloth.particles.inv_mass[i] > 0) free.push_back(int(i));
+  return physics::push_out(cloth.particles.x, free, *body, gap);
+}
+
+}  // namespace
+
+DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
+                  const DrapeOptions& o, const MakeCloth& make_cloth, const DrapeObserver& go_on) {
+  check(o);
+  DrapeReport report;
+  std::vector<Vec3> carried;  // positions that the level before ended at, refined
+  for (int level = 0; level <= o.refinements; ++level) {
+    if (level > 0) {
+      geometry::Mesh shape = bare(garment, cloth.particles.x);
+      geometry::loop_subdivide(shape, 1);
+      carried = positions_of(shape);
+      geometry::loop_subdivide(garment, 1);
+    }
+    const bool last = level == o.refinements;
+    geometry::Mesh made = garment;
+    cloth = make_cloth(made);
+    for (std::size_t i = 0; i < carried.size(); ++i)
+      if (cloth.particles.inv_mass[i] > 0) cloth.particles.x[i] = carried[i];
+    report.disturbance = disturb(cloth, o.disturbance);
+    DrapeLevel& now = report.levels.emplace_back();
+    now.vertices = cloth.particles.size();
+    now.pushed = bring_out(cloth, body, o.settle.gap);
+    physics::SettleOptions settle = o.settle;
+    if (!last) settle.tolerance = std::max(settle.tolerance, o.coarse_tolerance);
+    if (report.stopped) settle.max_iterations = 0;
+    now.settle = physics::settle(cloth, body, settle, [&](const physics::SettleProgress& progress) {
+      return !go_on || report.stopped || go_on(level, progress, cloth);
+    });
+    report.stopped = report.stopped || now.settle.stopped;
+    if (last) {
+      garment = std::move(made);
+      scatter(cloth.particles, garment);
+    }
+  }
+  return report;
+}
+
+}  // namespace furrow::bridge

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "physics/push_out.h"
+#include "physics/settle.h"
+
+namespace furrow::bridge {
+
+struct DrapeOptions {
+  int refinements = 0;            ///< Loop subdivisions between the given mesh and the fitted one; >= 0
+  physics::SettleOptions settle;  ///< of the last level; on the others it ends at coarse_tolerance
+  double coarse_tolerance = 100;  ///< residual force at which the next level takes over [-]; > 0
+  /// What a level's start is disturbed by, so that cloth which must buckle does not balance on the way to it:
+  /// a share of its mean edge [-]; >= 0.
+  double disturbance = 0.01;
+};
+
+struct DrapeLevel {
+  std::size_t vertices = 0;
+  physics::PushOutReport pushed;  ///< out of the body before it began
+  physics::SettleReport settle;
+};
+struct DrapeReport {
+  std::vector<DrapeLevel> levels;  ///< coarse to fine
+  double disturbance = 0;          ///< of the last level [m]
+  bool stopped = false;            ///< by go_on
+};
+
+/// Makes a garment cloth: fills its maps, gathers and pins. Called once a level, with the mesh as it was
+/// made.
+using MakeCloth = std::function<physics::Cloth(geometry::Mesh&)>;
+/// level, its settle() progress and its cloth. false: stop here.
+using DrapeObserver = std::function<bool(int level, const physics::SettleProgress&, const physics::Cloth&)>;
+
+/// Fits a garment on a body (null: it only hangs): brings out what lies nearer than the gap, finds rest on
+/// the coarse mesh, carries that shape to the next finer one (Loop's masks take positions as they take the
+/// rest shape) and finds rest there. On return the mesh is refined, has the maps of make_cloth and its
+/// vertices lie where they rest; `cloth` belongs to it. If stopped on a coarse level, the rest of the way is
+/// only carried. Same input, same bits. Cost: most of it is the last level's. Throws std::invalid_argument
+/// for an option out of its range, the mesh unchanged; and as loop_subdivide(), make_cloth and settle() do.
+DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
+                  const DrapeOptions& options, const MakeCloth& make_cloth, const DrapeObserver& go_on = {});
+
+}  // namespace furrow::bridge
