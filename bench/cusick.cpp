@@ -12,6 +12,7 @@
 #include "bench/accuracy_table.h"
 #include "physics/certificate.h"
 #include "physics/settle.h"
+#include "physics/simulate.h"
 
 using namespace furrow;
 using namespace furrow::cases;
@@ -26,8 +27,19 @@ struct Drape {
   double coefficient, energy;
 };
 
-Drape drape(const CusickOptions& options) {
+enum class Way { settled, moved };
+
+/// moved: leapfrog's damped motion first, 6 s, and settle from its end.
+Drape drape(const CusickOptions& options, Way way = Way::settled) {
   Drape d{cusick_specimen(options), {}, {}, 0, 0};
+  if (way == Way::moved) {
+    physics::SimulateOptions motion;
+    motion.gravity = {0, 0, -cusick_gravity};
+    motion.seconds = 6;
+    motion.air_drag = 4;
+    motion.spring_damping = 0.1;
+    physics::simulate(d.specimen.cloth, nullptr, motion);
+  }
   physics::SettleOptions settling;
   settling.gravity = {0, 0, -cusick_gravity};
   settling.max_iterations = 2000;
@@ -67,6 +79,10 @@ void curve(const std::string& folder) {
                                             ? std::vector<double>{10, 12.5, 16, 20, 25, 32}
                                             : std::vector<double>{10, 16, 20, 25, 32, 40, 50, 64, 80};
     for (const double c : lengths) {
+      CusickOptions moving;
+      moving.law = law;
+      moving.bending_length = c / 1000;
+      write(table, "moved", moving, drape(moving, Way::moved));
       double lowest = 0;
       for (const int folds : {5, 6, 7, 8, 9}) {
         CusickOptions o;
@@ -74,7 +90,7 @@ void curve(const std::string& folder) {
         o.bending_length = c / 1000;
         o.folds = folds;
         const Drape d = drape(o);
-        write(table, "curve", o, d);
+        write(table, "settled", o, d);
         if (law == HingeLaw::cosine || !d.report.converged || d.energy >= lowest) continue;
         lowest = d.energy;
         write_obj(folder + "/drape_" + std::to_string(int(c)) + ".obj", d.specimen.cloth);
@@ -88,9 +104,12 @@ void studies(const std::string& folder) {
                      heading);
   const auto add = [&](const std::string& what, const CusickOptions& base) {
     for (const double c : {12.5, 20.0, 32.0}) {
-      CusickOptions o = base;
-      o.bending_length = c / 1000;
-      write(table, what, o, drape(o));
+      for (const int folds : base.folds == 0 ? std::vector{0} : std::vector{6, 7, 8}) {
+        CusickOptions o = base;
+        o.bending_length = c / 1000;
+        o.folds = folds;
+        write(table, what, o, drape(o));
+      }
     }
   };
   for (const HingeLaw law : {HingeLaw::linear, HingeLaw::cosine}) {
@@ -101,9 +120,11 @@ void studies(const std::string& folder) {
       add(std::to_string(rings) + " rings", o);
     }
   }
-  for (const double young : {130.0, 2000.0}) {  // 130: shear stiffness 50 N/m
-    CusickOptions o;
+  for (const auto& [young, rings] :
+       {std::pair{130.0, 20}, {1000.0, 20}, {1000.0, 30}, {2000.0, 20}, {2000.0, 30}}) {
+    CusickOptions o;  // Y = 130: shear stiffness 50 N/m
     o.young = young;
+    o.rings = rings;
     add("Y = " + std::to_string(int(young)), o);
   }
   for (const double poisson : {0.0, 0.5}) {

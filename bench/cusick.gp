@@ -21,7 +21,7 @@ $elastic << end
 25,0.806
 32,0.896
 end
-# Usual ranges of measured fabrics, as figures of another project have them: silk 0.20 to 0.40, cotton 0.60 to 0.76.
+# Measured fabrics, after the targets of ppf-contact-solver (st-tech): silk 0.20 to 0.40, cotton 0.60 to 0.76.
 set object 1 rectangle from graph 0, first 0.20 to graph 1, first 0.40 fc rgb "#56B4E9" fs transparent solid 0.15 noborder behind
 set object 2 rectangle from graph 0, first 0.60 to graph 1, first 0.76 fc rgb "#E69F00" fs transparent solid 0.15 noborder behind
 set label 1 "silk" at 84,0.3 right tc rgb "#555555"
@@ -31,6 +31,8 @@ do for [ending in "svg png"] {
   set output "cusick.".ending
   plot $elastic using 1:($2-0.05):($2+0.05) with filledcurves fc rgb "#999999" fs transparent solid 0.35 noborder title "elastic curve ± 0.05", \
     "" using 1:2 with lines lw 2 lc rgb "#000000" title "elastic curve (another program)", \
-    "cusick.csv" using (strcol(2) eq "linear" ? $3 : NaN):6 with points pt 7 ps 0.8 lc rgb "#0072B2" title "settle, linear hinges", \
-    "" using (strcol(2) eq "cosine" ? $3 : NaN):6 with points pt 9 ps 0.9 lc rgb "#D55E00" title "settle, cosine hinges"
+    "cusick.csv" using (strcol(1) eq "settled" && strcol(2) eq "linear" ? $3 : NaN):6 with points pt 7 ps 0.7 lc rgb "#0072B2" title "settle, linear hinges", \
+    "" using (strcol(1) eq "moved" && strcol(2) eq "linear" ? $3 : NaN):6 with points pt 6 ps 1.5 lw 1.5 lc rgb "#0072B2" title "leapfrog's motion, then settle", \
+    "" using (strcol(1) eq "settled" && strcol(2) eq "cosine" ? $3 : NaN):6 with points pt 9 ps 0.8 lc rgb "#D55E00" title "settle, cosine hinges", \
+    "" using (strcol(1) eq "moved" && strcol(2) eq "cosine" ? $3 : NaN):6 with points pt 8 ps 1.6 lw 1.5 lc rgb "#D55E00" title "leapfrog's motion, then settle"
 }
