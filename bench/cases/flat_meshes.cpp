@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -96,6 +97,21 @@ void zip(const std::vector<Vec3>& x, int low, int low_end, int high, int high_en
   }
 }
 
+/// Joins two closed rings of points, both counter-clockwise, the outer one behind the inner one in the array.
+void zip_rings(const std::vector<Vec3>& x, int inner, int outer, Triangles& triangles) {
+  const int n = outer - inner, m = int(x.size()) - outer;
+  int nearest = 0;
+  for (int j = 1; j < m; ++j)
+    if ((x[outer + j] - x[inner]).norm() < (x[outer + nearest] - x[inner]).norm()) nearest = j;
+  for (int i = 0, j = 0; i < n || j < m;) {
+    const int a = inner + i % n, next_a = inner + (i + 1) % n;
+    const int b = outer + (nearest + j) % m, next_b = outer + (nearest + j + 1) % m;
+    const bool on_inner = i < n && (j == m || (x[next_a] - x[b]).norm() < (x[next_b] - x[a]).norm());
+    triangles.push_back({a, b, on_inner ? next_a : next_b});
+    ++(on_inner ? i : j);
+  }
+}
+
 }  // namespace
 
 std::vector<EdgeApexes> edges_of(const Triangles& triangles) {
@@ -167,6 +183,26 @@ Cloth hexagon(double half_diagonal, int rings, double density, double jitter, st
   for (int r = 0; r < 2 * rings; ++r)
     zip(even, start[r], start[r + 1], start[r + 1], start[r + 2], triangles);
   make_delaunay(x, triangles);
+  return finished(std::move(x), std::move(triangles), density);
+}
+
+Cloth disc(double radius, int rings, double density) {
+  check(radius > 0, "radius", radius);
+  check(rings >= 1, "rings", rings);
+  std::vector<Vec3> x{Vec3::Zero()};
+  Triangles triangles;
+  int inner = 0;
+  for (int k = 1; k <= rings; ++k) {
+    const int n = int(std::lround(2 * std::numbers::pi * k)), outer = int(x.size());
+    const double turned = std::fmod(k * std::numbers::phi, 1);  // of the distance between two of a ring
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + turned) / n;
+      x.push_back(radius * k / rings * Vec3(std::cos(angle), std::sin(angle), 0));
+    }
+    if (k > 1) zip_rings(x, inner, outer, triangles);
+    for (int i = 0; k == 1 && i < n; ++i) triangles.push_back({0, outer + i, outer + (i + 1) % n});
+    inner = outer;
+  }
   return finished(std::move(x), std::move(triangles), density);
 }
 

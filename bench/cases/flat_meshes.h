@@ -24,6 +24,12 @@ int equilateral_rows(double width, double height, int columns);
 physics::Cloth hexagon(double half_diagonal, int rings, double density = 0.1, double jitter = 0,
                        std::uint64_t seed = 1);
 
+/// A disc around the origin: its middle and `rings` rings at equal distances h = radius / rings, the k-th of
+/// round(2 pi k) particles, each ring turned a little against its neighbours so that no direction is
+/// preferred; particles by rings from the middle, in each counter-clockwise. rings >= 1. Throws
+/// std::invalid_argument.
+physics::Cloth disc(double radius, int rings, double density = 0.1);
+
 /// columns x rows rectangles with their diagonals; alternating: every other diagonal runs the other way.
 physics::Cloth right_sheet(double width, double height, int columns, int rows, double density = 0.1,
                            bool alternating = false);

@@ -5,6 +5,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   certificate_test.cpp
   compensation_test.cpp
   contact_test.cpp
+  cusick_test.cpp
   damping_sweep_test.cpp
   depth_map_contact_test.cpp
   drop_on_ball_test.cpp
@@ -34,6 +35,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   rigid_contact_test.cpp
   rigid_imbalance_test.cpp
   rigid_motion_test.cpp
+  settle_cases_test.cpp
   speed_accuracy_test.cpp
   simulate_integrators_test.cpp
   simulate_state_test.cpp
