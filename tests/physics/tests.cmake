@@ -8,6 +8,8 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   cusick_test.cpp
   damping_sweep_test.cpp
   depth_map_contact_test.cpp
+  displace_by_force_test.cpp
+  displace_on_body_test.cpp
   drop_on_ball_test.cpp
   elements_test.cpp
   elimination_tree_test.cpp
