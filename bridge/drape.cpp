@@ -10,6 +10,7 @@
 #include "bridge/convert.h"
 #include "bridge/scatter.h"
 #include "geometry/subdivide.h"
+#include "physics/displace_by_force.h"
 
 namespace furrow::bridge {
 namespace {
@@ -62,6 +63,24 @@ physics::PushOutReport bring_out(physics::Cloth& cloth, const physics::Collider*
   return physics::push_out(cloth.particles.x, free, *body, gap);
 }
 
+physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* body, bool plain,
+                                const physics::SettleOptions& o, const physics::SettleObserver& observer) {
+  if (!plain) return physics::settle(cloth, body, o, observer);
+  physics::DisplaceOptions options;
+  options.gravity = o.gravity;
+  options.friction = o.friction;
+  options.gap = o.gap;
+  options.tolerance = o.tolerance;
+  options.max_passes = o.max_iterations;
+  const physics::DisplaceReport r = physics::displace_by_force(cloth, body, options, observer);
+  return {r.passes,
+          0,
+          r.residual,
+          r.outcome == physics::DisplaceOutcome::converged,
+          r.outcome == physics::DisplaceOutcome::stopped,
+          r.touching};
+}
+
 }  // namespace
 
 DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
@@ -88,7 +107,7 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     physics::SettleOptions settle = o.settle;
     if (!last) settle.tolerance = std::max(settle.tolerance, o.coarse_tolerance);
     if (report.stopped) settle.max_iterations = 0;
-    now.settle = physics::settle(cloth, body, settle, [&](const physics::SettleProgress& progress) {
+    now.settle = find_rest(cloth, body, o.plain, settle, [&](const physics::SettleProgress& progress) {
       return !go_on || report.stopped || go_on(level, progress, cloth);
     });
     report.stopped = report.stopped || now.settle.stopped;

@@ -12,6 +12,9 @@ namespace furrow::bridge {
 struct DrapeOptions {
   int refinements = 0;            ///< Loop subdivisions between the given mesh and the fitted one; >= 0
   physics::SettleOptions settle;  ///< of the last level; on the others it ends at coarse_tolerance
+  /// Paper 2's plain scheme (physics/displace_by_force.h) with the same friction, gap, tolerance and, for its
+  /// passes, max_iterations; to compare with: it takes a hundred times as long.
+  bool plain = false;
   double coarse_tolerance = 100;  ///< residual force at which the next level takes over [-]; > 0
   /// What a level's start is disturbed by, so that cloth which must buckle does not balance on the way to it:
   /// a share of its mean edge [-]; >= 0.
@@ -21,7 +24,7 @@ struct DrapeOptions {
 struct DrapeLevel {
   std::size_t vertices = 0;
   physics::PushOutReport pushed;  ///< out of the body before it began
-  physics::SettleReport settle;
+  physics::SettleReport settle;   ///< iterations of the plain scheme: its passes
 };
 struct DrapeReport {
   std::vector<DrapeLevel> levels;  ///< coarse to fine

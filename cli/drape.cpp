@@ -24,6 +24,7 @@
 #include "geometry/border_loops.h"
 #include "geometry/errors.h"
 #include "geometry/property_names.h"
+#include "geometry/rest_metric.h"
 #include "io/animation_file.h"
 #include "physics/elastic_band.h"
 
@@ -32,9 +33,9 @@ namespace {
 
 struct DrapeArguments : CommonArguments {
   std::string in, picture, colour = "strain", compare, animation;
-  std::optional<int> subdivide;
+  std::optional<int> subdivide, iterations;
+  bool plain = false;
   double residual = physics::SettleOptions{}.tolerance;
-  int iterations = physics::SettleOptions{}.max_iterations;
   std::vector<std::string> bands;
   double band_stiffness = physics::ElasticBandOptions{}.stiffness;
   SceneFlags flags;
@@ -118,7 +119,7 @@ class WayRecorder {
       options.frame = write_options(a_);
       writer_ = std::make_unique<io::AnimationWriter>(a_.animation, mesh, options);
     }
-    writer_->write(cloth.particles.x);
+    writer_->add(cloth.particles.x);
   }
   void close() {
     if (writer_) writer_->close();
@@ -165,6 +166,13 @@ bridge::MakeCloth maker(const io::Scene& scene, io::MeshFile& made, const io::Me
   };
 }
 
+/// As contact_gap() tells for the refined garment: its edges are half as long a level, their sag a quarter.
+double gap_of(const io::Scene& scene, const BodyCollider& body, geometry::Mesh garment) {
+  geometry::ensure_rest_lengths(garment);
+  const double sag = contact_gap(0, 0, garment) / std::pow(4, scene.subdivide);
+  return std::max(scene.simulation.contact_gap, sag + 1.5 * body.field.report().tolerance);
+}
+
 Draped drape_one(const io::Scene& scene, const BodyCollider& body, const DrapeArguments& a,
                  const CommonArguments& common) {
   Draped draped;
@@ -176,8 +184,9 @@ Draped drape_one(const io::Scene& scene, const BodyCollider& body, const DrapeAr
   options.settle.gravity = scene.simulation.gravity;
   options.settle.friction = scene.simulation.friction;
   options.settle.tolerance = a.residual;
-  options.settle.max_iterations = a.iterations;
-  options.settle.gap = std::max(scene.simulation.contact_gap, 1.5 * body.field.report().tolerance);
+  options.plain = a.plain;
+  options.settle.max_iterations = a.iterations.value_or(a.plain ? 20000 : options.settle.max_iterations);
+  options.settle.gap = gap_of(scene, body, as_read.mesh);
   options.settle.threads = int(std::max(1u, std::thread::hardware_concurrency()));
   WayRecorder way(a, scene.subdivide);
   Progress progress("draping", common);
@@ -294,7 +303,9 @@ void add_drape(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--residual", a->residual,
                   "largest net force on a vertex, over its weight, at which it rests (default 0.001)");
-  sub->add_option("--iterations", a->iterations, "at most, on each level (default 200)")
+  sub->add_flag("--plain", a->plain,
+                "paper 2's own scheme: forces used as displacements, with a cap; to compare with");
+  sub->add_option("--iterations", a->iterations, "at most, on each level (default 200; --plain: 20000)")
       ->check(CLI::NonNegativeNumber);
   a->flags.add_to(*sub, true);
   add_camera_options(*sub, a->camera);

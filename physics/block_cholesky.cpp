@@ -73,7 +73,7 @@ void BlockCholesky::make_fronts(Lists& below) {
   fronts_.clear();
   for (int c = 0; c < blocks_; ++c) {
     const bool follows = c > 0 && parent[c - 1] == c && below[c - 1].size() == below[c].size() + 1;
-    if (!follows) fronts_.push_back({c, 0, -1, {}, {}, {}, {}, {}});
+    if (!follows) fronts_.emplace_back().first = c;
     ++fronts_.back().width;
     fronts_.back().rows = below[c];
     front_of[c] = int(fronts_.size()) - 1;

@@ -39,7 +39,7 @@ class BlockCholesky {
     std::array<int, 3> value;  // where its columns begin among the values
   };
   struct Front {
-    int first, width;  // its columns, in the order of elimination
+    int first = 0, width = 0;  // its columns, in the order of elimination
     int parent = -1;
     std::vector<int> rows;   // below its columns, ascending
     std::vector<int> place;  // of these rows in the parent

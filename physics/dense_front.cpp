@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 #include "physics/lanes.h"
 
@@ -12,12 +11,12 @@ namespace {
 
 constexpr int block = 16;  // columns that are eliminated between two products
 
-FURROW_INLINE Lanes load(const double* p) {
-  Lanes v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
+/// Four lanes at any address.
+typedef double LanesAnywhere __attribute__((vector_size(32), aligned(8), may_alias));
+FURROW_INLINE const LanesAnywhere& load(const double* p) {
+  return *reinterpret_cast<const LanesAnywhere*>(p);
 }
-FURROW_INLINE void store(double* p, const Lanes& v) { std::memcpy(p, &v, sizeof v); }
+FURROW_INLINE void store(double* p, const Lanes& v) { *reinterpret_cast<LanesAnywhere*>(p) = v; }
 
 /// c (4 `Tall` rows x `Wide` columns) -= a b^T over `depth` columns of a and b.
 template <int Tall, int Wide>

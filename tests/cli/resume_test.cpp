@@ -171,7 +171,7 @@ TEST_CASE("no output replaces an input or another output") {
   const std::string scene = sheet.scratch / "scene.toml", mesh = sheet.scratch / "sheet.ply";
   const std::string field = sheet.scratch / "ball.field", out = sheet.scratch / "o.ply";
   const std::string bytes = read_text(field);
-  for (const std::string more :
+  for (const std::string& more :
        {" -o " + out + " --save-state " + out, " -o " + out + " --inserted " + out,
         " -o " + out + " --inserted " + mesh, " -o " + field, " -o " + (sheet.scratch / "ball.ply"),
         " -o " + (sheet.scratch / "first.json")}) {

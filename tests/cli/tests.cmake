@@ -11,6 +11,7 @@ furrow_add_tests(cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   keep_test.cpp
   rest_keep_test.cpp
   transfer_test.cpp
+  drape_test.cpp
   fit_test.cpp
   strokes_test.cpp
   outputs_test.cpp

@@ -38,6 +38,8 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   rigid_imbalance_test.cpp
   rigid_motion_test.cpp
   settle_cases_test.cpp
+  settle_test.cpp
+  dense_front_test.cpp
   speed_accuracy_test.cpp
   simulate_integrators_test.cpp
   simulate_state_test.cpp

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/drape.h"
+
+#include <catch2/catch.hpp>
+
+#include "bridge/gather.h"
+#include "geometry/bending_springs.h"
+#include "geometry/masses.h"
+#include "geometry/property_names.h"
+#include "geometry/rest_angles.h"
+#include "geometry/rest_metric.h"
+#include "geometry/sheet.h"
+#include "physics/residual_force.h"
+#include "tests/physics/test_bodies.h"
+
+using namespace furrow;
+using physics::Vec3;
+using tests::Sphere;
+
+namespace {
+
+/// A square of cloth that lies across a ball, its middle in the ball.
+geometry::Mesh across() {
+  geometry::Mesh mesh = geometry::equilateral_sheet(0.3, 0.3, 0.04);
+  for (const geometry::Vertex v : mesh.vertices()) {
+    const geometry::Point p = mesh.point(v);
+    mesh.point(v) = geometry::Point(p.x(), 0.098, p.y() - 0.15);
+  }
+  return mesh;
+}
+
+physics::Cloth make(geometry::Mesh& mesh) {
+  geometry::ensure_rest_lengths(mesh);
+  geometry::ensure_bending_springs(mesh);
+  geometry::ensure_rest_angles(mesh);
+  geometry::lump_masses(mesh, 0.15);
+  bridge::GatherOptions options;
+  options.membrane = bridge::Membrane::triangles;
+  options.bending = bridge::Bending::hinge;
+  options.rigidity = 1e-4;
+  options.mean_structural_length = options.mean_bending_length = 0.04;
+  return bridge::gather(mesh, options);
+}
+
+}  // namespace
+
+TEST_CASE("drape: coarse to fine to rest on a ball, out of which it is brought first") {
+  const Sphere ball(Vec3::Zero(), 0.1);
+  geometry::Mesh mesh = across();
+  const std::size_t coarse = mesh.number_of_vertices();
+  physics::Cloth cloth;
+  bridge::DrapeOptions options;
+  options.refinements = 1;
+  const bridge::DrapeReport report = bridge::drape(mesh, cloth, &ball, options, make);
+  REQUIRE(report.levels.size() == 2);
+  CHECK(report.levels[0].vertices == coarse);
+  CHECK(report.levels[0].pushed.moved > 0);
+  CHECK(report.levels[0].pushed.still_inside == 0);
+  CHECK(report.levels[1].vertices == mesh.number_of_vertices());
+  CHECK(mesh.number_of_vertices() > 3 * coarse);
+  CHECK(report.levels[1].settle.converged);
+  const physics::SettleOptions& s = options.settle;
+  CHECK(physics::residual_force(cloth, s.gravity, &ball, s.friction, s.gap) <= 1e-3);
+  const auto rest = *geometry::find_map(mesh, geometry::kRestLength);
+  double strain = 0;
+  for (const geometry::Edge e : mesh.edges())
+    strain = std::max(strain, std::abs(std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)),
+                                                                        mesh.point(mesh.vertex(e, 1)))) /
+                                           rest[e] -
+                                       1));
+  CHECK(strain < 0.02);
+  double lowest = 1;
+  for (const geometry::Vertex v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    const Vec3 x(p.x(), p.y(), p.z());
+    CHECK((x - cloth.particles.x[std::size_t(v)]).norm() == 0);
+    CHECK(x.norm() > 0.1);
+    lowest = std::min(lowest, x.y());
+  }
+  CHECK(lowest < 0.06);  // it hangs down at the sides
+}
+
+TEST_CASE("drape: the plain scheme comes to a like rest, an observer stops it, bad options change nothing") {
+  const Sphere ball(Vec3::Zero(), 0.1);
+  geometry::Mesh mesh = across();
+  physics::Cloth cloth;
+  bridge::DrapeOptions options;
+  options.plain = true;
+  options.settle.max_iterations = 50;
+  const bridge::DrapeReport plain = bridge::drape(mesh, cloth, &ball, options, make);
+  CHECK(plain.levels[0].settle.iterations == 50);
+  CHECK(plain.levels[0].settle.factorisations == 0);
+  options.plain = false;
+  options.refinements = 1;
+  geometry::Mesh other = across();
+  int calls = 0;
+  const auto stop = [&](int level, const physics::SettleProgress&, const physics::Cloth&) {
+    CHECK(level == 0);
+    return ++calls < 2;
+  };
+  const bridge::DrapeReport stopped = bridge::drape(other, cloth, &ball, options, make, stop);
+  CHECK(stopped.stopped);
+  CHECK(stopped.levels.size() == 2);
+  CHECK(cloth.particles.size() == other.number_of_vertices());
+  options.refinements = -1;
+  geometry::Mesh untouched = across();
+  CHECK_THROWS_WITH(bridge::drape(untouched, cloth, &ball, options, make),
+                    Catch::Contains("refinements = -1"));
+  CHECK(untouched.number_of_vertices() == across().number_of_vertices());
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/dense_front.h"
+
+#include <Eigen/Cholesky>
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "tests/physics/test_cloths.h"
+
+using namespace furrow::physics;
+using furrow::tests::Noise;
+
+namespace {
+
+/// A positive definite matrix, and a front with its first `width` columns.
+struct Problem {
+  Eigen::MatrixXd a;
+  std::vector<double> panel;
+  DenseFront front;
+  Problem(int height, int width) {
+    Noise noise(std::uint64_t(7 * height + width));
+    Eigen::MatrixXd b(height, height);
+    for (double& v : b.reshaped()) v = noise();
+    a = b * b.transpose() + height * Eigen::MatrixXd::Identity(height, height);
+    const int stride = padded(height);
+    panel.assign(std::size_t(stride) * std::size_t(width) + 4, 0.0);
+    for (int c = 0; c < width; ++c)
+      for (int r = c; r < height; ++r) panel[std::size_t(c * stride + r)] = a(r, c);
+    front = {panel.data(), height, width, stride};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("dense front: columns of the factor, and what is left, for every size") {
+  for (const int width : {3, 6, 15, 18, 33, 48}) {
+    for (const int rest : {0, 3, 6, 9, 12, 39}) {
+      CAPTURE(width, rest);
+      Problem p(width + rest, width);
+      const int stride = padded(rest);
+      std::vector<double> update(std::size_t(rest * stride), 0.0);
+      REQUIRE(eliminate(p.front));
+      subtract_square(p.front, update.data(), stride);
+      const Eigen::MatrixXd l = p.a.llt().matrixL();
+      double apart = 0;
+      for (int c = 0; c < width; ++c)
+        for (int r = c; r < width + rest; ++r)
+          apart = std::max(apart, std::abs(p.panel[std::size_t(c * p.front.stride + r)] - l(r, c)));
+      const Eigen::MatrixXd side = l.block(width, 0, rest, width), square = side * side.transpose();
+      for (int c = 0; c < rest; ++c)
+        for (int r = c; r < rest; ++r)
+          apart = std::max(apart, std::abs(update[std::size_t(c * stride + r)] + square(r, c)));
+      CHECK(apart < 1e-11 * (width + rest));
+    }
+  }
+}
+
+TEST_CASE("dense front: substitution forward and backward solves") {
+  for (const int height : {3, 9, 24, 51}) {
+    Problem p(height, height);
+    REQUIRE(eliminate(p.front));
+    Noise noise(1);
+    Eigen::VectorXd b(height);
+    for (double& v : b) v = noise();
+    Eigen::VectorXd x = b;
+    substitute_forward(p.front, x.data(), nullptr);
+    substitute_backward(p.front, x.data(), nullptr);
+    CHECK((p.a * x - b).norm() < 1e-11);
+  }
+  Problem p(30, 12);
+  REQUIRE(eliminate(p.front));
+  const Eigen::MatrixXd l = p.a.llt().matrixL();
+  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(12, 1, 2), below = Eigen::VectorXd::LinSpaced(18, -1, 1);
+  const Eigen::VectorXd before = x, beside = below;
+  substitute_forward(p.front, x.data(), below.data());
+  CHECK((l.topLeftCorner(12, 12) * x - before).norm() < 1e-12);
+  CHECK((beside - l.block(12, 0, 18, 12) * x - below).norm() < 1e-12);
+  const Eigen::VectorXd y = x;
+  substitute_backward(p.front, x.data(), below.data());
+  CHECK((l.topLeftCorner(12, 12).transpose() * x + l.block(12, 0, 18, 12).transpose() * below - y).norm() <
+        1e-12);
+}
+
+TEST_CASE("dense front: what is not positive definite, or no number, is told") {
+  Problem p(20, 18);
+  p.panel[std::size_t(17 * p.front.stride + 17)] = -1e6;
+  CHECK_FALSE(eliminate(p.front));
+  Problem nan(20, 18);
+  nan.panel[5] = NAN;
+  CHECK_FALSE(eliminate(nan.front));
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/settle.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "physics/anchored_contact.h"
+#include "physics/elastic_band.h"
+#include "physics/elements.h"
+#include "physics/residual_force.h"
+#include "tests/physics/shell_cloths.h"
+#include "tests/physics/test_bodies.h"
+#include "tests/physics/test_cloths.h"
+
+using namespace furrow::physics;
+using namespace furrow::tests;
+
+namespace {
+
+/// A floor that falls by `slope` radians towards +x.
+struct Incline : Collider {
+  Vec3 normal;
+  explicit Incline(double slope) : normal(std::sin(slope), std::cos(slope), 0) {}
+  SignedDistance at(const Vec3& x) const override { return {x.dot(normal), normal}; }
+};
+
+/// One particle of 1 g on the incline, a little nearer than the gap.
+Cloth lying(const Incline& incline) {
+  Cloth cloth;
+  add_particle(cloth, 0.0029 * incline.normal, 1e-3);
+  return cloth;
+}
+
+/// Triangles and hinges, level, side by side with the origin.
+Cloth membrane_sheet(int cells) {
+  Cloth cloth = without_springs(sheet(cells, cells, 0.02));
+  add_membrane(cloth, 300);
+  add_hinges(cloth, 1e-5);
+  for (Vec3& x : cloth.particles.x) x = Vec3(x.x() - 0.01 * cells, 0, x.y() + 0.0087 * cells);
+  return cloth;
+}
+
+}  // namespace
+
+TEST_CASE("anchored contact: forces and stiffness are derivatives of its energy") {
+  const Sphere ball(Vec3::Zero(), 0.1);
+  Cloth cloth;
+  const Vec3 out = Vec3(0.3, 0.9, 0.2).normalized();
+  for (const double depth : {0.0002, 0.0008, 0.002}) add_particle(cloth, (0.1 + 0.003 - depth) * out, 1e-3);
+  const Particles& p = cloth.particles;
+  AnchoredContact contact(ball, {.friction = 0.4, .gap = 0.003, .stiffness = 200}, p.size());
+  contact.look(p.x, p.inv_mass);
+  contact.move_anchors();
+  CHECK(contact.touching() == 3);
+  const Vec3 along = out.cross(Vec3::UnitX()).normalized();
+  for (const double way : {2e-5, 8e-5, 3e-4}) {  // linear, and beyond what friction bears
+    std::vector<Vec3> x = p.x;
+    for (Vec3& v : x) v += way * along;
+    contact.look(p.x, p.inv_mass);  // normals of the start, as in the energy
+    std::vector<Vec3> force(p.size(), Vec3::Zero());
+    contact.add_forces(force);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      // Of the push alone: friction has not begun to pull where anchors are.
+      const double h = 1e-7;
+      std::vector<Vec3> there = p.x, back = p.x;
+      there[i] += h * out, back[i] -= h * out;
+      const double slope = (contact.energy(there, p.inv_mass) - contact.energy(back, p.inv_mass)) / (2 * h);
+      CHECK(force[i].dot(out) == Approx(-slope).epsilon(1e-5));
+      there = back = x;
+      there[i] += h * along, back[i] -= h * along;
+      const double pull = (contact.energy(there, p.inv_mass) - contact.energy(back, p.inv_mass)) / (2 * h);
+      const double limit = 0.4 * force[i].dot(out);
+      CHECK(pull == Approx(limit * std::min(1.0, way / 1e-4)).epsilon(0.03).margin(1e-9));
+    }
+  }
+}
+
+TEST_CASE("settle: friction holds a particle on an incline up to its cone, and not beyond") {
+  const double mu = 0.4;
+  for (const double share : {0.5, 0.95, 1.05, 1.3}) {
+    CAPTURE(share);
+    const Incline incline(std::atan(share * mu));
+    Cloth cloth = lying(incline);
+    const SettleReport report =
+        settle(cloth, &incline, {.friction = mu, .tolerance = 1e-6, .max_iterations = 100});
+    CHECK(report.converged == (share < 1));
+    if (share < 1) {
+      CHECK(report.touching == 1);
+      CHECK(cloth.particles.x[0].norm() < 0.004);  // it stays
+    }
+  }
+}
+
+TEST_CASE("settle: a cloth over a ball rests in the friction cone, the same bits on any number of threads") {
+  const Sphere ball(Vec3(0, -0.101, 0), 0.1);
+  const auto run = [&](int threads) {
+    Cloth cloth = membrane_sheet(12);
+    SettleOptions o;
+    o.threads = threads;
+    o.max_iterations = 400;
+    Noise noise(5);
+    for (Vec3& x : cloth.particles.x) x += 1e-4 * noise.vector();
+    const SettleReport report = settle(cloth, &ball, o);
+    CHECK(report.converged);
+    CHECK(report.residual == residual_force(cloth, o.gravity, &ball, o.friction, o.gap));
+    CHECK(report.touching > 3);
+    for (const Vec3& x : cloth.particles.x) CHECK(ball.at(x).value > 0);
+    return cloth.particles.x;
+  };
+  const auto one = run(1);
+  CHECK(run(1) == one);
+  CHECK(run(3) == one);
+}
+
+TEST_CASE("settle: the observer stops it, and options out of range change nothing") {
+  Cloth cloth = membrane_sheet(5);
+  cloth.particles.inv_mass[0] = cloth.particles.inv_mass[4] = 0;
+  Cloth copy = cloth;
+  int calls = 0;
+  const SettleReport stopped = settle(copy, nullptr, {}, [&](const SettleProgress& p) {
+    CHECK(p.iteration == calls);
+    return ++calls < 3;
+  });
+  CHECK(stopped.stopped);
+  CHECK(stopped.iterations == 2);
+  CHECK_FALSE(stopped.converged);
+  const auto before = cloth.particles.x;
+  CHECK_THROWS_WITH(settle(cloth, nullptr, {.friction = -1}), Catch::Contains("friction = -1"));
+  CHECK_THROWS_WITH(settle(cloth, nullptr, {.gap = 0}), Catch::Contains("gap = 0"));
+  CHECK_THROWS_WITH(settle(cloth, nullptr, {.tolerance = 0}), Catch::Contains("tolerance"));
+  CHECK_THROWS_WITH(settle(cloth, nullptr, {.threads = 0}), Catch::Contains("threads"));
+  cloth.particles.x[3].y() = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(settle(cloth, nullptr, {}), Catch::Contains("position"));
+  cloth.particles.x[3] = before[3];
+  CHECK(cloth.particles.x == before);
+}
+
+TEST_CASE("elastic band: a ring of particles contracts to the band's length") {
+  Cloth cloth;
+  std::vector<int> ring;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / 12;
+    add_particle(cloth, {std::cos(angle), 0, std::sin(angle)}, 0.01);
+    ring.push_back(i);
+  }
+  add_elastic_band(cloth, ring, {.length = 0.8, .stiffness = 50});
+  REQUIRE(cloth.bending.size() == 12);
+  for (std::size_t i = 1; i < 12; ++i)
+    CHECK(std::pair(cloth.bending[i - 1].a, cloth.bending[i - 1].b) <
+          std::pair(cloth.bending[i].a, cloth.bending[i].b));
+  for (const Spring& s : cloth.bending) CHECK(s.rest_length * s.stiffness == Approx(50));
+  settle(cloth, nullptr, {.gravity = Vec3::Zero(), .tolerance = 1e-9, .longest_move = 1});
+  double length = 0;
+  for (int i = 0; i < 12; ++i) length += (cloth.particles.x[i] - cloth.particles.x[(i + 1) % 12]).norm();
+  CHECK(length == Approx(0.8 * 24 * std::sin(3.14159265358979 / 12)).epsilon(1e-6));
+  CHECK_THROWS_WITH(add_elastic_band(cloth, std::vector<int>{0, 1}, {}), Catch::Contains("2 particles"));
+  CHECK_THROWS_WITH(add_elastic_band(cloth, ring, {.length = 0}), Catch::Contains("length = 0"));
+  CHECK_THROWS_WITH(add_elastic_band(cloth, std::vector<int>{0, 1, 99}, {}), Catch::Contains("99"));
+  CHECK(cloth.bending.size() == 12);
+}
