@@ -28,18 +28,6 @@ void check(const DrapeOptions& o) {
   need(o.disturbance >= 0, "disturbance", o.disturbance, ">= 0");
 }
 
-/// The triangles alone, at other positions.
-geometry::Mesh bare(const geometry::Mesh& mesh, const std::vector<Vec3>& x) {
-  geometry::Mesh result;
-  for (const Vec3& p : x) result.add_vertex({p.x(), p.y(), p.z()});
-  for (const geometry::Face f : mesh.faces()) {
-    std::vector<geometry::Vertex> corners;
-    for (const geometry::Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) corners.push_back(v);
-    result.add_face(corners);
-  }
-  return result;
-}
-
 /// Moves each free particle by so much of the mean edge, the same way in every run.
 double disturb(physics::Cloth& cloth, double share) {
   double sum = 0;
@@ -90,7 +78,8 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
   std::vector<Vec3> carried;  // positions that the level before ended at, refined
   for (int level = 0; level <= o.refinements; ++level) {
     if (level > 0) {
-      geometry::Mesh shape = bare(garment, cloth.particles.x);
+      geometry::Mesh shape = garment;  // so that new vertices come in the same order
+      scatter(cloth.particles, shape);
       geometry::loop_subdivide(shape, 1);
       carried = positions_of(shape);
       geometry::loop_subdivide(garment, 1);

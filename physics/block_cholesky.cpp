@@ -213,7 +213,7 @@ void BlockCholesky::extend(const Front& child, DenseFront a, std::vector<double>
   }
 }
 
-bool BlockCholesky::eliminate(int number, const double* values, double shift) {
+bool BlockCholesky::eliminate(int number, const double* values, double shift, ThreadPool* pool) {
   Front& f = fronts_[std::size_t(number)];
   const DenseFront a = f.dense();
   const int rest = a.height - a.width;
@@ -224,8 +224,8 @@ bool BlockCholesky::eliminate(int number, const double* values, double shift) {
     extend(fronts_[std::size_t(child)], a, f.update);
     fronts_[std::size_t(child)].update = {};
   }
-  if (!physics::eliminate(a)) return false;
-  subtract_square(a, f.update.data(), padded(rest));
+  if (!physics::eliminate(a, pool)) return false;
+  subtract_square(a, f.update.data(), padded(rest), pool);
   return true;
 }
 
@@ -236,7 +236,8 @@ bool BlockCholesky::factorise(const Sparse& lower, double shift, ThreadPool* poo
   const auto work = [&](int begin, int end) {
     for (int s = begin; s < end; ++s)
       for (const auto& [first, last] : shares_[std::size_t(s)])
-        for (int i = first; i < last && good[s]; ++i) good[s] = eliminate(i, lower.valuePtr(), shift);
+        for (int i = first; i < last && good[s]; ++i)
+          good[s] = eliminate(i, lower.valuePtr(), shift, nullptr);
   };
   if (pool)
     pool->run(shares, work);
@@ -244,7 +245,7 @@ bool BlockCholesky::factorise(const Sparse& lower, double shift, ThreadPool* poo
     work(0, shares);
   return std::count(good.begin(), good.end(), true) == shares &&
          std::all_of(trunk_.begin(), trunk_.end(),
-                     [&](int i) { return eliminate(i, lower.valuePtr(), shift); });
+                     [&](int i) { return eliminate(i, lower.valuePtr(), shift, pool); });
 }
 
 void BlockCholesky::solve(Eigen::VectorXd& b) const {

@@ -58,7 +58,7 @@ class BlockCholesky {
   void share_out();
   static void fill(const Front& front, const double* values, double shift, DenseFront a);
   static void extend(const Front& child, DenseFront a, std::vector<double>& update);
-  bool eliminate(int front, const double* values, double shift);
+  bool eliminate(int front, const double* values, double shift, ThreadPool* pool);
 
   static constexpr int shares = 8;
   static constexpr std::size_t most_branches = 32;

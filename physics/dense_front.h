@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "physics/thread_pool.h"
 
 namespace furrow::physics {
 
@@ -16,12 +17,13 @@ struct DenseFront {
 constexpr int padded(int n) { return (n + 3) / 4 * 4; }
 
 /// The front's columns become those of the factor L, in place; false if a pivot is not > 0 or not finite.
-/// Cost: width * height^2 multiplications and additions, less what is above the diagonal.
-bool eliminate(const DenseFront& front);
+/// pool: threads that share the work (null: the caller alone). Cost: width * height^2 multiplications and
+/// additions, less what is above the diagonal.
+bool eliminate(const DenseFront& front, ThreadPool* pool = nullptr);
 
 /// update -= S S^T below and on the diagonal, S the factor's rows below the eliminated ones; update: height -
 /// width columns of stride `update_stride` = padded(height - width).
-void subtract_square(const DenseFront& factor, double* update, int update_stride);
+void subtract_square(const DenseFront& factor, double* update, int update_stride, ThreadPool* pool = nullptr);
 
 /// Forward substitution: x (width) becomes L1^-1 x, and `below` (height - width) loses S x.
 void substitute_forward(const DenseFront& factor, double* x, double* below);

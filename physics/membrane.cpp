@@ -134,7 +134,8 @@ void add_membrane_stiffness(std::span<const Vec3> x, std::span<const MembraneTri
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const Edges e = edges_of(x, triangles[i], constants[i]);
     Eigen::Matrix3d geometric = tension_matrix(e.tension);
-    if (stiffness.clamped > 0) geometric += stiffness.clamped * (positive_part(geometric) - geometric);
+    if (stiffness.clamped > 0 && e.tension.minCoeff() < 0)  // else it is semidefinite
+      geometric += stiffness.clamped * (positive_part(geometric) - geometric);
     // Columns: dd_i/dx of a corner.
     std::array<Eigen::Matrix3d, 3> slope;
     for (int j = 0; j < 3; ++j) {

@@ -55,6 +55,30 @@ TEST_CASE("dense front: columns of the factor, and what is left, for every size"
   }
 }
 
+TEST_CASE("dense front: a large one, the same bits on any number of threads") {
+  std::vector<double> first, first_update;
+  for (int threads = 1; threads <= 3; ++threads) {
+    Problem p(420, 150);
+    ThreadPool pool(threads);
+    std::vector<double> update(270 * 272, 0.0);
+    REQUIRE(eliminate(p.front, threads > 1 ? &pool : nullptr));
+    subtract_square(p.front, update.data(), 272, threads > 1 ? &pool : nullptr);
+    for (int c = 0; c < 270; ++c)
+      std::fill_n(update.begin() + 272 * c, c, 0.0);  // above the diagonal: anything
+    if (threads == 1) {
+      const Eigen::MatrixXd l = p.a.llt().matrixL();
+      CHECK(std::abs(p.panel[149 * 420 + 419] - l(419, 149)) < 1e-10);
+      const Eigen::MatrixXd side = l.block(150, 0, 270, 150);
+      CHECK(std::abs(update[100 * 272 + 269] + side.row(100).dot(side.row(269))) < 1e-9);
+      first = p.panel, first_update = update;
+    }
+    for (int c = 0; c < 150; ++c)
+      CHECK(std::equal(p.panel.begin() + 420 * c + c, p.panel.begin() + 420 * (c + 1),
+                       first.begin() + 420 * c + c));
+    CHECK(update == first_update);
+  }
+}
+
 TEST_CASE("dense front: substitution forward and backward solves") {
   for (const int height : {3, 9, 24, 51}) {
     Problem p(height, height);
