@@ -1,52 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bridge/drape.h"
-
-#include <chrono>
-#include <cmath>
-#include <iostream>
 #include <memory>
 #include <sstream>
-#include <thread>
 
-#include "bridge/fit_report.h"
-#include "bridge/gather.h"
 #include "cli/body.h"
 #include "cli/camera_options.h"
+#include "cli/drape_garment.h"
 #include "cli/drape_report.h"
 #include "cli/fit_output.h"
-#include "cli/pins.h"
-#include "cli/prepare_garment.h"
-#include "cli/run_warnings.h"
-#include "cli/scene_cloth.h"
 #include "cli/scene_flags.h"
 #include "cli/scene_input.h"
 #include "cli/subcommands.h"
-#include "geometry/border_loops.h"
-#include "geometry/errors.h"
-#include "geometry/property_names.h"
-#include "geometry/rest_metric.h"
 #include "io/animation_file.h"
-#include "physics/elastic_band.h"
 
 namespace furrow::cli {
 namespace {
 
 struct DrapeArguments : CommonArguments {
   std::string in, picture, colour = "strain", compare, animation;
-  std::optional<int> subdivide, iterations;
-  bool plain = false;
-  double residual = physics::SettleOptions{}.tolerance;
+  std::optional<int> subdivide;
+  DrapeSettings settings;
   std::vector<std::string> bands;
-  double band_stiffness = physics::ElasticBandOptions{}.stiffness;
   SceneFlags flags;
   CameraArguments camera;
   bool view_chosen = false;
-};
-
-/// A border loop's name, and the band's length over the loop's.
-struct Band {
-  std::string loop;
-  double length;
 };
 
 std::vector<Band> bands_of(const DrapeArguments& a) {
@@ -81,7 +57,7 @@ void check_call(const DrapeArguments& a, const io::Scene& scene) {
     throw UsageError("--compare is a picture: name it with --picture");
   if (!a.compare.empty() && (!a.out.empty() || !a.animation.empty()))
     throw UsageError("--compare writes a picture only; drape each by itself for its mesh");
-  if (!(a.residual > 0)) throw UsageError("--residual takes a number > 0");
+  if (!(a.settings.residual > 0)) throw UsageError("--residual takes a number > 0");
   if (a.picture.empty() && (a.view_chosen || !a.camera.save_camera.empty()))
     throw UsageError("a view and --save-camera are of use with --picture only");
   if (!a.out.empty()) check_output(a.out);
@@ -102,114 +78,6 @@ void choose_fabric(io::TomlDocument& document) {
   for (const char* key : {"preset", "membrane", "bending_law", "stretch", "stiffness"})
     if (material.contains(key)) return;
   io::set_value(document, "material.preset", "cotton", "furrow drape");
-}
-
-/// The way to rest, a frame an iteration of the finest level.
-class WayRecorder {
- public:
-  WayRecorder(const DrapeArguments& a, int last_level) : a_(a), last_level_(last_level) {}
-  void observe(int level, const physics::Cloth& cloth) {
-    if (a_.animation.empty() || level < last_level_) return;
-    if (!writer_) {
-      geometry::Mesh mesh;
-      for (const physics::Vec3& x : cloth.particles.x) mesh.add_vertex({x.x(), x.y(), x.z()});
-      for (const auto& t : cloth.triangles)
-        mesh.add_face(geometry::Vertex(t[0]), geometry::Vertex(t[1]), geometry::Vertex(t[2]));
-      io::AnimationOptions options;
-      options.frame = write_options(a_);
-      writer_ = std::make_unique<io::AnimationWriter>(a_.animation, mesh, options);
-    }
-    writer_->add(cloth.particles.x);
-  }
-  void close() {
-    if (writer_) writer_->close();
-  }
-
- private:
-  const DrapeArguments& a_;
-  int last_level_;
-  std::unique_ptr<io::AnimationWriter> writer_;
-};
-
-struct Draped {
-  io::MeshFile file;
-  bridge::DrapeReport report;
-  bridge::FitReport fit;
-  bridge::FitOptions fit_options;
-  double seconds = 0;
-  std::string name;
-};
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-bridge::MakeCloth maker(const io::Scene& scene, io::MeshFile& made, const io::MeshFile& as_read,
-                        const std::vector<Band>& bands, double band_stiffness,
-                        const CommonArguments& common) {
-  return [&, bands, band_stiffness](geometry::Mesh& mesh) {
-    made = as_read;
-    made.mesh = mesh;
-    const auto pins = find_pins(made, scene.pins);
-    complete_garment(made, scene.material);
-    physics::Cloth cloth = bridge::gather(made.mesh, spring_options(made, scene.material));
-    const auto loops = geometry::border_loops(made.mesh);
-    for (const Band& band : bands) {
-      std::vector<int> vertices;
-      for (const geometry::Vertex v : loops[geometry::find_border_loop(loops, band.loop)].vertices)
-        vertices.push_back(int(v));
-      physics::add_elastic_band(cloth, vertices, {band.length, band_stiffness});
-    }
-    pin_cloth(cloth, pins, nullptr, 0, common);
-    mesh = made.mesh;
-    return cloth;
-  };
-}
-
-/// As contact_gap() tells for the refined garment: its edges are half as long a level, their sag a quarter.
-double gap_of(const io::Scene& scene, const BodyCollider& body, geometry::Mesh garment) {
-  geometry::ensure_rest_lengths(garment);
-  const double sag = contact_gap(0, 0, garment) / std::pow(4, scene.subdivide);
-  return std::max(scene.simulation.contact_gap, sag + 1.5 * body.field.report().tolerance);
-}
-
-Draped drape_one(const io::Scene& scene, const BodyCollider& body, const DrapeArguments& a,
-                 const CommonArguments& common) {
-  Draped draped;
-  io::Scene coarse = scene;
-  coarse.subdivide = 0;
-  const io::MeshFile as_read = begin_garment(coarse, common);
-  bridge::DrapeOptions options;
-  options.refinements = scene.subdivide;
-  options.settle.gravity = scene.simulation.gravity;
-  options.settle.friction = scene.simulation.friction;
-  options.settle.tolerance = a.residual;
-  options.plain = a.plain;
-  options.settle.max_iterations = a.iterations.value_or(a.plain ? 20000 : options.settle.max_iterations);
-  options.settle.gap = gap_of(scene, body, as_read.mesh);
-  options.settle.threads = int(std::max(1u, std::thread::hardware_concurrency()));
-  WayRecorder way(a, scene.subdivide);
-  Progress progress("draping", common);
-  double first = 0;
-  const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
-    way.observe(level, cloth);
-    if (p.iteration == 0 || p.residual > first) first = p.residual;
-    const double way_there = std::log(first / p.residual) / std::log(first / options.settle.tolerance);
-    progress.show((level + std::clamp(way_there, 0.0, 1.0)) / (scene.subdivide + 1));
-    return !interrupted();
-  };
-  const double start = now();
-  geometry::Mesh mesh = as_read.mesh;
-  physics::Cloth cloth;
-  draped.report =
-      bridge::drape(mesh, cloth, &body.field, options,
-                    maker(scene, draped.file, as_read, bands_of(a), a.band_stiffness, common), observe);
-  draped.seconds = now() - start;
-  draped.file.mesh = std::move(mesh);
-  way.close();
-  draped.fit_options.contact_distance = 1.2 * options.settle.gap;
-  draped.fit = bridge::fit_report(draped.file.mesh, body.triangles, body.exact, draped.fit_options);
-  return draped;
 }
 
 void write_picture(std::vector<Draped>& all, const io::Scene& scene, const DrapeArguments& a,
@@ -238,7 +106,9 @@ int drape(const DrapeArguments& a) {
   take_noted_frame(scene, document);
   if (a.subdivide) scene.subdivide = *a.subdivide;
   check_call(a, scene);
-  bands_of(a);
+  DrapeSettings settings = a.settings;
+  settings.bands = bands_of(a);
+  settings.animation = a.animation;
   CommonArguments common = a;
   common.unit = scene.unit;
   common.up = scene.up;
@@ -254,7 +124,7 @@ int drape(const DrapeArguments& a) {
       one = scene_of(other, folder);
       one.subdivide = scene.subdivide;
     }
-    all.push_back(drape_one(one, body, a, common));
+    all.push_back(drape_garment(one, body, settings, common));
     all.back().name = fabric.empty() ? scene.garment.stem().string() : fabric;
     if (all.back().report.stopped) break;
   }
@@ -298,14 +168,15 @@ void add_drape(CLI::App& app, int& exit_code) {
          "--band", a->bands,
          "an elastic band along a border loop and its length over the loop's: top=0.9; may be given again")
       ->allow_extra_args(false);
-  sub->add_option("--band-stiffness", a->band_stiffness,
+  sub->add_option("--band-stiffness", a->settings.band_stiffness,
                   "force in a band at twice its length [N] (default 50)")
       ->check(CLI::NonNegativeNumber);
-  sub->add_option("--residual", a->residual,
+  sub->add_option("--residual", a->settings.residual,
                   "largest net force on a vertex, over its weight, at which it rests (default 0.001)");
-  sub->add_flag("--plain", a->plain,
+  sub->add_flag("--plain", a->settings.plain,
                 "paper 2's own scheme: forces used as displacements, with a cap; to compare with");
-  sub->add_option("--iterations", a->iterations, "at most, on each level (default 200; --plain: 20000)")
+  sub->add_option("--iterations", a->settings.iterations,
+                  "at most, on each level (default 200; --plain: 20000)")
       ->check(CLI::NonNegativeNumber);
   a->flags.add_to(*sub, true);
   add_camera_options(*sub, a->camera);
