@@ -23,7 +23,7 @@ void check(const DrapeOptions& o) {
     throw std::invalid_argument(std::string("drape: ") + name + " = " + std::to_string(value) + " is not " +
                                 range);
   };
-  need(o.refinements >= 0, "refinements", o.refinements, ">= 0");
+  need(o.refinements >= 0 && o.refinements <= 6, "refinements", o.refinements, "in [0, 6]");
   need(o.coarse_tolerance > 0, "coarse_tolerance", o.coarse_tolerance, "> 0");
   need(o.disturbance >= 0, "disturbance", o.disturbance, ">= 0");
 }
@@ -89,7 +89,7 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     cloth = make_cloth(made);
     for (std::size_t i = 0; i < carried.size(); ++i)
       if (cloth.particles.inv_mass[i] > 0) cloth.particles.x[i] = carried[i];
-    report.disturbance = disturb(cloth, o.disturbance);
+    report.disturbance = disturb(cloth, report.stopped ? 0 : o.disturbance);
     DrapeLevel& now = report.levels.emplace_back();
     now.vertices = cloth.particles.size();
     now.pushed = bring_out(cloth, body, o.settle.gap);

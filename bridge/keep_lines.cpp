@@ -35,8 +35,8 @@ class Keeper {
     o_.bounds.gravity = o_.run.gravity;
     o_.bounds.friction = o_.run.friction;
     o_.bounds.gap = o_.run.contact_gap;
-    for (Vec3& v : cloth_.particles.v) v.setZero();
     start_ = cloth_;
+    for (Vec3& v : start_.particles.v) v.setZero();
     const physics::PushOutReport pushed = bring_out(start_, world, o_.run.contact_gap);
     report_.pushed_out = pushed.moved;
     report_.farthest_push = pushed.farthest;
@@ -204,8 +204,9 @@ class Keeper {
   /// Bisects the heights of all lines that fail at once.
   void help_by_height() {
     std::vector<std::pair<HelpedLine*, double>> low;  // the greatest height that held
+    const std::vector<HelpedLine*> loose_now = lines_of_mode();
     for (HelpedLine& line : lines_)
-      if (!holds(line) || is_bound(line)) low.push_back({&line, 0});
+      if (!good(line, loose_now)) low.push_back({&line, 0});
     if (low.empty() || hangs_wrong()) return;
     std::vector<double> high(low.size(), 1);
     for (int trial = 0; trial < o_.height_trials && !report_.interrupted; ++trial) {

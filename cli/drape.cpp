@@ -41,7 +41,10 @@ std::vector<Band> bands_of(const DrapeArguments& a) {
 std::vector<std::string> fabrics_of(const DrapeArguments& a) {
   std::istringstream stream(a.compare);
   std::vector<std::string> names;
-  for (std::string name; std::getline(stream, name, ',');) names.push_back(name);
+  for (std::string name; std::getline(stream, name, ',');) {
+    if (name.empty()) throw UsageError("--compare " + a.compare + ": a name is missing");
+    names.push_back(name);
+  }
   return names;
 }
 
@@ -49,6 +52,8 @@ void check_call(const DrapeArguments& a, const io::Scene& scene) {
   if (!scene.body) throw UsageError("a garment is draped on a body: name one with --body");
   if (!scene.body->frames.empty())
     throw UsageError("--body-frames: drape fits a garment to one pose; simulate moves it");
+  if (!physics::at_rest(scene.body->motion))
+    throw UsageError("body.motion: drape takes the body as it lies in its file; move it there, or simulate");
   if (!scene.lines.empty())
     throw UsageError("drape draws no lines; draw them on what it writes, with furrow wrinkle");
   if (a.out.empty() && a.picture.empty() && a.animation.empty())
@@ -84,12 +89,15 @@ void write_picture(std::vector<Draped>& all, const io::Scene& scene, const Drape
                    const CommonArguments& common) {
   const auto quantity = a.colour == "distance" ? io::FitQuantity::distance : io::FitQuantity::strain;
   const io::FitScale scale = fit_scale(quantity, all[0].fit_options);
-  const io::MeshFile body = io::read_mesh(scene.body->mesh, read_options(common));
+  CommonArguments silent = common;  // its repairs are told already
+  silent.quiet = true;
+  const io::MeshFile body = read_mesh(scene.body->mesh.string(), silent);
   std::vector<FitPanel> panels;
   for (Draped& d : all) {
     colour_garment(d.file.mesh, scale);
-    const std::string caption =
-        d.name + (all.size() > 1 ? "\n" : ": ") + fit_words(d.fit, d.fit_options, quantity);
+    const bool rests = d.report.levels.back().settle.converged;
+    const std::string caption = d.name + (rests ? "" : " (not at rest)") + (all.size() > 1 ? "\n" : ": ") +
+                                fit_words(d.fit, d.fit_options, quantity);
     panels.push_back({&d.file.mesh, &body.mesh, caption});
   }
   io::write_png(a.picture, fit_picture(panels, scale, a.camera, a.view_chosen, common));
@@ -112,20 +120,20 @@ int drape(const DrapeArguments& a) {
   CommonArguments common = a;
   common.unit = scene.unit;
   common.up = scene.up;
+  std::vector<io::Scene> scenes;
+  std::vector<std::string> fabrics = fabrics_of(a);
+  for (const std::string& fabric : fabrics) {
+    io::TomlDocument other = document;
+    io::set_value(other, "material.preset", fabric, "--compare");
+    scenes.push_back(scene_of(other, folder));
+    scenes.back().subdivide = scene.subdivide;
+  }
+  if (fabrics.empty()) scenes.push_back(scene);
   const BodyCollider body = load_body(*scene.body, common);
   std::vector<Draped> all;
-  std::vector<std::string> fabrics = fabrics_of(a);
-  if (fabrics.empty()) fabrics.push_back("");
-  for (const std::string& fabric : fabrics) {
-    io::Scene one = scene;
-    if (!fabric.empty()) {
-      io::TomlDocument other = document;
-      io::set_value(other, "material.preset", fabric, "--compare");
-      one = scene_of(other, folder);
-      one.subdivide = scene.subdivide;
-    }
-    all.push_back(drape_garment(one, body, settings, common));
-    all.back().name = fabric.empty() ? scene.garment.stem().string() : fabric;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    all.push_back(drape_garment(scenes[i], body, settings, common));
+    all.back().name = fabrics.empty() ? scene.garment.stem().string() : fabrics[i];
     if (all.back().report.stopped) break;
   }
   if (!a.out.empty()) write_mesh(all[0].file, common);
@@ -136,7 +144,8 @@ int drape(const DrapeArguments& a) {
   if (!a.out.empty()) report["written"] = a.out;
   if (!a.picture.empty()) report["picture"] = a.picture;
   print_report(report, common);
-  return exit_code_of(rows, common);
+  const int code = exit_code_of(rows, common);
+  return code == kOk && interrupted() ? kInterrupted : code;
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/drape_garment.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -14,6 +16,7 @@
 #include "geometry/rest_metric.h"
 #include "io/animation_file.h"
 #include "physics/elastic_band.h"
+#include "physics/push_out.h"
 
 namespace furrow::cli {
 namespace {
@@ -51,27 +54,75 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-bridge::MakeCloth maker(const io::Scene& scene, io::MeshFile& made, const io::MeshFile& as_read,
-                        const std::vector<Band>& bands, double band_stiffness,
-                        const CommonArguments& common) {
-  return [&, bands, band_stiffness](geometry::Mesh& mesh) {
-    made = as_read;
+/// A vertex of the loop that a name means on the mesh as it was read: refinement keeps its index, but may
+/// change which loop is the longest.
+int vertex_of_loop(const geometry::Mesh& mesh, const std::string& name) {
+  const auto loops = geometry::border_loops(mesh);
+  return int(loops[geometry::find_border_loop(loops, name)].vertices.at(0));
+}
+
+std::vector<int> loop_through(const geometry::Mesh& mesh, int vertex) {
+  for (const geometry::BorderLoop& loop : geometry::border_loops(mesh)) {
+    std::vector<int> vertices;
+    for (const geometry::Vertex v : loop.vertices) vertices.push_back(int(v));
+    if (std::find(vertices.begin(), vertices.end(), vertex) != vertices.end()) return vertices;
+  }
+  return {};
+}
+
+/// Makes cloth of the garment on each level; pins and bands are found again there.
+class Maker {
+ public:
+  Maker(const io::Scene& scene, const BodyCollider& body, const DrapeSettings& settings,
+        const io::MeshFile& as_read, const CommonArguments& common)
+      : scene_(scene), body_(body), settings_(settings), as_read_(as_read), common_(common) {
+    for (const io::ScenePins& pins : scene.pins)
+      pin_vertices_.push_back(pins.loop.empty() ? -1 : vertex_of_loop(as_read.mesh, pins.loop));
+    for (const Band& band : settings.bands) band_vertices_.push_back(vertex_of_loop(as_read.mesh, band.loop));
+  }
+
+  physics::Cloth operator()(geometry::Mesh& mesh) {
+    made = as_read_;
     made.mesh = mesh;
-    const auto pins = find_pins(made, scene.pins);
-    complete_garment(made, scene.material);
-    physics::Cloth cloth = bridge::gather(made.mesh, spring_options(made, scene.material));
-    const auto loops = geometry::border_loops(made.mesh);
-    for (const Band& band : bands) {
-      std::vector<int> vertices;
-      for (const geometry::Vertex v : loops[geometry::find_border_loop(loops, band.loop)].vertices)
-        vertices.push_back(int(v));
-      physics::add_elastic_band(cloth, vertices, {band.length, band_stiffness});
-    }
-    pin_cloth(cloth, pins, nullptr, 0, common);
+    const auto pins = find_pins(made, pins_on(mesh));
+    complete_garment(made, scene_.material);
+    physics::Cloth cloth = bridge::gather(made.mesh, spring_options(made, scene_.material));
+    for (std::size_t i = 0; i < band_vertices_.size(); ++i)
+      physics::add_elastic_band(cloth, loop_through(mesh, band_vertices_[i]),
+                                {settings_.bands[i].length, settings_.band_stiffness});
+    pin_cloth(cloth, pins, nullptr, 0, common_);
+    int moved = 0;
+    for (const std::vector<int>& held : pins)
+      moved += physics::push_out(cloth.particles.x, held, body_.exact).moved;
+    if (moved)
+      warn(std::to_string(moved) + " of " + std::to_string(mesh.number_of_vertices()) +
+               " vertices are pinned inside the body; moved onto it",
+           common_);
     mesh = made.mesh;
     return cloth;
-  };
-}
+  }
+
+  io::MeshFile made;  ///< of the last level
+
+ private:
+  std::vector<io::ScenePins> pins_on(const geometry::Mesh& mesh) const {
+    std::vector<io::ScenePins> result = scene_.pins;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      if (pin_vertices_[i] < 0) continue;
+      const std::vector<int> loop = loop_through(mesh, pin_vertices_[i]);
+      result[i].loop.clear();
+      result[i].vertices.insert(result[i].vertices.end(), loop.begin(), loop.end());
+    }
+    return result;
+  }
+
+  const io::Scene& scene_;
+  const BodyCollider& body_;
+  const DrapeSettings& settings_;
+  const io::MeshFile& as_read_;
+  const CommonArguments& common_;
+  std::vector<int> pin_vertices_, band_vertices_;
+};
 
 /// As contact_gap() tells for the refined garment: its edges are half as long a level, their sag a quarter.
 double gap_of(const io::Scene& scene, const BodyCollider& body, geometry::Mesh garment) {
@@ -103,17 +154,19 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const Dra
   const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
     way.observe(level, cloth);
     if (p.iteration == 0 || p.residual > first) first = p.residual;
-    const double way_there = std::log(first / p.residual) / std::log(first / options.settle.tolerance);
+    const double least = options.settle.tolerance;
+    const bool far = std::isfinite(p.residual) && p.residual > least && first > least;
+    const double way_there = far ? std::log(first / p.residual) / std::log(first / least) : 1;
     progress.show((level + std::clamp(way_there, 0.0, 1.0)) / (scene.subdivide + 1));
     return !interrupted();
   };
   const double start = now();
   geometry::Mesh mesh = as_read.mesh;
   physics::Cloth cloth;
-  draped.report =
-      bridge::drape(mesh, cloth, &body.field, options,
-                    maker(scene, draped.file, as_read, s.bands, s.band_stiffness, common), observe);
+  Maker maker(scene, body, s, as_read, common);
+  draped.report = bridge::drape(mesh, cloth, &body.field, options, std::ref(maker), observe);
   draped.seconds = now() - start;
+  draped.file = std::move(maker.made);
   draped.file.mesh = std::move(mesh);
   way.close();
   draped.fit_options.contact_distance = 1.2 * options.settle.gap;

@@ -17,7 +17,7 @@ namespace {
 
 using Vectors = std::vector<Vec3>;
 
-constexpr double contact_share = 0.1;  // of the mean stiffness of a particle
+constexpr double contact_share = 0.1;     // of the mean stiffness of a particle
 constexpr double first_time = 0.03;       // tau [s]
 constexpr double least_share = 1.0 / 32;  // of a step
 constexpr double least_clamp = 0.02;      // once the Hessian alone would not do
@@ -159,6 +159,7 @@ class Settler {
     const double first = longest > o_.longest_move ? o_.longest_move / longest : 1;
     const double share = search(first);
     if (share == 0) {
+      if (contact_) contact_->expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
       tau_ *= 0.25;
       clamp_ = std::min(1.0, 2 * clamped_ + least_clamp);
       return;

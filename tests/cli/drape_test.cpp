@@ -64,6 +64,10 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   refused(skirt() + out + " --compare silk,cotton", "--picture");
   refused(skirt() + " -o " + (source_dir() / "meshes/skirt.obj").string(), "skirt.obj");
   refused(skirt() + out + " --residual 0", "--residual");
+  refused(skirt() + out + " --band left=0.9", "left");
+  refused(skirt() + out + " --set body.motion.spin={axis=[0,1,0],rate=1}", "body.motion");
+  refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,slik", "slik");
+  refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,,silk", "missing");
   CHECK_FALSE(std::filesystem::exists(scratch / "x.ply"));
   const Run few = run_furrow("drape " + skirt() + out + " --iterations 2 --fabric silk");
   CHECK(few.exit_code == 4);
