@@ -222,7 +222,7 @@ bool BlockCholesky::eliminate(int number, const double* values, double shift, Th
   fill(f, values, shift, a);
   for (const int child : f.children) {
     extend(fronts_[std::size_t(child)], a, f.update);
-    fronts_[std::size_t(child)].update = {};
+    std::vector<double>().swap(fronts_[std::size_t(child)].update);  // gives the room back
   }
   if (!physics::eliminate(a, pool)) return false;
   subtract_square(a, f.update.data(), padded(rest), pool);
