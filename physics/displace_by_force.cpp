@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/check_particles.h"
 #include "physics/contact.h"
 #include "physics/elements.h"
 #include "physics/push_out.h"
@@ -32,7 +33,6 @@ void check(const Cloth& cloth, const DisplaceOptions& o) {
     throw std::invalid_argument(std::string("displace_by_force: ") + name + " = " + std::to_string(value) +
                                 " is not " + range);
   };
-  const Particles& p = cloth.particles;
   for (const double g : o.gravity) need(true, "gravity", g, "finite");
   need(o.friction >= 0, "friction", o.friction, ">= 0");
   need(o.gap > 0, "gap", o.gap, "> 0");
@@ -43,12 +43,7 @@ void check(const Cloth& cloth, const DisplaceOptions& o) {
     need(o.limit > 0, "limit", o.limit, "> 0");
     need(o.replacement > 0 && o.replacement <= o.limit, "replacement", o.replacement, "in (0, limit]");
   }
-  if (p.v.size() != p.size() || p.mass.size() != p.size() || p.inv_mass.size() != p.size())
-    throw std::invalid_argument("displace_by_force: the particles' arrays differ in length");
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    for (const double x : p.x[i]) need(true, "a position", x, "finite");
-    if (p.inv_mass[i] > 0) need(p.mass[i] > 0, "mass of a free particle", p.mass[i], "> 0");
-  }
+  check_particles(cloth.particles, "displace_by_force");
 }
 
 /// Of the free particles [N]; 0 if there are none.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "physics/anchored_contact.h"
+#include "physics/check_particles.h"
 #include "physics/elements.h"
 #include "physics/free_stiffness.h"
 #include "physics/residual_force.h"
@@ -29,7 +30,6 @@ void check(const Cloth& cloth, const SettleOptions& o) {
     throw std::invalid_argument(std::string("settle: ") + name + " = " + std::to_string(value) + " is not " +
                                 range);
   };
-  const Particles& p = cloth.particles;
   for (const double g : o.gravity) need(true, "gravity", g, "finite");
   need(o.friction >= 0, "friction", o.friction, ">= 0");
   need(o.gap > 0, "gap", o.gap, "> 0");
@@ -37,12 +37,7 @@ void check(const Cloth& cloth, const SettleOptions& o) {
   need(o.max_iterations >= 0, "max_iterations", o.max_iterations, ">= 0");
   need(o.longest_move > 0, "longest_move", o.longest_move, "> 0");
   need(o.threads >= 1, "threads", o.threads, ">= 1");
-  if (p.v.size() != p.size() || p.mass.size() != p.size() || p.inv_mass.size() != p.size())
-    throw std::invalid_argument("settle: the particles' arrays differ in length");
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    for (const double x : p.x[i]) need(true, "a position", x, "finite");
-    if (p.inv_mass[i] > 0) need(p.mass[i] > 0, "mass of a free particle", p.mass[i], "> 0");
-  }
+  check_particles(cloth.particles, "settle");
 }
 
 double dot(const Vectors& a, const Vectors& b) {

@@ -8,6 +8,7 @@
 #include "physics/leapfrog_step.h"
 #include "physics/pins.h"
 #include "tests/physics/shell_cloths.h"
+#include "tests/physics/stepper_runs.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;
@@ -70,12 +71,7 @@ TEST_CASE("membrane and hinges move alike with any number of threads") {
   Cloth cloth = shell(61, 53, GENERATE(HingeLaw::linear, HingeLaw::cosine), false);
   pin(cloth.particles, std::vector<int>{0, 60});
   const auto run = [&](int threads) {
-    ThreadPool pool(threads);
-    Motion motion(cloth, {.air_drag = 1, .spring_damping = 0.05}, pool);
-    for (int i = 0; i < 40; ++i) leapfrog_step(motion, 5e-5);
-    Particles end = cloth.particles;
-    motion.unpack(end);
-    return end;
+    return after(cloth, {.air_drag = 1, .spring_damping = 0.05}, {}, 5e-5, 40, threads);
   };
   const Particles one = run(1);
   for (const int threads : {2, 3, 7}) {

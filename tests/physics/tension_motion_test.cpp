@@ -7,6 +7,7 @@
 #include "physics/simulate.h"
 #include "physics/stable_step.h"
 #include "tests/physics/shell_cloths.h"
+#include "tests/physics/stepper_runs.h"
 #include "tests/physics/tension_cloths.h"
 
 using namespace furrow::physics;
@@ -55,12 +56,7 @@ TEST_CASE("tension moves alike with any number of threads") {
   Cloth cloth = crumpled_sheet(61, 53, false);
   pin(cloth.particles, std::vector<int>{0, 60});
   const auto run = [&](int threads) {
-    ThreadPool pool(threads);
-    Motion motion(cloth, {.air_drag = 1, .spring_damping = 0.05}, pool);
-    for (int i = 0; i < 40; ++i) leapfrog_step(motion, 5e-5);
-    Particles end = cloth.particles;
-    motion.unpack(end);
-    return end;
+    return after(cloth, {.air_drag = 1, .spring_damping = 0.05}, {}, 5e-5, 40, threads);
   };
   const Particles one = run(1);
   for (const int threads : {2, 3, 7}) {
