@@ -61,12 +61,13 @@ physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* 
   options.tolerance = o.tolerance;
   options.max_passes = o.max_iterations;
   const physics::DisplaceReport r = physics::displace_by_force(cloth, body, options, observer);
-  return {r.passes,
-          0,
-          r.residual,
-          r.outcome == physics::DisplaceOutcome::converged,
-          r.outcome == physics::DisplaceOutcome::stopped,
-          r.touching};
+  physics::SettleReport report;
+  report.iterations = r.passes;
+  report.residual = r.residual;
+  report.converged = r.outcome == physics::DisplaceOutcome::converged;
+  report.stopped = r.outcome == physics::DisplaceOutcome::stopped;
+  report.touching = r.touching;
+  return report;
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ AnchoredContact::AnchoredContact(const Collider& collider, const AnchoredContact
   need(options.friction >= 0, "friction", options.friction, ">= 0");
   need(options.gap > 0, "gap", options.gap, "> 0");
   need(options.stiffness > 0, "stiffness", options.stiffness, "> 0");
+  for (Touch& t : touches_) t.gap = options.gap;
 }
 
 AnchoredContact::Push AnchoredContact::push_at(double d) const {
@@ -36,7 +37,7 @@ double AnchoredContact::energy(std::span<const Vec3> x, std::span<const double> 
   double energy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!(inv_mass[i] > 0)) continue;
-    energy += push_at(options_.gap - collider_.at(x[i]).value).energy;
+    energy += push_at(touches_[i].gap - collider_.at(x[i]).value).energy;
     const Touch& t = touches_[i];
     if (t.limit < 0) continue;
     const double u = t.way(x[i]).norm();
@@ -53,7 +54,7 @@ void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_
     if (!(inv_mass[i] > 0)) continue;
     const SignedDistance field = collider_.at(x[i]);
     const double slope = field.gradient.norm();
-    const Push push = push_at(options_.gap - field.value);
+    const Push push = push_at(t.gap - field.value);
     if (!(push.force > 0) || !(slope > 0)) continue;
     t.push = push.force * slope;
     t.stiffness = push.stiffness * slope * slope;
@@ -110,6 +111,19 @@ void AnchoredContact::move_anchors() {
     const double length = u.norm();
     t.slides = length > slip_;
     t.anchor = t.x - (t.slides ? slip_ / length : 1.0) * u;
+  }
+}
+
+void AnchoredContact::make_room(std::span<const Vec3> from, std::span<const Vec3> to,
+                                std::span<const double> inv_mass) {
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    Touch& t = touches_[i];
+    if (!(inv_mass[i] > 0) || (to[i] - from[i]).norm() > t.gap) continue;
+    const SignedDistance here = collider_.at(from[i]), there = collider_.at(to[i]);
+    const double most = std::max(here.value, there.value);
+    if (!(most < t.gap)) continue;
+    const double cosine = here.gradient.dot(there.gradient) / (here.gradient.norm() * there.gradient.norm());
+    if (cosine < 0.5) t.gap = most > 0 ? 0.5 * most : 2 * most;
   }
 }
 

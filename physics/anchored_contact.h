@@ -37,6 +37,11 @@ class AnchoredContact {
   void add_stiffness(FreeStiffness& stiffness) const;  ///< positive semidefinite
   void expect(std::span<const Vec3> move);             ///< limits become those of the push after a move [m]
   void move_anchors();
+  /// Where the body leaves less room than the gap (between two fingers, under an arm), pushes from both sides
+  /// meet in a kink at which no step succeeds. Who is pushed at `from` and, less than the gap away, from
+  /// another side at `to` (normals over 60 degrees apart), rests from now on within half the distance [m]
+  /// that it has there.
+  void make_room(std::span<const Vec3> from, std::span<const Vec3> to, std::span<const double> inv_mass);
   int touching() const;  ///< particles that are pushed
 
  private:
@@ -46,6 +51,7 @@ class AnchoredContact {
     bool slides = false;  ///< dragged its anchor last time
     Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
     double push = 0, stiffness = 0;  ///< [N], [N/m]; 0: apart
+    double gap;                      ///< [m]; the option, unless make_room() lowered it
     /// From the anchor, along the surface [m].
     Vec3 way(const Vec3& to) const { return to - anchor - normal.dot(to - anchor) * normal; }
   };

@@ -11,6 +11,7 @@
 #include "physics/check_particles.h"
 #include "physics/elements.h"
 #include "physics/free_stiffness.h"
+#include "physics/limited_memory.h"
 #include "physics/residual_force.h"
 
 namespace furrow::physics {
@@ -22,7 +23,11 @@ constexpr double contact_share = 0.1;     // of the mean stiffness of a particle
 constexpr double first_time = 0.03;       // tau [s]
 constexpr double least_share = 1.0 / 32;  // of a step
 constexpr double least_clamp = 0.02;      // once the Hessian alone would not do
-constexpr double far_from_rest = 1e4;     // residual above which friction is not foreseen [-]
+constexpr double relax_clamp = 0.7;       // after a success
+constexpr double far_from_rest = 1e4;     // residual above which one step is all that a factorisation is for
+constexpr double slack_share = 3e-4;      // of weight times gap: what is too little energy to judge by
+constexpr int most_followers = 10;        // steps with one factorisation, after the first
+constexpr double follow_until = 1e-2;     // share of the first one's expected fall of energy
 
 void check(const Cloth& cloth, const SettleOptions& o) {
   const auto need = [](bool good, const char* name, double value, const char* range) {
@@ -54,7 +59,10 @@ class Settler {
         collider_(collider),
         o_(options),
         stiffness_(cloth),
-        pool_(options.threads) {
+        pool_(options.threads),
+        memory_([this](std::span<Vec3> f) { stiffness_.solve(f); }, most_followers) {
+    for (std::size_t i = 0; i < p_.size(); ++i)
+      if (p_.inv_mass[i] > 0) slack_ += slack_share * p_.mass[i] * options.gravity.norm() * options.gap;
     stiffness_.assemble(cloth, p_.x, Stiffness::positive_part);
     if (!collider) return;
     const double k = contact_share * stiffness_.mean_diagonal();
@@ -105,6 +113,7 @@ class Settler {
 
   /// Clamps the Hessian until it is positive definite.
   bool factorise() {
+    memory_.clear();
     for (int failures = 0;; ++failures) {
       stiffness_.assemble(cloth_, p_.x, {clamp_});
       if (contact_) contact_->add_stiffness(stiffness_);
@@ -113,7 +122,7 @@ class Settler {
       ++report_.factorisations;
       if (stiffness_.factorise_definite(0, &pool_)) {
         clamped_ = clamp_;
-        if (failures == 0) clamp_ = clamp_ < least_clamp / 2 ? 0 : 0.3 * clamp_;
+        if (failures == 0) clamp_ = clamp_ < least_clamp / 2 ? 0 : relax_clamp * clamp_;
         return true;
       }
       if (clamp_ == 1) return false;
@@ -123,24 +132,41 @@ class Settler {
 
   void find_move() {
     move_ = net_;
-    stiffness_.solve(move_);
-    if (!contact_ || report_.residual > far_from_rest) return;
-    contact_->expect(move_);
-    find_net();
-    move_ = net_;
-    stiffness_.solve(move_);
+    memory_.apply(move_);
+    double longest = 0;
+    for (const Vec3& m : move_) longest = std::max(longest, m.norm());
+    first_ = longest > o_.longest_move ? o_.longest_move / longest : 1;
   }
 
-  /// The longest share of the move, from `first` halved, that lowers the energy; 0: none.
-  double search(double first) {
+  /// The longest share of the move, from first_ halved, that lowers the energy, and trial_ there; 0: none.
+  /// Where the body's gradient jumps a little from cell to cell, energy alone would refuse good steps near
+  /// rest: there it is enough that less is left to gain along the move.
+  double search() {
     const double before = energy(p_.x), slope = -dot(net_, move_);
     if (!(slope < 0)) return 0;
-    for (double share = first; share > least_share * first; share *= 0.5) {
-      trial_ = p_.x;
-      for (std::size_t i = 0; i < trial_.size(); ++i) trial_[i] += share * move_[i];
-      if (energy(trial_) <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return share;
+    for (double share = first_; share > least_share * first_; share *= 0.5) {
+      trial_ = moved(share);
+      const double there = energy(trial_);
+      if (there <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return share;
+      if (there <= before + slack_ && std::abs(net_at_trial_along_move()) < -0.9 * slope) return share;
     }
     return 0;
+  }
+
+  double net_at_trial_along_move() {
+    const Vectors here = p_.x;
+    p_.x = trial_;
+    find_forces();
+    const double along = dot(net_, move_);
+    p_.x = here;
+    find_forces();
+    return along;
+  }
+
+  Vectors moved(double share) const {
+    Vectors x = p_.x;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += share * move_[i];
+    return x;
   }
 
   void step() {
@@ -149,10 +175,14 @@ class Settler {
       return;
     }
     find_move();
-    double longest = 0;
-    for (const Vec3& m : move_) longest = std::max(longest, m.norm());
-    const double first = longest > o_.longest_move ? o_.longest_move / longest : 1;
-    const double share = search(first);
+    if (contact_ && report_.residual < far_from_rest) {
+      contact_->expect(move_);
+      find_net();
+      find_move();
+    }
+    double share = search();
+    if (share == 0 && dot(net_, move_) < slack_) trial_ = moved(share = first_);  // as well as any
+    if (contact_ && share < first_) contact_->make_room(p_.x, moved(first_), p_.inv_mass);
     if (share == 0) {
       if (contact_) contact_->expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
       tau_ *= 0.25;
@@ -161,13 +191,37 @@ class Settler {
     }
     p_.x = trial_;
     if (share == 1) tau_ *= 4;
-    if (share < first) {
+    if (share < first_) {
       tau_ *= 0.9;
       clamp_ = std::min(1.0, 1.5 * clamped_ + least_clamp / 2);
     }
+    if (report_.residual < far_from_rest) follow();
     if (!contact_) return;
     contact_->look(p_.x, p_.inv_mass);
     contact_->move_anchors();
+  }
+
+  /// Goes on with the same factors and what the steps with them show, as long as that pays.
+  void follow() {
+    find_forces();
+    double most = 0;
+    for (int k = 0; k < most_followers; ++k) {
+      find_move();
+      const double fall = dot(net_, move_);
+      most = std::max(most, fall);
+      if (fall < follow_until * most) return;
+      const double share = search();
+      if (share == 0) return;
+      p_.x = trial_;
+      ++report_.followers;
+      Vectors way = move_, change = net_;
+      find_forces();
+      for (std::size_t i = 0; i < way.size(); ++i) {
+        way[i] *= share;
+        change[i] -= net_[i];
+      }
+      memory_.add(std::move(way), std::move(change));
+    }
   }
 
   Cloth& cloth_;
@@ -177,7 +231,10 @@ class Settler {
   FreeStiffness stiffness_;
   ThreadPool pool_;
   std::unique_ptr<AnchoredContact> contact_;
+  LimitedMemory memory_;
   double tau_ = first_time, clamp_ = 1, clamped_ = 1;  // clamped_: of the last factorisation
+  double slack_ = 0;                                   // of the energy [J]
+  double first_ = 1;                                   // share of a move that search() begins with
   Vectors elastic_, net_, move_, trial_;
   SettleReport report_;
 };

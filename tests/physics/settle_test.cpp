@@ -112,6 +112,28 @@ TEST_CASE("settle: a cloth over a ball rests in the friction cone, the same bits
   CHECK(run(3) == one);
 }
 
+TEST_CASE("settle: cloth between two limbs rests where there is less room than the gap") {
+  struct Limbs : Collider {  // 2 mm apart at the origin: the distance has a ridge between them
+    Sphere left{Vec3(-0.051, 0, 0), 0.05}, right{Vec3(0.051, 0, 0), 0.05};
+    SignedDistance at(const Vec3& x) const override {
+      const SignedDistance l = left.at(x), r = right.at(x);
+      return l.value < r.value ? l : r;
+    }
+  } limbs;
+  Cloth cloth = membrane_sheet(10);
+  for (Vec3& x : cloth.particles.x) x = Vec3(0.0004 + 0.1 * x.y(), x.x(), x.z());  // upright, between them
+  double top = 0;
+  for (const Vec3& x : cloth.particles.x) top = std::max(top, x.y());
+  for (std::size_t i = 0; i < cloth.particles.size(); ++i)
+    if (cloth.particles.x[i].y() > top - 0.005) cloth.particles.inv_mass[i] = 0;
+  const SettleReport report = settle(cloth, &limbs, {.friction = 0});
+  CHECK(report.converged);
+  double nearest = 1;
+  for (const Vec3& x : cloth.particles.x) nearest = std::min(nearest, limbs.at(x).value);
+  CHECK(nearest > 0);
+  CHECK(nearest < 0.002);
+}
+
 TEST_CASE("settle: the observer stops it, and options out of range change nothing") {
   Cloth cloth = membrane_sheet(5);
   cloth.particles.inv_mass[0] = cloth.particles.inv_mass[4] = 0;

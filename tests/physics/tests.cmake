@@ -21,6 +21,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   invariants_test.cpp
   invert_elements_test.cpp
   leapfrog_step_test.cpp
+  limited_memory_test.cpp
   membrane_laws_test.cpp
   membrane_test.cpp
   metamorphic_test.cpp
