@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "physics/block_cholesky.h"
 
-#include <Eigen/OrderingMethods>
 #include <algorithm>
 
 #include "physics/elimination_tree.h"
+#include "physics/nested_dissection.h"
 
 namespace furrow::physics {
 namespace {
@@ -43,17 +43,7 @@ double most_zeros(int width) { return width <= 4 ? 0.6 : width <= 16 ? 0.25 : 0.
 Lists BlockCholesky::order(const Sparse& lower) {
   const Lists below = blocks_below(lower);
   blocks_ = int(below.size());
-  std::vector<Eigen::Triplet<double, int>> entries;
-  for (int c = 0; c < blocks_; ++c) {
-    entries.emplace_back(c, c, 1);
-    for (const int r : below[c]) entries.insert(entries.end(), {{r, c, 1}, {c, r, 1}});
-  }
-  Sparse graph(blocks_, blocks_);
-  graph.setFromTriplets(entries.begin(), entries.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> elimination;
-  Eigen::AMDOrdering<int>()(graph, elimination);
-  position_.assign(std::size_t(blocks_), 0);
-  for (int i = 0; i < blocks_; ++i) position_[elimination.indices()[i]] = i;
+  position_ = nested_dissection(below);
   const std::vector<int> place = postorder(elimination_tree(permuted(below, position_)));
   for (int& p : position_) p = place[p];
   return permuted(below, position_);

@@ -19,12 +19,12 @@ namespace furrow::physics {
 /// The matrix is its lower triangle, column by column; columns 3 c, 3 c + 1, 3 c + 2 hold from the diagonal
 /// down the block (c, c) and whole blocks below it, the same ones, ascending (FreeStiffness).
 /// Source: Liu, The multifrontal method for sparse matrix solution, SIAM Review 34(1), 1992; order of
-/// elimination: Eigen's approximate minimum degree; small fronts join their parents (relaxed supernodes,
+/// elimination: nested_dissection(); small fronts join their parents (relaxed supernodes,
 /// Ashcraft and Grimes 1989).
 class BlockCholesky {
  public:
   using Sparse = Eigen::SparseMatrix<double>;
-  /// Finds order and fronts. Cost: about a tenth of a factorisation.
+  /// Finds order and fronts. Cost: two to four factorisations; the order takes most of it.
   void analyse(const Sparse& lower);
   /// Factorises matrix + shift I; false if it is not positive definite or not finite. Needs the pattern of
   /// analyse(). Same input, same bits.

@@ -12,7 +12,7 @@
 namespace furrow::physics {
 
 /// The stiffness matrix K [N/m] of the particles that are not held (inv_mass > 0), sparse, and its factors.
-/// Where the blocks lie, the order of elimination (approximate minimum degree) and the factor's pattern are
+/// Where the blocks lie, the orders of elimination and the factor's pattern are
 /// found once; assembly and factorisation use them again.
 class FreeStiffness {
  public:

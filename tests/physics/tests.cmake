@@ -25,6 +25,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   membrane_test.cpp
   metamorphic_test.cpp
   moved_pins_test.cpp
+  nested_dissection_test.cpp
   oscillations_test.cpp
   packed_cloth_test.cpp
   patch_test.cpp
