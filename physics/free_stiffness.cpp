@@ -96,12 +96,12 @@ int FreeStiffness::factorise(double shift) {
   return int((factor_.vectorD().array() < 0).count());
 }
 
-void FreeStiffness::solve(std::span<Vec3> b) const {
+void FreeStiffness::solve(std::span<Vec3> b, ThreadPool* pool) const {
   Eigen::VectorXd y(3 * free_particles_);
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (row_[i] >= 0) y.segment<3>(3 * row_[i]) = b[i];
   }
-  if (free_particles_ > 0 && is_definite_) definite_.solve(y);
+  if (free_particles_ > 0 && is_definite_) definite_.solve(y, pool);
   if (free_particles_ > 0 && !is_definite_) y = factor_.solve(y).eval();
   for (std::size_t i = 0; i < b.size(); ++i) {
     b[i].setZero();

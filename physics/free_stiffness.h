@@ -37,8 +37,9 @@ class FreeStiffness {
   /// false if it is not positive definite. pool: threads that share the work (null: the caller alone).
   bool factorise_definite(double shift = 0, ThreadPool* pool = nullptr);
   /// b becomes the solution in rows of free particles, 0 in the others. Needs
-  /// factorise() >= 0 or factorise_definite() true, whichever was last.
-  void solve(std::span<Vec3> b) const;
+  /// factorise() >= 0 or factorise_definite() true, whichever was last; threads share the work after the
+  /// latter.
+  void solve(std::span<Vec3> b, ThreadPool* pool = nullptr) const;
 
   /// Mean of the diagonal of K [N/m], 0 if nothing is free: a scale for shifts.
   double mean_diagonal() const;
