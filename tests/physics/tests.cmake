@@ -41,6 +41,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   settle_cases_test.cpp
   settle_test.cpp
   dense_front_test.cpp
+  dense_kernels_test.cpp
   speed_accuracy_test.cpp
   simulate_integrators_test.cpp
   simulate_state_test.cpp
