@@ -12,6 +12,6 @@ configure_package_config_file(cmake/furrow-config.cmake.in furrow-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/furrow)
 write_basic_package_version_file(furrow-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/furrow-config.cmake
-              ${CMAKE_CURRENT_BINARY_DIR}/furrow-config-version.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/furrow-config-version.cmake cmake/FindMETIS.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/furrow)
 install(TARGETS furrow RUNTIME)

@@ -2,71 +2,68 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <array>
 #include <vector>
 
 #include "physics/dense_front.h"
+#include "physics/divide_fronts.h"
+#include "physics/front_tree.h"
 #include "physics/thread_pool.h"
 
 namespace furrow::physics {
 
 /// Cholesky factors L L^T of a sparse symmetric matrix of 3 x 3 blocks, by dense fronts (multifrontal
 /// method): particles whose columns of L look alike are eliminated together, so that nearly all work is
-/// products of dense matrices. Against Eigen's SimplicialLDLT it is about as fast at 1,000 particles of a
-/// sheet and several times faster at 10,000. It tells only whether the matrix is positive definite, not how
-/// many negative eigenvalues it has.
+/// products of dense matrices. Against Eigen's SimplicialLDLT it is several times faster from 1,000 particles
+/// of a sheet on. It tells only whether the matrix is positive definite, not how many negative eigenvalues it
+/// has.
 ///
 /// The matrix is its lower triangle, column by column; columns 3 c, 3 c + 1, 3 c + 2 hold from the diagonal
 /// down the block (c, c) and whole blocks below it, the same ones, ascending (FreeStiffness).
-/// Source: Liu, The multifrontal method for sparse matrix solution, SIAM Review 34(1), 1992; order of
-/// elimination: Eigen's approximate minimum degree; small fronts join their parents (relaxed supernodes,
-/// Ashcraft and Grimes 1989).
+/// Same input, same bits, for any number of threads; on processors without fused multiply-add other ones than
+/// on those with it. Source: see FrontTree.
 class BlockCholesky {
  public:
-  using Sparse = Eigen::SparseMatrix<double>;
-  /// Finds order and fronts. Cost: about a tenth of a factorisation.
+  using Sparse = FrontTree::Sparse;
+  /// Finds order and fronts. Cost: two to four factorisations; the order takes most of it.
   void analyse(const Sparse& lower);
   /// Factorises matrix + shift I; false if it is not positive definite or not finite. Needs the pattern of
-  /// analyse(). Same input, same bits.
+  /// analyse(). pool: threads that share the work (null: the caller alone).
   bool factorise(const Sparse& lower, double shift, ThreadPool* pool = nullptr);
-  /// b becomes the solution. Needs factorise() true.
-  void solve(Eigen::VectorXd& b) const;
+  /// b becomes the solution. Needs factorise() true. Cost: reads the factor twice.
+  void solve(Eigen::VectorXd& b, ThreadPool* pool = nullptr) const;
 
  private:
-  struct Block {               // of the matrix in a front
-    int row, column;           // in the front
-    bool transposed;           // it stands above the diagonal there
-    std::array<int, 3> value;  // where its columns begin among the values
+  /// Numbers in whole lines of the cache.
+  struct alignas(64) Line {
+    double number[8];
   };
-  struct Front {
-    int first = 0, width = 0;  // its columns, in the order of elimination
-    int parent = -1;
-    std::vector<int> rows;   // below its columns, ascending
-    std::vector<int> place;  // of these rows in the parent
-    std::vector<int> children;
-    std::vector<Block> blocks;
-    std::vector<double> panel, update;  // L, its columns; what it leaves to its parent, lower triangle
-    DenseFront dense() const {
-      const int height = 3 * (width + int(rows.size()));
-      return {const_cast<double*>(panel.data()), height, 3 * width, padded(height)};
-    }
+  using Store = std::vector<Line>;
+  /// Where a front's numbers begin [lines]: its columns of L; what it leaves to its parent, lower triangle,
+  /// in held_ or in the stack of the thread that does its branch.
+  struct Place {
+    std::size_t panel = 0, update = 0;
+    bool held = false;
   };
-  std::vector<std::vector<int>> order(const Sparse& lower);
-  void make_fronts(std::vector<std::vector<int>>& below);
-  void join_parents(std::vector<Front>& fronts) const;
-  void find_blocks(const Sparse& lower);
-  void share_out();
-  static void fill(const Front& front, const double* values, double shift, DenseFront a);
-  static void extend(const Front& child, DenseFront a, std::vector<double>& update);
-  bool eliminate(int front, const double* values, double shift, ThreadPool* pool);
+  struct Values {  // of the matrix
+    const double* value;
+    double shift;
+  };
+  DenseFront dense(int front) const;
+  void place_updates();
+  double* update(int front, Store& stack);
+  void assemble(int front, const Values& values, Store& stack, int begin, int end);
+  void add_children(int front, Store& stack, double* target, int stride, int begin, int end);
+  bool eliminate(int front, const Values& values, Store& stack, ThreadPool* pool);
+  void forward(int front, Eigen::VectorXd& x, std::vector<double>& left) const;
+  void backward(int front, Eigen::VectorXd& x) const;
 
-  static constexpr int shares = 8;
-  static constexpr std::size_t most_branches = 32;
-  std::array<std::vector<std::array<int, 2>>, shares> shares_;  // ranges of fronts, of about the same cost
-  std::vector<int> trunk_;                                      // fronts that come after them
-  int blocks_ = 0;                                              // rows of blocks
-  std::vector<int> position_;  // of each row of blocks in the order of elimination
-  std::vector<Front> fronts_;  // children before parents
+  FrontTree tree_;
+  FrontDivision division_;
+  int threads_ = 0;  // of division_
+  std::vector<Place> places_;
+  std::vector<std::size_t> left_;  // of each front what its rows keep during a solution: where it begins
+  Store factor_, held_;
+  std::vector<Store> stacks_;  // one a thread
 };
 
 }  // namespace furrow::physics

@@ -34,27 +34,23 @@ double angle_between(const Flap& a, const Flap& b) {
   return std::atan2(a.normal.cross(b.normal).dot(a.edge) / std::sqrt(a.l2), a.normal.dot(b.normal));
 }
 
-/// Adds the derivative of the flap's gradients to the blocks of its vertices p, q, r.
-void add_derivative(const Flap& f, const std::array<int, 3>& vertex, Matrix12& hessian) {
-  const double l = std::sqrt(f.l2);
-  // d tip = -n/|n|^2 dl - l (1/|n|^2 - 2 n n^T/|n|^4) dn
-  const Mat3 by_normal = -(l / f.n2) * (Mat3::Identity() - (2 / f.n2) * f.normal * f.normal.transpose());
-  const Mat3 by_length = -f.normal * f.edge.transpose() / (f.n2 * l);
-  std::array<Mat3, 3> tip;
-  tip[0] = by_normal * cross_matrix(f.side - f.edge) - by_length;
-  tip[1] = by_normal * cross_matrix(-f.side) + by_length;
-  tip[2] = by_normal * cross_matrix(f.edge);
-  std::array<Vec3, 3> foot;
-  foot[2] = f.edge / f.l2;
-  foot[1] = (f.side - 2 * f.foot * f.edge) / f.l2;
-  foot[0] = -foot[1] - foot[2];
-  for (int c = 0; c < 3; ++c) {
-    const Mat3 shift = f.tip * foot[c].transpose();
-    hessian.block<3, 3>(3 * vertex[0], 3 * vertex[c]) += shift - (1 - f.foot) * tip[c];
-    hessian.block<3, 3>(3 * vertex[1], 3 * vertex[c]) -= shift + f.foot * tip[c];
-    hessian.block<3, 3>(3 * vertex[2], 3 * vertex[c]) += tip[c];
+/// The derivatives of the flap's gradients, by the vertices p and q, as far as symmetry does not tell them.
+struct FlapHessian {
+  Mat3 tip_p, tip_q, p_q, q_p;  // (row, column)
+
+  explicit FlapHessian(const Flap& f) {
+    // d tip = -n/|n|^2 dl - l (1/|n|^2 - 2 n n^T/|n|^4) dn,  dn = w x dx,  n^T (w x dx) = (n x w) . dx
+    const double l = std::sqrt(f.l2), skew = -l / f.n2;
+    const Vec3 p = f.side - f.edge, q = -f.side, length = f.edge / (f.n2 * l);
+    tip_p = skew * cross_matrix(p);
+    tip_p += f.normal * ((-2 * skew / f.n2) * f.normal.cross(p) + length).transpose();
+    tip_q = skew * cross_matrix(q);
+    tip_q += f.normal * ((-2 * skew / f.n2) * f.normal.cross(q) - length).transpose();
+    const Vec3 foot_q = (f.side - 2 * f.foot * f.edge) / f.l2, foot_p = -foot_q - f.edge / f.l2;
+    p_q = f.tip * foot_q.transpose() - (1 - f.foot) * tip_q;
+    q_p = -f.tip * foot_p.transpose() - f.foot * tip_p;
   }
-}
+};
 
 }  // namespace
 
@@ -71,13 +67,24 @@ Dihedral dihedral(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3
   return d;
 }
 
-Matrix12 dihedral_hessian(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3) {
-  Matrix12 hessian = Matrix12::Zero();
+std::array<Mat3, lower_blocks(4)> dihedral_hessian(const Vec3& x0, const Vec3& x1, const Vec3& x2,
+                                                   const Vec3& x3) {
+  std::array<Mat3, lower_blocks(4)> h;
+  h.fill(Mat3::Zero());
   const Flap a(x0, x1, x2), b(x1, x0, x3);
-  if (!a.exists() || !b.exists()) return hessian;
-  add_derivative(a, {0, 1, 2}, hessian);
-  add_derivative(b, {1, 0, 3}, hessian);
-  return hessian;
+  if (!a.exists() || !b.exists()) return h;
+  const FlapHessian of_a(a), of_b(b);
+  Mat3 &h10 = h[lower_block(1, 0)], &h20 = h[lower_block(2, 0)], &h21 = h[lower_block(2, 1)],
+       &h30 = h[lower_block(3, 0)], &h31 = h[lower_block(3, 1)];  // (3, 2): tips do not know each other
+  h10 = of_a.q_p + of_b.p_q;
+  h20 = of_a.tip_p, h21 = of_a.tip_q;
+  h30 = of_b.tip_q, h31 = of_b.tip_p;
+  // A displacement of all alike changes nothing.
+  h[lower_block(0, 0)] = -(h10 + h20 + h30).transpose();
+  h[lower_block(1, 1)] = -(h10 + (h21 + h31).transpose());
+  h[lower_block(2, 2)] = -(h20 + h21);
+  h[lower_block(3, 3)] = -(h30 + h31);
+  return h;
 }
 
 }  // namespace furrow::physics

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "physics/particles.h"
+#include "physics/stiffness.h"
 
 namespace furrow::physics {
 
@@ -19,11 +20,12 @@ struct Dihedral {
   double angle;
   std::array<Vec3, 4> gradient;  ///< [1/m]
 };
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 double dihedral_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3);
 Dihedral dihedral(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3);
-/// Second derivative of theta [1/m^2], closed form: the derivative of the gradient, flap by flap. Symmetric.
-Matrix12 dihedral_hessian(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3);
+/// Second derivative of theta [1/m^2], closed form: the derivative of the gradient, flap by flap; its blocks
+/// on and below the diagonal. Symmetric.
+std::array<Mat3, lower_blocks(4)> dihedral_hessian(const Vec3& x0, const Vec3& x1, const Vec3& x2,
+                                                   const Vec3& x3);
 
 }  // namespace furrow::physics

@@ -24,21 +24,17 @@ Dihedral dihedral_of(std::span<const Vec3> x, const Hinge& h) {
   return dihedral(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
 }
 
-void hand_out(const Hinge& h, const Matrix12& k, const BlockSink& sink) {
+/// curvature g g^T + moment d2theta/dx2, on and below the diagonal.
+void make_blocks(std::span<const Vec3> x, const Hinge& h, const Dihedral& d, double curvature, double moment,
+                 Mat3* lower) {
   for (int r = 0; r < 4; ++r) {
-    for (int c = 0; c < 4; ++c) sink(h.vertices[r], h.vertices[c], k.block<3, 3>(3 * r, 3 * c));
+    const Vec3 g = curvature * d.gradient[r];
+    for (int c = 0; c <= r; ++c) lower[lower_block(r, c)] = g * d.gradient[c].transpose();
   }
-}
-
-/// curvature g g^T + moment d2theta/dx2.
-Matrix12 stiffness_of(std::span<const Vec3> x, const Hinge& h, const Dihedral& d, double curvature,
-                      double moment) {
-  Eigen::Matrix<double, 12, 1> g;
-  for (int i = 0; i < 4; ++i) g.segment<3>(3 * i) = d.gradient[i];
-  Matrix12 k = curvature * g * g.transpose();
+  if (moment == 0) return;
   const auto& v = h.vertices;
-  if (moment != 0) k += moment * dihedral_hessian(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
-  return k;
+  const auto hessian = dihedral_hessian(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+  for (int b = 0; b < lower_blocks(4); ++b) lower[b] += moment * hessian[b];
 }
 
 /// p - sin p without cancellation, p >= 0.
@@ -118,23 +114,32 @@ void add_hinge_forces(std::span<const Vec3> x, std::span<const Hinge> hinges, Hi
   }
 }
 
+void stiffness_blocks(std::span<const Vec3> x, const Hinge& h, HingeLaw law, Stiffness stiffness,
+                      Mat3* lower) {
+  const Dihedral d = dihedral_of(x, h);
+  const HingeMoment m = hinge_moment(law, h.stiffness, bend(d.angle, h.rest_angle));
+  make_blocks(x, h, d, m.curvature, (1 - stiffness.clamped) * m.moment, lower);
+}
+
 void add_hinge_stiffness(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
                          Stiffness stiffness, const BlockSink& sink) {
   check_all(hinges, x.size(), x.size(), "add_hinge_stiffness");
+  std::array<Mat3, lower_blocks(4)> lower;
   for (const Hinge& h : hinges) {
-    const Dihedral d = dihedral_of(x, h);
-    const HingeMoment m = hinge_moment(law, h.stiffness, bend(d.angle, h.rest_angle));
-    hand_out(h, stiffness_of(x, h, d, m.curvature, (1 - stiffness.clamped) * m.moment), sink);
+    stiffness_blocks(x, h, law, stiffness, lower.data());
+    hand_out(h.vertices, lower.data(), sink);
   }
 }
 
 void add_hinge_stiffness_bound(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
                                const BlockSink& sink) {
   check_all(hinges, x.size(), x.size(), "add_hinge_stiffness_bound");
+  std::array<Mat3, lower_blocks(4)> lower;
   for (const Hinge& h : hinges) {
     const Dihedral d = dihedral_of(x, h);
     const double moment = hinge_moment(law, h.stiffness, bend(d.angle, h.rest_angle)).moment;
-    hand_out(h, stiffness_of(x, h, d, h.stiffness, moment), sink);
+    make_blocks(x, h, d, h.stiffness, moment, lower.data());
+    hand_out(h.vertices, lower.data(), sink);
   }
 }
 

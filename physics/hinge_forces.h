@@ -37,6 +37,10 @@ void add_hinge_forces(std::span<const Vec3> x, std::span<const Hinge> hinges, Hi
                       std::span<Vec3> force);
 void add_hinge_stiffness(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
                          Stiffness stiffness, const BlockSink& sink);
+/// One hinge's, on and below the diagonal; its particles are in range.
+void stiffness_blocks(std::span<const Vec3> x, const Hinge& hinge, HingeLaw law, Stiffness stiffness,
+                      Mat3* lower);
+
 /// For limits of steps: exact, but with the law's largest E'' (that is k), so that a cosine hinge counts
 /// before it bends.
 void add_hinge_stiffness_bound(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,

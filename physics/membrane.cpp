@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "physics/membrane.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -46,21 +45,17 @@ std::vector<MembraneConstants> checked(std::span<const MembraneTriangle> triangl
   return constants;
 }
 
-/// The quadratic form sum 2 tension_i |u_{i+2} - u_{i+1}|^2 as a matrix over the corners.
-Eigen::Matrix3d tension_matrix(const Eigen::Vector3d& tension) {
-  Eigen::Matrix3d m;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    m(j, k) = m(k, j) = -2 * tension[i];
-    m(i, i) = 2 * (tension[j] + tension[k]);
-  }
-  return m;
-}
-
-Eigen::Matrix3d positive_part(const Eigen::Matrix3d& m) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m);
-  const Eigen::Matrix3d& v = solver.eigenvectors();
-  return v * solver.eigenvalues().cwiseMax(0).asDiagonal() * v.transpose();
+/// The tensions t whose quadratic form  sum 2 t_i |u_{i+2} - u_{i+1}|^2  is the positive part of these'. In
+/// the basis (1, -1, 0) / sqrt 2, (1, 1, -2) / sqrt 6, as (1, 1, 1) does not count, it is a 2 x 2 matrix.
+Eigen::Vector3d positive_part(const Eigen::Vector3d& t) {
+  const double p = t[0] + t[1] + 4 * t[2], q = std::sqrt(3.0) * (t[1] - t[0]), r = 3 * (t[0] + t[1]);
+  const double mean = 0.5 * (p + r), apart = std::hypot(0.5 * (p - r), q);
+  if (mean >= apart) return t;
+  if (mean <= -apart) return Eigen::Vector3d::Zero();
+  // Eigenvalues mean +- apart: the positive part is (M - low I) high / (high - low).
+  const double low = mean - apart, share = (mean + apart) / (2 * apart);
+  const double p1 = share * (p - low), q1 = share * q, r1 = share * (r - low);
+  return {0.5 * (r1 / 3 - q1 / std::sqrt(3.0)), 0.5 * (r1 / 3 + q1 / std::sqrt(3.0)), 0.25 * (p1 - r1 / 3)};
 }
 
 }  // namespace
@@ -128,28 +123,42 @@ void add_membrane_forces(std::span<const Vec3> x, std::span<const MembraneTriang
   }
 }
 
+void stiffness_blocks(std::span<const Vec3> x, const MembraneTriangle& t, Stiffness stiffness, Mat3* lower) {
+  const MembraneConstants constants = membrane_constants(t);
+  const Edges e = edges_of(x, t, constants);
+  Eigen::Vector3d tension = e.tension;
+  if (stiffness.clamped > 0 && tension.minCoeff() < 0)  // else it is semidefinite
+    tension += stiffness.clamped * (positive_part(tension) - tension);
+  // Columns: dd_i/dx of a corner.
+  std::array<Mat3, 3> slope;
+  for (int j = 0; j < 3; ++j) {
+    slope[(j + 1) % 3].col(j) = -2 * e.vector[j];
+    slope[(j + 2) % 3].col(j) = 2 * e.vector[j];
+    slope[j].col(j).setZero();
+  }
+  std::array<Mat3, 3> pair;  // of the corners of each edge, the lower row first
+  for (int i = 0; i < 3; ++i) {
+    const int r = i == 2 ? 1 : 2, c = i == 0 ? 1 : 0;
+    const Mat3 half = slope[r] * constants.quadratic;
+    pair[i].noalias() = half * slope[c].transpose();
+    pair[i].diagonal().array() -= 2 * tension[i];
+  }
+  // A displacement of all alike changes nothing.
+  lower[lower_block(1, 0)] = pair[2];
+  lower[lower_block(2, 0)] = pair[1];
+  lower[lower_block(2, 1)] = pair[0];
+  lower[lower_block(0, 0)] = -(pair[2] + pair[1]).transpose();
+  lower[lower_block(1, 1)] = -(pair[2] + pair[0].transpose());
+  lower[lower_block(2, 2)] = -(pair[1] + pair[0]);
+}
+
 void add_membrane_stiffness(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
                             Stiffness stiffness, const BlockSink& sink) {
-  const auto constants = checked(triangles, x.size(), x.size(), "add_membrane_stiffness");
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const Edges e = edges_of(x, triangles[i], constants[i]);
-    Eigen::Matrix3d geometric = tension_matrix(e.tension);
-    if (stiffness.clamped > 0 && e.tension.minCoeff() < 0)  // else it is semidefinite
-      geometric += stiffness.clamped * (positive_part(geometric) - geometric);
-    // Columns: dd_i/dx of a corner.
-    std::array<Eigen::Matrix3d, 3> slope;
-    for (int j = 0; j < 3; ++j) {
-      slope[(j + 1) % 3].col(j) = -2 * e.vector[j];
-      slope[(j + 2) % 3].col(j) = 2 * e.vector[j];
-      slope[j].col(j).setZero();
-    }
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) {
-        Mat3 block = slope[r] * constants[i].quadratic * slope[c].transpose();
-        block.diagonal().array() += geometric(r, c);
-        sink(triangles[i].vertices[r], triangles[i].vertices[c], block);
-      }
-    }
+  checked(triangles, x.size(), x.size(), "add_membrane_stiffness");
+  std::array<Mat3, lower_blocks(3)> lower;
+  for (const MembraneTriangle& t : triangles) {
+    stiffness_blocks(x, t, stiffness, lower.data());
+    hand_out(t.vertices, lower.data(), sink);
   }
 }
 

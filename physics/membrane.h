@@ -43,4 +43,8 @@ void add_membrane_forces(std::span<const Vec3> x, std::span<const MembraneTriang
 void add_membrane_stiffness(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
                             Stiffness stiffness, const BlockSink& sink);
 
+/// One triangle's, on and below the diagonal; its particles are in range.
+void stiffness_blocks(std::span<const Vec3> x, const MembraneTriangle& triangle, Stiffness stiffness,
+                      Mat3* lower);
+
 }  // namespace furrow::physics

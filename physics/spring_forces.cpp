@@ -63,23 +63,27 @@ void add_spring_stiffness_product(std::span<const Vec3> x, std::span<const Sprin
   }
 }
 
+void stiffness_blocks(std::span<const Vec3> x, const Spring& s, Stiffness stiffness, Mat3* lower) {
+  const Vec3 d = x[s.b] - x[s.a];
+  const double l2 = d.squaredNorm();
+  Mat3 block = Mat3::Zero();
+  if (l2 > 0) {
+    double transverse = s.stiffness * (1 - s.rest_length / std::sqrt(l2));
+    if (transverse < 0) transverse *= 1 - stiffness.clamped;
+    block = ((s.stiffness - transverse) / l2) * d * d.transpose();
+    block.diagonal().array() += transverse;
+  }
+  lower[0] = lower[2] = block;
+  lower[1] = -block;
+}
+
 void add_spring_stiffness(std::span<const Vec3> x, std::span<const Spring> springs, Stiffness stiffness,
                           const BlockSink& sink) {
   check(springs, x.size(), x.size(), "add_spring_stiffness");
+  std::array<Mat3, lower_blocks(2)> lower;
   for (const Spring& s : springs) {
-    const Vec3 d = x[s.b] - x[s.a];
-    const double l2 = d.squaredNorm();
-    Mat3 block = Mat3::Zero();
-    if (l2 > 0) {
-      double transverse = s.stiffness * (1 - s.rest_length / std::sqrt(l2));
-      if (transverse < 0) transverse *= 1 - stiffness.clamped;
-      block = ((s.stiffness - transverse) / l2) * d * d.transpose();
-      block.diagonal().array() += transverse;
-    }
-    sink(s.a, s.a, block);
-    sink(s.a, s.b, -block);
-    sink(s.b, s.a, -block);
-    sink(s.b, s.b, block);
+    stiffness_blocks(x, s, stiffness, lower.data());
+    hand_out(std::array{s.a, s.b}, lower.data(), sink);
   }
 }
 

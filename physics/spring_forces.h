@@ -28,4 +28,7 @@ void add_spring_stiffness_product(std::span<const Vec3> x, std::span<const Sprin
 void add_spring_stiffness(std::span<const Vec3> x, std::span<const Spring> springs, Stiffness stiffness,
                           const BlockSink& sink);
 
+/// One spring's, on and below the diagonal; its particles are in range.
+void stiffness_blocks(std::span<const Vec3> x, const Spring& spring, Stiffness stiffness, Mat3* lower);
+
 }  // namespace furrow::physics

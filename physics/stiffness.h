@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <functional>
 
 #include "physics/particles.h"
@@ -19,5 +20,23 @@ inline constexpr Stiffness Stiffness::exact{0}, Stiffness::positive_part{1};
 /// Takes what one element adds to the block of the stiffness matrix K [N/m] in the rows of particle i and the
 /// columns of particle j. K is the second derivative of the energy, so forces change by -K u.
 using BlockSink = std::function<void(int i, int j, const Mat3& block)>;
+
+/// An element's share of K, which is symmetric, is kept as blocks on and below the diagonal, of its particles
+/// in order: (0, 0), (1, 0), (1, 1), (2, 0) ...
+constexpr int lower_blocks(int particles) { return particles * (particles + 1) / 2; }
+constexpr int lower_block(int row, int column) { return lower_blocks(row) + column; }
+
+/// Hands out all blocks, (0, 0), (0, 1) ..., of an element that has these on and below the diagonal.
+template <std::size_t n>
+void hand_out(const std::array<int, n>& particles, const Mat3* lower, const BlockSink& sink) {
+  for (int r = 0; r < int(n); ++r) {
+    for (int c = 0; c < int(n); ++c) {
+      if (r >= c)
+        sink(particles[r], particles[c], lower[lower_block(r, c)]);
+      else
+        sink(particles[r], particles[c], lower[lower_block(c, r)].transpose());
+    }
+  }
+}
 
 }  // namespace furrow::physics

@@ -17,18 +17,16 @@ void check_all(std::span<const Tension> tension, std::size_t n, std::size_t othe
   for (const Tension& t : tension) check(t, n);
 }
 
-/// T' n n^T + T/l (I - n n^T), handed out to both ends.
-void hand_out(const Tension& t, const Vec3& d, double along, double across, const BlockSink& sink) {
+/// T' n n^T + T/l (I - n n^T), on and below the diagonal.
+void make_blocks(const Vec3& d, double along, double across, Mat3* lower) {
   Mat3 block = Mat3::Zero();
   const double l2 = d.squaredNorm();
   if (l2 > 0) {
     block = ((along - across) / l2) * d * d.transpose();
     block.diagonal().array() += across;
   }
-  sink(t.a, t.a, block);
-  sink(t.a, t.b, -block);
-  sink(t.b, t.a, -block);
-  sink(t.b, t.b, block);
+  lower[0] = lower[2] = block;
+  lower[1] = -block;
 }
 
 double strain_of(const Tension& t, double length) { return (length - t.rest_length) / t.rest_length; }
@@ -69,28 +67,36 @@ void add_tension_forces(std::span<const Vec3> x, std::span<const Tension> tensio
   }
 }
 
+void stiffness_blocks(std::span<const Vec3> x, const Tension& t, Stiffness stiffness, Mat3* lower) {
+  const Vec3 d = x[t.b] - x[t.a];
+  const double l = d.norm();
+  const TensionLaw law = tension_law(t, strain_of(t, l));
+  double across = l > 0 ? law.force / l : 0;
+  if (across < 0) across *= 1 - stiffness.clamped;
+  make_blocks(d, law.slope, across, lower);
+}
+
 void add_tension_stiffness(std::span<const Vec3> x, std::span<const Tension> tension, Stiffness stiffness,
                            const BlockSink& sink) {
   check_all(tension, x.size(), x.size(), "add_tension_stiffness");
+  std::array<Mat3, lower_blocks(2)> lower;
   for (const Tension& t : tension) {
-    const Vec3 d = x[t.b] - x[t.a];
-    const double l = d.norm();
-    const TensionLaw law = tension_law(t, strain_of(t, l));
-    double across = l > 0 ? law.force / l : 0;
-    if (across < 0) across *= 1 - stiffness.clamped;
-    hand_out(t, d, law.slope, across, sink);
+    stiffness_blocks(x, t, stiffness, lower.data());
+    hand_out(std::array{t.a, t.b}, lower.data(), sink);
   }
 }
 
 void add_tension_stiffness_bound(std::span<const Vec3> x, std::span<const Tension> tension,
                                  const BlockSink& sink, double margin) {
   check_all(tension, x.size(), x.size(), "add_tension_stiffness_bound");
+  std::array<Mat3, lower_blocks(2)> lower;
   for (const Tension& t : tension) {
     const Vec3 d = x[t.b] - x[t.a];
     const double e = strain_of(t, d.norm()), more = e + margin;
     const double along = tension_slope(t, std::abs(e) + margin);
     const double across = more > 0 ? tension_law(t, more).force / ((1 + more) * t.rest_length) : 0;
-    hand_out(t, d, along, across, sink);
+    make_blocks(d, along, across, lower.data());
+    hand_out(std::array{t.a, t.b}, lower.data(), sink);
   }
 }
 

@@ -34,6 +34,9 @@ void add_tension_forces(std::span<const Vec3> x, std::span<const Tension> tensio
 void add_tension_stiffness(std::span<const Vec3> x, std::span<const Tension> tension, Stiffness stiffness,
                            const BlockSink& sink);
 
+/// One's, on and below the diagonal; its particles are in range.
+void stiffness_blocks(std::span<const Vec3> x, const Tension& tension, Stiffness stiffness, Mat3* lower);
+
 /// For limits of steps: the positive part of tension that is strained by `margin` [-] more than it is, pulled
 /// or not, and pulls as where it is stretched. So a limit holds until the strain has grown by that much.
 inline constexpr double tension_margin = 0.05;

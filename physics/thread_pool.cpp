@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "physics/thread_pool.h"
 
+#include <atomic>
 #include <stdexcept>
 #include <string>
 
@@ -44,6 +45,13 @@ void ThreadPool::run(int n, const Work& work) {
     error = nullptr;
   }
   if (first) std::rethrow_exception(first);
+}
+
+void ThreadPool::share(int n, const std::function<void(int i, int thread)>& work) {
+  std::atomic<int> next = 0;
+  run(threads(), [&](int thread, int) {
+    for (int i = next++; i < n; i = next++) work(i, thread);
+  });
 }
 
 void ThreadPool::do_chunk(int chunk) {

@@ -26,6 +26,9 @@ class ThreadPool {
   /// Calls work on chunks of [0, n), one a thread, and returns when all are done. An exception of any chunk
   /// is thrown again here (that of the lowest chunk). Not reentrant.
   void run(int n, const Work& work);
+  /// Calls work(i, thread) for each i of [0, n), thread in [0, threads()): a thread takes the next i when it
+  /// is free. What an i does must not depend on the thread. Otherwise as run().
+  void share(int n, const std::function<void(int i, int thread)>& work);
 
  private:
   void serve(int worker);

@@ -23,7 +23,7 @@ struct Problem {
     for (double& v : b.reshaped()) v = noise();
     a = b * b.transpose() + height * Eigen::MatrixXd::Identity(height, height);
     const int stride = padded(height);
-    panel.assign(std::size_t(stride) * std::size_t(width) + 4, 0.0);
+    panel.assign(std::size_t(stride) * std::size_t(width) + 8, 0.0);
     for (int c = 0; c < width; ++c)
       for (int r = c; r < height; ++r) panel[std::size_t(c * stride + r)] = a(r, c);
     front = {panel.data(), height, width, stride};
@@ -38,9 +38,9 @@ TEST_CASE("dense front: columns of the factor, and what is left, for every size"
       CAPTURE(width, rest);
       Problem p(width + rest, width);
       const int stride = padded(rest);
-      std::vector<double> update(std::size_t(rest * stride), 0.0);
+      std::vector<double> update(std::size_t(rest * stride), NAN);
       REQUIRE(eliminate(p.front));
-      subtract_square(p.front, update.data(), stride);
+      negative_square(p.front, update.data(), stride);
       const Eigen::MatrixXd l = p.a.llt().matrixL();
       double apart = 0;
       for (int c = 0; c < width; ++c)
@@ -59,22 +59,23 @@ TEST_CASE("dense front: a large one, the same bits on any number of threads") {
   std::vector<double> first, first_update;
   for (int threads = 1; threads <= 3; ++threads) {
     Problem p(420, 150);
+    const int stride = padded(420);
     ThreadPool pool(threads);
     std::vector<double> update(270 * 272, 0.0);
     REQUIRE(eliminate(p.front, threads > 1 ? &pool : nullptr));
-    subtract_square(p.front, update.data(), 272, threads > 1 ? &pool : nullptr);
+    negative_square(p.front, update.data(), 272, threads > 1 ? &pool : nullptr);
     for (int c = 0; c < 270; ++c)
       std::fill_n(update.begin() + 272 * c, c, 0.0);  // above the diagonal: anything
     if (threads == 1) {
       const Eigen::MatrixXd l = p.a.llt().matrixL();
-      CHECK(std::abs(p.panel[149 * 420 + 419] - l(419, 149)) < 1e-10);
+      CHECK(std::abs(p.panel[std::size_t(149 * stride + 419)] - l(419, 149)) < 1e-10);
       const Eigen::MatrixXd side = l.block(150, 0, 270, 150);
       CHECK(std::abs(update[100 * 272 + 269] + side.row(100).dot(side.row(269))) < 1e-9);
       first = p.panel, first_update = update;
     }
     for (int c = 0; c < 150; ++c)
-      CHECK(std::equal(p.panel.begin() + 420 * c + c, p.panel.begin() + 420 * (c + 1),
-                       first.begin() + 420 * c + c));
+      CHECK(std::equal(p.panel.begin() + stride * c + c, p.panel.begin() + stride * c + 420,
+                       first.begin() + stride * c + c));
     CHECK(update == first_update);
   }
 }
@@ -84,25 +85,26 @@ TEST_CASE("dense front: substitution forward and backward solves") {
     Problem p(height, height);
     REQUIRE(eliminate(p.front));
     Noise noise(1);
-    Eigen::VectorXd b(height);
-    for (double& v : b) v = noise();
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(padded(height));
+    for (double& v : b.head(height)) v = noise();
     Eigen::VectorXd x = b;
-    substitute_forward(p.front, x.data(), nullptr);
-    substitute_backward(p.front, x.data(), nullptr);
-    CHECK((p.a * x - b).norm() < 1e-11);
+    substitute_forward(p.front, x.data());
+    substitute_backward(p.front, x.data());
+    CHECK((p.a * x.head(height) - b.head(height)).norm() < 1e-11);
   }
   Problem p(30, 12);
   REQUIRE(eliminate(p.front));
   const Eigen::MatrixXd l = p.a.llt().matrixL();
-  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(12, 1, 2), below = Eigen::VectorXd::LinSpaced(18, -1, 1);
-  const Eigen::VectorXd before = x, beside = below;
-  substitute_forward(p.front, x.data(), below.data());
-  CHECK((l.topLeftCorner(12, 12) * x - before).norm() < 1e-12);
-  CHECK((beside - l.block(12, 0, 18, 12) * x - below).norm() < 1e-12);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(padded(30));
+  x.head(30).setLinSpaced(-1, 1);
+  const Eigen::VectorXd before = x;
+  substitute_forward(p.front, x.data());
+  const auto own = l.topLeftCorner(12, 12), side = l.block(12, 0, 18, 12);
+  CHECK((own * x.head(12) - before.head(12)).norm() < 1e-12);
+  CHECK((before.segment(12, 18) - side * x.head(12) - x.segment(12, 18)).norm() < 1e-12);
   const Eigen::VectorXd y = x;
-  substitute_backward(p.front, x.data(), below.data());
-  CHECK((l.topLeftCorner(12, 12).transpose() * x + l.block(12, 0, 18, 12).transpose() * below - y).norm() <
-        1e-12);
+  substitute_backward(p.front, x.data());
+  CHECK((own.transpose() * x.head(12) + side.transpose() * x.segment(12, 18) - y.head(12)).norm() < 1e-12);
 }
 
 TEST_CASE("dense front: what is not positive definite, or no number, is told") {

@@ -109,3 +109,31 @@ TEST_CASE("the stiffness of free particles: nothing free, and a cloth that chang
   cloth.particles.inv_mass.pop_back();
   CHECK_THROWS_AS(FreeStiffness(cloth), std::invalid_argument);
 }
+
+TEST_CASE("the stiffness of free particles: the same bits on any number of threads") {
+  Cloth cloth = sheet(40, 30, 0.02, 0.2, 3, 300, 40);
+  add_membrane(cloth, 500);
+  add_hinges(cloth, 0.01);
+  pin(cloth.particles, std::vector<int>{0, 39});
+  Noise noise(4);
+  for (Vec3& x : cloth.particles.x) x += 0.001 * noise.vector();
+  std::vector<Vec3> right(cloth.particles.size()), first;
+  for (Vec3& v : right) v = noise.vector();
+  double mean = 0;
+  for (int threads = 1; threads <= 5; threads += 2) {
+    ThreadPool pool(threads);
+    ThreadPool* const shared = threads > 1 ? &pool : nullptr;
+    FreeStiffness k(cloth);
+    k.assemble(cloth, cloth.particles.x, {0.5}, shared);
+    REQUIRE(k.factorise_definite(500, shared));
+    std::vector<Vec3> u = right;
+    k.solve(u, shared);
+    if (threads == 1) first = u, mean = k.mean_diagonal();
+    CHECK(k.mean_diagonal() == mean);
+    CHECK(u == first);
+    k.factorise_definite(500);  // of another division of the work
+    u = right;
+    k.solve(u, shared);
+    CHECK(u == first);
+  }
+}

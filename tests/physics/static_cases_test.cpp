@@ -101,7 +101,7 @@ TEST_CASE("cantilever: springs across edges follow the third root of the load") 
     // M = B_3 curvature^3 with B_3 = 0.0608929 k edge^4,  Gamma_3 = density g L^5 / B_3.
     const double rigidity = 0.0608929 * spring * std::pow(edge, 4);
     StaticOptions options;
-    options.tolerance = 0.02;
+    options.tolerance = 0.01;
     options.gravity = {0, 0, -gamma * rigidity / (o.density * std::pow(o.length, 5))};
     CHECK(find_static_equilibrium(strip.cloth, options).converged);
     drop[k] = -strip.tip().z() / o.length;

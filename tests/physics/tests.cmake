@@ -26,6 +26,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   membrane_test.cpp
   metamorphic_test.cpp
   moved_pins_test.cpp
+  nested_dissection_test.cpp
   oscillations_test.cpp
   packed_cloth_test.cpp
   patch_test.cpp
@@ -41,6 +42,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   settle_cases_test.cpp
   settle_test.cpp
   dense_front_test.cpp
+  dense_kernels_test.cpp
   speed_accuracy_test.cpp
   simulate_integrators_test.cpp
   simulate_state_test.cpp

@@ -32,3 +32,16 @@ TEST_CASE("an exception of a chunk reaches the caller and the pool lives on") {
   CHECK(sum == 1);
   CHECK_THROWS_AS(ThreadPool(0), std::invalid_argument);
 }
+
+TEST_CASE("thread pool: every piece is done once, whoever takes it") {
+  for (const int threads : {1, 2, 5}) {
+    ThreadPool pool(threads);
+    std::vector<int> done(100, 0);
+    pool.share(100, [&](int i, int thread) {
+      if (thread >= 0 && thread < threads) ++done[std::size_t(i)];
+    });
+    CHECK(done == std::vector<int>(100, 1));
+    pool.share(0, [&](int, int) { FAIL("there is nothing to do"); });
+    CHECK_THROWS_AS(pool.share(3, [](int, int) { throw std::runtime_error("no"); }), std::runtime_error);
+  }
+}
