@@ -2,24 +2,22 @@
 // Whether the fast fit (physics/settle.h) and leapfrog bring a garment to the same rest, without friction and
 // with its top border loop held: a table (CSV).
 //   equal_garments [OPTIONS] GARMENT BODY [GARMENT BODY …]
-//     --refinements 1   of all the garments (Loop)      --drag 6      of leapfrog [1/s]
-//     --seconds 20      leapfrog's at most              --factor 100  of the stiff contact, see below
-//     --starts 3        starts of both, see below
-// Both begin where furrow drape's last level begins: the coarse rest, refined, disturbed by 1 % of an edge
-// and brought out of the body. Further starts are disturbed by another 1 %, the last one is the garment as it
-// lies in its file, brought out. settle() runs to 1e-5 of a vertex's weight; leapfrog until no vertex moves
-// by 1 um in 1/4 s.
+//     --refinements 1  of all garments (Loop)      --drag 6      of leapfrog [1/s]
+//     --seconds 20     leapfrog's at most          --factor 300  of the stiff contact, see below
+//     --starts 2       starts of both, see below
+// Both begin where the last level of `furrow drape` begins: the coarse rest, refined, disturbed by 1 % of an
+// edge and brought out of the body. Of further starts the last is the garment as it lies in its file,
+// disturbed otherwise; those between are the first, disturbed once more. settle() runs to 1e-5 of a vertex's
+// weight; leapfrog until no vertex moves by 1 um in 1/4 s.
 //   Leapfrog's contact bears no depth; that of settle() is a soft potential, into which cloth sinks by some
-//   share of
-// the gap where it presses. `stiff`: settle() goes on with that potential made stiffer by factor^2
+// share of the gap where it presses. `stiff`: settle() goes on with that potential made stiffer, by factor^2
 // (cases/stiff_contact.h), in steps of at most 10.
-//   U: of elements. E: U and weight, from the height of the rest it is compared with, so that there E = U.
-//   freed: E of
-// the start less that of the rest. Distances are between the surfaces, both ways.
+//   U: of elements. E: U and weight, this from the height of the rest that is compared with, where so E is U.
+// freed: E of the start less E of that rest. Distances are between the surfaces, both ways.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
+#include <map>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -40,9 +38,10 @@ namespace {
 using physics::Cloth, physics::Vec3;
 
 struct Arguments {
-  int refinements = 1, starts = 3;
-  double drag = 6, seconds = 20, factor = 100;
+  std::map<std::string, double> options{
+      {"--refinements", 1}, {"--drag", 6}, {"--seconds", 20}, {"--factor", 300}, {"--starts", 2}};
   std::vector<std::string> files;
+  double operator[](const char* name) const { return options.at(name); }
 };
 
 /// One garment on its body.
@@ -69,13 +68,6 @@ double weight_energy(const Cloth& cloth, const Cloth& level) {
 }
 double elastic_energy(const Cloth& cloth) { return potential_energy(cloth, cloth.particles.x); }
 
-void bring_out(Cloth& cloth, const Scene& scene) {
-  std::vector<int> free;
-  for (std::size_t i = 0; i < cloth.particles.size(); ++i)
-    if (cloth.particles.inv_mass[i] > 0) free.push_back(int(i));
-  physics::push_out(cloth.particles.x, free, *scene.body, scene.gap);
-}
-
 void settle_on(const physics::Collider& body, const Scene& scene, Rest& rest) {
   physics::SettleOptions o;
   o.friction = 0;
@@ -94,50 +86,39 @@ Rest settled(const std::string& name, const Scene& scene, const Cloth& start) {
 /// Each step begins with the cloth brought out: a residual does not tell how deep cloth lies.
 Rest stiffened(const std::string& name, const Scene& scene, const Cloth& start) {
   Rest rest{name, start};
-  const double last = scene.arguments.factor;
+  const double last = scene.arguments["--factor"];
   for (double factor = std::min(10.0, last);; factor = std::min(10 * factor, last)) {
-    bring_out(rest.cloth, scene);
+    cases::bring_out(rest.cloth, *scene.body, scene.gap);
     settle_on(cases::StiffContact(*scene.body, scene.gap, factor), scene, rest);
     if (factor >= last) return rest;
   }
 }
 
+/// Under leapfrog; with half the step again where it diverges.
 Rest moved(const std::string& name, const Scene& scene, const Cloth& start) {
-  Rest rest{name, start};
-  for (Vec3& v : rest.cloth.particles.v) v.setZero();
   physics::SimulateOptions o;
   o.friction = 0;
   o.contact_gap = scene.gap;
-  o.air_drag = scene.arguments.drag;
-  o.seconds = scene.arguments.seconds;
-  double asked = 0;
-  std::vector<Vec3> before = start.particles.x;
-  const auto goes_on = [&](const physics::SimulateProgress& now) {
-    if (now.time - asked < 0.25) return true;
-    asked = now.time;
-    const double way = cases::farthest(rest.cloth.particles.x, before);
-    before = rest.cloth.particles.x;
-    return way > 1e-6;
-  };
-  rest.work = physics::simulate(rest.cloth, scene.body, o, goes_on).time;
-  return rest;
-}
-
-struct Contact {
-  int particles = 0;
-  double mean_depth = 0, deepest = 0;  ///< below the gap [m]
-};
-Contact contact_of(const Scene& scene, const Cloth& cloth) {
-  Contact c;
-  for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
-    const double depth = scene.gap - scene.body->at(cloth.particles.x[i]).value;
-    if (cloth.particles.inv_mass[i] == 0 || depth < -1e-5) continue;
-    ++c.particles;
-    c.mean_depth += std::max(0.0, depth);
-    c.deepest = std::max(c.deepest, depth);
+  o.air_drag = scene.arguments["--drag"];
+  o.seconds = scene.arguments["--seconds"];
+  for (;; o.dt_factor /= 2) {
+    Rest rest{name, start};
+    for (Vec3& v : rest.cloth.particles.v) v.setZero();
+    double asked = 0;
+    std::vector<Vec3> before = start.particles.x;
+    const auto goes_on = [&](const physics::SimulateProgress& now) {
+      if (now.time - asked < 0.25) return true;
+      asked = now.time;
+      const double way = cases::farthest(rest.cloth.particles.x, before);
+      before = rest.cloth.particles.x;
+      return way > 1e-6;
+    };
+    const physics::SimulateReport report = physics::simulate(rest.cloth, scene.body, o, goes_on);
+    rest.work = report.time;
+    if (report.outcome != physics::Outcome::diverged || o.dt_factor < 0.1) return rest;
+    std::fprintf(stderr, "%s: leapfrog diverged at %g s with a step of %g s, its limit %g s\n",
+                 scene.name.c_str(), report.time, report.dt, report.dt_limit);
   }
-  if (c.particles) c.mean_depth /= c.particles;
-  return c;
 }
 
 void print_row(const Scene& scene, int start_number, const Cloth& start, const Rest& a, const Rest& b) {
@@ -147,13 +128,12 @@ void print_row(const Scene& scene, int start_number, const Cloth& start, const R
   const std::vector<double> d =
       cases::surface_distances(scene.shape, a.cloth.particles.x, b.cloth.particles.x);
   const physics::Certificate c = physics::certify(a.cloth, {.friction = 0, .gap = scene.gap}, scene.body);
-  const Contact contact = contact_of(scene, a.cloth);
+  const cases::Depth contact = cases::depth_of(a.cloth, *scene.body, scene.gap);
   std::printf("%s,%zu,%d,%s,%s,%.6g,%.6g,%.3g,%.3g,%.3g,%.3g,%.3g,%.3g,%.2g,%d,%d,%.3g,%.3g,%.4g\n",
               scene.name.c_str(), a.cloth.particles.size(), start_number, a.name.c_str(), b.name.c_str(),
               1e3 * elastic_energy(a.cloth), 1e3 * u, 1e3 * de, 100 * de / u, 100 * de / freed,
               1e3 * d[d.size() / 2], 1e3 * d[d.size() * 95 / 100], 1e3 * d.back(), c.residual,
-              c.negative_eigenvalues, contact.particles, 1e3 * contact.mean_depth, 1e3 * contact.deepest,
-              a.work);
+              c.negative_eigenvalues, contact.particles, 1e3 * contact.mean, 1e3 * contact.largest, a.work);
   std::fflush(stdout);
 }
 
@@ -170,7 +150,7 @@ void disturb(Cloth& cloth, double by, unsigned seed) {
 std::vector<Cloth> starts_of(const Scene& scene, const cases::GarmentPair& pair,
                              const bridge::MakeCloth& make) {
   bridge::DrapeOptions o;
-  o.refinements = scene.arguments.refinements;
+  o.refinements = int(scene.arguments["--refinements"]);
   o.settle.friction = 0;
   o.settle.gap = scene.gap;
   geometry::Mesh garment = pair.garment;
@@ -181,12 +161,12 @@ std::vector<Cloth> starts_of(const Scene& scene, const cases::GarmentPair& pair,
     return false;
   };
   const double disturbance = bridge::drape(garment, cloth, scene.body, o, make, at_start).disturbance;
-  std::vector<Cloth> starts(std::size_t(scene.arguments.starts), first);
+  std::vector<Cloth> starts(std::size_t(scene.arguments["--starts"]), first);
   for (std::size_t i = 1; i < starts.size(); ++i) {
     geometry::Mesh made = scene.shape;
     if (i + 1 == starts.size()) starts[i] = make(made);
     disturb(starts[i], disturbance, unsigned(i) + 1);
-    bring_out(starts[i], scene);
+    cases::bring_out(starts[i], *scene.body, scene.gap);
   }
   return starts;
 }
@@ -223,39 +203,31 @@ Arguments arguments_of(int count, char** words) {
       a.files.push_back(word);
       continue;
     }
-    const double value = ++i < count ? std::atof(words[i]) : 0;
-    if (!(value >= 0)) throw std::invalid_argument(word + " takes a number >= 0");
-    if (word == "--refinements")
-      a.refinements = int(value);
-    else if (word == "--starts")
-      a.starts = std::max(1, int(value));
-    else if (word == "--drag")
-      a.drag = value;
-    else if (word == "--seconds")
-      a.seconds = value;
-    else if (word == "--factor")
-      a.factor = std::max(1.0, value);
-    else
-      throw std::invalid_argument("there is no option " + word);
+    if (!a.options.count(word)) throw std::invalid_argument("there is no option " + word);
+    a.options[word] = ++i < count ? std::atof(words[i]) : -1;
+    if (!(a[word.c_str()] >= 0)) throw std::invalid_argument(word + " takes a number >= 0");
   }
+  if (a["--starts"] < 1 || a["--factor"] < 1) throw std::invalid_argument("--starts, --factor: at least 1");
   if (a.files.empty() || a.files.size() % 2) throw std::invalid_argument("name garments, each with its body");
   return a;
 }
 
 void run(const Arguments& a) {
   std::printf(
-      "# Rests of settle() and of leapfrog, friction 0, top loop held, cotton; see bench/equal_garments.cpp. "
-      "Refined %d times, drag %g /s, stiff: factor %g. Columns from residual on are of `rest`.\n",
-      a.refinements, a.drag, a.factor);
+      "# Rests of settle() and of leapfrog: friction 0, top loop held, cotton, drag %g /s, stiff: factor %g; "
+      "see bench/equal_garments.cpp. Columns from `residual` on tell of `rest`.\n",
+      a["--drag"], a["--factor"]);
   std::printf(
       "garment,vertices,start,rest,compared with,U [mJ],U compared with [mJ],dE [mJ],dE/E [%%],dE/freed [%%],"
       "distance median [mm],distance p95 [mm],distance max [mm],residual [-],negative eigenvalues,"
       "in contact,mean depth [mm],deepest [mm],iterations or seconds\n");
+  const int refinements = int(a["--refinements"]);
   for (std::size_t i = 0; i < a.files.size(); i += 2) {
-    const cases::GarmentPair pair = cases::read_pair(a.files[i], a.files[i + 1]);
-    Scene scene{std::filesystem::path(a.files[i]).stem().string(), &pair.field,
-                cases::gap_of(pair, a.refinements), pair.garment, a};
-    geometry::loop_subdivide(scene.shape, a.refinements);
+    const std::filesystem::path file = a.files[i];
+    const cases::GarmentPair pair = cases::read_pair(file, a.files[i + 1]);
+    Scene scene{file.parent_path().filename().string() + " " + file.stem().string(), &pair.field,
+                cases::gap_of(pair, refinements), pair.garment, a};
+    geometry::loop_subdivide(scene.shape, refinements);
     const bridge::MakeCloth make = cases::make_cotton(pair, cases::vertex_at_top(pair.garment));
     compare(scene, starts_of(scene, pair, make));
   }

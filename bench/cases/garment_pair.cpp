@@ -86,4 +86,24 @@ bridge::MakeCloth make_cotton(const GarmentPair& pair, std::optional<int> held) 
   };
 }
 
+void bring_out(physics::Cloth& cloth, const physics::Collider& body, double gap) {
+  std::vector<int> free;
+  for (std::size_t i = 0; i < cloth.particles.size(); ++i)
+    if (cloth.particles.inv_mass[i] > 0) free.push_back(int(i));
+  physics::push_out(cloth.particles.x, free, body, gap);
+}
+
+Depth depth_of(const physics::Cloth& cloth, const physics::Collider& body, double gap) {
+  Depth result;
+  for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
+    const double depth = gap - body.at(cloth.particles.x[i]).value;
+    if (cloth.particles.inv_mass[i] == 0 || depth < -1e-5) continue;
+    ++result.particles;
+    result.mean += std::max(0.0, depth);
+    result.largest = std::max(result.largest, depth);
+  }
+  if (result.particles) result.mean /= result.particles;
+  return result;
+}
+
 }  // namespace furrow::cases

@@ -31,11 +31,8 @@ Cloth moved(Cloth cloth, const physics::Collider& body, double gap, double secon
 
 /// Once more, with a contact into which cloth does not sink: leapfrog's bears no depth.
 void settle_stiffly(Cloth& cloth, const physics::Collider& body, const physics::SettleOptions& o) {
-  std::vector<int> free;
-  for (std::size_t i = 0; i < cloth.particles.size(); ++i)
-    if (cloth.particles.inv_mass[i] > 0) free.push_back(int(i));
   for (const double factor : {10.0, 100.0}) {
-    physics::push_out(cloth.particles.x, free, body, o.gap);
+    cases::bring_out(cloth, body, o.gap);
     const cases::StiffContact stiff(body, o.gap, factor);
     const physics::SettleReport report = physics::settle(cloth, &stiff, o);
     CHECK(report.converged);
