@@ -5,13 +5,10 @@
 //     --refinements 1  of all garments (Loop)      --drag 12     of leapfrog [1/s]
 //     --seconds 20     leapfrog's at most          --factor 300  of the stiff contact, see below
 //     --starts 2       starts of both, see below
-// Both begin where the last level of `furrow drape` begins: the coarse rest, refined, disturbed by 1 % of an
-// edge and brought out of the body. Of further starts the last is the garment as it lies in its file,
-// disturbed otherwise; those between are the first, disturbed once more. settle() runs to 1e-5 of a vertex's
-// weight, leapfrog to 1e-2, or the end of its time.
-//   Leapfrog's contact bears no depth; that of settle() is a soft potential, into which cloth sinks by some
-// share of the gap where it presses. `stiff`: settle() goes on with that potential made stiffer, by factor^2
-// (cases/stiff_contact.h), in steps of at most 10.
+// Both begin where the last level of `furrow drape` begins. Of further starts the last is the garment as it
+// lies in its file; those between are the first, disturbed once more. settle() runs to 1e-5 of a vertex's
+// weight, leapfrog to 1e-2, or until it gets no nearer. `stiff`: settle() goes on with a contact that is
+// stiffer by factor^2 (cases/stiff_contact.h), in steps of at most 10, as leapfrog's contact bears no depth.
 //   U: of elements. E: U and weight, this from the height of the rest that is compared with, where so E is U.
 // freed: E of the start less E of that rest. Distances are between the surfaces, both ways.
 #include <algorithm>
@@ -53,20 +50,20 @@ struct Scene {
   const Arguments& arguments;
 };
 
-/// A cloth at rest, and how it came there.
 struct Rest {
   std::string name;
   Cloth cloth;
-  double work = 0;  ///< iterations, or seconds of motion
+  double work = 0;  ///< iterations or seconds
 };
 
-double weight_energy(const Cloth& cloth, const Cloth& level) {
-  const physics::Particles& p = cloth.particles;
-  double e = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) e += 9.81 * p.mass[i] * (p.x[i] - level.particles.x[i]).y();
+double elastic_energy(const Cloth& cloth) { return potential_energy(cloth, cloth.particles.x); }
+/// E of a less E of b.
+double energy_over(const Cloth& a, const Cloth& b) {
+  double e = elastic_energy(a) - elastic_energy(b);
+  for (std::size_t i = 0; i < a.particles.size(); ++i)
+    e += 9.81 * a.particles.mass[i] * (a.particles.x[i] - b.particles.x[i]).y();
   return e;
 }
-double elastic_energy(const Cloth& cloth) { return potential_energy(cloth, cloth.particles.x); }
 
 void settle_on(const physics::Collider& body, const Scene& scene, Rest& rest) {
   physics::SettleOptions o;
@@ -94,44 +91,56 @@ Rest stiffened(const std::string& name, const Scene& scene, const Cloth& start) 
   }
 }
 
-/// Under leapfrog; with half the step again where it diverges.
+/// Whether a motion is to go on: until 1e-2, or until it gets no nearer.
+struct Watch {
+  const Scene& scene;
+  const Cloth& cloth;
+  std::vector<Vec3> before;
+  double asked = 0, residual = 0;
+
+  bool goes_on(double time) {
+    if (time - asked < 0.1) return true;
+    const double last = residual, way = cases::farthest(cloth.particles.x, before);
+    asked = time;
+    before = cloth.particles.x;
+    residual = residual_force(cloth, physics::SettleOptions{}.gravity, scene.body, 0, scene.gap);
+    return residual > 0.01 && (way > 1e-6 || residual < 0.95 * last);
+  }
+};
+
+/// Under leapfrog. Springs are damped in the first second alone: their damping acts on what the last
+/// half-kick leaves in the velocities of pressed vertices.
 Rest moved(const std::string& name, const Scene& scene, const Cloth& start) {
+  Rest rest{name, start};
+  for (Vec3& v : rest.cloth.particles.v) v.setZero();
   physics::SimulateOptions o;
   o.friction = 0;
   o.contact_gap = scene.gap;
-  o.spring_damping = 0;  // it acts on what the last half-kick leaves in velocities of pressed vertices
   o.air_drag = scene.arguments["--drag"];
+  o.seconds = rest.work = 1;
+  physics::simulate(rest.cloth, scene.body, o);
+  o.spring_damping = 0;
   o.seconds = scene.arguments["--seconds"];
-  for (;; o.dt_factor /= 2) {
-    Rest rest{name, start};
-    for (Vec3& v : rest.cloth.particles.v) v.setZero();
-    double asked = 0;
-    const auto goes_on = [&](const physics::SimulateProgress& now) {
-      if (now.time - asked < 0.1) return true;
-      asked = now.time;
-      return physics::residual_force(rest.cloth, o.gravity, scene.body, 0, scene.gap) > 0.01;
-    };
-    const physics::SimulateReport report = physics::simulate(rest.cloth, scene.body, o, goes_on);
-    rest.work = report.time;
-    if (report.outcome != physics::Outcome::diverged || o.dt_factor < 0.1) return rest;
-    std::fprintf(stderr, "%s: leapfrog diverged at %g s with a step of %g s, its limit %g s\n",
-                 scene.name.c_str(), report.time, report.dt, report.dt_limit);
-  }
+  Watch watch{scene, rest.cloth, rest.cloth.particles.x};
+  const auto report =
+      physics::simulate(rest.cloth, scene.body, o, [&](const auto& now) { return watch.goes_on(now.time); });
+  rest.work += report.time;
+  if (report.outcome == physics::Outcome::diverged)
+    throw std::runtime_error(scene.name + ": leapfrog diverged");
+  return rest;
 }
 
 void print_row(const Scene& scene, int start_number, const Cloth& start, const Rest& a, const Rest& b) {
-  const double u = elastic_energy(b.cloth),
-               de = elastic_energy(a.cloth) - u + weight_energy(a.cloth, b.cloth);
-  const double freed = elastic_energy(start) - u + weight_energy(start, b.cloth);
-  const std::vector<double> d =
-      cases::surface_distances(scene.shape, a.cloth.particles.x, b.cloth.particles.x);
+  const double u = elastic_energy(b.cloth), de = energy_over(a.cloth, b.cloth);
+  const auto d = cases::surface_distances(scene.shape, a.cloth.particles.x, b.cloth.particles.x);
   const physics::Certificate c = physics::certify(a.cloth, {.friction = 0, .gap = scene.gap}, scene.body);
   const cases::Depth contact = cases::depth_of(a.cloth, *scene.body, scene.gap);
   std::printf("%s,%zu,%d,%s,%s,%.6g,%.6g,%.3g,%.3g,%.3g,%.3g,%.3g,%.3g,%.2g,%d,%d,%.3g,%.3g,%.4g\n",
               scene.name.c_str(), a.cloth.particles.size(), start_number, a.name.c_str(), b.name.c_str(),
-              1e3 * elastic_energy(a.cloth), 1e3 * u, 1e3 * de, 100 * de / u, 100 * de / freed,
-              1e3 * d[d.size() / 2], 1e3 * d[d.size() * 95 / 100], 1e3 * d.back(), c.residual,
-              c.negative_eigenvalues, contact.particles, 1e3 * contact.mean, 1e3 * contact.largest, a.work);
+              1e3 * elastic_energy(a.cloth), 1e3 * u, 1e3 * de, 100 * de / u,
+              100 * de / energy_over(start, b.cloth), 1e3 * d[d.size() / 2], 1e3 * d[d.size() * 95 / 100],
+              1e3 * d.back(), c.residual, c.negative_eigenvalues, contact.particles, 1e3 * contact.mean,
+              1e3 * contact.largest, a.work);
   std::fflush(stdout);
 }
 
@@ -144,7 +153,6 @@ void disturb(Cloth& cloth, double by, unsigned seed) {
   }
 }
 
-/// Those of the options' number.
 std::vector<Cloth> starts_of(const Scene& scene, const cases::GarmentPair& pair,
                              const bridge::MakeCloth& make) {
   bridge::DrapeOptions o;
@@ -178,13 +186,11 @@ void compare(const Scene& scene, const std::vector<Cloth>& starts) {
     leapfrog.push_back(moved("leapfrog", scene, starts[i]));
     row(fast[i], leapfrog[i]);
     row(stiff[i], leapfrog[i]);
-    // Each from the other's end: does it stay?
     row(settled("settle from leapfrog", scene, leapfrog[i].cloth), leapfrog[i]);
     row(stiffened("stiff from leapfrog", scene, leapfrog[i].cloth), leapfrog[i]);
     row(moved("leapfrog from settle", scene, fast[i].cloth), fast[i]);
     row(moved("leapfrog from stiff", scene, stiff[i].cloth), stiff[i]);
     if (i == 0) continue;
-    // Each with itself, from another start.
     for (const auto& all : {fast, stiff, leapfrog}) {
       Rest first = all[0];
       first.name += " from start 0";
@@ -197,13 +203,13 @@ Arguments arguments_of(int count, char** words) {
   Arguments a;
   for (int i = 1; i < count; ++i) {
     const std::string word = words[i];
-    if (word.rfind("--", 0) != 0) {
+    if (word.rfind("--", 0) == 0 && !a.options.count(word))
+      throw std::invalid_argument("there is no option " + word);
+    if (!a.options.count(word)) {
       a.files.push_back(word);
-      continue;
+    } else if (++i == count || !((a.options[word] = std::atof(words[i])) >= 0)) {
+      throw std::invalid_argument(word + " takes a number >= 0");
     }
-    if (!a.options.count(word)) throw std::invalid_argument("there is no option " + word);
-    a.options[word] = ++i < count ? std::atof(words[i]) : -1;
-    if (!(a[word.c_str()] >= 0)) throw std::invalid_argument(word + " takes a number >= 0");
   }
   if (a["--starts"] < 1 || a["--factor"] < 1) throw std::invalid_argument("--starts, --factor: at least 1");
   if (a.files.empty() || a.files.size() % 2) throw std::invalid_argument("name garments, each with its body");
