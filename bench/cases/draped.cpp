@@ -115,16 +115,21 @@ DrapedCase draped(const Drape& drape) {
   return {field, rest};
 }
 
-double median_surface_distance(const Mesh& mesh, const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
+std::vector<double> surface_distances(const Mesh& mesh, const std::vector<Vec3>& x,
+                                      const std::vector<Vec3>& y) {
   const auto triangles = bridge::triangles_of(mesh);
   std::vector<double> distances;
   for (const auto& [from, to] : {std::pair{&x, &y}, {&y, &x}}) {
     const physics::TriangleBvh surface({*to, triangles});
     for (const Vec3& p : *from) distances.push_back(std::sqrt(surface.closest(p).squared_distance));
   }
-  const auto middle = distances.begin() + std::ptrdiff_t(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  std::sort(distances.begin(), distances.end());
+  return distances;
+}
+
+double median_surface_distance(const Mesh& mesh, const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
+  const std::vector<double> distances = surface_distances(mesh, x, y);
+  return distances[distances.size() / 2];
 }
 
 }  // namespace furrow::cases

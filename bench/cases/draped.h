@@ -35,7 +35,10 @@ struct DrapedCase {
 /// vertices that lie within the body are put on its surface.
 DrapedCase draped(const Drape& drape);
 
-/// Of the vertices of either surface the distance to the other: the median [m].
+/// Of the vertices of either surface the distance to the other [m], ascending.
+std::vector<double> surface_distances(const geometry::Mesh& mesh, const std::vector<physics::Vec3>& x,
+                                      const std::vector<physics::Vec3>& y);
+/// Their median [m].
 double median_surface_distance(const geometry::Mesh& mesh, const std::vector<physics::Vec3>& x,
                                const std::vector<physics::Vec3>& y);
 

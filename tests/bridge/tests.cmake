@@ -5,6 +5,7 @@ furrow_add_tests(bridge LIBRARIES furrow::bridge garment_cases SOURCES
   fit_ease_test.cpp
   fit_report_test.cpp
   fit_zones_test.cpp
+  garment_rest_test.cpp
   gather_test.cpp
   keep_lines_test.cpp
   store_rest_state_test.cpp

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whether the fast fit (physics/settle.h) and leapfrog bring a garment to the same rest, without friction and
+// with its top border loop held: a table (CSV).
+//   equal_garments [OPTIONS] GARMENT BODY [GARMENT BODY …]
+//     --refinements 1  of all garments (Loop)      --drag 12     of leapfrog [1/s]
+//     --seconds 20     leapfrog's at most          --factor 300  of the stiff contact, see below
+//     --starts 2       starts of both, see below
+// Both begin where the last level of `furrow drape` begins. Of further starts the last is the garment as it
+// lies in its file; those between are the first, disturbed once more. settle() runs to 1e-5 of a vertex's
+// weight, leapfrog to 1e-2, or until it gets no nearer. `stiff`: settle() goes on with a contact that is
+// stiffer by factor^2 (cases/stiff_contact.h), in steps of at most 10, as leapfrog's contact bears no depth.
+//   U: of elements. E: U and weight, this from the height of the rest that is compared with, where so E is U.
+// freed: E of the start less E of that rest. Distances are between the surfaces, both ways.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bench/cases/draped.h"
+#include "bench/cases/garment_pair.h"
+#include "bench/cases/stiff_contact.h"
+#include "geometry/subdivide.h"
+#include "physics/certificate.h"
+#include "physics/elements.h"
+#include "physics/residual_force.h"
+#include "physics/simulate.h"
+
+namespace furrow::bench {
+namespace {
+
+using physics::Cloth, physics::Vec3;
+
+struct Arguments {
+  std::map<std::string, double> options{
+      {"--refinements", 1}, {"--drag", 12}, {"--seconds", 20}, {"--factor", 300}, {"--starts", 2}};
+  std::vector<std::string> files;
+  double operator[](const char* name) const { return options.at(name); }
+};
+
+/// One garment on its body.
+struct Scene {
+  std::string name;
+  const physics::Collider* body;
+  double gap;            ///< [m]
+  geometry::Mesh shape;  ///< for its faces
+  const Arguments& arguments;
+};
+
+struct Rest {
+  std::string name;
+  Cloth cloth;
+  double work = 0;  ///< iterations or seconds
+};
+
+double elastic_energy(const Cloth& cloth) { return potential_energy(cloth, cloth.particles.x); }
+/// E of a less E of b.
+double energy_over(const Cloth& a, const Cloth& b) {
+  double e = elastic_energy(a) - elastic_energy(b);
+  for (std::size_t i = 0; i < a.particles.size(); ++i)
+    e += 9.81 * a.particles.mass[i] * (a.particles.x[i] - b.particles.x[i]).y();
+  return e;
+}
+
+void settle_on(const physics::Collider& body, const Scene& scene, Rest& rest) {
+  physics::SettleOptions o;
+  o.friction = 0;
+  o.gap = scene.gap;
+  o.tolerance = 1e-5;
+  o.max_iterations = 500;
+  rest.work += physics::settle(rest.cloth, &body, o).iterations;
+}
+
+Rest settled(const std::string& name, const Scene& scene, const Cloth& start) {
+  Rest rest{name, start};
+  settle_on(*scene.body, scene, rest);
+  return rest;
+}
+
+/// Each step begins with the cloth brought out: a residual does not tell how deep cloth lies.
+Rest stiffened(const std::string& name, const Scene& scene, const Cloth& start) {
+  Rest rest{name, start};
+  const double last = scene.arguments["--factor"];
+  for (double factor = std::min(10.0, last);; factor = std::min(10 * factor, last)) {
+    cases::bring_out(rest.cloth, *scene.body, scene.gap);
+    settle_on(cases::StiffContact(*scene.body, scene.gap, factor), scene, rest);
+    if (factor >= last) return rest;
+  }
+}
+
+/// Whether a motion is to go on: until 1e-2, or until it gets no nearer.
+struct Watch {
+  const Scene& scene;
+  const Cloth& cloth;
+  std::vector<Vec3> before;
+  double asked = 0, residual = 0;
+
+  bool goes_on(double time) {
+    if (time - asked < 0.1) return true;
+    const double last = residual, way = cases::farthest(cloth.particles.x, before);
+    asked = time;
+    before = cloth.particles.x;
+    residual = residual_force(cloth, physics::SettleOptions{}.gravity, scene.body, 0, scene.gap);
+    return residual > 0.01 && (way > 1e-6 || residual < 0.95 * last);
+  }
+};
+
+/// Under leapfrog. Springs are damped in the first second alone: their damping acts on what the last
+/// half-kick leaves in the velocities of pressed vertices.
+Rest moved(const std::string& name, const Scene& scene, const Cloth& start) {
+  Rest rest{name, start};
+  for (Vec3& v : rest.cloth.particles.v) v.setZero();
+  physics::SimulateOptions o;
+  o.friction = 0;
+  o.contact_gap = scene.gap;
+  o.air_drag = scene.arguments["--drag"];
+  o.seconds = rest.work = 1;
+  physics::simulate(rest.cloth, scene.body, o);
+  o.spring_damping = 0;
+  o.seconds = scene.arguments["--seconds"];
+  Watch watch{scene, rest.cloth, rest.cloth.particles.x};
+  const auto report =
+      physics::simulate(rest.cloth, scene.body, o, [&](const auto& now) { return watch.goes_on(now.time); });
+  rest.work += report.time;
+  if (report.outcome == physics::Outcome::diverged)
+    throw std::runtime_error(scene.name + ": leapfrog diverged");
+  return rest;
+}
+
+void print_row(const Scene& scene, int start_number, const Cloth& start, const Rest& a, const Rest& b) {
+  const double u = elastic_energy(b.cloth), de = energy_over(a.cloth, b.cloth);
+  const auto d = cases::surface_distances(scene.shape, a.cloth.particles.x, b.cloth.particles.x);
+  const physics::Certificate c = physics::certify(a.cloth, {.friction = 0, .gap = scene.gap}, scene.body);
+  const cases::Depth contact = cases::depth_of(a.cloth, *scene.body, scene.gap);
+  std::printf("%s,%zu,%d,%s,%s,%.6g,%.6g,%.3g,%.3g,%.3g,%.3g,%.3g,%.3g,%.2g,%d,%d,%.3g,%.3g,%.4g\n",
+              scene.name.c_str(), a.cloth.particles.size(), start_number, a.name.c_str(), b.name.c_str(),
+              1e3 * elastic_energy(a.cloth), 1e3 * u, 1e3 * de, 100 * de / u,
+              100 * de / energy_over(start, b.cloth), 1e3 * d[d.size() / 2], 1e3 * d[d.size() * 95 / 100],
+              1e3 * d.back(), c.residual, c.negative_eigenvalues, contact.particles, 1e3 * contact.mean,
+              1e3 * contact.largest, a.work);
+  std::fflush(stdout);
+}
+
+void disturb(Cloth& cloth, double by, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  const auto random = [&] { return double(engine() >> 11) * 0x1p-52 - 1; };
+  for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
+    const double a = random(), b = random(), c = random();
+    if (cloth.particles.inv_mass[i] > 0) cloth.particles.x[i] += by * Vec3(a, b, c);
+  }
+}
+
+std::vector<Cloth> starts_of(const Scene& scene, const cases::GarmentPair& pair,
+                             const bridge::MakeCloth& make) {
+  bridge::DrapeOptions o;
+  o.refinements = int(scene.arguments["--refinements"]);
+  o.settle.friction = 0;
+  o.settle.gap = scene.gap;
+  geometry::Mesh garment = pair.garment;
+  Cloth cloth, first;
+  const auto at_start = [&](int level, const physics::SettleProgress&, const Cloth& now) {
+    if (level < o.refinements) return true;
+    first = now;
+    return false;
+  };
+  const double disturbance = bridge::drape(garment, cloth, scene.body, o, make, at_start).disturbance;
+  std::vector<Cloth> starts(std::size_t(scene.arguments["--starts"]), first);
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    geometry::Mesh made = scene.shape;
+    if (i + 1 == starts.size()) starts[i] = make(made);
+    disturb(starts[i], disturbance, unsigned(i) + 1);
+    cases::bring_out(starts[i], *scene.body, scene.gap);
+  }
+  return starts;
+}
+
+void compare(const Scene& scene, const std::vector<Cloth>& starts) {
+  std::vector<Rest> fast, stiff, leapfrog;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const auto row = [&](const Rest& a, const Rest& b) { print_row(scene, int(i), starts[i], a, b); };
+    fast.push_back(settled("settle", scene, starts[i]));
+    stiff.push_back(stiffened("stiff", scene, fast[i].cloth));
+    leapfrog.push_back(moved("leapfrog", scene, starts[i]));
+    row(fast[i], leapfrog[i]);
+    row(stiff[i], leapfrog[i]);
+    row(settled("settle from leapfrog", scene, leapfrog[i].cloth), leapfrog[i]);
+    row(stiffened("stiff from leapfrog", scene, leapfrog[i].cloth), leapfrog[i]);
+    row(moved("leapfrog from settle", scene, fast[i].cloth), fast[i]);
+    row(moved("leapfrog from stiff", scene, stiff[i].cloth), stiff[i]);
+    if (i == 0) continue;
+    for (const auto& all : {fast, stiff, leapfrog}) {
+      Rest first = all[0];
+      first.name += " from start 0";
+      row(all[i], first);
+    }
+  }
+}
+
+Arguments arguments_of(int count, char** words) {
+  Arguments a;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = words[i];
+    if (word.rfind("--", 0) == 0 && !a.options.count(word))
+      throw std::invalid_argument("there is no option " + word);
+    if (!a.options.count(word)) {
+      a.files.push_back(word);
+    } else if (++i == count || !((a.options[word] = std::atof(words[i])) >= 0)) {
+      throw std::invalid_argument(word + " takes a number >= 0");
+    }
+  }
+  if (a["--starts"] < 1 || a["--factor"] < 1) throw std::invalid_argument("--starts, --factor: at least 1");
+  if (a.files.empty() || a.files.size() % 2) throw std::invalid_argument("name garments, each with its body");
+  return a;
+}
+
+void run(const Arguments& a) {
+  std::printf(
+      "# Rests of settle() and of leapfrog: friction 0, top loop held, cotton, drag %g /s, stiff: factor %g; "
+      "see bench/equal_garments.cpp. Columns from `residual` on tell of `rest`.\n",
+      a["--drag"], a["--factor"]);
+  std::printf(
+      "garment,vertices,start,rest,compared with,U [mJ],U compared with [mJ],dE [mJ],dE/E [%%],dE/freed [%%],"
+      "distance median [mm],distance p95 [mm],distance max [mm],residual [-],negative eigenvalues,"
+      "in contact,mean depth [mm],deepest [mm],iterations or seconds\n");
+  const int refinements = int(a["--refinements"]);
+  for (std::size_t i = 0; i < a.files.size(); i += 2) {
+    const std::filesystem::path file = a.files[i];
+    const cases::GarmentPair pair = cases::read_pair(file, a.files[i + 1]);
+    Scene scene{file.parent_path().filename().string() + " " + file.stem().string(), &pair.field,
+                cases::gap_of(pair, refinements), pair.garment, a};
+    geometry::loop_subdivide(scene.shape, refinements);
+    const bridge::MakeCloth make = cases::make_cotton(pair, cases::vertex_at_top(pair.garment));
+    compare(scene, starts_of(scene, pair, make));
+  }
+}
+
+}  // namespace
+}  // namespace furrow::bench
+
+int main(int count, char** words) {
+  try {
+    furrow::bench::run(furrow::bench::arguments_of(count, words));
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "equal_garments: %s\n", e.what());
+    return 2;
+  }
+}
