@@ -2,6 +2,7 @@
 #include "cli/recorded_material.h"
 
 #include "cli/scene_flags.h"
+#include "io/fabrics.h"
 #include "io/wrinkle_record.h"
 
 namespace furrow::cli {
@@ -49,12 +50,17 @@ bool take_recorded_material(io::TomlDocument& document, const std::filesystem::p
     io::set_value(document, "material." + key, value, garment.string());
     taken = true;
   }
+  // The masses are in the file: a preset's density is not to change them.
+  if (noted.contains("preset") && !said.contains("density") && record->density > 0 &&
+      record->density != io::fabric_named(document.root["material"]["preset"]).density)
+    io::set_value(document, "material.density", record->density, garment.string());
   return taken;
 }
 
 void note_material(io::MeshFile& file, const io::TomlDocument& document, double contact_gap) {
   io::WrinkleRecord record = io::find_wrinkle_record(file).value();
-  const Json material = material_of(document);
+  nlohmann::json material = material_of(document);  // sorted by keys, in whatever order they were said
+  material.erase("density");                        // noted by itself
   record.material = material.empty() ? "" : material.dump();
   record.contact_gap = contact_gap;
   io::set_wrinkle_record(file, record);
