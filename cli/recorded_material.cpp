@@ -50,10 +50,11 @@ bool take_recorded_material(io::TomlDocument& document, const std::filesystem::p
     io::set_value(document, "material." + key, value, garment.string());
     taken = true;
   }
-  // The masses are in the file: a preset's density is not to change them.
-  if (noted.contains("preset") && !said.contains("density") && record->density > 0 &&
-      record->density != io::fabric_named(document.root["material"]["preset"]).density)
-    io::set_value(document, "material.density", record->density, garment.string());
+  // The masses are in the file: a preset's density is not to change them. An unknown one is refused later.
+  for (const io::Fabric& fabric : io::fabrics())
+    if (noted.value("preset", Json()) == fabric.name && !said.contains("density") && record->density > 0 &&
+        record->density != fabric.density)
+      io::set_value(document, "material.density", record->density, garment.string());
   return taken;
 }
 

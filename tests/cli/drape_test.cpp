@@ -118,6 +118,12 @@ TEST_CASE("a density beside a fabric stays with the garment") {
     return sum;
   };
   CHECK(total(worn) == total(scratch / "s.ply"));
+  std::string bytes = read_text(worn);
+  bytes.replace(bytes.find("\"denim\""), 7, "\"demin\"");
+  write_text(worn, bytes);
+  const Run unknown = run_furrow("simulate " + worn + on + (scratch / "s.ply"));
+  CHECK(unknown.exit_code == 3);
+  CHECK(unknown.err.find("did you mean denim") != std::string::npos);
 }
 
 TEST_CASE("a body that comes through a face of cloth, but through no vertex, is told and ends with 4") {
