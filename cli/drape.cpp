@@ -83,12 +83,29 @@ void write_picture(std::vector<Draped>& all, const io::Scene& scene, const Drape
   io::write_png(a.picture, fit_picture(panels, scale, a.camera, a.view_chosen, common));
 }
 
+/// One for each fabric, or the scene alone.
+std::vector<io::Scene> scenes_of(const io::Scene& scene, const io::TomlDocument& document,
+                                 const std::filesystem::path& folder,
+                                 const std::vector<std::string>& fabrics) {
+  if (fabrics.empty()) return {scene};
+  if (document.root.contains("/material/preset"_json_pointer) && !document.is_of_file("material.preset"))
+    throw UsageError("--fabric: --compare names the fabrics; leave one of them away");
+  std::vector<io::Scene> scenes;
+  for (const std::string& fabric : fabrics) {
+    io::TomlDocument other = document;
+    io::set_value(other, "material.preset", fabric, "--compare");
+    scenes.push_back(scene_of(other, folder));
+    scenes.back().subdivide = scene.subdivide;
+  }
+  return scenes;
+}
+
 int drape(const DrapeArguments& a) {
   catch_interrupts();
   io::TomlDocument document = scene_settings(a.in, "", std::nullopt, a.flags, a);
   const std::filesystem::path folder = is_scene(a.in) ? std::filesystem::path(a.in).parent_path() : "";
   warn_of_unused_settings(document, a);
-  choose_fabric(document, scene_of(document, folder).garment);
+  if (!a.compare) choose_fabric(document, scene_of(document, folder).garment);
   io::Scene scene = scene_of(document, folder);
   if (scene.garment.empty()) throw UsageError(document.name + ": garment.mesh is missing");
   check_inputs(scene, document, -1);
@@ -101,15 +118,8 @@ int drape(const DrapeArguments& a) {
   CommonArguments common = a;
   common.unit = scene.unit;
   common.up = scene.up;
-  std::vector<io::Scene> scenes;
   const std::vector<std::string> fabrics = a.compare ? parse_fabrics(*a.compare) : std::vector<std::string>{};
-  for (const std::string& fabric : fabrics) {
-    io::TomlDocument other = document;
-    io::set_value(other, "material.preset", fabric, "--compare");
-    scenes.push_back(scene_of(other, folder));
-    scenes.back().subdivide = scene.subdivide;
-  }
-  if (fabrics.empty()) scenes.push_back(scene);
+  const std::vector<io::Scene> scenes = scenes_of(scene, document, folder, fabrics);
   const BodyCollider body = load_body(*scene.body, common);
   std::vector<Draped> all;
   for (std::size_t i = 0; i < scenes.size(); ++i) {

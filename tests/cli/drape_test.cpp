@@ -203,6 +203,7 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,slik", "slik");
   refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,,silk", "missing");
   refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,", "missing");
+  refused(skirt() + " --fabric silk --picture " + (scratch / "p.png") + " --compare cotton,wool", "--fabric");
   refused(skirt() + " --picture " + (scratch / "p.png") + " --compare ''", "missing");
   CHECK_FALSE(std::filesystem::exists(scratch / "x.ply"));
   const Run few = run_furrow("drape " + skirt() + out + " --iterations 2 --fabric silk");
