@@ -208,17 +208,24 @@ FitReport fit_report(Mesh& garment, const physics::TriangleMesh& body, const phy
   std::vector<double> distances(garment.num_vertices(), 0), strain;
   for (Vertex v : garment.vertices()) distances[v.idx()] = distance.sample(to_eigen(garment.point(v))).value;
   report.distance = summary_of(garment, distances, areas, options.contact_distance);
-  const auto take = [&](const std::vector<double>& values, double threshold) {
-    FitZones found = fit_zones(garment, values, threshold, options.smallest_zone);
-    report.left_out += found.left_out;
+  const auto place = [&](std::vector<FitZone>& zones) {
     const physics::Vec3 middle = (distance.low() + distance.high()) / 2;
     const double tall = std::max(report.body_high - report.body_low, 1e-9);
-    for (FitZone& zone : found.zones) {
+    for (FitZone& zone : zones) {
       zone.height_share = (zone.centre.y() - report.body_low) / tall;
       zone.side = side_of(zone.centre, measured.levels, {middle.x(), middle.z()});
     }
+  };
+  const auto take = [&](const std::vector<double>& values, double threshold) {
+    FitZones found = fit_zones(garment, values, threshold, options.smallest_zone);
+    report.left_out += found.left_out;
+    place(found.zones);
     return std::move(found.zones);
   };
+  report.piercing = measure_piercing(garment, body, distance, distances);
+  report.distance.deepest_penetration =
+      std::max(report.distance.deepest_penetration, report.piercing.deepest);
+  place(report.piercing.zones);
   report.loose = take(distances, options.loose_distance);
   if (has_rest(garment)) {
     const auto strains = geometry::principal_strains(garment);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bridge/fit_ease.h"
+#include "bridge/fit_piercing.h"
 #include "bridge/fit_zones.h"
 #include "geometry/mesh.h"
 #include "physics/exact_distance.h"
@@ -38,7 +39,7 @@ struct FitDistance {
   double min = 0, median = 0, p95 = 0;  ///< [m]
   double share_in_contact = 0;          ///< of the area, in [0, 1]
   std::size_t vertices_inside = 0;
-  double deepest_penetration = 0;  ///< [m], >= 0
+  double deepest_penetration = 0;  ///< of vertices and pierced faces [m], >= 0
 };
 
 struct FitReport {
@@ -46,6 +47,7 @@ struct FitReport {
   double body_low = 0, body_high = 0;  ///< lowest and highest y of the body [m]
   std::optional<FitStrain> strain;     ///< none: the garment has no rest lengths
   FitDistance distance;
+  FitPiercing piercing;               ///< zones largest first
   std::vector<FitZone> tight, loose;  ///< largest first; tight: empty without strain
   std::size_t left_out = 0;           ///< zones of either kind that were too small
   std::vector<FitEase> ease;          ///< chest, waist, hip, as far as their heights are known
@@ -57,7 +59,8 @@ struct FitReport {
 /// at a vertex of no face); nothing else is changed. Zones join faces through edges, by the mean of their
 /// corners. Throws std::invalid_argument for an option out of its range, geometry::ContentError for a mesh
 /// without area, a position that is not finite, a face that is no triangle or a broken rest length, the mesh
-/// untouched. Cost: a distance query a vertex (1 us) and about 100 plane sections of the body.
+/// untouched. Cost: a distance query a vertex (1 us), what measure_piercing() costs, and about
+/// 100 plane sections of the body.
 FitReport fit_report(geometry::Mesh& garment, const physics::TriangleMesh& body,
                      const physics::ExactDistance& distance, const FitOptions& options = {});
 

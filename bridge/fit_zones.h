@@ -27,5 +27,8 @@ struct FitZones {
 /// than vertices. The faces are triangles. O(faces).
 FitZones fit_zones(const geometry::Mesh& mesh, const std::vector<double>& values, double threshold,
                    double smallest);
+/// The same of chosen faces (by face index: not 0), whose peaks are given by face index.
+FitZones fit_zones(const geometry::Mesh& mesh, std::vector<char> chosen, const std::vector<double>& peaks,
+                   double smallest);
 
 }  // namespace furrow::bridge

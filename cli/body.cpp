@@ -11,12 +11,15 @@
 #include "bridge/convert.h"
 #include "geometry/errors.h"
 #include "geometry/property_names.h"
+#include "geometry/rest_metric.h"
 #include "io/bytes_file.h"
 #include "io/field_file.h"
+#include "io/wrinkle_record.h"
 #include "physics/compare_colliders.h"
 #include "physics/contact.h"
 #include "physics/depth_map_collider.h"
 #include "physics/posed_collider.h"
+#include "physics/simulate.h"
 
 namespace furrow::cli {
 namespace {
@@ -214,6 +217,17 @@ double contact_gap(double wanted, double field_tolerance, const geometry::Mesh& 
   std::nth_element(lengths.begin(), long_edge, lengths.end());
   const double sag = *long_edge * *long_edge / (8 * kLimbRadius);
   return std::max(wanted, sag + 1.5 * field_tolerance);
+}
+
+double contact_distance(double gap) { return 1.2 * gap; }
+
+double contact_distance(const io::MeshFile& garment, const physics::ExactDistance& body) {
+  if (const auto record = io::find_wrinkle_record(garment); record && record->contact_gap > 0)
+    return contact_distance(record->contact_gap);
+  geometry::Mesh mesh = garment.mesh;
+  geometry::ensure_rest_lengths(mesh);
+  const double field_tolerance = std::min(1e-3 * body.diagonal(), 0.002);  // by default
+  return contact_distance(contact_gap(physics::SimulateOptions{}.contact_gap, field_tolerance, mesh));
 }
 
 }  // namespace furrow::cli

@@ -76,4 +76,10 @@ Eigen::AlignedBox3d box_of(const std::vector<physics::Vec3>& points);
 /// when vertices do [m].
 double contact_gap(double wanted, double field_tolerance, const geometry::Mesh& garment);
 
+/// Cloth nearer to the body lies on it, where cloth keeps this gap: a fifth more [m].
+double contact_distance(double gap);
+/// The same of a garment: by the gap that its file notes, else that it would keep by default. Its mesh has an
+/// edge.
+double contact_distance(const io::MeshFile& garment, const physics::ExactDistance& body);
+
 }  // namespace furrow::cli

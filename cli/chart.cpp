@@ -6,6 +6,7 @@
 
 #include "cli/chart_files.h"
 #include "cli/judge_report.h"
+#include "cli/recorded_material.h"
 #include "cli/scene_flags.h"
 #include "cli/scene_input.h"
 #include "cli/subcommands.h"
@@ -58,6 +59,8 @@ int chart(ChartArguments& a) {
   name_outputs(a);
   io::TomlDocument document = settings(a);
   io::Scene scene = scene_of(document, std::filesystem::path(a.in).parent_path());
+  if (take_recorded_material(document, scene.garment, nullptr))
+    scene = scene_of(document, std::filesystem::path(a.in).parent_path());
   if (scene.garment.empty()) throw UsageError(document.name + ": garment.mesh is missing");
   check_inputs(scene, document, -1);
   spare_inputs(scene, a);

@@ -72,7 +72,8 @@ void add_common_options(CLI::App& sub, CommonArguments& common) {
   sub.add_option("--up", common.up, "axis that points up in those files: y or z (default y, or as noted)")
       ->check(CLI::IsMember({"y", "z"}));
   sub.add_flag("--json", common.json, "print the report as JSON");
-  sub.add_flag("-q,--quiet", common.quiet, "print neither report nor progress");
+  sub.add_flag("-q,--quiet", common.quiet,
+               "no report, no progress, no warnings; with --json the report alone");
 }
 
 void take_noted_frame(CommonArguments& common, const std::vector<std::string>& files) {

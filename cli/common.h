@@ -27,7 +27,7 @@ struct CommonArguments {
   std::string noted_unit = "m", noted_up = "y";  ///< what an input notes, for those that note none
   std::string out;     ///< what is written; "-": OBJ to stdout, and the report goes to stderr
   bool json = false;   ///< the report as JSON
-  bool quiet = false;  ///< no report, no progress
+  bool quiet = false;  ///< no progress, no warnings, and no report but that of json
 };
 void add_common_options(CLI::App& sub, CommonArguments& common);
 /// Takes over what the first of these files that notes its unit and axis says of them.

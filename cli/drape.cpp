@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
-#include <sstream>
 
 #include "cli/body.h"
 #include "cli/camera_options.h"
+#include "cli/drape_checks.h"
 #include "cli/drape_garment.h"
 #include "cli/drape_report.h"
 #include "cli/fit_output.h"
+#include "cli/recorded_material.h"
 #include "cli/scene_flags.h"
 #include "cli/scene_input.h"
 #include "cli/subcommands.h"
@@ -16,7 +17,8 @@ namespace furrow::cli {
 namespace {
 
 struct DrapeArguments : CommonArguments {
-  std::string in, picture, colour = "strain", compare, animation;
+  std::string in, picture, colour = "strain", animation;
+  std::optional<std::string> compare;
   std::optional<int> subdivide;
   DrapeSettings settings;
   std::vector<std::string> bands;
@@ -24,29 +26,6 @@ struct DrapeArguments : CommonArguments {
   CameraArguments camera;
   bool view_chosen = false;
 };
-
-std::vector<Band> bands_of(const DrapeArguments& a) {
-  std::vector<Band> bands;
-  for (const std::string& text : a.bands) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw UsageError(
-          "--band takes a border loop and the band's length over the loop's, as in top=0.9, not '" + text +
-          "'");
-    bands.push_back({text.substr(0, equals), parse_numbers(text.substr(equals + 1), 1, "--band")[0]});
-  }
-  return bands;
-}
-
-std::vector<std::string> fabrics_of(const DrapeArguments& a) {
-  std::istringstream stream(a.compare);
-  std::vector<std::string> names;
-  for (std::string name; std::getline(stream, name, ',');) {
-    if (name.empty()) throw UsageError("--compare " + a.compare + ": a name is missing");
-    names.push_back(name);
-  }
-  return names;
-}
 
 void check_call(const DrapeArguments& a, const io::Scene& scene) {
   if (!scene.body) throw UsageError("a garment is draped on a body: name one with --body");
@@ -58,9 +37,8 @@ void check_call(const DrapeArguments& a, const io::Scene& scene) {
     throw UsageError("drape draws no lines; draw them on what it writes, with furrow wrinkle");
   if (a.out.empty() && a.picture.empty() && a.animation.empty())
     throw UsageError("nothing to write: name --output, --picture or --animation");
-  if (!a.compare.empty() && a.picture.empty())
-    throw UsageError("--compare is a picture: name it with --picture");
-  if (!a.compare.empty() && (!a.out.empty() || !a.animation.empty()))
+  if (a.compare && a.picture.empty()) throw UsageError("--compare is a picture: name it with --picture");
+  if (a.compare && (!a.out.empty() || !a.animation.empty()))
     throw UsageError("--compare writes a picture only; drape each by itself for its mesh");
   if (!(a.settings.residual > 0)) throw UsageError("--residual takes a number > 0");
   if (a.picture.empty() && (a.view_chosen || !a.camera.save_camera.empty()))
@@ -77,12 +55,14 @@ void check_call(const DrapeArguments& a, const io::Scene& scene) {
   refuse_same({a.out, a.picture, a.animation, a.camera.save_camera}, inputs);
 }
 
-/// Cotton, unless something is said of what the cloth is.
-void choose_fabric(io::TomlDocument& document) {
-  const io::Json material = document.root.value("material", io::Json::object());
-  for (const char* key : {"preset", "membrane", "bending_law", "stretch", "stiffness"})
-    if (material.contains(key)) return;
-  io::set_value(document, "material.preset", "cotton", "furrow drape");
+/// What the garment's file notes, or cotton, unless something is said of what the cloth is.
+void choose_fabric(io::TomlDocument& document, const std::filesystem::path& garment) {
+  take_recorded_material(document, garment, nullptr);
+  if (!names_cloth(document)) io::set_value(document, "material.preset", "cotton", "furrow drape");
+}
+
+DrapedRow row_of(const Draped& d, const DrapeSettings& settings) {
+  return {d.name, &d.report, &d.fit, &d.fit_options, d.seconds, d.gap, d.too_near, settings.penetration};
 }
 
 void write_picture(std::vector<Draped>& all, const io::Scene& scene, const DrapeArguments& a,
@@ -95,19 +75,37 @@ void write_picture(std::vector<Draped>& all, const io::Scene& scene, const Drape
   std::vector<FitPanel> panels;
   for (Draped& d : all) {
     colour_garment(d.file.mesh, scale);
-    const bool rests = d.report.levels.back().settle.converged;
-    const std::string caption = d.name + (rests ? "" : " (not at rest)") + (all.size() > 1 ? "\n" : ": ") +
-                                fit_words(d.fit, d.fit_options, quantity);
+    const std::string outcome = outcome_of(row_of(d, a.settings));
+    const std::string caption = d.name + (outcome == "at rest" ? "" : " (" + outcome + ")") +
+                                (all.size() > 1 ? "\n" : ": ") + fit_words(d.fit, d.fit_options, quantity);
     panels.push_back({&d.file.mesh, &body.mesh, caption});
   }
   io::write_png(a.picture, fit_picture(panels, scale, a.camera, a.view_chosen, common));
+}
+
+/// One for each fabric, or the scene alone.
+std::vector<io::Scene> scenes_of(const io::Scene& scene, const io::TomlDocument& document,
+                                 const std::filesystem::path& folder,
+                                 const std::vector<std::string>& fabrics) {
+  if (fabrics.empty()) return {scene};
+  if (document.root.contains("/material/preset"_json_pointer) && !document.is_of_file("material.preset"))
+    throw UsageError("--fabric: --compare names the fabrics; leave one of them away");
+  std::vector<io::Scene> scenes;
+  for (const std::string& fabric : fabrics) {
+    io::TomlDocument other = document;
+    io::set_value(other, "material.preset", fabric, "--compare");
+    scenes.push_back(scene_of(other, folder));
+    scenes.back().subdivide = scene.subdivide;
+  }
+  return scenes;
 }
 
 int drape(const DrapeArguments& a) {
   catch_interrupts();
   io::TomlDocument document = scene_settings(a.in, "", std::nullopt, a.flags, a);
   const std::filesystem::path folder = is_scene(a.in) ? std::filesystem::path(a.in).parent_path() : "";
-  choose_fabric(document);
+  warn_of_unused_settings(document, a);
+  if (!a.compare) choose_fabric(document, scene_of(document, folder).garment);
   io::Scene scene = scene_of(document, folder);
   if (scene.garment.empty()) throw UsageError(document.name + ": garment.mesh is missing");
   check_inputs(scene, document, -1);
@@ -115,20 +113,13 @@ int drape(const DrapeArguments& a) {
   if (a.subdivide) scene.subdivide = *a.subdivide;
   check_call(a, scene);
   DrapeSettings settings = a.settings;
-  settings.bands = bands_of(a);
+  settings.bands = parse_bands(a.bands);
   settings.animation = a.animation;
   CommonArguments common = a;
   common.unit = scene.unit;
   common.up = scene.up;
-  std::vector<io::Scene> scenes;
-  std::vector<std::string> fabrics = fabrics_of(a);
-  for (const std::string& fabric : fabrics) {
-    io::TomlDocument other = document;
-    io::set_value(other, "material.preset", fabric, "--compare");
-    scenes.push_back(scene_of(other, folder));
-    scenes.back().subdivide = scene.subdivide;
-  }
-  if (fabrics.empty()) scenes.push_back(scene);
+  const std::vector<std::string> fabrics = a.compare ? parse_fabrics(*a.compare) : std::vector<std::string>{};
+  const std::vector<io::Scene> scenes = scenes_of(scene, document, folder, fabrics);
   const BodyCollider body = load_body(*scene.body, common);
   std::vector<Draped> all;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -136,16 +127,37 @@ int drape(const DrapeArguments& a) {
     all.back().name = fabrics.empty() ? scene.garment.stem().string() : fabrics[i];
     if (all.back().report.stopped) break;
   }
-  if (!a.out.empty()) write_mesh(all[0].file, common);
+  if (!a.out.empty()) {
+    note_material(all[0].file, document, all[0].gap);
+    write_mesh(all[0].file, common);
+  }
   if (!a.picture.empty()) write_picture(all, scene, a, common);
   std::vector<DrapedRow> rows;
-  for (const Draped& d : all) rows.push_back({d.name, &d.report, &d.fit, &d.fit_options, d.seconds});
+  for (const Draped& d : all) rows.push_back(row_of(d, settings));
   Json report = to_json(rows);
   if (!a.out.empty()) report["written"] = a.out;
   if (!a.picture.empty()) report["picture"] = a.picture;
   print_report(report, common);
   const int code = exit_code_of(rows, common);
   return code == kOk && interrupted() ? kInterrupted : code;
+}
+
+/// Where drape's defaults are not simulate's.
+void describe_cloth(CLI::App& sub) {
+  constexpr std::pair<const char*, const char*> kHelp[] = {
+      {"--fabric",
+       "a measured fabric: cotton, silk, denim, … (docs/scenes.md); default what the garment's PLY notes, "
+       "else cotton"},
+      {"--membrane",
+       "in place of a fabric: triangles (of constant strain, as fabrics are), tension (quadratic and "
+       "asymmetric), or springs: paper, uniform, inverse, van-gelder"},
+      {"--bending-law",
+       "in place of a fabric: hinge (of a rigidity, as fabrics are), cosine, or cross (springs)"},
+      {"--stretch", "Young's modulus times thickness [N/m]; default the fabric's"},
+      {"--rigidity", "bending rigidity of hinges [N m]; default the fabric's"},
+      {"--friction", "Coulomb friction with the body; default the fabric's, else 0.3"},
+      {"--stiffness", "in place of a fabric: k_std of structural springs [N/m]"}};
+  for (const auto& [flag, help] : kHelp) sub.get_option(flag)->description(help);
 }
 
 }  // namespace
@@ -182,12 +194,17 @@ void add_drape(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--residual", a->settings.residual,
                   "largest net force on a vertex, over its weight, at which it rests (default 0.001)");
+  sub->add_option("--penetration", a->settings.penetration,
+                  "depth to which the body may come through the cloth, between vertices, too [m] (default "
+                  "0.005); beyond it the exit code is 4")
+      ->check(CLI::NonNegativeNumber);
   sub->add_flag("--plain", a->settings.plain,
                 "paper 2's own scheme: forces used as displacements, with a cap; to compare with");
   sub->add_option("--iterations", a->settings.iterations,
                   "at most, on each level (default 200; --plain: 20000)")
       ->check(CLI::NonNegativeNumber);
   a->flags.add_to(*sub, true);
+  describe_cloth(*sub);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);
   sub->callback([a, sub, &exit_code] {

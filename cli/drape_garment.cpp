@@ -8,12 +8,15 @@
 #include <memory>
 #include <thread>
 
+#include "bridge/convert.h"
 #include "bridge/gather.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
 #include "cli/scene_cloth.h"
 #include "geometry/border_loops.h"
 #include "geometry/rest_metric.h"
+#include "geometry/struts.h"
+#include "geometry/vertex_attributes.h"
 #include "io/animation_file.h"
 #include "physics/elastic_band.h"
 #include "physics/push_out.h"
@@ -70,15 +73,46 @@ std::vector<int> loop_through(const geometry::Mesh& mesh, int vertex) {
   return {};
 }
 
+/// As struts, so that the garment's file has them; a band that was there is taken off.
+void sew_band(geometry::Mesh& mesh, const std::vector<int>& loop,
+              const physics::ElasticBandOptions& options) {
+  physics::Cloth band;
+  band.particles.x = bridge::positions_of(mesh);
+  physics::add_elastic_band(band, loop, options);
+  std::vector<geometry::Strut> all = geometry::struts(mesh);
+  std::erase_if(all, [&](const geometry::Strut& s) {
+    return std::any_of(band.bending.begin(), band.bending.end(),
+                       [&](const physics::Spring& b) { return int(s.a) == b.a && int(s.b) == b.b; });
+  });
+  using Index = geometry::Vertex::size_type;
+  for (const physics::Spring& s : band.bending)
+    all.push_back({geometry::Vertex(Index(s.a)), geometry::Vertex(Index(s.b)), s.rest_length, s.stiffness});
+  geometry::set_struts(mesh, all);
+}
+
+/// Vertices of a garment that was measured.
+std::size_t count_nearer(const geometry::Mesh& mesh, double distance) {
+  std::size_t n = 0;
+  for (const geometry::VertexAttribute& a : geometry::vertex_attributes(mesh))
+    if (a.name == bridge::kFitDistance)
+      for (geometry::Vertex v : mesh.vertices()) n += a.values[v] < distance;
+  return n;
+}
+
 /// Makes cloth of the garment on each level; pins and bands are found again there.
 class Maker {
  public:
+  /// Throws UsageError for a pin's or a band's loop that the garment does not have.
   Maker(const io::Scene& scene, const BodyCollider& body, const DrapeSettings& settings,
         const io::MeshFile& as_read, const CommonArguments& common)
       : scene_(scene), body_(body), settings_(settings), as_read_(as_read), common_(common) {
     for (const io::ScenePins& pins : scene.pins)
       pin_vertices_.push_back(pins.loop.empty() ? -1 : vertex_of_loop(as_read.mesh, pins.loop));
-    for (const Band& band : settings.bands) band_vertices_.push_back(vertex_of_loop(as_read.mesh, band.loop));
+    for (const Band& band : settings.bands) try {
+        band_vertices_.push_back(vertex_of_loop(as_read.mesh, band.loop));
+      } catch (const std::invalid_argument& e) {
+        throw UsageError("--band: " + std::string(e.what()));
+      }
   }
 
   physics::Cloth operator()(geometry::Mesh& mesh) {
@@ -86,10 +120,10 @@ class Maker {
     made.mesh = mesh;
     const auto pins = find_pins(made, pins_on(mesh));
     complete_garment(made, scene_.material);
-    physics::Cloth cloth = bridge::gather(made.mesh, spring_options(made, scene_.material));
     for (std::size_t i = 0; i < band_vertices_.size(); ++i)
-      physics::add_elastic_band(cloth, loop_through(mesh, band_vertices_[i]),
-                                {settings_.bands[i].length, settings_.band_stiffness});
+      sew_band(made.mesh, loop_through(mesh, band_vertices_[i]),
+               {settings_.bands[i].length, settings_.band_stiffness});
+    physics::Cloth cloth = bridge::gather(made.mesh, spring_options(made, scene_.material));
     pin_cloth(cloth, pins, nullptr, 0, common_);
     int moved = 0;
     for (const std::vector<int>& held : pins)
@@ -147,7 +181,10 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const Dra
   options.plain = s.plain;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
   options.settle.gap = gap_of(scene, body, as_read.mesh);
-  options.settle.threads = int(std::max(1u, std::thread::hardware_concurrency()));
+  options.settle.threads =
+      scene.threads ? scene.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+  if (scene.subdivide > 0 && !geometry::struts(as_read.mesh).empty())
+    warn("--subdivide drops the struts that the garment has, its bands among them; say --band again", common);
   WayRecorder way(s.animation, scene.subdivide, common);
   Progress progress("draping", common);
   double first = 0;
@@ -169,8 +206,11 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const Dra
   draped.file = std::move(maker.made);
   draped.file.mesh = std::move(mesh);
   way.close();
-  draped.fit_options.contact_distance = 1.2 * options.settle.gap;
+  draped.gap = options.settle.gap;
+  draped.fit_options.contact_distance = contact_distance(draped.gap);
   draped.fit = bridge::fit_report(draped.file.mesh, body.triangles, body.exact, draped.fit_options);
+  if (draped.gap == scene.simulation.contact_gap)
+    draped.too_near = count_nearer(draped.file.mesh, 0.9 * draped.gap);
   return draped;
 }
 

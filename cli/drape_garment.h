@@ -17,6 +17,7 @@ struct Band {
 struct DrapeSettings {
   bool plain = false;
   double residual = physics::SettleOptions{}.tolerance;
+  double penetration = 0.005;     ///< depth to which the body may come through the cloth [m]
   std::optional<int> iterations;  ///< none: those of the method
   std::vector<Band> bands;
   double band_stiffness = 50;       ///< [N]
@@ -28,12 +29,15 @@ struct Draped {
   bridge::DrapeReport report;
   bridge::FitReport fit;
   bridge::FitOptions fit_options;
-  double seconds = 0;  ///< that the fit took, without reading [s]
+  double gap = 0;            ///< that was to be kept from the body [m]
+  std::size_t too_near = 0;  ///< vertices that keep less than nine tenths of a gap that the user chose
+  double seconds = 0;        ///< that the fit took, without reading [s]
   std::string name;
 };
 
 /// Reads a scene's garment, fits it on the body and measures how it fits. Shows progress; an interrupt stops
-/// it, what was reached is returned. Throws as reading, bridge::drape() and bridge::fit_report() do.
+/// it, what was reached is returned. Bands become struts of the garment, in place of those that its loop had.
+/// Throws as reading, bridge::drape() and bridge::fit_report() do.
 Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const DrapeSettings& settings,
                      const CommonArguments& common);
 

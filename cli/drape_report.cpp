@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/drape_report.h"
 
-#include <algorithm>
+#include <cstdio>
 #include <iostream>
 
 #include "cli/fit_output.h"
@@ -13,15 +13,10 @@ Json to_json(const bridge::DrapeLevel& level) {
   return {{"vertices", level.vertices},
           {"pushed_out", level.pushed.moved},
           {"farthest_push", level.pushed.farthest},
-          {"still_inside", level.pushed.still_inside},
+          {"still_nearer", level.pushed.still_inside},
           {"iterations", level.settle.iterations},
           {"factorisations", level.settle.factorisations},
           {"residual", level.settle.residual}};
-}
-
-std::string outcome_of(const DrapedRow& row) {
-  if (row.report->stopped) return "interrupted";
-  return row.report->levels.back().settle.converged ? "at rest" : "not at rest";
 }
 
 Json to_json(const DrapedRow& row) {
@@ -33,10 +28,47 @@ Json to_json(const DrapedRow& row) {
             {"converged", last.settle.converged},
             {"residual_force", last.settle.residual},
             {"touching", last.settle.touching},
+            {"gap", row.gap},
             {"seconds", row.seconds},
             {"levels", levels}};
   json["fit"] = cli::to_json(*row.fit, *row.options);
   return json;
+}
+
+std::string millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", 1000 * metres);
+  return text;
+}
+
+/// What the body does to the cloth that has come to rest on it.
+void tell_contact(const DrapedRow& row, const CommonArguments& common) {
+  const bridge::FitReport& fit = *row.fit;
+  const double deepest = fit.distance.deepest_penetration;
+  const std::string through = "the body comes through " + std::to_string(fit.piercing.faces) +
+                              " faces, by up to " + millimetres(deepest);
+  if (is_pierced(row))
+    std::cerr << "error: " << row.name << ": "
+              << (fit.piercing.faces ? through : "lies inside the body, by up to " + millimetres(deepest))
+              << "; look at where the garment lies before it is draped (and at --unit), refine it with "
+                 "--subdivide, or accept it with --penetration\n";
+  else if (fit.piercing.faces)
+    warn(row.name + ": " + through + "; --subdivide lets coarse cloth lie closer", common);
+  if (row.too_near)
+    warn(row.name + ": " + std::to_string(row.too_near) +
+             " vertices are nearer to the body than the gap of " + millimetres(row.gap) + ", down to " +
+             millimetres(fit.distance.min) +
+             "; the cloth is too tight for it there, or the body leaves no room; choose a smaller --gap",
+         common);
+}
+
+void tell_unrest(const DrapedRow& row, const CommonArguments& common) {
+  const physics::SettleReport& last = row.report->levels.back().settle;
+  if (last.touching == 0)
+    warn(row.name + ": never came to lie on the body; look at --unit and at where the two are", common);
+  std::cerr << "error: " << row.name << ": not at rest after " << last.iterations
+            << " iterations, residual force " << last.residual
+            << " of a vertex's weight; give more with --iterations, or accept it with --residual\n";
 }
 
 }  // namespace
@@ -48,6 +80,14 @@ Json to_json(std::span<const DrapedRow> rows) {
   return {{"garments", garments}};
 }
 
+std::string outcome_of(const DrapedRow& row) {
+  if (row.report->stopped) return "interrupted";
+  const std::string rest = row.report->levels.back().settle.converged ? "at rest" : "not at rest";
+  return rest + (is_pierced(row) ? ", pierced by the body" : "");
+}
+
+bool is_pierced(const DrapedRow& row) { return row.fit->distance.deepest_penetration > row.penetration; }
+
 int exit_code_of(std::span<const DrapedRow> rows, const CommonArguments& common) {
   int code = kOk;
   for (const DrapedRow& row : rows) {
@@ -56,20 +96,10 @@ int exit_code_of(std::span<const DrapedRow> rows, const CommonArguments& common)
                 << ": interrupted; the state reached was written, it is not at rest\n";
       return kInterrupted;
     }
-    const bridge::DrapeLevel& last = row.report->levels.back();
-    int inside = 0;
-    for (const bridge::DrapeLevel& level : row.report->levels)
-      inside = std::max(inside, level.pushed.still_inside);
-    if (inside)
-      warn(row.name + ": " + std::to_string(inside) + " vertices could not be brought out of the body",
-           common);
-    if (last.settle.converged) continue;
-    if (last.settle.touching == 0)
-      warn(row.name + ": never came to lie on the body; look at --unit and at where the two are", common);
-    std::cerr << "error: " << row.name << ": not at rest after " << last.settle.iterations
-              << " iterations, residual force " << last.settle.residual
-              << " of a vertex's weight; give more with --iterations, or accept it with --residual\n";
-    code = kNotConverged;
+    tell_contact(row, common);
+    const bool rests = row.report->levels.back().settle.converged;
+    if (!rests) tell_unrest(row, common);
+    if (!rests || is_pierced(row)) code = kNotConverged;
   }
   return code;
 }

@@ -15,13 +15,22 @@ struct DrapedRow {
   const bridge::DrapeReport* report;
   const bridge::FitReport* fit;
   const bridge::FitOptions* options;
-  double seconds;  ///< that the fit took, without reading and the body's field [s]
+  double seconds;        ///< that the fit took, without reading and the body's field [s]
+  double gap;            ///< that was to be kept from the body [m]
+  std::size_t too_near;  ///< vertices that do not keep it
+  double penetration;    ///< depth to which the body may come through the cloth [m]
 };
 
 /// All numbers, SI units; one garment's alone, or `garments`.
 Json to_json(std::span<const DrapedRow> rows);
 
-/// kNotConverged, with a word on stderr, if one did not come to rest; kInterrupted if it was stopped.
+/// "at rest", "not at rest" or "interrupted", and whether it is pierced.
+std::string outcome_of(const DrapedRow& row);
+/// Whether the body comes through the cloth by more than was allowed.
+bool is_pierced(const DrapedRow& row);
+
+/// kNotConverged, with a word on stderr, if one did not come to rest or is pierced; kInterrupted if it was
+/// stopped. Warns of a body that comes through by less, and of cloth nearer than the gap.
 int exit_code_of(std::span<const DrapedRow> rows, const CommonArguments& common);
 
 }  // namespace furrow::cli

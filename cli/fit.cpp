@@ -22,7 +22,7 @@ namespace {
 struct FitArguments : CommonArguments {
   std::vector<std::string> worn, bodies, sections;
   std::string rest, picture, colour, captions;
-  std::optional<double> range;
+  std::optional<double> range, contact;
   bridge::FitOptions options;
   CameraArguments camera;
   bool compare = false, view_chosen = false;
@@ -97,14 +97,17 @@ struct Fitted {
   std::string name;
   io::MeshFile file;
   bridge::FitReport report;
+  bridge::FitOptions options;
   std::string caption;
 };
 
 Fitted fit_one(const std::string& path, const Body& body, const FitArguments& a) {
-  Fitted fitted{std::filesystem::path(path).stem().string(), read_garment(path, a), {}, {}};
+  Fitted fitted{std::filesystem::path(path).stem().string(), read_garment(path, a), {}, a.options, {}};
   geometry::Mesh& mesh = fitted.file.mesh;
   if (!a.rest.empty()) take_rest(mesh, a);
-  fitted.report = bridge::fit_report(mesh, body.triangles, body.distance, a.options);
+  if (mesh.number_of_edges() > 0)
+    fitted.options.contact_distance = a.contact ? *a.contact : contact_distance(fitted.file, body.distance);
+  fitted.report = bridge::fit_report(mesh, body.triangles, body.distance, fitted.options);
   if (!fitted.report.strain)
     warn(path + ": has no rest lengths, so its strain is not known; --rest takes the garment as it was made",
          a);
@@ -143,12 +146,12 @@ void write_picture(const std::vector<Fitted>& all, const io::FitScale& scale, co
 Json report_of(const std::vector<Fitted>& all, const FitArguments& a) {
   Json report;
   if (all.size() == 1) {
-    report = to_json(all[0].report, a.options);
+    report = to_json(all[0].report, all[0].options);
   } else {
     Json garments = Json::array();
     for (std::size_t i = 0; i < all.size(); ++i) {
       garments.push_back({{"garment", a.worn[i]}});
-      garments.back().update(to_json(all[i].report, a.options));
+      garments.back().update(to_json(all[i].report, all[i].options));
     }
     report = {{"garments", garments}};
   }
@@ -183,8 +186,10 @@ void add_thresholds(CLI::App& sub, FitArguments& a) {
       ->capture_default_str();
   sub.add_option("--loose", a.options.loose_distance, "cloth farther from the body is loose [m], > 0")
       ->capture_default_str();
-  sub.add_option("--contact", a.options.contact_distance, "cloth nearer lies on the body [m], >= 0")
-      ->capture_default_str();
+  sub.add_option(
+      "--contact", a.contact,
+      "cloth nearer lies on the body [m], >= 0; default 1.2 times the gap that the garment kept, or "
+      "would keep");
   sub.add_option("--smallest-zone", a.options.smallest_zone, "zones with less area are left out [m^2], >= 0")
       ->capture_default_str();
   sub.add_option(

@@ -81,10 +81,12 @@ Json to_json(const bridge::FitReport& r, const bridge::FitOptions& o) {
                       {"share_in_contact", r.distance.share_in_contact},
                       {"contact", o.contact_distance},
                       {"vertices_inside", r.distance.vertices_inside},
+                      {"pierced_faces", r.piercing.faces},
                       {"deepest_penetration", r.distance.deepest_penetration}};
   json["ease"] = to_json(r.ease);
   json["tight_zones"] = to_json(r.tight);
   json["loose_zones"] = to_json(r.loose);
+  json["pierced_zones"] = to_json(r.piercing.zones);
   json["loose_over"] = o.loose_distance;
   json["zones_left_out"] = r.left_out;
   return json;

@@ -12,6 +12,7 @@
 #include "cli/keep_at_rest.h"
 #include "cli/keep_report.h"
 #include "cli/prepare_garment.h"
+#include "cli/recorded_material.h"
 #include "cli/run_warnings.h"
 #include "cli/scene_cloth.h"
 #include "cli/scene_flags.h"
@@ -142,6 +143,7 @@ int keep(KeepArguments& a) {
   io::TomlDocument document = scene_settings(a.in, a.state, state, a.flags, a);
   const std::filesystem::path folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
   io::Scene scene = scene_of(document, folder);
+  if (!state && take_recorded_material(document, scene.garment, nullptr)) scene = scene_of(document, folder);
   if (scene.garment.empty() && !state) throw UsageError(document.name + ": garment.mesh is missing");
   check_inputs(scene, document, state ? state->lines_drawn : -1);
   if (!state) take_noted_frame(scene, document);
@@ -169,6 +171,7 @@ int keep(KeepArguments& a) {
   bridge::store_rest_state(garment.cloth, spring_options(garment.file, scene.material), garment.file.mesh);
   if (!scene.output.state.empty()) write_kept_state(scene, document, folder, garment, std::move(state));
   warn_if_shape_only(scene.output.mesh, common);
+  note_material(garment.file, document, garment.body ? garment.options.contact_gap : 0);
   if (!scene.output.mesh.empty()) write_mesh(scene.output.mesh.string(), garment.file, common);
   if (!a.picture.empty()) {
     const std::vector<io::RenderScene> scenes{verdict_scene(garment.file.mesh, report)};

@@ -9,6 +9,7 @@
 #include "cli/line_round.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
+#include "cli/recorded_material.h"
 #include "cli/run_warnings.h"
 #include "cli/scene_cloth.h"
 #include "cli/scene_flags.h"
@@ -238,6 +239,7 @@ class SceneRun {
     io::drop_motion(now_.file);
     if (body_ && !out.body.empty())
       write_mesh(out.body.string(), body_->at(now_.simulation.time, common_), common_);
+    note_material(now_.file, document_, body_ ? now_.contact_gap : 0);
     if (!out.mesh.empty()) write_mesh(out.mesh.string(), now_.file, common_);
   }
 

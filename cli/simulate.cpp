@@ -5,6 +5,7 @@
 
 #include "cli/common.h"
 #include "cli/judge_report.h"
+#include "cli/recorded_material.h"
 #include "cli/scene_flags.h"
 #include "cli/scene_input.h"
 #include "cli/scene_run.h"
@@ -103,6 +104,7 @@ int simulate(SimulateArguments& a) {
   io::TomlDocument document = scene_settings(a.in, a.state, state, a.flags, a);
   const std::filesystem::path folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
   io::Scene scene = scene_of(document, folder);
+  if (!state && take_recorded_material(document, scene.garment, &a)) scene = scene_of(document, folder);
   if (state && !a.flags.accuracy().empty())
     throw UsageError("--tolerance " + a.flags.accuracy() +
                      " judges a scene from its beginning; leave it or --state away");

@@ -7,6 +7,7 @@
 #include "cli/max_weights.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
+#include "cli/recorded_material.h"
 #include "cli/scene_input.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_drawing.h"
@@ -55,17 +56,18 @@ bridge::GatherOptions springs_of(const io::SavedState& state, const io::MeshFile
 }
 
 /// What a garment is kept in: material, forces, pins and body of the state, or of flags.
-io::Scene surroundings(const WrinkleArguments& a, const Drawing& drawing) {
+io::TomlDocument surroundings(const WrinkleArguments& a, const Drawing& drawing) {
   io::TomlDocument document;
   if (drawing.state) document = io::document_of(drawing.state->scene, a.state);
   for (const char* list : {"lines", "pins"}) io::make_list(document, list);
   a.flags.apply(document);
+  if (!drawing.state) take_recorded_material(document, a.in, nullptr);
   // Of a mesh drawn again, a.density is that of its record: the fabric's goes before it.
   const bool has_fabric = document.root.value("material", Json::object()).contains("preset");
   if (a.density && (a.typed->count("--density") || !has_fabric))
     io::set_value(document, "material.density", *a.density, "--density");
   io::set_value(document, "garment.rest", "keep", "--rest keep");
-  return scene_of(document, std::filesystem::path(a.state).parent_path());
+  return document;
 }
 
 void write_result(const WrinkleArguments& a, Drawing& drawing) {
@@ -84,7 +86,11 @@ void wrinkle(WrinkleArguments a) {
   Drawing drawing = read_drawing(a);
   io::MeshFile& file = drawing.file;
   std::optional<io::Scene> scene;
-  if (a.rest == "keep") scene = surroundings(a, drawing);
+  io::TomlDocument document;
+  if (a.rest == "keep") {
+    document = surroundings(a, drawing);
+    scene = scene_of(document, std::filesystem::path(a.state).parent_path());
+  }
   const auto density = scene && !drawing.state ? scene->material.density : a.density;
   LineTarget target{file, drawing.path, density, nullptr, {}};
   std::vector<std::vector<int>> pins;
@@ -120,6 +126,7 @@ void wrinkle(WrinkleArguments a) {
   if (a.max_weights) limit_noted_weights(file, *a.max_weights);
   if (inserted) write_preview(preview_of(*inserted, before, round.report, *io::find_wrinkle_record(file)), a);
   if (scene) warn_if_shape_only(a.out, a);
+  if (scene && !drawing.state) note_material(file, document, 0);
   if (!a.out.empty()) write_result(a, drawing);
   Json json = to_json(round.report, file.mesh, round.first_line);
   if (round.moving) json["moving"] = to_json(*round.moving, drawing.state->simulation.time);

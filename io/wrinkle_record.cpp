@@ -77,6 +77,8 @@ void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record) {
                               {"garment", record.garment},
                               {"garment_hash", record.garment_hash}};
   if (!record.strokes.empty()) json["strokes"] = nlohmann::ordered_json::parse(record.strokes);
+  if (!record.material.empty()) json["material"] = nlohmann::ordered_json::parse(record.material);
+  if (record.contact_gap > 0) json["contact_gap"] = record.contact_gap;
   for (const WrinkleRecord::Line& line : record.lines) json["lines"].push_back(to_json(line));
   std::erase_if(file.comments, is_record);
   using Handler = nlohmann::ordered_json::error_handler_t;
@@ -97,7 +99,13 @@ std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file) {
                          {},
                          json.value("garment", ""),
                          json.value("garment_hash", ""),
-                         json.contains("strokes") ? json["strokes"].dump() : ""};
+                         json.contains("strokes") ? json["strokes"].dump() : "",
+                         json.contains("material") ? json["material"].dump() : "",
+                         json.value("contact_gap", 0.0)};
+    if (!record.material.empty() && !json["material"].is_object())
+      throw geometry::ContentError("the comment 'furrow wrinkle' is damaged: material is no table");
+    if (!(record.contact_gap >= 0))
+      throw geometry::ContentError("the comment 'furrow wrinkle' is damaged: contact_gap is below 0");
     for (const auto& line : json.at("lines")) record.lines.push_back(line_from(line));
     return record;
   } catch (const nlohmann::json::exception& e) {

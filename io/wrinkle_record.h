@@ -29,6 +29,9 @@ struct WrinkleRecord {
   std::string garment;                ///< the file that the last lines were drawn on; empty: not known
   std::string garment_hash;           ///< its content_hash()
   std::string strokes;  ///< the last lines as a stroke file's text (metres, y up); empty: not known
+  std::string
+      material;  ///< the scene's [material], as JSON, that it came to rest or moved with; empty: not known
+  double contact_gap = 0;  ///< that it kept from a body then [m]; 0: not known
 };
 
 /// Of the lines by id: widths [m] (NaN: none), and presses [-].

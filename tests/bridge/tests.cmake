@@ -3,6 +3,7 @@ furrow_add_tests(bridge LIBRARIES furrow::bridge garment_cases SOURCES
   drape_test.cpp
   draw_more_test.cpp
   fit_ease_test.cpp
+  fit_piercing_test.cpp
   fit_report_test.cpp
   fit_zones_test.cpp
   garment_rest_test.cpp

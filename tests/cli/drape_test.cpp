@@ -3,7 +3,9 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geometry/border_loops.h"
 #include "geometry/property_names.h"
+#include "geometry/struts.h"
 #include "io/animation_file.h"
 #include "io/mesh_file.h"
 #include "io/png_file.h"
@@ -15,6 +17,15 @@ using namespace furrow::tests;
 using nlohmann::json;
 
 namespace {
+
+std::string mannequin() { return (source_dir() / "meshes/mannequin.obj").string(); }
+
+json report_of(const std::string& arguments) {
+  const Run run = run_furrow(arguments + " --json");
+  INFO(arguments << "\n" << run.err);
+  REQUIRE(run.exit_code == 0);
+  return json::parse(run.out);
+}
 
 /// The repository's skirt on its mannequin.
 std::string skirt() {
@@ -49,6 +60,125 @@ TEST_CASE("drape brings the skirt to rest on the mannequin, the same bits twice,
   CHECK(read_text(scratch / "b.ply") == read_text(scratch / "c.ply"));
 }
 
+TEST_CASE("what drape wrote is known to fit, simulate and drape: one contact, the fabric, the band") {
+  ScratchDirectory scratch;
+  const std::string worn = scratch / "worn.ply", on = " --body " + mannequin();
+  const json draped = report_of("drape " + skirt() + " --fabric silk --gap 0.006 --band top=0.95 -o " + worn);
+  CHECK(draped["outcome"] == "at rest");
+  CHECK(draped["gap"].get<double>() == Approx(0.006));
+  CHECK(draped["fit"]["distance"]["contact"].get<double>() == Approx(1.2 * 0.006));
+  json fit = report_of("fit " + worn + on);
+  fit.erase("schema");
+  CHECK(fit == draped["fit"]);
+  const io::MeshFile file = io::read_mesh(worn);
+  const auto band = geometry::struts(file.mesh);
+  REQUIRE(band.size() > 20);
+  double rest = 0, top = 0;
+  for (const geometry::Strut& s : band) rest += s.rest_length;
+  const auto made = io::read_mesh(source_dir() / "meshes/skirt.obj");
+  const auto loops = geometry::border_loops(made.mesh);
+  top = loops[geometry::find_border_loop(loops, "top")].length;
+  CHECK(rest == Approx(0.95 * top));
+
+  const json still = report_of("simulate " + worn + on + " --seconds 0.02 -o " + (scratch / "s.ply"));
+  const std::string flags = still["flags"];
+  CHECK(flags.find("--fabric silk") != std::string::npos);
+  CHECK(flags.find("--gap 0.006") != std::string::npos);
+  const Run other =
+      run_furrow("simulate " + worn + on + " --seconds 0.02 --fabric denim --json -o " + (scratch / "d.ply"));
+  CHECK(other.err.find("came to rest with --gap 0.006 --fabric silk") != std::string::npos);
+  const std::string end = " --seconds 0.02 -o " + (scratch / "e.ply");
+  CHECK(report_of("simulate " + worn + on + " --fabric silk --gap 0.006" + end)["kinetic_energy"] ==
+        still["kinetic_energy"]);
+  CHECK(report_of("simulate " + worn + on + " --membrane paper --bending-law cross" +
+                  end)["kinetic_energy"] != still["kinetic_energy"]);
+  const json again = report_of("drape " + worn + on + " -o " + (scratch / "again.ply"));
+  CHECK(again["outcome"] == "at rest");
+  CHECK(geometry::struts(io::read_mesh(scratch / "again.ply").mesh).size() == band.size());
+  const json sewn = report_of("drape " + worn + on + " --band top=1 -o " + (scratch / "sewn.ply"));
+  CHECK(geometry::struts(io::read_mesh(scratch / "sewn.ply").mesh).size() == band.size());
+}
+
+TEST_CASE("a density beside a fabric stays with the garment") {
+  ScratchDirectory scratch;
+  const std::string worn = scratch / "worn.ply", on = " --body " + mannequin() + " --seconds 0.01 -o ";
+  write_text(scratch / "scene.toml", "[garment]\nmesh = '" + (source_dir() / "meshes/skirt.obj").string() +
+                                         "'\n[material]\npreset = 'denim'\ndensity = 0.2\n");
+  const Run run = run_furrow("drape " + (scratch / "scene.toml") + " --body " + mannequin() +
+                             " --iterations 0 -o " + worn);
+  REQUIRE(run.exit_code == 4);
+  const std::string flags = report_of("simulate " + worn + on + (scratch / "s.ply"))["flags"];
+  CHECK(flags.find("--fabric denim") != std::string::npos);
+  CHECK(flags.find("--density 0.2") != std::string::npos);
+  const auto total = [](const std::string& path) {
+    const io::MeshFile file = io::read_mesh(path);
+    const auto mass = *geometry::find_map(file.mesh, geometry::kMass);
+    double sum = 0;
+    for (geometry::Vertex v : file.mesh.vertices()) sum += mass[v];
+    return sum;
+  };
+  CHECK(total(worn) == total(scratch / "s.ply"));
+  std::string bytes = read_text(worn);
+  bytes.replace(bytes.find("\"denim\""), 7, "\"demin\"");
+  write_text(worn, bytes);
+  const Run unknown = run_furrow("simulate " + worn + on + (scratch / "s.ply"));
+  CHECK(unknown.exit_code == 3);
+  CHECK(unknown.err.find("did you mean denim") != std::string::npos);
+}
+
+TEST_CASE("a body that comes through a face of cloth, but through no vertex, is told and ends with 4") {
+  ScratchDirectory scratch;
+  write_text(scratch / "sheet.obj",
+             "v -0.1 1 -0.1\nv 0.1 1 -0.1\nv 0.1 1 0.1\nv -0.1 1 0.1\nf 1 4 3\nf 1 3 2\n");
+  const auto spike = [&](double tip) {
+    write_text(scratch / "spike.obj", "v 0.02 " + std::to_string(tip) +
+                                          " -0.02\nv 0.06 0 -0.02\nv 0 0 0.02\nv 0 0 -0.06\n"
+                                          "f 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n");
+    return run_furrow("drape " + (scratch / "sheet.obj") + " --body " + (scratch / "spike.obj") +
+                      " --pin-vertices 0,1,2,3 --json -o " + (scratch / "out.ply"));
+  };
+  const Run deep = spike(1.5);
+  INFO(deep.err);
+  CHECK(deep.exit_code == 4);
+  CHECK(deep.err.find("comes through 1 faces") != std::string::npos);
+  const json r = json::parse(deep.out);
+  CHECK(r["converged"] == true);
+  CHECK(r["outcome"] == "at rest, pierced by the body");
+  CHECK(r["fit"]["distance"]["vertices_inside"] == 0);
+  CHECK(r["fit"]["distance"]["pierced_faces"] == 1);
+  CHECK(r["fit"]["distance"]["deepest_penetration"].get<double>() > 0.005);
+  CHECK(r["fit"]["pierced_zones"].size() == 1);
+  const Run shallow = spike(1.05);
+  INFO(shallow.err);
+  CHECK(shallow.exit_code == 0);
+  CHECK(shallow.err.find("warning: sheet: the body comes through") != std::string::npos);
+  CHECK(json::parse(shallow.out)["outcome"] == "at rest");
+  const Run below = spike(0.99);
+  CHECK(below.exit_code == 0);
+  CHECK(below.err.find("comes through") == std::string::npos);
+}
+
+TEST_CASE("drape names the settings that it has no use for, and cloth that is nearer than a chosen gap") {
+  ScratchDirectory scratch;
+  write_text(scratch / "scene.toml",
+             "[garment]\nmesh = '" + (source_dir() / "meshes/skirt.obj").string() + "'\n[body]\nmesh = '" +
+                 mannequin() +
+                 "'\n[material]\ngap = 0.05\n[forces]\nwind = [1, 0, 0]\n[[pins]]\n"
+                 "loop = 'top'\nmotion.spin = {rate = 1}\n[simulation]\nthreads = 1\n");
+  const std::string call = "drape " + (scratch / "scene.toml") + " -o " + (scratch / "out.ply");
+  const Run run = run_furrow(call);
+  CHECK(run.err.find("no use for forces.wind, pins.0.motion;") != std::string::npos);
+  CHECK(run.err.find("nearer to the body than the gap of 50.0 mm") != std::string::npos);  // the pinned waist
+  CHECK(run.err.find("brought out") == std::string::npos);
+  const Run quiet = run_furrow(call + " -q --json");  // the report alone, as of every subcommand
+  CHECK(quiet.err.find("warning") == std::string::npos);
+  CHECK(json::parse(quiet.out).contains("outcome"));
+  CHECK(run_furrow(call + " -q").out.empty());
+  const std::string help = run_furrow("drape --help").out;
+  CHECK(help.find("else cotton") != std::string::npos);
+  CHECK(help.find("paper's law, default") == std::string::npos);
+}
+
 TEST_CASE("drape: what cannot be done is told before the work") {
   ScratchDirectory scratch;
   const auto refused = [&](const std::string& arguments, const std::string& word) {
@@ -64,10 +194,17 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   refused(skirt() + out + " --compare silk,cotton", "--picture");
   refused(skirt() + " -o " + (source_dir() / "meshes/skirt.obj").string(), "skirt.obj");
   refused(skirt() + out + " --residual 0", "--residual");
-  refused(skirt() + out + " --band left=0.9", "left");
+  refused(skirt() + out + " --band left=0.9", "--band: border loop 'left'");
+  refused(skirt() + out + " --band top=wide", "no number");
+  refused(skirt() + out + " --band top=3", "at most 2");
+  refused(skirt() + out + " --band top=0.9 --band top=0.8", "already");
+  refused(skirt() + out + " --penetration -1", "--penetration");
   refused(skirt() + out + " --set body.motion.spin={axis=[0,1,0],rate=1}", "body.motion");
   refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,slik", "slik");
   refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,,silk", "missing");
+  refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,", "missing");
+  refused(skirt() + " --fabric silk --picture " + (scratch / "p.png") + " --compare cotton,wool", "--fabric");
+  refused(skirt() + " --picture " + (scratch / "p.png") + " --compare ''", "missing");
   CHECK_FALSE(std::filesystem::exists(scratch / "x.ply"));
   const Run few = run_furrow("drape " + skirt() + out + " --iterations 2 --fabric silk");
   CHECK(few.exit_code == 4);

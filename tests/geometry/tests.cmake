@@ -31,6 +31,7 @@ furrow_add_tests(geometry LIBRARIES furrow::geometry SOURCES
   sheet_test.cpp
   place_view_stroke_test.cpp
   place_texture_stroke_test.cpp
+  pierced_faces_test.cpp
   place_path_stroke_test.cpp
   wrinkle_test.cpp
 )

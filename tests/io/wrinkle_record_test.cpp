@@ -68,3 +68,27 @@ TEST_CASE("a mesh without a record has none, a damaged one is an error") {
   file.comments = {"furrow wrinkle {\"lines\": 3}"};
   CHECK_THROWS_AS(find_wrinkle_record(file), furrow::geometry::ContentError);
 }
+
+TEST_CASE("a wrinkle record keeps the material and the gap, and refuses damaged ones") {
+  MeshFile file;
+  WrinkleRecord record;
+  set_wrinkle_record(file, record);
+  CHECK(file.comments[0].find("material") == std::string::npos);  // not known: not written
+  CHECK(find_wrinkle_record(file)->material.empty());
+  CHECK(find_wrinkle_record(file)->contact_gap == 0);
+  record.material = R"({"preset":"silk","friction":0.25})";
+  record.contact_gap = 0.1 + 0.2;
+  set_wrinkle_record(file, record);
+  REQUIRE(file.comments.size() == 1);
+  CHECK(find_wrinkle_record(file)->material == record.material);
+  CHECK(find_wrinkle_record(file)->contact_gap == record.contact_gap);
+  const std::string sound = file.comments[0];
+  const auto damaged = [&](const std::string& from, const std::string& to) {
+    file.comments[0] = sound;
+    file.comments[0].replace(sound.find(from), from.size(), to);
+    CHECK_THROWS_AS(find_wrinkle_record(file), furrow::geometry::ContentError);
+  };
+  damaged(record.material, "3");
+  damaged("\"contact_gap\":", "\"contact_gap\":-");
+  damaged("\"contact_gap\":", "\"contact_gap\":\"a\",\"x\":");
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/drape_checks.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace furrow::cli {
+namespace {
+
+/// Settings of motion, of output, and of what `simulate` alone does.
+constexpr const char* kUnused[] = {"garment.rest",          "material.damping",
+                                   "material.drag",         "forces.wind",
+                                   "forces.gusts",          "forces.swirl",
+                                   "simulation.seconds",    "simulation.stop_at",
+                                   "simulation.dt",         "simulation.force_dt",
+                                   "simulation.integrator", "simulation.sweeps",
+                                   "simulation.newton",     "output"};
+
+bool is_said(const io::TomlDocument& document, const std::string& path) {
+  const std::size_t dot = path.find('.');
+  const Json& root = document.root;
+  if (path == "garment.rest") return root.value("/garment/rest"_json_pointer, "stored") == "keep";
+  if (dot == std::string::npos) return root.contains(path) && !root[path].empty();
+  const std::string table = path.substr(0, dot), key = path.substr(dot + 1);
+  return root.contains(table) && root[table].contains(key);
+}
+
+}  // namespace
+
+std::vector<Band> parse_bands(const std::vector<std::string>& texts) {
+  std::vector<Band> bands;
+  for (const std::string& text : texts) {
+    const auto fail = [&](const std::string& what) {
+      throw UsageError(
+          "--band " + text + ": " + what +
+          "; write a border loop and the band's length as a share of the loop's: --band top=0.95 "
+          "is a waistband 5 % shorter than the waist");
+    };
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) fail("there is no length");
+    if (equals == 0) fail("there is no loop");
+    const std::string loop = text.substr(0, equals), number = text.substr(equals + 1);
+    char* end = nullptr;
+    const double length = std::strtod(number.c_str(), &end);
+    if (number.empty() || *end != 0) fail("'" + number + "' is no number");
+    if (!(length > 0 && length <= 2)) fail("the length must be above 0 and at most 2");
+    if (std::any_of(bands.begin(), bands.end(), [&](const Band& b) { return b.loop == loop; }))
+      fail("'" + loop + "' has a band already");
+    bands.push_back({loop, length});
+  }
+  return bands;
+}
+
+std::vector<std::string> parse_fabrics(const std::string& text) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    names.push_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  if (std::find(names.begin(), names.end(), "") != names.end())
+    throw UsageError(
+        "--compare '" + text +
+        "': a name is missing; write fabrics parted by commas, as in --compare cotton,silk,denim");
+  return names;
+}
+
+void warn_of_unused_settings(const io::TomlDocument& document, const CommonArguments& common) {
+  std::string names;
+  const auto add = [&](const std::string& path) { names += (names.empty() ? "" : ", ") + path; };
+  for (const char* path : kUnused)
+    if (is_said(document, path)) add(path);
+  const Json pins = document.root.value("pins", Json::array());
+  for (std::size_t i = 0; i < pins.size(); ++i)
+    if (pins[i].contains("motion")) add("pins." + std::to_string(i) + ".motion");
+  if (!names.empty()) warn("a garment at rest has no use for " + names + "; furrow simulate has", common);
+}
+
+}  // namespace furrow::cli

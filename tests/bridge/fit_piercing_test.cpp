@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/fit_piercing.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <stdexcept>
+
+#include "bridge/body.h"
+#include "bridge/convert.h"
+#include "bridge/fit_report.h"
+#include "tests/test_meshes.h"
+
+using namespace furrow;
+using namespace furrow::tests;
+
+namespace {
+
+struct Body {
+  physics::TriangleMesh triangles;
+  physics::ExactDistance distance;
+  explicit Body(const geometry::Mesh& mesh)
+      : triangles(bridge::to_triangle_mesh(geometry::repair_body(mesh))), distance(triangles) {}
+};
+
+bridge::FitPiercing measure(const geometry::Mesh& garment, const Body& body) {
+  std::vector<double> distances;
+  for (const physics::Vec3& x : bridge::positions_of(garment))
+    distances.push_back(body.distance.sample(x).value);
+  return bridge::measure_piercing(garment, body.triangles, body.distance, distances);
+}
+
+}  // namespace
+
+TEST_CASE("two faces cut a ball that no vertex of theirs touches: the depth is that of their middle") {
+  const Body ball(icosphere(5, 0.3));
+  geometry::Mesh sheet = grid(1, 1, 2, 2);
+  for (const double height : {0.1, 0.25, 0.29}) {
+    for (auto v : sheet.vertices())
+      sheet.point(v) = {2.0 * (v.idx() % 2) - 1, height, 2.0 * double(v.idx() / 2) - 1};
+    const bridge::FitPiercing p = measure(sheet, ball);
+    CHECK(p.faces == 2);
+    CHECK(p.deepest == Approx(0.3 - height).margin(0.0005));
+    REQUIRE(p.zones.size() == 1);
+    CHECK(p.zones[0].peak == p.deepest);
+    CHECK(p.zones[0].area == Approx(4));
+    geometry::Mesh garment = sheet;
+    const bridge::FitReport r = bridge::fit_report(garment, ball.triangles, ball.distance);
+    CHECK(r.distance.vertices_inside == 0);
+    CHECK(r.distance.min > 0);
+    CHECK(r.distance.deepest_penetration == p.deepest);
+    CHECK(r.piercing.faces == 2);
+    REQUIRE(r.piercing.zones.size() == 1);
+    CHECK(r.piercing.zones[0].height_share == Approx((height + 0.3) / 0.6).epsilon(1e-6));
+  }
+}
+
+TEST_CASE(
+    "a garment outside is not pierced, one wholly inside neither, but its depth and its zone are told") {
+  const Body ball(icosphere(4, 0.3));
+  const bridge::FitPiercing outside = measure(icosphere(3, 0.31), ball);
+  CHECK(outside.faces == 0);
+  CHECK(outside.deepest == 0);
+  CHECK(outside.zones.empty());
+  const bridge::FitPiercing inside = measure(icosphere(3, 0.2), ball);
+  CHECK(inside.faces == 0);
+  CHECK(inside.deepest == Approx(0.1).epsilon(0.02));
+  CHECK(inside.zones.size() == 1);
+  CHECK_THROWS_AS(bridge::measure_piercing(icosphere(1, 1), ball.triangles, ball.distance, {}),
+                  std::invalid_argument);
+}
