@@ -3,17 +3,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 namespace furrow::physics {
+namespace {
+
+/// work(i) of all i in [0, n), by the pool's threads where there is one.
+template <class Work>
+void for_all(ThreadPool* pool, std::size_t n, const Work& work) {
+  const auto range = [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) work(std::size_t(i));
+  };
+  if (pool)
+    pool->run(int(n), range);
+  else
+    range(0, int(n));
+}
+
+}  // namespace
 
 AnchoredContact::AnchoredContact(const Collider& collider, const AnchoredContactOptions& options,
                                  std::size_t particles)
     : collider_(collider),
       options_(options),
-      soft_(options.gap / 3),
-      slip_(options.gap / 30),
+      soft_(std::min(options.gap / 3, 1e-3)),
+      slip_(0.1 * soft_),
       touches_(particles) {
   const auto need = [](bool good, const char* name, double value, const char* range) {
     if (good && std::isfinite(value)) return;
@@ -33,33 +49,34 @@ AnchoredContact::Push AnchoredContact::push_at(double d) const {
   return {k * (0.5 * d * d - 0.5 * s * d + s * s / 6), k * (d - 0.5 * s), k};
 }
 
-double AnchoredContact::energy(std::span<const Vec3> x, std::span<const double> inv_mass) const {
-  double energy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!(inv_mass[i] > 0)) continue;
-    energy += push_at(touches_[i].gap - collider_.at(x[i]).value).energy;
+double AnchoredContact::energy(std::span<const Vec3> x, std::span<const double> inv_mass,
+                               ThreadPool* pool) const {
+  std::vector<double> each(x.size(), 0);
+  for_all(pool, x.size(), [&](std::size_t i) {
+    if (!(inv_mass[i] > 0)) return;
     const Touch& t = touches_[i];
-    if (t.limit < 0) continue;
+    each[i] = push_at(t.gap - collider_.at(x[i]).value).energy;
+    if (t.limit < 0) return;
     const double u = t.way(x[i]).norm();
-    energy += t.limit * (u <= slip_ ? 0.5 * u * u / slip_ : u - 0.5 * slip_);
-  }
-  return energy;
+    each[i] += t.limit * (u <= slip_ ? 0.5 * u * u / slip_ : u - 0.5 * slip_);
+  });
+  return std::accumulate(each.begin(), each.end(), 0.0);
 }
 
-void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_mass) {
-  for (std::size_t i = 0; i < x.size(); ++i) {
+void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool) {
+  for_all(pool, x.size(), [&](std::size_t i) {
     Touch& t = touches_[i];
     t.x = x[i];
     t.push = t.stiffness = 0;
-    if (!(inv_mass[i] > 0)) continue;
+    if (!(inv_mass[i] > 0)) return;
     const SignedDistance field = collider_.at(x[i]);
     const double slope = field.gradient.norm();
     const Push push = push_at(t.gap - field.value);
-    if (!(push.force > 0) || !(slope > 0)) continue;
+    if (!(push.force > 0) || !(slope > 0)) return;
     t.push = push.force * slope;
     t.stiffness = push.stiffness * slope * slope;
     t.normal = field.gradient / slope;
-  }
+  });
 }
 
 void AnchoredContact::add_forces(std::span<Vec3> force) const {

@@ -5,34 +5,36 @@
 
 #include "physics/collider.h"
 #include "physics/free_stiffness.h"
+#include "physics/thread_pool.h"
 
 namespace furrow::physics {
 
 struct AnchoredContactOptions {
   double friction = 0.3;    ///< Coulomb coefficient [-]; >= 0
   double gap = 0.003;       ///< distance at which the body begins to push [m]; > 0
-  double stiffness = 1000;  ///< of that push beyond the first third of the gap [N/m]; > 0
+  double stiffness = 1000;  ///< of that push beyond the soft layer [N/m]; > 0
 };
 
 /// Contact with a body for who looks for rest, as a potential. A particle nearer than the gap is pushed along
-/// the body's gradient, by a force that grows with the square of the depth d up to a third of the gap and
-/// then linearly, so that stiffness does not jump where cloth comes to lie. Friction pulls it back to an
-/// anchor, linearly over the first gap / 30 and then with its limit, friction times push.
+/// the body's gradient, by a force that grows with the square of the depth d in a soft layer (a third of the
+/// gap, 1 mm at most) and then linearly, so that stiffness does not jump where cloth comes to lie. Friction
+/// pulls it back to an anchor, linearly over a tenth of the layer and then with its limit, friction times
+/// push.
 ///
 /// With normals, anchors and limits held this is the derivative of an energy, and Newton's method may be used
 /// between calls of move_anchors(): there, who pulls more than the limit drags the anchor along, and limits
 /// become those of the new push. So whatever rest is found, contact forces are in the friction cone; which of
 /// many such rests depends on the way there. Cost: one query of the collider a particle and call of look() or
-/// energy().
+/// energy(), shared by the threads of the pool; the results do not depend on their number.
 class AnchoredContact {
  public:
   /// The collider must outlive this object. Throws std::invalid_argument if an option is out of its range.
   AnchoredContact(const Collider& collider, const AnchoredContactOptions& options, std::size_t particles);
 
   /// [J] at x; of particles that can move (inv_mass > 0), as in all that follows.
-  double energy(std::span<const Vec3> x, std::span<const double> inv_mass) const;
+  double energy(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool = nullptr) const;
   /// Asks the body at x: what comes below is of there.
-  void look(std::span<const Vec3> x, std::span<const double> inv_mass);
+  void look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool = nullptr);
   void add_forces(std::span<Vec3> force) const;        ///< [N]
   void add_stiffness(FreeStiffness& stiffness) const;  ///< positive semidefinite
   void expect(std::span<const Vec3> move);             ///< limits become those of the push after a move [m]

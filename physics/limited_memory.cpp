@@ -5,20 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/vector_sums.h"
+
 namespace furrow::physics {
-namespace {
-
-double dot(std::span<const Vec3> a, std::span<const Vec3> b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
-  return sum;
-}
-
-void add_multiple(std::span<Vec3> sum, double factor, std::span<const Vec3> v) {
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * v[i];
-}
-
-}  // namespace
 
 LimitedMemory::LimitedMemory(Base base, int pairs) : base_(std::move(base)), most_(std::size_t(pairs)) {
   if (pairs < 0)

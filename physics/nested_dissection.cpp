@@ -4,7 +4,8 @@
 #include <metis.h>
 
 #include <mutex>
-#include <new>
+#include <stdexcept>
+#include <string>
 #include <numeric>
 
 namespace furrow::physics {
@@ -35,7 +36,7 @@ std::vector<int> nested_dissection(std::span<const std::vector<int>> below) {
   const std::lock_guard lock(random_numbers);
   if (METIS_NodeND(&n, first.data(), neighbours.data(), nullptr, options, order.data(), found.data()) !=
       METIS_OK)
-    throw std::bad_alloc();
+    throw std::invalid_argument("nested_dissection: no memory for " + std::to_string(n) + " columns");
   place.assign(found.begin(), found.end());
   return place;
 }

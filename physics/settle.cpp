@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -13,13 +14,16 @@
 #include "physics/free_stiffness.h"
 #include "physics/limited_memory.h"
 #include "physics/residual_force.h"
+#include "physics/vector_sums.h"
 
 namespace furrow::physics {
 namespace {
 
 using Vectors = std::vector<Vec3>;
 
-constexpr double contact_share = 0.1;     // of the mean stiffness of a particle
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+constexpr double contact_share = 0.5;     // of the mean stiffness of a particle
 constexpr double first_time = 0.03;       // tau [s]
 constexpr double least_share = 1.0 / 32;  // of a step
 constexpr double least_clamp = 0.02;      // once the Hessian alone would not do
@@ -45,12 +49,6 @@ void check(const Cloth& cloth, const SettleOptions& o) {
   check_particles(cloth.particles, "settle");
 }
 
-double dot(const Vectors& a, const Vectors& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
-  return sum;
-}
-
 class Settler {
  public:
   Settler(Cloth& cloth, const Collider* collider, const SettleOptions& options)
@@ -60,7 +58,7 @@ class Settler {
         o_(options),
         stiffness_(cloth),
         pool_(options.threads),
-        memory_([this](std::span<Vec3> f) { stiffness_.solve(f); }, most_followers) {
+        memory_([this](std::span<Vec3> f) { stiffness_.solve(f, &pool_); }, most_followers) {
     for (std::size_t i = 0; i < p_.size(); ++i)
       if (p_.inv_mass[i] > 0) slack_ += slack_share * p_.mass[i] * options.gravity.norm() * options.gap;
     stiffness_.assemble(cloth, p_.x, Stiffness::positive_part);
@@ -68,7 +66,7 @@ class Settler {
     const double k = contact_share * stiffness_.mean_diagonal();
     contact_ = std::make_unique<AnchoredContact>(
         *collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
-    contact_->look(p_.x, p_.inv_mass);
+    contact_->look(p_.x, p_.inv_mass, &pool_);
     contact_->move_anchors();
   }
 
@@ -86,17 +84,17 @@ class Settler {
   }
 
  private:
-  double energy(const Vectors& x) const {
+  double energy(const Vectors& x) {
     double e = potential_energy(cloth_, x);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (p_.inv_mass[i] > 0) e -= p_.mass[i] * o_.gravity.dot(x[i]);
-    return contact_ ? e + contact_->energy(x, p_.inv_mass) : e;
+    return contact_ ? e + contact_->energy(x, p_.inv_mass, &pool_) : e;
   }
 
   void find_forces() {
     elastic_.assign(p_.size(), Vec3::Zero());
     add_forces(cloth_, p_.x, elastic_);
-    if (contact_) contact_->look(p_.x, p_.inv_mass);
+    if (contact_) contact_->look(p_.x, p_.inv_mass, &pool_);
     find_net();
   }
 
@@ -115,7 +113,7 @@ class Settler {
   bool factorise() {
     memory_.clear();
     for (int failures = 0;; ++failures) {
-      stiffness_.assemble(cloth_, p_.x, {clamp_});
+      stiffness_.assemble(cloth_, p_.x, {clamp_}, &pool_);
       if (contact_) contact_->add_stiffness(stiffness_);
       for (std::size_t i = 0; i < p_.size(); ++i)
         if (p_.inv_mass[i] > 0) stiffness_.add(int(i), p_.mass[i] / (tau_ * tau_) * Mat3::Identity());
@@ -142,13 +140,14 @@ class Settler {
   /// Where the body's gradient jumps a little from cell to cell, energy alone would refuse good steps near
   /// rest: there it is enough that less is left to gain along the move.
   double search() {
-    const double before = energy(p_.x), slope = -dot(net_, move_);
+    if (std::isnan(energy_)) energy_ = energy(p_.x);
+    const double before = energy_, slope = -dot(net_, move_);
     if (!(slope < 0)) return 0;
     for (double share = first_; share > least_share * first_; share *= 0.5) {
       trial_ = moved(share);
-      const double there = energy(trial_);
-      if (there <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return share;
-      if (there <= before + slack_ && std::abs(net_at_trial_along_move()) < -0.9 * slope) return share;
+      there_ = energy(trial_);
+      if (there_ <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return share;
+      if (there_ <= before + slack_ && std::abs(net_at_trial_along_move()) < -0.9 * slope) return share;
     }
     return 0;
   }
@@ -165,11 +164,12 @@ class Settler {
 
   Vectors moved(double share) const {
     Vectors x = p_.x;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += share * move_[i];
+    add_multiple(x, share, move_);
     return x;
   }
 
   void step() {
+    energy_ = unknown;  // contact has changed since
     if (!factorise()) {
       tau_ *= 0.25;
       return;
@@ -181,8 +181,9 @@ class Settler {
       find_move();
     }
     double share = search();
+    const bool refused = share < first_;
     if (share == 0 && dot(net_, move_) < slack_) trial_ = moved(share = first_);  // as well as any
-    if (contact_ && share < first_) contact_->make_room(p_.x, moved(first_), p_.inv_mass);
+    if (contact_ && refused) contact_->make_room(p_.x, moved(first_), p_.inv_mass);
     if (share == 0) {
       if (contact_) contact_->expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
       tau_ *= 0.25;
@@ -190,6 +191,7 @@ class Settler {
       return;
     }
     p_.x = trial_;
+    energy_ = refused ? unknown : there_;
     if (share == 1) tau_ *= 4;
     if (share < first_) {
       tau_ *= 0.9;
@@ -197,7 +199,7 @@ class Settler {
     }
     if (report_.residual < far_from_rest) follow();
     if (!contact_) return;
-    contact_->look(p_.x, p_.inv_mass);
+    contact_->look(p_.x, p_.inv_mass, &pool_);
     contact_->move_anchors();
   }
 
@@ -213,13 +215,12 @@ class Settler {
       const double share = search();
       if (share == 0) return;
       p_.x = trial_;
+      energy_ = there_;
       ++report_.followers;
       Vectors way = move_, change = net_;
+      for (Vec3& m : way) m *= share;
       find_forces();
-      for (std::size_t i = 0; i < way.size(); ++i) {
-        way[i] *= share;
-        change[i] -= net_[i];
-      }
+      add_multiple(change, -1, net_);
       memory_.add(std::move(way), std::move(change));
     }
   }
@@ -234,6 +235,7 @@ class Settler {
   LimitedMemory memory_;
   double tau_ = first_time, clamp_ = 1, clamped_ = 1;  // clamped_: of the last factorisation
   double slack_ = 0;                                   // of the energy [J]
+  double energy_ = unknown, there_ = unknown;          // at p_.x and at trial_ [J]
   double first_ = 1;                                   // share of a move that search() begins with
   Vectors elastic_, net_, move_, trial_;
   SettleReport report_;

@@ -42,9 +42,10 @@ struct SettleReport {
 /// positive definite as much of its clamped part (Stiffness) as makes it so, plus m / tau^2 with tau from
 /// 0.03 s up while steps succeed (pseudo-transient continuation), by Cholesky's factorisation; a step is
 /// halved until the energy falls (Armijo, 1e-4), or, for changes of the energy that the kinks of a sampled
-/// body hide, until less force is left along it (Hager and Zhang 2005, SIAM J. Optim. 16(1)). Near rest, up to ten quasi-Newton steps (LimitedMemory)
-/// follow each Newton step with its factors. Limits of friction follow the push within a step. A start that
-/// lies deeper in the body than the gap should be brought out first (push_out.h).
+/// body hide, until less force is left along it (Hager and Zhang 2005, SIAM J. Optim. 16(1)). Near rest, up
+/// to ten quasi-Newton steps (LimitedMemory) follow each Newton step with its factors. Limits of friction
+/// follow the push within a step. A start that lies deeper in the body than the gap should be brought out
+/// first (push_out.h).
 ///
 /// Cost: a factorisation or two an iteration, O(n^1.5) for n particles of a sheet; some 10 to 30 iterations.
 /// Same input, same bits. Throws std::invalid_argument, nothing changed, if an option is out of its range,

@@ -21,7 +21,9 @@ TEST_CASE("a wrinkle record reads back as written, heights that were not measure
       {{"größe \n \"x\"", -0.01, NAN, 0.004, 0.001}, {"wide", 0.01, 0.01, 0.01, 0, 0.06, 0.25, 30}},
       "a shirt.obj",
       "00ff",
-      R"({"strokes":[{"name":"é","height":0.01,"points":[[0.1,2.0,3.0]]}]})"};
+      R"({"strokes":[{"name":"é","height":0.01,"points":[[0.1,2.0,3.0]]}]})",
+      {},
+      {}};
   set_wrinkle_record(file, {});
   set_wrinkle_record(file, record);
   REQUIRE(file.comments.size() == 2);
