@@ -162,7 +162,7 @@ class Maker {
 double gap_of(const io::Scene& scene, const BodyCollider& body, geometry::Mesh garment) {
   geometry::ensure_rest_lengths(garment);
   const double sag = contact_gap(0, 0, garment) / std::pow(4, scene.subdivide);
-  return std::max(scene.simulation.contact_gap, sag + 1.5 * body.field.report().tolerance);
+  return std::max(scene.simulation.contact_gap, sag + body.field.report().tolerance);
 }
 
 }  // namespace
