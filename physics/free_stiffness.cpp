@@ -13,7 +13,7 @@
 namespace furrow::physics {
 namespace {
 
-constexpr int chunk = 1024;  // elements whose blocks stay in the caches
+constexpr int chunk = 4096;  // elements whose blocks stay in the caches
 constexpr int piece = 128;   // elements that a thread does at once
 constexpr int buckets = 32;  // of columns
 
