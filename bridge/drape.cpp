@@ -11,6 +11,7 @@
 #include "bridge/scatter.h"
 #include "geometry/subdivide.h"
 #include "physics/displace_by_force.h"
+#include "physics/hinge_friction.h"
 
 namespace furrow::bridge {
 namespace {
@@ -26,6 +27,8 @@ void check(const DrapeOptions& o) {
   need(o.refinements >= 0 && o.refinements <= 6, "refinements", o.refinements, "in [0, 6]");
   need(o.coarse_tolerance > 0, "coarse_tolerance", o.coarse_tolerance, "> 0");
   need(o.disturbance >= 0, "disturbance", o.disturbance, ">= 0");
+  need(o.bending_friction >= 0 && !(o.bending_friction > 0 && o.plain), "bending_friction",
+       o.bending_friction, o.plain ? "0, as the plain scheme needs it" : ">= 0");
 }
 
 /// Moves each free particle by so much of the mean edge, the same way in every run.
@@ -70,6 +73,25 @@ physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* 
   return report;
 }
 
+constexpr double least_slip = 2e-3;  // rad
+constexpr int most_rounds = 60;
+
+/// Rest of the last level, once more while hinges give way; they stand at the end of the cloth's.
+void give_way(physics::Cloth& cloth, const physics::Collider* body, double moment,
+              const physics::SettleOptions& o, const physics::SettleObserver& observer,
+              physics::SettleReport& settled, DrapeReport& report) {
+  const physics::HingeFriction friction = physics::add_hinge_friction(cloth, {.moment = moment});
+  do {
+    const physics::SettleReport now = physics::settle(cloth, body, o, observer);
+    const int iterations = settled.iterations, factorisations = settled.factorisations;
+    settled = now;
+    settled.iterations += iterations;
+    settled.factorisations += factorisations;
+    if (!now.converged) return;
+    report.slip = physics::update_friction(cloth, friction);
+  } while (report.slip > least_slip && ++report.friction_rounds < most_rounds);
+}
+
 }  // namespace
 
 DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
@@ -97,9 +119,13 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     physics::SettleOptions settle = o.settle;
     if (!last) settle.tolerance = std::max(settle.tolerance, o.coarse_tolerance);
     if (report.stopped) settle.max_iterations = 0;
-    now.settle = find_rest(cloth, body, o.plain, settle, [&](const physics::SettleProgress& progress) {
+    const auto observer = [&](const physics::SettleProgress& progress) {
       return !go_on || report.stopped || go_on(level, progress, cloth);
-    });
+    };
+    if (last && o.bending_friction > 0 && !report.stopped)
+      give_way(cloth, body, o.bending_friction, settle, observer, now.settle, report);
+    else
+      now.settle = find_rest(cloth, body, o.plain, settle, observer);
     report.stopped = report.stopped || now.settle.stopped;
     if (last) {
       garment = std::move(made);

@@ -19,6 +19,9 @@ struct DrapeOptions {
   /// What a level's start is disturbed by, so that cloth which must buckle does not balance on the way to it:
   /// a share of its mean edge [-]; >= 0.
   double disturbance = 0.01;
+  /// Internal friction of bending on the last level, as a moment a metre of hinge [N]; >= 0, 0: none. It
+  /// needs linear hinges, and not plain. See physics/hinge_friction.h.
+  double bending_friction = 0;
 };
 
 struct DrapeLevel {
@@ -29,6 +32,8 @@ struct DrapeLevel {
 struct DrapeReport {
   std::vector<DrapeLevel> levels;  ///< coarse to fine
   double disturbance = 0;          ///< of the last level [m]
+  int friction_rounds = 0;         ///< rests after each of which hinges that bend too far gave way
+  double slip = 0;                 ///< of a hinge in the last of them [rad]
   bool stopped = false;            ///< by go_on
 };
 
@@ -41,9 +46,10 @@ using DrapeObserver = std::function<bool(int level, const physics::SettleProgres
 /// Fits a garment on a body (null: it only hangs): brings out what lies nearer than the gap, finds rest on
 /// the coarse mesh, carries that shape to the next finer one (Loop's masks take positions as they take the
 /// rest shape) and finds rest there. On return the mesh is refined, has the maps of make_cloth and its
-/// vertices lie where they rest; `cloth` belongs to it. If stopped on a coarse level, the rest of the way is
-/// only carried. Same input, same bits. Cost: most of it is the last level's. Throws std::invalid_argument
-/// for an option out of its range, the mesh unchanged; and as loop_subdivide(), make_cloth and settle() do.
+/// vertices lie where they rest; `cloth` belongs to it, with the hinges of friction at its end. If stopped on
+/// a coarse level, the rest of the way is only carried. Same input, same bits. Cost: most of it is the last
+/// level's. Throws std::invalid_argument for an option out of its range, the mesh unchanged; and as
+/// loop_subdivide(), make_cloth and settle() do.
 DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
                   const DrapeOptions& options, const MakeCloth& make_cloth, const DrapeObserver& go_on = {});
 

@@ -192,6 +192,11 @@ void add_drape(CLI::App& app, int& exit_code) {
   sub->add_option("--band-stiffness", a->settings.band_stiffness,
                   "force in a band at twice its length [N] (default 50)")
       ->check(CLI::NonNegativeNumber);
+  sub->add_option(
+         "--bending-friction", a->settings.bending_friction,
+         "internal friction of bending: the moment that a metre of crease bears before it gives way [N] "
+         "(default 0; half of Kawabata's 2HB)")
+      ->check(CLI::NonNegativeNumber);
   sub->add_option("--residual", a->settings.residual,
                   "largest net force on a vertex, over its weight, at which it rests (default 0.001)");
   sub->add_option("--penetration", a->settings.penetration,

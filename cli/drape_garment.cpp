@@ -179,6 +179,7 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const Dra
   options.settle.friction = scene.simulation.friction;
   options.settle.tolerance = s.residual;
   options.plain = s.plain;
+  options.bending_friction = s.bending_friction;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
   options.settle.gap = gap_of(scene, body, as_read.mesh);
   options.settle.threads =

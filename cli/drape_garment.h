@@ -21,6 +21,7 @@ struct DrapeSettings {
   std::optional<int> iterations;  ///< none: those of the method
   std::vector<Band> bands;
   double band_stiffness = 50;       ///< [N]
+  double bending_friction = 0;      ///< [N]
   std::filesystem::path animation;  ///< of the finest level, a frame an iteration; empty: none
 };
 

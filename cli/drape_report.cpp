@@ -30,7 +30,9 @@ Json to_json(const DrapedRow& row) {
             {"touching", last.settle.touching},
             {"gap", row.gap},
             {"seconds", row.seconds},
-            {"levels", levels}};
+            {"levels", levels},
+            {"friction_rounds", row.report->friction_rounds},
+            {"slip", row.report->slip}};
   json["fit"] = cli::to_json(*row.fit, *row.options);
   return json;
 }

@@ -146,6 +146,7 @@ class Settler {
     for (double share = first_; share > least_share * first_; share *= 0.5) {
       trial_ = moved(share);
       there_ = energy(trial_);
+      if (share == first_) full_ = there_;
       if (there_ <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return share;
       if (there_ <= before + slack_ && std::abs(net_at_trial_along_move()) < -0.9 * slope) return share;
     }
@@ -182,7 +183,8 @@ class Settler {
     }
     double share = search();
     const bool refused = share < first_;
-    if (share == 0 && dot(net_, move_) < slack_) trial_ = moved(share = first_);  // as well as any
+    if (share == 0 && dot(net_, move_) < slack_ && full_ <= energy_ + slack_)
+      trial_ = moved(share = first_);  // as well as any
     if (contact_ && refused) contact_->make_room(p_.x, moved(first_), p_.inv_mass);
     if (share == 0) {
       if (contact_) contact_->expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
@@ -233,10 +235,10 @@ class Settler {
   ThreadPool pool_;
   std::unique_ptr<AnchoredContact> contact_;
   LimitedMemory memory_;
-  double tau_ = first_time, clamp_ = 1, clamped_ = 1;  // clamped_: of the last factorisation
-  double slack_ = 0;                                   // of the energy [J]
-  double energy_ = unknown, there_ = unknown;          // at p_.x and at trial_ [J]
-  double first_ = 1;                                   // share of a move that search() begins with
+  double tau_ = first_time, clamp_ = 1, clamped_ = 1;           // clamped_: of the last factorisation
+  double slack_ = 0;                                            // of the energy [J]
+  double energy_ = unknown, there_ = unknown, full_ = unknown;  // at p_.x, trial_, the whole first_ [J]
+  double first_ = 1;                                            // share of a move that search() begins with
   Vectors elastic_, net_, move_, trial_;
   SettleReport report_;
 };

@@ -109,3 +109,39 @@ TEST_CASE("drape: the plain scheme comes to a like rest, an observer stops it, b
                     Catch::Contains("refinements = -1"));
   CHECK(untouched.number_of_vertices() == across().number_of_vertices());
 }
+
+TEST_CASE("drape: friction of bending bears what it can, and cloth hangs less for it") {
+  const Sphere ball(Vec3::Zero(), 0.1);
+  const auto lowest = [&](double friction, double* slip) {
+    geometry::Mesh mesh = across();
+    physics::Cloth cloth;
+    bridge::DrapeOptions options;
+    options.refinements = 1;
+    options.disturbance = 0;
+    options.bending_friction = friction;
+    const bridge::DrapeReport report = bridge::drape(mesh, cloth, &ball, options, make);
+    CHECK(report.levels[1].settle.converged);
+    CHECK((report.friction_rounds > 0) == (friction > 0));
+    *slip = report.slip;
+    double mean = 0;
+    for (const Vec3& x : cloth.particles.x) mean += x.y() / double(cloth.particles.size());
+    return mean;
+  };
+  double slip = 0;
+  const double without = lowest(0, &slip);
+  CHECK(slip == 0);
+  const double little = lowest(1e-4, &slip);
+  CHECK(slip <= 2e-3);
+  const double much = lowest(1e-3, &slip);
+  CHECK(little > without);
+  CHECK(much > little + 0.001);
+  geometry::Mesh mesh = across();
+  physics::Cloth cloth;
+  bridge::DrapeOptions options;
+  options.bending_friction = -1;
+  CHECK_THROWS_WITH(bridge::drape(mesh, cloth, &ball, options, make),
+                    Catch::Contains("bending_friction = -1"));
+  options.bending_friction = 1e-4;
+  options.plain = true;
+  CHECK_THROWS_WITH(bridge::drape(mesh, cloth, &ball, options, make), Catch::Contains("plain"));
+}
