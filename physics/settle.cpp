@@ -85,7 +85,7 @@ class Settler {
 
  private:
   double energy(const Vectors& x) {
-    double e = potential_energy(cloth_, x);
+    double e = potential_energy(cloth_, x, pool_);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (p_.inv_mass[i] > 0) e -= p_.mass[i] * o_.gravity.dot(x[i]);
     return contact_ ? e + contact_->energy(x, p_.inv_mass, &pool_) : e;
@@ -93,7 +93,7 @@ class Settler {
 
   void find_forces() {
     elastic_.assign(p_.size(), Vec3::Zero());
-    add_forces(cloth_, p_.x, elastic_);
+    add_forces(cloth_, p_.x, elastic_, pool_);
     if (contact_) contact_->look(p_.x, p_.inv_mass, &pool_);
     find_net();
   }
