@@ -5,22 +5,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bridge/body.h"
 #include "bridge/convert.h"
 #include "bridge/fit_report.h"
+#include "tests/bridge/test_body.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;
 using namespace furrow::tests;
 
 namespace {
-
-struct Body {
-  physics::TriangleMesh triangles;
-  physics::ExactDistance distance;
-  explicit Body(const geometry::Mesh& mesh)
-      : triangles(bridge::to_triangle_mesh(geometry::repair_body(mesh))), distance(triangles) {}
-};
 
 bridge::FitPiercing measure(const geometry::Mesh& garment, const Body& body) {
   std::vector<double> distances;

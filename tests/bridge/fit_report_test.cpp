@@ -6,12 +6,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "bridge/body.h"
 #include "bridge/convert.h"
 #include "geometry/edge_metric.h"
 #include "geometry/errors.h"
 #include "geometry/property_names.h"
 #include "geometry/vertex_attributes.h"
+#include "tests/bridge/test_body.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 
@@ -19,13 +19,6 @@ using namespace furrow;
 using namespace furrow::tests;
 
 namespace {
-
-struct Body {
-  physics::TriangleMesh triangles;
-  physics::ExactDistance distance;
-  explicit Body(const geometry::Mesh& mesh)
-      : triangles(bridge::to_triangle_mesh(geometry::repair_body(mesh))), distance(triangles) {}
-};
 
 void set_rest(geometry::Mesh& mesh) {
   auto rest = geometry::ensure_map(mesh, geometry::kRestLength);

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "bridge/body.h"
+#include "physics/exact_distance.h"
+
+namespace furrow::tests {
+
+/// A body as the measures of fit ask for it: its triangles, and the exact distance from them.
+struct Body {
+  physics::TriangleMesh triangles;
+  physics::ExactDistance distance;
+  explicit Body(const geometry::Mesh& mesh)
+      : triangles(bridge::to_triangle_mesh(geometry::repair_body(mesh))), distance(triangles) {}
+};
+
+}  // namespace furrow::tests
