@@ -35,7 +35,8 @@ struct FrontTree {
   std::vector<Front> fronts;  // children before parents, a branch in one piece
 };
 
-/// Cost: the order of elimination, 0.1 s for 12,000 vertices, and about half of that. Throws std::bad_alloc.
+/// Cost: the order of elimination, 0.1 s for 12,000 vertices, and about half of that. Throws as
+/// nested_dissection().
 FrontTree front_tree(const FrontTree::Sparse& lower);
 
 }  // namespace furrow::physics

@@ -4,8 +4,7 @@
 #include <metis.h>
 
 #include <mutex>
-#include <stdexcept>
-#include <string>
+#include <new>
 #include <numeric>
 
 namespace furrow::physics {
@@ -36,7 +35,7 @@ std::vector<int> nested_dissection(std::span<const std::vector<int>> below) {
   const std::lock_guard lock(random_numbers);
   if (METIS_NodeND(&n, first.data(), neighbours.data(), nullptr, options, order.data(), found.data()) !=
       METIS_OK)
-    throw std::invalid_argument("nested_dissection: no memory for " + std::to_string(n) + " columns");
+    throw std::bad_alloc();
   place.assign(found.begin(), found.end());
   return place;
 }

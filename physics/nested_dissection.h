@@ -9,7 +9,7 @@ namespace furrow::physics {
 /// each column. Separators come last, so that the elimination tree has balanced branches. below: of each
 /// column the rows below the diagonal, ascending, without repetition. Same input, same order; one call at a
 /// time (METIS draws from rand(): it is seeded anew here). Cost: O(n log n); 0.1 s for 12,000 vertices of a
-/// garment. Throws std::invalid_argument if there is no memory for so many columns. Source: METIS_NodeND;
+/// garment. Throws std::bad_alloc. Source: METIS_NodeND;
 /// Karypis and Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs, SIAM J.
 /// Sci. Comput. 20(1), 1998.
 std::vector<int> nested_dissection(std::span<const std::vector<int>> below);

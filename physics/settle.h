@@ -10,12 +10,12 @@ namespace furrow::physics {
 struct SettleOptions {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]; finite
   double friction = 0.3;      ///< Coulomb coefficient with the body [-]; >= 0
-  double gap = 0.003;         ///< distance at which cloth rests on the body [m]; > 0
+  double gap = 0.003;         ///< distance from the body at which it begins to push [m]; > 0
   double tolerance = 1e-3;    ///< residual_force() at which it ends [-]; > 0
   int max_iterations = 200;   ///< >= 0
-  /// No vertex moves farther in an iteration [m]; > 0: less than half the thickness of any limb.
+  /// No vertex moves farther in a step [m]; > 0: less than half the thickness of any limb.
   double longest_move = 0.02;
-  int threads = 1;  ///< of the factorisation; >= 1; the result is the same for any number
+  int threads = 1;  ///< that share the work; >= 1; the result is the same for any number
 };
 
 struct SettleProgress {
@@ -42,10 +42,10 @@ struct SettleReport {
 /// positive definite as much of its clamped part (Stiffness) as makes it so, plus m / tau^2 with tau from
 /// 0.03 s up while steps succeed (pseudo-transient continuation), by Cholesky's factorisation; a step is
 /// halved until the energy falls (Armijo, 1e-4), or, for changes of the energy that the kinks of a sampled
-/// body hide, until less force is left along it (Hager and Zhang 2005, SIAM J. Optim. 16(1)). Near rest, up
-/// to ten quasi-Newton steps (LimitedMemory) follow each Newton step with its factors. Limits of friction
-/// follow the push within a step. A start that lies deeper in the body than the gap should be brought out
-/// first (push_out.h).
+/// body hide, until less force is left along it (Hager and Zhang 2005, SIAM J. Optim. 16(1)); one that
+/// promises less than they hide is taken whole. Near rest, up to ten quasi-Newton steps (LimitedMemory)
+/// follow each Newton step with its factors. Limits of friction follow the push within a step. A start that
+/// lies deeper in the body than the gap should be brought out first (push_out.h).
 ///
 /// Cost: a factorisation or two an iteration, O(n^1.5) for n particles of a sheet; some 10 to 30 iterations.
 /// Same input, same bits. Throws std::invalid_argument, nothing changed, if an option is out of its range,

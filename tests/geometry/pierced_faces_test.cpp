@@ -9,6 +9,7 @@
 #include <random>
 
 #include "geometry/errors.h"
+#include "tests/geometry/triangle_soup.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow::geometry;
@@ -16,19 +17,7 @@ using namespace furrow::tests;
 
 namespace {
 
-struct Surface {
-  std::vector<Point> points;
-  std::vector<std::array<int, 3>> triangles;
-  explicit Surface(const Mesh& mesh) : points(mesh.points().begin(), mesh.points().end()) {
-    for (Face f : mesh.faces()) {
-      std::size_t i = 0;
-      triangles.emplace_back();
-      for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) triangles.back()[i++] = int(v);
-    }
-  }
-};
-
-int count(const Mesh& mesh, const Surface& surface) {
+int count(const Mesh& mesh, const TriangleSoup& surface) {
   const std::vector<char> pierced = pierced_faces(mesh, surface.points, surface.triangles);
   REQUIRE(pierced.size() == mesh.num_faces());
   return std::accumulate(pierced.begin(), pierced.end(), 0);
@@ -39,8 +28,8 @@ int count(const Mesh& mesh, const Surface& surface) {
 TEST_CASE("pierced_faces: a needle through the middle of a face, all corners of which lie outside") {
   const Mesh sheet = grid(1, 1);  // two faces over the unit square, z = 0
   const auto needle = [](double tip) {
-    return Surface(mesh_of({{0.7, 0.2, tip}, {0.71, 0.2, -1}, {0.7, 0.21, -1}, {0.69, 0.19, -1}},
-                           {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}));
+    return TriangleSoup(mesh_of({{0.7, 0.2, tip}, {0.71, 0.2, -1}, {0.7, 0.21, -1}, {0.69, 0.19, -1}},
+                                {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}));
   };
   CHECK(count(sheet, needle(1)) == 1);
   CHECK(count(sheet, needle(1e-300)) == 1);   // by the smallest step
@@ -50,7 +39,7 @@ TEST_CASE("pierced_faces: a needle through the middle of a face, all corners of 
 
 TEST_CASE(
     "pierced_faces: a sheet through a ball is pierced along their circle, and nowhere inside or outside") {
-  const Surface ball(icosphere(3, 0.3));
+  const TriangleSoup ball(icosphere(3, 0.3));
   Mesh sheet = grid(40, 40);
   for (Vertex v : sheet.vertices()) sheet.point(v) = sheet.point(v) - Vector(0.5, 0.5, 0.01);
   const std::vector<char> pierced = pierced_faces(sheet, ball.points, ball.triangles);
@@ -86,12 +75,12 @@ TEST_CASE("pierced_faces equals all pairs tested one by one") {
     return mesh_of(points, triangles);
   };
   const Mesh cloth = soup(80);
-  const Surface body(soup(90));
+  const TriangleSoup body(soup(90));
   const auto shape = [](const Point& a, const Point& b, const Point& c) {
     const auto p = [](const Point& q) { return Exact::Point_3(q.x(), q.y(), q.z()); };
     return Exact::Triangle_3(p(a), p(b), p(c));
   };
-  const Surface faces(cloth);
+  const TriangleSoup faces(cloth);
   int expected = 0;
   for (const auto& s : faces.triangles) {
     bool hit = false;
@@ -107,14 +96,14 @@ TEST_CASE("pierced_faces equals all pairs tested one by one") {
 
 TEST_CASE("pierced_faces: what is no surface is refused, faces without area are left out") {
   Mesh sheet = grid(2, 2);
-  const Surface ball(icosphere(1, 1));
+  const TriangleSoup ball(icosphere(1, 1));
   CHECK(count(sheet, ball) > 0);
   CHECK_THROWS_AS(pierced_faces(sheet, ball.points, std::vector<std::array<int, 3>>{{0, 1, 99}}),
                   ContentError);
   std::vector<Point> broken = ball.points;
   broken[3] = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);
   CHECK_THROWS_AS(pierced_faces(sheet, broken, ball.triangles), ContentError);
-  CHECK(count(sheet, Surface(Mesh())) == 0);
+  CHECK(count(sheet, TriangleSoup(Mesh())) == 0);
   for (Vertex v : sheet.vertices()) sheet.point(v) = Point(0, 0, 0.5 + 0.5 * double(v.idx()));
   CHECK(count(sheet, ball) == 0);
   sheet.point(Vertex(3)) = Point(0, std::numeric_limits<double>::infinity(), 0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/geometry/triangle_soup.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 
@@ -13,19 +14,12 @@ using namespace furrow::tests;
 
 namespace {
 
-struct Soup {
-  std::vector<Point> points;
-  std::vector<std::array<int, 3>> triangles;
+struct Soup : TriangleSoup {
   double low = INFINITY, high = -INFINITY;
-  explicit Soup(const Mesh& mesh) {
-    for (Vertex v : mesh.vertices()) {
-      points.push_back(mesh.point(v));
-      low = std::min(low, mesh.point(v).y());
-      high = std::max(high, mesh.point(v).y());
-    }
-    for (Face f : mesh.faces()) {
-      const Halfedge h = mesh.halfedge(f);
-      triangles.push_back({int(mesh.source(h)), int(mesh.target(h)), int(mesh.target(mesh.next(h)))});
+  explicit Soup(const Mesh& mesh) : TriangleSoup(mesh) {
+    for (const Point& p : points) {
+      low = std::min(low, p.y());
+      high = std::max(high, p.y());
     }
   }
 };
