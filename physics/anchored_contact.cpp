@@ -55,7 +55,7 @@ double AnchoredContact::energy(std::span<const Vec3> x, std::span<const double> 
   for_all(pool, x.size(), [&](std::size_t i) {
     if (!(inv_mass[i] > 0)) return;
     const Touch& t = touches_[i];
-    each[i] = push_at(t.gap - collider_.at(x[i]).value).energy;
+    each[i] = push_at(t.gap - collider_.smooth_at(x[i]).value).energy;
     if (t.limit < 0) return;
     const double u = t.way(x[i]).norm();
     each[i] += t.limit * (u <= slip_ ? 0.5 * u * u / slip_ : u - 0.5 * slip_);
@@ -69,7 +69,7 @@ void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_
     t.x = x[i];
     t.push = t.stiffness = 0;
     if (!(inv_mass[i] > 0)) return;
-    const SignedDistance field = collider_.at(x[i]);
+    const SignedDistance field = collider_.smooth_at(x[i]);
     const double slope = field.gradient.norm();
     const Push push = push_at(t.gap - field.value);
     if (!(push.force > 0) || !(slope > 0)) return;
@@ -136,7 +136,7 @@ void AnchoredContact::make_room(std::span<const Vec3> from, std::span<const Vec3
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     Touch& t = touches_[i];
     if (!(inv_mass[i] > 0) || (to[i] - from[i]).norm() > t.gap) continue;
-    const SignedDistance here = collider_.at(from[i]), there = collider_.at(to[i]);
+    const SignedDistance here = collider_.smooth_at(from[i]), there = collider_.smooth_at(to[i]);
     const double most = std::max(here.value, there.value);
     if (!(most < t.gap)) continue;
     const double cosine = here.gradient.dot(there.gradient) / (here.gradient.norm() * there.gradient.norm());

@@ -49,7 +49,7 @@ Mat3 curvature(const Collider& body, const Vec3& x, const Vec3& n, double step) 
   Mat3 second;
   for (int i = 0; i < 3; ++i) {
     const Vec3 e = step * Vec3::Unit(i);
-    second.col(i) = (body.at(x + e).gradient - body.at(x - e).gradient) / (2 * step);
+    second.col(i) = (body.smooth_at(x + e).gradient - body.smooth_at(x - e).gradient) / (2 * step);
   }
   const Mat3 tangent = Mat3::Identity() - n * n.transpose();
   return tangent * (0.5 * (second + second.transpose())) * tangent;
@@ -94,7 +94,7 @@ class Certifier {
     const double g = options_.gravity.norm() > 0 ? options_.gravity.norm() : standard_gravity;
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (!(p.inv_mass[i] > 0)) continue;
-      const SignedDistance field = body.at(p.x[i]);
+      const SignedDistance field = body.smooth_at(p.x[i]);
       const double slope = field.gradient.norm(), weight = g / p.inv_mass[i];
       if (!(field.value <= options_.gap + contact_tolerance) || !(slope > 0)) continue;
       const Vec3 n = field.gradient / slope, push = -(force[i] + options_.gravity / p.inv_mass[i]);

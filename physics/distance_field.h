@@ -55,8 +55,12 @@ class DistanceField : public Collider {
 
   /// 10 to 25 ns; NaN for a NaN point.
   SignedDistance at(const Vec3& x) const override;
-  /// The same bits for many points at once, `result[i]` for x[i]: what a point needs is fetched while others
-  /// are computed, so points in no order cost about what ordered ones do. std::invalid_argument if the
+  /// The mean of at() over a cube of 0.1 mm (at most half a cell of the finest lattice) around x: continuous
+  /// in its gradient within the field's cube, and equal to at() farther than half of that from a cell's face.
+  /// Exact, since what is averaged is trilinear on either side of a face. 1 to 8 queries, 1.2 in the mean.
+  SignedDistance smooth_at(const Vec3& x) const override;
+  /// The bits of at() for many points at once, `result[i]` for x[i]: what a point needs is fetched while
+  /// others are computed, so points in no order cost about what ordered ones do. std::invalid_argument if the
   /// lengths differ.
   void at_many(std::span<const Vec3> x, std::span<SignedDistance> result) const;
 

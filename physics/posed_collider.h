@@ -9,12 +9,12 @@ namespace furrow::physics {
 class PosedCollider : public Collider {
  public:
   PosedCollider(const Collider& body, const Pose& pose) : body_(body), pose_(pose) {}
-  SignedDistance at(const Vec3& x) const override {
-    const SignedDistance d = body_.at(pose_.to_body(x));
-    return {d.value, pose_.rotation * d.gradient};
-  }
+  SignedDistance at(const Vec3& x) const override { return turned(body_.at(pose_.to_body(x))); }
+  SignedDistance smooth_at(const Vec3& x) const override { return turned(body_.smooth_at(pose_.to_body(x))); }
 
  private:
+  SignedDistance turned(const SignedDistance& d) const { return {d.value, pose_.rotation * d.gradient}; }
+
   const Collider& body_;
   Pose pose_;
 };

@@ -34,7 +34,7 @@ double residual_of(std::span<const Vec3> force, const Particles& p, const Vec3& 
     const Vec3 f = force[i] + mass * gravity;
     double rest = f.norm();
     if (collider && p.x[i].allFinite()) {
-      const SignedDistance field = collider->at(p.x[i]);
+      const SignedDistance field = collider->smooth_at(p.x[i]);
       if (field.value <= gap + contact_tolerance && field.gradient.norm() > 0) {
         rest = after_contact(f, field.gradient.normalized(), friction);
       }

@@ -26,7 +26,7 @@ struct SagForces {
   std::vector<Vec3> contact;                         ///< the body's on the cloth [N]
   std::vector<double> scale;  ///< of each spring, bending spring, tension, triangle, hinge, then contact: 1
                               ///< free, less on its limit
-  double potential = 0;  ///< [J]; its derivative by w is what elements and contacts answer
+  double potential = 0;       ///< [J]; its derivative by w is what elements and contacts answer
 };
 
 }  // namespace furrow::physics

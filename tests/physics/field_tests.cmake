@@ -6,6 +6,7 @@ furrow_add_tests(field LIBRARIES furrow::physics CGAL::CGAL SOURCES
   depth_map_collider_test.cpp
   exact_distance_test.cpp
   distance_field_at_many_test.cpp
+  distance_field_smooth_test.cpp
   distance_field_test.cpp
   distance_field_bytes_test.cpp
   distance_field_progress_test.cpp
