@@ -3,12 +3,12 @@
 // with its top border loop held: a table (CSV).
 //   equal_garments [OPTIONS] GARMENT BODY [GARMENT BODY …]
 //     --refinements 1  of all garments (Loop)      --drag 12     of leapfrog [1/s]
-//     --seconds 20     leapfrog's at most          --factor 300  of the stiff contact, see below
+//     --seconds 20     leapfrog's at most          --depth 1e-6  of the exact contact, see below [m]
 //     --starts 2       starts of both, see below
 // Both begin where the last level of `furrow drape` begins. Of further starts the last is the garment as it
 // lies in its file; those between are the first, disturbed once more. settle() runs to 1e-5 of a vertex's
-// weight, leapfrog to 1e-2, or until it gets no nearer. `stiff`: settle() goes on with a contact that is
-// stiffer by factor^2 (cases/stiff_contact.h), in steps of at most 10, as leapfrog's contact bears no depth.
+// weight, leapfrog to 1e-2, or until it gets no nearer. `exact`: settle() with contact_depth, as
+// `furrow drape --contact-depth`, since leapfrog's contact bears no depth.
 //   U: of elements. E: U and weight, this from the height of the rest that is compared with, where so E is U.
 // freed: E of the start less E of that rest. Distances are between the surfaces, both ways.
 #include <algorithm>
@@ -22,7 +22,6 @@
 
 #include "bench/cases/draped.h"
 #include "bench/cases/garment_pair.h"
-#include "bench/cases/stiff_contact.h"
 #include "geometry/subdivide.h"
 #include "physics/certificate.h"
 #include "physics/elements.h"
@@ -36,7 +35,7 @@ using physics::Cloth, physics::Vec3;
 
 struct Arguments {
   std::map<std::string, double> options{
-      {"--refinements", 1}, {"--drag", 12}, {"--seconds", 20}, {"--factor", 300}, {"--starts", 2}};
+      {"--refinements", 1}, {"--drag", 12}, {"--seconds", 20}, {"--depth", 1e-6}, {"--starts", 2}};
   std::vector<std::string> files;
   double operator[](const char* name) const { return options.at(name); }
 };
@@ -65,30 +64,22 @@ double energy_over(const Cloth& a, const Cloth& b) {
   return e;
 }
 
-void settle_on(const physics::Collider& body, const Scene& scene, Rest& rest) {
+/// contact_depth: of settle().
+Rest settled(const std::string& name, const Scene& scene, const Cloth& start,
+             double contact_depth = physics::SettleOptions{}.contact_depth) {
+  Rest rest{name, start};
   physics::SettleOptions o;
   o.friction = 0;
   o.gap = scene.gap;
+  o.contact_depth = contact_depth;
   o.tolerance = 1e-5;
   o.max_iterations = 500;
-  rest.work += physics::settle(rest.cloth, &body, o).iterations;
-}
-
-Rest settled(const std::string& name, const Scene& scene, const Cloth& start) {
-  Rest rest{name, start};
-  settle_on(*scene.body, scene, rest);
+  rest.work = physics::settle(rest.cloth, scene.body, o).iterations;
   return rest;
 }
 
-/// Each step begins with the cloth brought out: a residual does not tell how deep cloth lies.
-Rest stiffened(const std::string& name, const Scene& scene, const Cloth& start) {
-  Rest rest{name, start};
-  const double last = scene.arguments["--factor"];
-  for (double factor = std::min(10.0, last);; factor = std::min(10 * factor, last)) {
-    cases::bring_out(rest.cloth, *scene.body, scene.gap);
-    settle_on(cases::StiffContact(*scene.body, scene.gap, factor), scene, rest);
-    if (factor >= last) return rest;
-  }
+Rest exact(const std::string& name, const Scene& scene, const Cloth& start) {
+  return settled(name, scene, start, scene.arguments["--depth"]);
 }
 
 /// Whether a motion is to go on: until 1e-2, or until it gets no nearer.
@@ -178,20 +169,20 @@ std::vector<Cloth> starts_of(const Scene& scene, const cases::GarmentPair& pair,
 }
 
 void compare(const Scene& scene, const std::vector<Cloth>& starts) {
-  std::vector<Rest> fast, stiff, leapfrog;
+  std::vector<Rest> fast, tight, leapfrog;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const auto row = [&](const Rest& a, const Rest& b) { print_row(scene, int(i), starts[i], a, b); };
     fast.push_back(settled("settle", scene, starts[i]));
-    stiff.push_back(stiffened("stiff", scene, fast[i].cloth));
+    tight.push_back(exact("exact", scene, starts[i]));
     leapfrog.push_back(moved("leapfrog", scene, starts[i]));
     row(fast[i], leapfrog[i]);
-    row(stiff[i], leapfrog[i]);
+    row(tight[i], leapfrog[i]);
     row(settled("settle from leapfrog", scene, leapfrog[i].cloth), leapfrog[i]);
-    row(stiffened("stiff from leapfrog", scene, leapfrog[i].cloth), leapfrog[i]);
+    row(exact("exact from leapfrog", scene, leapfrog[i].cloth), leapfrog[i]);
     row(moved("leapfrog from settle", scene, fast[i].cloth), fast[i]);
-    row(moved("leapfrog from stiff", scene, stiff[i].cloth), stiff[i]);
+    row(moved("leapfrog from exact", scene, tight[i].cloth), tight[i]);
     if (i == 0) continue;
-    for (const auto& all : {fast, stiff, leapfrog}) {
+    for (const auto& all : {fast, tight, leapfrog}) {
       Rest first = all[0];
       first.name += " from start 0";
       row(all[i], first);
@@ -211,16 +202,17 @@ Arguments arguments_of(int count, char** words) {
       throw std::invalid_argument(word + " takes a number >= 0");
     }
   }
-  if (a["--starts"] < 1 || a["--factor"] < 1) throw std::invalid_argument("--starts, --factor: at least 1");
+  if (a["--starts"] < 1) throw std::invalid_argument("--starts: at least 1");
   if (a.files.empty() || a.files.size() % 2) throw std::invalid_argument("name garments, each with its body");
   return a;
 }
 
 void run(const Arguments& a) {
   std::printf(
-      "# Rests of settle() and of leapfrog: friction 0, top loop held, cotton, drag %g /s, stiff: factor %g; "
+      "# Rests of settle() and of leapfrog: friction 0, top loop held, cotton, drag %g /s, exact: depth %g "
+      "m; "
       "see bench/equal_garments.cpp. Columns from `residual` on tell of `rest`.\n",
-      a["--drag"], a["--factor"]);
+      a["--drag"], a["--depth"]);
   std::printf(
       "garment,vertices,start,rest,compared with,U [mJ],U compared with [mJ],dE [mJ],dE/E [%%],dE/freed [%%],"
       "distance median [mm],distance p95 [mm],distance max [mm],residual [-],negative eigenvalues,"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bridge/drape.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -27,6 +29,8 @@ void check(const DrapeOptions& o) {
   need(o.refinements >= 0 && o.refinements <= 6, "refinements", o.refinements, "in [0, 6]");
   need(o.coarse_tolerance > 0, "coarse_tolerance", o.coarse_tolerance, "> 0");
   need(o.disturbance >= 0, "disturbance", o.disturbance, ">= 0");
+  need(!o.plain || std::isinf(o.settle.contact_depth), "contact_depth",
+       std::min(o.settle.contact_depth, 1e300), "left away, as the plain scheme needs it");
   need(o.bending_friction >= 0 && !(o.bending_friction > 0 && o.plain), "bending_friction",
        o.bending_friction, o.plain ? "0, as the plain scheme needs it" : ">= 0");
 }
@@ -117,7 +121,10 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     now.vertices = cloth.particles.size();
     now.pushed = bring_out(cloth, body, o.settle.gap);
     physics::SettleOptions settle = o.settle;
-    if (!last) settle.tolerance = std::max(settle.tolerance, o.coarse_tolerance);
+    if (!last) {
+      settle.tolerance = std::max(settle.tolerance, o.coarse_tolerance);
+      settle.contact_depth = std::numeric_limits<double>::infinity();
+    }
     if (report.stopped) settle.max_iterations = 0;
     const auto observer = [&](const physics::SettleProgress& progress) {
       return !go_on || report.stopped || go_on(level, progress, cloth);

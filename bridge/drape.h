@@ -11,7 +11,7 @@ namespace furrow::bridge {
 
 struct DrapeOptions {
   int refinements = 0;            ///< Loop subdivisions between the given mesh and the fitted one; in [0, 6]
-  physics::SettleOptions settle;  ///< of the last level; on the others it ends at coarse_tolerance
+  physics::SettleOptions settle;  ///< of the last level; others end at coarse_tolerance, at any depth
   /// Paper 2's plain scheme (physics/displace_by_force.h) with the same friction, gap, tolerance and, for its
   /// passes, max_iterations; to compare with: it takes a hundred times as long.
   bool plain = false;

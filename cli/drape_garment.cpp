@@ -178,6 +178,7 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const Dra
   options.settle.gravity = scene.simulation.gravity;
   options.settle.friction = scene.simulation.friction;
   options.settle.tolerance = s.residual;
+  if (s.contact_depth) options.settle.contact_depth = *s.contact_depth;
   options.plain = s.plain;
   options.bending_friction = s.bending_friction;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);

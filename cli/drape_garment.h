@@ -17,8 +17,9 @@ struct Band {
 struct DrapeSettings {
   bool plain = false;
   double residual = physics::SettleOptions{}.tolerance;
-  double penetration = 0.005;     ///< depth to which the body may come through the cloth [m]
-  std::optional<int> iterations;  ///< none: those of the method
+  std::optional<double> contact_depth;  ///< that cloth may lie inside the gap [m]; none: as it comes
+  double penetration = 0.005;           ///< depth to which the body may come through the cloth [m]
+  std::optional<int> iterations;        ///< none: those of the method
   std::vector<Band> bands;
   double band_stiffness = 50;       ///< [N]
   double bending_friction = 0;      ///< [N]

@@ -28,6 +28,7 @@ Json to_json(const DrapedRow& row) {
             {"converged", last.settle.converged},
             {"residual_force", last.settle.residual},
             {"touching", last.settle.touching},
+            {"contact_depth", last.settle.deepest},
             {"gap", row.gap},
             {"seconds", row.seconds},
             {"levels", levels},
@@ -69,8 +70,9 @@ void tell_unrest(const DrapedRow& row, const CommonArguments& common) {
   if (last.touching == 0)
     warn(row.name + ": never came to lie on the body; look at --unit and at where the two are", common);
   std::cerr << "error: " << row.name << ": not at rest after " << last.iterations
-            << " iterations, residual force " << last.residual
-            << " of a vertex's weight; give more with --iterations, or accept it with --residual\n";
+            << " iterations, residual force " << last.residual << " of a vertex's weight, cloth "
+            << 1000 * last.deepest
+            << " mm deep in the gap; give more with --iterations, or accept it with --residual\n";
 }
 
 }  // namespace

@@ -49,6 +49,11 @@ AnchoredContact::Push AnchoredContact::push_at(double d) const {
   return {k * (0.5 * d * d - 0.5 * s * d + s * s / 6), k * (d - 0.5 * s), k};
 }
 
+double AnchoredContact::depth_of(double force) const {
+  const double k = options_.stiffness, s = soft_;
+  return force < 0.5 * k * s ? std::sqrt(2 * force * s / k) : force / k + 0.5 * s;
+}
+
 double AnchoredContact::energy(std::span<const Vec3> x, std::span<const double> inv_mass,
                                ThreadPool* pool) const {
   std::vector<double> each(x.size(), 0);
@@ -76,6 +81,8 @@ void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_
     t.push = push.force * slope;
     t.stiffness = push.stiffness * slope * slope;
     t.normal = field.gradient / slope;
+    t.depth = t.gap - field.value;
+    t.slope = slope;
   });
 }
 
@@ -142,6 +149,22 @@ void AnchoredContact::make_room(std::span<const Vec3> from, std::span<const Vec3
     const double cosine = here.gradient.dot(there.gradient) / (here.gradient.norm() * there.gradient.norm());
     if (cosine < 0.5) t.gap = most > 0 ? 0.5 * most : 2 * most;
   }
+}
+
+void AnchoredContact::stiffen(double factor, std::span<Vec3> x) {
+  soft_ /= factor;
+  options_.stiffness *= factor * factor;
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const Touch& t = touches_[i];
+    if (t.push > 0) x[i] += (t.depth - depth_of(t.push / t.slope)) / t.slope * t.normal;
+  }
+}
+
+double AnchoredContact::deepest() const {
+  double depth = 0;
+  for (const Touch& t : touches_)
+    if (t.push > 0) depth = std::max(depth, t.depth);
+  return depth;
 }
 
 int AnchoredContact::touching() const {

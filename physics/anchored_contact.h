@@ -44,7 +44,11 @@ class AnchoredContact {
   /// another side at `to` (normals over 60 degrees apart), rests from now on within half the distance [m]
   /// that it has there.
   void make_room(std::span<const Vec3> from, std::span<const Vec3> to, std::span<const double> inv_mass);
-  int touching() const;  ///< particles that are pushed
+  /// From here on the soft layer is `factor` times thinner and the push beyond it factor^2 times as stiff.
+  /// Who is pushed moves out to where the push is what it was, in x, the positions of the last look().
+  void stiffen(double factor, std::span<Vec3> x);
+  int touching() const;    ///< particles that are pushed
+  double deepest() const;  ///< of them, inside its gap [m]; 0: none
 
  private:
   struct Touch {
@@ -53,6 +57,7 @@ class AnchoredContact {
     bool slides = false;  ///< dragged its anchor last time
     Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
     double push = 0, stiffness = 0;  ///< [N], [N/m]; 0: apart
+    double depth = 0, slope = 1;     ///< inside the gap [m]; length of the body's gradient [-]
     double gap;                      ///< [m]; the option, unless make_room() lowered it
     /// From the anchor, along the surface [m].
     Vec3 way(const Vec3& to) const { return to - anchor - normal.dot(to - anchor) * normal; }
@@ -61,6 +66,7 @@ class AnchoredContact {
     double energy, force, stiffness;
   };
   Push push_at(double depth) const;
+  double depth_of(double force) const;  ///< where push_at() gives that force
 
   const Collider& collider_;
   AnchoredContactOptions options_;

@@ -21,6 +21,7 @@ namespace {
 
 using Vectors = std::vector<Vec3>;
 
+constexpr double least_depth = 1e-7;  // m
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double contact_share = 0.5;     // of the mean stiffness of a particle
@@ -29,7 +30,7 @@ constexpr double least_share = 1.0 / 32;  // of a step
 constexpr double least_clamp = 0.02;      // once the Hessian alone would not do
 constexpr double relax_clamp = 0.7;       // after a success
 constexpr double far_from_rest = 1e4;     // residual above which one step is all that a factorisation is for
-constexpr double slack_share = 3e-4;      // of weight times gap: what is too little energy to judge by
+constexpr double stiffer = 10;            // a contact's next depth, that many times less
 constexpr int most_followers = 10;        // steps with one factorisation, after the first
 constexpr double follow_until = 1e-2;     // share of the first one's expected fall of energy
 
@@ -42,6 +43,7 @@ void check(const Cloth& cloth, const SettleOptions& o) {
   for (const double g : o.gravity) need(true, "gravity", g, "finite");
   need(o.friction >= 0, "friction", o.friction, ">= 0");
   need(o.gap > 0, "gap", o.gap, "> 0");
+  need(o.contact_depth >= least_depth, "contact_depth", std::min(o.contact_depth, 1e300), ">= 1e-7");
   need(o.tolerance > 0, "tolerance", o.tolerance, "> 0");
   need(o.max_iterations >= 0, "max_iterations", o.max_iterations, ">= 0");
   need(o.longest_move > 0, "longest_move", o.longest_move, "> 0");
@@ -59,8 +61,6 @@ class Settler {
         stiffness_(cloth),
         pool_(options.threads),
         memory_([this](std::span<Vec3> f) { stiffness_.solve(f, &pool_); }, most_followers) {
-    for (std::size_t i = 0; i < p_.size(); ++i)
-      if (p_.inv_mass[i] > 0) slack_ += slack_share * p_.mass[i] * options.gravity.norm() * options.gap;
     stiffness_.assemble(cloth, p_.x, Stiffness::positive_part);
     if (!collider) return;
     const double k = contact_share * stiffness_.mean_diagonal();
@@ -74,12 +74,16 @@ class Settler {
     for (;; ++report_.iterations) {
       find_forces();
       report_.residual = residual_of(elastic_, p_, o_.gravity, collider_, o_.friction, o_.gap);
-      report_.converged = report_.residual <= o_.tolerance;
+      const bool rests = report_.residual <= o_.tolerance;
+      report_.converged = rests && !(contact_ && contact_->deepest() > o_.contact_depth);
       report_.stopped = observer && !observer({report_.iterations, report_.residual});
       if (report_.converged || report_.stopped || report_.iterations == o_.max_iterations) break;
-      step();
+      rests ? stiffen() : step();
     }
-    report_.touching = contact_ ? contact_->touching() : 0;
+    if (contact_) {
+      report_.touching = contact_->touching();
+      report_.deepest = contact_->deepest();
+    }
     return report_;
   }
 
@@ -107,6 +111,13 @@ class Settler {
       else
         net_[i].setZero();
     }
+  }
+
+  void stiffen() {
+    contact_->stiffen(stiffer, p_.x);
+    contact_->look(p_.x, p_.inv_mass, &pool_);
+    contact_->move_anchors();
+    tau_ = first_time;
   }
 
   /// Clamps the Hessian until it is positive definite.
@@ -137,8 +148,6 @@ class Settler {
   }
 
   /// The longest share of the move, from first_ halved, that lowers the energy, and trial_ there; 0: none.
-  /// Where the body's gradient jumps a little from cell to cell, energy alone would refuse good steps near
-  /// rest: there it is enough that less is left to gain along the move.
   double search() {
     if (std::isnan(energy_)) energy_ = energy(p_.x);
     const double before = energy_, slope = -dot(net_, move_);
@@ -146,21 +155,9 @@ class Settler {
     for (double share = first_; share > least_share * first_; share *= 0.5) {
       trial_ = moved(share);
       there_ = energy(trial_);
-      if (share == first_) full_ = there_;
       if (there_ <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return share;
-      if (there_ <= before + slack_ && std::abs(net_at_trial_along_move()) < -0.9 * slope) return share;
     }
     return 0;
-  }
-
-  double net_at_trial_along_move() {
-    const Vectors here = p_.x;
-    p_.x = trial_;
-    find_forces();
-    const double along = dot(net_, move_);
-    p_.x = here;
-    find_forces();
-    return along;
   }
 
   Vectors moved(double share) const {
@@ -181,10 +178,8 @@ class Settler {
       find_net();
       find_move();
     }
-    double share = search();
+    const double share = search();
     const bool refused = share < first_;
-    if (share == 0 && dot(net_, move_) < slack_ && full_ <= energy_ + slack_)
-      trial_ = moved(share = first_);  // as well as any
     if (contact_ && refused) contact_->make_room(p_.x, moved(first_), p_.inv_mass);
     if (share == 0) {
       if (contact_) contact_->expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
@@ -235,10 +230,9 @@ class Settler {
   ThreadPool pool_;
   std::unique_ptr<AnchoredContact> contact_;
   LimitedMemory memory_;
-  double tau_ = first_time, clamp_ = 1, clamped_ = 1;           // clamped_: of the last factorisation
-  double slack_ = 0;                                            // of the energy [J]
-  double energy_ = unknown, there_ = unknown, full_ = unknown;  // at p_.x, trial_, the whole first_ [J]
-  double first_ = 1;                                            // share of a move that search() begins with
+  double tau_ = first_time, clamp_ = 1, clamped_ = 1;  // clamped_: of the last factorisation
+  double energy_ = unknown, there_ = unknown;          // at p_.x, trial_ [J]
+  double first_ = 1;                                   // share of a move that search() begins with
   Vectors elastic_, net_, move_, trial_;
   SettleReport report_;
 };

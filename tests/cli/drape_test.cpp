@@ -179,6 +179,20 @@ TEST_CASE("drape names the settings that it has no use for, and cloth that is ne
   CHECK(help.find("paper's law, default") == std::string::npos);
 }
 
+TEST_CASE("drape: cloth lies no deeper in the gap than it may") {
+  ScratchDirectory scratch;
+  const auto drape = [&](const std::string& more) {
+    const Run run =
+        run_furrow("drape " + skirt() + " --band top=0.95 --json -o " + (scratch / "a.ply") + more);
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    return json::parse(run.out);
+  };
+  const json as_it_comes = drape(""), exact = drape(" --contact-depth 1e-6");
+  CHECK(as_it_comes["contact_depth"].get<double>() > 1e-5);
+  CHECK(exact["contact_depth"].get<double>() <= 1e-6);
+}
+
 TEST_CASE("drape: what cannot be done is told before the work") {
   ScratchDirectory scratch;
   const auto refused = [&](const std::string& arguments, const std::string& word) {
@@ -199,6 +213,8 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   refused(skirt() + out + " --band top=3", "at most 2");
   refused(skirt() + out + " --band top=0.9 --band top=0.8", "already");
   refused(skirt() + out + " --penetration -1", "--penetration");
+  refused(skirt() + out + " --contact-depth 1e-9", "--contact-depth");
+  refused(skirt() + out + " --contact-depth 1e-5 --plain", "--contact-depth");
   refused(skirt() + out + " --set body.motion.spin={axis=[0,1,0],rate=1}", "body.motion");
   refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,slik", "slik");
   refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,,silk", "missing");

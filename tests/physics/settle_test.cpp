@@ -134,6 +134,45 @@ TEST_CASE("settle: cloth between two limbs rests where there is less room than t
   CHECK(nearest < 0.002);
 }
 
+TEST_CASE("settle: a tight ring on a pole keeps the energy that the gap gives it, as contact gets stiffer") {
+  struct Pole : Collider {
+    SignedDistance at(const Vec3& x) const override {
+      const Vec3 out(x.x(), 0, x.z());
+      return {out.norm() - 0.05, out.normalized()};
+    }
+  } pole;
+  const int n = 40;
+  const double radius = 0.053, chord = 2 * radius * std::sin(3.14159265358979 / n), k = 200,
+               rest = 0.95 * chord;
+  Cloth ring;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / n;
+    add_particle(ring, 1.01 * Vec3(radius * std::cos(angle), 0, radius * std::sin(angle)), 1e-4);
+  }
+  for (int i = 0; i < n; ++i)
+    ring.structural.push_back({std::min(i, (i + 1) % n), std::max(i, (i + 1) % n), rest, k});
+  const double exact = n * 0.5 * k * (chord - rest) * (chord - rest);
+  const SettleOptions o{.gravity = Vec3::Zero(), .friction = 0};
+  const SettleReport as_it_comes = settle(ring, &pole, o);
+  REQUIRE(as_it_comes.converged);
+  CHECK(as_it_comes.deepest > 5e-5);
+  const double soft = potential_energy(ring, ring.particles.x);
+  CHECK(soft < 0.97 * exact);
+  for (const double depth : {1e-5, 1e-7}) {
+    SettleOptions stiff = o;
+    stiff.contact_depth = depth;
+    Cloth cloth = ring;
+    const SettleReport report = settle(cloth, &pole, stiff);
+    CHECK(report.converged);
+    CHECK(report.touching == n);
+    CHECK(report.deepest <= depth);
+    CHECK(report.deepest > 0);
+    const double lost = 1 - potential_energy(cloth, cloth.particles.x) / exact;
+    const double chord_lost = chord * report.deepest / radius;  // what that depth takes from each spring
+    CHECK(lost == Approx(2 * chord_lost / (chord - rest)).epsilon(0.02));
+  }
+}
+
 TEST_CASE("settle: the observer stops it, and options out of range change nothing") {
   Cloth cloth = membrane_sheet(5);
   cloth.particles.inv_mass[0] = cloth.particles.inv_mass[4] = 0;
@@ -149,6 +188,7 @@ TEST_CASE("settle: the observer stops it, and options out of range change nothin
   const auto before = cloth.particles.x;
   CHECK_THROWS_WITH(settle(cloth, nullptr, {.friction = -1}), Catch::Contains("friction = -1"));
   CHECK_THROWS_WITH(settle(cloth, nullptr, {.gap = 0}), Catch::Contains("gap = 0"));
+  CHECK_THROWS_WITH(settle(cloth, nullptr, {.contact_depth = 1e-8}), Catch::Contains("contact_depth"));
   CHECK_THROWS_WITH(settle(cloth, nullptr, {.tolerance = 0}), Catch::Contains("tolerance"));
   CHECK_THROWS_WITH(settle(cloth, nullptr, {.threads = 0}), Catch::Contains("threads"));
   cloth.particles.x[3].y() = std::numeric_limits<double>::quiet_NaN();
