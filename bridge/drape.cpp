@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bridge/drape.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,20 +36,28 @@ void check(const DrapeOptions& o) {
        o.bending_friction, o.plain ? "0, as the plain scheme needs it" : ">= 0");
 }
 
-/// Moves each free particle by so much of the mean edge, the same way in every run.
+/// Moves each free particle along its normal, in or out, by up to so much of the mean edge, the same way in
+/// every run: creases begin so, and the cloth is hardly strained.
 double disturb(physics::Cloth& cloth, double share) {
+  std::vector<Vec3>& x = cloth.particles.x;
+  std::vector<Vec3> normal(x.size(), Vec3::Zero());
   double sum = 0;
-  for (const auto& t : cloth.triangles)
-    for (int c = 0; c < 3; ++c) sum += (cloth.particles.x[t[c]] - cloth.particles.x[t[(c + 1) % 3]]).norm();
+  for (const auto& [a, b, c] : cloth.triangles) {
+    sum += (x[b] - x[a]).norm() + (x[c] - x[b]).norm() + (x[a] - x[c]).norm();
+    const Vec3 n = (x[b] - x[a]).eval().cross((x[c] - x[a]).eval());
+    for (const int corner : {a, b, c}) normal[std::size_t(corner)] += n;
+  }
   const double by = cloth.triangles.empty() ? 0 : share * sum / (3 * double(cloth.triangles.size()));
   std::mt19937_64 engine(1);
-  const auto random = [&] { return double(engine() >> 11) * 0x1p-52 - 1; };
-  for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
-    const double a = random(), b = random(), c = random();
-    if (cloth.particles.inv_mass[i] > 0) cloth.particles.x[i] += by * Vec3(a, b, c);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double random = double(engine() >> 11) * 0x1p-52 - 1, length = normal[i].norm();
+    if (cloth.particles.inv_mass[i] > 0 && length > 0) x[i] += by * random / length * normal[i];
   }
   return by;
 }
+
+/// What cloth at rest may lie inside the gap: to move it would only strain it.
+double rest_depth(double gap) { return std::min(gap / 6, 5e-4); }
 
 physics::PushOutReport bring_out(physics::Cloth& cloth, const physics::Collider* body, double gap) {
   if (!body) return {};
@@ -119,7 +128,7 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     report.disturbance = disturb(cloth, report.stopped ? 0 : o.disturbance);
     DrapeLevel& now = report.levels.emplace_back();
     now.vertices = cloth.particles.size();
-    now.pushed = bring_out(cloth, body, o.settle.gap);
+    now.pushed = bring_out(cloth, body, o.settle.gap - (carried.empty() ? 0 : rest_depth(o.settle.gap)));
     physics::SettleOptions settle = o.settle;
     if (!last) {
       settle.tolerance = std::max(settle.tolerance, o.coarse_tolerance);

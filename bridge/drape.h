@@ -16,9 +16,9 @@ struct DrapeOptions {
   /// passes, max_iterations; to compare with: it takes a hundred times as long.
   bool plain = false;
   double coarse_tolerance = 100;  ///< residual force at which the next level takes over [-]; > 0
-  /// What a level's start is disturbed by, so that cloth which must buckle does not balance on the way to it:
-  /// a share of its mean edge [-]; >= 0.
-  double disturbance = 0.01;
+  /// What a level's start is disturbed by, along its normals, so that cloth which must buckle does not
+  /// balance on the way to it: a share of its mean edge [-]; >= 0.
+  double disturbance = 0.003;
   /// Internal friction of bending on the last level, as a moment a metre of hinge [N]; >= 0, 0: none. It
   /// needs linear hinges, and not plain. See physics/hinge_friction.h.
   double bending_friction = 0;
@@ -43,13 +43,13 @@ using MakeCloth = std::function<physics::Cloth(geometry::Mesh&)>;
 /// level, its settle() progress and its cloth. false: stop here.
 using DrapeObserver = std::function<bool(int level, const physics::SettleProgress&, const physics::Cloth&)>;
 
-/// Fits a garment on a body (null: it only hangs): brings out what lies nearer than the gap, finds rest on
-/// the coarse mesh, carries that shape to the next finer one (Loop's masks take positions as they take the
-/// rest shape) and finds rest there. On return the mesh is refined, has the maps of make_cloth and its
-/// vertices lie where they rest; `cloth` belongs to it, with the hinges of friction at its end. If stopped on
-/// a coarse level, the rest of the way is only carried. Same input, same bits. Cost: most of it is the last
-/// level's. Throws std::invalid_argument for an option out of its range, the mesh unchanged; and as
-/// loop_subdivide(), make_cloth and settle() do.
+/// Fits a garment on a body (null: it only hangs): brings out what lies nearer than the gap (on a finer level
+/// only what lies deeper than cloth does at rest), finds rest on the coarse mesh, carries that shape to the
+/// next finer one (Loop's masks take positions as they take the rest shape) and finds rest there. On return
+/// the mesh is refined, has the maps of make_cloth and its vertices lie where they rest; `cloth` belongs to
+/// it, with the hinges of friction at its end. If stopped on a coarse level, the rest of the way is only
+/// carried. Same input, same bits. Cost: most of it is the last level's. Throws std::invalid_argument for an
+/// option out of its range, the mesh unchanged; and as loop_subdivide(), make_cloth and settle() do.
 DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
                   const DrapeOptions& options, const MakeCloth& make_cloth, const DrapeObserver& go_on = {});
 

@@ -79,5 +79,5 @@ TEST_CASE("drape: a skirt's rest without friction is one of leapfrog's, too", "[
   // A state that is no rest does not pass for one.
   const Cloth fell = moved(start, pair.field, o.settle.gap, 0.05);
   CHECK(cases::farthest(start.particles.x, fell.particles.x) > 0.003);
-  CHECK(energy_gained(start, fell) < -elastic);
+  CHECK(energy_gained(start, fell) < -0.2 * elastic);
 }
