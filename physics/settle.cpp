@@ -31,7 +31,7 @@ constexpr double least_clamp = 0.02;      // once the Hessian alone would not do
 constexpr double relax_clamp = 0.7;       // after a success
 constexpr double far_from_rest = 1e4;     // residual above which one step is all that a factorisation is for
 constexpr double stiffer = 10;            // a contact's next depth, that many times less
-constexpr int most_followers = 20;        // steps with one factorisation, after the first
+constexpr int most_followers = 15;        // steps with one factorisation, after the first
 constexpr double follow_until = 1e-2;     // share of the first one's expected fall of energy
 
 void check(const Cloth& cloth, const SettleOptions& o) {

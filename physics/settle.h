@@ -46,7 +46,7 @@ struct SettleReport {
 /// Newton's method on the energy of elements, weight and AnchoredContact: the Hessian, where it is not
 /// positive definite as much of its clamped part (Stiffness) as makes it so, plus m / tau^2 with tau from
 /// 0.03 s up while steps succeed (pseudo-transient continuation), by Cholesky's factorisation; a step is
-/// halved until the energy falls (Armijo, 1e-4). Near rest, up to twenty quasi-Newton steps (LimitedMemory)
+/// halved until the energy falls (Armijo, 1e-4). Near rest, up to fifteen quasi-Newton steps (LimitedMemory)
 /// follow each Newton step with its factors. Limits of friction follow the push within a step. A start that
 /// lies deeper in the body than the gap should be brought out first (push_out.h).
 ///
