@@ -201,10 +201,11 @@ void add_drape(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--residual", a->settings.residual,
                   "largest net force on a vertex, over its weight, at which it rests (default 0.001)");
-  sub->add_option("--contact-depth", a->settings.contact_depth,
-                  "go on, with contact ever stiffer, until nothing lies deeper in the gap than this [m]: "
-                  "1e-6 gives tight cloth its full strain, in twice the time (default: as it comes, some "
-                  "0.1 mm)")
+  sub->add_option(
+         "--contact-depth", a->settings.contact_depth,
+         "go on, with contact ever stiffer, until nothing lies deeper in the gap than this [m]: "
+         "1e-6 gives tight cloth its full strain, in two to three times the time (default: as it comes, some "
+         "0.1 mm)")
       ->check(CLI::Range(1e-7, 1.0));
   sub->add_option("--penetration", a->settings.penetration,
                   "depth to which the body may come through the cloth, between vertices, too [m] (default "
