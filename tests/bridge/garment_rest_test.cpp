@@ -77,7 +77,7 @@ TEST_CASE("drape: a skirt's rest without friction is one of leapfrog's, too", "[
   CHECK(std::abs(energy_gained(stiff, stayed)) < 1e-3 * elastic);
   CHECK(cases::farthest(stiff.particles.x, stayed.particles.x) < 3e-5);
   // A state that is no rest does not pass for one.
-  const Cloth fell = moved(start, pair.field, o.settle.gap, 0.05);
+  const Cloth fell = moved(start, pair.field, o.settle.gap, 0.1);
   CHECK(cases::farthest(start.particles.x, fell.particles.x) > 0.003);
-  CHECK(energy_gained(start, fell) < -0.2 * elastic);
+  CHECK(energy_gained(start, fell) < -elastic);
 }
