@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -54,30 +53,17 @@ double AnchoredContact::depth_of(double force) const {
   return force < 0.5 * k * s ? std::sqrt(2 * force * s / k) : force / k + 0.5 * s;
 }
 
-double AnchoredContact::energy(std::span<const Vec3> x, std::span<const double> inv_mass,
-                               ThreadPool* pool) const {
-  std::vector<double> each(x.size(), 0);
-  for_all(pool, x.size(), [&](std::size_t i) {
-    if (!(inv_mass[i] > 0)) return;
-    const Touch& t = touches_[i];
-    each[i] = push_at(t.gap - collider_.smooth_at(x[i]).value).energy;
-    if (t.limit < 0) return;
-    const double u = t.way(x[i]).norm();
-    each[i] += t.limit * (u <= slip_ ? 0.5 * u * u / slip_ : u - 0.5 * slip_);
-  });
-  return std::accumulate(each.begin(), each.end(), 0.0);
-}
-
 void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool) {
   for_all(pool, x.size(), [&](std::size_t i) {
     Touch& t = touches_[i];
     t.x = x[i];
-    t.push = t.stiffness = 0;
+    t.energy = t.push = t.stiffness = 0;
     if (!(inv_mass[i] > 0)) return;
     const SignedDistance field = collider_.smooth_at(x[i]);
     const double slope = field.gradient.norm();
     const Push push = push_at(t.gap - field.value);
     if (!(push.force > 0) || !(slope > 0)) return;
+    t.energy = push.energy;
     t.push = push.force * slope;
     t.stiffness = push.stiffness * slope * slope;
     t.normal = field.gradient / slope;
@@ -86,12 +72,23 @@ void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_
   });
 }
 
+double AnchoredContact::energy() const {
+  double sum = 0;
+  for (const Touch& t : touches_) {
+    sum += t.energy;
+    if (t.limit < 0) continue;
+    const double u = t.way().norm();
+    sum += t.limit * (u <= slip_ ? 0.5 * u * u / slip_ : u - 0.5 * slip_);
+  }
+  return sum;
+}
+
 void AnchoredContact::add_forces(std::span<Vec3> force) const {
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     const Touch& t = touches_[i];
     if (t.push > 0) force[i] += t.push * t.normal;
     if (t.limit < 0) continue;
-    const Vec3 u = t.way(t.x);
+    const Vec3 u = t.way();
     force[i] -= t.limit / std::max(slip_, u.norm()) * u;
   }
 }
@@ -100,12 +97,11 @@ void AnchoredContact::add_stiffness(FreeStiffness& stiffness) const {
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     const Touch& t = touches_[i];
     if (!(t.push > 0) && t.limit < 0) continue;
-    const Mat3 across = t.normal * t.normal.transpose();
-    Mat3 block = t.stiffness * across;
+    Mat3 block = t.stiffness * t.normal * t.normal.transpose();
     if (t.limit >= 0) {
-      const Vec3 u = t.way(t.x);
+      const Vec3 u = t.way();
       const double length = u.norm();
-      Mat3 along = Mat3::Identity() - across;
+      Mat3 along = Mat3::Identity() - t.plane * t.plane.transpose();
       // Who slides goes on to: nothing holds it back along its way.
       if (length > slip_ || (t.slides && length > 0)) along -= u * u.transpose() / (length * length);
       block += t.limit / std::max(slip_, length) * along;
@@ -131,7 +127,8 @@ void AnchoredContact::move_anchors() {
     }
     if (t.limit < 0) t.anchor = t.x;
     t.limit = options_.friction * t.push;
-    const Vec3 u = t.way(t.x);
+    t.plane = t.normal;
+    const Vec3 u = t.way();
     const double length = u.norm();
     t.slides = length > slip_;
     t.anchor = t.x - (t.slides ? slip_ / length : 1.0) * u;

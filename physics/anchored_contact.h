@@ -24,17 +24,16 @@ struct AnchoredContactOptions {
 /// With normals, anchors and limits held this is the derivative of an energy, and Newton's method may be used
 /// between calls of move_anchors(): there, who pulls more than the limit drags the anchor along, and limits
 /// become those of the new push. So whatever rest is found, contact forces are in the friction cone; which of
-/// many such rests depends on the way there. Cost: one query of the collider a particle and call of look() or
-/// energy(), shared by the threads of the pool; the results do not depend on their number.
+/// many such rests depends on the way there. Cost: one query of the collider a particle and call of look(),
+/// shared by the threads of the pool; the results do not depend on their number.
 class AnchoredContact {
  public:
   /// The collider must outlive this object. Throws std::invalid_argument if an option is out of its range.
   AnchoredContact(const Collider& collider, const AnchoredContactOptions& options, std::size_t particles);
 
-  /// [J] at x; of particles that can move (inv_mass > 0), as in all that follows.
-  double energy(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool = nullptr) const;
-  /// Asks the body at x: what comes below is of there.
+  /// Asks the body at x: what comes below is of there, and of particles that can move (inv_mass > 0).
   void look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool = nullptr);
+  double energy() const;                               ///< [J]
   void add_forces(std::span<Vec3> force) const;        ///< [N]
   void add_stiffness(FreeStiffness& stiffness) const;  ///< positive semidefinite
   void expect(std::span<const Vec3> move);             ///< limits become those of the push after a move [m]
@@ -53,14 +52,15 @@ class AnchoredContact {
  private:
   struct Touch {
     Vec3 anchor = Vec3::Zero();
-    double limit = -1;    ///< of friction [N]; < 0: no anchor
-    bool slides = false;  ///< dragged its anchor last time
+    double limit = -1;          ///< of friction [N]; < 0: no anchor
+    bool slides = false;        ///< dragged its anchor last time
+    Vec3 plane = Vec3::Zero();  ///< normal that the anchor was set with: friction is across it
     Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
-    double push = 0, stiffness = 0;  ///< [N], [N/m]; 0: apart
-    double depth = 0, slope = 1;     ///< inside the gap [m]; length of the body's gradient [-]
-    double gap;                      ///< [m]; the option, unless make_room() lowered it
+    double energy = 0, push = 0, stiffness = 0;  ///< of the push [J], [N], [N/m]; 0: apart
+    double depth = 0, slope = 1;                 ///< inside the gap [m]; length of the body's gradient [-]
+    double gap;                                  ///< [m]; the option, unless make_room() lowered it
     /// From the anchor, along the surface [m].
-    Vec3 way(const Vec3& to) const { return to - anchor - normal.dot(to - anchor) * normal; }
+    Vec3 way() const { return x - anchor - plane.dot(x - anchor) * plane; }
   };
   struct Push {
     double energy, force, stiffness;

@@ -4,7 +4,6 @@
 
 #include "physics/springs.h"
 #include "physics/stiffness.h"
-#include "physics/thread_pool.h"
 
 namespace furrow::physics {
 
@@ -19,11 +18,6 @@ double potential_energy(const Cloth& cloth, std::span<const Vec3> x);
 
 /// Adds the forces -dE/dx [N]; in total they and their moment are zero.
 void add_forces(const Cloth& cloth, std::span<const Vec3> x, std::span<Vec3> force);
-
-/// The same, in two halves of the elements that the pool's threads share: the same bits for any number of
-/// threads, but not those of the functions above.
-double potential_energy(const Cloth& cloth, std::span<const Vec3> x, ThreadPool& pool);
-void add_forces(const Cloth& cloth, std::span<const Vec3> x, std::span<Vec3> force, ThreadPool& pool);
 
 /// Hands out the blocks of K = d2E/dx2 [N/m], several for one (i, j) where elements share particles; both
 /// (i, j) and (j, i). The sequence of (i, j) depends on the cloth alone, never on x: a sparse matrix can keep

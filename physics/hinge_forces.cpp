@@ -104,14 +104,17 @@ double hinge_energy(std::span<const Vec3> x, std::span<const Hinge> hinges, Hing
   return energy;
 }
 
+double add_forces(std::span<const Vec3> x, const Hinge& h, HingeLaw law, std::span<Vec3> force) {
+  const Dihedral d = dihedral_of(x, h);
+  const HingeMoment m = hinge_moment(law, h.stiffness, bend(d.angle, h.rest_angle));
+  for (int i = 0; i < 4; ++i) force[h.vertices[i]] -= m.moment * d.gradient[i];
+  return m.energy;
+}
+
 void add_hinge_forces(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
                       std::span<Vec3> force) {
   check_all(hinges, x.size(), force.size(), "add_hinge_forces");
-  for (const Hinge& h : hinges) {
-    const Dihedral d = dihedral_of(x, h);
-    const double moment = hinge_moment(law, h.stiffness, bend(d.angle, h.rest_angle)).moment;
-    for (int i = 0; i < 4; ++i) force[h.vertices[i]] -= moment * d.gradient[i];
-  }
+  for (const Hinge& h : hinges) add_forces(x, h, law, force);
 }
 
 void stiffness_blocks(std::span<const Vec3> x, const Hinge& h, HingeLaw law, Stiffness stiffness,

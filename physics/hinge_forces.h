@@ -37,7 +37,9 @@ void add_hinge_forces(std::span<const Vec3> x, std::span<const Hinge> hinges, Hi
                       std::span<Vec3> force);
 void add_hinge_stiffness(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
                          Stiffness stiffness, const BlockSink& sink);
-/// One hinge's, on and below the diagonal; its particles are in range.
+/// One hinge's, whose particles are in range: adds its forces and returns its energy; its blocks on and below
+/// the diagonal.
+double add_forces(std::span<const Vec3> x, const Hinge& hinge, HingeLaw law, std::span<Vec3> force);
 void stiffness_blocks(std::span<const Vec3> x, const Hinge& hinge, HingeLaw law, Stiffness stiffness,
                       Mat3* lower);
 

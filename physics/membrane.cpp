@@ -12,17 +12,18 @@ namespace {
 /// The three edges of a triangle, edge i opposite corner i, from corner i + 1 to corner i + 2.
 struct Edges {
   std::array<Vec3, 3> vector;
+  Eigen::Vector3d longer;   // d = l^2 - L^2 [m^2]
   Eigen::Vector3d tension;  // dW/dd [N/m]
+  double energy() const { return 0.5 * longer.dot(tension); }
 };
 
 Edges edges_of(std::span<const Vec3> x, const MembraneTriangle& t, const MembraneConstants& c) {
   Edges e;
-  Eigen::Vector3d d;
   for (int i = 0; i < 3; ++i) {
     e.vector[i] = x[t.vertices[(i + 2) % 3]] - x[t.vertices[(i + 1) % 3]];
-    d[i] = e.vector[i].squaredNorm() - c.length2[i];
+    e.longer[i] = e.vector[i].squaredNorm() - c.length2[i];
   }
-  e.tension = c.quadratic * d;
+  e.tension = c.quadratic * e.longer;
   return e;
 }
 
@@ -101,26 +102,26 @@ double edge_stiffness(const MembraneConstants& c, int edge) {
 double membrane_energy(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles) {
   const auto constants = checked(triangles, x.size(), x.size(), "membrane_energy");
   double energy = 0;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const Edges e = edges_of(x, triangles[i], constants[i]);
-    Eigen::Vector3d d;
-    for (int j = 0; j < 3; ++j) d[j] = e.vector[j].squaredNorm() - constants[i].length2[j];
-    energy += 0.5 * d.dot(e.tension);
-  }
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    energy += edges_of(x, triangles[i], constants[i]).energy();
   return energy;
+}
+
+double add_forces(std::span<const Vec3> x, const MembraneTriangle& t, const MembraneConstants& c,
+                  std::span<Vec3> force) {
+  const Edges e = edges_of(x, t, c);
+  for (int j = 0; j < 3; ++j) {
+    const Vec3 f = 2 * e.tension[j] * e.vector[j];
+    force[t.vertices[(j + 1) % 3]] += f;
+    force[t.vertices[(j + 2) % 3]] -= f;
+  }
+  return e.energy();
 }
 
 void add_membrane_forces(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
                          std::span<Vec3> force) {
   const auto constants = checked(triangles, x.size(), force.size(), "add_membrane_forces");
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const Edges e = edges_of(x, triangles[i], constants[i]);
-    for (int j = 0; j < 3; ++j) {
-      const Vec3 f = 2 * e.tension[j] * e.vector[j];
-      force[triangles[i].vertices[(j + 1) % 3]] += f;
-      force[triangles[i].vertices[(j + 2) % 3]] -= f;
-    }
-  }
+  for (std::size_t i = 0; i < triangles.size(); ++i) add_forces(x, triangles[i], constants[i], force);
 }
 
 void stiffness_blocks(std::span<const Vec3> x, const MembraneTriangle& t, Stiffness stiffness, Mat3* lower) {

@@ -43,7 +43,10 @@ void add_membrane_forces(std::span<const Vec3> x, std::span<const MembraneTriang
 void add_membrane_stiffness(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
                             Stiffness stiffness, const BlockSink& sink);
 
-/// One triangle's, on and below the diagonal; its particles are in range.
+/// One triangle's, whose particles are in range: adds its forces and returns its energy; its blocks on and
+/// below the diagonal.
+double add_forces(std::span<const Vec3> x, const MembraneTriangle& triangle,
+                  const MembraneConstants& constants, std::span<Vec3> force);
 void stiffness_blocks(std::span<const Vec3> x, const MembraneTriangle& triangle, Stiffness stiffness,
                       Mat3* lower);
 

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "physics/anchored_contact.h"
 #include "physics/check_particles.h"
-#include "physics/elements.h"
+#include "physics/element_forces.h"
 #include "physics/free_stiffness.h"
 #include "physics/limited_memory.h"
 #include "physics/residual_force.h"
@@ -22,7 +21,6 @@ namespace {
 using Vectors = std::vector<Vec3>;
 
 constexpr double least_depth = 1e-7;  // m
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double contact_share = 0.5;     // of the mean stiffness of a particle
 constexpr double first_time = 0.03;       // tau [s]
@@ -58,6 +56,7 @@ class Settler {
         p_(cloth.particles),
         collider_(collider),
         o_(options),
+        elements_(cloth),
         stiffness_(cloth),
         pool_(options.threads),
         memory_([this](std::span<Vec3> f) { stiffness_.solve(f, &pool_); }, most_followers) {
@@ -66,13 +65,13 @@ class Settler {
     const double k = contact_share * stiffness_.mean_diagonal();
     contact_ = std::make_unique<AnchoredContact>(
         *collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
-    contact_->look(p_.x, p_.inv_mass, &pool_);
-    contact_->move_anchors();
   }
 
   SettleReport run(const SettleObserver& observer) {
+    look(p_.x);
+    if (contact_) contact_->move_anchors();
     for (;; ++report_.iterations) {
-      find_forces();
+      find_net();
       report_.residual = residual_of(elastic_, p_, o_.gravity, collider_, o_.friction, o_.gap);
       const bool rests = report_.residual <= o_.tolerance;
       report_.converged = rests && !(contact_ && contact_->deepest() > o_.contact_depth);
@@ -88,19 +87,16 @@ class Settler {
   }
 
  private:
-  double energy(const Vectors& x) {
-    double e = potential_energy(cloth_, x, pool_);
+  /// Asks elements and body what they do at x.
+  void look(const Vectors& x) {
+    elastic_.resize(x.size());
+    at_ = elements_(x, elastic_, pool_);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (p_.inv_mass[i] > 0) e -= p_.mass[i] * o_.gravity.dot(x[i]);
-    return contact_ ? e + contact_->energy(x, p_.inv_mass, &pool_) : e;
+      if (p_.inv_mass[i] > 0) at_ -= p_.mass[i] * o_.gravity.dot(x[i]);
+    if (contact_) contact_->look(x, p_.inv_mass, &pool_);
   }
 
-  void find_forces() {
-    elastic_.assign(p_.size(), Vec3::Zero());
-    add_forces(cloth_, p_.x, elastic_, pool_);
-    if (contact_) contact_->look(p_.x, p_.inv_mass, &pool_);
-    find_net();
-  }
+  double energy() const { return contact_ ? at_ + contact_->energy() : at_; }
 
   void find_net() {
     net_ = elastic_;
@@ -115,7 +111,7 @@ class Settler {
 
   void stiffen() {
     contact_->stiffen(stiffer, p_.x);
-    contact_->look(p_.x, p_.inv_mass, &pool_);
+    look(p_.x);
     contact_->move_anchors();
     tau_ = first_time;
   }
@@ -147,16 +143,17 @@ class Settler {
     first_ = longest > o_.longest_move ? o_.longest_move / longest : 1;
   }
 
-  /// The longest share of the move, from first_ halved, that lowers the energy, and trial_ there; 0: none.
+  /// The longest share of the move, from first_ halved, that lowers the energy; trial_ is there, and all has
+  /// looked there. 0: none, and all has looked where it was.
   double search() {
-    if (std::isnan(energy_)) energy_ = energy(p_.x);
-    const double before = energy_, slope = -dot(net_, move_);
+    const double before = energy(), slope = -dot(net_, move_);
     if (!(slope < 0)) return 0;
     for (double share = first_; share > least_share * first_; share *= 0.5) {
       trial_ = moved(share);
-      there_ = energy(trial_);
-      if (there_ <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return share;
+      look(trial_);
+      if (energy() <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return share;
     }
+    look(p_.x);
     return 0;
   }
 
@@ -167,7 +164,6 @@ class Settler {
   }
 
   void step() {
-    energy_ = unknown;  // contact has changed since
     if (!factorise()) {
       tau_ *= 0.25;
       return;
@@ -188,21 +184,19 @@ class Settler {
       return;
     }
     p_.x = trial_;
-    energy_ = refused ? unknown : there_;
+    if (contact_ && refused) contact_->look(p_.x, p_.inv_mass, &pool_);  // as there is room now
     if (share == 1) tau_ *= 4;
     if (share < first_) {
       tau_ *= 0.9;
       clamp_ = std::min(1.0, 1.5 * clamped_ + least_clamp / 2);
     }
     if (report_.residual < far_from_rest) follow();
-    if (!contact_) return;
-    contact_->look(p_.x, p_.inv_mass, &pool_);
-    contact_->move_anchors();
+    if (contact_) contact_->move_anchors();
   }
 
   /// Goes on with the same factors and what the steps with them show, as long as that pays.
   void follow() {
-    find_forces();
+    find_net();
     double most = 0;
     for (int k = 0; k < most_followers; ++k) {
       find_move();
@@ -212,11 +206,10 @@ class Settler {
       const double share = search();
       if (share == 0) return;
       p_.x = trial_;
-      energy_ = there_;
       ++report_.followers;
       Vectors way = move_, change = net_;
       for (Vec3& m : way) m *= share;
-      find_forces();
+      find_net();
       add_multiple(change, -1, net_);
       memory_.add(std::move(way), std::move(change));
     }
@@ -226,12 +219,13 @@ class Settler {
   Particles& p_;
   const Collider* collider_;
   const SettleOptions& o_;
+  ElementForces elements_;
   FreeStiffness stiffness_;
   ThreadPool pool_;
   std::unique_ptr<AnchoredContact> contact_;
   LimitedMemory memory_;
   double tau_ = first_time, clamp_ = 1, clamped_ = 1;  // clamped_: of the last factorisation
-  double energy_ = unknown, there_ = unknown;          // at p_.x, trial_ [J]
+  double at_ = 0;                                      // energy but contact's, where all looked last [J]
   double first_ = 1;                                   // share of a move that search() begins with
   Vectors elastic_, net_, move_, trial_;
   SettleReport report_;

@@ -34,16 +34,20 @@ double spring_energy(std::span<const Vec3> x, std::span<const Spring> springs) {
   return energy;
 }
 
-void add_spring_forces(std::span<const Vec3> x, std::span<const Spring> springs, std::span<Vec3> force) {
-  check(springs, x.size(), force.size(), "add_spring_forces");
-  for (const Spring& s : springs) {
-    const Vec3 d = x[s.b] - x[s.a];
-    const double l = d.norm();
-    if (l == 0) continue;
+double add_forces(std::span<const Vec3> x, const Spring& s, std::span<Vec3> force) {
+  const Vec3 d = x[s.b] - x[s.a];
+  const double l = d.norm(), stretch = l - s.rest_length;
+  if (l > 0) {
     const Vec3 f = s.stiffness * (1 - s.rest_length / l) * d;
     force[s.a] += f;
     force[s.b] -= f;
   }
+  return 0.5 * s.stiffness * stretch * stretch;
+}
+
+void add_spring_forces(std::span<const Vec3> x, std::span<const Spring> springs, std::span<Vec3> force) {
+  check(springs, x.size(), force.size(), "add_spring_forces");
+  for (const Spring& s : springs) add_forces(x, s, force);
 }
 
 void add_spring_stiffness_product(std::span<const Vec3> x, std::span<const Spring> springs,

@@ -28,7 +28,9 @@ void add_spring_stiffness_product(std::span<const Vec3> x, std::span<const Sprin
 void add_spring_stiffness(std::span<const Vec3> x, std::span<const Spring> springs, Stiffness stiffness,
                           const BlockSink& sink);
 
-/// One spring's, on and below the diagonal; its particles are in range.
+/// One spring's, whose particles are in range: adds its forces and returns its energy; its blocks on and
+/// below the diagonal.
+double add_forces(std::span<const Vec3> x, const Spring& spring, std::span<Vec3> force);
 void stiffness_blocks(std::span<const Vec3> x, const Spring& spring, Stiffness stiffness, Mat3* lower);
 
 }  // namespace furrow::physics

@@ -55,16 +55,21 @@ double tension_energy(std::span<const Vec3> x, std::span<const Tension> tension)
   return energy;
 }
 
-void add_tension_forces(std::span<const Vec3> x, std::span<const Tension> tension, std::span<Vec3> force) {
-  check_all(tension, x.size(), force.size(), "add_tension_forces");
-  for (const Tension& t : tension) {
-    const Vec3 d = x[t.b] - x[t.a];
-    const double l = d.norm();
-    if (l == 0) continue;
-    const Vec3 f = tension_law(t, strain_of(t, l)).force / l * d;
+double add_forces(std::span<const Vec3> x, const Tension& t, std::span<Vec3> force) {
+  const Vec3 d = x[t.b] - x[t.a];
+  const double l = d.norm();
+  const TensionLaw law = tension_law(t, strain_of(t, l));
+  if (l > 0) {
+    const Vec3 f = law.force / l * d;
     force[t.a] += f;
     force[t.b] -= f;
   }
+  return law.energy;
+}
+
+void add_tension_forces(std::span<const Vec3> x, std::span<const Tension> tension, std::span<Vec3> force) {
+  check_all(tension, x.size(), force.size(), "add_tension_forces");
+  for (const Tension& t : tension) add_forces(x, t, force);
 }
 
 void stiffness_blocks(std::span<const Vec3> x, const Tension& t, Stiffness stiffness, Mat3* lower) {

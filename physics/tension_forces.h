@@ -34,7 +34,9 @@ void add_tension_forces(std::span<const Vec3> x, std::span<const Tension> tensio
 void add_tension_stiffness(std::span<const Vec3> x, std::span<const Tension> tension, Stiffness stiffness,
                            const BlockSink& sink);
 
-/// One's, on and below the diagonal; its particles are in range.
+/// One's, whose particles are in range: adds its forces and returns its energy; its blocks on and below the
+/// diagonal.
+double add_forces(std::span<const Vec3> x, const Tension& tension, std::span<Vec3> force);
 void stiffness_blocks(std::span<const Vec3> x, const Tension& tension, Stiffness stiffness, Mat3* lower);
 
 /// For limits of steps: the positive part of tension that is strained by `margin` [-] more than it is, pulled

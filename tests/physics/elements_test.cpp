@@ -25,27 +25,3 @@ TEST_CASE("springs behind one door: derivatives agree with finite differences") 
     CHECK(least_eigenvalue(part - exact) > -1e-12 * part.norm());
   }
 }
-
-TEST_CASE("elements in two halves: energy and forces of the whole, the same bits on any number of threads") {
-  Cloth cloth = sheet(5, 4, 0.1, 0.2, 3, 300, 40);
-  add_membrane(cloth, 300);
-  add_hinges(cloth, 1e-4);
-  Noise noise(8);
-  for (Vec3& x : cloth.particles.x) x += 0.02 * noise.vector();
-  const std::span<const Vec3> x = cloth.particles.x;
-  std::vector<Vec3> whole(x.size(), Vec3::Zero()), first;
-  add_forces(cloth, x, whole);
-  double first_energy = 0;
-  for (const int threads : {1, 2, 3}) {
-    ThreadPool pool(threads);
-    std::vector<Vec3> force(x.size(), Vec3::Zero());
-    add_forces(cloth, x, force, pool);
-    const double energy = potential_energy(cloth, x, pool);
-    CHECK(energy == Approx(potential_energy(cloth, x)).epsilon(1e-12));
-    for (std::size_t i = 0; i < x.size(); ++i)
-      CHECK((force[i] - whole[i]).norm() < 1e-12 * (1 + whole[i].norm()));
-    if (threads == 1) first = force, first_energy = energy;
-    CHECK(force == first);
-    CHECK(energy == first_energy);
-  }
-}

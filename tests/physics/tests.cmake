@@ -11,6 +11,7 @@ furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
   displace_by_force_test.cpp
   displace_on_body_test.cpp
   drop_on_ball_test.cpp
+  element_forces_test.cpp
   elements_test.cpp
   elimination_tree_test.cpp
   euler_step_test.cpp
