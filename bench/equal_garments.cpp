@@ -4,7 +4,7 @@
 //   equal_garments [OPTIONS] GARMENT BODY [GARMENT BODY …]
 //     --refinements 1  of all garments (Loop)      --drag 12     of leapfrog [1/s]
 //     --seconds 20     leapfrog's at most          --depth 1e-6  of the exact contact, see below [m]
-//     --starts 2       starts of both, see below
+//     --starts 2       starts of both, see below  --limit-steps 200  between two estimates of its limit
 // Both begin where the last level of `furrow drape` begins. Of further starts the last is the garment as it
 // lies in its file; those between are the first, disturbed once more. settle() runs to 1e-5 of a vertex's
 // weight, leapfrog to 1e-2, or until it gets no nearer. `exact`: settle() with contact_depth, as
@@ -34,8 +34,8 @@ namespace {
 using physics::Cloth, physics::Vec3;
 
 struct Arguments {
-  std::map<std::string, double> options{
-      {"--refinements", 1}, {"--drag", 12}, {"--seconds", 20}, {"--depth", 1e-6}, {"--starts", 2}};
+  std::map<std::string, double> options{{"--refinements", 1}, {"--drag", 12},  {"--seconds", 20},
+                                        {"--depth", 1e-6},    {"--starts", 2}, {"--limit-steps", 200}};
   std::vector<std::string> files;
   double operator[](const char* name) const { return options.at(name); }
 };
@@ -99,8 +99,13 @@ struct Watch {
   }
 };
 
+struct Diverged : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Under leapfrog. Springs are damped in the first second alone: their damping acts on what the last
-/// half-kick leaves in the velocities of pressed vertices.
+/// half-kick leaves in the velocities of pressed vertices. Hinges of narrow faces stiffen as cloth folds, so
+/// the limit of the step is asked for often.
 Rest moved(const std::string& name, const Scene& scene, const Cloth& start) {
   Rest rest{name, start};
   for (Vec3& v : rest.cloth.particles.v) v.setZero();
@@ -108,6 +113,7 @@ Rest moved(const std::string& name, const Scene& scene, const Cloth& start) {
   o.friction = 0;
   o.contact_gap = scene.gap;
   o.air_drag = scene.arguments["--drag"];
+  o.limit_steps = int(scene.arguments["--limit-steps"]);
   o.seconds = rest.work = 1;
   physics::simulate(rest.cloth, scene.body, o);
   o.spring_damping = 0;
@@ -116,8 +122,7 @@ Rest moved(const std::string& name, const Scene& scene, const Cloth& start) {
   const auto report =
       physics::simulate(rest.cloth, scene.body, o, [&](const auto& now) { return watch.goes_on(now.time); });
   rest.work += report.time;
-  if (report.outcome == physics::Outcome::diverged)
-    throw std::runtime_error(scene.name + ": leapfrog diverged");
+  if (report.outcome == physics::Outcome::diverged) throw Diverged(scene.name + ": leapfrog diverged");
   return rest;
 }
 
@@ -225,7 +230,12 @@ void run(const Arguments& a) {
                 cases::gap_of(pair, refinements), pair.garment, a};
     geometry::loop_subdivide(scene.shape, refinements);
     const bridge::MakeCloth make = cases::make_cotton(pair, cases::vertex_at_top(pair.garment));
-    compare(scene, starts_of(scene, pair, make));
+    try {
+      compare(scene, starts_of(scene, pair, make));
+    } catch (const Diverged& e) {  // it tells nothing of this garment
+      std::printf("# %s\n", e.what());
+      std::fprintf(stderr, "equal_garments: %s\n", e.what());
+    }
   }
 }
 

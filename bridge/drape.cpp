@@ -96,10 +96,11 @@ void give_way(physics::Cloth& cloth, const physics::Collider* body, double momen
   const physics::HingeFriction friction = physics::add_hinge_friction(cloth, {.moment = moment});
   do {
     const physics::SettleReport now = physics::settle(cloth, body, o, observer);
-    const int iterations = settled.iterations, factorisations = settled.factorisations;
+    const physics::SettleReport before = settled;
     settled = now;
-    settled.iterations += iterations;
-    settled.factorisations += factorisations;
+    settled.iterations += before.iterations;
+    settled.factorisations += before.factorisations;
+    settled.followers += before.followers;
     if (!now.converged) return;
     report.slip = physics::update_friction(cloth, friction);
   } while (report.slip > least_slip && ++report.friction_rounds < most_rounds);

@@ -62,8 +62,8 @@ void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_
     const SignedDistance field = collider_.smooth_at(x[i]);
     const double slope = field.gradient.norm();
     const Push push = push_at(t.gap - field.value);
-    if (!(push.force > 0) || !(slope > 0)) return;
     t.energy = push.energy;
+    if (!(push.force > 0) || !(slope > 0)) return;
     t.push = push.force * slope;
     t.stiffness = push.stiffness * slope * slope;
     t.normal = field.gradient / slope;
@@ -113,7 +113,7 @@ void AnchoredContact::add_stiffness(FreeStiffness& stiffness) const {
 void AnchoredContact::expect(std::span<const Vec3> move) {
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     Touch& t = touches_[i];
-    if (t.limit < 0 || !(t.push > 0)) continue;
+    if (t.limit < 0) continue;
     t.limit = options_.friction * std::max(0.0, t.push - t.stiffness * t.normal.dot(move[i]));
   }
 }

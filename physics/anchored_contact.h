@@ -21,11 +21,11 @@ struct AnchoredContactOptions {
 /// pulls it back to an anchor, linearly over a tenth of the layer and then with its limit, friction times
 /// push.
 ///
-/// With normals, anchors and limits held this is the derivative of an energy, and Newton's method may be used
-/// between calls of move_anchors(): there, who pulls more than the limit drags the anchor along, and limits
-/// become those of the new push. So whatever rest is found, contact forces are in the friction cone; which of
-/// many such rests depends on the way there. Cost: one query of the collider a particle and call of look(),
-/// shared by the threads of the pool; the results do not depend on their number.
+/// With anchors and limits held this is the derivative of an energy, and Newton's method may be used between
+/// calls of expect(), make_room(), stiffen() and move_anchors(): there, who pulls more than the limit drags
+/// the anchor along, and limits become those of the new push. So whatever rest is found, contact forces are
+/// in the friction cone; which of many such rests depends on the way there. Cost: one query of the collider a
+/// particle and call of look(), shared by the threads of the pool; the results do not depend on their number.
 class AnchoredContact {
  public:
   /// The collider must outlive this object. Throws std::invalid_argument if an option is out of its range.
@@ -41,7 +41,7 @@ class AnchoredContact {
   /// Where the body leaves less room than the gap (between two fingers, under an arm), pushes from both sides
   /// meet in a kink at which no step succeeds. Who is pushed at `from` and, less than the gap away, from
   /// another side at `to` (normals over 60 degrees apart), rests from now on within half the distance [m]
-  /// that it has there.
+  /// that it has there; the next look() sees it.
   void make_room(std::span<const Vec3> from, std::span<const Vec3> to, std::span<const double> inv_mass);
   /// From here on the soft layer is `factor` times thinner and the push beyond it factor^2 times as stiff.
   /// Who is pushed moves out to where the push is what it was, in x, the positions of the last look().

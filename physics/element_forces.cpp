@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "physics/element_forces.h"
 
+#include <array>
 #include <stdexcept>
 #include <string>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <span>
 #include <vector>
 
@@ -18,8 +17,9 @@ class ElementForces {
   /// std::invalid_argument as potential_energy() does.
   explicit ElementForces(const Cloth& cloth);
 
-  /// The energy E [J] at x, one position a particle [m]; force, as long as x, becomes -dE/dx [N]. Cost: one
-  /// pass. The same bits for any number of threads; potential_energy() and add_forces() sum in another order.
+  /// The energy E [J] at x, one position a particle [m]; force, another array as long as x, becomes -dE/dx
+  /// [N]. Cost: one pass. Not for two callers at once. The same bits for any number of threads;
+  /// potential_energy() and add_forces() sum in another order.
   double operator()(std::span<const Vec3> x, std::span<Vec3> force, ThreadPool& pool);
 
  private:

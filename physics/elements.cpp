@@ -7,6 +7,7 @@
 #include "physics/tension_forces.h"
 
 namespace furrow::physics {
+
 double potential_energy(const Cloth& cloth, std::span<const Vec3> x) {
   return spring_energy(x, cloth.structural) + spring_energy(x, cloth.bending) +
          membrane_energy(x, cloth.membrane) + tension_energy(x, cloth.tension) +

@@ -177,16 +177,16 @@ class Settler {
     const double share = search();
     const bool refused = share < first_;
     if (contact_ && refused) contact_->make_room(p_.x, moved(first_), p_.inv_mass);
+    if (share > 0) p_.x = trial_;
+    if (contact_ && refused) contact_->look(p_.x, p_.inv_mass, &pool_);  // as there is room now
     if (share == 0) {
       if (contact_) contact_->expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
       tau_ *= 0.25;
       clamp_ = std::min(1.0, 2 * clamped_ + least_clamp);
       return;
     }
-    p_.x = trial_;
-    if (contact_ && refused) contact_->look(p_.x, p_.inv_mass, &pool_);  // as there is room now
     if (share == 1) tau_ *= 4;
-    if (share < first_) {
+    if (refused) {
       tau_ *= 0.9;
       clamp_ = std::min(1.0, 1.5 * clamped_ + least_clamp / 2);
     }

@@ -27,7 +27,8 @@ struct SettleProgress {
   int iteration;
   double residual;  ///< [-]
 };
-/// Called before each iteration and at the end; the cloth holds the state of then. false: stop here.
+/// Called before each iteration and at the end; the cloth holds the state of then and must stay as it is.
+/// false: stop here.
 using SettleObserver = std::function<bool(const SettleProgress&)>;
 
 struct SettleReport {

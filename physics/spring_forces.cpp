@@ -37,7 +37,7 @@ double spring_energy(std::span<const Vec3> x, std::span<const Spring> springs) {
 double add_forces(std::span<const Vec3> x, const Spring& s, std::span<Vec3> force) {
   const Vec3 d = x[s.b] - x[s.a];
   const double l = d.norm(), stretch = l - s.rest_length;
-  if (l > 0) {
+  if (l != 0) {
     const Vec3 f = s.stiffness * (1 - s.rest_length / l) * d;
     force[s.a] += f;
     force[s.b] -= f;

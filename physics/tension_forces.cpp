@@ -59,7 +59,7 @@ double add_forces(std::span<const Vec3> x, const Tension& t, std::span<Vec3> for
   const Vec3 d = x[t.b] - x[t.a];
   const double l = d.norm();
   const TensionLaw law = tension_law(t, strain_of(t, l));
-  if (l > 0) {
+  if (l != 0) {
     const Vec3 f = law.force / l * d;
     force[t.a] += f;
     force[t.b] -= f;

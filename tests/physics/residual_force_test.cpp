@@ -2,6 +2,8 @@
 #include "physics/residual_force.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
 
 #include "tests/physics/test_cloths.h"
 
@@ -22,6 +24,18 @@ TEST_CASE("residual force: free fall is 1, a loaded spring in balance is 0") {
   CHECK(residual_force(cloth, g, nullptr, 0.3, 0.003) == Approx(1));
   cloth.particles.x[1].y() = -1 - 0.2 * 9.81 / 40;
   CHECK(residual_force(cloth, g, nullptr, 0.3, 0.003) < 1e-12);
+}
+
+TEST_CASE("residual force: not a number where a position is none") {
+  Cloth cloth = pendulum(0.2, 40, 1, {0, -1, 0});
+  cloth.tension.push_back({0, 1, 1, 40, 4});
+  cloth.particles.x[1].x() = std::numeric_limits<double>::quiet_NaN();
+  for (const Vec3& g : {Vec3(0, -9.81, 0), Vec3(0, 0, 0)}) {
+    CHECK(std::isnan(residual_force(cloth, g, nullptr, 0.3, 0.003)));
+    Cloth tied = cloth;
+    tied.structural.clear();
+    CHECK(std::isnan(residual_force(tied, g, nullptr, 0.3, 0.003)));
+  }
 }
 
 TEST_CASE("residual force takes the best contact force in the friction cone") {

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "physics/anchored_contact.h"
 #include "physics/elastic_band.h"
 #include "physics/elements.h"
 #include "physics/residual_force.h"
@@ -41,46 +40,6 @@ Cloth membrane_sheet(int cells) {
 }
 
 }  // namespace
-
-TEST_CASE("anchored contact: forces and stiffness are derivatives of its energy") {
-  const Sphere ball(Vec3::Zero(), 0.1);
-  Cloth cloth;
-  const Vec3 out = Vec3(0.3, 0.9, 0.2).normalized();
-  for (const double depth : {0.0002, 0.0008, 0.002}) add_particle(cloth, (0.1 + 0.003 - depth) * out, 1e-3);
-  const Particles& p = cloth.particles;
-  AnchoredContact contact(ball, {.friction = 0.4, .gap = 0.003, .stiffness = 200}, p.size());
-  contact.look(p.x, p.inv_mass);
-  contact.move_anchors();
-  CHECK(contact.touching() == 3);
-  const auto energy = [&](const std::vector<Vec3>& x) {
-    contact.look(x, p.inv_mass);
-    return contact.energy();
-  };
-  const Vec3 along = out.cross(Vec3::UnitX()).normalized();
-  for (const double way : {2e-5, 8e-5, 3e-4}) {  // linear, and beyond what friction bears
-    std::vector<Vec3> x = p.x;
-    for (Vec3& v : x) v += way * along;
-    contact.look(x, p.inv_mass);
-    std::vector<Vec3> force(p.size(), Vec3::Zero());
-    contact.add_forces(force);
-    contact.look(p.x, p.inv_mass);
-    std::vector<Vec3> push(p.size(), Vec3::Zero());
-    contact.add_forces(push);
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      const double h = 1e-7;
-      for (const Vec3& direction : {out, along, Vec3(out.cross(along))}) {
-        std::vector<Vec3> there = x, back = x;
-        there[i] += h * direction, back[i] -= h * direction;
-        const double slope = (energy(there) - energy(back)) / (2 * h);
-        CHECK(force[i].dot(direction) == Approx(-slope).epsilon(1e-5).margin(1e-8));
-      }
-      // What friction bears is that of the push where the anchors were set.
-      const Vec3 n = x[i].normalized();
-      const double pull = force[i].dot(out) / n.dot(out) * n.dot(along) - force[i].dot(along);
-      CHECK(pull == Approx(0.4 * push[i].dot(out) * std::min(1.0, way / 1e-4)).epsilon(1e-6));
-    }
-  }
-}
 
 TEST_CASE("settle: friction holds a particle on an incline up to its cone, and not beyond") {
   const double mu = 0.4;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(physics LIBRARIES furrow::physics cases SOURCES
+  anchored_contact_test.cpp
   animated_body_test.cpp
   block_cholesky_test.cpp
   certificate_test.cpp
