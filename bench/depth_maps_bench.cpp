@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // depth_maps_bench [-o TABLE.csv] [--loop N] [--write FOLDER]: the distance field and depth maps as colliders
 // of the mannequin (after N rounds of Loop subdivision), with its arms out and with them before its belly.
-// One thread, CPU time, the best of 5. --write: the two bodies as OBJ files, to look at.
+// One thread, CPU time, the best of 5; gnuplot bench/depth_maps.gp  draws the table. --write: the two bodies
+// as OBJ files, to look at.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

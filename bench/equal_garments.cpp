@@ -34,8 +34,13 @@ namespace {
 using physics::Cloth, physics::Vec3;
 
 struct Arguments {
-  std::map<std::string, double> options{{"--refinements", 1}, {"--drag", 12},  {"--seconds", 20},
-                                        {"--depth", 1e-6},    {"--starts", 2}, {"--limit-steps", 200}};
+  std::map<std::string, double> options{{"--refinements", 1},
+                                        {"--drag", 12},
+                                        {"--seconds", 20},
+                                        {"--depth", 1e-6},
+                                        {"--starts", 2},
+                                        {"--limit-steps", 200},
+                                        {"--dt-factor", physics::SimulateOptions{}.dt_factor}};
   std::vector<std::string> files;
   double operator[](const char* name) const { return options.at(name); }
 };
@@ -113,16 +118,20 @@ Rest moved(const std::string& name, const Scene& scene, const Cloth& start) {
   o.friction = 0;
   o.contact_gap = scene.gap;
   o.air_drag = scene.arguments["--drag"];
+  o.dt_factor = scene.arguments["--dt-factor"];
   o.limit_steps = int(scene.arguments["--limit-steps"]);
   o.seconds = rest.work = 1;
-  physics::simulate(rest.cloth, scene.body, o);
+  const auto must_stay = [&](const physics::SimulateReport& report) {
+    if (report.outcome == physics::Outcome::diverged) throw Diverged(scene.name + ": leapfrog diverged");
+  };
+  must_stay(physics::simulate(rest.cloth, scene.body, o));
   o.spring_damping = 0;
   o.seconds = scene.arguments["--seconds"];
   Watch watch{scene, rest.cloth, rest.cloth.particles.x};
   const auto report =
       physics::simulate(rest.cloth, scene.body, o, [&](const auto& now) { return watch.goes_on(now.time); });
   rest.work += report.time;
-  if (report.outcome == physics::Outcome::diverged) throw Diverged(scene.name + ": leapfrog diverged");
+  must_stay(report);
   return rest;
 }
 
