@@ -2,6 +2,7 @@
 #include "cli/body.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <span>
 #include <sstream>
@@ -25,12 +26,22 @@ namespace furrow::cli {
 namespace {
 
 void tell_repairs(const std::string& path, const geometry::BodyReport& r, const CommonArguments& common) {
-  const auto tell = [&](std::size_t n, const char* what) {
-    if (n) warn(path + ": " + std::to_string(n) + " " + what, common);
+  const auto tell = [&](std::size_t n, const std::string& thing, const char* done) {
+    if (n) warn(path + ": " + std::to_string(n) + " " + thing + (n > 1 ? "s" : "") + done, common);
   };
-  tell(r.filled_holes, "holes of the body filled");
-  tell(r.dropped_faces, "faces of the body dropped");
-  tell(r.reversed_faces, "faces of the body turned outwards");
+  tell(r.filled_holes, "hole", " of the body filled");
+  tell(r.dropped_faces, "face", " of the body dropped");
+  tell(r.reversed_faces, "face", " of the body turned outwards");
+}
+
+/// More than a millionth of its box' diagonal to the third.
+bool has_volume(const physics::TriangleMesh& body) {
+  double volume = 0;
+  const physics::Vec3 origin = body.vertices.empty() ? physics::Vec3(0, 0, 0) : body.vertices[0];
+  const auto from_origin = [&](int i) -> physics::Vec3 { return body.vertices[std::size_t(i)] - origin; };
+  for (const auto& t : body.triangles)
+    volume += from_origin(t[0]).dot(from_origin(t[1]).cross(from_origin(t[2]))) / 6;
+  return std::abs(volume) > 1e-6 * std::pow(box_of(body.vertices).diagonal().norm(), 3);
 }
 
 physics::DistanceFieldOptions threaded(physics::DistanceFieldOptions options) {
@@ -56,7 +67,12 @@ std::string fingerprint_of(const std::vector<physics::Vec3>& vertices, double to
 physics::TriangleMesh read_body(const std::string& path, const CommonArguments& common) {
   const geometry::Body repaired = geometry::repair_body(read_garment(path, common, "body").mesh);
   tell_repairs(path, repaired.report, common);
-  return bridge::to_triangle_mesh(repaired);
+  physics::TriangleMesh triangles = bridge::to_triangle_mesh(repaired);
+  if (!has_volume(triangles))
+    throw geometry::ContentError(path +
+                                 ": encloses no volume, so nothing can be inside or outside of it; a "
+                                 "body is a closed surface");
+  return triangles;
 }
 
 BodyCollider load_body(const io::SceneBody& body, const CommonArguments& common) {
@@ -217,6 +233,14 @@ double contact_gap(double wanted, double field_tolerance, const geometry::Mesh& 
   std::nth_element(lengths.begin(), long_edge, lengths.end());
   const double sag = *long_edge * *long_edge / (8 * kLimbRadius);
   return std::max(wanted, sag + 1.5 * field_tolerance);
+}
+
+double contact_gap(double wanted, double field_tolerance, const io::MeshFile& garment) {
+  const double gap = contact_gap(wanted, field_tolerance, garment.mesh);
+  const auto record = io::find_wrinkle_record(garment);
+  if (!record || !(record->contact_gap > 0)) return gap;
+  return std::max(contact_gap(wanted, field_tolerance / 1.5, garment.mesh),
+                  std::min(gap, record->contact_gap));
 }
 
 double contact_distance(double gap) { return 1.2 * gap; }

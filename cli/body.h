@@ -75,6 +75,9 @@ Eigen::AlignedBox3d box_of(const std::vector<physics::Vec3>& points);
 /// percentile) over a limb of 5 cm radius plus 1.5 field tolerances, so that faces and edges stay outside
 /// when vertices do [m].
 double contact_gap(double wanted, double field_tolerance, const geometry::Mesh& garment);
+/// The same for a garment whose file notes the gap that it kept: no more than that, so that it goes on where it
+/// lies, as long as one tolerance is left over the sag, as `drape` leaves.
+double contact_gap(double wanted, double field_tolerance, const io::MeshFile& garment);
 
 /// Cloth nearer to the body lies on it, where cloth keeps this gap: a fifth more [m].
 double contact_distance(double gap);

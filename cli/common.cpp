@@ -59,7 +59,11 @@ void warn_of_lost_attributes(const std::string& path, const io::MeshFile& file,
 }
 
 volatile std::sig_atomic_t interrupt_flag = 0;
-void on_interrupt(int) { interrupt_flag = 1; }
+/// The second one ends the process at once.
+void on_interrupt(int signal) {
+  interrupt_flag = 1;
+  std::signal(signal, SIG_DFL);
+}
 
 }  // namespace
 
@@ -208,6 +212,12 @@ void Progress::show(double share) {
   std::snprintf(text, sizeof text, "] %5.1f %%  %.0f s left", permille / 10.0,
                 permille > 0 ? elapsed * (1000 - permille) / permille : 0.0);
   std::cerr << "\r\033[K" << what_ << " [" << bar << text << std::flush;
+}
+
+std::string millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", 1000 * metres);
+  return text;
 }
 
 void catch_interrupts() {

@@ -75,8 +75,12 @@ class Progress {
   double start_;
 };
 
-/// From the first call on, Ctrl-C and SIGTERM set a flag in place of ending the program.
+/// From the first call on, Ctrl-C and SIGTERM set a flag in place of ending the program; the second one ends
+/// it at once.
 void catch_interrupts();
 bool interrupted();
+
+/// "3.6 mm".
+std::string millimetres(double metres);
 
 }  // namespace furrow::cli

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
 #include <memory>
 
 #include "cli/body.h"
@@ -64,7 +65,8 @@ void choose_fabric(io::TomlDocument& document, const std::filesystem::path& garm
 }
 
 DrapedRow row_of(const Draped& d, const DrapeSettings& settings) {
-  return {d.name, &d.report, &d.fit, &d.fit_options, d.seconds, d.gap, d.too_near, settings.penetration};
+  return {d.name, &d.report, &d.fit, &d.fit_options, d.seconds, d.gap, d.too_near, settings.penetration,
+          d.falls};
 }
 
 void write_picture(std::vector<Draped>& all, const io::Scene& scene, const DrapeArguments& a,
@@ -102,6 +104,20 @@ std::vector<io::Scene> scenes_of(const io::Scene& scene, const io::TomlDocument&
   return scenes;
 }
 
+/// What of the files that were asked for there is.
+void tell_interruption(const DrapeArguments& a, bool drawn, bool animated) {
+  std::string written, missing;
+  const auto add = [&](const std::string& path, bool there) {
+    std::string& list = there ? written : missing;
+    if (!path.empty()) list += (list.empty() ? "" : ", ") + path;
+  };
+  add(a.out, true);
+  add(a.picture, drawn);
+  add(a.animation, animated);
+  std::cerr << "error: interrupted; " << (written.empty() ? "nothing was written" : "written: " + written)
+            << (missing.empty() ? "" : "; not written: " + missing) << '\n';
+}
+
 int drape(const DrapeArguments& a) {
   catch_interrupts();
   io::TomlDocument document = scene_settings(a.in, "", std::nullopt, a.flags, a);
@@ -133,14 +149,17 @@ int drape(const DrapeArguments& a) {
     note_material(all[0].file, document, all[0].gap);
     write_mesh(all[0].file, common);
   }
-  if (!a.picture.empty()) write_picture(all, scene, a, common);
+  const bool draws = !a.picture.empty() && !interrupted();  // that may take longer than the fit
+  if (draws) write_picture(all, scene, a, common);
   std::vector<DrapedRow> rows;
   for (const Draped& d : all) rows.push_back(row_of(d, settings));
   Json report = to_json(rows);
   if (!a.out.empty()) report["written"] = a.out;
-  if (!a.picture.empty()) report["picture"] = a.picture;
+  if (draws) report["picture"] = a.picture;
+  if (all[0].animated) report["animation"] = a.animation;
   print_report(report, common);
   const int code = exit_code_of(rows, common);
+  if (interrupted()) tell_interruption(a, draws, all[0].animated);
   return code == kOk && interrupted() ? kInterrupted : code;
 }
 

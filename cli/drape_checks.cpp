@@ -25,6 +25,11 @@ bool is_said(const io::TomlDocument& document, const std::string& path) {
   return root.contains(table) && root[table].contains(key);
 }
 
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
 }  // namespace
 
 std::vector<Band> parse_bands(const std::vector<std::string>& texts) {
@@ -34,7 +39,7 @@ std::vector<Band> parse_bands(const std::vector<std::string>& texts) {
       throw UsageError(
           "--band " + text + ": " + what +
           "; write a border loop and the band's length as a share of the loop's: --band top=0.95 "
-          "is a waistband 5 % shorter than the waist");
+          "is a band 5 % shorter than the garment's upper border");
     };
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) fail("there is no length");
@@ -55,7 +60,7 @@ std::vector<std::string> parse_fabrics(const std::string& text) {
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t comma = std::min(text.find(',', begin), text.size());
-    names.push_back(text.substr(begin, comma - begin));
+    names.push_back(trimmed(text.substr(begin, comma - begin)));
     begin = comma + 1;
   }
   if (std::find(names.begin(), names.end(), "") != names.end())

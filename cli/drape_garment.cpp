@@ -42,8 +42,10 @@ class WayRecorder {
     }
     writer_->add(cloth.particles.x);
   }
-  void close() {
+  /// Whether there is anything to see.
+  bool close() {
     if (writer_) writer_->close();
+    return writer_ != nullptr;
   }
 
  private:
@@ -165,6 +167,21 @@ double gap_of(const io::Scene& scene, const BodyCollider& body, geometry::Mesh g
   return std::max(scene.simulation.contact_gap, sag + body.field.report().tolerance);
 }
 
+void warn_of_raised_gap(const io::Scene& scene, const BodyCollider& body, const geometry::Mesh& garment,
+                        double gap, const CommonArguments& common) {
+  const double wanted = scene.simulation.contact_gap, tolerance = body.field.report().tolerance;
+  if (gap <= 1.5 * wanted) return;
+  io::Scene finer = scene;
+  ++finer.subdivide;
+  const double then = gap_of(finer, body, garment);
+  warn(scene.garment.stem().string() + ": keeps " + millimetres(gap) + " from the body, not " +
+           millimetres(wanted) + ", as its edges are long, so strain and ease come out too large; " +
+           (gap - tolerance > tolerance
+                ? "with --subdivide " + std::to_string(finer.subdivide) + " it is " + millimetres(then)
+                : "--tolerance asks for a finer field of the body"),
+       common);
+}
+
 }  // namespace
 
 Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const DrapeSettings& s,
@@ -183,6 +200,7 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const Dra
   options.bending_friction = s.bending_friction;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
   options.settle.gap = gap_of(scene, body, as_read.mesh);
+  warn_of_raised_gap(scene, body, as_read.mesh, options.settle.gap, common);
   options.settle.threads =
       scene.threads ? scene.threads : int(std::max(1u, std::thread::hardware_concurrency()));
   if (scene.subdivide > 0 && !geometry::struts(as_read.mesh).empty())
@@ -207,12 +225,15 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const Dra
   draped.seconds = now() - start;
   draped.file = std::move(maker.made);
   draped.file.mesh = std::move(mesh);
-  way.close();
+  draped.animated = way.close();
+  draped.falls = draped.report.levels.back().settle.touching == 0 && !scene.simulation.gravity.isZero() &&
+                 std::none_of(cloth.particles.inv_mass.begin(), cloth.particles.inv_mass.end(),
+                              [](double w) { return w == 0; });
   draped.gap = options.settle.gap;
   draped.fit_options.contact_distance = contact_distance(draped.gap);
   draped.fit = bridge::fit_report(draped.file.mesh, body.triangles, body.exact, draped.fit_options);
   if (draped.gap == scene.simulation.contact_gap)
-    draped.too_near = count_nearer(draped.file.mesh, 0.9 * draped.gap);
+    draped.too_near = count_nearer(draped.file.mesh, 0.9 * draped.gap - body.field.report().tolerance);
   return draped;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/drape_report.h"
 
-#include <cstdio>
 #include <iostream>
 
 #include "cli/fit_output.h"
@@ -19,13 +18,15 @@ Json to_json(const bridge::DrapeLevel& level) {
           {"residual", level.settle.residual}};
 }
 
+bool rests(const DrapedRow& row) { return row.report->levels.back().settle.converged && !row.falls; }
+
 Json to_json(const DrapedRow& row) {
   const bridge::DrapeLevel& last = row.report->levels.back();
   Json levels = Json::array();
   for (const bridge::DrapeLevel& level : row.report->levels) levels.push_back(to_json(level));
   Json json{{"garment", row.name},
             {"outcome", outcome_of(row)},
-            {"converged", last.settle.converged},
+            {"converged", rests(row)},
             {"residual_force", last.settle.residual},
             {"touching", last.settle.touching},
             {"contact_depth", last.settle.deepest},
@@ -38,18 +39,14 @@ Json to_json(const DrapedRow& row) {
   return json;
 }
 
-std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", 1000 * metres);
-  return text;
-}
-
 /// What the body does to the cloth that has come to rest on it.
 void tell_contact(const DrapedRow& row, const CommonArguments& common) {
   const bridge::FitReport& fit = *row.fit;
   const double deepest = fit.distance.deepest_penetration;
-  const std::string through = "the body comes through " + std::to_string(fit.piercing.faces) +
-                              " faces, by up to " + millimetres(deepest);
+  const std::size_t faces = std::size_t(fit.piercing.faces);
+  const std::string through = "the body comes through " + std::to_string(faces) +
+                              (faces == 1 ? " face, by " : " faces, by ") +
+                              (deepest < 5e-5 ? "less than 0.1 mm" : "up to " + millimetres(deepest));
   if (is_pierced(row))
     std::cerr << "error: " << row.name << ": "
               << (fit.piercing.faces ? through : "lies inside the body, by up to " + millimetres(deepest))
@@ -68,7 +65,15 @@ void tell_contact(const DrapedRow& row, const CommonArguments& common) {
 void tell_unrest(const DrapedRow& row, const CommonArguments& common) {
   const physics::SettleReport& last = row.report->levels.back().settle;
   if (last.touching == 0)
-    warn(row.name + ": never came to lie on the body; look at --unit and at where the two are", common);
+    warn(row.name + ": never came to lie on the body, which is " +
+             std::to_string(row.fit->body_high - row.fit->body_low) +
+             " m tall; look at where the two are, and at --unit, which is that of both files",
+         common);
+  if (row.falls) {
+    std::cerr << "error: " << row.name
+              << ": falls, as neither the body nor a pin carries it; put it where it is to be worn\n";
+    return;
+  }
   std::cerr << "error: " << row.name << ": not at rest after " << last.iterations
             << " iterations, residual force " << last.residual << " of a vertex's weight, cloth "
             << 1000 * last.deepest
@@ -86,7 +91,7 @@ Json to_json(std::span<const DrapedRow> rows) {
 
 std::string outcome_of(const DrapedRow& row) {
   if (row.report->stopped) return "interrupted";
-  const std::string rest = row.report->levels.back().settle.converged ? "at rest" : "not at rest";
+  const std::string rest = row.falls ? "falls" : rests(row) ? "at rest" : "not at rest";
   return rest + (is_pierced(row) ? ", pierced by the body" : "");
 }
 
@@ -96,14 +101,12 @@ int exit_code_of(std::span<const DrapedRow> rows, const CommonArguments& common)
   int code = kOk;
   for (const DrapedRow& row : rows) {
     if (row.report->stopped) {
-      std::cerr << "error: " << row.name
-                << ": interrupted; the state reached was written, it is not at rest\n";
+      std::cerr << "error: " << row.name << ": interrupted; what was reached is not at rest\n";
       return kInterrupted;
     }
     tell_contact(row, common);
-    const bool rests = row.report->levels.back().settle.converged;
-    if (!rests) tell_unrest(row, common);
-    if (!rests || is_pierced(row)) code = kNotConverged;
+    if (!rests(row)) tell_unrest(row, common);
+    if (!rests(row) || is_pierced(row)) code = kNotConverged;
   }
   return code;
 }

@@ -19,12 +19,13 @@ struct DrapedRow {
   double gap;            ///< that was to be kept from the body [m]
   std::size_t too_near;  ///< vertices that do not keep it
   double penetration;    ///< depth to which the body may come through the cloth [m]
+  bool falls;            ///< nothing carries it
 };
 
 /// All numbers, SI units; one garment's alone, or `garments`.
 Json to_json(std::span<const DrapedRow> rows);
 
-/// "at rest", "not at rest" or "interrupted", and whether it is pierced.
+/// "at rest", "not at rest", "falls" or "interrupted", and whether it is pierced.
 std::string outcome_of(const DrapedRow& row);
 /// Whether the body comes through the cloth by more than was allowed.
 bool is_pierced(const DrapedRow& row);

@@ -109,7 +109,8 @@ Fitted fit_one(const std::string& path, const Body& body, const FitArguments& a)
     fitted.options.contact_distance = a.contact ? *a.contact : contact_distance(fitted.file, body.distance);
   fitted.report = bridge::fit_report(mesh, body.triangles, body.distance, fitted.options);
   if (!fitted.report.strain)
-    warn(path + ": has no rest lengths, so its strain is not known; --rest takes the garment as it was made",
+    warn(path + ": has no rest lengths, so its strain is not known; --rest takes the garment as it was made" +
+             (a.compare ? " (a second body needs a --body of its own)" : ""),
          a);
   if (fitted.report.ease.empty())
     warn("no chest, waist and hips were found on the body; --section chest=1.25 tells their heights", a);
@@ -212,7 +213,8 @@ void add_fit(CLI::App& app) {
       "  furrow fit --compare S.ply M.ply L.ply --body body.obj --picture sizes.png");
   sub->add_option("worn", a->worn, "a garment as it is worn: what simulate or drape wrote")->required();
   sub->add_option("--body", a->bodies,
-                  "the body that wears it, as it stands there; with --compare one, or one for each garment")
+                  "the body that wears it, as it stands there; with --compare one, or one for each garment: "
+                  "--body A.obj --body B.obj")
       ->required()
       ->allow_extra_args(false);
   sub->add_option(

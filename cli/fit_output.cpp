@@ -102,7 +102,9 @@ std::string fit_words(const bridge::FitReport& report, const bridge::FitOptions&
     words = format("half of the cloth nearer than %.0f mm", 1000 * report.distance.median);
   std::string rooms;
   for (const bridge::FitEase& e : report.ease)
-    if (e.ease) rooms += (rooms.empty() ? "ease: " : ", ") + e.name + format(" %+.1f cm", 100 * *e.ease);
+    if (e.ease)
+      rooms += (rooms.empty() ? "ease: " : ", ") + e.name + format(" %+.1f cm", 100 * *e.ease) +
+               (e.rest_ease && *e.rest_ease < 0 ? format(" (unstretched %+.1f)", 100 * *e.rest_ease) : "");
   return rooms.empty() ? words : words + "\n" + rooms;
 }
 

@@ -59,7 +59,7 @@ SceneCloth drawn_garment(const io::Scene& scene, std::optional<io::SavedState>& 
   if (!settled) state->contact_gap = 0;
   if (result.body)
     gap = state->contact_gap =
-        std::max(state->contact_gap, contact_gap(gap, result.body->tolerance(), result.file.mesh));
+        std::max(state->contact_gap, contact_gap(gap, result.body->tolerance(), result.file));
   result.options.threads = threads_of(scene, result.cloth.particles.size());
   return result;
 }

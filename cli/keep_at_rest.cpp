@@ -56,7 +56,7 @@ Json keep_at_rest(io::MeshFile& file, const io::Scene& scene, const std::vector<
   options.gravity = scene.simulation.gravity;
   options.friction = scene.simulation.friction;
   options.gap = scene.simulation.contact_gap;
-  if (body) options.gap = std::max(settled_gap, contact_gap(options.gap, body->tolerance(), file.mesh));
+  if (body) options.gap = std::max(settled_gap, contact_gap(options.gap, body->tolerance(), file));
   const bridge::KeptShape shape =
       bridge::keep_shape(cloth, world_of(scene, body, pins), options, moving ? 0 : largest_turn);
   if (shape.turned > 0 || shape.pushed.moved > 0) bridge::scatter(cloth.particles, file.mesh);

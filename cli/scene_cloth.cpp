@@ -108,7 +108,7 @@ SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common,
   result.options = scene.simulation;
   if (result.body) {
     result.options.contact_gap =
-        contact_gap(result.options.contact_gap, result.body->tolerance(), result.file.mesh);
+        contact_gap(result.options.contact_gap, result.body->tolerance(), result.file);
     result.near_body = result.body->count_near(result.cloth.particles.x, kNear);
     result.field_samples = result.body->samples_of_field();
   }

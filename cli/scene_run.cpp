@@ -184,7 +184,7 @@ class SceneRun {
     physics::SimulateOptions options = scene_.simulation;
     if (body_)
       options.contact_gap = now_.contact_gap =
-          std::max(now_.contact_gap, contact_gap(options.contact_gap, body_->tolerance(), now_.file.mesh));
+          std::max(now_.contact_gap, contact_gap(options.contact_gap, body_->tolerance(), now_.file));
     if (stop < options.seconds) options.stop_at = stop;
     options.threads = threads_of(scene_, cloth.particles.size());
     if (animations_.is_on()) options.observe_steps = 20;  // frames are interpolated between observed times

@@ -140,7 +140,7 @@ TEST_CASE("a body that comes through a face of cloth, but through no vertex, is 
   const Run deep = spike(1.5);
   INFO(deep.err);
   CHECK(deep.exit_code == 4);
-  CHECK(deep.err.find("comes through 1 faces") != std::string::npos);
+  CHECK(deep.err.find("comes through 1 face, by up to") != std::string::npos);
   const json r = json::parse(deep.out);
   CHECK(r["converged"] == true);
   CHECK(r["outcome"] == "at rest, pierced by the body");
@@ -226,4 +226,64 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   CHECK(few.exit_code == 4);
   CHECK(few.err.find("not at rest") != std::string::npos);
   CHECK(std::filesystem::exists(scratch / "x.ply"));
+}
+
+TEST_CASE("drape: what nothing carries falls, whatever residual is accepted") {
+  ScratchDirectory scratch;
+  write_text(scratch / "sheet.obj", "v 5 1 0\nv 5.1 1 0\nv 5.1 1 0.1\nv 5 1 0.1\nf 1 4 3\nf 1 3 2\n");
+  const std::string call = "drape " + (scratch / "sheet.obj") + " --body " + mannequin() +
+                           " --residual 1.1 --json -o " + (scratch / "out.ply");
+  const Run run = run_furrow(call);
+  CHECK(run.exit_code == 4);
+  CHECK(json::parse(run.out)["outcome"] == "falls");
+  CHECK(json::parse(run.out)["converged"] == false);
+  CHECK(run.err.find("never came to lie on the body, which is 1.69") != std::string::npos);
+  CHECK(run.err.find("error: sheet: falls") != std::string::npos);
+  const Run held = run_furrow(call + " --pin-vertices 0,1");
+  CHECK(held.exit_code == 0);
+  CHECK(json::parse(held.out)["outcome"] == "at rest");
+}
+
+TEST_CASE(
+    "drape: a gap that is raised for long edges is told, and simulate goes on with the gap that was kept") {
+  ScratchDirectory scratch;
+  const Run coarse = run_furrow("drape " + skirt() + " --gap 0.001 --json -o " + (scratch / "a.ply"));
+  REQUIRE(coarse.exit_code == 0);
+  const double gap = json::parse(coarse.out)["gap"];
+  CHECK(gap > 0.0015);
+  CHECK(coarse.err.find("mm from the body, not 1.0 mm") != std::string::npos);
+  const std::string on = "simulate " + (scratch / "a.ply") + " --body " + mannequin() +
+                         " --seconds 0.01 -o " + (scratch / "b.ply");
+  CHECK(report_of(on)["contact_gap"].get<double>() == Approx(gap).epsilon(0.02));
+  CHECK(report_of(on + " --gap 0.006")["contact_gap"] == 0.006);
+}
+
+TEST_CASE("drape: interrupted, it tells which files there are, and draws no picture") {
+  ScratchDirectory scratch;
+  write_text(scratch / "sheet.obj",
+             "v -0.1 1 -0.1\nv 0.1 1 -0.1\nv 0.1 1 0.1\nv -0.1 1 0.1\nf 1 4 3\nf 1 3 2\n");
+  write_text(
+      scratch / "body.obj",
+      "v 0.02 0.9 -0.02\nv 0.06 0 -0.02\nv 0 0 0.02\nv 0 0 -0.06\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n");
+  const std::string code = scratch / "code", err = scratch / "err", out = scratch / "a.ply",
+                    picture = scratch / "a.png";
+  run_furrow("drape " + (scratch / "sheet.obj") + " --body " + (scratch / "body.obj") +
+             " --pin-vertices 0,1 --subdivide 2 --residual 1e-300 --iterations 10000000 -o " + out +
+             " --picture " + picture + " 2>" + err + " & p=$!; sleep 2; kill -INT $p; wait $p; echo $? >" +
+             code + "; true");
+  CHECK(read_text(code) == "130\n");
+  CHECK(read_text(err).find("written: " + out + "; not written: " + picture) != std::string::npos);
+  CHECK(std::filesystem::exists(out));
+  CHECK_FALSE(std::filesystem::exists(picture));
+}
+
+TEST_CASE("drape and fit: a body that encloses nothing is refused") {
+  ScratchDirectory scratch;
+  const std::string sheet = (source_dir() / "meshes/sheet.obj").string();
+  const Run drape = run_furrow("drape " + (source_dir() / "meshes/skirt.obj").string() + " --body " + sheet +
+                               " -o " + (scratch / "a.ply"));
+  CHECK(drape.exit_code == 3);
+  CHECK(drape.err.find("encloses no volume") != std::string::npos);
+  CHECK(run_furrow("fit " + (source_dir() / "meshes/skirt.obj").string() + " --body " + sheet).exit_code ==
+        3);
 }
