@@ -34,13 +34,8 @@ namespace {
 using physics::Cloth, physics::Vec3;
 
 struct Arguments {
-  std::map<std::string, double> options{{"--refinements", 1},
-                                        {"--drag", 12},
-                                        {"--seconds", 20},
-                                        {"--depth", 1e-6},
-                                        {"--starts", 2},
-                                        {"--limit-steps", 200},
-                                        {"--dt-factor", physics::SimulateOptions{}.dt_factor}};
+  std::map<std::string, double> options{{"--refinements", 1}, {"--drag", 12},  {"--seconds", 20},
+                                        {"--depth", 1e-6},    {"--starts", 2}, {"--limit-steps", 200}};
   std::vector<std::string> files;
   double operator[](const char* name) const { return options.at(name); }
 };
@@ -118,7 +113,6 @@ Rest moved(const std::string& name, const Scene& scene, const Cloth& start) {
   o.friction = 0;
   o.contact_gap = scene.gap;
   o.air_drag = scene.arguments["--drag"];
-  o.dt_factor = scene.arguments["--dt-factor"];
   o.limit_steps = int(scene.arguments["--limit-steps"]);
   o.seconds = rest.work = 1;
   const auto must_stay = [&](const physics::SimulateReport& report) {

@@ -224,23 +224,21 @@ Eigen::AlignedBox3d WorldBody::box(double time) const {
   return box_of(x);
 }
 
-double contact_gap(double wanted, double field_tolerance, const geometry::Mesh& garment) {
+double edge_sag(const geometry::Mesh& garment) {
   constexpr double kLimbRadius = 0.05;
   std::vector<double> lengths;
   const auto rest = *geometry::find_map(garment, geometry::kRestLength);
   for (geometry::Edge e : garment.edges()) lengths.push_back(rest[e]);
   const auto long_edge = lengths.begin() + static_cast<std::ptrdiff_t>(0.95 * double(lengths.size() - 1));
   std::nth_element(lengths.begin(), long_edge, lengths.end());
-  const double sag = *long_edge * *long_edge / (8 * kLimbRadius);
-  return std::max(wanted, sag + 1.5 * field_tolerance);
+  return *long_edge * *long_edge / (8 * kLimbRadius);
 }
 
 double contact_gap(double wanted, double field_tolerance, const io::MeshFile& garment) {
-  const double gap = contact_gap(wanted, field_tolerance, garment.mesh);
+  const double sag = edge_sag(garment.mesh), gap = sag + 1.5 * field_tolerance;
   const auto record = io::find_wrinkle_record(garment);
-  if (!record || !(record->contact_gap > 0)) return gap;
-  return std::max(contact_gap(wanted, field_tolerance / 1.5, garment.mesh),
-                  std::min(gap, record->contact_gap));
+  if (!record || !(record->contact_gap > 0)) return std::max(wanted, gap);
+  return std::max(wanted, std::clamp(record->contact_gap, sag + field_tolerance, gap));
 }
 
 double contact_distance(double gap) { return 1.2 * gap; }
@@ -248,10 +246,10 @@ double contact_distance(double gap) { return 1.2 * gap; }
 double contact_distance(const io::MeshFile& garment, const physics::ExactDistance& body) {
   if (const auto record = io::find_wrinkle_record(garment); record && record->contact_gap > 0)
     return contact_distance(record->contact_gap);
-  geometry::Mesh mesh = garment.mesh;
-  geometry::ensure_rest_lengths(mesh);
+  io::MeshFile file = garment;
+  geometry::ensure_rest_lengths(file.mesh);
   const double field_tolerance = std::min(1e-3 * body.diagonal(), 0.002);  // by default
-  return contact_distance(contact_gap(physics::SimulateOptions{}.contact_gap, field_tolerance, mesh));
+  return contact_distance(contact_gap(physics::SimulateOptions{}.contact_gap, field_tolerance, file));
 }
 
 }  // namespace furrow::cli

@@ -71,12 +71,13 @@ class WorldBody {
 
 Eigen::AlignedBox3d box_of(const std::vector<physics::Vec3>& points);
 
-/// The gap that a garment keeps: at least `wanted`, and never less than the sag of a long edge (95th
-/// percentile) over a limb of 5 cm radius plus 1.5 field tolerances, so that faces and edges stay outside
-/// when vertices do [m].
-double contact_gap(double wanted, double field_tolerance, const geometry::Mesh& garment);
-/// The same for a garment whose file notes the gap that it kept: no more than that, so that it goes on where it
-/// lies, as long as one tolerance is left over the sag, as `drape` leaves.
+/// How far a garment's long edges (95th percentile at rest) cut into a limb of 5 cm radius when their ends
+/// lie on it [m].
+double edge_sag(const geometry::Mesh& garment);
+/// The gap that a garment keeps: at least `wanted`, and never less than edge_sag() plus 1.5 field tolerances,
+/// so that faces and edges stay outside when vertices do [m]. One whose file notes the gap that it kept keeps
+/// no more than that, so that it goes on where it lies, but at least edge_sag() plus one tolerance, as
+/// `drape` does.
 double contact_gap(double wanted, double field_tolerance, const io::MeshFile& garment);
 
 /// Cloth nearer to the body lies on it, where cloth keeps this gap: a fifth more [m].

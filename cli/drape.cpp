@@ -104,7 +104,7 @@ std::vector<io::Scene> scenes_of(const io::Scene& scene, const io::TomlDocument&
   return scenes;
 }
 
-/// What of the files that were asked for there is.
+/// On stderr: which of the files that were asked for there are.
 void tell_interruption(const DrapeArguments& a, bool drawn, bool animated) {
   std::string written, missing;
   const auto add = [&](const std::string& path, bool there) {
@@ -223,7 +223,7 @@ void add_drape(CLI::App& app, int& exit_code) {
   sub->add_option(
          "--contact-depth", a->settings.contact_depth,
          "go on, with contact ever stiffer, until nothing lies deeper in the gap than this [m]: "
-         "1e-6 gives tight cloth its full strain, in two to three times the time (default: as it comes, some "
+         "1e-6 gives tight cloth its full strain, in about twice the time (default: as it comes, some "
          "0.1 mm)")
       ->check(CLI::Range(1e-7, 1.0));
   sub->add_option("--penetration", a->settings.penetration,

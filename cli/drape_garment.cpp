@@ -160,26 +160,26 @@ class Maker {
   std::vector<int> pin_vertices_, band_vertices_;
 };
 
-/// As contact_gap() tells for the refined garment: its edges are half as long a level, their sag a quarter.
-double gap_of(const io::Scene& scene, const BodyCollider& body, geometry::Mesh garment) {
+/// Of the refined garment: its edges are half as long a level, their sag a quarter.
+double refined_sag(geometry::Mesh garment, int levels) {
   geometry::ensure_rest_lengths(garment);
-  const double sag = contact_gap(0, 0, garment) / std::pow(4, scene.subdivide);
-  return std::max(scene.simulation.contact_gap, sag + body.field.report().tolerance);
+  return edge_sag(garment) / std::pow(4, levels);
 }
 
-void warn_of_raised_gap(const io::Scene& scene, const BodyCollider& body, const geometry::Mesh& garment,
-                        double gap, const CommonArguments& common) {
+/// What is wanted, or what the sag and the field's tolerance need; warns where that is much more.
+double gap_of(const io::Scene& scene, const BodyCollider& body, const geometry::Mesh& garment,
+              const CommonArguments& common) {
   const double wanted = scene.simulation.contact_gap, tolerance = body.field.report().tolerance;
-  if (gap <= 1.5 * wanted) return;
-  io::Scene finer = scene;
-  ++finer.subdivide;
-  const double then = gap_of(finer, body, garment);
-  warn(scene.garment.stem().string() + ": keeps " + millimetres(gap) + " from the body, not " +
-           millimetres(wanted) + ", as its edges are long, so strain and ease come out too large; " +
-           (gap - tolerance > tolerance
-                ? "with --subdivide " + std::to_string(finer.subdivide) + " it is " + millimetres(then)
-                : "--tolerance asks for a finer field of the body"),
-       common);
+  const double sag = refined_sag(garment, scene.subdivide), gap = std::max(wanted, sag + tolerance);
+  if (gap > 1.5 * wanted)
+    warn(
+        scene.garment.stem().string() + ": keeps " + millimetres(gap) + " from the body, not " +
+            millimetres(wanted) + ", so strain and ease come out too large; " +
+            (sag > tolerance ? "its edges are long: with --subdivide " + std::to_string(scene.subdivide + 1) +
+                                   " it is " + millimetres(std::max(wanted, sag / 4 + tolerance))
+                             : "--tolerance asks for a finer field of the body"),
+        common);
+  return gap;
 }
 
 }  // namespace
@@ -199,8 +199,7 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const Dra
   options.plain = s.plain;
   options.bending_friction = s.bending_friction;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
-  options.settle.gap = gap_of(scene, body, as_read.mesh);
-  warn_of_raised_gap(scene, body, as_read.mesh, options.settle.gap, common);
+  options.settle.gap = gap_of(scene, body, as_read.mesh, common);
   options.settle.threads =
       scene.threads ? scene.threads : int(std::max(1u, std::thread::hardware_concurrency()));
   if (scene.subdivide > 0 && !geometry::struts(as_read.mesh).empty())

@@ -43,7 +43,7 @@ Json to_json(const DrapedRow& row) {
 void tell_contact(const DrapedRow& row, const CommonArguments& common) {
   const bridge::FitReport& fit = *row.fit;
   const double deepest = fit.distance.deepest_penetration;
-  const std::size_t faces = std::size_t(fit.piercing.faces);
+  const auto faces = fit.piercing.faces;
   const std::string through = "the body comes through " + std::to_string(faces) +
                               (faces == 1 ? " face, by " : " faces, by ") +
                               (deepest < 5e-5 ? "less than 0.1 mm" : "up to " + millimetres(deepest));
@@ -100,10 +100,7 @@ bool is_pierced(const DrapedRow& row) { return row.fit->distance.deepest_penetra
 int exit_code_of(std::span<const DrapedRow> rows, const CommonArguments& common) {
   int code = kOk;
   for (const DrapedRow& row : rows) {
-    if (row.report->stopped) {
-      std::cerr << "error: " << row.name << ": interrupted; what was reached is not at rest\n";
-      return kInterrupted;
-    }
+    if (row.report->stopped) return kInterrupted;
     tell_contact(row, common);
     if (!rests(row)) tell_unrest(row, common);
     if (!rests(row) || is_pierced(row)) code = kNotConverged;
