@@ -125,6 +125,42 @@ TEST_CASE("a body that rises as frames lifts the cloth, and the report says what
   }
 }
 
+TEST_CASE("depth maps of a body that hides space from all sides are warned of, those of a slab are not") {
+  const ScratchDirectory scratch;
+  geometry::Mesh cage;  // six plates that do not touch, nothing between them
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-0.2, 0.2}) {
+      std::array<geometry::Vertex, 8> v;
+      for (int corner = 0; corner < 8; ++corner) {
+        Vec3 x;
+        for (int c = 0; c < 3; ++c) x[c] = (corner >> c & 1 ? 1 : -1) * (c == axis ? 0.01 : 0.18);
+        x[axis] += side;
+        v[std::size_t(corner)] = cage.add_vertex({x.x(), x.y(), x.z()});
+      }
+      for (const auto& q :
+           {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+        cage.add_face(v[std::size_t(q[0])], v[std::size_t(q[1])], v[std::size_t(q[2])]);
+        cage.add_face(v[std::size_t(q[0])], v[std::size_t(q[2])], v[std::size_t(q[3])]);
+      }
+    }
+  io::MeshFile file;
+  file.mesh = cage;
+  io::write_mesh(scratch / "cage.obj", file);
+  const auto warned = [&](const std::string& body) {
+    for (const char* frame : {"0", "1"})
+      std::filesystem::copy_file(body, scratch / ("frame_" + std::string(frame) + ".obj"),
+                                 std::filesystem::copy_options::overwrite_existing);
+    const Run run = run_furrow("simulate " + kMeshes + "patch.obj --body " + body +
+                               " --set body.collider=depth-maps --body-frames '" + (scratch / "frame_#.obj") +
+                               "' --body-fps 10 --seconds 0.001 -o " + (scratch / "end.ply"));
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    return run.err.find("% of the points beside the body for inside") != std::string::npos;
+  };
+  CHECK(warned(scratch / "cage.obj"));
+  CHECK_FALSE(warned(kMeshes + "slab.obj"));
+}
+
 TEST_CASE("wrinkle --state draws into a stopped simulation, and the result goes on") {
   Turning t;
   const std::string state = t.scratch / "state.ply", more = t.scratch / "more.ply",
