@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "bench/accuracy_table.h"
-#include "bench/cases/flat_meshes.h"
-#include "bench/cases/patch_test.h"
-#include "bench/cases/twisted_ribbon.h"
+#include "tests/cases/flat_meshes.h"
+#include "tests/cases/patch_test.h"
+#include "tests/cases/twisted_ribbon.h"
 
 namespace furrow::bench {
 

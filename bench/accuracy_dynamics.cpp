@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "bench/accuracy_table.h"
-#include "bench/cases/flat_meshes.h"
-#include "bench/cases/friction.h"
-#include "bench/cases/modes.h"
-#include "bench/cases/oscillations.h"
+#include "tests/cases/flat_meshes.h"
+#include "tests/cases/friction.h"
+#include "tests/cases/modes.h"
+#include "tests/cases/oscillations.h"
 
 namespace furrow::bench {
 

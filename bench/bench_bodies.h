@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "physics/triangle_mesh.h"
+#include "physics/base/triangle_mesh.h"
 
 namespace furrow::bench {
 

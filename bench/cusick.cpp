@@ -5,14 +5,14 @@
 //   drape_16.obj ...     drapes of the lowest energy
 // The elastic curve beside it comes from another program (static solver of its own, orthotropic membrane with
 // Y = 450, G = 50 N/m, 1321 vertices).
-#include "bench/cases/cusick.h"
+#include "tests/cases/cusick.h"
 
 #include <string>
 
 #include "bench/accuracy_table.h"
-#include "physics/certificate.h"
-#include "physics/settle.h"
-#include "physics/simulate.h"
+#include "physics/motion/simulate.h"
+#include "physics/rest/certificate.h"
+#include "physics/rest/settle.h"
 
 using namespace furrow;
 using namespace furrow::cases;

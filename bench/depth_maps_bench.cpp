@@ -18,11 +18,11 @@
 #include <vector>
 
 #include "bench/bench_bodies.h"
-#include "bench/cases/posed_body.h"
 #include "bench/machine_probes.h"
-#include "physics/compare_colliders.h"
-#include "physics/depth_map_collider.h"
-#include "physics/distance_field.h"
+#include "physics/body/compare_colliders.h"
+#include "physics/body/depth_map_collider.h"
+#include "physics/body/distance_field.h"
+#include "tests/cases/posed_body.h"
 
 namespace furrow::bench {
 namespace {

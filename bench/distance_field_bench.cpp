@@ -13,7 +13,7 @@
 
 #include "bench/bench_bodies.h"
 #include "bench/machine_probes.h"
-#include "physics/distance_field.h"
+#include "physics/body/distance_field.h"
 
 namespace {
 

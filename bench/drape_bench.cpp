@@ -21,9 +21,9 @@
 #include <thread>
 #include <vector>
 
-#include "bench/cases/garment_pair.h"
 #include "bench/machine_probes.h"
-#include "io/fabrics.h"
+#include "io/scene/fabrics.h"
+#include "tests/cases/garment_pair.h"
 
 namespace furrow::bench {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether the fast fit (physics/settle.h) and leapfrog bring a garment to the same rest, without friction and
-// with its top border loop held: a table (CSV).
+// Whether the fast fit (physics/rest/settle.h) and leapfrog bring a garment to the same rest, without
+// friction and with its top border loop held: a table (CSV).
 //   equal_garments [OPTIONS] GARMENT BODY [GARMENT BODY …]
 //     --refinements 1  of all garments (Loop)      --drag 12     of leapfrog [1/s]
 //     --seconds 20     leapfrog's at most          --depth 1e-6  of the exact contact, see below [m]
@@ -20,13 +20,13 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/draped.h"
-#include "bench/cases/garment_pair.h"
-#include "geometry/subdivide.h"
-#include "physics/certificate.h"
-#include "physics/elements.h"
-#include "physics/residual_force.h"
-#include "physics/simulate.h"
+#include "geometry/refine/subdivide.h"
+#include "physics/cloth/elements.h"
+#include "physics/contact/residual_force.h"
+#include "physics/motion/simulate.h"
+#include "physics/rest/certificate.h"
+#include "tests/cases/draped.h"
+#include "tests/cases/garment_pair.h"
 
 namespace furrow::bench {
 namespace {

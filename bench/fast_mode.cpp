@@ -11,12 +11,12 @@
 #include <numeric>
 #include <string>
 
-#include "physics/displace_by_force.h"
-#include "physics/pins.h"
-#include "physics/static_equilibrium.h"
-#include "tests/physics/shell_cloths.h"
-#include "tests/physics/tension_cloths.h"
-#include "tests/physics/test_bodies.h"
+#include "physics/cloth/pins.h"
+#include "physics/rest/displace_by_force.h"
+#include "physics/rest/static_equilibrium.h"
+#include "tests/physics/body/test_bodies.h"
+#include "tests/physics/cloth/shell_cloths.h"
+#include "tests/physics/cloth/tension_cloths.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;

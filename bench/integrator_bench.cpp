@@ -4,10 +4,10 @@
 #include <chrono>
 #include <cstdio>
 
-#include "physics/pins.h"
-#include "physics/stable_step.h"
-#include "physics/stepper.h"
-#include "tests/physics/test_cloths.h"
+#include "physics/cloth/pins.h"
+#include "physics/linear/stable_step.h"
+#include "physics/motion/stepper.h"
+#include "tests/physics/cloth/test_cloths.h"
 
 using namespace furrow::physics;
 

@@ -8,16 +8,16 @@
 #include <string>
 
 #include "machine_probes.h"
-#include "physics/certificate.h"
-#include "physics/dihedral.h"
-#include "physics/hinge_forces.h"
-#include "physics/membrane_laws.h"
-#include "physics/pins.h"
-#include "physics/press.h"
-#include "physics/prestress.h"
-#include "physics/sag_system.h"
-#include "physics/simulate.h"
-#include "physics/struts.h"
+#include "physics/cloth/dihedral.h"
+#include "physics/cloth/hinge_forces.h"
+#include "physics/cloth/membrane_laws.h"
+#include "physics/cloth/pins.h"
+#include "physics/cloth/press.h"
+#include "physics/cloth/struts.h"
+#include "physics/motion/simulate.h"
+#include "physics/rest/certificate.h"
+#include "physics/rest/prestress.h"
+#include "physics/rest/sag_system.h"
 
 namespace furrow::bench {
 namespace {

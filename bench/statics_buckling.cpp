@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "bench/statics_table.h"
-#include "tests/physics/strips.h"
+#include "tests/physics/cloth/strips.h"
 
 namespace furrow::bench {
 

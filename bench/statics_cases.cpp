@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "bench/statics_table.h"
-#include "tests/physics/hanging_chains.h"
-#include "tests/physics/strips.h"
+#include "tests/physics/cloth/strips.h"
+#include "tests/physics/rest/hanging_chains.h"
 
 namespace furrow::bench {
 namespace {

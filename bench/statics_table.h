@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "physics/static_equilibrium.h"
+#include "physics/rest/static_equilibrium.h"
 
 namespace furrow::bench {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "physics/tension_forces.h"
+#include "physics/cloth/tension_forces.h"
 
 using namespace furrow::physics;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "geometry/repair_body.h"
-#include "physics/triangle_mesh.h"
+#include "geometry/figure/repair_body.h"
+#include "physics/base/triangle_mesh.h"
 
 namespace furrow::bridge {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "geometry/mesh.h"
-#include "physics/particles.h"
+#include "geometry/mesh/mesh.h"
+#include "physics/base/particles.h"
 
 namespace furrow::bridge {
 

@@ -12,9 +12,9 @@
 
 #include "bridge/convert.h"
 #include "bridge/scatter.h"
-#include "geometry/subdivide.h"
-#include "physics/displace_by_force.h"
-#include "physics/hinge_friction.h"
+#include "geometry/refine/subdivide.h"
+#include "physics/rest/displace_by_force.h"
+#include "physics/rest/hinge_friction.h"
 
 namespace furrow::bridge {
 namespace {

@@ -3,24 +3,24 @@
 #include <functional>
 #include <vector>
 
-#include "geometry/mesh.h"
-#include "physics/push_out.h"
-#include "physics/settle.h"
+#include "geometry/mesh/mesh.h"
+#include "physics/contact/push_out.h"
+#include "physics/rest/settle.h"
 
 namespace furrow::bridge {
 
 struct DrapeOptions {
   int refinements = 0;            ///< Loop subdivisions between the given mesh and the fitted one; in [0, 6]
   physics::SettleOptions settle;  ///< of the last level; others end at coarse_tolerance, at any depth
-  /// Paper 2's plain scheme (physics/displace_by_force.h) with the same friction, gap, tolerance and, for its
-  /// passes, max_iterations; to compare with: it takes a hundred times as long.
+  /// Paper 2's plain scheme (physics/rest/displace_by_force.h) with the same friction, gap, tolerance and,
+  /// for its passes, max_iterations; to compare with: it takes a hundred times as long.
   bool plain = false;
   double coarse_tolerance = 100;  ///< residual force at which the next level takes over [-]; > 0
   /// What a level's start is disturbed by, along its normals, so that cloth which must buckle does not
   /// balance on the way to it: a share of its mean edge [-]; >= 0.
   double disturbance = 0.003;
   /// Internal friction of bending on the last level, as a moment a metre of hinge [N]; >= 0, 0: none. It
-  /// needs linear hinges, and not plain. See physics/hinge_friction.h.
+  /// needs linear hinges, and not plain. See physics/rest/hinge_friction.h.
   double bending_friction = 0;
 };
 

@@ -8,8 +8,8 @@
 
 #include "bridge/convert.h"
 #include "bridge/scatter.h"
-#include "geometry/property_names.h"
-#include "physics/strain.h"
+#include "geometry/mesh/property_names.h"
+#include "physics/cloth/strain.h"
 
 namespace furrow::bridge {
 namespace {

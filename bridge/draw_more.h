@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "bridge/gather.h"
-#include "geometry/wrinkle.h"
-#include "physics/simulate_state.h"
+#include "geometry/fold/wrinkle.h"
+#include "physics/motion/simulate_state.h"
 
 namespace furrow::bridge {
 

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "bridge/convert.h"
-#include "geometry/edge_metric.h"
-#include "geometry/property_names.h"
+#include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/property_names.h"
 
 namespace furrow::bridge {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh.h"
-#include "geometry/torso_levels.h"
+#include "geometry/figure/torso_levels.h"
+#include "geometry/mesh/mesh.h"
 
 namespace furrow::bridge {
 
@@ -19,7 +19,7 @@ struct SectionHeights {
 struct FitEase {
   std::string name;                     ///< chest, waist or hip
   double height = 0;                    ///< y [m]
-  std::optional<double> body_girth;     ///< by the tape measure (geometry/horizontal_section.h) [m]
+  std::optional<double> body_girth;     ///< by the tape measure (geometry/figure/horizontal_section.h) [m]
   std::optional<double> garment_girth;  ///< the garment's curve around the body, all its folds followed [m]
   std::optional<double> ease;           ///< garment_girth - body_girth [m]
   std::optional<double> rest_girth;     ///< the same curve with the cloth unstrained [m]; none without rest

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bridge/convert.h"
-#include "geometry/pierced_faces.h"
+#include "geometry/stroke/pierced_faces.h"
 
 namespace furrow::bridge {
 namespace {

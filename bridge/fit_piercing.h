@@ -3,15 +3,15 @@
 #include <vector>
 
 #include "bridge/fit_zones.h"
-#include "geometry/mesh.h"
-#include "physics/exact_distance.h"
-#include "physics/triangle_mesh.h"
+#include "geometry/mesh/mesh.h"
+#include "physics/base/triangle_mesh.h"
+#include "physics/body/exact_distance.h"
 
 namespace furrow::bridge {
 
 /// Where a body comes through a garment.
 struct FitPiercing {
-  std::size_t faces = 0;       ///< that cross or touch the body's surface (geometry/pierced_faces.h)
+  std::size_t faces = 0;       ///< that cross or touch the body's surface (geometry/stroke/pierced_faces.h)
   double deepest = 0;          ///< of all points of the garment inside the body, as sampled [m], >= 0
   std::vector<FitZone> zones;  ///< of pierced faces and those with all corners inside; peak: their depth [m]
 };

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "bridge/convert.h"
-#include "geometry/errors.h"
-#include "geometry/preconditions.h"
-#include "geometry/principal_strain.h"
-#include "geometry/property_names.h"
-#include "geometry/vertex_attributes.h"
+#include "geometry/figure/principal_strain.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/vertex_attributes.h"
 
 namespace furrow::bridge {
 namespace {

@@ -7,13 +7,13 @@
 #include "bridge/fit_ease.h"
 #include "bridge/fit_piercing.h"
 #include "bridge/fit_zones.h"
-#include "geometry/mesh.h"
-#include "physics/exact_distance.h"
-#include "physics/triangle_mesh.h"
+#include "geometry/mesh/mesh.h"
+#include "physics/base/triangle_mesh.h"
+#include "physics/body/exact_distance.h"
 
 namespace furrow::bridge {
 
-/// Vertex attributes (geometry/vertex_attributes.h) that fit_report() writes: plain columns of a PLY.
+/// Vertex attributes (geometry/mesh/vertex_attributes.h) that fit_report() writes: plain columns of a PLY.
 inline constexpr const char* kFitDistance = "fit_distance";  ///< to the body [m], in every unit of the file
 inline constexpr const char* kFitStrain = "strain";          ///< [-]
 
@@ -26,7 +26,7 @@ struct FitOptions {
 };
 
 /// Engineering strain of the faces along the direction in which each is stretched most
-/// (geometry/principal_strain.h): > 0 stretched, < 0 pressed together in all directions. By area.
+/// (geometry/figure/principal_strain.h): > 0 stretched, < 0 pressed together in all directions. By area.
 struct FitStrain {
   double share_over = 0;             ///< of the area, strained more than tight_strain, in [0, 1]
   double p50 = 0, p99 = 0, max = 0;  ///< [-]

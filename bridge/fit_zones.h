@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 namespace furrow::bridge {
 

@@ -11,15 +11,15 @@
 
 #include "bridge/convert.h"
 #include "bridge/tension_constants.h"
-#include "geometry/bending_springs.h"
-#include "geometry/edge_metric.h"
-#include "geometry/errors.h"
-#include "geometry/line_press.h"
-#include "geometry/property_names.h"
-#include "geometry/rest_metric.h"
-#include "geometry/stiffness.h"
-#include "geometry/struts.h"
-#include "physics/membrane.h"
+#include "geometry/fold/line_press.h"
+#include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/struts.h"
+#include "geometry/rest/bending_springs.h"
+#include "geometry/rest/rest_metric.h"
+#include "geometry/rest/stiffness.h"
+#include "physics/cloth/membrane.h"
 
 namespace furrow::bridge {
 namespace {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "bridge/gather_particles.h"
-#include "geometry/mesh.h"
-#include "physics/springs.h"
+#include "geometry/mesh/mesh.h"
+#include "physics/cloth/springs.h"
 
 namespace furrow::bridge {
 
@@ -41,7 +41,7 @@ struct GatherOptions {
   double shear = 0.2;        ///< of diagonals over that of threads in tension [-]; in [0, 1]
   MassRule mass_rule = MassRule::area;
   /// By line id: factors on the hinges in a line's region [-] >= 1, and the lines' widths [m], NaN: none
-  /// (geometry/line_press.h). Missing at the end: 1, and none.
+  /// (geometry/fold/line_press.h). Missing at the end: 1, and none.
   std::vector<double> line_presses = {}, line_widths = {};
 };
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "bridge/convert.h"
-#include "geometry/errors.h"
-#include "geometry/property_names.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
 
 namespace furrow::bridge {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "geometry/mesh.h"
-#include "physics/particles.h"
+#include "geometry/mesh/mesh.h"
+#include "physics/base/particles.h"
 
 namespace furrow::bridge {
 

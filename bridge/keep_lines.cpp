@@ -9,8 +9,8 @@
 #include "bridge/keep_trial.h"
 #include "bridge/line_help.h"
 #include "bridge/scatter.h"
-#include "geometry/line_region.h"
-#include "geometry/property_names.h"
+#include "geometry/fold/line_region.h"
+#include "geometry/mesh/property_names.h"
 
 namespace furrow::bridge {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bridge/keep_options.h"
-#include "geometry/mesh.h"
-#include "physics/certificate.h"
+#include "geometry/mesh/mesh.h"
+#include "physics/rest/certificate.h"
 
 namespace furrow::bridge {
 
@@ -36,13 +36,13 @@ struct KeepReport {
   bool interrupted = false;  ///< the last rest state stands; lines say what is known
 };
 
-/// Gives a cloth the rest state that makes its drawn lines an equilibrium (physics/prestress.h), and tells of
-/// each line whether it will hold: by the certificate of stability (physics/certificate.h) and by a run
-/// forward, from rest and after a gust. What is nearer to the body than the gap is first brought there: a
-/// valley on a body is as deep as there is room. Lines that do not hold are helped, one step more each time
-/// and no line more than it needs: press (their hinges stiffer), then struts on top of the strongest press,
-/// then a lower height; the least that holds stays. With `whole` the hinges between the lines are pressed
-/// likewise where the motion that nothing holds back is theirs.
+/// Gives a cloth the rest state that makes its drawn lines an equilibrium (physics/rest/prestress.h), and
+/// tells of each line whether it will hold: by the certificate of stability (physics/rest/certificate.h) and
+/// by a run forward, from rest and after a gust. What is nearer to the body than the gap is first brought
+/// there: a valley on a body is as deep as there is room. Lines that do not hold are helped, one step more
+/// each time and no line more than it needs: press (their hinges stiffer), then struts on top of the
+/// strongest press, then a lower height; the least that holds stays. With `whole` the hinges between the
+/// lines are pressed likewise where the motion that nothing holds back is theirs.
 ///
 /// mesh: the garment with kLine, from which `cloth` was gathered and pinned; its positions are the drawn
 /// shape, and follow where heights were lowered. kRestPosition tells where a line lies without its height;

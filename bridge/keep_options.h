@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "physics/prestress.h"
-#include "physics/simulate.h"
+#include "physics/motion/simulate.h"
+#include "physics/rest/prestress.h"
 
 namespace furrow::bridge {
 
@@ -29,8 +29,8 @@ struct KeepOptions {
   /// [rad]; >= 0; 0: never.
   double largest_turn = 0.2;
   /// Of the lines by id, as drawn: widths [m], NaN: none, for where they are measured and helped
-  /// (geometry/line_region.h), and presses [-] that the cloth's hinges have already, for the report. Missing
-  /// at the end: none, and 1.
+  /// (geometry/fold/line_region.h), and presses [-] that the cloth's hinges have already, for the report.
+  /// Missing at the end: none, and 1.
   std::vector<double> line_widths = {}, line_presses = {};
   bool whole = false;  ///< the rest of the garment is pressed, too, until nothing in it is unstable
 };

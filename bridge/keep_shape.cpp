@@ -4,8 +4,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "physics/posed_collider.h"
-#include "physics/rigid_imbalance.h"
+#include "physics/body/posed_collider.h"
+#include "physics/rest/rigid_imbalance.h"
 
 namespace furrow::bridge {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "physics/certificate.h"
-#include "physics/prestress.h"
-#include "physics/push_out.h"
-#include "physics/world.h"
+#include "physics/contact/push_out.h"
+#include "physics/motion/world.h"
+#include "physics/rest/certificate.h"
+#include "physics/rest/prestress.h"
 
 namespace furrow::bridge {
 
@@ -15,11 +15,12 @@ struct KeptShape {
 };
 
 /// Gives a cloth, pinned, the rest state with which it is in equilibrium as it lies, on the body where that
-/// stands (physics/prestress.h), and tells whether that is a stable one (physics/certificate.h). Without a
-/// body, what hangs on a line of pins or on one is first turned about it into balance, if by no more than
-/// largest_turn [rad] (physics/rigid_imbalance.h); on a body, bring_out() comes first. Otherwise positions
-/// stay, and velocities and stiffnesses always. Wind is no load here. Throws std::invalid_argument, nothing
-/// changed, as require_still() and prestress() do. Cost: a factorisation or two.
+/// stands (physics/rest/prestress.h), and tells whether that is a stable one (physics/rest/certificate.h).
+/// Without a body, what hangs on a line of pins or on one is first turned about it into balance, if by no
+/// more than largest_turn [rad] (physics/rest/rigid_imbalance.h); on a body, bring_out() comes first.
+/// Otherwise positions stay, and velocities and stiffnesses always. Wind is no load here. Throws
+/// std::invalid_argument, nothing changed, as require_still() and prestress() do. Cost: a factorisation or
+/// two.
 KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
                      const physics::PrestressOptions& options, double largest_turn = 0);
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "bridge/scatter.h"
-#include "geometry/line_height.h"
+#include "geometry/fold/line_height.h"
 
 namespace furrow::bridge {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "geometry/property_names.h"
-#include "physics/press.h"
-#include "physics/struts.h"
+#include "geometry/mesh/property_names.h"
+#include "physics/cloth/press.h"
+#include "physics/cloth/struts.h"
 
 namespace furrow::bridge {
 

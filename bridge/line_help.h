@@ -9,7 +9,7 @@ namespace furrow::bridge {
 /// A line on the way to its verdict, and the help that it has so far.
 struct HelpedLine {
   int id;
-  std::vector<int> patch;  ///< its region, see geometry/line_region.h
+  std::vector<int> patch;  ///< its region, see geometry/fold/line_region.h
   double drawn;            ///< height [m]
   int step = 0;            ///< of presses, then of struts on top of the strongest press
   double height = 1;       ///< over that as drawn [-]

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bridge/convert.h"
-#include "geometry/property_names.h"
+#include "geometry/mesh/property_names.h"
 
 namespace furrow::bridge {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <tuple>
 
-#include "geometry/edge_metric.h"
-#include "geometry/property_names.h"
-#include "geometry/struts.h"
+#include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/struts.h"
 
 namespace furrow::bridge {
 namespace {

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "geometry/edge_metric.h"
-#include "geometry/preconditions.h"
-#include "geometry/property_names.h"
+#include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/preconditions.h"
+#include "geometry/mesh/property_names.h"
 
 namespace furrow::bridge {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 namespace furrow::bridge {
 

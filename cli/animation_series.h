@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "cli/frame_recorder.h"
-#include "io/scene.h"
+#include "io/scene/scene.h"
 
 namespace furrow::cli {
 

@@ -4,15 +4,15 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "geometry/apply_displacement.h"
-#include "geometry/bake_maps.h"
-#include "geometry/errors.h"
-#include "geometry/measures.h"
-#include "geometry/project_onto_surface.h"
-#include "geometry/property_names.h"
-#include "geometry/subdivide.h"
-#include "geometry/surface_deviation.h"
-#include "io/baked_maps.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/measures.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/refine/apply_displacement.h"
+#include "geometry/refine/bake_maps.h"
+#include "geometry/refine/subdivide.h"
+#include "geometry/refine/surface_deviation.h"
+#include "geometry/stroke/project_onto_surface.h"
+#include "io/picture/baked_maps.h"
 
 namespace furrow::cli {
 namespace {

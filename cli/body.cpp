@@ -10,17 +10,17 @@
 
 #include "bridge/body.h"
 #include "bridge/convert.h"
-#include "geometry/errors.h"
-#include "geometry/property_names.h"
-#include "geometry/rest_metric.h"
-#include "io/bytes_file.h"
-#include "io/field_file.h"
-#include "io/wrinkle_record.h"
-#include "physics/compare_colliders.h"
-#include "physics/contact.h"
-#include "physics/depth_map_collider.h"
-#include "physics/posed_collider.h"
-#include "physics/simulate.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/rest/rest_metric.h"
+#include "io/base/bytes_file.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/field_file.h"
+#include "physics/body/compare_colliders.h"
+#include "physics/body/depth_map_collider.h"
+#include "physics/body/posed_collider.h"
+#include "physics/contact/contact.h"
+#include "physics/motion/simulate.h"
 
 namespace furrow::cli {
 namespace {

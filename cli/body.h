@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "cli/common.h"
-#include "io/frame_source.h"
-#include "io/scene.h"
-#include "physics/animated_body.h"
-#include "physics/distance_field.h"
-#include "physics/exact_distance.h"
-#include "physics/push_out.h"
+#include "io/animation/frame_source.h"
+#include "io/scene/scene.h"
+#include "physics/body/animated_body.h"
+#include "physics/body/distance_field.h"
+#include "physics/body/exact_distance.h"
+#include "physics/contact/push_out.h"
 
 namespace furrow::cli {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <thread>
 
-#include "io/camera_file.h"
+#include "io/base/camera_file.h"
 
 namespace furrow::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "cli/common.h"
-#include "io/render.h"
+#include "io/picture/render.h"
 
 namespace furrow::cli {
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "cli/cost_table.h"
-#include "io/number_text.h"
+#include "io/base/number_text.h"
 
 namespace furrow::cli {
 namespace {

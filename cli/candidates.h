@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "cli/scene_cloth.h"
-#include "io/toml_document.h"
+#include "io/scene/toml_document.h"
 
 namespace furrow::cli {
 

@@ -11,8 +11,8 @@
 #include <sstream>
 
 #include "cli/judge_report.h"
-#include "io/atomic_file.h"
-#include "io/lower_case.h"
+#include "io/base/atomic_file.h"
+#include "io/base/lower_case.h"
 
 namespace furrow::cli {
 namespace {

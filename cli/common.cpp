@@ -12,10 +12,10 @@
 #include <map>
 
 #include "cli/print_text.h"
-#include "geometry/errors.h"
-#include "geometry/vertex_attributes.h"
-#include "io/state_file.h"
-#include "io/wrinkle_record.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/vertex_attributes.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/state_file.h"
 
 namespace furrow::cli {
 namespace {

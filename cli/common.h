@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/output_checks.h"
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 
 /// What the subcommands share: units, reports, progress, interruption, exit codes.
 namespace furrow::cli {

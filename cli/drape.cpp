@@ -12,7 +12,7 @@
 #include "cli/scene_flags.h"
 #include "cli/scene_input.h"
 #include "cli/subcommands.h"
-#include "io/animation_file.h"
+#include "io/animation/animation_file.h"
 
 namespace furrow::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "cli/common.h"
 #include "cli/drape_garment.h"
-#include "io/toml_document.h"
+#include "io/scene/toml_document.h"
 
 /// What the command line of `furrow drape` says in words of its own.
 namespace furrow::cli {

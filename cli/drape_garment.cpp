@@ -13,13 +13,13 @@
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
 #include "cli/scene_cloth.h"
-#include "geometry/border_loops.h"
-#include "geometry/rest_metric.h"
-#include "geometry/struts.h"
-#include "geometry/vertex_attributes.h"
-#include "io/animation_file.h"
-#include "physics/elastic_band.h"
-#include "physics/push_out.h"
+#include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/struts.h"
+#include "geometry/mesh/vertex_attributes.h"
+#include "geometry/rest/rest_metric.h"
+#include "io/animation/animation_file.h"
+#include "physics/cloth/elastic_band.h"
+#include "physics/contact/push_out.h"
 
 namespace furrow::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include "bridge/drape.h"
 #include "bridge/fit_report.h"
 #include "cli/body.h"
-#include "io/scene.h"
+#include "io/scene/scene.h"
 
 namespace furrow::cli {
 
@@ -31,12 +31,12 @@ struct Draped {
   bridge::DrapeReport report;
   bridge::FitReport fit;
   bridge::FitOptions fit_options;
-  double gap = 0;            ///< that was to be kept from the body [m]
-  std::size_t too_near = 0;  /**< vertices that keep less than nine tenths of a gap that was not raised, by
-                                  more than the field's tolerance */
-  bool falls = false;        ///< nothing carries it: its forces balance at no time
-  bool animated = false;     ///< the animation was written
-  double seconds = 0;        ///< that the fit took, without reading [s]
+  double gap = 0;           ///< that was to be kept from the body [m]
+  std::size_t too_near = 0; /**< vertices that keep less than nine tenths of a gap that was not raised, by
+                                 more than the field's tolerance */
+  bool falls = false;       ///< nothing carries it: its forces balance at no time
+  bool animated = false;    ///< the animation was written
+  double seconds = 0;       ///< that the fit took, without reading [s]
   std::string name;
 };
 

@@ -12,9 +12,9 @@
 #include "cli/fit_output.h"
 #include "cli/output_checks.h"
 #include "cli/subcommands.h"
-#include "geometry/edge_metric.h"
-#include "geometry/errors.h"
-#include "geometry/property_names.h"
+#include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
 
 namespace furrow::cli {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "geometry/errors.h"
-#include "geometry/vertex_attributes.h"
-#include "io/render_scene.h"
-#include "io/strip.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/vertex_attributes.h"
+#include "io/picture/render_scene.h"
+#include "io/picture/strip.h"
 
 namespace furrow::cli {
 namespace {

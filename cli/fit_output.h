@@ -7,7 +7,7 @@
 #include "bridge/fit_report.h"
 #include "cli/camera_options.h"
 #include "cli/common.h"
-#include "io/fit_colours.h"
+#include "io/picture/fit_colours.h"
 
 /// What a fit report becomes outside: JSON, colours, pictures.
 namespace furrow::cli {

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "cli/common.h"
-#include "io/animation_file.h"
+#include "io/animation/animation_file.h"
 
 namespace furrow::cli {
 

@@ -4,10 +4,10 @@
 #include "cli/common.h"
 #include "cli/simulate_report.h"
 #include "cli/subcommands.h"
-#include "geometry/measures.h"
-#include "geometry/property_names.h"
-#include "geometry/self_intersections.h"
-#include "io/wrinkle_record.h"
+#include "geometry/mesh/measures.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/self_intersections.h"
+#include "io/mesh/wrinkle_record.h"
 
 namespace furrow::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "physics/stable_step.h"
+#include "physics/linear/stable_step.h"
 
 namespace furrow::cli {
 namespace {

@@ -19,9 +19,9 @@
 #include "cli/scene_input.h"
 #include "cli/scene_run.h"
 #include "cli/subcommands.h"
-#include "geometry/errors.h"
-#include "io/relocated.h"
-#include "physics/pins.h"
+#include "geometry/mesh/errors.h"
+#include "io/scene/relocated.h"
+#include "physics/cloth/pins.h"
 
 namespace furrow::cli {
 namespace {

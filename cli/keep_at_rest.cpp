@@ -10,8 +10,8 @@
 #include "cli/keep_report.h"
 #include "cli/prepare_garment.h"
 #include "cli/scene_cloth.h"
-#include "io/lower_case.h"
-#include "physics/pins.h"
+#include "io/base/lower_case.h"
+#include "physics/cloth/pins.h"
 
 namespace furrow::cli {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include "cli/body.h"
 #include "cli/common.h"
-#include "io/scene.h"
+#include "io/scene/scene.h"
 
 /// --rest keep: the shape of a garment, as drawn, becomes its equilibrium.
 namespace furrow::cli {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/property_names.h"
-#include "io/render_scene.h"
+#include "geometry/mesh/property_names.h"
+#include "io/picture/render_scene.h"
 
 namespace furrow::cli {
 namespace {

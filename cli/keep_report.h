@@ -2,8 +2,8 @@
 #pragma once
 #include "bridge/keep_lines.h"
 #include "cli/common.h"
-#include "io/render.h"
-#include "io/wrinkle_record.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/picture/render.h"
 
 namespace furrow::cli {
 

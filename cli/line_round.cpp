@@ -5,11 +5,11 @@
 #include <sstream>
 
 #include "cli/wrinkle_reports.h"
-#include "geometry/property_names.h"
-#include "io/bytes_file.h"
-#include "io/resolve_strokes.h"
-#include "io/state_file.h"
-#include "io/stroke_file.h"
+#include "geometry/mesh/property_names.h"
+#include "io/base/bytes_file.h"
+#include "io/scene/state_file.h"
+#include "io/stroke/resolve_strokes.h"
+#include "io/stroke/stroke_file.h"
 
 namespace furrow::cli {
 namespace {

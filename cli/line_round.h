@@ -4,9 +4,9 @@
 
 #include "bridge/draw_more.h"
 #include "cli/common.h"
-#include "io/drawn_stroke.h"
-#include "io/scene.h"
-#include "io/wrinkle_record.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/scene.h"
+#include "io/stroke/drawn_stroke.h"
 
 namespace furrow::cli {
 

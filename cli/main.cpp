@@ -5,9 +5,9 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "geometry/errors.h"
-#include "io/nearest_word.h"
-#include "physics/progress.h"
+#include "geometry/mesh/errors.h"
+#include "io/base/nearest_word.h"
+#include "physics/base/progress.h"
 
 namespace {
 

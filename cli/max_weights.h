@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "geometry/vertex_attributes.h"
-#include "io/wrinkle_record.h"
+#include "geometry/mesh/vertex_attributes.h"
+#include "io/mesh/wrinkle_record.h"
 
 namespace furrow::cli {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "cli/common.h"
-#include "geometry/errors.h"
-#include "io/lower_case.h"
+#include "geometry/mesh/errors.h"
+#include "io/base/lower_case.h"
 
 namespace furrow::cli {
 namespace {

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "cli/common.h"
-#include "geometry/border_loops.h"
-#include "geometry/select_vertices.h"
+#include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/select_vertices.h"
 
 namespace furrow::cli {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "io/mesh_file.h"
-#include "io/scene.h"
+#include "io/mesh/mesh_file.h"
+#include "io/scene/scene.h"
 
 namespace furrow::cli {
 

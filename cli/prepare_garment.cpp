@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/bending_springs.h"
-#include "geometry/masses.h"
-#include "geometry/property_names.h"
-#include "geometry/rest_angles.h"
-#include "geometry/rest_metric.h"
-#include "geometry/stiffness.h"
-#include "geometry/vertex_attributes.h"
-#include "geometry/wrinkle.h"
-#include "io/fabrics.h"
+#include "geometry/fold/wrinkle.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/vertex_attributes.h"
+#include "geometry/rest/bending_springs.h"
+#include "geometry/rest/masses.h"
+#include "geometry/rest/rest_angles.h"
+#include "geometry/rest/rest_metric.h"
+#include "geometry/rest/stiffness.h"
+#include "io/scene/fabrics.h"
 
 namespace furrow::cli {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "bridge/gather.h"
-#include "io/scene.h"
-#include "io/wrinkle_record.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/scene.h"
 
 namespace furrow::cli {
 

@@ -2,8 +2,8 @@
 #include "cli/recorded_material.h"
 
 #include "cli/scene_flags.h"
-#include "io/fabrics.h"
-#include "io/wrinkle_record.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/fabrics.h"
 
 namespace furrow::cli {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "cli/common.h"
-#include "io/toml_document.h"
+#include "io/scene/toml_document.h"
 
-/// The material that a garment's file notes (io/wrinkle_record.h): what it came to rest with.
+/// The material that a garment's file notes (io/mesh/wrinkle_record.h): what it came to rest with.
 namespace furrow::cli {
 
 /// Whether the settings say what kind of cloth it is: preset, membrane, bending_law or stiffness.

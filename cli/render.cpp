@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/render.h"
+#include "io/picture/render.h"
 
 #include <memory>
 #include <sstream>
@@ -7,14 +7,14 @@
 #include "cli/camera_options.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "geometry/errors.h"
-#include "geometry/property_names.h"
-#include "io/checker_texture.h"
-#include "io/render_scene.h"
-#include "io/resolve_strokes.h"
-#include "io/strip.h"
-#include "io/stroke_file.h"
-#include "io/wrinkle_record.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/picture/checker_texture.h"
+#include "io/picture/render_scene.h"
+#include "io/picture/strip.h"
+#include "io/stroke/resolve_strokes.h"
+#include "io/stroke/stroke_file.h"
 
 namespace furrow::cli {
 namespace {

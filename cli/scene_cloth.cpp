@@ -9,9 +9,9 @@
 #include "cli/line_round.h"
 #include "cli/pins.h"
 #include "cli/prepare_garment.h"
-#include "geometry/subdivide.h"
-#include "io/stroke_file.h"
-#include "physics/pins.h"
+#include "geometry/refine/subdivide.h"
+#include "io/stroke/stroke_file.h"
+#include "physics/cloth/pins.h"
 
 namespace furrow::cli {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "cli/body.h"
-#include "io/scene.h"
+#include "io/scene/scene.h"
 
 /// The pieces of a scene's run that write nothing.
 namespace furrow::cli {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/toml_document.h"
+#include "io/scene/toml_document.h"
 
 namespace furrow::cli {
 

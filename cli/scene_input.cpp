@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "geometry/errors.h"
-#include "io/check_keep.h"
-#include "io/scene_file.h"
+#include "geometry/mesh/errors.h"
+#include "io/scene/check_keep.h"
+#include "io/scene/scene_file.h"
 
 namespace furrow::cli {
 

@@ -2,9 +2,9 @@
 #pragma once
 #include "cli/common.h"
 #include "cli/scene_flags.h"
-#include "io/scene.h"
-#include "io/state_file.h"
-#include "io/toml_document.h"
+#include "io/scene/scene.h"
+#include "io/scene/state_file.h"
+#include "io/scene/toml_document.h"
 
 /// From a file's name to a scene that can be run: what `simulate`, `keep` and `chart` share.
 namespace furrow::cli {

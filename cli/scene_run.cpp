@@ -15,9 +15,9 @@
 #include "cli/scene_flags.h"
 #include "cli/simulate_report.h"
 #include "cli/wrinkle_reports.h"
-#include "io/ply_motion.h"
-#include "io/relocated.h"
-#include "io/wrinkle_record.h"
+#include "io/mesh/ply_motion.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/relocated.h"
 
 namespace furrow::cli {
 namespace {

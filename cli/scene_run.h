@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "cli/body.h"
-#include "io/scene.h"
-#include "io/state_file.h"
-#include "io/toml_document.h"
+#include "io/scene/scene.h"
+#include "io/scene/state_file.h"
+#include "io/scene/toml_document.h"
 
 namespace furrow::cli {
 
@@ -19,8 +19,8 @@ int run_scene(const io::Scene& scene, const io::TomlDocument& document, const st
               const CommonArguments& common, std::shared_ptr<WorldBody> body = nullptr,
               const Json& choice = {});
 
-/// Runs a scene until its last lines are drawn (or to its end), and writes nothing: the garment as it is then;
-/// nothing if it was interrupted. Throws std::runtime_error if it diverges.
+/// Runs a scene until its last lines are drawn (or to its end), and writes nothing: the garment as it is
+/// then; nothing if it was interrupted. Throws std::runtime_error if it diverges.
 std::optional<io::SavedState> run_until_drawn(const io::Scene& scene, const io::TomlDocument& document,
                                               const std::filesystem::path& folder,
                                               const CommonArguments& common);

@@ -5,8 +5,8 @@
 #include "bridge/body.h"
 #include "cli/body.h"
 #include "cli/subcommands.h"
-#include "io/field_file.h"
-#include "io/render_slice.h"
+#include "io/picture/render_slice.h"
+#include "io/scene/field_file.h"
 
 namespace furrow::cli {
 namespace {

@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "cli/body.h"
-#include "geometry/border_loops.h"
-#include "physics/elements.h"
-#include "physics/strain.h"
-#include "physics/triangle_bvh.h"
+#include "geometry/mesh/border_loops.h"
+#include "physics/body/triangle_bvh.h"
+#include "physics/cloth/elements.h"
+#include "physics/cloth/strain.h"
 
 namespace furrow::cli {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/mesh.h"
-#include "physics/springs.h"
+#include "geometry/mesh/mesh.h"
+#include "physics/cloth/springs.h"
 
 namespace furrow::cli {
 

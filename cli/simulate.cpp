@@ -10,10 +10,10 @@
 #include "cli/scene_input.h"
 #include "cli/scene_run.h"
 #include "cli/subcommands.h"
-#include "geometry/errors.h"
-#include "io/animation_file.h"
-#include "io/scene_file.h"
-#include "io/state_file.h"
+#include "geometry/mesh/errors.h"
+#include "io/animation/animation_file.h"
+#include "io/scene/scene_file.h"
+#include "io/scene/state_file.h"
 
 namespace furrow::cli {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "bridge/convert.h"
-#include "geometry/border_loops.h"
-#include "geometry/hem_folds.h"
-#include "geometry/line_height.h"
-#include "geometry/property_names.h"
-#include "geometry/self_intersections.h"
+#include "geometry/figure/hem_folds.h"
+#include "geometry/fold/line_height.h"
+#include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/self_intersections.h"
 
 namespace furrow::cli {
 namespace {

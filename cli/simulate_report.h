@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "cli/body.h"
-#include "io/wrinkle_record.h"
-#include "physics/simulate.h"
+#include "io/mesh/wrinkle_record.h"
+#include "physics/motion/simulate.h"
 
 namespace furrow::cli {
 

@@ -4,7 +4,7 @@
 #include "cli/common.h"
 #include "cli/smoothing_options.h"
 #include "cli/subcommands.h"
-#include "geometry/property_names.h"
+#include "geometry/mesh/property_names.h"
 
 namespace furrow::cli {
 namespace {

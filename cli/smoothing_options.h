@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "geometry/taubin_smooth.h"
+#include "geometry/fold/taubin_smooth.h"
 
 namespace furrow::cli {
 

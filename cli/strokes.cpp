@@ -5,11 +5,11 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "geometry/errors.h"
-#include "io/lower_case.h"
-#include "io/resolve_strokes.h"
-#include "io/stroke_file.h"
-#include "io/wrinkle_record.h"
+#include "geometry/mesh/errors.h"
+#include "io/base/lower_case.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/stroke/resolve_strokes.h"
+#include "io/stroke/stroke_file.h"
 
 namespace furrow::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/subdivide.h"
+#include "geometry/refine/subdivide.h"
 
 #include <memory>
 
@@ -7,12 +7,12 @@
 #include "cli/max_weights.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_reports.h"
-#include "geometry/bending_springs.h"
-#include "geometry/insert_along_stroke.h"
-#include "geometry/insert_in_faces.h"
-#include "geometry/property_names.h"
-#include "io/resolve_strokes.h"
-#include "io/stroke_file.h"
+#include "geometry/insert/insert_along_stroke.h"
+#include "geometry/insert/insert_in_faces.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/rest/bending_springs.h"
+#include "io/stroke/resolve_strokes.h"
+#include "io/stroke/stroke_file.h"
 
 namespace furrow::cli {
 namespace {

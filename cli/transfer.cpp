@@ -4,12 +4,12 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "geometry/errors.h"
-#include "geometry/property_names.h"
-#include "geometry/transfer_shape.h"
-#include "io/atomic_file.h"
-#include "io/bytes_file.h"
-#include "io/rewrite_obj_vertices.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/refine/transfer_shape.h"
+#include "io/base/atomic_file.h"
+#include "io/base/bytes_file.h"
+#include "io/mesh/rewrite_obj_vertices.h"
 
 namespace furrow::cli {
 namespace {

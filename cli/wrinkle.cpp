@@ -12,11 +12,11 @@
 #include "cli/subcommands.h"
 #include "cli/wrinkle_drawing.h"
 #include "cli/wrinkle_reports.h"
-#include "geometry/property_names.h"
-#include "io/relocated.h"
-#include "io/scene_file.h"
-#include "io/state_file.h"
-#include "io/wrinkle_record.h"
+#include "geometry/mesh/property_names.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/relocated.h"
+#include "io/scene/scene_file.h"
+#include "io/scene/state_file.h"
 
 namespace furrow::cli {
 namespace {

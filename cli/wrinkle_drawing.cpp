@@ -6,12 +6,12 @@
 #include "cli/line_round.h"
 #include "cli/max_weights.h"
 #include "cli/recorded_options.h"
-#include "geometry/errors.h"
-#include "geometry/property_names.h"
-#include "io/bytes_file.h"
-#include "io/resolve_strokes.h"
-#include "io/stroke_file.h"
-#include "io/wrinkle_record.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "io/base/bytes_file.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/stroke/resolve_strokes.h"
+#include "io/stroke/stroke_file.h"
 
 namespace furrow::cli {
 namespace {

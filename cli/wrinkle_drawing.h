@@ -4,10 +4,10 @@
 #include "cli/common.h"
 #include "cli/scene_flags.h"
 #include "cli/smoothing_options.h"
-#include "geometry/wrinkle.h"
-#include "io/drawn_stroke.h"
-#include "io/scene.h"
-#include "io/state_file.h"
+#include "geometry/fold/wrinkle.h"
+#include "io/scene/scene.h"
+#include "io/scene/state_file.h"
+#include "io/stroke/drawn_stroke.h"
 
 namespace furrow::cli {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/audit_rest_metric.h"
-#include "geometry/property_names.h"
-#include "io/render_preview.h"
+#include "geometry/insert/audit_rest_metric.h"
+#include "geometry/mesh/property_names.h"
+#include "io/picture/render_preview.h"
 
 namespace furrow::cli {
 

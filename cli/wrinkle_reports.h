@@ -2,9 +2,9 @@
 #pragma once
 #include "bridge/draw_more.h"
 #include "cli/common.h"
-#include "geometry/wrinkle.h"
-#include "io/render.h"
-#include "io/wrinkle_record.h"
+#include "geometry/fold/wrinkle.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/picture/render.h"
 
 namespace furrow::cli {
 

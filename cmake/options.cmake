@@ -45,5 +45,5 @@ function(furrow_precompile target)
   endif()
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
-set(furrow_mesh_headers ${PROJECT_SOURCE_DIR}/geometry/mesh.h <Eigen/Core> <algorithm> <functional> <map> <optional> <set>
+set(furrow_mesh_headers ${PROJECT_SOURCE_DIR}/geometry/mesh/mesh.h <Eigen/Core> <algorithm> <functional> <map> <optional> <set>
                         <span> <sstream> <stdexcept> <string> <unordered_map> <vector>)

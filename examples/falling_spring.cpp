@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "furrow/version.h"
-#include "physics/simulate.h"
+#include "physics/motion/simulate.h"
 
 static_assert(FURROW_VERSION_MAJOR >= 0 && FURROW_VERSION_MINOR >= 0);
 

@@ -4,10 +4,10 @@
 #include "bridge/body.h"
 #include "bridge/gather.h"
 #include "bridge/scatter.h"
-#include "geometry/wrinkle.h"
-#include "io/mesh_file.h"
-#include "physics/distance_field.h"
-#include "physics/simulate.h"
+#include "geometry/fold/wrinkle.h"
+#include "io/mesh/mesh_file.h"
+#include "physics/body/distance_field.h"
+#include "physics/motion/simulate.h"
 
 int main(int argc, char** argv) {
   using namespace furrow;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 /// Clothes for the mannequin, of triangles of equal size, wound outward; they leave it 4 mm or more.
 namespace furrow::meshes {

@@ -14,8 +14,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "geometry/sheet.h"
-#include "geometry/subdivide.h"
+#include "geometry/mesh/sheet.h"
+#include "geometry/refine/subdivide.h"
 #include "meshes/garments.h"
 #include "meshes/mannequin.h"
 #include "meshes/panelled.h"

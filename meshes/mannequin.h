@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "meshes/implicit_shapes.h"
 
 /// A woman as she stands in a shop window: 1.70 m, feet on y = 0, looking along +z, arms 37 degrees from the

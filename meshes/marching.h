@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "meshes/implicit_shapes.h"
 
 namespace furrow::meshes {

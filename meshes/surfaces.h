@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "meshes/marching.h"
 
 /// From functions of a point to triangles. The same input gives the same mesh.

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 /// The zoo: meshes by kind, all of triangles, wound counter-clockwise from outside (flat ones from +z).
-/// The equilateral sheet is geometry/sheet.h.
+/// The equilateral sheet is geometry/mesh/sheet.h.
 namespace furrow::tests {
 
 /// From plain arrays; throws std::logic_error for a face that the half-edge structure refuses.

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "bench/accuracy_table.h"
-#include "bench/cases/drop_on_ball.h"
-#include "bench/cases/semi_implicit.h"
 #include "bench/charts/charts.h"
-#include "physics/stable_step.h"
+#include "physics/linear/stable_step.h"
+#include "tests/cases/drop_on_ball.h"
+#include "tests/cases/semi_implicit.h"
 
 namespace furrow::bench {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "bench/accuracy_table.h"
-#include "bench/cases/semi_implicit.h"
-#include "bench/cases/swing.h"
 #include "bench/charts/charts.h"
-#include "physics/dashpots.h"
+#include "physics/packed/dashpots.h"
+#include "tests/cases/semi_implicit.h"
+#include "tests/cases/swing.h"
 
 namespace furrow::bench {
 namespace {

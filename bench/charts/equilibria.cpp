@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "bench/accuracy_table.h"
-#include "bench/cases/semi_implicit.h"
-#include "bench/cases/swing.h"
 #include "bench/charts/charts.h"
-#include "physics/residual_force.h"
-#include "physics/static_equilibrium.h"
-#include "tests/physics/hanging_chains.h"
-#include "tests/physics/strips.h"
+#include "physics/contact/residual_force.h"
+#include "physics/rest/static_equilibrium.h"
+#include "tests/cases/semi_implicit.h"
+#include "tests/cases/swing.h"
+#include "tests/physics/cloth/strips.h"
+#include "tests/physics/rest/hanging_chains.h"
 
 namespace furrow::bench {
 namespace {

@@ -13,7 +13,7 @@
 #include "bench/charts/charts.h"
 #include "bench/charts/sampled_field.h"
 #include "bench/machine_probes.h"
-#include "physics/distance_field.h"
+#include "physics/body/distance_field.h"
 
 namespace furrow::bench {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "bench/accuracy_table.h"
-#include "bench/cases/flat_meshes.h"
-#include "bench/cases/patch_test.h"
 #include "bench/charts/charts.h"
+#include "tests/cases/flat_meshes.h"
+#include "tests/cases/patch_test.h"
 
 namespace furrow::bench {
 namespace {

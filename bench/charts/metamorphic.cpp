@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "bench/accuracy_table.h"
-#include "bench/cases/draped.h"
 #include "bench/charts/charts.h"
-#include "geometry/border_loops.h"
-#include "io/mesh_file.h"
-#include "physics/elements.h"
-#include "tests/physics/hanging_chains.h"
-#include "tests/physics/strips.h"
+#include "geometry/mesh/border_loops.h"
+#include "io/mesh/mesh_file.h"
+#include "physics/cloth/elements.h"
+#include "tests/cases/draped.h"
+#include "tests/physics/cloth/strips.h"
+#include "tests/physics/rest/hanging_chains.h"
 
 namespace furrow::bench {
 namespace {

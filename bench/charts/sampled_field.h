@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "physics/exact_distance.h"
+#include "physics/body/exact_distance.h"
 
 namespace furrow::bench {
 

@@ -11,10 +11,10 @@
 #include "bench/bench_bodies.h"
 #include "bench/charts/charts.h"
 #include "bench/machine_probes.h"
-#include "geometry/measures.h"
-#include "geometry/rest_metric.h"
-#include "geometry/smoothing_rows.h"
-#include "physics/exact_distance.h"
+#include "geometry/fold/smoothing_rows.h"
+#include "geometry/mesh/measures.h"
+#include "geometry/rest/rest_metric.h"
+#include "physics/body/exact_distance.h"
 
 namespace furrow::bench {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bench/accuracy_table.h"
-#include "bench/cases/swing.h"
 #include "bench/charts/charts.h"
+#include "tests/cases/swing.h"
 
 namespace furrow::bench {
 namespace {

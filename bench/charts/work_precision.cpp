@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bench/accuracy_table.h"
-#include "bench/cases/semi_implicit.h"
-#include "bench/cases/swing.h"
 #include "bench/charts/charts.h"
+#include "tests/cases/semi_implicit.h"
+#include "tests/cases/swing.h"
 
 namespace furrow::bench {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "bridge/convert.h"
 #include "bridge/scatter.h"
-#include "geometry/property_names.h"
-#include "io/animation_file.h"
-#include "io/bytes_file.h"
+#include "geometry/mesh/property_names.h"
+#include "io/animation/animation_file.h"
+#include "io/base/bytes_file.h"
 
 namespace {
 

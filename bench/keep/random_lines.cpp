@@ -11,15 +11,15 @@
 #include <optional>
 #include <thread>
 
-#include "bench/cases/random_garments.h"
 #include "bridge/keep_trial.h"
 #include "bridge/line_help.h"
 #include "bridge/scatter.h"
-#include "geometry/property_names.h"
-#include "geometry/two_ring.h"
-#include "physics/press.h"
-#include "physics/rigid_imbalance.h"
-#include "physics/struts.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/two_ring.h"
+#include "physics/cloth/press.h"
+#include "physics/cloth/struts.h"
+#include "physics/rest/rigid_imbalance.h"
+#include "tests/cases/random_garments.h"
 
 namespace furrow::bench {
 namespace {

@@ -2,22 +2,22 @@
 // What a draped shape is worth, whoever made it: a line of CSV.
 //   drape_peer REST WORN BODY [GAP]
 // REST and WORN are one mesh. Strain of faces as `furrow fit` and of edges as `furrow simulate` tell it, how
-// deep the body comes through, and, as cotton, the residual force (physics/residual_force.h): contact acts
-// within GAP [m] (0.003).
+// deep the body comes through, and, as cotton, the residual force (physics/contact/residual_force.h): contact
+// acts within GAP [m] (0.003).
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
 #include <string>
 
-#include "bench/cases/garment_pair.h"
 #include "bridge/body.h"
 #include "bridge/convert.h"
 #include "bridge/fit_report.h"
-#include "geometry/repair_body.h"
-#include "io/fabrics.h"
-#include "io/mesh_file.h"
-#include "physics/residual_force.h"
-#include "physics/strain.h"
+#include "geometry/figure/repair_body.h"
+#include "io/mesh/mesh_file.h"
+#include "io/scene/fabrics.h"
+#include "physics/cloth/strain.h"
+#include "physics/contact/residual_force.h"
+#include "tests/cases/garment_pair.h"
 
 namespace furrow::bench {
 namespace {

@@ -4,14 +4,14 @@
 #include <catch2/catch.hpp>
 
 #include "bridge/gather.h"
-#include "geometry/bending_springs.h"
-#include "geometry/masses.h"
-#include "geometry/property_names.h"
-#include "geometry/rest_angles.h"
-#include "geometry/rest_metric.h"
-#include "geometry/sheet.h"
-#include "physics/residual_force.h"
-#include "tests/physics/test_bodies.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/sheet.h"
+#include "geometry/rest/bending_springs.h"
+#include "geometry/rest/masses.h"
+#include "geometry/rest/rest_angles.h"
+#include "geometry/rest/rest_metric.h"
+#include "physics/contact/residual_force.h"
+#include "tests/physics/body/test_bodies.h"
 
 using namespace furrow;
 using physics::Vec3;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What must not move a draped garment, from the meshes and files on.
-#include "bench/cases/draped.h"
+#include "tests/cases/draped.h"
 
 #include <catch2/catch.hpp>
 
-#include "physics/elements.h"
+#include "physics/cloth/elements.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;

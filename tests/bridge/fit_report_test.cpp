@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "bridge/convert.h"
-#include "geometry/edge_metric.h"
-#include "geometry/errors.h"
-#include "geometry/property_names.h"
-#include "geometry/vertex_attributes.h"
+#include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/vertex_attributes.h"
 #include "tests/bridge/test_body.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"

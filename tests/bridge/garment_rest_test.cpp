@@ -2,11 +2,11 @@
 // Where the fast fit leaves a garment, leapfrog without friction leaves it, too.
 #include <catch2/catch.hpp>
 
-#include "bench/cases/draped.h"
-#include "bench/cases/garment_pair.h"
-#include "physics/certificate.h"
-#include "physics/elements.h"
-#include "physics/simulate.h"
+#include "physics/cloth/elements.h"
+#include "physics/motion/simulate.h"
+#include "physics/rest/certificate.h"
+#include "tests/cases/draped.h"
+#include "tests/cases/garment_pair.h"
 #include "tests/test_paths.h"
 
 using namespace furrow;

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "bridge/scatter.h"
-#include "geometry/bending_springs.h"
-#include "geometry/errors.h"
-#include "geometry/masses.h"
-#include "geometry/property_names.h"
-#include "geometry/rest_angles.h"
-#include "geometry/rest_metric.h"
-#include "physics/elements.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/rest/bending_springs.h"
+#include "geometry/rest/masses.h"
+#include "geometry/rest/rest_angles.h"
+#include "geometry/rest/rest_metric.h"
+#include "physics/cloth/elements.h"
 
 using namespace furrow;
 using geometry::Mesh;

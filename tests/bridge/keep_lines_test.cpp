@@ -5,15 +5,15 @@
 #include <cmath>
 #include <optional>
 
-#include "bench/cases/random_garments.h"
 #include "bridge/gather.h"
 #include "bridge/keep_trial.h"
 #include "bridge/store_rest_state.h"
-#include "geometry/sheet.h"
-#include "geometry/wrinkle.h"
-#include "physics/pins.h"
-#include "physics/residual_force.h"
-#include "physics/rigid_imbalance.h"
+#include "geometry/fold/wrinkle.h"
+#include "geometry/mesh/sheet.h"
+#include "physics/cloth/pins.h"
+#include "physics/contact/residual_force.h"
+#include "physics/rest/rigid_imbalance.h"
+#include "tests/cases/random_garments.h"
 
 using namespace furrow;
 using bridge::KeepOptions;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bench/cases/posed_body.h"
+#include "tests/cases/posed_body.h"
 
 #include <catch2/catch.hpp>
 
 #include "bridge/body.h"
 #include "bridge/convert.h"
-#include "geometry/repair_body.h"
-#include "geometry/self_intersections.h"
-#include "io/mesh_file.h"
-#include "physics/compare_colliders.h"
-#include "physics/depth_map_collider.h"
+#include "geometry/figure/repair_body.h"
+#include "geometry/mesh/self_intersections.h"
+#include "io/mesh/mesh_file.h"
+#include "physics/body/compare_colliders.h"
+#include "physics/body/depth_map_collider.h"
 #include "tests/test_paths.h"
 
 namespace {

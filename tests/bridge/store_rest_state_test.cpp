@@ -5,14 +5,14 @@
 #include <cmath>
 #include <functional>
 
-#include "geometry/bending_springs.h"
-#include "geometry/errors.h"
-#include "geometry/masses.h"
-#include "geometry/property_names.h"
-#include "geometry/rest_angles.h"
-#include "geometry/rest_metric.h"
-#include "geometry/stiffness.h"
-#include "geometry/struts.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/struts.h"
+#include "geometry/rest/bending_springs.h"
+#include "geometry/rest/masses.h"
+#include "geometry/rest/rest_angles.h"
+#include "geometry/rest/rest_metric.h"
+#include "geometry/rest/stiffness.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;

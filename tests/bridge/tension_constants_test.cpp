@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "bridge/gather.h"
-#include "geometry/masses.h"
-#include "geometry/measures.h"
-#include "geometry/property_names.h"
-#include "geometry/rest_metric.h"
-#include "geometry/sheet.h"
-#include "geometry/subdivide.h"
-#include "physics/elements.h"
-#include "physics/pins.h"
-#include "physics/static_equilibrium.h"
+#include "geometry/mesh/measures.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/sheet.h"
+#include "geometry/refine/subdivide.h"
+#include "geometry/rest/masses.h"
+#include "geometry/rest/rest_metric.h"
+#include "physics/cloth/elements.h"
+#include "physics/cloth/pins.h"
+#include "physics/rest/static_equilibrium.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "bridge/body.h"
-#include "physics/exact_distance.h"
+#include "physics/body/exact_distance.h"
 
 namespace furrow::tests {
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-furrow_add_tests(bridge LIBRARIES furrow::bridge garment_cases SOURCES
+furrow_add_tests(bridge bridge LIBRARIES furrow::bridge garment_cases SOURCES
   drape_test.cpp
   draw_more_test.cpp
   fit_ease_test.cpp

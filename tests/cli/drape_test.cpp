@@ -3,12 +3,12 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/border_loops.h"
-#include "geometry/property_names.h"
-#include "geometry/struts.h"
-#include "io/animation_file.h"
-#include "io/mesh_file.h"
-#include "io/png_file.h"
+#include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/struts.h"
+#include "io/animation/animation_file.h"
+#include "io/mesh/mesh_file.h"
+#include "io/picture/png_file.h"
 #include "run_furrow.h"
 #include "tests/test_paths.h"
 

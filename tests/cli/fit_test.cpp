@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "geometry/property_names.h"
-#include "geometry/vertex_attributes.h"
-#include "io/mesh_file.h"
-#include "io/png_file.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/vertex_attributes.h"
+#include "io/mesh/mesh_file.h"
+#include "io/picture/png_file.h"
 #include "run_furrow.h"
 
 using namespace furrow;

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hung_patch.h"
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 #include "run_furrow.h"
 #include "tests/test_paths.h"
 

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <random>
 
-#include "geometry/sheet.h"
-#include "io/mesh_file.h"
+#include "geometry/mesh/sheet.h"
+#include "io/mesh/mesh_file.h"
 #include "tests/cli/run_furrow.h"
 #include "tests/test_meshes.h"
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bridge/convert.h"
-#include "geometry/border_loops.h"
-#include "geometry/property_names.h"
-#include "io/frame_source.h"
-#include "io/mesh_file.h"
-#include "io/state_file.h"
+#include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/property_names.h"
+#include "io/animation/frame_source.h"
+#include "io/mesh/mesh_file.h"
+#include "io/scene/state_file.h"
 #include "run_furrow.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"

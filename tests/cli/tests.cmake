@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-furrow_add_tests(cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
+furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   run_furrow.h
   run_furrow.cpp
   usage_test.cpp

@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/property_names.h"
-#include "geometry/vertex_attributes.h"
-#include "io/mesh_file.h"
-#include "io/png_file.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/vertex_attributes.h"
+#include "io/mesh/mesh_file.h"
+#include "io/picture/png_file.h"
 #include "run_furrow.h"
 #include "tests/test_paths.h"
 

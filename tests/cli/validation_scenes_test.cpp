@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "bridge/convert.h"
-#include "io/mesh_file.h"
-#include "physics/rigid_motion.h"
+#include "io/mesh/mesh_file.h"
+#include "physics/body/rigid_motion.h"
 #include "run_furrow.h"
 #include "tests/test_paths.h"
 

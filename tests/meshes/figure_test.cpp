@@ -7,13 +7,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "geometry/audit_rest_metric.h"
-#include "geometry/border_loops.h"
-#include "geometry/measures.h"
-#include "geometry/self_intersections.h"
-#include "geometry/wrinkle.h"
-#include "io/stroke_file.h"
-#include "physics/exact_distance.h"
+#include "geometry/fold/wrinkle.h"
+#include "geometry/insert/audit_rest_metric.h"
+#include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/measures.h"
+#include "geometry/mesh/self_intersections.h"
+#include "io/stroke/stroke_file.h"
+#include "physics/body/exact_distance.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-furrow_add_tests(meshes LIBRARIES furrow::io SOURCES figure_test.cpp)
+furrow_add_tests(meshes meshes LIBRARIES furrow::io SOURCES figure_test.cpp)
 # Seven seconds. The functions behind the figure take no more than + - * / and square roots, so it should have the same
 # bits wherever CGAL is of the same version; the sanitizers would need minutes.
 if(NOT FURROW_SANITIZE)

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/figure/repair_body.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/stitch_borders.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+
+#include <algorithm>
+#include <set>
+
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
+#include "geometry/mesh/self_intersections.h"
+
+namespace furrow::geometry {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;  // hole filling triangulates in 3D
+using ExactMesh = CGAL::Surface_mesh<Exact::Point_3>;
+using Corners = std::array<Exact::Point_3, 3>;
+
+struct Soup {
+  std::vector<Exact::Point_3> points;
+  std::vector<std::vector<std::size_t>> faces;
+};
+
+Soup soup_of(const Mesh& mesh) {
+  Soup soup;
+  std::vector<std::size_t> index(mesh.num_vertices());
+  for (Vertex v : mesh.vertices()) {
+    index[v.idx()] = soup.points.size();
+    soup.points.emplace_back(mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z());
+  }
+  for (Face f : mesh.faces()) {
+    soup.faces.emplace_back();
+    for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) soup.faces.back().push_back(index[v.idx()]);
+  }
+  return soup;
+}
+
+/// Corners in their cyclic order, smallest first: equal for equally wound triangles.
+Corners cyclic(Corners c) {
+  std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
+  return c;
+}
+
+/// The parted, consistently wound and stitched mesh of a soup.
+ExactMesh oriented_mesh(Soup& soup, BodyReport& report) {
+  const std::size_t faces = soup.faces.size();
+  std::size_t points = soup.points.size();
+  pmp::repair_polygon_soup(soup.points, soup.faces);
+  report.dropped_faces = faces - soup.faces.size();
+  report.merged_points = points - soup.points.size();
+  // A face whose three corners lie at two positions only shrinks to two points and is dropped above.
+  std::erase_if(soup.faces, [](const auto& f) { return f.size() != 3; });
+  if (soup.faces.empty()) throw ContentError("repair_body: no face has an area; this is no body");
+  points = soup.points.size();
+  pmp::orient_polygon_soup(soup.points, soup.faces);
+  report.duplicated_points = soup.points.size() - points;
+  ExactMesh body;
+  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.faces, body);
+  pmp::stitch_borders(body);
+  return body;
+}
+
+std::size_t count_edges(const ExactMesh& body, ExactMesh::Halfedge_index border) {
+  std::size_t n = 0;
+  for (auto h : CGAL::halfedges_around_face(border, body)) n += h.is_valid();
+  return n;
+}
+
+/// Fan around the mean of the hole's vertices: always possible.
+std::size_t fill_by_fan(ExactMesh& body, ExactMesh::Halfedge_index border) {
+  std::vector<ExactMesh::Vertex_index> ring;
+  CGAL::Vector_3<Exact> sum(0, 0, 0);
+  for (auto h : CGAL::halfedges_around_face(border, body)) {
+    ring.push_back(body.target(h));
+    sum = sum + (body.point(ring.back()) - CGAL::ORIGIN);
+  }
+  CGAL::Euler::fill_hole(border, body);
+  const auto center = CGAL::Euler::add_center_vertex(body.halfedge(body.face(border)), body);
+  body.point(body.target(center)) = CGAL::ORIGIN + sum / static_cast<double>(ring.size());
+  return ring.size();
+}
+
+void fill_holes(ExactMesh& body, BodyReport& report) {
+  std::vector<ExactMesh::Halfedge_index> cycles;
+  pmp::extract_boundary_cycles(body, std::back_inserter(cycles));
+  for (auto border : cycles) {
+    std::vector<ExactMesh::Face_index> faces;
+    if (count_edges(body, border) <= 1000) pmp::triangulate_hole(body, border, std::back_inserter(faces));
+    report.filling_faces += faces.empty() ? fill_by_fan(body, border) : faces.size();
+    ++report.filled_holes;
+  }
+}
+
+/// Turns every component that encloses a negative volume.
+void wind_by_volume(ExactMesh& body) {
+  auto component = body.add_property_map<ExactMesh::Face_index, std::size_t>("f:component", 0).first;
+  const std::size_t n = pmp::connected_components(body, component);
+  std::vector<std::vector<ExactMesh::Face_index>> faces(n);
+  for (auto f : body.faces()) faces[component[f]].push_back(f);
+  for (const auto& part : faces) {
+    double volume = 0;
+    for (auto f : part) {
+      std::vector<Exact::Point_3> p;
+      for (auto v : body.vertices_around_face(body.halfedge(f))) p.push_back(body.point(v));
+      volume += CGAL::determinant(p[0] - CGAL::ORIGIN, p[1] - CGAL::ORIGIN, p[2] - CGAL::ORIGIN);
+    }
+    if (volume < 0) pmp::reverse_face_orientations(part, body);
+  }
+  body.remove_property_map(component);
+}
+
+void gather(const ExactMesh& mesh, Body& body) {
+  std::vector<int> index(mesh.num_vertices(), 0);
+  for (auto v : mesh.vertices()) {
+    index[v.idx()] = static_cast<int>(body.points.size());
+    body.points.emplace_back(mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z());
+  }
+  for (auto f : mesh.faces()) {
+    std::size_t i = 0;
+    body.triangles.emplace_back();
+    for (auto v : mesh.vertices_around_face(mesh.halfedge(f))) body.triangles.back()[i++] = index[v.idx()];
+  }
+}
+
+}  // namespace
+
+Body repair_body(const Mesh& mesh) {
+  require_finite(mesh, "repair_body");
+  require_triangles(mesh, "repair_body");
+  if (mesh.number_of_faces() == 0) throw ContentError("repair_body: the mesh has no faces");
+  Body body;
+  Soup soup = soup_of(mesh);
+  std::set<Corners> reversed;  // of the input: what the result may not contain
+  for (const auto& f : soup.faces)
+    reversed.insert(cyclic({soup.points[f[0]], soup.points[f[2]], soup.points[f[1]]}));
+  ExactMesh exact = oriented_mesh(soup, body.report);
+  fill_holes(exact, body.report);
+  body.report.closed = CGAL::is_closed(exact);
+
+  gather(exact, body);
+  body.report.self_intersections = count_self_intersections(body.points, body.triangles);
+  if (body.report.closed && body.report.self_intersections == 0)
+    pmp::orient_to_bound_a_volume(exact);
+  else
+    wind_by_volume(exact);
+  body.points.clear();
+  body.triangles.clear();
+  gather(exact, body);
+
+  for (auto f : exact.faces()) {
+    Corners c;
+    std::size_t i = 0;
+    for (auto v : exact.vertices_around_face(exact.halfedge(f))) c[i++] = exact.point(v);
+    body.report.reversed_faces += reversed.count(cyclic(c));
+  }
+  auto component = exact.add_property_map<ExactMesh::Face_index, std::size_t>("f:component", 0).first;
+  body.report.components = pmp::connected_components(exact, component);
+  return body;
+}
+
+}  // namespace furrow::geometry

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/figure/torso_levels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace furrow::geometry {
+namespace {
+
+// Thousandths of the body's height: whole numbers, because g++ 12 with -frounding-math counts the rounds of a
+// loop over constants of type double wrongly.
+constexpr int kStep = 5, kSeed = 620, kLowest = 400, kHighest = 850;
+constexpr double kWaistLow = 0.55, kWaistHigh = 0.70, kChestHigh = 0.78;  // of the body's height
+constexpr double kLeast = 0.9, kMost = 2.5;                               // heights of bodies [m]
+constexpr double kJump = 0.1;                                             // of the girth in one step
+
+using Triangles = std::span<const std::array<int, 3>>;
+
+std::array<double, 2> range_of_y(std::span<const Point> points, Triangles triangles) {
+  std::array<double, 2> range{INFINITY, -INFINITY};
+  for (const auto& t : triangles)
+    for (int v : t) {
+      if (v < 0 || static_cast<std::size_t>(v) >= points.size()) continue;  // horizontal_section() tells
+      const double y = points[static_cast<std::size_t>(v)].y();
+      range = {std::min(range[0], y), std::max(range[1], y)};
+    }
+  return range;
+}
+
+/// The largest closed curve, around a centre if one is given; the number of curves if there is none.
+std::size_t find_torso(std::span<const SectionLoop> loops, const std::array<double, 2>* centre) {
+  std::size_t best = loops.size();
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (!loops[i].closed || (centre && !encloses(loops[i], (*centre)[0], (*centre)[1]))) continue;
+    if (best == loops.size() || enclosed_area(loops[i]) > enclosed_area(loops[best])) best = i;
+  }
+  return best;
+}
+
+std::optional<TorsoLevel> level_at(std::span<const Point> points, Triangles triangles, double height,
+                                   const TorsoLevel* last) {
+  const std::vector<SectionLoop> loops = horizontal_section(points, triangles, height);
+  const std::size_t torso = find_torso(loops, last ? &last->centre : nullptr);
+  if (torso == loops.size()) return std::nullopt;
+  const TorsoLevel level{height, tape_measure(loops[torso]), centre_of(loops[torso])};
+  if (last && !(std::abs(level.girth - last->girth) <= kJump * last->girth)) return std::nullopt;
+  return level;
+}
+
+bool lies_between(const TorsoLevel& level, double low, double high) {
+  return level.height >= low && level.height <= high;
+}
+
+}  // namespace
+
+std::vector<TorsoLevel> torso_levels(std::span<const Point> points, Triangles triangles) {
+  const auto [low, high] = range_of_y(points, triangles);
+  const double tall = high - low;
+  if (!(tall >= kLeast && tall <= kMost)) return {};
+  std::vector<TorsoLevel> levels;
+  const auto follow = [&](int thousandths) {
+    const auto next = level_at(points, triangles, low + thousandths / 1000.0 * tall,
+                               levels.empty() ? nullptr : &levels.back());
+    if (next) levels.push_back(*next);
+    return next.has_value();
+  };
+  for (int i = kSeed; i >= kLowest && follow(i); i -= kStep) {
+  }
+  if (levels.empty()) return {};
+  std::reverse(levels.begin(), levels.end());
+  for (int i = kSeed + kStep; i <= kHighest && follow(i); i += kStep) {
+  }
+  const double slack = kStep / 2000.0;
+  if (levels.front().height > low + (kWaistLow + slack) * tall ||
+      levels.back().height < low + (kWaistHigh - slack) * tall)
+    return {};
+  return levels;
+}
+
+std::optional<TorsoHeights> torso_heights(std::span<const TorsoLevel> levels, double low, double high) {
+  if (levels.empty()) return std::nullopt;
+  const double tall = high - low;
+  TorsoLevel waist, chest, hip;
+  for (const TorsoLevel& level : levels)
+    if (lies_between(level, low + kWaistLow * tall, low + kWaistHigh * tall) &&
+        (waist.girth == 0 || level.girth < waist.girth))
+      waist = level;
+  for (const TorsoLevel& level : levels) {
+    if (level.height <= waist.height && level.girth > hip.girth) hip = level;
+    if (lies_between(level, waist.height, low + kChestHigh * tall) && level.girth > chest.girth)
+      chest = level;
+  }
+  return TorsoHeights{chest.height, waist.height, hip.height};
+}
+
+std::optional<TorsoSection> torso_section(std::span<const Point> points, Triangles triangles,
+                                          std::span<const TorsoLevel> levels, double height) {
+  std::vector<SectionLoop> loops = horizontal_section(points, triangles, height);
+  const TorsoLevel* nearest = nullptr;
+  for (const TorsoLevel& level : levels)
+    if (!nearest || std::abs(level.height - height) < std::abs(nearest->height - height)) nearest = &level;
+  const std::size_t torso = find_torso(loops, nearest ? &nearest->centre : nullptr);
+  if (torso == loops.size()) return std::nullopt;
+  TorsoSection section{std::move(loops[torso]), {}};
+  loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(torso));
+  section.others = std::move(loops);
+  return section;
+}
+
+}  // namespace furrow::geometry

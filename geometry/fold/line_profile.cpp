@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/fold/line_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "geometry/fold/line_region.h"
+#include "geometry/mesh/edge_metric.h"
+
+namespace furrow::geometry {
+namespace {
+constexpr double kFarthest = 1.5;  // ways along edges over straight ones: sqrt(2) on grids of right angles
+}  // namespace
+
+double line_profile(double t, double sharpness) {
+  if (t >= 1) return 0;
+  const double round = (1 + std::cos(std::numbers::pi * t)) / 2;
+  return (1 - sharpness) * round + sharpness * (1 - t);
+}
+
+std::vector<Lift> lift_by_profile(const Mesh& mesh, std::span<const Vertex> line,
+                                  std::span<const StrokeSegment> path, const Stroke& stroke) {
+  if (!stroke.width) throw std::invalid_argument("lift_by_profile: the stroke has no width");
+  const double half = *stroke.width / 2;
+  std::vector<char> own(mesh.num_vertices(), 0);
+  for (Vertex v : line) own[v.idx()] = 1;
+  std::vector<Lift> lifts;
+  for (Vertex v : vertices_within(mesh, line, kFarthest * half, rest_lengths(mesh))) {
+    const double t = own[v.idx()] ? 0 : distance_to(path, mesh.point(v)) / half;
+    const double height = stroke.height * line_profile(t, stroke.sharpness);
+    if (height != 0) lifts.push_back({v, height});
+  }
+  return lifts;
+}
+
+double coarseness(const Mesh& mesh, std::span<const Vertex> region, double width,
+                  const std::vector<double>& length_of_edge) {
+  std::vector<char> inside(mesh.num_vertices(), 0);
+  for (Vertex v : region) inside[v.idx()] = 1;
+  double sum = 0, count = 0;
+  for (Vertex v : region) {
+    if (mesh.is_isolated(v)) continue;
+    for (Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))
+      if (inside[mesh.source(h).idx()] && v < mesh.source(h)) {
+        sum += length_of_edge[mesh.edge(h).idx()];
+        ++count;
+      }
+  }
+  return count > 0 ? sum / count / (width / 3) : 0;
+}
+
+}  // namespace furrow::geometry

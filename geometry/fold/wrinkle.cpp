@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/fold/wrinkle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "geometry/fold/displace_line.h"
+#include "geometry/fold/line_height.h"
+#include "geometry/fold/line_press.h"
+#include "geometry/fold/line_profile.h"
+#include "geometry/fold/line_region.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/tangent_frames.h"
+#include "geometry/mesh/two_ring.h"
+#include "geometry/rest/bending_springs.h"
+#include "geometry/rest/masses.h"
+#include "geometry/rest/rest_angles.h"
+#include "geometry/rest/rest_metric.h"
+#include "geometry/rest/stiffness.h"
+
+namespace furrow::geometry {
+namespace {
+
+void check_all(const Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options) {
+  if (!(options.density > 0)) throw std::invalid_argument("wrinkle: density must be > 0 kg/m^2");
+  if (options.first_line < 0)
+    throw std::invalid_argument("wrinkle: first_line must be >= 0, not " +
+                                std::to_string(options.first_line));
+  for (const auto& r_avg : {options.mean_structural_length, options.mean_bending_length})
+    if (r_avg && !(*r_avg > 0)) throw std::invalid_argument("wrinkle: a mean rest length must be > 0 m");
+  check(options.insertion);
+  for (const Stroke& stroke : strokes)
+    if (const std::string fault = shape_fault(stroke); !fault.empty())
+      throw ContentError("stroke \"" + stroke.name + "\": " + fault);
+  for (Vertex v : options.held)
+    if (v.idx() >= mesh.num_vertices())
+      throw std::invalid_argument("wrinkle: held vertex " + std::to_string(v.idx()) + " is not in the mesh");
+}
+
+struct Moves {
+  std::vector<Displacement> lines;     ///< of lines without a width; smoothed
+  std::vector<Displacement> profiles;  ///< of lines with one, on top of that; as they are
+};
+
+/// What lines with a width raise: the highest ridge and the deepest valley of each vertex, added.
+std::map<Vertex, double> profiled_heights(const Mesh& mesh, const std::vector<Insertion>& lines,
+                                          std::span<const Stroke> strokes) {
+  std::map<Vertex, std::array<double, 2>> extremes;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!strokes[i].width) continue;
+    std::vector<Vertex> own;
+    for (const LineVertex& v : lines[i].line.vertices) own.push_back(v.vertex);
+    for (const Lift& lift : lift_by_profile(mesh, own, lines[i].path, strokes[i])) {
+      auto& [lowest, highest] = extremes[lift.vertex];
+      lowest = std::min(lowest, lift.height);
+      highest = std::max(highest, lift.height);
+    }
+  }
+  std::map<Vertex, double> heights;
+  for (const auto& [vertex, both] : extremes) heights[vertex] = both[0] + both[1];
+  return heights;
+}
+
+/// The vertices of lines without a width, each with the displacement of the last such line that has it, and
+/// what lines with a width raise.
+Moves displacements(const Mesh& mesh, const std::vector<Insertion>& lines, std::span<const Stroke> strokes,
+                    const std::set<Vertex>& held) {
+  std::map<Vertex, Displacement> last;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (!strokes[i].width)
+      for (const LineVertex& v : lines[i].line.vertices)
+        last[v.vertex] = {v.vertex, v.normal, strokes[i].height};
+  Moves moves;
+  for (const auto& [vertex, displacement] : last)
+    if (!held.count(vertex)) moves.lines.push_back(displacement);
+  const std::map<Vertex, double> profiled = profiled_heights(mesh, lines, strokes);
+  const std::vector<Vector> normals = profiled.empty() ? std::vector<Vector>{} : vertex_normals(mesh);
+  for (const auto& [vertex, height] : profiled)
+    if (!held.count(vertex) && normals[vertex.idx()].squared_length() > 0)
+      moves.profiles.push_back({vertex, normals[vertex.idx()], height});
+  return moves;
+}
+
+/// Stored stiffnesses of hinges know nothing of new lines; where none is stored, gather() sees to it.
+void press_stored_hinges(Mesh& mesh, std::span<const Stroke> strokes, int first_line) {
+  const auto stiffness = find_map(mesh, kHingeStiffness);
+  if (!stiffness) return;
+  const LineShapes shapes = line_shapes(strokes, first_line);
+  const std::vector<double> factors = hinge_presses(mesh, shapes.presses, shapes.widths);
+  if (factors.empty()) return;
+  for (Edge e : mesh.edges()) (*stiffness)[e] *= factors[e.idx()];  // unset: NaN stays
+}
+
+std::string millimetres(double length) {
+  std::ostringstream text;
+  text << std::setprecision(2) << 1000 * length << " mm";
+  return text.str();
+}
+
+void warn_if_coarse(const Mesh& mesh, const std::vector<Insertion>& lines, std::span<const Stroke> strokes,
+                    WrinkleReport& report) {
+  const std::vector<double> lengths = lengths_before_lines(mesh);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!strokes[i].width) continue;
+    std::vector<Vertex> own;
+    for (const LineVertex& v : lines[i].line.vertices) own.push_back(v.vertex);
+    const double width = *strokes[i].width;
+    const double coarse = coarseness(mesh, line_region(mesh, own, width, lengths), width, lengths);
+    if (coarse > 1)
+      report.warnings.push_back("stroke \"" + strokes[i].name + "\": its width of " + millimetres(width) +
+                                " is less than three edges of the mesh there (" +
+                                millimetres(coarse * width / 3) +
+                                "); subdivide the garment, or draw the fold wider");
+  }
+}
+
+std::vector<Insertion> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
+                                    const WrinkleOptions& options, WrinkleReport& report) {
+  InsertionOptions insertion = options.insertion;
+  if (!insertion.mean_edge) insertion.mean_edge = report.mean_structural_length;
+  std::vector<Insertion> lines;
+  for (const Stroke& stroke : strokes) {
+    const int id = options.first_line + static_cast<int>(lines.size());
+    Insertion one = insert_along_stroke(mesh, stroke, id, insertion);
+    report.insertion += one.report;
+    report.lines.push_back(
+        {stroke.name, stroke.height, 0, 0, 0, one.line.chains, stroke.width, stroke.sharpness, stroke.press});
+    lines.push_back(std::move(one));
+  }
+  return lines;
+}
+
+/// Heights of the strokes' lines, from id `first` on; NaN for one whose vertices all went to later lines.
+std::vector<double> heights(const Mesh& mesh, int first, std::span<const Stroke> strokes) {
+  std::vector<double> result(strokes.size(), kUnset);
+  for (const LineHeight& h : line_heights(mesh, line_shapes(strokes, first).widths))
+    if (h.line >= first && static_cast<std::size_t>(h.line - first) < strokes.size())
+      result[h.line - first] = h.height;
+  return result;
+}
+
+void smooth(Mesh& mesh, const Moves& moves, const WrinkleOptions& options, const std::set<Vertex>& held) {
+  std::vector<Vertex> region(mesh.vertices().begin(), mesh.vertices().end());
+  if (options.region == SmoothingRegion::two_ring) {
+    std::vector<Vertex> centres;
+    for (const Displacement& d : moves.lines)
+      if (d.height != 0) centres.push_back(d.vertex);  // a line of height 0 changes no shape
+    region = two_ring(mesh, centres);
+  }
+  std::erase_if(region, [&](Vertex v) { return held.count(v) > 0; });
+  if (region.empty()) return;
+  taubin_smooth(mesh, region, options.smoothing);
+}
+
+}  // namespace
+
+WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options,
+                      const StageObserver& observer) {
+  check_all(mesh, strokes, options);
+  const std::set<Vertex> held(options.held.begin(), options.held.end());
+  const auto tell = [&](Stage stage, const Mesh& m) {
+    if (observer) observer(stage, m);
+  };
+  Mesh work = mesh;
+  WrinkleReport report;
+  ensure_rest_lengths(work);
+  ensure_bending_springs(work);
+  ensure_rest_angles(work);
+  report.mean_structural_length = options.mean_structural_length.value_or(mean_rest_length(work));
+  report.mean_bending_length = options.mean_bending_length.value_or(mean_bending_rest_length(work));
+  report.rest_area_before = rest_area(work);
+
+  const std::vector<Insertion> lines = insert_lines(work, strokes, options, report);
+  rebuild_bending_springs(work, report.insertion.changed_faces);
+  ensure_rest_angles(work);
+  warn_if_coarse(work, lines, strokes, report);
+  tell(Stage::inserted, work);
+
+  const RestSnapshot before = take_rest_snapshot(work);
+  const Moves moves = displacements(work, lines, strokes, held);
+  const std::vector<double> base = heights(work, options.first_line, strokes);
+  displace_line(work, moves.lines);
+  Mesh displaced = work;
+  displace_line(displaced, moves.profiles);
+  const std::vector<double> drawn = heights(displaced, options.first_line, strokes);
+  tell(Stage::displaced, displaced);
+
+  smooth(work, moves, options, held);
+  displace_line(work, moves.profiles);
+  press_stored_hinges(work, strokes, options.first_line);
+  apply_rest_rule(work, before, options.rest);
+  const std::vector<double> smoothed = heights(work, options.first_line, strokes);
+  report.total_mass = lump_masses(work, options.density);
+  report.rest_area_after = rest_area(work);
+  report.structural_springs = work.number_of_edges();
+  report.bending_springs = bending_springs(work).size();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    report.lines[i].base_height = base[i];
+    report.lines[i].drawn_height = drawn[i] - base[i];
+    report.lines[i].smoothed_height = smoothed[i] - base[i];
+  }
+  tell(Stage::smoothed, work);
+  mesh = std::move(work);
+  return report;
+}
+
+}  // namespace furrow::geometry

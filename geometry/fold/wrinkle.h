@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/fold/taubin_smooth.h"
+#include "geometry/insert/insert_along_stroke.h"
+#include "geometry/rest/rest_state.h"
+
+namespace furrow::geometry {
+
+enum class SmoothingRegion { two_ring, whole_mesh };
+
+struct WrinkleOptions {
+  InsertionOptions insertion;
+  TaubinOptions smoothing;
+  SmoothingRegion region = SmoothingRegion::two_ring;
+  RestRule rest = RestRule::drawn;
+  double density = 0.15;     ///< rho [kg/m^2]; > 0
+  std::vector<Vertex> held;  ///< vertices of the mesh given that keep their places, as pins do
+  int first_line = 0;        ///< id of the first stroke's line; above those that the mesh has
+  /// r_avg of the garment before its first line [m]; > 0; none: of the mesh given. For a second round of
+  /// lines.
+  std::optional<double> mean_structural_length, mean_bending_length;
+};
+
+struct WrinkledLine {
+  std::string name;
+  double height = 0;  ///< k as asked for [m]
+  /// line_heights() before displacement: of the curvature of the cloth, or of earlier lines [m].
+  double base_height = 0;
+  double drawn_height = 0;                  ///< line_heights() after displacement, less base_height [m]
+  double smoothed_height = 0;               ///< after smoothing, less base_height [m]
+  std::vector<std::vector<Vertex>> chains;  ///< its vertices, a list for each connected part
+  std::optional<double> width = {};         ///< as asked for [m], as the next two
+  double sharpness = 0.5, press = 1;
+};
+
+struct WrinkleReport {
+  InsertionReport insertion;        ///< sums over all lines
+  std::vector<WrinkledLine> lines;  ///< of stroke i, id first_line + i; a later line owns what two share
+  std::size_t structural_springs = 0, bending_springs = 0;
+  double rest_area_before = 0, rest_area_after = 0;  ///< [m^2]
+  double total_mass = 0;                             ///< [kg]
+  double mean_structural_length = 0,
+         mean_bending_length = 0;     ///< r_avg of the mesh before any line [m] (S1.7)
+  std::vector<std::string> warnings;  ///< lines for whose width the mesh is too coarse
+};
+
+/// The stages of method S1.21 that geometry makes.
+enum class Stage { inserted, displaced, smoothed };
+using StageObserver = std::function<void(Stage, const Mesh&)>;
+
+/// Turns strokes into wrinkles: inserts their lines (Algorithm 2), displaces their vertices along the
+/// normals, smooths, rebuilds the bending springs, and updates rest lengths and masses (method, Algorithm 1,
+/// steps 2 to 4). All lines are inserted into the undisplaced surface, one after the other; then all are
+/// displaced, and smoothed once. A line with a width is raised by its profile (line_profile.h), along the
+/// angle-weighted normals, and not smoothed. Where several lines raise a vertex the highest ridge and the
+/// deepest valley count, and add up; lines without a width raise their own vertices alone. Presses are for
+/// who makes hinges of the mesh (line_press.h). Sets kLine, kLineEdge, kRestLength, kBendingRestLength,
+/// kBendingCount, kRestAngle, kMass; options.rest says what of the rest state learns of the displacement. An
+/// unset rest length is the length as it is. Throws std::invalid_argument for an option out of its range and
+/// ContentError for a stroke that cannot be used; the mesh is then as it was. Cost: about O(faces log faces)
+/// for each stroke.
+WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options = {},
+                      const StageObserver& observer = {});
+
+}  // namespace furrow::geometry

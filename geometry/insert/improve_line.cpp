@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/insert/improve_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace furrow::geometry {
+namespace {
+
+using Place = LinePlan::Place;
+
+double squared_distance_to_segment(const Point& p, const Point& a, const Point& b) {
+  const Vector ab = b - a;
+  const double squared = ab.squared_length();
+  const double t = squared > 0 ? std::clamp(((p - a) * ab) / squared, 0.0, 1.0) : 0.0;
+  return CGAL::squared_distance(p, a + t * ab);
+}
+
+/// The longest rest edge of each crossed face and the faces crossed before and after it.
+std::map<Face, double> longest_edges_around(const Mesh& mesh, const EdgeMap<double>& rest,
+                                            const TracedStroke& traced) {
+  std::map<Face, double> longest;
+  for (const SubStroke& part : traced.sub_strokes) {
+    const auto edge_of = [&](std::size_t i) {
+      const auto lengths = rest_lengths_of(mesh, rest, part.faces[i].face);
+      return *std::max_element(lengths.begin(), lengths.end());
+    };
+    for (std::size_t i = 0; i < part.faces.size(); ++i) {
+      double& l = longest[part.faces[i].face];
+      for (std::size_t j = i > 0 ? i - 1 : 0; j < std::min(i + 2, part.faces.size()); ++j)
+        l = std::max(l, edge_of(j));
+    }
+  }
+  return longest;
+}
+
+}  // namespace
+
+LineDeviation deviation_of(const DrawnLine& drawn, const Mesh& before, const EdgeMap<double>& rest_before,
+                           const TracedStroke& traced, double mean_edge) {
+  LineDeviation deviation;
+  const auto longest = longest_edges_around(before, rest_before, traced);
+  for (const ProjectedSample& sample : traced.samples) {
+    double squared = std::numeric_limits<double>::infinity();
+    for (const auto& chain : drawn.insertion.line.chains) {
+      for (std::size_t i = 0; i < chain.size(); ++i) {
+        const Point &a = drawn.mesh.point(chain[i == 0 ? 0 : i - 1]), &b = drawn.mesh.point(chain[i]);
+        squared = std::min(squared, squared_distance_to_segment(sample.position, a, b));
+      }
+    }
+    const double distance = std::sqrt(squared);
+    deviation.largest = std::max(deviation.largest, distance);
+    if (distance > 0.5 * std::max(mean_edge, longest.at(sample.point.face)))
+      deviation.samples.push_back(sample);
+  }
+  return deviation;
+}
+
+double smallest_angle_around(const Mesh& mesh, const EdgeMap<double>& rest, const TracedStroke& traced) {
+  std::set<Face> faces;
+  for (const SubStroke& part : traced.sub_strokes) {
+    for (const CrossedFace& visit : part.faces) {
+      faces.insert(visit.face);
+      for (Halfedge h : halfedges_of(mesh, visit.face)) {
+        if (!mesh.is_border(mesh.opposite(h))) faces.insert(mesh.face(mesh.opposite(h)));
+      }
+    }
+  }
+  double least = std::numbers::pi;
+  for (Face f : faces) least = std::min(least, smallest_angle(rest_lengths_of(mesh, rest, f)));
+  return least;
+}
+
+bool improve_plan(const DrawnLine& drawn, const LineDeviation& deviation, double least_angle,
+                  LinePlan& plan) {
+  const auto rest = *find_map(drawn.mesh, kRestLength);
+  LinePlan next = plan;
+  bool changed = false;
+  const auto place_of = [&](Vertex v) {
+    const auto found = plan.places.find(drawn.inserted_in.at(v));
+    return found == plan.places.end() ? Place::clamped : found->second;
+  };
+  for (Face face : drawn.insertion.report.changed_faces) {
+    if (smallest_angle(rest_lengths_of(drawn.mesh, rest, face)) >= least_angle) continue;
+    const auto corners = corners_of(drawn.mesh, face);
+    std::vector<Vertex> fresh;
+    for (Vertex v : corners) {
+      if (drawn.inserted_in.count(v) > 0) fresh.push_back(v);
+    }
+    Place lowest = Place::corner;
+    for (Vertex v : fresh) lowest = std::min(lowest, place_of(v));
+    for (Vertex v : fresh) {
+      if (place_of(v) != lowest) continue;
+      next.places[drawn.inserted_in.at(v)] = lowest == Place::clamped ? Place::incenter : Place::corner;
+      changed = true;
+    }
+    if (!fresh.empty()) continue;
+    const auto at_corner = [&](Vertex v) {
+      return std::find(corners.begin(), corners.end(), v) != corners.end();
+    };
+    for (const auto& [link, edge] : drawn.links) {
+      const bool here = (at_corner(link.from) && at_corner(link.to)) ||
+                        std::any_of(link.between.begin(), link.between.end(), at_corner);
+      if (here) changed = next.routed.insert(edge).second || changed;
+    }
+  }
+  for (const ProjectedSample& sample : deviation.samples) {
+    const Face face = sample.point.face;
+    if (next.pinned.try_emplace(face, sample.point.barycentrics).second) {
+      changed = true;
+    } else if (plan.pinned.count(face) > 0) {
+      // The place in the face was still too far from the tip where the sample lies.
+      const auto placed = next.places.find(face);
+      changed = changed || placed == next.places.end() || placed->second != Place::corner;
+      next.places[face] = Place::corner;
+    }
+  }
+  plan = std::move(next);
+  return changed;
+}
+
+}  // namespace furrow::geometry

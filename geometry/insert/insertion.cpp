@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "geometry/insert/insertion_report.h"
+
+namespace furrow::geometry {
+
+const char* to_string(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::border:
+      return "border";
+    case Refusal::seam:
+      return "seam";
+    case Refusal::line_edge:
+      return "line edge";
+    case Refusal::duplicate_edge:
+      return "duplicate edge";
+    case Refusal::not_convex:
+      return "not convex";
+    case Refusal::valence:
+      return "valence";
+    case Refusal::layer:
+      return "layer";
+    case Refusal::quality:
+      return "quality";
+  }
+  return "unknown";
+}
+
+void check(const InsertionOptions& options) {
+  const auto require = [](bool holds, const char* rule, double value) {
+    if (!holds)
+      throw std::invalid_argument(std::string("insertion: ") + rule + ", not " + std::to_string(value));
+  };
+  require(options.max_distance > 0, "max_distance must be > 0 m", options.max_distance);
+  require(options.min_barycentric >= 0 && options.min_barycentric <= 1.0 / 3,
+          "min_barycentric must be in [0, 1/3]", options.min_barycentric);
+  require(options.min_angle_deg >= 0 && options.min_angle_deg <= 30, "min_angle_deg must be in [0, 30]",
+          options.min_angle_deg);
+  if (options.mean_edge) {
+    require(*options.mean_edge > 0 && std::isfinite(*options.mean_edge), "mean_edge must be > 0 m",
+            *options.mean_edge);
+  }
+}
+
+InsertionReport& operator+=(InsertionReport& sum, const InsertionReport& line) {
+  for (auto count : {&InsertionReport::inserted, &InsertionReport::flipped, &InsertionReport::delaunay_flips,
+                     &InsertionReport::folded_flips, &InsertionReport::reused, &InsertionReport::snapped,
+                     &InsertionReport::too_small, &InsertionReport::routed, &InsertionReport::nudges})
+    sum.*count += line.*count;
+  sum.attempts = std::max(sum.attempts, line.attempts);
+  for (const auto& [reason, count] : line.refused_flips) sum.refused_flips[reason] += count;
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(sum.split_edges, line.split_edges);
+  append(sum.missing_edges, line.missing_edges);
+  append(sum.warnings, line.warnings);
+  const bool first = sum.changed_faces.empty();
+  append(sum.changed_faces, line.changed_faces);
+  std::sort(sum.changed_faces.begin(), sum.changed_faces.end());
+  sum.changed_faces.erase(std::unique(sum.changed_faces.begin(), sum.changed_faces.end()),
+                          sum.changed_faces.end());
+  sum.min_angle_deg = first ? line.min_angle_deg : std::min(sum.min_angle_deg, line.min_angle_deg);
+  sum.max_deviation = std::max(sum.max_deviation, line.max_deviation);
+  return sum;
+}
+
+}  // namespace furrow::geometry

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/insert/mesh_editor.h"
+
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace furrow::geometry {
+namespace {
+
+TextureCoordinate blend_corners(const std::array<TextureCoordinate, 3>& corners,
+                                const Barycentrics& weights) {
+  TextureCoordinate result{};
+  for (int k = 0; k < 2; ++k) {
+    result[k] = weights[0] * corners[0][k] + weights[1] * corners[1][k] + weights[2] * corners[2][k];
+  }
+  return result;
+}
+
+double cross(const TextureCoordinate& o, const TextureCoordinate& p, const TextureCoordinate& q) {
+  return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
+}
+
+bool same(const TextureCoordinate& a, const TextureCoordinate& b) {
+  const auto equal = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  return equal(a[0], b[0]) && equal(a[1], b[1]);
+}
+
+}  // namespace
+
+MeshEditor::MeshEditor(Mesh& mesh)
+    : mesh_(mesh),
+      rest_(ensure_rest_lengths(mesh)),
+      line_(ensure_map(mesh, kLine)),
+      line_edge_(ensure_map(mesh, kLineEdge)),
+      generation_(ensure_map(mesh, kGeneration)),
+      texture_(find_map(mesh, kTexture)),
+      blend_((ensure_rest_positions(mesh), mesh)),
+      group_(find_map(mesh, kGroup)),
+      material_(find_map(mesh, kMaterial)),
+      bending_(find_map(mesh, kBendingRestLength)),
+      stiffness_(find_map(mesh, kStiffness)),
+      bending_stiffness_(find_map(mesh, kBendingStiffness)),
+      hinge_stiffness_(find_map(mesh, kHingeStiffness)),
+      tension_(find_map(mesh, kTension)),
+      diagonal_(find_map(mesh, kDiagonal)),
+      bending_count_(find_map(mesh, kBendingCount)),
+      rest_angle_(find_map(mesh, kRestAngle)),
+      triangle_rest_(find_map(mesh, kTriangleRestLength)) {}
+
+/// Texture coordinate of `vertex` in the face of `inside`.
+TextureCoordinate MeshEditor::corner_in(Halfedge inside, Vertex vertex) const {
+  Halfedge h = inside;
+  while (mesh_.target(h) != vertex) h = mesh_.next(h);
+  return (*texture_)[h];
+}
+
+void MeshEditor::copy_face(Face from, Face to) {
+  if (group_) (*group_)[to] = (*group_)[from];
+  if (material_) (*material_)[to] = (*material_)[from];
+  generation_[to] = generation_[from];
+  unset_triangle(to);
+  changed_.insert(to);
+}
+
+void MeshEditor::unset_springs(Edge edge) {
+  for (auto* map : {&bending_, &rest_angle_, &stiffness_, &bending_stiffness_, &hinge_stiffness_, &tension_})
+    if (*map) (**map)[edge] = kUnset;
+  if (bending_count_) (*bending_count_)[edge] = 0;
+}
+
+void MeshEditor::unset_triangle(Face face) {
+  if (!triangle_rest_) return;
+  for (Halfedge h : halfedges_of(mesh_, face)) (*triangle_rest_)[h] = kUnset;
+}
+
+Vertex MeshEditor::split_face(const FacePoint& point) {
+  const Point position = position_of(mesh_, point);
+  const auto corners = corners_of(mesh_, point.face);
+  const auto sides = halfedges_of(mesh_, point.face);
+  const auto spokes = lengths_to_corners(rest_lengths_of(mesh_, rest_, point.face), point.barycentrics);
+  std::array<TextureCoordinate, 3> texture{};
+  if (texture_) {
+    for (int i = 0; i < 3; ++i) texture[i] = (*texture_)[sides[(i + 2) % 3]];
+  }
+  ++generation_[point.face];
+  const Halfedge in = CGAL::Euler::add_center_vertex(mesh_.halfedge(point.face), mesh_);
+  const Vertex centre = mesh_.target(in);
+  mesh_.point(centre) = position;
+  blend_.set(centre, corners, point.barycentrics);
+  for (int i = 0; i < 3; ++i) {
+    // The part on side i: corner i, corner i + 1, centre.
+    const Halfedge to_centre = mesh_.next(sides[i]), from_centre = mesh_.next(to_centre);
+    const Edge spoke = mesh_.edge(from_centre);
+    rest_[spoke] = spokes[i];
+    unset_springs(spoke);
+    unset_springs(mesh_.edge(sides[i]));
+    copy_face(point.face, mesh_.face(sides[i]));
+    if (!texture_) continue;
+    (*texture_)[to_centre] = blend_corners(texture, point.barycentrics);
+    (*texture_)[from_centre] = texture[i];
+  }
+  return centre;
+}
+
+Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
+  const Vertex a = mesh_.source(halfedge), b = mesh_.target(halfedge);
+  const Halfedge opposite = mesh_.opposite(halfedge);
+  const Edge edge = mesh_.edge(halfedge);
+  const double length = rest_[edge];
+  const bool line_edge = line_edge_[edge];
+  const auto left = lengths_to_corners(
+      {length, rest_[mesh_.edge(mesh_.next(halfedge))], rest_[mesh_.edge(mesh_.prev(halfedge))]},
+      {1 - t, t, 0});
+  const auto right = lengths_to_corners(
+      {length, rest_[mesh_.edge(mesh_.next(opposite))], rest_[mesh_.edge(mesh_.prev(opposite))]},
+      {t, 1 - t, 0});
+  std::array<std::array<TextureCoordinate, 3>, 2> texture{};  // a, b, apex of both sides
+  const std::array<Halfedge, 2> inside{halfedge, opposite};
+  for (int side = 0; texture_ && side < 2; ++side) {
+    texture[side] = {corner_in(inside[side], a), corner_in(inside[side], b),
+                     (*texture_)[mesh_.next(inside[side])]};
+  }
+  const Point& pa = mesh_.point(a);
+  const Point position = pa + t * (mesh_.point(b) - pa);
+  const Halfedge first =
+      CGAL::Euler::split_edge(halfedge, mesh_);  // a to the new vertex; halfedge goes on to b
+  const Vertex middle = mesh_.target(first);
+  mesh_.point(middle) = position;
+  blend_.set(middle, {a, b, b}, {1 - t, t, 0});
+  rest_[mesh_.edge(first)] = t * length;
+  rest_[mesh_.edge(halfedge)] = (1 - t) * length;
+  for (Halfedge part : {first, halfedge}) {
+    line_edge_[mesh_.edge(part)] = line_edge;
+    if (diagonal_) (*diagonal_)[mesh_.edge(part)] = false;
+    unset_springs(mesh_.edge(part));
+  }
+  const std::array<Halfedge, 2> to_middle{first, mesh_.opposite(halfedge)};
+  split_side(to_middle[0], left[2], {a, b}, texture[0], t);
+  split_side(to_middle[1], right[2], {a, b}, texture[1], t);
+  return middle;
+}
+
+/// Cuts the quadrangle of `to_middle`, which ends at the new vertex of the split edge with these ends, into
+/// two triangles. `texture`: of the ends (the new vertex lies at t between) and of the apex.
+void MeshEditor::split_side(Halfedge to_middle, double spoke_length, const std::array<Vertex, 2>& ends,
+                            const std::array<TextureCoordinate, 3>& texture, double t) {
+  const Face face = mesh_.face(to_middle);
+  const Vertex middle = mesh_.target(to_middle);
+  const Halfedge to_apex = mesh_.next(mesh_.next(to_middle));
+  const Vertex apex = mesh_.target(to_apex);
+  const Halfedge spoke = CGAL::Euler::split_face(to_middle, to_apex, mesh_);
+  rest_[mesh_.edge(spoke)] = spoke_length;
+  ++generation_[face];
+  for (Halfedge part : {spoke, mesh_.opposite(spoke)}) {
+    copy_face(face, mesh_.face(part));
+    for (Halfedge h : halfedges_of(mesh_, mesh_.face(part))) {
+      unset_springs(mesh_.edge(h));
+      if (!texture_) continue;
+      const Vertex v = mesh_.target(h);
+      if (v == middle) (*texture_)[h] = blend_corners({texture[0], texture[1], texture[1]}, {1 - t, t, 0});
+      if (v == apex) (*texture_)[h] = texture[2];
+      if (v == ends[0]) (*texture_)[h] = texture[0];
+      if (v == ends[1]) (*texture_)[h] = texture[1];
+    }
+  }
+}
+
+void MeshEditor::flip_edge(Edge edge) {
+  const Halfedge h = mesh_.halfedge(edge), to_c = mesh_.next(h), to_d = mesh_.next(mesh_.opposite(h));
+  const Vertex c = mesh_.target(to_c);
+  const double length = unfold(mesh_, rest_, edge).flipped_length();
+  const std::array<Face, 2> faces{mesh_.face(h), mesh_.face(mesh_.opposite(h))};
+  const int generation = std::max(generation_[faces[0]], generation_[faces[1]]);
+  for (Halfedge side : {to_c, mesh_.prev(h), to_d, mesh_.prev(mesh_.opposite(h))})
+    unset_springs(mesh_.edge(side));
+  CGAL::Euler::flip_edge(h, mesh_);
+  rest_[edge] = length;
+  line_edge_[edge] = false;
+  if (diagonal_) (*diagonal_)[edge] = false;
+  unset_springs(edge);
+  for (Face face : faces) {
+    generation_[face] = generation;
+    unset_triangle(face);
+    changed_.insert(face);
+  }
+  if (!texture_) return;
+  for (Halfedge part : {h, mesh_.opposite(h)})
+    (*texture_)[part] = (*texture_)[mesh_.target(part) == c ? to_c : to_d];
+}
+
+bool MeshEditor::is_seam(Edge edge) const {
+  const Halfedge h = mesh_.halfedge(edge), o = mesh_.opposite(h);
+  const Face f = mesh_.face(h), g = mesh_.face(o);
+  if (group_ && (*group_)[f] != (*group_)[g]) return true;
+  if (material_ && (*material_)[f] != (*material_)[g]) return true;
+  return texture_ && !(same((*texture_)[h], (*texture_)[mesh_.prev(o)]) &&
+                       same((*texture_)[o], (*texture_)[mesh_.prev(h)]));
+}
+
+std::optional<std::array<double, 4>> MeshEditor::texture_areas(Edge edge) const {
+  if (!texture_) return std::nullopt;
+  const Halfedge h = mesh_.halfedge(edge), o = mesh_.opposite(h);
+  const TextureCoordinate &a = (*texture_)[o], &b = (*texture_)[h], &c = (*texture_)[mesh_.next(h)],
+                          &d = (*texture_)[mesh_.next(o)];
+  return std::array{cross(a, b, c), cross(b, a, d), cross(a, d, c), cross(d, b, c)};
+}
+
+std::optional<Edge> MeshEditor::edge_between(Vertex a, Vertex b) const {
+  const Halfedge h = mesh_.halfedge(a, b);
+  return h.is_valid() ? std::optional(mesh_.edge(h)) : std::nullopt;
+}
+
+}  // namespace furrow::geometry

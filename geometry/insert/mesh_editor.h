@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "geometry/mesh/vertex_attributes.h"
+#include "geometry/rest/rest_metric.h"
+
+namespace furrow::geometry {
+
+/// The three local operators of insertion on a triangle mesh. Each sets, beside the half-edges, the position,
+/// the rest lengths and every other map of property_names.h that the mesh has: corner texture coordinates,
+/// colours, rest positions and attributes of vertices are interpolated, groups and materials copied; masses
+/// and bending springs of what changed become unset (their own operations compute them anew). Other maps get
+/// their defaults. Each operator is O(valence).
+class MeshEditor {
+ public:
+  /// Adds the maps for rest lengths (in-space lengths where unset), rest positions (positions where unset),
+  /// lines, line edges and generations. An edge of a changed face loses its bending spring, rest angle and
+  /// stiffnesses, a changed face the rest lengths of its own: they become unset.
+  explicit MeshEditor(Mesh& mesh);
+
+  /// Splits a face in three at a point strictly inside.
+  Vertex split_face(const FacePoint& point);
+  /// Splits the edge of an inner halfedge at t in (0, 1) from its source, and its two faces with it. Both
+  /// halves keep what the edge was (a line edge, a seam).
+  Vertex split_edge(Halfedge halfedge, double t);
+  /// Flips an inner edge; it is no line edge afterwards. The caller has asked the flip rules.
+  void flip_edge(Edge edge);
+
+  const Mesh& mesh() const { return mesh_; }
+  const EdgeMap<double>& rest() const { return rest_; }
+  VertexMap<int>& line() { return line_; }
+  EdgeMap<bool>& line_edge() { return line_edge_; }
+  const EdgeMap<bool>& line_edge() const { return line_edge_; }
+  const FaceMap<int>& generation() const { return generation_; }
+  /// Texture coordinates, group or material differ across this inner edge (NaN equals NaN).
+  bool is_seam(Edge edge) const;
+  /// Areas in the texture chart of the two faces of an inner edge that is no seam, and of the two that a flip
+  /// would make, twice each, signed: (a, b, c), (b, a, d), (a, d, c), (d, b, c). None: the mesh has no
+  /// texture.
+  std::optional<std::array<double, 4>> texture_areas(Edge edge) const;
+  /// The edge that joins two vertices.
+  std::optional<Edge> edge_between(Vertex a, Vertex b) const;
+  /// Faces that are new or have other corners than before; ascending.
+  const std::set<Face>& changed() const { return changed_; }
+
+ private:
+  TextureCoordinate corner_in(Halfedge inside, Vertex vertex) const;
+  void split_side(Halfedge to_middle, double spoke_length, const std::array<Vertex, 2>& ends,
+                  const std::array<TextureCoordinate, 3>& texture, double t);
+  void copy_face(Face from, Face to);
+  void unset_springs(Edge edge);
+  void unset_triangle(Face face);
+
+  Mesh& mesh_;
+  EdgeMap<double> rest_;
+  VertexMap<int> line_;
+  EdgeMap<bool> line_edge_;
+  FaceMap<int> generation_;
+  std::optional<HalfedgeMap<TextureCoordinate>> texture_;
+  VertexBlend blend_;
+  std::optional<FaceMap<int>> group_, material_;
+  std::optional<EdgeMap<double>> bending_, stiffness_, bending_stiffness_, hinge_stiffness_, tension_;
+  std::optional<EdgeMap<bool>> diagonal_;
+  std::optional<EdgeMap<int>> bending_count_;
+  std::optional<EdgeMap<double>> rest_angle_;
+  std::optional<HalfedgeMap<double>> triangle_rest_;
+  std::set<Face> changed_;
+};
+
+}  // namespace furrow::geometry

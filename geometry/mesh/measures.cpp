@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/measures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/preconditions.h"
+
+namespace furrow::geometry {
+namespace {
+
+std::size_t count_components(const Mesh& mesh) {
+  std::vector<char> seen(mesh.num_faces(), 0);
+  std::vector<Face> stack;
+  std::size_t components = 0;
+  for (Face seed : mesh.faces()) {
+    if (seen[seed.idx()]) continue;
+    ++components;
+    seen[seed.idx()] = 1;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const Face f = stack.back();
+      stack.pop_back();
+      for (Face g : mesh.faces_around_face(mesh.halfedge(f))) {
+        if (!g.is_valid() || seen[g.idx()]) continue;
+        seen[g.idx()] = 1;
+        stack.push_back(g);
+      }
+    }
+  }
+  return components;
+}
+
+/// Whether all halfedges that end at a vertex are one fan: at most one gap, and reached by one turn around
+/// it.
+bool is_manifold(const Mesh& mesh) {
+  std::vector<std::size_t> ending(mesh.num_vertices(), 0), gaps(mesh.num_vertices(), 0);
+  for (Halfedge h : mesh.halfedges()) {
+    ++ending[mesh.target(h).idx()];
+    gaps[mesh.target(h).idx()] += mesh.is_border(h);
+  }
+  return std::all_of(mesh.vertices().begin(), mesh.vertices().end(), [&](Vertex v) {
+    if (mesh.is_isolated(v)) return true;
+    return gaps[v.idx()] <= 1 && ending[v.idx()] == mesh.degree(v);
+  });
+}
+
+void add_face(const Mesh& mesh, Face f, MeshInfo& info, double& volume) {
+  std::array<Point, 3> p;
+  std::size_t n = 0;
+  for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) p[n++] = mesh.point(v);
+  const Vector u = p[1] - p[0], w = p[2] - p[0];
+  const double doubled = std::sqrt(CGAL::cross_product(u, w).squared_length());
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector a = p[(i + 1) % 3] - p[i], b = p[(i + 2) % 3] - p[i];
+    longest = std::max(longest, a.squared_length());
+    const double angle = std::atan2(doubled, a * b) * 180 / std::numbers::pi;
+    info.min_angle_deg = std::min(info.min_angle_deg, angle);
+  }
+  info.degenerate_faces += !(0.5 * doubled >= 1e-12 * longest) || longest == 0;
+  info.area += 0.5 * doubled;
+  // From a corner of the box, so that a body far from the origin loses no digits.
+  volume += CGAL::determinant(p[0] - info.box_min, p[1] - info.box_min, p[2] - info.box_min) / 6;
+}
+
+void measure_box(const Mesh& mesh, MeshInfo& info) {
+  if (info.vertices == 0) return;
+  std::array<double, 3> lo, hi;
+  lo.fill(std::numeric_limits<double>::infinity());
+  hi.fill(-std::numeric_limits<double>::infinity());
+  for (Vertex v : mesh.vertices())
+    for (int i = 0; i < 3; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      lo[k] = std::min(lo[k], mesh.point(v)[i]);
+      hi[k] = std::max(hi[k], mesh.point(v)[i]);
+    }
+  info.box_min = Point(lo[0], lo[1], lo[2]);
+  info.box_max = Point(hi[0], hi[1], hi[2]);
+}
+
+}  // namespace
+
+MeshInfo measure(const Mesh& mesh) {
+  require_finite(mesh, "measure");
+  require_triangles(mesh, "measure");
+  MeshInfo info;
+  info.vertices = mesh.number_of_vertices();
+  info.edges = mesh.number_of_edges();
+  info.faces = mesh.number_of_faces();
+  for (Vertex v : mesh.vertices()) info.isolated_vertices += mesh.is_isolated(v);
+  info.components = count_components(mesh);
+  info.boundary_loops = border_loops(mesh).size();
+  info.euler_characteristic =
+      static_cast<long>(info.vertices - info.isolated_vertices + info.faces) - static_cast<long>(info.edges);
+  info.closed = info.faces > 0 && info.boundary_loops == 0;
+  info.manifold = is_manifold(mesh);
+  measure_box(mesh, info);
+  info.min_angle_deg = info.faces > 0 ? 180 : 0;
+  double volume = 0;
+  for (Face f : mesh.faces()) add_face(mesh, f, info, volume);
+  if (info.closed) info.volume = volume;
+  for (Edge e : mesh.edges()) info.mean_edge_length += spatial_length(mesh, e);
+  if (info.edges > 0) info.mean_edge_length /= static_cast<double>(info.edges);
+  return info;
+}
+
+}  // namespace furrow::geometry

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/self_intersections.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
+
+namespace furrow::geometry {
+namespace {
+
+using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+
+bool is_finite(const Point& p) {
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
+
+/// For each point, the lowest index of a point at the same position.
+std::vector<int> weld(std::span<const Point> points) {
+  std::vector<int> order(points.size()), first(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    return points[i] != points[j] ? points[i] < points[j] : a < b;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto here = static_cast<std::size_t>(order[i]);
+    const bool same = i > 0 && points[here] == points[static_cast<std::size_t>(order[i - 1])];
+    first[here] = same ? first[static_cast<std::size_t>(order[i - 1])] : order[i];
+  }
+  return first;
+}
+
+}  // namespace
+
+std::size_t count_self_intersections(std::span<const Point> points,
+                                     std::span<const std::array<int, 3>> triangles) {
+  if (!std::all_of(points.begin(), points.end(), is_finite))
+    throw ContentError("count_self_intersections: a position is not finite; repair the mesh first");
+  const std::vector<int> welded = weld(points);
+  std::vector<Exact::Triangle_3> shapes;
+  std::vector<std::array<int, 3>> corners;
+  std::vector<Box> boxes;
+  for (const std::array<int, 3>& t : triangles) {
+    std::array<Exact::Point_3, 3> p;
+    std::array<int, 3> ids;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (t[i] < 0 || static_cast<std::size_t>(t[i]) >= points.size())
+        throw ContentError("count_self_intersections: a triangle names the vertex " + std::to_string(t[i]));
+      const Point& q = points[static_cast<std::size_t>(t[i])];
+      p[i] = {q.x(), q.y(), q.z()};
+      ids[i] = welded[static_cast<std::size_t>(t[i])];
+    }
+    if (CGAL::collinear(p[0], p[1], p[2])) continue;
+    shapes.emplace_back(p[0], p[1], p[2]);
+    corners.push_back(ids);
+    boxes.emplace_back(shapes.back().bbox(), shapes.size() - 1);
+  }
+  std::size_t pairs = 0;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    const auto& s = corners[a.info()];
+    const auto& t = corners[b.info()];
+    if (std::find_first_of(s.begin(), s.end(), t.begin(), t.end()) != s.end()) return;
+    pairs += CGAL::do_intersect(shapes[a.info()], shapes[b.info()]);
+  });
+  return pairs;
+}
+
+std::size_t count_self_intersections(const Mesh& mesh) {
+  require_finite(mesh, "count_self_intersections");
+  require_triangles(mesh, "count_self_intersections");
+  std::vector<std::array<int, 3>> triangles;
+  for (Face f : mesh.faces()) {
+    std::size_t i = 0;
+    triangles.emplace_back();
+    for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+      triangles.back()[i++] = static_cast<int>(v.idx());
+  }
+  const std::vector<Point> points(mesh.points().begin(), mesh.points().end());
+  return count_self_intersections(points, triangles);
+}
+
+}  // namespace furrow::geometry

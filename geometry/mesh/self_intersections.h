@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "geometry/mesh/mesh.h"
+
+namespace furrow::geometry {
+
+/// Number of pairs of faces that cross or touch each other and share no vertex, decided exactly for the given
+/// coordinates. Vertices at exactly the same position count as one (seams that are parted in the file would
+/// touch themselves everywhere). Faces without area are left out.
+/// Throws ContentError if a position is not finite or a face no triangle.
+/// Cost: O(n log n + candidate pairs): overlapping boxes, then exact predicates.
+std::size_t count_self_intersections(const Mesh& mesh);
+
+/// The same for plain arrays; `triangles` index `points`. Throws ContentError for an index out of range too.
+std::size_t count_self_intersections(std::span<const Point> points,
+                                     std::span<const std::array<int, 3>> triangles);
+
+}  // namespace furrow::geometry

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/struts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "geometry/mesh/property_names.h"
+
+namespace furrow::geometry {
+namespace {
+
+/// At the lower vertex of each strut, so that copies of a mesh carry them as they carry every map.
+const PropertyName<Vertex, std::vector<Strut>> kStruts{"v:struts", {}};
+
+bool has(const Mesh& mesh, Vertex v) {
+  return v.is_valid() && v.idx() < mesh.num_vertices() && !mesh.is_removed(v);
+}
+
+void check(const Mesh& mesh, const Strut& s) {
+  const auto fail = [&](const std::string& what) {
+    throw std::invalid_argument("set_struts: the strut between vertices " + std::to_string(s.a.idx()) +
+                                " and " + std::to_string(s.b.idx()) + what);
+  };
+  if (!has(mesh, s.a) || !has(mesh, s.b)) fail(" names one that is not in the mesh");
+  if (!(s.a < s.b)) fail(" must name the lower one first");
+  if (!(s.rest_length > 0) || !std::isfinite(s.rest_length))
+    fail(": rest_length = " + std::to_string(s.rest_length) + " m is not > 0 and finite");
+  if (!(s.stiffness >= 0) || !std::isfinite(s.stiffness))
+    fail(": stiffness = " + std::to_string(s.stiffness) + " N/m is not >= 0 and finite");
+}
+
+}  // namespace
+
+std::vector<Strut> struts(const Mesh& mesh) {
+  std::vector<Strut> list;
+  const auto map = find_map(mesh, kStruts);
+  if (!map) return list;
+  for (Vertex v : mesh.vertices())
+    for (const Strut& s : (*map)[v])
+      if (has(mesh, s.b)) list.push_back({v, s.b, s.rest_length, s.stiffness});
+  return list;
+}
+
+void set_struts(Mesh& mesh, std::span<const Strut> list) {
+  for (const Strut& s : list) check(mesh, s);
+  std::vector<Strut> sorted(list.begin(), list.end());
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Strut& s, const Strut& t) { return std::tie(s.a, s.b) < std::tie(t.a, t.b); });
+  if (auto old = find_map(mesh, kStruts)) mesh.remove_property_map(*old);
+  if (sorted.empty()) return;
+  auto map = ensure_map(mesh, kStruts);
+  for (const Strut& s : sorted) map[s.a].push_back(s);
+}
+
+}  // namespace furrow::geometry

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <span>
+#include <vector>
+
+#include "geometry/mesh/mesh.h"
+
+namespace furrow::geometry {
+
+/// A spring between any two vertices, mostly some rings apart: it gives a fold depth to stand on.
+struct Strut {
+  Vertex a, b;         ///< a < b
+  double rest_length;  ///< [m]; > 0, finite
+  double stiffness;    ///< [N/m]; >= 0, finite
+};
+
+/// The struts of a mesh, sorted by (a, b), those of one pair in the order in which they were set; none where
+/// a vertex is not in the mesh any more. They stay with their vertices through insertion and flips;
+/// displacement carries their rest lengths along (apply_rest_rule); subdivision drops them. They name
+/// vertices by index: who removes vertices and collects the garbage has to set them anew; Furrow never does.
+std::vector<Strut> struts(const Mesh& mesh);
+
+/// Replaces all struts; none are left for an empty list. Copies of the mesh have them, too. Throws
+/// std::invalid_argument, the mesh untouched, if a value is out of its range or a vertex not in the mesh.
+/// O(struts log struts).
+void set_struts(Mesh& mesh, std::span<const Strut> list);
+
+}  // namespace furrow::geometry

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/vertex_attributes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "geometry/mesh/errors.h"
+
+namespace furrow::geometry {
+namespace {
+
+const std::string kPrefix = "v:attribute:";
+const std::string kWeight = "weight_";
+
+template <class Value, std::size_t n>
+void blend(VertexMap<Value> map, Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) {
+  Value sum{};
+  for (int i = 0; i < 3; ++i)
+    for (std::size_t k = 0; weights[i] != 0 && k < n; ++k) sum[k] += weights[i] * map[from[i]][k];
+  map[to] = sum;
+}
+
+/// Leaves the `strongest` largest weights and makes their sum 1. False if all is well already.
+bool normalize(std::vector<double>& weights, int strongest) {
+  std::vector<std::size_t> order(weights.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return weights[a] > weights[b]; });
+  bool dropped = false;
+  for (std::size_t i = strongest ? strongest : order.size(); i < order.size(); ++i) {
+    dropped = dropped || weights[order[i]] > 0;
+    weights[order[i]] = 0;
+  }
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (!(sum > 0) || (!dropped && std::abs(sum - 1) <= 1e-6)) return false;
+  for (double& w : weights) w /= sum;
+  return true;
+}
+
+}  // namespace
+
+std::vector<VertexAttribute> vertex_attributes(const Mesh& mesh) {
+  std::vector<VertexAttribute> result;
+  for (const std::string& name : mesh.properties<Vertex>()) {
+    if (!name.starts_with(kPrefix)) continue;
+    const PropertyName<Vertex, double> property{name.c_str(), 0};
+    if (const auto map = find_map(mesh, property)) result.push_back({name.substr(kPrefix.size()), *map});
+  }
+  return result;
+}
+
+VertexMap<double> ensure_vertex_attribute(Mesh& mesh, const std::string& name) {
+  const std::string full = kPrefix + name;
+  return ensure_map(mesh, PropertyName<Vertex, double>{full.c_str(), 0});
+}
+
+VertexMap<RestPosition> ensure_rest_positions(Mesh& mesh) {
+  auto rest = ensure_map(mesh, kRestPosition);
+  for (Vertex v : mesh.vertices()) {
+    const Point& p = mesh.point(v);
+    if (std::isnan(rest[v][0])) rest[v] = {p.x(), p.y(), p.z()};
+  }
+  return rest;
+}
+
+VertexBlend::VertexBlend(const Mesh& mesh)
+    : color_(find_map(mesh, kColor)),
+      rest_position_(find_map(mesh, kRestPosition)),
+      velocity_(find_map(mesh, kVelocity)),
+      attributes_(vertex_attributes(mesh)) {}
+
+void VertexBlend::set(Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) const {
+  if (color_) blend<Color, 4>(*color_, to, from, weights);
+  if (rest_position_) blend<RestPosition, 3>(*rest_position_, to, from, weights);
+  if (auto velocity = velocity_) {
+    Vector sum(0, 0, 0);
+    for (int i = 0; i < 3; ++i) sum += weights[i] * (*velocity)[from[i]];
+    (*velocity)[to] = sum;
+  }
+  for (const VertexAttribute& attribute : attributes_) {
+    VertexMap<double> values = attribute.values;
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+      if (weights[i] != 0) sum += weights[i] * values[from[i]];
+    values[to] = sum;
+  }
+}
+
+std::size_t normalize_skin_weights(Mesh& mesh, int strongest) {
+  if (strongest < 0)
+    throw std::invalid_argument("normalize_skin_weights: strongest is " + std::to_string(strongest) +
+                                ", not >= 0");
+  std::vector<VertexAttribute> joints = vertex_attributes(mesh);
+  std::erase_if(joints, [](const VertexAttribute& a) { return !a.name.starts_with(kWeight); });
+  for (const VertexAttribute& joint : joints)
+    for (Vertex v : mesh.vertices())
+      if (!(joint.values[v] >= 0) || std::isinf(joint.values[v]))
+        throw ContentError("vertex " + std::to_string(v.idx()) + ": " + joint.name + " is " +
+                           std::to_string(joint.values[v]) + "; skin weights must be >= 0 and finite");
+  std::size_t changed = 0;
+  std::vector<double> weights(joints.size());
+  for (Vertex v : mesh.vertices()) {
+    for (std::size_t j = 0; j < joints.size(); ++j) weights[j] = joints[j].values[v];
+    if (!normalize(weights, strongest)) continue;
+    for (std::size_t j = 0; j < joints.size(); ++j) joints[j].values[v] = weights[j];
+    ++changed;
+  }
+  return changed;
+}
+
+}  // namespace furrow::geometry

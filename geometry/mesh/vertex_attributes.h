@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "geometry/mesh/face_point.h"
+#include "geometry/mesh/property_names.h"
+
+namespace furrow::geometry {
+
+/// A number at each vertex that means nothing to us: a skin weight, a mask, a measured value. Readers keep
+/// them by their names in the file, insertion and subdivision interpolate them, writers give them back.
+struct VertexAttribute {
+  std::string name;          ///< without our prefix "v:attribute:"; unique in a mesh, no white space
+  VertexMap<double> values;  ///< a handle: writing through it changes the mesh
+};
+
+/// All attributes of a mesh, in the order in which they were added.
+std::vector<VertexAttribute> vertex_attributes(const Mesh& mesh);
+
+/// The attribute of that name, added with 0 everywhere if the mesh has none.
+VertexMap<double> ensure_vertex_attribute(Mesh& mesh, const std::string& name);
+
+/// Rest positions, added and set to the positions where a vertex has none: before the cloth moves or lines
+/// are drawn.
+VertexMap<RestPosition> ensure_rest_positions(Mesh& mesh);
+
+/// Everything at vertices that is interpolated where a vertex is added: colours, rest positions,
+/// velocities, attributes.
+class VertexBlend {
+ public:
+  /// Takes handles of the maps that the mesh has now.
+  explicit VertexBlend(const Mesh& mesh);
+  /// Sets the values of `to` to the weighted sum of those of three vertices (sum of weights 1). A weight of
+  /// exactly 0 leaves its vertex out, NaN or not. O(number of maps).
+  void set(Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) const;
+
+ private:
+  std::optional<VertexMap<Color>> color_;
+  std::optional<VertexMap<RestPosition>> rest_position_;
+  std::optional<VertexMap<Vector>> velocity_;
+  std::vector<VertexAttribute> attributes_;
+};
+
+/// Skin weights are the attributes "weight_<joint>". Keeps the `strongest` largest of each vertex (0: all;
+/// at equal weight the joint added first), sets the others to 0 and divides by the sum. A vertex that loses
+/// none and whose weights sum to 1 within 1e-6 keeps its bits; one without any weight too. Returns how many
+/// vertices were changed. Throws std::invalid_argument for strongest < 0, ContentError for a weight that is
+/// negative or not finite; the mesh is unchanged then. O(vertices × joints).
+std::size_t normalize_skin_weights(Mesh& mesh, int strongest = 0);
+
+}  // namespace furrow::geometry

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// CGAL's steps end with the postcondition that no vertex is isolated. Ours may be: KeepIsolated below looks
+// after them, and the tests check the result. All other checks of CGAL stay on.
+#define CGAL_NO_POSTCONDITIONS
+#include "geometry/refine/subdivide.h"
+
+#include <CGAL/subdivision_method_3.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh/carry_attributes.h"
+#include "geometry/mesh/preconditions.h"
+
+namespace furrow::geometry {
+namespace {
+
+namespace cgal = CGAL::Subdivision_method_3;
+using PointMap = boost::property_map<Mesh, CGAL::vertex_point_t>::type;
+
+/// CGAL's masks, except that a vertex without faces stays where it is.
+template <class Mask>
+class KeepIsolated : public Mask {
+ public:
+  explicit KeepIsolated(Mesh& mesh) : Mask(&mesh, mesh.points()), mesh_(mesh) {}
+  void vertex_node(Vertex v, Point& p) {
+    if (mesh_.is_isolated(v))
+      p = mesh_.point(v);
+    else
+      Mask::vertex_node(v, p);
+  }
+
+ private:
+  const Mesh& mesh_;
+};
+
+/// The mask of no smoothing: mid-points, and old vertices where they are.
+class MidpointMask : public CGAL::PQQ_stencil_3<Mesh, PointMap> {
+ public:
+  explicit MidpointMask(Mesh& mesh) : PQQ_stencil_3(&mesh, mesh.points()), mesh_(mesh) {}
+  void edge_node(Halfedge h, Point& p) {
+    p = CGAL::midpoint(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)));
+  }
+  void vertex_node(Vertex v, Point& p) { p = mesh_.point(v); }
+  void border_node(Halfedge h, Point& on_edge, Point& at_target) {
+    edge_node(h, on_edge);
+    at_target = mesh_.point(mesh_.target(h));
+  }
+
+ private:
+  const Mesh& mesh_;
+};
+
+void check(Mesh& mesh, int steps, int faces_per_face, const char* operation) {
+  if (steps < 0 || steps > 6)
+    throw std::invalid_argument(std::string(operation) + ": steps is " + std::to_string(steps) +
+                                ", not in [0, 6]");
+  require_triangles(mesh, operation);
+  require_finite(mesh, operation);
+  const double faces = static_cast<double>(mesh.number_of_faces()) * std::pow(faces_per_face, steps);
+  if (faces > 50e6)
+    throw std::invalid_argument(std::string(operation) + ": steps is " + std::to_string(steps) +
+                                ", which would make more than 50 million faces");
+  if (steps > 0) mesh.collect_garbage();
+}
+
+/// Marks the halves of the edges of lines, and gives their mid-points the line of both ends.
+void carry_lines(Mesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& old_edges,
+                 const std::vector<char>& was_line_edge, std::size_t old_vertices) {
+  const auto line = find_map(mesh, kLine);
+  const auto line_edge = find_map(mesh, kLineEdge);
+  if (line_edge)
+    for (Edge e : mesh.edges()) (*line_edge)[e] = false;
+  for (std::size_t i = 0; i < old_edges.size(); ++i) {
+    if (!was_line_edge[i]) continue;
+    const auto [a, b] = old_edges[i];
+    const Vertex mid(static_cast<Vertex::size_type>(old_vertices + i));
+    if (line && (*line)[a] == (*line)[b]) (*line)[mid] = (*line)[a];
+    for (Vertex end : {a, b}) (*line_edge)[mesh.edge(mesh.halfedge(end, mid))] = true;
+  }
+}
+
+/// Diagonals (kDiagonal) of a mesh before a step that cuts triangles into four.
+class Diagonals {
+ public:
+  explicit Diagonals(const Mesh& mesh) : map_(find_map(mesh, kDiagonal)) {
+    if (!map_) return;
+    for (Edge e : mesh.edges()) {
+      if (!(*map_)[e]) continue;
+      halved_.push_back(e);
+      for (Halfedge h : {mesh.halfedge(e), mesh.opposite(mesh.halfedge(e))})
+        if (!mesh.is_border(h)) parallel_.emplace_back(mesh.edge(mesh.next(h)), mesh.edge(mesh.prev(h)));
+    }
+  }
+  /// Marks their halves, and the new edges parallel to them: between the mid-points of a face's other sides.
+  void carry(const Mesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& old_edges,
+             std::size_t old_vertices) const {
+    if (!map_) return;
+    auto map = *map_;
+    const auto mid = [&](Edge e) { return Vertex(static_cast<Vertex::size_type>(old_vertices + e.idx())); };
+    for (Edge e : mesh.edges()) map[e] = false;
+    for (Edge e : halved_)
+      for (Vertex end : {old_edges[e.idx()].first, old_edges[e.idx()].second})
+        map[mesh.edge(mesh.halfedge(end, mid(e)))] = true;
+    for (const auto& [a, b] : parallel_) map[mesh.edge(mesh.halfedge(mid(a), mid(b)))] = true;
+  }
+
+ private:
+  std::optional<EdgeMap<bool>> map_;
+  std::vector<Edge> halved_;
+  std::vector<std::pair<Edge, Edge>> parallel_;  // the other two sides of each face beside a diagonal
+};
+
+/// A face keeps its index for one of its four parts; the other three are appended, face by face.
+Face old_parent(Face f, std::size_t old_faces) {
+  return f.idx() < old_faces ? f : Face(static_cast<Face::size_type>((f.idx() - old_faces) / 3));
+}
+
+/// A step of a mask that keeps the topology of Loop's scheme.
+template <class Mask>
+void quadrisect(Mesh& mesh) {
+  const SavedAttributes saved(mesh);
+  const std::size_t old_vertices = mesh.number_of_vertices(), old_faces = mesh.number_of_faces();
+  std::vector<std::pair<Vertex, Vertex>> ends;  // CGAL appends the mid-points in the order of the edges
+  std::vector<char> was_line_edge;
+  const auto line_edge = find_map(mesh, kLineEdge);
+  for (Edge e : mesh.edges()) {
+    ends.emplace_back(mesh.vertex(e, 0), mesh.vertex(e, 1));
+    was_line_edge.push_back(line_edge && (*line_edge)[e]);
+  }
+  const Diagonals diagonals(mesh);
+  Mask mask(mesh);
+  cgal::PTQ(mesh, mask, CGAL::parameters::number_of_iterations(1));
+  const auto parent = [&](Face f) { return old_parent(f, old_faces); };
+  const auto origin = [&](Vertex v, Face in) {
+    Origin at{in};
+    const auto [a, b] = v.idx() < old_vertices ? std::pair(v, v) : ends[v.idx() - old_vertices];
+    if (saved.corner(in, a) == 3 || saved.corner(in, b) == 3)
+      throw std::logic_error("subdivide: CGAL numbers its faces in an unknown way");
+    at.weights[saved.corner(in, a)] += 0.5;
+    at.weights[saved.corner(in, b)] += 0.5;
+    return at;
+  };
+  saved.restore(mesh, parent, origin);
+  carry_lines(mesh, ends, was_line_edge, old_vertices);
+  diagonals.carry(mesh, ends, old_vertices);
+}
+
+/// Where CGAL's step will put the new vertices, in its order: the centroid of each face, or, where the border
+/// is refined, two vertices on the border edge of a face that has one.
+std::vector<Origin> sqrt3_origins(const Mesh& mesh, const SavedAttributes& saved, bool refine_border) {
+  std::vector<Origin> origins;
+  for (Face f : mesh.faces()) {
+    Halfedge border;
+    for (Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
+      if (!border.is_valid() && mesh.is_border(mesh.opposite(h))) border = h;
+    if (!refine_border || !border.is_valid()) {
+      origins.push_back({f, {1. / 3, 1. / 3, 1. / 3}});
+      continue;
+    }
+    const std::size_t from = saved.corner(f, mesh.source(border)), to = saved.corner(f, mesh.target(border));
+    for (double share : {1. / 3, 2. / 3}) {
+      Origin at{f};
+      at.weights[from] = 1 - share;
+      at.weights[to] = share;
+      origins.push_back(at);
+    }
+  }
+  return origins;
+}
+
+void sqrt3_step(Mesh& mesh, bool refine_border) {
+  const SavedAttributes saved(mesh);
+  const std::size_t old_vertices = mesh.number_of_vertices();
+  const std::vector<Origin> origins = sqrt3_origins(mesh, saved, refine_border);
+  KeepIsolated<CGAL::Sqrt3_mask_3<Mesh, PointMap>> mask(mesh);
+  // CGAL's public function makes all steps at once; attributes have to be carried after each.
+  cgal::internal::Sqrt3_1step(mesh, mesh.points(), mask, refine_border);
+  mesh.collect_garbage();
+  const auto parent = [&](Face f) {
+    Vertex newest;  // every new face has a new vertex; the one of lowest index decides
+    for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+      if (v.idx() >= old_vertices && (!newest.is_valid() || v < newest)) newest = v;
+    return origins.at(newest.idx() - old_vertices).face;
+  };
+  const auto origin = [&](Vertex v, Face in) {
+    if (v.idx() >= old_vertices) return origins[v.idx() - old_vertices];
+    Origin at{in};
+    at.weights.at(saved.corner(in, v)) = 1;
+    return at;
+  };
+  saved.restore(mesh, parent, origin);
+  for (const auto* name : {&kLineEdge, &kDiagonal})
+    if (const auto map = find_map(mesh, *name))
+      for (Edge e : mesh.edges()) (*map)[e] = false;
+}
+
+}  // namespace
+
+void loop_subdivide(Mesh& mesh, int steps) {
+  check(mesh, steps, 4, "loop_subdivide");
+  for (int i = 0; i < steps; ++i) quadrisect<KeepIsolated<CGAL::Loop_mask_3<Mesh, PointMap>>>(mesh);
+  if (steps > 0) unset_rest_state(mesh);
+}
+
+std::vector<Face> midpoint_subdivide(Mesh& mesh, int steps) {
+  check(mesh, steps, 4, "midpoint_subdivide");
+  mesh.collect_garbage();
+  std::vector<Face> parents(mesh.faces().begin(), mesh.faces().end());
+  for (int i = 0; i < steps; ++i) {
+    const std::size_t old_faces = parents.size();
+    quadrisect<MidpointMask>(mesh);
+    for (std::size_t f = old_faces; f < mesh.number_of_faces(); ++f)
+      parents.push_back(parents[old_parent(Face(static_cast<Face::size_type>(f)), old_faces).idx()]);
+  }
+  if (steps > 0) unset_rest_state(mesh);
+  return parents;
+}
+
+void sqrt3_subdivide(Mesh& mesh, int steps) {
+  check(mesh, steps, 3, "sqrt3_subdivide");
+  for (int i = 0; i < steps; ++i) sqrt3_step(mesh, i % 2 == 1);
+  if (steps > 0) unset_rest_state(mesh);
+}
+
+}  // namespace furrow::geometry

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "geometry/mesh/mesh.h"
+
+namespace furrow::geometry {
+
+/// What a drawn line does to the rest state around it (method S1.18).
+enum class RestRule {
+  drawn,  ///< the line adds cloth: rest lengths grow with it, rest angles stay (flat cloth stays flat)
+  flat,   ///< it adds none: the cloth stays what it was
+  copied  ///< as drawn, and rest angles turn with the line: the shape as it lies is the rest
+};
+
+/// The shape before a displacement, to compare with after it.
+struct RestSnapshot {
+  std::vector<Point> positions;  ///< by vertex index [m]
+  std::vector<double> angles;    ///< between the faces of each edge, by its index [rad]
+  std::size_t edges = 0;         ///< of the mesh, to notice a changed connectivity
+};
+
+/// Taken after insertion, flips and rebuild_bending_springs, before displacement and smoothing.
+RestSnapshot take_rest_snapshot(const Mesh& mesh);
+
+struct RestReport {
+  std::size_t scaled_edges = 0;            ///< structural rest lengths that were scaled
+  std::size_t scaled_bending_springs = 0;  ///< bending rest lengths that were scaled
+  std::size_t scaled_struts = 0;
+  std::size_t turned_hinges = 0;  ///< rest angles that were changed
+};
+
+/// After displacement and smoothing, rules drawn and copied: the rest length of every edge (also those of a
+/// face's own, kTriangleRestLength), bending spring and strut with a vertex that has moved is multiplied by
+/// length after / length before, so that strain that was there is carried over; where an edge's rest length
+/// was unset, or the length before was 0, it becomes the length after. Rule copied: a rest angle (kRestAngle,
+/// if there is one) grows by what the angle grew. All others keep their bits, stiffnesses too. Changes
+/// kRestLength (added if missing), kTriangleRestLength, kBendingRestLength, struts and kRestAngle. Rule flat:
+/// changes nothing.
+/// Throws std::invalid_argument, the mesh untouched, if the snapshot is of another connectivity; ContentError
+/// if a position is not finite. O(vertices + edges).
+RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule);
+
+/// apply_rest_rule(mesh, before, RestRule::drawn).
+RestReport apply_drawn_rest(Mesh& mesh, const RestSnapshot& before);
+
+/// Sum of the areas of the faces at rest [m^2] (Heron's formula on the rest lengths, the present length where
+/// unset; 0 for a face that breaks the triangle inequality).
+double rest_area(const Mesh& mesh);
+
+}  // namespace furrow::geometry

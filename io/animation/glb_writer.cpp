@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "bridge/convert.h"
+#include "geometry/mesh/property_names.h"
+#include "io/animation/animation_encoder.h"
+#include "io/base/byte_order.h"
+
+namespace furrow::io {
+namespace {
+
+using geometry::Face;
+using geometry::Halfedge;
+using geometry::Mesh;
+using nlohmann::json;
+using physics::Vec3;
+using Float3 = std::array<float, 3>;
+
+// Codes of the glTF 2.0 specification, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+constexpr int kFloat = 5126, kUnsignedInt = 5125;
+constexpr int kVertexData = 34962, kIndices = 34963;
+constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+
+template <class T>
+void put(std::string& bytes, T value) {
+  append_in_order(bytes, value, std::endian::little);
+}
+
+struct Bounds {
+  Float3 low, high;
+};
+
+/// Accessors in the order of the binary chunk, a view each.
+class Accessors {
+ public:
+  json accessors = json::array(), views = json::array();
+
+  int add(std::size_t count, int component, const char* type, std::size_t bytes, int target) {
+    views.push_back({{"buffer", 0}, {"byteOffset", offset_}, {"byteLength", bytes}});
+    if (target) views.back()["target"] = target;
+    accessors.push_back(
+        {{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
+    offset_ += bytes;
+    return static_cast<int>(accessors.size()) - 1;
+  }
+  void bound(const json& low, const json& high) {
+    accessors.back()["min"] = low, accessors.back()["max"] = high;
+  }
+
+ private:
+  std::size_t offset_ = 0;
+};
+
+/// The binary chunk: indices, texture coordinates | frame 0: positions, normals | frame i > 0: what is added
+/// to both in it | times, weights. Mesh vertex i is vertex i; its copies for other texture coordinates follow
+/// the last.
+class GlbEncoder : public AnimationEncoder {
+ public:
+  GlbEncoder(const Mesh& mesh, const AnimationOptions& options)
+      : options_(options), triangles_(bridge::triangles_of(mesh)) {
+    for (std::size_t v = 0; v < mesh.number_of_vertices(); ++v)
+      source_.push_back(static_cast<std::uint32_t>(v));
+    split_by_texture(mesh);
+    for (const auto& t : indices_) put(static_data_, t);
+    for (const auto& t : textures_)
+      for (const float c : t) put(static_data_, c);
+  }
+
+  std::string frame(std::size_t index, std::span<const Vec3> positions) override {
+    std::vector<Float3> x(positions.size()), n = normals(positions);
+    const bool first = index == 0;
+    if (first) first_positions_.resize(x.size()), first_normals_ = n;
+    bounds_.resize(index);
+    bounds_.push_back({{kHuge, kHuge, kHuge}, {-kHuge, -kHuge, -kHuge}});
+    for (std::size_t i = 0; i < x.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        if (first) first_positions_[i][k] = static_cast<float>(positions[i][k]);
+        x[i][k] =
+            first ? first_positions_[i][k] : static_cast<float>(positions[i][k] - first_positions_[i][k]);
+        if (!first) n[i][k] -= first_normals_[i][k];
+        bounds_[index].low[k] = std::min(bounds_[index].low[k], x[i][k]);
+        bounds_[index].high[k] = std::max(bounds_[index].high[k], x[i][k]);
+      }
+    std::string bytes;
+    bytes.reserve(24 * source_.size());
+    for (const auto* values : {&x, &n})
+      for (const std::uint32_t v : source_)
+        for (const float c : (*values)[v]) put(bytes, c);
+    return bytes;
+  }
+
+  std::string head(std::size_t frames) const override {
+    const std::size_t binary = binary_size(frames);
+    std::string text = document(frames, binary).dump();
+    text.append((4 - text.size() % 4) % 4, ' ');
+    std::string bytes;
+    put(bytes, kMagic);
+    put(bytes, std::uint32_t{2});
+    put(bytes, static_cast<std::uint32_t>(28 + text.size() + binary));
+    put(bytes, static_cast<std::uint32_t>(text.size()));
+    put(bytes, kJsonChunk);
+    bytes += text;
+    put(bytes, static_cast<std::uint32_t>(binary));
+    put(bytes, kBinaryChunk);
+    return bytes + static_data_;
+  }
+
+  /// Times, and a row of weights for each: all 0 for the first frame, then one 1.
+  std::string tail(std::size_t frames) const override {
+    std::string bytes;
+    if (frames < 2) return bytes;
+    for (std::size_t i = 0; i < frames; ++i) put(bytes, static_cast<float>(frame_time(options_, i)));
+    for (std::size_t i = 0; i < frames; ++i)
+      for (std::size_t target = 1; target < frames; ++target) put(bytes, i == target ? 1.0f : 0.0f);
+    return bytes;
+  }
+
+  /// 4 GiB of the format, less what head() and tail() may need: the text takes some 600 bytes a frame.
+  std::size_t largest_file() const override {
+    const std::size_t frames = bounds_.size();
+    const std::size_t beside = 4096 + 1000 * frames + static_data_.size() + 4 * frames * frames;
+    constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max();
+    return beside < kLargest ? kLargest - beside : 0;
+  }
+
+ private:
+  static constexpr float kHuge = std::numeric_limits<float>::max();
+
+  /// glTF has one texture coordinate a vertex, with v downwards; a corner without one gets (0, 1).
+  void split_by_texture(const Mesh& mesh) {
+    const auto textures = geometry::find_map(mesh, geometry::kTexture);
+    if (textures) textures_.assign(source_.size(), {0, 1});
+    std::vector<bool> taken(source_.size(), false);
+    std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;
+    for (const Face f : mesh.faces()) {
+      Halfedge h = mesh.halfedge(f);
+      h = mesh.prev(h);  // its target is the first corner of triangles_of()
+      for (int corner = 0; corner < 3; ++corner, h = mesh.next(h)) {
+        const auto v = static_cast<std::uint32_t>(mesh.target(h));
+        if (!textures) {
+          indices_.push_back(v);
+          continue;
+        }
+        std::array<float, 2> t{static_cast<float>((*textures)[h][0]),
+                               static_cast<float>(1 - (*textures)[h][1])};
+        if (!std::isfinite(t[0]) || !std::isfinite(t[1])) t = {0, 1};
+        const auto next = taken[v] ? static_cast<std::uint32_t>(source_.size()) : v;
+        const auto [place, is_new] = known.emplace(std::tuple(v, t[0], t[1]), next);
+        if (is_new && next != v) source_.push_back(v), textures_.push_back(t);
+        if (is_new && next == v) taken[v] = true, textures_[v] = t;
+        indices_.push_back(place->second);
+      }
+    }
+  }
+
+  /// Unit normals at the mesh's vertices, weighted by area; upwards where there is none.
+  std::vector<Float3> normals(std::span<const Vec3> x) const {
+    std::vector<Vec3> sum(x.size(), Vec3::Zero());
+    for (const auto& [a, b, c] : triangles_) {
+      const Vec3 normal = (x[b] - x[a]).cross(x[c] - x[a]);
+      for (const int v : {a, b, c}) sum[v] += normal;
+    }
+    std::vector<Float3> result(x.size(), Float3{0, 1, 0});
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double length = sum[i].norm();
+      if (length > 0 && std::isfinite(length))
+        for (int k = 0; k < 3; ++k) result[i][k] = static_cast<float>(sum[i][k] / length);
+    }
+    return result;
+  }
+
+  std::size_t binary_size(std::size_t frames) const {
+    const std::size_t animation = frames < 2 ? 0 : 4 * frames + 4 * frames * (frames - 1);
+    return static_data_.size() + 24 * source_.size() * frames + animation;
+  }
+
+  json weights_over_time(std::size_t frames, Accessors& a) const;
+  json document(std::size_t frames, std::size_t binary) const;
+
+  AnimationOptions options_;
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<std::uint32_t> source_, indices_;  ///< mesh vertex of each vertex; three of these a face
+  std::vector<std::array<float, 2>> textures_;   ///< empty, or one a vertex
+  std::string static_data_;
+  std::vector<Float3> first_positions_, first_normals_;
+  std::vector<Bounds> bounds_;  ///< of the positions (or what is added to them) of each frame
+};
+
+json GlbEncoder::weights_over_time(std::size_t frames, Accessors& a) const {
+  const std::size_t weights = frames * (frames - 1);
+  const int input = a.add(frames, kFloat, "SCALAR", 4 * frames, 0);
+  a.bound(json::array({static_cast<float>(frame_time(options_, 0))}),
+          json::array({static_cast<float>(frame_time(options_, frames - 1))}));
+  json sampler = {{"input", input}, {"output", a.add(weights, kFloat, "SCALAR", 4 * weights, 0)}};
+  sampler["interpolation"] = options_.interpolation == Interpolation::step ? "STEP" : "LINEAR";
+  const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}};
+  return {{"samplers", json::array({sampler})}, {"channels", json::array({channel})}};
+}
+
+json GlbEncoder::document(std::size_t frames, std::size_t binary) const {
+  Accessors a;
+  const std::size_t n = source_.size();
+  json primitive = {{"material", 0}};
+  primitive["indices"] = a.add(indices_.size(), kUnsignedInt, "SCALAR", 4 * indices_.size(), kIndices);
+  json attributes;
+  if (!textures_.empty()) attributes["TEXCOORD_0"] = a.add(n, kFloat, "VEC2", 8 * n, kVertexData);
+  json targets = json::array();
+  for (std::size_t i = 0; i < frames; ++i) {
+    json& to = i == 0 ? attributes : targets.emplace_back();
+    to["POSITION"] = a.add(n, kFloat, "VEC3", 12 * n, kVertexData);
+    a.bound(bounds_[i].low, bounds_[i].high);
+    to["NORMAL"] = a.add(n, kFloat, "VEC3", 12 * n, kVertexData);
+  }
+  primitive["attributes"] = attributes;
+  json mesh = {{"name", "cloth"}};
+  json root = {{"asset", {{"version", "2.0"}, {"generator", "Furrow"}}}, {"scene", 0}};
+  root["scenes"] = json::array({{{"nodes", json::array({0})}}});
+  root["nodes"] = json::array({{{"mesh", 0}, {"name", "cloth"}}});
+  root["materials"] = json::array({{{"name", "cloth"}, {"doubleSided", true}}});
+  root["materials"][0]["pbrMetallicRoughness"] = {{"metallicFactor", 0}, {"roughnessFactor", 0.9}};
+  root["buffers"] = json::array({{{"byteLength", binary}}});
+  if (frames > 1) {
+    root["animations"] = json::array({weights_over_time(frames, a)});
+    primitive["targets"] = targets;
+    mesh["weights"] = std::vector<int>(frames - 1, 0);
+  }
+  mesh["primitives"] = json::array({primitive});
+  root["meshes"] = json::array({mesh});
+  root["accessors"] = a.accessors;
+  root["bufferViews"] = a.views;
+  return root;
+}
+
+}  // namespace
+
+std::unique_ptr<AnimationEncoder> glb_encoder(const Mesh& mesh, const AnimationOptions& options) {
+  if (mesh.number_of_faces() == 0) throw std::invalid_argument("animation: a GLB needs a mesh with faces");
+  return std::make_unique<GlbEncoder>(mesh, options);
+}
+
+}  // namespace furrow::io

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The only source that knows assimp.
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
+#include <cmath>
+#include <map>
+
+#include "geometry/mesh/errors.h"
+#include "io/base/bytes_file.h"
+#include "io/base/child_process.h"
+#include "io/base/name_table.h"
+#include "io/mesh/file_frame.h"
+#include "io/mesh/merge_points.h"
+#include "io/mesh/mesh_readers.h"
+#include "io/mesh/soup_bytes.h"
+
+namespace furrow::io {
+namespace {
+
+using namespace geometry;
+using Transform = aiMatrix4x4t<double>;
+
+class SceneReader {
+ public:
+  SceneReader(const aiScene& scene, const ReadOptions& options) : scene_(scene), options_(options) {}
+
+  SoupFile read() {
+    std::vector<std::pair<const aiNode*, Transform>> open = {{scene_.mRootNode, Transform()}};
+    while (!open.empty()) {
+      const auto [node, parent] = open.back();
+      open.pop_back();
+      if (!node) continue;
+      const Transform transform = parent * Transform(node->mTransformation);
+      if (node->mNumMeshes > 0) read_node(*node, transform);
+      for (unsigned c = node->mNumChildren; c-- > 0;) open.emplace_back(node->mChildren[c], transform);
+    }
+    const auto is_none = [](const TextureCoordinate& t) { return std::isnan(t[0]); };
+    if (std::ranges::all_of(out_.soup.textures, is_none)) out_.soup.textures.clear();
+    if (!has_colors_) out_.soup.colors.clear();
+    for (SoupAttribute& weights : out_.soup.attributes) weights.values.resize(out_.soup.points.size(), 0);
+    return std::move(out_);
+  }
+
+ private:
+  /// All meshes of a node (glTF: its primitives) share the points of equal position.
+  void read_node(const aiNode& node, const Transform& transform) {
+    PointNumbers numbers;
+    const std::size_t base = out_.soup.points.size();
+    const int group = groups_.index(node.mName.length ? node.mName.C_Str() : "mesh");
+    const bool mirrored = transform.Determinant() < 0;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      if (node.mMeshes[i] >= scene_.mNumMeshes) throw ContentError("a node names a mesh that is not there");
+      const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
+      const std::vector<std::size_t> points = read_points(mesh, transform, numbers, base);
+      read_weights(mesh, points);
+      read_faces(mesh, points, group, mirrored);
+    }
+  }
+
+  std::vector<std::size_t> read_points(const aiMesh& mesh, const Transform& transform, PointNumbers& numbers,
+                                       std::size_t base) {
+    std::vector<std::size_t> points(mesh.mNumVertices);
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D& raw = mesh.mVertices[v];
+      const aiVector3t<double> p = transform * aiVector3t<double>(raw.x, raw.y, raw.z);
+      const auto point = from_file(p.x, p.y, p.z, options_);
+      if (!point) throw ContentError(kBadCoordinate);
+      const auto [index, is_new] = numbers.number(*point);
+      points[v] = base + index;
+      if (!is_new) {
+        ++out_.merged_vertices;
+        continue;
+      }
+      out_.soup.points.push_back(*point);
+      out_.soup.colors.push_back(kColor.default_value);
+      if (!mesh.HasVertexColors(0)) continue;
+      const aiColor4D& c = mesh.mColors[0][v];
+      out_.soup.colors.back() = {c.r, c.g, c.b, c.a};
+      has_colors_ = true;
+    }
+    return points;
+  }
+
+  /// A skin's joints become attributes "weight_<joint>"; of points merged into one, the first with weights
+  /// counts. (The positions are those of the bind pose.)
+  void read_weights(const aiMesh& mesh, const std::vector<std::size_t>& points) {
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+      const aiBone& bone = *mesh.mBones[b];
+      std::string name = std::string("weight_") + bone.mName.C_Str();
+      for (char& c : name)
+        if (static_cast<unsigned char>(c) <= ' ') c = '_';
+      std::vector<double>& values = weights_of(name);
+      for (unsigned i = 0; i < bone.mNumWeights; ++i) {
+        const aiVertexWeight& weight = bone.mWeights[i];
+        if (weight.mVertexId >= points.size() || !(weight.mWeight >= 0) || std::isinf(weight.mWeight))
+          throw ContentError("joint " + name + " has a weight that cannot be used; repair the file");
+        const std::size_t point = points[weight.mVertexId];
+        const std::pair source(&mesh, weight.mVertexId);
+        if (taken_from_.emplace(point, source).first->second != source) continue;
+        values.resize(std::max(values.size(), point + 1), 0);
+        values[point] = weight.mWeight;
+      }
+    }
+  }
+
+  std::vector<double>& weights_of(const std::string& name) {
+    for (SoupAttribute& attribute : out_.soup.attributes)
+      if (attribute.name == name) return attribute.values;
+    return out_.soup.attributes.emplace_back(SoupAttribute{name, {}}).values;
+  }
+
+  void read_faces(const aiMesh& mesh, const std::vector<std::size_t>& points, int group, bool mirrored) {
+    int material = -1;
+    if (mesh.mMaterialIndex < scene_.mNumMaterials)
+      material = materials_.index(scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str());
+    PolygonSoup& soup = out_.soup;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices < 3) continue;  // points and lines
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        const unsigned v = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
+        if (v >= points.size()) throw ContentError("a face names a vertex that is not there");
+        soup.corners.push_back(points[v]);
+        TextureCoordinate t = kTexture.default_value;
+        if (mesh.HasTextureCoords(0)) t = {mesh.mTextureCoords[0][v].x, mesh.mTextureCoords[0][v].y};
+        soup.textures.push_back(t);
+      }
+      soup.close_face();
+      soup.groups.push_back(group);
+      soup.materials.push_back(material);
+    }
+  }
+
+  const aiScene& scene_;
+  ReadOptions options_;
+  SoupFile out_;
+  NameTable groups_{out_.group_names}, materials_{out_.material_names};
+  std::map<std::size_t, std::pair<const aiMesh*, unsigned>> taken_from_;  // whose weights a point has
+  bool has_colors_ = false;
+};
+
+/// assimp drops faces with bad indices and says so in its log only.
+class Warnings : public Assimp::LogStream {
+ public:
+  explicit Warnings(std::vector<std::string>& messages) : messages_(messages) {}
+  void write(const char* message) override {
+    std::string_view text = message;
+    if (const auto mark = text.find(": "); mark != text.npos) text.remove_prefix(mark + 2);  // "Warn,  T0: "
+    while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
+    if (messages_.size() < 10 && !text.starts_with("Validation")) messages_.emplace_back(text);
+    if (text.find("out-of-range") != text.npos) damage_ = true;
+  }
+  bool damage() const { return damage_; }
+
+ private:
+  std::vector<std::string>& messages_;
+  bool damage_ = false;
+};
+
+/// Runs in the child: the logger is the child's own.
+std::string import(const std::filesystem::path& path, const ReadOptions& options) {
+  std::vector<std::string> messages;
+  auto* warnings = new Warnings(messages);  // the logger's from here
+  Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0)
+      ->attachStream(warnings, Assimp::Logger::Warn | Assimp::Logger::Err);
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
+  if (!scene) throw ContentError(importer.GetErrorString());
+  if (warnings->damage()) throw ContentError("a face names a vertex that is not there; repair the file");
+  SoupFile file = SceneReader(*scene, options).read();
+  file.warnings = std::move(messages);
+  return to_bytes(file);
+}
+
+}  // namespace
+
+MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options) {
+  const std::string name = path.string();
+  if (read_text(path).empty()) throw ContentError(name + ": the file is empty");
+  MeshFile file;
+  SoupFile content;
+  try {
+    content = soup_from_bytes(run_in_child([&] { return import(path, options); }));
+  } catch (const ContentError& error) {
+    throw ContentError(name + ": " + error.what());
+  }
+  file.group_names = std::move(content.group_names);
+  file.material_names = std::move(content.material_names);
+  file.repairs.merged_vertices = content.merged_vertices;
+  file.warnings.push_back(name + ": single precision, vertex order not kept");
+  for (const std::string& warning : content.warnings) file.warnings.push_back(name + ": assimp: " + warning);
+  set_mesh(file, content.soup, name);
+  return file;
+}
+
+}  // namespace furrow::io

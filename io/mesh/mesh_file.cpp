@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mesh/mesh_file.h"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <utility>
+
+#include "geometry/mesh/errors.h"
+#include "io/base/atomic_file.h"
+#include "io/base/bytes_file.h"
+#include "io/base/lower_case.h"
+#include "io/mesh/file_frame.h"
+#include "io/mesh/mesh_readers.h"
+#include "io/mesh/mesh_writers.h"
+#include "io/mesh/soup_to_mesh.h"
+
+namespace furrow::io {
+namespace {
+
+constexpr std::array<std::pair<const char*, MeshFormat>, 6> kEndings = {{{".obj", MeshFormat::obj},
+                                                                         {".ply", MeshFormat::ply},
+                                                                         {".off", MeshFormat::off},
+                                                                         {".stl", MeshFormat::stl},
+                                                                         {".gltf", MeshFormat::gltf},
+                                                                         {".glb", MeshFormat::gltf}}};
+
+MeshFile parse(std::string_view text, MeshFormat format, const std::string& name,
+               const ReadOptions& options) {
+  switch (format) {
+    case MeshFormat::obj:
+      return read_obj(text, name, options);
+    case MeshFormat::ply:
+      return read_ply(text, name, options);
+    case MeshFormat::off:
+      return read_off(text, name, options);
+    case MeshFormat::stl:
+      return read_stl(text, name, options);
+    default:
+      throw std::invalid_argument("format: glTF is read from files only, not from streams");
+  }
+}
+
+}  // namespace
+
+MeshFormat mesh_format(const std::filesystem::path& path) {
+  if (path == "-") return MeshFormat::obj;
+  const std::string ending = lower_case(path.extension().string());
+  for (const auto& [known, format] : kEndings)
+    if (ending == known) return format;
+  throw geometry::ContentError(path.string() + ": unknown format '" + ending +
+                               "'; obj, ply, off, stl, gltf and glb are read, obj, ply, off and stl written");
+}
+
+MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+  check_unit(options.metres_per_unit);
+  const MeshFormat format = mesh_format(path);
+  if (path == "-") return read_mesh(std::cin, format, "standard input", options);
+  if (format == MeshFormat::gltf) return read_gltf(path, options);
+  return parse(read_text(path), format, path.string(), options);
+}
+
+MeshFile read_mesh(std::istream& in, MeshFormat format, const std::string& name, const ReadOptions& options) {
+  check_unit(options.metres_per_unit);
+  return parse(read_text(in, name), format, name, options);
+}
+
+void write_mesh(const std::filesystem::path& path, const MeshFile& file, const WriteOptions& options) {
+  check_unit(options.metres_per_unit);
+  if (path == "-") throw std::invalid_argument("path: '-' is standard output; write to a stream");
+  MeshFormat format{};
+  try {
+    format = mesh_format(path);
+  } catch (const geometry::ContentError& error) {
+    throw std::invalid_argument(error.what());
+  }
+  if (format == MeshFormat::gltf)
+    throw std::invalid_argument(path.string() + ": glTF is not written; choose obj, ply, off or stl");
+  check_positions(file.mesh, options);
+  write_atomically(path, [&](std::ostream& out) { write_mesh(out, format, file, options); });
+}
+
+void write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file, const WriteOptions& options) {
+  check_unit(options.metres_per_unit);
+  switch (format) {
+    case MeshFormat::obj:
+      return write_obj(out, file, options);
+    case MeshFormat::ply:
+      return write_ply(out, file, options);
+    case MeshFormat::off:
+      return write_off(out, file, options);
+    case MeshFormat::stl:
+      return write_stl(out, file, options);
+    default:
+      throw std::invalid_argument("format: glTF is not written; choose obj, ply, off or stl");
+  }
+}
+
+void set_mesh(MeshFile& file, const PolygonSoup& soup, const std::string& name) {
+  SoupMesh mesh = soup_to_mesh(soup, name);
+  mesh.repairs.merged_vertices = file.repairs.merged_vertices;
+  file.mesh = std::move(mesh.mesh);
+  file.repairs = mesh.repairs;
+}
+
+std::vector<std::size_t> vertex_numbers(const geometry::Mesh& mesh) {
+  std::vector<std::size_t> numbers(mesh.num_vertices(), 0);
+  std::size_t next = 0;
+  for (const geometry::Vertex v : mesh.vertices()) numbers[v] = next++;
+  return numbers;
+}
+
+void check_positions(const geometry::Mesh& mesh, const WriteOptions& options) {
+  for (const geometry::Vertex v : mesh.vertices()) {
+    const geometry::Vector p = to_file(mesh.point(v), options);
+    for (int k = 0; k < 3; ++k)
+      if (!std::isfinite(p[k]))
+        throw std::invalid_argument("mesh: the position of vertex " + std::to_string(v.idx()) +
+                                    " is not finite");
+  }
+}
+
+}  // namespace furrow::io

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh/mesh.h"
+
+namespace furrow::io {
+
+/// What a reader had to do to a file's content to get an oriented manifold of triangles.
+struct RepairReport {
+  std::size_t triangulated_faces = 0;   ///< faces with more than three corners, cut
+  std::size_t degenerate_faces = 0;     ///< triangles dropped: a repeated corner
+  std::size_t duplicate_faces = 0;      ///< triangles dropped: the same three vertices as an earlier one
+  std::size_t reversed_faces = 0;       ///< triangles turned to agree with their neighbours
+  std::size_t duplicated_vertices = 0;  ///< appended at the end, to part non-manifold edges and vertices
+  std::size_t isolated_vertices = 0;    ///< kept
+  std::size_t merged_vertices = 0;  ///< equal positions, only where the format cannot share them (STL, glTF)
+  bool any() const {
+    return degenerate_faces || duplicate_faces || reversed_faces || duplicated_vertices || merged_vertices;
+  }
+};
+
+/// An OBJ `l` element, or a chain of two-point elements that share vertices.
+struct Polyline {
+  std::vector<geometry::Point> points;  ///< [m]; the first is not repeated at the end of a closed one
+  std::vector<std::size_t> vertices;  ///< the same points as vertex indices of the mesh; empty = not its own
+  bool closed = false;
+};
+
+/// A mesh and what its file says beside it. Vertices are in the file's order; positions in metres, y up.
+struct MeshFile {
+  geometry::Mesh mesh;                          ///< maps as in geometry/mesh/property_names.h
+  std::vector<std::string> group_names;         ///< f:group
+  std::vector<std::string> material_names;      ///< f:material
+  std::vector<std::string> material_libraries;  ///< OBJ mtllib
+  std::vector<Polyline> polylines;              ///< OBJ l elements, chained
+  std::vector<std::string> comments;            ///< without the comment mark; PLY and OBJ
+  std::vector<std::string> warnings;            ///< e.g. "single precision, vertex order not kept"
+  RepairReport repairs;
+};
+
+/// The axis of a file that points up; we work with y up.
+enum class Axis { y, z };
+
+struct ReadOptions {
+  double metres_per_unit = 1;  ///< > 0, finite
+  Axis up = Axis::y;           ///< of the file; z is turned to y: (x, y, z) becomes (x, z, -y)
+};
+
+struct WriteOptions {
+  double metres_per_unit = 1;  ///< > 0, finite
+  Axis up = Axis::y;           ///< of the file to be written
+};
+
+enum class MeshFormat { obj, ply, off, stl, gltf };
+
+/// The format that a file name's ending names, in any case of letters; "-" is OBJ.
+/// Throws geometry::ContentError that lists the known endings.
+MeshFormat mesh_format(const std::filesystem::path& path);
+
+/// Reads by the file name's ending: obj, ply, off, stl, gltf, glb. "-" is OBJ from standard input.
+/// Throws geometry::ContentError with file and line if the file or its content cannot be used.
+MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// Reads a format from a stream; `name` stands in messages. Not glTF, whose files name other files.
+MeshFile read_mesh(std::istream& in, MeshFormat format, const std::string& name,
+                   const ReadOptions& options = {});
+
+/// Writes by the file name's ending: obj, ply, off, stl; to a temporary beside it, then renames.
+/// Throws std::invalid_argument for "-" and for an ending that we do not write, nothing written;
+/// std::runtime_error if the file cannot be written, the old one left as it was.
+void write_mesh(const std::filesystem::path& path, const MeshFile& file, const WriteOptions& options = {});
+
+/// Writes a format to a stream (standard output is the program's, not the library's). Not glTF.
+void write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file, const WriteOptions& options = {});
+
+}  // namespace furrow::io

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "io/mesh/mesh_file.h"
+#include "io/mesh/polygon_soup.h"
+
+/// The readers behind read_mesh(), one source a format. `text` is the whole file, `name` stands in messages.
+/// All throw geometry::ContentError with name and line (text) or element (binary).
+namespace furrow::io {
+
+/// Wavefront OBJ: v (with w, or red green blue [alpha]), vt, f, l, g, o, usemtl, mtllib; indices from 1 or
+/// negative; continued lines. vn, vp, p, s and free-form geometry are passed over, unknown words with one
+/// warning.
+MeshFile read_obj(std::string_view text, const std::string& name, const ReadOptions& options);
+/// Only the polylines of an OBJ file, which needs no faces.
+std::vector<Polyline> read_obj_polylines(std::string_view text, const std::string& name,
+                                         const ReadOptions& options);
+/// Stanford PLY, ascii and binary of both byte orders, with our own properties (decision 0005). Other
+/// numbers at vertices become vertex attributes.
+MeshFile read_ply(std::string_view text, const std::string& name, const ReadOptions& options);
+/// Geomview OFF, COFF, NOFF, CNOFF, STOFF …, text only.
+MeshFile read_off(std::string_view text, const std::string& name, const ReadOptions& options);
+/// STL, text (solids become groups) and binary. Vertices of exactly equal position are merged.
+MeshFile read_stl(std::string_view text, const std::string& name, const ReadOptions& options);
+/// glTF and GLB by assimp, in a child process with limits: single precision, vertices of equal position in
+/// one node merged; skin weights become vertex attributes. Throws geometry::ContentError too if the child
+/// crashes, hangs or sends nonsense.
+MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options);
+
+/// The mesh of a soup put into the file's other content.
+void set_mesh(MeshFile& file, const PolygonSoup& soup, const std::string& name);
+
+}  // namespace furrow::io

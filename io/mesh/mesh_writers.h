@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "io/mesh/file_frame.h"
+#include "io/mesh/mesh_file.h"
+
+/// The writers behind write_mesh(), one source a format. They pass over removed elements of a mesh with
+/// garbage; vertices and faces keep their order. All throw std::invalid_argument, nothing written, for a
+/// position that is not finite.
+namespace furrow::io {
+
+/// OBJ in double (shortest text that reads back exactly): comments, mtllib, v (with colour), vt (equal ones
+/// shared; a face with a corner that has none gets none), g, usemtl, f; and as `l` elements the chains of
+/// line edges (e:line_edge) or, where the mesh has none, `polylines` (those without vertices of the mesh get
+/// vertices of their own at the end).
+void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& options);
+/// PLY, binary little-endian, double: every map of geometry/mesh/property_names.h that the mesh has, and its
+/// vertex attributes (decision 0005). Throws geometry::ContentError for an attribute that is named like
+/// another column of the vertices.
+void write_ply(std::ostream& out, const MeshFile& file, const WriteOptions& options);
+/// OFF, or COFF where the mesh has colours, in double. Everything else is left out.
+void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& options);
+/// Binary STL: single precision, no vertex is shared. Everything but the triangles is left out.
+void write_stl(std::ostream& out, const MeshFile& file, const WriteOptions& options);
+
+/// The number that each vertex gets in a file (by vertex index; removed ones have none of meaning).
+std::vector<std::size_t> vertex_numbers(const geometry::Mesh& mesh);
+/// Throws std::invalid_argument naming the first vertex whose position is not finite in the file's unit.
+void check_positions(const geometry::Mesh& mesh, const WriteOptions& options);
+
+}  // namespace furrow::io

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mesh/soup_to_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <span>
+
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/vertex_attributes.h"
+#include "io/mesh/make_manifold.h"
+#include "io/mesh/triangulate_polygon.h"
+
+namespace furrow::io {
+namespace {
+
+using namespace geometry;
+using Triangles = std::vector<SoupTriangle>;
+
+std::string place_of_face(const PolygonSoup& soup, const std::string& name, std::size_t face) {
+  if (!soup.face_lines.empty()) return name + ":" + std::to_string(soup.face_lines[face]) + ": ";
+  return name + ": face " + std::to_string(face) + ": ";
+}
+
+void check_corners(const PolygonSoup& soup, const std::string& name) {
+  for (std::size_t f = 0; f < soup.faces(); ++f)
+    for (std::size_t c = soup.first_corner[f]; c < soup.first_corner[f + 1]; ++c)
+      if (soup.corners[c] >= soup.points.size())
+        throw ContentError(place_of_face(soup, name, f) + "a corner names a vertex beyond the last of " +
+                           std::to_string(soup.points.size()) + "; correct the index or add the vertex");
+}
+
+Triangles cut_faces(const PolygonSoup& soup, const std::string& name, RepairReport& repairs) {
+  Triangles triangles;
+  triangles.reserve(soup.corners.size() - std::min(soup.corners.size(), 2 * soup.faces()));
+  std::vector<Point> points;
+  std::vector<std::array<std::size_t, 3>> cut;
+  for (std::size_t f = 0; f < soup.faces(); ++f) {
+    const std::size_t first = soup.first_corner[f], last = soup.first_corner[f + 1];
+    points.clear();
+    for (std::size_t c = first; c < last; ++c) points.push_back(soup.points[soup.corners[c]]);
+    cut.clear();
+    try {
+      triangulate_polygon(points, cut);
+    } catch (const ContentError& error) {
+      throw ContentError(place_of_face(soup, name, f) + error.what());
+    }
+    if (last - first > 3) ++repairs.triangulated_faces;
+    if (last - first < 3) ++repairs.degenerate_faces;
+    for (const auto& [i, j, k] : cut)
+      triangles.push_back({{soup.corners[first + i], soup.corners[first + j], soup.corners[first + k]},
+                           {first + i, first + j, first + k},
+                           f});
+  }
+  return triangles;
+}
+
+void drop_degenerate(Triangles& triangles, RepairReport& repairs) {
+  repairs.degenerate_faces += std::erase_if(triangles, [](const SoupTriangle& t) {
+    return t.points[0] == t.points[1] || t.points[1] == t.points[2] || t.points[2] == t.points[0];
+  });
+}
+
+void drop_duplicates(Triangles& triangles, RepairReport& repairs) {
+  std::vector<std::pair<std::array<std::size_t, 3>, std::size_t>> keys(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    keys[t] = {triangles[t].points, t};
+    std::sort(keys[t].first.begin(), keys[t].first.end());
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<char> drop(triangles.size(), 0);
+  for (std::size_t i = 1; i < keys.size(); ++i) drop[keys[i].second] = keys[i].first == keys[i - 1].first;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (!drop[t]) triangles[kept++] = triangles[t];
+  repairs.duplicate_faces += triangles.size() - kept;
+  triangles.resize(kept);
+}
+
+/// Whether all faces around each vertex are one fan; add_face() lets two fans share a vertex.
+bool has_one_fan_per_vertex(const Mesh& mesh) {
+  std::vector<std::size_t> corners(mesh.number_of_vertices(), 0);
+  for (const Face f : mesh.faces())
+    for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) ++corners[v];
+  for (const Vertex v : mesh.vertices()) {
+    if (mesh.is_isolated(v)) continue;
+    std::size_t faces = 0, borders = 0;
+    for (const Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))
+      ++(mesh.is_border(h) ? borders : faces);
+    if (faces != corners[v] || borders > 1) return false;
+  }
+  return true;
+}
+
+/// False if some face does not fit into an oriented manifold.
+bool build(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& out) {
+  out.mesh.clear();
+  out.mesh.reserve(static_cast<Mesh::size_type>(out.origin.size()),
+                   static_cast<Mesh::size_type>(triangles.size() * 3 / 2 + 16),
+                   static_cast<Mesh::size_type>(triangles.size()));
+  for (const std::size_t point : out.origin) out.mesh.add_vertex(soup.points[point]);
+  for (const SoupTriangle& t : triangles) {
+    const auto vertex = [&](int k) { return Vertex(static_cast<Mesh::size_type>(t.points[k])); };
+    if (out.mesh.add_face(vertex(0), vertex(1), vertex(2)) == Mesh::null_face()) return false;
+  }
+  return has_one_fan_per_vertex(out.mesh);
+}
+
+template <class K, class V, class Values>
+void fill_vertex_map(SoupMesh& out, const PropertyName<K, V>& name, const Values& values) {
+  if (values.empty()) return;
+  auto map = ensure_map(out.mesh, name);
+  for (const Vertex v : out.mesh.vertices()) map[v] = values[out.origin[v]];
+}
+
+/// Texture coordinates of corners, and rest lengths of edges that are a face's own.
+void fill_corners(const PolygonSoup& soup, const Triangles& triangles, Mesh& mesh) {
+  std::optional<HalfedgeMap<TextureCoordinate>> textures;
+  std::optional<HalfedgeMap<double>> rest_lengths;
+  if (!soup.textures.empty()) textures = ensure_map(mesh, kTexture);
+  if (!soup.triangle_rest_lengths.empty()) rest_lengths = ensure_map(mesh, kTriangleRestLength);
+  if (!textures && !rest_lengths) return;
+  for (const Face f : mesh.faces())
+    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+      const auto corner_at = [&](std::size_t v) {
+        const SoupTriangle& t = triangles[f];
+        return t.corners[t.points[0] == v ? 0 : t.points[1] == v ? 1 : 2];
+      };
+      const std::size_t to = corner_at(mesh.target(h)), from = corner_at(mesh.source(h));
+      if (textures) (*textures)[h] = soup.textures[to];
+      // The corner before the other one on the way round; a face that was turned over is walked backwards.
+      const std::size_t low = std::min(from, to), high = std::max(from, to);
+      if (rest_lengths) (*rest_lengths)[h] = soup.triangle_rest_lengths[high - low == 1 ? low : high];
+    }
+}
+
+/// Where a face of four corners was cut.
+void mark_diagonals(const PolygonSoup& soup, const Triangles& triangles, Mesh& mesh) {
+  const auto is_quad = [&](std::size_t f) { return soup.first_corner[f + 1] - soup.first_corner[f] == 4; };
+  if (std::ranges::none_of(triangles, [&](const SoupTriangle& t) { return is_quad(t.face); })) return;
+  auto diagonal = ensure_map(mesh, kDiagonal);
+  for (const Edge e : mesh.edges()) {
+    if (mesh.is_border(e)) continue;
+    const std::size_t a = triangles[mesh.face(mesh.halfedge(e))].face,
+                      b = triangles[mesh.face(mesh.opposite(mesh.halfedge(e)))].face;
+    diagonal[e] = a == b && is_quad(a);
+  }
+}
+
+void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& out) {
+  fill_vertex_map(out, kColor, soup.colors);
+  fill_vertex_map(out, kLine, soup.lines);
+  fill_vertex_map(out, kMass, soup.masses);
+  fill_vertex_map(out, kRestPosition, soup.rest_positions);
+  for (const SoupAttribute& attribute : soup.attributes) {
+    auto values = ensure_vertex_attribute(out.mesh, attribute.name);
+    for (const Vertex v : out.mesh.vertices()) values[v] = attribute.values[out.origin[v]];
+  }
+  Mesh& mesh = out.mesh;
+  if (!soup.groups.empty()) {
+    auto groups = ensure_map(mesh, kGroup);
+    for (const Face f : mesh.faces()) groups[f] = soup.groups[triangles[f].face];
+  }
+  if (!soup.materials.empty()) {
+    auto materials = ensure_map(mesh, kMaterial);
+    for (const Face f : mesh.faces()) materials[f] = soup.materials[triangles[f].face];
+  }
+  if (!soup.generations.empty()) {
+    auto generations = ensure_map(mesh, kGeneration);
+    for (const Face f : mesh.faces()) generations[f] = soup.generations[triangles[f].face];
+  }
+  fill_corners(soup, triangles, mesh);
+  mark_diagonals(soup, triangles, mesh);
+}
+
+}  // namespace
+
+SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name) {
+  check_corners(soup, name);
+  SoupMesh out;
+  Triangles triangles = cut_faces(soup, name, out.repairs);
+  drop_degenerate(triangles, out.repairs);
+  drop_duplicates(triangles, out.repairs);
+  if (triangles.empty())
+    throw ContentError(name + ": no faces" + (soup.faces() ? " but degenerate ones" : "") +
+                       "; a mesh with at least one triangle is needed");
+  out.origin.resize(soup.points.size());
+  std::iota(out.origin.begin(), out.origin.end(), std::size_t{0});
+  if (!build(soup, triangles, out)) {
+    const ManifoldReport parted = make_manifold(triangles, soup.points.size());
+    out.repairs.reversed_faces = parted.reversed_faces;
+    out.repairs.duplicated_vertices = parted.added_points.size();
+    out.origin.insert(out.origin.end(), parted.added_points.begin(), parted.added_points.end());
+    if (!build(soup, triangles, out))
+      throw ContentError(name +
+                         ": the faces cannot be parted into a manifold; repair the mesh in a modeller");
+  }
+  fill_maps(soup, triangles, out);
+  for (const Vertex v : out.mesh.vertices()) out.repairs.isolated_vertices += out.mesh.is_isolated(v);
+  return out;
+}
+
+}  // namespace furrow::io

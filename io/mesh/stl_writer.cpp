@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <ostream>
+
+#include "io/mesh/mesh_writers.h"
+
+namespace furrow::io {
+namespace {
+
+using namespace geometry;
+
+void put(std::string& out, std::uint32_t word) {
+  for (int i = 0; i < 4; ++i) out += static_cast<char>(word >> 8 * i & 255);
+}
+
+void put(std::string& out, const Vector& v) {
+  for (int k = 0; k < 3; ++k) put(out, std::bit_cast<std::uint32_t>(static_cast<float>(v[k])));
+}
+
+}  // namespace
+
+void write_stl(std::ostream& out, const MeshFile& file, const WriteOptions& options) {
+  const Mesh& mesh = file.mesh;
+  check_positions(mesh, options);
+  std::string bytes = "binary STL written by furrow";  // must not begin with "solid"
+  bytes.resize(80, ' ');
+  put(bytes, static_cast<std::uint32_t>(mesh.number_of_faces()));
+  for (const Face f : mesh.faces()) {
+    Vector corners[3];
+    int k = 0;
+    for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+      corners[k++] = to_file(mesh.point(v), options);
+    const Vector area = CGAL::cross_product(corners[1] - corners[0], corners[2] - corners[0]);
+    const double length = std::sqrt(area.squared_length());
+    put(bytes, length > 0 && std::isfinite(length) ? area / length : Vector(0, 0, 0));
+    for (const Vector& corner : corners) put(bytes, corner);
+    bytes.append(2, '\0');
+  }
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+}  // namespace furrow::io

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "io/picture/render.h"
+
+namespace furrow::io {
+
+/// A mesh in the units of the picture's rays: the scene's middle at 0, its diagonal 1. Colours are linear
+/// light.
+struct PreparedMesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Vector3d> normals;           ///< unit, weighted by angle; 0 where the triangles cancel
+  std::vector<std::array<int, 3>> triangles;      ///< none degenerate
+  std::vector<Eigen::Vector3d> colours;           ///< one, or one a vertex
+  std::vector<Eigen::Vector3d> triangle_colours;  ///< none, or one a triangle: before `colours`
+  /// How much the surface bulges at a vertex: towards 1 on a sharp ridge, −1 in a sharp valley, ±0.5 on a
+  /// fold whose radius is 1/100 of the scene's diagonal. Cloth only, else empty.
+  std::vector<double> bulges;
+  std::shared_ptr<const Image> texture;                                   ///< none, or with coordinates
+  std::vector<std::array<std::array<double, 2>, 3>> texture_coordinates;  ///< one a triangle
+  Style style = Style::cloth;
+};
+
+/// One piece of a line's tube; a round cone, since the radius may grow with the distance from the eye.
+struct PreparedSegment {
+  std::array<Eigen::Vector3d, 2> ends;
+  std::array<double, 2> radii;
+  Eigen::Vector3d colour;  ///< linear light
+};
+
+/// The camera's frame: right, up and forward are orthonormal.
+struct PreparedCamera {
+  Eigen::Vector3d eye, right, up, forward;
+  double slope = 0;       ///< half the picture's height: at depth 1, or everywhere if `parallel`
+  bool parallel = false;  ///< all lines of sight run along `forward`
+};
+
+/// Radius of the lines' tubes: either the same everywhere, or growing with the depth.
+struct LineRadius {
+  double constant = 0, per_depth = 0;
+  double at(double depth) const { return constant + per_depth * depth; }
+};
+
+struct PreparedScene {
+  std::vector<PreparedMesh> meshes;
+  std::vector<PreparedSegment> segments;
+  LineRadius line_radius;
+  PreparedCamera camera;
+};
+
+/// Checks a scene and its options, as `render` promises, and brings everything into the rays' units.
+PreparedScene prepare(const RenderScene& scene, const RenderOptions& options);
+
+/// Checks the meshes and lines of a scene alone.
+void check_scene(const RenderScene& scene);
+
+/// sRGB in [0, 1] to linear light, and back.
+double linear_light(double srgb);
+double srgb(double linear_light);
+
+}  // namespace furrow::io

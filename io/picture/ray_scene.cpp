@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/picture/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace furrow::io {
+namespace {
+
+using Eigen::Vector3d;
+
+RTCDevice new_device() {
+  const RTCDevice device = rtcNewDevice("threads=1,user_threads=0,set_affinity=0");
+  if (!device) throw std::runtime_error("render: Embree cannot start on this machine");
+  return device;
+}
+
+RTCScene new_scene(RTCDevice device) {
+  const RTCScene scene = rtcNewScene(device);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  return scene;
+}
+
+void* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride,
+                 std::size_t count) {
+  void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, stride, count);
+  if (!buffer) throw std::runtime_error("render: Embree has no memory for the scene");
+  return buffer;
+}
+
+void attach(RTCScene scene, RTCGeometry geometry, unsigned id) {
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, id);
+}
+
+/// A geometry that is released even if filling it throws; the scene keeps its own reference.
+struct Geometry {
+  RTCGeometry handle;
+  Geometry(RTCDevice device, RTCGeometryType type) : handle(rtcNewGeometry(device, type)) {}
+  ~Geometry() { rtcReleaseGeometry(handle); }
+  Geometry(const Geometry&) = delete;
+  Geometry& operator=(const Geometry&) = delete;
+};
+
+void add_mesh(RTCDevice device, RTCScene scene, const PreparedMesh& mesh, unsigned id) {
+  if (mesh.triangles.empty()) return;
+  const Geometry geometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(new_buffer(geometry.handle, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3,
+                                                  3 * sizeof(float), mesh.vertices.size()));
+  for (const Vector3d& p : mesh.vertices) {
+    for (int i = 0; i < 3; ++i) *vertices++ = float(p[i]);
+  }
+  auto* indices = static_cast<unsigned*>(new_buffer(geometry.handle, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
+                                                    3 * sizeof(unsigned), mesh.triangles.size()));
+  for (const auto& t : mesh.triangles) {
+    for (int v : t) *indices++ = unsigned(v);
+  }
+  attach(scene, geometry.handle, id);
+}
+
+void add_segments(RTCDevice device, RTCScene scene, const std::vector<PreparedSegment>& segments) {
+  const Geometry geometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+  auto* vertices = static_cast<float*>(new_buffer(geometry.handle, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4,
+                                                  4 * sizeof(float), 2 * segments.size()));
+  auto* indices = static_cast<unsigned*>(
+      new_buffer(geometry.handle, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, sizeof(unsigned), segments.size()));
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    for (int end = 0; end < 2; ++end) {
+      for (int i = 0; i < 3; ++i) *vertices++ = float(segments[s].ends[end][i]);
+      *vertices++ = float(segments[s].radii[end]);
+    }
+    indices[s] = unsigned(2 * s);
+  }
+  attach(scene, geometry.handle, 0);
+}
+
+RTCRay new_ray(const Vector3d& origin, const Vector3d& direction, double max_distance) {
+  RTCRay ray{};
+  ray.org_x = float(origin.x());
+  ray.org_y = float(origin.y());
+  ray.org_z = float(origin.z());
+  ray.dir_x = float(direction.x());
+  ray.dir_y = float(direction.y());
+  ray.dir_z = float(direction.z());
+  ray.tfar = float(max_distance);
+  ray.mask = ~0u;
+  return ray;
+}
+
+std::optional<RTCRayHit> intersect(RTCScene scene, const RTCRay& ray) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRayHit query{};
+  query.ray = ray;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene, &context, &query);
+  return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::nullopt : std::optional(query);
+}
+
+}  // namespace
+
+void RayScene::Release::operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
+void RayScene::Release::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
+
+RayScene::RayScene(const PreparedScene& scene) : device_(new_device()), surfaces_(new_scene(device_.get())) {
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    add_mesh(device_.get(), surfaces_.get(), scene.meshes[i], unsigned(i));
+  }
+  rtcCommitScene(surfaces_.get());
+  if (!scene.segments.empty()) {
+    lines_.reset(new_scene(device_.get()));
+    add_segments(device_.get(), lines_.get(), scene.segments);
+    rtcCommitScene(lines_.get());
+  }
+  if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
+    throw std::runtime_error("render: Embree cannot build the scene");
+  }
+}
+
+std::optional<SurfaceHit> RayScene::nearest_surface(const Vector3d& origin, const Vector3d& direction) const {
+  const auto found =
+      intersect(surfaces_.get(), new_ray(origin, direction, std::numeric_limits<float>::infinity()));
+  if (!found) return std::nullopt;
+  return SurfaceHit{int(found->hit.geomID), int(found->hit.primID),
+                    std::clamp(double(found->hit.u), 0.0, 1.0), std::clamp(double(found->hit.v), 0.0, 1.0),
+                    found->ray.tfar};
+}
+
+std::optional<LineHit> RayScene::nearest_line(const Vector3d& origin, const Vector3d& direction,
+                                              double max_distance) const {
+  if (!lines_) return std::nullopt;
+  const auto found = intersect(lines_.get(), new_ray(origin, direction, max_distance));
+  if (!found) return std::nullopt;
+  const Vector3d normal(found->hit.Ng_x, found->hit.Ng_y, found->hit.Ng_z);
+  const double length = normal.norm();
+  return LineHit{int(found->hit.primID), found->ray.tfar,
+                 length > 0 ? Vector3d(normal / length) : Vector3d(-direction)};
+}
+
+bool RayScene::is_blocked(const Vector3d& origin, const Vector3d& direction, double max_distance) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray = new_ray(origin, direction, max_distance);
+  rtcOccluded1(surfaces_.get(), &context, &ray);
+  return ray.tfar < 0;
+}
+
+}  // namespace furrow::io

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "io/picture/prepared_scene.h"
+
+struct RTCDeviceTy;
+struct RTCSceneTy;
+
+namespace furrow::io {
+
+/// Where a ray meets a mesh: p = (1−u−v) p0 + u p1 + v p2 of the triangle.
+struct SurfaceHit {
+  int mesh;
+  int triangle;
+  double u, v;
+  double distance;
+};
+
+/// Where a ray meets the tube of a line; the normal is of unit length and points outward.
+struct LineHit {
+  int segment;
+  double distance;
+  Eigen::Vector3d normal;
+};
+
+/// The rays' view of a prepared scene: two Embree trees, one of the meshes, one of the lines' tubes. The
+/// trees are built with one thread, so that the same scene gives the same hits. Directions are of unit
+/// length; all coordinates are finite (Debian's Embree aborts on a NaN). Queries may come from several
+/// threads.
+class RayScene {
+ public:
+  /// Throws std::runtime_error if Embree cannot start.
+  explicit RayScene(const PreparedScene& scene);
+
+  std::optional<SurfaceHit> nearest_surface(const Eigen::Vector3d& origin,
+                                            const Eigen::Vector3d& direction) const;
+  /// The nearest tube before `max_distance`.
+  std::optional<LineHit> nearest_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                      double max_distance) const;
+  /// Whether a mesh lies in the way before `max_distance`. Lines throw no shadow.
+  bool is_blocked(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                  double max_distance = std::numeric_limits<float>::infinity()) const;
+
+ private:
+  struct Release {
+    void operator()(RTCDeviceTy* device) const;
+    void operator()(RTCSceneTy* scene) const;
+  };
+  std::unique_ptr<RTCDeviceTy, Release> device_;
+  std::unique_ptr<RTCSceneTy, Release> surfaces_;
+  std::unique_ptr<RTCSceneTy, Release> lines_;  ///< empty without segments
+};
+
+}  // namespace furrow::io

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/picture/render.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "io/picture/prepared_scene.h"
+#include "io/picture/ray_scene.h"
+#include "io/picture/shade.h"
+
+namespace furrow::io {
+namespace {
+
+using Eigen::Vector3d;
+
+struct RayCounts {
+  int side;  // side × side rays a pixel
+  int sky;   // rays to the sky from each hit
+};
+
+RayCounts ray_counts(Quality quality) {
+  switch (quality) {
+    case Quality::draft:
+      return {2, 1};
+    case Quality::normal:
+      return {4, 2};
+    case Quality::fine:
+      return {6, 4};
+  }
+  throw std::invalid_argument("render: quality " + std::to_string(int(quality)) + " is not known");
+}
+
+/// Everything that the rows share; nothing of it changes while the picture is made.
+class Picture {
+ public:
+  Picture(const RenderScene& scene, const RenderOptions& options)
+      : width_(options.width),
+        height_(options.height),
+        counts_(ray_counts(options.quality)),
+        scene_(prepare(scene, options)),
+        rays_(scene_),
+        shader_(scene_, rays_, counts_.side * counts_.side, counts_.sky) {}
+
+  void draw_row(int row, std::uint8_t* rgb) const {
+    const Colour c = background_colour(row, height_);
+    const Vector3d background(linear_light(c[0]), linear_light(c[1]), linear_light(c[2]));
+    for (int column = 0; column < width_; ++column) {
+      const Vector3d light = pixel(column, row, background);
+      for (int i = 0; i < 3; ++i) {
+        *rgb++ = std::uint8_t(std::lround(255 * srgb(std::clamp(light[i], 0.0, 1.0))));
+      }
+    }
+  }
+
+ private:
+  Vector3d pixel(int column, int row, const Vector3d& background) const {
+    const PixelTurn turn = pixel_turn(column, row);
+    const int n = counts_.side;
+    Vector3d sum = Vector3d::Zero();
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        // n² places in n² columns and n² rows of the pixel: the smoothest edges that so many rays give.
+        const double x = column + (i + (j + 0.5) / n) / n, y = row + (j + (i + 0.5) / n) / n;
+        sum += light_along(sight(x, y), j * n + i, turn, background);
+      }
+    }
+    return sum / (n * n);
+  }
+
+  struct Sight {
+    Vector3d eye, direction;
+  };
+  Sight sight(double x, double y) const {
+    const PreparedCamera& c = scene_.camera;
+    const double a = (x - width_ / 2.0) * 2 / height_ * c.slope, b = (1 - 2 * y / height_) * c.slope;
+    const Vector3d aside = a * c.right + b * c.up;
+    if (c.parallel) return {c.eye + aside, c.forward};
+    return {c.eye, (c.forward + aside).normalized()};
+  }
+
+  Vector3d light_along(const Sight& sight, int sample, const PixelTurn& turn,
+                       const Vector3d& background) const {
+    const auto& [eye, ray] = sight;
+    const auto hit = rays_.nearest_surface(eye, ray);
+    // Half a radius in front of the surface: the sides of a valley must not swallow its line.
+    const double reach = hit ? hit->distance + 0.5 * scene_.line_radius.at(hit->distance)
+                             : std::numeric_limits<double>::infinity();
+    const auto line = rays_.nearest_line(eye, ray, reach);
+    if (line) return shader_.line(ray, *line);
+    return hit ? shader_.surface(ray, *hit, sample, turn) : background;
+  }
+
+  int width_, height_;
+  RayCounts counts_;
+  PreparedScene scene_;
+  RayScene rays_;
+  Shader shader_;
+};
+
+}  // namespace
+
+Camera automatic_camera(std::span<const RenderScene> scenes, const RenderOptions& options) {
+  std::vector<Position> framed, all;
+  for (const RenderScene& scene : scenes) {
+    check_scene(scene);
+    for (const RenderMesh& mesh : scene.meshes) {
+      for (const auto& triangle : mesh.triangles) {
+        for (int v : triangle) {
+          all.push_back(mesh.vertices[v]);
+          if (mesh.framed) framed.push_back(mesh.vertices[v]);
+        }
+      }
+    }
+  }
+  return frame_points(framed.empty() ? all : framed, double(options.width) / options.height, options.view);
+}
+
+Colour background_colour(int row, int height) {
+  const float t = (float(row) + 0.5f) / float(height);
+  return {0.97f - 0.09f * t, 0.975f - 0.085f * t, 0.98f - 0.075f * t};
+}
+
+Image render(const RenderScene& scene, const RenderOptions& options) {
+  const Picture picture(scene, options);
+  Image image{options.width, options.height, {}};
+  const std::size_t row_size = std::size_t{3} * options.width;
+  image.rgb.resize(row_size * options.height);
+  std::atomic<int> next_row{0};  // who draws a row does not change it
+  const auto work = [&] {
+    for (int row; (row = next_row++) < options.height;)
+      picture.draw_row(row, image.rgb.data() + row * row_size);
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < options.threads; ++i) others.emplace_back(work);
+    work();
+  }
+  return image;
+}
+
+}  // namespace furrow::io

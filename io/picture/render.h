@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "io/base/camera.h"
+#include "io/picture/png_file.h"
+
+namespace furrow::io {
+
+using Colour = std::array<float, 3>;  ///< red, green, blue in [0, 1], sRGB
+
+inline constexpr Colour kClothColour{0.66f, 0.73f, 0.82f};
+inline constexpr Colour kBodyColour{0.80f, 0.72f, 0.66f};
+inline constexpr Colour kRidgeColour{0.85f, 0.22f, 0.08f};
+inline constexpr Colour kValleyColour{0.06f, 0.24f, 0.72f};
+
+/// Cloth shows its back in a darker, warmer colour, its ridges a little lighter and its valleys a little
+/// darker than the lights make them, so that wrinkles read from every side; a body is one colour.
+enum class Style { cloth, body };
+
+/// A triangle mesh to be drawn. Degenerate triangles and vertices of no triangle are left out.
+struct RenderMesh {
+  std::vector<Position> vertices;             ///< [m], finite, each coordinate at most 1e9
+  std::vector<std::array<int, 3>> triangles;  ///< at least one; indices into vertices; ccw from outside
+  Colour colour = kClothColour;
+  std::vector<Colour> vertex_colours;    ///< empty, or one for each vertex: then `colour` is not used
+  std::shared_ptr<const Image> texture;  ///< seen in place of the colours; none: nullptr
+  /// With a texture (u, v) of each triangle's corners: (0, 0) is its lower left corner; it repeats; NaN:
+  /// none.
+  std::vector<std::array<std::array<double, 2>, 3>> texture_coordinates;
+  std::vector<Colour> triangle_colours;  ///< empty, or one for each triangle: before all other colours
+  Style style = Style::cloth;
+  bool framed = true;  ///< the automatic camera holds it in the picture
+};
+
+/// A line drawn as a tube, hidden where a surface hides it. One point is a ball, none is nothing.
+struct RenderLine {
+  std::vector<Position> points;  ///< [m], finite, each coordinate at most 1e9
+  Colour colour = kRidgeColour;
+  double width = 1;  ///< of the tube or ball, in tubes of the options [-], in [0.01, 100]
+};
+
+struct RenderScene {
+  std::vector<RenderMesh> meshes;  ///< at least one
+  std::vector<RenderLine> lines;
+};
+
+/// Rays a pixel: 4 / 16 / 36 for the shape; each that hits adds 1 for the key light, 1 / 2 / 4 for the sky.
+enum class Quality { draft, normal, fine };
+
+struct RenderOptions {
+  int width = 1200;   ///< [pixels], in [1, 16384]
+  int height = 1200;  ///< [pixels], in [1, 16384]
+  Quality quality = Quality::normal;
+  std::optional<Camera> camera;     ///< none: the automatic one of `view`
+  View view;                        ///< not used with `camera`
+  double line_radius_pixels = 1.8;  ///< of the tubes, in [0.1, 100] [pixels]
+  std::optional<double>
+      line_radius;  ///< of the tubes, > 0 and at most the scene's diagonal [m]; before the pixels
+  int threads = 2;  ///< in [1, 64]; the picture does not depend on it
+};
+
+/// The camera that `view` and the picture's sides give for the framed meshes of all the scenes together
+/// (if none is framed: for all meshes). With it the pictures of several stages can be laid side by side.
+Camera automatic_camera(std::span<const RenderScene> scenes, const RenderOptions& options = {});
+
+/// The colour of the empty background in a row of the picture, sRGB: a soft grey, lighter towards the top.
+/// `height` ≥ 1 rows, `row` in [0, height).
+Colour background_colour(int row, int height);
+
+/// The shaded picture of a scene, without a display: rays (Embree) for what is seen, smooth normals, a soft
+/// key light raking from the upper left of the picture, and the occluded light of the sky; needed to show the
+/// stages (method S1.21). The same scene and options give the same bits for any number of threads. Throws
+/// std::invalid_argument for a scene or option out of the ranges above, before any work. Cost: by the rays
+/// that hit something; 1200 × 1200 pixels of normal quality take one core 4 to 12 s.
+Image render(const RenderScene& scene, const RenderOptions& options = {});
+
+}  // namespace furrow::io

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bridge/gather.h"
+#include "geometry/fold/wrinkle.h"
+#include "physics/body/distance_field.h"
+#include "physics/motion/simulate.h"
+
+namespace furrow::io {
+
+/// A round of lines, drawn into the garment when the simulation's clock shows `time`.
+struct SceneLines {
+  std::filesystem::path strokes;     ///< stroke file
+  double time = 0;                   ///< [s]; >= 0; 0: before the simulation
+  double height = 0.01;              ///< of strokes that name none [m]
+  double fade = 0.3;                 ///< tau of the forces that insertion adds and that fade in [s]; > 0
+  std::vector<std::string> without;  ///< names of strokes that are left out
+  bool keep = false;                 ///< rest "keep": drawn, then the garment's shape is made its equilibrium
+  geometry::WrinkleOptions options;
+};
+
+struct SceneBody {
+  std::filesystem::path mesh;
+  std::filesystem::path field;   ///< saved by furrow sdf; empty: built
+  std::filesystem::path frames;  ///< PC2, MDD or OBJ sequence of a body that changes its shape; empty: rigid
+  double fps = 0;                ///< of frames whose file names no times [1/s]; 0: as the file says, else 25
+  physics::DistanceFieldOptions options;
+  bool depth_maps = false;  ///< of frames: what their distance is asked from, rather than a field each
+  physics::RigidMotion motion;
+};
+
+struct SceneMaterial {
+  std::string preset;             ///< name of a Fabric; what else is said goes before it
+  std::optional<double> density;  ///< [kg/m^2]; none: that of the file, else 0.15
+  double stiffness = 1000;        ///< k_std of the structural springs [N/m]
+  double bending = 10;            ///< k_std of the bending springs [N/m]
+  bridge::Membrane membrane = bridge::Membrane::paper;
+  bridge::Bending bending_law = bridge::Bending::cross;
+  std::optional<double> stretch;          ///< Y [N/m]; of springs: in place of stiffness
+  double poisson = 0.3;                   ///< of triangles [-]
+  double rigidity = 1e-5;                 ///< B of hinges [N m]
+  std::optional<double> tension;          ///< c of tension [N/m]; none: tension_constant() of the stretch
+  double compression = 0.2, shear = 0.2;  ///< of tension [-]
+  bridge::MassRule mass_rule = bridge::MassRule::area;
+};
+
+/// Vertices that are held, or moved. Several kinds may be named in one.
+struct ScenePins {
+  std::vector<double> box;      ///< x0, y0, z0, x1, y1, z1 [m]; empty: none
+  std::string loop, group;      ///< a border loop: top, bottom or an index; a group's name
+  std::vector<int> vertices;    ///< indices
+  physics::RigidMotion motion;  ///< from their places at time 0
+};
+
+struct SceneOutput {
+  std::filesystem::path mesh, state, inserted, smoothed, animation, body;  ///< empty: not written
+  double fps = 25;                                                         ///< of the animation [1/s]; > 0
+};
+
+/// All that a simulation is made of; what a scene file, flags and a saved state say. Paths are as the program
+/// can open them; SI units; y up.
+struct Scene {
+  std::string title;
+  std::filesystem::path garment;
+  int subdivide = 0;                    ///< times that Loop subdivision is applied before the first line
+  bool keep = false;                    ///< the garment's shape at time 0 is made its equilibrium
+  std::optional<std::string> unit, up;  ///< of the mesh and stroke files
+  std::vector<SceneLines> lines;        ///< by time
+  std::optional<SceneBody> body;
+  SceneMaterial material;
+  std::vector<ScenePins> pins;
+  physics::Wind wind;
+  physics::SimulateOptions simulation;  ///< with gravity, friction, damping
+  int threads = 0;                      ///< 0: as many as the garment's size is worth
+  std::optional<double> stop_at;  ///< [s]; the state then is kept, the plan goes on to simulation.seconds
+  SceneOutput output;
+};
+
+}  // namespace furrow::io

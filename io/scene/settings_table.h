@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/scene/toml_document.h"
+
+namespace furrow::io {
+
+/// What a number may be. The unit stands in messages.
+struct Limits {
+  double least, most;
+  bool open = false;  ///< `least` itself is refused
+  const char* unit = "";
+  bool infinite = false;  ///< inf is allowed
+};
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+inline constexpr Limits any(const char* unit = "") { return {-kNoLimit, kNoLimit, false, unit}; }
+inline constexpr Limits not_negative(const char* unit = "") { return {0, kNoLimit, false, unit}; }
+inline constexpr Limits positive(const char* unit = "") { return {0, kNoLimit, true, unit}; }
+
+/// Reads the keys of one table of a document, each with its type and range. Every fault is a
+/// geometry::ContentError with file, line and column; a key that nobody read is a fault, too, and the message
+/// names the nearest one that there is.
+class SettingsTable {
+ public:
+  explicit SettingsTable(const TomlDocument& document, std::string path = "");
+  /// Refuses keys that nobody asked for. To be called when all are read.
+  void finish() const;
+
+  bool has(const char* key);
+  void read(const char* key, double& value, const Limits& limits);
+  void read(const char* key, std::optional<double>& value, const Limits& limits);
+  void read(const char* key, int& value, int least, int most);
+  void read(const char* key, bool& value);
+  void read(const char* key, std::string& value);
+  void read(const char* key, std::optional<std::string>& value);
+  void read_name_or_index(const char* key, std::string& value);  ///< a text, or a whole number >= 0
+  void read(const char* key, Eigen::Vector3d& value);
+  void read(const char* key, std::vector<double>& values, std::size_t count);  ///< exactly `count` of them
+  void read(const char* key, std::vector<int>& values, int least, int most);
+  void read(const char* key, std::vector<std::string>& values);  ///< one string stands for a list of one
+  /// One of these words.
+  template <class Enum>
+  void choose(const char* key, Enum& value, const std::vector<std::pair<std::string, Enum>>& words);
+
+  std::optional<SettingsTable> table(const char* key);
+  std::vector<SettingsTable> tables(
+      const char* key);  ///< an array of tables; one table stands for one of one
+
+  const TomlDocument& document() const { return document_; }
+  std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  std::string place_of(const std::string& key) const { return document_.place(path_of(key)); }
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const;
+
+ private:
+  const nlohmann::ordered_json* find(const char* key);
+  [[noreturn]] void refuse_list(const std::string& path, const nlohmann::ordered_json& item) const;
+  double number(const char* key, const nlohmann::ordered_json& item, const Limits& limits) const;
+  int whole(const char* key, const nlohmann::ordered_json& item, int least, int most) const;
+  std::string text(const char* key, const nlohmann::ordered_json& item) const;
+  std::size_t choice(const char* key, const std::vector<std::string>& words);
+
+  const TomlDocument& document_;
+  std::string path_;
+  const nlohmann::ordered_json* node_;
+  std::set<std::string> known_;
+};
+
+template <class Enum>
+void SettingsTable::choose(const char* key, Enum& value,
+                           const std::vector<std::pair<std::string, Enum>>& words) {
+  std::vector<std::string> names;
+  for (const auto& word : words) names.push_back(word.first);
+  if (const std::size_t i = choice(key, names); i < words.size()) value = words[i].second;
+}
+
+}  // namespace furrow::io

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/scene/state_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <sstream>
+
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "io/base/bytes_file.h"
+#include "io/mesh/mesh_readers.h"
+#include "io/mesh/mesh_writers.h"
+#include "io/mesh/wrinkle_record.h"
+
+namespace furrow::io {
+namespace {
+
+using namespace geometry;
+using physics::SimulateState;
+using physics::Vec3;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPrefix = "furrow state ";
+bool is_state(const std::string& comment) { return comment.rfind(kPrefix, 0) == 0; }
+
+/// JSON knows neither infinity nor NaN: null is infinity (a limit without springs, a fade that never ends).
+Json number(double x) { return std::isinf(x) ? Json(nullptr) : Json(x); }
+double number(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+}
+
+/// Without the clock times: the same simulation gives the same bytes.
+Json to_json(const physics::SimulateTotals& t) {
+  return {{"force_evaluations", t.force_evaluations},
+          {"spring_evaluations", t.spring_evaluations},
+          {"triangle_evaluations", t.triangle_evaluations},
+          {"hinge_evaluations", t.hinge_evaluations},
+          {"linear_solves", t.linear_solves},
+          {"factorisations", t.factorisations},
+          {"iterations", t.iterations},
+          {"collider_queries", t.collider_queries},
+          {"truncated_moves", t.truncated_moves},
+          {"limit_estimates", t.limit_estimates},
+          {"frames_built", t.frames_built},
+          {"dt_smallest", number(t.dt_smallest)},
+          {"dt_limit_smallest", number(t.dt_limit_smallest)}};
+}
+
+physics::SimulateTotals totals_of(const Json& j) {
+  physics::SimulateTotals t;
+  t.force_evaluations = j.at("force_evaluations");
+  t.spring_evaluations = j.value("spring_evaluations", std::int64_t{0});  // absent in older files
+  t.triangle_evaluations = j.value("triangle_evaluations", std::int64_t{0});
+  t.hinge_evaluations = j.value("hinge_evaluations", std::int64_t{0});
+  t.linear_solves = j.value("linear_solves", std::int64_t{0});  // files of the first version have none
+  t.factorisations = j.value("factorisations", std::int64_t{0});
+  t.iterations = j.value("iterations", std::int64_t{0});
+  t.collider_queries = j.at("collider_queries");
+  t.truncated_moves = j.at("truncated_moves");
+  t.limit_estimates = j.at("limit_estimates");
+  t.frames_built = j.at("frames_built");
+  t.dt_smallest = number(j.at("dt_smallest"));
+  t.dt_limit_smallest = number(j.at("dt_limit_smallest"));
+  return t;
+}
+
+Json to_json(const SavedState& saved) {
+  const SimulateState& s = saved.simulation;
+  Json json{{"version", 1},
+            {"time", s.time},
+            {"step", s.step},
+            {"planned", s.planned},
+            {"end", s.end},
+            {"dt", s.dt},
+            {"dt_longest", number(s.dt_longest)},
+            {"steps_left", s.steps_left},
+            {"estimated_at", s.estimated_at},
+            {"dt_limit", number(s.dt_limit)},
+            {"strain_at_estimate", s.strain_at_estimate},
+            {"cloth", s.cloth},
+            {"body", saved.body},
+            {"body_travel", s.body_travel},
+            {"homes", Json::array()},
+            {"force_jump_start", s.compensation.start},
+            {"force_jump_fade", number(s.compensation.time_constant)},
+            {"totals", to_json(s.totals)},
+            {"pins", saved.pins},
+            {"lines_drawn", saved.lines_drawn},
+            {"contact_gap", saved.contact_gap},
+            {"scene", saved.scene}};
+  for (const Vec3& home : s.homes)
+    for (int k = 0; k < 3; ++k) json["homes"].push_back(home[k]);
+  return json;
+}
+
+/// Lists of indices of the mesh's vertices.
+std::vector<std::vector<int>> pins_of(const Json& json, std::size_t vertices) {
+  std::vector<std::vector<int>> pins;
+  for (const Json& list : json) {
+    pins.emplace_back();
+    for (const Json& index : list) {
+      const double i = index.get<double>();
+      if (!(i >= 0 && i < double(vertices)))
+        throw std::invalid_argument("pin " + index.dump() + " is no vertex");
+      pins.back().push_back(static_cast<int>(i));
+    }
+  }
+  return pins;
+}
+
+SavedState from_json(const Json& json, std::size_t vertices) {
+  if (json.value("version", 0) != 1) throw std::invalid_argument("its version is not 1");
+  SavedState saved;
+  SimulateState& s = saved.simulation;
+  s.time = json.at("time");
+  s.step = json.at("step");
+  s.planned = json.at("planned");
+  s.end = json.at("end");
+  s.dt = json.at("dt");
+  s.dt_longest = number(json.at("dt_longest"));
+  s.steps_left = json.at("steps_left");
+  s.estimated_at = json.at("estimated_at");
+  s.dt_limit = number(json.at("dt_limit"));
+  s.strain_at_estimate = json.at("strain_at_estimate");
+  s.cloth = json.at("cloth");
+  saved.body = json.at("body");
+  s.body_travel = json.at("body_travel");
+  const std::vector<double> homes = json.at("homes");
+  if (homes.size() % 3 != 0) throw std::invalid_argument("a home of a pin is cut short");
+  for (std::size_t i = 0; i + 2 < homes.size(); i += 3)
+    s.homes.emplace_back(homes[i], homes[i + 1], homes[i + 2]);
+  s.compensation.start = json.at("force_jump_start");
+  s.compensation.time_constant = number(json.at("force_jump_fade"));
+  s.totals = totals_of(json.at("totals"));
+  saved.pins = pins_of(json.at("pins"), vertices);
+  saved.lines_drawn = json.at("lines_drawn");
+  if (saved.lines_drawn < 0) throw std::invalid_argument("lines_drawn is below 0");
+  saved.contact_gap = json.value("contact_gap", 0.0);  // absent in older files
+  if (!(saved.contact_gap >= 0 && saved.contact_gap < 1))
+    throw std::invalid_argument("contact_gap is not in [0, 1) m");
+  saved.scene = json.at("scene");
+  if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
+  return saved;
+}
+
+Vector to_cgal(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
+Vec3 to_eigen(const Vector& x) { return {x.x(), x.y(), x.z()}; }
+
+/// Contact memory and compensating forces into the mesh's maps; velocities are there.
+void fill_maps(SavedState& state) {
+  Mesh& mesh = state.file.mesh;
+  const SimulateState& s = state.simulation;
+  const auto check = [&](std::size_t n, const char* what) {
+    if (n != 0 && n != mesh.number_of_vertices())
+      throw std::invalid_argument(std::string("a state with ") + std::to_string(n) + " " + what + " for " +
+                                  std::to_string(mesh.number_of_vertices()) + " vertices");
+  };
+  check(s.contact.size(), "contact memories");
+  check(s.compensation.force.size(), "compensating forces");
+  ensure_map(mesh, kVelocity);
+  if (!s.contact.empty()) {
+    auto point = ensure_map(mesh, kContactPoint);
+    auto level = ensure_map(mesh, kContactLevel);
+    for (Vertex v : mesh.vertices()) {
+      point[v] = to_cgal(s.contact[v].x);
+      level[v] = s.contact[v].level;
+    }
+  }
+  if (s.compensation.force.empty()) return;
+  auto force = ensure_map(mesh, kForceJump);
+  for (Vertex v : mesh.vertices()) force[v] = to_cgal(s.compensation.force[v]);
+}
+
+void take_maps(SavedState& state) {
+  const Mesh& mesh = state.file.mesh;
+  SimulateState& s = state.simulation;
+  const auto point = find_map(mesh, kContactPoint);
+  const auto level = find_map(mesh, kContactLevel);
+  if (point && level)
+    for (Vertex v : mesh.vertices()) s.contact.push_back({to_eigen((*point)[v]), (*level)[v]});
+  if (const auto force = find_map(mesh, kForceJump))
+    for (Vertex v : mesh.vertices()) s.compensation.force.push_back(to_eigen((*force)[v]));
+}
+
+template <class Name>
+void drop(Mesh& mesh, const Name& name) {
+  if (auto map = find_map(mesh, name)) mesh.remove_property_map(*map);
+}
+
+}  // namespace
+
+void drop_motion(MeshFile& file) {
+  Mesh& mesh = file.mesh;
+  std::erase_if(file.comments, is_state);
+  drop(mesh, kVelocity);
+  drop(mesh, kForceJump);
+  drop(mesh, kContactPoint);
+  drop(mesh, kContactLevel);
+}
+
+std::string state_bytes(SavedState state) {
+  Mesh& mesh = state.file.mesh;
+  drop(mesh, kForceJump);
+  drop(mesh, kContactPoint);
+  drop(mesh, kContactLevel);
+  fill_maps(state);
+  std::erase_if(state.file.comments, is_state);
+  using Handler = Json::error_handler_t;
+  state.file.comments.push_back(kPrefix + to_json(state).dump(-1, ' ', true, Handler::replace));
+  std::ostringstream out;
+  write_ply(out, state.file, {});
+  return std::move(out).str();
+}
+
+void write_state(const std::filesystem::path& path, SavedState state) {
+  const std::string bytes = state_bytes(std::move(state));
+  write_bytes(path, std::as_bytes(std::span(bytes)));
+}
+
+SavedState parse_state(const std::string& bytes, const std::string& name) {
+  MeshFile file = read_ply(bytes, name, {});
+  const auto comment = std::find_if(file.comments.begin(), file.comments.end(), is_state);
+  if (comment == file.comments.end() || !find_map(file.mesh, kVelocity))
+    throw ContentError(name + ": is no saved state; furrow simulate --save-state writes one");
+  if (file.repairs.any())
+    throw ContentError(name + ": the mesh of the saved state is damaged; write the state again");
+  const auto refuse = [&](const std::string& what) {
+    throw ContentError(name + ": the saved state is damaged (" + what + "); write it again");
+  };
+  if (!find_wrinkle_record(file)) refuse("the comment 'furrow wrinkle' is missing");
+  SavedState state;
+  try {
+    const std::size_t vertices = file.mesh.number_of_vertices();
+    state = from_json(Json::parse(comment->substr(std::string(kPrefix).size())), vertices);
+    file.comments.erase(comment);
+    state.file = std::move(file);
+    take_maps(state);
+    physics::check(state.simulation, vertices);
+  } catch (const nlohmann::json::exception& e) {
+    refuse(e.what());
+  } catch (const std::invalid_argument& e) {
+    refuse(e.what());
+  }
+  return state;
+}
+
+SavedState read_state(const std::filesystem::path& path) {
+  return parse_state(read_text(path), path.string());
+}
+
+}  // namespace furrow::io

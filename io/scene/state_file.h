@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/mesh/mesh_file.h"
+#include "physics/motion/simulate_state.h"
+
+namespace furrow::io {
+
+/// A simulation that was stopped: all that is needed to go on with it, bit for bit.
+struct SavedState {
+  MeshFile file;  ///< the garment as it is now, with kVelocity, kMass and rest lengths
+  physics::SimulateState simulation;
+  nlohmann::ordered_json scene = nlohmann::ordered_json::object();  ///< its settings (docs/scenes.md); paths
+                                                                    ///< relative to the state's folder
+  std::vector<std::vector<int>> pins;  ///< the vertices of each of the scene's pins
+  std::string body;     ///< what the contact memory is about (WorldBody::fingerprint); "" without
+  int lines_drawn = 0;  ///< rounds of the scene's lines that are in the garment already
+  /// At which the cloth has rested on the body so far [m]; 0: on none yet. A line's short edges do not lower
+  /// it: what lies on the body stays there.
+  double contact_gap = 0;
+};
+
+/// The file is a binary PLY that other programs open as a mesh: velocities, contact memory and compensating
+/// forces are scalar columns of the vertices (vx, …); rest lengths, rest angles and stiffnesses columns of
+/// edges and faces, struts an element of their own (docs/rest-state.md); time, step, plan, scene and lines
+/// are comments (`furrow state {…}`, JSON in one line). Metres, y up. Reading and writing again gives the
+/// same bytes.
+void write_state(const std::filesystem::path& path, SavedState state);
+/// The file's bytes, as a string.
+std::string state_bytes(SavedState state);
+
+/// Throws geometry::ContentError if the file is no state or damaged.
+SavedState read_state(const std::filesystem::path& path);
+SavedState parse_state(const std::string& bytes, const std::string& name);
+
+/// What belongs to a cloth in motion is taken away; what is left is an ordinary garment.
+void drop_motion(MeshFile& file);
+
+}  // namespace furrow::io

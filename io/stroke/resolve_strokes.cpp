@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/stroke/resolve_strokes.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "geometry/mesh/errors.h"
+#include "geometry/stroke/place_path_stroke.h"
+#include "geometry/stroke/place_texture_stroke.h"
+#include "geometry/stroke/place_view_stroke.h"
+#include "io/base/nearest_word.h"
+
+namespace furrow::io {
+namespace {
+
+using namespace geometry;
+
+class Resolving {
+ public:
+  Resolving(const MeshFile& garment, double max_distance) : garment_(garment), max_distance_(max_distance) {}
+
+  PlacedStroke place(const Stroke& stroke, const PictureStroke& drawn) {
+    if (!projector_) projector_ = std::make_unique<SurfaceProjector>(garment_.mesh);
+    std::vector<SightLine> sight;
+    for (const auto& [column, row] : drawn.pixels) sight.push_back(line_of_sight(drawn.picture, column, row));
+    PlacedStroke placed =
+        place_view_stroke(garment_.mesh, *projector_, sight, drawn.picture.camera.parallel_height.has_value(),
+                          stroke.closed, stroke.name, max_distance_);
+    warn_of_pixels_outside(stroke, drawn, placed.warnings);
+    return placed;
+  }
+
+  PlacedStroke place(const Stroke& stroke, const TextureStroke& drawn) const {
+    TextureChoice choice{{}, drawn.near};
+    if (!drawn.group.empty()) choice.group = group_index(stroke, drawn.group);
+    return place_texture_stroke(garment_.mesh, drawn.points, stroke.closed, choice, stroke.name,
+                                max_distance_);
+  }
+
+  PlacedStroke place(const Stroke& stroke, const VertexStroke& drawn) const {
+    return place_path_stroke(garment_.mesh, drawn.vertices, stroke.closed, stroke.name);
+  }
+
+  PlacedStroke place(const Stroke& stroke, std::monostate) const {
+    return {stroke.points, stroke.breaks, stroke.closed, {}};
+  }
+
+ private:
+  /// They may lie beside the garment, but mostly are those of a picture of another size.
+  static void warn_of_pixels_outside(const Stroke& stroke, const PictureStroke& drawn,
+                                     std::vector<std::string>& warnings) {
+    const auto [width, height] = std::pair(drawn.picture.width, drawn.picture.height);
+    const auto outside = [&](const auto& pixel) {
+      return !(pixel[0] >= -0.5 && pixel[0] <= width - 0.5 && pixel[1] >= -0.5 && pixel[1] <= height - 0.5);
+    };
+    const auto at = std::find_if(drawn.pixels.begin(), drawn.pixels.end(), outside);
+    if (at == drawn.pixels.end()) return;
+    warnings.push_back("stroke \"" + stroke.name + "\": point " + std::to_string(at - drawn.pixels.begin()) +
+                       " lies outside of the camera's picture of " + std::to_string(width) + " by " +
+                       std::to_string(height) + " pixels");
+  }
+
+  int group_index(const Stroke& stroke, const std::string& group) const {
+    const auto& names = garment_.group_names;
+    const auto at = std::find(names.begin(), names.end(), group);
+    if (at != names.end()) return static_cast<int>(at - names.begin());
+    throw ContentError("stroke '" + stroke.name + "': the garment has no group '" + group + "'" +
+                       (names.empty() ? "" : "; did you mean '" + nearest_word(group, names) + "'?"));
+  }
+
+  const MeshFile& garment_;
+  double max_distance_;
+  std::unique_ptr<SurfaceProjector> projector_;
+};
+
+}  // namespace
+
+ResolvedStrokes resolve_strokes(std::span<const DrawnStroke> strokes, const MeshFile& garment,
+                                double max_distance) {
+  Resolving resolving(garment, max_distance);
+  ResolvedStrokes resolved;
+  for (const DrawnStroke& drawn : strokes) {
+    PlacedStroke placed =
+        std::visit([&](const auto& on) { return resolving.place(drawn.stroke, on); }, drawn.on);
+    Stroke stroke = drawn.stroke;
+    stroke.points = std::move(placed.points);
+    stroke.breaks = std::move(placed.breaks);
+    stroke.closed = placed.closed;
+    resolved.strokes.push_back(std::move(stroke));
+    for (std::string& warning : placed.warnings) resolved.warnings.push_back(std::move(warning));
+  }
+  return resolved;
+}
+
+}  // namespace furrow::io

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/stroke/stroke_file.h"
+
+#include <ostream>
+
+#include "geometry/mesh/errors.h"
+#include "io/base/atomic_file.h"
+#include "io/base/bytes_file.h"
+#include "io/base/camera_file.h"
+#include "io/base/lower_case.h"
+#include "io/base/text_scanner.h"
+#include "io/mesh/file_frame.h"
+#include "io/mesh/mesh_readers.h"
+
+namespace furrow::io {
+namespace {
+
+using namespace geometry;
+using Json = JsonFields::Json;
+
+constexpr const char* kTriple = "three numbers [x, y, z]";
+
+class StrokeReader {
+ public:
+  StrokeReader(const std::string& name, std::filesystem::path folder, double default_height,
+               const ReadOptions& options)
+      : fields_(name), folder_(std::move(folder)), default_height_(default_height), options_(options) {}
+
+  std::vector<DrawnStroke> read(std::string_view text) {
+    const Json root = fields_.parse(plain_text(text, fields_.name()));
+    if (!root.is_object()) fields_.fail("the file must hold an object {\"strokes\": […]}");
+    fields_.check_keys(root, {"strokes", "camera"});
+    if (!root.contains("strokes") || !root["strokes"].is_array())
+      fields_.fail("'strokes' must be a list of strokes");
+    if (root.contains("camera")) camera_ = read_picture(root["camera"]);
+    std::vector<DrawnStroke> strokes;
+    for (const Json& item : root["strokes"]) {
+      fields_.place = "stroke " + std::to_string(strokes.size()) + ": ";
+      strokes.push_back(read_stroke(item));
+    }
+    return strokes;
+  }
+
+ private:
+  /// A camera that stands here, or the name of its file, which lies beside this one.
+  CameraPicture read_picture(const Json& value) const {
+    return value.is_string() ? read_camera(folder_ / value.get<std::string>()) : camera_from(value, fields_);
+  }
+
+  /// Calls read(item) for each item of a list that is not empty; errors name the item.
+  template <class Read>
+  void read_list(const Json& list, const char* key, const char* shape, const Read& read) {
+    if (!list.is_array() || list.empty())
+      fields_.fail(std::string("'") + key + "' must be a list of at least one " + shape);
+    const std::string stroke_place = fields_.place;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      fields_.place = stroke_place + "point " + std::to_string(i) + ": ";
+      read(list[i]);
+    }
+    fields_.place = stroke_place;
+  }
+
+  Point read_point(const Json& value, const char* key) const {
+    const auto x = fields_.numbers(value, key, 3, kTriple);
+    const auto point = from_file(x[0], x[1], x[2], options_);
+    if (!point) fields_.fail(kBadCoordinate);
+    return *point;
+  }
+
+  std::array<double, 2> read_pair(const Json& value, const char* key, const char* shape) const {
+    const auto x = fields_.numbers(value, key, 2, shape);
+    return {x[0], x[1]};
+  }
+
+  void read_points(const Json& item, DrawnStroke& drawn) {
+    Stroke& stroke = drawn.stroke;
+    read_list(item["points"], "points", "point [x, y, z]",
+              [&](const Json& p) { stroke.points.push_back(read_point(p, "points")); });
+    if (item.contains("direction")) {
+      const auto x = fields_.numbers(item["direction"], "direction", 3, kTriple);
+      if (x[0] == 0 && x[1] == 0 && x[2] == 0) fields_.fail("'direction' must not be zero");
+      stroke.direction = turned_from_file({x[0], x[1], x[2]}, options_.up);
+    }
+    if (!item.contains("breaks")) return;
+    if (!item["breaks"].is_array()) fields_.fail("'breaks' must be a list of points' numbers");
+    for (const Json& value : item["breaks"]) {
+      const std::size_t at = fields_.index(value, "breaks"),
+                        least = stroke.breaks.empty() ? 1 : stroke.breaks.back() + 1;
+      if (at < least || at >= stroke.points.size())
+        fields_.fail("'breaks' must ascend from 1 and name points");
+      stroke.breaks.push_back(at);
+    }
+  }
+
+  void read_pixels(const Json& item, DrawnStroke& drawn) {
+    if (!item.contains("camera") && !camera_)
+      fields_.fail(
+          "'pixels' need a 'camera', here or for the whole file; furrow render --save-camera writes it");
+    PictureStroke on{item.contains("camera") ? read_picture(item["camera"]) : *camera_, {}};
+    read_list(item["pixels"], "pixels", "pixel [column, row]", [&](const Json& p) {
+      on.pixels.push_back(read_pair(p, "pixels", "two numbers [column, row]"));
+    });
+    drawn.on = std::move(on);
+  }
+
+  void read_texture(const Json& item, DrawnStroke& drawn) {
+    TextureStroke on;
+    read_list(item["texture"], "texture", "point [u, v]",
+              [&](const Json& p) { on.points.push_back(read_pair(p, "texture", "two numbers [u, v]")); });
+    if (item.contains("group")) on.group = fields_.text(item["group"], "group");
+    if (item.contains("near")) on.near = read_point(item["near"], "near");
+    drawn.on = std::move(on);
+  }
+
+  void read_vertices(const Json& item, DrawnStroke& drawn) {
+    VertexStroke on;
+    read_list(item["vertices"], "vertices", "vertex",
+              [&](const Json& v) { on.vertices.push_back(fields_.index(v, "vertices")); });
+    drawn.on = std::move(on);
+  }
+
+  /// The key that says how a stroke is drawn, with the keys that go with it.
+  struct Kind {
+    const char* key;
+    std::vector<const char*> with;
+    void (StrokeReader::*read)(const Json&, DrawnStroke&);
+  };
+  static const std::vector<Kind>& kinds() {
+    static const std::vector<Kind> list{{"points", {"direction", "breaks"}, &StrokeReader::read_points},
+                                        {"pixels", {"camera"}, &StrokeReader::read_pixels},
+                                        {"texture", {"group", "near"}, &StrokeReader::read_texture},
+                                        {"vertices", {}, &StrokeReader::read_vertices}};
+    return list;
+  }
+
+  const Kind& kind_of(const Json& item) const {
+    const Kind* found = nullptr;
+    for (const Kind& kind : kinds()) {
+      if (!item.contains(kind.key)) continue;
+      if (found) fields_.fail(std::string("has both '") + found->key + "' and '" + kind.key + "'; keep one");
+      found = &kind;
+    }
+    if (!found) fields_.fail("'points' is missing, or one of 'pixels', 'texture' and 'vertices'");
+    for (const Kind& kind : kinds())
+      for (const char* key : kind.with)
+        if (&kind != found && item.contains(key))
+          fields_.fail(std::string("'") + key + "' goes with '" + kind.key + "', not with '" + found->key +
+                       "'");
+    return *found;
+  }
+
+  void read_shape(const Json& item, Stroke& stroke) const {
+    const auto read = [&](const char* key, auto& value) {
+      if (item.contains(key)) value = fields_.number(item[key], key);
+    };
+    read("width", stroke.width);
+    read("sharpness", stroke.sharpness);
+    read("press", stroke.press);
+    if (item.contains("sharpness") && !stroke.width) fields_.fail("'sharpness' goes with 'width'");
+    if (const std::string fault = shape_fault(stroke); !fault.empty()) fields_.fail(fault);
+  }
+
+  DrawnStroke read_stroke(const Json& item) {
+    if (!item.is_object()) fields_.fail("must be an object {\"points\": […], …}");
+    fields_.check_keys(
+        item, {"height", "width", "sharpness", "press", "points", "name", "closed", "direction", "breaks",
+               "pixels", "camera", "texture", "group", "near", "vertices"});
+    DrawnStroke drawn;
+    Stroke& stroke = drawn.stroke;
+    stroke.height = item.contains("height") ? fields_.number(item["height"], "height") : default_height_;
+    read_shape(item, stroke);
+    if (item.contains("name")) stroke.name = fields_.text(item["name"], "name");
+    if (item.contains("closed")) stroke.closed = fields_.truth(item["closed"], "closed");
+    const Kind& kind = kind_of(item);
+    (this->*kind.read)(item, drawn);
+    if (stroke.closed && item[kind.key].size() < 3)
+      fields_.fail("'closed': a closed stroke needs at least three points");
+    if (stroke.closed && !stroke.breaks.empty()) fields_.fail("'breaks': a closed stroke has none");
+    return drawn;
+  }
+
+  JsonFields fields_;
+  std::filesystem::path folder_;
+  double default_height_;
+  ReadOptions options_;
+  std::optional<CameraPicture> camera_;
+};
+
+std::vector<DrawnStroke> strokes_of_obj(const std::string& text, const std::string& name, double height,
+                                        const ReadOptions& options) {
+  std::vector<DrawnStroke> strokes;
+  for (Polyline& line : read_obj_polylines(text, name, options)) {
+    Stroke stroke;
+    stroke.height = height;
+    stroke.points = std::move(line.points);
+    stroke.closed = line.closed;
+    strokes.push_back({std::move(stroke)});
+  }
+  return strokes;
+}
+
+void check_options(double default_height, const ReadOptions& options) {
+  check_unit(options.metres_per_unit);
+  if (!std::isfinite(default_height)) throw std::invalid_argument("default_height must be finite");
+}
+
+}  // namespace
+
+std::vector<DrawnStroke> read_drawn_strokes(const std::filesystem::path& path, double default_height,
+                                            const ReadOptions& options) {
+  check_options(default_height, options);
+  const std::string ending = lower_case(path.extension().string()), name = path.string();
+  if (ending != ".json" && ending != ".obj")
+    throw ContentError(name + ": unknown format '" + ending + "' of strokes; json and obj are read");
+  const std::string text = read_text(path);
+  std::vector<DrawnStroke> strokes =
+      ending == ".json" ? StrokeReader(name, path.parent_path(), default_height, options).read(text)
+                        : strokes_of_obj(text, name, default_height, options);
+  if (strokes.empty())
+    throw ContentError(name + (ending == ".json" ? ": no strokes; add one to the list"
+                                                 : ": no polylines (l elements); export the lines too"));
+  return strokes;
+}
+
+std::vector<DrawnStroke> drawn_strokes_from(std::string_view json, const std::string& name,
+                                            const ReadOptions& options) {
+  check_options(0, options);
+  return StrokeReader(name, {}, Stroke{}.height, options).read(json);
+}
+
+std::vector<Stroke> read_strokes(const std::filesystem::path& path, double default_height,
+                                 const ReadOptions& options) {
+  std::vector<Stroke> strokes;
+  for (DrawnStroke& drawn : read_drawn_strokes(path, default_height, options)) {
+    if (!std::holds_alternative<std::monostate>(drawn.on))
+      throw ContentError(path.string() + ": stroke " + std::to_string(strokes.size()) + ": is drawn in " +
+                         kind_of(drawn) + "; only strokes in space can be read here");
+    strokes.push_back(std::move(drawn.stroke));
+  }
+  return strokes;
+}
+
+}  // namespace furrow::io

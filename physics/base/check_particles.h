@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "physics/base/particles.h"
+
+namespace furrow::physics {
+
+/// Throws std::invalid_argument, with the caller's name before it, if the arrays differ in length, a position
+/// is not finite, or a free particle's mass is not > 0 and finite: what no search for rest can begin with.
+void check_particles(const Particles& particles, const std::string& caller);
+
+}  // namespace furrow::physics

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "physics/base/triangle_mesh.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace furrow::physics {
+
+void check_body(const TriangleMesh& mesh, const char* who) {
+  const std::string start = std::string(who) + ": ";
+  if (mesh.triangles.empty()) throw std::invalid_argument(start + "the body has no triangle");
+  const int vertices = static_cast<int>(mesh.vertices.size());
+  bool has_area = false;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int v : mesh.triangles[t]) {
+      if (v < 0 || v >= vertices)
+        throw std::invalid_argument(start + "triangle " + std::to_string(t) + " names vertex " +
+                                    std::to_string(v) + " of " + std::to_string(vertices));
+      if (!(mesh.vertices[v].cwiseAbs().sum() <= 1e9))  // also false for NaN
+        throw std::invalid_argument(start + "vertex " + std::to_string(v) + " is not finite or beyond 1e9 m");
+    }
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 ab = mesh.vertices[b] - mesh.vertices[a], ac = mesh.vertices[c] - mesh.vertices[a];
+    has_area = has_area || ab.cross(ac).squaredNorm() > 0;
+  }
+  if (!has_area) throw std::invalid_argument(start + "no triangle of the body has an area");
+}
+
+double bounding_diagonal(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& t : mesh.triangles)
+    for (int v : t) box.extend(mesh.vertices[v]);
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+}  // namespace furrow::physics

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "physics/body/animated_body.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace furrow::physics {
+namespace {
+
+constexpr double small_shift = 1e-3;  // m: surface next to x then and now is the same
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("animated body: " + what); }
+
+/// Weights of the corners at a point of a triangle (Ericson, Real-Time Collision Detection, 3.4); those of
+/// the nearest corner if the triangle has no area.
+Vec3 weights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a, w = x - a;
+  const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), determinant = uu * vv - uv * uv;
+  if (determinant > 1e-14 * uu * vv) {
+    const double s = (vv * w.dot(u) - uv * w.dot(v)) / determinant,
+                 t = (uu * w.dot(v) - uv * w.dot(u)) / determinant;
+    return {1 - s - t, s, t};
+  }
+  int nearest = 0;
+  Vec3((x - a).squaredNorm(), (x - b).squaredNorm(), (x - c).squaredNorm()).minCoeff(&nearest);
+  return Vec3::Unit(nearest);
+}
+
+}  // namespace
+
+/// A frame with what its distance is asked from, once it is built: either the first two or the others.
+struct AnimatedBody::Frame {
+  std::vector<Vec3> vertices;
+  std::optional<ExactDistance> exact;
+  std::optional<DistanceField> field;
+  std::optional<TriangleBvh> bvh;
+  std::unique_ptr<DepthMapCollider> maps;
+
+  bool is_built() const { return field || maps; }
+  SignedDistance at(const Vec3& x) const { return maps ? maps->at(x) : field->at(x); }
+  ClosestPoint closest(const Vec3& x) const { return maps ? bvh->closest(x) : exact->closest(x); }
+  ClosestPoint closest(const Vec3& x, int guess) const {
+    return maps ? bvh->closest(x, guess) : exact->closest(x, guess);
+  }
+};
+
+AnimatedBody::AnimatedBody(BodyFrames frames, const FrameColliderOptions& options)
+    : frames_(std::move(frames)), options_(options) {
+  const std::vector<double>& times = frames_.times;
+  if (times.size() < 2) refuse(std::to_string(times.size()) + " frames; at least two are needed");
+  if (frames_.triangles.empty()) refuse("no triangles");
+  if (!frames_.vertices) refuse("no source of vertices");
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
+      refuse("time of frame " + std::to_string(i) + " is not finite or not after the one before");
+    }
+  }
+}
+
+AnimatedBody::~AnimatedBody() = default;
+AnimatedBody::AnimatedBody(AnimatedBody&&) noexcept = default;
+AnimatedBody& AnimatedBody::operator=(AnimatedBody&&) noexcept = default;
+
+int AnimatedBody::interval_at(double time) const {
+  const std::vector<double>& t = frames_.times;
+  const auto next = std::upper_bound(t.begin(), t.end(), time) - t.begin();
+  return int(std::clamp<std::ptrdiff_t>(next - 1, 0, std::ptrdiff_t(t.size()) - 2));
+}
+
+/// Of the present interval; below 0 before it, at most 1.
+double AnimatedBody::fraction_at(double time) const {
+  const double begin = frames_.times[std::size_t(interval_)], end = frames_.times[std::size_t(interval_) + 1];
+  return std::min((time - begin) / (end - begin), 1.0);
+}
+
+std::shared_ptr<AnimatedBody::Frame> AnimatedBody::read(int index) {
+  auto frame = std::make_shared<Frame>();
+  frame->vertices = frames_.vertices(index);
+  if (vertex_count_ == 0) vertex_count_ = frame->vertices.size();
+  if (frame->vertices.size() != vertex_count_) {
+    refuse("frame " + std::to_string(index) + " has " + std::to_string(frame->vertices.size()) +
+           " vertices instead of " + std::to_string(vertex_count_));
+  }
+  const std::string name = "animated body, frame " + std::to_string(index);
+  check_body({frame->vertices, frames_.triangles}, name.c_str());
+  return frame;
+}
+
+void AnimatedBody::enter(int interval) {
+  std::shared_ptr<Frame> first = interval == interval_ + 1 && second_ ? second_ : read(interval);
+  std::shared_ptr<Frame> second = read(interval + 1);
+  if (first_ && first_->maps) spare_ = std::move(first_->maps);
+  first_ = std::move(first), second_ = std::move(second);
+  interval_ = interval;
+  longest_way_ = 0;
+  for (const auto& t : frames_.triangles)
+    for (const int v : t)
+      longest_way_ = std::max(longest_way_,
+                              (second_->vertices[std::size_t(v)] - first_->vertices[std::size_t(v)]).norm());
+}
+
+void AnimatedBody::build(Frame& frame) {
+  if (frame.is_built()) return;
+  const TriangleMesh mesh{frame.vertices, frames_.triangles};
+  if (const auto* maps = std::get_if<DepthMapOptions>(&options_)) {
+    frame.bvh.emplace(mesh);
+    if (spare_) {
+      spare_->rebuild(mesh.vertices);
+      frame.maps = std::move(spare_);
+    } else {
+      frame.maps = std::make_unique<DepthMapCollider>(mesh, *maps);
+    }
+  } else {
+    frame.exact.emplace(mesh);
+    frame.field = DistanceField::build(*frame.exact, std::get<DistanceFieldOptions>(options_));
+    samples_built_ += frame.field->report().samples;
+  }
+  ++frames_built_;
+}
+
+void AnimatedBody::prepare(double from, double to) {
+  const int last = interval_at(to);
+  if (interval_ != last || !first_ || !first_->is_built() || !second_->is_built()) {
+    const auto started = std::chrono::steady_clock::now();
+    advance_to(from, last);
+    build(*first_);
+    build(*second_);
+    build_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  } else {
+    travel_ = 0;
+  }
+  const double begin = interval_ == 0 ? std::max(fraction_at(from), 0.0) : fraction_at(from);
+  fraction_ = std::max(fraction_at(to), 0.0);
+  share_ = fraction_ - begin;
+  travel_ += longest_way_ * (fraction_ - std::max(begin, 0.0));
+}
+
+/// Enters every interval from that of `from` to `last`; travel_ is then what the ones before `last` add.
+void AnimatedBody::advance_to(double from, int last) {
+  travel_ = 0;
+  if (interval_ != interval_at(from)) enter(interval_at(from));
+  while (interval_ < last) {
+    travel_ += longest_way_ * (1 - std::max(fraction_at(from), 0.0));
+    enter(interval_ + 1);
+  }
+}
+
+/// Of a point of a frame's surface.
+Vec3 AnimatedBody::way_of(const ClosestPoint& point, const Frame& frame) const {
+  const auto& t = frames_.triangles[std::size_t(point.triangle)];
+  const auto i = std::size_t(t[0]), j = std::size_t(t[1]), k = std::size_t(t[2]);
+  const Vec3 w = weights(point.point, frame.vertices[i], frame.vertices[j], frame.vertices[k]);
+  const std::vector<Vec3>&from = first_->vertices, &to = second_->vertices;
+  return w[0] * (to[i] - from[i]) + w[1] * (to[j] - from[j]) + w[2] * (to[k] - from[k]);
+}
+
+Vec3 AnimatedBody::way(const Vec3& x) const {
+  if (longest_way_ == 0) return Vec3::Zero();
+  const bool is_early = fraction_ < 0.5;
+  const Frame& frame = is_early ? *first_ : *second_;
+  const double shift = is_early ? -fraction_ : 1 - fraction_;  // share of the way from now to that frame
+  const ClosestPoint q = frame.closest(x);
+  const Vec3 u = way_of(q, frame);
+  if (std::abs(shift) * longest_way_ < small_shift) return u;
+  return way_of(frame.closest(x + shift * u, q.triangle), frame);
+}
+
+SignedDistance AnimatedBody::at(const Vec3& x) const { return at(x, way(x)); }
+
+SignedDistance AnimatedBody::at(const Vec3& x, const Vec3& u) const {
+  const double s = fraction_;
+  if (s == 0) return first_->at(x);
+  if (s == 1) return second_->at(x);
+  const SignedDistance a = first_->at(x - s * u), b = second_->at(x + (1 - s) * u);
+  return {(1 - s) * a.value + s * b.value, (1 - s) * a.gradient + s * b.gradient};
+}
+
+}  // namespace furrow::physics

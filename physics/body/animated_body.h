@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "physics/body/depth_map_collider.h"
+#include "physics/body/distance_field.h"
+#include "physics/body/exact_distance.h"
+
+namespace furrow::physics {
+
+/// Frames of one triangle mesh whose vertices move.
+struct BodyFrames {
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside; the same in all frames
+  std::vector<double> times;                  ///< [s]; at least two, strictly increasing
+  /// The vertices of frame i [m]; each frame is read once, in order, as long as the simulation goes forward.
+  std::function<std::vector<Vec3>(int)> vertices;
+};
+
+/// What each frame's distance is asked from. A DistanceField is right everywhere and takes tenths of a second
+/// a frame; a DepthMapCollider takes milliseconds, and its header says what it does not see.
+using FrameColliderOptions = std::variant<DistanceFieldOptions, DepthMapOptions>;
+
+/// A body that changes its shape. Between two frames every vertex moves on a straight line at constant speed;
+/// before the first frame and after the last the body is held. Only the two frames around the present time
+/// are in memory, each with its field or depth maps, which are built when time reaches it.
+///
+/// With u the way that the surface next to x goes from the one frame to the other, and s the share of the
+/// time between them, the distance is
+///   (1 - s) F0(x - s u) + s F1(x + (1 - s) u):
+/// blended linearly, along with the surface, so that it is exact where the surface only shifts, however far.
+/// (Blending at a fixed x thins a limb of radius r that shifts by its diameter to nothing.) "Next to x" is
+/// found in the frame that is nearer in time; where parts that move differently lie about equally near, the
+/// distance may be off by a part of the difference of their ways: give frames closer in time there.
+class AnimatedBody : public Collider {
+ public:
+  /// Nothing is read yet. Throws std::invalid_argument if times or triangles are broken.
+  explicit AnimatedBody(BodyFrames frames, const FrameColliderOptions& options = {});
+  ~AnimatedBody() override;
+  AnimatedBody(AnimatedBody&&) noexcept;
+  AnimatedBody& operator=(AnimatedBody&&) noexcept;
+
+  /// Reads and builds what the time `to` needs; from then on queries are about that time. `from`: the time
+  /// before it (for travel()). Throws std::invalid_argument if a frame has another number of vertices or is
+  /// no body.
+  void prepare(double from, double to);
+
+  /// Distance and gradient at the prepared time, from several threads. Cost: a closest point, about 1 us.
+  SignedDistance at(const Vec3& x) const override;
+  /// The same for a given way u.
+  SignedDistance at(const Vec3& x, const Vec3& u) const;
+  /// Way of the surface next to x between the two frames [m].
+  Vec3 way(const Vec3& x) const;
+  /// Share of that way that is covered from the time `from` to the time `to`.
+  double share() const { return share_; }
+  /// A bound on how far any vertex moved from `from` to `to` [m].
+  double travel() const { return travel_; }
+
+  int frames_built() const { return frames_built_; }
+  std::int64_t samples_built() const {
+    return samples_built_;
+  }  ///< exact distances that their fields took; maps: 0
+  double build_seconds() const { return build_seconds_; }  ///< clock time spent on reading and building [s]
+
+ private:
+  struct Frame;
+  int interval_at(double time) const;
+  double fraction_at(double time) const;
+  std::shared_ptr<Frame> read(int index);
+  void enter(int interval);
+  void advance_to(double from, int last);
+  void build(Frame& frame);
+  Vec3 way_of(const ClosestPoint& point, const Frame& frame) const;
+
+  BodyFrames frames_;
+  FrameColliderOptions options_;
+  std::size_t vertex_count_ = 0;
+  int interval_ = -1;  ///< from its frame to the next one
+  std::shared_ptr<Frame> first_, second_;
+  std::unique_ptr<DepthMapCollider> spare_;       ///< of a frame that is over: its memory serves the next one
+  double longest_way_ = 0;                        ///< of a vertex in the interval [m]
+  double fraction_ = 0, share_ = 0, travel_ = 0;  ///< fraction_: of the interval, at the prepared time
+  int frames_built_ = 0;
+  std::int64_t samples_built_ = 0;
+  double build_seconds_ = 0;
+};
+
+}  // namespace furrow::physics

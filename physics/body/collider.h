@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "physics/base/particles.h"
+
+namespace furrow::physics {
+
+struct SignedDistance {
+  double value;   ///< [m]; negative inside the body
+  Vec3 gradient;  ///< [-]; points away from the body, length about 1 (not normalised)
+};
+
+/// A body that cloth collides with. Queries are const and may come from several threads.
+class Collider {
+ public:
+  virtual ~Collider() = default;
+  virtual SignedDistance at(const Vec3& x) const = 0;
+  /// at(), its gradient made continuous where that of a sampled body jumps, for who looks for a minimum: at a
+  /// kink of the distance no step would succeed. The value differs from at()'s by less than 1e-5 m. Here for
+  /// bodies without kinks: at().
+  virtual SignedDistance smooth_at(const Vec3& x) const { return at(x); }
+};
+
+}  // namespace furrow::physics

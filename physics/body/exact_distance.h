@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory>
+#include <span>
+
+#include "physics/body/collider.h"
+#include "physics/body/surface_sides.h"
+
+namespace furrow::physics {
+
+/// Exact signed distance to a triangle mesh: closest point by TriangleBvh, sign by SurfaceSides. About 1 us a
+/// query for 100,000 triangles; DistanceField is the fast one. Copies share their data.
+class ExactDistance : public Collider {
+ public:
+  /// A distance with the triangle it was measured to: a first guess for points nearby.
+  struct Sample {
+    double value;  ///< [m]; negative inside
+    int triangle;
+  };
+
+  /// Any soup with at least one triangle with an area; std::invalid_argument as check_body() says. The mesh
+  /// is not kept. Orientation matters: faces counter-clockwise from outside. Fill holes first: near an open
+  /// border the sign jumps where the winding number passes 1/2.
+  explicit ExactDistance(const TriangleMesh& mesh);
+
+  /// Value and unit gradient; on the surface itself the pseudonormal. NaN for a NaN point.
+  SignedDistance at(const Vec3& x) const override;
+  Sample sample(const Vec3& x) const;
+  /// The same value as sample(x), faster: from a point y nearby and its sample. Where |x - y| is less than
+  /// either distance the two lie on the same side.
+  Sample sample(const Vec3& x, const Vec3& y, const Sample& at_y) const;
+
+  ClosestPoint closest(const Vec3& x) const;
+  ClosestPoint closest(const Vec3& x, int guess) const;  ///< faster if the triangle `guess` is near x
+  double winding_number(const Vec3& x) const;
+  const SignReport& report() const;
+  double diagonal() const;   ///< of the bounding box [m]
+  const Vec3& low() const;   ///< lowest corner of the bounding box [m]
+  const Vec3& high() const;  ///< highest corner of the bounding box [m]
+
+ private:
+  struct Parts;
+  std::shared_ptr<const Parts> parts_;
+};
+
+struct Penetration {
+  int inside = 0;      ///< points with a negative distance
+  double deepest = 0;  ///< [m]; >= 0, the largest depth
+};
+
+/// Counts points inside a body. Points with a value that is not a number count as neither.
+Penetration penetration(const Collider& body, std::span<const Vec3> points);
+
+}  // namespace furrow::physics

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "physics/body/lattice_samples.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+namespace furrow::physics {
+namespace {
+
+std::uint64_t key_of(const LatticePoint& p) {
+  return static_cast<std::uint64_t>(p[0]) | static_cast<std::uint64_t>(p[1]) << 21 |
+         static_cast<std::uint64_t>(p[2]) << 42;
+}
+
+std::uint64_t scramble(std::uint64_t key) {
+  key *= 0x9e3779b97f4a7c15ull;
+  return key ^ (key >> 32);
+}
+
+}  // namespace
+
+LatticeSamples::LatticeSamples(const ExactDistance& exact, const Vec3& low, double unit, int threads)
+    : exact_(exact), low_(low), unit_(unit), threads_(threads), slots_(1 << 16) {}
+
+std::size_t LatticeSamples::slot_of(std::uint64_t key) const {
+  std::size_t slot = scramble(key) & (slots_.size() - 1);
+  while (slots_[slot].next_index != 0 && slots_[slot].key != key) slot = (slot + 1) & (slots_.size() - 1);
+  return slot;
+}
+
+void LatticeSamples::grow() {
+  slots_.assign(2 * slots_.size(), {});
+  for (int i = 0; i < size(); ++i) {
+    const std::uint64_t key = key_of(points_[i]);
+    slots_[slot_of(key)] = {key, i + 1};
+  }
+}
+
+int LatticeSamples::add(const LatticePoint& p, int guess) {
+  const std::uint64_t key = key_of(p);
+  const std::size_t slot = slot_of(key);
+  if (slots_[slot].next_index != 0) return slots_[slot].next_index - 1;
+  samples_.push_back({0, 0});
+  points_.push_back(p);
+  guesses_.push_back(guess);
+  slots_[slot] = {key, size()};
+  if (3 * samples_.size() > 2 * slots_.size()) grow();
+  return size() - 1;
+}
+
+void LatticeSamples::evaluate_range(int begin, int end) {
+  for (int i = begin; i < end; ++i) {
+    const Vec3 x = position(points_[i]);
+    const int guess = guesses_[i];
+    samples_[i] =
+        guess < evaluated_ ? exact_.sample(x, position(points_[guess]), samples_[guess]) : exact_.sample(x);
+  }
+}
+
+void LatticeSamples::evaluate(const std::function<void(double)>& tell) {
+  constexpr int block = 512;
+  std::atomic<int> next = evaluated_;
+  std::atomic<bool> stop = false;
+  const auto work = [&](const std::function<void(double)>& after_block) {
+    for (int begin; !stop && (begin = next.fetch_add(block)) < size();) {
+      const int end = std::min(begin + block, size());
+      evaluate_range(begin, end);
+      if (after_block) after_block(static_cast<double>(end - evaluated_) / (size() - evaluated_));
+    }
+  };
+  const int helpers = std::min(threads_ - 1, (size() - evaluated_) / block);
+  {
+    std::vector<std::jthread> pool;
+    for (int i = 0; i < helpers; ++i) pool.emplace_back(work, std::function<void(double)>());
+    try {
+      work(tell);
+    } catch (...) {
+      stop = true;
+      throw;
+    }
+  }
+  evaluated_ = size();
+}
+
+}  // namespace furrow::physics

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "physics/body/collider.h"
+#include "physics/body/rigid_motion.h"
+
+namespace furrow::physics {
+
+/// A body somewhere else: `body`, given in its own frame, at a pose. The body must outlive it.
+class PosedCollider : public Collider {
+ public:
+  PosedCollider(const Collider& body, const Pose& pose) : body_(body), pose_(pose) {}
+  SignedDistance at(const Vec3& x) const override { return turned(body_.at(pose_.to_body(x))); }
+  SignedDistance smooth_at(const Vec3& x) const override { return turned(body_.smooth_at(pose_.to_body(x))); }
+
+ private:
+  SignedDistance turned(const SignedDistance& d) const { return {d.value, pose_.rotation * d.gradient}; }
+
+  const Collider& body_;
+  Pose pose_;
+};
+
+}  // namespace furrow::physics

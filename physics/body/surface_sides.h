@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <vector>
+
+#include "physics/body/surface_topology.h"
+#include "physics/body/triangle_bvh.h"
+#include "physics/body/winding_number.h"
+
+namespace furrow::physics {
+
+enum class SignRule {
+  pseudonormal,  ///< closed, equally oriented, free of crossings, and agreeing with the winding number
+  sides,   ///< closed but crossing itself: the winding number of each side where the surface is sound, else
+           ///< below
+  winding  ///< open or contradictory: winding number > 1/2 at every point
+};
+
+/// What was found out about a body, and how its inside is told from its outside.
+struct SignReport {
+  SignRule rule = SignRule::winding;
+  bool closed = false;        ///< every edge is run through as often forwards as backwards
+  int border_edges = 0;       ///< edges of one triangle
+  int irregular_edges = 0;    ///< edges of more than two triangles or of two that run the same way
+  int crossed_triangles = 0;  ///< that meet others elsewhere than in shared corners and edges
+  int dropped_triangles = 0;  ///< inner walls where parts overlap: no distance is measured to them
+  int samples = 0;  ///< points near the surface at which pseudonormal and winding number were compared
+  double disagreement = 0;   ///< share of them where the two differ [-]
+  double signed_volume = 0;  ///< [m^3]; < 0 when the faces of a closed body look inwards
+};
+
+/// Tells inside from outside. In a closed body the winding number is a whole number that changes only across
+/// triangles; over a part of the surface that nothing crosses it is one number on the outer side and one more
+/// on the inner side. So a point whose closest triangle lies in such a part needs no summation at all. The
+/// triangles of parts whose outer side is inside the body (w > 1/2) are inner walls. Sources: method S1.9;
+/// Baerentzen & Aanaes 2005; Barill et al. 2018.
+class SurfaceSides {
+ public:
+  /// References the tree (before drop()); drop(dropped()) is the caller's. Cost about 2 us a triangle when
+  /// closed, else a winding number a triangle.
+  SurfaceSides(const TriangleMesh& mesh, const TriangleBvh& bvh);
+
+  /// True when x, whose closest point is `closest`, is inside the body (winding number > 1/2).
+  bool inside(const Vec3& x, const ClosestPoint& closest) const;
+  /// Whether inside() costs no summation for a point with this closest triangle.
+  bool is_cheap(int triangle) const {
+    return report_.rule != SignRule::winding && outer_[triangle] != unknown;
+  }
+  double winding_number(const Vec3& x) const { return winding_.at(x); }
+
+  const SurfaceTopology& topology() const { return topology_; }
+  const std::vector<char>& dropped() const { return dropped_; }
+  const SignReport& report() const { return report_; }
+
+ private:
+  static constexpr int unknown = -1000000;
+  void number_parts(const std::vector<char>& crossed);
+  void leave_out_unsound(const std::vector<char>& crossed);
+  void find_inner_walls(const std::vector<char>& crossed);
+  void compare_signs(const TriangleMesh& mesh, const TriangleBvh& bvh);
+  double beside(int triangle, double side) const;
+
+  const TriangleBvh& bvh_;
+  SurfaceTopology topology_;
+  WindingNumber winding_;
+  std::vector<int> outer_;  ///< a triangle: winding number on its outer side, or unknown
+  std::vector<char> dropped_;
+  SignReport report_;
+};
+
+}  // namespace furrow::physics

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+#include <vector>
+
+#include "physics/base/thread_pool.h"
+#include "physics/cloth/membrane.h"
+#include "physics/cloth/springs.h"
+
+namespace furrow::physics {
+
+/// Energy and forces of a cloth's elements (elements.h) for who asks often: checked once, what a membrane's
+/// rest state comes to kept, and both in one pass, in two halves of the elements that threads share.
+class ElementForces {
+ public:
+  /// The cloth must outlive this object and keep its elements as they are. O(elements). Throws
+  /// std::invalid_argument as potential_energy() does.
+  explicit ElementForces(const Cloth& cloth);
+
+  /// The energy E [J] at x, one position a particle [m]; force, another array as long as x, becomes -dE/dx
+  /// [N]. Cost: one pass. Not for two callers at once. The same bits for any number of threads;
+  /// potential_energy() and add_forces() sum in another order.
+  double operator()(std::span<const Vec3> x, std::span<Vec3> force, ThreadPool& pool);
+
+ private:
+  double add_half(std::span<const Vec3> x, int which, std::span<Vec3> force) const;
+
+  const Cloth& cloth_;
+  std::vector<MembraneConstants> membrane_;
+  std::vector<Vec3> second_;  ///< forces of the second half
+};
+
+}  // namespace furrow::physics

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "physics/cloth/membrane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace furrow::physics {
+namespace {
+
+/// The three edges of a triangle, edge i opposite corner i, from corner i + 1 to corner i + 2.
+struct Edges {
+  std::array<Vec3, 3> vector;
+  Eigen::Vector3d longer;   // d = l^2 - L^2 [m^2]
+  Eigen::Vector3d tension;  // dW/dd [N/m]
+  double energy() const { return 0.5 * longer.dot(tension); }
+};
+
+Edges edges_of(std::span<const Vec3> x, const MembraneTriangle& t, const MembraneConstants& c) {
+  Edges e;
+  for (int i = 0; i < 3; ++i) {
+    e.vector[i] = x[t.vertices[(i + 2) % 3]] - x[t.vertices[(i + 1) % 3]];
+    e.longer[i] = e.vector[i].squaredNorm() - c.length2[i];
+  }
+  e.tension = c.quadratic * e.longer;
+  return e;
+}
+
+std::vector<MembraneConstants> checked(std::span<const MembraneTriangle> triangles, std::size_t n,
+                                       std::size_t others, const char* function) {
+  if (others != n) {
+    throw std::invalid_argument(std::string(function) + ": " + std::to_string(n) +
+                                " positions, but arrays of " + std::to_string(others));
+  }
+  std::vector<MembraneConstants> constants;
+  constants.reserve(triangles.size());
+  for (const MembraneTriangle& t : triangles) {
+    for (const int v : t.vertices) {
+      if (v >= 0 && std::size_t(v) < n) continue;
+      throw std::invalid_argument(std::string(function) + ": a membrane triangle names particle " +
+                                  std::to_string(v) + " of " + std::to_string(n));
+    }
+    constants.push_back(membrane_constants(t));
+  }
+  return constants;
+}
+
+/// The tensions t whose quadratic form  sum 2 t_i |u_{i+2} - u_{i+1}|^2  is the positive part of these'. In
+/// the basis (1, -1, 0) / sqrt 2, (1, 1, -2) / sqrt 6, as (1, 1, 1) does not count, it is a 2 x 2 matrix.
+Eigen::Vector3d positive_part(const Eigen::Vector3d& t) {
+  const double p = t[0] + t[1] + 4 * t[2], q = std::sqrt(3.0) * (t[1] - t[0]), r = 3 * (t[0] + t[1]);
+  const double mean = 0.5 * (p + r), apart = std::hypot(0.5 * (p - r), q);
+  if (mean >= apart) return t;
+  if (mean <= -apart) return Eigen::Vector3d::Zero();
+  // Eigenvalues mean +- apart: the positive part is (M - low I) high / (high - low).
+  const double low = mean - apart, share = (mean + apart) / (2 * apart);
+  const double p1 = share * (p - low), q1 = share * q, r1 = share * (r - low);
+  return {0.5 * (r1 / 3 - q1 / std::sqrt(3.0)), 0.5 * (r1 / 3 + q1 / std::sqrt(3.0)), 0.25 * (p1 - r1 / 3)};
+}
+
+}  // namespace
+
+PlaneLame plane_stress(double young_times_thickness, double poisson) {
+  const double y = young_times_thickness;
+  if (!(y >= 0) || !std::isfinite(y)) {
+    throw std::invalid_argument("plane_stress: young_times_thickness = " + std::to_string(y) +
+                                " is not >= 0");
+  }
+  if (!(poisson > -1 && poisson < 1)) {
+    throw std::invalid_argument("plane_stress: poisson = " + std::to_string(poisson) + " is not in (-1, 1)");
+  }
+  return {y * poisson / (1 - poisson * poisson), y / (2 * (1 + poisson))};
+}
+
+MembraneConstants membrane_constants(const MembraneTriangle& t) {
+  const Eigen::Vector3d l(t.rest_lengths[0], t.rest_lengths[1], t.rest_lengths[2]);
+  const double half = l.sum() / 2,
+               area = std::sqrt(half * (half - l[0]) * (half - l[1]) * (half - l[2]));  // Heron
+  if (!(l.minCoeff() > 0) || !(half - l.maxCoeff() > 0) || !(area > 0) || !std::isfinite(area)) {
+    throw std::invalid_argument("membrane triangle: rest lengths " + std::to_string(l[0]) + ", " +
+                                std::to_string(l[1]) + ", " + std::to_string(l[2]) + " make no triangle");
+  }
+  if (!(t.mu >= 0) || !(t.lambda + t.mu >= 0) || !std::isfinite(t.lambda + t.mu)) {
+    throw std::invalid_argument("membrane triangle: lambda = " + std::to_string(t.lambda) +
+                                " and mu = " + std::to_string(t.mu) + " are not mu >= 0, lambda + mu >= 0");
+  }
+  MembraneConstants c{area, l.cwiseAbs2(), {}};
+  // cot a_i / (4 A),  cot a_i = (sum L^2 - 2 L_i^2) / (4 A)
+  const Eigen::Vector3d trace = (c.length2.sum() - 2 * c.length2.array()) / (16 * area * area);
+  Eigen::Matrix3d determinant = Eigen::Matrix3d::Constant(2);
+  determinant.diagonal().setConstant(-2);
+  determinant /= 64 * area * area;
+  c.quadratic = area * ((t.lambda + 2 * t.mu) * trace * trace.transpose() - 2 * t.mu * determinant);
+  return c;
+}
+
+double edge_stiffness(const MembraneConstants& c, int edge) {
+  return 4 * c.length2[edge] * c.quadratic(edge, edge);
+}
+
+double membrane_energy(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles) {
+  const auto constants = checked(triangles, x.size(), x.size(), "membrane_energy");
+  double energy = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    energy += edges_of(x, triangles[i], constants[i]).energy();
+  return energy;
+}
+
+double add_forces(std::span<const Vec3> x, const MembraneTriangle& t, const MembraneConstants& c,
+                  std::span<Vec3> force) {
+  const Edges e = edges_of(x, t, c);
+  for (int j = 0; j < 3; ++j) {
+    const Vec3 f = 2 * e.tension[j] * e.vector[j];
+    force[t.vertices[(j + 1) % 3]] += f;
+    force[t.vertices[(j + 2) % 3]] -= f;
+  }
+  return e.energy();
+}
+
+void add_membrane_forces(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
+                         std::span<Vec3> force) {
+  const auto constants = checked(triangles, x.size(), force.size(), "add_membrane_forces");
+  for (std::size_t i = 0; i < triangles.size(); ++i) add_forces(x, triangles[i], constants[i], force);
+}
+
+void stiffness_blocks(std::span<const Vec3> x, const MembraneTriangle& t, Stiffness stiffness, Mat3* lower) {
+  const MembraneConstants constants = membrane_constants(t);
+  const Edges e = edges_of(x, t, constants);
+  Eigen::Vector3d tension = e.tension;
+  if (stiffness.clamped > 0 && tension.minCoeff() < 0)  // else it is semidefinite
+    tension += stiffness.clamped * (positive_part(tension) - tension);
+  // Columns: dd_i/dx of a corner.
+  std::array<Mat3, 3> slope;
+  for (int j = 0; j < 3; ++j) {
+    slope[(j + 1) % 3].col(j) = -2 * e.vector[j];
+    slope[(j + 2) % 3].col(j) = 2 * e.vector[j];
+    slope[j].col(j).setZero();
+  }
+  std::array<Mat3, 3> pair;  // of the corners of each edge, the lower row first
+  for (int i = 0; i < 3; ++i) {
+    const int r = i == 2 ? 1 : 2, c = i == 0 ? 1 : 0;
+    const Mat3 half = slope[r] * constants.quadratic;
+    pair[i].noalias() = half * slope[c].transpose();
+    pair[i].diagonal().array() -= 2 * tension[i];
+  }
+  // A displacement of all alike changes nothing.
+  lower[lower_block(1, 0)] = pair[2];
+  lower[lower_block(2, 0)] = pair[1];
+  lower[lower_block(2, 1)] = pair[0];
+  lower[lower_block(0, 0)] = -(pair[2] + pair[1]).transpose();
+  lower[lower_block(1, 1)] = -(pair[2] + pair[0].transpose());
+  lower[lower_block(2, 2)] = -(pair[1] + pair[0]);
+}
+
+void add_membrane_stiffness(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
+                            Stiffness stiffness, const BlockSink& sink) {
+  checked(triangles, x.size(), x.size(), "add_membrane_stiffness");
+  std::array<Mat3, lower_blocks(3)> lower;
+  for (const MembraneTriangle& t : triangles) {
+    stiffness_blocks(x, t, stiffness, lower.data());
+    hand_out(t.vertices, lower.data(), sink);
+  }
+}
+
+}  // namespace furrow::physics

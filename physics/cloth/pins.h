@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+
+#include "physics/cloth/springs.h"
+
+namespace furrow::physics {
+
+/// Pins the particles: inv_mass = 0 and v = 0; the mass stays (it still counts as weight). Repeats are
+/// harmless. Throws std::invalid_argument, nothing changed, if an index is out of range.
+void pin(Particles& particles, std::span<const int> indices);
+
+/// Doubles the stiffness of the hinges of a clamp: both ends of the edge and one flap are pinned, the other
+/// flap is free. Such a hinge stands for half a cell only; taken singly it makes a clamped strip 4 to 9 % too
+/// limp at 8 to 16 cells, and the error falls with the first power of the cell instead of the second. Once
+/// for a new cloth, when all its pins are set.
+void stiffen_clamps(Cloth& cloth);
+/// Its inverse, exactly: halves what stiffen_clamps doubled, with the same pins. For who keeps the hinges'
+/// stiffness elsewhere.
+void soften_clamps(Cloth& cloth);
+
+}  // namespace furrow::physics

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+
+#include "physics/cloth/springs.h"
+
+namespace furrow::physics {
+
+/// Stiffens a fold where it was drawn, as an iron, starch or fusible interfacing does: multiplies the
+/// stiffness of the hinges whose edge has both ends in the patch. Rest angles stay: a cloth in balance by
+/// them needs prestress() again. Returns how many hinges. Cost: one pass.
+/// Throws std::invalid_argument, nothing changed, if the factor is not > 0 and finite or an index is out of
+/// range. Repeats in the patch are harmless.
+int press(Cloth& cloth, std::span<const int> patch, double factor);
+
+}  // namespace furrow::physics

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "physics/cloth/strain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace furrow::physics {
+
+StrainStatistics strain_statistics(std::span<const Vec3> x, std::span<const Spring> springs) {
+  StrainStatistics result;
+  if (springs.empty()) return result;
+  std::vector<double> strains;
+  strains.reserve(springs.size());
+  double sum = 0;
+  for (const Spring& s : springs) {
+    strains.push_back(std::abs((x[s.b] - x[s.a]).norm() - s.rest_length) / s.rest_length);
+    sum += strains.back();
+  }
+  result.mean = sum / double(strains.size());
+  // NaN has no order: a broken state reports NaN instead of sorting it.
+  if (!std::isfinite(sum)) {
+    result.max = result.p99 = sum;
+    return result;
+  }
+  const std::size_t rank = std::size_t(std::ceil(0.99 * double(strains.size()))) - 1;
+  std::nth_element(strains.begin(), strains.begin() + std::ptrdiff_t(rank), strains.end());
+  result.p99 = strains[rank];
+  result.max = *std::max_element(strains.begin() + std::ptrdiff_t(rank), strains.end());
+  return result;
+}
+
+StrainStatistics strain_statistics(const Cloth& cloth) {
+  if (cloth.tension.empty() && !cloth.structural.empty())
+    return strain_statistics(cloth.particles.x, cloth.structural);
+  std::vector<Spring> edges = cloth.structural;
+  for (const Tension& t : cloth.tension) edges.push_back({t.a, t.b, t.rest_length, 0});
+  if (!edges.empty()) return strain_statistics(cloth.particles.x, edges);
+  edges.reserve(3 * cloth.membrane.size());
+  for (const MembraneTriangle& t : cloth.membrane) {
+    for (std::size_t i = 0; i < 3; ++i)
+      edges.push_back({t.vertices[(i + 1) % 3], t.vertices[(i + 2) % 3], t.rest_lengths[i], 0});
+  }
+  return strain_statistics(cloth.particles.x, edges);
+}
+
+double kinetic_energy(const Particles& particles) {
+  double energy = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (particles.inv_mass[i] > 0) energy += 0.5 * particles.mass[i] * particles.v[i].squaredNorm();
+  }
+  return energy;
+}
+
+}  // namespace furrow::physics

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "physics/contact/anchored_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace furrow::physics {
+namespace {
+
+/// work(i) of all i in [0, n), by the pool's threads where there is one.
+template <class Work>
+void for_all(ThreadPool* pool, std::size_t n, const Work& work) {
+  const auto range = [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) work(std::size_t(i));
+  };
+  if (pool)
+    pool->run(int(n), range);
+  else
+    range(0, int(n));
+}
+
+}  // namespace
+
+AnchoredContact::AnchoredContact(const Collider& collider, const AnchoredContactOptions& options,
+                                 std::size_t particles)
+    : collider_(collider),
+      options_(options),
+      soft_(std::min(options.gap / 3, 1e-3)),
+      slip_(0.1 * soft_),
+      touches_(particles) {
+  const auto need = [](bool good, const char* name, double value, const char* range) {
+    if (good && std::isfinite(value)) return;
+    throw std::invalid_argument(std::string("AnchoredContact: ") + name + " = " + std::to_string(value) +
+                                " is not " + range);
+  };
+  need(options.friction >= 0, "friction", options.friction, ">= 0");
+  need(options.gap > 0, "gap", options.gap, "> 0");
+  need(options.stiffness > 0, "stiffness", options.stiffness, "> 0");
+  for (Touch& t : touches_) t.gap = options.gap;
+}
+
+AnchoredContact::Push AnchoredContact::push_at(double d) const {
+  const double k = options_.stiffness, s = soft_;
+  if (!(d > 0)) return {0, 0, 0};
+  if (d < s) return {k * d * d * d / (6 * s), 0.5 * k * d * d / s, k * d / s};
+  return {k * (0.5 * d * d - 0.5 * s * d + s * s / 6), k * (d - 0.5 * s), k};
+}
+
+double AnchoredContact::depth_of(double force) const {
+  const double k = options_.stiffness, s = soft_;
+  return force < 0.5 * k * s ? std::sqrt(2 * force * s / k) : force / k + 0.5 * s;
+}
+
+void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool) {
+  for_all(pool, x.size(), [&](std::size_t i) {
+    Touch& t = touches_[i];
+    t.x = x[i];
+    t.energy = t.push = t.stiffness = 0;
+    if (!(inv_mass[i] > 0)) return;
+    const SignedDistance field = collider_.smooth_at(x[i]);
+    const double slope = field.gradient.norm();
+    const Push push = push_at(t.gap - field.value);
+    t.energy = push.energy;
+    if (!(push.force > 0) || !(slope > 0)) return;
+    t.push = push.force * slope;
+    t.stiffness = push.stiffness * slope * slope;
+    t.normal = field.gradient / slope;
+    t.depth = t.gap - field.value;
+    t.slope = slope;
+  });
+}
+
+double AnchoredContact::energy() const {
+  double sum = 0;
+  for (const Touch& t : touches_) {
+    sum += t.energy;
+    if (t.limit < 0) continue;
+    const double u = t.way().norm();
+    sum += t.limit * (u <= slip_ ? 0.5 * u * u / slip_ : u - 0.5 * slip_);
+  }
+  return sum;
+}
+
+void AnchoredContact::add_forces(std::span<Vec3> force) const {
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const Touch& t = touches_[i];
+    if (t.push > 0) force[i] += t.push * t.normal;
+    if (t.limit < 0) continue;
+    const Vec3 u = t.way();
+    force[i] -= t.limit / std::max(slip_, u.norm()) * u;
+  }
+}
+
+void AnchoredContact::add_stiffness(FreeStiffness& stiffness) const {
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const Touch& t = touches_[i];
+    if (!(t.push > 0) && t.limit < 0) continue;
+    Mat3 block = t.stiffness * t.normal * t.normal.transpose();
+    if (t.limit >= 0) {
+      const Vec3 u = t.way();
+      const double length = u.norm();
+      Mat3 along = Mat3::Identity() - t.plane * t.plane.transpose();
+      // Who slides goes on to: nothing holds it back along its way.
+      if (length > slip_ || (t.slides && length > 0)) along -= u * u.transpose() / (length * length);
+      block += t.limit / std::max(slip_, length) * along;
+    }
+    stiffness.add(int(i), block);
+  }
+}
+
+void AnchoredContact::expect(std::span<const Vec3> move) {
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    Touch& t = touches_[i];
+    if (t.limit < 0) continue;
+    t.limit = options_.friction * std::max(0.0, t.push - t.stiffness * t.normal.dot(move[i]));
+  }
+}
+
+void AnchoredContact::move_anchors() {
+  for (Touch& t : touches_) {
+    if (!(t.push > 0)) {
+      t.limit = -1;
+      t.slides = false;
+      continue;
+    }
+    if (t.limit < 0) t.anchor = t.x;
+    t.limit = options_.friction * t.push;
+    t.plane = t.normal;
+    const Vec3 u = t.way();
+    const double length = u.norm();
+    t.slides = length > slip_;
+    t.anchor = t.x - (t.slides ? slip_ / length : 1.0) * u;
+  }
+}
+
+void AnchoredContact::make_room(std::span<const Vec3> from, std::span<const Vec3> to,
+                                std::span<const double> inv_mass) {
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    Touch& t = touches_[i];
+    if (!(inv_mass[i] > 0) || (to[i] - from[i]).norm() > t.gap) continue;
+    const SignedDistance here = collider_.smooth_at(from[i]), there = collider_.smooth_at(to[i]);
+    const double most = std::max(here.value, there.value);
+    if (!(most < t.gap)) continue;
+    const double cosine = here.gradient.dot(there.gradient) / (here.gradient.norm() * there.gradient.norm());
+    if (cosine < 0.5) t.gap = most > 0 ? 0.5 * most : 2 * most;
+  }
+}
+
+void AnchoredContact::stiffen(double factor, std::span<Vec3> x) {
+  soft_ /= factor;
+  options_.stiffness *= factor * factor;
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const Touch& t = touches_[i];
+    if (t.push > 0) x[i] += (t.depth - depth_of(t.push / t.slope)) / t.slope * t.normal;
+  }
+}
+
+double AnchoredContact::deepest() const {
+  double depth = 0;
+  for (const Touch& t : touches_)
+    if (t.push > 0) depth = std::max(depth, t.depth);
+  return depth;
+}
+
+int AnchoredContact::touching() const {
+  return int(std::count_if(touches_.begin(), touches_.end(), [](const Touch& t) { return t.push > 0; }));
+}
+
+}  // namespace furrow::physics

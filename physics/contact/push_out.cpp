@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "physics/contact/push_out.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace furrow::physics {
+
+PushOutReport push_out(std::span<Vec3> x, std::span<const int> which, const Collider& body, double level) {
+  constexpr int kMoves = 20;
+  constexpr double kEnough = 1e-9;  // [m], the rounding of positions
+  if (!std::isfinite(level)) throw std::invalid_argument("push_out: level = " + std::to_string(level));
+  for (int i : which)
+    if (i < 0 || i >= static_cast<int>(x.size()))
+      throw std::invalid_argument("push_out: there is no point " + std::to_string(i));
+  PushOutReport report;
+  for (int i : which) {
+    const Vec3 start = x[i];
+    SignedDistance d = body.at(x[i]);
+    if (!(d.value < level - kEnough)) continue;
+    for (int move = 0; move < kMoves && d.value < level - kEnough; ++move) {
+      const double slope = d.gradient.norm();
+      if (!(slope > 0)) break;
+      x[i] += (level - d.value) / slope * d.gradient;
+      d = body.at(x[i]);
+    }
+    ++report.moved;
+    report.farthest = std::max(report.farthest, (x[i] - start).norm());
+    report.still_inside += d.value < level - kEnough;
+  }
+  return report;
+}
+
+}  // namespace furrow::physics

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "physics/linear/block_cholesky.h"
+
+#include <algorithm>
+
+#include "physics/linear/extend_add.h"
+
+namespace furrow::physics {
+namespace {
+
+constexpr double least_shared = 5e4;  // numbers to move that are worth waking threads
+
+/// Rows of a front's update.
+int rest_of(const FrontTree::Front& f) { return 3 * int(f.rows.size()); }
+/// Lines of a lower triangle with n rows; room for the tiles that end behind it.
+std::size_t lines(int n) { return std::size_t(n) * std::size_t(padded(n) / 8); }
+
+/// Calls work(begin, end) on pieces of n columns, by three.
+template <class Work>
+void share_columns(int n, double numbers, ThreadPool* pool, Work work) {
+  if (!pool || numbers < least_shared) return work(0, n);
+  const int pieces = 4 * pool->threads();
+  pool->share(pieces, [&](int i, int) { work(n / 3 * i / pieces * 3, n / 3 * (i + 1) / pieces * 3); });
+}
+
+}  // namespace
+
+DenseFront BlockCholesky::dense(int front) const {
+  const FrontTree::Front& f = tree_.fronts[std::size_t(front)];
+  const int height = 3 * f.width + rest_of(f);
+  return {const_cast<double*>(factor_[places_[std::size_t(front)].panel].number), height, 3 * f.width,
+          padded(height)};
+}
+
+void BlockCholesky::analyse(const Sparse& lower) {
+  tree_ = front_tree(lower);
+  places_.assign(tree_.fronts.size(), {});
+  left_.assign(1, 0);
+  threads_ = 0;
+  std::size_t lines = 0;
+  for (std::size_t i = 0; i < tree_.fronts.size(); ++i) {
+    const FrontTree::Front& f = tree_.fronts[i];
+    places_[i].panel = lines;
+    lines += std::size_t(padded(3 * f.width + rest_of(f)) / 8) * std::size_t(3 * f.width) + 1;
+    left_.push_back(left_.back() + std::size_t(rest_of(f)));
+  }
+  factor_.assign(lines, {});
+}
+
+/// What a branch's fronts leave lies on two stacks that take turns from one level of the tree to the next: a
+/// front's children are the topmost ones of the other stack.
+void BlockCholesky::place_updates() {
+  std::vector<char> level(tree_.fronts.size());
+  for (std::size_t i = tree_.fronts.size(); i-- > 0;) {
+    const int parent = tree_.fronts[i].parent;
+    level[i] = parent < 0 ? 0 : char(1 - level[std::size_t(parent)]);
+    places_[i].held = false;
+  }
+  for (const int i : division_.trunk) places_[std::size_t(i)].held = true;
+  for (const auto& branch : division_.branches) places_[std::size_t(branch[1] - 1)].held = true;
+  std::size_t top[2] = {}, most[2] = {}, held = 0;
+  for (std::size_t i = 0; i < tree_.fronts.size(); ++i) {
+    const FrontTree::Front& f = tree_.fronts[i];
+    std::size_t& end = places_[i].held ? held : top[int(level[i])];
+    places_[i].update = end;
+    end += lines(rest_of(f));
+    most[int(level[i])] = std::max(most[int(level[i])], top[int(level[i])]);
+    for (const int child : f.children)
+      if (!places_[std::size_t(child)].held)
+        top[1 - level[i]] -= lines(rest_of(tree_.fronts[std::size_t(child)]));
+  }
+  for (std::size_t i = 0; i < tree_.fronts.size(); ++i)
+    if (!places_[i].held && level[i] == 1) places_[i].update += most[0];
+  held_.resize(held + 1);
+  stacks_.assign(std::size_t(threads_), Store(most[0] + most[1] + 1));
+}
+
+double* BlockCholesky::update(int front, Store& stack) {
+  const Place& place = places_[std::size_t(front)];
+  return (place.held ? held_ : stack)[place.update].number;
+}
+
+/// Adds what the children left to the columns whose place is in [begin, end).
+void BlockCholesky::add_children(int front, Store& stack, double* target, int stride, int begin, int end) {
+  for (const int child : tree_.fronts[std::size_t(front)].children) {
+    const FrontTree::Front& c = tree_.fronts[std::size_t(child)];
+    extend_add({c.runs, update(child, stack), padded(rest_of(c)), target, stride, begin, end});
+  }
+}
+
+/// Columns [begin, end) of a front, whole blocks.
+void BlockCholesky::assemble(int front, const Values& values, Store& stack, int begin, int end) {
+  const DenseFront a = dense(front);
+  std::fill(a.panel + std::ptrdiff_t(begin) * a.stride, a.panel + std::ptrdiff_t(end) * a.stride, 0.0);
+  for (const FrontTree::Block& b : tree_.fronts[std::size_t(front)].blocks) {
+    if (3 * b.column < begin || 3 * b.column >= end) continue;
+    double* target = a.panel + 3 * b.row + 3 * std::ptrdiff_t(b.column) * a.stride;
+    const std::ptrdiff_t down = b.transposed ? a.stride : 1, across = b.transposed ? 1 : a.stride;
+    for (int e = 0; e < 3; ++e) {
+      const int first = b.row == b.column ? e : 0;
+      for (int g = first; g < 3; ++g) target[g * down + e * across] = values.value[b.value[e] + g - first];
+    }
+  }
+  for (std::ptrdiff_t c = begin; c < end; ++c) a.panel[c + c * a.stride] += values.shift;
+  add_children(front, stack, a.panel, a.stride, begin, end);
+}
+
+bool BlockCholesky::eliminate(int front, const Values& values, Store& stack, ThreadPool* pool) {
+  const DenseFront a = dense(front);
+  const int rest = a.height - a.width;
+  share_columns(a.width, double(a.width) * a.height, pool,
+                [&](int begin, int end) { assemble(front, values, stack, begin, end); });
+  if (!physics::eliminate(a, pool)) return false;
+  if (rest == 0) return true;
+  double* left = update(front, stack);
+  negative_square(a, left, padded(rest), pool);
+  double* target = left - a.width - std::ptrdiff_t(a.width) * padded(rest);
+  share_columns(rest, 0.5 * rest * rest, pool, [&](int begin, int end) {
+    add_children(front, stack, target, padded(rest), a.width + begin, a.width + end);
+  });
+  return true;
+}
+
+bool BlockCholesky::factorise(const Sparse& lower, double shift, ThreadPool* pool) {
+  const int threads = pool ? pool->threads() : 1;
+  if (threads_ != threads) {
+    division_ = divide_fronts(tree_.fronts, threads_ = threads);
+    place_updates();
+  }
+  const Values values{lower.valuePtr(), shift};
+  std::vector<char> good(division_.branches.size(), true);
+  const auto work = [&](int branch, int thread) {
+    const auto [begin, end] = division_.branches[std::size_t(branch)];
+    bool all = true;
+    for (int i = begin; i < end && all; ++i)
+      all = eliminate(i, values, stacks_[std::size_t(thread)], nullptr);
+    good[std::size_t(branch)] = all;
+  };
+  if (pool)
+    pool->share(int(good.size()), work);
+  else
+    for (std::size_t i = 0; i < good.size(); ++i) work(int(i), 0);
+  return std::all_of(good.begin(), good.end(), [](char g) { return g != 0; }) &&
+         std::all_of(division_.trunk.begin(), division_.trunk.end(),
+                     [&](int i) { return eliminate(i, values, stacks_[0], pool); });
+}
+
+}  // namespace furrow::physics

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "physics/cloth/elements.h"
+#include "physics/linear/block_cholesky.h"
+
+namespace furrow::physics {
+
+/// The stiffness matrix K [N/m] of the particles that are not held (inv_mass > 0), sparse, and its factors.
+/// Where the blocks lie, the orders of elimination and the factor's pattern are
+/// found once; assembly and factorisation use them again.
+class FreeStiffness {
+ public:
+  /// Cost: O(blocks log blocks) and later the symbolic factorisation. Throws std::invalid_argument if the
+  /// particles' arrays differ in length, and as add_stiffness().
+  explicit FreeStiffness(const Cloth& cloth);
+
+  /// K at positions x [m]. The cloth has the elements and held particles of the constructor's; other
+  /// stiffnesses and rest states are welcome. pool: threads that share the work (null: the caller alone);
+  /// same bits. Throws std::invalid_argument if a kind has another number of elements, and as
+  /// add_stiffness().
+  void assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffness stiffness, ThreadPool* pool = nullptr);
+
+  /// Adds a symmetric block [N/m] to K's diagonal block of a particle, until the next assemble(); a held
+  /// particle's is left out.
+  void add(int particle, const Mat3& block);
+
+  /// Factorises K + shift I = L D L^T, shift [N/m]. The number of its negative eigenvalues (negative pivots:
+  /// Sylvester's law of inertia), -1 if a pivot is 0 or not finite. Pivots are not permuted: what is not
+  /// positive definite should be used with care.
+  int factorise(double shift = 0);
+  /// K + shift I = L L^T by dense fronts (BlockCholesky), several times faster for thousands of particles;
+  /// false if it is not positive definite. pool: threads that share the work (null: the caller alone).
+  bool factorise_definite(double shift = 0, ThreadPool* pool = nullptr);
+  /// b becomes the solution in rows of free particles, 0 in the others. Needs
+  /// factorise() >= 0 or factorise_definite() true, whichever was last; threads share the work after the
+  /// latter.
+  void solve(std::span<Vec3> b, ThreadPool* pool = nullptr) const;
+
+  /// Mean of the diagonal of K [N/m], 0 if nothing is free: a scale for shifts.
+  double mean_diagonal() const;
+  int free_particles() const { return free_particles_; }
+
+ private:
+  using Sparse = Eigen::SparseMatrix<double>;
+  /// A block of an element that counts, and where.
+  struct Addend {
+    int block;                 // in its chunk
+    int place, column_length;  // first value of its first column, and how many that column has
+    enum { diagonal, below, transposed } kind;
+  };
+  using Pairs = std::vector<std::array<int, 2>>;
+  std::vector<std::vector<int>> make_pattern(const Pairs& pairs);
+  void place_blocks(const Pairs& pairs, const std::vector<std::vector<int>>& below);
+  void sum(int chunk, int bucket);
+
+  int free_particles_ = 0;
+  std::array<int, 5> counts_{};       ///< of elements of each kind
+  std::vector<int> row_;              ///< of each particle among the free ones; -1: held
+  std::vector<Addend> addends_;       ///< chunk by chunk of elements; in a chunk by buckets of columns
+  std::vector<std::size_t> buckets_;  ///< where each begins, and the end
+  std::vector<Mat3> blocks_;          ///< of a chunk
+  Sparse matrix_;                     ///< lower triangle
+  Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor_;
+  BlockCholesky definite_;
+  bool analysed_ = false, definite_analysed_ = false;  // each when it is first needed
+  bool is_definite_ = false;                           // whether the last factors are those of definite_
+};
+
+}  // namespace furrow::physics

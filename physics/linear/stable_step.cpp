@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "physics/linear/stable_step.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "physics/cloth/spring_forces.h"
+#include "physics/packed/element_product.h"
+
+namespace furrow::physics {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// A residual can be small before the largest eigenvalue has shown up at all, but hardly after so many rounds.
+constexpr std::size_t least_iterations = 32;
+
+/// In [-1/2, 1/2), a function of its argument only (the mixer splitmix64).
+double pseudo_random(std::uint64_t i) {
+  std::uint64_t z = (i + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return double((z ^ (z >> 31)) >> 11) * 0x1p-53 - 0.5;
+}
+
+/// q -> M^-1/2 K M^-1/2 q.
+class Operator {
+ public:
+  explicit Operator(const Cloth& cloth)
+      : cloth_(cloth), elements_(cloth), u_(cloth.particles.size()), ku_(u_.size()) {
+    for (const double w : cloth.particles.inv_mass) scale_.push_back(std::sqrt(w));
+  }
+  Index size() const { return Index(3 * u_.size()); }
+  const std::vector<double>& scale() const { return scale_; }
+
+  void apply(const Eigen::Ref<const VectorXd>& q, VectorXd& result) {
+    for (std::size_t i = 0; i < u_.size(); ++i) u_[i] = scale_[i] * q.segment<3>(Index(3 * i));
+    std::fill(ku_.begin(), ku_.end(), Vec3::Zero());
+    for (const auto* springs : {&cloth_.structural, &cloth_.bending}) {
+      add_spring_stiffness_product(cloth_.particles.x, *springs, u_, Stiffness::positive_part, ku_);
+    }
+    elements_.add(u_, ku_);
+    for (std::size_t i = 0; i < u_.size(); ++i) result.segment<3>(Index(3 * i)) = scale_[i] * ku_[i];
+  }
+
+  /// Twice the largest sum of k/m around a particle bounds every eigenvalue of springs: a block of K is at
+  /// most k, and the other end's share enters as the geometric mean of both masses. Elements: sums of blocks'
+  /// norms.
+  double gershgorin() const {
+    std::vector<double> row(u_.size(), 0.0);
+    for (const auto* springs : {&cloth_.structural, &cloth_.bending}) {
+      for (const Spring& s : *springs) {
+        const double a = scale_[std::size_t(s.a)], b = scale_[std::size_t(s.b)];
+        row[std::size_t(s.a)] += s.stiffness * a * (a + b);
+        row[std::size_t(s.b)] += s.stiffness * b * (a + b);
+      }
+    }
+    elements_.add_row_sums(scale_, row);
+    return row.empty() ? 0 : *std::max_element(row.begin(), row.end());
+  }
+
+ private:
+  const Cloth& cloth_;
+  ElementProduct elements_;
+  std::vector<Vec3> u_, ku_;
+  std::vector<double> scale_;
+};
+
+VectorXd start_vector(const Operator& op) {
+  VectorXd q(op.size());
+  for (Index i = 0; i < q.size(); ++i) {
+    q[i] = op.scale()[std::size_t(i / 3)] > 0 ? pseudo_random(std::uint64_t(i)) : 0;
+  }
+  return q.normalized();
+}
+
+struct Ritz {
+  double theta, residual;
+};
+
+Ritz largest_ritz_value(const std::vector<double>& alpha, const std::vector<double>& beta) {
+  const Index m = Index(alpha.size());
+  Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
+  const VectorXd diagonal = Eigen::Map<const VectorXd>(alpha.data(), m);
+  const VectorXd off = Eigen::Map<const VectorXd>(beta.data(), m - 1);
+  solver.computeFromTridiagonal(diagonal, off, Eigen::ComputeEigenvectors);
+  return {solver.eigenvalues()[m - 1], beta.back() * std::abs(solver.eigenvectors()(m - 1, m - 1))};
+}
+
+void check(const StableStepOptions& options) {
+  if (!(options.tolerance > 0 && options.tolerance < 0.5)) {
+    throw std::invalid_argument("stable_step: tolerance = " + std::to_string(options.tolerance) +
+                                " is not in (0, 0.5)");
+  }
+  if (options.max_iterations < 1) {
+    throw std::invalid_argument("stable_step: max_iterations = " + std::to_string(options.max_iterations) +
+                                " is not >= 1");
+  }
+}
+
+}  // namespace
+
+StepLimit stable_step(const Cloth& cloth, const StableStepOptions& options) {
+  check(options);
+  Operator op(cloth);
+  const double bound = op.gershgorin();
+  if (bound == 0) return {std::numeric_limits<double>::infinity(), 0, 0, 0};
+  const Index most = std::min<Index>(op.size(), options.max_iterations);
+  std::vector<VectorXd> basis{start_vector(op)};
+  std::vector<double> alpha, beta;
+  Ritz ritz{};
+  VectorXd w(op.size());
+  while (true) {
+    op.apply(basis.back(), w);
+    alpha.push_back(basis.back().dot(w));
+    for (int round = 0; round < 2; ++round) {
+      for (const VectorXd& q : basis) w -= q.dot(w) * q;
+    }
+    beta.push_back(w.norm());
+    const bool exhausted = beta.back() <= 1e-13 * bound || Index(alpha.size()) >= most;
+    if (exhausted || (alpha.size() >= least_iterations && alpha.size() % 4 == 0)) {
+      ritz = largest_ritz_value(alpha, beta);
+      if (exhausted || ritz.residual <= options.tolerance * ritz.theta) break;
+    }
+    basis.push_back(w / beta.back());
+  }
+  const double largest = std::min(ritz.theta + ritz.residual, bound) * (1 + 1e-12);
+  if (!(largest > 0)) return {std::numeric_limits<double>::infinity(), 0, 0, int(alpha.size())};
+  const double omega = std::sqrt(largest);
+  return {2 / omega, omega, ritz.theta > 0 ? ritz.residual / ritz.theta : 0, int(alpha.size())};
+}
+
+}  // namespace furrow::physics

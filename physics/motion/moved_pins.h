@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+#include <vector>
+
+#include "physics/body/rigid_motion.h"
+#include "physics/packed/packed_cloth.h"
+
+namespace furrow::physics {
+
+/// Pinned particles that are led: after every step each is exactly at  pose(t) home,  where home is its
+/// position in the motion's frame; during the step its velocity is the way that it goes in it over dt.
+struct MovedPins {
+  std::vector<int> particles;  ///< pinned ones (see pin()); in no two groups
+  RigidMotion motion;
+};
+
+/// Where the particles of all groups are in the frames of their motions, one group after the other, if they
+/// are at x at that time [m]. Throws std::invalid_argument if a motion is broken, or a particle is out of
+/// range, not pinned or named twice.
+std::vector<Vec3> homes_of(std::span<const MovedPins> pins, const Particles& particles, double time);
+
+/// Leads the pins of a packed cloth.
+class PinLeader {
+ public:
+  /// homes as of homes_of(); both are kept by reference.
+  PinLeader(std::span<const MovedPins> pins, std::span<const Vec3> homes) : pins_(pins), homes_(homes) {}
+  /// Finds the particles in a packed cloth, before all below.
+  void attach(const PackedCloth& packed);
+  /// Sets the velocities that lead to the places at the time `to` in dt.
+  void begin_step(PackedCloth& packed, double to, double dt);
+  /// Puts the pins there.
+  void arrive(PackedCloth& packed) const;
+  /// Positions and velocities after a step; physics::unpack() leaves pinned particles out.
+  void unpack(const PackedCloth& packed, Particles& particles) const;
+
+ private:
+  std::span<const MovedPins> pins_;
+  std::span<const Vec3> homes_;
+  std::vector<int> places_;    // in the packed cloth
+  std::vector<Vec3> targets_;  // [m]
+};
+
+}  // namespace furrow::physics

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "physics/motion/simulate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <memory>
+
+#include "physics/base/refuse.h"
+#include "physics/contact/animated_contact.h"
+#include "physics/contact/rigid_contact.h"
+#include "physics/motion/step_length.h"
+#include "physics/motion/stepper.h"
+
+namespace furrow::physics {
+namespace {
+
+constexpr int divergence_steps = 16;  // steps between two looks for divergence
+
+void require_positive(double value, const char* name) {
+  if (!(value > 0) || !std::isfinite(value)) refuse(name, " = ", value, " is not > 0");
+}
+
+void check(const SimulateOptions& o) {
+  if (!(o.seconds >= 0) || !std::isfinite(o.seconds)) refuse("seconds = ", o.seconds, " is not >= 0");
+  if (o.stop_at && std::isnan(*o.stop_at)) refuse("stop_at is not a number");
+  if (o.dt) require_positive(*o.dt, "dt");
+  if (!(o.dt_factor > 0 && o.dt_factor <= 1)) refuse("dt_factor = ", o.dt_factor, " is not in (0, 1]");
+  if (o.step_rule == StepRule::forced && !o.dt) refuse("a forced step needs dt");
+  require_positive(o.dt_max, "dt_max");
+  require_positive(o.limit_strain, "limit_strain");
+  require_positive(o.speed_limit, "speed_limit");
+  if (o.limit_steps < 1) refuse("limit_steps = ", o.limit_steps, " is not >= 1");
+  if (o.observe_steps < 1) refuse("observe_steps = ", o.observe_steps, " is not >= 1");
+}
+
+double cpu_time() {
+  std::timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+bool has_diverged(const PackedCloth& cloth, double speed_limit) {
+  const double most = speed_limit * speed_limit;
+  for (std::size_t i = 0; i < cloth.v.size(); ++i) {
+    const Vec4 &v = cloth.v[i], &x = cloth.x[i];
+    if (!(v.x * v.x + v.y * v.y + v.z * v.z <= most) || !std::isfinite(x.x + x.y + x.z)) return true;
+  }
+  return false;
+}
+
+/// All that a call works with besides cloth, world and options.
+class Simulation {
+ public:
+  Simulation(Cloth& cloth, const World& world, const SimulateOptions& options, SimulateState& state);
+  void run(const Observer& observer, SimulateReport& report);
+  /// Brings cloth and state up to date and fills the report but for the clocks.
+  void finish(SimulateReport& report);
+
+ private:
+  void make_contact();
+  void lead_pins();
+  void recall();
+  void remember();
+  bool observe(const Observer& observer, const SimulateReport& report);
+
+  Cloth& cloth_;
+  const World& world_;
+  const SimulateOptions& options_;
+  SimulateState& state_;
+  ThreadPool pool_;
+  ContactOptions contact_options_;
+  int frames_before_ = 0;
+  double frame_seconds_before_ = 0;
+  std::unique_ptr<BodyContact> contact_;
+  std::optional<PinLeader> leader_;
+  std::optional<Motion> motion_;
+  std::unique_ptr<Stepper> stepper_;
+  std::optional<StepLength> length_;
+};
+
+Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& options, SimulateState& state)
+    : cloth_(cloth),
+      world_(world),
+      options_(options),
+      state_(state),
+      pool_(options.threads),
+      contact_options_{options.friction, options.contact_gap, options.recovery_speed} {
+  if (world.collider && world.animated) refuse("a rigid and an animated body at once");
+  check(world.wind);
+  check(world.body_motion);
+  check(state, cloth.particles.size());
+  make_contact();
+  lead_pins();
+  const Surroundings around{contact_.get(), leader_ ? &*leader_ : nullptr,
+                            is_still(world.wind) || options.air_drag == 0 ? nullptr : &world.wind,
+                            state.compensation.force.empty() ? nullptr : &state.compensation};
+  motion_.emplace(cloth, Loads{options.gravity, options.air_drag, options.spring_damping}, pool_, around,
+                  state.time);
+  if (state.step > 0) motion_->work() = {};  // counted by the call that ended here
+  recall();
+  stepper_ = make_stepper(*motion_, {options.integrator, options.backward_euler, options.xpbd});
+  length_.emplace(cloth, options, state);
+}
+
+void Simulation::make_contact() {
+  const int n = int(cloth_.particles.size());
+  if (world_.animated) {
+    frames_before_ = world_.animated->frames_built();
+    frame_seconds_before_ = world_.animated->build_seconds();
+    world_.animated->prepare(state_.time, state_.time);
+    contact_ = std::make_unique<AnimatedContact>(*world_.animated, contact_options_, n, state_.body_travel);
+  } else if (world_.collider && !is_identity(world_.body_motion)) {
+    contact_ = std::make_unique<RigidContact>(*world_.collider, world_.body_motion, contact_options_, n);
+  } else if (world_.collider) {
+    contact_ = std::make_unique<BodyContact>(*world_.collider, contact_options_, n);
+  }
+}
+
+void Simulation::lead_pins() {
+  if (world_.pins.empty()) return;
+  std::vector<Vec3> homes = homes_of(world_.pins, cloth_.particles, state_.time);
+  if (!state_.homes.empty() && state_.homes.size() != homes.size()) {
+    refuse("the state knows ", state_.homes.size(), " moved pins, but there are ", homes.size());
+  }
+  if (state_.homes.empty()) state_.homes = std::move(homes);
+  leader_.emplace(world_.pins, state_.homes);
+}
+
+void Simulation::recall() {
+  if (!state_.planned) state_.contact.clear();
+  if (state_.contact.empty() || !contact_) return;
+  for (std::size_t i = 0; i < state_.contact.size(); ++i) {
+    contact_->memory()[i] = state_.contact[std::size_t(motion_->cloth().particle[i])];
+  }
+}
+
+void Simulation::remember() {
+  state_.contact.resize(contact_ ? cloth_.particles.size() : 0);
+  for (std::size_t i = 0; i < state_.contact.size(); ++i) {
+    state_.contact[std::size_t(motion_->cloth().particle[i])] = contact_->memory()[i];
+  }
+  if (share_left(state_.compensation, state_.time) == 0) state_.compensation.force.clear();
+  if (world_.animated) {
+    state_.body_travel = static_cast<AnimatedContact&>(*contact_).travel();
+    state_.totals.frames_built += world_.animated->frames_built() - frames_before_;
+    state_.totals.frame_seconds += world_.animated->build_seconds() - frame_seconds_before_;
+  }
+  const WorkCounts& work = motion_->work();
+  state_.totals.force_evaluations += work.force_evaluations;
+  state_.totals.spring_evaluations += work.spring_evaluations;
+  state_.totals.triangle_evaluations += work.triangle_evaluations;
+  state_.totals.hinge_evaluations += work.hinge_evaluations;
+  state_.totals.linear_solves += work.linear_solves;
+  state_.totals.factorisations += work.factorisations;
+  state_.totals.iterations += work.iterations;
+  state_.totals.collider_queries += work.contact.queries;
+  state_.totals.truncated_moves += work.contact.truncations;
+}
+
+void Simulation::run(const Observer& observer, SimulateReport& report) {
+  SimulateState& s = state_;
+  report.dt = s.dt;
+  bool observed = true;  // of the present state; before the first step there is nothing new
+  while (s.steps_left > 0) {
+    if (options_.stop_at && s.time >= *options_.stop_at) {
+      report.outcome = Outcome::stopped_at;
+      if (observer && !observed) observe(observer, report);
+      return;
+    }
+    const bool last = s.steps_left == 1;
+    const double to = last ? s.end : s.time + s.dt;
+    report.dt = s.dt;
+    s.totals.dt_smallest = std::min(s.totals.dt_smallest, s.dt);
+    motion_->begin_step(s.time, to);
+    stepper_->step(s.dt);
+    ++s.step;
+    s.time = to;
+
+    observed = observer && (s.step % options_.observe_steps == 0 || last);
+    const bool checked = s.step % divergence_steps == 0 || observed || last;
+    if (length_->due()) motion_->unpack(cloth_.particles);
+    if (checked && has_diverged(motion_->cloth(), options_.speed_limit)) {
+      report.outcome = Outcome::diverged;
+      return;
+    }
+    length_->advance();
+    if (observed && !observe(observer, report) && !last) {
+      report.outcome = Outcome::stopped_by_observer;
+      return;
+    }
+  }
+}
+
+bool Simulation::observe(const Observer& observer, const SimulateReport& report) {
+  motion_->unpack(cloth_.particles);
+  return observer({state_.time, state_.step, report.dt, kinetic_energy(cloth_.particles)});
+}
+
+void Simulation::finish(SimulateReport& report) {
+  motion_->unpack(cloth_.particles);
+  remember();
+  measure(cloth_, world_, state_, options_.gravity, contact_options_, report);
+  report.dt_limit = length_->limit(state_.dt_limit);
+  report.dt_limit_smallest = length_->limit(state_.totals.dt_limit_smallest);
+}
+
+}  // namespace
+
+SimulateReport simulate(Cloth& cloth, const World& world, const SimulateOptions& options,
+                        SimulateState* state, const Observer& observer) {
+  const auto started = std::chrono::steady_clock::now();
+  const double cpu_started = cpu_time();
+  check(options);
+  SimulateState present = state ? *state : SimulateState{};
+  SimulateReport report;
+  {
+    Simulation simulation(cloth, world, options, present);
+    simulation.run(observer, report);
+    simulation.finish(report);
+  }
+  report.cpu_seconds = present.totals.cpu_seconds += cpu_time() - cpu_started;
+  report.seconds = present.totals.seconds +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (state) *state = std::move(present);
+  return report;
+}
+
+SimulateReport simulate(Cloth& cloth, const Collider* collider, const SimulateOptions& options,
+                        const Observer& observer) {
+  World world;
+  world.collider = collider;
+  return simulate(cloth, world, options, nullptr, observer);
+}
+
+}  // namespace furrow::physics

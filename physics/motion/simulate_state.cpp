@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "physics/motion/simulate_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+namespace furrow::physics {
+namespace {
+
+template <typename... Parts>
+void require(bool condition, const Parts&... parts) {
+  if (condition) return;
+  std::ostringstream text;
+  text << "simulation state: ";
+  (text << ... << parts);
+  throw std::invalid_argument(text.str());
+}
+
+/// FNV-1a, 64 bits (RFC 9923).
+class Hash {
+ public:
+  template <class Number>
+  void add(Number number) {
+    unsigned char bytes[sizeof number];
+    std::memcpy(bytes, &number, sizeof number);
+    for (const unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 0x100000001b3;
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325;
+};
+
+}  // namespace
+
+std::uint64_t fingerprint(const Cloth& cloth) {
+  Hash hash;
+  for (const double inv_mass : cloth.particles.inv_mass) hash.add(inv_mass);
+  for (const auto* springs : {&cloth.structural, &cloth.bending}) {
+    hash.add(springs->size());
+    for (const Spring& s : *springs)
+      hash.add(s.a), hash.add(s.b), hash.add(s.rest_length), hash.add(s.stiffness);
+  }
+  hash.add(cloth.membrane.size());
+  for (const MembraneTriangle& t : cloth.membrane) {
+    for (int k = 0; k < 3; ++k) hash.add(t.vertices[k]), hash.add(t.rest_lengths[k]);
+    hash.add(t.lambda), hash.add(t.mu);
+  }
+  if (!cloth.tension.empty()) hash.add(cloth.tension.size());  // as ever where there is none
+  for (const Tension& t : cloth.tension)
+    hash.add(t.a), hash.add(t.b), hash.add(t.rest_length), hash.add(t.stretch), hash.add(t.compress);
+  hash.add(cloth.hinges.size()), hash.add(int(cloth.hinge_law));
+  for (const Hinge& h : cloth.hinges) {
+    for (const int v : h.vertices) hash.add(v);
+    hash.add(h.rest_angle), hash.add(h.stiffness);
+  }
+  return hash.value();
+}
+
+void check(const SimulateState& s, std::size_t particles) {
+  require(s.time >= 0 && std::isfinite(s.time), "time = ", s.time, " is not >= 0");
+  require(s.step >= 0, "step = ", s.step, " is not >= 0");
+  require(s.body_travel >= 0 && std::isfinite(s.body_travel), "body_travel = ", s.body_travel,
+          " is not >= 0");
+  check(s.compensation, particles);
+  for (const Vec3& home : s.homes) require(home.allFinite(), "a pin's home is not finite");
+  if (!s.planned) return;
+  require(s.steps_left >= 0, "steps_left = ", s.steps_left, " is not >= 0");
+  require(s.steps_left == 0 || (s.dt > 0 && std::isfinite(s.dt)), "dt = ", s.dt, " is not > 0");
+  require(s.steps_left > 0 || s.time >= s.end, "no steps left at ", s.time, " s, before the end at ", s.end,
+          " s");
+  const double rest = double(s.steps_left) * s.dt;
+  require(s.steps_left == 0 || std::abs(s.time + rest - s.end) <= 1e-6 * std::max(s.end, s.dt), s.steps_left,
+          " steps of ", s.dt, " s do not lead from ", s.time, " s to ", s.end, " s");
+  require(s.dt_limit >= 0, "dt_limit = ", s.dt_limit, " is not >= 0");
+  require(s.contact.empty() || s.contact.size() == particles, "of a cloth with ", s.contact.size(),
+          " particles instead of ", particles);
+  for (const ContactMemory& known : s.contact) require(known.x.allFinite(), "a contact is not finite");
+}
+
+}  // namespace furrow::physics

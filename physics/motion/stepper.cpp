@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "physics/motion/stepper.h"
+
+#include <stdexcept>
+
+#include "physics/motion/backward_euler.h"
+#include "physics/motion/euler_step.h"
+#include "physics/motion/leapfrog_step.h"
+#include "physics/motion/rk4_step.h"
+#include "physics/motion/xpbd.h"
+
+namespace furrow::physics {
+namespace {
+
+/// A step that keeps nothing.
+class PlainStepper : public Stepper {
+ public:
+  using Step = void (*)(Motion&, double);
+  PlainStepper(Motion& motion, Step plain_step) : motion_(motion), step_(plain_step) {}
+  void step(double dt) override { step_(motion_, dt); }
+
+ private:
+  Motion& motion_;
+  Step step_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_stepper(Motion& motion, const StepperOptions& options) {
+  switch (options.integrator) {
+    case Integrator::leapfrog:
+      return std::make_unique<PlainStepper>(motion, leapfrog_step);
+    case Integrator::explicit_euler:
+      return std::make_unique<PlainStepper>(motion, euler_step);
+    case Integrator::rk4:
+      return std::make_unique<Rk4>(motion);
+    case Integrator::backward_euler:
+      return std::make_unique<BackwardEuler>(motion, options.backward_euler);
+    case Integrator::xpbd:
+      return std::make_unique<Xpbd>(motion, options.xpbd);
+  }
+  throw std::invalid_argument("make_stepper: unknown integrator");
+}
+
+}  // namespace furrow::physics

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory>
+
+#include "physics/motion/integrator.h"
+#include "physics/motion/motion.h"
+
+namespace furrow::physics {
+
+/// An integrator at work on one motion, which must outlive it. It keeps room and symbolic work from step to
+/// step, but nothing that a step's result depends on: a new stepper goes on with the same bits.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  /// One step of dt seconds. Throws std::invalid_argument, nothing changed, if dt is not > 0.
+  virtual void step(double dt) = 0;
+};
+
+struct StepperOptions {
+  Integrator integrator = Integrator::leapfrog;
+  BackwardEulerOptions backward_euler;
+  XpbdOptions xpbd;
+};
+
+/// Throws std::invalid_argument if an option of that integrator is out of its range.
+std::unique_ptr<Stepper> make_stepper(Motion& motion, const StepperOptions& options);
+
+}  // namespace furrow::physics

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "physics/motion/xpbd.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+#include "physics/base/lanes.h"
+#include "physics/packed/dashpots.h"
+
+namespace furrow::physics {
+namespace {
+
+constexpr double least_l2 = 1e-280;  // m^2; shorter springs have no direction
+
+struct Sweep {
+  const Vec4* x;
+  Vec4* v;
+  const int *a, *b;
+  const double *k, *kL, *c, *inv_mass, *inv_sum;
+  double* impulse;
+  double h;
+};
+
+FURROW_INLINE Lanes& lanes(Vec4& v) { return *(Lanes*)&v; }
+FURROW_INLINE const Lanes& lanes(const Vec4& v) { return *(const Lanes*)&v; }
+
+/// Gives the ends of spring i the impulse p along d.
+FURROW_INLINE void push(const Sweep& s, int i, double p, const Lanes& d) {
+  Lanes pa, pb;
+  spread(p * s.inv_mass[s.a[i]], pa);
+  spread(p * s.inv_mass[s.b[i]], pb);
+  lanes(s.v[s.a[i]]) -= pa * d;
+  lanes(s.v[s.b[i]]) += pb * d;
+}
+
+/// Solves spring i with p its impulse so far, w the sum of its ends' inverse masses, C = l - L:
+///   dp = -(h k C + p + h c (v_b - v_a) . n) / (1 + h (h k + c) w).
+/// Returns the change of the spring's length, h w |dp|.
+FURROW_INLINE double solve_one(const Sweep& s, int i) {
+  const double h = s.h;
+  Lanes hh;
+  spread(h, hh);
+  const Lanes u = lanes(s.v[s.b[i]]) - lanes(s.v[s.a[i]]);
+  const Lanes d = (lanes(s.x[s.b[i]]) - lanes(s.x[s.a[i]])) + hh * u, p2 = d * d, du = d * u;
+  const double l = std::sqrt(std::max((p2[0] + p2[1]) + p2[2], least_l2)), inv = 1 / l;
+  const double dv = (du[0] + du[1]) + du[2], p = s.impulse[i];
+  const double dp = -(h * (s.k[i] * l - s.kL[i]) + p + h * (s.c[i] * (dv * inv))) /
+                    (1 + h * ((h * s.k[i] + s.c[i]) * s.inv_sum[i]));
+  s.impulse[i] = p + dp;
+  push(s, i, dp * inv, d);
+  return std::abs(h * (s.inv_sum[i] * dp));
+}
+
+/// Springs of one group share no particle, so four go at once; returns the largest change.
+FURROW_VECTOR_CLONES
+double solve_group(const Sweep* sweep, int begin, int end) {
+  const Sweep s = *sweep;
+  Lanes hh;
+  spread(s.h, hh);
+  double most = 0;
+  int i = begin;
+  for (; i + 4 <= end; i += 4) {
+    Lanes d[4], l2, dv;
+    Lanes u[4];
+    for (int j = 0; j < 4; ++j) {
+      u[j] = lanes(s.v[s.b[i + j]]) - lanes(s.v[s.a[i + j]]);
+      d[j] = (lanes(s.x[s.b[i + j]]) - lanes(s.x[s.a[i + j]])) + hh * u[j];
+    }
+    sum_xyz(d[0] * d[0], d[1] * d[1], d[2] * d[2], d[3] * d[3], l2);
+    sum_xyz(d[0] * u[0], d[1] * u[1], d[2] * u[2], d[3] * u[3], dv);
+    Lanes root;
+    for (int j = 0; j < 4; ++j) root[j] = std::sqrt(std::max(l2[j], least_l2));
+    const Lanes one = {1, 1, 1, 1}, inv = one / root, c = at(s.c + i), k = at(s.k + i), w = at(s.inv_sum + i);
+    const Lanes p = at(s.impulse + i);
+    const Lanes dp =
+        -(hh * (k * root - at(s.kL + i)) + p + hh * (c * (dv * inv))) / (one + hh * ((hh * k + c) * w));
+    *(UnalignedLanes*)(s.impulse + i) = p + dp;
+    const Lanes along = dp * inv, change = hh * (w * dp);
+    for (int j = 0; j < 4; ++j) {
+      push(s, i + j, along[j], d[j]);
+      most = std::max(most, std::abs(change[j]));
+    }
+  }
+  for (; i < end; ++i) most = std::max(most, solve_one(s, i));
+  return most;
+}
+
+double solve_groups(const Sweep& sweep, const std::vector<int>& begin, int first, int last, bool forward) {
+  double most = 0;
+  for (int n = first; n < last; ++n) {
+    const auto g = std::size_t(forward ? n : first + last - 1 - n);
+    most = std::max(most, solve_group(&sweep, begin[g], begin[g + 1]));
+  }
+  return most;
+}
+
+}  // namespace
+
+Xpbd::Xpbd(Motion& motion, const XpbdOptions& options) : motion_(motion), options_(options) {
+  if (options.iterations < 1) {
+    throw std::invalid_argument("xpbd: iterations = " + std::to_string(options.iterations) + " is not >= 1");
+  }
+  if (!(options.tolerance >= 0)) {
+    throw std::invalid_argument("xpbd: tolerance = " + std::to_string(options.tolerance) + " is not >= 0");
+  }
+  const PackedCloth& cloth = motion.cloth();
+  if (!cloth.shell.membrane.empty() || !cloth.shell.tension.empty() || !cloth.shell.hinges.empty()) {
+    throw std::invalid_argument("xpbd knows springs only: not " +
+                                std::to_string(cloth.shell.membrane.size()) + " membrane triangles, " +
+                                std::to_string(cloth.shell.tension.size()) + " tensions and " +
+                                std::to_string(cloth.shell.hinges.size()) +
+                                " hinges; choose springs for both, or another integrator");
+  }
+  dashpots_ = dashpots(cloth, motion.loads().spring_damping);
+  dashpots_.resize(cloth.a.size(), 0.0);
+  for (std::size_t i = 0; i < cloth.a.size(); ++i)
+    inv_mass_.push_back(cloth.inv_mass[cloth.a[i]] + cloth.inv_mass[cloth.b[i]]);
+}
+
+/// The springs of blocks at once, what lies between them after (or, in reverse, before) them.
+double Xpbd::sweep(double dt, bool forward) {
+  PackedCloth& cloth = motion_.cloth();
+  const Sweep sweep{cloth.x.data(),
+                    cloth.v.data(),
+                    cloth.a.data(),
+                    cloth.b.data(),
+                    cloth.k.data(),
+                    cloth.kL.data(),
+                    dashpots_.data(),
+                    cloth.inv_mass.data(),
+                    inv_mass_.data(),
+                    impulse_.data(),
+                    dt};
+  const std::vector<int>&group = cloth.sweep.group_begin, &block = cloth.sweep.block_begin;
+  double most = 0;
+  const auto solve_between = [&] {
+    most = std::max(most, solve_groups(sweep, group, block.back(), cloth.sweep.groups(), forward));
+  };
+  if (!forward) solve_between();
+  std::mutex mutex;
+  motion_.pool().run(cloth.sweep.blocks(), [&](int begin, int end) {
+    double mine = 0;
+    for (int i = begin; i < end; ++i) {
+      mine = std::max(mine,
+                      solve_groups(sweep, group, block[std::size_t(i)], block[std::size_t(i) + 1], forward));
+    }
+    const std::lock_guard lock(mutex);
+    most = std::max(most, mine);
+  });
+  if (forward) solve_between();
+  return most;
+}
+
+void Xpbd::step(double dt) {
+  if (!(dt > 0)) throw std::invalid_argument("xpbd: dt = " + std::to_string(dt) + " is not > 0");
+  motion_.update_compensation(motion_.from());
+  motion_.drag_and_kick(dt);
+  impulse_.assign(dashpots_.size(), 0.0);
+  for (int i = 0; i < options_.iterations; ++i) {
+    ++motion_.work().iterations;
+    if (sweep(dt, i % 2 == 0) <= options_.tolerance) break;
+  }
+  motion_.drift(dt);
+  ++motion_.work().steps;
+}
+
+}  // namespace furrow::physics

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "physics/rest/certificate.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "physics/cloth/elements.h"
+#include "physics/contact/residual_force.h"
+#include "physics/linear/free_stiffness.h"
+
+namespace furrow::physics {
+namespace {
+
+constexpr double contact_tolerance = 1e-5;  // m, as residual_force()
+constexpr double standard_gravity = 9.81;
+constexpr double least_push = 1e-6;  // of the weight
+constexpr double hold = 1e6;         // over the mean diagonal
+constexpr double neutral = 1e-6;     // 1/s^2
+constexpr double enough = 1e-11;     // relative error of (lambda + shift)^-1
+
+using Vectors = std::vector<Vec3>;
+
+void check(const Cloth& cloth, const CertificateOptions& o, std::span<const Vec3> loads) {
+  const auto fail = [](const std::string& what) { throw std::invalid_argument("certify: " + what); };
+  if (!o.gravity.allFinite()) fail("gravity is not finite");
+  if (!(o.friction >= 0) || !std::isfinite(o.friction))
+    fail("friction = " + std::to_string(o.friction) + " is not >= 0");
+  if (!(o.gap > 0) || !std::isfinite(o.gap)) fail("gap = " + std::to_string(o.gap) + " is not > 0");
+  if (o.max_steps < 2) fail("max_steps = " + std::to_string(o.max_steps) + " is not >= 2");
+  const Particles& p = cloth.particles;
+  if (p.mass.size() != p.size() || p.inv_mass.size() != p.size())
+    fail("the particles' arrays differ in length");
+  if (!loads.empty() && loads.size() != p.size()) fail("there are not as many loads as particles");
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!p.x[i].allFinite()) fail("position " + std::to_string(i) + " is not finite");
+    if (!loads.empty() && !loads[i].allFinite()) fail("load " + std::to_string(i) + " is not finite");
+    if (p.inv_mass[i] > 0 && !(p.mass[i] > 0 && std::isfinite(p.mass[i])))
+      fail("mass of free particle " + std::to_string(i) + " = " + std::to_string(p.mass[i]) + " is not > 0");
+  }
+}
+
+/// Second derivative of the field in the tangent plane of n [1/m], by central differences.
+Mat3 curvature(const Collider& body, const Vec3& x, const Vec3& n, double step) {
+  Mat3 second;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 e = step * Vec3::Unit(i);
+    second.col(i) = (body.smooth_at(x + e).gradient - body.smooth_at(x - e).gradient) / (2 * step);
+  }
+  const Mat3 tangent = Mat3::Identity() - n * n.transpose();
+  return tangent * (0.5 * (second + second.transpose())) * tangent;
+}
+
+/// What a particle's contact adds to K, and its kind.
+struct Support {
+  int particle;
+  Mat3 stiffness;
+};
+
+class Certifier {
+ public:
+  Certifier(const Cloth& cloth, const CertificateOptions& o, const Collider* body,
+            std::span<const Vec3> loads)
+      : cloth_(cloth), options_(o), stiffness_(cloth) {
+    stiffness_.assemble(cloth, cloth.particles.x, Stiffness::exact);
+    if (body) find_supports(*body, loads);
+  }
+
+  Certificate run() {
+    result_.smallest_eigenvalue = std::numeric_limits<double>::infinity();
+    if (stiffness_.free_particles() == 0) return result_;
+    double shift = neutral;
+    assemble(shift);
+    if (!stiffness_.factorise_definite()) {
+      result_.negative_eigenvalues = stiffness_.factorise();
+      for (assemble(shift = 1); !stiffness_.factorise_definite(); assemble(shift *= 16)) {
+        if (!(shift < 1e20)) throw std::invalid_argument("certify: a stiffness is not finite");
+      }
+    }
+    find_smallest(shift);
+    return result_;
+  }
+
+ private:
+  void find_supports(const Collider& body, std::span<const Vec3> loads) {
+    const Particles& p = cloth_.particles;
+    Vectors force(p.size(), Vec3::Zero());
+    if (!loads.empty()) force.assign(loads.begin(), loads.end());
+    add_forces(cloth_, p.x, force);
+    const double g = options_.gravity.norm() > 0 ? options_.gravity.norm() : standard_gravity;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (!(p.inv_mass[i] > 0)) continue;
+      const SignedDistance field = body.smooth_at(p.x[i]);
+      const double slope = field.gradient.norm(), weight = g / p.inv_mass[i];
+      if (!(field.value <= options_.gap + contact_tolerance) || !(slope > 0)) continue;
+      const Vec3 n = field.gradient / slope, push = -(force[i] + options_.gravity / p.inv_mass[i]);
+      const double normal = push.dot(n);
+      if (!(normal > least_push * weight)) continue;
+      const double most = hold * std::max(stiffness_.mean_diagonal(), weight / options_.gap);
+      if ((push - normal * n).norm() < options_.friction * normal) {
+        ++result_.sticking;
+        supports_.push_back({int(i), most * Mat3::Identity()});
+        continue;
+      }
+      ++result_.sliding;
+      supports_.push_back(
+          {int(i), most * n * n.transpose() - normal / slope * curvature(body, p.x[i], n, options_.gap)});
+    }
+  }
+
+  void assemble(double shift) {
+    stiffness_.assemble(cloth_, cloth_.particles.x, Stiffness::exact);
+    for (const Support& s : supports_) stiffness_.add(s.particle, s.stiffness);
+    const auto& inverse = cloth_.particles.inv_mass;
+    for (std::size_t i = 0; i < inverse.size(); ++i) {
+      if (inverse[i] > 0) stiffness_.add(int(i), shift / inverse[i] * Mat3::Identity());
+    }
+  }
+
+  double product(const Vectors& a, const Vectors& b) const {  // a.M b
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      if (cloth_.particles.inv_mass[i] > 0) sum += a[i].dot(b[i]) / cloth_.particles.inv_mass[i];
+    }
+    return sum;
+  }
+
+  /// The same numbers in every run, in all directions.
+  Vectors start() const {
+    Vectors v(cloth_.particles.size(), Vec3::Zero());
+    std::uint64_t state = 1;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      for (int c = 0; c < 3; ++c) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        if (cloth_.particles.inv_mass[i] > 0) v[i][c] = double(state >> 11) * 0x1p-53 + 0.1;
+      }
+    }
+    return v;
+  }
+
+  /// (K + shift M)^-1 M v.
+  Vectors apply(const Vectors& v) const {
+    Vectors u = v;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const double w = cloth_.particles.inv_mass[i];
+      u[i] = w > 0 ? Vec3(v[i] / w) : Vec3::Zero();
+    }
+    stiffness_.solve(u);
+    return u;
+  }
+
+  static void add(double factor, const Vectors& b, Vectors& a) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
+  }
+
+  void find_smallest(double shift) {
+    std::vector<Vectors> basis{start()};
+    std::vector<double> alpha, beta;
+    add(1 / std::sqrt(product(basis[0], basis[0])) - 1, Vectors(basis[0]), basis[0]);
+    const int most = std::min(options_.max_steps, 3 * stiffness_.free_particles());
+    for (;;) {
+      Vectors u = apply(basis.back());
+      alpha.push_back(product(u, basis.back()));
+      for (int round = 0; round < 2; ++round)
+        for (const Vectors& q : basis) add(-product(u, q), q, u);
+      beta.push_back(std::sqrt(product(u, u)));
+      const auto m = Eigen::Index(alpha.size());
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+      ritz.computeFromTridiagonal(Eigen::Map<Eigen::VectorXd>(alpha.data(), m),
+                                  Eigen::Map<Eigen::VectorXd>(beta.data(), m - 1));
+      const double value = ritz.eigenvalues()[m - 1];
+      const auto vector = ritz.eigenvectors().col(m - 1);
+      if (m >= most || beta.back() * std::abs(vector[m - 1]) <= enough * value) {
+        result_.smallest_eigenvalue = 1 / value - shift;
+        keep_mode(basis, vector);
+        return;
+      }
+      add(1 / beta.back() - 1, Vectors(u), u);
+      basis.push_back(std::move(u));
+    }
+  }
+
+  void keep_mode(const std::vector<Vectors>& basis, const Eigen::Ref<const Eigen::VectorXd>& weights) {
+    Vectors& mode = result_.mode;
+    mode.assign(basis[0].size(), Vec3::Zero());
+    for (std::size_t j = 0; j < basis.size(); ++j) add(weights[Eigen::Index(j)], basis[j], mode);
+    double longest = 0;
+    for (const Vec3& v : mode) longest = std::max(longest, v.norm());
+    for (Vec3& v : mode) v /= longest;
+    if (result_.smallest_eigenvalue > 0)
+      result_.frequency = std::sqrt(result_.smallest_eigenvalue) / (2 * std::numbers::pi);
+  }
+
+  const Cloth& cloth_;
+  const CertificateOptions& options_;
+  FreeStiffness stiffness_;
+  std::vector<Support> supports_;
+  Certificate result_;
+};
+
+}  // namespace
+
+Certificate certify(const Cloth& cloth, const CertificateOptions& o, const Collider* collider,
+                    std::span<const Vec3> loads) {
+  check(cloth, o, loads);
+  Certificate result = Certifier(cloth, o, collider, loads).run();
+  result.residual = residual_force(cloth, o.gravity, collider, o.friction, o.gap, loads);
+  return result;
+}
+
+}  // namespace furrow::physics

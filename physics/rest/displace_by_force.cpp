@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "physics/rest/displace_by_force.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "physics/base/check_particles.h"
+#include "physics/cloth/elements.h"
+#include "physics/cloth/tension_forces.h"
+#include "physics/contact/contact.h"
+#include "physics/contact/push_out.h"
+#include "physics/contact/residual_force.h"
+#include "physics/linear/stable_step.h"
+
+namespace furrow::physics {
+namespace {
+
+using Vectors = std::vector<Vec3>;
+
+constexpr double standard_gravity = 9.81;  // m/s^2
+constexpr double too_far = 100;            // extents
+constexpr double least_fall = 1e-3;        // of the residual from quarter to quarter, or it does not fall
+constexpr double came_back = 0.1;          // of its path: a net way below
+
+double strength(const Vec3& gravity) { return gravity.norm() > 0 ? gravity.norm() : standard_gravity; }
+
+void check(const Cloth& cloth, const DisplaceOptions& o) {
+  const auto need = [](bool good, const char* name, double value, const char* range) {
+    if (good && std::isfinite(value)) return;
+    throw std::invalid_argument(std::string("displace_by_force: ") + name + " = " + std::to_string(value) +
+                                " is not " + range);
+  };
+  for (const double g : o.gravity) need(true, "gravity", g, "finite");
+  need(o.friction >= 0, "friction", o.friction, ">= 0");
+  need(o.gap > 0, "gap", o.gap, "> 0");
+  need(o.tolerance > 0, "tolerance", o.tolerance, "> 0");
+  need(o.max_passes >= 0, "max_passes", o.max_passes, ">= 0");
+  need(o.rate >= 0, "rate", o.rate, ">= 0");
+  if (o.cap) {
+    need(o.limit > 0, "limit", o.limit, "> 0");
+    need(o.replacement > 0 && o.replacement <= o.limit, "replacement", o.replacement, "in (0, limit]");
+  }
+  check_particles(cloth.particles, "displace_by_force");
+}
+
+/// Of the free particles [N]; 0 if there are none.
+struct Weights {
+  double sum = 0, mean = 0, largest = 0;
+  Weights(const Particles& p, const Vec3& gravity) {
+    int count = 0;
+    for (const double w : p.inv_mass) {
+      if (w == 0) continue;
+      const double weight = strength(gravity) / w;
+      sum += weight;
+      largest = std::max(largest, weight);
+      ++count;
+    }
+    if (count > 0) mean = sum / count;
+  }
+};
+
+double distance(const Vectors& a, const Vectors& b) {
+  double square = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) square += (a[i] - b[i]).squaredNorm();
+  return std::sqrt(square);
+}
+
+/// The last two quarters of all passes: whether the cloth goes round and round.
+class Recurrence {
+ public:
+  explicit Recurrence(int max_passes) : quarter_(max_passes / 4), max_(max_passes) {}
+
+  /// A pass took the particles from `before`, where the residual was so, to x.
+  void note(int pass, double residual, const Vectors& before, const Vectors& x) {
+    if (pass < max_ - 2 * quarter_) return;
+    if (pass < max_ - quarter_) {
+      third_ += residual;
+      return;
+    }
+    if (start_.empty()) start_ = before;
+    fourth_ += residual;
+    path_ += distance(before, x);
+  }
+
+  bool found(const Vectors& x) const {
+    if (start_.empty() || fourth_ < (1 - least_fall) * third_) return false;
+    return distance(start_, x) < came_back * path_;
+  }
+
+ private:
+  int quarter_, max_;
+  double third_ = 0, fourth_ = 0, path_ = 0;  // sums of residuals; way of the last quarter [m]
+  Vectors start_;                             // of the last quarter
+};
+
+class Displacer {
+ public:
+  Displacer(Cloth& cloth, const Collider* collider, const DisplaceOptions& options)
+      : cloth_(cloth),
+        p_(cloth.particles),
+        collider_(collider),
+        o_(options),
+        weights_(p_, o_.gravity),
+        recurrence_(options.max_passes),
+        moves_(p_.size(), Vec3::Zero()) {
+    report_.rate = o_.rate > 0 ? o_.rate : displacement_rate(cloth, o_.gravity, o_.gap);
+    Eigen::AlignedBox3d box;
+    for (const Vec3& x : p_.x) box.extend(x);
+    if (p_.size() == 0) return;
+    centre_ = box.center();
+    const double extent = box.diagonal().norm();
+    reach_ = too_far * (extent > 0 ? extent : 1);
+  }
+
+  DisplaceReport run(const SettleObserver& observer) {
+    bool lost = false;
+    for (;; ++report_.passes) {
+      find_forces();
+      const bool converged = report_.residual <= o_.tolerance && !lost;
+      const bool stopped = observer && !observer({report_.passes, report_.residual});
+      const bool last = report_.passes == o_.max_passes;
+      if (lost || converged || stopped || last) {
+        report_.outcome = lost                      ? DisplaceOutcome::diverged
+                          : converged               ? DisplaceOutcome::converged
+                          : stopped                 ? DisplaceOutcome::stopped
+                          : recurrence_.found(p_.x) ? DisplaceOutcome::limit_cycle
+                                                    : DisplaceOutcome::unfinished;
+        break;
+      }
+      find_moves();
+      before_ = p_.x;
+      lost = !displace();
+      recurrence_.note(report_.passes, report_.residual, before_, p_.x);
+    }
+    report_.touching = collider_ ? count_contacts(p_.x, *collider_, o_.gap) : 0;
+    return report_;
+  }
+
+ private:
+  void find_forces() {
+    force_.assign(p_.size(), Vec3::Zero());
+    add_forces(cloth_, p_.x, force_);
+    report_.residual = residual_of(force_, p_, o_.gravity, collider_, o_.friction, o_.gap);
+  }
+
+  void find_moves() {
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      if (p_.inv_mass[i] == 0) continue;
+      Vec3 f = force_[i] + o_.gravity / p_.inv_mass[i];
+      const double size = f.norm();
+      if (o_.cap && size > o_.limit * weights_.mean) {
+        f *= o_.replacement * weights_.mean / size;
+        ++report_.capped;
+      }
+      moves_[i] = report_.rate * f;
+    }
+  }
+
+  /// false: it diverged.
+  bool displace() {
+    bool good = true;
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      p_.x[i] += moves_[i];
+      if (p_.inv_mass[i] > 0) good = good && (p_.x[i] - centre_).norm() <= reach_;  // false for NaN
+    }
+    if (!good || !collider_) return good;
+    touching_.clear();
+    for (std::size_t i = 0; i < p_.size(); ++i)
+      if (p_.inv_mass[i] > 0) rub(i);
+    push_out(p_.x, touching_, *collider_, o_.gap);
+    return true;
+  }
+
+  /// What came too near has its way along the body shortened.
+  void rub(std::size_t i) {
+    const SignedDistance field = collider_->at(p_.x[i]);
+    const double slope = field.gradient.norm();
+    if (!(field.value < o_.gap) || !(slope > 0)) return;
+    touching_.push_back(int(i));
+    const Vec3 n = field.gradient / slope;
+    const double into = -moves_[i].dot(n), pressed = std::min(into, (o_.gap - field.value) / slope);
+    const Vec3 slip = moves_[i] + into * n;
+    const double way = slip.norm(), most = o_.friction * std::max(0.0, pressed);
+    p_.x[i] -= way <= most ? slip : Vec3(most / way * slip);
+  }
+
+  Cloth& cloth_;
+  Particles& p_;
+  const Collider* collider_;
+  const DisplaceOptions& o_;
+  Weights weights_;
+  Recurrence recurrence_;
+  Vectors force_, moves_, before_;
+  std::vector<int> touching_;
+  Vec3 centre_ = Vec3::Zero();
+  double reach_ = 0;  // of particles from the centre [m]
+  DisplaceReport report_;
+};
+
+}  // namespace
+
+const char* name_of(DisplaceOutcome outcome) {
+  switch (outcome) {
+    case DisplaceOutcome::converged:
+      return "converged";
+    case DisplaceOutcome::limit_cycle:
+      return "limit cycle";
+    case DisplaceOutcome::unfinished:
+      return "unfinished";
+    case DisplaceOutcome::stopped:
+      return "stopped";
+    case DisplaceOutcome::diverged:
+      return "diverged";
+  }
+  return "";
+}
+
+double displacement_rate(const Cloth& cloth, const Vec3& gravity, double longest) {
+  (void)potential_energy(cloth, cloth.particles.x);  // checks the elements
+  const Weights weights(cloth.particles, gravity);
+  if (weights.sum == 0) return 0;
+  Cloth unit = cloth;  // with masses 1 the eigenvalues are those of K
+  for (double& w : unit.particles.inv_mass) w = w > 0 ? 1 : 0;
+  for (Tension& t : unit.tension) {
+    if (t.stretch == 0) continue;
+    const double strain = remaining_strain(t.stretch, weights.sum / 2);
+    t.stretch *= std::max(1.0, strain / tension_margin);  // with it the slope that the margin gives
+  }
+  const double omega = stable_step(unit).omega_max, most = longest / weights.largest;
+  return omega > 0 ? std::min(most, 1 / (omega * omega)) : most;
+}
+
+DisplaceReport displace_by_force(Cloth& cloth, const Collider* collider, const DisplaceOptions& options,
+                                 const SettleObserver& observer) {
+  check(cloth, options);
+  const DisplaceReport report = Displacer(cloth, collider, options).run(observer);
+  for (Vec3& v : cloth.particles.v) v.setZero();
+  return report;
+}
+
+}  // namespace furrow::physics

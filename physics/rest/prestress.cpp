@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "physics/rest/prestress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "physics/cloth/dihedral.h"
+#include "physics/cloth/hinge_forces.h"
+#include "physics/contact/residual_force.h"
+#include "physics/rest/find_sag.h"
+#include "physics/rest/invert_elements.h"
+
+namespace furrow::physics {
+namespace {
+
+constexpr double contact_tolerance = 1e-5;  // m, as residual_force()
+constexpr double standard_gravity = 9.81;
+constexpr double largest_sag = 1e6;       // m: gravity over the shift
+constexpr double least_imbalance = 1e-9;  // of gravity
+
+using Forces = std::vector<Vec3>;
+
+void check(const Cloth& cloth, const PrestressOptions& o, std::span<const Vec3> loads) {
+  const auto fail = [](const std::string& what) { throw std::invalid_argument("prestress: " + what); };
+  const auto range = [&](bool good, const char* name, double value, const char* limits) {
+    if (!good || !std::isfinite(value)) fail(std::string(name) + " = " + std::to_string(value) + limits);
+  };
+  if (!o.gravity.allFinite()) fail("gravity is not finite");
+  range(o.friction >= 0, "friction", o.friction, " is not >= 0");
+  range(o.gap > 0, "gap", o.gap, " is not > 0");
+  range(o.max_strain > 0 && o.max_strain <= 0.15, "max_strain", o.max_strain, " is not in (0, 0.15]");
+  range(o.max_compression >= 0 && o.max_compression <= 0.15, "max_compression", o.max_compression,
+        " is not in [0, 0.15]");
+  range(o.max_angle > 0 && o.max_angle <= 3, "max_angle", o.max_angle, " is not in (0, 3]");
+  range(o.tolerance > 0, "tolerance", o.tolerance, " is not > 0");
+  range(o.max_iterations >= 1, "max_iterations", o.max_iterations, " is not >= 1");
+  const Particles& p = cloth.particles;
+  if (p.mass.size() != p.size() || p.inv_mass.size() != p.size())
+    fail("the particles' arrays differ in length");
+  if (!loads.empty() && loads.size() != p.size()) {
+    fail(std::to_string(loads.size()) + " loads for " + std::to_string(p.size()) + " particles");
+  }
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!p.x[i].allFinite()) fail("position " + std::to_string(i) + " is not finite");
+    if (!loads.empty() && !loads[i].allFinite()) fail("load " + std::to_string(i) + " is not finite");
+    if (p.inv_mass[i] > 0 && !(p.mass[i] > 0 && std::isfinite(p.mass[i]))) {
+      fail("mass of free particle " + std::to_string(i) + " = " + std::to_string(p.mass[i]) + " is not > 0");
+    }
+  }
+}
+
+std::vector<SagContact> contacts_of(const Particles& p, const Collider* collider, double gap) {
+  std::vector<SagContact> contacts;
+  for (std::size_t i = 0; collider && i < p.size(); ++i) {
+    if (!(p.inv_mass[i] > 0)) continue;
+    const SignedDistance field = collider->at(p.x[i]);
+    if (field.value <= gap + contact_tolerance && field.gradient.norm() > 0)
+      contacts.push_back({int(i), field.gradient.normalized()});
+  }
+  return contacts;
+}
+
+/// Pieces that the load moves, with a contact or without one.
+std::vector<RigidImbalance> moved(const Cloth& cloth, const Forces& load,
+                                  std::span<const SagContact> contacts, bool touching, double g) {
+  std::vector<RigidImbalance> pieces = rigid_imbalances(cloth, load);
+  std::vector<char> touches(cloth.particles.size());
+  for (const SagContact& c : contacts) touches[c.particle] = 1;
+  std::erase_if(pieces, [&](const RigidImbalance& r) {
+    const bool any = std::any_of(r.piece.begin(), r.piece.end(), [&](int i) { return touches[i]; });
+    return any != touching || !(r.largest > least_imbalance * g);
+  });
+  return pieces;
+}
+
+void invert_springs(const Particles& p, std::span<const double> tension, std::vector<Spring>& springs,
+                    PrestressReport& report) {
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    Spring& s = springs[i];
+    const double l = (p.x[s.b] - p.x[s.a]).norm();
+    s.rest_length = rest_length_for(l, s.stiffness, tension[i]).value();  // the bounds see to it
+    report.max_strain = std::max(report.max_strain, std::abs(l - s.rest_length) / s.rest_length);
+  }
+}
+
+void invert_tension(const Particles& p, std::span<const double> pull, std::vector<Tension>& tension,
+                    PrestressReport& report) {
+  for (std::size_t i = 0; i < tension.size(); ++i) {
+    Tension& t = tension[i];
+    const double l = (p.x[t.b] - p.x[t.a]).norm();
+    t.rest_length = rest_length_for(t, l, pull[i]).value();  // the bounds see to it
+    report.max_strain = std::max(report.max_strain, std::abs(l - t.rest_length) / t.rest_length);
+  }
+}
+
+void invert_triangles(const Particles& p, const SagForces& f, std::vector<MembraneTriangle>& triangles,
+                      PrestressReport& report) {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    MembraneTriangle& t = triangles[i];
+    const std::array<Vec3, 3> x{p.x[t.vertices[0]], p.x[t.vertices[1]], p.x[t.vertices[2]]};
+    // The law has an answer to all that the bounds allow, unless Poisson's ratio is near 1; then to less.
+    Eigen::Vector3d tension = f.membrane[i];
+    auto rest_lengths = rest_lengths_for(x, t.lambda, t.mu, tension);
+    for (; !rest_lengths; rest_lengths = rest_lengths_for(x, t.lambda, t.mu, tension)) tension *= 0.8;
+    t.rest_lengths = *rest_lengths;
+    for (int e = 0; e < 3; ++e) {
+      const double l = (x[(e + 2) % 3] - x[(e + 1) % 3]).norm(), rest = t.rest_lengths[e];
+      report.max_strain = std::max(report.max_strain, std::abs(l - rest) / rest);
+    }
+  }
+}
+
+void invert_hinges(const SagForces& f, Cloth& cloth, PrestressReport& report) {
+  const std::vector<Vec3>& x = cloth.particles.x;
+  for (std::size_t i = 0; i < cloth.hinges.size(); ++i) {
+    Hinge& h = cloth.hinges[i];
+    const auto& v = h.vertices;
+    const double theta = dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+    h.rest_angle = rest_angle_for(cloth.hinge_law, h.stiffness, theta, f.hinges[i]).value();
+    report.max_angle = std::max(report.max_angle, std::abs(bend(theta, h.rest_angle)));
+  }
+}
+
+void invert(const SagForces& f, Cloth& cloth, PrestressReport& report) {
+  invert_springs(cloth.particles, f.structural, cloth.structural, report);
+  invert_springs(cloth.particles, f.bending, cloth.bending, report);
+  invert_tension(cloth.particles, f.tension, cloth.tension, report);
+  invert_triangles(cloth.particles, f, cloth.membrane, report);
+  invert_hinges(f, cloth, report);
+  std::size_t place = 0;
+  const auto list = [&](std::size_t n, std::vector<int>& active) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (f.scale[place++] < 1) active.push_back(int(i));
+    }
+  };
+  list(cloth.structural.size(), report.structural);
+  list(cloth.bending.size(), report.bending);
+  list(cloth.tension.size(), report.tension);
+  list(cloth.membrane.size(), report.membrane);
+  list(cloth.hinges.size(), report.hinges);
+}
+
+}  // namespace
+
+PrestressReport prestress(Cloth& cloth, const PrestressOptions& o, const Collider* collider,
+                          std::span<const Vec3> loads) {
+  check(cloth, o, loads);
+  const Particles& p = cloth.particles;
+  const double g = o.gravity.norm() > 0 ? o.gravity.norm() : standard_gravity;
+  const std::vector<SagContact> contacts = contacts_of(p, collider, o.gap);
+  SagSystem system(cloth, {o.max_strain, std::min(o.max_compression, o.max_strain), o.max_angle, o.friction},
+                   contacts);
+  Forces load(p.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!(p.inv_mass[i] > 0)) continue;
+    load[i] = o.gravity / p.inv_mass[i];
+    if (!loads.empty()) load[i] += loads[i];
+  }
+  PrestressReport report;
+  report.imbalance = moved(cloth, load, contacts, false, g);
+  for (const RigidImbalance& r : report.imbalance) remove_rigid_load(cloth, r, load);
+  const Sag sag = find_sag(p, system, load, {g, o.tolerance, o.max_iterations});
+  report.iterations = sag.iterations;
+  report.factorisations = sag.factorisations;
+  if (!contacts.empty()) {
+    for (RigidImbalance& r : moved(cloth, sag.net, contacts, true, g))
+      report.imbalance.push_back(std::move(r));
+  }
+  invert(sag.forces, cloth, report);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    report.touching.push_back(contacts[i].particle);
+    report.contact_force.push_back(sag.forces.contact[i]);
+  }
+  report.residual = residual_force(cloth, o.gravity, collider, o.friction, o.gap, loads);
+  return report;
+}
+
+}  // namespace furrow::physics

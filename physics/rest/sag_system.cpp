@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "physics/rest/sag_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "physics/cloth/dihedral.h"
+#include "physics/cloth/hinge_forces.h"
+#include "physics/cloth/membrane.h"
+#include "physics/cloth/tension_forces.h"
+
+namespace furrow::physics {
+namespace {
+
+constexpr double body_stiffness = 10;   // over the mean diagonal
+constexpr double largest_shift = 1e20;  // 1/s^2
+
+/// The cloth with its rest state as it lies; tension becomes linear.
+Cloth at_rest(Cloth cloth) {
+  const std::vector<Vec3>& x = cloth.particles.x;
+  for (Tension t : cloth.tension) {
+    t.rest_length = (x[t.b] - x[t.a]).norm();
+    cloth.bending.push_back({t.a, t.b, t.rest_length, tension_slope(t, working_strain)});
+  }
+  cloth.tension.clear();
+  for (auto* springs : {&cloth.structural, &cloth.bending})
+    for (Spring& s : *springs) s.rest_length = (x[s.b] - x[s.a]).norm();
+  for (MembraneTriangle& t : cloth.membrane)
+    for (int i = 0; i < 3; ++i)
+      t.rest_lengths[i] = (x[t.vertices[(i + 2) % 3]] - x[t.vertices[(i + 1) % 3]]).norm();
+  for (Hinge& h : cloth.hinges) {
+    const auto& v = h.vertices;
+    h.rest_angle = dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+  }
+  cloth.hinge_law = HingeLaw::linear;
+  return cloth;
+}
+
+struct Clamped {
+  double force, potential, scale;
+};
+/// A spring of stiffness k by q whose force stays within [low, high]; beyond, its energy goes on as a line.
+Clamped clamped(double k, double q, double low, double high) {
+  const double force = k * q;
+  if (force <= high && force >= low) return {force, 0.5 * force * q, 1};
+  const double limit = force > high ? high : low;
+  return {limit, limit * q - 0.5 * limit * limit / k, 0};
+}
+
+/// The point of Coulomb's cone about n next to p.
+Vec3 onto_cone(const Vec3& p, const Vec3& n, double friction) {
+  const double normal = p.dot(n);
+  const Vec3 side = p - normal * n;
+  const double slip = side.norm();
+  if (slip <= friction * normal) return p;
+  if (normal <= -friction * slip) return Vec3::Zero();
+  const double along = (normal + friction * slip) / (1 + friction * friction);
+  return slip > 0 ? Vec3(along * (n + friction / slip * side)) : Vec3(along * n);
+}
+
+}  // namespace
+
+SagSystem::SagSystem(const Cloth& cloth, const SagLimits& limits, std::span<const SagContact> contacts)
+    : rest_(at_rest(cloth)),
+      now_(rest_),
+      contacts_(contacts.begin(), contacts.end()),
+      friction_(limits.friction),
+      stiffness_(rest_) {
+  add_bars(rest_.structural, limits);
+  add_bars(std::span(rest_.bending).first(cloth.bending.size()), limits);
+  tension_begin_ = bars_.size();
+  add_tension(cloth, limits);
+  add_plates(rest_, limits.strain);
+  add_bends(cloth, limits.angle);
+  if (contacts_.empty()) return;
+  stiffness_.assemble(rest_, rest_.particles.x, Stiffness::positive_part);
+  contact_stiffness_ = body_stiffness * stiffness_.mean_diagonal();
+  if (!(contact_stiffness_ > 0)) contact_stiffness_ = 1;  // a cloth without stiffness
+}
+
+void SagSystem::add_bars(std::span<const Spring> springs, const SagLimits& limits) {
+  for (const Spring& s : springs) {
+    const double k = s.stiffness, l = s.rest_length;
+    const Vec3 d = rest_.particles.x[s.b] - rest_.particles.x[s.a];
+    if (!(l > 0)) throw std::invalid_argument("prestress: a spring has no length");
+    bars_.push_back({s.a, s.b, d / l, k, -k * l * limits.compression / (1 - limits.compression),
+                     k * l * limits.strain / (1 + limits.strain)});
+  }
+}
+
+/// A law that cannot push has its lower limit at 0.
+void SagSystem::add_tension(const Cloth& cloth, const SagLimits& limits) {
+  for (std::size_t i = 0; i < cloth.tension.size(); ++i) {
+    const Tension& t = cloth.tension[i];
+    const Spring& s = rest_.bending[cloth.bending.size() + i];
+    if (!(s.rest_length > 0)) throw std::invalid_argument("prestress: a tension has no length");
+    bars_.push_back({s.a, s.b, (rest_.particles.x[s.b] - rest_.particles.x[s.a]) / s.rest_length, s.stiffness,
+                     tension_law(t, -limits.compression).force, tension_law(t, limits.strain).force});
+  }
+}
+
+void SagSystem::add_plates(const Cloth& cloth, double strain) {
+  for (const MembraneTriangle& t : cloth.membrane) {
+    if (!(t.mu > 0) && t.lambda != 0) {
+      throw std::invalid_argument("prestress: a membrane triangle has lambda = " + std::to_string(t.lambda) +
+                                  " but mu = 0");
+    }
+    Plate p{t.vertices, {}, {}, 0};
+    const MembraneConstants constants = membrane_constants(t);
+    p.quadratic = constants.quadratic;
+    const double young = t.mu > 0 ? 4 * t.mu * (t.lambda + t.mu) / (t.lambda + 2 * t.mu) : 0;
+    p.reach = strain * std::sqrt(constants.area * young);
+    for (int i = 0; i < 3; ++i)
+      p.edge[i] = cloth.particles.x[t.vertices[(i + 2) % 3]] - cloth.particles.x[t.vertices[(i + 1) % 3]];
+    plates_.push_back(p);
+  }
+}
+
+void SagSystem::add_bends(const Cloth& cloth, double angle) {
+  const auto& x = cloth.particles.x;
+  for (const Hinge& h : cloth.hinges) {
+    const auto& v = h.vertices;
+    const Dihedral d = dihedral(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+    const double high = hinge_moment(cloth.hinge_law, h.stiffness, angle).moment;
+    bends_.push_back({v, d.gradient, h.stiffness, high});
+  }
+}
+
+void SagSystem::respond_bars(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const {
+  for (std::size_t i = 0; i < bars_.size(); ++i) {
+    const Bar& b = bars_[i];
+    const Clamped c = clamped(b.stiffness, b.direction.dot(w[b.b] - w[b.a]), b.low, b.high);
+    (i < rest_.structural.size() ? f.structural
+     : i < tension_begin_        ? f.bending
+                                 : f.tension)
+        .push_back(c.force);
+    f.potential += c.potential;
+    f.scale.push_back(c.scale);
+    force[b.a] += c.force * b.direction;
+    force[b.b] -= c.force * b.direction;
+  }
+}
+
+void SagSystem::respond_plates(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const {
+  for (const Plate& p : plates_) {
+    Eigen::Vector3d d;
+    for (int i = 0; i < 3; ++i)
+      d[i] = 2 * p.edge[i].dot(w[p.vertices[(i + 2) % 3]] - w[p.vertices[(i + 1) % 3]]);
+    Eigen::Vector3d tension = p.quadratic * d;
+    const double size = std::sqrt(std::max(0.0, d.dot(tension)));
+    const double scale = size > p.reach ? p.reach / size : 1;
+    tension *= scale;
+    f.potential += scale < 1 ? p.reach * (size - 0.5 * p.reach) : 0.5 * size * size;
+    f.scale.push_back(scale);
+    f.membrane.push_back(tension);
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 pull = 2 * tension[i] * p.edge[i];
+      force[p.vertices[(i + 1) % 3]] += pull;
+      force[p.vertices[(i + 2) % 3]] -= pull;
+    }
+  }
+}
+
+void SagSystem::respond_bends(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const {
+  for (const Bend& b : bends_) {
+    double q = 0;
+    for (int i = 0; i < 4; ++i) q += b.gradient[i].dot(w[b.vertices[i]]);
+    const Clamped c = clamped(b.stiffness, q, -b.high, b.high);
+    f.hinges.push_back(c.force);
+    f.potential += c.potential;
+    f.scale.push_back(c.scale);
+    for (int i = 0; i < 4; ++i) force[b.vertices[i]] -= c.force * b.gradient[i];
+  }
+}
+
+void SagSystem::respond_contacts(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const {
+  for (const SagContact& c : contacts_) {
+    const Vec3 wanted = -contact_stiffness_ * w[c.particle], z = onto_cone(wanted, c.normal, friction_);
+    f.contact.push_back(z);
+    f.potential += 0.5 * z.squaredNorm() / contact_stiffness_;
+    f.scale.push_back(z == wanted ? 1 : z.isZero(0) ? 0 : 0.5);
+    force[c.particle] += z;
+  }
+}
+
+SagForces SagSystem::respond(std::span<const Vec3> w, std::span<Vec3> force) const {
+  SagForces f;
+  f.scale.reserve(bars_.size() + plates_.size() + bends_.size() + contacts_.size());
+  respond_bars(w, force, f);
+  respond_plates(w, force, f);
+  respond_bends(w, force, f);
+  respond_contacts(w, force, f);
+  return f;
+}
+
+/// The derivative of onto_cone() times the stiffness.
+Mat3 SagSystem::contact_stiffness(const SagContact& contact, const Vec3& w) const {
+  const Vec3 p = -w, &n = contact.normal, z = onto_cone(p, n, friction_);
+  if (z == p) return contact_stiffness_ * Mat3::Identity();
+  if (z.isZero(0)) return Mat3::Zero();
+  const Vec3 ray = z.normalized(), side = p - p.dot(n) * n;
+  const double slip = side.norm();
+  Mat3 k = ray * ray.transpose();
+  if (slip > 0 && friction_ > 0) {
+    const Vec3 t = side / slip;
+    k += z.dot(t) / slip * (Mat3::Identity() - n * n.transpose() - t * t.transpose());
+  }
+  return contact_stiffness_ * k;
+}
+
+void SagSystem::factorise(const SagForces& at, std::span<const Vec3> w, double shift) {
+  std::size_t i = 0;
+  for (auto [now, rest] : {std::pair{&now_.structural, &rest_.structural}, {&now_.bending, &rest_.bending}})
+    for (std::size_t s = 0; s < now->size(); ++s) (*now)[s].stiffness = at.scale[i++] * (*rest)[s].stiffness;
+  for (std::size_t t = 0; t < now_.membrane.size(); ++t, ++i) {
+    now_.membrane[t].lambda = at.scale[i] * rest_.membrane[t].lambda;
+    now_.membrane[t].mu = at.scale[i] * rest_.membrane[t].mu;
+  }
+  for (std::size_t h = 0; h < now_.hinges.size(); ++h)
+    now_.hinges[h].stiffness = at.scale[i++] * rest_.hinges[h].stiffness;
+  stiffness_.assemble(now_, now_.particles.x, Stiffness::positive_part);
+  for (const SagContact& c : contacts_) stiffness_.add(c.particle, contact_stiffness(c, w[c.particle]));
+  for (double added = shift;; added *= 100) {
+    const Particles& p = now_.particles;
+    for (std::size_t v = 0; v < p.size(); ++v) {
+      if (p.inv_mass[v] > 0) stiffness_.add(int(v), added / p.inv_mass[v] * Mat3::Identity());
+    }
+    if (stiffness_.factorise_definite()) return;
+    if (!(added < largest_shift)) throw std::invalid_argument("prestress: a stiffness is not finite");
+  }
+}
+
+}  // namespace furrow::physics

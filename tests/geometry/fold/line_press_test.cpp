@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/fold/line_press.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <stdexcept>
+
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/sheet.h"
+#include "tests/test_meshes.h"
+
+using namespace furrow::geometry;
+
+namespace {
+
+/// Two lines across, at a third and at two thirds of the height.
+Mesh two_lines() {
+  Mesh mesh = equilateral_sheet(0.6, 0.6, 0.02);
+  auto line = ensure_map(mesh, kLine);
+  for (Vertex v : mesh.vertices())
+    for (int i : {0, 1})
+      if (std::abs(mesh.point(v).y() - 0.2 * (i + 1)) < 0.009) line[v] = i;
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("hinge_presses: of each line within its width, the greater where two meet, else 1") {
+  const Mesh mesh = two_lines();
+  CHECK(hinge_presses(mesh, {}, {}).empty());
+  CHECK(hinge_presses(mesh, {1, 1}, {}).empty());
+  const std::vector<double> apart = hinge_presses(mesh, {10, 3}, {0.06, 0.1}),
+                            meeting = hinge_presses(mesh, {10, 3}, {0.06, 0.5});
+  REQUIRE(apart.size() == mesh.num_edges());
+  for (Edge e : mesh.edges()) {
+    const auto reach = [&](double y) {
+      return std::max(std::abs(mesh.point(mesh.vertex(e, 0)).y() - y),
+                      std::abs(mesh.point(mesh.vertex(e, 1)).y() - y));
+    };
+    if (reach(0.2) < 0.03) CHECK((apart[e.idx()] == 10 && meeting[e.idx()] == 10));
+    if (reach(0.4) < 0.05) CHECK((apart[e.idx()] == 3 && meeting[e.idx()] == 3));
+    if (reach(0.2) > 0.08 && reach(0.4) > 0.1) CHECK(apart[e.idx()] == 1);
+  }
+}
+
+TEST_CASE("hinge_presses refuses what is less than 1") {
+  const Mesh mesh = two_lines();
+  CHECK_THROWS_WITH(hinge_presses(mesh, {1, 0.5}, {}), Catch::Contains("line 1 is 0.5"));
+  CHECK_THROWS_AS(hinge_presses(mesh, {NAN}, {}), std::invalid_argument);
+}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "bridge/convert.h"
+#include "io/animation/animation_file.h"
+#include "io/base/byte_order.h"
+#include "tests/io/base/io_test_helpers.h"
+
+using namespace furrow;
+using namespace furrow::tests;
+using nlohmann::json;
+using physics::Vec3;
+
+namespace {
+
+/// A GLB taken apart again, without the writer's help.
+struct Glb {
+  json scene;
+  std::string binary;
+
+  explicit Glb(const std::string& bytes) {
+    REQUIRE(bytes.substr(0, 4) == "glTF");
+    REQUIRE(integer(bytes, 4) == 2);
+    REQUIRE(integer(bytes, 8) == bytes.size());
+    const std::size_t text = integer(bytes, 12);
+    REQUIRE(bytes.substr(16, 4) == "JSON");
+    REQUIRE(text % 4 == 0);
+    scene = json::parse(bytes.substr(20, text));
+    REQUIRE(integer(bytes, 20 + text) == bytes.size() - 28 - text);
+    REQUIRE(bytes.substr(24 + text, 4) == std::string("BIN\0", 4));
+    binary = bytes.substr(28 + text);
+    REQUIRE(scene["buffers"][0]["byteLength"] == binary.size());
+  }
+
+  static std::uint32_t integer(const std::string& bytes, std::size_t at) {
+    return io::read_in_order<std::uint32_t>(&bytes.at(at), std::endian::little);
+  }
+
+  template <class T>
+  std::vector<T> numbers(const json& accessor) const {
+    const json& a = scene["accessors"].at(accessor.get<std::size_t>());
+    const json& view = scene["bufferViews"].at(a["bufferView"].get<std::size_t>());
+    const std::size_t width = a["type"] == "VEC3" ? 3 : a["type"] == "VEC2" ? 2 : 1;
+    const std::size_t count = a["count"].get<std::size_t>() * width;
+    REQUIRE(view["byteLength"] == 4 * count);
+    std::vector<T> values;
+    for (std::size_t i = 0; i < count; ++i)
+      values.push_back(io::read_in_order<T>(&binary.at(view["byteOffset"].get<std::size_t>() + 4 * i),
+                                            std::endian::little));
+    for (std::size_t k = 0; k < width && a.contains("min"); ++k) {
+      T low = values[k], high = values[k];
+      for (std::size_t i = k; i < count; i += width)
+        low = std::min(low, values[i]), high = std::max(high, values[i]);
+      CHECK(a["min"][k] == low);
+      CHECK(a["max"][k] == high);
+    }
+    return values;
+  }
+  const json& primitive() const { return scene["meshes"][0]["primitives"][0]; }
+};
+
+std::vector<Vec3> moved(const geometry::Mesh& mesh, int i) {
+  std::vector<Vec3> x = bridge::positions_of(mesh);
+  for (Vec3& p : x) p += Vec3(0, std::sin(3 * p.x() + i) - std::sin(3 * p.x()), 0);
+  return x;
+}
+
+Glb glb_of(const geometry::Mesh& mesh, int frames, const io::AnimationOptions& options = {}) {
+  TemporaryFolder folder;
+  io::AnimationWriter writer(folder / "a.glb", mesh, options);
+  for (int i = 0; i < frames; ++i) writer.add(moved(mesh, i));
+  writer.close();
+  return Glb(slurp(folder / "a.glb"));
+}
+
+geometry::Mesh plain_grid(int n) {
+  geometry::Mesh mesh = decorated_grid(n).mesh;
+  auto texture = *geometry::find_map(mesh, geometry::kTexture);
+  mesh.remove_property_map(texture);
+  return mesh;
+}
+
+/// Frame i as a viewer that sums base and weighted targets shows it, against the positions given.
+double farthest(const Glb& glb, const geometry::Mesh& mesh, int i) {
+  const auto base = glb.numbers<float>(glb.primitive()["attributes"]["POSITION"]);
+  std::vector<float> added(base.size(), 0);
+  if (i > 0) added = glb.numbers<float>(glb.primitive()["targets"][i - 1]["POSITION"]);
+  const std::vector<Vec3> wanted = moved(mesh, i);
+  double largest = 0;
+  for (std::size_t v = 0; v < wanted.size(); ++v)
+    for (std::size_t k = 0; k < 3; ++k)
+      largest =
+          std::max(largest, std::abs(base[3 * v + k] + added[3 * v + k] - wanted[v][static_cast<int>(k)]));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("GLB: base and targets add up to the frames, normals are those of the frames") {
+  const geometry::Mesh mesh = plain_grid(5);
+  const Glb glb = glb_of(mesh, 4);
+  CHECK(glb.primitive()["targets"].size() == 3);
+  CHECK_FALSE(glb.primitive()["attributes"].contains("TEXCOORD_0"));
+  for (int i = 0; i < 4; ++i) CHECK(farthest(glb, mesh, i) < 3e-7);
+  const auto indices = glb.numbers<std::uint32_t>(glb.primitive()["indices"]);
+  CHECK(indices.size() == 3 * mesh.number_of_faces());
+  const auto triangles = bridge::triangles_of(mesh);
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    CHECK(indices[i] == static_cast<std::uint32_t>(triangles[i / 3][i % 3]));
+  const auto normals = glb.numbers<float>(glb.primitive()["attributes"]["NORMAL"]);
+  for (std::size_t v = 0; v < normals.size(); v += 3)
+    CHECK(std::hypot(normals[v], normals[v + 1], normals[v + 2]) == Approx(1).epsilon(1e-6));
+  const auto turned = glb.numbers<float>(glb.primitive()["targets"][2]["NORMAL"]);
+  for (std::size_t v = 0; v < normals.size(); v += 3)
+    CHECK(std::hypot(normals[v] + turned[v], normals[v + 1] + turned[v + 1],
+                     normals[v + 2] + turned[v + 2]) == Approx(1).epsilon(1e-5));
+}
+
+TEST_CASE("GLB: one target is on at each frame's time, none at the first") {
+  for (const auto rule : {io::Interpolation::linear, io::Interpolation::step}) {
+    const Glb glb = glb_of(plain_grid(2), 3, {.fps = 8, .start = 0.25, .interpolation = rule});
+    const json& animation = glb.scene["animations"][0];
+    CHECK(animation["channels"][0]["target"]["path"] == "weights");
+    CHECK(animation["samplers"][0]["interpolation"] == (rule == io::Interpolation::step ? "STEP" : "LINEAR"));
+    CHECK(glb.numbers<float>(animation["samplers"][0]["input"]) == std::vector<float>{0.25F, 0.375F, 0.5F});
+    CHECK(glb.numbers<float>(animation["samplers"][0]["output"]) == std::vector<float>{0, 0, 1, 0, 0, 1});
+    CHECK(glb.scene["meshes"][0]["weights"] == json::array({0, 0}));
+  }
+}
+
+TEST_CASE("GLB: one frame is a plain mesh") {
+  const geometry::Mesh mesh = plain_grid(2);
+  const Glb glb = glb_of(mesh, 1);
+  CHECK_FALSE(glb.scene.contains("animations"));
+  CHECK_FALSE(glb.primitive().contains("targets"));
+  CHECK(farthest(glb, mesh, 0) < 3e-7);
+}
+
+TEST_CASE("GLB: a vertex of several texture coordinates is there once for each, at the end") {
+  const geometry::Mesh mesh = decorated_grid(3).mesh;
+  const auto texture = *geometry::find_map(mesh, geometry::kTexture);
+  const Glb glb = glb_of(mesh, 3);
+  const auto indices = glb.numbers<std::uint32_t>(glb.primitive()["indices"]);
+  const auto t = glb.numbers<float>(glb.primitive()["attributes"]["TEXCOORD_0"]);
+  const auto base = glb.numbers<float>(glb.primitive()["attributes"]["POSITION"]);
+  CHECK(t.size() / 2 > mesh.number_of_vertices());
+  CHECK(base.size() / 3 == t.size() / 2);
+  std::size_t corner = 0;
+  for (const geometry::Face f : mesh.faces()) {
+    geometry::Halfedge h = mesh.prev(mesh.halfedge(f));
+    for (int k = 0; k < 3; ++k, h = mesh.next(h), ++corner) {
+      const std::uint32_t v = indices[corner];
+      const bool none = std::isnan(texture[h][0]) || std::isnan(texture[h][1]);
+      CHECK(t[2 * v] == static_cast<float>(none ? 0 : texture[h][0]));
+      CHECK(t[2 * v + 1] == static_cast<float>(none ? 1 : 1 - texture[h][1]));
+      CHECK(base[3 * v] == static_cast<float>(mesh.point(mesh.target(h)).x()));
+      if (v < mesh.number_of_vertices()) CHECK(v == std::size_t(mesh.target(h)));
+    }
+  }
+  CHECK(corner * 1 == indices.size());
+}
+
+TEST_CASE("GLB: our own reader takes the mesh of the first frame back") {
+  TemporaryFolder folder;
+  const geometry::Mesh mesh = plain_grid(4);
+  io::AnimationWriter writer(folder / "a.glb", mesh);
+  for (int i = 0; i < 3; ++i) writer.add(moved(mesh, i));
+  writer.close();
+  const geometry::Mesh back = io::read_mesh(folder / "a.glb").mesh;
+  CHECK(back.number_of_vertices() == mesh.number_of_vertices());
+  CHECK(back.number_of_faces() == mesh.number_of_faces());
+  CHECK(back.number_of_edges() == mesh.number_of_edges());
+}

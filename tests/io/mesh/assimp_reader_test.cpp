@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "geometry/mesh/vertex_attributes.h"
+#include "tests/io/base/io_test_helpers.h"
+
+using namespace furrow;
+using namespace furrow::geometry;
+using namespace furrow::tests;
+using nlohmann::json;
+
+namespace {
+
+template <class T>
+void put(std::string& bytes, T value) {
+  const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  bytes.append(raw.data(), raw.size());
+}
+
+/// Two triangles that share an edge, with that edge's vertices twice, as glTF has it at a texture seam.
+struct Seam {
+  std::string buffer;
+  json scene;
+
+  Seam() {
+    const float positions[6][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0.1F}};
+    for (const auto& p : positions)
+      for (const float x : p) put(buffer, x);
+    for (int v = 0; v < 6; ++v) put(buffer, static_cast<float>(v) / 8), put(buffer, 0.25F);
+    for (std::uint16_t i = 0; i < 6; ++i) put(buffer, i);
+    scene = json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+      "nodes": [{"mesh": 0, "name": "sleeve", "scale": [2, 2, 2], "translation": [0, 0, 5]}],
+      "materials": [{"name": "silk"}],
+      "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
+      "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 72}, {"buffer": 0, "byteOffset": 72, "byteLength": 48},
+                      {"buffer": 0, "byteOffset": 120, "byteLength": 12}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [0,0,0], "max": [1,1,1]},
+                    {"bufferView": 1, "componentType": 5126, "count": 6, "type": "VEC2"},
+                    {"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"}]})");
+    scene["buffers"] = json::array({{{"byteLength", buffer.size()}}});
+  }
+
+  std::string glb() const {
+    std::string text = scene.dump(), out = "glTF";
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    put(out, std::uint32_t{2});
+    put(out, static_cast<std::uint32_t>(12 + 8 + text.size() + 8 + buffer.size()));
+    put(out, static_cast<std::uint32_t>(text.size()));
+    out += "JSON" + text;
+    put(out, static_cast<std::uint32_t>(buffer.size()));
+    return out + std::string("BIN\0", 4) + buffer;
+  }
+};
+
+std::string error_of(const std::string& bytes) {
+  TemporaryFolder folder;
+  spit(folder / "a.glb", bytes);
+  return content_error([&] { io::read_mesh(folder / "a.glb"); });
+}
+
+void check_seam(const io::MeshFile& file) {
+  const Mesh& mesh = file.mesh;
+  REQUIRE(mesh.number_of_faces() == 2);
+  CHECK(mesh.number_of_vertices() == 4);
+  CHECK(file.repairs.merged_vertices == 2);
+  CHECK(mesh.point(Vertex(3)) == Point(0, 2, 5 + 2 * static_cast<double>(0.1F)));
+  CHECK(file.group_names == std::vector<std::string>{"sleeve"});
+  CHECK(file.material_names == std::vector<std::string>{"silk"});
+  CHECK((*find_map(mesh, kTexture))[mesh.halfedge(Vertex(1), Vertex(2))] == TextureCoordinate{0.25, 0.75});
+  CHECK((*find_map(mesh, kTexture))[mesh.halfedge(Vertex(0), Vertex(2))] == TextureCoordinate{0.5, 0.75});
+  REQUIRE(file.warnings.size() == 1);
+  CHECK(file.warnings[0].find("single precision") != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("glTF: GLB and glTF with a buffer file, seams are closed, transforms applied") {
+  TemporaryFolder folder;
+  Seam seam;
+  spit(folder / "a.glb", seam.glb());
+  check_seam(io::read_mesh(folder / "a.glb"));
+  seam.scene["buffers"][0]["uri"] = "a.bin";
+  spit(folder / "a.bin", seam.buffer);
+  spit(folder / "a.gltf", seam.scene.dump());
+  check_seam(io::read_mesh(folder / "a.gltf"));
+}
+
+TEST_CASE("glTF: a mirrored node's faces are turned") {
+  Seam seam;
+  seam.scene["nodes"][0]["scale"] = {-2, 2, 2};
+  TemporaryFolder folder;
+  spit(folder / "a.glb", seam.glb());
+  const io::MeshFile file = io::read_mesh(folder / "a.glb");
+  const Mesh& mesh = file.mesh;
+  for (const Face f : mesh.faces()) {
+    std::vector<Point> p;
+    for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) p.push_back(mesh.point(v));
+    CHECK(CGAL::cross_product(p[1] - p[0], p[2] - p[0]).z() > 0);
+  }
+}
+
+TEST_CASE("glTF: skin weights become attributes by the joints' names") {
+  Seam seam;
+  const std::size_t at = seam.buffer.size();
+  for (int v = 0; v < 6; ++v)
+    for (const std::uint8_t joint : {0, 1, 0, 0}) put(seam.buffer, joint);
+  for (int v = 0; v < 6; ++v)
+    for (const float w : {v < 3 ? 0.25F : 1.F, v < 3 ? 0.75F : 0.F, 0.F, 0.F}) put(seam.buffer, w);
+  for (int joint = 0; joint < 2; ++joint)  // assimp wants inverse bind matrices
+    for (int i = 0; i < 16; ++i) put(seam.buffer, i % 5 == 0 ? 1.F : 0.F);
+  json& scene = seam.scene;
+  scene["buffers"][0]["byteLength"] = seam.buffer.size();
+  scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", 24}});
+  scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at + 24}, {"byteLength", 96}});
+  scene["accessors"].push_back({{"bufferView", 3}, {"componentType", 5121}, {"count", 6}, {"type", "VEC4"}});
+  scene["accessors"].push_back({{"bufferView", 4}, {"componentType", 5126}, {"count", 6}, {"type", "VEC4"}});
+  scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at + 120}, {"byteLength", 128}});
+  scene["accessors"].push_back({{"bufferView", 5}, {"componentType", 5126}, {"count", 2}, {"type", "MAT4"}});
+  json& attributes = scene["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_0"] = 3;
+  attributes["WEIGHTS_0"] = 4;
+  scene["nodes"][0]["skin"] = 0;
+  scene["nodes"].push_back({{"name", "upper arm"}, {"children", {2}}});
+  scene["nodes"].push_back({{"name", "hand"}});
+  scene["scenes"][0]["nodes"].push_back(1);
+  scene["skins"] = json::array({{{"joints", {1, 2}}, {"inverseBindMatrices", 5}}});
+  TemporaryFolder folder;
+  spit(folder / "a.glb", seam.glb());
+  const io::MeshFile file = io::read_mesh(folder / "a.glb");
+  const auto list = vertex_attributes(file.mesh);
+  REQUIRE(list.size() == 2);
+  CHECK(list[0].name == "weight_upper_arm");
+  CHECK(list[1].name == "weight_hand");
+  REQUIRE(file.mesh.number_of_vertices() == 4);
+  for (const Vertex v : file.mesh.vertices()) {
+    const bool first = v.idx() < 3;  // merged points keep the weights of the first
+    CHECK(list[0].values[v] == (first ? 0.25 : 1));
+    CHECK(list[1].values[v] == (first ? 0.75 : 0));
+  }
+}
+
+TEST_CASE("glTF: bad files are content errors that name the file") {
+  CHECK(error_of("").find("a.glb: the file is empty") != std::string::npos);
+  CHECK(error_of("not a mesh").find("a.glb: ") != std::string::npos);
+  CHECK(content_error([] { io::read_mesh("/nowhere/a.glb"); }).find("No such file") != std::string::npos);
+  Seam bad_index;
+  bad_index.buffer[120] = 77;
+  CHECK(error_of(bad_index.glb()).find("a.glb: ") != std::string::npos);
+  Seam infinite;
+  infinite.buffer.replace(0, 4, std::string("\x00\x00\x80\x7f", 4));
+  CHECK(error_of(infinite.glb()).find("a.glb: ") != std::string::npos);
+  Seam beyond;
+  beyond.scene["accessors"][0]["count"] = 2000000000;
+  CHECK(error_of(beyond.glb()).find("a.glb: ") != std::string::npos);
+}
+
+TEST_CASE("glTF: damaged files are read or refused, this process lives on") {
+  const std::string valid = Seam().glb();
+  TemporaryFolder folder;
+  std::size_t refused = 0, files = 0;
+  for (std::size_t at = 5; at < valid.size(); at += 61) {
+    std::string changed = valid;
+    changed[at] = static_cast<char>(changed[at] ^ 0x55);
+    for (const std::string& bytes : {changed, valid.substr(0, at)}) {
+      spit(folder / "a.glb", bytes);
+      ++files;
+      try {
+        const io::MeshFile file = io::read_mesh(folder / "a.glb");
+        CHECK(file.mesh.is_valid(false));
+      } catch (const ContentError&) {
+        ++refused;
+      }
+    }
+  }
+  CHECK(refused >= files / 2);
+}

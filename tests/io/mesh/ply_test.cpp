@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <algorithm>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "geometry/mesh/vertex_attributes.h"
+#include "tests/io/base/io_test_helpers.h"
+
+using namespace furrow;
+using namespace furrow::geometry;
+using namespace furrow::tests;
+using io::MeshFormat;
+
+namespace {
+
+template <class K, class V, class Range>
+void check_same_map(const Mesh& a, const Mesh& b, const PropertyName<K, V>& name, const Range& keys) {
+  INFO(name.name);
+  const auto p = find_map(a, name), q = find_map(b, name);
+  REQUIRE(p.has_value());
+  REQUIRE(q.has_value());
+  std::size_t differ = 0;
+  for (const K key : keys) {
+    if constexpr (std::is_same_v<V, double>)
+      differ += !same_bits((*p)[key], (*q)[key]);
+    else if constexpr (std::is_same_v<V, TextureCoordinate>)
+      differ += !same_bits((*p)[key][0], (*q)[key][0]) || !same_bits((*p)[key][1], (*q)[key][1]);
+    else
+      differ += (*p)[key] != (*q)[key];
+  }
+  CHECK(differ == 0);
+}
+
+const char* const kHead = "ply\nformat ascii 1.0\n";
+const char* const kTriangle =
+    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\n";
+const char* const kTriangleRows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+std::string error_of(const std::string& text) {
+  return content_error([&] { read_from(text, MeshFormat::ply); });
+}
+
+template <class T>
+void put_big(std::string& bytes, T value) {
+  auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  if (std::endian::native == std::endian::little) std::ranges::reverse(raw);
+  bytes.append(raw.data(), raw.size());
+}
+
+}  // namespace
+
+TEST_CASE("PLY: mesh, maps, names and comments come back with the same bits") {
+  const io::MeshFile file = decorated_grid(5);
+  const io::MeshFile back = read_from(written(file, MeshFormat::ply), MeshFormat::ply);
+  const Mesh &a = file.mesh, &b = back.mesh;
+  REQUIRE(same_positions(a, b));
+  REQUIRE(corners_of(a) == corners_of(b));
+  REQUIRE(a.number_of_edges() == b.number_of_edges());
+  check_same_map(a, b, kColor, a.vertices());
+  check_same_map(a, b, kLine, a.vertices());
+  check_same_map(a, b, kMass, a.vertices());
+  check_same_map(a, b, kRestLength, a.edges());
+  check_same_map(a, b, kBendingRestLength, a.edges());
+  check_same_map(a, b, kBendingCount, a.edges());
+  check_same_map(a, b, kLineEdge, a.edges());
+  check_same_map(a, b, kDiagonal, a.edges());
+  for (const auto* name : {&kRestAngle, &kStiffness, &kBendingStiffness, &kHingeStiffness, &kTension})
+    check_same_map(a, b, *name, a.edges());
+  check_same_map(a, b, kGroup, a.faces());
+  check_same_map(a, b, kMaterial, a.faces());
+  std::vector<Halfedge> inner;
+  for (const Halfedge h : a.halfedges())
+    if (!a.is_border(h)) inner.push_back(h);
+  check_same_map(a, b, kTexture, inner);
+  check_same_map(a, b, kTriangleRestLength, inner);
+  const auto p = struts(a), q = struts(b);
+  REQUIRE(p.size() == 2);
+  REQUIRE(q.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(p[i].a == q[i].a);
+    CHECK(p[i].b == q[i].b);
+    CHECK(same_bits(p[i].rest_length, q[i].rest_length));
+    CHECK(same_bits(p[i].stiffness, q[i].stiffness));
+  }
+  CHECK(back.group_names == file.group_names);
+  CHECK(back.material_names == file.material_names);
+  CHECK(back.comments == file.comments);
+  CHECK(back.warnings.empty());
+  CHECK_FALSE(back.repairs.any());
+  CHECK(written(back, MeshFormat::ply) == written(file, MeshFormat::ply));
+}
+
+TEST_CASE("PLY: edge values are found by their vertices after flips and removals") {
+  io::MeshFile file = decorated_grid(4);
+  Mesh& mesh = file.mesh;
+  auto rest = *find_map(mesh, kRestLength);
+  std::size_t flipped = 0;
+  for (const Edge e : mesh.edges()) {
+    const Halfedge h = mesh.halfedge(e);
+    if (mesh.is_border(e) || flipped == 3 || rest[e] < 1.03) continue;
+    const Vertex c = mesh.target(mesh.next(h)), d = mesh.target(mesh.next(mesh.opposite(h)));
+    if (mesh.halfedge(c, d) != Mesh::null_halfedge()) continue;
+    CGAL::Euler::flip_edge(h, mesh);
+    rest[e] = 5 + static_cast<double>(flipped++);
+  }
+  REQUIRE(flipped == 3);
+  CGAL::Euler::remove_face(mesh.halfedge(Face(0)), mesh);
+  REQUIRE(mesh.has_garbage());
+  const io::MeshFile back = read_from(written(file, MeshFormat::ply), MeshFormat::ply);
+  REQUIRE(back.mesh.number_of_faces() == mesh.number_of_faces());
+  REQUIRE(back.mesh.number_of_edges() == mesh.number_of_edges());
+  const auto by_ends = [](const Mesh& m) {
+    std::set<std::tuple<Point, Point, double>> all;
+    for (const Edge e : m.edges()) {
+      const Point p = m.point(m.vertex(e, 0)), q = m.point(m.vertex(e, 1));
+      all.emplace(std::min(p, q), std::max(p, q), (*find_map(m, kRestLength))[e]);
+    }
+    return all;
+  };
+  CHECK(by_ends(back.mesh) == by_ends(mesh));
+}
+
+TEST_CASE("PLY: a mesh without maps gets no properties and no edge element") {
+  io::MeshFile cube = read_from(kCubeObj, MeshFormat::obj);
+  const auto header_of = [&] {
+    const std::string bytes = written(cube, MeshFormat::ply);
+    return bytes.substr(0, bytes.find("end_header"));
+  };
+  CHECK(header_of().find("property uchar diagonal") != std::string::npos);  // its faces have four corners
+  auto diagonal = *find_map(cube.mesh, kDiagonal);
+  cube.mesh.remove_property_map(diagonal);
+  const std::string header = header_of();
+  for (const char* absent : {"edge", "strut", "rest_length", "line", "mass", "red", "group", "texcoord"})
+    CHECK(header.find(absent) == std::string::npos);
+  CHECK(header.find("property double z") != std::string::npos);
+}
+
+TEST_CASE("PLY: colours that are whole 255ths are written as bytes and come back") {
+  const std::string obj = "v 0 0 0 0 0.2 1\nv 1 0 0 1 1 1\nv 0 1 0 0.6 0.4 0.8\nf 1 2 3\n";
+  const io::MeshFile file = read_from(obj, MeshFormat::obj);
+  const std::string bytes = written(file, MeshFormat::ply);
+  CHECK(bytes.find("property uchar red") != std::string::npos);
+  const io::MeshFile back = read_from(bytes, MeshFormat::ply);
+  check_same_map(file.mesh, back.mesh, kColor, file.mesh.vertices());
+}
+
+TEST_CASE("PLY: lengths are written in the file's unit, masses stay kilograms") {
+  const io::MeshFile file = decorated_grid(2);
+  const std::string bytes = written(file, MeshFormat::ply, {.metres_per_unit = 0.25, .up = io::Axis::z});
+  const io::MeshFile raw = read_from(bytes, MeshFormat::ply);
+  const io::MeshFile back = read_from(bytes, MeshFormat::ply, {.metres_per_unit = 0.25, .up = io::Axis::z});
+  CHECK((*find_map(raw.mesh, kRestLength))[Edge(2)] == 4 * (*find_map(file.mesh, kRestLength))[Edge(2)]);
+  CHECK(raw.mesh.point(Vertex(3)) == Point(4 * file.mesh.point(Vertex(3)).x(),
+                                           -4 * file.mesh.point(Vertex(3)).z(),
+                                           4 * file.mesh.point(Vertex(3)).y()));
+  CHECK(same_positions(back.mesh, file.mesh));
+  check_same_map(file.mesh, back.mesh, kRestLength, file.mesh.edges());
+  check_same_map(file.mesh, raw.mesh, kMass, file.mesh.vertices());
+}
+
+TEST_CASE("PLY: text and big-endian bytes of other programs are read") {
+  const std::string body =
+      "comment made by hand\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty short quality\n"
+      "element face 1\nproperty uchar flags\nproperty list uchar uint vertex_index\n"
+      "property list uchar float texcoord\nelement extra 2\nproperty list int double stuff\nend_header\n";
+  std::string text = kHead + body +
+                     "0 0 0 255 0 51 7\n1 0 0 0 0 0 7\n1 1 0 0 0 0 7\n0 1 0.5 0 0 0 7\n"
+                     "9 4 0 1 2 3 8 0 0 1 0 1 1 0 0.5\n2 1.5 2.5\n0\n";
+  std::string big = "ply\nformat binary_big_endian 1.0\n" + body;
+  const float points[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5F}};
+  for (int v = 0; v < 4; ++v) {
+    for (const float x : points[v]) put_big(big, x);
+    for (const int c : {255, 0, 51}) put_big(big, static_cast<std::uint8_t>(v == 0 ? c : 0));
+    put_big(big, std::int16_t{7});
+  }
+  put_big(big, std::uint8_t{9}), put_big(big, std::uint8_t{4});
+  for (std::uint32_t i = 0; i < 4; ++i) put_big(big, i);
+  put_big(big, std::uint8_t{8});
+  for (const float t : {0.F, 0.F, 1.F, 0.F, 1.F, 1.F, 0.F, 0.5F}) put_big(big, t);
+  put_big(big, std::int32_t{2}), put_big(big, 1.5), put_big(big, 2.5), put_big(big, std::int32_t{0});
+  for (const std::string& bytes : {text, big}) {
+    const io::MeshFile file = read_from(bytes, MeshFormat::ply);
+    CHECK(corners_of(file.mesh) == std::vector<std::size_t>{0, 1, 2, 0, 2, 3});
+    CHECK(file.mesh.point(Vertex(3)) == Point(0, 1, 0.5));
+    CHECK((*find_map(file.mesh, kColor))[Vertex(0)] == Color{1, 0, 0.2, 1});
+    CHECK(file.repairs.triangulated_faces == 1);
+    const Halfedge h = file.mesh.halfedge(Vertex(2), Vertex(3));
+    CHECK((*find_map(file.mesh, kTexture))[h] == TextureCoordinate{0, 0.5});
+    CHECK(file.comments == std::vector<std::string>{"made by hand"});
+    REQUIRE(file.warnings.size() == 2);
+    CHECK(file.warnings[0].find("flags") != std::string::npos);
+    CHECK(file.warnings[1].find("extra") != std::string::npos);
+  }
+}
+
+TEST_CASE("PLY: texture coordinates of vertices go to the corners") {
+  const std::string text = std::string(kHead) +
+                           "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty "
+                           "float s\nproperty float t\n"
+                           "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                           "0 0 0 0.5 0.25\n1 0 0 0.75 0\n0 1 0 0 1\n3 0 1 2\n";
+  const io::MeshFile file = read_from(text, MeshFormat::ply);
+  const Halfedge h = file.mesh.halfedge(Vertex(2), Vertex(0));
+  CHECK((*find_map(file.mesh, kTexture))[h] == TextureCoordinate{0.5, 0.25});
+}
+
+TEST_CASE("PLY: errors name the line, or the element in binary files") {
+  const std::string head = kHead, triangle = kTriangle, rows = kTriangleRows;
+  CHECK(error_of("plu\n").starts_with("test:1: "));
+  CHECK(error_of(head + "element vertex x\n").starts_with("test:3: 'x' is not a whole number"));
+  CHECK(error_of(head + "element vertex 1\nproperty flot x\n").starts_with("test:4: 'flot' is no type"));
+  CHECK(error_of(head + triangle).find("cut short") != std::string::npos);
+  CHECK(error_of(head + triangle + triangle + "end_header\n").find("second element") != std::string::npos);
+  CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 0 0\n0 1 zero\n").starts_with("test:12: 'zero'"));
+  CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n")
+            .starts_with("test:11: vertex 1: "));
+  CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n").find("face 0") !=
+        std::string::npos);
+  const std::string edge =
+      "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty double rest_length\n";
+  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 0.5\n") == "(none)");
+  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 -0.5\n")
+            .starts_with("test:18: edge 0: a rest"));
+  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 7 0.5\n")
+            .find("between vertices 0 and 7") != std::string::npos);
+  std::string bytes = written(decorated_grid(2), MeshFormat::ply);
+  bytes.resize(bytes.size() - 1);
+  CHECK(error_of(bytes).starts_with("test: strut 1: the file is cut short"));
+}
+
+TEST_CASE("PLY: hostile stiffnesses, rest angles, struts and lengths of triangles are refused") {
+  const std::string head = std::string(kHead) + kTriangle, rows = kTriangleRows;
+  const auto edge = [&](const std::string& column, const std::string& value) {
+    return error_of(head + "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty double " +
+                    column + "\nend_header\n" + rows + "0 1 " + value + "\n");
+  };
+  for (const char* column : {"stiffness", "bending_stiffness", "hinge_stiffness"}) {
+    CHECK(edge(column, "0") == "(none)");
+    CHECK(edge(column, "nan") == "(none)");
+    for (const char* bad : {"-1", "inf"})
+      CHECK(edge(column, bad).find("edge 0: a stiffness must be >= 0 and finite") != std::string::npos);
+  }
+  CHECK(edge("rest_angle", "4").find("edge 0: a rest angle must be in [-pi, pi]") != std::string::npos);
+  const auto strut = [&](const std::string& values) {
+    return error_of(head +
+                    "element strut 1\nproperty int vertex1\nproperty int vertex2\n"
+                    "property double rest_length\nproperty double stiffness\nend_header\n" +
+                    rows + values + "\n");
+  };
+  CHECK(strut("2 0 0.5 3") == "(none)");
+  for (const auto& [values, what] : {std::pair("0 3 0.5 3", "strut 0: names vertex 3 of 3"),
+                                     {"0 -1 0.5 3", "no index of a vertex"},
+                                     {"1 1 0.5 3", "one vertex"},
+                                     {"0 1 0 3", "a rest length must be > 0"},
+                                     {"0 1 nan 3", "a strut needs"},
+                                     {"0 1 0.5 -3", "a stiffness must be"},
+                                     {"0 1 0.5 nan", "a strut needs"}})
+    CHECK(strut(values).find(what) != std::string::npos);
+  const auto triangle = [&](const std::string& values) {
+    return error_of(head +
+                    "property double rest_length_01\nproperty double rest_length_12\n"
+                    "property double rest_length_20\nend_header\n0 0 0\n1 0 0\n0 1 0\n" +
+                    values + "\n");
+  };
+  CHECK(triangle("3 0 1 2 1 1.4 1") == "(none)");
+  CHECK(triangle("3 0 1 2 nan nan nan") == "(none)");
+  CHECK(triangle("3 0 1 2 1 -1.4 1").find("face 0: a rest length must be > 0") != std::string::npos);
+}
+
+TEST_CASE("PLY: lengths of a triangle stand for the edges between its corners, whichever way it winds") {
+  // The second face winds against the first and is turned over.
+  const io::MeshFile file =
+      read_from(std::string(kHead) +
+                    "element vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 3\n"
+                    "property list uchar int vertex_indices\nproperty double rest_length_01\n"
+                    "property double rest_length_12\nproperty double rest_length_20\nend_header\n"
+                    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 1 0\n3 0 1 2 101 112 120\n3 3 2 0 232 220 203\n"
+                    "3 1 4 2 314 342 321\n",
+                MeshFormat::ply);
+  REQUIRE(file.repairs.reversed_faces == 1);
+  const auto rest = *find_map(file.mesh, kTriangleRestLength);
+  for (const Halfedge h : file.mesh.halfedges()) {
+    if (file.mesh.is_border(h)) continue;
+    const int f = int(std::size_t(file.mesh.face(h))) + 1;
+    const int a = int(std::size_t(file.mesh.source(h))), b = int(std::size_t(file.mesh.target(h)));
+    CHECK((rest[h] == 100 * f + 10 * a + b || rest[h] == 100 * f + 10 * b + a));
+  }
+}
+
+TEST_CASE("PLY: a header cannot announce more than the file holds") {
+  const std::string head = kHead;
+  CHECK(error_of(
+            head +
+            "element vertex 2000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n")
+            .find("more than the file can hold") != std::string::npos);
+  const std::string bytes = std::string("ply\nformat binary_little_endian 1.0\n") + kTriangle +
+                            "property list int double huge\nend_header\n" + std::string(36, '\0') + "\3" +
+                            std::string(12, '\0') + "\xff\xff\xff\x7f";
+  CHECK(error_of(bytes).starts_with("test: face 0: a list is longer than the file"));
+}
+
+TEST_CASE("PLY: a name of a group is an attribute where the group is not whole") {
+  const std::string head =
+      std::string(kHead) + "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string tail =
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n3 0 1 2\n";
+  const auto names_of = [&](const char* a, const char* b) {
+    const std::string text = head + "property float " + a + "\nproperty float " + b + "\n" + tail;
+    const io::MeshFile file = read_from(text, MeshFormat::ply);
+    const io::MeshFile back = read_from(written(file, MeshFormat::ply), MeshFormat::ply);
+    std::vector<std::string> names;
+    for (const VertexAttribute& attribute : vertex_attributes(file.mesh)) names.push_back(attribute.name);
+    CHECK(vertex_attributes(back.mesh).size() == names.size());
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  for (const auto& [a, b] : {std::pair("t", "r"), {"u", "t"}, {"v", "a"}, {"rest_x", "nx"}, {"vx", "red"}})
+    CHECK(names_of(a, b) == Names{a, b});
+  CHECK(names_of("s", "t").empty());
+  CHECK(names_of("v", "u").empty());
+  CHECK(names_of("mass", "q") == Names{"q"});
+}
+
+TEST_CASE("PLY: an attribute with the name of another column is not written") {
+  const std::string head = std::string(kHead) +
+                           "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                           "property float rest_x\nelement face 1\nproperty list uchar int vertex_indices\n"
+                           "end_header\n0 0 0 1\n1 0 0 2\n0 1 0 3\n3 0 1 2\n";
+  io::MeshFile named = read_from(head, MeshFormat::ply);
+  ensure_map(named.mesh, kRestPosition);
+  CHECK(content_error([&] { written(named, MeshFormat::ply); }).find("'rest_x'") != std::string::npos);
+}

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mesh/soup_to_mesh.h"
+
+#include <rapidcheck.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "io/mesh/make_manifold.h"
+#include "tests/io/base/io_test_helpers.h"
+
+using namespace furrow;
+using namespace furrow::geometry;
+using namespace furrow::tests;
+
+namespace {
+
+using List = std::vector<std::size_t>;
+
+io::PolygonSoup soup_of(std::size_t n_points, const std::vector<List>& faces) {
+  io::PolygonSoup soup;
+  for (std::size_t i = 0; i < n_points; ++i) {
+    const double t = static_cast<double>(i);
+    soup.points.emplace_back(std::cos(t), std::sin(t), t * t / 50);
+  }
+  for (const List& face : faces) {
+    soup.corners.insert(soup.corners.end(), face.begin(), face.end());
+    soup.close_face();
+  }
+  return soup;
+}
+
+/// Every vertex has one fan: no face of it is missed when turning round it.
+bool is_manifold(const Mesh& mesh) {
+  if (!mesh.is_valid(false)) return false;
+  List corners(mesh.number_of_vertices(), 0);
+  for (const std::size_t v : corners_of(mesh)) ++corners[v];
+  for (const Vertex v : mesh.vertices()) {
+    if (mesh.is_isolated(v)) continue;
+    std::size_t faces = 0, borders = 0;
+    for (const Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))
+      ++(mesh.is_border(h) ? borders : faces);
+    if (faces != corners[v] || borders > 1) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("soup_to_mesh: an oriented manifold is left as it is") {
+  const auto out = io::soup_to_mesh(soup_of(5, {{0, 1, 2}, {0, 2, 3}}), "t");
+  CHECK_FALSE(out.repairs.any());
+  CHECK(out.repairs.isolated_vertices == 1);
+  CHECK(out.origin == List{0, 1, 2, 3, 4});
+  CHECK(corners_of(out.mesh) == List{0, 1, 2, 0, 2, 3});
+}
+
+TEST_CASE("soup_to_mesh: degenerate and duplicate triangles are dropped and counted") {
+  const auto out =
+      io::soup_to_mesh(soup_of(4, {{0, 1, 1}, {0, 1, 2}, {0, 1}, {2, 1, 0}, {1, 2, 0}, {0, 2, 3, 0}}), "t");
+  CHECK(out.repairs.degenerate_faces == 3);
+  CHECK(out.repairs.duplicate_faces == 2);
+  CHECK(out.repairs.triangulated_faces == 1);
+  CHECK(corners_of(out.mesh) == List{0, 1, 2, 0, 2, 3});
+}
+
+TEST_CASE("soup_to_mesh: the minority of a component is turned, with its corners' data") {
+  io::PolygonSoup soup = soup_of(6, {{0, 2, 1}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}});
+  for (std::size_t c = 0; c < 12; ++c) soup.textures.push_back({static_cast<double>(c), 0.5});
+  soup.groups = {5, 6, 7, 8};
+  const auto out = io::soup_to_mesh(soup, "t");
+  CHECK(out.repairs.reversed_faces == 1);
+  CHECK(out.repairs.duplicated_vertices == 0);
+  CHECK(corners_of(out.mesh) == List{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5});
+  const auto texture = *find_map(out.mesh, kTexture);
+  CHECK(texture[out.mesh.halfedge(Vertex(0), Vertex(1))][0] == 2);
+  CHECK(texture[out.mesh.halfedge(Vertex(1), Vertex(2))][0] == 1);
+  CHECK((*find_map(out.mesh, kGroup))[Face(3)] == 8);
+}
+
+TEST_CASE("soup_to_mesh: three faces at an edge are parted, copies carry their data") {
+  io::PolygonSoup soup = soup_of(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  soup.lines = {7, 8, -1, -1, -1};
+  soup.masses = {0.5, 0.25, 0.1, 0.1, 0.1};
+  soup.colors.assign(5, Color{0, 0, 1, 1});
+  const auto out = io::soup_to_mesh(soup, "t");
+  CHECK(out.repairs.duplicated_vertices == 4);
+  CHECK(out.origin == List{0, 1, 2, 3, 4, 1, 0, 0, 1});
+  CHECK(out.mesh.number_of_faces() == 3);
+  CHECK(out.mesh.point(Vertex(5)) == soup.points[1]);
+  CHECK((*find_map(out.mesh, kLine))[Vertex(8)] == 8);
+  CHECK((*find_map(out.mesh, kMass))[Vertex(6)] == 0.5);
+  CHECK((*find_map(out.mesh, kColor))[Vertex(6)] == Color{0, 0, 1, 1});
+  CHECK(is_manifold(out.mesh));
+}
+
+TEST_CASE("soup_to_mesh: two fans at one vertex are parted, closed ones too") {
+  const auto bow_tie = io::soup_to_mesh(soup_of(5, {{0, 1, 2}, {0, 3, 4}}), "t");
+  CHECK(bow_tie.repairs.duplicated_vertices == 1);
+  CHECK(bow_tie.origin == List{0, 1, 2, 3, 4, 0});
+  const std::vector<List> first = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  const std::vector<List> second = {{0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {4, 6, 5}};
+  std::vector<List> mixed;
+  for (int i = 0; i < 4; ++i) mixed.push_back(first[i]), mixed.push_back(second[i]);
+  std::vector<List> in_turn = first;
+  in_turn.insert(in_turn.end(), second.begin(), second.end());
+  for (const auto& faces : {in_turn, mixed}) {
+    const auto out = io::soup_to_mesh(soup_of(7, faces), "t");
+    CHECK(out.repairs.duplicated_vertices == 1);
+    CHECK(out.repairs.reversed_faces == 0);
+    CHECK(CGAL::is_closed(out.mesh));
+    CHECK(is_manifold(out.mesh));
+  }
+}
+
+TEST_CASE("soup_to_mesh: a Moebius strip is cut open once") {
+  std::vector<List> faces;
+  const std::size_t n = 8;  // pairs (2 i, 2 i + 1); the last is joined to the first crosswise
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t a = 2 * i, b = a + 1, c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? a + 3 : 0;
+    faces.push_back({a, b, d});
+    faces.push_back({a, d, c});
+  }
+  const auto out = io::soup_to_mesh(soup_of(2 * n, faces), "t");
+  CHECK(out.mesh.number_of_faces() == 2 * n);
+  CHECK(out.repairs.duplicated_vertices == 2);
+  CHECK(is_manifold(out.mesh));
+}
+
+TEST_CASE("soup_to_mesh: any soup becomes a manifold with the same triangles") {
+  CHECK(rc::check([](const std::vector<std::array<unsigned char, 3>>& input) {
+    std::vector<List> faces;
+    for (const auto& t : input) faces.push_back({t[0] % 7u, t[1] % 7u, t[2] % 7u});
+    const io::PolygonSoup soup = soup_of(7, faces);
+    try {
+      const io::SoupMesh out = io::soup_to_mesh(soup, "t");
+      RC_ASSERT(is_manifold(out.mesh));
+      RC_ASSERT(out.mesh.number_of_faces() + out.repairs.degenerate_faces + out.repairs.duplicate_faces ==
+                faces.size());
+      RC_ASSERT(out.mesh.number_of_vertices() == 7 + out.repairs.duplicated_vertices);
+      for (std::size_t i = 0; i < out.origin.size(); ++i) {
+        RC_ASSERT(i >= 7 || out.origin[i] == i);
+        RC_ASSERT(out.mesh.point(Vertex(static_cast<Mesh::size_type>(i))) == soup.points[out.origin[i]]);
+      }
+      std::size_t face = 0;
+      std::set<std::set<std::size_t>> seen;
+      for (const Face f : out.mesh.faces()) {  // the faces that are left, in their order
+        std::set<std::size_t> corners;
+        for (const Vertex v : out.mesh.vertices_around_face(out.mesh.halfedge(f)))
+          corners.insert(out.origin[v]);
+        while (face < faces.size() && std::set(faces[face].begin(), faces[face].end()) != corners) ++face;
+        RC_ASSERT(face < faces.size());
+        RC_ASSERT(seen.insert(corners).second);
+      }
+    } catch (const ContentError& error) {
+      RC_ASSERT(std::string(error.what()).starts_with("t: no faces"));
+    }
+  }));
+}
+
+TEST_CASE("soup_to_mesh: a corner out of range is named with its face or line") {
+  io::PolygonSoup soup = soup_of(3, {{0, 1, 2}, {0, 1, 3}});
+  CHECK(
+      content_error([&] { io::soup_to_mesh(soup, "t"); }).starts_with("t: face 1: a corner names a vertex"));
+  soup.face_lines = {11, 12};
+  CHECK(content_error([&] { io::soup_to_mesh(soup, "t"); }).starts_with("t:12: a corner names a vertex"));
+}
+
+TEST_CASE("make_manifold: a component is turned whole where that turns fewer faces") {
+  std::vector<io::SoupTriangle> t = {
+      {{0, 2, 1}, {0, 1, 2}, 0}, {{0, 2, 3}, {3, 4, 5}, 1}, {{0, 3, 4}, {6, 7, 8}, 2}};
+  const io::ManifoldReport report = io::make_manifold(t, 5);
+  CHECK(report.reversed_faces == 1);
+  CHECK(report.added_points.empty());
+  CHECK(t[0].points == std::array<std::size_t, 3>{0, 1, 2});
+  CHECK(t[0].corners == std::array<std::size_t, 3>{0, 2, 1});
+}
+
+TEST_CASE("the cut of a four-sided face is a diagonal, other edges are none") {
+  // A quad, a triangle beside it, a pentagon, and a quad that is wound the other way.
+  const io::SoupMesh out =
+      io::soup_to_mesh(soup_of(10, {{0, 1, 2, 3}, {1, 4, 2}, {5, 6, 7, 8, 9}, {0, 1, 6, 5}}), "soup");
+  const auto diagonal = *find_map(out.mesh, kDiagonal);
+  std::set<std::pair<std::size_t, std::size_t>> marked;
+  for (const Edge e : out.mesh.edges()) {
+    if (!diagonal[e]) continue;
+    marked.insert(std::minmax(out.origin[out.mesh.vertex(e, 0)], out.origin[out.mesh.vertex(e, 1)]));
+  }
+  CHECK(marked == std::set<std::pair<std::size_t, std::size_t>>{{0, 2}, {0, 6}});
+  CHECK_FALSE(find_map(io::soup_to_mesh(soup_of(5, {{0, 1, 2}, {0, 2, 3, 4, 1}}), "soup").mesh, kDiagonal));
+}

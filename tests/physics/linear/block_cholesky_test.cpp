@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/linear/block_cholesky.h"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "tests/physics/cloth/test_cloths.h"
+
+using namespace furrow::physics;
+using namespace furrow::tests;
+
+namespace {
+
+/// Blocks between neighbours on a sheet of columns x rows and `links` more anywhere; dominant diagonal.
+Eigen::MatrixXd symmetric(int columns, int rows, int links) {
+  const int n = columns * rows;
+  Noise noise(3);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  const auto join = [&](int i, int j) {
+    if (i == j) return;
+    Eigen::Matrix3d b;
+    for (int e = 0; e < 3; ++e) b.col(e) = noise.vector();
+    a.block<3, 3>(3 * i, 3 * j) += b;
+    a.block<3, 3>(3 * j, 3 * i) += b.transpose();
+  };
+  for (int i = 0; i < n; ++i) {
+    if (i % columns > 0) join(i, i - 1);
+    if (i >= columns) join(i, i - columns);
+  }
+  for (int l = 0; l < links; ++l) join(int((noise() + 1) * 0.5 * n), int((noise() + 1) * 0.5 * n));
+  const Eigen::VectorXd sums = a.cwiseAbs().rowwise().sum();
+  a.diagonal() = sums.array() + 0.1;
+  for (int i = 0; i < n; ++i) a(3 * i + 1, 3 * i) = a(3 * i, 3 * i + 1) = 0.05;
+  return a;
+}
+
+/// Its lower triangle by whole blocks.
+BlockCholesky::Sparse lower(const Eigen::MatrixXd& a) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int c = 0; c < a.cols(); ++c) {
+    for (int r = c; r < a.rows(); ++r) {
+      if (r / 3 == c / 3 || !a.block<3, 3>(r / 3 * 3, c / 3 * 3).isZero(0))
+        entries.emplace_back(r, c, a(r, c));
+    }
+  }
+  BlockCholesky::Sparse s(a.rows(), a.cols());
+  s.setFromTriplets(entries.begin(), entries.end());
+  return s;
+}
+
+Eigen::VectorXd some_vector(Eigen::Index n) {
+  Noise noise(9);
+  Eigen::VectorXd b(n);
+  for (double& v : b) v = noise();
+  return b;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "block Cholesky: solutions are the dense ones, on sheets, lines, single blocks and scattered links") {
+  for (const auto& [columns, rows, links] :
+       {std::array{12, 11, 0}, {12, 11, 40}, {40, 1, 0}, {1, 1, 0}, {5, 1, 10}}) {
+    CAPTURE(columns, rows, links);
+    const Eigen::MatrixXd a = symmetric(columns, rows, links);
+    BlockCholesky factor;
+    const BlockCholesky::Sparse sparse = lower(a);
+    factor.analyse(sparse);
+    for (const double shift : {0.0, 3.0}) {
+      REQUIRE(factor.factorise(sparse, shift));
+      const Eigen::VectorXd b = some_vector(a.rows());
+      Eigen::VectorXd x = b;
+      factor.solve(x);
+      Eigen::MatrixXd shifted = a;
+      shifted.diagonal().array() += shift;
+      CHECK((shifted * x - b).norm() < 1e-13 * b.norm() * a.rows());
+      CHECK((x - shifted.llt().solve(b)).norm() < 1e-12 * x.norm());
+    }
+  }
+}
+
+TEST_CASE("block Cholesky: pieces that nothing joins, and nothing at all") {
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(60, 60);
+  const Eigen::MatrixXd piece = symmetric(5, 2, 0);
+  a.topLeftCorner(30, 30) = piece;
+  a.bottomRightCorner(30, 30) = 2 * piece;
+  BlockCholesky factor;
+  factor.analyse(lower(a));
+  REQUIRE(factor.factorise(lower(a), 0));
+  Eigen::VectorXd x = a * Eigen::VectorXd::Ones(60);
+  factor.solve(x);
+  CHECK((x - Eigen::VectorXd::Ones(60)).norm() < 1e-12);
+  factor.analyse(BlockCholesky::Sparse(0, 0));
+  CHECK(factor.factorise(BlockCholesky::Sparse(0, 0), 0));
+}
+
+TEST_CASE(
+    "block Cholesky: says when a matrix is not positive definite, at the eigenvalue, and takes another") {
+  const Eigen::MatrixXd a = symmetric(9, 9, 0);
+  const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues()[0];
+  const BlockCholesky::Sparse sparse = lower(a);
+  BlockCholesky factor;
+  factor.analyse(sparse);
+  CHECK(factor.factorise(sparse, -least + 1e-9));
+  CHECK_FALSE(factor.factorise(sparse, -least - 1e-9));
+  CHECK_FALSE(factor.factorise(sparse, std::numeric_limits<double>::quiet_NaN()));
+  CHECK(factor.factorise(2 * sparse, 0));
+  Eigen::VectorXd x = a * Eigen::VectorXd::Ones(a.rows()), y = x;
+  factor.solve(x);
+  CHECK((x - 0.5 * Eigen::VectorXd::Ones(a.rows())).norm() < 1e-10);
+  BlockCholesky other;
+  other.analyse(sparse);
+  REQUIRE(other.factorise(2 * sparse, 0));
+  other.solve(y);
+  CHECK(x == y);
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/linear/free_stiffness.h"
+
+#include <catch2/catch.hpp>
+
+#include "physics/cloth/pins.h"
+#include "tests/physics/cloth/finite_differences.h"
+#include "tests/physics/cloth/shell_cloths.h"
+
+using namespace furrow::physics;
+using namespace furrow::tests;
+
+namespace {
+
+/// All kinds of elements, crumpled, three particles held.
+Cloth crumpled(double crumple) {
+  Cloth cloth = sheet(4, 4, 0.1, 0.2, 3, 300, 40);
+  add_membrane(cloth, 500);
+  add_hinges(cloth, 0.01);
+  pin(cloth.particles, std::vector<int>{0, 5, 15});
+  Noise noise(4);
+  for (Vec3& x : cloth.particles.x) x += crumple * noise.vector();
+  return cloth;
+}
+
+Eigen::MatrixXd dense(const Cloth& cloth, Stiffness stiffness) {
+  const Eigen::MatrixXd all = stiffness_matrix(cloth, cloth.particles.x, stiffness);
+  std::vector<int> kept;
+  for (int i = 0; i < int(cloth.particles.size()); ++i) {
+    if (cloth.particles.inv_mass[i] > 0) kept.insert(kept.end(), {3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return all(kept, kept);
+}
+
+}  // namespace
+
+TEST_CASE("the stiffness of free particles: solutions, signs and scale agree with the dense matrix") {
+  for (const double crumple : {0.002, 0.03}) {
+    const Cloth cloth = crumpled(crumple);
+    FreeStiffness k(cloth);
+    for (const Stiffness stiffness : {Stiffness::exact, Stiffness::positive_part}) {
+      const Eigen::MatrixXd matrix = dense(cloth, stiffness);
+      const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues();
+      k.assemble(cloth, cloth.particles.x, stiffness);
+      CHECK(k.free_particles() == 13);
+      CHECK(k.mean_diagonal() == Approx(matrix.diagonal().mean()));
+      for (const double shift : {1e-3, -0.5 * (values[9] + values[10]), 2 * std::abs(values[0])}) {
+        CAPTURE(crumple, shift);
+        CHECK(k.factorise(shift) == int((values.array() + shift < 0).count()));
+      }
+      Noise noise(7);
+      std::vector<Vec3> b(cloth.particles.size());
+      for (Vec3& v : b) v = noise.vector();
+      std::vector<Vec3> u = b;
+      k.solve(u);
+      CHECK(u[5] == Vec3::Zero());
+      Eigen::VectorXd right(39), solution(39);
+      for (int i = 0, row = 0; i < 16; ++i) {
+        if (!(cloth.particles.inv_mass[i] > 0)) continue;
+        right.segment<3>(3 * row) = b[i];
+        solution.segment<3>(3 * row++) = u[i];
+      }
+      const Eigen::VectorXd rest = matrix * solution + 2 * std::abs(values[0]) * solution - right;
+      CHECK(rest.norm() < 1e-9 * right.norm());
+      CHECK_FALSE(k.factorise_definite(-0.5 * (values[9] + values[10])));
+      REQUIRE(k.factorise_definite(2 * std::abs(values[0])));
+      std::vector<Vec3> same = b;
+      k.solve(same);
+      for (std::size_t i = 0; i < u.size(); ++i) CHECK((same[i] - u[i]).norm() < 1e-9 * u[1].norm());
+    }
+  }
+}
+
+TEST_CASE("the stiffness of free particles: blocks that are added count until the next assembly") {
+  Cloth cloth = crumpled(0);
+  FreeStiffness k(cloth);
+  k.assemble(cloth, cloth.particles.x, Stiffness::positive_part);
+  const double mean = k.mean_diagonal();
+  const Mat3 block = 1e4 * (Mat3::Identity() + 0.5 * Mat3::Ones());
+  for (int i = 0; i < 16; ++i) k.add(i, block);  // pins take none
+  CHECK(k.mean_diagonal() == Approx(mean + 1.5e4));
+  REQUIRE(k.factorise_definite());
+  Eigen::MatrixXd matrix = dense(cloth, Stiffness::positive_part);
+  for (int i = 0; i < 13; ++i) matrix.block<3, 3>(3 * i, 3 * i) += block;
+  std::vector<Vec3> u(16, Vec3(1, 2, 3));
+  k.solve(u);
+  const Eigen::VectorXd exact = matrix.llt().solve(Vec3(1, 2, 3).replicate(13, 1));
+  CHECK((u[1] - exact.head<3>()).norm() < 1e-12 * exact.norm());
+  k.assemble(cloth, cloth.particles.x, Stiffness::positive_part);
+  CHECK(k.mean_diagonal() == mean);
+}
+
+TEST_CASE("the stiffness of free particles: nothing free, and a cloth that changed") {
+  Cloth cloth = crumpled(0);
+  FreeStiffness k(cloth);
+  cloth.hinges.pop_back();
+  CHECK_THROWS_AS(k.assemble(cloth, cloth.particles.x, Stiffness::exact), std::invalid_argument);
+  for (int i = 0; i < 5; ++i) cloth.structural.push_back(cloth.structural.back());
+  CHECK_THROWS_AS(k.assemble(cloth, cloth.particles.x, Stiffness::exact), std::invalid_argument);
+  for (double& w : cloth.particles.inv_mass) w = 0;
+  FreeStiffness none(cloth);
+  none.assemble(cloth, cloth.particles.x, Stiffness::exact);
+  CHECK(none.factorise() == 0);
+  CHECK(none.factorise_definite());
+  CHECK(none.mean_diagonal() == 0);
+  std::vector<Vec3> b(cloth.particles.size(), Vec3::Ones());
+  none.solve(b);
+  CHECK(b[3] == Vec3::Zero());
+  cloth.particles.inv_mass.pop_back();
+  CHECK_THROWS_AS(FreeStiffness(cloth), std::invalid_argument);
+}
+
+TEST_CASE("the stiffness of free particles: the same bits on any number of threads") {
+  Cloth cloth = sheet(40, 30, 0.02, 0.2, 3, 300, 40);
+  add_membrane(cloth, 500);
+  add_hinges(cloth, 0.01);
+  pin(cloth.particles, std::vector<int>{0, 39});
+  Noise noise(4);
+  for (Vec3& x : cloth.particles.x) x += 0.001 * noise.vector();
+  std::vector<Vec3> right(cloth.particles.size()), first;
+  for (Vec3& v : right) v = noise.vector();
+  double mean = 0;
+  for (int threads = 1; threads <= 5; threads += 2) {
+    ThreadPool pool(threads);
+    ThreadPool* const shared = threads > 1 ? &pool : nullptr;
+    FreeStiffness k(cloth);
+    k.assemble(cloth, cloth.particles.x, {0.5}, shared);
+    REQUIRE(k.factorise_definite(500, shared));
+    std::vector<Vec3> u = right;
+    k.solve(u, shared);
+    if (threads == 1) first = u, mean = k.mean_diagonal();
+    CHECK(k.mean_diagonal() == mean);
+    CHECK(u == first);
+    k.factorise_definite(500);  // of another division of the work
+    u = right;
+    k.solve(u, shared);
+    CHECK(u == first);
+  }
+}
