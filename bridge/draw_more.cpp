@@ -48,7 +48,7 @@ GatherOptions with_lines(GatherOptions springs, std::span<const Stroke> strokes,
     list.insert(list.end(), all.begin() + first_line, all.end());
   };
   join(springs.line_presses, fresh.presses, 1);
-  join(springs.line_widths, fresh.widths, kUnset);
+  join(springs.line_widths, fresh.widths, unset_value);
   return springs;
 }
 
@@ -60,7 +60,7 @@ DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<co
     throw std::invalid_argument("draw_more: fade = " + std::to_string(options.fade) + " s is not > 0");
   const physics::Cloth before = gather(mesh, options.springs);
   Mesh work = mesh;
-  ensure_map(work, kVelocity);
+  ensure_map(work, attribute::velocity);
   DrawMoreReport report;
   report.wrinkle = wrinkle(work, strokes, options.wrinkle, observer);
   physics::Cloth after = gather(work, with_lines(options.springs, strokes, options.wrinkle.first_line));

@@ -47,7 +47,7 @@ struct Cloth {
   explicit Cloth(const geometry::Mesh& mesh)
       : points(mesh.num_vertices(), geometry::Point(0, 0, 0)), triangles(triangles_of(mesh)) {
     for (geometry::Vertex v : mesh.vertices()) points[v.idx()] = mesh.point(v);
-    if (!geometry::find_map(mesh, geometry::kRestLength)) return;
+    if (!geometry::find_map(mesh, geometry::attribute::rest_length)) return;
     const std::vector<double> lengths = geometry::rest_lengths(mesh);
     for (geometry::Face f : mesh.faces()) rest.push_back(geometry::edge_lengths(mesh, f, lengths));
   }

@@ -13,13 +13,13 @@
 namespace furrow::bridge {
 namespace {
 
-constexpr double kSpacing = 0.005;  // of samples [m]
+constexpr double spacing = 0.005;  // of samples [m]
 
 /// The depth of a triangle's deepest sample [m]; below 0: all lie outside.
 double depth_in(const std::array<physics::Vec3, 3>& x, const physics::ExactDistance& distance) {
   double longest = 0;
   for (int i = 0; i < 3; ++i) longest = std::max(longest, (x[(i + 1) % 3] - x[i]).norm());
-  const int n = int(std::clamp(std::ceil(longest / kSpacing), 2.0, 256.0));
+  const int n = int(std::clamp(std::ceil(longest / spacing), 2.0, 256.0));
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= n; ++i)
     for (int j = 0; i + j <= n; ++j) {

@@ -22,7 +22,7 @@ using geometry::Face;
 using geometry::Mesh;
 using geometry::Vertex;
 
-constexpr double kAround = 0.05;  // [m]
+constexpr double around = 0.05;  // [m]
 
 void check(const FitOptions& o) {
   const auto refuse = [](const char* name, double value, const char* range) {
@@ -84,7 +84,7 @@ std::vector<double> face_areas(const Mesh& mesh) {
 }
 
 bool has_rest(const Mesh& mesh) {
-  const auto rest = geometry::find_map(mesh, geometry::kRestLength);
+  const auto rest = geometry::find_map(mesh, geometry::attribute::rest_length);
   if (!rest) return false;
   return std::any_of(mesh.edges().begin(), mesh.edges().end(),
                      [&](geometry::Edge e) { return !std::isnan((*rest)[e]); });
@@ -158,7 +158,7 @@ std::string side_of(const geometry::Point& p, const std::vector<geometry::TorsoL
       centre = level.centre;
     }
   const double x = p.x() - centre[0], z = p.z() - centre[1];
-  if (std::hypot(x, z) < kAround) return "around";
+  if (std::hypot(x, z) < around) return "around";
   if (std::abs(z) >= std::abs(x)) return z > 0 ? "front" : "back";
   return x > 0 ? "left" : "right";
 }
@@ -232,9 +232,9 @@ FitReport fit_report(Mesh& garment, const physics::TriangleMesh& body, const phy
     report.strain = summary_of(garment, strains, areas, options.tight_strain);
     strain = strain_at_vertices(garment, strains, areas);
     report.tight = take(strain, options.tight_strain);
-    write_attribute(garment, kFitStrain, strain);
+    write_attribute(garment, fit_strain, strain);
   }
-  write_attribute(garment, kFitDistance, distances);
+  write_attribute(garment, fit_distance, distances);
   return report;
 }
 

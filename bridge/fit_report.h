@@ -14,8 +14,8 @@
 namespace furrow::bridge {
 
 /// Vertex attributes (geometry/mesh/vertex_attributes.h) that fit_report() writes: plain columns of a PLY.
-inline constexpr const char* kFitDistance = "fit_distance";  ///< to the body [m], in every unit of the file
-inline constexpr const char* kFitStrain = "strain";          ///< [-]
+inline constexpr const char* fit_distance = "fit_distance";  ///< to the body [m], in every unit of the file
+inline constexpr const char* fit_strain = "strain";          ///< [-]
 
 struct FitOptions {
   double tight_strain = 0.05;      ///< cloth strained more is tight [-], > 0
@@ -55,7 +55,7 @@ struct FitReport {
 
 /// How a worn garment fits a body: distances, strain, tight and loose zones, ease. `body` and `distance` are
 /// one body (bridge/body.h), y up, in the pose in which the garment was worn. Writes the attributes
-/// kFitDistance and, where any e:rest_length is set, kFitStrain (at a vertex the mean of its faces by area; 0
+/// fit_distance and, where any e:rest_length is set, fit_strain (at a vertex the mean of its faces by area; 0
 /// at a vertex of no face); nothing else is changed. Zones join faces through edges, by the mean of their
 /// corners. Throws std::invalid_argument for an option out of its range, geometry::ContentError for a mesh
 /// without area, a position that is not finite, a face that is no triangle or a broken rest length, the mesh

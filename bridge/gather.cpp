@@ -40,7 +40,8 @@ void check(const Mesh& mesh, const GatherOptions& o) {
   range("rigidity", o.rigidity, o.rigidity >= 0 && std::isfinite(o.rigidity));
   range("compression", o.compression, o.compression >= 0 && o.compression <= 1);
   if (mesh.has_garbage()) fail("the mesh has removed elements");
-  if (!find_map(mesh, kRestLength)) fail(std::string("the mesh has no map ") + kRestLength.name);
+  if (!find_map(mesh, attribute::rest_length))
+    fail(std::string("the mesh has no map ") + attribute::rest_length.name);
 }
 
 double require_length(double rest, Vertex a, Vertex b) {
@@ -87,7 +88,10 @@ std::pair<int, int> ends(const Element& e) {
 class Gatherer {
  public:
   Gatherer(const Mesh& mesh, const GatherOptions& options)
-      : mesh_(mesh), o_(options), rest_(*find_map(mesh, kRestLength)), rest_of_(rest_lengths(mesh)) {}
+      : mesh_(mesh),
+        o_(options),
+        rest_(*find_map(mesh, attribute::rest_length)),
+        rest_of_(rest_lengths(mesh)) {}
 
   GatheredCloth gather() {
     cloth_.particles = gather_particles(mesh_, o_.mass_rule);
@@ -131,7 +135,7 @@ class Gatherer {
   }
 
   void add_structural_springs() {
-    const auto own = find_map(mesh_, kStiffness);
+    const auto own = find_map(mesh_, attribute::stiffness);
     for (Edge e : mesh_.edges()) {
       const double k = stiffness_or(own, mesh_, e, [&] { return stiffness_of(e); });
       cloth_.structural.push_back(spring(mesh_.vertex(e, 0), mesh_.vertex(e, 1), rest_[e], k));
@@ -141,7 +145,7 @@ class Gatherer {
   }
 
   void add_tension() {
-    const auto own = find_map(mesh_, kTension);
+    const auto own = find_map(mesh_, attribute::tension);
     const std::vector<double> by_law = tension_constants(mesh_, o_.tension, o_.shear);
     for (Edge e : mesh_.edges()) {
       const double c = stiffness_or(own, mesh_, e, [&] { return by_law[e.idx()]; });
@@ -163,7 +167,7 @@ class Gatherer {
 
   void add_triangles() {
     const physics::PlaneLame lame = physics::plane_stress(o_.stretch, o_.poisson);
-    const auto own = find_map(mesh_, kTriangleRestLength);
+    const auto own = find_map(mesh_, attribute::triangle_rest_length);
     for (Face f : mesh_.faces()) {
       physics::MembraneTriangle t{{}, {}, lame.lambda, lame.mu};
       int i = 0;
@@ -183,7 +187,7 @@ class Gatherer {
   }
 
   void add_bending_springs() {
-    const auto own = find_map(mesh_, kBendingStiffness);
+    const auto own = find_map(mesh_, attribute::bending_stiffness);
     for (const BendingSpring& b : bending_springs(mesh_)) {
       const double k = stiffness_or(own, mesh_, b.across, [&] {
         return b.count * spring_stiffness(b.rest_length, o_.mean_bending_length, o_.bending_stiffness);
@@ -202,7 +206,8 @@ class Gatherer {
   }
 
   void add_hinges() {
-    const auto angle = find_map(mesh_, kRestAngle), own = find_map(mesh_, kHingeStiffness);
+    const auto angle = find_map(mesh_, attribute::rest_angle),
+               own = find_map(mesh_, attribute::hinge_stiffness);
     const std::vector<double> presses = hinge_presses(mesh_, o_.line_presses, o_.line_widths);
     cloth_.hinge_law = o_.bending == Bending::hinge ? physics::HingeLaw::linear : physics::HingeLaw::cosine;
     for (Edge e : mesh_.edges()) {

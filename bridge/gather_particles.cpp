@@ -26,9 +26,9 @@ void share_equally(physics::Particles& p) {
 
 physics::Particles gather_particles(const geometry::Mesh& mesh, MassRule rule) {
   using namespace geometry;
-  const auto mass = find_map(mesh, kMass);
-  if (!mass) throw std::invalid_argument(std::string("gather: the mesh has no map ") + kMass.name);
-  const auto velocity = find_map(mesh, kVelocity);
+  const auto mass = find_map(mesh, attribute::mass);
+  if (!mass) throw std::invalid_argument(std::string("gather: the mesh has no map ") + attribute::mass.name);
+  const auto velocity = find_map(mesh, attribute::velocity);
   physics::Particles p;
   for (Vertex v : mesh.vertices()) {
     const double m = mesh.is_isolated(v) ? 0 : (*mass)[v];

@@ -46,7 +46,8 @@ class Keeper {
   KeepReport run() {
     help_by_stiffness();
     if (!report_.interrupted) help_all();
-    if (!report_.interrupted && o_.height_trials > 0 && geometry::find_map(mesh_, geometry::kRestPosition))
+    if (!report_.interrupted && o_.height_trials > 0 &&
+        geometry::find_map(mesh_, geometry::attribute::rest_position))
       help_by_height();
     scatter(solved_.particles, mesh_);
     cloth_ = solved_;
@@ -66,7 +67,7 @@ class Keeper {
 
  private:
   void find_lines() {
-    const auto id = geometry::find_map(mesh_, geometry::kLine);
+    const auto id = geometry::find_map(mesh_, geometry::attribute::line);
     const std::vector<double> drawn = meter_.heights(start_.particles),
                               lengths = geometry::lengths_before_lines(mesh_);
     const auto of_line = [](const std::vector<double>& list, int line, double missing) {

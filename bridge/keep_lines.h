@@ -13,7 +13,7 @@ namespace furrow::bridge {
 enum class Verdict { held, pressed, strutted, lowered, cannot_hold };
 
 struct KeptLine {
-  int line = -1;  ///< its id in kLine
+  int line = -1;  ///< its id in attribute::line
   Verdict verdict = Verdict::cannot_hold;
   double press = 1;                ///< factor on its hinges, its own and that of the help [-]
   double struts = 0;               ///< stiffness of its struts [N/m]; 0: none
@@ -44,14 +44,14 @@ struct KeepReport {
 /// strongest press, then a lower height; the least that holds stays. With `whole` the hinges between the
 /// lines are pressed likewise where the motion that nothing holds back is theirs.
 ///
-/// mesh: the garment with kLine, from which `cloth` was gathered and pinned; its positions are the drawn
-/// shape, and follow where heights were lowered. kRestPosition tells where a line lies without its height;
-/// without it nothing is lowered. base: height that a line would have without displacement, by id [m]
-/// (curvature of the garment); may be empty. On return `cloth` has the new rest state, stiffnesses and
-/// struts, at the positions of the mesh, at rest. go_on: asked between and within runs; false: stop. May be
-/// empty. Cost: a factorisation or two each trial; the forward runs are most of it. Same input, same bits.
-/// Throws std::invalid_argument, nothing changed, if an option is out of its range or cloth and mesh do not
-/// fit; and as prestress() and simulate() do.
+/// mesh: the garment with attribute::line, from which `cloth` was gathered and pinned; its positions are the
+/// drawn shape, and follow where heights were lowered. attribute::rest_position tells where a line lies
+/// without its height; without it nothing is lowered. base: height that a line would have without
+/// displacement, by id [m] (curvature of the garment); may be empty. On return `cloth` has the new rest
+/// state, stiffnesses and struts, at the positions of the mesh, at rest. go_on: asked between and within
+/// runs; false: stop. May be empty. Cost: a factorisation or two each trial; the forward runs are most of it.
+/// Same input, same bits. Throws std::invalid_argument, nothing changed, if an option is out of its range or
+/// cloth and mesh do not fit; and as prestress() and simulate() do.
 KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
                       const std::vector<double>& base, const KeepOptions& options,
                       const std::function<bool(double)>& go_on = {});

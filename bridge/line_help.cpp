@@ -38,7 +38,7 @@ bool on_bounds(const HelpedLine& line, const physics::PrestressReport& rest, con
 
 void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mesh,
                  const physics::Particles& drawn, physics::Particles& particles) {
-  const auto rest = geometry::find_map(mesh, geometry::kRestPosition);
+  const auto rest = geometry::find_map(mesh, geometry::attribute::rest_position);
   for (const HelpedLine& line : lines) {
     if (line.height == 1 || !rest) continue;
     for (const int i : line.patch) {

@@ -24,8 +24,8 @@ double struts_of(const HelpedLine& line, const KeepOptions& options);  ///< [N/m
 /// Whether some element of its patch is on a bound of the rest state.
 bool on_bounds(const HelpedLine& line, const physics::PrestressReport& rest, const physics::Cloth& cloth);
 
-/// Lines with height != 1: their patches move from `drawn` towards kRestPosition, where they lay without a
-/// line; pins stay.
+/// Lines with height != 1: their patches move from `drawn` towards attribute::rest_position, where they lay
+/// without a line; pins stay.
 void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mesh,
                  const physics::Particles& drawn, physics::Particles& particles);
 /// Presses the lines' hinges and adds their struts. Where patches overlap the stronger press counts.

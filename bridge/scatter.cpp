@@ -25,7 +25,7 @@ void scatter(const physics::Particles& particles, geometry::Mesh& mesh) {
 
 void scatter_velocities(const physics::Particles& particles, geometry::Mesh& mesh) {
   check(particles, mesh);
-  auto velocity = geometry::ensure_map(mesh, geometry::kVelocity);
+  auto velocity = geometry::ensure_map(mesh, geometry::attribute::velocity);
   for (geometry::Vertex v : mesh.vertices()) velocity[v] = to_cgal(particles.v[v]) - CGAL::ORIGIN;
 }
 

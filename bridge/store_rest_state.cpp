@@ -125,7 +125,7 @@ BendingParts part(std::vector<Spring> springs, const GatheredCloth& of_mesh) {
 
 void write_springs(const std::vector<Spring>& springs, const std::vector<Edge>& origin, Mesh& mesh) {
   if (springs.empty()) return;
-  auto rest = ensure_map(mesh, kRestLength), stiffness = ensure_map(mesh, kStiffness);
+  auto rest = ensure_map(mesh, attribute::rest_length), stiffness = ensure_map(mesh, attribute::stiffness);
   for (std::size_t i = 0; i < springs.size(); ++i) {
     rest[origin[i]] = springs[i].rest_length;
     stiffness[origin[i]] = springs[i].stiffness;
@@ -135,7 +135,7 @@ void write_springs(const std::vector<Spring>& springs, const std::vector<Edge>& 
 void write_tension(const std::vector<physics::Tension>& tension, const std::vector<Edge>& origin,
                    Mesh& mesh) {
   if (tension.empty()) return;
-  auto rest = ensure_map(mesh, kRestLength), stretch = ensure_map(mesh, kTension);
+  auto rest = ensure_map(mesh, attribute::rest_length), stretch = ensure_map(mesh, attribute::tension);
   for (std::size_t i = 0; i < tension.size(); ++i) {
     rest[origin[i]] = tension[i].rest_length;
     stretch[origin[i]] = tension[i].stretch;
@@ -145,7 +145,7 @@ void write_tension(const std::vector<physics::Tension>& tension, const std::vect
 void write_membrane(const std::vector<physics::MembraneTriangle>& triangles,
                     const std::vector<Halfedge>& origin, Mesh& mesh) {
   if (triangles.empty()) return;
-  auto rest = ensure_map(mesh, kTriangleRestLength);
+  auto rest = ensure_map(mesh, attribute::triangle_rest_length);
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     int i = 0;
     for (Halfedge h : mesh.halfedges_around_face(origin[f]))
@@ -156,7 +156,8 @@ void write_membrane(const std::vector<physics::MembraneTriangle>& triangles,
 void write_bending(const BendingParts& bending, Mesh& mesh) {
   set_struts(mesh, bending.struts);
   if (bending.cross.empty()) return;
-  auto rest = ensure_map(mesh, kBendingRestLength), stiffness = ensure_map(mesh, kBendingStiffness);
+  auto rest = ensure_map(mesh, attribute::bending_rest_length),
+       stiffness = ensure_map(mesh, attribute::bending_stiffness);
   for (const auto& [edge, spring] : bending.cross) {
     rest[edge] = spring.rest_length;
     stiffness[edge] = spring.stiffness;
@@ -165,7 +166,8 @@ void write_bending(const BendingParts& bending, Mesh& mesh) {
 
 void write_hinges(const std::vector<physics::Hinge>& hinges, const std::vector<Edge>& origin, Mesh& mesh) {
   if (hinges.empty()) return;
-  auto angle = ensure_map(mesh, kRestAngle), stiffness = ensure_map(mesh, kHingeStiffness);
+  auto angle = ensure_map(mesh, attribute::rest_angle),
+       stiffness = ensure_map(mesh, attribute::hinge_stiffness);
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     angle[origin[i]] = hinges[i].rest_angle;
     stiffness[origin[i]] = hinges[i].stiffness;

@@ -23,7 +23,7 @@ std::vector<double> tension_constants(const geometry::Mesh& mesh, double c, doub
   range("shear", shear, shear >= 0 && shear <= 1);
   require_triangles(mesh, "tension_constants");
   const std::vector<double> lengths = rest_lengths(mesh);
-  const auto diagonal = find_map(mesh, kDiagonal);
+  const auto diagonal = find_map(mesh, attribute::diagonal);
   const auto is_diagonal = [&](Halfedge h) { return diagonal && (*diagonal)[mesh.edge(h)]; };
   std::vector<double> constants(lengths.size(), 0.0);
   for (Face f : mesh.faces()) {

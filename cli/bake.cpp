@@ -26,14 +26,14 @@ struct BakeArguments : CommonArguments {
   geometry::BakeOptions options;
 };
 
-constexpr double kMoved = 1e-4;  // from the low surface: such faces are reported as wrinkled [m]
+constexpr double moved = 1e-4;  // from the low surface: such faces are reported as wrinkled [m]
 
 std::vector<Face> faces_away_from(const Mesh& mesh, const Mesh& low) {
   const geometry::SurfaceProjector surface(low);
   std::vector<Face> faces;
   for (Face f : mesh.faces())
     for (geometry::Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
-      if (!interrupted() && surface.closest(mesh.point(v)).distance > kMoved) {
+      if (!interrupted() && surface.closest(mesh.point(v)).distance > moved) {
         faces.push_back(f);
         break;
       }
@@ -76,7 +76,7 @@ void check_call(const BakeArguments& a) {
 /// Both meshes must have texture coordinates.
 io::MeshFile read_textured(const std::string& path, const BakeArguments& a) {
   io::MeshFile file = read_mesh(path, a);
-  if (!geometry::find_map(file.mesh, geometry::kTexture))
+  if (!geometry::find_map(file.mesh, geometry::attribute::texture))
     throw geometry::ContentError(path + ": has no texture coordinates; export them, maps lie in their space");
   return file;
 }
@@ -109,7 +109,7 @@ void bake(BakeArguments a, int& exit_code) {
     });
   }
   if (!maps) {
-    exit_code = kInterrupted;
+    exit_code = exit_interrupted;
     return warn("interrupted; nothing is written", a);
   }
   if (maps->overlapping > 0)
@@ -125,7 +125,7 @@ void bake(BakeArguments a, int& exit_code) {
               {"largest_displacement", maps->largest}};
   if (a.check >= 0 && !interrupted()) report["check"] = check(low, high.mesh, files, a);
   if (interrupted()) {  // the maps are written; what follows them is only a measurement
-    exit_code = kInterrupted;
+    exit_code = exit_interrupted;
     warn("interrupted; the maps are written, the check is not complete", a);
   }
   report["written"] = {files.displacement.string(), files.normal.string(), files.record.string()};

@@ -195,10 +195,10 @@ int WorldBody::count_near(const std::vector<physics::Vec3>& points, double dista
 
 physics::PushOutReport WorldBody::push_out(std::vector<physics::Vec3>& points, const std::vector<int>& which,
                                            double time) const {
-  constexpr double kOutside = 1e-6;  // [m], so that rounding leaves none inside
+  constexpr double outside = 1e-6;  // [m], so that rounding leaves none inside
   if (!rigid_) return {};
   const physics::PosedCollider posed(rigid_->exact, physics::pose(motion_, time));
-  return physics::push_out(points, which, posed, kOutside);
+  return physics::push_out(points, which, posed, outside);
 }
 
 io::MeshFile WorldBody::at(double time, const CommonArguments& common) const {
@@ -225,13 +225,13 @@ Eigen::AlignedBox3d WorldBody::box(double time) const {
 }
 
 double edge_sag(const geometry::Mesh& garment) {
-  constexpr double kLimbRadius = 0.05;
+  constexpr double limb_radius = 0.05;
   std::vector<double> lengths;
-  const auto rest = *geometry::find_map(garment, geometry::kRestLength);
+  const auto rest = *geometry::find_map(garment, geometry::attribute::rest_length);
   for (geometry::Edge e : garment.edges()) lengths.push_back(rest[e]);
   const auto long_edge = lengths.begin() + static_cast<std::ptrdiff_t>(0.95 * double(lengths.size() - 1));
   std::nth_element(lengths.begin(), long_edge, lengths.end());
-  return *long_edge * *long_edge / (8 * kLimbRadius);
+  return *long_edge * *long_edge / (8 * limb_radius);
 }
 
 double contact_gap(double wanted, double field_tolerance, const io::MeshFile& garment) {

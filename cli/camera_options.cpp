@@ -11,10 +11,10 @@ namespace furrow::cli {
 namespace {
 
 /// Azimuth and elevation [degrees] of the named views.
-const std::map<std::string, std::pair<double, double>> kViews{{"three-quarter", {25, 8}}, {"front", {0, 0}},
-                                                              {"back", {180, 0}},         {"left", {90, 0}},
-                                                              {"right", {-90, 0}},        {"top", {0, 85}}};
-const std::map<std::string, io::Quality> kQualities{
+const std::map<std::string, std::pair<double, double>> views{{"three-quarter", {25, 8}}, {"front", {0, 0}},
+                                                             {"back", {180, 0}},         {"left", {90, 0}},
+                                                             {"right", {-90, 0}},        {"top", {0, 85}}};
+const std::map<std::string, io::Quality> qualities{
     {"draft", io::Quality::draft}, {"normal", io::Quality::normal}, {"fine", io::Quality::fine}};
 
 io::Position position(const std::string& text, const std::string& option) {
@@ -49,7 +49,7 @@ io::Camera camera_of(std::span<const io::RenderScene> scenes, const io::RenderOp
 
 io::RenderOptions render_options(std::span<const io::RenderScene> scenes, const CameraArguments& a) {
   io::RenderOptions options;
-  options.quality = kQualities.at(a.quality);
+  options.quality = qualities.at(a.quality);
   options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   if (!a.camera.empty()) {
     const io::CameraPicture picture = io::read_camera(a.camera);
@@ -61,8 +61,8 @@ io::RenderOptions render_options(std::span<const io::RenderScene> scenes, const 
   if (!(a.field_of_view >= 1 && a.field_of_view <= 150))
     throw UsageError("--fov takes 1 to 150 degrees, not " + Json(a.field_of_view).dump());
   set_size(options, a.size);
-  options.view.azimuth_deg = kViews.at(a.view).first;
-  options.view.elevation_deg = kViews.at(a.view).second;
+  options.view.azimuth_deg = views.at(a.view).first;
+  options.view.elevation_deg = views.at(a.view).second;
   options.view.field_of_view_deg = a.field_of_view;
   options.camera = camera_of(scenes, options, a);
   io::check(io::CameraPicture{*options.camera, options.width, options.height});
@@ -83,7 +83,7 @@ void add_camera_options(CLI::App& sub, CameraArguments& a) {
     return sub.add_option(name, value, help)->excludes(file);
   };
   add("--view", a.view, "from where: front, back, left, right, top or three-quarter")
-      ->check(CLI::IsMember(kViews))
+      ->check(CLI::IsMember(views))
       ->capture_default_str();
   add("--eye", a.eye, "where the camera stands: x,y,z [m, y up]; with --target, in place of --view");
   add("--target", a.target, "what it looks at: x,y,z [m, y up]");
@@ -94,7 +94,7 @@ void add_camera_options(CLI::App& sub, CameraArguments& a) {
   sub.add_option("--save-camera", a.save_camera,
                  "write the camera as JSON: strokes in a stroke file can be drawn in its pixels");
   sub.add_option("--quality", a.quality, "draft, normal or fine")
-      ->check(CLI::IsMember(kQualities))
+      ->check(CLI::IsMember(qualities))
       ->capture_default_str();
 }
 

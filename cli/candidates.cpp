@@ -14,7 +14,7 @@ namespace {
 
 using physics::Integrator;
 
-constexpr double kCheapest = 0.9;  // of leapfrog's limit
+constexpr double cheapest = 0.9;  // of leapfrog's limit
 
 std::string text_of(double value) {
   std::string text;
@@ -33,7 +33,7 @@ double rounded_down(double dt) {
 /// The limit, or less: a step that is chosen without `dt` is at most dt_max, and halves and quarters are of
 /// that one.
 double usable(double dt_limit, const SceneCloth& scene) {
-  return std::min(dt_limit, scene.options.dt_max / kCheapest);
+  return std::min(dt_limit, scene.options.dt_max / cheapest);
 }
 
 Candidate explicit_at(Integrator integrator, double factor, double dt_limit) {
@@ -42,7 +42,7 @@ Candidate explicit_at(Integrator integrator, double factor, double dt_limit) {
   c.integrator = integrator;
   c.expected_dt = factor * dt_limit;
   if (integrator == Integrator::rk4) c.expected_dt *= physics::rk4_limit / 2;
-  if (factor != kCheapest) c.expected_dt = *(c.dt = rounded_down(c.expected_dt));
+  if (factor != cheapest) c.expected_dt = *(c.dt = rounded_down(c.expected_dt));
   return c;
 }
 
@@ -71,12 +71,12 @@ std::optional<Candidate> scenes_own(const SceneCloth& scene, double dt_limit) {
   c.iterations = iterations_of(o, o.integrator);
   c.dt = o.dt;
   c.forced = o.step_rule == physics::StepRule::forced;
-  c.expected_dt = o.dt.value_or(kCheapest * dt_limit);
+  c.expected_dt = o.dt.value_or(cheapest * dt_limit);
   return c;
 }
 
 double cost_with(const Work& work, Integrator integrator) {
-  return cost_of(work, integrator == Integrator::rk4 ? kCosts.rk4_vertex_step : kCosts.vertex_step);
+  return cost_of(work, integrator == Integrator::rk4 ? costs.rk4_vertex_step : costs.vertex_step);
 }
 
 /// So many distances asked for, and the fields of the frames on the way.
@@ -110,15 +110,15 @@ const char* name_of(Integrator integrator) {
 }
 
 Candidate reference_candidate(const SceneCloth& scene, double dt_limit) {
-  return explicit_at(Integrator::leapfrog, kCheapest / 4, usable(dt_limit, scene));
+  return explicit_at(Integrator::leapfrog, cheapest / 4, usable(dt_limit, scene));
 }
 
 std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit) {
   std::vector<Candidate> all;
   if (std::isfinite(dt_limit)) {
-    all.push_back(explicit_at(Integrator::leapfrog, kCheapest, usable(dt_limit, scene)));
-    all.push_back(explicit_at(Integrator::leapfrog, kCheapest / 2, usable(dt_limit, scene)));
-    all.push_back(explicit_at(Integrator::rk4, kCheapest, dt_limit));
+    all.push_back(explicit_at(Integrator::leapfrog, cheapest, usable(dt_limit, scene)));
+    all.push_back(explicit_at(Integrator::leapfrog, cheapest / 2, usable(dt_limit, scene)));
+    all.push_back(explicit_at(Integrator::rk4, cheapest, dt_limit));
   }
   for (int rate : {60, 240, 960}) all.push_back(implicit_at(Integrator::backward_euler, rate, scene));
   if (scene.cloth.membrane.empty() && scene.cloth.tension.empty() && scene.cloth.hinges.empty())

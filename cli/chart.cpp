@@ -80,7 +80,7 @@ int chart(ChartArguments& a) {
   report.update(to_json(j, scene_dt));
   print_report(report, common);
   const int code = exit_code_of(j);
-  if (code != kOk) std::cerr << "error: " << a.in << ": " << words(j, scene_dt) << "\n";
+  if (code != exit_ok) std::cerr << "error: " << a.in << ": " << words(j, scene_dt) << "\n";
   return code;
 }
 

@@ -17,7 +17,7 @@
 namespace furrow::cli {
 namespace {
 
-constexpr double kLeastError = 1e-8;  // drawn there if below, also 0
+constexpr double least_error = 1e-8;  // drawn there if below, also 0
 
 std::string ending(const std::string& path) {
   return io::lower_case(std::filesystem::path(path).extension().string());
@@ -34,7 +34,7 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-double drawn_error(const JudgedCandidate& c) { return 100 * std::max(c.error, kLeastError); }
+double drawn_error(const JudgedCandidate& c) { return 100 * std::max(c.error, least_error); }
 
 struct Range {
   double low = INFINITY, high = 0;
@@ -71,12 +71,12 @@ void plot_point(std::ostream& out, const JudgedCandidate& c, int sign, double to
 }
 
 void plot_points(std::ostream& out, const Judgement& j, double top) {
-  constexpr int kSigns[] = {7, 5, 9, 11, 13};
+  constexpr int signs[] = {7, 5, 9, 11, 13};
   std::map<physics::Integrator, int> seen;
   for (const JudgedCandidate& c : j.candidates) {
     if (c.fate != Fate::diverged && !(c.fate == Fate::done && std::isfinite(c.error))) continue;
     const bool is_reference = &c == &j.candidates.back();
-    const int sign = is_reference ? 8 : kSigns[seen[c.candidate.integrator]++ % 5];
+    const int sign = is_reference ? 8 : signs[seen[c.candidate.integrator]++ % 5];
     plot_point(out, c, sign, top, is_reference);
   }
   if (j.chosen < 0) return;
@@ -117,7 +117,7 @@ std::string script(const std::string& path, const Judgement& j, const std::strin
 void write_rows(std::ostream& out, const Judgement& j) {
   out.precision(9);
   out << "name,integrator,dt,cost,error,error_is";
-  for (const auto& distance : kDistances) out << "," << distance.first;
+  for (const auto& distance : distance_columns) out << "," << distance.first;
   out << ",verdict\n";
   for (const JudgedCandidate& c : j.candidates) {
     const bool known = is_known(c);
@@ -127,7 +127,7 @@ void write_rows(std::ostream& out, const Judgement& j) {
       out << c.error << "," << kind_of_error(j, c);
     else
       out << ",";
-    for (const auto& distance : kDistances) {
+    for (const auto& distance : distance_columns) {
       out << ",";
       if (known) out << c.off.*distance.second;
     }

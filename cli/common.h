@@ -13,9 +13,16 @@ namespace furrow::cli {
 
 using Json = nlohmann::ordered_json;
 
-enum ExitCode { kOk = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kNotConverged = 4, kInterrupted = 130 };
+enum ExitCode {
+  exit_ok = 0,
+  exit_failed = 1,
+  exit_usage = 2,
+  exit_unreadable = 3,
+  exit_not_converged = 4,
+  exit_interrupted = 130
+};
 
-/// A fault in how the program was called; exits with kUsage.
+/// A fault in how the program was called; exits with exit_usage.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -36,11 +36,11 @@ struct CostTable {                  ///< [s]
   double factorisation = 8.65e-6;  ///< with assembly, a vertex
   double fill = 1.16e-8;           ///< and times vertices^2: the factor fills in
 };
-constexpr CostTable kCosts;
+constexpr CostTable costs;
 
 /// Seconds of one thread. `vertex_step`: one of the table's, as the integrator needs.
 constexpr double cost_of(const Work& w, double vertex_step) {
-  const CostTable& c = kCosts;
+  const CostTable& c = costs;
   return w.vertices * w.steps * vertex_step + w.springs * c.spring + w.triangles * c.triangle +
          w.hinges * c.hinge + w.queries * c.query + w.frame_queries * c.frame_query + w.samples * c.sample +
          w.sweeps * c.sweep + w.factorisations * w.vertices * (c.factorisation + c.fill * w.vertices);

@@ -160,12 +160,12 @@ int drape(const DrapeArguments& a) {
   print_report(report, common);
   const int code = exit_code_of(rows, common);
   if (interrupted()) tell_interruption(a, draws, all[0].animated);
-  return code == kOk && interrupted() ? kInterrupted : code;
+  return code == exit_ok && interrupted() ? exit_interrupted : code;
 }
 
 /// Where drape's defaults are not simulate's.
 void describe_cloth(CLI::App& sub) {
-  constexpr std::pair<const char*, const char*> kHelp[] = {
+  constexpr std::pair<const char*, const char*> help_texts[] = {
       {"--fabric",
        "a measured fabric: cotton, silk, denim, … (docs/scenes.md); default what the garment's PLY notes, "
        "else cotton"},
@@ -178,7 +178,7 @@ void describe_cloth(CLI::App& sub) {
       {"--rigidity", "bending rigidity of hinges [N m]; default the fabric's"},
       {"--friction", "Coulomb friction with the body; default the fabric's, else 0.3"},
       {"--stiffness", "in place of a fabric: k_std of structural springs [N/m]"}};
-  for (const auto& [flag, help] : kHelp) sub.get_option(flag)->description(help);
+  for (const auto& [flag, help] : help_texts) sub.get_option(flag)->description(help);
 }
 
 }  // namespace

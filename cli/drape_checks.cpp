@@ -8,13 +8,13 @@ namespace furrow::cli {
 namespace {
 
 /// Settings of motion, of output, and of what `simulate` alone does.
-constexpr const char* kUnused[] = {"garment.rest",          "material.damping",
-                                   "material.drag",         "forces.wind",
-                                   "forces.gusts",          "forces.swirl",
-                                   "simulation.seconds",    "simulation.stop_at",
-                                   "simulation.dt",         "simulation.force_dt",
-                                   "simulation.integrator", "simulation.sweeps",
-                                   "simulation.newton",     "output"};
+constexpr const char* unused[] = {"garment.rest",          "material.damping",
+                                  "material.drag",         "forces.wind",
+                                  "forces.gusts",          "forces.swirl",
+                                  "simulation.seconds",    "simulation.stop_at",
+                                  "simulation.dt",         "simulation.force_dt",
+                                  "simulation.integrator", "simulation.sweeps",
+                                  "simulation.newton",     "output"};
 
 bool is_said(const io::TomlDocument& document, const std::string& path) {
   const std::size_t dot = path.find('.');
@@ -73,7 +73,7 @@ std::vector<std::string> parse_fabrics(const std::string& text) {
 void warn_of_unused_settings(const io::TomlDocument& document, const CommonArguments& common) {
   std::string names;
   const auto add = [&](const std::string& path) { names += (names.empty() ? "" : ", ") + path; };
-  for (const char* path : kUnused)
+  for (const char* path : unused)
     if (is_said(document, path)) add(path);
   const Json pins = document.root.value("pins", Json::array());
   for (std::size_t i = 0; i < pins.size(); ++i)

@@ -96,7 +96,7 @@ void sew_band(geometry::Mesh& mesh, const std::vector<int>& loop,
 std::size_t count_nearer(const geometry::Mesh& mesh, double distance) {
   std::size_t n = 0;
   for (const geometry::VertexAttribute& a : geometry::vertex_attributes(mesh))
-    if (a.name == bridge::kFitDistance)
+    if (a.name == bridge::fit_distance)
       for (geometry::Vertex v : mesh.vertices()) n += a.values[v] < distance;
   return n;
 }

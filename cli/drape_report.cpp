@@ -98,12 +98,12 @@ std::string outcome_of(const DrapedRow& row) {
 bool is_pierced(const DrapedRow& row) { return row.fit->distance.deepest_penetration > row.penetration; }
 
 int exit_code_of(std::span<const DrapedRow> rows, const CommonArguments& common) {
-  int code = kOk;
+  int code = exit_ok;
   for (const DrapedRow& row : rows) {
-    if (row.report->stopped) return kInterrupted;
+    if (row.report->stopped) return exit_interrupted;
     tell_contact(row, common);
     if (!rests(row)) tell_unrest(row, common);
-    if (!rests(row) || is_pierced(row)) code = kNotConverged;
+    if (!rests(row) || is_pierced(row)) code = exit_not_converged;
   }
   return code;
 }

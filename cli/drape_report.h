@@ -30,8 +30,9 @@ std::string outcome_of(const DrapedRow& row);
 /// Whether the body comes through the cloth by more than was allowed.
 bool is_pierced(const DrapedRow& row);
 
-/// kNotConverged, with a word on stderr, if one did not come to rest or is pierced; kInterrupted, without
-/// a word, if it was stopped. Warns of a body that comes through by less, and of cloth nearer than the gap.
+/// exit_not_converged, with a word on stderr, if one did not come to rest or is pierced; exit_interrupted,
+/// without a word, if it was stopped. Warns of a body that comes through by less, and of cloth nearer than
+/// the gap.
 int exit_code_of(std::span<const DrapedRow> rows, const CommonArguments& common);
 
 }  // namespace furrow::cli

@@ -82,7 +82,7 @@ void take_rest(geometry::Mesh& mesh, const FitArguments& a) {
     throw geometry::ContentError(a.rest + ": has " + std::to_string(rest.mesh.num_vertices()) +
                                  " vertices, but " + a.worn[0] + " has " +
                                  std::to_string(mesh.num_vertices()));
-  auto lengths = geometry::ensure_map(mesh, geometry::kRestLength);
+  auto lengths = geometry::ensure_map(mesh, geometry::attribute::rest_length);
   for (geometry::Edge e : mesh.edges())
     lengths[e] = std::sqrt(
         CGAL::squared_distance(rest.mesh.point(mesh.vertex(e, 0)), rest.mesh.point(mesh.vertex(e, 1))));

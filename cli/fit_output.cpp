@@ -12,7 +12,7 @@
 namespace furrow::cli {
 namespace {
 
-constexpr io::Colour kFigureColour{0.56f, 0.56f, 0.57f};  // no colour of either scale
+constexpr io::Colour figure_colour{0.56f, 0.56f, 0.57f};  // no colour of either scale
 
 Json to_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
@@ -55,7 +55,7 @@ io::RenderScene scene_of(const FitPanel& panel) {
   scene.meshes.push_back(io::render_mesh_from(*panel.garment, io::Style::cloth));
   if (!panel.body) return scene;
   io::RenderMesh body = io::render_mesh_from(*panel.body, io::Style::body);
-  body.colour = kFigureColour;
+  body.colour = figure_colour;
   body.vertex_colours.clear();
   body.framed = false;
   scene.meshes.push_back(std::move(body));
@@ -121,7 +121,7 @@ io::FitScale fit_scale(io::FitQuantity quantity, const bridge::FitOptions& optio
 
 void colour_garment(geometry::Mesh& garment, const io::FitScale& scale) {
   const std::string name =
-      scale.quantity == io::FitQuantity::strain ? bridge::kFitStrain : bridge::kFitDistance;
+      scale.quantity == io::FitQuantity::strain ? bridge::fit_strain : bridge::fit_distance;
   for (const geometry::VertexAttribute& attribute : geometry::vertex_attributes(garment)) {
     if (attribute.name != name) continue;
     std::vector<double> values(garment.num_vertices(), 0);

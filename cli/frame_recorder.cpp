@@ -8,8 +8,8 @@ FrameRecorder::FrameRecorder(std::filesystem::path path, const geometry::Mesh& m
     : path_(std::move(path)), options_(options), writer_(path_, mesh, options) {}
 
 void FrameRecorder::observe(double time, std::span<const physics::Vec3> x) {
-  constexpr double kRounding = 1e-9;  // of a frame's time against the simulation's [s]
-  while (writer_.next_time() <= time + kRounding) {
+  constexpr double rounding = 1e-9;  // of a frame's time against the simulation's [s]
+  while (writer_.next_time() <= time + rounding) {
     const double span = time - time_;
     const double share = x_.empty() || !(span > 0) ? 1 : std::min(1.0, (writer_.next_time() - time_) / span);
     std::vector<physics::Vec3> frame(x.begin(), x.end());

@@ -40,7 +40,7 @@ void info(const InfoArguments& a) {
   report["borders"] = borders_to_json(file.mesh);
   report["groups"] = file.group_names;
   report["materials"] = file.material_names;
-  report["texture_coordinates"] = geometry::find_map(file.mesh, geometry::kTexture).has_value();
+  report["texture_coordinates"] = geometry::find_map(file.mesh, geometry::attribute::texture).has_value();
   if (const auto record = io::find_wrinkle_record(file))
     for (const io::WrinkleRecord::Line& line : record->lines) report["lines"].push_back(line.name);
   const io::RepairReport& r = file.repairs;

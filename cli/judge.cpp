@@ -11,11 +11,11 @@
 namespace furrow::cli {
 namespace {
 
-constexpr double kTwin = 1e-9;  // [m]
-constexpr double kChaos =
+constexpr double twin_offset = 1e-9;  // [m]
+constexpr double chaos =
     0.01;  // of the error that is to be told, the tolerance: a twin that drifts farther is chaotic
-constexpr double kShortest = 1.0 / 30;                    // [s]
-constexpr double kClockOfBudget = 3, kClockAtLeast = 60;  // [-], [s]
+constexpr double shortest = 1.0 / 30;                       // [s]
+constexpr double clock_of_budget = 3, clock_at_least = 60;  // [-], [s]
 
 /// Two digits, never above.
 double rounded_down(double x) {
@@ -90,9 +90,9 @@ class Judge {
       throw UsageError("the scene has no time to judge; give it --set simulation.seconds=1");
     if (rate_ * j_.seconds <= j_.options.budget) return;
     const double fits = j_.options.budget / rate_;
-    if (fits < kShortest)
+    if (fits < shortest)
       throw UsageError("--budget " + Json(j_.options.budget).dump() + ": judges only " + Json(fits).dump() +
-                       " s of this scene; raise it to " + Json(std::floor(rate_ * kShortest) + 1).dump() +
+                       " s of this scene; raise it to " + Json(std::floor(rate_ * shortest) + 1).dump() +
                        " or more");
     j_.seconds = rounded_down(fits);
     j_.shortened = true;
@@ -121,7 +121,7 @@ class Judge {
     const double clock = Seconds(std::chrono::steady_clock::now() - started_).count();
     if (interrupted())
       j_.broken = Broken::interrupted;
-    else if (clock > kClockOfBudget * j_.options.budget + kClockAtLeast)
+    else if (clock > clock_of_budget * j_.options.budget + clock_at_least)
       j_.broken = Broken::clock;
     return j_.broken != Broken::no;
   }
@@ -134,7 +134,7 @@ class Judge {
     std::mt19937 random(1);
     for (std::size_t i = 0; i < cloth.particles.size(); ++i)
       for (int k = 0; k < 3; ++k) {
-        const double way = random() & 1 ? kTwin : -kTwin;
+        const double way = random() & 1 ? twin_offset : -twin_offset;
         if (cloth.particles.inv_mass[i] > 0) cloth.particles.x[i][k] += way;
       }
     JudgedCandidate twin = j_.candidates[0];
@@ -148,7 +148,7 @@ class Judge {
     if (j_.candidates.back().fate != Fate::done) return;
     for (std::size_t i = 0; i < reference(); ++i) {
       JudgedCandidate& c = j_.candidates[i];
-      c.off = c.fate == Fate::done ? meter_.between(shapes_[i], shapes_.back()) : kInfinitelyFar;
+      c.off = c.fate == Fate::done ? meter_.between(shapes_[i], shapes_.back()) : infinitely_far;
     }
     choose_error();
     for (JudgedCandidate& c : j_.candidates) c.error = error_of(c.off);
@@ -160,7 +160,7 @@ class Judge {
   }
 
   void choose_error() {
-    const double drift = kChaos * j_.options.tolerance, halves = j_.candidates[1].off.rms;
+    const double drift = chaos * j_.options.tolerance, halves = j_.candidates[1].off.rms;
     j_.by_shape = j_.twin_drift > drift || halves > j_.options.tolerance;
     j_.why = "positions at the end (RMS by mass): two runs begun 1e-9 m apart stay together";
     if (!j_.by_shape) return;

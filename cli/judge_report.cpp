@@ -26,7 +26,7 @@ Json row_of(const Judgement& j, const JudgedCandidate& c, bool scene_dt) {
            {"resolved", std::isfinite(c.error) && j.resolved(c)}};
   const bool known = is_known(c);
   if (known) row["error"] = c.error, row["error_is"] = kind_of_error(j, c);
-  for (const auto& [name, member] : kDistances) row[name] = known ? Json(c.off.*member) : Json();
+  for (const auto& [name, member] : distance_columns) row[name] = known ? Json(c.off.*member) : Json();
   row.update({{"steps", c.steps}, {"dt", c.dt}, {"flags", flags_of(c.candidate, scene_dt)}});
   return row;
 }
@@ -147,8 +147,8 @@ Json to_json(const Judgement& j, bool scene_dt) {
 }
 
 int exit_code_of(const Judgement& j) {
-  if (j.broken == Broken::interrupted) return kInterrupted;
-  return j.broken == Broken::clock || j.chosen < 0 ? kNotConverged : kOk;
+  if (j.broken == Broken::interrupted) return exit_interrupted;
+  return j.broken == Broken::clock || j.chosen < 0 ? exit_not_converged : exit_ok;
 }
 
 }  // namespace furrow::cli

@@ -15,7 +15,7 @@ Json to_json(const Judgement& j, bool scene_dt);
 std::string words(const Judgement& j, bool scene_dt);
 
 /// The components of an error, as reports name them.
-inline constexpr std::pair<const char*, double ShapeDistance::*> kDistances[] = {
+inline constexpr std::pair<const char*, double ShapeDistance::*> distance_columns[] = {
     {"rms", &ShapeDistance::rms},         {"max", &ShapeDistance::max},
     {"surface", &ShapeDistance::surface}, {"centre", &ShapeDistance::centre},
     {"extent", &ShapeDistance::extent},   {"borders", &ShapeDistance::borders},
@@ -30,7 +30,7 @@ const char* name_of(Fate fate);
 /// "meets" or "misses" the tolerance, "unknown" without a reference; else its fate.
 const char* verdict_of(const Judgement& j, const JudgedCandidate& c);
 
-/// kOk, kNotConverged where nothing meets the tolerance or the clock broke off, kInterrupted.
+/// exit_ok, exit_not_converged where nothing meets the tolerance or the clock broke off, exit_interrupted.
 int exit_code_of(const Judgement& j);
 
 }  // namespace furrow::cli

@@ -153,7 +153,7 @@ int keep(KeepArguments& a) {
   common.up = scene.up;
   const bool later =
       std::any_of(scene.lines.begin(), scene.lines.end(), [](const auto& l) { return l.time > 0; });
-  if (!state && later && !(state = run_until_drawn(scene, document, folder, common))) return kInterrupted;
+  if (!state && later && !(state = run_until_drawn(scene, document, folder, common))) return exit_interrupted;
   SceneCloth garment = drawn_garment(scene, state, common);
   const io::WrinkleRecord record = *io::find_wrinkle_record(garment.file);
   const bridge::KeepOptions options = options_of(a, garment.options, record);

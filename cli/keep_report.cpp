@@ -74,8 +74,8 @@ Json to_json(const KeptLine& line, const io::WrinkleRecord& record) {
 /// The mesh with the lines of one verdict only.
 geometry::Mesh lines_of(const geometry::Mesh& mesh, const std::vector<KeptLine>& lines, Verdict verdict) {
   geometry::Mesh result = mesh;
-  const auto id = geometry::ensure_map(result, geometry::kLine);
-  const auto edge = geometry::find_map(result, geometry::kLineEdge);
+  const auto id = geometry::ensure_map(result, geometry::attribute::line);
+  const auto edge = geometry::find_map(result, geometry::attribute::line_edge);
   const auto wanted = [&](int line) {
     return std::any_of(lines.begin(), lines.end(),
                        [&](const KeptLine& l) { return l.line == line && l.verdict == verdict; });
@@ -156,10 +156,10 @@ io::RenderScene verdict_scene(const geometry::Mesh& mesh, const bridge::KeepRepo
 }
 
 int exit_code_of(const bridge::KeepReport& report) {
-  if (report.interrupted) return kInterrupted;
+  if (report.interrupted) return exit_interrupted;
   const bool all = std::all_of(report.lines.begin(), report.lines.end(),
                                [](const KeptLine& l) { return l.verdict != Verdict::cannot_hold; });
-  return all ? kOk : kNotConverged;
+  return all ? exit_ok : exit_not_converged;
 }
 
 }  // namespace furrow::cli

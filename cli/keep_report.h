@@ -19,7 +19,7 @@ Json to_json(const bridge::KeepReport& report, const io::WrinkleRecord& record);
 /// blue lowered, red cannot hold.
 io::RenderScene verdict_scene(const geometry::Mesh& mesh, const bridge::KeepReport& report);
 
-/// kOk; kNotConverged where a line cannot hold; kInterrupted.
+/// exit_ok; exit_not_converged where a line cannot hold; exit_interrupted.
 int exit_code_of(const bridge::KeepReport& report);
 
 }  // namespace furrow::cli

@@ -52,7 +52,8 @@ io::WrinkleRecord record_of(const geometry::WrinkleOptions& o,
   record.mean_bending_length = report.mean_bending_length;
   record.density = o.density;
   record.options = flags(o);
-  record.lines.resize(o.first_line, {"", geometry::kUnset, geometry::kUnset, geometry::kUnset});
+  record.lines.resize(o.first_line,
+                      {"", geometry::unset_value, geometry::unset_value, geometry::unset_value});
   for (const geometry::WrinkledLine& line : report.lines)
     record.lines.push_back({line.name, line.height, line.drawn_height, line.smoothed_height, line.base_height,
                             line.width, line.sharpness, line.press});

@@ -46,7 +46,7 @@ int run(int argc, char** argv) {
   app.name("furrow");
   app.set_version_flag("--version", cli::version_text());
   app.require_subcommand(1);
-  int exit_code = cli::kOk;
+  int exit_code = cli::exit_ok;
   cli::add_info(app);
   cli::add_subdivide(app);
   cli::add_smooth(app);
@@ -62,13 +62,13 @@ int run(int argc, char** argv) {
   cli::add_transfer(app);
   cli::add_bake(app, exit_code);
   if (argc > 1 && argv[1][0] != '-' && !has_subcommand(app, argv[1]))
-    return fail(cli::kUsage, unknown_subcommand(app, argv[1]));
+    return fail(cli::exit_usage, unknown_subcommand(app, argv[1]));
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    return fail(cli::kUsage,
+    return fail(cli::exit_usage,
                 std::string(e.what()) + "; furrow " + (argc > 1 ? argv[1] : "") + " --help tells more");
   }
   return exit_code;
@@ -80,16 +80,16 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const physics::Cancelled&) {
-    return fail(cli::kInterrupted, "interrupted before anything was written");
+    return fail(cli::exit_interrupted, "interrupted before anything was written");
   } catch (const cli::UsageError& e) {
-    return fail(cli::kUsage, e.what());
+    return fail(cli::exit_usage, e.what());
   } catch (const std::invalid_argument& e) {
-    return fail(cli::kUsage, e.what());
+    return fail(cli::exit_usage, e.what());
   } catch (const geometry::ContentError& e) {
-    return fail(cli::kUnreadable, e.what());
+    return fail(cli::exit_unreadable, e.what());
   } catch (const std::bad_alloc&) {
-    return fail(cli::kFailed, "not enough memory; try a smaller mesh or a larger --tolerance");
+    return fail(cli::exit_failed, "not enough memory; try a smaller mesh or a larger --tolerance");
   } catch (const std::exception& e) {
-    return fail(cli::kFailed, e.what());
+    return fail(cli::exit_failed, e.what());
   }
 }

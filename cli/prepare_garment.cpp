@@ -18,7 +18,7 @@ namespace furrow::cli {
 namespace {
 
 bool has_masses(const geometry::Mesh& mesh) {
-  const auto mass = geometry::find_map(mesh, geometry::kMass);
+  const auto mass = geometry::find_map(mesh, geometry::attribute::mass);
   const auto known = [&](geometry::Vertex v) { return mesh.is_isolated(v) || std::isfinite((*mass)[v]); };
   return mass && std::all_of(mesh.vertices().begin(), mesh.vertices().end(), known);
 }

@@ -8,12 +8,12 @@
 namespace furrow::cli {
 namespace {
 
-constexpr const char* kCloth[] = {"preset", "membrane", "bending_law", "stiffness"};
+constexpr const char* cloth[] = {"preset", "membrane", "bending_law", "stiffness"};
 
 Json material_of(const io::TomlDocument& document) { return document.root.value("material", Json::object()); }
 
 bool same_cloth(const Json& a, const Json& b) {
-  for (const char* key : kCloth)
+  for (const char* key : cloth)
     if (a.value(key, Json()) != b.value(key, Json())) return false;
   return true;
 }
@@ -28,7 +28,7 @@ std::string flags_of(const Json& material) {
 
 bool names_cloth(const io::TomlDocument& document) {
   const Json material = material_of(document);
-  for (const char* key : kCloth)
+  for (const char* key : cloth)
     if (material.contains(key)) return true;
   return false;
 }

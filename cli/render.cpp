@@ -35,7 +35,7 @@ std::shared_ptr<const io::Image> read_texture(const std::string& name) {
 void add_garment(io::RenderScene& scene, const std::string& path,
                  const std::shared_ptr<const io::Image>& texture, const RenderArguments& a) {
   const io::MeshFile file = read_mesh(path, a);
-  if (texture && !geometry::find_map(file.mesh, geometry::kTexture))
+  if (texture && !geometry::find_map(file.mesh, geometry::attribute::texture))
     throw geometry::ContentError(path + ": has no texture coordinates to lay --texture on with");
   scene.meshes.push_back(io::render_mesh_from(file.mesh, io::Style::cloth, texture));
   if (a.no_lines) return;
@@ -61,7 +61,7 @@ void add_bodies(std::vector<io::RenderScene>& scenes, const RenderArguments& a) 
   const bool one_each = scenes.size() > 1 && a.bodies.size() == scenes.size();
   for (std::size_t i = 0; i < a.bodies.size(); ++i) {
     io::RenderMesh body = io::render_mesh_from(read_mesh(a.bodies[i], a).mesh, io::Style::body);
-    body.colour = io::kBodyColour;
+    body.colour = io::body_colour;
     body.framed = false;
     for (std::size_t k = 0; k < scenes.size(); ++k)
       if (!one_each || k == i) scenes[k].meshes.push_back(body);

@@ -16,7 +16,7 @@
 namespace furrow::cli {
 namespace {
 
-constexpr double kNear = 0.02;  // [m]
+constexpr double near = 0.02;  // [m]
 
 /// Threads wait for each other some five times a step; below some 10,000 vertices each, that costs more than
 /// it saves.
@@ -109,7 +109,7 @@ SceneCloth prepare_scene(const io::Scene& scene, const CommonArguments& common,
   if (result.body) {
     result.options.contact_gap =
         contact_gap(result.options.contact_gap, result.body->tolerance(), result.file);
-    result.near_body = result.body->count_near(result.cloth.particles.x, kNear);
+    result.near_body = result.body->count_near(result.cloth.particles.x, near);
     result.field_samples = result.body->samples_of_field();
   }
   result.options.threads = threads_of(scene, result.cloth.particles.size());

@@ -15,7 +15,7 @@ struct Flag {
   const char* help;
 };
 
-constexpr Flag kFlags[] = {
+constexpr Flag flags[] = {
     {"-o,--output", "output.mesh", true, "mesh to write: obj, ply, off or stl; - is OBJ to standard output"},
     {"--save-state", "output.state", true,
      "state to write (a PLY), to go on from with --state or wrinkle --state"},
@@ -81,7 +81,7 @@ constexpr Flag kFlags[] = {
      "the paper)"},
 };
 
-constexpr std::string_view kTolerance = "body.tolerance";
+constexpr std::string_view field_tolerance = "body.tolerance";
 
 /// Of the result, not of the field.
 bool is_share(const std::string& tolerance) { return !tolerance.empty() && tolerance.back() == '%'; }
@@ -124,8 +124,8 @@ std::string quoted(const std::string& text) {
 /// Flags or --set for the value and all below it.
 void list_flags(const io::Json& value, const std::string& path, std::string& text) {
   const auto* flag =
-      std::find_if(std::begin(kFlags), std::end(kFlags), [&](const Flag& f) { return path == f.path; });
-  if (flag != std::end(kFlags)) {
+      std::find_if(std::begin(flags), std::end(flags), [&](const Flag& f) { return path == f.path; });
+  if (flag != std::end(flags)) {
     const std::string shown = value.is_string() ? value.get<std::string>() : io::value_text(value);
     text += " " + name_of(*flag) + " " + quoted(shown);
   } else if (path == "garment.mesh") {
@@ -168,7 +168,7 @@ io::Json difference(const io::Json& now, const io::Json& before) {
 }  // namespace
 
 void SceneFlags::add_to(CLI::App& sub, bool at_rest) {
-  for (const Flag& f : kFlags) {
+  for (const Flag& f : flags) {
     if (at_rest && !is_of_rest(f.path)) continue;
     Given& g = given_.emplace_back(Given{f.path, f.is_text, name_of(f), "", nullptr});
     g.option = sub.add_option(f.flag, g.text, f.help)->type_name(f.is_text ? "TEXT" : "NUMBER");
@@ -193,7 +193,7 @@ void SceneFlags::add_to(CLI::App& sub, bool at_rest) {
 
 void SceneFlags::apply(io::TomlDocument& document) const {
   for (const Given& g : given_)
-    if (g.option->count() && !(g.path == kTolerance && is_share(g.text)))
+    if (g.option->count() && !(g.path == field_tolerance && is_share(g.text)))
       io::set_value(document, g.path, value_of(g.text, g.is_text), g.flag);
   if (force_dt_) io::set_value(document, "simulation.force_dt", true, "--force-dt");
   for (const std::string& box : pin_boxes_)
@@ -215,7 +215,7 @@ std::string SceneFlags::first() const {
 
 std::string SceneFlags::accuracy() const {
   for (const Given& g : given_)
-    if (g.path == kTolerance && is_share(g.text)) return g.text;
+    if (g.path == field_tolerance && is_share(g.text)) return g.text;
   return "";
 }
 

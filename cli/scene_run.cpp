@@ -219,7 +219,7 @@ class SceneRun {
     print_report(json, common_);
     if (diverged) {
       tell_divergence(scene_, report_);
-      return kNotConverged;
+      return exit_not_converged;
     }
     warn_of_oddities(scene_, report_, common_);
     warn_of_idle_press(scene_.material, *io::find_wrinkle_record(now_.file), common_);
@@ -227,9 +227,9 @@ class SceneRun {
       warn("the state is at the end already; --seconds puts that off", common_);
     if (report_.outcome == physics::Outcome::stopped_by_observer) {
       warn_of_interruption(scene_, report_, common_);
-      return kInterrupted;
+      return exit_interrupted;
     }
-    return kOk;
+    return exit_ok;
   }
 
   void write_outputs() {

@@ -21,8 +21,8 @@ ShapeMeter::ShapeMeter(const geometry::Mesh& mesh, const physics::Cloth& cloth, 
       groups_(1),
       gravity_(gravity),
       size_(box_of(cloth.particles.x).diagonal().norm()) {
-  constexpr double kStandardGravity = 9.81;  // [m/s^2]
-  const double g = gravity.norm() > 0 ? gravity.norm() : kStandardGravity;
+  constexpr double standard_gravity = 9.81;  // [m/s^2]
+  const double g = gravity.norm() > 0 ? gravity.norm() : standard_gravity;
   weight_ = g * std::accumulate(mass_.begin(), mass_.end(), 0.0);
   for (std::size_t i = 0; i < mass_.size(); ++i)
     if (mass_[i] > 0) groups_[0].push_back(static_cast<int>(i));
@@ -70,7 +70,7 @@ ShapeDistance ShapeMeter::between(const Shape& a, const Shape& b) const {
   double squares = 0, total = 0, farthest = 0;
   for (int i : groups_[0]) {
     const double square = (a.x[i] - b.x[i]).squaredNorm();
-    if (!std::isfinite(square)) return kInfinitelyFar;
+    if (!std::isfinite(square)) return infinitely_far;
     squares += mass_[i] * square;
     total += mass_[i];
     farthest = std::max(farthest, square);

@@ -32,7 +32,7 @@ struct ShapeDistance {
   }
 };
 
-inline constexpr ShapeDistance kInfinitelyFar{INFINITY, INFINITY, INFINITY, INFINITY,
+inline constexpr ShapeDistance infinitely_far{INFINITY, INFINITY, INFINITY, INFINITY,
                                               INFINITY, INFINITY, INFINITY};
 
 /// Measures shapes of one garment against each other.

@@ -92,7 +92,7 @@ Judgement choose_setting(const SimulateArguments& a, const CommonArguments& comm
   silent.quiet = true;
   const SceneCloth cloth = prepare_scene(scene, silent, body);
   const Judgement j = judge(cloth, cloth.world(scene), options, common);
-  if (exit_code_of(j) != kOk) return j;
+  if (exit_code_of(j) != exit_ok) return j;
   set_candidate(document, j.candidates[static_cast<std::size_t>(j.chosen)].candidate);
   scene = scene_of(document, folder);
   return j;
@@ -133,7 +133,7 @@ int simulate(SimulateArguments& a) {
   if (!a.flags.accuracy().empty()) {
     const bool scene_dt = scene.simulation.dt.has_value();
     const Judgement j = choose_setting(a, common, body, document, scene, folder);
-    if (const int code = exit_code_of(j); code != kOk) {
+    if (const int code = exit_code_of(j); code != exit_ok) {
       std::cerr << "error: " << a.in << ": " << words(j, scene_dt) << "\n";
       return code;
     }

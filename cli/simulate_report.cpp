@@ -41,7 +41,7 @@ Json lines_to_json(const io::MeshFile& file, const io::WrinkleRecord& record,
 }
 
 Json centre_of_mass(const geometry::Mesh& mesh) {
-  const auto mass = *geometry::find_map(mesh, geometry::kMass);
+  const auto mass = *geometry::find_map(mesh, geometry::attribute::mass);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double total = 0;
   for (geometry::Vertex v : mesh.vertices()) {
@@ -71,7 +71,7 @@ std::vector<double> line_heights_by_id(const io::MeshFile& file) {
   const std::vector<double> widths = record ? io::line_widths(*record) : std::vector<double>{};
   std::vector<double> heights;
   for (const geometry::LineHeight& h : geometry::line_heights(file.mesh, widths)) {
-    heights.resize(std::max(heights.size(), static_cast<std::size_t>(h.line) + 1), geometry::kUnset);
+    heights.resize(std::max(heights.size(), static_cast<std::size_t>(h.line) + 1), geometry::unset_value);
     heights[h.line] = h.height;
   }
   return heights;

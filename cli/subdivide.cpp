@@ -27,9 +27,9 @@ struct SubdivideArguments : CommonArguments {
 
 /// Springs follow the new edges; masses are lumped anew by whoever needs them.
 Json conclude(geometry::Mesh& mesh, const geometry::InsertionReport& report) {
-  if (geometry::find_map(mesh, geometry::kBendingRestLength))
+  if (geometry::find_map(mesh, geometry::attribute::bending_rest_length))
     geometry::rebuild_bending_springs(mesh, report.changed_faces);
-  if (auto mass = geometry::find_map(mesh, geometry::kMass)) mesh.remove_property_map(*mass);
+  if (auto mass = geometry::find_map(mesh, geometry::attribute::mass)) mesh.remove_property_map(*mass);
   return to_json(report, mesh);
 }
 

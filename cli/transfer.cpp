@@ -26,7 +26,7 @@ void set_rest_positions(geometry::Mesh& mesh, const TransferArguments& a) {
     throw geometry::ContentError(a.rest + ": has " + std::to_string(rest.mesh.num_vertices()) +
                                  " vertices, but " + a.wrinkled + " has " +
                                  std::to_string(mesh.num_vertices()));
-  auto map = geometry::ensure_map(mesh, geometry::kRestPosition);
+  auto map = geometry::ensure_map(mesh, geometry::attribute::rest_position);
   for (geometry::Vertex v : mesh.vertices()) {
     const geometry::Point& p = rest.mesh.point(v);
     map[v] = {p.x(), p.y(), p.z()};

@@ -50,7 +50,7 @@ Drawing drawing_again(WrinkleArguments& a) {
     throw UsageError("--height: the strokes of " + a.in +
                      " have theirs; change them with furrow strokes --height, and draw that file");
   take_options(a, *record);
-  if (a.rest != "keep" && geometry::find_map(wrinkled.mesh, geometry::kHingeStiffness))
+  if (a.rest != "keep" && geometry::find_map(wrinkled.mesh, geometry::attribute::hinge_stiffness))
     warn(a.in + " was kept; its lines are drawn again without that: add --rest keep, or keep the result", a);
   const std::string garment = find_garment(*record, a.in);
   refuse_same({a.out, a.inserted, a.preview, a.camera.save_camera}, {garment});

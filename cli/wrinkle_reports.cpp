@@ -51,7 +51,7 @@ io::RenderScene preview_of(const geometry::Mesh& inserted, const geometry::Mesh&
 
 int next_line(const geometry::Mesh& mesh) {
   int next = 0;
-  if (const auto line = geometry::find_map(mesh, geometry::kLine))
+  if (const auto line = geometry::find_map(mesh, geometry::attribute::line))
     for (geometry::Vertex v : mesh.vertices()) next = std::max(next, (*line)[v] + 1);
   return next;
 }

@@ -18,7 +18,7 @@ using Corner = std::array<int, 3>;  // of the lattice
 
 /// The six ways from a cube's lowest corner to its highest along its edges: each passes a tetrahedron's four
 /// corners.
-constexpr std::array<std::array<int, 3>, 6> kWays{
+constexpr std::array<std::array<int, 3>, 6> ways{
     {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
 
 class Marcher {
@@ -33,7 +33,7 @@ class Marcher {
   Mesh march() {
     for_corners({size_[0] - 1, size_[1] - 1, size_[2] - 1}, [&](const Corner& c) {
       if (!crossed(c)) return;
-      for (const auto& way : kWays) {
+      for (const auto& way : ways) {
         std::array<Corner, 4> tetrahedron{c, c, c, c};
         for (int i = 0; i < 3; ++i)
           for (int j = i + 1; j < 4; ++j) ++tetrahedron[j][way[i]];

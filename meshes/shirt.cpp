@@ -9,38 +9,38 @@
 namespace furrow::meshes {
 namespace {
 
-constexpr double kHem = 0.90, kSleeve = 0.19;  // height; length along the arm [m]
+constexpr double hem_line = 0.90, sleeve_length = 0.19;  // height; length along the arm [m]
 
 /// As wide as the bust and the seat everywhere below them: cloth hangs from there.
-const Loft kTrunk({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1},
-                  {{0.84, 0.196, 0.162, -0.010},
-                   {0.92, 0.190, 0.158, -0.008},
-                   {1.00, 0.181, 0.150, -0.002},
-                   {1.10, 0.172, 0.142, 0.002},
-                   {1.18, 0.168, 0.138, 0.003},
-                   {1.25, 0.166, 0.134, 0.002},
-                   {1.31, 0.165, 0.118, -0.008},
-                   {1.36, 0.156, 0.090, -0.022},
-                   {1.40, 0.124, 0.066, -0.030}});
-const Loft kSleeves({0.160, 1.354, -0.024}, {0.6, -0.8, 0}, {0.8, 0.6, 0}, {0, 0, 1},
-                    {{-0.02, 0.045, 0.048},
-                     {0.03, 0.058, 0.062},
-                     {0.08, 0.064, 0.067},
-                     {0.16, 0.067, 0.069},
-                     {0.26, 0.070, 0.071}});
+const Loft trunk_shape({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1},
+                       {{0.84, 0.196, 0.162, -0.010},
+                        {0.92, 0.190, 0.158, -0.008},
+                        {1.00, 0.181, 0.150, -0.002},
+                        {1.10, 0.172, 0.142, 0.002},
+                        {1.18, 0.168, 0.138, 0.003},
+                        {1.25, 0.166, 0.134, 0.002},
+                        {1.31, 0.165, 0.118, -0.008},
+                        {1.36, 0.156, 0.090, -0.022},
+                        {1.40, 0.124, 0.066, -0.030}});
+const Loft sleeve_sides({0.160, 1.354, -0.024}, {0.6, -0.8, 0}, {0.8, 0.6, 0}, {0, 0, 1},
+                        {{-0.02, 0.045, 0.048},
+                         {0.03, 0.058, 0.062},
+                         {0.08, 0.064, 0.067},
+                         {0.16, 0.067, 0.069},
+                         {0.26, 0.070, 0.071}});
 
 /// Cloth spans the hollows below the bust, along the spine and under the arms.
 double inside_of_shirt(const Vec& p) {
   const double skin = trunk(p) - 0.009;
-  const double sleeves = with_mirror_image(p, 0.01, kSleeves);
-  return smooth_union(smooth_union(skin, kTrunk(p), 0.03), sleeves, 0.05);
+  const double sleeves = with_mirror_image(p, 0.01, sleeve_sides);
+  return smooth_union(smooth_union(skin, trunk_shape(p), 0.03), sleeves, 0.05);
 }
 
 double from_hole(const Vec& p) {  // > 0: cloth
   const Vec q(std::abs(p.x()), p.y(), p.z());
-  const double hem = q.y() - kHem;
+  const double hem = q.y() - hem_line;
   const bool on_arm = left_arm().from_axis(q) < 0.12;
-  const double sleeve = on_arm ? kSleeve - left_arm().along(q) : 1;
+  const double sleeve = on_arm ? sleeve_length - left_arm().along(q) : 1;
   const double x = q.x() / 0.088, z = (q.z() + 0.010) / 0.084;
   const double neck = q.y() > 1.3 ? (std::sqrt(x * x + z * z) - 1) * 0.085 : 1;
   return std::min({hem, sleeve, neck});

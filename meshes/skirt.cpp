@@ -8,25 +8,25 @@
 namespace furrow::meshes {
 namespace {
 
-constexpr double kWaist = 1.055, kHem = 0.49;  // heights [m]
+constexpr double waist = 1.055, hem_line = 0.49;  // heights [m]
 
 /// A little beyond the waist and the hem, where it is cut.
-const Loft kSkirt({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1},
-                  {{0.44, 0.218, 0.194, -0.010},
-                   {0.52, 0.215, 0.191, -0.010},
-                   {0.62, 0.211, 0.187, -0.010},
-                   {0.72, 0.207, 0.182, -0.011},
-                   {0.84, 0.199, 0.174, -0.012},
-                   {0.92, 0.183, 0.156, -0.010},
-                   {1.00, 0.153, 0.122, 0.000},
-                   {1.055, 0.131, 0.101, 0.005},
-                   {1.12, 0.131, 0.101, 0.005}});
+const Loft skirt({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1},
+                 {{0.44, 0.218, 0.194, -0.010},
+                  {0.52, 0.215, 0.191, -0.010},
+                  {0.62, 0.211, 0.187, -0.010},
+                  {0.72, 0.207, 0.182, -0.011},
+                  {0.84, 0.199, 0.174, -0.012},
+                  {0.92, 0.183, 0.156, -0.010},
+                  {1.00, 0.153, 0.122, 0.000},
+                  {1.055, 0.131, 0.101, 0.005},
+                  {1.12, 0.131, 0.101, 0.005}});
 
 }  // namespace
 
 geometry::Mesh make_skirt() {
-  const geometry::Mesh tube = mesh_surface(kSkirt, {-0.3, 0.42, -0.3}, {0.3, 1.14, 0.3}, 0.012);
-  geometry::Mesh mesh = cut(tube, [](const Vec& p) { return std::min(p.y() - kHem, kWaist - p.y()); });
+  const geometry::Mesh tube = mesh_surface(skirt, {-0.3, 0.42, -0.3}, {0.3, 1.14, 0.3}, 0.012);
+  geometry::Mesh mesh = cut(tube, [](const Vec& p) { return std::min(p.y() - hem_line, waist - p.y()); });
   remesh(mesh, 0.021);
   return mesh;
 }

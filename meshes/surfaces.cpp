@@ -63,14 +63,14 @@ class Cutter {
 
 /// Moves the vertices onto the surface by Newton's steps along the gradient.
 void settle(Mesh& mesh, const Solid& solid) {
-  constexpr double kStep = 1e-5;  // of the differences [m]
+  constexpr double step_length = 1e-5;  // of the differences [m]
   for (int step = 0; step < 4; ++step)
     for (Vertex v : mesh.vertices()) {
       const Vec p = vec(mesh.point(v));
       Vec gradient;
       for (int k = 0; k < 3; ++k) {
-        const Vec e = kStep * Vec::Unit(k);
-        gradient[k] = (solid(p + e) - solid(p - e)) / (2 * kStep);
+        const Vec e = step_length * Vec::Unit(k);
+        gradient[k] = (solid(p + e) - solid(p - e)) / (2 * step_length);
       }
       const Vec q = p - solid(p) / gradient.squaredNorm() * gradient;
       mesh.point(v) = {q.x(), q.y(), q.z()};

@@ -106,10 +106,10 @@ struct Filter {
 constexpr Filter filters[] = {{"laplace", 0.33, 0}, {"taubin", 0.33, -0.34}, {"strong_taubin", 0.63, -0.67}};
 
 /// x += lambda (W x - x), `passes` times, as taubin_smooth does its steps.
-template <bool kUniform>
+template <bool is_uniform>
 void laplace_smooth(Mesh& mesh, int passes, double lambda) {
   geometry::TaubinOptions options;
-  options.weights = kUniform ? SmoothingWeights::uniform : SmoothingWeights::cotangent;
+  options.weights = is_uniform ? SmoothingWeights::uniform : SmoothingWeights::cotangent;
   const geometry::SmoothingRows rows = geometry::gather_smoothing_rows(mesh, {}, options);
   std::vector<Eigen::Array4d> x, y;
   for (Vertex v : rows.vertices) x.emplace_back(place(mesh, v)[0], place(mesh, v)[1], place(mesh, v)[2], 0);
@@ -119,9 +119,9 @@ void laplace_smooth(Mesh& mesh, int passes, double lambda) {
       Eigen::Array4d mean = Eigen::Array4d::Zero();
       for (int j = rows.first[r]; j < rows.first[r + 1]; ++j) {
         const Eigen::Array4d& next = x[rows.neighbour[j]];
-        mean += kUniform ? next : Eigen::Array4d(rows.weight[j] * next);
+        mean += is_uniform ? next : Eigen::Array4d(rows.weight[j] * next);
       }
-      if (kUniform) mean *= rows.inverse_count[r];
+      if (is_uniform) mean *= rows.inverse_count[r];
       const int i = rows.active[r];
       y[i] = x[i] + lambda * (mean - x[i]);
     }

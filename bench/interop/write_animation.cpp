@@ -17,12 +17,12 @@ namespace {
 using namespace furrow;
 using physics::Vec3;
 
-constexpr int kFrames = 12;
-constexpr double kFps = 25;
+constexpr int frames = 12;
+constexpr double frame_rate = 25;
 
 /// A wave that runs through the cloth while it bends and moves on.
 std::vector<Vec3> deformed(std::span<const Vec3> rest, int frame) {
-  const double t = frame / kFps;
+  const double t = frame / frame_rate;
   std::vector<Vec3> x;
   for (const Vec3& p : rest)
     x.push_back(p + Vec3(0.3 * t, 0.05 * std::sin(9 * p.x() - 12 * t), 0.08 * std::sin(7 * p.y() + 5 * t)));
@@ -31,7 +31,7 @@ std::vector<Vec3> deformed(std::span<const Vec3> rest, int frame) {
 
 /// Two islands, so that the vertices between them have two texture coordinates.
 void add_texture(geometry::Mesh& mesh) {
-  auto texture = geometry::ensure_map(mesh, geometry::kTexture);
+  auto texture = geometry::ensure_map(mesh, geometry::attribute::texture);
   for (const geometry::Face f : mesh.faces()) {
     const geometry::Halfedge around = mesh.halfedge(f);
     const bool left = mesh.point(mesh.target(around)).x() + mesh.point(mesh.source(around)).x() < 0;
@@ -48,11 +48,11 @@ void run(const std::filesystem::path& in, const std::filesystem::path& folder) {
   const std::vector<Vec3> rest = bridge::positions_of(file.mesh);
   std::vector<io::AnimationWriter> writers;
   for (const char* name : {"sheet.pc2", "sheet.mdd", "sheet-linear.glb"})
-    writers.emplace_back(folder / name, file.mesh, io::AnimationOptions{.fps = kFps});
+    writers.emplace_back(folder / name, file.mesh, io::AnimationOptions{.fps = frame_rate});
   writers.emplace_back(folder / "sheet-step.glb", file.mesh,
-                       io::AnimationOptions{.fps = kFps, .interpolation = io::Interpolation::step});
+                       io::AnimationOptions{.fps = frame_rate, .interpolation = io::Interpolation::step});
   std::vector<Vec3> expected;
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < frames; ++i) {
     const std::vector<Vec3> x = deformed(rest, i);
     for (io::AnimationWriter& writer : writers) writer.add(x);
     expected.insert(expected.end(), x.begin(), x.end());
@@ -63,7 +63,7 @@ void run(const std::filesystem::path& in, const std::filesystem::path& folder) {
   first.x.assign(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(rest.size()));
   bridge::scatter(first, file.mesh);
   io::write_mesh(folder / "sheet.obj", file);
-  std::cout << kFrames << " frames of " << rest.size() << " vertices in " << folder.string() << "\n";
+  std::cout << frames << " frames of " << rest.size() << " vertices in " << folder.string() << "\n";
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ struct Helped {
 Helped helped(const RandomGarment& g, const Help& help, int only, const bridge::KeepOptions& o) {
   Helped result{g, g.cloth()};
   physics::Cloth& cloth = result.cloth;
-  const auto id = *geometry::find_map(g.mesh, geometry::kLine);
+  const auto id = *geometry::find_map(g.mesh, geometry::attribute::line);
   std::vector<bridge::HelpedLine> lines;
   for (int line = 0; line < int(g.lines.size()); ++line) {
     if (only >= 0 && line != only) continue;

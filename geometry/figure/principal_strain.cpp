@@ -23,7 +23,7 @@ Flat lay_flat(const std::array<double, 3>& l) {
 }
 
 PrincipalStrain strain_of(const std::array<double, 3>& rest, const std::array<double, 3>& now) {
-  if (!is_proper_triangle(rest)) return {kUnset, kUnset};
+  if (!is_proper_triangle(rest)) return {unset_value, unset_value};
   if (!(now[0] > 0)) {  // the edge that the frame is made of is a point: turn the corners
     if (!(now[1] > 0)) return {-1, -1};
     return strain_of({rest[1], rest[2], rest[0]}, {now[1], now[2], now[0]});

@@ -12,8 +12,9 @@ struct PrincipalStrain {
   double largest = 0, smallest = 0;  ///< [-], >= -1; NaN: the face's rest lengths span no triangle
 };
 
-/// By face index, from the rest lengths of the edges (kRestLength; the present length where it is unset) and
-/// their present lengths: the singular values of the map from the triangle at rest to the present one, less
+/// By face index, from the rest lengths of the edges (attribute::rest_length; the present length where it is
+/// unset) and their present lengths: the singular values of the map from the triangle at rest to the present
+/// one, less
 /// 1. Rigid motions do not matter, nor bending. Throws ContentError if a position is not finite, a face is no
 /// triangle or a rest length is negative or infinite. O(faces).
 std::vector<PrincipalStrain> principal_strains(const Mesh& mesh);

@@ -9,10 +9,10 @@ namespace {
 
 // Thousandths of the body's height: whole numbers, because g++ 12 with -frounding-math counts the rounds of a
 // loop over constants of type double wrongly.
-constexpr int kStep = 5, kSeed = 620, kLowest = 400, kHighest = 850;
-constexpr double kWaistLow = 0.55, kWaistHigh = 0.70, kChestHigh = 0.78;  // of the body's height
-constexpr double kLeast = 0.9, kMost = 2.5;                               // heights of bodies [m]
-constexpr double kJump = 0.1;                                             // of the girth in one step
+constexpr int step_length = 5, seed = 620, lowest = 400, highest = 850;
+constexpr double waist_low = 0.55, waist_high = 0.70, chest_high = 0.78;  // of the body's height
+constexpr double least = 0.9, largest_value = 2.5;                        // heights of bodies [m]
+constexpr double jump = 0.1;                                              // of the girth in one step
 
 using Triangles = std::span<const std::array<int, 3>>;
 
@@ -43,7 +43,7 @@ std::optional<TorsoLevel> level_at(std::span<const Point> points, Triangles tria
   const std::size_t torso = find_torso(loops, last ? &last->centre : nullptr);
   if (torso == loops.size()) return std::nullopt;
   const TorsoLevel level{height, tape_measure(loops[torso]), centre_of(loops[torso])};
-  if (last && !(std::abs(level.girth - last->girth) <= kJump * last->girth)) return std::nullopt;
+  if (last && !(std::abs(level.girth - last->girth) <= jump * last->girth)) return std::nullopt;
   return level;
 }
 
@@ -56,7 +56,7 @@ bool lies_between(const TorsoLevel& level, double low, double high) {
 std::vector<TorsoLevel> torso_levels(std::span<const Point> points, Triangles triangles) {
   const auto [low, high] = range_of_y(points, triangles);
   const double tall = high - low;
-  if (!(tall >= kLeast && tall <= kMost)) return {};
+  if (!(tall >= least && tall <= largest_value)) return {};
   std::vector<TorsoLevel> levels;
   const auto follow = [&](int thousandths) {
     const auto next = level_at(points, triangles, low + thousandths / 1000.0 * tall,
@@ -64,15 +64,15 @@ std::vector<TorsoLevel> torso_levels(std::span<const Point> points, Triangles tr
     if (next) levels.push_back(*next);
     return next.has_value();
   };
-  for (int i = kSeed; i >= kLowest && follow(i); i -= kStep) {
+  for (int i = seed; i >= lowest && follow(i); i -= step_length) {
   }
   if (levels.empty()) return {};
   std::reverse(levels.begin(), levels.end());
-  for (int i = kSeed + kStep; i <= kHighest && follow(i); i += kStep) {
+  for (int i = seed + step_length; i <= highest && follow(i); i += step_length) {
   }
-  const double slack = kStep / 2000.0;
-  if (levels.front().height > low + (kWaistLow + slack) * tall ||
-      levels.back().height < low + (kWaistHigh - slack) * tall)
+  const double slack = step_length / 2000.0;
+  if (levels.front().height > low + (waist_low + slack) * tall ||
+      levels.back().height < low + (waist_high - slack) * tall)
     return {};
   return levels;
 }
@@ -82,12 +82,12 @@ std::optional<TorsoHeights> torso_heights(std::span<const TorsoLevel> levels, do
   const double tall = high - low;
   TorsoLevel waist, chest, hip;
   for (const TorsoLevel& level : levels)
-    if (lies_between(level, low + kWaistLow * tall, low + kWaistHigh * tall) &&
+    if (lies_between(level, low + waist_low * tall, low + waist_high * tall) &&
         (waist.girth == 0 || level.girth < waist.girth))
       waist = level;
   for (const TorsoLevel& level : levels) {
     if (level.height <= waist.height && level.girth > hip.girth) hip = level;
-    if (lies_between(level, waist.height, low + kChestHigh * tall) && level.girth > chest.girth)
+    if (lies_between(level, waist.height, low + chest_high * tall) && level.girth > chest.girth)
       chest = level;
   }
   return TorsoHeights{chest.height, waist.height, hip.height};

@@ -108,7 +108,7 @@ double mean_height(const Mesh& mesh, const Patch& patch, const Eigen::MatrixXd& 
     sum += (mesh.point(v) - foot) * normal / length;
     fill_area += length / 2;
   }
-  if (has_shrunk(mesh, patch, fill_area)) return kUnset;
+  if (has_shrunk(mesh, patch, fill_area)) return unset_value;
   return sum / static_cast<double>(patch.line.size());
 }
 
@@ -116,7 +116,7 @@ double mean_height(const Mesh& mesh, const Patch& patch, const Eigen::MatrixXd& 
 
 std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> widths) {
   std::vector<LineHeight> heights;
-  const auto line = find_map(mesh, kLine);
+  const auto line = find_map(mesh, attribute::line);
   if (!line) return heights;
   require_finite(mesh, "line_heights");
   require_triangles(mesh, "line_heights");
@@ -127,8 +127,8 @@ std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> w
   for (Vertex v : line_vertices(mesh))
     if (!mesh.is_isolated(v)) lines[(*line)[v]].push_back(v);
   for (auto& [id, vertices] : lines) {
-    LineHeight height{id, kUnset, vertices.size()};
-    const double width = static_cast<std::size_t>(id) < widths.size() ? widths[id] : kUnset;
+    LineHeight height{id, unset_value, vertices.size()};
+    const double width = static_cast<std::size_t>(id) < widths.size() ? widths[id] : unset_value;
     const std::vector<Vertex> free =
         width > 0 ? line_region(mesh, vertices, width, before) : vertices_within_rings(mesh, vertices, 1);
     const Patch patch = gather_patch(mesh, std::move(vertices), free);

@@ -17,7 +17,7 @@ std::vector<double> hinge_presses(const Mesh& mesh, const std::vector<double>& p
     if (!(presses[i] >= 1) || !std::isfinite(presses[i]))
       throw std::invalid_argument("hinge_presses: press of line " + std::to_string(i) + " is " +
                                   std::to_string(presses[i]) + ", not >= 1");
-  const auto id = find_map(mesh, kLine);
+  const auto id = find_map(mesh, attribute::line);
   std::vector<std::vector<Vertex>> lines(presses.size());
   if (id)
     for (Vertex v : mesh.vertices())
@@ -29,7 +29,7 @@ std::vector<double> hinge_presses(const Mesh& mesh, const std::vector<double>& p
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].empty()) continue;
     std::vector<char> inside(mesh.num_vertices(), 0);
-    for (Vertex v : line_region(mesh, lines[i], i < widths.size() ? widths[i] : kUnset, lengths))
+    for (Vertex v : line_region(mesh, lines[i], i < widths.size() ? widths[i] : unset_value, lengths))
       inside[v.idx()] = 1;
     for (Edge e : mesh.edges())
       if (inside[mesh.vertex(e, 0).idx()] && inside[mesh.vertex(e, 1).idx()])

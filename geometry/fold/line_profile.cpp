@@ -11,7 +11,7 @@
 
 namespace furrow::geometry {
 namespace {
-constexpr double kFarthest = 1.5;  // ways along edges over straight ones: sqrt(2) on grids of right angles
+constexpr double farthest = 1.5;  // ways along edges over straight ones: sqrt(2) on grids of right angles
 }  // namespace
 
 double line_profile(double t, double sharpness) {
@@ -27,7 +27,7 @@ std::vector<Lift> lift_by_profile(const Mesh& mesh, std::span<const Vertex> line
   std::vector<char> own(mesh.num_vertices(), 0);
   for (Vertex v : line) own[v.idx()] = 1;
   std::vector<Lift> lifts;
-  for (Vertex v : vertices_within(mesh, line, kFarthest * half, rest_lengths(mesh))) {
+  for (Vertex v : vertices_within(mesh, line, farthest * half, rest_lengths(mesh))) {
     const double t = own[v.idx()] ? 0 : distance_to(path, mesh.point(v)) / half;
     const double height = stroke.height * line_profile(t, stroke.sharpness);
     if (height != 0) lifts.push_back({v, height});

@@ -17,7 +17,7 @@ namespace furrow::geometry {
 
 std::vector<double> lengths_before_lines(const Mesh& mesh) {
   std::vector<double> lengths = rest_lengths(mesh);
-  const auto rest = find_map(mesh, kRestPosition);
+  const auto rest = find_map(mesh, attribute::rest_position);
   if (!rest) return lengths;
   for (Edge e : mesh.edges()) {
     const RestPosition &a = (*rest)[mesh.vertex(e, 0)], &b = (*rest)[mesh.vertex(e, 1)];
@@ -58,7 +58,7 @@ std::vector<Vertex> line_region(const Mesh& mesh, std::span<const Vertex> line, 
                                 const std::vector<double>& length_of_edge) {
   const std::vector<Vertex> least = two_ring(mesh, line);
   if (!(width > 0)) return least;
-  const std::vector<Vertex> wide = vertices_within(mesh, line, kDetour * width / 2, length_of_edge);
+  const std::vector<Vertex> wide = vertices_within(mesh, line, largest_detour * width / 2, length_of_edge);
   std::vector<Vertex> both;
   std::set_union(least.begin(), least.end(), wide.begin(), wide.end(), std::back_inserter(both));
   return both;

@@ -9,11 +9,11 @@ namespace furrow::geometry {
 
 /// How much longer a way along edges may be than the straight one: 2 / sqrt(3) at most on equilateral
 /// triangles.
-inline constexpr double kDetour = 1.2;
+inline constexpr double largest_detour = 1.2;
 
 /// Length of every edge before any line was drawn [m], by edge index (0 for removed edges): the distance of
-/// kRestPosition where both ends have one, else rest_lengths(). A fold's own cloth does not count, so a
-/// region measured by these stays the same while its line is raised, lowered or worn. Throws as
+/// attribute::rest_position where both ends have one, else rest_lengths(). A fold's own cloth does not count,
+/// so a region measured by these stays the same while its line is raised, lowered or worn. Throws as
 /// rest_lengths().
 std::vector<double> lengths_before_lines(const Mesh& mesh);
 
@@ -24,9 +24,10 @@ std::vector<double> lengths_before_lines(const Mesh& mesh);
 std::vector<Vertex> vertices_within(const Mesh& mesh, std::span<const Vertex> seeds, double reach,
                                     const std::vector<double>& length_of_edge);
 
-/// The cloth that a line of a width [m] moves, is measured on, and is pressed on: vertices within kDetour
-/// width / 2 of the line's along edges, and two_ring() of the line at least; exactly that where the width is
-/// not > 0 (NaN: none). `length_of_edge` should be lengths_before_lines(). Throws as vertices_within().
+/// The cloth that a line of a width [m] moves, is measured on, and is pressed on: vertices within
+/// largest_detour width / 2 of the line's along edges, and two_ring() of the line at least; exactly that
+/// where the width is not > 0 (NaN: none). `length_of_edge` should be lengths_before_lines(). Throws as
+/// vertices_within().
 std::vector<Vertex> line_region(const Mesh& mesh, std::span<const Vertex> line, double width,
                                 const std::vector<double>& length_of_edge);
 

@@ -22,7 +22,7 @@ class RowGatherer {
       : mesh_(mesh),
         cotangent_(options.weights == SmoothingWeights::cotangent),
         keep_border_(options.border == BorderRule::keep) {
-    if (options.lines == LineRule::keep) line_ = find_map(mesh, kLine);
+    if (options.lines == LineRule::keep) line_ = find_map(mesh, attribute::line);
     if (cotangent_) lengths_ = rest_lengths(mesh);
   }
 

@@ -16,7 +16,7 @@ namespace {
 using Padded = Eigen::Array4d;  // x, y, z, 0: whole registers in the inner loop
 
 /// to = from + factor (W from - from) in the rows' vertices.
-template <bool kUniform>
+template <bool is_uniform>
 void filter_step(const SmoothingRows& rows, double factor, const std::vector<Padded>& from,
                  std::vector<Padded>& to) {
   const int* neighbour = rows.neighbour.data();
@@ -25,8 +25,8 @@ void filter_step(const SmoothingRows& rows, double factor, const std::vector<Pad
     const int last = rows.first[r + 1];
     Padded mean = Padded::Zero();
     for (int j = rows.first[r]; j < last; ++j)
-      mean += kUniform ? from[neighbour[j]] : Padded(weight[j] * from[neighbour[j]]);
-    if (kUniform) mean *= rows.inverse_count[r];
+      mean += is_uniform ? from[neighbour[j]] : Padded(weight[j] * from[neighbour[j]]);
+    if (is_uniform) mean *= rows.inverse_count[r];
     const int i = rows.active[r];
     to[i] = from[i] + factor * (mean - from[i]);
   }

@@ -7,11 +7,11 @@
 
 namespace furrow::geometry {
 
-/// uniform: every neighbour counts the same. cotangent: of the rest lengths (kRestLength; where unset, the
-/// lengths at the start), frozen: a plane mesh at rest keeps all its vertices.
+/// uniform: every neighbour counts the same. cotangent: of the rest lengths (attribute::rest_length; where
+/// unset, the lengths at the start), frozen: a plane mesh at rest keeps all its vertices.
 enum class SmoothingWeights { uniform, cotangent };
-/// keep: vertices of lines (kLine >= 0) average vertices of lines only, so that the ridge survives (method
-/// S1.6).
+/// keep: vertices of lines (attribute::line >= 0) average vertices of lines only, so that the ridge survives
+/// (method S1.6).
 enum class LineRule { free, keep };
 /// free: border vertices average all their neighbours, so that a hem can lengthen.
 /// keep: they average their neighbours along the border only.

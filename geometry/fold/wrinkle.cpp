@@ -90,7 +90,7 @@ Moves displacements(const Mesh& mesh, const std::vector<Insertion>& lines, std::
 
 /// Stored stiffnesses of hinges know nothing of new lines; where none is stored, gather() sees to it.
 void press_stored_hinges(Mesh& mesh, std::span<const Stroke> strokes, int first_line) {
-  const auto stiffness = find_map(mesh, kHingeStiffness);
+  const auto stiffness = find_map(mesh, attribute::hinge_stiffness);
   if (!stiffness) return;
   const LineShapes shapes = line_shapes(strokes, first_line);
   const std::vector<double> factors = hinge_presses(mesh, shapes.presses, shapes.widths);
@@ -139,7 +139,7 @@ std::vector<Insertion> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
 
 /// Heights of the strokes' lines, from id `first` on; NaN for one whose vertices all went to later lines.
 std::vector<double> heights(const Mesh& mesh, int first, std::span<const Stroke> strokes) {
-  std::vector<double> result(strokes.size(), kUnset);
+  std::vector<double> result(strokes.size(), unset_value);
   for (const LineHeight& h : line_heights(mesh, line_shapes(strokes, first).widths))
     if (h.line >= first && static_cast<std::size_t>(h.line - first) < strokes.size())
       result[h.line - first] = h.height;

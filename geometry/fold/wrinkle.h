@@ -60,11 +60,11 @@ using StageObserver = std::function<void(Stage, const Mesh&)>;
 /// displaced, and smoothed once. A line with a width is raised by its profile (line_profile.h), along the
 /// angle-weighted normals, and not smoothed. Where several lines raise a vertex the highest ridge and the
 /// deepest valley count, and add up; lines without a width raise their own vertices alone. Presses are for
-/// who makes hinges of the mesh (line_press.h). Sets kLine, kLineEdge, kRestLength, kBendingRestLength,
-/// kBendingCount, kRestAngle, kMass; options.rest says what of the rest state learns of the displacement. An
-/// unset rest length is the length as it is. Throws std::invalid_argument for an option out of its range and
-/// ContentError for a stroke that cannot be used; the mesh is then as it was. Cost: about O(faces log faces)
-/// for each stroke.
+/// who makes hinges of the mesh (line_press.h). Sets attribute::line, attribute::line_edge,
+/// attribute::rest_length, attribute::bending_rest_length, attribute::bending_count, attribute::rest_angle,
+/// attribute::mass; options.rest says what of the rest state learns of the displacement. An unset rest length
+/// is the length as it is. Throws std::invalid_argument for an option out of its range and ContentError for a
+/// stroke that cannot be used; the mesh is then as it was. Cost: about O(faces log faces) for each stroke.
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options = {},
                       const StageObserver& observer = {});
 

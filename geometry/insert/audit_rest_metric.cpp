@@ -11,9 +11,9 @@ namespace furrow::geometry {
 
 RestMetricAudit audit_rest_metric(const Mesh& mesh) {
   RestMetricAudit audit;
-  const auto rest = find_map(mesh, kRestLength);
+  const auto rest = find_map(mesh, attribute::rest_length);
   const auto length = [&](Halfedge h) {
-    const double set = rest ? (*rest)[mesh.edge(h)] : kUnset;
+    const double set = rest ? (*rest)[mesh.edge(h)] : unset_value;
     return set == set
                ? set
                : std::sqrt(CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))));

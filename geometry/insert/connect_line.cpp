@@ -9,8 +9,8 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double kNearEnd = 0.2;   ///< part of a split edge below which the line goes through its end
-constexpr double kNearLine = 0.5;  ///< in h: a line's vertex this near to the crossing is taken
+constexpr double near_end = 0.2;   ///< part of a split edge below which the line goes through its end
+constexpr double near_line = 0.5;  ///< in h: a line's vertex this near to the crossing is taken
 
 class Connector {
  public:
@@ -77,7 +77,7 @@ class Connector {
     const bool stroke_crossed_it = a == link.a && b == link.b;
     const double t = stroke_crossed_it ? link.t : 0.5, length = editor_.rest()[edge];
     const double near =
-        editor_.line_edge()[edge] ? std::max(kNearEnd, kNearLine * mean_edge_ / length) : kNearEnd;
+        editor_.line_edge()[edge] ? std::max(near_end, near_line * mean_edge_ / length) : near_end;
     if (std::min(t, 1 - t) < near) {
       link.between = {t < 0.5 ? a : b};
       ++report_.routed;

@@ -11,16 +11,16 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double kReuse = 0.5;       ///< in h: a node this near to an earlier line's vertex takes it
-constexpr double kLeastEdge = 0.25;  ///< h_min in h
-constexpr int kGenerations = 2;
+constexpr double reuse = 0.5;        ///< in h: a node this near to an earlier line's vertex takes it
+constexpr double least_edge = 0.25;  ///< h_min in h
+constexpr int generations = 2;
 
 bool too_small(const MeshEditor& editor, Face face, double mean_edge) {
   const auto lengths = rest_lengths_of(editor.mesh(), editor.rest(), face);
-  const double h_min = kLeastEdge * mean_edge;
+  const double h_min = least_edge * mean_edge;
   return *std::max_element(lengths.begin(), lengths.end()) < 1.5 * h_min ||
          triangle_area(lengths) < std::numbers::sqrt3 / 4 * h_min * h_min ||
-         editor.generation()[face] >= kGenerations;
+         editor.generation()[face] >= generations;
 }
 
 class LineDrawing {
@@ -76,7 +76,7 @@ class LineDrawing {
     const auto away = lengths_to_corners(rest_lengths_of(mesh, editor_.rest(), visit.face), node_of(visit));
     std::optional<int> reused;
     for (int i = 0; i < 3; ++i) {
-      const bool near = editor_.line()[corners[i]] >= 0 && away[i] <= kReuse * mean_edge_;
+      const bool near = editor_.line()[corners[i]] >= 0 && away[i] <= reuse * mean_edge_;
       if (near && (!reused || away[i] < away[*reused])) reused = i;
     }
     if (reused) return ++report_.reused, corners[*reused];

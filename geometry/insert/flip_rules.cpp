@@ -5,7 +5,7 @@ namespace furrow::geometry {
 namespace {
 
 /// A flipped pair's smaller face keeps at least this part of the pair's area.
-constexpr double kLeastArea = 1e-3;
+constexpr double least_area = 1e-3;
 
 bool too_few_edges_left(const Mesh& mesh, Vertex v) {
   const std::size_t least = mesh.is_border(v) ? 2 : 3;
@@ -23,7 +23,7 @@ bool convex_in_texture(const MeshEditor& editor, Edge edge) {
   const auto areas = editor.texture_areas(edge);
   if (!areas || !((*areas)[0] * (*areas)[1] > 0)) return true;  // none, NaN, folded or flat already
   const double whole = (*areas)[0] + (*areas)[1];
-  return (*areas)[2] / whole >= kLeastArea && (*areas)[3] / whole >= kLeastArea;
+  return (*areas)[2] / whole >= least_area && (*areas)[3] / whole >= least_area;
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ std::optional<Refusal> refusal_of_flip(const MeshEditor& editor, Edge edge, cons
   if (editor.line_edge()[edge]) return Refusal::line_edge;
   if (editor.is_seam(edge)) return Refusal::seam;
   if (duplicate) return Refusal::duplicate_edge;
-  if (!convex(editor, edge, kLeastArea) || !convex_in_texture(editor, edge)) return Refusal::not_convex;
+  if (!convex(editor, edge, least_area) || !convex_in_texture(editor, edge)) return Refusal::not_convex;
   if (too_few_edges_left(mesh, a) || too_few_edges_left(mesh, b)) return Refusal::valence;
   if (options.may_flip && !options.may_flip({mesh.point(a), mesh.point(b), mesh.point(c), mesh.point(d)})) {
     return Refusal::layer;

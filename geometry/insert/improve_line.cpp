@@ -75,7 +75,7 @@ double smallest_angle_around(const Mesh& mesh, const EdgeMap<double>& rest, cons
 
 bool improve_plan(const DrawnLine& drawn, const LineDeviation& deviation, double least_angle,
                   LinePlan& plan) {
-  const auto rest = *find_map(drawn.mesh, kRestLength);
+  const auto rest = *find_map(drawn.mesh, attribute::rest_length);
   LinePlan next = plan;
   bool changed = false;
   const auto place_of = [&](Vertex v) {

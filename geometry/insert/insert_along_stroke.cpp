@@ -13,7 +13,7 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr int kRounds = 12;
+constexpr int rounds = 12;
 
 /// A round's line and how good it is.
 struct Round {
@@ -57,7 +57,7 @@ Insertion insert_along_stroke(Mesh& mesh, const Stroke& stroke, int line_id,
   std::size_t attempts = 1;
   if (options.rule == InsertionRule::safe && !good(best)) {
     Round last = best;
-    while (attempts < kRounds && !good(best) && improve_plan(last.drawn, last.deviation, least_angle, plan)) {
+    while (attempts < rounds && !good(best) && improve_plan(last.drawn, last.deviation, least_angle, plan)) {
       last = draw();
       ++attempts;
       if (better(last, best, least_angle)) best = last;

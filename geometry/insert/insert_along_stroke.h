@@ -26,12 +26,12 @@ struct Insertion {
 /// a corner, and the line is drawn anew, 12 times at most; the best line stays. The paper's rule inserts at
 /// the mean or mid-point and flips every original inner edge of a selected face once.
 ///
-/// Sets kLine of the line's vertices to `line_id`, kLineEdge on its edges, kRestLength everywhere; MeshEditor
-/// says what happens to other maps. Adds vertices, edges and faces at the end; no index changes. Property
-/// maps fetched from `mesh` before are invalid afterwards: fetch them again. Throws std::invalid_argument for
-/// an option or line_id < 0, ContentError for the stroke (trace_stroke.h), a degenerate face below it, or a
-/// mesh that is not of triangles; the mesh is unchanged then. Cost: O(n log n) for the search tree, O(n) a
-/// round, n the faces of the mesh.
+/// Sets attribute::line of the line's vertices to `line_id`, attribute::line_edge on its edges,
+/// attribute::rest_length everywhere; MeshEditor says what happens to other maps. Adds vertices, edges and
+/// faces at the end; no index changes. Property maps fetched from `mesh` before are invalid afterwards: fetch
+/// them again. Throws std::invalid_argument for an option or line_id < 0, ContentError for the stroke
+/// (trace_stroke.h), a degenerate face below it, or a mesh that is not of triangles; the mesh is unchanged
+/// then. Cost: O(n log n) for the search tree, O(n) a round, n the faces of the mesh.
 Insertion insert_along_stroke(Mesh& mesh, const Stroke& stroke, int line_id,
                               const InsertionOptions& options = {});
 

@@ -32,22 +32,22 @@ bool same(const TextureCoordinate& a, const TextureCoordinate& b) {
 MeshEditor::MeshEditor(Mesh& mesh)
     : mesh_(mesh),
       rest_(ensure_rest_lengths(mesh)),
-      line_(ensure_map(mesh, kLine)),
-      line_edge_(ensure_map(mesh, kLineEdge)),
-      generation_(ensure_map(mesh, kGeneration)),
-      texture_(find_map(mesh, kTexture)),
+      line_(ensure_map(mesh, attribute::line)),
+      line_edge_(ensure_map(mesh, attribute::line_edge)),
+      generation_(ensure_map(mesh, attribute::generation)),
+      texture_(find_map(mesh, attribute::texture)),
       blend_((ensure_rest_positions(mesh), mesh)),
-      group_(find_map(mesh, kGroup)),
-      material_(find_map(mesh, kMaterial)),
-      bending_(find_map(mesh, kBendingRestLength)),
-      stiffness_(find_map(mesh, kStiffness)),
-      bending_stiffness_(find_map(mesh, kBendingStiffness)),
-      hinge_stiffness_(find_map(mesh, kHingeStiffness)),
-      tension_(find_map(mesh, kTension)),
-      diagonal_(find_map(mesh, kDiagonal)),
-      bending_count_(find_map(mesh, kBendingCount)),
-      rest_angle_(find_map(mesh, kRestAngle)),
-      triangle_rest_(find_map(mesh, kTriangleRestLength)) {}
+      group_(find_map(mesh, attribute::group)),
+      material_(find_map(mesh, attribute::material)),
+      bending_(find_map(mesh, attribute::bending_rest_length)),
+      stiffness_(find_map(mesh, attribute::stiffness)),
+      bending_stiffness_(find_map(mesh, attribute::bending_stiffness)),
+      hinge_stiffness_(find_map(mesh, attribute::hinge_stiffness)),
+      tension_(find_map(mesh, attribute::tension)),
+      diagonal_(find_map(mesh, attribute::diagonal)),
+      bending_count_(find_map(mesh, attribute::bending_count)),
+      rest_angle_(find_map(mesh, attribute::rest_angle)),
+      triangle_rest_(find_map(mesh, attribute::triangle_rest_length)) {}
 
 /// Texture coordinate of `vertex` in the face of `inside`.
 TextureCoordinate MeshEditor::corner_in(Halfedge inside, Vertex vertex) const {
@@ -66,13 +66,13 @@ void MeshEditor::copy_face(Face from, Face to) {
 
 void MeshEditor::unset_springs(Edge edge) {
   for (auto* map : {&bending_, &rest_angle_, &stiffness_, &bending_stiffness_, &hinge_stiffness_, &tension_})
-    if (*map) (**map)[edge] = kUnset;
+    if (*map) (**map)[edge] = unset_value;
   if (bending_count_) (*bending_count_)[edge] = 0;
 }
 
 void MeshEditor::unset_triangle(Face face) {
   if (!triangle_rest_) return;
-  for (Halfedge h : halfedges_of(mesh_, face)) (*triangle_rest_)[h] = kUnset;
+  for (Halfedge h : halfedges_of(mesh_, face)) (*triangle_rest_)[h] = unset_value;
 }
 
 Vertex MeshEditor::split_face(const FacePoint& point) {

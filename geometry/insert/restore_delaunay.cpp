@@ -9,7 +9,7 @@
 namespace furrow::geometry {
 
 std::size_t restore_delaunay(MeshEditor& editor, const InsertionOptions& options) {
-  constexpr double kTie = 1e-7;  // four points on a circle: either diagonal is Delaunay
+  constexpr double tie = 1e-7;  // four points on a circle: either diagonal is Delaunay
   const Mesh& mesh = editor.mesh();
   std::set<Face> region = editor.changed();
   for (Face face : editor.changed()) {
@@ -34,7 +34,7 @@ std::size_t restore_delaunay(MeshEditor& editor, const InsertionOptions& options
     const Edge e = queue.front();
     queue.pop_front();
     waiting.erase(e);
-    if (!(cotangent_sum(mesh, editor.rest(), e) < -kTie) || refusal_of_flip(editor, e, options)) continue;
+    if (!(cotangent_sum(mesh, editor.rest(), e) < -tie) || refusal_of_flip(editor, e, options)) continue;
     editor.flip_edge(e);
     ++flips;
     for (int side = 0; side < 2; ++side) {

@@ -8,8 +8,8 @@
 namespace furrow::geometry {
 
 SavedAttributes::SavedAttributes(const Mesh& mesh) : old_vertices_(mesh.number_of_vertices()) {
-  const auto texture = find_map(mesh, kTexture);
-  const auto group = find_map(mesh, kGroup), material = find_map(mesh, kMaterial);
+  const auto texture = find_map(mesh, attribute::texture);
+  const auto group = find_map(mesh, attribute::group), material = find_map(mesh, attribute::material);
   for (Face f : mesh.faces()) {
     std::array<Halfedge, 3> h = {mesh.halfedge(f)};
     h[1] = mesh.next(h[0]);
@@ -39,11 +39,11 @@ TextureCoordinate SavedAttributes::texture_at(const Origin& at) const {
 
 void SavedAttributes::restore(Mesh& mesh, const std::function<Face(Face)>& parent,
                               const std::function<Origin(Vertex, Face)>& origin) const {
-  const auto texture = find_map(mesh, kTexture);
-  const auto group = find_map(mesh, kGroup), material = find_map(mesh, kMaterial);
+  const auto texture = find_map(mesh, attribute::texture);
+  const auto group = find_map(mesh, attribute::group), material = find_map(mesh, attribute::material);
   const VertexBlend blend(mesh);
   if (texture)
-    for (Halfedge h : mesh.halfedges()) (*texture)[h] = kTexture.default_value;
+    for (Halfedge h : mesh.halfedges()) (*texture)[h] = attribute::texture.default_value;
   for (Face f : mesh.faces()) {
     const Face from = parent(f);
     if (group) (*group)[f] = group_[from.idx()];
@@ -58,17 +58,18 @@ void SavedAttributes::restore(Mesh& mesh, const std::function<Face(Face)>& paren
 }
 
 void unset_rest_state(Mesh& mesh) {
-  for (const auto* name : {&kRestLength, &kBendingRestLength, &kRestAngle, &kStiffness, &kBendingStiffness,
-                           &kHingeStiffness, &kTension})
+  for (const auto* name : {&attribute::rest_length, &attribute::bending_rest_length, &attribute::rest_angle,
+                           &attribute::stiffness, &attribute::bending_stiffness, &attribute::hinge_stiffness,
+                           &attribute::tension})
     if (const auto map = find_map(mesh, *name))
       for (Edge e : mesh.edges()) (*map)[e] = name->default_value;
-  if (const auto count = find_map(mesh, kBendingCount))
-    for (Edge e : mesh.edges()) (*count)[e] = kBendingCount.default_value;
-  if (const auto rest = find_map(mesh, kTriangleRestLength))
-    for (Halfedge h : mesh.halfedges()) (*rest)[h] = kTriangleRestLength.default_value;
+  if (const auto count = find_map(mesh, attribute::bending_count))
+    for (Edge e : mesh.edges()) (*count)[e] = attribute::bending_count.default_value;
+  if (const auto rest = find_map(mesh, attribute::triangle_rest_length))
+    for (Halfedge h : mesh.halfedges()) (*rest)[h] = attribute::triangle_rest_length.default_value;
   set_struts(mesh, {});
-  if (const auto mass = find_map(mesh, kMass))
-    for (Vertex v : mesh.vertices()) (*mass)[v] = kMass.default_value;
+  if (const auto mass = find_map(mesh, attribute::mass))
+    for (Vertex v : mesh.vertices()) (*mass)[v] = attribute::mass.default_value;
 }
 
 }  // namespace furrow::geometry

@@ -17,9 +17,9 @@ double spatial_length(const Mesh& mesh, Edge e) {
 
 std::vector<double> rest_lengths(const Mesh& mesh) {
   std::vector<double> lengths(mesh.num_edges(), 0);
-  const auto rest = find_map(mesh, kRestLength);
+  const auto rest = find_map(mesh, attribute::rest_length);
   for (Edge e : mesh.edges()) {
-    const double set = rest ? (*rest)[e] : kUnset;
+    const double set = rest ? (*rest)[e] : unset_value;
     lengths[e.idx()] = std::isnan(set) ? spatial_length(mesh, e) : set;
     if (lengths[e.idx()] >= 0 && std::isfinite(lengths[e.idx()])) continue;
     throw ContentError("edge " + std::to_string(mesh.vertex(e, 0).idx()) + "-" +

@@ -11,9 +11,9 @@ namespace furrow::geometry {
 /// Present length of an edge in space [m].
 double spatial_length(const Mesh& mesh, Edge e);
 
-/// Rest length of every edge [m], by edge index (entries of removed edges are 0): kRestLength where it is
-/// set, the present length where it is not. Throws ContentError if a rest length that is set is negative or
-/// infinite.
+/// Rest length of every edge [m], by edge index (entries of removed edges are 0): attribute::rest_length
+/// where it is set, the present length where it is not. Throws ContentError if a rest length that is set is
+/// negative or infinite.
 std::vector<double> rest_lengths(const Mesh& mesh);
 
 /// Lengths of the edges of a triangle: of edge(h), edge(next(h)), edge(prev(h)) with h = halfedge(f).

@@ -20,7 +20,7 @@ std::vector<Vertex> vertices_in_box(const Mesh& mesh, const Point& low, const Po
 }
 
 std::vector<Vertex> vertices_of_group(const Mesh& mesh, int group) {
-  const auto groups = find_map(mesh, kGroup);
+  const auto groups = find_map(mesh, attribute::group);
   std::vector<Vertex> vertices;
   if (!groups) return vertices;
   for (Face f : mesh.faces()) {

@@ -80,7 +80,7 @@ Mesh woven_sheet(double width, double height, double edge) {
   const int columns = static_cast<int>(across), rows = static_cast<int>(upwards);
   Mesh mesh;
   std::vector<Vertex> below = add_row(mesh, columns, false, width, 0);
-  auto diagonal = ensure_map(mesh, kDiagonal);
+  auto diagonal = ensure_map(mesh, attribute::diagonal);
   for (int j = 0; j < rows; ++j) {
     const double y = j + 1 == rows ? height : height * (j + 1) / rows;
     const std::vector<Vertex> above = add_row(mesh, columns, false, width, y);

@@ -13,8 +13,8 @@ namespace furrow::geometry {
 Mesh equilateral_sheet(double width, double height, double edge);
 
 /// The same cloth woven: rows and columns of nearly square cells, `edge` met as above, each cut by a diagonal
-/// (kDiagonal) that turns from cell to cell like the colours of a chessboard. Vertices row by row from below.
-/// Throws as equilateral_sheet(), and if edge > height.
+/// (attribute::diagonal) that turns from cell to cell like the colours of a chessboard. Vertices row by row
+/// from below. Throws as equilateral_sheet(), and if edge > height.
 Mesh woven_sheet(double width, double height, double edge);
 
 }  // namespace furrow::geometry

@@ -13,7 +13,7 @@ namespace furrow::geometry {
 namespace {
 
 /// At the lower vertex of each strut, so that copies of a mesh carry them as they carry every map.
-const PropertyName<Vertex, std::vector<Strut>> kStruts{"v:struts", {}};
+const PropertyName<Vertex, std::vector<Strut>> strut_property{"v:struts", {}};
 
 bool has(const Mesh& mesh, Vertex v) {
   return v.is_valid() && v.idx() < mesh.num_vertices() && !mesh.is_removed(v);
@@ -36,7 +36,7 @@ void check(const Mesh& mesh, const Strut& s) {
 
 std::vector<Strut> struts(const Mesh& mesh) {
   std::vector<Strut> list;
-  const auto map = find_map(mesh, kStruts);
+  const auto map = find_map(mesh, strut_property);
   if (!map) return list;
   for (Vertex v : mesh.vertices())
     for (const Strut& s : (*map)[v])
@@ -49,9 +49,9 @@ void set_struts(Mesh& mesh, std::span<const Strut> list) {
   std::vector<Strut> sorted(list.begin(), list.end());
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Strut& s, const Strut& t) { return std::tie(s.a, s.b) < std::tie(t.a, t.b); });
-  if (auto old = find_map(mesh, kStruts)) mesh.remove_property_map(*old);
+  if (auto old = find_map(mesh, strut_property)) mesh.remove_property_map(*old);
   if (sorted.empty()) return;
-  auto map = ensure_map(mesh, kStruts);
+  auto map = ensure_map(mesh, strut_property);
   for (const Strut& s : sorted) map[s.a].push_back(s);
 }
 

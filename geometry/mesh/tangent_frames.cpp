@@ -23,7 +23,7 @@ Vector any_across(const Vector& n) {
 class Tangents {
  public:
   explicit Tangents(const Mesh& mesh)
-      : mesh_(mesh), texture_(find_map(mesh, kTexture)), normals_(vertex_normals(mesh)) {
+      : mesh_(mesh), texture_(find_map(mesh, attribute::texture)), normals_(vertex_normals(mesh)) {
     u_.assign(mesh.num_faces(), Vector(0, 0, 0));
     sign_.assign(mesh.num_faces(), 0);
     if (!texture_) return;

@@ -10,11 +10,11 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double kSame = 1e-7;     ///< texture coordinates that differ by less agree
-constexpr double kInside = -1e-9;  ///< least barycentric of a point in a triangle
+constexpr double same = 1e-7;            ///< texture coordinates that differ by less agree
+constexpr double inside_margin = -1e-9;  ///< least barycentric of a point in a triangle
 
 bool agree(const TextureCoordinate& a, const TextureCoordinate& b) {
-  return std::abs(a[0] - b[0]) <= kSame && std::abs(a[1] - b[1]) <= kSame;
+  return std::abs(a[0] - b[0]) <= same && std::abs(a[1] - b[1]) <= same;
 }
 
 double cross(const TextureCoordinate& o, const TextureCoordinate& a, const TextureCoordinate& b) {
@@ -22,7 +22,7 @@ double cross(const TextureCoordinate& o, const TextureCoordinate& a, const Textu
 }
 
 HalfedgeMap<TextureCoordinate> texture_of(const Mesh& mesh) {
-  const auto map = find_map(mesh, kTexture);
+  const auto map = find_map(mesh, attribute::texture);
   const auto has = [&](Halfedge h) { return std::isfinite((*map)[h][0]) && std::isfinite((*map)[h][1]); };
   if (!map || std::none_of(mesh.halfedges().begin(), mesh.halfedges().end(), has))
     throw ContentError("the mesh has no texture coordinates; export them (vt in OBJ), or draw otherwise");
@@ -79,7 +79,7 @@ std::vector<Face> TextureCharts::faces_at(const TextureCoordinate& point) const 
   for (Face face : mesh_.faces()) {
     const Barycentrics b = barycentrics(face, point);
     // Also false for NaN: no texture there, or no area.
-    if (std::min({b[0], b[1], b[2]}) >= kInside && b[0] + b[1] + b[2] < 2) found.push_back(face);
+    if (std::min({b[0], b[1], b[2]}) >= inside_margin && b[0] + b[1] + b[2] < 2) found.push_back(face);
   }
   return found;
 }

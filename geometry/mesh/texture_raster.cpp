@@ -11,8 +11,8 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double kOnEdge = -1e-9, kWellInside = 1e-6;  // barycentrics
-constexpr double kBeyond = 1e-6;                       // of the unit square
+constexpr double on_edge = -1e-9, well_inside = 1e-6;  // barycentrics
+constexpr double beyond = 1e-6;                        // of the unit square
 
 }  // namespace
 
@@ -22,7 +22,7 @@ Barycentrics texture_barycentrics(const Mesh& mesh, const HalfedgeMap<TextureCoo
   const auto &a = texture[h[2]], &b = texture[h[0]], &c = texture[h[1]];
   const double x1 = b[0] - a[0], y1 = b[1] - a[1], x2 = c[0] - a[0], y2 = c[1] - a[1];
   const double x = at[0] - a[0], y = at[1] - a[1], area = x1 * y2 - x2 * y1;
-  if (!(std::abs(area) > 0)) return {kUnset, kUnset, kUnset};
+  if (!(std::abs(area) > 0)) return {unset_value, unset_value, unset_value};
   const double beta = (x * y2 - x2 * y) / area, gamma = (x1 * y - x * y1) / area;
   return {1 - beta - gamma, beta, gamma};
 }
@@ -30,7 +30,7 @@ Barycentrics texture_barycentrics(const Mesh& mesh, const HalfedgeMap<TextureCoo
 TextureRaster rasterize_texture(const Mesh& mesh, int size) {
   if (size < 1 || size > 8192)
     throw std::invalid_argument("texture size must be in [1, 8192], not " + std::to_string(size));
-  const auto texture = find_map(mesh, kTexture);
+  const auto texture = find_map(mesh, attribute::texture);
   if (!texture) throw ContentError("the mesh has no texture coordinates");
   TextureRaster raster;
   raster.size = size;
@@ -45,16 +45,16 @@ TextureRaster rasterize_texture(const Mesh& mesh, int size) {
         sum += (*texture)[h][k];
       }
     if (!std::isfinite(sum)) continue;
-    raster.out_of_range += std::min(low[0], low[1]) < -kBeyond || std::max(high[0], high[1]) > 1 + kBeyond;
+    raster.out_of_range += std::min(low[0], low[1]) < -beyond || std::max(high[0], high[1]) > 1 + beyond;
     const auto texel = [&](double x) { return int(std::clamp(std::floor(x * size), 0.0, size - 1.0)); };
     for (int row = texel(1 - high[1]); row <= texel(1 - low[1]); ++row)
       for (int column = texel(low[0]); column <= texel(high[0]); ++column) {
         const Barycentrics b = texture_barycentrics(mesh, *texture, f, texel_middle(size, column, row));
         const double least = std::min({b[0], b[1], b[2]});
-        if (!(least >= kOnEdge)) continue;
+        if (!(least >= on_edge)) continue;
         const std::size_t at = std::size_t(row) * size + column;
-        raster.overlapping += inside[at] && least > kWellInside;
-        inside[at] = inside[at] || least > kWellInside;
+        raster.overlapping += inside[at] && least > well_inside;
+        inside[at] = inside[at] || least > well_inside;
         if (raster.face[at] >= 0) continue;
         raster.face[at] = int(f.idx());
         ++raster.covered;

@@ -39,7 +39,7 @@ std::vector<Vertex> two_ring(const Mesh& mesh, std::span<const Vertex> seeds) {
 
 std::vector<Vertex> line_vertices(const Mesh& mesh) {
   std::vector<Vertex> result;
-  const auto line = find_map(mesh, kLine);
+  const auto line = find_map(mesh, attribute::line);
   if (!line) return result;
   for (Vertex v : mesh.vertices())
     if ((*line)[v] >= 0) result.push_back(v);

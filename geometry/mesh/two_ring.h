@@ -15,7 +15,7 @@ std::vector<Vertex> vertices_within_rings(const Mesh& mesh, std::span<const Vert
 /// The neighbourhood that a drawn line is smoothed in (method S1.5): vertices_within_rings(mesh, seeds, 2).
 std::vector<Vertex> two_ring(const Mesh& mesh, std::span<const Vertex> seeds);
 
-/// Vertices of all lines (kLine >= 0), by ascending index.
+/// Vertices of all lines (attribute::line >= 0), by ascending index.
 std::vector<Vertex> line_vertices(const Mesh& mesh);
 
 }  // namespace furrow::geometry

@@ -11,8 +11,8 @@
 namespace furrow::geometry {
 namespace {
 
-const std::string kPrefix = "v:attribute:";
-const std::string kWeight = "weight_";
+const std::string prefix = "v:attribute:";
+const std::string weight = "weight_";
 
 template <class Value, std::size_t n>
 void blend(VertexMap<Value> map, Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) {
@@ -43,20 +43,20 @@ bool normalize(std::vector<double>& weights, int strongest) {
 std::vector<VertexAttribute> vertex_attributes(const Mesh& mesh) {
   std::vector<VertexAttribute> result;
   for (const std::string& name : mesh.properties<Vertex>()) {
-    if (!name.starts_with(kPrefix)) continue;
+    if (!name.starts_with(prefix)) continue;
     const PropertyName<Vertex, double> property{name.c_str(), 0};
-    if (const auto map = find_map(mesh, property)) result.push_back({name.substr(kPrefix.size()), *map});
+    if (const auto map = find_map(mesh, property)) result.push_back({name.substr(prefix.size()), *map});
   }
   return result;
 }
 
 VertexMap<double> ensure_vertex_attribute(Mesh& mesh, const std::string& name) {
-  const std::string full = kPrefix + name;
+  const std::string full = prefix + name;
   return ensure_map(mesh, PropertyName<Vertex, double>{full.c_str(), 0});
 }
 
 VertexMap<RestPosition> ensure_rest_positions(Mesh& mesh) {
-  auto rest = ensure_map(mesh, kRestPosition);
+  auto rest = ensure_map(mesh, attribute::rest_position);
   for (Vertex v : mesh.vertices()) {
     const Point& p = mesh.point(v);
     if (std::isnan(rest[v][0])) rest[v] = {p.x(), p.y(), p.z()};
@@ -65,9 +65,9 @@ VertexMap<RestPosition> ensure_rest_positions(Mesh& mesh) {
 }
 
 VertexBlend::VertexBlend(const Mesh& mesh)
-    : color_(find_map(mesh, kColor)),
-      rest_position_(find_map(mesh, kRestPosition)),
-      velocity_(find_map(mesh, kVelocity)),
+    : color_(find_map(mesh, attribute::color)),
+      rest_position_(find_map(mesh, attribute::rest_position)),
+      velocity_(find_map(mesh, attribute::velocity)),
       attributes_(vertex_attributes(mesh)) {}
 
 void VertexBlend::set(Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) const {
@@ -92,7 +92,7 @@ std::size_t normalize_skin_weights(Mesh& mesh, int strongest) {
     throw std::invalid_argument("normalize_skin_weights: strongest is " + std::to_string(strongest) +
                                 ", not >= 0");
   std::vector<VertexAttribute> joints = vertex_attributes(mesh);
-  std::erase_if(joints, [](const VertexAttribute& a) { return !a.name.starts_with(kWeight); });
+  std::erase_if(joints, [](const VertexAttribute& a) { return !a.name.starts_with(weight); });
   for (const VertexAttribute& joint : joints)
     for (Vertex v : mesh.vertices())
       if (!(joint.values[v] >= 0) || std::isinf(joint.values[v]))

@@ -39,14 +39,14 @@ void apply_displacement(Mesh& mesh, const VectorMap& displacement, int steps) {
     throw std::invalid_argument("apply_displacement: the map has " +
                                 std::to_string(displacement.texels.size()) + " texels for a size of " +
                                 std::to_string(displacement.size));
-  if (!find_map(mesh, kTexture))
+  if (!find_map(mesh, attribute::texture))
     throw ContentError("apply_displacement: the mesh has no texture coordinates");
   Mesh fine = mesh;
   fine.collect_garbage();
   const Mesh low = fine;
   const TangentFrames frames = tangent_frames(low);
   const std::vector<Face> parents = midpoint_subdivide(fine, steps);
-  const auto texture = *find_map(fine, kTexture);
+  const auto texture = *find_map(fine, attribute::texture);
   std::vector<Vector> sums(fine.num_vertices(), Vector(0, 0, 0));
   std::vector<int> corners(fine.num_vertices(), 0);
   for (Face f : fine.faces()) {

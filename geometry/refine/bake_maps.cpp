@@ -15,15 +15,15 @@ namespace furrow::geometry {
 namespace {
 
 /// A texel beyond the border may lie this far outside of its face [barycentric].
-constexpr double kOutside = -0.5;
+constexpr double outside = -0.5;
 
 /// The neighbours of a texel, those that share a side first.
-constexpr int kNeighbours[8][2] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+constexpr int neighbours[8][2] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
 
 TextureRaster rasterize(const Mesh& mesh, int size, const char* which) {
   require_triangles(mesh, "bake");
   require_finite(mesh, "bake");
-  if (!find_map(mesh, kTexture))
+  if (!find_map(mesh, attribute::texture))
     throw ContentError(std::string("bake: the ") + which + " mesh has no texture coordinates");
   TextureRaster raster = rasterize_texture(mesh, size);
   if (raster.out_of_range > 0)
@@ -35,7 +35,7 @@ TextureRaster rasterize(const Mesh& mesh, int size, const char* which) {
 
 Barycentrics held(Barycentrics b) {
   double sum = 0;
-  for (double& x : b) sum += x = std::max(x, kOutside);
+  for (double& x : b) sum += x = std::max(x, outside);
   for (double& x : b) x /= sum;
   return b;
 }
@@ -49,8 +49,8 @@ class Baker {
         size_(options.size),
         low_raster_(rasterize(low, size_, "low")),
         high_raster_(rasterize(high, size_, "high")),
-        low_texture_(*find_map(low, kTexture)),
-        high_texture_(*find_map(high, kTexture)),
+        low_texture_(*find_map(low, attribute::texture)),
+        high_texture_(*find_map(high, attribute::texture)),
         frames_(tangent_frames(low)),
         normals_(vertex_normals(high)) {
     maps_.displacement = {size_, {}};
@@ -106,7 +106,7 @@ class Baker {
  private:
   std::optional<std::size_t> filled_neighbour(int column, int row) const {
     if (state_[std::size_t(row) * size_ + column]) return std::nullopt;
-    for (const auto& [dx, dy] : kNeighbours) {
+    for (const auto& [dx, dy] : neighbours) {
       const int x = column + dx, y = row + dy;
       if (x < 0 || y < 0 || x >= size_ || y >= size_) continue;
       if (const std::size_t at = std::size_t(y) * size_ + x; state_[at]) return at;

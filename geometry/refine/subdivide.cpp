@@ -70,8 +70,8 @@ void check(Mesh& mesh, int steps, int faces_per_face, const char* operation) {
 /// Marks the halves of the edges of lines, and gives their mid-points the line of both ends.
 void carry_lines(Mesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& old_edges,
                  const std::vector<char>& was_line_edge, std::size_t old_vertices) {
-  const auto line = find_map(mesh, kLine);
-  const auto line_edge = find_map(mesh, kLineEdge);
+  const auto line = find_map(mesh, attribute::line);
+  const auto line_edge = find_map(mesh, attribute::line_edge);
   if (line_edge)
     for (Edge e : mesh.edges()) (*line_edge)[e] = false;
   for (std::size_t i = 0; i < old_edges.size(); ++i) {
@@ -83,10 +83,10 @@ void carry_lines(Mesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& old_e
   }
 }
 
-/// Diagonals (kDiagonal) of a mesh before a step that cuts triangles into four.
+/// Diagonals (attribute::diagonal) of a mesh before a step that cuts triangles into four.
 class Diagonals {
  public:
-  explicit Diagonals(const Mesh& mesh) : map_(find_map(mesh, kDiagonal)) {
+  explicit Diagonals(const Mesh& mesh) : map_(find_map(mesh, attribute::diagonal)) {
     if (!map_) return;
     for (Edge e : mesh.edges()) {
       if (!(*map_)[e]) continue;
@@ -126,7 +126,7 @@ void quadrisect(Mesh& mesh) {
   const std::size_t old_vertices = mesh.number_of_vertices(), old_faces = mesh.number_of_faces();
   std::vector<std::pair<Vertex, Vertex>> ends;  // CGAL appends the mid-points in the order of the edges
   std::vector<char> was_line_edge;
-  const auto line_edge = find_map(mesh, kLineEdge);
+  const auto line_edge = find_map(mesh, attribute::line_edge);
   for (Edge e : mesh.edges()) {
     ends.emplace_back(mesh.vertex(e, 0), mesh.vertex(e, 1));
     was_line_edge.push_back(line_edge && (*line_edge)[e]);
@@ -193,7 +193,7 @@ void sqrt3_step(Mesh& mesh, bool refine_border) {
     return at;
   };
   saved.restore(mesh, parent, origin);
-  for (const auto* name : {&kLineEdge, &kDiagonal})
+  for (const auto* name : {&attribute::line_edge, &attribute::diagonal})
     if (const auto map = find_map(mesh, *name))
       for (Edge e : mesh.edges()) (*map)[e] = false;
 }

@@ -8,9 +8,9 @@ namespace furrow::geometry {
 
 /// Loop subdivision, `steps` times: every triangle becomes four. Border vertices and edges follow the border
 /// curve only (1/8, 3/4, 1/8 and mid-points). Old vertices keep their indices; texture coordinates of
-/// corners, colours, rest positions, attributes and, along edges of lines (kLineEdge), the line are carried
-/// to the mid-points linearly; groups and materials go to the new faces. Halves of diagonals (kDiagonal) and
-/// the new edges parallel to one are diagonals. Rest lengths and angles, bending
+/// corners, colours, rest positions, attributes and, along edges of lines (attribute::line_edge), the line
+/// are carried to the mid-points linearly; groups and materials go to the new faces. Halves of diagonals
+/// (attribute::diagonal) and the new edges parallel to one are diagonals. Rest lengths and angles, bending
 /// springs, stiffnesses and masses become unset, struts are dropped: the new shape is the rest shape. `steps`
 /// in [0, 6], and at most 50 million faces in the end. Removed elements are collected first. Throws
 /// std::invalid_argument for steps, ContentError for a face that is no triangle or a position that is not

@@ -12,7 +12,7 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr std::array<Barycentrics, 4> kPoints = {
+constexpr std::array<Barycentrics, 4> points = {
     {{1. / 3, 1. / 3, 1. / 3}, {2. / 3, 1. / 6, 1. / 6}, {1. / 6, 2. / 3, 1. / 6}, {1. / 6, 1. / 6, 2. / 3}}};
 
 struct Sample {
@@ -36,7 +36,7 @@ SurfaceDeviation surface_deviation(const Mesh& from, const Mesh& to, std::span<c
   for (Face f : faces) {
     const double area = std::sqrt(area_normal_of(from, f).squared_length()) / 2;
     result.area += area;
-    for (const Barycentrics& b : kPoints)
+    for (const Barycentrics& b : points)
       samples.push_back({surface.closest(position_of(from, {f, b})).distance, area / 4});
   }
   std::stable_sort(samples.begin(), samples.end(),

@@ -16,7 +16,7 @@ namespace furrow::geometry {
 namespace {
 
 /// Positions as near as this are the same: what a change of units in a file may leave [m].
-constexpr double kSame = 1e-9;
+constexpr double same = 1e-9;
 
 struct Frame {
   std::array<Vector, 3> axes;
@@ -32,7 +32,7 @@ Frame frame_of(const Mesh& mesh, Face face) {
 
 /// The mesh as it was before lines, pose and motion.
 Mesh at_rest(const Mesh& wrinkled) {
-  const auto rest = find_map(wrinkled, kRestPosition);
+  const auto rest = find_map(wrinkled, attribute::rest_position);
   Mesh mesh = wrinkled;
   for (Vertex v : mesh.vertices()) {
     if (!rest || !std::isfinite((*rest)[v][0] + (*rest)[v][1] + (*rest)[v][2]))
@@ -53,7 +53,7 @@ class Transfer {
   Point target(Vertex v) {
     const Point& p = original_.point(v);
     const bool known = wrinkled_.has_valid_index(v) && !wrinkled_.is_removed(v);
-    if (known && CGAL::squared_distance(rest_.point(v), p) <= kSame * kSame) {
+    if (known && CGAL::squared_distance(rest_.point(v), p) <= same * same) {
       ++report.copied;
       return moved(v) ? wrinkled_.point(v) : p;
     }

@@ -58,9 +58,9 @@ struct Known {
 /// Gives each pair's spring to its first candidate; what is `known` (sorted by pair) goes before the
 /// distance. A stiffness stays if as many edges share the spring as before.
 void hand_out(Mesh& mesh, std::span<const Candidate> sorted, std::span<const Known> all_known) {
-  auto rest = ensure_map(mesh, kBendingRestLength);
-  auto count = ensure_map(mesh, kBendingCount);
-  const auto stiffness = find_map(mesh, kBendingStiffness);
+  auto rest = ensure_map(mesh, attribute::bending_rest_length);
+  auto count = ensure_map(mesh, attribute::bending_count);
+  const auto stiffness = find_map(mesh, attribute::bending_stiffness);
   for (std::size_t i = 0, next = 0; i < sorted.size(); i = next) {
     while (next < sorted.size() && sorted[next].pair == sorted[i].pair) ++next;
     const Pair& pair = sorted[i].pair;
@@ -77,12 +77,12 @@ void hand_out(Mesh& mesh, std::span<const Candidate> sorted, std::span<const Kno
 }
 
 void clear(Mesh& mesh, std::span<const Edge> edges) {
-  auto rest = ensure_map(mesh, kBendingRestLength);
-  auto count = ensure_map(mesh, kBendingCount);
-  const auto stiffness = find_map(mesh, kBendingStiffness);
+  auto rest = ensure_map(mesh, attribute::bending_rest_length);
+  auto count = ensure_map(mesh, attribute::bending_count);
+  const auto stiffness = find_map(mesh, attribute::bending_stiffness);
   for (Edge e : edges) {
-    rest[e] = kUnset, count[e] = 0;
-    if (stiffness) (*stiffness)[e] = kUnset;
+    rest[e] = unset_value, count[e] = 0;
+    if (stiffness) (*stiffness)[e] = unset_value;
   }
 }
 
@@ -106,8 +106,9 @@ std::vector<Edge> edges_around(const Mesh& mesh, std::span<const Face> changed) 
 std::vector<Known> known_springs(const Mesh& mesh, std::span<const Edge> edges,
                                  std::span<const Face> changed) {
   std::vector<Known> known;
-  const auto rest = find_map(mesh, kBendingRestLength), stiffness = find_map(mesh, kBendingStiffness);
-  const auto count = find_map(mesh, kBendingCount);
+  const auto rest = find_map(mesh, attribute::bending_rest_length),
+             stiffness = find_map(mesh, attribute::bending_stiffness);
+  const auto count = find_map(mesh, attribute::bending_count);
   if (!rest) return known;
   std::vector<Face> sorted(changed.begin(), changed.end());
   std::sort(sorted.begin(), sorted.end());
@@ -118,8 +119,8 @@ std::vector<Known> known_springs(const Mesh& mesh, std::span<const Edge> edges,
     const Halfedge h = mesh.halfedge(e);
     if (mesh.is_border(e) || std::isnan((*rest)[e]) || is_changed(h) || is_changed(mesh.opposite(h)))
       continue;
-    known.push_back(
-        {opposite_pair(mesh, e), (*rest)[e], stiffness ? (*stiffness)[e] : kUnset, count ? (*count)[e] : 0});
+    known.push_back({opposite_pair(mesh, e), (*rest)[e], stiffness ? (*stiffness)[e] : unset_value,
+                     count ? (*count)[e] : 0});
   }
   std::sort(known.begin(), known.end(), [](const Known& k, const Known& l) {
     return std::tie(k.pair, k.rest_length) < std::tie(l.pair, l.rest_length);
@@ -170,8 +171,8 @@ void rebuild_bending_springs(Mesh& mesh, std::span<const Face> changed) {
 
 std::vector<BendingSpring> bending_springs(const Mesh& mesh) {
   std::vector<BendingSpring> springs;
-  const auto rest = find_map(mesh, kBendingRestLength);
-  const auto count = find_map(mesh, kBendingCount);
+  const auto rest = find_map(mesh, attribute::bending_rest_length);
+  const auto count = find_map(mesh, attribute::bending_count);
   if (!rest || !count) return springs;
   for (Edge e : mesh.edges()) {
     if ((*count)[e] <= 0 || mesh.is_border(e)) continue;
@@ -190,7 +191,8 @@ std::size_t count_hinges_without_spring(const Mesh& mesh) {
 }
 
 void ensure_bending_springs(Mesh& mesh) {
-  const bool known = find_map(mesh, kBendingRestLength) && find_map(mesh, kBendingCount);
+  const bool known =
+      find_map(mesh, attribute::bending_rest_length) && find_map(mesh, attribute::bending_count);
   if (!known || bending_springs(mesh).empty()) rebuild_bending_springs(mesh);
 }
 

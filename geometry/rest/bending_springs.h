@@ -9,19 +9,19 @@ namespace furrow::geometry {
 
 /// A spring that joins the two vertices opposite an interior edge (method S1.1).
 struct BendingSpring {
-  Vertex a, b;         ///< a < b
-  Edge across;         ///< the edge that holds it in kBendingRestLength and kBendingCount
+  Vertex a, b;  ///< a < b
+  Edge across;  ///< the edge that holds it in attribute::bending_rest_length and attribute::bending_count
   double rest_length;  ///< [m]
   int count;  ///< edges whose opposite vertices are a and b; >= 1 (2 around a vertex of valence four)
 };
 
-/// Writes kBendingRestLength and kBendingCount of the whole mesh. Every interior edge asks for a spring
-/// between the two vertices opposite it; it gets none where an edge joins them already or both are the same
-/// vertex. Edges with the same two opposite vertices share one spring: the edge with the smallest pair of
-/// ends (lower end first) holds it, the others hold NaN and 0. Rest length: the present distance in space
-/// [m]; kBendingStiffness, if there is one, becomes unset. Changes no position and no connectivity. O(edges
-/// log edges). Throws ContentError if a face is no triangle. Source: Shi and Saito, section 3 (the springs
-/// are rebuilt after the flips).
+/// Writes attribute::bending_rest_length and attribute::bending_count of the whole mesh. Every interior edge
+/// asks for a spring between the two vertices opposite it; it gets none where an edge joins them already or
+/// both are the same vertex. Edges with the same two opposite vertices share one spring: the edge with the
+/// smallest pair of ends (lower end first) holds it, the others hold NaN and 0. Rest length: the present
+/// distance in space [m]; attribute::bending_stiffness, if there is one, becomes unset. Changes no position
+/// and no connectivity. O(edges log edges). Throws ContentError if a face is no triangle. Source: Shi and
+/// Saito, section 3 (the springs are rebuilt after the flips).
 void rebuild_bending_springs(Mesh& mesh);
 /// rebuild_bending_springs(mesh), unless the mesh has bending springs already: those keep their rest lengths.
 void ensure_bending_springs(Mesh& mesh);

@@ -17,7 +17,7 @@ double lump_masses(Mesh& mesh, double density) {
                                 " kg/m^2; it must be finite and > 0");
   require_triangles(mesh, "lump_masses");
   const std::vector<double> lengths = rest_lengths(mesh);
-  auto mass = ensure_map(mesh, kMass);
+  auto mass = ensure_map(mesh, attribute::mass);
   for (Vertex v : mesh.vertices()) mass[v] = 0;
   double total = 0;
   for (Face f : mesh.faces()) {

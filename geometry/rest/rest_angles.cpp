@@ -19,7 +19,7 @@ double dihedral_angle(const Mesh& mesh, Edge edge) {
 }
 
 void ensure_rest_angles(Mesh& mesh) {
-  auto angle = ensure_map(mesh, kRestAngle);
+  auto angle = ensure_map(mesh, attribute::rest_angle);
   for (Edge e : mesh.edges())
     if (!mesh.is_border(e) && std::isnan(angle[e])) angle[e] = dihedral_angle(mesh, e);
 }

@@ -8,9 +8,10 @@ namespace furrow::geometry {
 /// ridge seen from the normals' side; 0 for a border edge or where a face has no area.
 double dihedral_angle(const Mesh& mesh, Edge edge);
 
-/// Gives every interior edge whose kRestAngle is unset (all of them where the map is missing) the angle of
-/// the present shape; the others keep their bits. Insertion and flips unset the angles of the edges whose
-/// faces they change, displacement carries the rest along (apply_rest_rule). Cost: one pass over the edges.
+/// Gives every interior edge whose attribute::rest_angle is unset (all of them where the map is missing) the
+/// angle of the present shape; the others keep their bits. Insertion and flips unset the angles of the edges
+/// whose faces they change, displacement carries the rest along (apply_rest_rule). Cost: one pass over the
+/// edges.
 void ensure_rest_angles(Mesh& mesh);
 
 }  // namespace furrow::geometry

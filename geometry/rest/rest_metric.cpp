@@ -9,7 +9,7 @@
 namespace furrow::geometry {
 
 EdgeMap<double> ensure_rest_lengths(Mesh& mesh) {
-  EdgeMap<double> rest = ensure_map(mesh, kRestLength);
+  EdgeMap<double> rest = ensure_map(mesh, attribute::rest_length);
   for (Edge e : mesh.edges()) {
     if (!std::isnan(rest[e])) continue;
     rest[e] = spatial_length(mesh, e);
@@ -23,7 +23,7 @@ TriangleLengths rest_lengths_of(const Mesh& mesh, const EdgeMap<double>& rest, F
 }
 
 double triangle_area(const TriangleLengths& lengths) {
-  if (std::isnan(lengths[0] + lengths[1] + lengths[2])) return kUnset;
+  if (std::isnan(lengths[0] + lengths[1] + lengths[2])) return unset_value;
   return triangle_area(lengths[0], lengths[1], lengths[2]);
 }
 

@@ -37,7 +37,7 @@ class Change {
 
 /// Carries the rest angles over; returns how many changed.
 std::size_t turn_hinges(Mesh& mesh, const RestSnapshot& before) {
-  const auto rest = find_map(mesh, kRestAngle);
+  const auto rest = find_map(mesh, attribute::rest_angle);
   std::size_t turned = 0;
   for (Edge e : mesh.edges()) {
     if (!rest || before.angles.empty() || mesh.is_border(e)) continue;
@@ -68,7 +68,7 @@ RestSnapshot take_rest_snapshot(const Mesh& mesh) {
   RestSnapshot snapshot;
   snapshot.positions.assign(mesh.points().begin(), mesh.points().end());
   snapshot.edges = mesh.num_edges();
-  if (find_map(mesh, kRestAngle)) {
+  if (find_map(mesh, attribute::rest_angle)) {
     snapshot.angles.resize(mesh.num_edges());
     for (Edge e : mesh.edges()) snapshot.angles[e.idx()] = dihedral_angle(mesh, e);
   }
@@ -85,8 +85,8 @@ RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule
   RestReport report;
   if (rule == RestRule::flat) return report;
   const Change change(mesh, before);
-  auto rest = ensure_map(mesh, kRestLength);
-  const auto own = find_map(mesh, kTriangleRestLength);
+  auto rest = ensure_map(mesh, attribute::rest_length);
+  const auto own = find_map(mesh, attribute::triangle_rest_length);
   for (Edge e : mesh.edges()) {
     const Vertex a = mesh.vertex(e, 0), b = mesh.vertex(e, 1);
     if (!change.touches(a, b)) continue;
@@ -97,7 +97,7 @@ RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule
   }
   for (const BendingSpring& s : bending_springs(mesh)) {
     if (!change.touches(s.a, s.b)) continue;
-    (*find_map(mesh, kBendingRestLength))[s.across] = change.carried(s.rest_length, s.a, s.b);
+    (*find_map(mesh, attribute::bending_rest_length))[s.across] = change.carried(s.rest_length, s.a, s.b);
     ++report.scaled_bending_springs;
   }
   report.scaled_struts = carry_struts(mesh, change);

@@ -32,14 +32,14 @@ struct RestReport {
 };
 
 /// After displacement and smoothing, rules drawn and copied: the rest length of every edge (also those of a
-/// face's own, kTriangleRestLength), bending spring and strut with a vertex that has moved is multiplied by
-/// length after / length before, so that strain that was there is carried over; where an edge's rest length
-/// was unset, or the length before was 0, it becomes the length after. Rule copied: a rest angle (kRestAngle,
-/// if there is one) grows by what the angle grew. All others keep their bits, stiffnesses too. Changes
-/// kRestLength (added if missing), kTriangleRestLength, kBendingRestLength, struts and kRestAngle. Rule flat:
-/// changes nothing.
-/// Throws std::invalid_argument, the mesh untouched, if the snapshot is of another connectivity; ContentError
-/// if a position is not finite. O(vertices + edges).
+/// face's own, attribute::triangle_rest_length), bending spring and strut with a vertex that has moved is
+/// multiplied by length after / length before, so that strain that was there is carried over; where an edge's
+/// rest length was unset, or the length before was 0, it becomes the length after. Rule copied: a rest angle
+/// (attribute::rest_angle, if there is one) grows by what the angle grew. All others keep their bits,
+/// stiffnesses too. Changes attribute::rest_length (added if missing), attribute::triangle_rest_length,
+/// attribute::bending_rest_length, struts and attribute::rest_angle. Rule flat: changes nothing. Throws
+/// std::invalid_argument, the mesh untouched, if the snapshot is of another connectivity; ContentError if a
+/// position is not finite. O(vertices + edges).
 RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule);
 
 /// apply_rest_rule(mesh, before, RestRule::drawn).

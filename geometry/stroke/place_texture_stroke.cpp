@@ -10,7 +10,7 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double kInside = 1e-4;  ///< least barycentric of a point, as trace_stroke has it
+constexpr double inside_margin = 1e-4;  ///< least barycentric of a point, as trace_stroke has it
 
 TextureCoordinate between(const TextureCoordinate& a, const TextureCoordinate& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
@@ -55,7 +55,7 @@ class TexturePlacing {
     if (faces.empty())
       placing_.refuse(i, place + " lies outside all triangles of the texture; move it onto a chart");
     if (choice_.group) {
-      const auto group = find_map(mesh_, kGroup);
+      const auto group = find_map(mesh_, attribute::group);
       std::erase_if(faces, [&](Face f) { return !group || (*group)[f] != *choice_.group; });
       if (faces.empty()) placing_.refuse(i, place + " lies in no face of the stroke's group");
     }
@@ -89,7 +89,7 @@ class TexturePlacing {
   Spot spot(Face face, const TextureCoordinate& uv) const {
     FacePoint p{face, charts_.barycentrics(face, uv)};
     double sum = 0;
-    for (double& b : p.barycentrics) b = std::max(b, kInside), sum += b;
+    for (double& b : p.barycentrics) b = std::max(b, inside_margin), sum += b;
     for (double& b : p.barycentrics) b /= sum;
     const auto c = charts_.corners(face);
     TextureCoordinate inside{0, 0};

@@ -11,16 +11,16 @@ namespace furrow::geometry {
 
 /// Which of the faces that share a place in the texture is meant (mirrored halves of a garment).
 struct TextureChoice {
-  std::optional<int> group;   ///< only faces of that kGroup
+  std::optional<int> group;   ///< only faces of that attribute::group
   std::optional<Point> near;  ///< the face nearest to this point [m]
 };
 
-/// Lays a stroke that was drawn in texture space (kTexture) onto the surface. A chart is a set of faces
-/// joined by edges across which the texture coordinates agree. From point to point the stroke runs straight
-/// in the texture. Where it comes to a seam (an edge between two charts) it goes on from the same place of
-/// the seam on the other chart, if the next point lies there; else it ends there and starts anew (a warning).
-/// Among several faces at a point the first point takes the one in `choice`, else that of the lowest index (a
-/// warning if they lie apart); later points stay on the chart of the one before where they
+/// Lays a stroke that was drawn in texture space (attribute::texture) onto the surface. A chart is a set of
+/// faces joined by edges across which the texture coordinates agree. From point to point the stroke runs
+/// straight in the texture. Where it comes to a seam (an edge between two charts) it goes on from the same
+/// place of the seam on the other chart, if the next point lies there; else it ends there and starts anew (a
+/// warning). Among several faces at a point the first point takes the one in `choice`, else that of the
+/// lowest index (a warning if they lie apart); later points stay on the chart of the one before where they
 /// can. `closed`: the last point is joined to the first. Throws ContentError, naming stroke and point, if a
 /// point lies in no face's texture triangle or is not finite, or the mesh has no texture coordinates.
 /// `max_distance` is that of the trace that follows [m] (placed_stroke.h). Cost: O(faces) for each point.

@@ -8,7 +8,7 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double kInside = 1e-4;  ///< least barycentric of a hit, as trace_stroke has it
+constexpr double inside_margin = 1e-4;  ///< least barycentric of a hit, as trace_stroke has it
 
 class ViewPlacing {
  public:
@@ -45,7 +45,7 @@ class ViewPlacing {
       if (!hits_.back()) continue;
       FacePoint& hit = hits_.back()->point;
       double sum = 0;
-      for (double& b : hit.barycentrics) b = std::max(b, kInside), sum += b;
+      for (double& b : hit.barycentrics) b = std::max(b, inside_margin), sum += b;
       for (double& b : hit.barycentrics) b /= sum;
       hits_.back()->position = position_of(mesh_, hit);
       inside += area_normal_of(mesh_, hit.face) * d > 0;

@@ -18,14 +18,14 @@ using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
 using Traits = CGAL::AABB_traits<Kernel, Primitive>;
 
 /// Below this barycentric a point counts as lying on the edge.
-constexpr double kOnEdge = 1e-9;
+constexpr double on_edge = 1e-9;
 
 bool lies_on_border(const Mesh& mesh, const FacePoint& p) {
   const auto h = halfedges_of(mesh, p.face);
   for (int i = 0; i < 3; ++i) {
-    const bool at_corner = p.barycentrics[i] > 1 - kOnEdge;
+    const bool at_corner = p.barycentrics[i] > 1 - on_edge;
     if (at_corner && mesh.is_border(mesh.source(h[i]))) return true;
-    if (p.barycentrics[(i + 2) % 3] < kOnEdge && mesh.is_border(mesh.edge(h[i]))) return true;
+    if (p.barycentrics[(i + 2) % 3] < on_edge && mesh.is_border(mesh.edge(h[i]))) return true;
   }
   return false;
 }

@@ -9,10 +9,10 @@ namespace furrow::geometry {
 
 LineShapes line_shapes(std::span<const Stroke> strokes, int first_line) {
   LineShapes shapes{std::vector<double>(static_cast<std::size_t>(first_line), 1),
-                    std::vector<double>(static_cast<std::size_t>(first_line), kUnset)};
+                    std::vector<double>(static_cast<std::size_t>(first_line), unset_value)};
   for (const Stroke& stroke : strokes) {
     shapes.presses.push_back(stroke.press);
-    shapes.widths.push_back(stroke.width.value_or(kUnset));
+    shapes.widths.push_back(stroke.width.value_or(unset_value));
   }
   return shapes;
 }

@@ -7,10 +7,11 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double kInside = 1e-4;      ///< least barycentric of a hit: it lies strictly inside its face
-constexpr double kDegenerate = 1e-6;  ///< a barycentric, or a position on an edge, that counts as on the end
-constexpr int kBisections = 8;
-constexpr std::size_t kMostAround = 8;  ///< edges around a vertex
+constexpr double inside_margin = 1e-4;  ///< least barycentric of a hit: it lies strictly inside its face
+constexpr double degenerate_area =
+    1e-6;  ///< a barycentric, or a position on an edge, that counts as on the end
+constexpr int bisections = 8;
+constexpr std::size_t most_around = 8;  ///< edges around a vertex
 
 double distance(const Point& a, const Point& b) { return std::sqrt(CGAL::squared_distance(a, b)); }
 
@@ -31,10 +32,10 @@ StrokeHit StrokeTracer::hit_at(const SurfaceHit& hit, const Point& target, doubl
   StrokeHit result{hit.point, hit.position, parameter, hit.beyond_border > 0.5 * options_.mean_edge,
                    false,     target,       false};
   Barycentrics& b = result.point.barycentrics;
-  result.degenerate = !hit.on_border && *std::min_element(b.begin(), b.end()) < kDegenerate;
+  result.degenerate = !hit.on_border && *std::min_element(b.begin(), b.end()) < degenerate_area;
   double excess = 0;
-  for (double& value : b) value = std::max(value - kInside, 0.0), excess += value;
-  for (double& value : b) value = kInside + value * (1 - 3 * kInside) / excess;
+  for (double& value : b) value = std::max(value - inside_margin, 0.0), excess += value;
+  for (double& value : b) value = inside_margin + value * (1 - 3 * inside_margin) / excess;
   result.position = position_of(mesh_, result.point);
   return result;
 }
@@ -64,7 +65,7 @@ bool StrokeTracer::connect(const StrokeHit& from, const StrokeHit& to, int depth
   const Point middle = CGAL::midpoint(from.position, to.position);
   if (depth == 0) {
     // So short a step may still fail beside a notch of the border: go round the notch's vertex.
-    const auto round = fewest_crossings(mesh_, from.point.face, to.point.face, middle, kMostAround);
+    const auto round = fewest_crossings(mesh_, from.point.face, to.point.face, middle, most_around);
     path.insert(path.end(), round.begin(), round.end());
     return !round.empty();
   }
@@ -93,7 +94,7 @@ void StrokeTracer::append(const std::vector<EdgeCrossing>& path, const StrokeHit
   const Vector chord = to.position - from.position;
   const double squared = std::max(chord.squared_length(), 1e-300);
   for (const EdgeCrossing& x : path) {
-    degenerate_ = degenerate_ || x.t < kDegenerate || x.t > 1 - kDegenerate;
+    degenerate_ = degenerate_ || x.t < degenerate_area || x.t > 1 - degenerate_area;
     faces.back().exit = x;
     const Halfedge beyond = mesh_.opposite(x.halfedge);
     if (mesh_.is_border(beyond)) return;
@@ -155,7 +156,7 @@ void StrokeTracer::advance(const StrokeHit& from, StrokeHit to) {
     const StrokeHit local = hit_at(closest, to.target, to.parameter);
     std::vector<EdgeCrossing> path;
     double length = 0;
-    if (connect(from, local, kBisections, length_limit(from, local), path, length)) {
+    if (connect(from, local, bisections, length_limit(from, local), path, length)) {
       append(path, from, local);
       current_ = local;
       return;

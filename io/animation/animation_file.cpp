@@ -19,7 +19,7 @@
 namespace furrow::io {
 namespace {
 
-constexpr std::array<std::pair<const char*, AnimationFormat>, 3> kEndings = {
+constexpr std::array<std::pair<const char*, AnimationFormat>, 3> endings = {
     {{".pc2", AnimationFormat::pc2}, {".mdd", AnimationFormat::mdd}, {".glb", AnimationFormat::glb}}};
 
 void check(const AnimationOptions& o) {
@@ -66,7 +66,7 @@ std::optional<AnimationFormat> animation_format(const std::filesystem::path& pat
   std::string ending = path.extension().string();
   std::ranges::transform(ending, ending.begin(),
                          [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  for (const auto& [known, format] : kEndings)
+  for (const auto& [known, format] : endings)
     if (ending == known) return format;
   return std::nullopt;
 }

@@ -50,16 +50,16 @@ class MeshSequence : public FrameSource {
 /// The digits that stand for the run of # in a name, as a number; nothing if the name does not fit.
 std::optional<long> number_in(std::string_view name, std::string_view before, std::size_t width,
                               std::string_view after) {
-  constexpr std::size_t kMostDigits = 9;
+  constexpr std::size_t most_digits = 9;
   if (!name.starts_with(before) || !name.ends_with(after)) return std::nullopt;
   if (name.size() < before.size() + width + after.size()) return std::nullopt;
   name.remove_prefix(before.size());
   name.remove_suffix(after.size());
-  if (name.size() > std::max(kMostDigits, width) || name.find_first_not_of("0123456789") != name.npos)
+  if (name.size() > std::max(most_digits, width) || name.find_first_not_of("0123456789") != name.npos)
     return std::nullopt;
   if (name.size() > width && name.front() == '0') return std::nullopt;
   const auto first = std::min(name.find_first_not_of('0'), name.size() - 1);
-  if (name.size() - first > kMostDigits) return std::nullopt;
+  if (name.size() - first > most_digits) return std::nullopt;
   return std::stol(std::string(name.substr(first)));
 }
 

@@ -25,9 +25,9 @@ using physics::Vec3;
 using Float3 = std::array<float, 3>;
 
 // Codes of the glTF 2.0 specification, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
-constexpr int kFloat = 5126, kUnsignedInt = 5125;
-constexpr int kVertexData = 34962, kIndices = 34963;
-constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr int float_type = 5126, unsigned_int = 5125;
+constexpr int vertex_data = 34962, indices = 34963;
+constexpr std::uint32_t magic = 0x46546C67, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
 template <class T>
 void put(std::string& bytes, T value) {
@@ -79,7 +79,7 @@ class GlbEncoder : public AnimationEncoder {
     const bool first = index == 0;
     if (first) first_positions_.resize(x.size()), first_normals_ = n;
     bounds_.resize(index);
-    bounds_.push_back({{kHuge, kHuge, kHuge}, {-kHuge, -kHuge, -kHuge}});
+    bounds_.push_back({{huge, huge, huge}, {-huge, -huge, -huge}});
     for (std::size_t i = 0; i < x.size(); ++i)
       for (int k = 0; k < 3; ++k) {
         if (first) first_positions_[i][k] = static_cast<float>(positions[i][k]);
@@ -102,14 +102,14 @@ class GlbEncoder : public AnimationEncoder {
     std::string text = document(frames, binary).dump();
     text.append((4 - text.size() % 4) % 4, ' ');
     std::string bytes;
-    put(bytes, kMagic);
+    put(bytes, magic);
     put(bytes, std::uint32_t{2});
     put(bytes, static_cast<std::uint32_t>(28 + text.size() + binary));
     put(bytes, static_cast<std::uint32_t>(text.size()));
-    put(bytes, kJsonChunk);
+    put(bytes, json_chunk);
     bytes += text;
     put(bytes, static_cast<std::uint32_t>(binary));
-    put(bytes, kBinaryChunk);
+    put(bytes, binary_chunk);
     return bytes + static_data_;
   }
 
@@ -127,16 +127,16 @@ class GlbEncoder : public AnimationEncoder {
   std::size_t largest_file() const override {
     const std::size_t frames = bounds_.size();
     const std::size_t beside = 4096 + 1000 * frames + static_data_.size() + 4 * frames * frames;
-    constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max();
-    return beside < kLargest ? kLargest - beside : 0;
+    constexpr std::size_t largest = std::numeric_limits<std::uint32_t>::max();
+    return beside < largest ? largest - beside : 0;
   }
 
  private:
-  static constexpr float kHuge = std::numeric_limits<float>::max();
+  static constexpr float huge = std::numeric_limits<float>::max();
 
   /// glTF has one texture coordinate a vertex, with v downwards; a corner without one gets (0, 1).
   void split_by_texture(const Mesh& mesh) {
-    const auto textures = geometry::find_map(mesh, geometry::kTexture);
+    const auto textures = geometry::find_map(mesh, geometry::attribute::texture);
     if (textures) textures_.assign(source_.size(), {0, 1});
     std::vector<bool> taken(source_.size(), false);
     std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;
@@ -196,10 +196,10 @@ class GlbEncoder : public AnimationEncoder {
 
 json GlbEncoder::weights_over_time(std::size_t frames, Accessors& a) const {
   const std::size_t weights = frames * (frames - 1);
-  const int input = a.add(frames, kFloat, "SCALAR", 4 * frames, 0);
+  const int input = a.add(frames, float_type, "SCALAR", 4 * frames, 0);
   a.bound(json::array({static_cast<float>(frame_time(options_, 0))}),
           json::array({static_cast<float>(frame_time(options_, frames - 1))}));
-  json sampler = {{"input", input}, {"output", a.add(weights, kFloat, "SCALAR", 4 * weights, 0)}};
+  json sampler = {{"input", input}, {"output", a.add(weights, float_type, "SCALAR", 4 * weights, 0)}};
   sampler["interpolation"] = options_.interpolation == Interpolation::step ? "STEP" : "LINEAR";
   const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}};
   return {{"samplers", json::array({sampler})}, {"channels", json::array({channel})}};
@@ -209,15 +209,15 @@ json GlbEncoder::document(std::size_t frames, std::size_t binary) const {
   Accessors a;
   const std::size_t n = source_.size();
   json primitive = {{"material", 0}};
-  primitive["indices"] = a.add(indices_.size(), kUnsignedInt, "SCALAR", 4 * indices_.size(), kIndices);
+  primitive["indices"] = a.add(indices_.size(), unsigned_int, "SCALAR", 4 * indices_.size(), indices);
   json attributes;
-  if (!textures_.empty()) attributes["TEXCOORD_0"] = a.add(n, kFloat, "VEC2", 8 * n, kVertexData);
+  if (!textures_.empty()) attributes["TEXCOORD_0"] = a.add(n, float_type, "VEC2", 8 * n, vertex_data);
   json targets = json::array();
   for (std::size_t i = 0; i < frames; ++i) {
     json& to = i == 0 ? attributes : targets.emplace_back();
-    to["POSITION"] = a.add(n, kFloat, "VEC3", 12 * n, kVertexData);
+    to["POSITION"] = a.add(n, float_type, "VEC3", 12 * n, vertex_data);
     a.bound(bounds_[i].low, bounds_[i].high);
-    to["NORMAL"] = a.add(n, kFloat, "VEC3", 12 * n, kVertexData);
+    to["NORMAL"] = a.add(n, float_type, "VEC3", 12 * n, vertex_data);
   }
   primitive["attributes"] = attributes;
   json mesh = {{"name", "cloth"}};

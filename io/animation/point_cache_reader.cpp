@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using geometry::ContentError;
 
-constexpr std::size_t kPointBytes = 12;
+constexpr std::size_t point_bytes = 12;
 
 /// `size` bytes of a file from `begin` on.
 std::string read_part(const fs::path& path, std::uint64_t begin, std::size_t size) {
@@ -49,16 +49,16 @@ class PointCache : public FrameSource {
 
   std::vector<physics::Vec3> positions(std::size_t frame) const override {
     check_frame(frame);
-    const std::size_t size = kPointBytes * vertices();
+    const std::size_t size = point_bytes * vertices();
     const std::string bytes = read_part(path_, first_ + frame * size, size);
     std::vector<physics::Vec3> x;
     x.reserve(vertices());
-    for (std::size_t at = 0; at < size; at += kPointBytes) {
+    for (std::size_t at = 0; at < size; at += point_bytes) {
       const auto c = [&](std::size_t k) { return read_in_order<float>(&bytes[at + 4 * k], order_); };
       const auto point = from_file(c(0), c(1), c(2), options_);
       if (!point)
         throw ContentError(path_.string() + ": frame " + std::to_string(frame) + ", vertex " +
-                           std::to_string(at / kPointBytes) + ": " + kBadCoordinate);
+                           std::to_string(at / point_bytes) + ": " + bad_coordinate);
       x.push_back(bridge::to_eigen(*point));
     }
     return x;
@@ -77,7 +77,7 @@ void check_counts(const fs::path& path, const Layout& layout, std::uint64_t size
   if (layout.frames <= 0 || layout.points <= 0)
     fail("its head says " + std::to_string(layout.frames) + " frames of " + std::to_string(layout.points) +
          " vertices: damaged, or its writer did not finish");
-  const std::uint64_t a_frame = kPointBytes * static_cast<std::uint64_t>(layout.points);
+  const std::uint64_t a_frame = point_bytes * static_cast<std::uint64_t>(layout.points);
   const std::uint64_t rest = size - std::min(size, layout.first);
   if (rest % a_frame != 0 || rest / a_frame != static_cast<std::uint64_t>(layout.frames))
     fail(std::to_string(layout.frames) + " frames of " + std::to_string(layout.points) +
@@ -95,10 +95,10 @@ void check_times(const fs::path& path, const std::vector<double>& times) {
 }
 
 Layout pc2_layout(const fs::path& path, std::uint64_t size, std::size_t vertices, double fps) {
-  constexpr char kMark[12] = "POINTCACHE2";
-  constexpr std::size_t kHead = 32;
-  const std::string head = size < kHead ? std::string(kHead, '\0') : read_part(path, 0, kHead);
-  if (std::memcmp(head.data(), kMark, sizeof kMark) != 0)
+  constexpr char mark[12] = "POINTCACHE2";
+  constexpr std::size_t file_head = 32;
+  const std::string head = size < file_head ? std::string(file_head, '\0') : read_part(path, 0, file_head);
+  if (std::memcmp(head.data(), mark, sizeof mark) != 0)
     throw ContentError(path.string() + ": no PC2 file: it does not begin with POINTCACHE2");
   const auto integer = [&](std::size_t at) {
     return read_in_order<std::int32_t>(&head[at], std::endian::little);
@@ -106,7 +106,7 @@ Layout pc2_layout(const fs::path& path, std::uint64_t size, std::size_t vertices
   const auto number = [&](std::size_t at) { return read_in_order<float>(&head[at], std::endian::little); };
   if (integer(12) != 1)
     throw ContentError(path.string() + ": PC2 version " + std::to_string(integer(12)) + "; only 1 is read");
-  Layout layout{integer(28), integer(16), kHead, {}, std::endian::little};
+  Layout layout{integer(28), integer(16), file_head, {}, std::endian::little};
   check_counts(path, layout, size, vertices);
   for (std::int32_t i = 0; i < layout.frames; ++i)
     layout.times.push_back((double{number(20)} + i * double{number(24)}) / fps);

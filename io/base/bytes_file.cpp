@@ -16,14 +16,15 @@ namespace {
 /// Reads a file or stream to its end into any array of bytes.
 template <class Bytes>
 Bytes read_all(std::istream& in, const std::string& name) {
-  constexpr std::size_t kChunk = std::size_t{1} << 16;
+  constexpr std::size_t chunk = std::size_t{1} << 16;
   Bytes bytes;
   std::size_t size = 0;
   while (in) {
-    if (bytes.size() < size + kChunk) bytes.resize(std::max(2 * bytes.size(), size + kChunk));
+    if (bytes.size() < size + chunk) bytes.resize(std::max(2 * bytes.size(), size + chunk));
     in.read(reinterpret_cast<char*>(bytes.data()) + size, static_cast<std::streamsize>(bytes.size() - size));
     size += static_cast<std::size_t>(in.gcount());
-    if (size > kLargestFile) throw geometry::ContentError(name + ": larger than 4 GiB; give a smaller file");
+    if (size > largest_file_size)
+      throw geometry::ContentError(name + ": larger than 4 GiB; give a smaller file");
   }
   if (in.bad()) throw geometry::ContentError(name + ": cannot be read: " + std::strerror(errno));
   bytes.resize(size);

@@ -10,10 +10,10 @@
 namespace furrow::io {
 
 /// Files above this are refused, so that an endless one (a device) does not fill the memory [bytes].
-inline constexpr std::size_t kLargestFile = std::size_t{4} << 30;
+inline constexpr std::size_t largest_file_size = std::size_t{4} << 30;
 
 /// The whole file. Throws geometry::ContentError if it is missing, a folder, unreadable or above
-/// kLargestFile.
+/// largest_file_size.
 std::string read_text(const std::filesystem::path& path);
 /// The rest of a stream; `name` stands in messages.
 std::string read_text(std::istream& in, const std::string& name);

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double degree = std::numbers::pi / 180;
 
 void check_range(const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high)) {
@@ -61,8 +61,7 @@ geometry::SightLine line_of_sight(const CameraPicture& picture, double column, d
   const Camera& c = picture.camera;
   const Vector3d forward = (vector(c.target) - vector(c.eye)).normalized();
   const Vector3d right = forward.cross(vector(c.up)).normalized(), up = right.cross(forward);
-  const double half =
-      c.parallel_height ? *c.parallel_height / 2 : std::tan(c.field_of_view_deg / 2 * kDegree);
+  const double half = c.parallel_height ? *c.parallel_height / 2 : std::tan(c.field_of_view_deg / 2 * degree);
   const double x = (column + 0.5 - picture.width / 2.0) * 2 / picture.height * half;
   const double y = (1 - 2 * (row + 0.5) / picture.height) * half;
   const Vector3d aside = x * right + y * up, eye = vector(c.eye);
@@ -78,12 +77,12 @@ Camera frame_points(const std::vector<Position>& points, double aspect, const Vi
   check_range("field_of_view_deg", view.field_of_view_deg, 1, 150);
   check_range("margin", view.margin, 0, 0.45);
   if (points.empty()) throw std::invalid_argument("points: none to frame");
-  const double azimuth = view.azimuth_deg * kDegree, elevation = view.elevation_deg * kDegree;
+  const double azimuth = view.azimuth_deg * degree, elevation = view.elevation_deg * degree;
   const Vector3d forward = -Vector3d(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                                      std::cos(azimuth) * std::cos(elevation));
   const Vector3d right = forward.cross(Vector3d::UnitY()).normalized();
   const Vector3d up = right.cross(forward);
-  const double slope_y = std::tan(view.field_of_view_deg / 2 * kDegree) * (1 - 2 * view.margin);
+  const double slope_y = std::tan(view.field_of_view_deg / 2 * degree) * (1 - 2 * view.margin);
   const double slope_x = slope_y * aspect;
 
   Support horizontal, vertical;

@@ -21,12 +21,12 @@ namespace furrow::io {
 namespace {
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr bool kLimitMemory = false;
+constexpr bool limit_memory = false;
 #else
-constexpr bool kLimitMemory = true;
+constexpr bool limit_memory = true;
 #endif
 
-constexpr char kAnswer = 'A', kError = 'E';  // first byte of what the child sends
+constexpr char answer_mark = 'A', error_mark = 'E';  // first byte of what the child sends
 
 std::size_t own_address_space() {
   std::ifstream statm("/proc/self/statm");
@@ -62,17 +62,17 @@ void send(int pipe, const char* bytes, std::size_t size) {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.cpu_seconds);
-  if (kLimitMemory) limit(RLIMIT_AS, address_space + limits.memory_bytes);
-  char tag = kAnswer;
+  if (limit_memory) limit(RLIMIT_AS, address_space + limits.memory_bytes);
+  char tag = answer_mark;
   std::string answer;
   try {
     answer = work();
   } catch (const std::bad_alloc&) {
-    tag = kError, answer = "it needs too much memory";
+    tag = error_mark, answer = "it needs too much memory";
   } catch (const std::exception& error) {
-    tag = kError, answer = error.what();
+    tag = error_mark, answer = error.what();
   } catch (...) {
-    tag = kError, answer = "unknown error";
+    tag = error_mark, answer = "unknown error";
   }
   send(pipe, &tag, 1);
   send(pipe, answer.data(), answer.size());
@@ -134,7 +134,7 @@ std::string run_in_child(const std::function<std::string()>& work, const ChildLi
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   if (why.empty() && (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || bytes.empty()))
     why = reason_of_death(status, limits);
-  if (why.empty() && bytes[0] == kError) why = bytes.substr(1);
+  if (why.empty() && bytes[0] == error_mark) why = bytes.substr(1);
   if (!why.empty()) throw geometry::ContentError(why);
   bytes.erase(0, 1);
   return bytes;

@@ -69,7 +69,7 @@ class SceneReader {
       const aiVector3D& raw = mesh.mVertices[v];
       const aiVector3t<double> p = transform * aiVector3t<double>(raw.x, raw.y, raw.z);
       const auto point = from_file(p.x, p.y, p.z, options_);
-      if (!point) throw ContentError(kBadCoordinate);
+      if (!point) throw ContentError(bad_coordinate);
       const auto [index, is_new] = numbers.number(*point);
       points[v] = base + index;
       if (!is_new) {
@@ -77,7 +77,7 @@ class SceneReader {
         continue;
       }
       out_.soup.points.push_back(*point);
-      out_.soup.colors.push_back(kColor.default_value);
+      out_.soup.colors.push_back(attribute::color.default_value);
       if (!mesh.HasVertexColors(0)) continue;
       const aiColor4D& c = mesh.mColors[0][v];
       out_.soup.colors.back() = {c.r, c.g, c.b, c.a};
@@ -126,7 +126,7 @@ class SceneReader {
         const unsigned v = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
         if (v >= points.size()) throw ContentError("a face names a vertex that is not there");
         soup.corners.push_back(points[v]);
-        TextureCoordinate t = kTexture.default_value;
+        TextureCoordinate t = attribute::texture.default_value;
         if (mesh.HasTextureCoords(0)) t = {mesh.mTextureCoords[0][v].x, mesh.mTextureCoords[0][v].y};
         soup.textures.push_back(t);
       }

@@ -9,11 +9,11 @@
 namespace furrow::io {
 namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 /// Side k of a triangle goes from its point k to its point k + 1.
 struct Side {
-  std::size_t triangle = kNone;
+  std::size_t triangle = none;
   int k = 0;
 };
 using Neighbours = std::vector<std::array<Side, 3>>;
@@ -67,7 +67,7 @@ std::vector<char> find_turns(const std::vector<SoupTriangle>& triangles, const N
       turns += turned[t];
       for (int k = 0; k < 3; ++k) {
         const Side other = neighbours[t][k];
-        if (other.triangle == kNone || seen[other.triangle]) continue;
+        if (other.triangle == none || seen[other.triangle]) continue;
         seen[other.triangle] = 1;
         turned[other.triangle] = turned[t] ^ same_direction(triangles, {t, k}, other);
         component.push_back(other.triangle);
@@ -107,7 +107,7 @@ Fans join_fans(const std::vector<SoupTriangle>& triangles, const Neighbours& nei
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const Side other = neighbours[t][k];
-      if (other.triangle == kNone || other.triangle < t) continue;
+      if (other.triangle == none || other.triangle < t) continue;
       const bool differ = turned[t] ^ turned[other.triangle];
       if (same_direction(triangles, {t, k}, other) != differ) continue;
       const auto [a, b] = ends(triangles[t], k);
@@ -124,14 +124,14 @@ ManifoldReport make_manifold(std::vector<SoupTriangle>& triangles, std::size_t n
   const std::vector<char> turned = find_turns(triangles, neighbours);
   Fans fans = join_fans(triangles, neighbours, turned);
   ManifoldReport report;
-  std::vector<std::size_t> point_of_fan(3 * triangles.size(), kNone);
+  std::vector<std::size_t> point_of_fan(3 * triangles.size(), none);
   std::vector<char> taken(n_points, 0);
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       std::size_t& point = triangles[t].points[k];
       std::size_t& of_fan = point_of_fan[fans.first(3 * t + k)];
-      if (of_fan == kNone && !std::exchange(taken[point], 1)) of_fan = point;
-      if (of_fan == kNone) {
+      if (of_fan == none && !std::exchange(taken[point], 1)) of_fan = point;
+      if (of_fan == none) {
         of_fan = n_points + report.added_points.size();
         report.added_points.push_back(point);
       }

@@ -18,12 +18,12 @@
 namespace furrow::io {
 namespace {
 
-constexpr std::array<std::pair<const char*, MeshFormat>, 6> kEndings = {{{".obj", MeshFormat::obj},
-                                                                         {".ply", MeshFormat::ply},
-                                                                         {".off", MeshFormat::off},
-                                                                         {".stl", MeshFormat::stl},
-                                                                         {".gltf", MeshFormat::gltf},
-                                                                         {".glb", MeshFormat::gltf}}};
+constexpr std::array<std::pair<const char*, MeshFormat>, 6> endings = {{{".obj", MeshFormat::obj},
+                                                                        {".ply", MeshFormat::ply},
+                                                                        {".off", MeshFormat::off},
+                                                                        {".stl", MeshFormat::stl},
+                                                                        {".gltf", MeshFormat::gltf},
+                                                                        {".glb", MeshFormat::gltf}}};
 
 MeshFile parse(std::string_view text, MeshFormat format, const std::string& name,
                const ReadOptions& options) {
@@ -46,7 +46,7 @@ MeshFile parse(std::string_view text, MeshFormat format, const std::string& name
 MeshFormat mesh_format(const std::filesystem::path& path) {
   if (path == "-") return MeshFormat::obj;
   const std::string ending = lower_case(path.extension().string());
-  for (const auto& [known, format] : kEndings)
+  for (const auto& [known, format] : endings)
     if (ending == known) return format;
   throw geometry::ContentError(path.string() + ": unknown format '" + ending +
                                "'; obj, ply, off, stl, gltf and glb are read, obj, ply, off and stl written");

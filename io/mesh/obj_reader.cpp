@@ -14,10 +14,10 @@ namespace {
 
 using namespace geometry;
 
-constexpr std::size_t kNoTexture = static_cast<std::size_t>(-1);
+constexpr std::size_t no_texture = static_cast<std::size_t>(-1);
 
 /// Statements of the format that say nothing about our meshes.
-constexpr std::array kPassedOver = {
+constexpr std::array passed_over = {
     "vn",     "vp",       "p",        "s",          "mg",        "cstype", "deg",  "bmat",
     "step",   "curv",     "curv2",    "surf",       "parm",      "trim",   "hole", "scrv",
     "sp",     "end",      "con",      "bevel",      "lod",       "call",   "csh",  "maplib",
@@ -65,7 +65,7 @@ class ObjReader {
       material_ = materials_.index(in_.rest_of_line());
     else if (word == "mtllib")
       file.material_libraries.emplace_back(in_.rest_of_line());
-    else if (std::ranges::find(kPassedOver, word) == kPassedOver.end())
+    else if (std::ranges::find(passed_over, word) == passed_over.end())
       warn_unknown(word);
   }
 
@@ -96,10 +96,10 @@ class ObjReader {
     if (n < 3 || n == 5)
       in_.fail("a vertex has " + std::to_string(n) + " numbers; 3, 4 (w), 6 or 7 (colour) are read");
     const auto point = from_file(c[0], c[1], c[2], options_);
-    if (!point) in_.fail(kBadCoordinate);
+    if (!point) in_.fail(bad_coordinate);
     soup.points.push_back(*point);
     if (n < 6) return;
-    soup.colors.resize(soup.points.size() - 1, kColor.default_value);
+    soup.colors.resize(soup.points.size() - 1, attribute::color.default_value);
     soup.colors.push_back({c[3], c[4], c[5], n == 7 ? c[6] : 1.0});
   }
 
@@ -130,7 +130,7 @@ class ObjReader {
       const auto second = rest.find('/');
       const std::string_view texture = rest.substr(0, second);
       face_textures_.push_back(
-          texture.empty() ? kNoTexture : resolve(texture, textures_.size(), "texture coordinate of a face"));
+          texture.empty() ? no_texture : resolve(texture, textures_.size(), "texture coordinate of a face"));
       const std::string_view normal = second == rest.npos ? std::string_view() : rest.substr(second + 1);
       if (!normal.empty()) in_.integer(normal, "normal of a face");
     }
@@ -156,7 +156,7 @@ class ObjReader {
   }
 
   void resolve_textures() {
-    const auto used = [](std::size_t t) { return t != kNoTexture; };
+    const auto used = [](std::size_t t) { return t != no_texture; };
     if (std::ranges::none_of(face_textures_, used)) return;
     for (std::size_t f = 0; f < soup.faces(); ++f)
       for (std::size_t c = soup.first_corner[f]; c < soup.first_corner[f + 1]; ++c) {
@@ -164,7 +164,7 @@ class ObjReader {
         if (used(t) && t >= textures_.size())
           fail_at(soup.face_lines[f], "a corner names a texture coordinate beyond the last of " +
                                           std::to_string(textures_.size()) + "; correct the index");
-        soup.textures.push_back(used(t) ? textures_[t] : kTexture.default_value);
+        soup.textures.push_back(used(t) ? textures_[t] : attribute::texture.default_value);
       }
   }
 
@@ -197,12 +197,13 @@ class ObjReader {
   /// Most programs write colours from 0 to 1, some from 0 to 255.
   void finish_colors() {
     if (soup.colors.empty()) return;
-    soup.colors.resize(soup.points.size(), kColor.default_value);
+    soup.colors.resize(soup.points.size(), attribute::color.default_value);
     const auto bright = [](const Color& c) { return std::max({c[0], c[1], c[2]}) > 1; };
     if (std::ranges::none_of(soup.colors, bright)) return;
     file.warnings.push_back(in_.name() + ": vertex colours above 1 are taken as going from 0 to 255");
     for (Color& c : soup.colors)
-      if (c != kColor.default_value) c = {c[0] / 255, c[1] / 255, c[2] / 255, c[3] > 1 ? c[3] / 255 : c[3]};
+      if (c != attribute::color.default_value)
+        c = {c[0] / 255, c[1] / 255, c[2] / 255, c[3] > 1 ? c[3] / 255 : c[3]};
   }
 
   TextScanner in_;

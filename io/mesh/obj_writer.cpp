@@ -40,7 +40,7 @@ class ObjWriter {
   }
 
   void write_vertices() {
-    const auto colors = find_map(mesh_, kColor);
+    const auto colors = find_map(mesh_, attribute::color);
     for (const Vertex v : mesh_.vertices()) {
       write_position(mesh_.point(v));
       if (colors) {
@@ -53,7 +53,7 @@ class ObjWriter {
 
   /// Numbers the texture coordinates of all corners, equal ones once.
   void write_textures() {
-    const auto textures = find_map(mesh_, kTexture);
+    const auto textures = find_map(mesh_, attribute::texture);
     if (!textures) return;
     texture_numbers_.resize(mesh_.num_halfedges(), 0);
     std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> known;
@@ -84,7 +84,7 @@ class ObjWriter {
   }
 
   void write_faces() {
-    const auto groups = find_map(mesh_, kGroup), materials = find_map(mesh_, kMaterial);
+    const auto groups = find_map(mesh_, attribute::group), materials = find_map(mesh_, attribute::material);
     int group = -1, material = -1;
     for (const Face f : mesh_.faces()) {
       if (groups) write_name("g", file_.group_names, (*groups)[f], group);
@@ -112,7 +112,7 @@ class ObjWriter {
 
   void write_lines() {
     std::vector<std::array<std::size_t, 2>> segments;
-    if (const auto line_edges = find_map(mesh_, kLineEdge))
+    if (const auto line_edges = find_map(mesh_, attribute::line_edge))
       for (const Edge e : mesh_.edges())
         if ((*line_edges)[e])
           segments.push_back({numbers_[mesh_.vertex(e, 0)], numbers_[mesh_.vertex(e, 1)]});

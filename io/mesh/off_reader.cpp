@@ -65,7 +65,7 @@ class OffReader {
     if (face_colors_) file.warnings.push_back(in_.name() + ": colours of faces not read");
     if (header_.textures)
       for (const std::size_t c : soup.corners)
-        soup.textures.push_back(c < textures_.size() ? textures_[c] : kTexture.default_value);
+        soup.textures.push_back(c < textures_.size() ? textures_[c] : attribute::texture.default_value);
   }
 
   PolygonSoup soup;
@@ -83,7 +83,7 @@ class OffReader {
     std::array<double, 3> x{};
     for (int k = 0; k < 3; ++k, word = in_.word()) x[k] = in_.finite_number(word, "coordinate of a vertex");
     const auto point = from_file(x[0], x[1], x[2], options_);
-    if (!point) in_.fail(kBadCoordinate);
+    if (!point) in_.fail(bad_coordinate);
     soup.points.push_back(*point);
     if (header_.normals)
       for (int k = 0; k < 3; ++k, word = in_.word()) in_.any_number(word, "normal of a vertex");
@@ -98,7 +98,7 @@ class OffReader {
   /// Three or four numbers; whole ones go to 255, others to 1. Returns the next word. (Before texture
   /// coordinates a colour has four numbers.)
   std::string_view read_color(std::string_view word) {
-    Color c = kColor.default_value;
+    Color c = attribute::color.default_value;
     bool whole = true;
     int n = 0;
     for (; n < 4 && (n < 3 || !word.empty()); ++n, word = in_.word()) {

@@ -23,7 +23,7 @@ void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& opti
   const Mesh& mesh = file.mesh;
   check_positions(mesh, options);
   const std::vector<std::size_t> numbers = vertex_numbers(mesh);
-  const auto colors = find_map(mesh, kColor);
+  const auto colors = find_map(mesh, attribute::color);
   std::string text = colors ? "COFF\n" : "OFF\n";
   append_number(text, mesh.number_of_vertices()), text += ' ';
   append_number(text, mesh.number_of_faces()), text += " 0\n";

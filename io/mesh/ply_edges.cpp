@@ -31,14 +31,14 @@ std::vector<MeshEdge> sorted_edges(const SoupMesh& mesh) {
   return edges;
 }
 
-constexpr std::array<PlyEdgeNumber, 7> kEdgeNumbers = {
-    {{"rest_length", kRestLength, PlyEdgeNumber::Kind::length},
-     {"bending_rest_length", kBendingRestLength, PlyEdgeNumber::Kind::length},
-     {"rest_angle", kRestAngle, PlyEdgeNumber::Kind::angle},
-     {"stiffness", kStiffness, PlyEdgeNumber::Kind::stiffness},
-     {"bending_stiffness", kBendingStiffness, PlyEdgeNumber::Kind::stiffness},
-     {"hinge_stiffness", kHingeStiffness, PlyEdgeNumber::Kind::stiffness},
-     {"tension", kTension, PlyEdgeNumber::Kind::stiffness}}};
+constexpr std::array<PlyEdgeNumber, 7> edge_numbers = {
+    {{"rest_length", attribute::rest_length, PlyEdgeNumber::Kind::length},
+     {"bending_rest_length", attribute::bending_rest_length, PlyEdgeNumber::Kind::length},
+     {"rest_angle", attribute::rest_angle, PlyEdgeNumber::Kind::angle},
+     {"stiffness", attribute::stiffness, PlyEdgeNumber::Kind::stiffness},
+     {"bending_stiffness", attribute::bending_stiffness, PlyEdgeNumber::Kind::stiffness},
+     {"hinge_stiffness", attribute::hinge_stiffness, PlyEdgeNumber::Kind::stiffness},
+     {"tension", attribute::tension, PlyEdgeNumber::Kind::stiffness}}};
 
 double checked(const PlyEdgeNumber& number, double value, const PlyRows& rows, double metres_per_unit) {
   switch (number.kind) {
@@ -62,7 +62,7 @@ int small_count(const PlyRow& row, std::optional<std::size_t> column, const PlyR
 
 }  // namespace
 
-std::span<const PlyEdgeNumber> ply_edge_numbers() { return kEdgeNumbers; }
+std::span<const PlyEdgeNumber> ply_edge_numbers() { return edge_numbers; }
 
 double checked_rest_length(double value, const PlyRows& rows, double metres_per_unit) {
   const double metres = value * metres_per_unit;
@@ -83,8 +83,8 @@ bool PlyEdges::set_columns(const PlyElement& element) {
   line_edge_ = column("line_edge");
   diagonal_ = column("diagonal");
   bool any = bending_count_ || line_edge_ || diagonal_;
-  for (std::size_t k = 0; k < kNumbers; ++k) {
-    numbers_[k] = column(kEdgeNumbers[k].name);
+  for (std::size_t k = 0; k < number_columns; ++k) {
+    numbers_[k] = column(edge_numbers[k].name);
     any = any || numbers_[k];
   }
   return vertex1_ && vertex2_ && any;
@@ -92,7 +92,7 @@ bool PlyEdges::set_columns(const PlyElement& element) {
 
 std::vector<std::string> PlyEdges::names() {
   std::vector<std::string> names{"vertex1", "vertex2", "bending_count", "line_edge", "diagonal"};
-  for (const PlyEdgeNumber& number : kEdgeNumbers) names.emplace_back(number.name);
+  for (const PlyEdgeNumber& number : edge_numbers) names.emplace_back(number.name);
   return names;
 }
 
@@ -102,9 +102,10 @@ void PlyEdges::add(const PlyRow& row, const PlyRows& rows, double metres_per_uni
   if (!is_index(a) || !is_index(b)) rows.fail("an end of an edge is no index of a vertex; correct it");
   Values values{
       static_cast<std::size_t>(std::min(a, b)), static_cast<std::size_t>(std::max(a, b)), {}, 0, 0, 0};
-  for (std::size_t k = 0; k < kNumbers; ++k)
-    values.numbers[k] =
-        numbers_[k] ? checked(kEdgeNumbers[k], row.numbers[*numbers_[k]], rows, metres_per_unit) : kUnset;
+  for (std::size_t k = 0; k < number_columns; ++k)
+    values.numbers[k] = numbers_[k]
+                            ? checked(edge_numbers[k], row.numbers[*numbers_[k]], rows, metres_per_unit)
+                            : unset_value;
   values.bending_count = small_count(row, bending_count_, rows);
   values.line_edge = small_count(row, line_edge_, rows);
   values.diagonal = small_count(row, diagonal_, rows);
@@ -112,14 +113,14 @@ void PlyEdges::add(const PlyRow& row, const PlyRows& rows, double metres_per_uni
 }
 
 void PlyEdges::fill_maps(SoupMesh& mesh, const std::string& name) const {
-  std::array<std::optional<EdgeMap<double>>, kNumbers> maps;
+  std::array<std::optional<EdgeMap<double>>, number_columns> maps;
   std::optional<EdgeMap<int>> bending_count;
   std::optional<EdgeMap<bool>> line_edge, diagonal;
-  for (std::size_t k = 0; k < kNumbers; ++k)
-    if (numbers_[k]) maps[k] = ensure_map(mesh.mesh, kEdgeNumbers[k].map);
-  if (bending_count_) bending_count = ensure_map(mesh.mesh, kBendingCount);
-  if (line_edge_) line_edge = ensure_map(mesh.mesh, kLineEdge);
-  if (diagonal_) diagonal = ensure_map(mesh.mesh, kDiagonal);
+  for (std::size_t k = 0; k < number_columns; ++k)
+    if (numbers_[k]) maps[k] = ensure_map(mesh.mesh, edge_numbers[k].map);
+  if (bending_count_) bending_count = ensure_map(mesh.mesh, attribute::bending_count);
+  if (line_edge_) line_edge = ensure_map(mesh.mesh, attribute::line_edge);
+  if (diagonal_) diagonal = ensure_map(mesh.mesh, attribute::diagonal);
   if (edges_.empty()) return;
   const std::vector<MeshEdge> sorted = sorted_edges(mesh);
   for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -130,7 +131,7 @@ void PlyEdges::fill_maps(SoupMesh& mesh, const std::string& name) const {
       throw ContentError(name + ": edge " + std::to_string(i) + ": no face has an edge between vertices " +
                          std::to_string(e.a) + " and " + std::to_string(e.b) + "; remove it");
     for (const MeshEdge& m : same) {
-      for (std::size_t k = 0; k < kNumbers; ++k)
+      for (std::size_t k = 0; k < number_columns; ++k)
         if (maps[k]) (*maps[k])[m.edge] = e.numbers[k];
       if (bending_count) (*bending_count)[m.edge] = e.bending_count;
       if (line_edge) (*line_edge)[m.edge] = e.line_edge != 0;

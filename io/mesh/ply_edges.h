@@ -40,14 +40,14 @@ class PlyEdges {
   void fill_maps(SoupMesh& mesh, const std::string& name) const;
 
  private:
-  static constexpr std::size_t kNumbers = 7;
+  static constexpr std::size_t number_columns = 7;
   struct Values {
     std::size_t a, b;
-    std::array<double, kNumbers> numbers;
+    std::array<double, number_columns> numbers;
     int bending_count, line_edge, diagonal;
   };
   std::vector<Values> edges_;
-  std::array<std::optional<std::size_t>, kNumbers> numbers_;
+  std::array<std::optional<std::size_t>, number_columns> numbers_;
   std::optional<std::size_t> vertex1_, vertex2_, bending_count_, line_edge_, diagonal_;
 };
 

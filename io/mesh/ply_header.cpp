@@ -8,24 +8,24 @@ namespace furrow::io {
 namespace {
 
 PlyType read_type(TextScanner& in) {
-  constexpr std::array<std::pair<const char*, PlyType>, 16> kTypes = {{{"char", PlyType::int8},
-                                                                       {"int8", PlyType::int8},
-                                                                       {"uchar", PlyType::uint8},
-                                                                       {"uint8", PlyType::uint8},
-                                                                       {"short", PlyType::int16},
-                                                                       {"int16", PlyType::int16},
-                                                                       {"ushort", PlyType::uint16},
-                                                                       {"uint16", PlyType::uint16},
-                                                                       {"int", PlyType::int32},
-                                                                       {"int32", PlyType::int32},
-                                                                       {"uint", PlyType::uint32},
-                                                                       {"uint32", PlyType::uint32},
-                                                                       {"float", PlyType::float32},
-                                                                       {"float32", PlyType::float32},
-                                                                       {"double", PlyType::float64},
-                                                                       {"float64", PlyType::float64}}};
+  constexpr std::array<std::pair<const char*, PlyType>, 16> types = {{{"char", PlyType::int8},
+                                                                      {"int8", PlyType::int8},
+                                                                      {"uchar", PlyType::uint8},
+                                                                      {"uint8", PlyType::uint8},
+                                                                      {"short", PlyType::int16},
+                                                                      {"int16", PlyType::int16},
+                                                                      {"ushort", PlyType::uint16},
+                                                                      {"uint16", PlyType::uint16},
+                                                                      {"int", PlyType::int32},
+                                                                      {"int32", PlyType::int32},
+                                                                      {"uint", PlyType::uint32},
+                                                                      {"uint32", PlyType::uint32},
+                                                                      {"float", PlyType::float32},
+                                                                      {"float32", PlyType::float32},
+                                                                      {"double", PlyType::float64},
+                                                                      {"float64", PlyType::float64}}};
   const std::string_view word = in.word();
-  for (const auto& [name, type] : kTypes)
+  for (const auto& [name, type] : types)
     if (word == name) return type;
   in.fail(in_quotes(word) +
           " is no type of a property; char, uchar, short, ushort, int, uint, float, double are");
@@ -74,8 +74,8 @@ void check_counts(const PlyHeader& header, const TextScanner& in, std::size_t fi
 }  // namespace
 
 std::size_t size_of(PlyType type) {
-  constexpr std::array<std::size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<std::size_t>(type)];
+  constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
+  return sizes[static_cast<std::size_t>(type)];
 }
 
 std::size_t PlyElement::smallest_size(PlyEncoding encoding) const {

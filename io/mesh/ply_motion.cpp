@@ -20,12 +20,13 @@ struct VectorColumns {
 };
 
 const std::vector<VectorColumns>& vectors() {
-  static const std::vector<VectorColumns> list{{kVelocity, {"vx", "vy", "vz"}},
-                                               {kForceJump, {"force_jump_x", "force_jump_y", "force_jump_z"}},
-                                               {kContactPoint, {"contact_x", "contact_y", "contact_z"}}};
+  static const std::vector<VectorColumns> list{
+      {attribute::velocity, {"vx", "vy", "vz"}},
+      {attribute::force_jump, {"force_jump_x", "force_jump_y", "force_jump_z"}},
+      {attribute::contact_point, {"contact_x", "contact_y", "contact_z"}}};
   return list;
 }
-constexpr const char* kContactLevelColumn = "contact_level";
+constexpr const char* contact_level_column = "contact_level";
 
 }  // namespace
 
@@ -33,7 +34,7 @@ const std::vector<std::string>& PlyMotion::names() {
   static const std::vector<std::string> list = [] {
     std::vector<std::string> all;
     for (const VectorColumns& v : vectors()) all.insert(all.end(), v.names.begin(), v.names.end());
-    all.push_back(kContactLevelColumn);
+    all.push_back(contact_level_column);
     return all;
   }();
   return list;
@@ -59,7 +60,7 @@ std::vector<std::string> PlyMotion::used() const {
 
 void PlyMotion::add(const PlyRow& row, const PlyRows& rows) {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const double value = columns_[i] ? row.numbers[*columns_[i]] : kUnset;
+    const double value = columns_[i] ? row.numbers[*columns_[i]] : unset_value;
     const bool may_be_unset = i + 1 == columns_.size();
     if (columns_[i] && (std::isinf(value) || (std::isnan(value) && !may_be_unset)))
       rows.fail("'" + names()[i] + "' is not finite; write the state again");
@@ -77,7 +78,7 @@ void PlyMotion::fill_maps(SoupMesh& mesh) const {
     }
   }
   if (columns_.empty() || !columns_.back()) return;
-  auto level = ensure_map(mesh.mesh, kContactLevel);
+  auto level = ensure_map(mesh.mesh, attribute::contact_level);
   for (const Vertex v : mesh.mesh.vertices()) level[v] = values_[(mesh.origin[v] + 1) * columns_.size() - 1];
 }
 
@@ -93,7 +94,8 @@ std::string ply_motion_header(const Mesh& mesh) {
   for (const VectorColumns& v : vectors())
     if (find_map(mesh, v.map))
       for (const char* name : v.names) text += std::string("property double ") + name + "\n";
-  if (find_map(mesh, kContactLevel)) text += std::string("property double ") + kContactLevelColumn + "\n";
+  if (find_map(mesh, attribute::contact_level))
+    text += std::string("property double ") + contact_level_column + "\n";
   return text;
 }
 
@@ -101,7 +103,7 @@ void put_ply_motion(const Mesh& mesh, Vertex v, const std::function<void(double)
   for (const VectorColumns& columns : vectors())
     if (const auto map = find_map(mesh, columns.map))
       for (int k = 0; k < 3; ++k) put((*map)[v][k]);
-  if (const auto level = find_map(mesh, kContactLevel)) put((*level)[v]);
+  if (const auto level = find_map(mesh, attribute::contact_level)) put((*level)[v]);
 }
 
 }  // namespace furrow::io

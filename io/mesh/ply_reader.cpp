@@ -94,7 +94,7 @@ class PlyReader {
   void read_vertex(const PlyElement& element, const PlyVertexColumns& c) {
     const auto& n = row_.numbers;
     const auto point = from_file(n[c.xyz[0]], n[c.xyz[1]], n[c.xyz[2]], options_);
-    if (!point) rows_.fail(kBadCoordinate);
+    if (!point) rows_.fail(bad_coordinate);
     soup_.points.push_back(*point);
     if (!c.rgba.empty()) soup_.colors.push_back(color(element, c.rgba));
     if (!c.texture.empty()) vertex_textures_.push_back({n[c.texture[0]], n[c.texture[1]]});
@@ -121,14 +121,14 @@ class PlyReader {
   }
 
   RestPosition rest_position(double x, double y, double z) const {
-    if (std::isnan(x) && std::isnan(y) && std::isnan(z)) return kRestPosition.default_value;
+    if (std::isnan(x) && std::isnan(y) && std::isnan(z)) return attribute::rest_position.default_value;
     const auto point = from_file(x, y, z, options_);
-    if (!point) rows_.fail(std::string("a rest position: ") + kBadCoordinate);
+    if (!point) rows_.fail(std::string("a rest position: ") + bad_coordinate);
     return {point->x(), point->y(), point->z()};
   }
 
   Color color(const PlyElement& element, const std::vector<std::size_t>& rgba) const {
-    Color c = kColor.default_value;
+    Color c = attribute::color.default_value;
     for (std::size_t k = 0; k < rgba.size(); ++k) {
       const PlyType type = element.properties[rgba[k]].type;
       const double most = !is_integer(type)    ? 1
@@ -142,8 +142,8 @@ class PlyReader {
   }
 
   int whole(double value, const char* what) const {
-    constexpr double kMost = std::numeric_limits<int>::max();
-    if (!(value >= -1 && value <= kMost) || value != std::floor(value))
+    constexpr double largest_value = std::numeric_limits<int>::max();
+    if (!(value >= -1 && value <= largest_value) || value != std::floor(value))
       rows_.fail(std::string("the property '") + what + "' must be whole and at least -1 (none)");
     return static_cast<int>(value);
   }
@@ -162,7 +162,7 @@ class PlyReader {
     std::vector<std::string> known{"vertex_indices", "vertex_index", "texcoord",
                                    "group",          "material",     "generation"};
     if (triangles_.set_columns(element))
-      known.insert(known.end(), kPlyTriangleLengths.begin(), kPlyTriangleLengths.end());
+      known.insert(known.end(), ply_triangle_lengths.begin(), ply_triangle_lengths.end());
     warn_of_unknown(element, known);
     if (!indices) rows_.fail("the faces have no list vertex_indices");
     for (std::size_t i = 0; i < element.count; ++i) {
@@ -186,7 +186,7 @@ class PlyReader {
     if (values.size() != 2 * corners && !values.empty())
       rows_.fail("texcoord must hold two numbers a corner, or none");
     for (std::size_t k = 0; k < corners; ++k)
-      soup_.textures.push_back(values.empty() ? kTexture.default_value
+      soup_.textures.push_back(values.empty() ? attribute::texture.default_value
                                               : TextureCoordinate{values[2 * k], values[2 * k + 1]});
   }
 
@@ -203,7 +203,8 @@ class PlyReader {
   void finish_textures() {
     if (vertex_textures_.empty() || !soup_.textures.empty()) return;
     for (const std::size_t c : soup_.corners)
-      soup_.textures.push_back(c < vertex_textures_.size() ? vertex_textures_[c] : kTexture.default_value);
+      soup_.textures.push_back(c < vertex_textures_.size() ? vertex_textures_[c]
+                                                           : attribute::texture.default_value);
   }
 
   /// "furrow group 3 sleeve" names a group, "furrow material 0 cotton" a material; the rest is kept.

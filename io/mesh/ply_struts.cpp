@@ -13,15 +13,15 @@ using namespace geometry;
 
 namespace {
 
-constexpr std::array<const char*, 4> kNames = {"vertex1", "vertex2", "rest_length", "stiffness"};
+constexpr std::array<const char*, 4> column_names = {"vertex1", "vertex2", "rest_length", "stiffness"};
 
 }  // namespace
 
-std::vector<std::string> PlyStruts::names() { return {kNames.begin(), kNames.end()}; }
+std::vector<std::string> PlyStruts::names() { return {column_names.begin(), column_names.end()}; }
 
 bool PlyStruts::set_columns(const PlyElement& element) {
   std::size_t k = 0;
-  for (const char* name : kNames) {
+  for (const char* name : column_names) {
     const auto column = find_column(element, {name}, PlyKind::number);
     if (!column) return false;
     columns_[k++] = *column;

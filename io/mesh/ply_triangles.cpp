@@ -10,7 +10,7 @@ namespace furrow::io {
 bool PlyTriangles::set_columns(const PlyElement& element) {
   std::array<std::size_t, 3> columns{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto column = find_column(element, {kPlyTriangleLengths[k]}, PlyKind::number);
+    const auto column = find_column(element, {ply_triangle_lengths[k]}, PlyKind::number);
     if (!column) return false;
     columns[k] = *column;
   }
@@ -26,7 +26,7 @@ void PlyTriangles::add(const PlyRow& row, const PlyRows& rows, std::size_t corne
     if (corners == 3) soup.triangle_rest_lengths.push_back(value);
     if (corners != 3 && !std::isnan(value)) rows.fail("only triangles have rest lengths of their own");
   }
-  soup.triangle_rest_lengths.resize(soup.corners.size(), geometry::kUnset);
+  soup.triangle_rest_lengths.resize(soup.corners.size(), geometry::unset_value);
 }
 
 }  // namespace furrow::io

@@ -8,10 +8,10 @@
 
 namespace furrow::io {
 
-/// The columns of a face for the rest lengths of its own (geometry::kTriangleRestLength): of the edges
-/// between corners 0 and 1, 1 and 2, 2 and 0 of its vertex_indices.
-inline constexpr std::array<const char*, 3> kPlyTriangleLengths = {"rest_length_01", "rest_length_12",
-                                                                   "rest_length_20"};
+/// The columns of a face for the rest lengths of its own (geometry::attribute::triangle_rest_length): of the
+/// edges between corners 0 and 1, 1 and 2, 2 and 0 of its vertex_indices.
+inline constexpr std::array<const char*, 3> ply_triangle_lengths = {"rest_length_01", "rest_length_12",
+                                                                    "rest_length_20"};
 
 class PlyTriangles {
  public:

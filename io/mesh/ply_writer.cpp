@@ -21,7 +21,7 @@ namespace {
 
 using namespace geometry;
 
-constexpr const char* kEnds = "property int vertex1\nproperty int vertex2\n";
+constexpr const char* ends = "property int vertex1\nproperty int vertex2\n";
 
 class PlyWriter {
  public:
@@ -29,19 +29,19 @@ class PlyWriter {
       : file_(file),
         mesh_(file.mesh),
         options_(options),
-        colors_(find_map(mesh_, kColor)),
-        lines_(find_map(mesh_, kLine)),
-        masses_(find_map(mesh_, kMass)),
-        rest_positions_(find_map(mesh_, kRestPosition)),
+        colors_(find_map(mesh_, attribute::color)),
+        lines_(find_map(mesh_, attribute::line)),
+        masses_(find_map(mesh_, attribute::mass)),
+        rest_positions_(find_map(mesh_, attribute::rest_position)),
         attributes_(vertex_attributes(mesh_)),
-        textures_(find_map(mesh_, kTexture)),
-        groups_(find_map(mesh_, kGroup)),
-        materials_(find_map(mesh_, kMaterial)),
-        generations_(find_map(mesh_, kGeneration)),
-        triangle_lengths_(find_map(mesh_, kTriangleRestLength)),
-        bending_counts_(find_map(mesh_, kBendingCount)),
-        line_edges_(find_map(mesh_, kLineEdge)),
-        diagonals_(find_map(mesh_, kDiagonal)),
+        textures_(find_map(mesh_, attribute::texture)),
+        groups_(find_map(mesh_, attribute::group)),
+        materials_(find_map(mesh_, attribute::material)),
+        generations_(find_map(mesh_, attribute::generation)),
+        triangle_lengths_(find_map(mesh_, attribute::triangle_rest_length)),
+        bending_counts_(find_map(mesh_, attribute::bending_count)),
+        line_edges_(find_map(mesh_, attribute::line_edge)),
+        diagonals_(find_map(mesh_, attribute::diagonal)),
         struts_(struts(mesh_)) {
     for (const PlyEdgeNumber& number : ply_edge_numbers())
       if (const auto map = find_map(mesh_, number.map)) edge_numbers_.emplace_back(&number, *map);
@@ -114,11 +114,11 @@ class PlyWriter {
     if (materials_) out_ += "property int material\n";
     if (generations_) out_ += "property int generation\n";
     if (triangle_lengths_)
-      for (const char* name : kPlyTriangleLengths) out_ += std::string("property double ") + name + "\n";
+      for (const char* name : ply_triangle_lengths) out_ += std::string("property double ") + name + "\n";
     declare_edges();
     if (!struts_.empty()) {
       declare("strut", struts_.size());
-      out_ += std::string(kEnds) + "property double rest_length\nproperty double stiffness\n";
+      out_ += std::string(ends) + "property double rest_length\nproperty double stiffness\n";
     }
     out_ += "end_header\n";
   }
@@ -126,7 +126,7 @@ class PlyWriter {
   void declare_edges() {
     if (!has_edges()) return;
     declare("edge", mesh_.number_of_edges());
-    out_ += kEnds;
+    out_ += ends;
     for (const auto& [number, map] : edge_numbers_)
       out_ += std::string("property double ") + number->name + "\n";
     if (bending_counts_) out_ += "property int bending_count\n";

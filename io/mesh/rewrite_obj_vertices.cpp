@@ -69,10 +69,10 @@ std::string rewrite_obj_vertices(std::string_view text, const std::string& name,
                                  std::span<const geometry::Point> positions, const WriteOptions& options) {
   std::string result;
   result.reserve(text.size() + text.size() / 4);
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // of UTF-8; it stands before the first word
-  if (text.starts_with(kMark)) {
-    result = kMark;
-    text.remove_prefix(kMark.size());
+  constexpr std::string_view mark = "\xEF\xBB\xBF";  // of UTF-8; it stands before the first word
+  if (text.starts_with(mark)) {
+    result = mark;
+    text.remove_prefix(mark.size());
   }
   std::size_t copied = 0, vertex = 0;
   for (Words words(text); !words.at_end(); words.skip_line()) {

@@ -117,8 +117,8 @@ void fill_vertex_map(SoupMesh& out, const PropertyName<K, V>& name, const Values
 void fill_corners(const PolygonSoup& soup, const Triangles& triangles, Mesh& mesh) {
   std::optional<HalfedgeMap<TextureCoordinate>> textures;
   std::optional<HalfedgeMap<double>> rest_lengths;
-  if (!soup.textures.empty()) textures = ensure_map(mesh, kTexture);
-  if (!soup.triangle_rest_lengths.empty()) rest_lengths = ensure_map(mesh, kTriangleRestLength);
+  if (!soup.textures.empty()) textures = ensure_map(mesh, attribute::texture);
+  if (!soup.triangle_rest_lengths.empty()) rest_lengths = ensure_map(mesh, attribute::triangle_rest_length);
   if (!textures && !rest_lengths) return;
   for (const Face f : mesh.faces())
     for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
@@ -138,7 +138,7 @@ void fill_corners(const PolygonSoup& soup, const Triangles& triangles, Mesh& mes
 void mark_diagonals(const PolygonSoup& soup, const Triangles& triangles, Mesh& mesh) {
   const auto is_quad = [&](std::size_t f) { return soup.first_corner[f + 1] - soup.first_corner[f] == 4; };
   if (std::ranges::none_of(triangles, [&](const SoupTriangle& t) { return is_quad(t.face); })) return;
-  auto diagonal = ensure_map(mesh, kDiagonal);
+  auto diagonal = ensure_map(mesh, attribute::diagonal);
   for (const Edge e : mesh.edges()) {
     if (mesh.is_border(e)) continue;
     const std::size_t a = triangles[mesh.face(mesh.halfedge(e))].face,
@@ -148,25 +148,25 @@ void mark_diagonals(const PolygonSoup& soup, const Triangles& triangles, Mesh& m
 }
 
 void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& out) {
-  fill_vertex_map(out, kColor, soup.colors);
-  fill_vertex_map(out, kLine, soup.lines);
-  fill_vertex_map(out, kMass, soup.masses);
-  fill_vertex_map(out, kRestPosition, soup.rest_positions);
+  fill_vertex_map(out, attribute::color, soup.colors);
+  fill_vertex_map(out, attribute::line, soup.lines);
+  fill_vertex_map(out, attribute::mass, soup.masses);
+  fill_vertex_map(out, attribute::rest_position, soup.rest_positions);
   for (const SoupAttribute& attribute : soup.attributes) {
     auto values = ensure_vertex_attribute(out.mesh, attribute.name);
     for (const Vertex v : out.mesh.vertices()) values[v] = attribute.values[out.origin[v]];
   }
   Mesh& mesh = out.mesh;
   if (!soup.groups.empty()) {
-    auto groups = ensure_map(mesh, kGroup);
+    auto groups = ensure_map(mesh, attribute::group);
     for (const Face f : mesh.faces()) groups[f] = soup.groups[triangles[f].face];
   }
   if (!soup.materials.empty()) {
-    auto materials = ensure_map(mesh, kMaterial);
+    auto materials = ensure_map(mesh, attribute::material);
     for (const Face f : mesh.faces()) materials[f] = soup.materials[triangles[f].face];
   }
   if (!soup.generations.empty()) {
-    auto generations = ensure_map(mesh, kGeneration);
+    auto generations = ensure_map(mesh, attribute::generation);
     for (const Face f : mesh.faces()) generations[f] = soup.generations[triangles[f].face];
   }
   fill_corners(soup, triangles, mesh);

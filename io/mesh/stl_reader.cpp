@@ -14,7 +14,7 @@ namespace {
 
 using namespace geometry;
 
-constexpr std::size_t kHeader = 84, kFacet = 50;  // [bytes]
+constexpr std::size_t header = 84, facet = 50;  // [bytes]
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;
@@ -43,7 +43,7 @@ class StlReader {
  private:
   /// Some binary files begin with "solid" too: the length decides first.
   bool is_binary() const {
-    if (bytes_.size() >= kHeader && bytes_.size() == kHeader + kFacet * word_at(bytes_, 80)) return true;
+    if (bytes_.size() >= header && bytes_.size() == header + facet * word_at(bytes_, 80)) return true;
     const auto first = bytes_.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     if (first == bytes_.npos || !bytes_.substr(first).starts_with("solid")) return true;
     return bytes_.substr(0, 1000).find('\0') != bytes_.npos;
@@ -59,21 +59,21 @@ class StlReader {
   }
 
   void read_binary() {
-    if (bytes_.size() < kHeader) throw ContentError(name_ + ": shorter than the header of an STL file");
-    const std::size_t count = word_at(bytes_, 80), room = (bytes_.size() - kHeader) / kFacet;
+    if (bytes_.size() < header) throw ContentError(name_ + ": shorter than the header of an STL file");
+    const std::size_t count = word_at(bytes_, 80), room = (bytes_.size() - header) / facet;
     if (count > room)
       throw ContentError(name_ + ": the header announces " + std::to_string(count) +
                          " triangles, the file holds " + std::to_string(room) +
                          ": it is cut short or no STL file");
-    if (bytes_.size() > kHeader + kFacet * count)
+    if (bytes_.size() > header + facet * count)
       file.warnings.push_back(name_ + ": bytes after the last triangle not read");
     for (std::size_t f = 0; f < count; ++f) {
-      const std::size_t at = kHeader + kFacet * f;
+      const std::size_t at = header + facet * f;
       for (int k = 0; k < 3; ++k) {
         const std::size_t v = at + 12 + 12 * k;
         const auto point =
             from_file(float_at(bytes_, v), float_at(bytes_, v + 4), float_at(bytes_, v + 8), options_);
-        if (!point) throw ContentError(name_ + ": face " + std::to_string(f) + ": " + kBadCoordinate);
+        if (!point) throw ContentError(name_ + ": face " + std::to_string(f) + ": " + bad_coordinate);
         add_corner(*point);
       }
       soup.close_face();
@@ -122,7 +122,7 @@ class StlReader {
       double x[3];
       for (double& c : x) c = in.finite_number(in.next_word(), "coordinate of a vertex");
       const auto point = from_file(x[0], x[1], x[2], options_);
-      if (!point) in.fail(kBadCoordinate);
+      if (!point) in.fail(bad_coordinate);
       add_corner(*point);
     }
     if (word != "endloop") in.fail(in_quotes(word) + " where 'vertex' or 'endloop' should stand; correct it");

@@ -86,9 +86,9 @@ void triangulate_polygon(Corners corners, std::vector<std::array<std::size_t, 3>
     for (std::size_t i = 2; i < n; ++i) out.push_back({0, i - 1, i});
     return;
   }
-  if (n > kMostConcaveCorners)
+  if (n > most_concave_corners)
     throw geometry::ContentError("a face that is not convex has " + std::to_string(n) +
-                                 " corners, the most is " + std::to_string(kMostConcaveCorners) +
+                                 " corners, the most is " + std::to_string(most_concave_corners) +
                                  "; cut it in the modeller");
   Ring(corners, normal).clip(out);
 }

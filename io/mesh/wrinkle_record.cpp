@@ -15,7 +15,7 @@ namespace {
 
 /// JSON has no NaN: a height that could not be measured is null.
 double height_of(const nlohmann::ordered_json& value) {
-  return value.is_null() ? geometry::kUnset : value.get<double>();
+  return value.is_null() ? geometry::unset_value : value.get<double>();
 }
 
 nlohmann::ordered_json to_json(const WrinkleRecord::Line& line) {
@@ -48,15 +48,15 @@ WrinkleRecord::Line line_from(const nlohmann::ordered_json& json) {
   return line;
 }
 
-constexpr const char* kPrefix = "furrow wrinkle ";
-bool is_record(const std::string& comment) { return comment.rfind(kPrefix, 0) == 0; }
+constexpr const char* prefix = "furrow wrinkle ";
+bool is_record(const std::string& comment) { return comment.rfind(prefix, 0) == 0; }
 
 }  // namespace
 
 std::vector<double> line_widths(const WrinkleRecord& record) {
   std::vector<double> widths;
   for (const WrinkleRecord::Line& line : record.lines)
-    widths.push_back(line.width.value_or(geometry::kUnset));
+    widths.push_back(line.width.value_or(geometry::unset_value));
   return widths;
 }
 
@@ -82,14 +82,14 @@ void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record) {
   for (const WrinkleRecord::Line& line : record.lines) json["lines"].push_back(to_json(line));
   std::erase_if(file.comments, is_record);
   using Handler = nlohmann::ordered_json::error_handler_t;
-  file.comments.push_back(kPrefix + json.dump(-1, ' ', true, Handler::replace));
+  file.comments.push_back(prefix + json.dump(-1, ' ', true, Handler::replace));
 }
 
 std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file) {
   const auto comment = std::find_if(file.comments.begin(), file.comments.end(), is_record);
   if (comment == file.comments.end()) return std::nullopt;
   try {
-    const auto json = nlohmann::ordered_json::parse(comment->substr(std::string(kPrefix).size()));
+    const auto json = nlohmann::ordered_json::parse(comment->substr(std::string(prefix).size()));
     WrinkleRecord record{json.at("r_avg_structural"),
                          json.at("r_avg_bending"),
                          json.at("density"),
@@ -119,7 +119,7 @@ std::optional<WrinkleRecord> read_wrinkle_record(const std::filesystem::path& pa
   std::error_code none;
   if ((ending != ".ply" && ending != ".obj") || !std::filesystem::is_regular_file(path, none))
     return std::nullopt;
-  const std::string mark = std::string(ending == ".ply" ? "comment " : "# ") + kPrefix;
+  const std::string mark = std::string(ending == ".ply" ? "comment " : "# ") + prefix;
   std::ifstream in(path, std::ios::binary);
   for (std::string line; std::getline(in, line);) {
     const bool is_header = ending == ".ply" ? line.rfind("end_header", 0) != 0 : line[0] == '#';
@@ -127,7 +127,7 @@ std::optional<WrinkleRecord> read_wrinkle_record(const std::filesystem::path& pa
     if (line.rfind(mark, 0) != 0) continue;
     if (line.back() == '\r') line.pop_back();
     MeshFile header;
-    header.comments.push_back(line.substr(mark.size() - std::string(kPrefix).size()));
+    header.comments.push_back(line.substr(mark.size() - std::string(prefix).size()));
     return find_wrinkle_record(header);
   }
   return std::nullopt;

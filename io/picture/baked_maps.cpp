@@ -19,8 +19,8 @@ using geometry::ContentError;
 using geometry::VectorMap;
 using Json = nlohmann::ordered_json;
 
-constexpr int kZero = 32768;      // the value of no displacement
-constexpr double kSteps = 32767;  // to either side of it
+constexpr int zero_depth = 32768;  // the value of no displacement
+constexpr double steps = 32767;    // to either side of it
 
 template <class ToValue>
 Image16 image_of(const VectorMap& map, const ToValue& to_value) {
@@ -46,10 +46,10 @@ Json record_of(const geometry::BakedMaps& maps, const BakedFiles& files, double 
             {"channels", {"tangent", "bitangent", "normal"}},
             {"bits", 16},
             {"unit", "m"},
-            {"zero", kZero},
+            {"zero", zero_depth},
             {"metres_per_step", step},
             {"formula", "metres = (value - zero) * metres_per_step"},
-            {"midlevel", kZero / 65535.0},
+            {"midlevel", zero_depth / 65535.0},
             {"scale", step * 65535},
             {"largest", maps.largest},
             {"frame",
@@ -78,8 +78,8 @@ BakedFiles write_baked_maps(const std::string& prefix, const geometry::BakedMaps
   double largest = 0;
   for (const auto& texel : maps.displacement.texels)
     for (float x : texel) largest = std::max(largest, std::abs(double(x)));
-  const double step = largest > 0 ? largest / kSteps : 1e-3 / kSteps;
-  const Image16 displacement = image_of(maps.displacement, [&](double x) { return kZero + x / step; });
+  const double step = largest > 0 ? largest / steps : 1e-3 / steps;
+  const Image16 displacement = image_of(maps.displacement, [&](double x) { return zero_depth + x / step; });
   const Image16 normal = image_of(maps.normal, [](double x) { return (x + 1) / 2 * 65535; });
   // A prefix that is no UTF-8 cannot stand in JSON; what can be read of it does.
   const std::string record =

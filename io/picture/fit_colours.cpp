@@ -16,26 +16,26 @@ namespace {
 using Ramp = std::array<Colour, 6>;
 
 // Lightness 0.93, 0.83, 0.73, 0.62, 0.52, 0.42 (OKLab, B. Ottosson 2020), hues of our own choice.
-constexpr Ramp kStretched{{{0.923f, 0.907f, 0.881f},
-                           {0.918f, 0.750f, 0.520f},
-                           {0.921f, 0.557f, 0.206f},
-                           {0.873f, 0.321f, 0.020f},
-                           {0.759f, 0.105f, 0.049f},
-                           {0.580f, 0.008f, 0.052f}}};
-constexpr Ramp kPressed{{{0.923f, 0.907f, 0.881f},
-                         {0.645f, 0.805f, 0.921f},
-                         {0.438f, 0.684f, 0.889f},
-                         {0.254f, 0.542f, 0.819f},
-                         {0.152f, 0.411f, 0.718f},
-                         {0.063f, 0.288f, 0.593f}}};
+constexpr Ramp stretched{{{0.923f, 0.907f, 0.881f},
+                          {0.918f, 0.750f, 0.520f},
+                          {0.921f, 0.557f, 0.206f},
+                          {0.873f, 0.321f, 0.020f},
+                          {0.759f, 0.105f, 0.049f},
+                          {0.580f, 0.008f, 0.052f}}};
+constexpr Ramp pressed{{{0.923f, 0.907f, 0.881f},
+                        {0.645f, 0.805f, 0.921f},
+                        {0.438f, 0.684f, 0.889f},
+                        {0.254f, 0.542f, 0.819f},
+                        {0.152f, 0.411f, 0.718f},
+                        {0.063f, 0.288f, 0.593f}}};
 // Lightness 0.30, 0.42, 0.54, 0.66, 0.78, 0.91.
-constexpr Ramp kDistant{{{0.217f, 0.106f, 0.359f},
-                         {0.238f, 0.272f, 0.533f},
-                         {0.178f, 0.461f, 0.638f},
-                         {0.096f, 0.656f, 0.632f},
-                         {0.522f, 0.804f, 0.460f},
-                         {0.942f, 0.904f, 0.396f}}};
-constexpr Colour kUnknown{0.55f, 0.55f, 0.55f}, kPaper{1, 1, 1}, kInk{0.15f, 0.16f, 0.18f};
+constexpr Ramp distant{{{0.217f, 0.106f, 0.359f},
+                        {0.238f, 0.272f, 0.533f},
+                        {0.178f, 0.461f, 0.638f},
+                        {0.096f, 0.656f, 0.632f},
+                        {0.522f, 0.804f, 0.460f},
+                        {0.942f, 0.904f, 0.396f}}};
+constexpr Colour unknown{0.55f, 0.55f, 0.55f}, paper{1, 1, 1}, ink{0.15f, 0.16f, 0.18f};
 
 void check(const FitScale& scale) {
   if (!(scale.limit > 0 && std::isfinite(scale.limit)))
@@ -102,7 +102,7 @@ void centred(Image& image, const std::string& text, double middle, double baseli
   const double size = width > room ? height * room / width : height;
   const double half = text_width(text, size) / 2;
   const double left = std::clamp(middle - half, 0.0, std::max(0.0, image.width - 2 * half));
-  draw_text(image, text, left, baseline, size, kInk);
+  draw_text(image, text, left, baseline, size, ink);
 }
 
 void draw_bar(Image& image, int offset, const Layout& l, const FitScale& scale) {
@@ -116,22 +116,22 @@ void draw_bar(Image& image, int offset, const Layout& l, const FitScale& scale) 
   for (int i = 0; i <= 4; ++i) {
     const double value = lowest(scale) + i * (scale.limit - lowest(scale)) / 4;
     const int x = std::min(int(l.column(value, scale)), l.right - 1);
-    fill(image, x, offset + l.bottom, offset + l.bottom + tick, kInk);
+    fill(image, x, offset + l.bottom, offset + l.bottom + tick, ink);
     centred(image, number(value, scale), x, below, l.text);
   }
   if (!(scale.mark > 0)) return;
   for (int x = 0; x < 2; ++x)
-    fill(image, int(l.column(scale.mark, scale)) + x, offset + l.top - tick, offset + l.bottom + tick, kInk);
+    fill(image, int(l.column(scale.mark, scale)) + x, offset + l.top - tick, offset + l.bottom + tick, ink);
 }
 
 }  // namespace
 
 Colour fit_colour(double value, const FitScale& scale) {
   check(scale);
-  if (std::isnan(value)) return kUnknown;
+  if (std::isnan(value)) return unknown;
   const double at = std::clamp(std::abs(value) / scale.limit, 0.0, 1.0);
-  if (scale.quantity == FitQuantity::strain) return blend(value < 0 ? kPressed : kStretched, at);
-  return blend(kDistant, value < 0 ? 0 : at);
+  if (scale.quantity == FitQuantity::strain) return blend(value < 0 ? pressed : stretched, at);
+  return blend(distant, value < 0 ? 0 : at);
 }
 
 void colour_by_fit(geometry::Mesh& mesh, std::span<const double> values, const FitScale& scale) {
@@ -139,7 +139,7 @@ void colour_by_fit(geometry::Mesh& mesh, std::span<const double> values, const F
   if (values.size() < mesh.num_vertices())
     throw std::invalid_argument("colour_by_fit: " + std::to_string(values.size()) + " values for " +
                                 std::to_string(mesh.num_vertices()) + " vertices");
-  auto colours = geometry::ensure_map(mesh, geometry::kColor);
+  auto colours = geometry::ensure_map(mesh, geometry::attribute::color);
   for (geometry::Vertex v : mesh.vertices()) {
     const Colour c = fit_colour(values[v.idx()], scale);
     for (std::size_t k = 0; k < 3; ++k) colours[v][k] = std::round(255.0 * c[k]) / 255;
@@ -155,7 +155,7 @@ Image with_fit_legend(const Image& picture, const FitScale& scale, const std::st
                                 " is not >= 200, or the pixels do not match the sides");
   const Layout l = layout_of(picture, !words.empty());
   Image image{picture.width, picture.height + l.height, picture.rgb};
-  image.rgb.resize(std::size_t{3} * image.width * image.height, std::uint8_t(255 * kPaper[0]));
+  image.rgb.resize(std::size_t{3} * image.width * image.height, std::uint8_t(255 * paper[0]));
   const int offset = picture.height;
   const double line = 2.1 * l.text, middle = picture.width / 2.0;
   const bool strain = scale.quantity == FitQuantity::strain;

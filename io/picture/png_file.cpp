@@ -37,7 +37,7 @@ void check(const AnyImage& image) {
   }
 }
 
-constexpr double kMaxPixels = 1e8;
+constexpr double max_pixels = 1e8;
 
 /// What libpng's callbacks work on. libpng leaves by longjmp: nothing with a destructor may live in the
 /// functions that it leaves.
@@ -98,7 +98,7 @@ bool encode(const Image16& image, Stream& stream) {
 void read_header(png_structp png, png_infop info, Image16& image) {
   png_read_info(png, info);
   const double pixels = double(png_get_image_width(png, info)) * double(png_get_image_height(png, info));
-  if (pixels > kMaxPixels) png_error(png, "more than 100 million pixels; scale the picture down");
+  if (pixels > max_pixels) png_error(png, "more than 100 million pixels; scale the picture down");
   if (png_get_bit_depth(png, info) != 16 || !(png_get_color_type(png, info) & PNG_COLOR_MASK_COLOR))
     png_error(png, "a picture of 16 bits a channel in red, green and blue is needed");
   image.width = int(png_get_image_width(png, info));
@@ -180,7 +180,7 @@ Image read_png(const std::filesystem::path& path) {
   if (!png_image_begin_read_from_file(&control.image, path.c_str())) {
     throw geometry::ContentError(path.string() + ": cannot be read as PNG: " + control.image.message);
   }
-  if (double(control.image.width) * double(control.image.height) > kMaxPixels) {
+  if (double(control.image.width) * double(control.image.height) > max_pixels) {
     throw geometry::ContentError(path.string() + ": more than 100 million pixels; scale the picture down");
   }
   control.image.format = PNG_FORMAT_RGB;

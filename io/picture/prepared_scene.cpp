@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLargest = 1e9;  // [m]; far below what single precision loses
+constexpr double largest = 1e9;  // [m]; far below what single precision loses
 
 Vector3d vector(const Position& p) { return {p[0], p[1], p[2]}; }
 
@@ -23,7 +23,7 @@ Vector3d vector(const Position& p) { return {p[0], p[1], p[2]}; }
 void check_positions(const std::vector<Position>& positions, const std::string& owner) {
   for (std::size_t i = 0; i < positions.size(); ++i) {
     for (double x : positions[i]) {
-      if (!(std::abs(x) <= kLargest)) {
+      if (!(std::abs(x) <= largest)) {
         refuse(owner + ", point " + std::to_string(i) + ": coordinate " + std::to_string(x) +
                " is not a number of at most 1e9 m");
       }
@@ -126,14 +126,14 @@ std::vector<double> mean_over_sides(const PreparedMesh& mesh, const Value& value
 /// about the sum of the principal curvatures; meaned again over the neighbours, so that single vertices do
 /// not speckle, and bent into (−1, 1).
 std::vector<double> bulges(const PreparedMesh& mesh) {
-  constexpr double kSharp = 1.0 / 100;  // radius, of the scene's diagonal
+  constexpr double sharp = 1.0 / 100;  // radius, of the scene's diagonal
   const std::vector<double> curvature = mean_over_sides(mesh, [&](int a, int b) {
     const Vector3d side = mesh.vertices[b] - mesh.vertices[a];
     return side.dot(mesh.normals[b] - mesh.normals[a]) / side.squaredNorm();
   });
   std::vector<double> result =
       mean_over_sides(mesh, [&](int a, int b) { return curvature[a] + curvature[b]; });
-  for (double& x : result) x = kSharp * x / (1 + std::abs(kSharp * x));
+  for (double& x : result) x = sharp * x / (1 + std::abs(sharp * x));
   return result;
 }
 

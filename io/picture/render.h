@@ -13,10 +13,10 @@ namespace furrow::io {
 
 using Colour = std::array<float, 3>;  ///< red, green, blue in [0, 1], sRGB
 
-inline constexpr Colour kClothColour{0.66f, 0.73f, 0.82f};
-inline constexpr Colour kBodyColour{0.80f, 0.72f, 0.66f};
-inline constexpr Colour kRidgeColour{0.85f, 0.22f, 0.08f};
-inline constexpr Colour kValleyColour{0.06f, 0.24f, 0.72f};
+inline constexpr Colour cloth_colour{0.66f, 0.73f, 0.82f};
+inline constexpr Colour body_colour{0.80f, 0.72f, 0.66f};
+inline constexpr Colour ridge_colour{0.85f, 0.22f, 0.08f};
+inline constexpr Colour valley_colour{0.06f, 0.24f, 0.72f};
 
 /// Cloth shows its back in a darker, warmer colour, its ridges a little lighter and its valleys a little
 /// darker than the lights make them, so that wrinkles read from every side; a body is one colour.
@@ -26,7 +26,7 @@ enum class Style { cloth, body };
 struct RenderMesh {
   std::vector<Position> vertices;             ///< [m], finite, each coordinate at most 1e9
   std::vector<std::array<int, 3>> triangles;  ///< at least one; indices into vertices; ccw from outside
-  Colour colour = kClothColour;
+  Colour colour = cloth_colour;
   std::vector<Colour> vertex_colours;    ///< empty, or one for each vertex: then `colour` is not used
   std::shared_ptr<const Image> texture;  ///< seen in place of the colours; none: nullptr
   /// With a texture (u, v) of each triangle's corners: (0, 0) is its lower left corner; it repeats; NaN:
@@ -40,7 +40,7 @@ struct RenderMesh {
 /// A line drawn as a tube, hidden where a surface hides it. One point is a ball, none is nothing.
 struct RenderLine {
   std::vector<Position> points;  ///< [m], finite, each coordinate at most 1e9
-  Colour colour = kRidgeColour;
+  Colour colour = ridge_colour;
   double width = 1;  ///< of the tube or ball, in tubes of the options [-], in [0.01, 100]
 };
 

@@ -37,8 +37,8 @@ bool is_shortcut(const Mesh& mesh, Halfedge h, const geometry::VertexMap<int>& l
 }
 
 std::vector<Edge> line_edges(const Mesh& mesh) {
-  const auto marked = geometry::find_map(mesh, geometry::kLineEdge);
-  const auto line = geometry::find_map(mesh, geometry::kLine);
+  const auto marked = geometry::find_map(mesh, geometry::attribute::line_edge);
+  const auto line = geometry::find_map(mesh, geometry::attribute::line);
   std::vector<Edge> edges;
   for (Edge e : mesh.edges()) {
     const Halfedge h = mesh.halfedge(e);
@@ -55,15 +55,15 @@ std::vector<Edge> line_edges(const Mesh& mesh) {
 }  // namespace
 
 RenderMesh render_mesh_from(const Mesh& mesh, Style style, std::shared_ptr<const Image> texture) {
-  const auto coordinates = geometry::find_map(mesh, geometry::kTexture);
+  const auto coordinates = geometry::find_map(mesh, geometry::attribute::texture);
   if (texture && !coordinates)
     throw geometry::ContentError("the mesh has no texture coordinates to lay a texture on with");
   RenderMesh result;
   result.style = style;
   result.texture = std::move(texture);
-  result.colour = style == Style::cloth ? kClothColour : kBodyColour;
+  result.colour = style == Style::cloth ? cloth_colour : body_colour;
   std::vector<int> index(mesh.num_vertices(), 0);
-  const auto colour = geometry::find_map(mesh, geometry::kColor);
+  const auto colour = geometry::find_map(mesh, geometry::attribute::color);
   bool coloured = false;
   for (Vertex v : mesh.vertices()) {
     index[v] = int(result.vertices.size());
@@ -101,7 +101,7 @@ std::vector<RenderLine> render_lines_from(const Mesh& mesh, const std::vector<do
     ++valence[mesh.vertex(e, 0)];
     ++valence[mesh.vertex(e, 1)];
   }
-  const auto line = geometry::find_map(mesh, geometry::kLine);
+  const auto line = geometry::find_map(mesh, geometry::attribute::line);
   const auto id_of = [&](Vertex v) { return line ? (*line)[v] : -1; };
   std::vector<RenderLine> result;
   for (Edge e : edges) {

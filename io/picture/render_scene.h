@@ -11,8 +11,8 @@ namespace furrow::io {
 
 /// How lines are coloured: a ridge (height > 0), a valley (< 0), or neither (height 0 or not known).
 struct LineColours {
-  Colour ridge = kRidgeColour;
-  Colour valley = kValleyColour;
+  Colour ridge = ridge_colour;
+  Colour valley = valley_colour;
   Colour other{0.12f, 0.12f, 0.14f};
 };
 

@@ -12,15 +12,15 @@ namespace {
 using Eigen::Vector3d;
 
 // In units of the scene's diagonal.
-constexpr double kRayOffset = 1e-4;    // a ray starts this far above the surface it leaves
-constexpr double kSkyDistance = 0.12;  // what lies farther away does not hide the sky
-constexpr double kKeyRadius = 0.10;    // tangent of half the key light's angle: soft shadows
+constexpr double ray_offset = 1e-4;    // a ray starts this far above the surface it leaves
+constexpr double sky_distance = 0.12;  // what lies farther away does not hide the sky
+constexpr double key_radius = 0.10;    // tangent of half the key light's angle: soft shadows
 // Strength of the lights.
-constexpr double kKey = 1.02, kSky = 0.52, kFill = 0.24;
-constexpr double kBounce = 0.15;  // of the sky's light, from whatever hides it
+constexpr double key = 1.02, sky = 0.52, fill = 0.24;
+constexpr double bounce = 0.15;  // of the sky's light, from whatever hides it
 // Cloth.
-constexpr double kCavity = 0.34;  // how much darker a sharp valley is painted, and lighter a sharp ridge
-const Vector3d kBackTint(0.66, 0.54, 0.48);
+constexpr double cavity = 0.34;  // how much darker a sharp valley is painted, and lighter a sharp ridge
+const Vector3d back_tint(0.66, 0.54, 0.48);
 
 /// Points of the unit disk, evenly spread however many are taken: the additive recurrence of the plastic
 /// number (Roberts 2018), bent to the disk.
@@ -85,8 +85,10 @@ Vector3d painted(const PreparedMesh& mesh, const SurfaceHit& hit, const std::arr
   double uv[2] = {0, 0};
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 2; ++k) uv[k] += weights[i] * mesh.texture_coordinates[hit.triangle][i][k];
-  constexpr double kMost = 1e6;  // squares from the first; false for NaN
-  return std::abs(uv[0]) < kMost && std::abs(uv[1]) < kMost ? texel(*mesh.texture, uv[0], uv[1]) : colour;
+  constexpr double largest_value = 1e6;  // squares from the first; false for NaN
+  return std::abs(uv[0]) < largest_value && std::abs(uv[1]) < largest_value
+             ? texel(*mesh.texture, uv[0], uv[1])
+             : colour;
 }
 
 /// What is seen at a hit, turned to the eye.
@@ -116,10 +118,10 @@ Seen see(const PreparedMesh& mesh, const SurfaceHit& hit, const Vector3d& direct
   if (mesh.style == Style::cloth) {
     double bulge = 0;
     for (int i = 0; i < 3; ++i) bulge += weights[i] * mesh.bulges[t[i]];
-    colour *= 1 + kCavity * side * bulge;
-    if (back) colour = colour.cwiseProduct(kBackTint);
+    colour *= 1 + cavity * side * bulge;
+    if (back) colour = colour.cwiseProduct(back_tint);
   }
-  return {raised_point(p, corners, normals, weights) + kRayOffset * flat, smooth.normalized(), colour};
+  return {raised_point(p, corners, normals, weights) + ray_offset * flat, smooth.normalized(), colour};
 }
 
 std::uint32_t mixed(std::uint32_t h) {
@@ -142,7 +144,7 @@ Shader::Shader(const PreparedScene& scene, const RayScene& rays, int samples, in
   key_across_ = across(key_direction_);
   fill_direction_ = (0.9 * c.right - 0.15 * c.up - 0.25 * c.forward).normalized();
   for (int i = 0; i < samples; ++i) {
-    const Eigen::Vector2d p = kKeyRadius * disk_point(i);
+    const Eigen::Vector2d p = key_radius * disk_point(i);
     key_samples_.push_back(Vector3d(p.x(), p.y(), 1).normalized());
   }
   for (int i = 0; i < samples * sky_rays; ++i) {
@@ -163,7 +165,7 @@ double Shader::sky_light(const Vector3d& p, const Vector3d& normal, int sample, 
   for (int i = 0; i < sky_rays_; ++i) {
     const Vector3d d = turned(sky_samples_[sample * sky_rays_ + i], turn, normal, uv);
     const double brightness = 0.56 + 0.44 * d.dot(scene_.camera.up);
-    sum += brightness * (rays_.is_blocked(p, d, kSkyDistance) ? kBounce : 1);
+    sum += brightness * (rays_.is_blocked(p, d, sky_distance) ? bounce : 1);
   }
   return sum / sky_rays_;
 }
@@ -171,9 +173,9 @@ double Shader::sky_light(const Vector3d& p, const Vector3d& normal, int sample, 
 Vector3d Shader::surface(const Vector3d& direction, const SurfaceHit& hit, int sample,
                          const PixelTurn& turn) const {
   const Seen seen = see(scene_.meshes[hit.mesh], hit, direction);
-  const double light = kKey * key_light(seen.point, seen.normal, sample, turn) +
-                       kSky * sky_light(seen.point, seen.normal, sample, turn) +
-                       kFill * std::max(0.0, seen.normal.dot(fill_direction_));
+  const double light = key * key_light(seen.point, seen.normal, sample, turn) +
+                       sky * sky_light(seen.point, seen.normal, sample, turn) +
+                       fill * std::max(0.0, seen.normal.dot(fill_direction_));
   return light * seen.colour;
 }
 

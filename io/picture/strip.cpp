@@ -13,7 +13,7 @@
 namespace furrow::io {
 namespace {
 
-constexpr double kLineSpacing = 2.0;  // of the capitals' height
+constexpr double line_spacing = 2.0;  // of the capitals' height
 
 [[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument("strip: " + text); }
 
@@ -88,7 +88,7 @@ Image strip(std::span<const Panel> panels, const StripOptions& options) {
     line_count = std::max(line_count, lines_of(panel.caption).size());
   }
   const double text = fitting_height(panels, options.text_height * tallest);
-  const int room = line_count == 0 ? 0 : int(std::ceil((0.8 + kLineSpacing * line_count) * text));
+  const int room = line_count == 0 ? 0 : int(std::ceil((0.8 + line_spacing * line_count) * text));
   Image result = blank(width, tallest + 2 * options.gap + room, options.paper);
   int left = options.gap;
   for (const Panel& panel : panels) {
@@ -97,7 +97,7 @@ Image strip(std::span<const Panel> panels, const StripOptions& options) {
     for (std::string_view line : lines_of(panel.caption)) {
       const double start = left + (panel.image.width - text_width(line, text)) / 2;
       draw_text(result, line, start, baseline, text, options.ink);
-      baseline += kLineSpacing * text;
+      baseline += line_spacing * text;
     }
     left += panel.image.width + options.gap;
   }

@@ -11,13 +11,13 @@ namespace {
 
 using Stroke = std::vector<std::array<double, 2>>;
 
-constexpr double kCapital = 12, kSpace = 6, kSideBearing = 3.4;
-constexpr double kPenRadius = 0.75;
+constexpr double capital = 12, space = 6, side_bearing = 3.4;
+constexpr double pen_radius = 0.75;
 
 /// Strokes of the characters from '!' to '~', parted by blanks. A point is a digit, x, and a letter, y: E is
 /// the baseline, M the height of small letters, Q that of capitals. After '~' the points steer a quadratic
 /// B-spline.
-constexpr std::string_view kStrokes[] = {
+constexpr std::string_view glyph_strokes[] = {
     "0Q0I 0E0E",                             // !
     "0Q0N 3Q3N",                             // "
     "2Q1E 6Q5E 0I7I 0M7M",                   // #
@@ -113,8 +113,8 @@ constexpr std::string_view kStrokes[] = {
     "~0R2R2K3K ~3K2K2C0C",                   // }
     "~0H1K3K4H6H7K",                         // ~
 };
-constexpr std::string_view kBox = "0E6E6Q0Q0E";
-static_assert(std::size(kStrokes) == '~' - '!' + 1);
+constexpr std::string_view box = "0E6E6Q0Q0E";
+static_assert(std::size(glyph_strokes) == '~' - '!' + 1);
 
 /// Corner cutting (Chaikin 1974), whose limit is the quadratic B-spline; ends stay, a loop stays closed.
 Stroke smoothed(Stroke points) {
@@ -164,9 +164,9 @@ struct Coverage {
 }  // namespace
 
 Glyph glyph(char character) {
-  if (character == ' ') return {{}, kSpace};
+  if (character == ' ') return {{}, space};
   const bool known = character >= '!' && character <= '~';
-  const std::string_view text = known ? kStrokes[character - '!'] : kBox;
+  const std::string_view text = known ? glyph_strokes[character - '!'] : box;
   Glyph result;
   double right = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -180,14 +180,14 @@ Glyph glyph(char character) {
     result.strokes.push_back(curved ? smoothed(std::move(points)) : std::move(points));
     at = end + 1;
   }
-  result.advance = right + kSideBearing;
+  result.advance = right + side_bearing;
   return result;
 }
 
 double text_width(std::string_view text, double height) {
   double width = 0;
   for (char c : text) width += glyph(c).advance;
-  return std::max(0.0, width - (text.empty() || text.back() == ' ' ? 0 : kSideBearing)) * height / kCapital;
+  return std::max(0.0, width - (text.empty() || text.back() == ' ' ? 0 : side_bearing)) * height / capital;
 }
 
 void draw_text(Image& image, std::string_view text, double left, double baseline, double height,
@@ -196,7 +196,7 @@ void draw_text(Image& image, std::string_view text, double left, double baseline
     throw std::invalid_argument("draw_text: height " + std::to_string(height) + " is not in (0, 10000]");
   }
   if (!std::isfinite(left) || !std::isfinite(baseline)) throw std::invalid_argument("draw_text: no position");
-  const double scale = height / kCapital;
+  const double scale = height / capital;
   Coverage coverage{image.width, image.height, std::vector<float>(image.rgb.size() / 3)};
   for (char c : text) {
     const Glyph letter = glyph(c);
@@ -205,7 +205,7 @@ void draw_text(Image& image, std::string_view text, double left, double baseline
         return std::array<double, 2>{left + scale * p[0], baseline - scale * p[1]};
       };
       for (std::size_t i = 1; i < stroke.size(); ++i) {
-        coverage.stroke(place(stroke[i - 1]), place(stroke[i]), std::max(0.5, kPenRadius * scale));
+        coverage.stroke(place(stroke[i - 1]), place(stroke[i]), std::max(0.5, pen_radius * scale));
       }
     }
     left += scale * letter.advance;

@@ -68,7 +68,7 @@ class SceneReader {
       if (lines.strokes.empty()) table.fail("strokes", "is missing: name a stroke file");
       table.read("time", lines.time, not_negative("s"));
       table.read("height", lines.height, any("m"));
-      table.read("fade", lines.fade, {0, kNoLimit, true, "s", true});
+      table.read("fade", lines.fade, {0, no_limit, true, "s", true});
       table.read("without", lines.without);
       read_wrinkle_options(table, lines);
       table.finish();

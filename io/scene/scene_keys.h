@@ -11,7 +11,7 @@ namespace furrow::io {
 /// none has. For messages: what is read, scene_file.cpp says.
 inline std::string tables_of_key(std::string_view key) {
   using namespace std::string_view_literals;
-  constexpr std::array kTables = {
+  constexpr std::array scene_tables = {
       std::pair{"[garment]"sv, " mesh subdivide rest "sv},
       std::pair{"[[lines]]"sv,
                 " strokes time height fade without rule rest region max_distance iterations "
@@ -27,7 +27,7 @@ inline std::string tables_of_key(std::string_view key) {
       std::pair{"motion"sv, " pivot keyframes spin "sv}};
   const std::string word = " " + std::string(key) + " ";
   std::string found;
-  for (const auto& [table, keys] : kTables)
+  for (const auto& [table, keys] : scene_tables)
     if (keys.find(word) != keys.npos) found += (found.empty() ? "" : " or ") + std::string(table);
   return found;
 }

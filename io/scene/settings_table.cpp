@@ -24,8 +24,8 @@ const Json& node_at(const TomlDocument& document, const std::string& path) {
 std::string range_text(const Limits& l) {
   std::ostringstream text;
   text << "a number";
-  if (l.least != -kNoLimit) text << (l.open ? " > " : " >= ") << l.least;
-  if (l.most != kNoLimit) text << (l.least != -kNoLimit ? " and <= " : " <= ") << l.most;
+  if (l.least != -no_limit) text << (l.open ? " > " : " >= ") << l.least;
+  if (l.most != no_limit) text << (l.least != -no_limit ? " and <= " : " <= ") << l.most;
   if (*l.unit) text << " [" << l.unit << "]";
   return text.str();
 }

@@ -19,10 +19,10 @@ struct Limits {
   const char* unit = "";
   bool infinite = false;  ///< inf is allowed
 };
-inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-inline constexpr Limits any(const char* unit = "") { return {-kNoLimit, kNoLimit, false, unit}; }
-inline constexpr Limits not_negative(const char* unit = "") { return {0, kNoLimit, false, unit}; }
-inline constexpr Limits positive(const char* unit = "") { return {0, kNoLimit, true, unit}; }
+inline constexpr double no_limit = std::numeric_limits<double>::infinity();
+inline constexpr Limits any(const char* unit = "") { return {-no_limit, no_limit, false, unit}; }
+inline constexpr Limits not_negative(const char* unit = "") { return {0, no_limit, false, unit}; }
+inline constexpr Limits positive(const char* unit = "") { return {0, no_limit, true, unit}; }
 
 /// Reads the keys of one table of a document, each with its type and range. Every fault is a
 /// geometry::ContentError with file, line and column; a key that nobody read is a fault, too, and the message

@@ -22,8 +22,8 @@ using physics::SimulateState;
 using physics::Vec3;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kPrefix = "furrow state ";
-bool is_state(const std::string& comment) { return comment.rfind(kPrefix, 0) == 0; }
+constexpr const char* prefix = "furrow state ";
+bool is_state(const std::string& comment) { return comment.rfind(prefix, 0) == 0; }
 
 /// JSON knows neither infinity nor NaN: null is infinity (a limit without springs, a fade that never ends).
 Json number(double x) { return std::isinf(x) ? Json(nullptr) : Json(x); }
@@ -159,28 +159,28 @@ void fill_maps(SavedState& state) {
   };
   check(s.contact.size(), "contact memories");
   check(s.compensation.force.size(), "compensating forces");
-  ensure_map(mesh, kVelocity);
+  ensure_map(mesh, attribute::velocity);
   if (!s.contact.empty()) {
-    auto point = ensure_map(mesh, kContactPoint);
-    auto level = ensure_map(mesh, kContactLevel);
+    auto point = ensure_map(mesh, attribute::contact_point);
+    auto level = ensure_map(mesh, attribute::contact_level);
     for (Vertex v : mesh.vertices()) {
       point[v] = to_cgal(s.contact[v].x);
       level[v] = s.contact[v].level;
     }
   }
   if (s.compensation.force.empty()) return;
-  auto force = ensure_map(mesh, kForceJump);
+  auto force = ensure_map(mesh, attribute::force_jump);
   for (Vertex v : mesh.vertices()) force[v] = to_cgal(s.compensation.force[v]);
 }
 
 void take_maps(SavedState& state) {
   const Mesh& mesh = state.file.mesh;
   SimulateState& s = state.simulation;
-  const auto point = find_map(mesh, kContactPoint);
-  const auto level = find_map(mesh, kContactLevel);
+  const auto point = find_map(mesh, attribute::contact_point);
+  const auto level = find_map(mesh, attribute::contact_level);
   if (point && level)
     for (Vertex v : mesh.vertices()) s.contact.push_back({to_eigen((*point)[v]), (*level)[v]});
-  if (const auto force = find_map(mesh, kForceJump))
+  if (const auto force = find_map(mesh, attribute::force_jump))
     for (Vertex v : mesh.vertices()) s.compensation.force.push_back(to_eigen((*force)[v]));
 }
 
@@ -194,21 +194,21 @@ void drop(Mesh& mesh, const Name& name) {
 void drop_motion(MeshFile& file) {
   Mesh& mesh = file.mesh;
   std::erase_if(file.comments, is_state);
-  drop(mesh, kVelocity);
-  drop(mesh, kForceJump);
-  drop(mesh, kContactPoint);
-  drop(mesh, kContactLevel);
+  drop(mesh, attribute::velocity);
+  drop(mesh, attribute::force_jump);
+  drop(mesh, attribute::contact_point);
+  drop(mesh, attribute::contact_level);
 }
 
 std::string state_bytes(SavedState state) {
   Mesh& mesh = state.file.mesh;
-  drop(mesh, kForceJump);
-  drop(mesh, kContactPoint);
-  drop(mesh, kContactLevel);
+  drop(mesh, attribute::force_jump);
+  drop(mesh, attribute::contact_point);
+  drop(mesh, attribute::contact_level);
   fill_maps(state);
   std::erase_if(state.file.comments, is_state);
   using Handler = Json::error_handler_t;
-  state.file.comments.push_back(kPrefix + to_json(state).dump(-1, ' ', true, Handler::replace));
+  state.file.comments.push_back(prefix + to_json(state).dump(-1, ' ', true, Handler::replace));
   std::ostringstream out;
   write_ply(out, state.file, {});
   return std::move(out).str();
@@ -222,7 +222,7 @@ void write_state(const std::filesystem::path& path, SavedState state) {
 SavedState parse_state(const std::string& bytes, const std::string& name) {
   MeshFile file = read_ply(bytes, name, {});
   const auto comment = std::find_if(file.comments.begin(), file.comments.end(), is_state);
-  if (comment == file.comments.end() || !find_map(file.mesh, kVelocity))
+  if (comment == file.comments.end() || !find_map(file.mesh, attribute::velocity))
     throw ContentError(name + ": is no saved state; furrow simulate --save-state writes one");
   if (file.repairs.any())
     throw ContentError(name + ": the mesh of the saved state is damaged; write the state again");
@@ -233,7 +233,7 @@ SavedState parse_state(const std::string& bytes, const std::string& name) {
   SavedState state;
   try {
     const std::size_t vertices = file.mesh.number_of_vertices();
-    state = from_json(Json::parse(comment->substr(std::string(kPrefix).size())), vertices);
+    state = from_json(Json::parse(comment->substr(std::string(prefix).size())), vertices);
     file.comments.erase(comment);
     state.file = std::move(file);
     take_maps(state);

@@ -10,7 +10,7 @@ namespace furrow::io {
 
 /// A simulation that was stopped: all that is needed to go on with it, bit for bit.
 struct SavedState {
-  MeshFile file;  ///< the garment as it is now, with kVelocity, kMass and rest lengths
+  MeshFile file;  ///< the garment as it is now, with attribute::velocity, attribute::mass and rest lengths
   physics::SimulateState simulation;
   nlohmann::ordered_json scene = nlohmann::ordered_json::object();  ///< its settings (docs/scenes.md); paths
                                                                     ///< relative to the state's folder

@@ -25,7 +25,7 @@ void read_wrinkle_options(SettingsTable& table, SceneLines& lines) {
   table.read("max_distance", o.insertion.max_distance, positive("m"));
   table.read("iterations", o.smoothing.iterations, 0, 100000);
   table.read("lambda", o.smoothing.lambda, positive());
-  table.read("mu", o.smoothing.mu, {-kNoLimit, 0});
+  table.read("mu", o.smoothing.mu, {-no_limit, 0});
   table.choose<SmoothingWeights>(
       "weights", o.smoothing.weights,
       {{"uniform", SmoothingWeights::uniform}, {"cotangent", SmoothingWeights::cotangent}});

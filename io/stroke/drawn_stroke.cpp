@@ -46,7 +46,7 @@ double drawn_length(const DrawnStroke& stroke) {
     return length_of(drawn->pixels, stroke.stroke.closed);
   if (const auto* drawn = std::get_if<TextureStroke>(&stroke.on))
     return length_of(drawn->points, stroke.stroke.closed);
-  return std::holds_alternative<VertexStroke>(stroke.on) ? geometry::kUnset : length_of(stroke.stroke);
+  return std::holds_alternative<VertexStroke>(stroke.on) ? geometry::unset_value : length_of(stroke.stroke);
 }
 
 std::size_t find_stroke(std::span<const DrawnStroke> strokes, const std::string& name) {

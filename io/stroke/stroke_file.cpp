@@ -18,7 +18,7 @@ namespace {
 using namespace geometry;
 using Json = JsonFields::Json;
 
-constexpr const char* kTriple = "three numbers [x, y, z]";
+constexpr const char* triple = "three numbers [x, y, z]";
 
 class StrokeReader {
  public:
@@ -61,9 +61,9 @@ class StrokeReader {
   }
 
   Point read_point(const Json& value, const char* key) const {
-    const auto x = fields_.numbers(value, key, 3, kTriple);
+    const auto x = fields_.numbers(value, key, 3, triple);
     const auto point = from_file(x[0], x[1], x[2], options_);
-    if (!point) fields_.fail(kBadCoordinate);
+    if (!point) fields_.fail(bad_coordinate);
     return *point;
   }
 
@@ -77,7 +77,7 @@ class StrokeReader {
     read_list(item["points"], "points", "point [x, y, z]",
               [&](const Json& p) { stroke.points.push_back(read_point(p, "points")); });
     if (item.contains("direction")) {
-      const auto x = fields_.numbers(item["direction"], "direction", 3, kTriple);
+      const auto x = fields_.numbers(item["direction"], "direction", 3, triple);
       if (x[0] == 0 && x[1] == 0 && x[2] == 0) fields_.fail("'direction' must not be zero");
       stroke.direction = turned_from_file({x[0], x[1], x[2]}, options_.up);
     }

@@ -152,13 +152,13 @@ void DistanceField::at_many(std::span<const Vec3> x, std::span<SignedDistance> r
   if (x.size() != result.size())
     throw std::invalid_argument("DistanceField::at_many: " + std::to_string(x.size()) + " points, room for " +
                                 std::to_string(result.size()));
-  constexpr std::size_t kBlock = 32;  // in flight: enough to hide a cache miss
+  constexpr std::size_t block = 32;  // in flight: enough to hide a cache miss
   const int top_shift = max_depth_ - top_depth_;
-  Cell cell[kBlock];
-  Place place[kBlock];
-  const Entry* top[kBlock];
-  for (std::size_t begin = 0; begin < x.size(); begin += kBlock) {
-    const std::size_t n = std::min(kBlock, x.size() - begin);
+  Cell cell[block];
+  Place place[block];
+  const Entry* top[block];
+  for (std::size_t begin = 0; begin < x.size(); begin += block) {
+    const std::size_t n = std::min(block, x.size() - begin);
     for (std::size_t i = 0; i < n; ++i) {
       cell[i] = cell_of(x[begin + i]);
       const auto& [ix, iy, iz] = cell[i].i;

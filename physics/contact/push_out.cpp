@@ -9,8 +9,8 @@
 namespace furrow::physics {
 
 PushOutReport push_out(std::span<Vec3> x, std::span<const int> which, const Collider& body, double level) {
-  constexpr int kMoves = 20;
-  constexpr double kEnough = 1e-9;  // [m], the rounding of positions
+  constexpr int moves = 20;
+  constexpr double enough = 1e-9;  // [m], the rounding of positions
   if (!std::isfinite(level)) throw std::invalid_argument("push_out: level = " + std::to_string(level));
   for (int i : which)
     if (i < 0 || i >= static_cast<int>(x.size()))
@@ -19,8 +19,8 @@ PushOutReport push_out(std::span<Vec3> x, std::span<const int> which, const Coll
   for (int i : which) {
     const Vec3 start = x[i];
     SignedDistance d = body.at(x[i]);
-    if (!(d.value < level - kEnough)) continue;
-    for (int move = 0; move < kMoves && d.value < level - kEnough; ++move) {
+    if (!(d.value < level - enough)) continue;
+    for (int move = 0; move < moves && d.value < level - enough; ++move) {
       const double slope = d.gradient.norm();
       if (!(slope > 0)) break;
       x[i] += (level - d.value) / slope * d.gradient;
@@ -28,7 +28,7 @@ PushOutReport push_out(std::span<Vec3> x, std::span<const int> which, const Coll
     }
     ++report.moved;
     report.farthest = std::max(report.farthest, (x[i] - start).norm());
-    report.still_inside += d.value < level - kEnough;
+    report.still_inside += d.value < level - enough;
   }
   return report;
 }

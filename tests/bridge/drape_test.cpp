@@ -62,7 +62,7 @@ TEST_CASE("drape: coarse to fine to rest on a ball, out of which it is brought f
   CHECK(report.levels[2].settle.iterations < 100);  // a shape that is carried wrongly does not get there
   const physics::SettleOptions& s = options.settle;
   CHECK(physics::residual_force(cloth, s.gravity, &ball, s.friction, s.gap) <= 1e-3);
-  const auto rest = *geometry::find_map(mesh, geometry::kRestLength);
+  const auto rest = *geometry::find_map(mesh, geometry::attribute::rest_length);
   double strain = 0;
   for (const geometry::Edge e : mesh.edges())
     strain = std::max(strain, std::abs(std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)),

@@ -26,21 +26,21 @@ using physics::Vec3;
 
 namespace {
 
-constexpr double kEdge = 1.0 / 14;  // h [m]
-constexpr double kDensity = 0.15;
+constexpr double edge = 1.0 / 14;  // h [m]
+constexpr double cloth_density = 0.15;
 
 /// 14 x 14 cells in the unit square, at rest.
 Mesh sheet() {
   Mesh mesh = tests::jittered(14, 14, 0.15, 7);
   geometry::ensure_rest_lengths(mesh);
   geometry::rebuild_bending_springs(mesh);
-  geometry::lump_masses(mesh, kDensity);
+  geometry::lump_masses(mesh, cloth_density);
   return mesh;
 }
 
 bridge::DrawMoreOptions options_for(const Mesh& mesh, double stiffness = 1000) {
   bridge::DrawMoreOptions o;
-  o.wrinkle.density = kDensity;
+  o.wrinkle.density = cloth_density;
   o.wrinkle.mean_structural_length = geometry::mean_rest_length(mesh);
   o.wrinkle.mean_bending_length = geometry::mean_bending_rest_length(mesh);
   o.springs = {stiffness, 0.1 * stiffness, *o.wrinkle.mean_structural_length, *o.wrinkle.mean_bending_length};
@@ -111,7 +111,7 @@ double pop(Mesh& mesh, double stiffness, double gravity, double pin_from_y, doub
   settle(mesh, o.springs, state, gravity, pin_from_y);
   double most = 0;
   for (Vertex v : mesh.vertices())
-    most = std::max(most, (bridge::to_eigen(mesh.point(v)) - before[v]).norm() / kEdge);
+    most = std::max(most, (bridge::to_eigen(mesh.point(v)) - before[v]).norm() / edge);
   return most;
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("lines of height 0 leave a strained cloth isometric") {
   CHECK(report.wrinkle.insertion.inserted > 10);
   CHECK(report.wrinkle.rest_area_after == Approx(report.wrinkle.rest_area_before).epsilon(1e-12));
   for (std::size_t i = 0; i < old.size(); ++i) REQUIRE(mesh.point(Vertex(i)) == old[i]);
-  const auto rest = *geometry::find_map(mesh, geometry::kRestLength);
+  const auto rest = *geometry::find_map(mesh, geometry::attribute::rest_length);
   double worst = 0;
   for (Edge e : mesh.edges()) {
     const double length =
@@ -152,8 +152,8 @@ TEST_CASE("a cloth without strain stays free of force when lines of height 0 are
   const bridge::DrawMoreOptions o = options_for(mesh);
   physics::SimulateState state;
   const auto report = draw_more(mesh, state, strokes(0), o);
-  CHECK(largest(forces(bridge::gather(mesh, o.springs))) < 1e-12 * 1000 * kEdge);
-  CHECK(report.largest_jump < 1e-12 * 1000 * kEdge);
+  CHECK(largest(forces(bridge::gather(mesh, o.springs))) < 1e-12 * 1000 * edge);
+  CHECK(report.largest_jump < 1e-12 * 1000 * edge);
 }
 
 TEST_CASE("what drawing changes in the forces is taken off at first and fades in") {
@@ -178,7 +178,7 @@ TEST_CASE("what drawing changes in the forces is taken off at first and fades in
       const Vec3 acts = after[i] - share * state.compensation.force[i];
       worst = std::max(worst, (acts - (was + (1 - share) * (after[i] - was))).norm());
     }
-    CHECK(worst < 1e-12 * 1000 * kEdge);
+    CHECK(worst < 1e-12 * 1000 * edge);
   }
   CHECK(physics::net_force(state.compensation, 2).norm() < 1e-10);
 }
@@ -206,7 +206,7 @@ TEST_CASE("drawing keeps the momentum of a cloth in motion") {
   for (const double height : {0.0, 0.02}) {
     Mesh mesh = sheet();
     const bridge::DrawMoreOptions o = options_for(mesh);
-    auto velocity = geometry::ensure_map(mesh, geometry::kVelocity);
+    auto velocity = geometry::ensure_map(mesh, geometry::attribute::velocity);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> speed(-2, 2);
     for (Vertex v : mesh.vertices()) velocity[v] = {speed(random), speed(random), speed(random)};

@@ -73,7 +73,7 @@ TEST_CASE("folds count for the garment, the tape measure goes over hollows of th
 TEST_CASE("the girth at rest is that of the cloth unstrained, here smaller than the body") {
   const Body body(cylinder(0.15, 1.7, 64, 17));
   geometry::Mesh garment = cylinder(0.14, 1.7, 48, 17);
-  auto rest = geometry::ensure_map(garment, geometry::kRestLength);
+  auto rest = geometry::ensure_map(garment, geometry::attribute::rest_length);
   for (auto e : garment.edges()) rest[e] = geometry::spatial_length(garment, e);
   for (auto v : garment.vertices()) {
     const auto p = garment.point(v);

@@ -21,7 +21,7 @@ using namespace furrow::tests;
 namespace {
 
 void set_rest(geometry::Mesh& mesh) {
-  auto rest = geometry::ensure_map(mesh, geometry::kRestLength);
+  auto rest = geometry::ensure_map(mesh, geometry::attribute::rest_length);
   for (auto e : mesh.edges()) rest[e] = geometry::spatial_length(mesh, e);
 }
 

@@ -33,12 +33,12 @@ Mesh square() {
   geometry::lump_masses(mesh, 0.6);
   return mesh;
 }
-const bridge::GatherOptions kOptions{1000, 10, 0.5, 2};
+const bridge::GatherOptions default_options{1000, 10, 0.5, 2};
 
 }  // namespace
 
 TEST_CASE("gather turns maps into masses and springs by the law of S1.7") {
-  const physics::Cloth cloth = bridge::gather(square(), kOptions);
+  const physics::Cloth cloth = bridge::gather(square(), default_options);
   REQUIRE(cloth.particles.size() == 5);
   CHECK(cloth.particles.mass[0] == Approx(0.2));
   CHECK(cloth.particles.mass[1] == Approx(0.1));
@@ -61,18 +61,18 @@ TEST_CASE("gather turns maps into masses and springs by the law of S1.7") {
 TEST_CASE("gather refuses a mesh that lacks what it needs") {
   Mesh bare;
   bare.add_vertex(Point(0, 0, 0));
-  CHECK_THROWS_AS(bridge::gather(bare, kOptions), std::invalid_argument);
+  CHECK_THROWS_AS(bridge::gather(bare, default_options), std::invalid_argument);
   Mesh unset = square();
-  (*geometry::find_map(unset, geometry::kRestLength))[*unset.edges().begin()] = NAN;
-  CHECK_THROWS_AS(bridge::gather(unset, kOptions), geometry::ContentError);
-  bridge::GatherOptions bad = kOptions;
+  (*geometry::find_map(unset, geometry::attribute::rest_length))[*unset.edges().begin()] = NAN;
+  CHECK_THROWS_AS(bridge::gather(unset, default_options), geometry::ContentError);
+  bridge::GatherOptions bad = default_options;
   bad.mean_structural_length = 0;
   CHECK_THROWS_AS(bridge::gather(square(), bad), std::invalid_argument);
 }
 
 TEST_CASE("scatter writes back what gather read, and refuses another mesh") {
   Mesh mesh = square();
-  physics::Cloth cloth = bridge::gather(mesh, kOptions);
+  physics::Cloth cloth = bridge::gather(mesh, default_options);
   for (physics::Vec3& x : cloth.particles.x) x *= 2;
   bridge::scatter(cloth.particles, mesh);
   CHECK(mesh.point(Vertex(2)) == Point(2, 2, 0));
@@ -85,7 +85,7 @@ TEST_CASE("gather fills only what the options choose") {
   for (Vertex v : mesh.vertices())  // a ridge along the diagonal: its ends are 0 and 2
     if (v == Vertex(1) || v == Vertex(3)) mesh.point(v) = Point(mesh.point(v).x(), mesh.point(v).y(), -0.2);
   geometry::ensure_rest_angles(mesh);
-  bridge::GatherOptions o = kOptions;
+  bridge::GatherOptions o = default_options;
   o.membrane = bridge::Membrane::triangles;
   o.bending = bridge::Bending::hinge;
   o.stretch = 300;
@@ -107,7 +107,7 @@ TEST_CASE("gather fills only what the options choose") {
 }
 
 TEST_CASE("the springs' laws: what an edge of length r gets") {
-  bridge::GatherOptions o = kOptions;
+  bridge::GatherOptions o = default_options;
   const auto stiffness = [&](bridge::Membrane law, int a, int b) {
     o.membrane = law;
     for (const physics::Spring& s : bridge::gather(square(), o).structural)
@@ -125,8 +125,8 @@ TEST_CASE("the springs' laws: what an edge of length r gets") {
 
 TEST_CASE("gather presses the hinges of lines by their ids, and leaves stiffnesses that are stored") {
   Mesh mesh = square();
-  geometry::ensure_map(mesh, geometry::kLine)[Vertex(0)] = 1;
-  bridge::GatherOptions options = kOptions;
+  geometry::ensure_map(mesh, geometry::attribute::line)[Vertex(0)] = 1;
+  bridge::GatherOptions options = default_options;
   options.bending = bridge::Bending::hinge;
   const double plain = bridge::gather(mesh, options).hinges[0].stiffness;
   options.line_presses = {5, 30};
@@ -134,6 +134,7 @@ TEST_CASE("gather presses the hinges of lines by their ids, and leaves stiffness
   options.line_presses = {5};
   CHECK(bridge::gather(mesh, options).hinges[0].stiffness == plain);
   options.line_presses = {1, 30};
-  for (geometry::Edge e : mesh.edges()) geometry::ensure_map(mesh, geometry::kHingeStiffness)[e] = 7;
+  for (geometry::Edge e : mesh.edges())
+    geometry::ensure_map(mesh, geometry::attribute::hinge_stiffness)[e] = 7;
   CHECK(bridge::gather(mesh, options).hinges[0].stiffness == 7);
 }

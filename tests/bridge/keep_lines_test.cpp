@@ -21,7 +21,7 @@ using bridge::Verdict;
 
 namespace {
 
-const physics::Vec3 kGravity(0, -9.81, 0);
+const physics::Vec3 gravity(0, -9.81, 0);
 
 /// A sheet that hangs by its upper edge, with a level ridge.
 struct Hung {
@@ -61,7 +61,7 @@ struct Hung {
   }
   bridge::KeepReport keep() { return bridge::keep_lines(mesh, cloth, {}, {}, options); }
   double residual(const physics::Cloth& c) const {
-    return physics::residual_force(c, kGravity, nullptr, 0, 0.003);
+    return physics::residual_force(c, gravity, nullptr, 0, 0.003);
   }
 };
 
@@ -205,7 +205,7 @@ TEST_CASE("keep: a shape that stands like a pencil on its tip is pushed before i
   for (const geometry::Vertex v : standing.mesh.vertices())
     if (standing.mesh.point(v).y() < 1e-4) bottom.push_back(int(v));
   physics::pin(cloth.particles, bottom);
-  physics::balance_rigidly(cloth, -kGravity);
+  physics::balance_rigidly(cloth, -gravity);
   REQUIRE(physics::prestress(cloth).residual < 1e-8);
   REQUIRE_FALSE(physics::certify(cloth).stable());
   standing.options.gust = 0;

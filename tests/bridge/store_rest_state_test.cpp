@@ -148,8 +148,8 @@ TEST_CASE("a triangle of its own lengths changes no other triangle, and no metri
   const Mesh before = mesh;
   for (double& l : cloth.membrane[7].rest_lengths) l *= 0.99;
   bridge::store_rest_state(cloth, o, mesh);
-  const auto rest = *geometry::find_map(mesh, geometry::kRestLength),
-             was = *geometry::find_map(before, geometry::kRestLength);
+  const auto rest = *geometry::find_map(mesh, geometry::attribute::rest_length),
+             was = *geometry::find_map(before, geometry::attribute::rest_length);
   for (Edge e : mesh.edges()) CHECK(rest[e] == was[e]);
   CHECK(same(bridge::gather(mesh, o), cloth));
 }
@@ -189,7 +189,7 @@ TEST_CASE("a cloth of another mesh, or with values out of range, is refused and 
 TEST_CASE("gather refuses a stiffness that makes no sense") {
   for (const double bad : {-1.0, HUGE_VAL}) {
     Mesh mesh = sheet();
-    ensure_map(mesh, geometry::kHingeStiffness)[Edge(20)] = bad;
+    ensure_map(mesh, geometry::attribute::hinge_stiffness)[Edge(20)] = bad;
     CHECK_NOTHROW(bridge::gather(mesh, options_for(mesh, Membrane::paper, Bending::cross)));
     CHECK_THROWS_AS(bridge::gather(mesh, options_for(mesh, Membrane::paper, Bending::hinge)),
                     geometry::ContentError);

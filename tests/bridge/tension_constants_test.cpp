@@ -71,7 +71,7 @@ TEST_CASE("a cell of threads: its sides get half a cell each, its diagonal the s
   const Mesh mesh = geometry::woven_sheet(0.1, 0.1, 0.1);
   const std::vector<double> c = bridge::tension_constants(mesh, 3000, 0.25);
   for (Edge e : mesh.edges()) {
-    const bool diagonal = (*geometry::find_map(mesh, geometry::kDiagonal))[e];
+    const bool diagonal = (*geometry::find_map(mesh, geometry::attribute::diagonal))[e];
     // A / L of one triangle of 0.005 m^2; of two, times shear.
     CHECK(c[e.idx()] == Approx(diagonal ? 3000 * 0.25 * 0.01 / std::sqrt(0.02) : 3000 * 0.005 / 0.1));
   }
@@ -142,7 +142,7 @@ TEST_CASE("equal masses: the garment's weight over its number of vertices") {
 
 TEST_CASE("tension that is stored on an edge goes before the material") {
   Mesh mesh = geometry::woven_sheet(0.1, 0.1, 0.1);
-  geometry::ensure_map(mesh, geometry::kTension)[Edge(1)] = 7;
+  geometry::ensure_map(mesh, geometry::attribute::tension)[Edge(1)] = 7;
   int own = 0;
   for (const physics::Tension& t : cloth_of(mesh, 0.3, 0.5).tension) {
     own += t.stretch == 7;

@@ -51,7 +51,7 @@ TEST_CASE("drape brings the skirt to rest on the mannequin, the same bits twice,
   CHECK(r["levels"].size() == 1);
   const io::MeshFile worn = io::read_mesh(scratch / "a.ply");
   CHECK(worn.mesh.number_of_vertices() == r["levels"][0]["vertices"].get<std::size_t>());
-  CHECK(geometry::find_map(worn.mesh, geometry::kRestLength));
+  CHECK(geometry::find_map(worn.mesh, geometry::attribute::rest_length));
   CHECK(io::read_png(scratch / "a.png").width > 0);
   CHECK(std::filesystem::file_size(scratch / "a.pc2") >
         12 * worn.mesh.number_of_vertices() * r["levels"][0]["iterations"].get<std::size_t>());
@@ -112,7 +112,7 @@ TEST_CASE("a density beside a fabric stays with the garment") {
   CHECK(flags.find("--density 0.2") != std::string::npos);
   const auto total = [](const std::string& path) {
     const io::MeshFile file = io::read_mesh(path);
-    const auto mass = *geometry::find_map(file.mesh, geometry::kMass);
+    const auto mass = *geometry::find_map(file.mesh, geometry::attribute::mass);
     double sum = 0;
     for (geometry::Vertex v : file.mesh.vertices()) sum += mass[v];
     return sum;

@@ -17,23 +17,23 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kAround = 48;
+constexpr int around = 48;
 
 /// A tube of `up` rings of cells around the y axis as OBJ.
 std::string tube(double radius, double from, double to, int up) {
   std::string text;
   for (int j = 0; j <= up; ++j)
-    for (int i = 0; i < kAround; ++i) {
-      const double angle = 2 * std::numbers::pi * i / kAround;
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * std::numbers::pi * i / around;
       text += "v " + std::to_string(radius * std::sin(angle)) + " " +
               std::to_string(from + (to - from) * j / up) + " " + std::to_string(radius * std::cos(angle)) +
               "\n";
     }
   for (int j = 0; j < up; ++j)
-    for (int i = 0; i < kAround; ++i) {
-      const int a = i + j * kAround + 1, b = (i + 1) % kAround + j * kAround + 1;
-      text += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + kAround) + " " +
-              std::to_string(a + kAround) + "\n";
+    for (int i = 0; i < around; ++i) {
+      const int a = i + j * around + 1, b = (i + 1) % around + j * around + 1;
+      text += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + around) + " " +
+              std::to_string(a + around) + "\n";
     }
   return text;
 }
@@ -56,7 +56,7 @@ json succeed(const std::string& arguments) {
   return json::parse(run.out);
 }
 
-double ngon(double radius) { return 2 * kAround * radius * std::sin(std::numbers::pi / kAround); }
+double ngon(double radius) { return 2 * around * radius * std::sin(std::numbers::pi / around); }
 
 }  // namespace
 
@@ -76,7 +76,7 @@ TEST_CASE("fit of a stretched tube on a column: strain, room and distances are k
   CHECK(r["tight_zones"][0]["side"] == "around");
   CHECK(r["loose_zones"].empty());
   const io::MeshFile file = io::read_mesh(f / "c.ply");
-  CHECK(geometry::find_map(file.mesh, geometry::kColor));
+  CHECK(geometry::find_map(file.mesh, geometry::attribute::color));
   const auto attributes = geometry::vertex_attributes(file.mesh);
   REQUIRE(attributes.size() == 2);
   for (const auto& attribute : attributes) {

@@ -5,7 +5,7 @@ namespace furrow::tests {
 
 /// Tables of a scene: a patch of 0.1 m in the x-z plane hangs by its edge, of cloth that bears small folds.
 /// The last one is [material].
-inline const char* const kHungPatch = R"([[pins]]
+inline const char* const hung_patch = R"([[pins]]
 box = [-1, -1, 0.0499, 1, 1, 1]
 [forces]
 gravity = [0, 0, -9.81]

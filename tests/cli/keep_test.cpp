@@ -27,7 +27,7 @@ height = 0.004
 [[lines]]
 strokes = "b.json"
 height = 0.004
-)" + std::string(kHungPatch) +
+)" + std::string(hung_patch) +
                        "drag = 4\n");
   return path;
 }

@@ -14,11 +14,12 @@ using nlohmann::json;
 
 namespace {
 
-const std::string kPatch = FURROW_SOURCE_DIR "/meshes/validation/patch.obj";  // 0.1 m wide, in the x-z plane
-const std::string kMaterial = " --membrane triangles --stretch 100 --bending-law hinge --rigidity 1e-4";
-const std::string kDown = " --gravity 0,0,-9.81";
-const std::string kPins = " --pin-box -1,-1,0.0499,1,1,1";
-const std::string kMoving =
+const std::string patch = FURROW_SOURCE_DIR "/meshes/validation/patch.obj";  // 0.1 m wide, in the x-z plane
+const std::string attribute::material =
+    " --membrane triangles --stretch 100 --bending-law hinge --rigidity 1e-4";
+const std::string down = " --gravity 0,0,-9.81";
+const std::string pins = " --pin-box -1,-1,0.0499,1,1,1";
+const std::string moving =
     " --set pins.0.motion.keyframes='[{time = 0}, {time = 1, translation = [1, 0, 0]}]'";
 
 json run_json(const std::string& arguments) {
@@ -49,7 +50,7 @@ std::string write_scene(const ScratchDirectory& scratch) {
   write_strokes(scratch, "a", 0.02);
   write_strokes(scratch, "b", -0.02);
   const std::string path = scratch / "kept.toml";
-  write_text(path, "[garment]\nmesh = \"" + kPatch + "\"\n" + R"(
+  write_text(path, "[garment]\nmesh = \"" + patch + "\"\n" + R"(
 [[lines]]
 strokes = "a.json"
 rest = "keep"
@@ -57,7 +58,7 @@ rest = "keep"
 strokes = "b.json"
 rest = "keep"
 time = 0.05
-)" + kHungPatch + "[simulation]\nseconds = 0.1\n");
+)" + hung_patch + "[simulation]\nseconds = 0.1\n");
   return path;
 }
 
@@ -112,17 +113,17 @@ TEST_CASE("rest = keep: wrinkle makes what simulate then leaves as it is") {
   const ScratchDirectory scratch;
   const std::string a = write_strokes(scratch, "a", 0.02), kept = scratch / "kept.ply",
                     end = scratch / "end.ply";
-  const json report =
-      run_json("wrinkle " + kPatch + " " + a + " --rest keep" + kMaterial + kDown + kPins + " -o " + kept);
+  const json report = run_json("wrinkle " + patch + " " + a + " --rest keep" + attribute::material + down +
+                               pins + " -o " + kept);
   CHECK(report["kept"]["residual"] < 1e-8);
   CHECK(report["kept"]["stable"] == true);
-  run_json("simulate " + kept + kMaterial + kDown + kPins + " --seconds 0.2 -o " + end);
+  run_json("simulate " + kept + attribute::material + down + pins + " --seconds 0.2 -o " + end);
   CHECK(farthest(kept, end) < 1e-6);
   const std::string drawn = scratch / "drawn.ply", moved = scratch / "moved.ply";
-  run_json("wrinkle " + kPatch + " " + a + " -o " + drawn);
-  run_json("simulate " + drawn + kMaterial + kDown + kPins + " --seconds 0.2 -o " + moved);
+  run_json("wrinkle " + patch + " " + a + " -o " + drawn);
+  run_json("simulate " + drawn + attribute::material + down + pins + " --seconds 0.2 -o " + moved);
   CHECK(farthest(drawn, moved) > 1e-5);
-  const json again = run_json("simulate " + drawn + " --rest keep" + kMaterial + kDown + kPins +
+  const json again = run_json("simulate " + drawn + " --rest keep" + attribute::material + down + pins +
                               " --seconds 0.2 -o " + moved);
   CHECK(again["lines"][0]["kept"].get<double>() == Approx(1).margin(1e-6));
   CHECK(farthest(moved, kept) < 1e-6);
@@ -132,7 +133,7 @@ TEST_CASE("rest = keep: lines drawn into a state take material and pins from it,
   const ScratchDirectory scratch;
   const std::string b = write_strokes(scratch, "b", -0.02), state = scratch / "state.ply",
                     more = scratch / "more.ply";
-  run_json("simulate " + kPatch + " --rest keep" + kMaterial + kDown + kPins +
+  run_json("simulate " + patch + " --rest keep" + attribute::material + down + pins +
            " --seconds 1 --stop-at 0.02 --save-state " + state);
   const json report = run_json("wrinkle --state " + state + " " + b + " --rest keep -o " + more);
   CHECK(report["kept"]["residual"] < 0.01);
@@ -145,12 +146,12 @@ TEST_CASE("rest = keep: lines drawn into a state take material and pins from it,
 TEST_CASE("rest = keep: cloth without lines that is relaxed stays where it is, with and without weight") {
   const ScratchDirectory scratch;
   const std::string end = scratch / "end.ply";
-  for (const std::string& gravity : {std::string(" --gravity 0"), kDown}) {
-    const json report = run_json("simulate " + kPatch + " --rest keep" + kMaterial + kPins + gravity +
+  for (const std::string& gravity : {std::string(" --gravity 0"), down}) {
+    const json report = run_json("simulate " + patch + " --rest keep" + attribute::material + pins + gravity +
                                  " --seconds 0.1 -o " + end);
-    CHECK(farthest(kPatch, end) < 1e-9);
-    if (gravity != kDown) CHECK(report["kept"]["max_strain"] < 1e-9);
-    if (gravity != kDown) CHECK(report["kept"]["max_angle"] < 1e-9);
+    CHECK(farthest(patch, end) < 1e-9);
+    if (gravity != down) CHECK(report["kept"]["max_strain"] < 1e-9);
+    if (gravity != down) CHECK(report["kept"]["max_angle"] < 1e-9);
   }
 }
 
@@ -170,29 +171,29 @@ TEST_CASE("rest = keep: cloth on a body is balanced by what the body bears") {
 TEST_CASE("rest = keep: what it needs and what it refuses is told") {
   const ScratchDirectory scratch;
   const std::string a = write_strokes(scratch, "a", 0.02), out = " -o " + (scratch / "o.ply");
-  refuses("wrinkle " + kPatch + " " + a + " --rest keep" + kPins + out, 2, "--fabric");
-  refuses("wrinkle " + kPatch + " " + a + " --fabric denim" + out, 2, "--fabric: goes with --rest keep");
-  refuses("wrinkle " + kPatch + " " + a + kPins + out, 2, "--pin-box: goes with --rest keep");
-  refuses("simulate " + kPatch + " --rest keep" + kPins + out, 2, "needs hinges");
-  refuses("simulate " + kPatch + " --rest drawn" + kMaterial + kDown + kPins + out, 2,
+  refuses("wrinkle " + patch + " " + a + " --rest keep" + pins + out, 2, "--fabric");
+  refuses("wrinkle " + patch + " " + a + " --fabric denim" + out, 2, "--fabric: goes with --rest keep");
+  refuses("wrinkle " + patch + " " + a + pins + out, 2, "--pin-box: goes with --rest keep");
+  refuses("simulate " + patch + " --rest keep" + pins + out, 2, "needs hinges");
+  refuses("simulate " + patch + " --rest drawn" + attribute::material + down + pins + out, 2,
           "none of stored, keep");
-  refuses("simulate " + kPatch + " --rest keep" + kMaterial + kDown + kPins + kMoving + out, 2,
+  refuses("simulate " + patch + " --rest keep" + attribute::material + down + pins + moving + out, 2,
           "stand still");
   const std::string scene = write_scene(scratch), state = scratch / "s.ply";
   refuses("simulate " + scene + " --set material.bending_law=cross" + out, 3,
           "lines.0.rest = \"keep\" needs hinges");
   run_json("simulate " + scene + " --stop-at 0.02 --save-state " + state);
   refuses("simulate --state " + state + " --rest keep" + out, 2, "furrow keep --state");
-  refuses("simulate --state " + state + kMoving + out, 3, "stand still");  // a round is still to come
+  refuses("simulate --state " + state + moving + out, 3, "stand still");  // a round is still to come
   const std::string all = scratch / "all.ply";
   run_json("simulate " + scene + " --save-state " + all);
-  CHECK(run_furrow("simulate --state " + all + kMoving + " --seconds 0.2" + out).exit_code == 0);
+  CHECK(run_furrow("simulate --state " + all + moving + " --seconds 0.2" + out).exit_code == 0);
 }
 
 TEST_CASE("rest = keep: a shape that nothing balances is warned of, with a way out") {
   const ScratchDirectory scratch;
   const std::string a = write_strokes(scratch, "a", 0.02);
-  const Run run = run_furrow("wrinkle " + kPatch + " " + a + " --rest keep" + kMaterial + kDown +
+  const Run run = run_furrow("wrinkle " + patch + " " + a + " --rest keep" + attribute::material + down +
                              " --pin-vertices 0 -o " + (scratch / "o.ply"));
   CHECK(run.exit_code == 0);
   CHECK_THAT(run.err, Catch::Contains("furrow keep finds out"));

@@ -21,7 +21,7 @@ using physics::Vec3;
 
 namespace {
 
-const std::string kMeshes = FURROW_SOURCE_DIR "/meshes/validation/";
+const std::string meshes = FURROW_SOURCE_DIR "/meshes/validation/";
 
 /// The patch on the turning slab with a line, in a folder of its own.
 struct Turning {
@@ -34,11 +34,11 @@ struct Turning {
     write_text(scene, R"(
 title = "it's a 'test'"
 [garment]
-mesh = ")" + kMeshes + R"(patch.obj"
+mesh = ")" + meshes + R"(patch.obj"
 [[lines]]
 strokes = "lines.json"
 [body]
-mesh = ")" + kMeshes + R"(slab.obj"
+mesh = ")" + meshes + R"(slab.obj"
 motion.spin = {axis = [0, 1, 0], rate = 3.0, ramp = 0.02}
 [[pins]]
 vertices = [0]
@@ -89,7 +89,7 @@ TEST_CASE(
   const auto shown = frames->positions(5);
   for (std::size_t i = 0; i < last.size(); ++i) CHECK((shown[i] - last[i]).norm() < 1e-6);
 
-  const auto before = bridge::positions_of(io::read_mesh(kMeshes + "slab.obj").mesh);
+  const auto before = bridge::positions_of(io::read_mesh(meshes + "slab.obj").mesh);
   const auto after = bridge::positions_of(io::read_mesh(body).mesh);
   const Eigen::AngleAxisd turn(3.0 * (0.1 - 0.01), Vec3::UnitY());
   for (std::size_t i = 0; i < before.size(); ++i) CHECK((after[i] - turn * before[i]).norm() < 1e-12);
@@ -97,7 +97,7 @@ TEST_CASE(
 
 TEST_CASE("a body that rises as frames lifts the cloth, and the report says what its fields cost") {
   const ScratchDirectory scratch;
-  const io::MeshFile slab = io::read_mesh(kMeshes + "slab.obj");
+  const io::MeshFile slab = io::read_mesh(meshes + "slab.obj");
   for (int frame = 0; frame < 3; ++frame) {
     io::MeshFile moved = slab;
     for (auto v : moved.mesh.vertices()) {
@@ -109,7 +109,7 @@ TEST_CASE("a body that rises as frames lifts the cloth, and the report says what
   const std::string end = scratch / "end.ply";
   const std::string collider =
       GENERATE(as<std::string>{}, "--tolerance 0.005", "--set body.collider=depth-maps");
-  const Run run = run_furrow("simulate --json " + kMeshes + "patch.obj --body " + kMeshes + "slab.obj " +
+  const Run run = run_furrow("simulate --json " + meshes + "patch.obj --body " + meshes + "slab.obj " +
                              collider + " --body-frames '" + (scratch / "rise_#.obj") +
                              "' --body-fps 10 --seconds 0.2 --gap 0.01 --stiffness 100 -o " + end);
   INFO(run.err);
@@ -150,7 +150,7 @@ TEST_CASE("depth maps of a body that hides space from all sides are warned of, t
     for (const char* frame : {"0", "1"})
       std::filesystem::copy_file(body, scratch / ("frame_" + std::string(frame) + ".obj"),
                                  std::filesystem::copy_options::overwrite_existing);
-    const Run run = run_furrow("simulate " + kMeshes + "patch.obj --body " + body +
+    const Run run = run_furrow("simulate " + meshes + "patch.obj --body " + body +
                                " --set body.collider=depth-maps --body-frames '" + (scratch / "frame_#.obj") +
                                "' --body-fps 10 --seconds 0.001 -o " + (scratch / "end.ply"));
     INFO(run.err);
@@ -158,7 +158,7 @@ TEST_CASE("depth maps of a body that hides space from all sides are warned of, t
     return run.err.find("% of the points beside the body for inside") != std::string::npos;
   };
   CHECK(warned(scratch / "cage.obj"));
-  CHECK_FALSE(warned(kMeshes + "slab.obj"));
+  CHECK_FALSE(warned(meshes + "slab.obj"));
 }
 
 TEST_CASE("wrinkle --state draws into a stopped simulation, and the result goes on") {
@@ -194,7 +194,7 @@ TEST_CASE("the scenes of the demo are read, and begin", "[scenes]") {
     // The body is left away: its field takes longer than all the rest.
     const Run run =
         run_furrow("simulate --json " FURROW_SOURCE_DIR "/scenes/" + name + ".toml --set body='{mesh=\"" +
-                   kMeshes + "ball.obj\"}' --stop-at 0.001 --set output='{mesh=\"" + out + "\"}'");
+                   meshes + "ball.obj\"}' --stop-at 0.001 --set output='{mesh=\"" + out + "\"}'");
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     const json report = json::parse(run.out);

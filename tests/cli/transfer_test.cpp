@@ -45,10 +45,10 @@ TEST_CASE("transfer brings the wrinkles back to the skirt's own faces, charts an
   const auto rest_of = [](const std::string& path) {
     const io::MeshFile file = io::read_mesh(path);
     std::vector<double> all;
-    const auto texture = *geometry::find_map(file.mesh, geometry::kTexture);
+    const auto texture = *geometry::find_map(file.mesh, geometry::attribute::texture);
     for (auto f : file.mesh.faces()) {
-      all.push_back((*geometry::find_map(file.mesh, geometry::kGroup))[f]);
-      all.push_back((*geometry::find_map(file.mesh, geometry::kMaterial))[f]);
+      all.push_back((*geometry::find_map(file.mesh, geometry::attribute::group))[f]);
+      all.push_back((*geometry::find_map(file.mesh, geometry::attribute::material))[f]);
       for (auto h : file.mesh.halfedges_around_face(file.mesh.halfedge(f)))
         all.insert(all.end(), {double(file.mesh.target(h)), texture[h][0], texture[h][1]});
     }

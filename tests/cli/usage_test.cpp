@@ -7,7 +7,7 @@
 using namespace furrow::tests;
 
 namespace {
-const char* const kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+const char* const square_obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 }
 
 TEST_CASE("every subcommand has help with units, and help succeeds") {
@@ -31,7 +31,7 @@ TEST_CASE("the version names the libraries") {
 
 TEST_CASE("a wrong call exits with 2 and one line that begins with error:") {
   const ScratchDirectory scratch;
-  write_text(scratch / "square.obj", kSquare);
+  write_text(scratch / "square.obj", square_obj);
   const std::string square = scratch / "square.obj";
   for (const std::string& call :
        {std::string(""), std::string("wrinkel a b"), std::string("info"), "info " + square + " --unit mile",
@@ -63,7 +63,7 @@ TEST_CASE("a file that cannot be read exits with 3") {
 
 TEST_CASE("a file that cannot be written exits with 1 and leaves nothing behind") {
   const ScratchDirectory scratch;
-  write_text(scratch / "square.obj", kSquare);
+  write_text(scratch / "square.obj", square_obj);
   const Run run =
       run_furrow("smooth " + (scratch / "square.obj") + " -o " + (scratch / "no/such/folder.obj"));
   CHECK(run.exit_code == 1);
@@ -72,7 +72,7 @@ TEST_CASE("a file that cannot be written exits with 1 and leaves nothing behind"
 
 TEST_CASE("info counts a square and says it as JSON") {
   const ScratchDirectory scratch;
-  write_text(scratch / "square.obj", kSquare);
+  write_text(scratch / "square.obj", square_obj);
   const Run run = run_furrow("info --json " + (scratch / "square.obj"));
   REQUIRE(run.exit_code == 0);
   const auto report = nlohmann::json::parse(run.out);
@@ -89,7 +89,7 @@ TEST_CASE("info counts a square and says it as JSON") {
 
 TEST_CASE("units and the up axis turn what is read and turn it back when written") {
   const ScratchDirectory scratch;
-  write_text(scratch / "square.obj", kSquare);
+  write_text(scratch / "square.obj", square_obj);
   const Run run = run_furrow("info --json --unit cm " + (scratch / "square.obj"));
   CHECK(nlohmann::json::parse(run.out)["area"].get<double>() == Approx(1e-4));
   const Run tall = run_furrow("wrinkle --unit m " + (scratch / "square.obj") + " " + (scratch / "none.json") +

@@ -18,7 +18,7 @@ using physics::Vec3;
 
 namespace {
 
-const std::string kScenes = FURROW_SOURCE_DIR "/scenes/validation/";
+const std::string scenes = FURROW_SOURCE_DIR "/scenes/validation/";
 
 struct Result {
   json report;
@@ -32,7 +32,7 @@ std::vector<Vec3> positions(const std::string& path) {
 Result run_scene(const std::string& name, const std::string& more = "") {
   const ScratchDirectory scratch;
   const std::string end = scratch / "end.ply";
-  const Run run = run_furrow("simulate --json " + kScenes + name + ".toml -o " + end + " " + more);
+  const Run run = run_furrow("simulate --json " + scenes + name + ".toml -o " + end + " " + more);
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
   const char* mesh = name == "cantilever" ? "strip.obj" : "patch.obj";

@@ -19,7 +19,7 @@ namespace {
 
 /// Its rest lengths are its lengths, then it is mapped.
 Mesh deformed(Mesh mesh, const Eigen::Matrix3d& map) {
-  auto rest = ensure_map(mesh, kRestLength);
+  auto rest = ensure_map(mesh, attribute::rest_length);
   for (Edge e : mesh.edges()) rest[e] = spatial_length(mesh, e);
   for (Vertex v : mesh.vertices()) {
     const Eigen::Vector3d x = map * Eigen::Vector3d(mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z());
@@ -79,7 +79,7 @@ TEST_CASE("principal strains are the singular values of the map, also of triangl
 TEST_CASE("without rest lengths there is no strain, with impossible ones it is not known") {
   Mesh mesh = grid(2, 2);
   for (const PrincipalStrain& s : principal_strains(mesh)) CHECK(s.largest == Approx(0).margin(1e-12));
-  auto rest = ensure_map(mesh, kRestLength);
+  auto rest = ensure_map(mesh, attribute::rest_length);
   rest[*mesh.edges().begin()] = 100;
   int unknown = 0;
   for (const PrincipalStrain& s : principal_strains(mesh)) unknown += std::isnan(s.largest);

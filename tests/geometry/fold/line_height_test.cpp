@@ -20,9 +20,9 @@ namespace {
 /// are flat.
 Mesh sheet_with_line(double k, double half_width = 0.31) {
   Mesh mesh = equilateral_sheet(1, 1, 0.05);
-  auto rest = ensure_map(mesh, kRestLength);
+  auto rest = ensure_map(mesh, attribute::rest_length);
   for (Edge e : mesh.edges()) rest[e] = spatial_length(mesh, e);
-  auto line = ensure_map(mesh, kLine);
+  auto line = ensure_map(mesh, attribute::line);
   for (Vertex v : mesh.vertices())
     if (std::abs(mesh.point(v).y() - 0.52) < 0.02 && std::abs(mesh.point(v).x()) < half_width) {
       line[v] = 4;
@@ -55,7 +55,7 @@ TEST_CASE("line_heights: a line lifted out of a plane has its k, also where it r
 TEST_CASE("line_heights: the two-ring may be as bumpy as it likes, only its border counts") {
   Mesh mesh = sheet_with_line(0.02);
   for (Vertex v : mesh.vertices())
-    if ((*find_map(mesh, kLine))[v] < 0 && std::abs(mesh.point(v).y() - 0.52) < 0.06 &&
+    if ((*find_map(mesh, attribute::line))[v] < 0 && std::abs(mesh.point(v).y() - 0.52) < 0.06 &&
         std::abs(mesh.point(v).x()) < 0.3)
       mesh.point(v) = mesh.point(v) + Vector(0, 0, 0.013);
   CHECK(line_heights(mesh)[0].height == Approx(0.02).margin(1e-13));
@@ -70,13 +70,13 @@ TEST_CASE("line_heights moves rigidly with the cloth") {
 TEST_CASE("line_heights on a cylinder: k, plus the sag of the fill") {
   const double radius = 0.25, k = 0.02;
   Mesh mesh = cylinder(radius, 1, 64, 40);
-  auto line = ensure_map(mesh, kLine);
+  auto line = ensure_map(mesh, attribute::line);
   for (int j = 10; j <= 30; ++j) line[Vertex(static_cast<Vertex::size_type>(64 * j))] = 0;  // along the axis
   const double sag = line_heights(mesh)[0].height;
   const double half = 2 * 2 * 3.14159265 * radius / 64;  // two rings
   CHECK(sag > 0);
   CHECK(sag == Approx(half * half / (2 * radius)).epsilon(0.35));
-  auto rest = ensure_map(mesh, kRestLength);
+  auto rest = ensure_map(mesh, attribute::rest_length);
   for (Edge e : mesh.edges()) rest[e] = spatial_length(mesh, e);
   for (Vertex v : mesh.vertices())
     if (line[v] == 0) mesh.point(v) = mesh.point(v) + Vector(0, 0, k);
@@ -85,7 +85,7 @@ TEST_CASE("line_heights on a cylinder: k, plus the sag of the fill") {
 
 TEST_CASE("line_heights: several lines by their ids, each among the others as they lie") {
   Mesh mesh = sheet_with_line(0.02, 0.16);
-  auto line = *find_map(mesh, kLine);
+  auto line = *find_map(mesh, attribute::line);
   for (Vertex v : mesh.vertices())
     if (std::abs(mesh.point(v).y() - 0.1) < 0.03 && std::abs(mesh.point(v).x()) < 0.21) {
       line[v] = 1;
@@ -101,8 +101,8 @@ TEST_CASE("line_heights: several lines by their ids, each among the others as th
 TEST_CASE("line_heights: no lines, nothing, a two-ring without a border has no height") {
   CHECK(line_heights(grid(3, 3)).empty());
   Mesh mesh = cube();
-  ensure_map(mesh, kLine)[Vertex(0)] = 0;
-  ensure_map(mesh, kLine)[Vertex(7)] = 0;
+  ensure_map(mesh, attribute::line)[Vertex(0)] = 0;
+  ensure_map(mesh, attribute::line)[Vertex(7)] = 0;
   REQUIRE(line_heights(mesh).size() == 1);
   CHECK(std::isnan(line_heights(mesh)[0].height));
 }

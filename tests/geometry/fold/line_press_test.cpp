@@ -16,7 +16,7 @@ namespace {
 /// Two lines across, at a third and at two thirds of the height.
 Mesh two_lines() {
   Mesh mesh = equilateral_sheet(0.6, 0.6, 0.02);
-  auto line = ensure_map(mesh, kLine);
+  auto line = ensure_map(mesh, attribute::line);
   for (Vertex v : mesh.vertices())
     for (int i : {0, 1})
       if (std::abs(mesh.point(v).y() - 0.2 * (i + 1)) < 0.009) line[v] = i;

@@ -16,17 +16,19 @@ using namespace furrow::tests;
 
 namespace {
 
-constexpr double kWidth = 0.06, kHeight = 0.01;
+constexpr double fold_width = 0.06, fold_height = 0.01;
 
-Stroke fold(std::vector<Point> points, double height = kHeight, double sharpness = 0.5) {
+Stroke fold(std::vector<Point> points, double height = fold_height, double sharpness = 0.5) {
   Stroke stroke;
   stroke.height = height;
   stroke.points = std::move(points);
-  stroke.width = kWidth;
+  stroke.width = fold_width;
   stroke.sharpness = sharpness;
   return stroke;
 }
-Stroke oblique(double sharpness = 0.5) { return fold({{-0.1, 0.12, 0}, {0.1, 0.23, 0}}, kHeight, sharpness); }
+Stroke oblique(double sharpness = 0.5) {
+  return fold({{-0.1, 0.12, 0}, {0.1, 0.23, 0}}, fold_height, sharpness);
+}
 
 /// From the stroke of oblique() [m].
 double from_oblique(double x, double y) {
@@ -75,14 +77,16 @@ TEST_CASE("a line with a width is the same fold on every mesh: heights and cross
       Mesh mesh = equilateral_sheet(0.4, 0.4, h);
       const std::vector<Stroke> strokes{oblique(sharpness)};
       const WrinkleReport report = wrinkle(mesh, strokes);
-      CHECK(report.lines[0].drawn_height == Approx(kHeight).epsilon(1e-9));
-      CHECK(report.lines[0].smoothed_height == Approx(kHeight).epsilon(1e-9));  // it is not smoothed
-      const auto line = *find_map(mesh, kLine);
+      CHECK(report.lines[0].drawn_height == Approx(fold_height).epsilon(1e-9));
+      CHECK(report.lines[0].smoothed_height == Approx(fold_height).epsilon(1e-9));  // it is not smoothed
+      const auto line = *find_map(mesh, attribute::line);
       for (Vertex v : mesh.vertices()) {
         const Point& p = mesh.point(v);
-        const double asked = kHeight * line_profile(from_oblique(p.x(), p.y()) / (kWidth / 2), sharpness);
+        const double asked =
+            fold_height * line_profile(from_oblique(p.x(), p.y()) / (fold_width / 2), sharpness);
         // The line goes through the faces' vertices, and may lie a fifth of an edge beside the stroke.
-        CHECK(p.z() == Approx(line[v] < 0 ? asked : kHeight).margin(line[v] < 0 ? 0.02 * kHeight : 1e-12));
+        CHECK(p.z() ==
+              Approx(line[v] < 0 ? asked : fold_height).margin(line[v] < 0 ? 0.02 * fold_height : 1e-12));
       }
     }
 }
@@ -99,7 +103,7 @@ TEST_CASE("a line with a width on curved cloth: one height on coarse and fine me
     const std::vector<Stroke> strokes{stroke};
     heights.push_back(wrinkle(mesh, strokes).lines[0].smoothed_height);
   }
-  for (double height : heights) CHECK(height == Approx(kHeight).epsilon(0.02));
+  for (double height : heights) CHECK(height == Approx(fold_height).epsilon(0.02));
 }
 
 TEST_CASE("a fold moves no other layer of cloth: not a second sheet, not the other leg of a bend") {
@@ -153,12 +157,13 @@ TEST_CASE("on a grid of right angles the fold goes to its feet, too, along the d
       mesh.add_face(v[a], v[a + n + 2], v[a + n + 1]);
     }
   const Point from(0.05, 0.05, 0), to(0.15, 0.15, 0);
-  const Mesh folded = raised(mesh, {fold({from, to}, kHeight, 1)});
+  const Mesh folded = raised(mesh, {fold({from, to}, fold_height, 1)});
   for (const Vertex u : mesh.vertices()) {  // new vertices come after these
     const Point& p = mesh.point(u);
     const double along = (p.x() + p.y()) / std::sqrt(2), across = std::abs(p.x() - p.y()) / std::sqrt(2);
     if (along < 0.08 || along > 0.2 || across < 0.01) continue;
-    CHECK(folded.point(u).z() == Approx(kHeight * std::max(0.0, 1 - across / (kWidth / 2))).margin(2e-4));
+    CHECK(folded.point(u).z() ==
+          Approx(fold_height * std::max(0.0, 1 - across / (fold_width / 2))).margin(2e-4));
   }
 }
 
@@ -171,17 +176,17 @@ TEST_CASE("a line without a width that crosses a fold is smoothed, whichever is 
   const Mesh alone = raised(sheet, {plain}), one = raised(sheet, {plain, wide}),
              two = raised(sheet, {wide, plain});
   CHECK(height_at(one, 0, 0.17) == Approx(height_at(two, 0, 0.17)).margin(2e-3));
-  CHECK(height_at(one, 0, 0.17) == Approx(height_at(alone, 0, 0.17) + kHeight).margin(2e-3));
+  CHECK(height_at(one, 0, 0.17) == Approx(height_at(alone, 0, 0.17) + fold_height).margin(2e-3));
 }
 
 TEST_CASE("a fold's press reaches hinges whose stiffness is stored") {
   Mesh mesh = equilateral_sheet(0.3, 0.3, 0.01);
-  auto stiffness = mesh.add_property_map<Edge, double>(kHingeStiffness.name, kUnset).first;
+  auto stiffness = mesh.add_property_map<Edge, double>(attribute::hinge_stiffness.name, unset_value).first;
   for (Edge e : mesh.edges()) stiffness[e] = 2;
   Stroke pressed = fold({{-0.1, 0.17, 0}, {0.1, 0.17, 0}});
   pressed.press = 10;
   wrinkle(mesh, std::vector<Stroke>{pressed});
-  const auto after = find_map(mesh, kHingeStiffness);
+  const auto after = find_map(mesh, attribute::hinge_stiffness);
   REQUIRE(after);
   int near = 0, pressed_edges = 0;
   for (Edge e : mesh.edges()) {
@@ -201,7 +206,7 @@ TEST_CASE("a fold along a border has a height that nobody can measure, and says 
   const WrinkleReport report = wrinkle(mesh, std::vector<Stroke>{hem});
   CHECK(std::isnan(report.lines.at(0).drawn_height));
   CHECK(std::isfinite(height_at(mesh, 0, 0.02)));
-  CHECK(height_at(mesh, 0, 0.02) > 0.5 * kHeight);
+  CHECK(height_at(mesh, 0, 0.02) > 0.5 * fold_height);
 }
 
 TEST_CASE("a fold over the border raises the hem, and what is held stays") {
@@ -211,8 +216,8 @@ TEST_CASE("a fold over the border raises the hem, and what is held stays") {
     if (sheet.point(v).y() > 0.3999) options.held.push_back(v);
   const Mesh mesh =
       raised(sheet, {fold({{0.003, -0.01, 0}, {0.003, 0.1, 0}, {0.003, 0.3, 0}, {0.003, 0.41, 0}})}, options);
-  CHECK(height_at(mesh, 0.003, 0) == Approx(kHeight));
-  CHECK(height_at(mesh, 0.018, 0) == Approx(kHeight / 2).epsilon(0.2));
+  CHECK(height_at(mesh, 0.003, 0) == Approx(fold_height));
+  CHECK(height_at(mesh, 0.018, 0) == Approx(fold_height / 2).epsilon(0.2));
   for (Vertex v : options.held) CHECK(mesh.point(v) == sheet.point(v));
 }
 
@@ -246,5 +251,5 @@ TEST_CASE("wrinkle warns of a mesh too coarse for the width, and refuses shapes 
   refused([](Stroke& s) { s.width = INFINITY; }, "'width'");
   refused([](Stroke& s) { s.sharpness = 1.5; }, "'sharpness' = 1.5");
   refused([](Stroke& s) { s.press = 0.5; }, "'press' = 0.5");
-  CHECK_FALSE(find_map(again, kLine));
+  CHECK_FALSE(find_map(again, attribute::line));
 }

@@ -54,7 +54,7 @@ TEST_CASE("line_region: all within half the width, none far beyond it, on a coar
     for (Vertex v : mesh.vertices()) {
       const double d = std::sqrt(CGAL::squared_distance(mesh.point(v), centre));
       if (d <= 0.15) CHECK(inside[v.idx()]);
-      if (d > kDetour * 0.15 + 1e-9) CHECK_FALSE(inside[v.idx()]);
+      if (d > largest_detour * 0.15 + 1e-9) CHECK_FALSE(inside[v.idx()]);
     }
   }
 }
@@ -62,7 +62,7 @@ TEST_CASE("line_region: all within half the width, none far beyond it, on a coar
 TEST_CASE("line_region: without a width, and where the mesh is coarser than it, two rings") {
   const Mesh mesh = equilateral_sheet(1, 1, 0.05);
   const auto line = middle(mesh);
-  for (double width : {kUnset, 0.0, 0.01})
+  for (double width : {unset_value, 0.0, 0.01})
     CHECK(line_region(mesh, line, width, rest_lengths(mesh)) == two_ring(mesh, line));
 }
 

@@ -26,7 +26,7 @@ using std::numbers::pi;
 
 namespace {
 
-const std::vector<Vertex> kWhole;
+const std::vector<Vertex> whole_mesh_options;
 
 double distance(const Point& p, const Point& q) { return std::sqrt(CGAL::squared_distance(p, q)); }
 double max_distance(const Mesh& a, const Mesh& b) {
@@ -51,7 +51,7 @@ TaubinOptions cotangent() {
 }
 /// Largest and smallest real part of the spectrum of K = I - W over the moving vertices.
 std::pair<double, double> spectrum(const Mesh& mesh, const TaubinOptions& options) {
-  const SmoothingRows rows = gather_smoothing_rows(mesh, kWhole, options);
+  const SmoothingRows rows = gather_smoothing_rows(mesh, whole_mesh_options, options);
   const auto n = static_cast<Eigen::Index>(rows.vertices.size());
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t r = 0; r < rows.active.size(); ++r) {
@@ -79,7 +79,7 @@ TEST_CASE("taubin_smooth: a wave on the six-valent torus is multiplied by f(k)^N
   const double a = 2 * pi * wave_u / n, b = 2 * pi * wave_v / m;
   const double k = 1 - (std::cos(a) + std::cos(b) + std::cos(a + b)) / 3;
   const double gain = std::pow((1 - lambda * k) * (1 - mu * k), pairs);
-  taubin_smooth(mesh, kWhole, {.iterations = pairs, .lambda = lambda, .mu = mu});
+  taubin_smooth(mesh, whole_mesh_options, {.iterations = pairs, .lambda = lambda, .mu = mu});
   double error = 0;
   for (Vertex v : mesh.vertices())
     error = std::max(error, distance(mesh.point(v), {gain * wave(v), -2 * gain * wave(v), 5}));
@@ -97,8 +97,8 @@ TEST_CASE("taubin_smooth: smoothing and an affine map may change places (uniform
     };
     static const Mesh sheet = bumpy_sheet();
     Mesh smoothed = sheet, mapped_first = mapped(sheet, affine);
-    taubin_smooth(smoothed, kWhole);
-    taubin_smooth(mapped_first, kWhole);
+    taubin_smooth(smoothed, whole_mesh_options);
+    taubin_smooth(mapped_first, whole_mesh_options);
     RC_ASSERT(max_distance(mapped(smoothed, affine), mapped_first) < 1e-12);
   }));
 }
@@ -112,8 +112,8 @@ TEST_CASE("taubin_smooth: rigid motions change places with cotangent smoothing, 
   const auto stretch = [](const Point& p) { return Point(3 * p.x(), p.y(), p.z()); };
   const auto gap = [&](const auto& map) {
     Mesh smoothed = sheet, mapped_first = mapped(sheet, map);
-    taubin_smooth(smoothed, kWhole, cotangent());
-    taubin_smooth(mapped_first, kWhole, cotangent());
+    taubin_smooth(smoothed, whole_mesh_options, cotangent());
+    taubin_smooth(mapped_first, whole_mesh_options, cotangent());
     return max_distance(mapped(smoothed, map), mapped_first);
   };
   CHECK(gap(turn) < 1e-12);
@@ -127,7 +127,7 @@ TEST_CASE("taubin_smooth keeps a plane, and with cotangents every vertex inside 
   for (auto weights : {SmoothingWeights::uniform, SmoothingWeights::cotangent})
     for (auto border : {BorderRule::free, BorderRule::keep}) {
       Mesh mesh = flat;
-      taubin_smooth(mesh, kWhole, {.iterations = 50, .weights = weights, .border = border});
+      taubin_smooth(mesh, whole_mesh_options, {.iterations = 50, .weights = weights, .border = border});
       double out = 0, along = 0;
       for (Vertex v : mesh.vertices()) {
         out = std::max(out, std::abs(0.8 * mesh.point(v).x() - 0.6 * mesh.point(v).z()));
@@ -158,7 +158,7 @@ TEST_CASE("taubin_smooth: vertices outside the region keep their bits, constants
     CHECK((mesh.point(v) == before.point(v)) != inside);
   }
   Mesh constant = mapped(before, [](const Point&) { return Point(0.1, -7, 1e-3); });
-  taubin_smooth(constant, kWhole);
+  taubin_smooth(constant, whole_mesh_options);
   for (Vertex v : constant.vertices()) CHECK(distance(constant.point(v), {0.1, -7, 1e-3}) < 1e-14);
 }
 
@@ -181,8 +181,8 @@ TEST_CASE("taubin_smooth does not depend on the order of the vertices") {
   std::reverse(faces.begin(), faces.end());
   for (const TaubinOptions& options : {TaubinOptions{}, cotangent()}) {
     Mesh plain = mesh, permuted = mesh_of(points, faces);
-    taubin_smooth(plain, kWhole, options);
-    taubin_smooth(permuted, kWhole, options);
+    taubin_smooth(plain, whole_mesh_options, options);
+    taubin_smooth(permuted, whole_mesh_options, options);
     for (Vertex v : plain.vertices())
       CHECK(distance(plain.point(v), permuted.point(Vertex(static_cast<Vertex::size_type>(order[v.idx()])))) <
             1e-13);
@@ -191,7 +191,7 @@ TEST_CASE("taubin_smooth does not depend on the order of the vertices") {
 
 TEST_CASE("taubin_smooth: lines that are kept smooth among themselves, their ends stay") {
   Mesh mesh = equilateral_sheet(1, 1, 0.1);
-  auto line = ensure_map(mesh, kLine);
+  auto line = ensure_map(mesh, attribute::line);
   std::vector<Vertex> ridge;
   for (Vertex v : mesh.vertices())
     if (std::abs(mesh.point(v).y() - 0.5) < 0.01 && std::abs(mesh.point(v).x()) < 0.31) ridge.push_back(v);
@@ -214,7 +214,7 @@ TEST_CASE("taubin_smooth: lines that are kept smooth among themselves, their end
   taubin_smooth(mesh, region);
   CHECK(mesh.point(ridge[3]).z() < 0.019);
   Mesh whole = before;
-  CHECK(taubin_smooth(whole, kWhole, {.lines = LineRule::keep}).kept_vertices == 3);
+  CHECK(taubin_smooth(whole, whole_mesh_options, {.lines = LineRule::keep}).kept_vertices == 3);
   CHECK(whole.point(lone) == before.point(lone));
 }
 
@@ -223,8 +223,8 @@ TEST_CASE("taubin_smooth: a kept border smooths as a curve, a free one with its 
   for (Vertex v : mesh.vertices())
     if (!mesh.is_border(v)) mesh.point(v) = mesh.point(v) + Vector(0, 0, 0.1);
   Mesh kept = mesh, free = mesh;
-  taubin_smooth(kept, kWhole, {.border = BorderRule::keep});
-  taubin_smooth(free, kWhole);
+  taubin_smooth(kept, whole_mesh_options, {.border = BorderRule::keep});
+  taubin_smooth(free, whole_mesh_options);
   const double k = 1 - std::cos(2 * pi / 24);  // a circle of 24 points is a wave of its own
   const double gain = std::pow((1 - 0.33 * k) * (1 + 0.34 * k), 10);
   for (Vertex v : kept.vertices()) {
@@ -233,10 +233,10 @@ TEST_CASE("taubin_smooth: a kept border smooths as a curve, a free one with its 
     CHECK(distance(kept.point(v), {gain * p.x(), p.y(), gain * p.z()}) < 1e-12);
     CHECK(free.point(v).z() > p.z() + 0.005);
   }
-  auto line = ensure_map(mesh, kLine);
+  auto line = ensure_map(mesh, attribute::line);
   line[Vertex(0)] = line[Vertex(24)] = line[Vertex(48)] = 0;  // a line up from the border: its corner stays
-  CHECK(taubin_smooth(mesh, kWhole, {.lines = LineRule::keep, .border = BorderRule::keep}).kept_vertices ==
-        2);
+  CHECK(taubin_smooth(mesh, whole_mesh_options, {.lines = LineRule::keep, .border = BorderRule::keep})
+            .kept_vertices == 2);
 }
 
 TEST_CASE("the spectrum that taubin_smooth relies on ends at 2 for uniform weights and at 3 for cotangents") {
@@ -244,7 +244,7 @@ TEST_CASE("the spectrum that taubin_smooth relies on ends at 2 for uniform weigh
     const auto seed = *rc::gen::inRange(0u, 100000u);
     const double squash = *rc::gen::element(1., 3., 20., 300.);
     Mesh mesh = jittered(4, 4, 0.49, seed, 1, 1 / squash);
-    auto line = ensure_map(mesh, kLine);
+    auto line = ensure_map(mesh, attribute::line);
     for (Vertex v : mesh.vertices()) line[v] = *rc::gen::element(-1, -1, -1, 0);
     TaubinOptions options;
     options.lines = *rc::gen::element(LineRule::free, LineRule::keep);
@@ -266,12 +266,12 @@ TEST_CASE("taubin_smooth bears degenerate faces, lone vertices and a mesh withou
   const Vertex lone = mesh.add_vertex(Point(9, 9, 9));
   for (const TaubinOptions& options : {TaubinOptions{}, cotangent()}) {
     Mesh smoothed = mesh;
-    CHECK(taubin_smooth(smoothed, kWhole, options).kept_vertices == 1);
+    CHECK(taubin_smooth(smoothed, whole_mesh_options, options).kept_vertices == 1);
     for (Vertex v : smoothed.vertices()) CHECK(std::isfinite(smoothed.point(v).x()));
     CHECK(smoothed.point(lone) == mesh.point(lone));
   }
   Mesh empty;
-  CHECK(taubin_smooth(empty, kWhole).smoothed_vertices == 0);
+  CHECK(taubin_smooth(empty, whole_mesh_options).smoothed_vertices == 0);
 }
 
 TEST_CASE("stability_limit and the reported gain: the usual pairs") {
@@ -281,7 +281,8 @@ TEST_CASE("stability_limit and the reported gain: the usual pairs") {
   const double k = stability_limit(0.7, -0.75);  // defined by f(k) = -1
   CHECK((1 - 0.7 * k) * (1 + 0.75 * k) == Approx(-1).epsilon(1e-14));
   Mesh mesh = grid(2, 2);
-  CHECK(taubin_smooth(mesh, kWhole, {.iterations = 50}).pass_band_gain == Approx(1.011).margin(0.0005));
+  CHECK(taubin_smooth(mesh, whole_mesh_options, {.iterations = 50}).pass_band_gain ==
+        Approx(1.011).margin(0.0005));
 }
 
 TEST_CASE("taubin_smooth refuses what is unstable or out of range, the mesh untouched") {
@@ -300,12 +301,12 @@ TEST_CASE("taubin_smooth refuses what is unstable or out of range, the mesh unto
       {.lambda = 2, .mu = -2.1},
       {.lambda = 0.6307, .mu = -0.6732, .weights = SmoothingWeights::cotangent}};
   for (const TaubinOptions& options : bad)
-    CHECK_THROWS_AS(taubin_smooth(mesh, kWhole, options), std::invalid_argument);
-  CHECK_THROWS_WITH(taubin_smooth(mesh, kWhole, bad.back()),
+    CHECK_THROWS_AS(taubin_smooth(mesh, whole_mesh_options, options), std::invalid_argument);
+  CHECK_THROWS_WITH(taubin_smooth(mesh, whole_mesh_options, bad.back()),
                     Catch::Contains("0.6307") && Catch::Contains("k_stab"));
   CHECK_THROWS_AS(taubin_smooth(mesh, std::vector{Vertex(9999)}), std::invalid_argument);
   CHECK(max_distance(mesh, before) == 0);
-  CHECK_NOTHROW(taubin_smooth(mesh, kWhole, {.lambda = 0.6307, .mu = -0.6732}));
+  CHECK_NOTHROW(taubin_smooth(mesh, whole_mesh_options, {.lambda = 0.6307, .mu = -0.6732}));
   mesh.point(Vertex(3)) = {nan, 0, 0};
-  CHECK_THROWS_AS(taubin_smooth(mesh, kWhole), ContentError);
+  CHECK_THROWS_AS(taubin_smooth(mesh, whole_mesh_options), ContentError);
 }

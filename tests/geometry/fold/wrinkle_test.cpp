@@ -21,7 +21,7 @@ Stroke across(double height, double y = 0.31) {
 }
 
 double largest_strain(const Mesh& mesh) {
-  const auto rest = *find_map(mesh, kRestLength);
+  const auto rest = *find_map(mesh, attribute::rest_length);
   double largest = 0;
   for (Edge e : mesh.edges()) {
     const double l =
@@ -75,7 +75,7 @@ TEST_CASE("wrinkle changes nothing when a stroke or an option is refused") {
   bad.density = 0;
   CHECK_THROWS_AS(wrinkle(mesh, strokes, bad), std::invalid_argument);
   CHECK(mesh.number_of_vertices() == vertices);
-  CHECK_FALSE(find_map(mesh, kLine));
+  CHECK_FALSE(find_map(mesh, attribute::line));
 }
 
 TEST_CASE("on coarse curved cloth a line of height 0 reads 0, and one of height k about k") {

@@ -27,12 +27,12 @@ Stroke diagonal() {
 /// Texture, colour, groups and materials; where `seam`, the half x > 0.5 has another group and texture chart.
 Mesh dressed_sheet(bool seam) {
   Mesh mesh = union_jack_sheet(20);
-  auto texture = ensure_map(mesh, kTexture);
-  auto color = ensure_map(mesh, kColor);
-  auto group = ensure_map(mesh, kGroup);
-  auto material = ensure_map(mesh, kMaterial);
-  auto mass = ensure_map(mesh, kMass);
-  auto bending = ensure_map(mesh, kBendingRestLength);
+  auto texture = ensure_map(mesh, attribute::texture);
+  auto color = ensure_map(mesh, attribute::color);
+  auto group = ensure_map(mesh, attribute::group);
+  auto material = ensure_map(mesh, attribute::material);
+  auto mass = ensure_map(mesh, attribute::mass);
+  auto bending = ensure_map(mesh, attribute::bending_rest_length);
   for (Vertex v : mesh.vertices()) {
     color[v] = {mesh.point(v).x(), mesh.point(v).y(), 0.5, 1};
     mass[v] = 0.001;
@@ -52,10 +52,10 @@ Mesh dressed_sheet(bool seam) {
 
 /// Texture coordinates, groups and colours are what the position says.
 void check_dress(const Mesh& mesh, bool seam) {
-  const auto texture = *find_map(mesh, kTexture);
-  const auto color = *find_map(mesh, kColor);
-  const auto group = *find_map(mesh, kGroup);
-  const auto material = *find_map(mesh, kMaterial);
+  const auto texture = *find_map(mesh, attribute::texture);
+  const auto color = *find_map(mesh, attribute::color);
+  const auto group = *find_map(mesh, attribute::group);
+  const auto material = *find_map(mesh, attribute::material);
   double worst = 0;
   std::size_t wrong = 0;
   for (Face f : mesh.faces()) {
@@ -83,8 +83,8 @@ TEST_CASE("texture, colour, groups and materials survive, masses and bending spr
   const Insertion insertion = insert_along_stroke(mesh, diagonal(), 3);
   CHECK(insertion.report.flipped > 40);
   check_dress(mesh, false);
-  const auto mass = *find_map(mesh, kMass);
-  const auto bending = *find_map(mesh, kBendingRestLength);
+  const auto mass = *find_map(mesh, attribute::mass);
+  const auto bending = *find_map(mesh, attribute::bending_rest_length);
   for (Vertex v : mesh.vertices()) CHECK(std::isnan(mass[v]) == (v >= old_vertices));
   for (Face f : insertion.report.changed_faces) {
     for (Halfedge h : halfedges_of(mesh, f)) CHECK(std::isnan(bending[mesh.edge(h)]));
@@ -117,9 +117,9 @@ TEST_CASE("a line edge far from any of its vertices is split at the crossing") {
   ensure_rest_lengths(mesh);
   const Vertex centre = nearest_vertex(mesh, Point(0.5, 0.5, 0)),
                right = nearest_vertex(mesh, Point(1, 0.5, 0));
-  auto line = ensure_map(mesh, kLine);
+  auto line = ensure_map(mesh, attribute::line);
   line[centre] = line[right] = 0;
-  ensure_map(mesh, kLineEdge)[mesh.edge(mesh.halfedge(centre, right))] = true;
+  ensure_map(mesh, attribute::line_edge)[mesh.edge(mesh.halfedge(centre, right))] = true;
   Mesh before = mesh;
   Stroke stroke;
   stroke.points = {Point(0.74, 0.35, 0), Point(0.76, 0.65, 0)};
@@ -132,7 +132,7 @@ TEST_CASE("a line edge far from any of its vertices is split at the crossing") {
   const Vertex middle = insertion.report.split_edges[0].vertex;
   CHECK(insertion.line.chains[0][1] == middle);
   CHECK(mesh.point(middle).x() == Approx(0.75).margin(1e-3));
-  const auto line_edge = *find_map(mesh, kLineEdge);
+  const auto line_edge = *find_map(mesh, attribute::line_edge);
   CHECK(line_edge[mesh.edge(mesh.halfedge(centre, middle))]);
   CHECK(line_edge[mesh.edge(mesh.halfedge(middle, right))]);
 }

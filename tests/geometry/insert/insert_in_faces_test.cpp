@@ -68,7 +68,8 @@ TEST_CASE("the rest metric does not see how the mesh lies in space") {
   CHECK(a.flipped == b.flipped);
   CHECK(a.flipped > 0);
   CHECK(faces_of(flat) == faces_of(bent));
-  const auto rest = *find_map(flat, kRestLength), carried = *find_map(bent, kRestLength);
+  const auto rest = *find_map(flat, attribute::rest_length),
+             carried = *find_map(bent, attribute::rest_length);
   double worst = 0;
   for (Edge e : flat.edges()) {
     const double space =

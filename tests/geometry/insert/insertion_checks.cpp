@@ -68,9 +68,9 @@ std::vector<std::string> faults_of_insertion(const Mesh& before, const Mesh& aft
   for (Face f : after.faces()) {
     if (flat && !(area_normal_of(after, f).z() > 0)) expect(false, "signed area > 0");
   }
-  const auto rest = find_map(after, kRestLength);
-  const auto line = find_map(after, kLine);
-  const auto line_edge = find_map(after, kLineEdge);
+  const auto rest = find_map(after, attribute::rest_length);
+  const auto line = find_map(after, attribute::line);
+  const auto line_edge = find_map(after, attribute::line_edge);
   if (!rest || !line || !line_edge) return faults.push_back("maps present"), faults;
   for (Edge e : after.edges()) {
     const Point &a = after.point(after.vertex(e, 0)), &b = after.point(after.vertex(e, 1));
@@ -85,7 +85,7 @@ std::vector<std::string> faults_of_insertion(const Mesh& before, const Mesh& aft
     expect(described.insert(v.vertex).second, "each line vertex once");
     expect(std::abs(v.normal.squared_length() - 1) < 1e-9, "unit normals");
     expect(v.stroke_parameter >= 0 && v.stroke_parameter <= 1, "parameter in [0, 1]");
-    expect((*line)[v.vertex] == insertion.line.id, "kLine of line vertices");
+    expect((*line)[v.vertex] == insertion.line.id, "attribute::line of line vertices");
   }
   for (const auto& chain : insertion.line.chains) {
     expect(!chain.empty(), "no empty chain");
@@ -98,7 +98,7 @@ std::vector<std::string> faults_of_insertion(const Mesh& before, const Mesh& aft
     }
   }
   // Lines drawn before are still there.
-  const auto old_edges = find_map(before, kLineEdge);
+  const auto old_edges = find_map(before, attribute::line_edge);
   std::set<Pair> split;
   for (const SplitEdge& s : report.split_edges)
     split.insert({std::min(s.from, s.to), std::max(s.from, s.to)});
@@ -113,7 +113,7 @@ std::vector<std::string> faults_of_insertion(const Mesh& before, const Mesh& aft
 double relative_deviation(const Mesh& before, const Mesh& after, const Stroke& stroke,
                           const Insertion& insertion, double mean_edge) {
   const TracedStroke traced = trace_stroke(before, SurfaceProjector(before), stroke, {0.3, mean_edge});
-  const auto rest = *find_map(before, kRestLength);
+  const auto rest = *find_map(before, attribute::rest_length);
   double worst = 0;
   for (const ProjectedSample& sample : traced.samples) {
     double longest = 0;
@@ -142,10 +142,10 @@ std::string fingerprint(const Mesh& mesh) {
   for (Face f : mesh.faces()) {
     for (Vertex v : corners_of(mesh, f)) add(static_cast<std::uint32_t>(v));
   }
-  if (const auto rest = find_map(mesh, kRestLength)) {
+  if (const auto rest = find_map(mesh, attribute::rest_length)) {
     for (Edge e : mesh.edges()) add((*rest)[e]);
   }
-  if (const auto line = find_map(mesh, kLine)) {
+  if (const auto line = find_map(mesh, attribute::line)) {
     for (Vertex v : mesh.vertices()) add((*line)[v]);
   }
   for (const std::string& name : mesh.properties<Edge>()) bits += name;

@@ -14,15 +14,17 @@ using namespace furrow::tests;
 
 namespace {
 
-const PropertyName<Edge, double>* const kOwn[] = {&kStiffness, &kBendingStiffness, &kHingeStiffness,
-                                                  &kTension, &kRestAngle};
+const PropertyName<Edge, double>* const own[] = {&attribute::stiffness, &attribute::bending_stiffness,
+                                                 &attribute::hinge_stiffness, &attribute::tension,
+                                                 &attribute::rest_angle};
 
 /// A grid with a value of its own for every element.
 Mesh set_mesh() {
   Mesh mesh = grid(4, 4);
-  for (const auto* name : kOwn)
+  for (const auto* name : own)
     for (Edge e : mesh.edges()) ensure_map(mesh, *name)[e] = 0.01 + 0.001 * e.idx();
-  for (Halfedge h : mesh.halfedges()) ensure_map(mesh, kTriangleRestLength)[h] = 1 + 0.001 * h.idx();
+  for (Halfedge h : mesh.halfedges())
+    ensure_map(mesh, attribute::triangle_rest_length)[h] = 1 + 0.001 * h.idx();
   return mesh;
 }
 
@@ -38,7 +40,7 @@ void check_unset(const std::function<void(MeshEditor&)>& edit) {
     for (Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
       edges.insert(mesh.edge(h)), halfedges.insert(h);
   REQUIRE(edges.size() >= 5);
-  for (const auto* name : kOwn) {
+  for (const auto* name : own) {
     INFO(name->name);
     const auto map = *find_map(mesh, *name);
     for (Edge e : mesh.edges()) {
@@ -48,7 +50,7 @@ void check_unset(const std::function<void(MeshEditor&)>& edit) {
         CHECK(map[e] == 0.01 + 0.001 * e.idx());
     }
   }
-  const auto rest = *find_map(mesh, kTriangleRestLength);
+  const auto rest = *find_map(mesh, attribute::triangle_rest_length);
   for (Halfedge h : mesh.halfedges()) {
     if (mesh.is_border(h)) continue;
     if (halfedges.count(h))
@@ -75,7 +77,7 @@ TEST_CASE("a flipped edge takes stiffness, rest angles and rest lengths of its o
 TEST_CASE("a diagonal that is flipped or split is none") {
   for (const bool flip : {true, false}) {
     Mesh mesh = set_mesh();
-    auto diagonal = ensure_map(mesh, kDiagonal);
+    auto diagonal = ensure_map(mesh, attribute::diagonal);
     for (Edge e : mesh.edges()) diagonal[e] = true;
     MeshEditor editor(mesh);
     const std::size_t before = mesh.number_of_edges();

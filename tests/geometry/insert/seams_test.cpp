@@ -26,8 +26,8 @@ Ends ends(Vertex a, Vertex b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// Found without MeshEditor: texture, group or material differ across an inner edge.
 std::set<Ends> seams(const Mesh& mesh) {
-  const auto texture = *find_map(mesh, kTexture);
-  const auto group = find_map(mesh, kGroup), material = find_map(mesh, kMaterial);
+  const auto texture = *find_map(mesh, attribute::texture);
+  const auto group = find_map(mesh, attribute::group), material = find_map(mesh, attribute::material);
   std::set<Ends> result;
   for (Edge e : mesh.edges()) {
     if (mesh.is_border(e)) continue;
@@ -52,7 +52,7 @@ std::set<Ends> expected_seams(std::set<Ends> before, const InsertionReport& repo
 
 /// Twice the signed areas of the faces in texture space.
 std::vector<double> texture_areas(const Mesh& mesh) {
-  const auto texture = *find_map(mesh, kTexture);
+  const auto texture = *find_map(mesh, attribute::texture);
   std::vector<double> areas;
   for (Face f : mesh.faces()) {
     const auto h = halfedges_of(mesh, f);
@@ -62,20 +62,20 @@ std::vector<double> texture_areas(const Mesh& mesh) {
   return areas;
 }
 
-constexpr std::array<std::array<double, 6>, 3> kCharts = {
+constexpr std::array<std::array<double, 6>, 3> charts = {
     {{0.2, 0, 0.05, 0, 0.3, 0.1}, {0.1, -0.2, 0.7, 0.2, 0.1, 0.2}, {-0.25, 0.02, 0.9, 0.03, 0.3, 0.6}}};
 
 /// Texture coordinates of a place in one of three panels: scaled, turned, mirrored.
 TextureCoordinate charted(int panel, double x, double y) {
-  const auto& c = kCharts[panel];
+  const auto& c = charts[panel];
   return {c[0] * x + c[1] * y + c[2], c[3] * x + c[4] * y + c[5]};
 }
 
 /// A flat sheet of three panels: two seams upright, the second by group alone where y > 0.5.
 Mesh panelled_sheet() {
   Mesh mesh = union_jack_sheet(20);
-  auto texture = ensure_map(mesh, kTexture);
-  auto group = ensure_map(mesh, kGroup);
+  auto texture = ensure_map(mesh, attribute::texture);
+  auto group = ensure_map(mesh, attribute::group);
   for (Face f : mesh.faces()) {
     const Point middle = position_of(mesh, {f, {1. / 3, 1. / 3, 1. / 3}});
     group[f] = middle.x() < 0.3 ? 0 : middle.x() < 0.7 ? 1 : 2;
@@ -119,9 +119,9 @@ TEST_CASE(
       CHECK(seams(mesh) == expected);
       splits += insertion.report.split_edges.size();
     }
-    const auto texture = *find_map(mesh, kTexture);
-    const auto rest = *find_map(mesh, kRestPosition);
-    const auto group = *find_map(mesh, kGroup);
+    const auto texture = *find_map(mesh, attribute::texture);
+    const auto rest = *find_map(mesh, attribute::rest_position);
+    const auto group = *find_map(mesh, attribute::group);
     double worst = 0, least = 1;
     for (Face f : mesh.faces())
       for (Halfedge h : halfedges_of(mesh, f)) {
@@ -139,7 +139,7 @@ TEST_CASE(
 
 TEST_CASE("a texture that is stretched unevenly is not folded over") {
   Mesh mesh = union_jack_sheet(20);
-  auto texture = ensure_map(mesh, kTexture);
+  auto texture = ensure_map(mesh, attribute::texture);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> offset(-0.45, 0.45);
   std::vector<TextureCoordinate> at(mesh.number_of_vertices());
@@ -170,7 +170,7 @@ TEST_CASE(
   CHECK(mesh.number_of_vertices() > 1500);
   CHECK(seams(mesh).size() == 6 * 28);
   const double scale = [&] {  // of texture to cloth: the same everywhere
-    const auto texture = *find_map(mesh, kTexture);
+    const auto texture = *find_map(mesh, attribute::texture);
     double flat = 0, cloth = 0;
     for (Halfedge h : mesh.halfedges()) {
       if (mesh.is_border(h)) continue;
@@ -191,8 +191,8 @@ TEST_CASE(
   }
   CHECK(crossed > 10);
   CHECK(seams(mesh) == expected);
-  const auto texture = *find_map(mesh, kTexture);
-  const auto rest = *find_map(mesh, kRestLength);
+  const auto texture = *find_map(mesh, attribute::texture);
+  const auto rest = *find_map(mesh, attribute::rest_length);
   double worst = 0;
   for (Halfedge h : mesh.halfedges()) {
     if (mesh.is_border(h)) continue;

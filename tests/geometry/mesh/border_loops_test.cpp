@@ -44,7 +44,7 @@ TEST_CASE("rest length of a loop counts what was set") {
   REQUIRE(loops.size() == 1);
   CHECK(loops[0].length == Approx(4));
   CHECK(rest_length(mesh, loops[0]) == Approx(4));
-  auto rest = ensure_map(mesh, kRestLength);
+  auto rest = ensure_map(mesh, attribute::rest_length);
   for (Edge e : mesh.edges()) rest[e] = 0.5;
   CHECK(rest_length(mesh, loops[0]) == Approx(6));
   CHECK_THROWS_AS(rest_length(mesh, BorderLoop{{Vertex(0), Vertex(15)}, 0, 0}), std::invalid_argument);

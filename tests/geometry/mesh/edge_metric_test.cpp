@@ -34,9 +34,9 @@ TEST_CASE("rest_lengths: the map where it is set, the shape where it is not") {
   Mesh mesh = furrow::tests::single_triangle();
   const Edge first(0), second(1);
   CHECK(rest_lengths(mesh)[0] == spatial_length(mesh, first));
-  ensure_map(mesh, kRestLength)[first] = 7;
+  ensure_map(mesh, attribute::rest_length)[first] = 7;
   CHECK(rest_lengths(mesh)[0] == 7);
   CHECK(rest_lengths(mesh)[1] == spatial_length(mesh, second));
-  ensure_map(mesh, kRestLength)[second] = -1;
+  ensure_map(mesh, attribute::rest_length)[second] = -1;
   CHECK_THROWS_AS(rest_lengths(mesh), ContentError);
 }

@@ -29,7 +29,7 @@ TEST_CASE("vertices_in_box takes the corners in any order, borders included") {
 TEST_CASE("vertices_of_group takes each vertex of the group's faces once, and none without groups") {
   Mesh mesh = square();
   CHECK(vertices_of_group(mesh, 0).empty());
-  auto group = ensure_map(mesh, kGroup);
+  auto group = ensure_map(mesh, attribute::group);
   group[Face(1)] = 3;
   CHECK(vertices_of_group(mesh, 3) == std::vector<Vertex>{Vertex(0), Vertex(2), Vertex(3)});
 }

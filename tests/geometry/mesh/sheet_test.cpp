@@ -64,7 +64,7 @@ TEST_CASE("woven_sheet: size, normal, cells and diagonals") {
   CHECK(info.area == Approx(0.124).epsilon(1e-12));
   CHECK(info.box_min == Point(-0.2, 0, 0));
   CHECK(info.box_max == Point(0.2, 0.31, 0));
-  const auto diagonal = *find_map(mesh, kDiagonal);
+  const auto diagonal = *find_map(mesh, attribute::diagonal);
   std::size_t diagonals = 0, valence_8 = 0;
   for (Edge e : mesh.edges()) diagonals += diagonal[e];
   for (Vertex v : mesh.vertices()) valence_8 += mesh.degree(v) == 8;

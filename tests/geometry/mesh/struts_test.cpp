@@ -18,7 +18,7 @@ using namespace furrow::tests;
 
 namespace {
 
-const std::vector<Strut> kTwo{{Vertex(7), Vertex(40), 0.5, 3}, {Vertex(2), Vertex(48), 0.7, 0}};
+const std::vector<Strut> two{{Vertex(7), Vertex(40), 0.5, 3}, {Vertex(2), Vertex(48), 0.7, 0}};
 
 bool same(const Strut& s, const Strut& t) {
   return s.a == t.a && s.b == t.b && s.rest_length == t.rest_length && s.stiffness == t.stiffness;
@@ -29,7 +29,7 @@ bool same(const Strut& s, const Strut& t) {
 TEST_CASE("struts come back sorted, those of one pair in their order, and copies of the mesh have them") {
   Mesh mesh = grid(6, 6);
   CHECK(struts(mesh).empty());
-  std::vector<Strut> list = kTwo;
+  std::vector<Strut> list = two;
   list.push_back({Vertex(2), Vertex(48), 0.1, 9});
   set_struts(mesh, list);
   const Mesh copy = mesh;
@@ -47,7 +47,7 @@ TEST_CASE("struts come back sorted, those of one pair in their order, and copies
 
 TEST_CASE("struts that make no sense are refused, and the old ones stay") {
   Mesh mesh = grid(6, 6);
-  set_struts(mesh, kTwo);
+  set_struts(mesh, two);
   const double inf = std::numeric_limits<double>::infinity();
   for (const Strut& bad : std::vector<Strut>{{Vertex(3), Vertex(49), 1, 1},
                                              {Vertex(), Vertex(4), 1, 1},
@@ -64,14 +64,14 @@ TEST_CASE("struts that make no sense are refused, and the old ones stay") {
 
 TEST_CASE("struts stay with their vertices when lines are inserted, and displacement carries their strain") {
   Mesh mesh = grid(6, 6);
-  set_struts(mesh, kTwo);
+  set_struts(mesh, two);
   Stroke stroke;
   stroke.points = {{0.1, 0.12, 0}, {0.9, 0.8, 0}};
   stroke.height = 0;
   wrinkle(mesh, std::span(&stroke, 1));
   REQUIRE(struts(mesh).size() == 2);
-  CHECK(same(struts(mesh)[0], kTwo[1]));
-  CHECK(same(struts(mesh)[1], kTwo[0]));
+  CHECK(same(struts(mesh)[0], two[1]));
+  CHECK(same(struts(mesh)[1], two[0]));
 
   const double before = std::sqrt(CGAL::squared_distance(mesh.point(Vertex(7)), mesh.point(Vertex(40))));
   for (const RestRule rule : {RestRule::flat, RestRule::drawn, RestRule::copied}) {
@@ -81,7 +81,7 @@ TEST_CASE("struts stay with their vertices when lines are inserted, and displace
     const RestReport report = apply_rest_rule(moved, snapshot, rule);
     const double after = std::sqrt(CGAL::squared_distance(moved.point(Vertex(7)), moved.point(Vertex(40))));
     CHECK(report.scaled_struts == (rule == RestRule::flat ? 0u : 1u));
-    CHECK(same(struts(moved)[0], kTwo[1]));
+    CHECK(same(struts(moved)[0], two[1]));
     CHECK(struts(moved)[1].rest_length ==
           Approx(rule == RestRule::flat ? 0.5 : 0.5 * after / before).epsilon(1e-14));
     CHECK(struts(moved)[1].stiffness == 3);
@@ -90,12 +90,12 @@ TEST_CASE("struts stay with their vertices when lines are inserted, and displace
 
 TEST_CASE("subdivision drops struts, a vertex that is removed takes its own along") {
   Mesh fine = grid(6, 6);
-  set_struts(fine, kTwo);
+  set_struts(fine, two);
   loop_subdivide(fine, 1);
   CHECK(struts(fine).empty());
   Mesh mesh = grid(6, 6);
-  set_struts(mesh, kTwo);
+  set_struts(mesh, two);
   CGAL::Euler::remove_center_vertex(mesh.halfedge(Vertex(40)), mesh);
   REQUIRE(struts(mesh).size() == 1);
-  CHECK(same(struts(mesh)[0], kTwo[1]));
+  CHECK(same(struts(mesh)[0], two[1]));
 }

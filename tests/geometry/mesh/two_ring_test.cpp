@@ -35,7 +35,7 @@ TEST_CASE("vertices_within_rings takes each vertex once, stops at the border and
 TEST_CASE("line_vertices lists the vertices of all lines") {
   Mesh mesh = furrow::tests::grid(2, 2);
   CHECK(line_vertices(mesh).empty());
-  auto line = ensure_map(mesh, kLine);
+  auto line = ensure_map(mesh, attribute::line);
   line[Vertex(7)] = 0;
   line[Vertex(2)] = 3;
   CHECK(line_vertices(mesh) == std::vector<Vertex>{Vertex(2), Vertex(7)});

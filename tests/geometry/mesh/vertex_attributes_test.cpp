@@ -24,7 +24,7 @@ Mesh skinned() {
     a[v] = p.x() * p.x();
     b[v] = (1 - a[v]) * p.y();
     c[v] = 1 - a[v] - b[v];
-    mask[v] = v.idx() == 0 ? kUnset : 3 * p.x() - p.y();
+    mask[v] = v.idx() == 0 ? unset_value : 3 * p.x() - p.y();
   }
   return mesh;
 }
@@ -86,12 +86,12 @@ TEST_CASE("insertion notes where vertices lie at rest, and a moved mesh keeps th
   Mesh mesh = skinned();
   const Mesh before = mesh;
   insert_in_faces(mesh, std::vector<FacePoint>{{Face(7), {0.2, 0.3, 0.5}}});
-  auto rest = *find_map(mesh, kRestPosition);
+  auto rest = *find_map(mesh, attribute::rest_position);
   for (Vertex v : mesh.vertices())
     CHECK(rest[v] == RestPosition{mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
   for (Vertex v : mesh.vertices()) mesh.point(v) = mesh.point(v) + Vector(0, 0, 5);
   insert_in_faces(mesh, std::vector<FacePoint>{{Face(20), {0.2, 0.3, 0.5}}});
-  rest = *find_map(mesh, kRestPosition);  // the old handle is of the mesh before
+  rest = *find_map(mesh, attribute::rest_position);  // the old handle is of the mesh before
   for (Vertex v : mesh.vertices()) {
     CHECK(std::abs(rest[v][2]) < 1e-15);
     CHECK(std::abs(rest[v][0] - mesh.point(v).x()) < 1e-15);

@@ -21,7 +21,7 @@ namespace {
 
 template <class Place>
 Mesh textured(Mesh mesh, const Place& place) {
-  auto texture = ensure_map(mesh, kTexture);
+  auto texture = ensure_map(mesh, attribute::texture);
   for (Halfedge h : mesh.halfedges())
     if (!mesh.is_border(h)) texture[h] = place(mesh.point(mesh.target(h)));
   return mesh;
@@ -61,7 +61,7 @@ TEST_CASE("tangent frames of a plane follow the texture, a mirrored one has the 
 
 TEST_CASE("tangents are not averaged over a seam, normals are") {
   Mesh mesh = flat(4);
-  auto texture = *find_map(mesh, kTexture);
+  auto texture = *find_map(mesh, attribute::texture);
   for (Face f : mesh.faces()) {  // the right half lies turned by 90 degrees in the texture
     const Point middle = position_of(mesh, {f, {1. / 3, 1. / 3, 1. / 3}});
     if (middle.x() < 0.5) continue;
@@ -89,7 +89,7 @@ TEST_CASE("texture raster: each texel's face holds its middle, overlaps and the 
   CHECK(raster.covered == 1600);
   CHECK(raster.overlapping == 0);
   CHECK(raster.out_of_range == 0);
-  const auto texture = *find_map(mesh, kTexture);
+  const auto texture = *find_map(mesh, attribute::texture);
   for (int row = 0; row < 50; ++row)
     for (int column = 0; column < 50; ++column) {
       const int face = raster.face[row * 50 + column];
@@ -104,7 +104,7 @@ TEST_CASE("texture raster: each texel's face holds its middle, overlaps and the 
     }
   Mesh two = flat(2);
   append(two, grid(2, 2));
-  auto all = *find_map(two, kTexture);
+  auto all = *find_map(two, attribute::texture);
   for (Halfedge h : two.halfedges())
     all[h] = {2 * two.point(two.target(h)).x() - 0.5, two.point(two.target(h)).y()};
   const TextureRaster folded = rasterize_texture(two, 20);
@@ -145,7 +145,7 @@ TEST_CASE("bake and apply: a curved mesh with a seam comes back, frames and all"
   // A tube with its seam at angle 0; the high one has bulges in all three directions.
   const auto tube = [] {
     Mesh mesh = cylinder(0.2, 0.8, 20, 16);
-    auto texture = ensure_map(mesh, kTexture);
+    auto texture = ensure_map(mesh, attribute::texture);
     for (Face f : mesh.faces()) {
       const Point middle = position_of(mesh, {f, {1. / 3, 1. / 3, 1. / 3}});
       const double from = std::atan2(middle.z(), middle.x());

@@ -23,10 +23,10 @@ namespace {
 
 /// Texture u, v = x, y at every corner; colour and group by position.
 Mesh dressed(Mesh mesh) {
-  auto texture = ensure_map(mesh, kTexture);
-  auto color = ensure_map(mesh, kColor);
-  auto group = ensure_map(mesh, kGroup);
-  auto material = ensure_map(mesh, kMaterial);
+  auto texture = ensure_map(mesh, attribute::texture);
+  auto color = ensure_map(mesh, attribute::color);
+  auto group = ensure_map(mesh, attribute::group);
+  auto material = ensure_map(mesh, attribute::material);
   for (Vertex v : mesh.vertices()) color[v] = {mesh.point(v).x(), mesh.point(v).y(), 0.25, 1};
   for (Face f : mesh.faces()) {
     group[f] = mesh.point(mesh.target(mesh.halfedge(f))).x() < 0.5 ? 0 : 1;
@@ -38,13 +38,13 @@ Mesh dressed(Mesh mesh) {
 }
 std::map<int, double> texture_area_by_material(const Mesh& mesh) {
   std::map<int, double> area;
-  const auto texture = *find_map(mesh, kTexture);
+  const auto texture = *find_map(mesh, attribute::texture);
   for (Face f : mesh.faces()) {
     const Halfedge h = mesh.halfedge(f);
     const auto a = texture[h], b = texture[mesh.next(h)], c = texture[mesh.prev(h)];
     const double doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     CHECK(doubled > 0);
-    area[(*find_map(mesh, kMaterial))[f]] += doubled / 2;
+    area[(*find_map(mesh, attribute::material))[f]] += doubled / 2;
   }
   return area;
 }
@@ -61,11 +61,11 @@ TEST_CASE("midpoint_subdivide: the surface stays, each face knows what it is a p
   CHECK(mesh.number_of_faces() == 16 * before.number_of_faces());
   for (Vertex v : before.vertices()) CHECK(mesh.point(v) == before.point(v));
   for (Face f : mesh.faces()) {
-    CHECK((*find_map(mesh, kMaterial))[f] == static_cast<int>(parents[f.idx()].idx()));
+    CHECK((*find_map(mesh, attribute::material))[f] == static_cast<int>(parents[f.idx()].idx()));
     const Vector n = area_normal_of(mesh, f), whole = area_normal_of(before, parents[f.idx()]);
     CHECK((16 * n - whole).squared_length() < 1e-28);
   }
-  const auto texture = *find_map(mesh, kTexture);
+  const auto texture = *find_map(mesh, attribute::texture);
   for (Halfedge h : mesh.halfedges())
     if (!mesh.is_border(h)) CHECK(texture[h][0] == Approx(mesh.point(mesh.target(h)).x()).margin(1e-15));
   CHECK_THROWS_AS(midpoint_subdivide(mesh, 7), std::invalid_argument);
@@ -132,19 +132,19 @@ TEST_CASE("texture, colours, groups and materials survive both subdivisions") {
     if (by_loop) CHECK(area == Approx(2. / 16).epsilon(1e-12));
   }
   CHECK(total == Approx(2).epsilon(1e-12));  // the picture is still covered once
-  const auto texture = *find_map(mesh, kTexture);
+  const auto texture = *find_map(mesh, attribute::texture);
   for (Halfedge h : mesh.halfedges()) {
     if (mesh.is_border(h)) continue;
     // Colour and texture are both linear in the old positions: they must agree.
-    const Color c = (*find_map(mesh, kColor))[mesh.target(h)];
+    const Color c = (*find_map(mesh, attribute::color))[mesh.target(h)];
     CHECK(texture[h][0] == Approx(c[0]).margin(1e-12));
     CHECK(texture[h][1] == Approx(c[1]).margin(1e-12));
     CHECK(c[2] == Approx(0.25));
     CHECK(c[3] == Approx(1));
   }
   for (Face f : mesh.faces()) {
-    const Face from(static_cast<Face::size_type>((*find_map(mesh, kMaterial))[f]));
-    CHECK((*find_map(mesh, kGroup))[f] == (*find_map(before, kGroup))[from]);
+    const Face from(static_cast<Face::size_type>((*find_map(mesh, attribute::material))[f]));
+    CHECK((*find_map(mesh, attribute::group))[f] == (*find_map(before, attribute::group))[from]);
   }
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("halves of diagonals, and what is parallel to them, are diagonals") {
     for (Edge e : m.edges()) {
       const Vector d = m.point(m.vertex(e, 1)) - m.point(m.vertex(e, 0));
       const bool slanted = std::abs(d.x()) > 1e-6 && std::abs(d.y()) > 1e-6;
-      CHECK((*find_map(m, kDiagonal))[e] == slanted);
+      CHECK((*find_map(m, attribute::diagonal))[e] == slanted);
       n += slanted;
     }
     return n;
@@ -168,48 +168,49 @@ TEST_CASE("halves of diagonals, and what is parallel to them, are diagonals") {
   CHECK(count(mesh) == 96);
   loop_subdivide(loop, 2);
   std::size_t marked = 0;
-  for (Edge e : loop.edges()) marked += (*find_map(loop, kDiagonal))[e];
+  for (Edge e : loop.edges()) marked += (*find_map(loop, attribute::diagonal))[e];
   CHECK(marked == 96);
   sqrt3_subdivide(sqrt3, 1);
-  for (Edge e : sqrt3.edges()) CHECK_FALSE((*find_map(sqrt3, kDiagonal))[e]);
+  for (Edge e : sqrt3.edges()) CHECK_FALSE((*find_map(sqrt3, attribute::diagonal))[e]);
 }
 
 TEST_CASE("loop_subdivide carries a seam of the texture: its two sides stay apart") {
   Mesh mesh = dressed(grid(2, 2));
-  auto texture = *find_map(mesh, kTexture);
+  auto texture = *find_map(mesh, attribute::texture);
   for (Face f : mesh.faces())
     for (Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
-      if ((*find_map(mesh, kGroup))[f] == 1) texture[h][0] += 10;
+      if ((*find_map(mesh, attribute::group))[f] == 1) texture[h][0] += 10;
   loop_subdivide(mesh, 2);
   for (Face f : mesh.faces())
     for (Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
-      CHECK(((*find_map(mesh, kTexture))[h][0] > 5) == ((*find_map(mesh, kGroup))[f] == 1));
+      CHECK(((*find_map(mesh, attribute::texture))[h][0] > 5) ==
+            ((*find_map(mesh, attribute::group))[f] == 1));
 }
 
 TEST_CASE("loop_subdivide carries lines, rest lengths, springs and masses become unset") {
   Mesh mesh = grid(4, 4);
-  auto line = ensure_map(mesh, kLine);
-  auto line_edge = ensure_map(mesh, kLineEdge);
+  auto line = ensure_map(mesh, attribute::line);
+  auto line_edge = ensure_map(mesh, attribute::line_edge);
   for (int i = 11; i <= 13; ++i) line[Vertex(static_cast<Vertex::size_type>(i))] = 2;
   for (unsigned i = 11; i < 13; ++i) line_edge[mesh.edge(mesh.halfedge(Vertex(i), Vertex(i + 1)))] = true;
-  auto rest = ensure_map(mesh, kRestLength);
+  auto rest = ensure_map(mesh, attribute::rest_length);
   for (Edge e : mesh.edges()) rest[e] = 1;
-  auto mass = ensure_map(mesh, kMass);
+  auto mass = ensure_map(mesh, attribute::mass);
   for (Vertex v : mesh.vertices()) mass[v] = 1;
   Mesh by_sqrt3 = mesh;
   loop_subdivide(mesh, 2);
   std::size_t vertices = 0, edges = 0;
-  for (Vertex v : mesh.vertices()) vertices += (*find_map(mesh, kLine))[v] == 2;
+  for (Vertex v : mesh.vertices()) vertices += (*find_map(mesh, attribute::line))[v] == 2;
   for (Edge e : mesh.edges()) {
-    edges += (*find_map(mesh, kLineEdge))[e];
-    CHECK(std::isnan((*find_map(mesh, kRestLength))[e]));
+    edges += (*find_map(mesh, attribute::line_edge))[e];
+    CHECK(std::isnan((*find_map(mesh, attribute::rest_length))[e]));
   }
   CHECK(vertices == 9);
   CHECK(edges == 8);
-  CHECK(std::isnan((*find_map(mesh, kMass))[Vertex(0)]));
+  CHECK(std::isnan((*find_map(mesh, attribute::mass))[Vertex(0)]));
   sqrt3_subdivide(by_sqrt3, 1);
-  for (Edge e : by_sqrt3.edges()) CHECK_FALSE((*find_map(by_sqrt3, kLineEdge))[e]);
-  CHECK((*find_map(by_sqrt3, kLine))[Vertex(12)] == 2);
+  for (Edge e : by_sqrt3.edges()) CHECK_FALSE((*find_map(by_sqrt3, attribute::line_edge))[e]);
+  CHECK((*find_map(by_sqrt3, attribute::line))[Vertex(12)] == 2);
 }
 
 TEST_CASE("sqrt3_subdivide: counts, topology, and a known point") {

@@ -23,7 +23,7 @@ Stroke ridge() {
 }
 
 void note_rest(Mesh& mesh) {
-  auto rest = ensure_map(mesh, kRestPosition);
+  auto rest = ensure_map(mesh, attribute::rest_position);
   for (Vertex v : mesh.vertices()) rest[v] = {mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()};
 }
 
@@ -34,7 +34,7 @@ Point posed(const Point& p) { return {p.x() + 2, -p.z() + 1, p.y()}; }
 
 TEST_CASE("transfer: surviving vertices are copied, all else of the original stays") {
   Mesh original = jittered(20, 20, 0.2, 5);
-  auto texture = ensure_map(original, kTexture);
+  auto texture = ensure_map(original, attribute::texture);
   for (Halfedge h : original.halfedges()) texture[h] = {h.idx() / 3.0, 0};
   Mesh wrinkled = original;
   const std::vector<Stroke> strokes{ridge()};
@@ -49,7 +49,7 @@ TEST_CASE("transfer: surviving vertices are copied, all else of the original sta
   for (Vertex v : original.vertices()) CHECK(result.point(v) == wrinkled.point(v));
   for (Halfedge h : original.halfedges()) {
     CHECK(result.target(h) == original.target(h));
-    CHECK((*find_map(result, kTexture))[h] == texture[h]);
+    CHECK((*find_map(result, attribute::texture))[h] == texture[h]);
   }
   // Posed, without another note of the pose.
   for (Vertex v : wrinkled.vertices()) wrinkled.point(v) = posed(wrinkled.point(v));

@@ -96,8 +96,8 @@ TEST_CASE("around a vertex of valence four two edges share a spring, held by the
   CHECK(springs[1].across == mesh.edge(mesh.halfedge(Vertex(0), Vertex(4))));
   rebuild_bending_springs(mesh);
   const Edge other = mesh.edge(mesh.halfedge(Vertex(3), Vertex(4)));
-  CHECK(std::isnan((*find_map(mesh, kBendingRestLength))[other]));
-  CHECK((*find_map(mesh, kBendingCount))[other] == 0);
+  CHECK(std::isnan((*find_map(mesh, attribute::bending_rest_length))[other]));
+  CHECK((*find_map(mesh, attribute::bending_count))[other] == 0);
 }
 
 TEST_CASE("no bending spring joins two vertices that an edge joins, none is there twice, they are sorted") {
@@ -134,7 +134,8 @@ TEST_CASE("a local rebuild after random splits and flips equals the whole one") 
 TEST_CASE("a local rebuild leaves rest lengths and stiffness elsewhere, a whole one none") {
   Mesh mesh = grid(8, 8);
   rebuild_bending_springs(mesh);
-  auto rest = *find_map(mesh, kBendingRestLength), stiffness = ensure_map(mesh, kBendingStiffness);
+  auto rest = *find_map(mesh, attribute::bending_rest_length),
+       stiffness = ensure_map(mesh, attribute::bending_stiffness);
   for (Edge e : mesh.edges()) rest[e] *= 3, stiffness[e] = rest[e] + 1;
   const auto before = bending_springs(mesh);
   const Edge e = mesh.edge(mesh.halfedge(Vertex(40), Vertex(41)));

@@ -39,7 +39,7 @@ TEST_CASE("the angle of a roof: positive for a ridge, negative for a valley, 0 f
 TEST_CASE("rest angles are measured where they are unset, and only there") {
   Mesh mesh = roof(0.7);
   ensure_rest_angles(mesh);
-  const auto rest = *find_map(mesh, kRestAngle);
+  const auto rest = *find_map(mesh, attribute::rest_angle);
   CHECK(rest[ridge(mesh)] == Approx(0.7));
   mesh.point(Vertex(2)) = Point(-1, 0.4, 0);
   ensure_rest_angles(mesh);
@@ -59,7 +59,7 @@ TEST_CASE("lines of height 0 leave rest angles, copied lines bring their own, dr
   WrinkleOptions options;
   options.insertion.max_distance = 0.2;
   wrinkle(mesh, std::span(&stroke, 1), options);
-  auto rest = *find_map(mesh, kRestAngle);
+  auto rest = *find_map(mesh, attribute::rest_angle);
   for (Edge e : mesh.edges())
     if (!mesh.is_border(e)) CHECK(rest[e] == Approx(dihedral_angle(mesh, e)).margin(1e-12));
 
@@ -74,14 +74,14 @@ TEST_CASE("lines of height 0 leave rest angles, copied lines bring their own, dr
   double largest = 0;
   for (Edge e : copied.edges()) {
     const auto of = [&](const Mesh& m, const auto& name) { return (*find_map(m, name))[e]; };
-    CHECK(of(copied, kRestLength) == of(drawn, kRestLength));
-    if (!std::isnan(of(copied, kBendingRestLength)))
-      CHECK(of(copied, kBendingRestLength) == of(drawn, kBendingRestLength));
+    CHECK(of(copied, attribute::rest_length) == of(drawn, attribute::rest_length));
+    if (!std::isnan(of(copied, attribute::bending_rest_length)))
+      CHECK(of(copied, attribute::bending_rest_length) == of(drawn, attribute::bending_rest_length));
     if (copied.is_border(e)) continue;
     const double angle = dihedral_angle(copied, e);
-    CHECK(of(copied, kRestAngle) == Approx(angle).margin(1e-12));
-    CHECK(of(drawn, kRestAngle) == of(flat, kRestAngle));
-    largest = std::max(largest, std::abs(angle - of(drawn, kRestAngle)));
+    CHECK(of(copied, attribute::rest_angle) == Approx(angle).margin(1e-12));
+    CHECK(of(drawn, attribute::rest_angle) == of(flat, attribute::rest_angle));
+    largest = std::max(largest, std::abs(angle - of(drawn, attribute::rest_angle)));
   }
   CHECK(largest > 0.2);
 }

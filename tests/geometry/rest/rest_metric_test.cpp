@@ -31,7 +31,7 @@ Mesh square() {
 TEST_CASE("known triangles") {
   CHECK(triangle_area({3, 4, 5}) == Approx(6).epsilon(1e-15));
   CHECK(triangle_area({1, 2, 4}) == 0);
-  CHECK(std::isnan(triangle_area({1, kUnset, 1})));
+  CHECK(std::isnan(triangle_area({1, unset_value, 1})));
   const auto angles = triangle_angles({4, 5, 3});  // corner 0 between the sides 4 and 3
   CHECK(angles[0] == Approx(std::numbers::pi / 2));
   CHECK(smallest_angle({4, 5, 3}) == Approx(std::atan2(3, 4)));
@@ -47,7 +47,7 @@ TEST_CASE("known triangles") {
 
 TEST_CASE("rest lengths that are set stay, the others are lengths in space") {
   Mesh mesh = square();
-  ensure_map(mesh, kRestLength)[Edge(0)] = 7;
+  ensure_map(mesh, attribute::rest_length)[Edge(0)] = 7;
   const auto rest = ensure_rest_lengths(mesh);
   CHECK(rest[Edge(0)] == 7);
   CHECK(rest[mesh.edge(mesh.halfedge(Vertex(0), Vertex(2)))] == Approx(std::numbers::sqrt2));

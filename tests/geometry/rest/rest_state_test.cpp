@@ -24,8 +24,8 @@ namespace {
 Mesh strained_sheet() {
   Mesh mesh = grid(6, 6);
   rebuild_bending_springs(mesh);
-  auto rest = ensure_map(mesh, kRestLength);
-  auto bending = ensure_map(mesh, kBendingRestLength);
+  auto rest = ensure_map(mesh, attribute::rest_length);
+  auto bending = ensure_map(mesh, attribute::bending_rest_length);
   for (Edge e : mesh.edges()) {
     rest[e] = spatial_length(mesh, e) / 1.25;
     bending[e] /= 1.25;
@@ -45,7 +45,7 @@ TEST_CASE("the drawn rest state carries the strain over and leaves everything el
   const RestReport report = apply_drawn_rest(mesh, snapshot);
   CHECK(report.scaled_edges == 6);
   CHECK(report.scaled_bending_springs == 6);
-  const auto rest = *find_map(mesh, kRestLength), old = *find_map(before, kRestLength);
+  const auto rest = *find_map(mesh, attribute::rest_length), old = *find_map(before, attribute::rest_length);
   for (Edge e : mesh.edges()) {
     CHECK(spatial_length(mesh, e) / rest[e] == Approx(1.25).epsilon(1e-14));
     if (mesh.vertex(e, 0) != lifted && mesh.vertex(e, 1) != lifted)
@@ -76,8 +76,9 @@ TEST_CASE("the flat rest state changes nothing, neither does a line of height ze
 
 TEST_CASE("a face's own rest lengths carry their strain over, stiffness keeps its bits") {
   Mesh mesh = strained_sheet();
-  auto own = ensure_map(mesh, kTriangleRestLength);
-  auto stiffness = ensure_map(mesh, kStiffness), hinge = ensure_map(mesh, kHingeStiffness);
+  auto own = ensure_map(mesh, attribute::triangle_rest_length);
+  auto stiffness = ensure_map(mesh, attribute::stiffness),
+       hinge = ensure_map(mesh, attribute::hinge_stiffness);
   const Vertex lifted(24);
   for (Halfedge h : mesh.halfedges_around_target(mesh.halfedge(lifted)))
     own[h] = spatial_length(mesh, mesh.edge(h)) / 1.1;  // of one of the two faces of each edge
@@ -102,7 +103,7 @@ TEST_CASE("rest lengths that nobody set become the length after, also where the 
   const RestSnapshot snapshot = take_rest_snapshot(mesh);
   mesh.point(Vertex(5)) = Point(0.3, 0.35, 0.2);
   apply_drawn_rest(mesh, snapshot);
-  const auto rest = *find_map(mesh, kRestLength);
+  const auto rest = *find_map(mesh, attribute::rest_length);
   for (Edge e : mesh.edges())
     if (mesh.vertex(e, 0) == Vertex(5) || mesh.vertex(e, 1) == Vertex(5))
       CHECK(rest[e] == spatial_length(mesh, e));
@@ -124,5 +125,5 @@ TEST_CASE("apply_rest_rule refuses a snapshot of another mesh, and positions tha
   const RestSnapshot snapshot = take_rest_snapshot(mesh);
   mesh.point(Vertex(4)) = Point(0, std::numeric_limits<double>::infinity(), 0);
   CHECK_THROWS_AS(apply_drawn_rest(mesh, snapshot), ContentError);
-  CHECK_FALSE(find_map(mesh, kRestLength));
+  CHECK_FALSE(find_map(mesh, attribute::rest_length));
 }

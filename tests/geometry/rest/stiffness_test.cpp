@@ -43,7 +43,7 @@ TEST_CASE("mean rest lengths, structural and bending") {
   Mesh mesh = single_triangle();
   CHECK(mean_rest_length(mesh) == Approx((2 + std::sqrt(2)) / 3));
   CHECK(mean_bending_rest_length(mesh) == 0);
-  ensure_map(mesh, kRestLength)[Edge(0)] = 10;
+  ensure_map(mesh, attribute::rest_length)[Edge(0)] = 10;
   CHECK(mean_rest_length(mesh) > 3.5);
   Mesh square = grid(1, 1);
   rebuild_bending_springs(square);

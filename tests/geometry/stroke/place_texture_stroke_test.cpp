@@ -22,7 +22,7 @@ Mesh textured(const std::function<TextureCoordinate(const Point&, const Point&)>
   // The middle column of vertices is straight, so that charts can be parted there.
   for (Vertex v : mesh.vertices())
     if (std::abs(mesh.point(v).x() - 0.5) < 0.02) mesh.point(v) = Point(0.5, mesh.point(v).y(), 0);
-  auto texture = ensure_map(mesh, kTexture);
+  auto texture = ensure_map(mesh, attribute::texture);
   for (Face f : mesh.faces()) {
     const auto c = corners_of(mesh, f);
     const Point middle = CGAL::centroid(mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]));
@@ -106,7 +106,7 @@ TEST_CASE("place_texture_stroke: charts that no seam joins part the stroke, with
   const auto first = mesh.number_of_vertices();
   for (Vertex v : other.vertices()) other.point(v) = other.point(v) + Vector(5, 0, 0);
   append(mesh, other);
-  auto texture = ensure_map(mesh, kTexture);
+  auto texture = ensure_map(mesh, attribute::texture);
   for (Face f : mesh.faces())
     for (Halfedge h : halfedges_of(mesh, f))
       if (mesh.target(h).idx() >= first)
@@ -122,7 +122,7 @@ TEST_CASE("place_texture_stroke: charts that no seam joins part the stroke, with
 
 TEST_CASE("place_texture_stroke: of mirrored halves the choice is the lowest face, or group, or near") {
   Mesh mesh = mirrored();
-  auto group = ensure_map(mesh, kGroup);
+  auto group = ensure_map(mesh, attribute::group);
   for (Face f : mesh.faces()) group[f] = position_of(mesh, {f, {1. / 3, 1. / 3, 1. / 3}}).x() < 0.5 ? 0 : 1;
   const std::vector<TextureCoordinate> drawn{{0.1, 0.2}, {0.4, 0.9}};
   const auto side = [&](const TextureChoice& choice) {

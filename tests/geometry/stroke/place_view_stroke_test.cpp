@@ -16,9 +16,9 @@ using namespace furrow::tests;
 
 namespace {
 
-const Point kEye(0.5, 0.4, 3);
+const Point eye_point(0.5, 0.4, 3);
 
-std::vector<SightLine> sight_of(const std::vector<Point>& points, const Point& eye = kEye) {
+std::vector<SightLine> sight_of(const std::vector<Point>& points, const Point& eye = eye_point) {
   std::vector<SightLine> lines;
   for (const Point& p : points) lines.push_back({eye, normalized(p - eye)});
   return lines;
@@ -70,7 +70,7 @@ TEST_CASE("place_view_stroke: a stroke seen in a picture comes back to where it 
                                  ? normalized(CGAL::cross_product(sight[i - 1].direction, sight[i].direction))
                                  : Vector(0, 0, 0);
         if (i > 0 && distance(points[i - 1], points[i]) > 0.05)
-          RC_ASSERT(std::abs(plane * (placed.points[at] - kEye)) < 5e-4);
+          RC_ASSERT(std::abs(plane * (placed.points[at] - eye_point)) < 5e-4);
         RC_ASSERT(projector.closest(placed.points[at]).distance < 1e-12);
         ++at;
       }
@@ -193,7 +193,7 @@ TEST_CASE("place_view_stroke: lines of sight through edges and vertices hit the 
   for (int i = 1; i < 20; ++i)
     for (int j = 1; j < 40; ++j) {
       const Point target(i / 20., j / 40., 0);
-      const auto hit = projector.first_hit(kEye, normalized(target - kEye));
+      const auto hit = projector.first_hit(eye_point, normalized(target - eye_point));
       REQUIRE(hit);
       CHECK(distance(hit->position, target) < 1e-9);
     }

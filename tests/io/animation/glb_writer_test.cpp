@@ -78,7 +78,7 @@ Glb glb_of(const geometry::Mesh& mesh, int frames, const io::AnimationOptions& o
 
 geometry::Mesh plain_grid(int n) {
   geometry::Mesh mesh = decorated_grid(n).mesh;
-  auto texture = *geometry::find_map(mesh, geometry::kTexture);
+  auto texture = *geometry::find_map(mesh, geometry::attribute::texture);
   mesh.remove_property_map(texture);
   return mesh;
 }
@@ -141,7 +141,7 @@ TEST_CASE("GLB: one frame is a plain mesh") {
 
 TEST_CASE("GLB: a vertex of several texture coordinates is there once for each, at the end") {
   const geometry::Mesh mesh = decorated_grid(3).mesh;
-  const auto texture = *geometry::find_map(mesh, geometry::kTexture);
+  const auto texture = *geometry::find_map(mesh, geometry::attribute::texture);
   const Glb glb = glb_of(mesh, 3);
   const auto indices = glb.numbers<std::uint32_t>(glb.primitive()["indices"]);
   const auto t = glb.numbers<float>(glb.primitive()["attributes"]["TEXCOORD_0"]);

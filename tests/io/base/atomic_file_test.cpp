@@ -78,7 +78,7 @@ TEST_CASE("bytes_file: any bytes come back, what cannot be read is a content err
 
 TEST_CASE("write_mesh: by ending, into place, nothing is written for what we do not write") {
   TemporaryFolder folder;
-  const io::MeshFile cube = read_from(kCubeObj, io::MeshFormat::obj);
+  const io::MeshFile cube = read_from(cube_obj, io::MeshFormat::obj);
   for (const char* name : {"a.obj", "a.PLY", "a.off", "a.Stl"}) {
     io::write_mesh(folder / name, cube);
     CHECK(io::read_mesh(folder / name).mesh.number_of_faces() == 12);

@@ -105,7 +105,7 @@ TEST_CASE("cancelling: wrinkle() lets out what its callbacks throw, the mesh is 
   CHECK(asked == 5);
   CHECK(same_positions(mesh, before));
   CHECK(corners_of(mesh) == corners_of(before));
-  CHECK_FALSE(geometry::find_map(mesh, geometry::kLine));
+  CHECK_FALSE(geometry::find_map(mesh, geometry::attribute::line));
 }
 
 TEST_CASE("cancelling: simulate() lets out what its observer throws, with one thread and with several") {

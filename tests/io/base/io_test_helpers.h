@@ -85,38 +85,40 @@ inline io::MeshFile decorated_grid(int n) {
       mesh.add_face(v(0, 0), v(1, 1), v(0, 1));
     }
   const auto third = [](auto index) { return 1 / (3.0 + static_cast<double>(std::size_t(index))); };
-  auto color = ensure_map(mesh, kColor);
-  auto line = ensure_map(mesh, kLine);
-  auto mass = ensure_map(mesh, kMass);
+  auto color = ensure_map(mesh, attribute::color);
+  auto line = ensure_map(mesh, attribute::line);
+  auto mass = ensure_map(mesh, attribute::mass);
   for (const Vertex v : mesh.vertices()) {
     color[v] = {third(v), 2 * third(v), 0.5, 1};
     line[v] = static_cast<int>(std::size_t(v)) % 4 - 1;
-    mass[v] = v == Vertex(1) ? kUnset : third(v);
+    mass[v] = v == Vertex(1) ? unset_value : third(v);
   }
-  auto rest = ensure_map(mesh, kRestLength), bending = ensure_map(mesh, kBendingRestLength);
-  auto count = ensure_map(mesh, kBendingCount);
-  auto line_edge = ensure_map(mesh, kLineEdge);
+  auto rest = ensure_map(mesh, attribute::rest_length),
+       bending = ensure_map(mesh, attribute::bending_rest_length);
+  auto count = ensure_map(mesh, attribute::bending_count);
+  auto line_edge = ensure_map(mesh, attribute::line_edge);
   for (const Edge e : mesh.edges()) {
     rest[e] = third(e) + 1;
     if (!mesh.is_border(e)) bending[e] = third(e), count[e] = 1 + static_cast<int>(std::size_t(e)) % 2;
     line_edge[e] = std::size_t(e) % 5 == 0;
-    ensure_map(mesh, kDiagonal)[e] = std::size_t(e) % 3 == 1;
-    for (const auto* name : {&kStiffness, &kBendingStiffness, &kHingeStiffness, &kTension, &kRestAngle})
-      ensure_map(mesh, *name)[e] = std::size_t(e) % 7 == 2 ? kUnset : third(e);
+    ensure_map(mesh, attribute::diagonal)[e] = std::size_t(e) % 3 == 1;
+    for (const auto* name : {&attribute::stiffness, &attribute::bending_stiffness,
+                             &attribute::hinge_stiffness, &attribute::tension, &attribute::rest_angle})
+      ensure_map(mesh, *name)[e] = std::size_t(e) % 7 == 2 ? unset_value : third(e);
   }
-  auto own = ensure_map(mesh, kTriangleRestLength);
+  auto own = ensure_map(mesh, attribute::triangle_rest_length);
   for (const Halfedge h : mesh.halfedges())
-    if (!mesh.is_border(h)) own[h] = std::size_t(mesh.face(h)) % 4 == 3 ? kUnset : third(h) + 2;
+    if (!mesh.is_border(h)) own[h] = std::size_t(mesh.face(h)) % 4 == 3 ? unset_value : third(h) + 2;
   const Vertex last(static_cast<Mesh::size_type>(mesh.number_of_vertices() - 1));
   set_struts(mesh,
              std::vector<Strut>{{Vertex(1), last, third(5), 0.1}, {Vertex(0), last, 1 / 7.0, third(1)}});
-  auto texture = ensure_map(mesh, kTexture);
-  auto group = ensure_map(mesh, kGroup), material = ensure_map(mesh, kMaterial);
+  auto texture = ensure_map(mesh, attribute::texture);
+  auto group = ensure_map(mesh, attribute::group), material = ensure_map(mesh, attribute::material);
   for (const Face f : mesh.faces()) {
     group[f] = static_cast<int>(std::size_t(f)) % 3 - 1;
     material[f] = static_cast<int>(std::size_t(f)) % 2;
     for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
-      texture[h] = {third(h), std::size_t(f) == 3 ? kUnset : 1 - third(h)};
+      texture[h] = {third(h), std::size_t(f) == 3 ? unset_value : 1 - third(h)};
   }
   file.group_names = {"left sleeve", "front"};
   file.material_names = {"cotton", "silk"};
@@ -140,7 +142,7 @@ inline bool same_positions(const geometry::Mesh& a, const geometry::Mesh& b) {
   return true;
 }
 
-inline const std::string kCubeObj =
+inline const std::string cube_obj =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
     "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 

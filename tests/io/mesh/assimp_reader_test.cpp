@@ -69,8 +69,10 @@ void check_seam(const io::MeshFile& file) {
   CHECK(mesh.point(Vertex(3)) == Point(0, 2, 5 + 2 * static_cast<double>(0.1F)));
   CHECK(file.group_names == std::vector<std::string>{"sleeve"});
   CHECK(file.material_names == std::vector<std::string>{"silk"});
-  CHECK((*find_map(mesh, kTexture))[mesh.halfedge(Vertex(1), Vertex(2))] == TextureCoordinate{0.25, 0.75});
-  CHECK((*find_map(mesh, kTexture))[mesh.halfedge(Vertex(0), Vertex(2))] == TextureCoordinate{0.5, 0.75});
+  CHECK((*find_map(mesh, attribute::texture))[mesh.halfedge(Vertex(1), Vertex(2))] ==
+        TextureCoordinate{0.25, 0.75});
+  CHECK((*find_map(mesh, attribute::texture))[mesh.halfedge(Vertex(0), Vertex(2))] ==
+        TextureCoordinate{0.5, 0.75});
   REQUIRE(file.warnings.size() == 1);
   CHECK(file.warnings[0].find("single precision") != std::string::npos);
 }

@@ -23,8 +23,8 @@ TEST_CASE("OFF: mesh and colours come back with the same bits") {
   CHECK(same_positions(file.mesh, back.mesh));
   CHECK(corners_of(file.mesh) == corners_of(back.mesh));
   for (const Vertex v : file.mesh.vertices())
-    CHECK((*find_map(file.mesh, kColor))[v] == (*find_map(back.mesh, kColor))[v]);
-  io::MeshFile plain = read_from(kCubeObj, MeshFormat::obj);
+    CHECK((*find_map(file.mesh, attribute::color))[v] == (*find_map(back.mesh, attribute::color))[v]);
+  io::MeshFile plain = read_from(cube_obj, MeshFormat::obj);
   CHECK(written(plain, MeshFormat::off).starts_with("OFF\n8 12 0\n0 0 0\n"));
 }
 
@@ -43,11 +43,11 @@ TEST_CASE("OFF: normals, colours and texture coordinates of vertices") {
   const io::MeshFile file =
       off("STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 51 255 0.5 0.25\n"
           "1 0 0 0 0 1 0.0 0.5 1.0 1.0 0 1\n0 1 0 0 0 1 0 0 0 0 0 0\n3 0 1 2\n");
-  const auto color = *find_map(file.mesh, kColor);
+  const auto color = *find_map(file.mesh, attribute::color);
   CHECK(color[Vertex(0)] == Color{1, 0, 0.2, 1});
   CHECK(color[Vertex(1)] == Color{0, 0.5, 1, 1});
   const Halfedge h = file.mesh.halfedge(Vertex(2), Vertex(0));
-  CHECK((*find_map(file.mesh, kTexture))[h] == TextureCoordinate{0.5, 0.25});
+  CHECK((*find_map(file.mesh, attribute::texture))[h] == TextureCoordinate{0.5, 0.25});
 }
 
 TEST_CASE("OFF: errors name the line, a header cannot announce more than the file holds") {

@@ -34,11 +34,11 @@ void check_same_map(const Mesh& a, const Mesh& b, const PropertyName<K, V>& name
   CHECK(differ == 0);
 }
 
-const char* const kHead = "ply\nformat ascii 1.0\n";
-const char* const kTriangle =
+const char* const file_head = "ply\nformat ascii 1.0\n";
+const char* const triangle_ply =
     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\n";
-const char* const kTriangleRows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+const char* const triangle_rows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 std::string error_of(const std::string& text) {
   return content_error([&] { read_from(text, MeshFormat::ply); });
@@ -60,23 +60,24 @@ TEST_CASE("PLY: mesh, maps, names and comments come back with the same bits") {
   REQUIRE(same_positions(a, b));
   REQUIRE(corners_of(a) == corners_of(b));
   REQUIRE(a.number_of_edges() == b.number_of_edges());
-  check_same_map(a, b, kColor, a.vertices());
-  check_same_map(a, b, kLine, a.vertices());
-  check_same_map(a, b, kMass, a.vertices());
-  check_same_map(a, b, kRestLength, a.edges());
-  check_same_map(a, b, kBendingRestLength, a.edges());
-  check_same_map(a, b, kBendingCount, a.edges());
-  check_same_map(a, b, kLineEdge, a.edges());
-  check_same_map(a, b, kDiagonal, a.edges());
-  for (const auto* name : {&kRestAngle, &kStiffness, &kBendingStiffness, &kHingeStiffness, &kTension})
+  check_same_map(a, b, attribute::color, a.vertices());
+  check_same_map(a, b, attribute::line, a.vertices());
+  check_same_map(a, b, attribute::mass, a.vertices());
+  check_same_map(a, b, attribute::rest_length, a.edges());
+  check_same_map(a, b, attribute::bending_rest_length, a.edges());
+  check_same_map(a, b, attribute::bending_count, a.edges());
+  check_same_map(a, b, attribute::line_edge, a.edges());
+  check_same_map(a, b, attribute::diagonal, a.edges());
+  for (const auto* name : {&attribute::rest_angle, &attribute::stiffness, &attribute::bending_stiffness,
+                           &attribute::hinge_stiffness, &attribute::tension})
     check_same_map(a, b, *name, a.edges());
-  check_same_map(a, b, kGroup, a.faces());
-  check_same_map(a, b, kMaterial, a.faces());
+  check_same_map(a, b, attribute::group, a.faces());
+  check_same_map(a, b, attribute::material, a.faces());
   std::vector<Halfedge> inner;
   for (const Halfedge h : a.halfedges())
     if (!a.is_border(h)) inner.push_back(h);
-  check_same_map(a, b, kTexture, inner);
-  check_same_map(a, b, kTriangleRestLength, inner);
+  check_same_map(a, b, attribute::texture, inner);
+  check_same_map(a, b, attribute::triangle_rest_length, inner);
   const auto p = struts(a), q = struts(b);
   REQUIRE(p.size() == 2);
   REQUIRE(q.size() == 2);
@@ -97,7 +98,7 @@ TEST_CASE("PLY: mesh, maps, names and comments come back with the same bits") {
 TEST_CASE("PLY: edge values are found by their vertices after flips and removals") {
   io::MeshFile file = decorated_grid(4);
   Mesh& mesh = file.mesh;
-  auto rest = *find_map(mesh, kRestLength);
+  auto rest = *find_map(mesh, attribute::rest_length);
   std::size_t flipped = 0;
   for (const Edge e : mesh.edges()) {
     const Halfedge h = mesh.halfedge(e);
@@ -117,7 +118,7 @@ TEST_CASE("PLY: edge values are found by their vertices after flips and removals
     std::set<std::tuple<Point, Point, double>> all;
     for (const Edge e : m.edges()) {
       const Point p = m.point(m.vertex(e, 0)), q = m.point(m.vertex(e, 1));
-      all.emplace(std::min(p, q), std::max(p, q), (*find_map(m, kRestLength))[e]);
+      all.emplace(std::min(p, q), std::max(p, q), (*find_map(m, attribute::rest_length))[e]);
     }
     return all;
   };
@@ -125,13 +126,13 @@ TEST_CASE("PLY: edge values are found by their vertices after flips and removals
 }
 
 TEST_CASE("PLY: a mesh without maps gets no properties and no edge element") {
-  io::MeshFile cube = read_from(kCubeObj, MeshFormat::obj);
+  io::MeshFile cube = read_from(cube_obj, MeshFormat::obj);
   const auto header_of = [&] {
     const std::string bytes = written(cube, MeshFormat::ply);
     return bytes.substr(0, bytes.find("end_header"));
   };
   CHECK(header_of().find("property uchar diagonal") != std::string::npos);  // its faces have four corners
-  auto diagonal = *find_map(cube.mesh, kDiagonal);
+  auto diagonal = *find_map(cube.mesh, attribute::diagonal);
   cube.mesh.remove_property_map(diagonal);
   const std::string header = header_of();
   for (const char* absent : {"edge", "strut", "rest_length", "line", "mass", "red", "group", "texcoord"})
@@ -145,7 +146,7 @@ TEST_CASE("PLY: colours that are whole 255ths are written as bytes and come back
   const std::string bytes = written(file, MeshFormat::ply);
   CHECK(bytes.find("property uchar red") != std::string::npos);
   const io::MeshFile back = read_from(bytes, MeshFormat::ply);
-  check_same_map(file.mesh, back.mesh, kColor, file.mesh.vertices());
+  check_same_map(file.mesh, back.mesh, attribute::color, file.mesh.vertices());
 }
 
 TEST_CASE("PLY: lengths are written in the file's unit, masses stay kilograms") {
@@ -153,13 +154,14 @@ TEST_CASE("PLY: lengths are written in the file's unit, masses stay kilograms") 
   const std::string bytes = written(file, MeshFormat::ply, {.metres_per_unit = 0.25, .up = io::Axis::z});
   const io::MeshFile raw = read_from(bytes, MeshFormat::ply);
   const io::MeshFile back = read_from(bytes, MeshFormat::ply, {.metres_per_unit = 0.25, .up = io::Axis::z});
-  CHECK((*find_map(raw.mesh, kRestLength))[Edge(2)] == 4 * (*find_map(file.mesh, kRestLength))[Edge(2)]);
+  CHECK((*find_map(raw.mesh, attribute::rest_length))[Edge(2)] ==
+        4 * (*find_map(file.mesh, attribute::rest_length))[Edge(2)]);
   CHECK(raw.mesh.point(Vertex(3)) == Point(4 * file.mesh.point(Vertex(3)).x(),
                                            -4 * file.mesh.point(Vertex(3)).z(),
                                            4 * file.mesh.point(Vertex(3)).y()));
   CHECK(same_positions(back.mesh, file.mesh));
-  check_same_map(file.mesh, back.mesh, kRestLength, file.mesh.edges());
-  check_same_map(file.mesh, raw.mesh, kMass, file.mesh.vertices());
+  check_same_map(file.mesh, back.mesh, attribute::rest_length, file.mesh.edges());
+  check_same_map(file.mesh, raw.mesh, attribute::mass, file.mesh.vertices());
 }
 
 TEST_CASE("PLY: text and big-endian bytes of other programs are read") {
@@ -168,7 +170,7 @@ TEST_CASE("PLY: text and big-endian bytes of other programs are read") {
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty short quality\n"
       "element face 1\nproperty uchar flags\nproperty list uchar uint vertex_index\n"
       "property list uchar float texcoord\nelement extra 2\nproperty list int double stuff\nend_header\n";
-  std::string text = kHead + body +
+  std::string text = file_head + body +
                      "0 0 0 255 0 51 7\n1 0 0 0 0 0 7\n1 1 0 0 0 0 7\n0 1 0.5 0 0 0 7\n"
                      "9 4 0 1 2 3 8 0 0 1 0 1 1 0 0.5\n2 1.5 2.5\n0\n";
   std::string big = "ply\nformat binary_big_endian 1.0\n" + body;
@@ -187,10 +189,10 @@ TEST_CASE("PLY: text and big-endian bytes of other programs are read") {
     const io::MeshFile file = read_from(bytes, MeshFormat::ply);
     CHECK(corners_of(file.mesh) == std::vector<std::size_t>{0, 1, 2, 0, 2, 3});
     CHECK(file.mesh.point(Vertex(3)) == Point(0, 1, 0.5));
-    CHECK((*find_map(file.mesh, kColor))[Vertex(0)] == Color{1, 0, 0.2, 1});
+    CHECK((*find_map(file.mesh, attribute::color))[Vertex(0)] == Color{1, 0, 0.2, 1});
     CHECK(file.repairs.triangulated_faces == 1);
     const Halfedge h = file.mesh.halfedge(Vertex(2), Vertex(3));
-    CHECK((*find_map(file.mesh, kTexture))[h] == TextureCoordinate{0, 0.5});
+    CHECK((*find_map(file.mesh, attribute::texture))[h] == TextureCoordinate{0, 0.5});
     CHECK(file.comments == std::vector<std::string>{"made by hand"});
     REQUIRE(file.warnings.size() == 2);
     CHECK(file.warnings[0].find("flags") != std::string::npos);
@@ -199,18 +201,18 @@ TEST_CASE("PLY: text and big-endian bytes of other programs are read") {
 }
 
 TEST_CASE("PLY: texture coordinates of vertices go to the corners") {
-  const std::string text = std::string(kHead) +
+  const std::string text = std::string(file_head) +
                            "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty "
                            "float s\nproperty float t\n"
                            "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                            "0 0 0 0.5 0.25\n1 0 0 0.75 0\n0 1 0 0 1\n3 0 1 2\n";
   const io::MeshFile file = read_from(text, MeshFormat::ply);
   const Halfedge h = file.mesh.halfedge(Vertex(2), Vertex(0));
-  CHECK((*find_map(file.mesh, kTexture))[h] == TextureCoordinate{0.5, 0.25});
+  CHECK((*find_map(file.mesh, attribute::texture))[h] == TextureCoordinate{0.5, 0.25});
 }
 
 TEST_CASE("PLY: errors name the line, or the element in binary files") {
-  const std::string head = kHead, triangle = kTriangle, rows = kTriangleRows;
+  const std::string head = file_head, triangle = triangle_ply, rows = triangle_rows;
   CHECK(error_of("plu\n").starts_with("test:1: "));
   CHECK(error_of(head + "element vertex x\n").starts_with("test:3: 'x' is not a whole number"));
   CHECK(error_of(head + "element vertex 1\nproperty flot x\n").starts_with("test:4: 'flot' is no type"));
@@ -234,7 +236,7 @@ TEST_CASE("PLY: errors name the line, or the element in binary files") {
 }
 
 TEST_CASE("PLY: hostile stiffnesses, rest angles, struts and lengths of triangles are refused") {
-  const std::string head = std::string(kHead) + kTriangle, rows = kTriangleRows;
+  const std::string head = std::string(file_head) + triangle_ply, rows = triangle_rows;
   const auto edge = [&](const std::string& column, const std::string& value) {
     return error_of(head + "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty double " +
                     column + "\nend_header\n" + rows + "0 1 " + value + "\n");
@@ -275,7 +277,7 @@ TEST_CASE("PLY: hostile stiffnesses, rest angles, struts and lengths of triangle
 TEST_CASE("PLY: lengths of a triangle stand for the edges between its corners, whichever way it winds") {
   // The second face winds against the first and is turned over.
   const io::MeshFile file =
-      read_from(std::string(kHead) +
+      read_from(std::string(file_head) +
                     "element vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 3\n"
                     "property list uchar int vertex_indices\nproperty double rest_length_01\n"
                     "property double rest_length_12\nproperty double rest_length_20\nend_header\n"
@@ -283,7 +285,7 @@ TEST_CASE("PLY: lengths of a triangle stand for the edges between its corners, w
                     "3 1 4 2 314 342 321\n",
                 MeshFormat::ply);
   REQUIRE(file.repairs.reversed_faces == 1);
-  const auto rest = *find_map(file.mesh, kTriangleRestLength);
+  const auto rest = *find_map(file.mesh, attribute::triangle_rest_length);
   for (const Halfedge h : file.mesh.halfedges()) {
     if (file.mesh.is_border(h)) continue;
     const int f = int(std::size_t(file.mesh.face(h))) + 1;
@@ -293,12 +295,12 @@ TEST_CASE("PLY: lengths of a triangle stand for the edges between its corners, w
 }
 
 TEST_CASE("PLY: a header cannot announce more than the file holds") {
-  const std::string head = kHead;
+  const std::string head = file_head;
   CHECK(error_of(
             head +
             "element vertex 2000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n")
             .find("more than the file can hold") != std::string::npos);
-  const std::string bytes = std::string("ply\nformat binary_little_endian 1.0\n") + kTriangle +
+  const std::string bytes = std::string("ply\nformat binary_little_endian 1.0\n") + triangle_ply +
                             "property list int double huge\nend_header\n" + std::string(36, '\0') + "\3" +
                             std::string(12, '\0') + "\xff\xff\xff\x7f";
   CHECK(error_of(bytes).starts_with("test: face 0: a list is longer than the file"));
@@ -306,7 +308,7 @@ TEST_CASE("PLY: a header cannot announce more than the file holds") {
 
 TEST_CASE("PLY: a name of a group is an attribute where the group is not whole") {
   const std::string head =
-      std::string(kHead) + "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+      std::string(file_head) + "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
   const std::string tail =
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
       "0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n3 0 1 2\n";
@@ -328,11 +330,11 @@ TEST_CASE("PLY: a name of a group is an attribute where the group is not whole")
 }
 
 TEST_CASE("PLY: an attribute with the name of another column is not written") {
-  const std::string head = std::string(kHead) +
+  const std::string head = std::string(file_head) +
                            "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                            "property float rest_x\nelement face 1\nproperty list uchar int vertex_indices\n"
                            "end_header\n0 0 0 1\n1 0 0 2\n0 1 0 3\n3 0 1 2\n";
   io::MeshFile named = read_from(head, MeshFormat::ply);
-  ensure_map(named.mesh, kRestPosition);
+  ensure_map(named.mesh, attribute::rest_position);
   CHECK(content_error([&] { written(named, MeshFormat::ply); }).find("'rest_x'") != std::string::npos);
 }

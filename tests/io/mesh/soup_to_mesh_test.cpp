@@ -73,10 +73,10 @@ TEST_CASE("soup_to_mesh: the minority of a component is turned, with its corners
   CHECK(out.repairs.reversed_faces == 1);
   CHECK(out.repairs.duplicated_vertices == 0);
   CHECK(corners_of(out.mesh) == List{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5});
-  const auto texture = *find_map(out.mesh, kTexture);
+  const auto texture = *find_map(out.mesh, attribute::texture);
   CHECK(texture[out.mesh.halfedge(Vertex(0), Vertex(1))][0] == 2);
   CHECK(texture[out.mesh.halfedge(Vertex(1), Vertex(2))][0] == 1);
-  CHECK((*find_map(out.mesh, kGroup))[Face(3)] == 8);
+  CHECK((*find_map(out.mesh, attribute::group))[Face(3)] == 8);
 }
 
 TEST_CASE("soup_to_mesh: three faces at an edge are parted, copies carry their data") {
@@ -89,9 +89,9 @@ TEST_CASE("soup_to_mesh: three faces at an edge are parted, copies carry their d
   CHECK(out.origin == List{0, 1, 2, 3, 4, 1, 0, 0, 1});
   CHECK(out.mesh.number_of_faces() == 3);
   CHECK(out.mesh.point(Vertex(5)) == soup.points[1]);
-  CHECK((*find_map(out.mesh, kLine))[Vertex(8)] == 8);
-  CHECK((*find_map(out.mesh, kMass))[Vertex(6)] == 0.5);
-  CHECK((*find_map(out.mesh, kColor))[Vertex(6)] == Color{0, 0, 1, 1});
+  CHECK((*find_map(out.mesh, attribute::line))[Vertex(8)] == 8);
+  CHECK((*find_map(out.mesh, attribute::mass))[Vertex(6)] == 0.5);
+  CHECK((*find_map(out.mesh, attribute::color))[Vertex(6)] == Color{0, 0, 1, 1});
   CHECK(is_manifold(out.mesh));
 }
 
@@ -181,12 +181,13 @@ TEST_CASE("the cut of a four-sided face is a diagonal, other edges are none") {
   // A quad, a triangle beside it, a pentagon, and a quad that is wound the other way.
   const io::SoupMesh out =
       io::soup_to_mesh(soup_of(10, {{0, 1, 2, 3}, {1, 4, 2}, {5, 6, 7, 8, 9}, {0, 1, 6, 5}}), "soup");
-  const auto diagonal = *find_map(out.mesh, kDiagonal);
+  const auto diagonal = *find_map(out.mesh, attribute::diagonal);
   std::set<std::pair<std::size_t, std::size_t>> marked;
   for (const Edge e : out.mesh.edges()) {
     if (!diagonal[e]) continue;
     marked.insert(std::minmax(out.origin[out.mesh.vertex(e, 0)], out.origin[out.mesh.vertex(e, 1)]));
   }
   CHECK(marked == std::set<std::pair<std::size_t, std::size_t>>{{0, 2}, {0, 6}});
-  CHECK_FALSE(find_map(io::soup_to_mesh(soup_of(5, {{0, 1, 2}, {0, 2, 3, 4, 1}}), "soup").mesh, kDiagonal));
+  CHECK_FALSE(
+      find_map(io::soup_to_mesh(soup_of(5, {{0, 1, 2}, {0, 2, 3, 4, 1}}), "soup").mesh, attribute::diagonal));
 }

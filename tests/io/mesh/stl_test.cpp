@@ -23,7 +23,7 @@ std::string facet(const std::string& a, const std::string& b, const std::string&
 }  // namespace
 
 TEST_CASE("STL: a mesh of float positions comes back, vertices in the order of the corners") {
-  const io::MeshFile cube = read_from(kCubeObj, MeshFormat::obj);
+  const io::MeshFile cube = read_from(cube_obj, MeshFormat::obj);
   const io::MeshFile back = stl(written(cube, MeshFormat::stl));
   CHECK(back.mesh.number_of_vertices() == 8);
   CHECK(back.mesh.number_of_faces() == 12);
@@ -40,13 +40,13 @@ TEST_CASE("STL: solids of text become groups, only exactly equal positions are m
                            facet("1.0000000000000002 0 0", "3 0 0", "3 1 0") + "endsolid right\n";
   const io::MeshFile file = stl(text);
   CHECK(file.group_names == std::vector<std::string>{"left", "right"});
-  CHECK((*find_map(file.mesh, kGroup))[Face(2)] == 1);
+  CHECK((*find_map(file.mesh, attribute::group))[Face(2)] == 1);
   CHECK(file.mesh.number_of_vertices() == 7);
   CHECK(file.repairs.merged_vertices == 2);
 }
 
 TEST_CASE("STL: a binary file that begins with solid is read as binary") {
-  std::string bytes = written(read_from(kCubeObj, MeshFormat::obj), MeshFormat::stl);
+  std::string bytes = written(read_from(cube_obj, MeshFormat::obj), MeshFormat::stl);
   bytes.replace(0, 5, "solid");
   CHECK(stl(bytes).mesh.number_of_faces() == 12);
 }
@@ -59,7 +59,7 @@ TEST_CASE("STL: errors name the line or the face") {
   CHECK(
       error_of("solid\nfacet normal 0 0 1\nloop\n").starts_with("test:3: 'loop' where 'outer' should stand"));
   CHECK(error_of("").find("shorter than the header") != std::string::npos);
-  std::string bytes = written(read_from(kCubeObj, MeshFormat::obj), MeshFormat::stl);
+  std::string bytes = written(read_from(cube_obj, MeshFormat::obj), MeshFormat::stl);
   CHECK(error_of(bytes.substr(0, bytes.size() - 1)).find("announces 12 triangles, the file holds 11") !=
         std::string::npos);
   bytes.replace(84 + 50 + 12, 4, std::string("\x00\x00\xc0\x7f", 4));

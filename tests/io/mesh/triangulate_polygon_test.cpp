@@ -90,6 +90,6 @@ TEST_CASE("triangulate_polygon: flat, crossing and huge polygons end") {
   std::vector<Point> zigzag;
   for (int i = 0; i < 2000; ++i) zigzag.emplace_back(i, i % 2 ? 2 : 0, 0);
   CHECK(cut(zigzag).size() == 1998);
-  zigzag.resize(io::kMostConcaveCorners + 1, Point(0, -1, 0));
+  zigzag.resize(io::most_concave_corners + 1, Point(0, -1, 0));
   CHECK_THROWS_AS(cut(zigzag), geometry::ContentError);
 }

@@ -94,21 +94,21 @@ TEST_CASE("records and maps that cannot be used are refused") {
 
 TEST_CASE("PLY carries rest positions and attributes of vertices, in any unit and axes") {
   io::MeshFile file = decorated_grid(3);
-  auto rest = geometry::ensure_map(file.mesh, geometry::kRestPosition);
+  auto rest = geometry::ensure_map(file.mesh, geometry::attribute::rest_position);
   auto mask = geometry::ensure_vertex_attribute(file.mesh, "mask");
   auto weight = geometry::ensure_vertex_attribute(file.mesh, "weight_arm.L");
   for (const auto v : file.mesh.vertices()) {
     const double x = 1 / (1.0 + double(std::size_t(v)));
     if (std::size_t(v) != 2) rest[v] = {x, 2 * x, -x};
     mask[v] = x * x;
-    weight[v] = std::size_t(v) == 3 ? geometry::kUnset : 1 - x;
+    weight[v] = std::size_t(v) == 3 ? geometry::unset_value : 1 - x;
   }
   const auto check = [&](const io::MeshFile& back, double tolerance) {
     const auto list = geometry::vertex_attributes(back.mesh);
     REQUIRE(list.size() == 2);
     CHECK(list[0].name == "mask");
     CHECK(list[1].name == "weight_arm.L");
-    const auto found = geometry::find_map(back.mesh, geometry::kRestPosition);
+    const auto found = geometry::find_map(back.mesh, geometry::attribute::rest_position);
     REQUIRE(found);
     for (const auto v : back.mesh.vertices()) {
       CHECK(list[0].values[v] == mask[v]);

@@ -72,9 +72,9 @@ TEST_CASE("Colours of a mesh are those of its values, in steps of a byte") {
   for (std::size_t i = 0; i < mesh.num_vertices(); ++i) values.push_back(0.03 * double(i) - 0.1);
   const FitScale scale{FitQuantity::strain, 0.1, 0};
   CHECK_THROWS_AS(io::colour_by_fit(mesh, std::vector<double>{1, 2}, scale), std::invalid_argument);
-  CHECK_FALSE(geometry::find_map(mesh, geometry::kColor));
+  CHECK_FALSE(geometry::find_map(mesh, geometry::attribute::color));
   io::colour_by_fit(mesh, values, scale);
-  const auto colours = *geometry::find_map(mesh, geometry::kColor);
+  const auto colours = *geometry::find_map(mesh, geometry::attribute::color);
   for (auto v : mesh.vertices()) {
     for (std::size_t k = 0; k < 3; ++k) {
       CHECK(colours[v][k] == Approx(io::fit_colour(values[v.idx()], scale)[k]).margin(0.5 / 255 + 1e-6));

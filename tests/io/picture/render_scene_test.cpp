@@ -33,7 +33,7 @@ Mesh grid_mesh(int n) {
   return mesh;
 }
 
-const io::LineColours kColours;
+const io::LineColours panel_colours;
 
 std::size_t count(const std::vector<io::RenderLine>& lines, const io::Colour& colour) {
   return std::size_t(
@@ -50,10 +50,10 @@ TEST_CASE("A mesh is drawn with its vertices, faces and colours, without removed
   std::rotate(first.begin(), std::min_element(first.begin(), first.end()), first.end());
   CHECK(first == std::array<int, 3>{0, 1, 4});
   CHECK(drawn.vertex_colours.empty());
-  CHECK(drawn.colour == io::kClothColour);
-  CHECK(io::render_mesh_from(mesh, io::Style::body).colour == io::kBodyColour);
+  CHECK(drawn.colour == io::cloth_colour);
+  CHECK(io::render_mesh_from(mesh, io::Style::body).colour == io::body_colour);
 
-  auto colour = geometry::ensure_map(mesh, geometry::kColor);
+  auto colour = geometry::ensure_map(mesh, geometry::attribute::color);
   CHECK(io::render_mesh_from(mesh).vertex_colours.empty());  // all white: nobody set any
   colour[Vertex(4)] = {0.5, 0.25, 0, 1};
   drawn = io::render_mesh_from(mesh);
@@ -72,8 +72,8 @@ TEST_CASE("A face that is no triangle is a content error") {
 TEST_CASE("Line edges take the colour of their line's sign") {
   Mesh mesh = grid_mesh(3);
   CHECK(io::render_lines_from(mesh, {}).empty());
-  auto line = geometry::ensure_map(mesh, geometry::kLine);
-  auto marked = geometry::ensure_map(mesh, geometry::kLineEdge);
+  auto line = geometry::ensure_map(mesh, geometry::attribute::line);
+  auto marked = geometry::ensure_map(mesh, geometry::attribute::line_edge);
   for (int row : {0, 2, 3}) {
     for (int j = 0; j < 4; ++j) line[Vertex(4 * row + j)] = row;
     for (int j = 0; j < 3; ++j) {
@@ -82,15 +82,15 @@ TEST_CASE("Line edges take the colour of their line's sign") {
   }
   const auto lines = io::render_lines_from(mesh, {0.01, 0, -0.02});
   CHECK(lines.size() == 9);
-  CHECK(count(lines, kColours.ridge) == 3);
-  CHECK(count(lines, kColours.valley) == 3);
-  CHECK(count(lines, kColours.other) == 3);  // line 3 has no height
+  CHECK(count(lines, panel_colours.ridge) == 3);
+  CHECK(count(lines, panel_colours.valley) == 3);
+  CHECK(count(lines, panel_colours.other) == 3);  // line 3 has no height
   for (const auto& l : lines) {
     REQUIRE(l.points.size() == 2);
     CHECK(l.points[0][1] == l.points[1][1]);
-    CHECK(l.colour == (l.points[0][1] == 0   ? kColours.ridge
-                       : l.points[0][1] == 2 ? kColours.valley
-                                             : kColours.other));
+    CHECK(l.colour == (l.points[0][1] == 0   ? panel_colours.ridge
+                       : l.points[0][1] == 2 ? panel_colours.valley
+                                             : panel_colours.other));
   }
   CHECK_THROWS_AS(io::render_lines_from(mesh, {std::numeric_limits<double>::quiet_NaN()}),
                   std::invalid_argument);
@@ -98,7 +98,7 @@ TEST_CASE("Line edges take the colour of their line's sign") {
 
 TEST_CASE("Without marked edges the vertices of one line are joined, but not across a corner") {
   Mesh mesh = grid_mesh(2);
-  auto line = geometry::ensure_map(mesh, geometry::kLine);
+  auto line = geometry::ensure_map(mesh, geometry::attribute::line);
   for (int v : {0, 1, 4, 7}) line[Vertex(v)] = 0;  // right, then up, up: 0-4 is a diagonal of a square
   const auto lines = io::render_lines_from(mesh, {1});
   CHECK(lines.size() == 3);
@@ -109,8 +109,8 @@ TEST_CASE("Without marked edges the vertices of one line are joined, but not acr
 
 TEST_CASE("At a crossing an edge keeps the colour of the line that runs through its other end") {
   Mesh mesh = grid_mesh(2);
-  auto line = geometry::ensure_map(mesh, geometry::kLine);
-  auto marked = geometry::ensure_map(mesh, geometry::kLineEdge);
+  auto line = geometry::ensure_map(mesh, geometry::attribute::line);
+  auto marked = geometry::ensure_map(mesh, geometry::attribute::line_edge);
   for (int v : {3, 4, 5}) line[Vertex(v)] = 0;
   for (int v : {1, 7}) line[Vertex(v)] = 1;  // the crossing, 4, belongs to line 0
   for (int v : {1, 3, 5, 7}) {
@@ -120,8 +120,8 @@ TEST_CASE("At a crossing an edge keeps the colour of the line that runs through 
   }
   const auto lines = io::render_lines_from(mesh, {1, -1});
   CHECK(lines.size() == 4);
-  CHECK(count(lines, kColours.ridge) == 2);
-  CHECK(count(lines, kColours.valley) == 2);
+  CHECK(count(lines, panel_colours.ridge) == 2);
+  CHECK(count(lines, panel_colours.valley) == 2);
 }
 
 TEST_CASE("Strokes are drawn on the surface, face by face, a closed one to its start") {
@@ -136,8 +136,8 @@ TEST_CASE("Strokes are drawn on the surface, face by face, a closed one to its s
   const auto lines = io::render_lines_from(mesh, {open, closed}, warnings);
   CHECK(warnings.empty());
   REQUIRE(lines.size() == 2);
-  CHECK(lines[0].colour == kColours.ridge);
-  CHECK(lines[1].colour == kColours.valley);
+  CHECK(lines[0].colour == panel_colours.ridge);
+  CHECK(lines[1].colour == panel_colours.valley);
   CHECK(lines[0].points.size() > 15);
   for (const auto& line : lines)
     for (const auto& p : line.points) CHECK(p[2] == Approx(0.3 * std::abs(p[0] - 4)).margin(1e-9));

@@ -58,7 +58,7 @@ TEST_CASE("The corners of a picture have the colour of the background") {
 }
 
 TEST_CASE("The nearer of two surfaces is seen, in whatever order they come") {
-  const io::RenderMesh near = square({0, 0, 0.5}, 0.3, kRed), far = square({0, 0, 0}, 0.6, kGreen);
+  const io::RenderMesh near = square({0, 0, 0.5}, 0.3, pure_red), far = square({0, 0, 0}, 0.6, pure_green);
   const io::Image a = io::render({{near, far}, {}}, from_the_front(61, 4));
   const io::Image b = io::render({{far, near}, {}}, from_the_front(61, 4));
   CHECK(is_reddish(pixel(a, 30, 30)));
@@ -68,7 +68,7 @@ TEST_CASE("The nearer of two surfaces is seen, in whatever order they come") {
 }
 
 TEST_CASE("Right is right and up is up") {
-  const io::RenderScene scene{{square({0.5, 0, 0}, 0.2, kRed), square({0, 0.5, 0}, 0.2, kGreen)}, {}};
+  const io::RenderScene scene{{square({0.5, 0, 0}, 0.2, pure_red), square({0, 0.5, 0}, 0.2, pure_green)}, {}};
   const io::Image image = io::render(scene, from_the_front(60, 4));
   const int off = int(0.5 / (4 * std::tan(15 * std::numbers::pi / 180)) * 30);
   CHECK(is_reddish(pixel(image, 30 + off, 30)));
@@ -79,9 +79,9 @@ TEST_CASE("Right is right and up is up") {
 
 TEST_CASE("A wide picture does not stretch what it shows") {
   io::RenderOptions options = from_the_front(60, 4);
-  const io::Image tall = io::render({{square({0, 0, 0}, 0.5, kRed)}, {}}, options);
+  const io::Image tall = io::render({{square({0, 0, 0}, 0.5, pure_red)}, {}}, options);
   options.width = 100;
-  const io::Image wide = io::render({{square({0, 0, 0}, 0.5, kRed)}, {}}, options);
+  const io::Image wide = io::render({{square({0, 0, 0}, 0.5, pure_red)}, {}}, options);
   int same = 0;
   for (int x = 0; x < 60; ++x) {
     same += (pixel(tall, x, 30) == background_pixel(30, 60)) ==
@@ -92,7 +92,7 @@ TEST_CASE("A wide picture does not stretch what it shows") {
 
 TEST_CASE("The same picture comes from one thread and from two, and again, and in any unit of length") {
   io::RenderScene scene{{waves(0.02, 0.2), sphere(0.3, 24)}, {}};
-  scene.lines.push_back({{{-0.4, -0.3, 0.3}, {0.4, 0.3, 0.3}}, kRed});
+  scene.lines.push_back({{{-0.4, -0.3, 0.3}, {0.4, 0.3, 0.3}}, pure_red});
   io::RenderOptions options;
   options.width = 90;
   options.height = 70;
@@ -111,11 +111,11 @@ TEST_CASE("The same picture comes from one thread and from two, and again, and i
 }
 
 TEST_CASE("A line is seen on and before a surface and hidden behind it") {
-  const io::RenderMesh sheet = square({0, 0, 0}, 0.5, kGreen);
+  const io::RenderMesh sheet = square({0, 0, 0}, 0.5, pure_green);
   const auto middle = [&](double z, std::optional<double> radius) {
     io::RenderOptions options = from_the_front(61, 4);
     options.line_radius = radius;
-    const io::RenderLine line{{{-0.9, 0, z}, {0, 0, z}, {0.9, 0, z}}, kBlue};
+    const io::RenderLine line{{{-0.9, 0, z}, {0, 0, z}, {0.9, 0, z}}, pure_blue};
     const io::Image image = io::render({{sheet}, {line}}, options);
     CHECK(is_bluish(pixel(image, 5, 30)));  // beside the sheet it is always seen
     CHECK(is_greenish(pixel(image, 30, 22)));
@@ -133,8 +133,8 @@ TEST_CASE("A line's tube is as wide as asked for, in pixels or metres") {
     io::RenderOptions options = from_the_front(101, 4);
     options.line_radius_pixels = pixels;
     options.line_radius = radius;
-    const io::RenderLine line{{{-0.5, 0, 0.3}, {0.5, 0, 0.3}}, kBlue};
-    const io::Image image = io::render({{square({0, 0, 0}, 0.7, kGreen)}, {line}}, options);
+    const io::RenderLine line{{{-0.5, 0, 0.3}, {0.5, 0, 0.3}}, pure_blue};
+    const io::Image image = io::render({{square({0, 0, 0}, 0.7, pure_green)}, {line}}, options);
     int count = 0;
     for (int y = 0; y < 101; ++y) count += is_bluish(pixel(image, 50, y));
     return count;
@@ -146,7 +146,7 @@ TEST_CASE("A line's tube is as wide as asked for, in pixels or metres") {
 }
 
 TEST_CASE("Cloth shows its back darker, a body does not") {
-  io::RenderMesh cloth = square({0, 0, 0}, 0.5, io::kClothColour);
+  io::RenderMesh cloth = square({0, 0, 0}, 0.5, io::cloth_colour);
   const auto luminances = [&](io::Style style) {
     cloth.style = style;
     io::RenderMesh back = cloth;
@@ -195,7 +195,7 @@ TEST_CASE("What lies close over a surface shades it") {
 }
 
 TEST_CASE("Degenerate triangles and vertices of no triangle change nothing") {
-  const io::RenderMesh plain = square({0, 0, 0}, 0.5, kRed);
+  const io::RenderMesh plain = square({0, 0, 0}, 0.5, pure_red);
   io::RenderMesh bad = plain;
   bad.triangles.push_back({0, 0, 1});
   bad.triangles.push_back({2, 2, 2});
@@ -207,16 +207,17 @@ TEST_CASE("Degenerate triangles and vertices of no triangle change nothing") {
 }
 
 TEST_CASE("Vertex colours are blended over the triangles") {
-  io::RenderMesh mesh = square({0, 0, 0}, 0.5, kBlue);
-  mesh.vertex_colours = {kRed, kGreen, kRed, kGreen};
-  for (std::size_t i = 0; i < 4; ++i) mesh.vertex_colours[i] = mesh.vertices[i][0] < 0 ? kRed : kGreen;
+  io::RenderMesh mesh = square({0, 0, 0}, 0.5, pure_blue);
+  mesh.vertex_colours = {pure_red, pure_green, pure_red, pure_green};
+  for (std::size_t i = 0; i < 4; ++i)
+    mesh.vertex_colours[i] = mesh.vertices[i][0] < 0 ? pure_red : pure_green;
   const io::Image image = io::render({{mesh}, {}}, from_the_front(61, 4));
   CHECK(is_reddish(pixel(image, 18, 30)));
   CHECK(is_greenish(pixel(image, 42, 30)));
 }
 
 TEST_CASE("The automatic camera holds the framed meshes and one camera serves several scenes") {
-  io::RenderMesh small = square({0, 0, 0}, 0.1, kRed), large = square({0, 0, -1}, 3, kGreen);
+  io::RenderMesh small = square({0, 0, 0}, 0.1, pure_red), large = square({0, 0, -1}, 3, pure_green);
   large.framed = false;
   io::RenderOptions options;
   options.width = options.height = 40;
@@ -224,15 +225,15 @@ TEST_CASE("The automatic camera holds the framed meshes and one camera serves se
   const io::Image image = io::render({{small, large}, {}}, options);
   CHECK(is_greenish(pixel(image, 1, 1)));  // fills the picture: it was not framed
   CHECK(is_reddish(pixel(image, 5, 20)));  // reaches the margin: it was
-  const io::RenderScene first{{small}, {}}, second{{square({2, 0, 0}, 0.1, kRed)}, {}};
+  const io::RenderScene first{{small}, {}}, second{{square({2, 0, 0}, 0.1, pure_red)}, {}};
   const std::array<io::RenderScene, 2> both{first, second};
   CHECK(io::automatic_camera(both, options).target[0] == Approx(1.0));
 }
 
 TEST_CASE("Triangle colours come before all others") {
-  io::RenderScene scene{{square({0, 0, 0}, 0.9, kBlue)}, {}};
-  scene.meshes[0].vertex_colours.assign(4, kBlue);
-  scene.meshes[0].triangle_colours = {kRed, kGreen};
+  io::RenderScene scene{{square({0, 0, 0}, 0.9, pure_blue)}, {}};
+  scene.meshes[0].vertex_colours.assign(4, pure_blue);
+  scene.meshes[0].triangle_colours = {pure_red, pure_green};
   const io::Image image = io::render(scene, from_the_front(64, 4));
   CHECK(is_reddish(pixel(image, 44, 44)));
   CHECK(is_greenish(pixel(image, 20, 20)));
@@ -241,7 +242,7 @@ TEST_CASE("Triangle colours come before all others") {
 }
 
 TEST_CASE("One point is a ball, as wide as asked for") {
-  io::RenderScene scene{{square({0, 0, 0}, 0.9, kBlue)}, {{{{0, 0, 0}}, kRed, 2.5}}};
+  io::RenderScene scene{{square({0, 0, 0}, 0.9, pure_blue)}, {{{{0, 0, 0}}, pure_red, 2.5}}};
   io::RenderOptions options = from_the_front(100, 4);
   options.line_radius_pixels = 4;
   const io::Image image = io::render(scene, options);
@@ -256,7 +257,7 @@ TEST_CASE("One point is a ball, as wide as asked for") {
 
 TEST_CASE("Parallel lines of sight show near and far alike, and as large as they are") {
   // Two squares of 0.4 m, one 2 m behind the other, in a picture 2 m high.
-  io::RenderScene scene{{square({-0.5, 0, 1}, 0.2, kRed), square({0.5, 0, -1}, 0.2, kGreen)}, {}};
+  io::RenderScene scene{{square({-0.5, 0, 1}, 0.2, pure_red), square({0.5, 0, -1}, 0.2, pure_green)}, {}};
   io::RenderOptions options = from_the_front(100, 4);
   options.camera->parallel_height = 2;
   const io::Image image = io::render(scene, options);
@@ -282,7 +283,7 @@ TEST_CASE("The line of sight through a pixel leads to what the picture shows the
     for (const auto& [column, row] : {std::pair{30, 70}, {70, 12}, {128, 50}}) {
       const auto [origin, direction] = io::line_of_sight({*options.camera, 140, 100}, column, row);
       const auto p = origin + 3.5 * direction;
-      io::RenderScene scene{{square({0, 0, -2}, 3, kBlue)}, {{{{p.x(), p.y(), p.z()}}, kRed, 2}}};
+      io::RenderScene scene{{square({0, 0, -2}, 3, pure_blue)}, {{{{p.x(), p.y(), p.z()}}, pure_red, 2}}};
       const io::Image image = io::render(scene, options);
       double x = 0, y = 0, n = 0;
       for (int i = 0; i < 140; ++i)

@@ -68,6 +68,7 @@ inline bool is_reddish(const std::array<int, 3>& p) { return p[0] > 1.5 * p[1] &
 inline bool is_greenish(const std::array<int, 3>& p) { return p[1] > 1.5 * p[0] && p[1] > 1.5 * p[2]; }
 inline bool is_bluish(const std::array<int, 3>& p) { return p[2] > 1.5 * p[0] && p[2] > 1.5 * p[1]; }
 
-inline constexpr io::Colour kRed{0.9f, 0.1f, 0.1f}, kGreen{0.1f, 0.9f, 0.1f}, kBlue{0.1f, 0.1f, 0.9f};
+inline constexpr io::Colour pure_red{0.9f, 0.1f, 0.1f}, pure_green{0.1f, 0.9f, 0.1f},
+    pure_blue{0.1f, 0.1f, 0.9f};
 
 }  // namespace furrow::tests

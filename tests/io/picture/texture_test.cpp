@@ -63,7 +63,7 @@ TEST_CASE("a triangle without coordinates keeps the mesh's colour, degenerate on
 
 TEST_CASE("a mesh's texture coordinates go by its corners: a seam is sharp") {
   geometry::Mesh mesh = tests::grid(2, 2, 2, 2);
-  auto texture = geometry::ensure_map(mesh, geometry::kTexture);
+  auto texture = geometry::ensure_map(mesh, geometry::attribute::texture);
   for (auto& p : mesh.points()) p = geometry::Point(p.x() - 1, p.y() - 1, 0);
   for (geometry::Face f : mesh.faces()) {
     double x = 0;

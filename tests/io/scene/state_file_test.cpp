@@ -29,7 +29,7 @@ io::SavedState state() {
   geometry::wrinkle(mesh, std::span(&stroke, 1));
   s.file.comments = {"made by hand"};
   io::set_wrinkle_record(s.file, {});
-  auto velocity = geometry::ensure_map(mesh, geometry::kVelocity);
+  auto velocity = geometry::ensure_map(mesh, geometry::attribute::velocity);
   physics::SimulateState& sim = s.simulation;
   for (auto v : mesh.vertices()) {
     const double t = 0.1 * static_cast<double>(v) + 1.0 / 3;
@@ -96,10 +96,10 @@ TEST_CASE("a state holds everything to the last bit") {
   CHECK(was.lines_drawn == is.lines_drawn);
   CHECK(was.scene == is.scene);
   CHECK(was.file.comments == is.file.comments);
-  const auto velocity = *geometry::find_map(was.file.mesh, geometry::kVelocity),
-             read = *geometry::find_map(is.file.mesh, geometry::kVelocity);
-  const auto generation = *geometry::find_map(was.file.mesh, geometry::kGeneration),
-             generation_read = *geometry::find_map(is.file.mesh, geometry::kGeneration);
+  const auto velocity = *geometry::find_map(was.file.mesh, geometry::attribute::velocity),
+             read = *geometry::find_map(is.file.mesh, geometry::attribute::velocity);
+  const auto generation = *geometry::find_map(was.file.mesh, geometry::attribute::generation),
+             generation_read = *geometry::find_map(is.file.mesh, geometry::attribute::generation);
   for (auto v : was.file.mesh.vertices()) {
     CHECK(was.file.mesh.point(v) == is.file.mesh.point(v));
     CHECK(velocity[v] == read[v]);

@@ -14,11 +14,11 @@ using namespace furrow::tests;
 
 namespace {
 
-constexpr const char* kCamera = R"({"eye":[0,1,3],"target":[0,1,0],"fov":40,"size":[640,480]})";
+constexpr const char* test_camera = R"({"eye":[0,1,3],"target":[0,1,0],"fov":40,"size":[640,480]})";
 
 std::vector<io::DrawnStroke> drawn(const std::string& json, const io::ReadOptions& options = {}) {
   TemporaryFolder folder;
-  spit(folder / "cam.json", kCamera);
+  spit(folder / "cam.json", test_camera);
   spit(folder / "s.json", json);
   return io::read_drawn_strokes(folder / "s.json", 0.01, options);
 }

@@ -78,11 +78,11 @@ TEST_CASE("resolve_strokes: a stroke drawn in the pixels of a picture lies where
 TEST_CASE("resolve_strokes: each kind by its own way, names and heights are kept") {
   io::MeshFile garment = wavy_garment();
   garment.group_names = {"front", "back"};
-  auto texture = ensure_map(garment.mesh, kTexture);
+  auto texture = ensure_map(garment.mesh, attribute::texture);
   for (Halfedge h : garment.mesh.halfedges())
     texture[h] = {garment.mesh.point(garment.mesh.target(h)).x(),
                   garment.mesh.point(garment.mesh.target(h)).y()};
-  auto group = ensure_map(garment.mesh, kGroup);
+  auto group = ensure_map(garment.mesh, attribute::group);
   for (Face f : garment.mesh.faces()) group[f] = 0;
   std::vector<io::DrawnStroke> drawn(3);
   drawn[0].stroke = {"space", 0.02, {{0.1, 0.1, 0.5}, {0.2, 0.3, 0.5}}, false, Vector(0, 0, -1)};

@@ -137,7 +137,7 @@ TEST_CASE("strokes: what is written comes back with the same bits, also in anoth
   }
   plain.points.clear();
   CHECK_THROWS_AS(io::write_strokes(folder / "s.json", {plain}), std::invalid_argument);
-  fold.height = kUnset;
+  fold.height = unset_value;
   CHECK_THROWS_AS(io::write_strokes(folder / "s.json", {fold}), std::invalid_argument);
 }
 
@@ -150,11 +150,11 @@ TEST_CASE("strokes: the polylines of an OBJ file, which needs no faces") {
   CHECK(read[0].points == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}});
   CHECK((read[0].height == -0.03 && !read[0].closed));
   CHECK((read[1].points.size() == 3 && read[1].closed));
-  spit(folder / "none.obj", kCubeObj);
+  spit(folder / "none.obj", cube_obj);
   CHECK(content_error([&] { io::read_strokes(folder / "none.obj"); }).find("no polylines") !=
         std::string::npos);
   CHECK_THROWS_AS(io::read_strokes(folder / "strokes.svg"), ContentError);
-  CHECK_THROWS_AS(io::read_strokes(folder / "lines.obj", kUnset), std::invalid_argument);
+  CHECK_THROWS_AS(io::read_strokes(folder / "lines.obj", unset_value), std::invalid_argument);
 }
 
 TEST_CASE("nearest_word: distances known by hand") {
