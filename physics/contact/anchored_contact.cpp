@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
+
+#include "physics/base/require.h"
 
 namespace furrow::physics {
 namespace {
@@ -30,14 +30,10 @@ AnchoredContact::AnchoredContact(const Collider& collider, const AnchoredContact
       soft_(std::min(options.gap / 3, 1e-3)),
       slip_(0.1 * soft_),
       touches_(particles) {
-  const auto need = [](bool good, const char* name, double value, const char* range) {
-    if (good && std::isfinite(value)) return;
-    throw std::invalid_argument(std::string("AnchoredContact: ") + name + " = " + std::to_string(value) +
-                                " is not " + range);
-  };
-  need(options.friction >= 0, "friction", options.friction, ">= 0");
-  need(options.gap > 0, "gap", options.gap, "> 0");
-  need(options.stiffness > 0, "stiffness", options.stiffness, "> 0");
+  const char* const operation = "AnchoredContact";
+  require(operation, "friction", options.friction, options.friction >= 0, ">= 0");
+  require(operation, "gap", options.gap, options.gap > 0, "> 0");
+  require(operation, "stiffness", options.stiffness, options.stiffness > 0, "> 0");
   for (Touch& t : touches_) t.gap = options.gap;
 }
 

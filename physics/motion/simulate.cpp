@@ -7,7 +7,7 @@
 #include <ctime>
 #include <memory>
 
-#include "physics/base/refuse.h"
+#include "physics/base/require.h"
 #include "physics/contact/animated_contact.h"
 #include "physics/contact/rigid_contact.h"
 #include "physics/motion/step_length.h"
@@ -19,20 +19,22 @@ namespace {
 constexpr int divergence_steps = 16;  // steps between two looks for divergence
 
 void require_positive(double value, const char* name) {
-  if (!(value > 0) || !std::isfinite(value)) refuse(name, " = ", value, " is not > 0");
+  if (!(value > 0) || !std::isfinite(value)) refuse("simulate", name, " = ", value, " is not > 0");
 }
 
 void check(const SimulateOptions& o) {
-  if (!(o.seconds >= 0) || !std::isfinite(o.seconds)) refuse("seconds = ", o.seconds, " is not >= 0");
-  if (o.stop_at && std::isnan(*o.stop_at)) refuse("stop_at is not a number");
+  if (!(o.seconds >= 0) || !std::isfinite(o.seconds))
+    refuse("simulate", "seconds = ", o.seconds, " is not >= 0");
+  if (o.stop_at && std::isnan(*o.stop_at)) refuse("simulate", "stop_at is not a number");
   if (o.dt) require_positive(*o.dt, "dt");
-  if (!(o.dt_factor > 0 && o.dt_factor <= 1)) refuse("dt_factor = ", o.dt_factor, " is not in (0, 1]");
-  if (o.step_rule == StepRule::forced && !o.dt) refuse("a forced step needs dt");
+  if (!(o.dt_factor > 0 && o.dt_factor <= 1))
+    refuse("simulate", "dt_factor = ", o.dt_factor, " is not in (0, 1]");
+  if (o.step_rule == StepRule::forced && !o.dt) refuse("simulate", "a forced step needs dt");
   require_positive(o.dt_max, "dt_max");
   require_positive(o.limit_strain, "limit_strain");
   require_positive(o.speed_limit, "speed_limit");
-  if (o.limit_steps < 1) refuse("limit_steps = ", o.limit_steps, " is not >= 1");
-  if (o.observe_steps < 1) refuse("observe_steps = ", o.observe_steps, " is not >= 1");
+  if (o.limit_steps < 1) refuse("simulate", "limit_steps = ", o.limit_steps, " is not >= 1");
+  if (o.observe_steps < 1) refuse("simulate", "observe_steps = ", o.observe_steps, " is not >= 1");
 }
 
 double cpu_time() {
@@ -87,7 +89,7 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
       state_(state),
       pool_(options.threads),
       contact_options_{options.friction, options.contact_gap, options.recovery_speed} {
-  if (world.collider && world.animated) refuse("a rigid and an animated body at once");
+  if (world.collider && world.animated) refuse("simulate", "a rigid and an animated body at once");
   check(world.wind);
   check(world.body_motion);
   check(state, cloth.particles.size());
@@ -122,7 +124,7 @@ void Simulation::lead_pins() {
   if (world_.pins.empty()) return;
   std::vector<Vec3> homes = homes_of(world_.pins, cloth_.particles, state_.time);
   if (!state_.homes.empty() && state_.homes.size() != homes.size()) {
-    refuse("the state knows ", state_.homes.size(), " moved pins, but there are ", homes.size());
+    refuse("simulate", "the state knows ", state_.homes.size(), " moved pins, but there are ", homes.size());
   }
   if (state_.homes.empty()) state_.homes = std::move(homes);
   leader_.emplace(world_.pins, state_.homes);

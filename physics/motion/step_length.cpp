@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/base/refuse.h"
+#include "physics/base/require.h"
 #include "physics/linear/stable_step.h"
 #include "physics/packed/dashpots.h"
 
@@ -35,7 +35,7 @@ StepLength::StepLength(const Cloth& cloth, const SimulateOptions& options, Simul
   if (as_planned && state.end == options.seconds) return;
   const double most = limit(state.dt_limit);
   if (options.dt && options.step_rule == StepRule::limited && *options.dt > most && !as_planned)
-    refuse("dt = ", *options.dt, " s is above the stability limit of ", most, " s");
+    refuse("simulate", "dt = ", *options.dt, " s is above the stability limit of ", most, " s");
   state.planned = true;
   state.cloth = present;
   state.end = options.seconds;
@@ -85,7 +85,7 @@ double StepLength::longest() const {
 void StepLength::divide(double rest) {
   state_.dt_longest = longest();
   if (!(rest / state_.dt_longest < most_steps))
-    refuse("steps of ", state_.dt_longest, " s for ", rest,
+    refuse("simulate", "steps of ", state_.dt_longest, " s for ", rest,
            " s are too many; shorten the time, or choose a longer dt ", "or a softer or heavier cloth");
   // A hair above, so that 2 s / 0.1 ms is 20000 steps and not 20001.
   state_.steps_left = std::int64_t(std::ceil(rest / state_.dt_longest * (1 - 1e-12)));
