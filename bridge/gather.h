@@ -4,7 +4,7 @@
 
 #include "bridge/gather_particles.h"
 #include "geometry/mesh/mesh.h"
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::bridge {
 

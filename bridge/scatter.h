@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "geometry/mesh/mesh.h"
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::bridge {
 

@@ -15,7 +15,7 @@ namespace furrow::bridge {
 /// only where a map is unset. Positions, velocities and masses stay (bridge/scatter.h). After
 /// physics::stiffen_clamps call soften_clamps first, or clamps count twice the next time. Throws
 /// std::invalid_argument, the mesh untouched, if the elements are not those of the mesh, a triangle has other
-/// Lame parameters than the options give, or a value is out of the range that physics/cloth/springs.h states;
+/// Lame parameters than the options give, or a value is out of the range that physics/cloth/cloth.h states;
 /// and as gather() does. O(edges log edges).
 void store_rest_state(const physics::Cloth& cloth, const GatherOptions& options, geometry::Mesh& mesh);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/mesh/mesh.h"
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::cli {
 

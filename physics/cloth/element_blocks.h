@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/stiffness.h"
 
 namespace furrow::physics {

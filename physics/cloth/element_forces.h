@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "physics/base/thread_pool.h"
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/membrane.h"
-#include "physics/cloth/springs.h"
 
 namespace furrow::physics {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/stiffness.h"
 
 namespace furrow::physics {

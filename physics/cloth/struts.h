@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::physics {
 

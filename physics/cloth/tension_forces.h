@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/stiffness.h"
 
 namespace furrow::physics {

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "physics/body/collider.h"
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::physics {
 

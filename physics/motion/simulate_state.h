@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 #include "physics/contact/contact.h"
 #include "physics/motion/compensation.h"
 

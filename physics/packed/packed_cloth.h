@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "physics/base/vec4.h"
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 #include "physics/packed/packed_elements.h"
 #include "physics/packed/sweep_order.h"
 

@@ -4,7 +4,7 @@
 
 #include "physics/base/thread_pool.h"
 #include "physics/base/vec4.h"
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::physics {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::physics {
 

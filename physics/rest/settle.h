@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "physics/body/collider.h"
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::physics {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::cases {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::cases {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::cases {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/cloth/springs.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::tests {
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <concepts>
+#include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "physics/base/particles.h"
 
 namespace furrow::physics {
+
+class Energy;
 
 /// Energy 1/2 stiffness (l - rest_length)^2. Arrays of springs are sorted by (a, b) with a < b, so that
 /// sums have one order and the same input gives the same bits.
@@ -51,8 +56,21 @@ struct Cloth {
   std::vector<MembraneTriangle> membrane;
   std::vector<Tension> tension;  ///< sorted by (a, b)
   std::vector<Hinge> hinges;
-  HingeLaw hinge_law = HingeLaw::linear;      ///< of all hinges
-  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
+  HingeLaw hinge_law = HingeLaw::linear;                     ///< of all hinges
+  std::vector<std::array<int, 3>> triangles;                 ///< counter-clockwise from outside
+  std::vector<std::shared_ptr<const Energy>> energies = {};  ///< a caller's own (energy.h); none is null
 };
+
+/// The one list of kinds of elements: calls visit(elements, law...) for each, in the order in which all sums
+/// run. law: what the elements of a kind share. A cloth that is not const hands out what may be changed.
+template <class C, class Visit>
+requires std::same_as<std::remove_const_t<C>, Cloth>
+void for_each_kind(C& cloth, Visit&& visit) {
+  visit(cloth.structural);
+  visit(cloth.bending);
+  visit(cloth.membrane);
+  visit(cloth.tension);
+  visit(cloth.hinges, cloth.hinge_law);
+}
 
 }  // namespace furrow::physics
