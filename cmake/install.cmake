@@ -1,17 +1,50 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# `cmake --install build` installs all that was built; `--component physics` one part of it (what that stands on is a
+# component of its own).
 include(CMakePackageConfigHelpers)
-get_property(libraries GLOBAL PROPERTY furrow_libraries)
-install(TARGETS ${libraries} furrow_options EXPORT furrow_targets)
-install(EXPORT furrow_targets NAMESPACE furrow:: FILE furrow-targets.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/furrow)
-foreach(folder geometry physics bridge io)
-  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/furrow FILES_MATCHING PATTERN "*.h")
-endforeach()
-install(FILES ${PROJECT_BINARY_DIR}/generated/furrow/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/furrow/furrow)
-configure_package_config_file(cmake/furrow-config.cmake.in furrow-config.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/furrow)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/furrow)
+set(furrow_headers_folder ${CMAKE_INSTALL_INCLUDEDIR}/furrow)
+configure_package_config_file(cmake/furrow-config.cmake.in furrow-config.cmake INSTALL_DESTINATION ${package})
 write_basic_package_version_file(furrow-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/furrow-config.cmake
-              ${CMAKE_CURRENT_BINARY_DIR}/furrow-config-version.cmake cmake/FindMETIS.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/furrow)
-install(TARGETS furrow RUNTIME)
+
+foreach(component IN LISTS furrow_built)
+  set(licence LICENSE)
+  set(licence_folder ${CMAKE_INSTALL_DOCDIR})
+  if(component STREQUAL program)
+    install(TARGETS furrow RUNTIME COMPONENT program)
+  else()
+    install(TARGETS ${component} EXPORT furrow_${component}
+            ARCHIVE COMPONENT ${component}
+            FILE_SET HEADERS DESTINATION ${furrow_headers_folder} COMPONENT ${component})
+    install(EXPORT furrow_${component} NAMESPACE furrow:: FILE furrow-${component}-targets.cmake
+            DESTINATION ${package} COMPONENT ${component})
+    install(FILES ${PROJECT_BINARY_DIR}/generated/furrow/version.h DESTINATION ${furrow_headers_folder}/furrow
+            COMPONENT ${component})
+    install(FILES ${PROJECT_BINARY_DIR}/furrow-config.cmake ${PROJECT_BINARY_DIR}/furrow-config-version.cmake
+            DESTINATION ${package} COMPONENT ${component})
+  endif()
+  if(component STREQUAL physics)
+    install(FILES cmake/FindMETIS.cmake DESTINATION ${package} COMPONENT physics)
+    set(licence physics/LICENSE)
+    set(licence_folder ${CMAKE_INSTALL_DOCDIR}/physics)
+  endif()
+  install(FILES ${licence} DESTINATION ${licence_folder} COMPONENT ${component})
+endforeach()
+if(furrow_whole)
+  install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
+  install(DIRECTORY docs decisions examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs PATTERN Doxyfile EXCLUDE)
+endif()
+
+# pkg-config, where no CMake is used.
+foreach(folder LIBDIR INCLUDEDIR)  # GNUInstallDirs allows absolute ones
+  if(IS_ABSOLUTE ${CMAKE_INSTALL_${folder}})
+    set(furrow_pc_${folder} ${CMAKE_INSTALL_${folder}})
+  else()
+    set(furrow_pc_${folder} "\${prefix}/${CMAKE_INSTALL_${folder}}")
+  endif()
+endforeach()
+if(physics IN_LIST furrow_built)
+  get_filename_component(furrow_pc_metis "${METIS_LIBRARY}" DIRECTORY)
+  configure_file(cmake/furrow-physics.pc.in furrow-physics.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/furrow-physics.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT physics)
+endif()

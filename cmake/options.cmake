@@ -4,8 +4,7 @@ add_library(furrow_options INTERFACE)
 target_compile_features(furrow_options INTERFACE cxx_std_20)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/version.h.in ${PROJECT_BINARY_DIR}/generated/furrow/version.h @ONLY)
 target_include_directories(furrow_options INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>)
-target_include_directories(furrow_options INTERFACE
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/furrow>)
+target_include_directories(furrow_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 # The same input gives the same bits: no contraction of a*b+c that depends on the compiler's mood.
 target_compile_options(furrow_options INTERFACE -ffp-contract=off)
 target_compile_options(furrow_options INTERFACE
@@ -24,14 +23,21 @@ endif()
 # What spends its time in the libraries and not in itself (the program, the tests) is compiled faster, not better.
 set(furrow_light_options $<IF:$<CONFIG:Debug>,-O0,-O1>)
 
-# furrow_add_library(NAME SOURCES…): a static library `furrow::NAME` of this folder, installed and exported.
+# furrow_add_library(NAME SOURCES…): a static library `furrow::NAME` of this folder, a component of the package.
 function(furrow_add_library name)
   add_library(${name} STATIC ${ARGN})
   add_library(furrow::${name} ALIAS ${name})
   set_target_properties(${name} PROPERTIES OUTPUT_NAME furrow_${name} EXPORT_NAME ${name}
                         POSITION_INDEPENDENT_CODE ON)
-  target_link_libraries(${name} PUBLIC furrow_options)
-  set_property(GLOBAL APPEND PROPERTY furrow_libraries ${name})
+  target_link_libraries(${name} PUBLIC $<BUILD_INTERFACE:furrow_options>)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_compile_options(${name} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
+endfunction()
+
+# furrow_public_headers(NAME HEADERS…): the doors of this folder, which are installed and documented; all its other headers
+# are private. A public header includes public ones only (the test `public_headers`).
+function(furrow_public_headers name)
+  target_sources(${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARGN})
 endfunction()
 
 # Most of a source's time goes into the headers of CGAL, Eigen and Catch2: targets parse them once, or reuse what another
