@@ -7,7 +7,7 @@
 
 namespace furrow::bench {
 
-/// A CSV file: a line "# comment", the heading, then rows. Tells its name on standard output.
+/// A CSV file: a line "# comment", the heading, then rows. It prints its name on standard output.
 class Table {
  public:
   Table(const std::string& path, const std::string& comment, const std::string& heading) : file_(path) {

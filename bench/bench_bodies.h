@@ -7,13 +7,13 @@
 namespace furrow::bench {
 
 /// Geodesic sphere of 20 * frequency^2 triangles, radius about 1 m, with low bumps and a radial noise of 0.3
-/// edge lengths: the body that other distance libraries were measured with. Always the same one.
+/// edge lengths: the body that other distance libraries were measured with. It is the same in every run.
 physics::TriangleMesh noisy_sphere(int frequency);
 
 /// Geodesic ball of 20 * frequency^2 triangles; the vertices are on the sphere.
 physics::TriangleMesh geodesic_ball(int frequency, double radius);
 
-/// `v` and `f` of an OBJ file, polygons cut from their first corner.
+/// Reads `v` and `f` of an OBJ file; polygons are cut from their first corner.
 physics::TriangleMesh read_obj(const std::string& path);
 
 /// One round of CGAL's Loop subdivision.

@@ -29,7 +29,7 @@ struct Drape {
 
 enum class Way { settled, moved };
 
-/// moved: leapfrog's damped motion first, 6 s, and settle from its end.
+/// moved: first leapfrog's damped motion, 6 s; settle starts from its end.
 Drape drape(const CusickOptions& options, Way way = Way::settled) {
   Drape d{cusick_specimen(options), {}, {}, 0, 0};
   if (way == Way::moved) {

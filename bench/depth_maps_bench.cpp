@@ -47,8 +47,8 @@ double best_seconds(const Work& work) {
   return best;
 }
 
-/// Beside the surface, from 1 cm inside to 2 cm outside, in the order of the triangles: neighbours follow
-/// each other, as the vertices of a cloth do.
+/// Points beside the surface, from 1 cm inside to 2 cm outside, in the order of the triangles: neighbours
+/// follow each other, as the vertices of a cloth do.
 std::vector<Vec3> near_points(const TriangleMesh& mesh) {
   std::vector<Vec3> points;
   const int a_triangle = int(200'000 / mesh.triangles.size()) + 1;

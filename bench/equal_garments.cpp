@@ -82,7 +82,7 @@ Rest exact(const std::string& name, const Scene& scene, const Cloth& start) {
   return settled(name, scene, start, scene.arguments["--depth"]);
 }
 
-/// Whether a motion is to go on: until 1e-2, or until it gets no nearer.
+/// Whether a motion must go on: until 1e-2, or until it gets no nearer.
 struct Watch {
   const Scene& scene;
   const Cloth& cloth;
@@ -103,7 +103,7 @@ struct Diverged : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Under leapfrog. Springs are damped in the first second alone: their damping acts on what the last
+/// Rest under leapfrog. Springs are damped in the first second alone: their damping acts on what the last
 /// half-kick leaves in the velocities of pressed vertices. Hinges of narrow faces stiffen as cloth folds, so
 /// the limit of the step is asked for often.
 Rest moved(const std::string& name, const Scene& scene, const Cloth& start) {

@@ -41,7 +41,7 @@ Cloth chain() {
   return cloth;
 }
 
-/// Hangs from its first row, at rest lengths; off its plane by a little.
+/// Hangs from its first row, at rest lengths, a little off its plane.
 Cloth hanging_sheet() {
   Cloth cloth = with_tension(sheet(8, 9, 0.03), 1, 0.3);
   cloth.bending.clear();
@@ -134,7 +134,7 @@ void scene(const std::string& folder) {
   for (const bool cap : {false, true}) {
     Cloth cloth = start;
     options.cap = cap;
-    // What diverges is shown as it was before it went farther than 3 m.
+    // A run that diverges is shown as it was before it went farther than 3 m.
     std::vector<Vec3> last = cloth.particles.x;
     int shown = 0;
     const SettleObserver observer = [&](const SettleProgress& now) {

@@ -111,7 +111,7 @@ double height_of(const Ridge& ridge, const std::vector<Vec3>& flat, const std::v
   return crest / crests - base / bases;
 }
 
-/// Today's practice: rest lengths and angles as drawn.
+/// Usual practice: rest lengths and angles as drawn.
 void copy_shape(Cloth& cloth) {
   const auto& x = cloth.particles.x;
   for (Spring& s : cloth.structural) s.rest_length = (x[s.b] - x[s.a]).norm();
@@ -132,7 +132,7 @@ double least(const std::function<void()>& work) {
   return best;
 }
 
-/// What the solve for the rest state costs, its parts, and the certificate beside it.
+/// What the solve for the rest state and its parts cost, and the certificate beside it.
 void print_times(int vertices) {
   Cloth cloth = flat_sheet(vertices, 1e-4);
   draw(cloth);

@@ -3,7 +3,7 @@
 
 namespace furrow::bench {
 
-/// CPU seconds of this thread: meaningful on a busy machine.
+/// CPU seconds of this thread, which are meaningful on a busy machine, too.
 double cpu_seconds();
 
 /// STREAM triad a = b + s c over arrays far larger than the caches [GB/s of CPU time], median of 7.

@@ -37,7 +37,7 @@ void check(const DrapeOptions& o) {
 }
 
 /// Moves each free particle along its normal, in or out, by up to so much of the mean edge, the same way in
-/// every run: creases begin so, and the cloth is hardly strained.
+/// every run. Creases begin so, and the cloth is hardly strained.
 double disturb(physics::Cloth& cloth, double share) {
   std::vector<Vec3>& x = cloth.particles.x;
   std::vector<Vec3> normal(x.size(), Vec3::Zero());
@@ -56,7 +56,7 @@ double disturb(physics::Cloth& cloth, double share) {
   return by;
 }
 
-/// What cloth at rest may lie inside the gap: to move it would only strain it.
+/// How deep cloth at rest may lie inside the gap: moving it out would only strain it.
 double rest_depth(double gap) { return std::min(gap / 6, 5e-4); }
 
 physics::PushOutReport bring_out(physics::Cloth& cloth, const physics::Collider* body, double gap) {
@@ -89,7 +89,8 @@ physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* 
 constexpr double least_slip = 2e-3;  // rad
 constexpr int most_rounds = 60;
 
-/// Rest of the last level, once more while hinges give way; they stand at the end of the cloth's.
+/// Finds rest on the last level, again while hinges give way; their friction stands at the end of the cloth's
+/// hinges.
 void give_way(physics::Cloth& cloth, const physics::Collider* body, double moment,
               const physics::SettleOptions& o, const physics::SettleObserver& observer,
               physics::SettleReport& settled, DrapeReport& report) {

@@ -12,12 +12,12 @@ namespace furrow::bridge {
 struct DrapeOptions {
   int refinements = 0;            ///< Loop subdivisions between the given mesh and the fitted one; in [0, 6]
   physics::SettleOptions settle;  ///< of the last level; others end at coarse_tolerance, at any depth
-  /// Paper 2's plain scheme (physics/rest/displace_by_force.h) with the same friction, gap, tolerance and,
-  /// for its passes, max_iterations; to compare with: it takes a hundred times as long.
+  /// Paper 2's plain scheme (physics/rest/displace_by_force.h), to compare with: it takes a hundred times as
+  /// long. It has the same friction, gap and tolerance; max_iterations bounds its passes.
   bool plain = false;
   double coarse_tolerance = 100;  ///< residual force at which the next level takes over [-]; > 0
-  /// What a level's start is disturbed by, along its normals, so that cloth which must buckle does not
-  /// balance on the way to it: a share of its mean edge [-]; >= 0.
+  /// How far a level's start is disturbed along its normals, as a share of its mean edge [-]; >= 0. Without
+  /// it cloth that must buckle balances on the way to it.
   double disturbance = 0.003;
   /// Internal friction of bending on the last level, as a moment a metre of hinge [N]; >= 0, 0: none. It
   /// needs linear hinges, and not plain. See physics/rest/hinge_friction.h.
@@ -37,19 +37,21 @@ struct DrapeReport {
   bool stopped = false;            ///< by go_on
 };
 
-/// Makes a garment cloth: fills its maps, gathers and pins. Called once a level, with the mesh as it was
-/// made.
+/// Makes a garment cloth: fills its maps, gathers and pins. Called once for each level, with the mesh as it
+/// was made.
 using MakeCloth = std::function<physics::Cloth(geometry::Mesh&)>;
-/// level, its settle() progress and its cloth. false: stop here.
+/// Gets the level, the progress of its settle() and its cloth. Returns false to stop here.
 using DrapeObserver = std::function<bool(int level, const physics::SettleProgress&, const physics::Cloth&)>;
 
-/// Fits a garment on a body (null: it only hangs): brings out what lies nearer than the gap (on a finer level
-/// only what lies deeper than cloth does at rest), finds rest on the coarse mesh, carries that shape to the
-/// next finer one (Loop's masks take positions as they take the rest shape) and finds rest there. On return
-/// the mesh is refined, has the maps of make_cloth and its vertices lie where they rest; `cloth` belongs to
-/// it, with the hinges of friction at its end. If stopped on a coarse level, the rest of the way is only
-/// carried. Same input, same bits. Cost: most of it is the last level's. Throws std::invalid_argument for an
-/// option out of its range, the mesh unchanged; and as loop_subdivide(), make_cloth and settle() do.
+/// Fits a garment on a body (null: it only hangs), from the coarse mesh to the finest. On return the mesh is
+/// refined, has the maps of make_cloth, and its vertices lie where they rest. `cloth` belongs to it, with the
+/// hinges of friction at its end. If stopped on a coarse level, the rest of the way is only carried. Same
+/// input, same bits. Cost: most of it is the last level's. Throws std::invalid_argument for an option out of
+/// its range, the mesh unchanged; and as loop_subdivide(), make_cloth and settle() do.
+///
+/// \details Each level first brings out what lies nearer than the gap (a finer one only what lies deeper than
+/// cloth does at rest), then finds rest, and carries that shape to the next finer level: Loop's masks take
+/// positions as they take the rest shape.
 DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
                   const DrapeOptions& options, const MakeCloth& make_cloth, const DrapeObserver& go_on = {});
 

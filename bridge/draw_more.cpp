@@ -40,7 +40,7 @@ void keep_momentum(Mesh& mesh, physics::Particles& p, const Vec3& wanted, std::s
   scatter_velocities(p, mesh);
 }
 
-/// The springs' options with the presses of new lines; those of earlier ones stay.
+/// The options of the springs with the presses of new lines; those of earlier lines stay.
 GatherOptions with_lines(GatherOptions springs, std::span<const Stroke> strokes, int first_line) {
   const LineShapes fresh = line_shapes(strokes, first_line);
   const auto join = [&](std::vector<double>& list, const std::vector<double>& all, double missing) {

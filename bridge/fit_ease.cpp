@@ -52,8 +52,9 @@ struct Cloth {
     for (geometry::Face f : mesh.faces()) rest.push_back(geometry::edge_lengths(mesh, f, lengths));
   }
 
-  /// Of a straight way between two points of a triangle, in its rest metric: with u the difference of their
-  /// barycentrics, l^2 = -(l01^2 u0 u1 + l12^2 u1 u2 + l20^2 u2 u0). (Sharp, Soliman, Crane 2019.)
+  /// Rest length of a straight way between two points of a triangle. With u the difference of their
+  /// barycentrics its square is l^2 = -(l01^2 u0 u1 + l12^2 u1 u2 + l20^2 u2 u0). (Sharp, Soliman, Crane
+  /// 2019.)
   double rest_length(const SectionPoint& p, const SectionPoint& q, int triangle) const {
     const auto& t = triangles[static_cast<std::size_t>(triangle)];
     const auto& l = rest[static_cast<std::size_t>(triangle)];

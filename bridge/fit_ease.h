@@ -36,12 +36,14 @@ struct FitBody {
 };
 
 /// Ease at the sections whose height is known. The garment's curve is the largest closed one around the
-/// middle of the body's torso there. Where it runs around another curve of the body, too, such as an arm in a
-/// sleeve that has grown together with the chest, it is cut halfway between torso and arm, at right angles to
-/// the shortest way between them, and closed by a straight line. Where no curve is closed, because a sleeve
-/// ends at this height, what is left between such cuts counts if no border ends in it and it covers more than
-/// half of the torso. Throws geometry::ContentError where
-/// horizontal_section() and rest_lengths() do. O(triangles) a section.
+/// middle of the body's torso there. O(triangles) a section. Throws geometry::ContentError where
+/// horizontal_section() and rest_lengths() do.
+///
+/// \details The curve may run around another curve of the body, too, such as an arm in a sleeve that has
+/// grown together with the chest. Then it is cut halfway between torso and arm, at right angles to the
+/// shortest way between them, and closed by a straight line. Where no curve is closed, because a sleeve ends
+/// at this height, what is left between such cuts counts if no border ends in it and it covers more than half
+/// of the torso.
 std::vector<FitEase> measure_ease(const geometry::Mesh& garment, const FitBody& body,
                                   const SectionHeights& heights);
 

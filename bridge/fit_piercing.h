@@ -16,8 +16,8 @@ struct FitPiercing {
   std::vector<FitZone> zones;  ///< of pierced faces and those with all corners inside; peak: their depth [m]
 };
 
-/// `distances` of the vertices to the body by index. Inside a pierced face the depth is sampled every 5 mm
-/// (of a longer edge than 1.25 m: 256 times), elsewhere at the vertices, for a face that is not pierced lies
+/// `distances`: of the vertices to the body, by index. Inside a pierced face the depth is sampled every 5 mm
+/// (256 times along an edge longer than 1.25 m), elsewhere at the vertices: a face that is not pierced lies
 /// on one side of a closed body. Height and side of zones are not set. Throws as pierced_faces(), and
 /// std::invalid_argument for too few distances. Cost: that of pierced_faces(), and a query (1 us) a sample.
 FitPiercing measure_piercing(const geometry::Mesh& garment, const physics::TriangleMesh& body,

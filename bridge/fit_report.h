@@ -26,7 +26,8 @@ struct FitOptions {
 };
 
 /// Engineering strain of the faces along the direction in which each is stretched most
-/// (geometry/figure/principal_strain.h): > 0 stretched, < 0 pressed together in all directions. By area.
+/// (geometry/figure/principal_strain.h), weighted by area: > 0 stretched, < 0 pressed together in all
+/// directions.
 struct FitStrain {
   double share_over = 0;             ///< of the area, strained more than tight_strain, in [0, 1]
   double p50 = 0, p99 = 0, max = 0;  ///< [-]
@@ -55,12 +56,13 @@ struct FitReport {
 
 /// How a worn garment fits a body: distances, strain, tight and loose zones, ease. `body` and `distance` are
 /// one body (bridge/body.h), y up, in the pose in which the garment was worn. Writes the attributes
-/// fit_distance and, where any e:rest_length is set, fit_strain (at a vertex the mean of its faces by area; 0
-/// at a vertex of no face); nothing else is changed. Zones join faces through edges, by the mean of their
-/// corners. Throws std::invalid_argument for an option out of its range, geometry::ContentError for a mesh
-/// without area, a position that is not finite, a face that is no triangle or a broken rest length, the mesh
-/// untouched. Cost: a distance query a vertex (1 us), what measure_piercing() costs, and about
-/// 100 plane sections of the body.
+/// fit_distance and, where any e:rest_length is set, fit_strain; changes nothing else. Cost: a distance query
+/// a vertex (1 us), what measure_piercing() costs, and about 100 plane sections of the body. Throws
+/// std::invalid_argument for an option out of its range, geometry::ContentError for a mesh without area, a
+/// position that is not finite, a face that is no triangle or a broken rest length, the mesh untouched.
+///
+/// \details fit_strain is at a vertex the mean of its faces by area, and 0 at a vertex of no face. Zones join
+/// faces through edges, by the mean of their corners.
 FitReport fit_report(geometry::Mesh& garment, const physics::TriangleMesh& body,
                      const physics::ExactDistance& distance, const FitOptions& options = {});
 

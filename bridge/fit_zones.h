@@ -22,12 +22,12 @@ struct FitZones {
   std::size_t left_out = 0;    ///< too small
 };
 
-/// Faces whose corners have a mean value over the threshold, joined through edges; zones of less than
-/// `smallest` [m^2] are left out. `values` by vertex index. Throws std::invalid_argument if there are fewer
-/// than vertices. The faces are triangles. O(faces).
+/// Zones of faces whose corners have a mean value over the threshold, joined through edges. Zones of less
+/// than `smallest` [m^2] are left out. `values` are by vertex index. The faces are triangles. O(faces).
+/// Throws std::invalid_argument if there are fewer values than vertices.
 FitZones fit_zones(const geometry::Mesh& mesh, const std::vector<double>& values, double threshold,
                    double smallest);
-/// The same of chosen faces (by face index: not 0), whose peaks are given by face index.
+/// The same for chosen faces (by face index: not 0), whose peaks are given by face index.
 FitZones fit_zones(const geometry::Mesh& mesh, std::vector<char> chosen, const std::vector<double>& peaks,
                    double smallest);
 

@@ -8,7 +8,7 @@
 
 namespace furrow::bridge {
 
-/// What resists stretching. The springs' laws differ on uneven meshes only.
+/// What resists stretching. The laws of the springs differ on uneven meshes only.
 enum class Membrane {
   paper,       ///< springs of k = (r / r_avg) k_std (method S1.7)
   uniform,     ///< k = k_std
@@ -40,21 +40,23 @@ struct GatherOptions {
   double compression = 0.2;  ///< push over pull of tension at the same |e| [-]; in [0, 1]
   double shear = 0.2;        ///< of diagonals over that of threads in tension [-]; in [0, 1]
   MassRule mass_rule = MassRule::area;
-  /// By line id: factors on the hinges in a line's region [-] >= 1, and the lines' widths [m], NaN: none
-  /// (geometry/fold/line_press.h). Missing at the end: 1, and none.
+  /// By line id: factors on the hinges in a line's region [-], >= 1, and the lines' widths [m], NaN: none
+  /// (geometry/fold/line_press.h). What is missing at the end counts as 1, and as none.
   std::vector<double> line_presses = {}, line_widths = {};
 };
 
-/// The mesh as plain arrays: particles after gather_particles(), rest lengths from e:rest_length (of a
-/// triangle h:rest_length where it is set) and e:bending_rest_length, rest angles from e:rest_angle (where it
-/// is unset: 0). Stiffness from e:stiffness, e:bending_stiffness, e:hinge_stiffness and e:tension where they
-/// are set, else by the options' law, a hinge's times the press of its lines; there a bending spring that
+/// The mesh as plain arrays: particles by gather_particles(), springs, triangles and hinges by the options.
+/// Only what the options choose is filled. O(edges log edges). Throws std::invalid_argument if an option is
+/// out of its range, a map is missing, or the mesh has removed elements (collect its garbage first);
+/// ContentError for a rest length or a mass that is not > 0, a stiffness that is set and not >= 0 and finite,
+/// a triangle without area at rest.
+///
+/// \details Rest lengths come from e:rest_length (of a triangle h:rest_length where it is set) and
+/// e:bending_rest_length, rest angles from e:rest_angle (0 where it is unset). Stiffnesses come from
+/// e:stiffness, e:bending_stiffness, e:hinge_stiffness and e:tension where they are set. Elsewhere they
+/// follow the options' law: a hinge's is multiplied by the press of its lines, and a bending spring that
 /// stands for several hinges has their number (e:bending_count) times the stiffness. Struts follow among the
-/// bending springs, whatever the law of bending. Only what the options choose is filled. A vertex without
-/// faces gets mass 0 and stays where it is. Throws std::invalid_argument if an option is out of its range, a
-/// map is missing, or the mesh has removed elements (collect its garbage first); ContentError for a rest
-/// length or a mass that is not > 0, a stiffness that is set and not >= 0 and finite, a triangle without area
-/// at rest. Cost: O(edges log edges).
+/// bending springs, whatever the law of bending.
 physics::Cloth gather(const geometry::Mesh& mesh, const GatherOptions& options);
 
 /// A cloth, and where its elements come from, in their order.
@@ -66,7 +68,7 @@ struct GatheredCloth {
 /// gather(), with the elements' origin.
 GatheredCloth gather_with_origin(const geometry::Mesh& mesh, const GatherOptions& options);
 
-/// k_std [N/m] with which springs on equilateral triangles are a sheet of Y [N/m] (and of Poisson's ratio
+/// The k_std [N/m] with which springs on equilateral triangles are a sheet of Y [N/m] (and of Poisson's ratio
 /// 1/3): k = sqrt(3)/2 Y.
 double spring_constant_of(double stretch);
 

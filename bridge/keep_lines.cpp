@@ -154,7 +154,7 @@ class Keeper {
   }
 
   bool holds(const HelpedLine& line) const {
-    // What is not stable ends elsewhere each time: a run is a sample, and the next one may be worse.
+    // An unstable shape ends elsewhere each time: a run is a sample, and the next one may be worse.
     const double most = (report_.certificate.stable() ? 1 : reserve) * (1 - o_.kept);
     return std::abs(line.kept - 1) <= most && std::abs(line.kept_gust - 1) <= most;
   }
@@ -184,7 +184,8 @@ class Keeper {
     return std::count_if(lines_.begin(), lines_.end(), [&](const auto& line) { return !good(line, loose); });
   }
 
-  /// All help for all lines: a neighbour that holds by itself can let a line go. Stays if more lines hold.
+  /// Gives all help to all lines, since a neighbour that holds by itself can let a line go. The help stays if
+  /// more lines hold.
   void help_all() {
     const std::size_t before = failing();
     if (before == 0 || hangs_wrong()) return;

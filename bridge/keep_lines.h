@@ -37,21 +37,23 @@ struct KeepReport {
 };
 
 /// Gives a cloth the rest state that makes its drawn lines an equilibrium (physics/rest/prestress.h), and
-/// tells of each line whether it will hold: by the certificate of stability (physics/rest/certificate.h) and
-/// by a run forward, from rest and after a gust. What is nearer to the body than the gap is first brought
-/// there: a valley on a body is as deep as there is room. Lines that do not hold are helped, one step more
-/// each time and no line more than it needs: press (their hinges stiffer), then struts on top of the
-/// strongest press, then a lower height; the least that holds stays. With `whole` the hinges between the
-/// lines are pressed likewise where the motion that nothing holds back is theirs.
+/// tells of each line whether it will hold. mesh: the garment with attribute::line, from which `cloth` was
+/// gathered and pinned. base: height that a line would have without displacement, by id [m]; may be empty.
+/// go_on: asked between and within runs, false stops; may be empty. On return `cloth` has the new rest state,
+/// stiffnesses and struts, at the positions of the mesh, at rest. Same input, same bits. Cost: a
+/// factorisation or two each trial; the forward runs are most of it. Throws std::invalid_argument, nothing
+/// changed, if an option is out of its range or cloth and mesh do not fit; and as prestress() and simulate()
+/// do.
 ///
-/// mesh: the garment with attribute::line, from which `cloth` was gathered and pinned; its positions are the
-/// drawn shape, and follow where heights were lowered. attribute::rest_position tells where a line lies
-/// without its height; without it nothing is lowered. base: height that a line would have without
-/// displacement, by id [m] (curvature of the garment); may be empty. On return `cloth` has the new rest
-/// state, stiffnesses and struts, at the positions of the mesh, at rest. go_on: asked between and within
-/// runs; false: stop. May be empty. Cost: a factorisation or two each trial; the forward runs are most of it.
-/// Same input, same bits. Throws std::invalid_argument, nothing changed, if an option is out of its range or
-/// cloth and mesh do not fit; and as prestress() and simulate() do.
+/// \details A verdict asks the certificate of stability (physics/rest/certificate.h) and a run forward, from
+/// rest and after a gust. What is nearer to the body than the gap is first brought there: a valley on a body
+/// is as deep as there is room. Lines that do not hold are helped, one step more each time and no line more
+/// than it needs: press (their hinges stiffer), then struts on top of the strongest press, then a lower
+/// height. The least that holds stays. With `whole` the hinges between the lines are pressed likewise, where
+/// the motion that nothing holds back is theirs.
+///
+/// The positions of `mesh` are the drawn shape, and follow where heights were lowered.
+/// attribute::rest_position tells where a line lies without its height; without that map nothing is lowered.
 KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
                       const std::vector<double>& base, const KeepOptions& options,
                       const std::function<bool(double)>& go_on = {});

@@ -14,13 +14,13 @@ struct KeptShape {
   physics::PushOutReport pushed;  ///< of particles nearer to the body than the gap
 };
 
-/// Gives a cloth, pinned, the rest state with which it is in equilibrium as it lies, on the body where that
-/// stands (physics/rest/prestress.h), and tells whether that is a stable one (physics/rest/certificate.h).
-/// Without a body, what hangs on a line of pins or on one is first turned about it into balance, if by no
-/// more than largest_turn [rad] (physics/rest/rigid_imbalance.h); on a body, bring_out() comes first.
-/// Otherwise positions stay, and velocities and stiffnesses always. Wind is no load here. Throws
-/// std::invalid_argument, nothing changed, as require_still() and prestress() do. Cost: a factorisation or
-/// two.
+/// Gives a pinned cloth the rest state with which it is in equilibrium as it lies, on the body where that
+/// stands (physics/rest/prestress.h), and tells whether that equilibrium is stable
+/// (physics/rest/certificate.h). Without a body, what hangs on a line of pins or on one pin is first turned
+/// about it into balance, if by no more than largest_turn [rad] (physics/rest/rigid_imbalance.h); on a body,
+/// bring_out() comes first. Otherwise positions stay; velocities and stiffnesses always do. Wind is no load
+/// here. Cost: a factorisation or two. Throws std::invalid_argument, nothing changed, as require_still() and
+/// prestress() do.
 KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
                      const physics::PrestressOptions& options, double largest_turn = 0);
 

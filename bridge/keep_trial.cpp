@@ -19,7 +19,7 @@ constexpr double first_part = 0.2;  // of the first run, before it is asked whet
 constexpr double first_look = 0.5,
                  look = 0.1;  // at what is on its way elsewhere, when the push has calmed [s]
 
-/// Level, the way in which the cloth is thinnest, unless the options name another.
+/// The options' direction of the gust; if they name none, the level direction in which the cloth is thinnest.
 Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
   if (o.gust_direction.norm() > 0) return o.gust * o.gust_direction.normalized();
   const Vec3 down = o.run.gravity.norm() > 0 ? Vec3(o.run.gravity.normalized()) : Vec3(Vec3::Zero());
@@ -31,8 +31,8 @@ Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
   return o.gust * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
 }
 
-/// Moves each free particle by so much [m], or a tenth of the shortest edge at it, in some direction; the
-/// same in every run of this number.
+/// Moves each free particle by so much [m], or a tenth of the shortest edge at it, in some direction, which
+/// is the same in every run of this number.
 void push(physics::Cloth& cloth, double by, std::uint64_t number) {
   physics::Particles& p = cloth.particles;
   std::vector<double> most(p.size(), by);

@@ -7,7 +7,8 @@ namespace furrow::bridge {
 /// Measures the heights of a garment's lines at other positions of its vertices.
 class LineMeter {
  public:
-  /// Lines that have a height where the mesh lies. base: see keep_lines(); widths: KeepOptions::line_widths.
+  /// Measures the lines that have a height where the mesh lies. base: see keep_lines(); widths:
+  /// KeepOptions::line_widths.
   LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths);
   const std::vector<int>& lines() const { return lines_; }  ///< their ids, rising
   const std::vector<int>& unmeasured() const {
@@ -29,11 +30,13 @@ struct KeepTrial {
   bool stopped = false;  ///< by go_on
 };
 /// Runs a cloth forward from rest, then through a gust and a calm, as the options say; the cloth is not
-/// changed. Each run begins with a push of every vertex: what is not stable would stand still like a pencil
-/// on its tip, and what is may lie in a shallow hollow. stable: what its certificate says; if not, there are
-/// options.pushes runs, and of `kept` the worst counts, at any time from 0.5 s on. in_vain: asked at a fifth
-/// of each first run with what the lines have kept until then; true: that is enough, `kept` is what it was
-/// asked with. Both functions may be empty.
+/// changed. stable: what its certificate says; if not, there are options.pushes runs, and of `kept` the worst
+/// counts, at any time from 0.5 s on. in_vain: asked at a fifth of each first run with what the lines have
+/// kept until then; if it returns true, the trial ends, and `kept` is what it was asked with. Both functions
+/// may be empty.
+///
+/// \details Each run begins with a push of every vertex: an unstable shape would stand still like a pencil on
+/// its tip, and a stable one may lie in a shallow hollow.
 KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
                     const KeepOptions& options, LineMeter& meter,
                     const std::function<bool(const std::vector<double>&)>& in_vain,

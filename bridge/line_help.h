@@ -24,16 +24,16 @@ double struts_of(const HelpedLine& line, const KeepOptions& options);  ///< [N/m
 /// Whether some element of its patch is on a bound of the rest state.
 bool on_bounds(const HelpedLine& line, const physics::PrestressReport& rest, const physics::Cloth& cloth);
 
-/// Lines with height != 1: their patches move from `drawn` towards attribute::rest_position, where they lay
+/// Moves the patches of lines with height != 1 from `drawn` towards attribute::rest_position, where they lay
 /// without a line; pins stay.
 void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mesh,
                  const physics::Particles& drawn, physics::Particles& particles);
-/// Presses the lines' hinges and adds their struts. Where patches overlap the stronger press counts.
+/// Presses the lines' hinges and adds their struts. Where patches overlap, the stronger press counts.
 /// rest_press: factor on all hinges that are in no line's patch [-].
 void stiffen_lines(const std::vector<HelpedLine>& lines, const KeepOptions& options, double rest_press,
                    physics::Cloth& cloth);
-/// Shares of a motion's kinetic energy [-]: of each line's patch (they may overlap), and last of what lies in
-/// none. All 0 for an empty motion.
+/// Shares of a motion's kinetic energy [-]: that of each line's patch (they may overlap), and last that of
+/// what lies in no patch. All are 0 for an empty motion.
 std::vector<double> shares_of(const std::vector<HelpedLine>& lines, const physics::Particles& particles,
                               const std::vector<physics::Vec3>& motion);
 

@@ -2,7 +2,8 @@
 #pragma once
 #include "geometry/mesh/mesh.h"
 
-/// Clothes for the mannequin, of triangles of equal size, wound outward; they leave it 4 mm or more.
+/// Clothes for the mannequin, of triangles of equal size, wound outward. They lie 4 mm or more from its
+/// surface.
 namespace furrow::meshes {
 
 /// A T-shirt with four openings: neck, hem, two sleeves.

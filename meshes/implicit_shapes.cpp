@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Array;
 
-/// For |p / r| = 1 on the surface: to first order the distance from the ellipse or ellipsoid of radii r.
+/// To first order the distance from the ellipse or ellipsoid of radii r, where |p / r| = 1.
 template <int N>
 double from_ellipse(const Array<double, N, 1>& p, const Array<double, N, 1>& r) {
   const double k0 = std::sqrt((p / r).square().sum()), k1 = std::sqrt((p / (r * r)).square().sum());

@@ -3,20 +3,20 @@
 #include <Eigen/Core>
 #include <vector>
 
-/// Solids as functions of a point: < 0 inside, > 0 outside, near the surface about the distance [m]. Only the
-/// four basic operations and square roots, so the values have the same bits on every machine.
+/// Solids as functions of a point: < 0 inside, > 0 outside, near the surface about the distance [m]. They use
+/// only the four basic operations and square roots, so the values have the same bits on every machine.
 namespace furrow::meshes {
 
 using Vec = Eigen::Vector3d;  ///< [m]; x to the figure's left, y up, z forward
 
-/// How much the ellipsoid of these radii around `center` is away. Not a true distance, but right to first
-/// order.
+/// About the distance from the ellipsoid of these radii around `center` [m]. It is not a true distance, but
+/// right to first order.
 double ellipsoid(const Vec& p, const Vec& center, const Vec& radii);
 /// Distance from the convex hull of two balls (a, radius ra) and (b, rb).
 double round_cone(const Vec& p, const Vec& a, const Vec& b, double ra, double rb);
 /// The union of two solids with a fillet about `blend` [m] wide (> 0) where they meet.
 double smooth_union(double a, double b, double blend);
-/// The same with what is in both.
+/// The same for the intersection of the two.
 double smooth_intersection(double a, double b, double blend);
 
 /// A cross-section of a loft: an ellipse at `at` along the axis.
@@ -27,7 +27,7 @@ struct Station {
   double shift_across = 0;  ///< and along `across` [m]
 };
 
-/// Ellipses along an axis with smooth curves (Catmull-Rom) between them; flat at the two ends.
+/// Ellipses along an axis with smooth curves (Catmull-Rom) between them, and flat ends.
 class Loft {
  public:
   /// Unit vectors at right angles; `stations` in growing order of `at`, two or more.

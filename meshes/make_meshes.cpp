@@ -77,7 +77,7 @@ void make_figure(const std::filesystem::path& folder) {
   save("skirt.obj", furrow::meshes::make_skirt(), "flared skirt for mannequin.obj");
 }
 
-/// What the scenes with known answers are made of.
+/// The meshes of the scenes with known answers.
 void make_validation(const std::filesystem::path& folder) {
   const auto save = [&](const char* name, Mesh mesh, const char* comment) {
     round_positions(mesh);

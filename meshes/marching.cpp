@@ -16,8 +16,8 @@ using geometry::Point;
 using geometry::Vertex;
 using Corner = std::array<int, 3>;  // of the lattice
 
-/// The six ways from a cube's lowest corner to its highest along its edges: each passes a tetrahedron's four
-/// corners.
+/// The six ways from a cube's lowest corner to its highest along its edges. Each passes the four corners of a
+/// tetrahedron.
 constexpr std::array<std::array<int, 3>, 6> ways{
     {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
 

@@ -7,10 +7,11 @@
 namespace furrow::meshes {
 
 /// The surface of a solid in triangles of about this edge [m], closed, wound outward: marching tetrahedra,
-/// remeshed, each vertex moved onto the surface. The box from `low` to `high` must hold it all.
+/// remeshed, with each vertex moved onto the surface. The box from `low` to `high` must hold all of it.
 geometry::Mesh mesh_surface(const Solid& solid, const Vec& low, const Vec& high, double edge);
 
-/// Where `keep` > 0; triangles that its zero crosses are cut, the cut being straight in each of them.
+/// The part of the mesh where `keep` > 0. Triangles that its zero crosses are cut, by a straight line in
+/// each.
 geometry::Mesh cut(const geometry::Mesh& mesh, const Solid& keep);
 
 /// Triangles of about this edge [m] on the same surface; the borders stay the curves that they are.

@@ -29,7 +29,7 @@ const char* verdict(const DropRun& r) {
   return r.largest_rise > rise ? "rough" : "stable";
 }
 
-/// 2/omega_max where a run at half the limit ends, over that at the start: folds shorten it.
+/// 2/omega_max at the end of a run at half the limit, over that at the start: folds shorten it.
 double shrunk_limit(const Drop& drop, double limit) {
   Swing draped = drop.fall;
   draped.cloth.particles.x = run(drop, {Integrator::leapfrog, {}, {}}, 0.5 * limit).end.x;

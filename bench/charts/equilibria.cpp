@@ -84,7 +84,7 @@ struct Rest {
   physics::WorkCounts work;
 };
 
-/// Steps until at rest; the time of looking at the residual is not counted. At most `most` seconds.
+/// Steps until at rest, at most `most` seconds. The time for looking at the residual is not counted.
 Rest settle(const Scene& scene, const Method& method, double dt, double most) {
   constexpr double longest = 60;  // simulated seconds
   Rest rest;

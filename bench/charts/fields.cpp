@@ -90,7 +90,7 @@ Points points_of_band(const TriangleMesh& mesh, const Band& band, int count) {
   return points;
 }
 
-/// The shortest time of `count` runs; of fewer where they are long.
+/// The shortest time of `count` runs; long ones run less often.
 double best_of(int count, const std::function<void()>& run) {
   double best = std::numeric_limits<double>::infinity(), sum = 0;
   for (int i = 0; i < count && sum < 1; ++i) {
@@ -127,7 +127,7 @@ struct Body {
 };
 
 std::vector<Body> bodies(bool quick) {
-  // On a ball a tolerance splits all cells of the band or none.
+  // On a ball a tolerance splits either all cells of the band or none.
   std::vector<Body> list{{"ball", geodesic_ball(quick ? 40 : 71, 0.25), {1, 0.25, 0.0625}},
                          {"mannequin", read_obj(FURROW_MESHES "/mannequin.obj"), {4, 2, 1, 0.5, 0.25}}};
   if (!quick) list[1].tolerances.push_back(0.125);

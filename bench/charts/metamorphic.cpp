@@ -56,7 +56,7 @@ struct Subject {
   std::string name;
   std::function<DrapedCase(std::optional<Change>)> make;  ///< changes of settings change nothing here
   std::optional<geometry::Mesh> garment;                  ///< none: judged by the farthest particle
-  /// Whether quick measures a method at all, and its answer to the changes, too.
+  /// Whether `quick` measures a method at all, and its answer to the changes, too.
   std::function<bool(const Method&)> quick, quick_changes;
 };
 

@@ -30,7 +30,8 @@ Vec3 place(const Mesh& mesh, Vertex v) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// A body, the same with noise along its normals, and how far a point is from the surface without noise.
+/// A body, the same body with noise along its normals, and the distance of a point from the surface without
+/// noise.
 struct Body {
   std::string name;
   TriangleMesh clean;
@@ -161,7 +162,7 @@ void chart(const Body& body, int repeats, Table& table) {
   for (const Weights& weights : all_weights) {
     const Mesh& from = weights.of_rest_lengths ? body.noisy_with_rest : body.noisy;
     for (const Filter& filter : filters) {
-      // Beyond 0.33 the waves of cotangents are not bounded.
+      // Beyond 0.33 the waves that cotangents see are not bounded.
       if (weights.kind == SmoothingWeights::cotangent && filter.lambda > 0.33) continue;
       for (const int passes : {2, 4, 10, 20, 40, 100, 200, 400, 1000}) {
         double seconds = std::numeric_limits<double>::infinity();

@@ -68,7 +68,7 @@ std::vector<Series> all_series(Effort effort) {
   return list;
 }
 
-/// Of the largest sum of stiffness around a particle: safe without any eigenvalue.
+/// The limit by the largest sum of stiffness around a particle: safe without any eigenvalue.
 double gershgorin_limit(const physics::Cloth& cloth) {
   std::vector<double> sum(cloth.particles.size(), 0.0);
   for (const physics::Spring& s : cloth.structural) sum[s.a] += s.stiffness, sum[s.b] += s.stiffness;

@@ -109,7 +109,7 @@ Point measured(const Scene& scene, const Method& method, double dt, int repeats,
           first.diverged || !(error < senseless) ? INFINITY : error};
 }
 
-/// Backward Euler's factorisations are no passes, so that it has no place on the front of passes.
+/// Backward Euler's factorisations are no passes, so it has no place on the front of passes.
 void mark_fronts(std::vector<Point>& points) {
   const auto counts = [](const Point& p) {
     return p.method->options.integrator != Integrator::backward_euler;
@@ -166,7 +166,7 @@ double twin_distance(const Swing& swing, double dt, const std::vector<physics::V
   return relative_error(swing, run(twin, {Integrator::rk4, {}, {}}, dt).x, end);
 }
 
-/// Where the scene ends, and what there is to say about that.
+/// Where the scene ends, and the remark about that.
 Positions reference(const Scene& scene, double limit, Table& table) {
   const double share = scene.share;
   const auto rk4 = [&](double dt) { return run(scene.swing, {Integrator::rk4, {}, {}}, dt * limit); };
@@ -190,7 +190,7 @@ std::vector<Point> all_points(const Scene& scene, const std::vector<Method>& met
     for (const double length : m.lengths) {
       const double dt = m.of_limit ? length * limit : length, seconds = scene.swing.seconds;
       if (dt > seconds / 2) continue;
-      // Of the slow ones, quick keeps those near the limit.
+      // Of the slow methods `quick` keeps those near the limit.
       const double work = m.weight * double(scene.swing.cloth.particles.size()) * seconds / dt;
       if (work > (quick ? 6e7 : 1e9) && !(m.of_limit && length >= 0.4)) continue;
       points.push_back(measured(scene, m, dt, quick ? 3 : 5, exact));

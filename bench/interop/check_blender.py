@@ -8,7 +8,7 @@ import bpy
 import mathutils
 import numpy
 
-# Debian 12's Blender 3.4.1 imports glTF by numpy.bool, a name that its NumPy 1.24 no longer has.
+# The importer of Debian 12's Blender 3.4.1 uses numpy.bool, a name that Debian's NumPy 1.24 no longer has.
 if "bool" not in vars(numpy):
     numpy.bool = bool
 
@@ -82,7 +82,7 @@ def check_glb(name, halfway):
     if len(keys) != len(frames):
         failures.append(name)
     print(f"RESULT {name}: {len(keys)} shape keys with the basis, {len(frames)} frames; {len(obj.data.vertices)} vertices")
-    # Vertices at a texture seam are there twice: which vertex of ours each is, by its place in frame 0.
+    # Vertices at a texture seam appear twice: find by its place in frame 0 which vertex of ours each one is.
     ours = mathutils.kdtree.KDTree(len(frames[0]))
     for i, p in enumerate(frames[0]):
         ours.insert(p, i)

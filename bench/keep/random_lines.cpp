@@ -84,8 +84,8 @@ Helped helped(const RandomGarment& g, const Help& help, int only, const bridge::
   return result;
 }
 
-/// All presses, struts and some heights, for all lines and for each alone, strongest first. What keeps a line
-/// in the other run and in the verdict's own, with its gust, would have held it.
+/// Tries all presses, struts and some heights, for all lines and for each alone, strongest first. Help that
+/// keeps a line in the other run and in the verdict's own, with its gust, would have held it.
 class TryHarder {
  public:
   TryHarder(Judged& j, const bridge::KeepOptions& o, std::uint64_t seed) : j_(j), o_(o), seed_(seed) {

@@ -6,14 +6,14 @@
 
 #include "io/animation/animation_file.h"
 
-/// The formats behind AnimationWriter, one source a format: a file is head(), frame(0) … frame(frames - 1),
+/// The formats behind AnimationWriter, one source for each. A file is head(), frame(0) … frame(frames - 1),
 /// tail().
 namespace furrow::io {
 
 class AnimationEncoder {
  public:
   virtual ~AnimationEncoder() = default;
-  /// The bytes of frame `index`: called for 0, 1, 2 …; again for an index whose bytes could not be kept.
+  /// The bytes of frame `index`. Called for 0, 1, 2 …, and again for an index whose bytes could not be kept.
   virtual std::string frame(std::size_t index, std::span<const physics::Vec3> positions) = 0;
   virtual std::string head(std::size_t frames) const = 0;
   virtual std::string tail(std::size_t) const { return {}; }

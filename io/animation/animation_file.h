@@ -31,22 +31,21 @@ struct AnimationOptions {
   Interpolation interpolation = Interpolation::linear;  ///< between frames; GLB only
 };
 
-/// Writes an animation frame by frame; how many there will be need not be known. Frame i is of the time
-/// start + i / fps. Until close() the frames lie in a file without a name beside `path`, so an interrupted
-/// program leaves nothing behind, and an older file at `path` is as it was; without close() nothing is
-/// written.
+/// Writes an animation frame by frame; the number of frames need not be known. Frame i has the time start + i
+/// / fps. Until close() the frames lie in a file without a name beside `path`: an interrupted program leaves
+/// nothing behind, and an older file at `path` stays as it was. Without close() nothing is written.
 class AnimationWriter {
  public:
-  /// The topology (and texture coordinates, for GLB) of `mesh`, whose positions are not used. Throws
-  /// std::invalid_argument for an unknown ending, an option out of its range, or a mesh without vertices or
-  /// with removed ones; std::runtime_error if the folder cannot be written.
+  /// Takes the topology (for GLB the texture coordinates, too) of `mesh`, whose positions are not used.
+  /// Throws std::invalid_argument for an unknown ending, an option out of its range, or a mesh without
+  /// vertices or with removed ones; std::runtime_error if the folder cannot be written.
   AnimationWriter(const std::filesystem::path& path, const geometry::Mesh& mesh,
                   const AnimationOptions& options = {});
   AnimationWriter(AnimationWriter&&) noexcept;
   AnimationWriter& operator=(AnimationWriter&&) noexcept;
   ~AnimationWriter();
 
-  /// The next frame: the position of every vertex, in the mesh's order [m, y up]. Throws
+  /// Adds the next frame: the position of every vertex, in the mesh's order [m, y up]. Throws
   /// std::invalid_argument for another number of positions, one that is not finite in the file's numbers, or
   /// after close(); std::runtime_error where the disk is full or the format's largest size is reached (GLB: 4
   /// GiB). Then the frames so far stay, and close() writes them. Cost: O(vertices), and 12 bytes of disk a
@@ -56,8 +55,8 @@ class AnimationWriter {
   double next_time() const;  ///< of the frame that add() takes next [s]
 
   /// Writes all frames added so far into place, whole or not at all (io/base/atomic_file.h). Throws
-  /// std::invalid_argument if there are none or it was called before; std::runtime_error if the file cannot
-  /// be written.
+  /// std::invalid_argument if there are none or if it was called before; std::runtime_error if the file
+  /// cannot be written.
   void close();
 
  private:

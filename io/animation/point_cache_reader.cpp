@@ -71,7 +71,7 @@ class PointCache : public FrameSource {
   ReadOptions options_;
 };
 
-/// The counts against the mesh and the file's size, before anything is made of them.
+/// Checks the counts against the mesh and the file's size, before anything is made of them.
 void check_counts(const fs::path& path, const Layout& layout, std::uint64_t size, std::size_t vertices) {
   const auto fail = [&](const std::string& what) { throw ContentError(path.string() + ": " + what); };
   if (layout.frames <= 0 || layout.points <= 0)

@@ -17,9 +17,9 @@ inline constexpr std::size_t largest_file_size = std::size_t{4} << 30;
 std::string read_text(const std::filesystem::path& path);
 /// The rest of a stream; `name` stands in messages.
 std::string read_text(std::istream& in, const std::string& name);
-/// The same as bytes: a saved distance field, for one.
+/// The same as bytes, for a saved distance field, for example.
 std::vector<std::byte> read_bytes(const std::filesystem::path& path);
-/// Writes by write_atomically(), whose errors it has.
+/// Writes by write_atomically(), and throws what that throws.
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 /// 16 hexadecimal digits that tell one file's content from another's (not safe against forgery). Throws what

@@ -16,8 +16,8 @@ CameraPicture read_camera(const std::filesystem::path& path);
 /// The same from an object that is part of another file.
 CameraPicture camera_from(const JsonFields::Json& object, const JsonFields& fields);
 
-/// Writes it in double, in place of the file if it is there. Throws std::invalid_argument (check()), nothing
-/// written, and std::runtime_error if the file cannot be written.
+/// Writes it in double precision, replacing the file if it is there. Throws std::invalid_argument (check()),
+/// nothing written, and std::runtime_error if the file cannot be written.
 void write_camera(const std::filesystem::path& path, const CameraPicture& picture);
 JsonFields::Json to_json(const CameraPicture& picture);
 

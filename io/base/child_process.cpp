@@ -79,7 +79,7 @@ void send(int pipe, const char* bytes, std::size_t size) {
   ::_exit(0);
 }
 
-/// What the child sends until it closes the pipe; `why` is set if that takes too long or is too much.
+/// What the child sends until it closes the pipe. `why` is set if that takes too long or is too much.
 std::string receive(int pipe, const ChildLimits& limits, std::string& why) {
   std::string bytes;
   std::array<char, 1 << 16> chunk;

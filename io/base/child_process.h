@@ -15,10 +15,10 @@ struct ChildLimits {
   std::size_t answer_bytes = std::size_t{2} << 30;  ///< longest answer [bytes]; > 0
 };
 
-/// Runs `work` in a forked child with limits and returns what it returned: for a library that may crash, hang
+/// Runs `work` in a forked child with limits and returns what it returned, for a library that may crash, hang
 /// or devour memory on a bad file. The child has no output but its answer (standard output and error are
 /// closed), runs no exit handlers, and ends with this process. Throws geometry::ContentError with the reason
-/// if `work` throws, crashes or passes a limit; std::runtime_error if no child can be started. Cost: a fork
+/// if `work` throws, crashes or exceeds a limit; std::runtime_error if no child can be started. Cost: a fork
 /// and a copy of the answer.
 std::string run_in_child(const std::function<std::string()>& work, const ChildLimits& limits = {});
 

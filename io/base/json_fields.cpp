@@ -11,7 +11,7 @@
 namespace furrow::io {
 namespace {
 
-/// The library's text without its own marks "[json.exception.…] parse error at line 1, column 2: ".
+/// The library's message without its own marks "[json.exception.…] parse error at line 1, column 2: ".
 std::string reason(std::string text) {
   if (const auto end = text.find("] "); text.starts_with('[') && end != text.npos) text.erase(0, end + 2);
   if (const auto colon = text.find(": "); text.starts_with("parse error") && colon != text.npos)

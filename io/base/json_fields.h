@@ -7,8 +7,8 @@
 
 namespace furrow::io {
 
-/// Reads JSON strictly: unknown keys, other types and numbers that are not finite are errors, which say
-/// where. All throw geometry::ContentError "NAME: PLACE WHAT".
+/// Reads JSON strictly: unknown keys, wrong types and numbers that are not finite are errors, which say
+/// where. All functions throw geometry::ContentError "NAME: PLACE WHAT".
 class JsonFields {
  public:
   using Json = nlohmann::ordered_json;
@@ -19,7 +19,7 @@ class JsonFields {
 
   /// The file's text; a fault is named with line and column.
   Json parse(std::string_view text) const;
-  /// Refuses keys that are not in the list, with the nearest that is.
+  /// Refuses keys that are not in the list, and names the nearest one that is.
   void check_keys(const Json& object, const std::vector<std::string>& valid) const;
   double number(const Json& value, const char* key) const;
   std::string text(const Json& value, const char* key) const;

@@ -4,7 +4,7 @@
 
 namespace furrow::io {
 
-/// The text with A to Z as a to z, whatever the locale: endings of file names.
+/// The text with A to Z as a to z, whatever the locale; for endings of file names.
 inline std::string lower_case(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));

@@ -7,7 +7,7 @@
 
 namespace furrow::io {
 
-/// Numbers names in the order of their first use, into a list that somebody else owns.
+/// Numbers names in the order of their first use, in a list that the caller owns.
 class NameTable {
  public:
   /// `names` is empty and outlives the table.

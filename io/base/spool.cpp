@@ -19,7 +19,7 @@ namespace {
   throw std::runtime_error(path.string() + ": cannot be written: " + std::strerror(errno));
 }
 
-/// Some file systems know no O_TMPFILE: there the name is taken away at once.
+/// Some file systems have no O_TMPFILE: there the name is removed at once.
 int open_nameless(const std::filesystem::path& folder) {
   const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return file;

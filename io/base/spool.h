@@ -7,8 +7,8 @@
 
 namespace furrow::io {
 
-/// A file without a name, in the folder of the file that it is for: what is written there before the file's
-/// head is known. It is gone with the object, and with the process, however that ends. Throws
+/// A file without a name, in the folder of the file that it is for. It takes what is written before the
+/// file's head is known, and is gone with the object, or with the process, however that ends. Throws
 /// std::runtime_error, which names `path`, where the system refuses.
 class Spool {
  public:

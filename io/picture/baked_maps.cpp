@@ -81,7 +81,7 @@ BakedFiles write_baked_maps(const std::string& prefix, const geometry::BakedMaps
   const double step = largest > 0 ? largest / steps : 1e-3 / steps;
   const Image16 displacement = image_of(maps.displacement, [&](double x) { return zero_depth + x / step; });
   const Image16 normal = image_of(maps.normal, [](double x) { return (x + 1) / 2 * 65535; });
-  // A prefix that is no UTF-8 cannot stand in JSON; what can be read of it does.
+  // A prefix that is not UTF-8 cannot stand in JSON; the part of it that can be read does.
   const std::string record =
       record_of(maps, files, step).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   write_png16(files.displacement, displacement);

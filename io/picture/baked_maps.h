@@ -15,8 +15,8 @@ struct BakedFiles {
 BakedFiles baked_files(const std::string& prefix);
 
 /// Writes both maps as PNG of 16 bits a channel without colour space, and a JSON record that says how to read
-/// them: metres = (value - zero) · metres_per_step, so that 0 is exact and the map's largest component fills
-/// the range; a unit normal = value / 65535 · 2 - 1. Each file atomically, the record last. Throws
+/// them. metres = (value - zero) · metres_per_step, so that 0 is exact and the map's largest component fills
+/// the range; a unit normal = value / 65535 · 2 - 1. Each file is written atomically, the record last. Throws
 /// std::invalid_argument if the maps do not match their sizes; std::runtime_error if a file cannot be
 /// written.
 BakedFiles write_baked_maps(const std::string& prefix, const geometry::BakedMaps& maps);

@@ -39,7 +39,7 @@ void check(const AnyImage& image) {
 
 constexpr double max_pixels = 1e8;
 
-/// What libpng's callbacks work on. libpng leaves by longjmp: nothing with a destructor may live in the
+/// What libpng's callbacks work on. libpng leaves by longjmp, so nothing with a destructor may live in the
 /// functions that it leaves.
 struct Stream {
   std::string* out = nullptr;
@@ -94,7 +94,7 @@ bool encode(const Image16& image, Stream& stream) {
   return true;
 }
 
-/// The header's part of reading: sides, and that there are three channels of 16 bits.
+/// Reads the header: sides, and whether there are three channels of 16 bits.
 void read_header(png_structp png, png_infop info, Image16& image) {
   png_read_info(png, info);
   const double pixels = double(png_get_image_width(png, info)) * double(png_get_image_height(png, info));
@@ -105,7 +105,7 @@ void read_header(png_structp png, png_infop info, Image16& image) {
   image.height = int(png_get_image_height(png, info));
 }
 
-/// The same. `rows` is filled here but lives outside.
+/// Reads the rows. `rows` is filled here but lives outside.
 bool decode(Stream& stream, Image16& image, std::vector<png_bytep>& rows) {
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &stream, Stream::fail, Stream::ignore);
   png_infop info = png ? png_create_info_struct(png) : nullptr;

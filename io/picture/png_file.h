@@ -13,20 +13,20 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< 3 · width · height values; rows from the top, pixels from the left
 };
 
-/// Writes a picture as PNG: to a temporary beside it, then renames, so that no reader ever sees half a file.
-/// Throws std::invalid_argument if a side is < 1 or rgb has another length; std::runtime_error if it cannot
-/// write.
+/// Writes a picture as PNG, to a temporary beside it that is then renamed, so that no reader ever sees half a
+/// file. Throws std::invalid_argument if a side is < 1 or rgb has another length; std::runtime_error if it
+/// cannot be written.
 void write_png(const std::filesystem::path& path, const Image& image);
 
-/// A picture of three numbers a pixel that are no colours: displacements, normals.
+/// A picture of three numbers a pixel that are not colours: displacements, normals.
 struct Image16 {
   int width = 0;                   ///< [pixels]
   int height = 0;                  ///< [pixels]
   std::vector<std::uint16_t> rgb;  ///< 3 · width · height values; rows from the top, pixels from the left
 };
 
-/// Writes and reads PNG of 16 bits a channel; the numbers are stored as they are, without any gamma or
-/// colour space. Writing: atomically, errors as in the 8-bit write_png. Reading: alpha is left out; throws
+/// Writes and reads PNG of 16 bits a channel. The numbers are stored as they are, without gamma or colour
+/// space. Writing is atomic, with the errors of the 8-bit write_png. Reading leaves alpha out, and throws
 /// geometry::ContentError also for a PNG of fewer bits or without three colours, whose numbers would be
 /// coarser than they seem.
 void write_png16(const std::filesystem::path& path, const Image16& image);

@@ -123,8 +123,8 @@ std::vector<double> mean_over_sides(const PreparedMesh& mesh, const Value& value
 }
 
 /// Twice the mean of the normal curvature along the sides (change of the normal over the length), which is
-/// about the sum of the principal curvatures; meaned again over the neighbours, so that single vertices do
-/// not speckle, and bent into (−1, 1).
+/// about the sum of the principal curvatures. It is averaged again over the neighbours, so that single
+/// vertices do not speckle, and bent into (−1, 1).
 std::vector<double> bulges(const PreparedMesh& mesh) {
   constexpr double sharp = 1.0 / 100;  // radius, of the scene's diagonal
   const std::vector<double> curvature = mean_over_sides(mesh, [&](int a, int b) {

@@ -27,10 +27,9 @@ struct LineHit {
   Eigen::Vector3d normal;
 };
 
-/// The rays' view of a prepared scene: two Embree trees, one of the meshes, one of the lines' tubes. The
-/// trees are built with one thread, so that the same scene gives the same hits. Directions are of unit
-/// length; all coordinates are finite (Debian's Embree aborts on a NaN). Queries may come from several
-/// threads.
+/// The rays' view of a prepared scene: two Embree trees, one of the meshes, one of the lines' tubes. One
+/// thread builds the trees, so that the same scene gives the same hits. Directions are of unit length; all
+/// coordinates are finite (Debian's Embree aborts on a NaN). Several threads may query at once.
 class RayScene {
  public:
   /// Throws std::runtime_error if Embree cannot start.
@@ -41,7 +40,7 @@ class RayScene {
   /// The nearest tube before `max_distance`.
   std::optional<LineHit> nearest_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                       double max_distance) const;
-  /// Whether a mesh lies in the way before `max_distance`. Lines throw no shadow.
+  /// Whether a mesh lies in the way before `max_distance`. Lines cast no shadow.
   bool is_blocked(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                   double max_distance = std::numeric_limits<float>::infinity()) const;
 

@@ -65,7 +65,8 @@ class Picture {
     Vector3d sum = Vector3d::Zero();
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
-        // n² places in n² columns and n² rows of the pixel: the smoothest edges that so many rays give.
+        // n² places in n² columns and n² rows of the pixel, which give the smoothest edges that so many rays
+        // can.
         const double x = column + (i + (j + 0.5) / n) / n, y = row + (j + (i + 0.5) / n) / n;
         sum += light_along(sight(x, y), j * n + i, turn, background);
       }

@@ -18,8 +18,8 @@ inline constexpr Colour body_colour{0.80f, 0.72f, 0.66f};
 inline constexpr Colour ridge_colour{0.85f, 0.22f, 0.08f};
 inline constexpr Colour valley_colour{0.06f, 0.24f, 0.72f};
 
-/// Cloth shows its back in a darker, warmer colour, its ridges a little lighter and its valleys a little
-/// darker than the lights make them, so that wrinkles read from every side; a body is one colour.
+/// Cloth shows its back in a darker, warmer colour. Its ridges are a little lighter and its valleys a little
+/// darker than the lights make them, so that wrinkles can be read from every side. A body is one colour.
 enum class Style { cloth, body };
 
 /// A triangle mesh to be drawn. Degenerate triangles and vertices of no triangle are left out.
@@ -29,8 +29,8 @@ struct RenderMesh {
   Colour colour = cloth_colour;
   std::vector<Colour> vertex_colours;    ///< empty, or one for each vertex: then `colour` is not used
   std::shared_ptr<const Image> texture;  ///< seen in place of the colours; none: nullptr
-  /// With a texture (u, v) of each triangle's corners: (0, 0) is its lower left corner; it repeats; NaN:
-  /// none.
+  /// (u, v) of each triangle's corners, with a texture. (0, 0) is the texture's lower left corner; it
+  /// repeats. NaN: none.
   std::vector<std::array<std::array<double, 2>, 3>> texture_coordinates;
   std::vector<Colour> triangle_colours;  ///< empty, or one for each triangle: before all other colours
   Style style = Style::cloth;
@@ -64,19 +64,19 @@ struct RenderOptions {
   int threads = 2;  ///< in [1, 64]; the picture does not depend on it
 };
 
-/// The camera that `view` and the picture's sides give for the framed meshes of all the scenes together
-/// (if none is framed: for all meshes). With it the pictures of several stages can be laid side by side.
+/// The camera that `view` and the picture's sides give for the framed meshes of all the scenes together (if
+/// none is framed: for all meshes). With it the pictures of several stages can be laid side by side.
 Camera automatic_camera(std::span<const RenderScene> scenes, const RenderOptions& options = {});
 
 /// The colour of the empty background in a row of the picture, sRGB: a soft grey, lighter towards the top.
 /// `height` ≥ 1 rows, `row` in [0, height).
 Colour background_colour(int row, int height);
 
-/// The shaded picture of a scene, without a display: rays (Embree) for what is seen, smooth normals, a soft
-/// key light raking from the upper left of the picture, and the occluded light of the sky; needed to show the
-/// stages (method S1.21). The same scene and options give the same bits for any number of threads. Throws
-/// std::invalid_argument for a scene or option out of the ranges above, before any work. Cost: by the rays
-/// that hit something; 1200 × 1200 pixels of normal quality take one core 4 to 12 s.
+/// The shaded picture of a scene, without a display, to show the stages (method S1.21). Rays (Embree) find
+/// what is seen; normals are smooth; a soft key light rakes from the upper left of the picture; the light of
+/// the sky is occluded. The same scene and options give the same bits for any number of threads. Cost: by the
+/// rays that hit something; 1200 × 1200 pixels of normal quality take one core 4 to 12 s. Throws
+/// std::invalid_argument for a scene or option out of the ranges above, before any work.
 Image render(const RenderScene& scene, const RenderOptions& options = {});
 
 }  // namespace furrow::io

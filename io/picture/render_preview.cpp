@@ -13,8 +13,8 @@ namespace {
 
 Position position(const geometry::Point& p) { return {p.x(), p.y(), p.z()}; }
 
-/// A quarter of the mean edge, so that dots leave the line between them to be seen on a fine mesh; never
-/// more than a little above the line. In tubes, which are some 1/600 of a garment that fills the picture.
+/// A quarter of the mean edge, so that dots do not hide the line between them on a fine mesh, and never more
+/// than a little above the line. In tubes, which are some 1/600 of a garment that fills the picture.
 double dot_width(const geometry::Mesh& mesh, const std::set<geometry::Edge>& edges) {
   constexpr double largest_value = 1.6, least = 0.3, tube = 1.0 / 600;
   if (edges.empty()) return largest_value;

@@ -15,11 +15,11 @@ struct PreviewColours {
   LineColours lines;
 };
 
-/// A picture of what an insertion does, before anything is displaced: the triangles that it changes are
+/// A picture of what an insertion does, before anything is displaced. The triangles that it changes are
 /// highlighted with their edges, inserted vertices are dots, lines are coloured by the sign of their height.
-/// `inserted` is the mesh at Stage::inserted, `changed` InsertionReport::changed_faces, `old_vertices` how
-/// many vertices the mesh had before (a new one has an index from there on), `heights` those of the lines by
-/// id [m]. Throws what render_mesh_from and render_lines_from throw.
+/// `inserted`: the mesh at Stage::inserted; `changed`: InsertionReport::changed_faces; `old_vertices`: how
+/// many vertices the mesh had before (a new one has an index from there on); `heights`: of the lines by id
+/// [m]. Throws what render_mesh_from and render_lines_from throw.
 RenderScene preview_scene(const geometry::Mesh& inserted, const std::vector<geometry::Face>& changed,
                           std::size_t old_vertices, const std::vector<double>& heights,
                           const PreviewColours& colours = {});

@@ -28,8 +28,8 @@ double squared_length(const Mesh& mesh, Halfedge h) {
   return CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)));
 }
 
-/// The longest side of a triangle whose third corner is on the line too: not a step of the line but a
-/// shortcut.
+/// The longest side of a triangle whose third corner is on the line, too: it is a shortcut and not a step of
+/// the line.
 bool is_shortcut(const Mesh& mesh, Halfedge h, const geometry::VertexMap<int>& line) {
   if (mesh.is_border(h) || line[mesh.target(mesh.next(h))] != line[mesh.target(h)]) return false;
   const double length = squared_length(mesh, h);

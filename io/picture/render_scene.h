@@ -16,24 +16,26 @@ struct LineColours {
   Colour other{0.12f, 0.12f, 0.14f};
 };
 
-/// The faces of a mesh to be drawn; vertices removed but not yet collected are left out.
-/// With the map v:color, where any vertex has a colour other than white, the vertices keep their colours.
-/// Throws geometry::ContentError if a face is no triangle.
-/// A texture is laid on by the mesh's texture coordinates; ContentError if it has none.
+/// The faces of a mesh to be drawn. Vertices removed but not yet collected are left out. With the map
+/// v:color, where any vertex has a colour other than white, the vertices keep their colours. A texture is
+/// laid on by the mesh's texture coordinates. Throws geometry::ContentError if a face is no triangle, or for
+/// a texture if the mesh has no texture coordinates.
 RenderMesh render_mesh_from(const geometry::Mesh& mesh, Style style = Style::cloth,
                             std::shared_ptr<const Image> texture = nullptr);
 
-/// The lines that a mesh carries, one piece an edge, ordered by edge. A line edge is one of e:line_edge;
-/// without this map, an edge whose ends lie on one line (v:line), except the longest side of a triangle whose
-/// corners all do. `heights[id]` is the height of line `id`, of which only the sign is used [m]; an edge
-/// whose ends belong to two lines, or to none, takes the line that has fewer line edges at its end (then the
-/// greater id). Empty if the mesh has no such maps. Throws std::invalid_argument for a height that is NaN.
+/// The lines that a mesh carries, one piece an edge, ordered by edge; empty if the mesh has no such maps.
+/// `heights[id]` is the height of line `id`, of which only the sign is used [m]. Throws std::invalid_argument
+/// for a height that is NaN.
+///
+/// \details A line edge is one of e:line_edge. Without this map it is an edge whose ends lie on one line
+/// (v:line), except the longest side of a triangle whose corners all do. An edge whose ends belong to two
+/// lines, or to none, takes the line that has fewer line edges at its end (then the greater id).
 std::vector<RenderLine> render_lines_from(const geometry::Mesh& mesh, const std::vector<double>& heights,
                                           const LineColours& colours = {});
 
 /// Strokes before they are inserted, as they lie on the surface: traced from face to face (trace_stroke.h),
-/// so that a line never runs behind the cloth that it was drawn on. One that cannot be traced is drawn as it
-/// is, with a warning.
+/// so that a line never runs behind the cloth that it was drawn on. A stroke that cannot be traced is drawn
+/// as it is, with a warning.
 std::vector<RenderLine> render_lines_from(const geometry::Mesh& mesh,
                                           const std::vector<geometry::Stroke>& strokes,
                                           std::vector<std::string>& warnings,

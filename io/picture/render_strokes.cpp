@@ -14,7 +14,7 @@ using geometry::Stroke;
 
 Position position(const geometry::Point& p) { return {p.x(), p.y(), p.z()}; }
 
-/// From crossing to crossing over the node in each face.
+/// The way from crossing to crossing, over the node in each face.
 std::vector<Position> polyline(const Mesh& mesh, const geometry::SubStroke& part) {
   std::vector<Position> points;
   for (const geometry::CrossedFace& visit : part.faces) {

@@ -37,7 +37,7 @@ std::array<Vector3d, 2> across(const Vector3d& n) {
   return {u, n.cross(u)};
 }
 
-/// d, given about z, turned about z as the pixel says and then to lie about n.
+/// d, which is given about z, turned about z as the pixel says and then to lie about n.
 Vector3d turned(const Vector3d& d, const PixelTurn& turn, const Vector3d& n,
                 const std::array<Vector3d, 2>& uv) {
   const double x = turn.cosine * d.x() - turn.sine * d.y(), y = turn.sine * d.x() + turn.cosine * d.y();

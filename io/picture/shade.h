@@ -10,25 +10,25 @@
 
 namespace furrow::io {
 
-/// A turn about an axis, different in every pixel: all pixels use the same rays, but turned, so that too few
+/// A turn about an axis, different in every pixel. All pixels use the same rays, but turned, so that too few
 /// of them show as fine grain and not as bands.
 struct PixelTurn {
   double cosine, sine;
 };
 PixelTurn pixel_turn(std::uint32_t column, std::uint32_t row);
 
-/// The lights of a picture, which stand still relative to the camera, so that wrinkles read from every side:
-/// a soft key light from the upper left, raking over the surface; a sky that is bright above; a weak fill
-/// light from the right that throws no shadow.
+/// The lights of a picture, which stand still relative to the camera, so that wrinkles can be read from every
+/// side: a soft key light from the upper left, raking over the surface; a sky that is bright above; a weak
+/// fill light from the right that casts no shadow.
 class Shader {
  public:
-  /// Keeps references to both. `samples` rays a pixel, ≥ 1; `sky_rays` from each hit to the sky, ≥ 1.
+  /// Keeps references to both. `samples`: rays a pixel, ≥ 1; `sky_rays`: rays from each hit to the sky, ≥ 1.
   Shader(const PreparedScene& scene, const RayScene& rays, int samples, int sky_rays);
 
   /// Linear light that comes back from what a pixel's ray number `sample` along `direction` (unit) hit.
   Eigen::Vector3d surface(const Eigen::Vector3d& direction, const SurfaceHit& hit, int sample,
                           const PixelTurn& turn) const;
-  /// The same from a line's tube: nearly flat, so that its colour is told at a glance.
+  /// The same from a line's tube: nearly flat, so that its colour can be told at a glance.
   Eigen::Vector3d line(const Eigen::Vector3d& direction, const LineHit& hit) const;
 
  private:

@@ -21,10 +21,11 @@ struct StripOptions {
   Colour ink{0.15f, 0.16f, 0.18f};  ///< sRGB, each in [0, 1]
 };
 
-/// The panels side by side from left to right, with centred captions under them: how the stages of one
-/// garment are shown (method S1.21). Lower panels are centred in the height of the tallest. If a caption is
-/// too wide for its panel, all letters shrink alike until it fits. No caption: no room is kept for them.
-/// Throws std::invalid_argument for no panels, a panel whose pixels do not match its sides, or a bad option.
+/// The panels side by side from left to right, with centred captions under them, to show the stages of one
+/// garment (method S1.21). Lower panels are centred in the height of the tallest. If a caption is too wide
+/// for its panel, all letters shrink alike until it fits. Without captions no room is kept for them. Throws
+/// std::invalid_argument for no panels, a panel whose pixels do not match its sides, or an option out of its
+/// range.
 Image strip(std::span<const Panel> panels, const StripOptions& options = {});
 
 }  // namespace furrow::io

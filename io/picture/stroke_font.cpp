@@ -14,8 +14,8 @@ using Stroke = std::vector<std::array<double, 2>>;
 constexpr double capital = 12, space = 6, side_bearing = 3.4;
 constexpr double pen_radius = 0.75;
 
-/// Strokes of the characters from '!' to '~', parted by blanks. A point is a digit, x, and a letter, y: E is
-/// the baseline, M the height of small letters, Q that of capitals. After '~' the points steer a quadratic
+/// Strokes of the characters from '!' to '~', separated by blanks. A point is a digit, x, and a letter, y: E
+/// is the baseline, M the height of small letters, Q that of capitals. After '~' the points steer a quadratic
 /// B-spline.
 constexpr std::string_view glyph_strokes[] = {
     "0Q0I 0E0E",                             // !

@@ -22,8 +22,8 @@ Glyph glyph(char character);
 double text_width(std::string_view text, double height);
 
 /// Draws one line of text, antialiased, from `left` on the baseline at `baseline` (pixels from the left and
-/// the top), with capitals `height` pixels high, in (0, 10000]. What lies outside of the image is cut. Throws
-/// std::invalid_argument for another height or a position that is not finite.
+/// the top), with capitals `height` pixels high, in (0, 10000]. What lies outside of the image is cut off.
+/// Throws std::invalid_argument for another height or a position that is not finite.
 void draw_text(Image& image, std::string_view text, double left, double baseline, double height,
                const Colour& colour);
 

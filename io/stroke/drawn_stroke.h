@@ -42,14 +42,14 @@ const char* unit_of(const DrawnStroke& stroke);
 double drawn_length(const DrawnStroke& stroke);
 
 /// The index of the stroke of that name. Throws geometry::ContentError with the nearest name if there is
-/// none, and if several have it.
+/// none, or if several have it.
 std::size_t find_stroke(std::span<const DrawnStroke> strokes, const std::string& name);
 
-/// The strokes of these names come first, in this order, the others after them in theirs. Of lines that meet
-/// the later one owns what they share. Throws as find_stroke(), and if a name is there twice.
+/// Puts the strokes of these names first, in this order, and the others after them in their own order. Where
+/// lines meet, the later one owns what they share. Throws as find_stroke(), and if a name is there twice.
 void order_strokes(std::vector<DrawnStroke>& strokes, std::span<const std::string> names);
 
-/// Moves all its points: by three numbers [m] in space, two in a picture [pixels] or in the texture.
+/// Moves all its points: by three numbers [m] in space, by two in a picture [pixels] or in the texture.
 /// Throws std::invalid_argument for another count, numbers that are not finite, and strokes between vertices.
 void move_stroke(DrawnStroke& stroke, std::span<const double> by);
 

@@ -46,7 +46,7 @@ class Resolving {
   }
 
  private:
-  /// They may lie beside the garment, but mostly are those of a picture of another size.
+  /// They may lie beside the garment, but mostly they are those of a picture of another size.
   static void warn_of_pixels_outside(const Stroke& stroke, const PictureStroke& drawn,
                                      std::vector<std::string>& warnings) {
     const auto [width, height] = std::pair(drawn.picture.width, drawn.picture.height);

@@ -16,11 +16,11 @@ struct ResolvedStrokes {
 };
 
 /// Lays strokes that were drawn on pictures, in texture space or between vertices onto a garment, as ordinary
-/// strokes in space whose points lie on it; those drawn in space stay as they are. Vertices are those of
-/// `garment.mesh`. Throws geometry::ContentError, naming the stroke, for one that cannot be laid on: see
-/// geometry/stroke/place_view_stroke.h, place_texture_stroke.h, place_path_stroke.h, also for the cost.
-/// `max_distance` is that of the insertion or the trace that follows [m]: a line that runs over the border
-/// gets a point beyond it, but none farther than this.
+/// strokes in space whose points lie on it. Strokes drawn in space stay as they are. Vertices are those of
+/// `garment.mesh`. `max_distance` is that of the insertion or the trace that follows [m]: a line that runs
+/// over the border gets a point beyond it, but none farther than this. Throws geometry::ContentError, naming
+/// the stroke, for one that cannot be laid on. For that and for the cost see
+/// geometry/stroke/place_view_stroke.h, place_texture_stroke.h and place_path_stroke.h.
 ResolvedStrokes resolve_strokes(std::span<const DrawnStroke> strokes, const MeshFile& garment,
                                 double max_distance = geometry::TraceOptions{}.max_distance);
 

@@ -42,12 +42,12 @@ class StrokeReader {
   }
 
  private:
-  /// A camera that stands here, or the name of its file, which lies beside this one.
+  /// A camera that stands in the file, or the name of its own file, which lies beside this one.
   CameraPicture read_picture(const Json& value) const {
     return value.is_string() ? read_camera(folder_ / value.get<std::string>()) : camera_from(value, fields_);
   }
 
-  /// Calls read(item) for each item of a list that is not empty; errors name the item.
+  /// Calls read(item) for each item of a list that must not be empty; errors name the item.
   template <class Read>
   void read_list(const Json& list, const char* key, const char* shape, const Read& read) {
     if (!list.is_array() || list.empty())

@@ -28,12 +28,13 @@ struct Cusick {
   double radius, support;
 };
 /// A mesh of rings (flat_meshes.h: disc), constant-strain triangles, hinges flat at rest. It starts as a cone
-/// with folds, z = -slope (r - support) (1 + cos(folds angle)). If no ring lay on the edge, the cloth would
-/// be clamped elsewhere than it is held, and the result wrong by a tenth. Throws std::invalid_argument.
+/// with folds, z = -slope (r - support) (1 + cos(folds angle)). A ring must lie on the edge: otherwise the
+/// cloth would be clamped elsewhere than it is held, and the result wrong by a tenth. Throws
+/// std::invalid_argument.
 Cusick cusick_specimen(const CusickOptions& options);
 
-/// Area of the shadow that the cloth throws along z [m^2]: of the union of its triangles, on `lines` lines,
-/// exact along them. Cost: triangles x lines / diameter in triangles.
+/// Area of the shadow that the cloth casts along z [m^2]: that of the union of its triangles, on `lines`
+/// lines, exact along them. Cost: triangles x lines / diameter in triangles.
 double shadow_area(const physics::Cloth& cloth, int lines = 2000);
 
 /// DC = (shadow - discs) / (specimen - discs) [-]: 1 for a stiff specimen, 0 for one that hangs straight

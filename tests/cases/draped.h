@@ -31,11 +31,11 @@ struct DrapedCase {
   std::shared_ptr<const physics::Collider> field;
   RestCase rest;
 };
-/// As the program does: rest lengths as it lies, springs by the paper's law, a field of the body; held
-/// vertices that lie within the body are put on its surface.
+/// Prepares the drape as the program does: rest lengths as it lies, springs by the paper's law, a field of
+/// the body. Held vertices that lie within the body are put on its surface.
 DrapedCase draped(const Drape& drape);
 
-/// Of the vertices of either surface the distance to the other [m], ascending.
+/// The distances of the vertices of either surface to the other [m], ascending.
 std::vector<double> surface_distances(const geometry::Mesh& mesh, const std::vector<physics::Vec3>& x,
                                       const std::vector<physics::Vec3>& y);
 /// Their median [m].

@@ -7,8 +7,8 @@
 namespace furrow::cases {
 
 /// Meshes of flat sheets in the plane z = 0, as cloths: positions, triangles (counter-clockwise seen from
-/// +z), one structural spring of stiffness 0 for each edge at rest as it lies; masses density [kg/m^2] times
-/// a third of the triangles around. No bending springs, membranes or hinges.
+/// +z), and for each edge one structural spring of stiffness 0, at rest as it lies. Masses are density
+/// [kg/m^2] times a third of the triangles around. There are no bending springs, membranes or hinges.
 
 /// Rows of triangles with the horizontal edge h = width/columns, `rows` rows of equal height, every other row
 /// shifted by h/2 and filled up with a half edge at both ends. jitter: each interior vertex moves by up to
@@ -19,14 +19,14 @@ physics::Cloth triangular_sheet(double width, double height, int columns, int ro
 /// As many rows as make the triangles nearest to equilateral.
 int equilateral_rows(double width, double height, int columns);
 
-/// A hexagon around the origin with two corners on the x axis, of rings of equilateral triangles; the same
-/// under turns by 60 degrees but for jitter, which is as above. rings >= 1. Throws std::invalid_argument.
+/// A hexagon around the origin with two corners on the x axis, of rings of equilateral triangles. Turns by 60
+/// degrees leave it the same, except for jitter, which is as above. rings >= 1. Throws std::invalid_argument.
 physics::Cloth hexagon(double half_diagonal, int rings, double density = 0.1, double jitter = 0,
                        std::uint64_t seed = 1);
 
 /// A disc around the origin: its middle and `rings` rings at equal distances h = radius / rings, the k-th of
-/// round(2 pi k) particles, each ring turned a little against its neighbours so that no direction is
-/// preferred; particles by rings from the middle, in each counter-clockwise. rings >= 1. Throws
+/// round(2 pi k) particles. Each ring is turned a little against its neighbours so that no direction is
+/// preferred. Particles are ordered by rings from the middle, counter-clockwise in each. rings >= 1. Throws
 /// std::invalid_argument.
 physics::Cloth disc(double radius, int rings, double density = 0.1);
 
@@ -38,10 +38,11 @@ physics::Cloth right_sheet(double width, double height, int columns, int rows, d
 void add_membrane(physics::Cloth& cloth, double young_times_thickness, double poisson = 0.3);
 
 /// A linear hinge for each interior edge, flat at rest, for the bending rigidity [N m]. at_clamp: whether a
-/// particle lies on a clamped edge; a hinge between two such counts twice (it stands for half a cell).
+/// particle lies on a clamped edge. A hinge between two such particles counts twice (it stands for half a
+/// cell).
 void add_hinges(physics::Cloth& cloth, double rigidity, const std::vector<char>& at_clamp = {});
 
-/// For each edge a < b its one or two triangles' apexes, sorted by (a, b).
+/// For each edge a < b the apexes of its one or two triangles, sorted by (a, b).
 struct EdgeApexes {
   int a, b;
   int left, right;  ///< on either side of a -> b; -1: none

@@ -7,8 +7,8 @@
 
 namespace furrow::cases {
 
-/// Bodies, each endless along z. First the half-space below a plane through the origin; slope != 1: a field
-/// that is off by a factor, as an interpolated one is in places.
+/// Bodies, each endless along z. First the half-space below a plane through the origin. slope != 1 is a field
+/// that is off by a factor, as an interpolated field is in places.
 struct Plane : physics::Collider {
   physics::Vec3 n;
   double slope;
@@ -31,23 +31,22 @@ struct RoundedTable : physics::Collider {
   physics::SignedDistance at(const physics::Vec3& x) const override;
 };
 
-/// Heavy strips, flexible, that slip as soon as the right end hangs down far enough. R: radius in which the
-/// strip lies; lengths beside or before the arc. Friction mu. Both after the balance of an arc element,
-/// dT/dtheta = mu (T + w R cos theta) - w R sin theta, theta from the top.
-/// From a half cylinder:  l1 e^(mu pi) + 2 mu R (1 + e^(mu pi)) / (1 + mu^2).
+/// Heavy flexible strips that slip as soon as the right end hangs down far enough. R: radius in which the
+/// strip lies; lengths beside or before the arc. Friction mu. Both functions follow from the balance of an
+/// arc element, dT/dtheta = mu (T + w R cos theta) - w R sin theta, theta from the top. From a half cylinder:
+/// l1 e^(mu pi) + 2 mu R (1 + e^(mu pi)) / (1 + mu^2).
 double capstan_length(double mu, double radius, double left);
 /// From a table's edge, below the quarter turn:  (mu l - a) e^(mu pi/2) + b,  a = R (1 - mu^2)/(1 + mu^2),
 /// b = 2 mu R / (1 + mu^2).
 double tablecloth_length(double mu, double radius, double on_table);
 
-/// A strip in place, `turn` springs on the half or quarter circle of that radius, others as long or shorter,
-/// on the table up to 4 mm; masses 0.15 kg/m times half the springs beside. Rest lengths are set by
-/// balance().
+/// A strip in place: `turn` springs on the half or quarter circle of that radius, others as long or shorter,
+/// on the table up to 4 mm; masses 0.15 kg/m times half the springs beside. balance() sets the rest lengths.
 physics::Cloth strip_over_cylinder(double radius, double left, double right, int turn);
 physics::Cloth strip_over_edge(double radius, double on_table, double right, int turn);
 
 /// Stretches the strip's springs (of 300 N) so that every node is in balance with the friction mu N against
-/// sliding to the right, where the field of `body` is at most gap + 1e-9 m; returns the upward force [N] that
+/// sliding to the right, where the field of `body` is at most gap + 1e-9 m. Returns the upward force [N] that
 /// is left over at the right end.
 double balance(physics::Cloth& strip, double mu, const physics::Collider& body, double gap);
 
@@ -60,7 +59,7 @@ struct Slip {
   double moved;  ///< of the left end [m]
   double share;  ///< friction that holds the strip as it lies, by balance() [-]
 };
-/// Lets a strip go that is in balance with the friction that holds it.
+/// Releases a strip that is in balance with the friction that holds it.
 Slip slip(physics::Cloth strip, const physics::Collider& body, const SlipOptions& options);
 
 /// The right end's length at which strips begin to move by more than 1 mm, by bisection between low and high

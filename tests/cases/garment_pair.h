@@ -19,10 +19,10 @@ struct GarmentPair {
 GarmentPair read_pair(const std::filesystem::path& garment, const std::filesystem::path& body,
                       int threads = 1);
 
-/// The gap that `furrow drape` keeps [m] between the body and the garment refined so often (Loop).
+/// The gap that `furrow drape` keeps [m] between the body and the garment after so many Loop refinements.
 double gap_of(const GarmentPair& pair, int refinements);
 
-/// A vertex of the garment's top border loop, which it stays when the garment is refined.
+/// A vertex of the garment's top border loop. It stays on that loop when the garment is refined.
 int vertex_at_top(const geometry::Mesh& garment);
 
 /// Cloth as `furrow drape` makes it: triangles and hinges of cotton (io/scene/fabrics.h). The border loop

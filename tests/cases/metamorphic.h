@@ -22,11 +22,11 @@ struct RestCase {
 
 /// A rotation about an axis that lies askew, by 2 rad.
 physics::Mat3 askew();
-/// The order of n things shuffled: place[i] is where i goes. The same for the same seed.
+/// The order of n things shuffled: place[i] is where i goes. The same seed gives the same order.
 std::vector<int> shuffled(int n, std::uint64_t seed);
 
-/// Cloth and gravity turned. The first three throw std::invalid_argument if there is a body, which is the
-/// caller's to change.
+/// Cloth and gravity turned. The first three throw std::invalid_argument if there is a body, which the caller
+/// must change itself.
 RestCase rotated(RestCase c, const physics::Mat3& rotation = askew());
 /// Particles, springs, triangles and hinges in another order.
 RestCase permuted(RestCase c, std::uint64_t seed = 1);

@@ -142,7 +142,7 @@ int find_rest(Cloth& cloth, const Unknowns& unknowns, const Vec3& gravity, doubl
   VectorXd r = residual(cloth, x, unknowns, gravity);
   for (int round = 0; round < 200; ++round) {
     if (r.cwiseAbs().maxCoeff() <= tolerance) return round;
-    // Not Cholesky: K may be indefinite where something is compressed.
+    // Not by Cholesky: K may be indefinite where something is compressed.
     Eigen::SparseLU<Matrix> solver(stiffness(cloth, x, unknowns));
     if (solver.info() != Eigen::Success) throw std::runtime_error("find_rest: K is singular");
     VectorXd step = solver.solve(r);

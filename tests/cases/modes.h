@@ -22,8 +22,8 @@ Eigen::SparseMatrix<double> stiffness(const physics::Cloth& cloth, const std::ve
 /// Particle masses [kg] over the unknowns.
 Eigen::VectorXd masses(const physics::Cloth& cloth, const Unknowns& unknowns);
 
-/// The `count` lowest angular frequencies [1/s], omega^2 the eigenvalues of M^-1 K, K positive definite.
-/// Dense up to 300 unknowns, else subspace iteration with a sparse factorisation, to 1e-11 of omega^2.
+/// The `count` lowest angular frequencies [1/s]: omega^2 are the eigenvalues of M^-1 K, K positive definite.
+/// Dense up to 300 unknowns, else by subspace iteration with a sparse factorisation, to 1e-11 of omega^2.
 /// Throws std::invalid_argument if count is not in [1, unknowns]; std::runtime_error if K cannot be
 /// factorised or the iteration does not converge.
 Eigen::VectorXd lowest_frequencies(const Eigen::SparseMatrix<double>& k, const Eigen::VectorXd& m, int count);

@@ -14,15 +14,15 @@ physics::Cloth walled_chain(int masses, double mass, double k);
 /// omega_j = 2 sqrt(k/m) sin(j pi / (2 (N + 1))), the lowest first.
 std::vector<double> walled_chain_frequencies(int masses, double mass, double k);
 
-/// `links` equal links of together `length` [m] under the pinned top, a mass of 1/links kg below each, at the
-/// exact static state: springs of k = 1e4 m g / link [N/m] are as much shorter at rest as the weight below
-/// stretches them. Swings along x as the inextensible chain does.
+/// `links` equal links of together `length` [m] under the pinned top, with a mass of 1/links kg below each,
+/// at the exact static state: springs of k = 1e4 m g / link [N/m] are shorter at rest by as much as the
+/// weight below stretches them. Swings along x as the inextensible chain does.
 physics::Cloth hanging_chain(int links, double length);
 /// omega^2 = g/l times the zeros of the Laguerre polynomial L_N, by its Jacobi matrix (Golub and Welsch).
 std::vector<double> hanging_chain_frequencies(int links, double length, int count);
 
-/// Of a rectangle of membrane triangles under the isotropic tension [N/m], density [kg/m^2] as it lies,
-/// border pinned. columns: over the width.
+/// A rectangle of membrane triangles under the isotropic tension [N/m], density [kg/m^2] as it lies, border
+/// pinned. columns: over the width.
 physics::Cloth drum(double tension, double density, double width, double height, int columns,
                     double jitter = 0);
 /// f_pq = 1/2 sqrt(T/rho) sqrt((p/a)^2 + (q/b)^2)
@@ -49,7 +49,8 @@ struct LeapfrogRun {
 LeapfrogRun run_oscillator(double z, int steps);
 
 /// The step beyond which a run of `steps` steps from tiny noise grows 1e6-fold, over 2/omega_max [-], by
-/// bisection to 1e-4. The cloth lies at rest; no weight. axes: along which the noise acts; omega_max [1/s].
+/// bisection to 1e-4. The cloth lies at rest, without weight. axes: along which the noise acts; omega_max
+/// [1/s].
 double located_limit(const physics::Cloth& cloth, double omega_max, int steps,
                      const std::array<bool, 3>& axes);
 

@@ -21,10 +21,10 @@ struct PatchScore {
   double dt_limit;       ///< 2 / omega_max of the plane, all vertices free, over h sqrt(rho / Y) [-]
 };
 
-/// Membrane patch test: border vertices displaced affinely, the inside at rest, small strain (linear). Spring
-/// laws are calibrated so that they answer the affine dilation exactly (calibrated_stiffness). sheet: a mesh
-/// of flat_meshes.h at rest, whose border is the square or rectangle's; columns: width / h. Cost: one sparse
-/// factorisation.
+/// Membrane patch test: border vertices are displaced affinely, the inside is at rest, strain is small
+/// (linear). Spring laws are calibrated so that they answer the affine dilation exactly
+/// (calibrated_stiffness). sheet: a mesh of flat_meshes.h at rest, whose border is that of the square or
+/// rectangle; columns: width / h. Cost: one sparse factorisation.
 PatchScore patch_test(physics::Cloth sheet, int columns, const Carrier& carrier);
 
 }  // namespace furrow::cases

@@ -20,7 +20,7 @@ double smooth_step(double t) {
   return t * t * (3 - 2 * t);
 }
 
-/// Means over the neighbours, so that no crease is left where the shares begin.
+/// Averages over the neighbours, so that no crease is left where the shares begin.
 void smooth(std::vector<double>& share, const TriangleMesh& mesh, int rounds) {
   std::vector<double> sum(share.size()), weight(share.size());
   for (int round = 0; round < rounds; ++round) {

@@ -4,12 +4,12 @@
 
 namespace furrow::cases {
 
-/// Joints of the left arm (x > 0) of a figure that looks along z; the right arm is its mirror image [m].
+/// Joints of the left arm (x > 0) of a figure that looks along z [m]; the right arm is its mirror image.
 struct Arm {
   physics::Vec3 shoulder, elbow, wrist;
   double radius;  ///< of its thickest part, with a little more [m]
 };
-/// That of meshes/mannequin.obj.
+/// The arm of meshes/mannequin.obj.
 Arm mannequin_arm();
 
 /// Where an arm points: unit directions from shoulder to elbow and from elbow to wrist, of a left arm.

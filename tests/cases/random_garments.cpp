@@ -27,7 +27,7 @@ struct Random {
   bool chance(double share) { return (*this)(0, 1) < share; }
 };
 
-/// A sheet, or a cone that is cut open: where a point so far across and so high lies.
+/// A sheet, or a cone that is cut open: the place of a point so far across and so high.
 struct Cut {
   double width = 0.46, height = 0.46, waist = 0, hem = 0;  // [m]; waist, hem: radii; 0: a sheet
   Point at(double across, double y) const {
@@ -76,7 +76,7 @@ void make_cloth(RandomGarment& g, const Cut& cut, Random& random) {
   }
 }
 
-/// Some line that keeps off the border.
+/// A line that keeps off the border.
 geometry::Stroke stroke_of(const RandomLine& line, const Cut& cut, Random& random) {
   constexpr double border = 0.03;  // [m]
   const int steps = int(std::ceil(line.length / 0.005));

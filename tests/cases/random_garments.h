@@ -29,17 +29,17 @@ struct RandomGarment {
   std::vector<double> base() const;  ///< of keep_lines()
 };
 
-/// Of so many lines, 0.1 to 0.5 m long and 3 to 15 mm high or deep, straight or bent; cloth of edges of 18 to
-/// 30 mm, rigidity 1e-6 to 1e-4 N m, stretch 100 to 1000 N/m. Same seed, same garment. edge:
-/// another [m].
+/// A garment of so many lines, 0.1 to 0.5 m long and 3 to 15 mm high or deep, straight or bent. Its cloth has
+/// edges of 18 to 30 mm (edge: another length [m]), rigidity 1e-6 to 1e-4 N m, stretch 100 to 1000 N/m. The
+/// same seed gives the same garment.
 RandomGarment random_garment(std::uint64_t seed, int lines, double edge = 0);
 
-/// Of each line as the garment lies [m], by id, less `base`; NaN: it has none.
+/// The height of each line as the garment lies [m], by id, less `base`; NaN: it has none.
 std::vector<double> heights_of(const RandomGarment& garment);
 
-/// What is left of each line's height [m], by id, so many seconds after the garment was stored with the rest
-/// state of `cloth`, gathered again, each free vertex moved by 0.1 mm some way, and let go from rest: with
-/// half the step and half the drag of `run`. NaN: not known any more.
+/// What is left of each line's height [m], by id, after so many seconds; NaN: no longer known. The garment is
+/// stored with the rest state of `cloth` and gathered again, each free vertex is moved by 0.1 mm in some
+/// direction, and it is let go from rest, with half the step and half the drag of `run`.
 std::vector<double> heights_after(const RandomGarment& garment, physics::Cloth cloth,
                                   const physics::SimulateOptions& run, std::uint64_t seed,
                                   double seconds = 2);

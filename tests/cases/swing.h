@@ -5,7 +5,7 @@
 
 namespace furrow::cases {
 
-/// A motion that all integrators are measured on: short enough that its end does not depend on rounding.
+/// A motion to measure all integrators on, short enough that its end does not depend on rounding.
 struct Swing {
   physics::Cloth cloth;
   physics::Loads loads;
@@ -27,8 +27,8 @@ Swing sheet_swing(const SheetOptions& options = {});
 /// 32 springs of uneven length (0.3 to 1.7 of the mean), 1 m, 0.1 kg, EA = 147 N, level at first and held at
 /// one end; 0.5 s.
 Swing chain_swing();
-/// One spring of 1 m and 50 N/m with 0.1 kg at its end, let go at (1.1, 0.2), undamped; 2 s. Its end by a
-/// method of order 8 with an error of 1e-13: (0.389103045248, -0.920914325687).
+/// One spring of 1 m and 50 N/m with 0.1 kg at its end, let go at (1.1, 0.2), undamped; 2 s. Its end, by a
+/// method of order 8 with an error of 1e-13, is (0.389103045248, -0.920914325687).
 Swing elastic_pendulum();
 
 struct SwingRun {
@@ -38,7 +38,7 @@ struct SwingRun {
   double cpu_seconds = 0;        ///< of this thread
   physics::WorkCounts work;
 };
-/// On one thread. Divergence is looked for every 16 steps and at the end.
+/// Runs on one thread. Divergence is looked for every 16 steps and at the end.
 SwingRun run(const Swing& swing, const physics::StepperOptions& options, double dt);
 
 double thread_seconds();  ///< processor time of this thread [s]
@@ -47,7 +47,7 @@ double thread_seconds();  ///< processor time of this thread [s]
 bool has_diverged(const physics::PackedCloth& cloth);
 
 /// Root mean square, weighted by mass, of the distances between two ends, over that of the way from the start
-/// to `exact`: a cloth that does not move has 1 [-].
+/// to `exact` [-]. A cloth that does not move has 1.
 double relative_error(const Swing& swing, const std::vector<physics::Vec3>& end,
                       const std::vector<physics::Vec3>& exact);
 

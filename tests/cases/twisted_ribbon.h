@@ -15,19 +15,19 @@ struct RibbonLoad {
 };
 
 enum class FibreStrain { engineering, green };
-/// Of longitudinal fibres that lie on helices and do not touch, with lambda = sqrt((1 + eps)^2 + (tau s)^2)
-/// of the fibre at s W/2 and share = 1 - 1/lambda (springs) or (lambda^2 - 1)/2 (membrane triangles):
-///   F/(Y W) = int_0^1 share (1 + eps) ds,  M/(Y W W/2) = int_0^1 share tau s^2 ds.
+/// A ribbon of longitudinal fibres that lie on helices and do not touch, with lambda = sqrt((1 + eps)^2 +
+/// (tau s)^2) of the fibre at s W/2 and share = 1 - 1/lambda (springs) or (lambda^2 - 1)/2 (membrane
+/// triangles): F/(Y W) = int_0^1 share (1 + eps) ds, M/(Y W W/2) = int_0^1 share tau s^2 ds.
 RibbonLoad fibre_ribbon(const Twist& twist, FibreStrain strain = FibreStrain::engineering);
 
 /// Fibres of springs on a helicoid, `fibres` of them at the middles of equal strips, `rows` springs each.
-/// What a cross-section in the middle carries.
+/// Returns what a cross-section in the middle carries.
 RibbonLoad spring_ribbon(const Twist& twist, int fibres, int rows);
 
 /// A ribbon of membrane triangles with Poisson's ratio 0 and a little bending (so that slack or compressed
-/// parts have some stiffness), at the rest that Newton finds from the helicoid; what the clamps carry. width:
-/// W [m]. Differs from fibres in Green's strain by the hold that neighbours have on each other. Throws
-/// std::runtime_error if no rest is found.
+/// parts have some stiffness), at the rest that Newton finds from the helicoid. width: W [m]. Returns what
+/// the clamps carry. It differs from fibres in Green's strain by the hold that neighbours have on each other.
+/// Throws std::runtime_error if no rest is found.
 RibbonLoad membrane_ribbon(const Twist& twist, double width, int columns, int rows);
 
 }  // namespace furrow::cases
