@@ -17,7 +17,7 @@ struct Band {
 struct DrapeSettings {
   bool plain = false;
   double residual = physics::SettleOptions{}.tolerance;
-  std::optional<double> contact_depth;  ///< that cloth may lie inside the gap [m]; none: as it comes
+  std::optional<double> contact_depth;  ///< that cloth may lie inside the gap [m]; none: no limit
   double penetration = 0.005;           ///< depth to which the body may come through the cloth [m]
   std::optional<int> iterations;        ///< none: those of the method
   std::vector<Band> bands;

@@ -14,9 +14,9 @@ class Collider {
  public:
   virtual ~Collider() = default;
   virtual SignedDistance at(const Vec3& x) const = 0;
-  /// at(), its gradient made continuous where that of a sampled body jumps, for who looks for a minimum: at a
-  /// kink of the distance no step would succeed. The value differs from at()'s by less than 1e-5 m. Here for
-  /// bodies without kinks: at().
+  /// at() with a gradient that is continuous where that of a sampled body jumps, for callers that look for a
+  /// minimum: at a kink of the distance no step would succeed. The value differs from that of at() by less
+  /// than 1e-5 m. The default, for bodies without kinks, is at().
   virtual SignedDistance smooth_at(const Vec3& x) const { return at(x); }
 };
 

@@ -98,7 +98,7 @@ void AnchoredContact::add_stiffness(FreeStiffness& stiffness) const {
       const Vec3 u = t.way();
       const double length = u.norm();
       Mat3 along = Mat3::Identity() - t.plane * t.plane.transpose();
-      // Who slides goes on to: nothing holds it back along its way.
+      // A sliding particle goes on sliding: nothing holds it back along its way.
       if (length > slip_ || (t.slides && length > 0)) along -= u * u.transpose() / (length * length);
       block += t.limit / std::max(slip_, length) * along;
     }

@@ -15,23 +15,24 @@ struct AnchoredContactOptions {
   double stiffness = 1000;  ///< of that push beyond the soft layer [N/m]; > 0
 };
 
-/// Contact with a body for who looks for rest, as a potential. A particle nearer than the gap is pushed along
-/// the body's gradient, by a force that grows with the square of the depth d in a soft layer (a third of the
-/// gap, 1 mm at most) and then linearly, so that stiffness does not jump where cloth comes to lie. Friction
-/// pulls it back to an anchor, linearly over a tenth of the layer and then with its limit, friction times
-/// push.
+/// Contact with a body as a potential, for callers that look for rest. A particle nearer than the gap is
+/// pushed along the body's gradient, by a force that grows with the square of the depth d in a soft layer (a
+/// third of the gap, 1 mm at most) and then linearly, so that stiffness does not jump where cloth comes to
+/// lie. Friction pulls it back to an anchor, linearly over a tenth of the layer and then with its limit,
+/// friction times push. Cost: one query of the collider a particle and call of look(), shared by the threads
+/// of the pool; the results do not depend on their number.
 ///
-/// With anchors and limits held this is the derivative of an energy, and Newton's method may be used between
-/// calls of expect(), make_room(), stiffen() and move_anchors(): there, who pulls more than the limit drags
-/// the anchor along, and limits become those of the new push. So whatever rest is found, contact forces are
-/// in the friction cone; which of many such rests depends on the way there. Cost: one query of the collider a
-/// particle and call of look(), shared by the threads of the pool; the results do not depend on their number.
+/// \details With anchors and limits held this is the derivative of an energy, and Newton's method may be used
+/// between calls of expect(), make_room(), stiffen() and move_anchors(). There a particle that pulls more
+/// than its limit drags its anchor along, and limits become those of the new push. So whatever rest is found,
+/// contact forces are in the friction cone; which of many such rests it is depends on the way there.
 class AnchoredContact {
  public:
   /// The collider must outlive this object. Throws std::invalid_argument if an option is out of its range.
   AnchoredContact(const Collider& collider, const AnchoredContactOptions& options, std::size_t particles);
 
-  /// Asks the body at x: what comes below is of there, and of particles that can move (inv_mass > 0).
+  /// Asks the body at x. All answers below are for these positions, and for particles that can move (inv_mass
+  /// > 0).
   void look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool = nullptr);
   double energy() const;                               ///< [J]
   void add_forces(std::span<Vec3> force) const;        ///< [N]
@@ -39,12 +40,12 @@ class AnchoredContact {
   void expect(std::span<const Vec3> move);             ///< limits become those of the push after a move [m]
   void move_anchors();
   /// Where the body leaves less room than the gap (between two fingers, under an arm), pushes from both sides
-  /// meet in a kink at which no step succeeds. Who is pushed at `from` and, less than the gap away, from
-  /// another side at `to` (normals over 60 degrees apart), rests from now on within half the distance [m]
-  /// that it has there; the next look() sees it.
+  /// meet in a kink at which no step succeeds. A particle may be pushed at `from` and, less than the gap
+  /// away, from another side at `to` (normals over 60 degrees apart). From now on it rests within half the
+  /// distance [m] that it has there; the next look() sees it.
   void make_room(std::span<const Vec3> from, std::span<const Vec3> to, std::span<const double> inv_mass);
-  /// From here on the soft layer is `factor` times thinner and the push beyond it factor^2 times as stiff.
-  /// Who is pushed moves out to where the push is what it was, in x, the positions of the last look().
+  /// From here on the soft layer is `factor` times thinner and the push beyond it factor^2 times as stiff. A
+  /// pushed particle moves out to where the push is what it was, in x, the positions of the last look().
   void stiffen(double factor, std::span<Vec3> x);
   int touching() const;    ///< particles that are pushed
   double deepest() const;  ///< of them, inside its gap [m]; 0: none

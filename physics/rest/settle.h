@@ -12,8 +12,8 @@ struct SettleOptions {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]; finite
   double friction = 0.3;      ///< Coulomb coefficient with the body [-]; >= 0
   double gap = 0.003;         ///< distance from the body at which it begins to push [m]; > 0
-  /// How far the cloth may lie inside the gap at rest [m]; >= 1e-7. As it comes: 0.1 mm in the mean, 1 mm
-  /// where most presses on it. Less, and what is tight keeps its energy; 1e-6 takes about twice as long
+  /// How far the cloth may lie inside the gap at rest [m]; >= 1e-7. By default 0.1 mm in the mean, 1 mm where
+  /// most presses on it. With a smaller value tight cloth keeps its energy; 1e-6 takes about twice as long
   /// where tolerance is 1e-3.
   double contact_depth = std::numeric_limits<double>::infinity();
   double tolerance = 1e-3;   ///< residual_force() at which it ends [-]; > 0
