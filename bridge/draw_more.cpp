@@ -10,6 +10,7 @@
 #include "bridge/scatter.h"
 #include "geometry/mesh/property_names.h"
 #include "physics/cloth/strain.h"
+#include "physics/motion/compensation.h"
 
 namespace furrow::bridge {
 namespace {

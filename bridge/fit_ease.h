@@ -1,32 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <optional>
+#include <array>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "bridge/fit_report.h"
 #include "geometry/figure/torso_levels.h"
-#include "geometry/mesh/mesh.h"
 
 namespace furrow::bridge {
-
-/// Heights of the sections where ease is measured, y [m]; finite where told.
-struct SectionHeights {
-  std::optional<double> chest, waist, hip;
-};
-
-/// Room between garment and body at one height. What cannot be measured is missing, and `note` says why.
-struct FitEase {
-  std::string name;                     ///< chest, waist or hip
-  double height = 0;                    ///< y [m]
-  std::optional<double> body_girth;     ///< by the tape measure (geometry/figure/horizontal_section.h) [m]
-  std::optional<double> garment_girth;  ///< the garment's curve around the body, all its folds followed [m]
-  std::optional<double> ease;           ///< garment_girth - body_girth [m]
-  std::optional<double> rest_girth;     ///< the same curve with the cloth unstrained [m]; none without rest
-  std::optional<double>
-      rest_ease;     ///< rest_girth - body_girth [m]: < 0, the garment is smaller than the body
-  std::string note;  ///< "" or why something is missing
-};
 
 /// A body by its closed surface, faces outwards, y up, and its torso.
 struct FitBody {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bridge/convert.h"
+#include "bridge/fit_zones.h"
 #include "geometry/stroke/pierced_faces.h"
 
 namespace furrow::bridge {

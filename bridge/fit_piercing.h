@@ -2,19 +2,9 @@
 #pragma once
 #include <vector>
 
-#include "bridge/fit_zones.h"
-#include "geometry/mesh/mesh.h"
-#include "physics/base/triangle_mesh.h"
-#include "physics/body/exact_distance.h"
+#include "bridge/fit_report.h"
 
 namespace furrow::bridge {
-
-/// Where a body comes through a garment.
-struct FitPiercing {
-  std::size_t faces = 0;       ///< that cross or touch the body's surface (geometry/stroke/pierced_faces.h)
-  double deepest = 0;          ///< of all points of the garment inside the body, as sampled [m], >= 0
-  std::vector<FitZone> zones;  ///< of pierced faces and those with all corners inside; peak: their depth [m]
-};
 
 /// `distances`: of the vertices to the body, by index. Inside a pierced face the depth is sampled every 5 mm
 /// (256 times along an edge longer than 1.25 m), elsewhere at the vertices: a face that is not pierced lies

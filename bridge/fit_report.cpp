@@ -9,6 +9,9 @@
 #include <utility>
 
 #include "bridge/convert.h"
+#include "bridge/fit_ease.h"
+#include "bridge/fit_piercing.h"
+#include "bridge/fit_zones.h"
 #include "geometry/figure/principal_strain.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"

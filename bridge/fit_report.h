@@ -2,11 +2,9 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "bridge/fit_ease.h"
-#include "bridge/fit_piercing.h"
-#include "bridge/fit_zones.h"
 #include "geometry/mesh/mesh.h"
 #include "physics/base/triangle_mesh.h"
 #include "physics/body/exact_distance.h"
@@ -16,6 +14,11 @@ namespace furrow::bridge {
 /// Vertex attributes (geometry/mesh/vertex_attributes.h) that fit_report() writes: plain columns of a PLY.
 inline constexpr const char* fit_distance = "fit_distance";  ///< to the body [m], in every unit of the file
 inline constexpr const char* fit_strain = "strain";          ///< [-]
+
+/// Heights of the sections where ease is measured, y [m]; finite where told.
+struct SectionHeights {
+  std::optional<double> chest, waist, hip;
+};
 
 struct FitOptions {
   double tight_strain = 0.05;      ///< cloth strained more is tight [-], > 0
@@ -41,6 +44,36 @@ struct FitDistance {
   double share_in_contact = 0;          ///< of the area, in [0, 1]
   std::size_t vertices_inside = 0;
   double deepest_penetration = 0;  ///< of vertices and pierced faces [m], >= 0
+};
+
+/// A connected part of a garment where a value is over a threshold.
+struct FitZone {
+  double area = 0;                  ///< as worn [m^2]
+  double peak = 0;                  ///< the largest value at a vertex of it
+  geometry::Point centre{0, 0, 0};  ///< its centre of area [m]
+  double height_share = 0;          ///< of the centre, over the body's height: 0 soles, 1 crown
+  std::string side;                 ///< where the centre lies: front, back, left or right of the wearer, or
+                                    ///< around, where it is within 5 cm of the torso's middle
+};
+
+/// Where a body comes through a garment.
+struct FitPiercing {
+  std::size_t faces = 0;       ///< that cross or touch the body's surface (geometry/stroke/pierced_faces.h)
+  double deepest = 0;          ///< of all points of the garment inside the body, as sampled [m], >= 0
+  std::vector<FitZone> zones;  ///< of pierced faces and those with all corners inside; peak: their depth [m]
+};
+
+/// Room between garment and body at one height. What cannot be measured is missing, and `note` says why.
+struct FitEase {
+  std::string name;                     ///< chest, waist or hip
+  double height = 0;                    ///< y [m]
+  std::optional<double> body_girth;     ///< by the tape measure (geometry/figure/horizontal_section.h) [m]
+  std::optional<double> garment_girth;  ///< the garment's curve around the body, all its folds followed [m]
+  std::optional<double> ease;           ///< garment_girth - body_girth [m]
+  std::optional<double> rest_girth;     ///< the same curve with the cloth unstrained [m]; none without rest
+  std::optional<double>
+      rest_ease;     ///< rest_girth - body_girth [m]: < 0, the garment is smaller than the body
+  std::string note;  ///< "" or why something is missing
 };
 
 struct FitReport {

@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <string>
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "bridge/fit_report.h"
 
 namespace furrow::bridge {
-
-/// A connected part of a garment where a value is over a threshold.
-struct FitZone {
-  double area = 0;                  ///< as worn [m^2]
-  double peak = 0;                  ///< the largest value at a vertex of it
-  geometry::Point centre{0, 0, 0};  ///< its centre of area [m]
-  double height_share = 0;          ///< of the centre, over the body's height: 0 soles, 1 crown
-  std::string side;                 ///< where the centre lies: front, back, left or right of the wearer, or
-                                    ///< around, where it is within 5 cm of the torso's middle
-};
 
 struct FitZones {
   std::vector<FitZone> zones;  ///< largest first; height_share and side are not set

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bridge/convert.h"
+#include "bridge/gather_particles.h"
 #include "bridge/tension_constants.h"
 #include "geometry/fold/line_press.h"
 #include "geometry/mesh/edge_metric.h"

@@ -2,7 +2,6 @@
 #pragma once
 #include <vector>
 
-#include "bridge/gather_particles.h"
 #include "geometry/mesh/mesh.h"
 #include "physics/cloth/cloth.h"
 
@@ -23,6 +22,12 @@ enum class Bending {
   cross,  ///< springs across the edges (method S1.1): a look, without a rigidity about flat
   hinge,  ///< signed hinges with a rest angle, k = B l^2 / (A1 + A2): a plate of rigidity B
   cosine  ///< the same k in the law of method S2.3: none of first order about rest
+};
+
+/// How a garment's mass lies on its vertices.
+enum class MassRule {
+  area,  ///< v:mass as it is: by area (method S1.8)
+  equal  ///< the garment's mass divided by the number of its vertices (method S2.5)
 };
 
 /// How a mesh's maps become masses, springs, triangles and hinges.

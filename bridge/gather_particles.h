@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "geometry/mesh/mesh.h"
-#include "physics/base/particles.h"
+#include "bridge/gather.h"
 
 namespace furrow::bridge {
-
-/// How a garment's mass lies on its vertices.
-enum class MassRule {
-  area,  ///< v:mass as it is: by area (method S1.8)
-  equal  ///< the garment's mass divided by the number of its vertices (method S2.5)
-};
 
 /// Particle i is vertex i: positions, velocities of v:velocity (0 without that map), masses. A vertex without
 /// faces gets mass 0 and stays where it is. Throws std::invalid_argument without a map v:mass, ContentError

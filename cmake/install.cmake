@@ -35,12 +35,12 @@ if(furrow_whole)
   install(DIRECTORY docs decisions examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs PATTERN Doxyfile EXCLUDE)
 endif()
 
-# pkg-config, where no CMake is used.
-foreach(folder LIBDIR INCLUDEDIR)  # GNUInstallDirs allows absolute ones
+# pkg-config, where no CMake is used. Its paths begin at the file itself, so that the whole prefix may be moved.
+file(RELATIVE_PATH furrow_pc_up /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+foreach(folder LIBDIR INCLUDEDIR)
+  set(furrow_pc_${folder} "\${prefix}/${CMAKE_INSTALL_${folder}}")
   if(IS_ABSOLUTE ${CMAKE_INSTALL_${folder}})
     set(furrow_pc_${folder} ${CMAKE_INSTALL_${folder}})
-  else()
-    set(furrow_pc_${folder} "\${prefix}/${CMAKE_INSTALL_${folder}}")
   endif()
 endforeach()
 if(physics IN_LIST furrow_built)

@@ -15,6 +15,7 @@
 #include "geometry/fold/line_press.h"
 #include "geometry/fold/line_profile.h"
 #include "geometry/fold/line_region.h"
+#include "geometry/insert/insert_along_stroke.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/tangent_frames.h"

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "geometry/fold/taubin_smooth.h"
-#include "geometry/insert/insert_along_stroke.h"
+#include "geometry/insert/insertion.h"
 #include "geometry/rest/rest_state.h"
+#include "geometry/stroke/stroke.h"
 
 namespace furrow::geometry {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "geometry/insert/insertion_report.h"
+#include "geometry/insert/insertion.h"
 #include "geometry/stroke/stroke.h"
 #include "geometry/stroke/stroke_path.h"
 

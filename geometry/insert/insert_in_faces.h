@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/insert/insertion_report.h"
+#include "geometry/insert/insertion.h"
 #include "geometry/insert/mesh_editor.h"
 
 namespace furrow::geometry {

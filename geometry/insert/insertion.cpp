@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "geometry/insert/insertion_report.h"
+#include "geometry/insert/insertion.h"
 
 namespace furrow::geometry {
 

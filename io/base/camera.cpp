@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/stroke/place_view_stroke.h"
+
 namespace furrow::io {
 namespace {
 

@@ -4,7 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/stroke/place_view_stroke.h"
+namespace furrow::geometry {
+struct SightLine;
+}
 
 namespace furrow::io {
 

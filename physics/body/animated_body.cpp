@@ -8,6 +8,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/body/depth_map_collider.h"
+#include "physics/body/triangle_bvh.h"
+
 namespace furrow::physics {
 namespace {
 

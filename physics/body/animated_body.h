@@ -7,11 +7,11 @@
 #include <variant>
 #include <vector>
 
-#include "physics/body/depth_map_collider.h"
 #include "physics/body/distance_field.h"
-#include "physics/body/exact_distance.h"
 
 namespace furrow::physics {
+
+class DepthMapCollider;
 
 /// Frames of one triangle mesh whose vertices move.
 struct BodyFrames {
@@ -19,6 +19,20 @@ struct BodyFrames {
   std::vector<double> times;                  ///< [s]; at least two, strictly increasing
   /// The vertices of frame i [m]; each frame is read once, in order, as long as the simulation goes forward.
   std::function<std::vector<Vec3>(int)> vertices;
+};
+
+enum class DepthMaps {
+  front_back,
+  front_back_top,  ///< the paper's
+  six              ///< front, back, top, bottom and both sides
+};
+
+struct DepthMapOptions {
+  DepthMaps maps = DepthMaps::front_back_top;
+  int size = 512;   ///< texels along the longest edge of the body's box; 16 ... 4096
+  int up = 1;       ///< the coordinate that grows to the top; 0 ... 2
+  int front = 2;    ///< the coordinate that grows to the front; 0 ... 2, not `up`
+  int threads = 1;  ///< of a build, at most one a map; 1 ... 256; the result does not depend on it
 };
 
 /// What each frame's distance is asked from. A DistanceField is right everywhere and takes tenths of a second

@@ -5,25 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "physics/base/triangle_mesh.h"
-#include "physics/body/collider.h"
+#include "physics/body/animated_body.h"
 #include "physics/body/depth_map.h"
 
 namespace furrow::physics {
-
-enum class DepthMaps {
-  front_back,
-  front_back_top,  ///< the paper's
-  six              ///< front, back, top, bottom and both sides
-};
-
-struct DepthMapOptions {
-  DepthMaps maps = DepthMaps::front_back_top;
-  int size = 512;   ///< texels along the longest edge of the body's box; 16 ... 4096
-  int up = 1;       ///< the coordinate that grows to the top; 0 ... 2
-  int front = 2;    ///< the coordinate that grows to the front; 0 ... 2, not `up`
-  int threads = 1;  ///< of a build, at most one a map; 1 ... 256; the result does not depend on it
-};
 
 /// A body by what is seen of it from a few sides: inside is what lies behind all maps. For bodies whose shape
 /// changes each frame: a rebuild takes milliseconds. The body must be closed, counter-clockwise from outside.

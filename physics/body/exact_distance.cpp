@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/body/surface_sides.h"
+
 namespace furrow::physics {
 
 struct ExactDistance::Parts {

@@ -3,10 +3,32 @@
 #include <memory>
 #include <span>
 
+#include "physics/base/triangle_mesh.h"
 #include "physics/body/collider.h"
-#include "physics/body/surface_sides.h"
 
 namespace furrow::physics {
+
+struct ClosestPoint;
+
+enum class SignRule {
+  pseudonormal,  ///< closed, equally oriented, free of crossings, and agreeing with the winding number
+  sides,   ///< closed but crossing itself: the winding number of each side where the surface is sound, else
+           ///< below
+  winding  ///< open or contradictory: winding number > 1/2 at every point
+};
+
+/// What was found out about a body, and how its inside is told from its outside.
+struct SignReport {
+  SignRule rule = SignRule::winding;
+  bool closed = false;        ///< every edge is run through as often forwards as backwards
+  int border_edges = 0;       ///< edges of one triangle
+  int irregular_edges = 0;    ///< edges of more than two triangles or of two that run the same way
+  int crossed_triangles = 0;  ///< that meet others elsewhere than in shared corners and edges
+  int dropped_triangles = 0;  ///< inner walls where parts overlap: no distance is measured to them
+  int samples = 0;  ///< points near the surface at which pseudonormal and winding number were compared
+  double disagreement = 0;   ///< share of them where the two differ [-]
+  double signed_volume = 0;  ///< [m^3]; < 0 when the faces of a closed body look inwards
+};
 
 /// Exact signed distance to a triangle mesh: closest point by TriangleBvh, sign by SurfaceSides. About 1 us a
 /// query for 100,000 triangles; DistanceField is the fast one. Copies share their data.

@@ -2,20 +2,9 @@
 #pragma once
 #include <vector>
 
-#include "physics/cloth/cloth.h"
+#include "physics/motion/simulate_state.h"
 
 namespace furrow::physics {
-
-/// Forces that keep a cloth from jumping when its springs were changed under strain: applied as
-///   -force exp(-(t - start) / time_constant),
-/// forgotten when the factor falls below 1e-9. Springs along a line that splits an edge do not pull as the
-/// edge did, whatever their rest lengths (unlike a membrane's triangles), so an insertion under strain jumps
-/// without it.
-struct Compensation {
-  std::vector<Vec3> force;     ///< one a particle [N]; empty: none
-  double start = 0;            ///< [s]
-  double time_constant = 0.3;  ///< [s]; > 0, may be infinite
-};
 
 /// Throws std::invalid_argument if there are forces, but not one for each particle, one is not finite, or the
 /// time constant is not > 0.

@@ -3,17 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "physics/body/rigid_motion.h"
+#include "physics/motion/world.h"
 #include "physics/packed/packed_cloth.h"
 
 namespace furrow::physics {
-
-/// Pinned particles that are led: after every step each is exactly at  pose(t) home,  where home is its
-/// position in the motion's frame; during the step its velocity is the way that it goes in it over dt.
-struct MovedPins {
-  std::vector<int> particles;  ///< pinned ones (see pin()); in no two groups
-  RigidMotion motion;
-};
 
 /// Where the particles of all groups are in the frames of their motions, one group after the other, if they
 /// are at x at that time [m]. Throws std::invalid_argument if a motion is broken, or a particle is out of

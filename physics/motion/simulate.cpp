@@ -10,6 +10,7 @@
 #include "physics/base/require.h"
 #include "physics/contact/animated_contact.h"
 #include "physics/contact/rigid_contact.h"
+#include "physics/motion/simulate_report.h"
 #include "physics/motion/step_length.h"
 #include "physics/motion/stepper.h"
 

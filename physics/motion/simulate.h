@@ -4,12 +4,41 @@
 #include <functional>
 #include <optional>
 
-#include "physics/motion/integrator.h"
-#include "physics/motion/simulate_report.h"
+#include "physics/cloth/strain.h"
 #include "physics/motion/simulate_state.h"
 #include "physics/motion/world.h"
 
 namespace furrow::physics {
+
+enum class Integrator {
+  leapfrog,        ///< order 2, symplectic, one force a step; the choice for cloth that moves
+  explicit_euler,  ///< order 1; gains energy at any step
+  rk4,             ///< order 4, four forces a step; loses energy slowly
+  backward_euler,  ///< order 1, stable at any step, damps; a sparse Cholesky solve a step
+  xpbd             ///< backward Euler by sweeps over the springs: stable at any step, stiffness needs sweeps
+};
+
+/// Whether steps of any length are stable, so that no limit is estimated.
+constexpr bool is_unconditionally_stable(Integrator i) {
+  return i == Integrator::backward_euler || i == Integrator::xpbd;
+}
+
+/// Their steps if none is asked for [s]: XPBD gains more from short steps than from many sweeps.
+constexpr double default_dt(Integrator i) { return i == Integrator::xpbd ? 1.0 / 1200 : 1.0 / 240; }
+
+struct BackwardEulerOptions {
+  int newton_iterations = 1;        ///< at most; 1: linearised once (Baraff & Witkin 1998); >= 1
+  double newton_tolerance = 1e-10;  ///< of velocities: sooner when an iteration changes none more [m/s]; >= 0
+};
+
+struct XpbdOptions {
+  int iterations = 10;   ///< sweeps over all springs a step, at most; >= 1
+  double tolerance = 0;  ///< sooner when a sweep changes no spring's length by more [m]; >= 0
+};
+
+/// 2 sqrt(2): RK4 is stable on the imaginary axis up to there. The half-disc of radius 2.785 left of it
+/// belongs to its region, too.
+constexpr double rk4_limit = 2.8284271247461903, rk4_damped_limit = 2.785;
 
 enum class StepRule {
   limited,  ///< dt never exceeds the stability limit; a larger `dt` is refused
@@ -48,6 +77,34 @@ struct SimulateProgress {
 };
 /// Called every observe_steps steps and at the end; the cloth holds the state of that time. false: stop here.
 using Observer = std::function<bool(const SimulateProgress&)>;
+
+enum class Outcome { finished, stopped_by_observer, diverged, stopped_at };
+
+/// Counts, times and smallest steps are of all calls that shared a state.
+struct SimulateReport {
+  Outcome outcome = Outcome::finished;
+  std::int64_t steps = 0;
+  double time = 0;                      ///< reached [s]
+  double dt = 0, dt_smallest = 0;       ///< of the last step, and the smallest [s]
+  double dt_limit = 0;                  ///< of the integrator, as last estimated [s]; infinity: there is none
+  double dt_limit_smallest = 0;         ///< [s]
+  double seconds = 0, cpu_seconds = 0;  ///< clock and processor time (all threads) [s]
+  StrainStatistics strain;              ///< structural springs (else edges of the membrane) at the end
+  double kinetic_energy = 0;            ///< [J]; what rests on the body keeps the last half-kick, g dt/2
+  double residual_force =
+      0;             ///< see residual_force() [-]; of springs, weight and contact with a body at rest
+  int contacts = 0;  ///< particles at the body at the end
+  int limit_estimates = 0;
+  std::int64_t force_evaluations = 0, collider_queries = 0;
+  std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
+  /// Elements times evaluations; 0 shows that a kind that is absent cost nothing.
+  std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
+  std::int64_t truncated_moves = 0;        ///< cut short against tunnelling
+  std::int64_t frames_built = 0;           ///< fields of an animated body
+  double frame_seconds = 0;                ///< clock time spent on them [s]
+  double compensation_left = 0;            ///< share of the compensating forces that still acts [-]
+  Vec3 compensation_force = Vec3::Zero();  ///< their sum now [N]
+};
 
 /// Moves the cloth to the time options.seconds under springs, gravity, air, damping and contact. Steps have
 /// equal length between two estimates of the limit, and the end is hit exactly. A state that is not finite or

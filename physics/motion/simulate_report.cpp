@@ -5,6 +5,7 @@
 
 #include "physics/body/posed_collider.h"
 #include "physics/contact/residual_force.h"
+#include "physics/motion/compensation.h"
 
 namespace furrow::physics {
 namespace {

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "physics/motion/compensation.h"
+
 namespace furrow::physics {
 namespace {
 

@@ -6,7 +6,6 @@
 
 #include "physics/cloth/cloth.h"
 #include "physics/contact/contact.h"
-#include "physics/motion/compensation.h"
 
 namespace furrow::physics {
 
@@ -19,6 +18,17 @@ struct SimulateTotals {
   double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
   double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< of leapfrog [s]
   double seconds = 0, cpu_seconds = 0, frame_seconds = 0;              ///< [s]
+};
+
+/// Forces that keep a cloth from jumping when its springs were changed under strain: applied as
+///   -force exp(-(t - start) / time_constant),
+/// forgotten when the factor falls below 1e-9. Springs along a line that splits an edge do not pull as the
+/// edge did, whatever their rest lengths (unlike a membrane's triangles), so an insertion under strain jumps
+/// without it.
+struct Compensation {
+  std::vector<Vec3> force;     ///< one a particle [N]; empty: none
+  double start = 0;            ///< [s]
+  double time_constant = 0.3;  ///< [s]; > 0, may be infinite
 };
 
 /// All that a simulation knows besides cloth, world and options. A call of simulate() that is stopped at any

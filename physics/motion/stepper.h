@@ -2,8 +2,8 @@
 #pragma once
 #include <memory>
 
-#include "physics/motion/integrator.h"
 #include "physics/motion/motion.h"
+#include "physics/motion/simulate.h"
 
 namespace furrow::physics {
 

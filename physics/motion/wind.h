@@ -3,23 +3,10 @@
 #include <vector>
 
 #include "physics/base/thread_pool.h"
-#include "physics/body/rigid_motion.h"
+#include "physics/motion/world.h"
 #include "physics/packed/packed_cloth.h"
 
 namespace furrow::physics {
-
-struct Gust {
-  double time;    ///< [s]; strictly increasing
-  double factor;  ///< [-]
-};
-
-/// Moving air:  w(x, t) = factor(t) velocity + rate(t) axis x (x - centre).  The drag then pulls towards it:
-/// v - w decays by exp(-air_drag t), exactly, whichever way the cloth faces. Without drag wind does nothing.
-struct Wind {
-  Vec3 velocity = Vec3::Zero();  ///< [m/s]
-  std::vector<Gust> gusts;       ///< factor; linear between, held outside; none: 1
-  std::optional<Spin> swirl;     ///< air that turns like a rigid body
-};
 
 /// Throws std::invalid_argument for a number that is not finite or times that do not increase.
 void check(const Wind& wind);

@@ -15,6 +15,7 @@
 #include "physics/cloth/pins.h"
 #include "physics/cloth/spring_forces.h"
 #include "physics/cloth/strain.h"
+#include "physics/motion/compensation.h"
 #include "physics/motion/simulate.h"
 #include "tests/test_meshes.h"
 

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "geometry/stroke/place_view_stroke.h"
 #include "tests/io/picture/scenes.h"
 
 namespace furrow::tests {
