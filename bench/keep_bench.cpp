@@ -17,6 +17,7 @@
 #include "physics/motion/simulate.h"
 #include "physics/rest/certificate.h"
 #include "physics/rest/prestress.h"
+#include "physics/rest/rigid_imbalance.h"
 #include "physics/rest/sag_system.h"
 
 namespace furrow::bench {

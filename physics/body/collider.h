@@ -20,4 +20,10 @@ class Collider {
   virtual SignedDistance smooth_at(const Vec3& x) const { return at(x); }
 };
 
+/// What a particle knows of the body's field, so that it need not be asked while it is far.
+struct ContactMemory {
+  Vec3 x;        ///< where the field was asked last, in the body's frame [m]
+  double level;  ///< its value there [m]; NaN: never asked
+};
+
 }  // namespace furrow::physics

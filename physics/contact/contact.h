@@ -21,12 +21,6 @@ struct ContactCounts {
   ContactCounts& operator+=(const ContactCounts& other);
 };
 
-/// What a particle knows of the body's field, so that it need not be asked while it is far.
-struct ContactMemory {
-  Vec3 x;        ///< where the field was asked last, in the body's frame [m]
-  double level;  ///< its value there [m]; NaN: never asked
-};
-
 /// Contact of particles with a body, after Fuhrmann, Sobottka, Gross 2003 (method S1.10): a particle that
 /// a step brings closer than the gap is moved back along the field's gradient, then Coulomb friction shortens
 /// its tangential motion relative to the body, then its velocity is what it moved; no bounce.

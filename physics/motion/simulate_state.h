@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "physics/body/collider.h"
 #include "physics/cloth/cloth.h"
-#include "physics/contact/contact.h"
 
 namespace furrow::physics {
 

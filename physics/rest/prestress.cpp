@@ -11,6 +11,7 @@
 #include "physics/contact/residual_force.h"
 #include "physics/rest/find_sag.h"
 #include "physics/rest/invert_elements.h"
+#include "physics/rest/rigid_imbalance.h"
 
 namespace furrow::physics {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "physics/body/collider.h"
 #include "physics/cloth/cloth.h"
-#include "physics/rest/rigid_imbalance.h"
 
 namespace furrow::physics {
 
@@ -20,6 +19,20 @@ struct PrestressOptions {
   double max_angle = 1.5707963267948966;  ///< bound of |theta - theta0| of hinges [rad]; in (0, 3]
   double tolerance = 1e-9;                ///< net force relative to weight at which it is done [-]; > 0
   int max_iterations = 200;               ///< Newton steps; >= 1
+};
+
+/// A piece of cloth (particles that elements join) whose pins leave rigid motions free, and what of a load no
+/// force inside the piece can balance: with nothing else to hold it, the piece would start to move with these
+/// accelerations as a rigid body.
+struct RigidImbalance {
+  std::vector<int> piece;  ///< its free particles, ascending
+  int freedoms = 0;        ///< 1: about an axis through its pins; 3: about its only pin; 6: no pins
+  Vec3 point{0, 0, 0};     ///< on the axis; the pin; the centre of mass [m]
+  Vec3 axis{0, 0, 0};      ///< unit; of that freedom, else of the moment; 0 if there is none
+  Vec3 force{0, 0, 0};     ///< unbalanced [N]; 0 with pins
+  Vec3 moment{0, 0, 0};    ///< unbalanced, about the point [N m]
+  Vec3 acceleration{0, 0, 0}, angular_acceleration{0, 0, 0};  ///< of the point [m/s^2]; [1/s^2]
+  double largest = 0;                                         ///< acceleration of a particle by them [m/s^2]
 };
 
 struct PrestressReport {

@@ -3,23 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "physics/cloth/cloth.h"
+#include "physics/rest/prestress.h"
 
 namespace furrow::physics {
-
-/// A piece of cloth (particles that elements join) whose pins leave rigid motions free, and what of a load no
-/// force inside the piece can balance: with nothing else to hold it, the piece would start to move with these
-/// accelerations as a rigid body.
-struct RigidImbalance {
-  std::vector<int> piece;  ///< its free particles, ascending
-  int freedoms = 0;        ///< 1: about an axis through its pins; 3: about its only pin; 6: no pins
-  Vec3 point{0, 0, 0};     ///< on the axis; the pin; the centre of mass [m]
-  Vec3 axis{0, 0, 0};      ///< unit; of that freedom, else of the moment; 0 if there is none
-  Vec3 force{0, 0, 0};     ///< unbalanced [N]; 0 with pins
-  Vec3 moment{0, 0, 0};    ///< unbalanced, about the point [N m]
-  Vec3 acceleration{0, 0, 0}, angular_acceleration{0, 0, 0};  ///< of the point [m/s^2]; [1/s^2]
-  double largest = 0;                                         ///< acceleration of a particle by them [m/s^2]
-};
 
 /// One for each piece with free particles whose pins leave a freedom, in the order of their first particles.
 /// load: force on each particle [N]; that on pins does not count. Pins are on one line if none is farther

@@ -8,6 +8,7 @@
 #include "physics/contact/residual_force.h"
 #include "physics/motion/simulate.h"
 #include "physics/rest/certificate.h"
+#include "physics/rest/rigid_imbalance.h"
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/shell_cloths.h"
 
