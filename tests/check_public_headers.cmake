@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The public headers (furrow_public_headers() in the folders' CMakeLists.txt): at most 45, each of which includes public
-# ones only, and they are all that is installed. With -DBINARY the build is installed into a prefix of its own, and each
+# ones only and stands in docs/library.md; they are all that is installed. With -DBINARY the build is installed into a prefix of its own, and each
 # header is compiled against that alone, as the first of a source.
 cmake_minimum_required(VERSION 3.25)
 set(most 45)
@@ -22,7 +22,11 @@ set(faults "")
 if(count GREATER most)
   list(APPEND faults "${count} public headers, more than ${most}")
 endif()
+file(READ ${ROOT}/docs/library.md manual)
 foreach(header IN LISTS public)
+  if(NOT manual MATCHES "\n\\| `${header}` \\| ")
+    list(APPEND faults "docs/library.md does not list ${header}")
+  endif()
   if(header STREQUAL furrow/version.h)
     continue()
   endif()
