@@ -9,7 +9,7 @@ using geometry::Mesh;
 using geometry::Point;
 using geometry::Vertex;
 
-TEST_CASE("a tetrahedron without a face becomes a closed body that faces outwards") {
+TEST_CASE("body: a tetrahedron without a face becomes a closed body that faces outwards") {
   Mesh mesh;
   const Vertex a = mesh.add_vertex(Point(0, 0, 0)), b = mesh.add_vertex(Point(1, 0, 0));
   const Vertex c = mesh.add_vertex(Point(0, 1, 0)), d = mesh.add_vertex(Point(0, 0, 1));

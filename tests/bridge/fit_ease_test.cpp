@@ -33,7 +33,7 @@ geometry::Mesh moved(geometry::Mesh mesh, double x, double y) {
 
 }  // namespace
 
-TEST_CASE("a tube around a tube: the ease is the difference of two polygons") {
+TEST_CASE("fit_ease: around a tube in a tube it is the difference of two polygons") {
   const Body body(cylinder(0.15, 1.7, 64, 17));
   const geometry::Mesh garment = moved(cylinder(0.16, 0.6, 48, 6), 0, 0.8);  // from 0.8 to 1.4
   const auto ease = bridge::measure_ease(garment, body.view(), {1.3, 1.0, 0.7});
@@ -55,7 +55,7 @@ TEST_CASE("a tube around a tube: the ease is the difference of two polygons") {
   CHECK(above[0].note.find("no torso") != std::string::npos);
 }
 
-TEST_CASE("folds count for the garment, the tape measure goes over hollows of the body") {
+TEST_CASE("fit_ease: folds count for the garment, the tape measure goes over hollows of the body") {
   geometry::Mesh star = cylinder(0.15, 1.7, 64, 17), folds = cylinder(0.3, 1.7, 64, 17);
   for (auto* mesh : {&star, &folds})
     for (auto v : mesh->vertices())
@@ -70,7 +70,7 @@ TEST_CASE("folds count for the garment, the tape measure goes over hollows of th
         Approx(64 * std::hypot(0.9 * r * std::cos(step) - r, 0.9 * r * std::sin(step))).epsilon(1e-9));
 }
 
-TEST_CASE("the girth at rest is that of the cloth unstrained, here smaller than the body") {
+TEST_CASE("fit_ease: the girth at rest is that of the cloth unstrained, here smaller than the body") {
   const Body body(cylinder(0.15, 1.7, 64, 17));
   geometry::Mesh garment = cylinder(0.14, 1.7, 48, 17);
   auto rest = geometry::ensure_map(garment, geometry::attribute::rest_length);
@@ -88,7 +88,7 @@ TEST_CASE("the girth at rest is that of the cloth unstrained, here smaller than 
   }
 }
 
-TEST_CASE("sleeves that have grown together with the chest are cut halfway to the arms") {
+TEST_CASE("fit_ease: sleeves that have grown together with the chest are cut halfway to the arms") {
   // A torso of radius 0.15 with arms of radius 0.05 at 0.35: gaps from 0.15 to 0.30, cut at 0.225.
   geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
   append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
@@ -107,7 +107,7 @@ TEST_CASE("sleeves that have grown together with the chest are cut halfway to th
   CHECK(*ease[0].body_girth == Approx(ngon(0.15, 64)).epsilon(1e-9));
 }
 
-TEST_CASE("where a sleeve ends at the section's height the chest is measured between the cuts") {
+TEST_CASE("fit_ease: where a sleeve ends at the section's height the chest is measured between the cuts") {
   // As above, but the square tube lacks the faces beyond x = 0.3: two open curves, front and back.
   geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
   append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
@@ -128,7 +128,7 @@ TEST_CASE("where a sleeve ends at the section's height the chest is measured bet
   CHECK(*ease[0].garment_girth == Approx(2 * 0.45 + 2 * 0.4).epsilon(1e-6));
 }
 
-TEST_CASE("a garment that is open in front has no girth") {
+TEST_CASE("fit_ease: a garment that is open in front has no girth") {
   const Body body(cylinder(0.15, 1.7, 64, 17));
   geometry::Mesh coat = cylinder(0.2, 1.7, 32, 17);
   std::vector<geometry::Face> front;

@@ -24,7 +24,7 @@ bridge::FitPiercing measure(const geometry::Mesh& garment, const Body& body) {
 
 }  // namespace
 
-TEST_CASE("two faces cut a ball that no vertex of theirs touches: the depth is that of their middle") {
+TEST_CASE("fit_piercing: two faces that cut a ball without a vertex in it are as deep as their middle") {
   const Body ball(icosphere(5, 0.3));
   geometry::Mesh sheet = grid(1, 1, 2, 2);
   for (const double height : {0.1, 0.25, 0.29}) {
@@ -48,7 +48,8 @@ TEST_CASE("two faces cut a ball that no vertex of theirs touches: the depth is t
 }
 
 TEST_CASE(
-    "a garment outside is not pierced, one wholly inside neither, but its depth and its zone are told") {
+    "fit_piercing: a garment outside is not pierced, one wholly inside neither, but its depth and its zone "
+    "are told") {
   const Body ball(icosphere(4, 0.3));
   const bridge::FitPiercing outside = measure(icosphere(3, 0.31), ball);
   CHECK(outside.faces == 0);

@@ -39,7 +39,7 @@ const geometry::VertexMap<double> attribute(const geometry::Mesh& mesh, const st
 
 }  // namespace
 
-TEST_CASE("a tube around a cylinder: distances, contact and ease are known") {
+TEST_CASE("fit_report: a tube around a cylinder has the known distances, contact and ease") {
   const Body body(cylinder(0.15, 1.7, 64, 17));  // repair closes it
   geometry::Mesh garment = tube(0.17, 0.7, 1.3);
   const bridge::FitReport r = bridge::fit_report(garment, body.triangles, body.distance);
@@ -70,7 +70,7 @@ TEST_CASE("a tube around a cylinder: distances, contact and ease are known") {
   CHECK(n.loose[0].height_share == Approx(1.0 / 1.7).epsilon(1e-6));
 }
 
-TEST_CASE("a garment stretched by 8 % around the waist is tight there and nowhere else") {
+TEST_CASE("fit_report: a garment stretched by 8 % around the waist is tight there and nowhere else") {
   const Body body(cylinder(0.15, 1.7, 64, 17));
   geometry::Mesh garment = tube(0.155, 0.6, 1.4);
   set_rest(garment);
@@ -102,7 +102,7 @@ TEST_CASE("a garment stretched by 8 % around the waist is tight there and nowher
   CHECK(*ease[1].garment_girth / *ease[1].rest_girth == Approx(1.08).epsilon(1e-9));
 }
 
-TEST_CASE("a bulge is loose on the side where it is, a dent lies inside the body") {
+TEST_CASE("fit_report: a bulge is loose on the side where it is, a dent lies inside the body") {
   const Body body(cylinder(0.15, 1.7, 64, 17));
   geometry::Mesh garment = tube(0.16, 0.6, 1.4);
   for (auto v : garment.vertices()) {
@@ -119,7 +119,7 @@ TEST_CASE("a bulge is loose on the side where it is, a dent lies inside the body
   CHECK(r.distance.min == -r.distance.deepest_penetration);
 }
 
-TEST_CASE("the same report twice, and to the same bits") {
+TEST_CASE("fit_report: the same report twice, and to the same bits") {
   const Body body(icosphere(4, 0.9));
   geometry::Mesh a = icosphere(4, 0.95), b = a;
   set_rest(a);
@@ -131,7 +131,7 @@ TEST_CASE("the same report twice, and to the same bits") {
   for (auto v : a.vertices()) CHECK(attribute(a, "fit_distance")[v] == attribute(b, "fit_distance")[v]);
 }
 
-TEST_CASE("bad options and meshes are refused before anything is written") {
+TEST_CASE("fit_report: bad options and meshes are refused before anything is written") {
   const Body body(icosphere(2, 0.9));
   geometry::Mesh garment = icosphere(2, 1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -158,7 +158,7 @@ TEST_CASE("bad options and meshes are refused before anything is written") {
   CHECK(geometry::vertex_attributes(garment).empty());
 }
 
-TEST_CASE("a real skirt on its body: exact distances, room at the hip, none at the chest") {
+TEST_CASE("fit_report: a real skirt on its body has exact distances, room at the hip, none at the chest") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

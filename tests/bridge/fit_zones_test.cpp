@@ -9,7 +9,8 @@
 using namespace furrow;
 using namespace furrow::tests;
 
-TEST_CASE("two patches over a threshold are two zones, the larger first, and a tiny one is left out") {
+TEST_CASE(
+    "fit_zones: two patches over a threshold are two zones, the larger first, and a tiny one is left out") {
   const geometry::Mesh sheet = grid(20, 20);  // cells of 0.05 m
   std::vector<double> values(sheet.num_vertices(), 0.0);
   const auto raise = [&](double x0, double x1, double y0, double y1, double value) {
@@ -38,7 +39,7 @@ TEST_CASE("two patches over a threshold are two zones, the larger first, and a t
   CHECK_THROWS_AS(bridge::fit_zones(sheet, {1, 2}, 0, 0), std::invalid_argument);
 }
 
-TEST_CASE("zones that meet in a corner only are two") {
+TEST_CASE("fit_zones: zones that meet in a corner only are two") {
   const geometry::Mesh sheet = grid(2, 2);
   // Vertex (i, j) is i + 3 j: over the threshold are the lower left and the upper right cell's outer faces.
   std::vector<double> values(sheet.num_vertices(), 0.0);

@@ -37,7 +37,7 @@ const bridge::GatherOptions default_options{1000, 10, 0.5, 2};
 
 }  // namespace
 
-TEST_CASE("gather turns maps into masses and springs by the law of S1.7") {
+TEST_CASE("gather: it turns maps into masses and springs by the law of S1.7") {
   const physics::Cloth cloth = bridge::gather(square(), default_options);
   REQUIRE(cloth.particles.size() == 5);
   CHECK(cloth.particles.mass[0] == Approx(0.2));
@@ -58,7 +58,7 @@ TEST_CASE("gather turns maps into masses and springs by the law of S1.7") {
   CHECK(cloth.triangles.size() == 2);
 }
 
-TEST_CASE("gather refuses a mesh that lacks what it needs") {
+TEST_CASE("gather: it refuses a mesh that lacks what it needs") {
   Mesh bare;
   bare.add_vertex(Point(0, 0, 0));
   CHECK_THROWS_AS(bridge::gather(bare, default_options), std::invalid_argument);
@@ -70,7 +70,7 @@ TEST_CASE("gather refuses a mesh that lacks what it needs") {
   CHECK_THROWS_AS(bridge::gather(square(), bad), std::invalid_argument);
 }
 
-TEST_CASE("scatter writes back what gather read, and refuses another mesh") {
+TEST_CASE("gather: scatter writes back what gather read, and refuses another mesh") {
   Mesh mesh = square();
   physics::Cloth cloth = bridge::gather(mesh, default_options);
   for (physics::Vec3& x : cloth.particles.x) x *= 2;
@@ -80,7 +80,7 @@ TEST_CASE("scatter writes back what gather read, and refuses another mesh") {
   CHECK_THROWS_AS(bridge::scatter(cloth.particles, mesh), std::invalid_argument);
 }
 
-TEST_CASE("gather fills only what the options choose") {
+TEST_CASE("gather: it fills only what the options choose") {
   Mesh mesh = square();
   for (Vertex v : mesh.vertices())  // a ridge along the diagonal: its ends are 0 and 2
     if (v == Vertex(1) || v == Vertex(3)) mesh.point(v) = Point(mesh.point(v).x(), mesh.point(v).y(), -0.2);
@@ -106,7 +106,7 @@ TEST_CASE("gather fills only what the options choose") {
   CHECK(physics::potential_energy(plate, plate.particles.x) > 0);  // lifted, its lengths are no rest lengths
 }
 
-TEST_CASE("the springs' laws: what an edge of length r gets") {
+TEST_CASE("gather: an edge of length r gets what the springs' law says") {
   bridge::GatherOptions o = default_options;
   const auto stiffness = [&](bridge::Membrane law, int a, int b) {
     o.membrane = law;
@@ -123,7 +123,7 @@ TEST_CASE("the springs' laws: what an edge of length r gets") {
   CHECK(stiffness(bridge::Membrane::van_gelder, 0, 1) == Approx(60 * 0.5 / 1));
 }
 
-TEST_CASE("gather presses the hinges of lines by their ids, and leaves stiffnesses that are stored") {
+TEST_CASE("gather: it presses the hinges of lines by their ids, and leaves stiffnesses that are stored") {
   Mesh mesh = square();
   geometry::ensure_map(mesh, geometry::attribute::line)[Vertex(0)] = 1;
   bridge::GatherOptions options = default_options;

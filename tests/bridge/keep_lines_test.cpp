@@ -67,7 +67,7 @@ struct Hung {
 
 }  // namespace
 
-TEST_CASE("keep: a ridge in cloth that can bear it stays as drawn, and after a gust") {
+TEST_CASE("keep_lines: a ridge in cloth that can bear it stays as drawn, and after a gust") {
   Hung hung(1e-4);
   const bridge::KeepReport report = hung.keep();
   REQUIRE(report.lines.size() == 1);
@@ -81,7 +81,7 @@ TEST_CASE("keep: a ridge in cloth that can bear it stays as drawn, and after a g
   CHECK(hung.residual(hung.gathered()) > 1e-3);
 }
 
-TEST_CASE("keep: a line starts from its own width and press, and help multiplies it") {
+TEST_CASE("keep_lines: a line starts from its own width and press, and help multiplies it") {
   Hung stiff(1e-4, 0.08, 3), soft(1e-6, 0.08, 5);
   const bridge::KeepReport held = stiff.keep();
   CHECK(held.lines[0].verdict == Verdict::held);
@@ -95,7 +95,8 @@ TEST_CASE("keep: a line starts from its own width and press, and help multiplies
   CHECK(soft.keep().lines[0].press == 50);
 }
 
-TEST_CASE("keep: a line with a width is the same fold on a coarse and on a fine mesh, and is kept on both") {
+TEST_CASE(
+    "keep_lines: a line with a width is the same fold on a coarse and on a fine mesh, and is kept on both") {
   std::vector<bridge::KeptLine> lines;
   for (const double edge : {0.02, 0.01}) {
     Hung hung(1e-4, 0.06, 1, edge);
@@ -108,7 +109,7 @@ TEST_CASE("keep: a line with a width is the same fold on a coarse and on a fine 
   CHECK(lines[1].height == Approx(lines[0].height).epsilon(0.01));
 }
 
-TEST_CASE("keep, whole: what lies between the lines is pressed until nothing in it gives way") {
+TEST_CASE("keep_lines: with whole what lies between the lines is pressed until nothing in it gives way") {
   Hung lines(3e-8), whole(3e-8);
   for (Hung* hung : {&lines, &whole}) {
     hung->options.seconds = hung->options.calm_seconds = 0.05;
@@ -121,14 +122,14 @@ TEST_CASE("keep, whole: what lies between the lines is pressed until nothing in 
   CHECK(report.certificate.negative_eigenvalues < bare.certificate.negative_eigenvalues);
 }
 
-TEST_CASE("keep: what is stored on the mesh is gathered again as the same cloth at rest") {
+TEST_CASE("keep_lines: what is stored on the mesh is gathered again as the same cloth at rest") {
   Hung hung(1e-4);
   hung.keep();
   bridge::store_rest_state(hung.cloth, hung.material, hung.mesh);
   CHECK(hung.residual(hung.gathered()) < 1e-8);
 }
 
-TEST_CASE("keep: soft cloth needs help, and without it no line is called held", "[accuracy]") {
+TEST_CASE("keep_lines: soft cloth needs help, and without it no line is called held", "[accuracy]") {
   Hung alone(1e-6), helped(1e-6);
   alone.options.presses.clear();
   alone.options.struts.clear();
@@ -144,7 +145,7 @@ TEST_CASE("keep: soft cloth needs help, and without it no line is called held", 
   }
 }
 
-TEST_CASE("keep: a garment that nothing holds is said to be out of balance") {
+TEST_CASE("keep_lines: a garment that nothing holds is said to be out of balance") {
   Hung hung(1e-4);
   hung.cloth = bridge::gather(hung.mesh, hung.material);
   hung.options.seconds = 0.05;
@@ -155,7 +156,8 @@ TEST_CASE("keep: a garment that nothing holds is said to be out of balance") {
   CHECK(report.lines[0].reason.find("balance") != std::string::npos);
 }
 
-TEST_CASE("keep: a ridge in cloth that lies on a ball holds, and a valley is as deep as the ball allows") {
+TEST_CASE(
+    "keep_lines: a ridge in cloth that lies on a ball holds, and a valley is as deep as the ball allows") {
   struct Ball : physics::Collider {
     physics::SignedDistance at(const physics::Vec3& x) const override {
       return {x.norm() - 0.2, x.normalized()};
@@ -198,7 +200,7 @@ TEST_CASE("keep: a ridge in cloth that lies on a ball holds, and a valley is as 
     CHECK(x.norm() > 0.2 + hung.options.run.contact_gap - 1e-8);
 }
 
-TEST_CASE("keep: a shape that stands like a pencil on its tip is pushed before it is believed") {
+TEST_CASE("keep_lines: a shape that stands like a pencil on its tip is pushed before it is believed") {
   Hung standing(1e-3);
   physics::Cloth cloth = bridge::gather(standing.mesh, standing.material);
   std::vector<int> bottom;
@@ -218,7 +220,7 @@ TEST_CASE("keep: a shape that stands like a pencil on its tip is pushed before i
   CHECK(drift(false) > 1e-3);
 }
 
-TEST_CASE("keep: lines drawn at random on coarse meshes and called held are held in another run, too") {
+TEST_CASE("keep_lines: lines drawn at random on coarse meshes and called held are held in another run, too") {
   int held = 0;
   for (const std::uint64_t seed : {20261125, 20261127, 20261132}) {
     CAPTURE(seed);
@@ -242,7 +244,7 @@ TEST_CASE("keep: lines drawn at random on coarse meshes and called held are held
   CHECK(held >= 6);
 }
 
-TEST_CASE("keep: a line whose height cannot be measured is told, and not held") {
+TEST_CASE("keep_lines: a line whose height cannot be measured is told, and not held") {
   Hung hung(1e-4);
   hung.mesh = geometry::equilateral_sheet(0.3, 0.3, 0.02);
   geometry::Stroke hem;
@@ -260,7 +262,7 @@ TEST_CASE("keep: a line whose height cannot be measured is told, and not held") 
   CHECK_THAT(report.lines[0].reason, Catch::Contains("measured"));
 }
 
-TEST_CASE("keep refuses options out of range, and changes nothing") {
+TEST_CASE("keep_lines: keep refuses options out of range, and changes nothing") {
   Hung hung(1e-4);
   const double before = hung.cloth.hinges[0].rest_angle;
   hung.options.kept = 1.5;

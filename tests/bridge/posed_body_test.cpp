@@ -37,7 +37,7 @@ physics::ColliderComparison compare(const TriangleMesh& mesh, DepthMaps maps) {
 
 }  // namespace
 
-TEST_CASE("posed: the mannequin's arms go where they are told, and through nothing") {
+TEST_CASE("posed_body: the mannequin's arms go where they are told, and through nothing") {
   const TriangleMesh figure = mannequin(), front = cases::arms_in_front(figure);
   const cases::ArmPose out = cases::a_pose(40);
   const TriangleMesh a_pose = cases::posed(figure, cases::mannequin_arm(), out, out);
@@ -60,7 +60,8 @@ TEST_CASE("posed: the mannequin's arms go where they are told, and through nothi
                   std::invalid_argument);
 }
 
-TEST_CASE("the depth maps of a figure fail where its arms hide its belly, and the self-test says so") {
+TEST_CASE(
+    "posed_body: the depth maps of a figure fail where its arms hide its belly, and the self-test says so") {
   const TriangleMesh figure = mannequin(), front = cases::arms_in_front(figure);
   CHECK_FALSE(compare(figure, DepthMaps::front_back_top).disagrees());
   const auto two = compare(front, DepthMaps::front_back), three = compare(front, DepthMaps::front_back_top),

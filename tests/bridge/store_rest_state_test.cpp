@@ -87,7 +87,7 @@ void change(physics::Cloth& cloth) {
 
 }  // namespace
 
-TEST_CASE("what is stored is gathered again with the same bits, under every law") {
+TEST_CASE("store_rest_state: what is stored is gathered again with the same bits, under every law") {
   for (const Membrane membrane : {Membrane::paper, Membrane::uniform, Membrane::inverse, Membrane::van_gelder,
                                   Membrane::triangles, Membrane::tension})
     for (const Bending bending : {Bending::cross, Bending::hinge, Bending::cosine}) {
@@ -109,7 +109,9 @@ TEST_CASE("what is stored is gathered again with the same bits, under every law"
     }
 }
 
-TEST_CASE("bending springs that the mesh lacks are stored as struts, also beside a cross spring") {
+TEST_CASE(
+    "store_rest_state: bending springs that the mesh lacks are stored as struts, also beside a cross "
+    "spring") {
   for (const Bending bending : {Bending::cross, Bending::hinge}) {
     Mesh mesh = sheet();
     const GatherOptions o = options_for(mesh, Membrane::triangles, bending);
@@ -141,7 +143,7 @@ TEST_CASE("bending springs that the mesh lacks are stored as struts, also beside
   }
 }
 
-TEST_CASE("a triangle of its own lengths changes no other triangle, and no metric") {
+TEST_CASE("store_rest_state: a triangle of its own lengths changes no other triangle, and no metric") {
   Mesh mesh = sheet();
   const GatherOptions o = options_for(mesh, Membrane::triangles, Bending::hinge);
   physics::Cloth cloth = bridge::gather(mesh, o);
@@ -154,7 +156,9 @@ TEST_CASE("a triangle of its own lengths changes no other triangle, and no metri
   CHECK(same(bridge::gather(mesh, o), cloth));
 }
 
-TEST_CASE("a cloth of another mesh, or with values out of range, is refused and nothing is stored") {
+TEST_CASE(
+    "store_rest_state: a cloth of another mesh, or with values out of range, is refused and nothing is "
+    "stored") {
   const auto refused = [](Membrane membrane, Bending bending, const char* word,
                           const std::function<void(physics::Cloth&)>& spoil) {
     Mesh mesh = sheet();
@@ -186,7 +190,7 @@ TEST_CASE("a cloth of another mesh, or with values out of range, is refused and 
   shell("hinge", [](auto& c) { c.hinges.clear(); });
 }
 
-TEST_CASE("gather refuses a stiffness that makes no sense") {
+TEST_CASE("store_rest_state: gather refuses a stiffness that makes no sense") {
   for (const double bad : {-1.0, HUGE_VAL}) {
     Mesh mesh = sheet();
     ensure_map(mesh, geometry::attribute::hinge_stiffness)[Edge(20)] = bad;
