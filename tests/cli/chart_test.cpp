@@ -161,8 +161,7 @@ TEST_CASE("chart: sweeps and Newton's iterations are those of the scene, and fla
   CHECK(refused.err.find("sweeps") != std::string::npos);
 }
 
-TEST_CASE(
-    "simulate with --tolerance in percent: a body that changes its shape costs, and begins anew each run") {
+TEST_CASE("chart: a body that changes its shape costs, and begins anew each run") {
   const ScratchDirectory scratch;
   for (int frame = 0; frame < 3; ++frame)
     write_text(scratch / ("box_000" + std::to_string(frame) + ".obj"), box(-0.01 + 0.002 * frame));
@@ -217,7 +216,7 @@ TEST_CASE("chart: numbers as CSV, and a picture where gnuplot is") {
   if (!has_gnuplot) CHECK(run.err.find("gnuplot-nox") != std::string::npos);
 }
 
-TEST_CASE("simulate with --tolerance in percent takes the chart's recommendation and says its flags") {
+TEST_CASE("chart: simulate with --tolerance in per cent takes its recommendation and says its flags") {
   const ScratchDirectory scratch;
   const std::string scene = write_scene(scratch), end = scratch / "end.ply";
   const json chart = report_of(run_furrow("chart --json " + scene));
@@ -235,7 +234,7 @@ TEST_CASE("simulate with --tolerance in percent takes the chart's recommendation
   CHECK(run_furrow("simulate --tolerance 0.001 " + scene + " -o " + end + " --seconds 0.001").exit_code != 0);
 }
 
-TEST_CASE("simulate with --tolerance in percent reads and builds the body once") {
+TEST_CASE("chart: simulate with --tolerance in per cent reads and builds the body once") {
   const ScratchDirectory scratch;
   write_text(scratch / "box.obj", box(-0.01, 2));
   const std::string scene = write_scene(scratch, "0.03", "[body]\nmesh = \"box.obj\"\ntolerance = 0.01\n");
@@ -258,7 +257,7 @@ TEST_CASE("chart: where dt_max bounds the cheapest step, the reference is still 
   CHECK(report["reference"]["dt"] == Approx(coarse / 4).epsilon(0.01));
 }
 
-TEST_CASE("chart replaces nothing that its scene reads") {
+TEST_CASE("chart: it replaces nothing that its scene reads") {
   const ScratchDirectory scratch;
   const std::string garment = scratch / "tent.obj",
                     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.1\nf 1 2 3\nf 2 4 3\n";
@@ -295,7 +294,7 @@ TEST_CASE("chart: a setting of the scene that no run would take is refused befor
   CHECK(denim.err.find("choose springs") != std::string::npos);
 }
 
-TEST_CASE("a budget is a number above 0, and is for a choice") {
+TEST_CASE("chart: a budget is a number above 0, and is for a choice") {
   const ScratchDirectory scratch;
   const std::string scene = write_scene(scratch, "0.01"), end = scratch / "end.ply";
   for (const char* budget : {"0", "-1", "nan", "inf"}) {

@@ -35,7 +35,7 @@ std::string skirt() {
 
 }  // namespace
 
-TEST_CASE("drape brings the skirt to rest on the mannequin, the same bits twice, and tells how it fits") {
+TEST_CASE("drape: it brings the skirt to rest on the mannequin, the same bits twice, and tells how it fits") {
   ScratchDirectory scratch;
   const std::string call = "drape " + skirt() + " --band top=0.95 --json";
   const Run run = run_furrow(call + " -o " + (scratch / "a.ply") + " --picture " + (scratch / "a.png") +
@@ -60,7 +60,7 @@ TEST_CASE("drape brings the skirt to rest on the mannequin, the same bits twice,
   CHECK(read_text(scratch / "b.ply") == read_text(scratch / "c.ply"));
 }
 
-TEST_CASE("what drape wrote is known to fit, simulate and drape: one contact, the fabric, the band") {
+TEST_CASE("drape: fit, simulate and drape know the contact, the fabric and the band of what it wrote") {
   ScratchDirectory scratch;
   const std::string worn = scratch / "worn.ply", on = " --body " + mannequin();
   const json draped = report_of("drape " + skirt() + " --fabric silk --gap 0.006 --band top=0.95 -o " + worn);
@@ -99,7 +99,7 @@ TEST_CASE("what drape wrote is known to fit, simulate and drape: one contact, th
   CHECK(geometry::struts(io::read_mesh(scratch / "sewn.ply").mesh).size() == band.size());
 }
 
-TEST_CASE("a density beside a fabric stays with the garment") {
+TEST_CASE("drape: a density beside a fabric stays with the garment") {
   ScratchDirectory scratch;
   const std::string worn = scratch / "worn.ply", on = " --body " + mannequin() + " --seconds 0.01 -o ";
   write_text(scratch / "scene.toml", "[garment]\nmesh = '" + (source_dir() / "meshes/skirt.obj").string() +
@@ -126,7 +126,8 @@ TEST_CASE("a density beside a fabric stays with the garment") {
   CHECK(unknown.err.find("did you mean denim") != std::string::npos);
 }
 
-TEST_CASE("a body that comes through a face of cloth, but through no vertex, is told and ends with 4") {
+TEST_CASE(
+    "drape: a body that comes through a face of cloth, but through no vertex, is told and ends with 4") {
   ScratchDirectory scratch;
   write_text(scratch / "sheet.obj",
              "v -0.1 1 -0.1\nv 0.1 1 -0.1\nv 0.1 1 0.1\nv -0.1 1 0.1\nf 1 4 3\nf 1 3 2\n");
@@ -158,7 +159,7 @@ TEST_CASE("a body that comes through a face of cloth, but through no vertex, is 
   CHECK(below.err.find("comes through") == std::string::npos);
 }
 
-TEST_CASE("drape names the settings that it has no use for, and cloth that is nearer than a chosen gap") {
+TEST_CASE("drape: it names the settings that it has no use for, and cloth that is nearer than a chosen gap") {
   ScratchDirectory scratch;
   write_text(scratch / "scene.toml",
              "[garment]\nmesh = '" + (source_dir() / "meshes/skirt.obj").string() + "'\n[body]\nmesh = '" +
@@ -277,7 +278,7 @@ TEST_CASE("drape: interrupted, it tells which files there are, and draws no pict
   CHECK_FALSE(std::filesystem::exists(picture));
 }
 
-TEST_CASE("drape and fit: a body that encloses nothing is refused") {
+TEST_CASE("drape: a body that encloses nothing is refused, by fit, too") {
   ScratchDirectory scratch;
   const std::string sheet = (source_dir() / "meshes/sheet.obj").string();
   const Run drape = run_furrow("drape " + (source_dir() / "meshes/skirt.obj").string() + " --body " + sheet +

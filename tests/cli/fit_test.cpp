@@ -60,7 +60,7 @@ double ngon(double radius) { return 2 * around * radius * std::sin(std::numbers:
 
 }  // namespace
 
-TEST_CASE("fit of a stretched tube on a column: strain, room and distances are known") {
+TEST_CASE("fit: a stretched tube on a column has the known strain, room and distances") {
   Files f;
   const json r = succeed("fit --json " + f.worn + " --rest " + f.made + " --body " + f.body + " -o " +
                          (f / "c.ply") + " --section waist=1.0");
@@ -91,7 +91,7 @@ TEST_CASE("fit of a stretched tube on a column: strain, room and distances are k
   CHECK(again["strain"] == r["strain"]);
 }
 
-TEST_CASE("fit without rest lengths tells so, and colours by distance") {
+TEST_CASE("fit: without rest lengths it says so, and colours by distance") {
   Files f;
   const Run run = run_furrow("fit --json " + f.worn + " --body " + f.body);
   REQUIRE(run.exit_code == 0);
@@ -106,7 +106,7 @@ TEST_CASE("fit without rest lengths tells so, and colours by distance") {
   CHECK(run_furrow("fit " + f.worn + " --body " + f.body).out.find("section") != std::string::npos);
 }
 
-TEST_CASE("pictures of one garment from both sides, and of several with one legend") {
+TEST_CASE("fit: pictures of one garment from both sides, and of several with one legend") {
   Files f;
   const std::string small = " --size 220,260 --quality draft ";
   succeed("fit --json " + f.worn + " --rest " + f.made + " --body " + f.body + small + "--picture " +
@@ -132,7 +132,7 @@ TEST_CASE("pictures of one garment from both sides, and of several with one lege
   CHECK(reds(io::read_png(f / "back.png")) == 0);
 }
 
-TEST_CASE("wrong calls of fit are told before the work") {
+TEST_CASE("fit: wrong calls of fit are told before the work") {
   Files f;
   const std::string good = "fit " + f.worn + " --body " + f.body + " ";
   for (const std::string& call :

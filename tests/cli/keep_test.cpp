@@ -34,7 +34,7 @@ height = 0.004
 
 }  // namespace
 
-TEST_CASE("furrow keep: the state goes on with the lines as drawn, all rounds of time 0 in it, at rest") {
+TEST_CASE("keep: the state goes on with the lines as drawn, all rounds of time 0 in it, at rest") {
   const ScratchDirectory scratch;
   const std::string scene = write_scene(scratch), state = scratch / "kept.ply";
   const Run run = run_furrow("keep --json --run 1 " + scene + " --save-state " + state);
@@ -52,7 +52,7 @@ TEST_CASE("furrow keep: the state goes on with the lines as drawn, all rounds of
   for (const json& line : after["lines"]) CHECK(line["kept"].get<double>() == Approx(1).margin(1e-6));
 }
 
-TEST_CASE("furrow keep: no output replaces what is read") {
+TEST_CASE("keep: no output replaces what is read") {
   const ScratchDirectory scratch;
   const std::string scene = write_scene(scratch), strokes = read_text(scratch / "a.json");
   for (const std::string& flags : {" --picture " + (scratch / "a.json"), " --save-state " + scene})
@@ -60,7 +60,7 @@ TEST_CASE("furrow keep: no output replaces what is read") {
   CHECK(read_text(scratch / "a.json") == strokes);
 }
 
-TEST_CASE("furrow keep --whole: what gives way between the lines is pressed, and reported") {
+TEST_CASE("keep: with --whole what gives way between the lines is pressed, and reported") {
   const ScratchDirectory scratch;
   const std::string scene = write_scene(scratch);
   const auto keep = [&](const std::string& flags) {

@@ -61,7 +61,7 @@ struct Files {
 
 }  // namespace
 
-TEST_CASE("no output may replace what is read or another output, and pictures are PNG") {
+TEST_CASE("outputs: no output may replace what is read or another output, and pictures are PNG") {
   Files f;
   f.wrinkle();
   write_text(f / "cam.json", "{}");
@@ -103,7 +103,7 @@ TEST_CASE("no output may replace what is read or another output, and pictures ar
   CHECK(run_furrow("render " + f.mesh + " -o " + (f / "no/a.png")).exit_code == 1);
 }
 
-TEST_CASE("a garment that came in centimetres goes on and out in centimetres") {
+TEST_CASE("outputs: a garment that came in centimetres goes on and out in centimetres") {
   Files f;
   f.wrinkle();
   const auto height = [&](const std::string& path, const std::string& flags = "") {
@@ -132,7 +132,7 @@ TEST_CASE("a garment that came in centimetres goes on and out in centimetres") {
   REQUIRE(run_furrow("smooth -q --unit m " + f.wrinkled + " -o " + (f / "o.obj")).exit_code == 0);
 }
 
-TEST_CASE("transfer, bake and strokes take the unit that one of their meshes notes") {
+TEST_CASE("outputs: transfer, bake and strokes take the unit that one of their meshes notes") {
   Files f;
   f.wrinkle();
   REQUIRE(run_furrow("transfer " + f.cm + " " + f.wrinkled + " -o " + (f / "back.obj")).exit_code == 0);
@@ -153,7 +153,7 @@ TEST_CASE("transfer, bake and strokes take the unit that one of their meshes not
   CHECK(points.back()[0].get<double>() > 50);
 }
 
-TEST_CASE("a body is read in the garment's unit, one too tall is refused, one elsewhere is told") {
+TEST_CASE("outputs: a body is read in the garment's unit, one too tall is refused, one elsewhere is told") {
   Files f;
   f.wrinkle();
   std::string box;
@@ -173,7 +173,7 @@ TEST_CASE("a body is read in the garment's unit, one too tall is refused, one el
   CHECK(holds(run_furrow("info " + (f / "box.obj")).err, "--unit cm"));
 }
 
-TEST_CASE("drawn again, typed options go over those of the record, which keeps --max-weights") {
+TEST_CASE("outputs: drawn again, typed options go over those of the record, which keeps --max-weights") {
   Files f;
   const auto options = [&](const std::string& path) {
     const std::string text = read_text(path), key = "\"options\":\"";
@@ -196,7 +196,7 @@ TEST_CASE("drawn again, typed options go over those of the record, which keeps -
   CHECK(run_furrow("wrinkle " + f.wrinkled + " --height 0.1 -o " + (f / "o.ply")).exit_code == 2);
 }
 
-TEST_CASE("folders that a scene file names are made, those of flags must be there") {
+TEST_CASE("outputs: folders that a scene file names are made, those of flags must be there") {
   Files f;
   const std::string scene = f / "s.toml";
   write_text(scene,
@@ -209,7 +209,7 @@ TEST_CASE("folders that a scene file names are made, those of flags must be ther
   CHECK(holds(run_furrow("simulate " + scene).err, "s.toml:2:1: garment.mesh: there is no file"));
 }
 
-TEST_CASE("what a format does not keep, and what is of no use, is told") {
+TEST_CASE("outputs: what a format does not keep, and what is of no use, is told") {
   Files f;
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -229,7 +229,7 @@ TEST_CASE("what a format does not keep, and what is of no use, is told") {
   CHECK(holds(flat.err, "flat.obj"));
 }
 
-TEST_CASE("lines over the hem need no larger --max-distance than their own points do") {
+TEST_CASE("outputs: lines over the hem need no larger --max-distance than their own points do") {
   Files f;
   REQUIRE(run_furrow("render -q " + f.mesh + " -o " + (f / "a.png") +
                      " --view front --size 100,100 --quality draft "

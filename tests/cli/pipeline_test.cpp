@@ -41,7 +41,7 @@ struct Sheet {
 
 }  // namespace
 
-TEST_CASE("wrinkle reports what it did and writes what simulate needs") {
+TEST_CASE("pipeline: wrinkle reports what it did and writes what simulate needs") {
   Sheet sheet;
   const json report = sheet.wrinkle();
   CHECK(report["inserted"].get<int>() > 5);
@@ -59,7 +59,7 @@ TEST_CASE("wrinkle reports what it did and writes what simulate needs") {
     CHECK(ply.find(word) != std::string::npos);
 }
 
-TEST_CASE("flat rest adds no cloth, drawn rest does") {
+TEST_CASE("pipeline: flat rest adds no cloth, drawn rest does") {
   Sheet sheet;
   const json flat = sheet.wrinkle("--rest flat");
   CHECK(flat["rest_area_after"].get<double>() ==
@@ -67,7 +67,8 @@ TEST_CASE("flat rest adds no cloth, drawn rest does") {
 }
 
 TEST_CASE(
-    "a wrinkled mesh without gravity stays as drawn, and its lines are measured against what they were") {
+    "pipeline: a wrinkled mesh without gravity stays as drawn, and its lines are measured against what they "
+    "were") {
   Sheet sheet;
   sheet.wrinkle();
   const std::string out = sheet.scratch / "still.ply";
@@ -81,7 +82,7 @@ TEST_CASE(
   CHECK(report["self_intersections"] == 0);
 }
 
-TEST_CASE("two runs, and runs with one and two threads, write the same bytes") {
+TEST_CASE("pipeline: two runs, and runs with one and two threads, write the same bytes") {
   Sheet sheet;
   sheet.wrinkle();
   std::string first;
@@ -95,7 +96,7 @@ TEST_CASE("two runs, and runs with one and two threads, write the same bytes") {
   }
 }
 
-TEST_CASE("the sheet comes to rest on a box, no vertex inside it by exact distance") {
+TEST_CASE("pipeline: the sheet comes to rest on a box, no vertex inside it by exact distance") {
   Sheet sheet;
   write_text(sheet.scratch / "box.obj",
              "v -0.5 -0.5 -1.5\nv 1.5 -0.5 -1.5\nv 1.5 -0.5 0.5\nv -0.5 -0.5 0.5\n"
@@ -112,7 +113,7 @@ TEST_CASE("the sheet comes to rest on a box, no vertex inside it by exact distan
   CHECK(report["contact_gap"].get<double>() >= 0.003);
 }
 
-TEST_CASE("an interrupted simulation writes the state it reached and exits with 130") {
+TEST_CASE("pipeline: an interrupted simulation writes the state it reached and exits with 130") {
   Sheet sheet;
   const std::string out = sheet.scratch / "part.ply", code = sheet.scratch / "code";
   const std::string command = "simulate " + sheet.mesh + " -o " + out +
@@ -124,7 +125,7 @@ TEST_CASE("an interrupted simulation writes the state it reached and exits with 
   CHECK_FALSE(std::filesystem::exists(out + ".tmp"));
 }
 
-TEST_CASE("a step above the limit diverges when it is forced, and nothing is written") {
+TEST_CASE("pipeline: a step above the limit diverges when it is forced, and nothing is written") {
   Sheet sheet;
   const std::string out = sheet.scratch / "gone.ply";
   const Run run = run_furrow("simulate " + sheet.mesh + " -o " + out +
@@ -134,7 +135,7 @@ TEST_CASE("a step above the limit diverges when it is forced, and nothing is wri
   CHECK_FALSE(std::filesystem::exists(out));
 }
 
-TEST_CASE("render writes a picture, and a strip of several") {
+TEST_CASE("pipeline: render writes a picture, and a strip of several") {
   Sheet sheet;
   sheet.wrinkle();
   REQUIRE(run_furrow("render -q " + sheet.wrinkled + " -o " + (sheet.scratch / "one.png") + " --size 200,150")
@@ -146,7 +147,7 @@ TEST_CASE("render writes a picture, and a strip of several") {
   CHECK(read_text(sheet.scratch / "strip.png").rfind("\x89PNG", 0) == 0);
 }
 
-TEST_CASE("a saved field serves another run, and is refused for another body") {
+TEST_CASE("pipeline: a saved field serves another run, and is refused for another body") {
   Sheet sheet;
   const std::string body = sheet.scratch / "tetra.obj", other = sheet.scratch / "other.obj",
                     field = sheet.scratch / "tetra.field";
@@ -159,7 +160,8 @@ TEST_CASE("a saved field serves another run, and is refused for another body") {
   CHECK(run_furrow(call + other).exit_code == 3);
 }
 
-TEST_CASE("a second round of lines keeps the first: ids, records, mean rest lengths, density") {
+TEST_CASE(
+    "pipeline: a second round of lines keeps the ids, records, mean rest lengths and density of the first") {
   Sheet sheet;
   sheet.wrinkle("--density 0.3");
   const std::string second = sheet.scratch / "second.json", both = sheet.scratch / "both.ply";
@@ -189,7 +191,7 @@ TEST_CASE("a second round of lines keeps the first: ids, records, mean rest leng
   CHECK(json::parse(still.out)["strain"]["max"].get<double>() < 1e-4);
 }
 
-TEST_CASE("the same stroke twice gives the height of the second, and the mesh can be simulated") {
+TEST_CASE("pipeline: the same stroke twice gives the height of the second, and the mesh can be simulated") {
   Sheet sheet;
   write_text(sheet.strokes,
              R"({"strokes":[{"height":0.03,"points":[[0.2,0,-0.52],[0.8,0,-0.47]]},
@@ -202,7 +204,7 @@ TEST_CASE("the same stroke twice gives the height of the second, and the mesh ca
   REQUIRE(run.exit_code == 0);
 }
 
-TEST_CASE("a wrinkled mesh that is refined again still has its springs and gets its masses") {
+TEST_CASE("pipeline: a wrinkled mesh that is refined again still has its springs and gets its masses") {
   Sheet sheet;
   sheet.wrinkle();
   write_text(sheet.strokes, R"({"strokes":[{"points":[[0.3,0,-0.15],[0.7,0,-0.15]]}]})");
@@ -218,7 +220,7 @@ TEST_CASE("a wrinkled mesh that is refined again still has its springs and gets 
   }
 }
 
-TEST_CASE("a PLY in centimetres says so, and is read as such without a flag") {
+TEST_CASE("pipeline: a PLY in centimetres says so, and is read as such without a flag") {
   Sheet sheet;
   const std::string cm = sheet.scratch / "cm.ply";
   write_text(sheet.scratch / "cm.obj", "v 0 0 0\nv 100 0 0\nv 100 100 0\nv 0 100 0\nf 1 2 3 4\n");
@@ -230,7 +232,7 @@ TEST_CASE("a PLY in centimetres says so, and is read as such without a flag") {
   CHECK(report["bounding_box"]["max"][0].get<double>() == Approx(1));
 }
 
-TEST_CASE("what cannot be written is said before the work is done") {
+TEST_CASE("pipeline: what cannot be written is said before the work is done") {
   Sheet sheet;
   CHECK(
       run_furrow("simulate --seconds 100000 " + sheet.mesh + " -o " + (sheet.scratch / "o.gltf")).exit_code ==

@@ -73,7 +73,7 @@ double farthest(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-TEST_CASE("rest = keep: lines of a scene stay as drawn, at time 0 and later, and tell how they stand") {
+TEST_CASE("rest keep: lines of a scene stay as drawn, at time 0 and later, and tell how they stand") {
   const ScratchDirectory scratch;
   const json report = run_json("simulate " + write_scene(scratch) + " -o " + (scratch / "end.ply"));
   CHECK(report["kept"]["residual"] < 1e-8);
@@ -94,7 +94,7 @@ TEST_CASE("rest = keep: lines of a scene stay as drawn, at time 0 and later, and
   CHECK(std::abs(drawn["lines"][0]["kept"].get<double>() - 1) > 5e-3);
 }
 
-TEST_CASE("rest = keep: a run that was stopped before and after the drawing gives the same bits") {
+TEST_CASE("rest keep: a run that was stopped before and after the drawing gives the same bits") {
   const ScratchDirectory scratch;
   const std::string scene = write_scene(scratch), whole = scratch / "whole.ply", end = scratch / "end.ply";
   run_json("simulate " + scene + " -o " + whole);
@@ -109,7 +109,7 @@ TEST_CASE("rest = keep: a run that was stopped before and after the drawing give
   CHECK(read_text(end) == read_text(whole));
 }
 
-TEST_CASE("rest = keep: wrinkle makes what simulate then leaves as it is") {
+TEST_CASE("rest keep: wrinkle makes what simulate then leaves as it is") {
   const ScratchDirectory scratch;
   const std::string a = write_strokes(scratch, "a", 0.02), kept = scratch / "kept.ply",
                     end = scratch / "end.ply";
@@ -129,7 +129,7 @@ TEST_CASE("rest = keep: wrinkle makes what simulate then leaves as it is") {
   CHECK(farthest(moved, kept) < 1e-6);
 }
 
-TEST_CASE("rest = keep: lines drawn into a state take material and pins from it, and nothing fades in") {
+TEST_CASE("rest keep: lines drawn into a state take material and pins from it, and nothing fades in") {
   const ScratchDirectory scratch;
   const std::string b = write_strokes(scratch, "b", -0.02), state = scratch / "state.ply",
                     more = scratch / "more.ply";
@@ -143,7 +143,7 @@ TEST_CASE("rest = keep: lines drawn into a state take material and pins from it,
           "--fabric: --state has material, pins and body");
 }
 
-TEST_CASE("rest = keep: cloth without lines that is relaxed stays where it is, with and without weight") {
+TEST_CASE("rest keep: cloth without lines that is relaxed stays where it is, with and without weight") {
   const ScratchDirectory scratch;
   const std::string end = scratch / "end.ply";
   for (const std::string& gravity : {std::string(" --gravity 0"), down}) {
@@ -155,7 +155,7 @@ TEST_CASE("rest = keep: cloth without lines that is relaxed stays where it is, w
   }
 }
 
-TEST_CASE("rest = keep: cloth on a body is balanced by what the body bears") {
+TEST_CASE("rest keep: cloth on a body is balanced by what the body bears") {
   const ScratchDirectory scratch;
   const json report =
       run_json("simulate " FURROW_SOURCE_DIR
@@ -168,7 +168,7 @@ TEST_CASE("rest = keep: cloth on a body is balanced by what the body bears") {
   CHECK(report["kinetic_energy"] < 1e-8);
 }
 
-TEST_CASE("rest = keep: what it needs and what it refuses is told") {
+TEST_CASE("rest keep: what it needs and what it refuses is told") {
   const ScratchDirectory scratch;
   const std::string a = write_strokes(scratch, "a", 0.02), out = " -o " + (scratch / "o.ply");
   refuses("wrinkle " + patch + " " + a + " --rest keep" + pins + out, 2, "--fabric");
@@ -190,7 +190,7 @@ TEST_CASE("rest = keep: what it needs and what it refuses is told") {
   CHECK(run_furrow("simulate --state " + all + moving + " --seconds 0.2" + out).exit_code == 0);
 }
 
-TEST_CASE("rest = keep: a shape that nothing balances is warned of, with a way out") {
+TEST_CASE("rest keep: a shape that nothing balances is warned of, with a way out") {
   const ScratchDirectory scratch;
   const std::string a = write_strokes(scratch, "a", 0.02);
   const Run run = run_furrow("wrinkle " + patch + " " + a + " --rest keep" + attribute::material + down +

@@ -78,7 +78,7 @@ seconds = 0.16
 
 }  // namespace
 
-TEST_CASE("a simulation stopped anywhere goes on as if it had not been stopped") {
+TEST_CASE("resume: a simulation stopped anywhere goes on as if it had not been stopped") {
   FallingSheet sheet;
   const std::string scene = sheet.scratch / "scene.toml", state = sheet.scratch / "state.ply";
   const std::string whole = sheet.run(scene + " --threads 1");
@@ -96,7 +96,7 @@ TEST_CASE("a simulation stopped anywhere goes on as if it had not been stopped")
   }
 }
 
-TEST_CASE("a simulation stopped twice, and one whose state went to another folder, end the same") {
+TEST_CASE("resume: a simulation stopped twice, and one whose state went to another folder, end the same") {
   FallingSheet sheet;
   const std::string scene = sheet.scratch / "scene.toml", one = sheet.scratch / "one.ply";
   const std::string whole = sheet.run(scene);
@@ -108,7 +108,7 @@ TEST_CASE("a simulation stopped twice, and one whose state went to another folde
   CHECK(sheet.run(scene + " --state " + two) == whole);
 }
 
-TEST_CASE("a state that does not fit is refused") {
+TEST_CASE("resume: a state that does not fit is refused") {
   FallingSheet sheet;
   const std::string state = sheet.scratch / "state.ply";
   REQUIRE(run_furrow("simulate " + (sheet.scratch / "scene.toml") + " -q --stop-at 0.1 --save-state " + state)
@@ -124,7 +124,7 @@ TEST_CASE("a state that does not fit is refused") {
   CHECK_FALSE(std::filesystem::exists(sheet.scratch / "o.ply"));
 }
 
-TEST_CASE("what changes at a stop is noticed") {
+TEST_CASE("resume: what changes at a stop is noticed") {
   FallingSheet sheet;
   const std::string state = sheet.scratch / "state.ply", out = " -q -o " + (sheet.scratch / "o.ply");
   REQUIRE(
@@ -166,7 +166,7 @@ TEST_CASE("what changes at a stop is noticed") {
   }
 }
 
-TEST_CASE("no output replaces an input or another output") {
+TEST_CASE("resume: no output replaces an input or another output") {
   FallingSheet sheet;
   const std::string scene = sheet.scratch / "scene.toml", mesh = sheet.scratch / "sheet.ply";
   const std::string field = sheet.scratch / "ball.field", out = sheet.scratch / "o.ply";
@@ -182,7 +182,8 @@ TEST_CASE("no output replaces an input or another output") {
   CHECK_FALSE(std::filesystem::exists(out));
 }
 
-TEST_CASE("fabrics, and every integrator that a scene can choose, go on as if they had not been stopped") {
+TEST_CASE(
+    "resume: fabrics, and every integrator that a scene can choose, go on as if they had not been stopped") {
   FallingSheet sheet;
   const std::string state = sheet.scratch / "state.ply", scene = sheet.scratch / "scene.toml";
   const std::string more = GENERATE(

@@ -64,7 +64,7 @@ seconds = 0.1
 
 }  // namespace
 
-TEST_CASE("the flags that a scene's report names do the same, byte for byte") {
+TEST_CASE("scene outputs: the flags that a scene's report names do the same, byte for byte") {
   Turning t;
   const std::string one = t.scratch / "one.ply", two = t.scratch / "two.ply";
   const json report = t.run(t.scene + " -o " + one);
@@ -79,7 +79,8 @@ TEST_CASE("the flags that a scene's report names do the same, byte for byte") {
 }
 
 TEST_CASE(
-    "an animation has the frames of the run, the last of them at its end, and the body is where it went") {
+    "scene outputs: an animation has the frames of the run, the last of them at its end, and the body is "
+    "where it went") {
   Turning t;
   const std::string end = t.scratch / "end.ply", body = t.scratch / "body.ply", pc2 = t.scratch / "run.pc2";
   t.run(t.scene + " -o " + end + " --animation " + pc2 + " --fps 50 --save-body " + body);
@@ -95,7 +96,8 @@ TEST_CASE(
   for (std::size_t i = 0; i < before.size(); ++i) CHECK((after[i] - turn * before[i]).norm() < 1e-12);
 }
 
-TEST_CASE("a body that rises as frames lifts the cloth, and the report says what its fields cost") {
+TEST_CASE(
+    "scene outputs: a body that rises as frames lifts the cloth, and the report says what its fields cost") {
   const ScratchDirectory scratch;
   const io::MeshFile slab = io::read_mesh(meshes + "slab.obj");
   for (int frame = 0; frame < 3; ++frame) {
@@ -125,7 +127,9 @@ TEST_CASE("a body that rises as frames lifts the cloth, and the report says what
   }
 }
 
-TEST_CASE("depth maps of a body that hides space from all sides are warned of, those of a slab are not") {
+TEST_CASE(
+    "scene outputs: depth maps of a body that hides space from all sides are warned of, those of a slab are "
+    "not") {
   const ScratchDirectory scratch;
   geometry::Mesh cage;  // six plates that do not touch, nothing between them
   for (int axis = 0; axis < 3; ++axis)
@@ -161,7 +165,7 @@ TEST_CASE("depth maps of a body that hides space from all sides are warned of, t
   CHECK_FALSE(warned(meshes + "slab.obj"));
 }
 
-TEST_CASE("wrinkle --state draws into a stopped simulation, and the result goes on") {
+TEST_CASE("scene outputs: wrinkle --state draws into a stopped simulation, and the result goes on") {
   Turning t;
   const std::string state = t.scratch / "state.ply", more = t.scratch / "more.ply",
                     end = t.scratch / "end.ply";
@@ -186,7 +190,7 @@ TEST_CASE("wrinkle --state draws into a stopped simulation, and the result goes 
   CHECK(run["lines"][1]["name"] == "late");
 }
 
-TEST_CASE("the scenes of the demo are read, and begin", "[scenes]") {
+TEST_CASE("scene outputs: the scenes of the demo are read, and begin", "[scenes]") {
   for (const std::string name : {"bulge", "skirt", "shirt"}) {
     const ScratchDirectory scratch;
     CAPTURE(name);
@@ -203,7 +207,7 @@ TEST_CASE("the scenes of the demo are read, and begin", "[scenes]") {
   }
 }
 
-TEST_CASE("lines over the hem make it longer and wider") {
+TEST_CASE("scene outputs: lines over the hem make it longer and wider") {
   const ScratchDirectory scratch;
   const std::string skirt = FURROW_SOURCE_DIR "/meshes/skirt.obj", wrinkled = scratch / "w.ply";
   const Run run =

@@ -52,7 +52,7 @@ struct Wall {
 
 }  // namespace
 
-TEST_CASE("a picture, its camera, pixels: the strokes are drawn without a 3D editor") {
+TEST_CASE("strokes: with a picture, its camera and pixels they are drawn without a 3D editor") {
   Wall wall;
   const json report = json::parse(wall.render().out);
   CHECK(report["camera"] == json::parse(read_text(wall.camera)));
@@ -76,7 +76,8 @@ TEST_CASE("a picture, its camera, pixels: the strokes are drawn without a 3D edi
 }
 
 TEST_CASE(
-    "the same camera takes the same picture again, and other options of the camera are refused with it") {
+    "strokes: the same camera takes the same picture again, and other options of the camera are refused with "
+    "it") {
   Wall wall;
   REQUIRE(wall.render("--fov 40").exit_code == 0);
   const std::string first = read_text(wall.picture), again = wall.scratch / "again.png";
@@ -91,7 +92,7 @@ TEST_CASE(
   CHECK(wall.render("--parallel 0").exit_code == 2);
 }
 
-TEST_CASE("a preview writes a picture and no mesh") {
+TEST_CASE("strokes: a preview writes a picture and no mesh") {
   Wall wall;
   wall.draw();
   const std::string preview = wall.scratch / "preview.png";
@@ -103,7 +104,8 @@ TEST_CASE("a preview writes a picture and no mesh") {
   CHECK(run_furrow("wrinkle " + wall.mesh + " " + wall.strokes + " --preview " + wall.mesh).exit_code == 2);
 }
 
-TEST_CASE("a wrinkled PLY is drawn again without a stroke: the same bytes as if it had never been drawn") {
+TEST_CASE(
+    "strokes: a wrinkled PLY drawn again without one has the same bytes as if it had never been drawn") {
   Wall wall;
   wall.draw();
   const std::string fewer = wall.scratch / "fewer.json", direct = wall.scratch / "direct.ply",
@@ -126,7 +128,7 @@ TEST_CASE("a wrinkled PLY is drawn again without a stroke: the same bytes as if 
   CHECK(changed.err.find("has changed") != std::string::npos);
 }
 
-TEST_CASE("strokes are listed, moved, renamed, raised, laid into space") {
+TEST_CASE("strokes: they are listed, moved, renamed, raised, laid into space") {
   Wall wall;
   wall.draw();
   const std::string out = wall.scratch / "out.json";
@@ -151,7 +153,8 @@ TEST_CASE("strokes are listed, moved, renamed, raised, laid into space") {
   CHECK(run_furrow("strokes " + wall.mesh).exit_code == 3);
 }
 
-TEST_CASE("pixels beside the garment cut a stroke with a warning, or are refused if nothing is left") {
+TEST_CASE(
+    "strokes: pixels beside the garment cut a stroke with a warning, or are refused if nothing is left") {
   Wall wall;
   wall.draw();
   write_text(wall.strokes,
@@ -168,7 +171,7 @@ TEST_CASE("pixels beside the garment cut a stroke with a warning, or are refused
             .err.find("stroke \"out\", point 1: (1.500000, 0.500000) lies outside") != std::string::npos);
 }
 
-TEST_CASE("furrow strokes: width, sharpness, press and order, and the mesh carries them") {
+TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carries them") {
   Wall wall;
   wall.draw();
   const std::string edited = wall.scratch / "edited.json";

@@ -33,7 +33,7 @@ struct Skirt {
 
 }  // namespace
 
-TEST_CASE("transfer brings the wrinkles back to the skirt's own faces, charts and panels") {
+TEST_CASE("transfer: it brings the wrinkles back to the skirt's own faces, charts and panels") {
   Skirt skirt;
   const std::string out = skirt.scratch / "back.obj";
   const json report = succeed("transfer --json " + skirt.mesh + " " + skirt.wrinkled + " -o " + out);
@@ -57,7 +57,8 @@ TEST_CASE("transfer brings the wrinkles back to the skirt's own faces, charts an
   CHECK(rest_of(out) == rest_of(skirt.mesh));
 }
 
-TEST_CASE("transfer after subdivision, through another format with --rest, and what it refuses") {
+TEST_CASE(
+    "transfer: it works after subdivision and through another format with --rest, and says what it refuses") {
   Skirt skirt;
   const auto at = [&](const char* name) { return skirt.scratch / name; };
   succeed("subdivide --json " + skirt.mesh + " --loop 1 -o " + at("fine.obj"));
@@ -78,7 +79,7 @@ TEST_CASE("transfer after subdivision, through another format with --rest, and w
   CHECK(run_furrow("transfer " + skirt.mesh + " " + skirt.wrinkled + " -o " + at("c.glb")).exit_code == 2);
 }
 
-TEST_CASE("skin weights and other columns of a PLY survive wrinkle, --max-weights limits them") {
+TEST_CASE("transfer: skin weights and other columns of a PLY survive wrinkle, --max-weights limits them") {
   const ScratchDirectory scratch;
   std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 121\nproperty float x\nproperty float y\n"
@@ -111,7 +112,7 @@ TEST_CASE("skin weights and other columns of a PLY survive wrinkle, --max-weight
   }
 }
 
-TEST_CASE("bake tells the wrinkled skirt to a fraction of a millimetre, already with small maps") {
+TEST_CASE("transfer: bake tells the wrinkled skirt to a fraction of a millimetre, already with small maps") {
   Skirt skirt;
   const std::string prefix = skirt.scratch / "skirt", applied = skirt.scratch / "applied.obj";
   const json report = succeed("bake --json " + skirt.mesh + " " + skirt.wrinkled + " -o " + prefix +
@@ -135,7 +136,7 @@ TEST_CASE("bake tells the wrinkled skirt to a fraction of a millimetre, already 
             .exit_code == 3);
 }
 
-TEST_CASE("render lays a checker or a PNG on, and says when there is nothing to lay it on with") {
+TEST_CASE("transfer: render lays a checker or a PNG on, and says when there is nothing to lay it on with") {
   Skirt skirt;
   const auto at = [&](const char* name) { return skirt.scratch / name; };
   const std::string size = " --size 60,60 --quality draft --no-lines -o " + at("a.png");

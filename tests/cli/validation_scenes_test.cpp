@@ -54,14 +54,15 @@ Vec3 on_slab(Vec3 x) { return {x.x(), 0, x.z()}; }
 
 }  // namespace
 
-TEST_CASE("scenes/validation/free_fall: g t^2 / 2 exactly, at any step") {
+TEST_CASE("validation scenes: free_fall is g t^2 / 2 exactly, at any step") {
   for (const char* dt : {"", "--dt 0.00005", "--dt 0.00003"}) {
     const Result r = run_scene("free_fall", dt);
     CHECK(farthest(r, [](const Vec3& x) { return Vec3(x - Vec3(0, 9.81 * 0.5 * 0.5 / 2, 0)); }) < 1e-11);
   }
 }
 
-TEST_CASE("scenes/validation/incline: no creep just above tan a, Coulomb's way below it", "[accuracy]") {
+TEST_CASE("validation scenes: incline has no creep just above tan a, and Coulomb's way below it",
+          "[accuracy]") {
   Result r = run_scene("incline_holds");
   for (std::vector<Vec3>* points : {&r.before, &r.after})
     for (Vec3& x : *points) x = on_slab(x);
@@ -74,7 +75,7 @@ TEST_CASE("scenes/validation/incline: no creep just above tan a, Coulomb's way b
   CHECK(farthest(r, [&](const Vec3& x) { return Vec3(x + Vec3(way, 0, 0)); }) < 1e-9);
 }
 
-TEST_CASE("scenes/validation/turntable: cloth goes with the slab below w^2 r = mu g and leaves it above",
+TEST_CASE("validation scenes: turntable takes cloth along below w^2 r = mu g and loses it above",
           "[accuracy]") {
   const auto rotated = [](double rate) {
     physics::RigidMotion motion;
@@ -92,7 +93,7 @@ TEST_CASE("scenes/validation/turntable: cloth goes with the slab below w^2 r = m
   CHECK(farthest(r, rotated(5.5)) > 0.1);
 }
 
-TEST_CASE("scenes/validation/drop_on_ball: at rest on top, nothing inside", "[accuracy]") {
+TEST_CASE("validation scenes: drop_on_ball ends at rest on top, nothing inside", "[accuracy]") {
   const Result r = run_scene("drop_on_ball");
   CHECK(r.report["vertices_inside"] == 0);
   CHECK(r.report["kinetic_energy"].get<double>() < 1e-7);
@@ -102,7 +103,8 @@ TEST_CASE("scenes/validation/drop_on_ball: at rest on top, nothing inside", "[ac
   for (const Vec3& x : r.after) CHECK((x - Vec3(0, -0.17, 0)).norm() > 0.15);
 }
 
-TEST_CASE("scenes/validation/cantilever: drop over reach of the heavy elastica within 1 %, by pins alone") {
+TEST_CASE(
+    "validation scenes: cantilever has the heavy elastica's drop over reach within 1 %, by pins alone") {
   const Result r = run_scene("cantilever");
   CHECK(r.report["residual_force"].get<double>() < 5e-3);
   Vec3 tip = Vec3::Zero();
