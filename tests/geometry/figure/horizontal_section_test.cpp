@@ -28,7 +28,7 @@ SectionLoop polygon(const std::vector<std::array<double, 2>>& points) {
 
 }  // namespace
 
-TEST_CASE("a tube is cut in its polygon at any height, through vertices too") {
+TEST_CASE("horizontal_section: a tube is cut in its polygon at any height, through vertices too") {
   const Mesh tube = cylinder(0.3, 2, 24, 4);
   for (double height : {0.1, 0.5, 1.0, 1.9}) {  // 0.5 and 1: rings of vertices
     const auto loops = horizontal_section(tube, height);
@@ -49,7 +49,7 @@ TEST_CASE("a tube is cut in its polygon at any height, through vertices too") {
   CHECK(horizontal_section(tube, 2.1).empty());
 }
 
-TEST_CASE("a torus is cut in two rings, each by its own length") {
+TEST_CASE("horizontal_section: a torus is cut in two rings, each by its own length") {
   const Mesh torus = torus_lattice(48, 24, 1, 0.25);
   const auto loops = horizontal_section(torus, 0);
   REQUIRE(loops.size() == 2);
@@ -60,7 +60,7 @@ TEST_CASE("a torus is cut in two rings, each by its own length") {
   CHECK(encloses(loops[1], 0, 0));
 }
 
-TEST_CASE("points lie on their edges, pieces in their triangles") {
+TEST_CASE("horizontal_section: points lie on their edges, pieces in their triangles") {
   const Mesh ball = icosphere(3, 0.7, {1, 2, 3});
   std::mt19937 random(5);
   std::uniform_real_distribution<double> heights(1.5, 2.5);
@@ -85,7 +85,7 @@ TEST_CASE("points lie on their edges, pieces in their triangles") {
   }
 }
 
-TEST_CASE("where the surface has a border the curve is open, and encloses nothing") {
+TEST_CASE("horizontal_section: where the surface has a border the curve is open, and encloses nothing") {
   Mesh sheet = grid(4, 4);  // upright, in the plane z = 0
   const auto loops = horizontal_section(sheet, 0.3);
   REQUIRE(loops.size() == 1);
@@ -97,7 +97,7 @@ TEST_CASE("where the surface has a border the curve is open, and encloses nothin
   CHECK_FALSE(encloses(loops[0], 0.5, 0));
 }
 
-TEST_CASE("tape_measure goes straight over hollows") {
+TEST_CASE("tape_measure: it goes straight over hollows") {
   CHECK(tape_measure(polygon({{0, 0}, {2, 0}, {2, 2}, {1, 0.1}, {0, 2}})) == Approx(8));
   CHECK(tape_measure(polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0.5}, {0, 0.5}})) == Approx(4));
   CHECK(tape_measure(polygon({{1, 1}})) == 0);
@@ -108,7 +108,7 @@ TEST_CASE("tape_measure goes straight over hollows") {
   CHECK(middle[1] == Approx(0.5));
 }
 
-TEST_CASE("horizontal_section refuses what it cannot follow") {
+TEST_CASE("horizontal_section: it refuses what it cannot follow") {
   CHECK_THROWS_AS(horizontal_section(cube(), std::numeric_limits<double>::quiet_NaN()),
                   std::invalid_argument);
   const std::vector<Point> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};

@@ -30,7 +30,9 @@ Mesh deformed(Mesh mesh, const Eigen::Matrix3d& map) {
 
 }  // namespace
 
-TEST_CASE("a sheet that is stretched by 10 % one way and narrowed by 5 % the other, however it is turned") {
+TEST_CASE(
+    "principal_strain: a sheet that is stretched by 10 % one way and narrowed by 5 % the other, however it "
+    "is turned") {
   Eigen::Matrix3d stretch = Eigen::Vector3d(1.10, 0.95, 1).asDiagonal();
   for (double angle : {0.0, 0.3, 1.1, 2.5}) {
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
@@ -43,7 +45,7 @@ TEST_CASE("a sheet that is stretched by 10 % one way and narrowed by 5 % the oth
   }
 }
 
-TEST_CASE("a rigid motion strains nothing, pressing from all sides is negative") {
+TEST_CASE("principal_strain: a rigid motion strains nothing, pressing from all sides is negative") {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -1, 2).normalized()).matrix();
   for (const PrincipalStrain& s : principal_strains(deformed(icosphere(2), turn))) {
     CHECK(s.largest == Approx(0).margin(1e-12));
@@ -55,7 +57,9 @@ TEST_CASE("a rigid motion strains nothing, pressing from all sides is negative")
   }
 }
 
-TEST_CASE("principal strains are the singular values of the map, also of triangles that fold up") {
+TEST_CASE(
+    "principal_strain: principal strains are the singular values of the map, also of triangles that fold "
+    "up") {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 200; ++i) {
@@ -76,7 +80,7 @@ TEST_CASE("principal strains are the singular values of the map, also of triangl
   CHECK(none.largest == -1);
 }
 
-TEST_CASE("without rest lengths there is no strain, with impossible ones it is not known") {
+TEST_CASE("principal_strain: without rest lengths there is no strain, with impossible ones it is not known") {
   Mesh mesh = grid(2, 2);
   for (const PrincipalStrain& s : principal_strains(mesh)) CHECK(s.largest == Approx(0).margin(1e-12));
   auto rest = ensure_map(mesh, attribute::rest_length);

@@ -49,7 +49,7 @@ Mesh turned(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("repair_body leaves a sound body what it is") {
+TEST_CASE("repair_body: it leaves a sound body what it is") {
   const Body body = repair_body(icosphere(2));
   CHECK(body.points.size() == 162);
   CHECK(body.triangles.size() == 320);
@@ -61,7 +61,7 @@ TEST_CASE("repair_body leaves a sound body what it is") {
   CHECK(r.closed);
 }
 
-TEST_CASE("repair_body closes holes, small and large") {
+TEST_CASE("repair_body: it closes holes, small and large") {
   const Body tube = repair_body(cylinder(1, 2, 48, 6));
   CHECK(tube.report.filled_holes == 2);
   CHECK(tube.report.filling_faces == 2 * 46);
@@ -72,7 +72,7 @@ TEST_CASE("repair_body closes holes, small and large") {
   CHECK(is_sealed(large));
 }
 
-TEST_CASE("repair_body turns inside-out bodies, part by part") {
+TEST_CASE("repair_body: it turns inside-out bodies, part by part") {
   const Body body = repair_body(turned(icosphere(2)));
   CHECK(body.report.reversed_faces == 320);
   CHECK(volume(body) > 4);
@@ -94,7 +94,7 @@ TEST_CASE("repair_body: parts that cross are counted, and wound outwards each") 
   CHECK(volume(body) == Approx(2 * *measure(icosphere(2)).volume).epsilon(1e-12));
 }
 
-TEST_CASE("repair_body merges parted seams and drops faces without three corners") {
+TEST_CASE("repair_body: it merges parted seams and drops faces without three corners") {
   Mesh mesh = cube();
   mesh.point(Vertex(7)) = mesh.point(Vertex(6));  // an edge of the cube shrinks to a point
   const Body squeezed = repair_body(mesh);
@@ -117,7 +117,7 @@ TEST_CASE("repair_body merges parted seams and drops faces without three corners
   CHECK(is_sealed(joined));
 }
 
-TEST_CASE("repair_body refuses what is no body") {
+TEST_CASE("repair_body: it refuses what is no body") {
   CHECK_THROWS_AS(repair_body(Mesh()), ContentError);
   Mesh point = single_triangle();
   for (Vertex v : point.vertices()) point.point(v) = Point(1, 1, 1);
@@ -126,7 +126,7 @@ TEST_CASE("repair_body refuses what is no body") {
   CHECK_THROWS_AS(repair_body(point), ContentError);
 }
 
-TEST_CASE("repair_body seals the real bodies") {
+TEST_CASE("repair_body: it seals the real bodies") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

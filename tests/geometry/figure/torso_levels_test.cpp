@@ -41,7 +41,9 @@ double figure(double share) { return 0.13 + 0.03 * std::cos((share - 0.62) * 2 *
 
 }  // namespace
 
-TEST_CASE("the levels of a turned figure follow its radius, and chest, waist and hip are where they should") {
+TEST_CASE(
+    "torso_levels: the levels of a turned figure follow its radius, and chest, waist and hip are where they "
+    "should") {
   const Soup body(turned(figure));
   const auto levels = torso_levels(body.points, body.triangles);
   REQUIRE(levels.size() == 91);  // from 40 to 85 % in steps of 0.5 %
@@ -52,7 +54,8 @@ TEST_CASE("the levels of a turned figure follow its radius, and chest, waist and
           Approx(128 * std::sin(std::numbers::pi / 64) * figure(level.height / 1.7)).epsilon(0.01));
 }
 
-TEST_CASE("the waist is where the girth is least, chest and hip above and below where it is most") {
+TEST_CASE(
+    "torso_levels: the waist is where the girth is least, chest and hip above and below where it is most") {
   const Soup body(turned([](double share) { return 0.26 - figure(share); }));  // narrow at 0.5 and 0.73
   const Soup hourglass(turned([](double s) { return 0.12 + 0.7 * (s - 0.6) * (s - 0.6); }));
   const auto levels = torso_levels(hourglass.points, hourglass.triangles);
@@ -69,7 +72,7 @@ TEST_CASE("the waist is where the girth is least, chest and hip above and below 
   CHECK_FALSE(torso_heights({}, 0, 1));
 }
 
-TEST_CASE("arms that hang apart are others, and the torso ends where they grow together") {
+TEST_CASE("torso_levels: arms that hang apart are others, and the torso ends where they grow together") {
   Mesh figure_mesh = turned([](double) { return 0.15; });
   append(figure_mesh, turned([](double) { return 0.05; }, 0.4));
   append(figure_mesh, turned([](double) { return 0.05; }, -0.4));
@@ -88,14 +91,14 @@ TEST_CASE("arms that hang apart are others, and the torso ends where they grow t
   CHECK(up_to_arms.back().height == Approx(0.75 * 1.7).margin(0.0086));
 }
 
-TEST_CASE("what is no standing person has no levels") {
+TEST_CASE("torso_levels: what is no standing person has no levels") {
   const Soup ball(icosphere(3, 0.3));
   CHECK(torso_levels(ball.points, ball.triangles).empty());
   const Soup cone(turned([](double s) { return s < 0.65 ? 0.2 : 0.02; }));
   CHECK(torso_levels(cone.points, cone.triangles).empty());
 }
 
-TEST_CASE("real bodies: chest, waist and hip lie where a tailor would measure") {
+TEST_CASE("torso_levels: of real bodies chest, waist and hip lie where a tailor would measure") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

@@ -10,7 +10,7 @@
 
 using namespace furrow::geometry;
 
-TEST_CASE("displace_line moves each vertex by k n and no other") {
+TEST_CASE("displace_line: it moves each vertex by k n and no other") {
   Mesh mesh = furrow::tests::grid(3, 3);
   const Mesh before = mesh;
   const std::vector<Displacement> line = {{Vertex(5), {0, 0, 1}, 0.25}, {Vertex(6), {0.6, 0, 0.8}, -0.5}};
@@ -21,7 +21,7 @@ TEST_CASE("displace_line moves each vertex by k n and no other") {
     if (v != Vertex(5) && v != Vertex(6)) CHECK(mesh.point(v) == before.point(v));
 }
 
-TEST_CASE("displace_line refuses bad input before it touches anything") {
+TEST_CASE("displace_line: it refuses bad input before it touches anything") {
   Mesh mesh = furrow::tests::grid(2, 2);
   const Mesh before = mesh;
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -61,13 +61,13 @@ TEST_CASE("line_heights: the two-ring may be as bumpy as it likes, only its bord
   CHECK(line_heights(mesh)[0].height == Approx(0.02).margin(1e-13));
 }
 
-TEST_CASE("line_heights moves rigidly with the cloth") {
+TEST_CASE("line_heights: it moves rigidly with the cloth") {
   Mesh mesh = sheet_with_line(0.02);
   lift(mesh, [](double x, double y) { return 0.1 * std::sin(3 * x) * y; });
   CHECK(line_heights(moved(mesh))[0].height == Approx(line_heights(mesh)[0].height).margin(1e-13));
 }
 
-TEST_CASE("line_heights on a cylinder: k, plus the sag of the fill") {
+TEST_CASE("line_heights: on a cylinder a line has k, plus the sag of the fill") {
   const double radius = 0.25, k = 0.02;
   Mesh mesh = cylinder(radius, 1, 64, 40);
   auto line = ensure_map(mesh, attribute::line);

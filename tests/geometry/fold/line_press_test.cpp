@@ -43,7 +43,7 @@ TEST_CASE("hinge_presses: of each line within its width, the greater where two m
   }
 }
 
-TEST_CASE("hinge_presses refuses what is less than 1") {
+TEST_CASE("hinge_presses: it refuses what is less than 1") {
   const Mesh mesh = two_lines();
   CHECK_THROWS_WITH(hinge_presses(mesh, {1, 0.5}, {}), Catch::Contains("line 1 is 0.5"));
   CHECK_THROWS_AS(hinge_presses(mesh, {NAN}, {}), std::invalid_argument);

@@ -71,7 +71,7 @@ TEST_CASE("line_profile: crest, half way, foot and beyond, round and sharp") {
   CHECK(line_profile(0.25, 1) == 0.75);
 }
 
-TEST_CASE("a line with a width is the same fold on every mesh: heights and cross-section") {
+TEST_CASE("line_profile: a line with a width has the same heights and cross-section on every mesh") {
   for (double sharpness : {0.0, 0.5, 1.0})
     for (double h : {0.02, 0.01, 0.005}) {
       Mesh mesh = equilateral_sheet(0.4, 0.4, h);
@@ -91,7 +91,7 @@ TEST_CASE("a line with a width is the same fold on every mesh: heights and cross
     }
 }
 
-TEST_CASE("a line with a width on curved cloth: one height on coarse and fine meshes") {
+TEST_CASE("line_profile: a line with a width on curved cloth has one height on coarse and fine meshes") {
   std::vector<double> heights;
   for (double h : {0.02, 0.01, 0.005}) {
     Mesh mesh = equilateral_sheet(0.4, 0.4, h);
@@ -106,7 +106,7 @@ TEST_CASE("a line with a width on curved cloth: one height on coarse and fine me
   for (double height : heights) CHECK(height == Approx(fold_height).epsilon(0.02));
 }
 
-TEST_CASE("a fold moves no other layer of cloth: not a second sheet, not the other leg of a bend") {
+TEST_CASE("line_profile: a fold moves no other layer, neither a second sheet nor the other leg of a bend") {
   Mesh two = equilateral_sheet(0.4, 0.4, 0.01);
   const std::size_t first = two.number_of_vertices();
   Mesh over = equilateral_sheet(0.4, 0.4, 0.01);
@@ -126,7 +126,7 @@ TEST_CASE("a fold moves no other layer of cloth: not a second sheet, not the oth
     if (pin.point(v).z() < -0.005) CHECK(bent_back.point(v) == pin.point(v));
 }
 
-TEST_CASE("folds that meet: the highest ridge, the deepest valley, and both together") {
+TEST_CASE("line_profile: where folds meet the highest ridge, the deepest valley, and both together count") {
   const Mesh sheet = equilateral_sheet(0.4, 0.4, 0.005);
   const Stroke across = fold({{-0.15, 0.201, 0}, {0.15, 0.201, 0}}, 0.01),
                up = fold({{0.001, 0.05, 0}, {0.001, 0.35, 0}}, 0.02);
@@ -143,7 +143,7 @@ TEST_CASE("folds that meet: the highest ridge, the deepest valley, and both toge
   CHECK(height_at(mesh, 0.1, 0.201) == Approx(-0.01));
 }
 
-TEST_CASE("on a grid of right angles the fold goes to its feet, too, along the diagonals") {
+TEST_CASE("line_profile: on a grid of right angles the fold goes to its feet, too, along the diagonals") {
   Mesh mesh;
   constexpr int n = 40;
   constexpr double step = 0.005;
@@ -167,7 +167,8 @@ TEST_CASE("on a grid of right angles the fold goes to its feet, too, along the d
   }
 }
 
-TEST_CASE("a line without a width that crosses a fold is smoothed, whichever is first in the file") {
+TEST_CASE(
+    "line_profile: a line without a width that crosses a fold is smoothed, whichever is first in the file") {
   Stroke plain;
   plain.height = 0.02;
   plain.points = {{0, 0.08, 0}, {0, 0.26, 0}};
@@ -179,7 +180,7 @@ TEST_CASE("a line without a width that crosses a fold is smoothed, whichever is 
   CHECK(height_at(one, 0, 0.17) == Approx(height_at(alone, 0, 0.17) + fold_height).margin(2e-3));
 }
 
-TEST_CASE("a fold's press reaches hinges whose stiffness is stored") {
+TEST_CASE("line_profile: a fold's press reaches hinges whose stiffness is stored") {
   Mesh mesh = equilateral_sheet(0.3, 0.3, 0.01);
   auto stiffness = mesh.add_property_map<Edge, double>(attribute::hinge_stiffness.name, unset_value).first;
   for (Edge e : mesh.edges()) stiffness[e] = 2;
@@ -200,7 +201,7 @@ TEST_CASE("a fold's press reaches hinges whose stiffness is stored") {
   CHECK(near > 50);
 }
 
-TEST_CASE("a fold along a border has a height that nobody can measure, and says so") {
+TEST_CASE("line_profile: a fold along a border has a height that nobody can measure, and says so") {
   Mesh mesh = equilateral_sheet(0.3, 0.3, 0.01);
   Stroke hem = fold({{-0.149, 0.02, 0}, {0.149, 0.02, 0}});
   const WrinkleReport report = wrinkle(mesh, std::vector<Stroke>{hem});
@@ -209,7 +210,7 @@ TEST_CASE("a fold along a border has a height that nobody can measure, and says 
   CHECK(height_at(mesh, 0, 0.02) > 0.5 * fold_height);
 }
 
-TEST_CASE("a fold over the border raises the hem, and what is held stays") {
+TEST_CASE("line_profile: a fold over the border raises the hem, and what is held stays") {
   Mesh sheet = equilateral_sheet(0.4, 0.4, 0.01);
   WrinkleOptions options;
   for (Vertex v : sheet.vertices())
@@ -221,7 +222,7 @@ TEST_CASE("a fold over the border raises the hem, and what is held stays") {
   for (Vertex v : options.held) CHECK(mesh.point(v) == sheet.point(v));
 }
 
-TEST_CASE("a line without a width keeps its bits beside one with a width") {
+TEST_CASE("line_profile: a line without a width keeps its bits beside one with a width") {
   const Mesh sheet = equilateral_sheet(0.4, 0.4, 0.01);
   Stroke plain = fold({{-0.15, 0.08, 0}, {0.15, 0.09, 0}});
   plain.width.reset();
@@ -232,7 +233,7 @@ TEST_CASE("a line without a width keeps its bits beside one with a width") {
     if (alone.point(v).y() < 0.2) CHECK(alone.point(v) == both.point(v));
 }
 
-TEST_CASE("wrinkle warns of a mesh too coarse for the width, and refuses shapes out of range") {
+TEST_CASE("line_profile: wrinkle warns of a mesh too coarse for the width, and refuses shapes out of range") {
   Mesh coarse = equilateral_sheet(0.4, 0.4, 0.03), fine = equilateral_sheet(0.4, 0.4, 0.01);
   const std::vector<Stroke> strokes{oblique()};
   const WrinkleReport report = wrinkle(coarse, strokes);

@@ -66,7 +66,7 @@ TEST_CASE("line_region: without a width, and where the mesh is coarser than it, 
     CHECK(line_region(mesh, line, width, rest_lengths(mesh)) == two_ring(mesh, line));
 }
 
-TEST_CASE("line_region does not shrink with the cloth that its fold takes up") {
+TEST_CASE("line_region: it does not shrink with the cloth that its fold takes up") {
   Mesh mesh = equilateral_sheet(1, 1, 0.02);
   ensure_rest_positions(mesh);
   const auto line = middle(mesh);

@@ -120,7 +120,7 @@ TEST_CASE("taubin_smooth: rigid motions change places with cotangent smoothing, 
   CHECK(gap(stretch) > 1e-4);
 }
 
-TEST_CASE("taubin_smooth keeps a plane, and with cotangents every vertex inside it") {
+TEST_CASE("taubin_smooth: it keeps a plane, and with cotangents every vertex inside it") {
   const Mesh flat = mapped(jittered(20, 20, 0.2, 3), [](const Point& p) {
     return Point(0.6 * p.x(), p.y(), 0.8 * p.x());  // isometric to the sheet of size 1
   });
@@ -162,7 +162,7 @@ TEST_CASE("taubin_smooth: vertices outside the region keep their bits, constants
   for (Vertex v : constant.vertices()) CHECK(distance(constant.point(v), {0.1, -7, 1e-3}) < 1e-14);
 }
 
-TEST_CASE("taubin_smooth does not depend on the order of the vertices") {
+TEST_CASE("taubin_smooth: it does not depend on the order of the vertices") {
   const Mesh mesh = bumpy_sheet();
   std::vector<int> order(mesh.number_of_vertices());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
@@ -239,7 +239,8 @@ TEST_CASE("taubin_smooth: a kept border smooths as a curve, a free one with its 
             .kept_vertices == 2);
 }
 
-TEST_CASE("the spectrum that taubin_smooth relies on ends at 2 for uniform weights and at 3 for cotangents") {
+TEST_CASE(
+    "taubin_smooth: the spectrum that it relies on ends at 2 for uniform weights and at 3 for cotangents") {
   CHECK(rc::check("spectrum", [] {
     const auto seed = *rc::gen::inRange(0u, 100000u);
     const double squash = *rc::gen::element(1., 3., 20., 300.);
@@ -259,7 +260,7 @@ TEST_CASE("the spectrum that taubin_smooth relies on ends at 2 for uniform weigh
   }));
 }
 
-TEST_CASE("taubin_smooth bears degenerate faces, lone vertices and a mesh without faces") {
+TEST_CASE("taubin_smooth: it bears degenerate faces, lone vertices and a mesh without faces") {
   Mesh mesh = grid(3, 3);
   mesh.point(Vertex(5)) = mesh.point(Vertex(6));
   mesh.point(Vertex(9)) = mesh.point(Vertex(10));
@@ -274,7 +275,7 @@ TEST_CASE("taubin_smooth bears degenerate faces, lone vertices and a mesh withou
   CHECK(taubin_smooth(empty, whole_mesh_options).smoothed_vertices == 0);
 }
 
-TEST_CASE("stability_limit and the reported gain: the usual pairs") {
+TEST_CASE("stability_limit: it and the reported gain are right for the usual pairs") {
   CHECK(stability_limit(0.33, -0.34) == Approx(4.27).margin(0.005));
   CHECK(stability_limit(0.6307, -0.6732) == Approx(2.22).margin(0.005));
   CHECK(stability_limit(0.5, -0.53) == Approx(2.80).margin(0.005));
@@ -285,7 +286,7 @@ TEST_CASE("stability_limit and the reported gain: the usual pairs") {
         Approx(1.011).margin(0.0005));
 }
 
-TEST_CASE("taubin_smooth refuses what is unstable or out of range, the mesh untouched") {
+TEST_CASE("taubin_smooth: it refuses what is unstable or out of range, the mesh untouched") {
   Mesh mesh = bumpy_sheet();
   const Mesh before = mesh;
   const double nan = std::numeric_limits<double>::quiet_NaN();

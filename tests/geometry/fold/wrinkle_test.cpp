@@ -33,7 +33,7 @@ double largest_strain(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("wrinkle leaves a flat sheet at rest as drawn, and adds the cloth that it reports") {
+TEST_CASE("wrinkle: it leaves a flat sheet at rest as drawn, and adds the cloth that it reports") {
   Mesh mesh = equilateral_sheet(0.6, 0.6, 0.02);
   const std::vector<Stroke> strokes{across(0.02), across(-0.015, 0.1)};
   std::vector<Stage> stages;
@@ -46,7 +46,7 @@ TEST_CASE("wrinkle leaves a flat sheet at rest as drawn, and adds the cloth that
   CHECK(stages == std::vector<Stage>{Stage::inserted, Stage::displaced, Stage::smoothed});
 }
 
-TEST_CASE("a line of height 0 without smoothing is an isometry, and so is flat rest") {
+TEST_CASE("wrinkle: a line of height 0 without smoothing is an isometry, and so is flat rest") {
   Mesh mesh = equilateral_sheet(0.6, 0.6, 0.02);
   const std::vector<Stroke> nothing{across(0)}, ridge{across(0.02)};
   WrinkleOptions options;
@@ -61,7 +61,7 @@ TEST_CASE("a line of height 0 without smoothing is an isometry, and so is flat r
   CHECK(largest_strain(mesh) > 0.1);
 }
 
-TEST_CASE("wrinkle changes nothing when a stroke or an option is refused") {
+TEST_CASE("wrinkle: it changes nothing when a stroke or an option is refused") {
   Mesh mesh = equilateral_sheet(0.6, 0.6, 0.02);
   const std::size_t vertices = mesh.number_of_vertices();
   std::vector<Stroke> strokes{across(0.02), across(0.02)};
@@ -78,7 +78,7 @@ TEST_CASE("wrinkle changes nothing when a stroke or an option is refused") {
   CHECK_FALSE(find_map(mesh, attribute::line));
 }
 
-TEST_CASE("on coarse curved cloth a line of height 0 reads 0, and one of height k about k") {
+TEST_CASE("wrinkle: on coarse curved cloth a line of height 0 reads 0, and one of height k about k") {
   // Half a tube of radius 0.15 m with edges of about 5 cm: the fill of two rings sags by some 8 mm.
   Mesh curved = furrow::tests::grid(10, 10, 0.47, 0.5);
   for (Vertex v : curved.vertices()) {

@@ -10,7 +10,7 @@ namespace furrow::tests {
 
 using namespace geometry;
 
-TEST_CASE("a flip is refused at the border, at line edges, beside a valence-3 vertex") {
+TEST_CASE("flip_rules: a flip is refused at the border, at line edges, beside a valence-3 vertex") {
   Mesh mesh = regular_sheet(6, 0.1);
   MeshEditor editor(mesh);
   const Vertex inner = nearest_vertex(mesh, Point(0.5, 0.5, 0));
@@ -32,7 +32,7 @@ TEST_CASE("a flip is refused at the border, at line edges, beside a valence-3 ve
   }
 }
 
-TEST_CASE("a border corner keeps two edges") {
+TEST_CASE("flip_rules: a border corner keeps two edges") {
   Mesh mesh;
   for (const Point& p :
        {Point(0, 0, 0), Point(1, 0, 0), Point(1.2, 1.1, 0), Point(0, 1, 0), Point(-1, 0.5, 0)}) {
@@ -50,7 +50,7 @@ TEST_CASE("a border corner keeps two edges") {
   CHECK(mesh.halfedge(Vertex(1), Vertex(3)).is_valid());
 }
 
-TEST_CASE("Delaunay flips leave no edge that could be flipped, and spare line edges") {
+TEST_CASE("flip_rules: Delaunay flips leave no edge that could be flipped, and spare line edges") {
   Mesh mesh = regular_sheet(12, 0.45, 5);
   MeshEditor editor(mesh);
   std::vector<Face> faces(mesh.faces().begin(), mesh.faces().end());

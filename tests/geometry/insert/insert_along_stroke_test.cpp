@@ -77,7 +77,9 @@ void check_dress(const Mesh& mesh, bool seam) {
 
 }  // namespace
 
-TEST_CASE("texture, colour, groups and materials survive, masses and bending springs become unset") {
+TEST_CASE(
+    "insert_along_stroke: texture, colour, groups and materials survive, masses and bending springs become "
+    "unset") {
   Mesh mesh = dressed_sheet(false);
   const std::size_t old_vertices = mesh.number_of_vertices();
   const Insertion insertion = insert_along_stroke(mesh, diagonal(), 3);
@@ -91,7 +93,7 @@ TEST_CASE("texture, colour, groups and materials survive, masses and bending spr
   }
 }
 
-TEST_CASE("a seam is never flipped: the line splits it where it crosses") {
+TEST_CASE("insert_along_stroke: a seam is never flipped, but split where the line crosses it") {
   Mesh mesh = dressed_sheet(true);
   Mesh before = mesh;
   ensure_rest_lengths(before);
@@ -111,7 +113,7 @@ TEST_CASE("a seam is never flipped: the line splits it where it crosses") {
   CHECK_FALSE(mesh.halfedge(split.from, split.to).is_valid());
 }
 
-TEST_CASE("a line edge far from any of its vertices is split at the crossing") {
+TEST_CASE("insert_along_stroke: a line edge far from any of its vertices is split at the crossing") {
   // One coarse line edge, marked by hand, across a finer stroke.
   Mesh mesh = union_jack_sheet(2);
   ensure_rest_lengths(mesh);
@@ -137,7 +139,7 @@ TEST_CASE("a line edge far from any of its vertices is split at the crossing") {
   CHECK(line_edge[mesh.edge(mesh.halfedge(middle, right))]);
 }
 
-TEST_CASE("bad strokes are refused by name, and the mesh keeps its bits") {
+TEST_CASE("insert_along_stroke: bad strokes are refused by name, and the mesh keeps its bits") {
   Mesh mesh = regular_sheet(10);
   const std::string before = fingerprint(mesh);
   Stroke far = diagonal();
@@ -162,7 +164,7 @@ TEST_CASE("bad strokes are refused by name, and the mesh keeps its bits") {
   CHECK(fingerprint(mesh) == degenerate);
 }
 
-TEST_CASE("the same input gives the same bits") {
+TEST_CASE("insert_along_stroke: the same input gives the same bits") {
   const auto draw = [] {
     Mesh mesh = irregular_sheet(12);
     InsertionOptions options;
@@ -176,7 +178,7 @@ TEST_CASE("the same input gives the same bits") {
   CHECK(draw() == draw());
 }
 
-TEST_CASE("a stroke inside one face becomes one vertex") {
+TEST_CASE("insert_along_stroke: a stroke inside one face becomes one vertex") {
   Mesh mesh = regular_sheet(4);
   const std::size_t old_vertices = mesh.number_of_vertices();
   const Face face(5);
@@ -199,7 +201,7 @@ TEST_CASE("a stroke inside one face becomes one vertex") {
   }
 }
 
-TEST_CASE("where no flip is allowed the line goes through corners") {
+TEST_CASE("insert_along_stroke: where no flip is allowed the line goes through corners") {
   Mesh mesh = regular_sheet(20);
   Mesh before = mesh;
   ensure_rest_lengths(before);
@@ -222,7 +224,7 @@ TEST_CASE("where no flip is allowed the line goes through corners") {
   CHECK(insertion.report.routed > 0);
 }
 
-TEST_CASE("the normals of a line point outward") {
+TEST_CASE("insert_along_stroke: the normals of a line point outward") {
   Mesh mesh = cylinder(40);
   Stroke stroke;
   const double r = 0.5 / std::numbers::pi;

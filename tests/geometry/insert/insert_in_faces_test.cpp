@@ -37,7 +37,8 @@ std::set<std::set<Vertex>> faces_of(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("all faces of a closed mesh with the paper's rule: CGAL's sqrt(3) subdivision") {
+TEST_CASE(
+    "insert_in_faces: all faces of a closed mesh with the paper's rule give CGAL's sqrt(3) subdivision") {
   for (const Mesh& closed : {torus(12, 8), icosahedron()}) {
     Mesh ours = closed, theirs = closed;
     InsertionOptions options;
@@ -52,7 +53,7 @@ TEST_CASE("all faces of a closed mesh with the paper's rule: CGAL's sqrt(3) subd
   }
 }
 
-TEST_CASE("the rest metric does not see how the mesh lies in space") {
+TEST_CASE("insert_in_faces: the rest metric does not see how the mesh lies in space") {
   Mesh flat = regular_sheet(8, 0.2), bent = flat;
   ensure_rest_lengths(flat);
   ensure_rest_lengths(bent);
@@ -80,7 +81,7 @@ TEST_CASE("the rest metric does not see how the mesh lies in space") {
   CHECK(audit_rest_metric(flat).area == Approx(audit_rest_metric(regular_sheet(8, 0.2)).area).epsilon(1e-13));
 }
 
-TEST_CASE("insert_in_faces refuses what it cannot do and leaves the mesh alone") {
+TEST_CASE("insert_in_faces: it refuses what it cannot do and leaves the mesh alone") {
   Mesh mesh = regular_sheet(4);
   const std::string before = fingerprint(mesh);
   const Face f(3);
@@ -104,7 +105,7 @@ TEST_CASE("insert_in_faces refuses what it cannot do and leaves the mesh alone")
   CHECK_THROWS_AS(insert_in_faces(quad, std::vector<FacePoint>{}), ContentError);
 }
 
-TEST_CASE("clamping keeps the sum and the floor") {
+TEST_CASE("insert_in_faces: clamping keeps the sum and the floor") {
   for (const Barycentrics& b :
        {Barycentrics{1, 0, 0}, Barycentrics{0.5, 0.5, 0}, Barycentrics{0.1, 0.2, 0.7}}) {
     const Barycentrics c = clamped(b, 0.2);

@@ -38,7 +38,8 @@ void draw_all(const MeshCase& on, const StrokeCase& kind) {
 
 }  // namespace
 
-TEST_CASE("every kind of stroke on every kind of mesh becomes a whole line on a sound mesh") {
+TEST_CASE(
+    "insert_along_stroke: every kind of stroke on every kind of mesh becomes a whole line on a sound mesh") {
   for (const MeshCase& on : mesh_zoo()) {
     for (const StrokeCase& kind : strokes_for(on)) {
       CAPTURE(on.name, kind.name);
@@ -47,7 +48,7 @@ TEST_CASE("every kind of stroke on every kind of mesh becomes a whole line on a 
   }
 }
 
-TEST_CASE("the third time along the same stroke adds next to nothing") {
+TEST_CASE("insert_along_stroke: the third time along the same stroke adds next to nothing") {
   for (const MeshCase& on : mesh_zoo()) {
     CAPTURE(on.name);
     const Stroke stroke = strokes_for(on)[1].strokes[0];
@@ -64,7 +65,7 @@ TEST_CASE("the third time along the same stroke adds next to nothing") {
   }
 }
 
-TEST_CASE("the paper's rule flips every original inner edge and tells what it folds") {
+TEST_CASE("insert_along_stroke: the paper's rule flips every original inner edge and tells what it folds") {
   Mesh regular = regular_sheet(20), jack = union_jack_sheet(20);
   InsertionOptions paper;
   paper.rule = InsertionRule::paper;

@@ -62,19 +62,25 @@ void check_unset(const std::function<void(MeshEditor&)>& edit) {
 
 }  // namespace
 
-TEST_CASE("a split face takes stiffness, rest angles and rest lengths of its own from what it changes") {
+TEST_CASE(
+    "mesh_editor: a split face takes stiffness, rest angles and rest lengths of its own from what it "
+    "changes") {
   check_unset([](MeshEditor& e) { e.split_face({Face(9), {0.3, 0.3, 0.4}}); });
 }
 
-TEST_CASE("a split edge takes stiffness, rest angles and rest lengths of its own from what it changes") {
+TEST_CASE(
+    "mesh_editor: a split edge takes stiffness, rest angles and rest lengths of its own from what it "
+    "changes") {
   check_unset([](MeshEditor& e) { e.split_edge(e.mesh().halfedge(Vertex(6), Vertex(12)), 0.4); });
 }
 
-TEST_CASE("a flipped edge takes stiffness, rest angles and rest lengths of its own from what it changes") {
+TEST_CASE(
+    "mesh_editor: a flipped edge takes stiffness, rest angles and rest lengths of its own from what it "
+    "changes") {
   check_unset([](MeshEditor& e) { e.flip_edge(*e.edge_between(Vertex(6), Vertex(12))); });
 }
 
-TEST_CASE("a diagonal that is flipped or split is none") {
+TEST_CASE("mesh_editor: a diagonal that is flipped or split is none") {
   for (const bool flip : {true, false}) {
     Mesh mesh = set_mesh();
     auto diagonal = ensure_map(mesh, attribute::diagonal);

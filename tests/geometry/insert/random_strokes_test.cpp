@@ -61,7 +61,7 @@ void draw_random_lines() {
 
 }  // namespace
 
-TEST_CASE("random strokes on random sheets leave a sound mesh and whole lines") {
+TEST_CASE("insert_along_stroke: random strokes on random sheets leave a sound mesh and whole lines") {
   CHECK(rc::check(draw_random_lines));
 }
 

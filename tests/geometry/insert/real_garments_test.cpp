@@ -46,7 +46,7 @@ void draw(Mesh mesh, const std::vector<Stroke>& strokes) {
 
 }  // namespace
 
-TEST_CASE("six lines on a T-shirt lie where they were drawn and stand out as asked") {
+TEST_CASE("wrinkle: six lines on a T-shirt lie where they were drawn and stand out as asked") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;
@@ -62,7 +62,7 @@ TEST_CASE("six lines on a T-shirt lie where they were drawn and stand out as ask
   }
 }
 
-TEST_CASE("eight lines over the hem of a skirt lengthen it by more than 15 percent") {
+TEST_CASE("wrinkle: eight lines over the hem of a skirt lengthen it by more than 15 percent") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

@@ -102,7 +102,7 @@ Stroke random_stroke(std::mt19937& random) {
 }  // namespace
 
 TEST_CASE(
-    "lines over the seams of flat panels: seams stay, texture is the affine image of the rest position") {
+    "insert_along_stroke: over flat panels seams stay, texture is the affine image of the rest position") {
   std::mt19937 random(20261121);
   std::size_t splits = 0;
   for (int round = 0; round < 12; ++round) {
@@ -137,7 +137,7 @@ TEST_CASE(
   CHECK(splits > 20);
 }
 
-TEST_CASE("a texture that is stretched unevenly is not folded over") {
+TEST_CASE("insert_along_stroke: a texture that is stretched unevenly is not folded over") {
   Mesh mesh = union_jack_sheet(20);
   auto texture = ensure_map(mesh, attribute::texture);
   std::mt19937 random(7);
@@ -164,7 +164,8 @@ TEST_CASE("a texture that is stretched unevenly is not folded over") {
 }
 
 TEST_CASE(
-    "the panelled skirt: no seam edge flipped, the texture keeps its lengths, no triangle turned over") {
+    "insert_along_stroke: on the panelled skirt no seam is flipped, texture keeps its lengths, nothing turns "
+    "over") {
   const auto folder = source_dir() / "meshes";
   Mesh mesh = io::read_mesh(folder / "panelled.obj").mesh;
   CHECK(mesh.number_of_vertices() > 1500);

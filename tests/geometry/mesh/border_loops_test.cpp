@@ -12,7 +12,7 @@
 using namespace furrow::geometry;
 using namespace furrow::tests;
 
-TEST_CASE("border_loops of a tube that widens: two circles, the longer first, found by name") {
+TEST_CASE("border_loops: a tube that widens has two circles, the longer first, found by name") {
   Mesh mesh = cylinder(0.5, 2, 40, 4);
   for (Vertex v : mesh.vertices()) {
     const Point p = mesh.point(v);
@@ -38,7 +38,7 @@ TEST_CASE("border_loops of a tube that widens: two circles, the longer first, fo
   }
 }
 
-TEST_CASE("rest length of a loop counts what was set") {
+TEST_CASE("border_loops: rest length of a loop counts what was set") {
   Mesh mesh = grid(3, 3);
   const auto loops = border_loops(mesh);
   REQUIRE(loops.size() == 1);
@@ -50,7 +50,7 @@ TEST_CASE("rest length of a loop counts what was set") {
   CHECK_THROWS_AS(rest_length(mesh, BorderLoop{{Vertex(0), Vertex(15)}, 0, 0}), std::invalid_argument);
 }
 
-TEST_CASE("a closed mesh has no border loops, and says so") {
+TEST_CASE("border_loops: a closed mesh has no border loops, and says so") {
   const auto loops = border_loops(icosphere(1));
   CHECK(loops.empty());
   CHECK_THROWS_WITH(find_border_loop(loops, "top"), Catch::Contains("no border"));

@@ -20,13 +20,13 @@ Mesh square() {
 
 }  // namespace
 
-TEST_CASE("vertices_in_box takes the corners in any order, borders included") {
+TEST_CASE("vertices_in_box: it takes the corners in any order, borders included") {
   const Mesh mesh = square();
   CHECK(vertices_in_box(mesh, {2, 1, 1}, {0.5, 0, -1}) == std::vector<Vertex>{Vertex(1), Vertex(2)});
   CHECK(vertices_in_box(mesh, {5, 5, 5}, {6, 6, 6}).empty());
 }
 
-TEST_CASE("vertices_of_group takes each vertex of the group's faces once, and none without groups") {
+TEST_CASE("vertices_of_group: it takes each vertex of the group's faces once, and none without groups") {
   Mesh mesh = square();
   CHECK(vertices_of_group(mesh, 0).empty());
   auto group = ensure_map(mesh, attribute::group);

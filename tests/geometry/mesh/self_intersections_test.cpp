@@ -27,7 +27,7 @@ TEST_CASE("count_self_intersections: none in sound meshes, known pairs in crossi
   CHECK(count_self_intersections(crossing) == 1);
 }
 
-TEST_CASE("count_self_intersections equals all pairs tested one by one") {
+TEST_CASE("count_self_intersections: it equals all pairs tested one by one") {
   using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::mt19937 engine(4);
   const auto uniform = [&] { return engine() / static_cast<double>(std::mt19937::max()); };

@@ -38,7 +38,7 @@ TEST_CASE("equilateral_sheet: size, normal, corners and edges") {
   }
 }
 
-TEST_CASE("equilateral_sheet refuses lengths that are none") {
+TEST_CASE("equilateral_sheet: it refuses lengths that are none") {
   for (double bad :
        {0., -1., std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     CHECK_THROWS_AS(equilateral_sheet(bad, 1, 0.1), std::invalid_argument);
@@ -50,7 +50,7 @@ TEST_CASE("equilateral_sheet refuses lengths that are none") {
   CHECK(equilateral_sheet(1, 0.1, 0.5).number_of_faces() > 0);
 }
 
-TEST_CASE("meshes/sheet.obj is what equilateral_sheet makes") {
+TEST_CASE("sheet: meshes/sheet.obj is what equilateral_sheet makes") {
   const Mesh made = equilateral_sheet(1, 1, 0.02), read = read_plain_obj(source_dir() / "meshes/sheet.obj");
   REQUIRE(read.number_of_vertices() == made.number_of_vertices());
   REQUIRE(read.number_of_faces() == made.number_of_faces());

@@ -26,7 +26,8 @@ bool same(const Strut& s, const Strut& t) {
 
 }  // namespace
 
-TEST_CASE("struts come back sorted, those of one pair in their order, and copies of the mesh have them") {
+TEST_CASE(
+    "struts: they come back sorted, those of one pair in their order, and copies of the mesh have them") {
   Mesh mesh = grid(6, 6);
   CHECK(struts(mesh).empty());
   std::vector<Strut> list = two;
@@ -45,7 +46,7 @@ TEST_CASE("struts come back sorted, those of one pair in their order, and copies
   CHECK(struts(copy).size() == 3);
 }
 
-TEST_CASE("struts that make no sense are refused, and the old ones stay") {
+TEST_CASE("struts: those that make no sense are refused, and the old ones stay") {
   Mesh mesh = grid(6, 6);
   set_struts(mesh, two);
   const double inf = std::numeric_limits<double>::infinity();
@@ -62,7 +63,8 @@ TEST_CASE("struts that make no sense are refused, and the old ones stay") {
   CHECK(struts(mesh).size() == 2);
 }
 
-TEST_CASE("struts stay with their vertices when lines are inserted, and displacement carries their strain") {
+TEST_CASE(
+    "struts: they stay with their vertices when lines are inserted, and displacement carries their strain") {
   Mesh mesh = grid(6, 6);
   set_struts(mesh, two);
   Stroke stroke;
@@ -88,7 +90,7 @@ TEST_CASE("struts stay with their vertices when lines are inserted, and displace
   }
 }
 
-TEST_CASE("subdivision drops struts, a vertex that is removed takes its own along") {
+TEST_CASE("struts: subdivision drops struts, a vertex that is removed takes its own along") {
   Mesh fine = grid(6, 6);
   set_struts(fine, two);
   loop_subdivide(fine, 1);

@@ -10,7 +10,7 @@
 
 using namespace furrow::geometry;
 
-TEST_CASE("vertices_within_rings counts hexagonal rings on a six-valent lattice: 1, 7, 19, 37") {
+TEST_CASE("vertices_within_rings: it counts hexagonal rings of 1, 7, 19, 37 on a six-valent lattice") {
   const Mesh mesh = furrow::tests::torus_lattice(12, 12);
   const std::vector<Vertex> seed = {Vertex(77)};
   const std::size_t expected[] = {1, 7, 19, 37};
@@ -22,7 +22,7 @@ TEST_CASE("vertices_within_rings counts hexagonal rings on a six-valent lattice:
   CHECK(two_ring(mesh, seed) == vertices_within_rings(mesh, seed, 2));
 }
 
-TEST_CASE("vertices_within_rings takes each vertex once, stops at the border and knows lone vertices") {
+TEST_CASE("vertices_within_rings: it takes each vertex once, stops at the border and knows lone vertices") {
   Mesh mesh = furrow::tests::grid(2, 2);
   const Vertex lone = mesh.add_vertex(Point(5, 5, 5));
   const std::vector<Vertex> seeds = {Vertex(4), Vertex(4), lone, Vertex(0)};
@@ -32,7 +32,7 @@ TEST_CASE("vertices_within_rings takes each vertex once, stops at the border and
   CHECK_THROWS_AS(vertices_within_rings(mesh, std::vector{Vertex(10)}, 1), std::invalid_argument);
 }
 
-TEST_CASE("line_vertices lists the vertices of all lines") {
+TEST_CASE("line_vertices: it lists the vertices of all lines") {
   Mesh mesh = furrow::tests::grid(2, 2);
   CHECK(line_vertices(mesh).empty());
   auto line = ensure_map(mesh, attribute::line);

@@ -38,7 +38,7 @@ double weight_sum(const Mesh& mesh, Vertex v) {
 
 }  // namespace
 
-TEST_CASE("vertex attributes: found by name, in the order they were added") {
+TEST_CASE("vertex_attributes: they are found by name, in the order they were added") {
   const Mesh mesh = skinned();
   const auto list = vertex_attributes(mesh);
   REQUIRE(list.size() == 4);
@@ -47,7 +47,9 @@ TEST_CASE("vertex attributes: found by name, in the order they were added") {
   CHECK(list[3].values[Vertex(5)] == 3 * mesh.point(Vertex(5)).x() - mesh.point(Vertex(5)).y());
 }
 
-TEST_CASE("vertex attributes through insertion and subdivision: old vertices exact, new ones interpolated") {
+TEST_CASE(
+    "vertex_attributes: insertion and subdivision keep them exact on old vertices and interpolate them on "
+    "new ones") {
   const Mesh before = skinned();
   Mesh inserted = before, looped = before, cut = before, third = before;
   std::vector<FacePoint> points;
@@ -82,7 +84,7 @@ TEST_CASE("vertex attributes through insertion and subdivision: old vertices exa
   }
 }
 
-TEST_CASE("insertion notes where vertices lie at rest, and a moved mesh keeps the note") {
+TEST_CASE("vertex_attributes: insertion notes where vertices lie at rest, and a moved mesh keeps the note") {
   Mesh mesh = skinned();
   const Mesh before = mesh;
   insert_in_faces(mesh, std::vector<FacePoint>{{Face(7), {0.2, 0.3, 0.5}}});
@@ -98,7 +100,7 @@ TEST_CASE("insertion notes where vertices lie at rest, and a moved mesh keeps th
   }
 }
 
-TEST_CASE("skin weights: the strongest are kept and sum to 1, the others keep their bits") {
+TEST_CASE("vertex_attributes: the strongest skin weights are kept and sum to 1, the others keep their bits") {
   Mesh mesh = grid(1, 1);
   const std::array<std::array<double, 5>, 4> weights = {
       {{0.1, 0.2, 0.3, 0.25, 0.15}, {1, 0, 0, 0, 0}, {0, 0, 0, 0, 0}, {0.5, 0.5, 0.5, 0.5, 0}}};

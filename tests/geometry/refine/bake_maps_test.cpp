@@ -41,7 +41,7 @@ double largest_difference(const std::array<float, 3>& a, const std::array<double
 
 }  // namespace
 
-TEST_CASE("tangent frames of a plane follow the texture, a mirrored one has the other sign") {
+TEST_CASE("bake_maps: tangent frames of a plane follow the texture, a mirrored one has the other sign") {
   for (double mirror : {1.0, -1.0}) {
     const Mesh mesh = textured(jittered(5, 5, 0.2, 2), [&](const Point& p) {
       return TextureCoordinate{mirror * (p.x() + 0.5 * p.y()), 2 * p.y()};  // sheared: u grows along x
@@ -59,7 +59,7 @@ TEST_CASE("tangent frames of a plane follow the texture, a mirrored one has the 
   }
 }
 
-TEST_CASE("tangents are not averaged over a seam, normals are") {
+TEST_CASE("bake_maps: tangents are not averaged over a seam, normals are") {
   Mesh mesh = flat(4);
   auto texture = *find_map(mesh, attribute::texture);
   for (Face f : mesh.faces()) {  // the right half lies turned by 90 degrees in the texture
@@ -83,7 +83,7 @@ TEST_CASE("tangents are not averaged over a seam, normals are") {
   }
 }
 
-TEST_CASE("texture raster: each texel's face holds its middle, overlaps and the outside are counted") {
+TEST_CASE("texture_raster: each texel's face holds its middle, overlaps and the outside are counted") {
   const Mesh mesh = flat(7);
   const TextureRaster raster = rasterize_texture(mesh, 50);
   CHECK(raster.covered == 1600);
@@ -141,7 +141,7 @@ TEST_CASE("bake: a tilted plane over a flat one, known in every texel, beyond th
     }
 }
 
-TEST_CASE("bake and apply: a curved mesh with a seam comes back, frames and all") {
+TEST_CASE("bake_maps: a curved mesh with a seam comes back by its map, frames and all") {
   // A tube with its seam at angle 0; the high one has bulges in all three directions.
   const auto tube = [] {
     Mesh mesh = cylinder(0.2, 0.8, 20, 16);
@@ -211,7 +211,7 @@ TEST_CASE("bake: stopped, refused") {
   CHECK(mesh.number_of_vertices() == 9);
 }
 
-TEST_CASE("surface deviation: parallel squares, by area") {
+TEST_CASE("surface_deviation: that of parallel squares is their distance, by area") {
   const Mesh square = grid(10, 10);
   Mesh step = grid(10, 10);
   lift(step, [](double, double) { return 0.25; });

@@ -89,7 +89,7 @@ TEST_CASE("loop_subdivide: counts, and known points of the octahedron") {
   CHECK(info.euler_characteristic == 2);
 }
 
-TEST_CASE("loop_subdivide agrees with the reference of the real skirt, vertex by nearest vertex") {
+TEST_CASE("loop_subdivide: it agrees with the reference of the real skirt, vertex by nearest vertex") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;
@@ -109,7 +109,7 @@ TEST_CASE("loop_subdivide agrees with the reference of the real skirt, vertex by
   CHECK(std::sqrt(farthest) < 1e-8);  // its file has nine decimals
 }
 
-TEST_CASE("loop_subdivide keeps a flat lattice flat and its border straight, and old indices") {
+TEST_CASE("loop_subdivide: it keeps a flat lattice flat and its border straight, and old indices") {
   Mesh mesh = grid(4, 3, 4, 3);
   const Mesh before = mesh;
   loop_subdivide(mesh, 2);
@@ -119,7 +119,7 @@ TEST_CASE("loop_subdivide keeps a flat lattice flat and its border straight, and
   CHECK(mesh.point(Vertex(2)).y() == 0);
 }
 
-TEST_CASE("texture, colours, groups and materials survive both subdivisions") {
+TEST_CASE("subdivide: texture, colours, groups and materials survive both subdivisions") {
   const auto subdivide = GENERATE(&loop_subdivide, &sqrt3_subdivide);
   const int steps = GENERATE(1, 2, 3);
   const bool by_loop = subdivide == &loop_subdivide;
@@ -148,7 +148,7 @@ TEST_CASE("texture, colours, groups and materials survive both subdivisions") {
   }
 }
 
-TEST_CASE("halves of diagonals, and what is parallel to them, are diagonals") {
+TEST_CASE("subdivide: halves of diagonals, and what is parallel to them, are diagonals") {
   Mesh mesh = woven_sheet(0.3, 0.2, 0.1);
   const auto count = [](const Mesh& m) {
     std::size_t n = 0;
@@ -174,7 +174,7 @@ TEST_CASE("halves of diagonals, and what is parallel to them, are diagonals") {
   for (Edge e : sqrt3.edges()) CHECK_FALSE((*find_map(sqrt3, attribute::diagonal))[e]);
 }
 
-TEST_CASE("loop_subdivide carries a seam of the texture: its two sides stay apart") {
+TEST_CASE("loop_subdivide: it carries a seam of the texture, whose two sides stay apart") {
   Mesh mesh = dressed(grid(2, 2));
   auto texture = *find_map(mesh, attribute::texture);
   for (Face f : mesh.faces())
@@ -187,7 +187,7 @@ TEST_CASE("loop_subdivide carries a seam of the texture: its two sides stay apar
             ((*find_map(mesh, attribute::group))[f] == 1));
 }
 
-TEST_CASE("loop_subdivide carries lines, rest lengths, springs and masses become unset") {
+TEST_CASE("loop_subdivide: it carries lines, rest lengths, springs and masses become unset") {
   Mesh mesh = grid(4, 4);
   auto line = ensure_map(mesh, attribute::line);
   auto line_edge = ensure_map(mesh, attribute::line_edge);
@@ -237,7 +237,7 @@ TEST_CASE("sqrt3_subdivide: counts, topology, and a known point") {
   for (Vertex v : open.vertices()) CHECK(open.point(v).z() == 0);
 }
 
-TEST_CASE("subdivision bears lone vertices and single triangles, and refuses the rest") {
+TEST_CASE("subdivide: subdivision bears lone vertices and single triangles, and refuses the rest") {
   for (const auto subdivide : {&loop_subdivide, &sqrt3_subdivide}) {
     Mesh mesh = single_triangle();
     const Vertex lone = mesh.add_vertex(Point(3, 3, 3));

@@ -59,8 +59,7 @@ std::vector<Face> change_somewhere(Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE(
-    "bending springs of known meshes: one for each interior edge, but where an edge or another spring is") {
+TEST_CASE("bending_springs: there is one for each interior edge, except where an edge or another spring is") {
   CHECK(rebuilt(single_triangle()).empty());
   const Mesh plain = grid(5, 4);
   CHECK(rebuilt(plain).size() == interior_edges(plain));
@@ -83,7 +82,8 @@ TEST_CASE(
   CHECK(hinges_with_spring(box) + count_hinges_without_spring(cube()) == cube().number_of_edges());
 }
 
-TEST_CASE("around a vertex of valence four two edges share a spring, held by the lower edge") {
+TEST_CASE(
+    "bending_springs: around a vertex of valence four two edges share a spring, held by the lower edge") {
   Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
                       {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
   const auto springs = rebuilt(mesh);
@@ -100,7 +100,9 @@ TEST_CASE("around a vertex of valence four two edges share a spring, held by the
   CHECK((*find_map(mesh, attribute::bending_count))[other] == 0);
 }
 
-TEST_CASE("no bending spring joins two vertices that an edge joins, none is there twice, they are sorted") {
+TEST_CASE(
+    "bending_springs: no bending spring joins two vertices that an edge joins, none is there twice, they are "
+    "sorted") {
   for (const Mesh& mesh :
        {union_jack(6, 5), jittered(6, 5, 0.3, 1), cylinder(1, 1, 3, 4), torus_lattice(3, 4)}) {
     const auto springs = rebuilt(mesh);
@@ -113,7 +115,7 @@ TEST_CASE("no bending spring joins two vertices that an edge joins, none is ther
   }
 }
 
-TEST_CASE("a local rebuild after random splits and flips equals the whole one") {
+TEST_CASE("bending_springs: a local rebuild after random splits and flips equals the whole one") {
   CHECK(rc::check("local = whole", [] {
     Mesh mesh = *rc::gen::element(0, 1) == 0 ? union_jack(4, 4) : grid(4, 3);
     rebuild_bending_springs(mesh);
@@ -131,7 +133,7 @@ TEST_CASE("a local rebuild after random splits and flips equals the whole one") 
   }));
 }
 
-TEST_CASE("a local rebuild leaves rest lengths and stiffness elsewhere, a whole one none") {
+TEST_CASE("bending_springs: a local rebuild leaves rest lengths and stiffness elsewhere, a whole one none") {
   Mesh mesh = grid(8, 8);
   rebuild_bending_springs(mesh);
   auto rest = *find_map(mesh, attribute::bending_rest_length),

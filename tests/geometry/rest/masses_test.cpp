@@ -19,7 +19,7 @@ TEST_CASE("lump_masses: a third of each triangle at its corners") {
   for (Vertex v : mesh.vertices()) CHECK((*find_map(mesh, attribute::mass))[v] == Approx(0.1).epsilon(1e-15));
 }
 
-TEST_CASE("masses sum to density times rest area, whatever the present shape") {
+TEST_CASE("masses: they sum to density times rest area, whatever the present shape") {
   Mesh mesh = jittered(9, 7, 0.3, 2, 2, 1);
   const Vertex lone = mesh.add_vertex(Point(1, 1, 1));
   auto rest = ensure_map(mesh, attribute::rest_length);
@@ -34,7 +34,7 @@ TEST_CASE("masses sum to density times rest area, whatever the present shape") {
   CHECK((*find_map(mesh, attribute::mass))[lone] == 0);
 }
 
-TEST_CASE("lump_masses refuses a density that is none") {
+TEST_CASE("lump_masses: it refuses a density that is none") {
   Mesh mesh = single_triangle();
   for (double density :
        {0., -1., std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})

@@ -28,7 +28,7 @@ Edge ridge(const Mesh& mesh) { return mesh.edge(mesh.halfedge(Vertex(0), Vertex(
 
 }  // namespace
 
-TEST_CASE("the angle of a roof: positive for a ridge, negative for a valley, 0 flat and on the border") {
+TEST_CASE("rest_angles: a ridge is positive, a valley negative, flat and border are 0") {
   for (double theta : {0.0, 0.1, 1.5, 3.0, -0.1, -3.0})
     CHECK(dihedral_angle(roof(theta), ridge(roof(theta))) == Approx(theta).margin(1e-14));
   const Mesh mesh = roof(1);
@@ -36,7 +36,7 @@ TEST_CASE("the angle of a roof: positive for a ridge, negative for a valley, 0 f
     if (mesh.is_border(e)) CHECK(dihedral_angle(mesh, e) == 0);
 }
 
-TEST_CASE("rest angles are measured where they are unset, and only there") {
+TEST_CASE("rest_angles: rest angles are measured where they are unset, and only there") {
   Mesh mesh = roof(0.7);
   ensure_rest_angles(mesh);
   const auto rest = *find_map(mesh, attribute::rest_angle);
@@ -46,7 +46,9 @@ TEST_CASE("rest angles are measured where they are unset, and only there") {
   CHECK(rest[ridge(mesh)] == Approx(0.7));
 }
 
-TEST_CASE("lines of height 0 leave rest angles, copied lines bring their own, drawn and flat ones do not") {
+TEST_CASE(
+    "rest_angles: lines of height 0 leave rest angles, copied lines bring their own, drawn and flat ones do "
+    "not") {
   Mesh mesh = grid(12, 12);
   for (Vertex v : mesh.vertices()) {  // a cylinder
     const Point p = mesh.point(v);

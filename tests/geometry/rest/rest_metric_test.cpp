@@ -28,7 +28,7 @@ Mesh square() {
 
 }  // namespace
 
-TEST_CASE("known triangles") {
+TEST_CASE("rest_metric: known triangles have their areas and angles") {
   CHECK(triangle_area({3, 4, 5}) == Approx(6).epsilon(1e-15));
   CHECK(triangle_area({1, 2, 4}) == 0);
   CHECK(std::isnan(triangle_area({1, unset_value, 1})));
@@ -45,7 +45,7 @@ TEST_CASE("known triangles") {
   CHECK_FALSE(is_proper_triangle({0, 1, 1}));
 }
 
-TEST_CASE("rest lengths that are set stay, the others are lengths in space") {
+TEST_CASE("rest_metric: rest lengths that are set stay, the others are lengths in space") {
   Mesh mesh = square();
   ensure_map(mesh, attribute::rest_length)[Edge(0)] = 7;
   const auto rest = ensure_rest_lengths(mesh);
@@ -54,7 +54,7 @@ TEST_CASE("rest lengths that are set stay, the others are lengths in space") {
   CHECK(mean_rest_length(mesh) == Approx((7 + 3 + std::numbers::sqrt2) / 5));
 }
 
-TEST_CASE("the diagonal of a square unfolds to the other one, also on a bent square") {
+TEST_CASE("rest_metric: the diagonal of a square unfolds to the other one, also on a bent square") {
   Mesh mesh = square();
   const auto rest = ensure_rest_lengths(mesh);
   mesh.point(Vertex(3)) = Point(0.2, 0.3, 0.8);
@@ -66,7 +66,7 @@ TEST_CASE("the diagonal of a square unfolds to the other one, also on a bent squ
   CHECK(cotangent_sum(mesh, rest, diagonal) == Approx(0).margin(1e-15));
 }
 
-TEST_CASE("a flip that would fold over has a negative area") {
+TEST_CASE("rest_metric: a flip that would fold over has a negative area") {
   Mesh mesh = square();
   mesh.point(Vertex(1)) = Point(0.9, 0.6, 0);  // the corner at vertex 2 becomes reflex with respect to 1-3
   mesh.point(Vertex(2)) = Point(0.6, 0.7, 0);
@@ -75,7 +75,7 @@ TEST_CASE("a flip that would fold over has a negative area") {
   CHECK(std::min(areas[0], areas[1]) < 0);
 }
 
-TEST_CASE("lengths to the corners are distances in the plane") {
+TEST_CASE("rest_metric: lengths to the corners are distances in the plane") {
   CHECK(rc::check([] {
     const auto number = [](int low, int high) {
       return *rc::gen::resize(100, rc::gen::inRange(low, high)) / 100.0;
@@ -94,7 +94,7 @@ TEST_CASE("lengths to the corners are distances in the plane") {
   }));
 }
 
-TEST_CASE("the audit sees inverted faces, duplicate edges and the smallest angle") {
+TEST_CASE("rest_metric: the audit sees inverted faces, duplicate edges and the smallest angle") {
   Mesh mesh = square();
   CHECK(audit_rest_metric(mesh).min_angle_deg == Approx(45));
   CHECK(audit_rest_metric(mesh).area == Approx(1));

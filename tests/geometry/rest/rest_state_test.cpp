@@ -36,7 +36,7 @@ bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; 
 
 }  // namespace
 
-TEST_CASE("the drawn rest state carries the strain over and leaves everything else its bits") {
+TEST_CASE("rest_state: the drawn rest state carries the strain over and leaves everything else its bits") {
   Mesh mesh = strained_sheet();
   const Mesh before = mesh;
   const RestSnapshot snapshot = take_rest_snapshot(mesh);
@@ -64,7 +64,7 @@ TEST_CASE("the drawn rest state carries the strain over and leaves everything el
   CHECK(rest_area(mesh) > rest_area(before));
 }
 
-TEST_CASE("the flat rest state changes nothing, neither does a line of height zero") {
+TEST_CASE("rest_state: the flat rest state changes nothing, neither does a line of height zero") {
   Mesh mesh = strained_sheet();
   const double area = rest_area(mesh);
   const RestSnapshot snapshot = take_rest_snapshot(mesh);
@@ -74,7 +74,7 @@ TEST_CASE("the flat rest state changes nothing, neither does a line of height ze
   CHECK(rest_area(mesh) == area);
 }
 
-TEST_CASE("a face's own rest lengths carry their strain over, stiffness keeps its bits") {
+TEST_CASE("rest_state: a face's own rest lengths carry their strain over, stiffness keeps its bits") {
   Mesh mesh = strained_sheet();
   auto own = ensure_map(mesh, attribute::triangle_rest_length);
   auto stiffness = ensure_map(mesh, attribute::stiffness),
@@ -97,7 +97,9 @@ TEST_CASE("a face's own rest lengths carry their strain over, stiffness keeps it
   }
 }
 
-TEST_CASE("rest lengths that nobody set become the length after, also where the length before was zero") {
+TEST_CASE(
+    "rest_state: rest lengths that nobody set become the length after, also where the length before was "
+    "zero") {
   Mesh mesh = grid(3, 3);
   mesh.point(Vertex(5)) = mesh.point(Vertex(6));
   const RestSnapshot snapshot = take_rest_snapshot(mesh);
@@ -111,7 +113,7 @@ TEST_CASE("rest lengths that nobody set become the length after, also where the 
       CHECK(std::isnan(rest[e]));
 }
 
-TEST_CASE("rest_area sums Heron areas of the rest lengths") {
+TEST_CASE("rest_area: it sums Heron areas of the rest lengths") {
   Mesh mesh = grid(4, 3, 2, 1.5);
   CHECK(rest_area(mesh) == Approx(3).epsilon(1e-14));
   CHECK(rest_area(strained_sheet()) == Approx(1 / (1.25 * 1.25)).epsilon(1e-14));
@@ -119,7 +121,7 @@ TEST_CASE("rest_area sums Heron areas of the rest lengths") {
   CHECK(rest_area(mesh) == Approx(3.75).epsilon(1e-14));
 }
 
-TEST_CASE("apply_rest_rule refuses a snapshot of another mesh, and positions that are not finite") {
+TEST_CASE("apply_rest_rule: it refuses a snapshot of another mesh, and positions that are not finite") {
   Mesh mesh = grid(2, 2);
   CHECK_THROWS_AS(apply_drawn_rest(mesh, take_rest_snapshot(grid(3, 2))), std::invalid_argument);
   const RestSnapshot snapshot = take_rest_snapshot(mesh);

@@ -22,7 +22,7 @@ TEST_CASE("spring_stiffness: the papers' law, a constant and the law of a thread
 }
 
 TEST_CASE(
-    "a spring cut in two: the pair is four times softer by the papers' law, as stiff as before by the "
+    "stiffness: a spring cut in two is four times softer by the papers' law, as stiff as before by the "
     "thread's") {
   const auto in_series = [](double k) { return k / 2; };
   const double whole = spring_stiffness(1, 1, 8);
@@ -30,7 +30,7 @@ TEST_CASE(
   CHECK(in_series(spring_stiffness(0.5, 1, 8, StiffnessLaw::inverse)) == whole);
 }
 
-TEST_CASE("spring_stiffness refuses lengths and constants that are none") {
+TEST_CASE("spring_stiffness: it refuses lengths and constants that are none") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(spring_stiffness(0, 1, 1), std::invalid_argument);
   CHECK_THROWS_AS(spring_stiffness(1, -1, 1), std::invalid_argument);
@@ -39,7 +39,7 @@ TEST_CASE("spring_stiffness refuses lengths and constants that are none") {
   CHECK_THROWS_WITH(spring_stiffness(1, 1, nan), Catch::Contains("k_std"));
 }
 
-TEST_CASE("mean rest lengths, structural and bending") {
+TEST_CASE("stiffness: mean rest lengths, structural and bending") {
   Mesh mesh = single_triangle();
   CHECK(mean_rest_length(mesh) == Approx((2 + std::sqrt(2)) / 3));
   CHECK(mean_bending_rest_length(mesh) == 0);

@@ -60,7 +60,7 @@ TEST_CASE(
   CHECK(count(icosphere(3, 0.31), ball) == 0);
 }
 
-TEST_CASE("pierced_faces equals all pairs tested one by one") {
+TEST_CASE("pierced_faces: it equals all pairs tested one by one") {
   using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::mt19937 engine(7);
   const auto uniform = [&] { return engine() / static_cast<double>(std::mt19937::max()); };

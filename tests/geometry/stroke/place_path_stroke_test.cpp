@@ -26,7 +26,7 @@ PlacedStroke place(const Mesh& mesh, const std::vector<std::size_t>& vertices, b
 
 }  // namespace
 
-TEST_CASE("shortest_path on a plane is the straight line") {
+TEST_CASE("shortest_path: on a plane it is the straight line") {
   const Mesh mesh = jittered(20, 20, 0.2, 5);
   for (const auto& [a, b] : {std::pair{22u, 350u}, {50u, 60u}, {418u, 23u}}) {
     const Point &p = mesh.point(Vertex(a)), &q = mesh.point(Vertex(b));
@@ -38,7 +38,8 @@ TEST_CASE("shortest_path on a plane is the straight line") {
   }
 }
 
-TEST_CASE("shortest_path on a sphere is close to the great circle, and never longer than along the edges") {
+TEST_CASE(
+    "shortest_path: on a sphere it is close to the great circle, and never longer than along the edges") {
   const Mesh ball = icosphere(4, 1);
   for (const auto& [a, b] : {std::pair{0u, 7u}, {100u, 901u}, {3u, 2000u}}) {
     const Vector u = ball.point(Vertex(a)) - CGAL::ORIGIN, v = ball.point(Vertex(b)) - CGAL::ORIGIN;
@@ -52,7 +53,7 @@ TEST_CASE("shortest_path on a sphere is close to the great circle, and never lon
   }
 }
 
-TEST_CASE("shortest_path around a fold is the unfolded line") {
+TEST_CASE("shortest_path: around a fold it is the unfolded line") {
   // Two faces of a cube: from the lower front edge's left end to the upper back edge's right end.
   const Mesh box = cube();
   const auto at = [&](double x, double y, double z) {

@@ -84,7 +84,7 @@ TEST_CASE("place_texture_stroke: drawn in the texture, a stroke lies where the t
   }));
 }
 
-TEST_CASE("place_texture_stroke goes on over a seam where the next point lies on the other chart") {
+TEST_CASE("place_texture_stroke: it goes on over a seam where the next point lies on the other chart") {
   const Mesh mesh = two_charts();
   const PlacedStroke placed = place(mesh, {{0.2, 0.5}, {1.8, 0.5}});
   CHECK(placed.breaks.empty());

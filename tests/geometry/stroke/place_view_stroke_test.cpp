@@ -90,8 +90,8 @@ TEST_CASE("place_view_stroke: each crossed face has a point, so the trace is the
 }
 
 TEST_CASE(
-    "place_view_stroke never jumps to a layer in front: the stroke is parted where the one behind goes out "
-    "of sight") {
+    "place_view_stroke: it never jumps to a layer in front, but parts the stroke where the one behind goes "
+    "out of sight") {
   Mesh mesh = grid(20, 20);
   Mesh patch = grid(6, 6, 0.3, 0.3);
   for (Vertex v : patch.vertices()) patch.point(v) = patch.point(v) + Vector(0.41, 0.33, 0.2);
@@ -158,7 +158,7 @@ TEST_CASE("place_view_stroke: closed strokes and parallel lines of sight") {
   }
 }
 
-TEST_CASE("place_view_stroke tells each run of misses once") {
+TEST_CASE("place_view_stroke: it tells each run of misses once") {
   const Mesh mesh = grid(20, 20);
   const PlacedStroke placed =
       place(mesh, sight_of({{-2, 0.5, 0}, {-1, 0.5, 0}, {0.3, 0.52, 0}, {0.4, 3, 0}, {0.6, 0.52, 0}}));

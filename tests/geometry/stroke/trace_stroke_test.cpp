@@ -57,7 +57,7 @@ std::set<double> heights_of(const Mesh& mesh, const TracedStroke& traced) {
 
 }  // namespace
 
-TEST_CASE("no crossed face is missed, and each shares an edge with the next") {
+TEST_CASE("trace_stroke: no crossed face is missed, and each shares an edge with the next") {
   const Mesh mesh = regular_sheet(20, 0.25, 3);
   const Point a(0.13, 0.21, 0), b(0.87, 0.66, 0);
   const TracedStroke traced = trace(mesh, polyline({a, b}), 0.05);
@@ -79,7 +79,7 @@ TEST_CASE("no crossed face is missed, and each shares an edge with the next") {
   CHECK_FALSE(faces.back().exit.has_value());
 }
 
-TEST_CASE("a node lies at the mean of its samples, else in the middle of the part inside") {
+TEST_CASE("trace_stroke: a node lies at the mean of its samples, else in the middle of the part inside") {
   const Mesh mesh = regular_sheet(10);
   const Face face(0);
   const Point p = position_of(mesh, {face, {0.5, 0.3, 0.2}}), q = position_of(mesh, {face, {0.2, 0.3, 0.5}});
@@ -96,7 +96,7 @@ TEST_CASE("a node lies at the mean of its samples, else in the middle of the par
   }
 }
 
-TEST_CASE("a stroke never leaps to a layer 5 mm away") {
+TEST_CASE("trace_stroke: a stroke never leaps to a layer 5 mm away") {
   for (bool joined : {false, true}) {
     const Mesh mesh = two_layers(0.005, joined);
     Stroke stroke;
@@ -111,7 +111,7 @@ TEST_CASE("a stroke never leaps to a layer 5 mm away") {
   }
 }
 
-TEST_CASE("a stroke breaks, with a warning, where no way leads on") {
+TEST_CASE("trace_stroke: a stroke breaks, with a warning, where no way leads on") {
   Mesh mesh = union_jack_sheet(20);
   const auto n = static_cast<std::uint32_t>(mesh.number_of_vertices());
   const Mesh far = union_jack_sheet(20);
@@ -130,7 +130,7 @@ TEST_CASE("a stroke breaks, with a warning, where no way leads on") {
   CHECK(heights_of(mesh, traced).size() == 2);
 }
 
-TEST_CASE("a stroke ends at the border and starts again where it comes back") {
+TEST_CASE("trace_stroke: a stroke ends at the border and starts again where it comes back") {
   Mesh mesh = union_jack_sheet(20);
   for (Face f : mesh.faces()) {  // a hole of 0.2 x 0.4 m in the middle
     const Point p = position_of(mesh, {f, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
@@ -154,7 +154,7 @@ TEST_CASE("a stroke ends at the border and starts again where it comes back") {
   }
 }
 
-TEST_CASE("points a little beyond the border are taken, points far beyond are not") {
+TEST_CASE("trace_stroke: points a little beyond the border are taken, points far beyond are not") {
   const Mesh mesh = union_jack_sheet(20);
   const TracedStroke near = trace(mesh, polyline({Point(0.5, 0.93, 0), Point(0.52, 1.02, 0)}), 0.055);
   CHECK(near.samples.size() == 2);
@@ -164,7 +164,7 @@ TEST_CASE("points a little beyond the border are taken, points far beyond are no
   CHECK_THROWS_AS(trace(mesh, polyline({Point(0.5, 1.04, 0), Point(0.52, 1.04, 0)}), 0.055), ContentError);
 }
 
-TEST_CASE("a two-point chord follows a strongly curved surface") {
+TEST_CASE("trace_stroke: a two-point chord follows a strongly curved surface") {
   const Mesh mesh = cylinder(40);
   const double r = 0.5 / std::numbers::pi;
   Stroke stroke = polyline({Point(0, 0.3, r), Point(r * std::sin(2.5), 0.6, r * std::cos(2.5))});
@@ -174,7 +174,7 @@ TEST_CASE("a two-point chord follows a strongly curved surface") {
   CHECK(traced.sub_strokes[0].faces.size() > 20);
 }
 
-TEST_CASE("along a ray the first face that faces the ray's origin is taken") {
+TEST_CASE("trace_stroke: along a ray the first face that faces the ray's origin is taken") {
   const Mesh mesh = cylinder(40);
   Stroke stroke = polyline({Point(-0.05, 0.3, 0.18), Point(0.05, 0.6, 0.18)});
   stroke.direction = Vector(0, 0, -2);
@@ -186,7 +186,7 @@ TEST_CASE("along a ray the first face that faces the ray's origin is taken") {
   CHECK_THROWS_WITH(trace(mesh, stroke, 0.025), Catch::Contains("misses"));
 }
 
-TEST_CASE("projection tells distance and how far a point lies beyond the border") {
+TEST_CASE("trace_stroke: projection tells distance and how far a point lies beyond the border") {
   const Mesh mesh = union_jack_sheet(4);
   const SurfaceProjector projector(mesh);
   const SurfaceHit above = projector.closest(Point(0.4, 0.3, 0.2));
@@ -202,7 +202,7 @@ TEST_CASE("projection tells distance and how far a point lies beyond the border"
   CHECK_THROWS_AS(SurfaceProjector(Mesh()), ContentError);
 }
 
-TEST_CASE("a stroke with breaks has parts that nothing joins") {
+TEST_CASE("trace_stroke: a stroke with breaks has parts that nothing joins") {
   const Mesh mesh = union_jack_sheet(20);
   Stroke stroke = polyline({Point(0.11, 0.21, 0), Point(0.32, 0.22, 0), Point(0.61, 0.51, 0),
                             Point(0.91, 0.52, 0), Point(0.73, 0.84, 0)});
