@@ -68,7 +68,7 @@ TEST_CASE("MDD: every byte of two frames, the greater end first, times in second
   CHECK(two_frames(folder, "a.MDD", {.fps = 4, .start = 0.5}) == expected);
 }
 
-TEST_CASE("an animation in the unit and axes of the mesh file it goes with") {
+TEST_CASE("animation_file: an animation in the unit and axes of the mesh file it goes with") {
   TemporaryFolder folder;
   const io::AnimationOptions millimetres{.frame = {.metres_per_unit = 0.001, .up = io::Axis::z}};
   const std::string bytes = two_frames(folder, "a.pc2", millimetres);
@@ -76,7 +76,7 @@ TEST_CASE("an animation in the unit and axes of the mesh file it goes with") {
   CHECK(bytes.substr(32 + 12, 12) == bytes_of("00007A44 00803BC5 0000FA44"));
 }
 
-TEST_CASE("an animation is in place after close() only, and nothing else is ever seen") {
+TEST_CASE("animation_file: an animation is in place after close() only, and nothing else is ever seen") {
   TemporaryFolder folder;
   for (const char* name : {"a.pc2", "a.mdd", "a.glb"}) {
     INFO(name);
@@ -99,7 +99,7 @@ TEST_CASE("an animation is in place after close() only, and nothing else is ever
   }
 }
 
-TEST_CASE("on a full disk the frames so far stay whole and can be written") {
+TEST_CASE("animation_file: on a full disk the frames so far stay whole and can be written") {
   TemporaryFolder folder;
   io::AnimationWriter writer(folder / "a.pc2", triangle());
   writer.add(frame(0));
@@ -125,7 +125,8 @@ TEST_CASE("on a full disk the frames so far stay whole and can be written") {
   CHECK(slurp(folder / "a.pc2").size() == 32 + 6 * 36);
 }
 
-TEST_CASE("an animation refuses bad options, meshes and positions before anything is written") {
+TEST_CASE(
+    "animation_file: an animation refuses bad options, meshes and positions before anything is written") {
   TemporaryFolder folder;
   const geometry::Mesh mesh = triangle();
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -154,7 +155,7 @@ TEST_CASE("an animation refuses bad options, meshes and positions before anythin
   CHECK(files_in(folder) == 1);
 }
 
-TEST_CASE("frames too close for the times of a file are refused") {
+TEST_CASE("animation_file: frames too close for the times of a file are refused") {
   TemporaryFolder folder;
   io::AnimationWriter writer(folder / "a.mdd", triangle(), {.fps = 1000, .start = 100000});
   writer.add(frame(0));

@@ -51,7 +51,8 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("PC2 and MDD give back times, and positions to single precision, in any unit and axes") {
+TEST_CASE(
+    "frame_source: PC2 and MDD give back times, and positions to single precision, in any unit and axes") {
   TemporaryFolder folder;
   const geometry::Mesh mesh = decorated_grid(4).mesh;
   for (const char* name : {"a.pc2", "a.mdd"})
@@ -69,7 +70,7 @@ TEST_CASE("PC2 and MDD give back times, and positions to single precision, in an
       }
 }
 
-TEST_CASE("a sequence of meshes: numbers give the order and the times, gaps are time without a frame") {
+TEST_CASE("frame_source: numbers give a sequence its order and times, gaps are time without a frame") {
   TemporaryFolder folder;
   io::MeshFile file = decorated_grid(3);
   const geometry::Mesh rest = file.mesh;
@@ -88,7 +89,7 @@ TEST_CASE("a sequence of meshes: numbers give the order and the times, gaps are 
   CHECK(farthest(source->positions(0), moved(rest, 998)) == 0);
 }
 
-TEST_CASE("a sequence that cannot be used says why") {
+TEST_CASE("frame_source: a sequence that cannot be used says why") {
   TemporaryFolder folder;
   CHECK(contains(error_of(folder / "a_##.obj", 3), "no file fits"));
   CHECK(contains(error_of(folder / "absent" / "a_##.obj", 3), "cannot be listed"));
@@ -104,7 +105,7 @@ TEST_CASE("a sequence that cannot be used says why") {
   CHECK(error_of(folder / "a_##.obj", 3, 0) == "(none)");
 }
 
-TEST_CASE("PC2 and MDD files that are cut, damaged or of another mesh are refused") {
+TEST_CASE("frame_source: PC2 and MDD files that are cut, damaged or of another mesh are refused") {
   TemporaryFolder folder;
   const geometry::Mesh mesh = decorated_grid(1).mesh;
   const std::size_t n = mesh.number_of_vertices();
@@ -129,7 +130,7 @@ TEST_CASE("PC2 and MDD files that are cut, damaged or of another mesh are refuse
                   std::invalid_argument);
 }
 
-TEST_CASE("heads with huge or senseless numbers are refused without a try to hold them") {
+TEST_CASE("frame_source: heads with huge or senseless numbers are refused without a try to hold them") {
   TemporaryFolder folder;
   const auto with = [&](const std::string& name, std::size_t at, std::uint32_t value) {
     write(folder / name, decorated_grid(1).mesh, 3, {});
@@ -156,7 +157,7 @@ TEST_CASE("heads with huge or senseless numbers are refused without a try to hol
   }
 }
 
-TEST_CASE("a damaged byte gives an error or finite numbers, nothing else") {
+TEST_CASE("frame_source: a damaged byte gives an error or finite numbers, nothing else") {
   TemporaryFolder folder;
   const geometry::Mesh mesh = decorated_grid(1).mesh;
   const bool good = rc::check([&](bool pc2, std::uint32_t place, std::uint8_t value) {

@@ -37,7 +37,7 @@ Extent extent(const io::Camera& camera, const std::vector<io::Position>& points,
   return result;
 }
 
-TEST_CASE("The automatic camera holds all points inside the margins and touches them") {
+TEST_CASE("camera: the automatic camera holds all points inside the margins and touches them") {
   CHECK(rc::check([] {
     const auto coordinate = [] { return *rc::gen::inRange(-1000, 1000) * 1e-3; };
     std::vector<io::Position> points;
@@ -60,7 +60,7 @@ TEST_CASE("The automatic camera holds all points inside the margins and touches 
   }));
 }
 
-TEST_CASE("The automatic camera looks from the front, right of the middle and above") {
+TEST_CASE("camera: the automatic camera looks from the front, right of the middle and above") {
   const std::vector<io::Position> box{{-1, 0, -1}, {1, 2, 1}, {-1, 2, 1}, {1, 0, -1}};
   const io::Camera camera = io::frame_points(box, 1);
   CHECK(camera.eye[2] > 1);
@@ -69,14 +69,14 @@ TEST_CASE("The automatic camera looks from the front, right of the middle and ab
   CHECK(camera.up == io::Position{0, 1, 0});
 }
 
-TEST_CASE("A line along the sight is framed from outside of it") {
+TEST_CASE("camera: a line along the sight is framed from outside of it") {
   io::View view;
   view.azimuth_deg = view.elevation_deg = 0;
   const io::Camera camera = io::frame_points({{0, 0, 0}, {0, 0, 1}}, 1, view);
   CHECK(camera.eye[2] > 1.05);
 }
 
-TEST_CASE("Nothing to frame and values out of range are refused") {
+TEST_CASE("camera: nothing to frame and values out of range are refused") {
   const std::vector<io::Position> points{{0, 0, 0}, {1, 1, 1}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(io::frame_points({}, 1), std::invalid_argument);

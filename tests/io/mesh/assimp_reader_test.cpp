@@ -79,7 +79,7 @@ void check_seam(const io::MeshFile& file) {
 
 }  // namespace
 
-TEST_CASE("glTF: GLB and glTF with a buffer file, seams are closed, transforms applied") {
+TEST_CASE("glTF: GLB and glTF with a buffer file are read, seams closed, transforms applied") {
   TemporaryFolder folder;
   Seam seam;
   spit(folder / "a.glb", seam.glb());

@@ -78,17 +78,21 @@ void check_damage(const std::string& valid, MeshFormat format) {
 
 }  // namespace
 
-TEST_CASE("damaged OBJ files are read or refused") {
+TEST_CASE("damaged files: damaged OBJ files are read or refused") {
   check_damage(valid_file(MeshFormat::obj), MeshFormat::obj);
 }
-TEST_CASE("damaged binary PLY files are read or refused") {
+TEST_CASE("damaged files: damaged binary PLY files are read or refused") {
   check_damage(valid_file(MeshFormat::ply), MeshFormat::ply);
 }
-TEST_CASE("damaged text PLY files are read or refused") { check_damage(text_ply(), MeshFormat::ply); }
-TEST_CASE("damaged OFF files are read or refused") {
+TEST_CASE("damaged files: damaged text PLY files are read or refused") {
+  check_damage(text_ply(), MeshFormat::ply);
+}
+TEST_CASE("damaged files: damaged OFF files are read or refused") {
   check_damage(valid_file(MeshFormat::off), MeshFormat::off);
 }
-TEST_CASE("damaged binary STL files are read or refused") {
+TEST_CASE("damaged files: damaged binary STL files are read or refused") {
   check_damage(valid_file(MeshFormat::stl), MeshFormat::stl);
 }
-TEST_CASE("damaged text STL files are read or refused") { check_damage(text_stl(), MeshFormat::stl); }
+TEST_CASE("damaged files: damaged text STL files are read or refused") {
+  check_damage(text_stl(), MeshFormat::stl);
+}

@@ -9,7 +9,7 @@ using namespace furrow;
 using namespace furrow::tests;
 namespace fs = std::filesystem;
 
-TEST_CASE("every hostile file is read or refused with a content error") {
+TEST_CASE("hostile files: every hostile file is read or refused with a content error") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

@@ -19,7 +19,7 @@ struct Fact {
 
 }  // namespace
 
-TEST_CASE("real meshes have the manifest's numbers of vertices and faces") {
+TEST_CASE("real files: real meshes have the manifest's numbers of vertices and faces") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;
@@ -43,7 +43,7 @@ TEST_CASE("real meshes have the manifest's numbers of vertices and faces") {
   CHECK(fact.triangles >= fact.faces);
 }
 
-TEST_CASE("a control mesh with n-gons is triangulated, the dress's two bad vertices are parted") {
+TEST_CASE("real files: a control mesh with n-gons is triangulated, the dress's two bad vertices are parted") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;
@@ -60,7 +60,7 @@ TEST_CASE("a control mesh with n-gons is triangulated, the dress's two bad verti
   CHECK(dress.mesh.number_of_faces() == 8801);
 }
 
-TEST_CASE("a real garment passes through PLY with the same bytes") {
+TEST_CASE("real files: a real garment passes through PLY with the same bytes") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

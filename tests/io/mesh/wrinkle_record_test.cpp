@@ -8,7 +8,7 @@
 
 using namespace furrow::io;
 
-TEST_CASE("a wrinkle record reads back as written, heights that were not measured included") {
+TEST_CASE("wrinkle_record: a wrinkle record reads back as written, heights that were not measured included") {
   MeshFile file;
   file.comments = {"made by hand"};
   const WrinkleRecord record{
@@ -52,7 +52,7 @@ TEST_CASE("a wrinkle record reads back as written, heights that were not measure
   CHECK(back->strokes == record.strokes);
 }
 
-TEST_CASE("a record of an earlier version has no strokes, garment and base heights") {
+TEST_CASE("wrinkle_record: a record of an earlier version has no strokes, garment and base heights") {
   MeshFile file;
   file.comments = {
       R"(furrow wrinkle {"r_avg_structural":1,"r_avg_bending":2,"density":3,"unit":"m","up":"y","options":"",)"
@@ -64,14 +64,14 @@ TEST_CASE("a record of an earlier version has no strokes, garment and base heigh
   CHECK(record->lines[0].base_height == 0);
 }
 
-TEST_CASE("a mesh without a record has none, a damaged one is an error") {
+TEST_CASE("wrinkle_record: a mesh without a record has none, a damaged one is an error") {
   MeshFile file;
   CHECK_FALSE(find_wrinkle_record(file));
   file.comments = {"furrow wrinkle {\"lines\": 3}"};
   CHECK_THROWS_AS(find_wrinkle_record(file), furrow::geometry::ContentError);
 }
 
-TEST_CASE("a wrinkle record keeps the material and the gap, and refuses damaged ones") {
+TEST_CASE("wrinkle_record: a wrinkle record keeps the material and the gap, and refuses damaged ones") {
   MeshFile file;
   WrinkleRecord record;
   set_wrinkle_record(file, record);

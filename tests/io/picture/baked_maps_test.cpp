@@ -27,7 +27,7 @@ geometry::BakedMaps maps() {
 
 }  // namespace
 
-TEST_CASE("baked maps read back to half a step, zero is exact, the largest fills the range") {
+TEST_CASE("baked_maps: baked maps read back to half a step, zero is exact, the largest fills the range") {
   const TemporaryFolder folder;
   const geometry::BakedMaps baked = maps();
   const io::BakedFiles files = io::write_baked_maps((folder / "shirt").string(), baked);
@@ -53,7 +53,7 @@ TEST_CASE("baked maps read back to half a step, zero is exact, the largest fills
   CHECK((1 / 65535.0 - midlevel) * scale == Approx(-0.04));
 }
 
-TEST_CASE("no displacement at all is written and read") {
+TEST_CASE("baked_maps: no displacement at all is written and read") {
   const TemporaryFolder folder;
   geometry::BakedMaps baked = maps();
   for (auto& texel : baked.displacement.texels) texel = {0, 0, 0};
@@ -62,13 +62,13 @@ TEST_CASE("no displacement at all is written and read") {
     CHECK(texel == std::array<float, 3>{0, 0, 0});
 }
 
-TEST_CASE("a prefix that is no UTF-8 does not stop the record") {
+TEST_CASE("baked_maps: a prefix that is no UTF-8 does not stop the record") {
   const TemporaryFolder folder;
   const io::BakedFiles files = io::write_baked_maps((folder / "a\xFF").string(), maps());
   CHECK(json::parse(slurp(files.record))["displacement"]["bits"] == 16);
 }
 
-TEST_CASE("records and maps that cannot be used are refused") {
+TEST_CASE("baked_maps: records and maps that cannot be used are refused") {
   const TemporaryFolder folder;
   const io::BakedFiles files = io::write_baked_maps((folder / "a").string(), maps());
   const auto refused = [&](const std::string& text) {
@@ -92,7 +92,7 @@ TEST_CASE("records and maps that cannot be used are refused") {
   CHECK_FALSE(std::filesystem::exists(folder / "b_displacement.png"));
 }
 
-TEST_CASE("PLY carries rest positions and attributes of vertices, in any unit and axes") {
+TEST_CASE("baked_maps: PLY carries rest positions and attributes of vertices, in any unit and axes") {
   io::MeshFile file = decorated_grid(3);
   auto rest = geometry::ensure_map(file.mesh, geometry::attribute::rest_position);
   auto mask = geometry::ensure_vertex_attribute(file.mesh, "mask");

@@ -30,7 +30,7 @@ std::array<double, 3> oklab(const io::Colour& colour) {
 
 double lightness(double value, const FitScale& scale) { return oklab(io::fit_colour(value, scale))[0]; }
 
-TEST_CASE("The lightness of strain falls evenly to both sides, that of distance rises") {
+TEST_CASE("fit_colours: the lightness of strain falls evenly to both sides, that of distance rises") {
   const FitScale strain{FitQuantity::strain, 0.1, 0}, distance{FitQuantity::distance, 0.05, 0};
   for (int i = 0; i < 20; ++i) {
     const double a = i / 20.0, b = (i + 1) / 20.0;
@@ -45,7 +45,8 @@ TEST_CASE("The lightness of strain falls evenly to both sides, that of distance 
   }
 }
 
-TEST_CASE("Stretched and pressed differ in yellow against blue, which the colour-blind tell apart") {
+TEST_CASE(
+    "fit_colours: stretched and pressed differ in yellow against blue, which the colour-blind tell apart") {
   const FitScale scale{FitQuantity::strain, 0.1, 0};
   for (double x : {0.02, 0.05, 0.1, 0.4}) {
     CHECK(oklab(io::fit_colour(x, scale))[2] > 0.06);
@@ -53,7 +54,8 @@ TEST_CASE("Stretched and pressed differ in yellow against blue, which the colour
   }
 }
 
-TEST_CASE("Beyond the ends colours stay, inside the body they are those of contact, NaN is grey") {
+TEST_CASE(
+    "fit_colours: beyond the ends colours stay, inside the body they are those of contact, NaN is grey") {
   const FitScale strain{FitQuantity::strain, 0.1, 0}, distance{FitQuantity::distance, 0.05, 0};
   CHECK(io::fit_colour(5, strain) == io::fit_colour(0.1, strain));
   CHECK(io::fit_colour(-5, strain) == io::fit_colour(-0.1, strain));
@@ -66,7 +68,7 @@ TEST_CASE("Beyond the ends colours stay, inside the body they are those of conta
   CHECK_THROWS_WITH(io::fit_colour(0, {FitQuantity::strain, 0.1, 0.2}), Catch::Contains("mark"));
 }
 
-TEST_CASE("Colours of a mesh are those of its values, in steps of a byte") {
+TEST_CASE("fit_colours: colours of a mesh are those of its values, in steps of a byte") {
   geometry::Mesh mesh = tests::grid(2, 2);
   std::vector<double> values;
   for (std::size_t i = 0; i < mesh.num_vertices(); ++i) values.push_back(0.03 * double(i) - 0.1);
@@ -84,7 +86,9 @@ TEST_CASE("Colours of a mesh are those of its values, in steps of a byte") {
   }
 }
 
-TEST_CASE("The legend stands below the picture, its bar has the scale's colours, and words make it higher") {
+TEST_CASE(
+    "fit_colours: the legend stands below the picture, its bar has the scale's colours, and words make it "
+    "higher") {
   const io::Image picture{400, 60, std::vector<std::uint8_t>(3 * 400 * 60, 77)};
   const FitScale scale{FitQuantity::strain, 0.1, 0.05};
   const io::Image image = io::with_fit_legend(picture, scale),

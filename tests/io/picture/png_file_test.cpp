@@ -28,7 +28,7 @@ struct Folder {
   std::size_t files() const { return std::size_t(std::distance(fs::directory_iterator(path), {})); }
 };
 
-TEST_CASE("A written PNG reads back pixel by pixel") {
+TEST_CASE("png_file: a written PNG reads back pixel by pixel") {
   const Folder folder("round_trip");
   CHECK(rc::check([&] {
     io::Image image{*rc::gen::inRange(1, 20), *rc::gen::inRange(1, 20), {}};
@@ -43,7 +43,7 @@ TEST_CASE("A written PNG reads back pixel by pixel") {
   CHECK(folder.files() == 1);  // no temporary is left
 }
 
-TEST_CASE("A PNG of 16 bits reads back number by number, one of 8 bits is no such") {
+TEST_CASE("png_file: a PNG of 16 bits reads back number by number, one of 8 bits is no such") {
   const Folder folder("sixteen");
   CHECK(rc::check([&] {
     io::Image16 image{*rc::gen::inRange(1, 20), *rc::gen::inRange(1, 20), {}};
@@ -69,7 +69,7 @@ TEST_CASE("A PNG of 16 bits reads back number by number, one of 8 bits is no suc
                   std::runtime_error);
 }
 
-TEST_CASE("A PNG that cannot be written leaves nothing behind") {
+TEST_CASE("png_file: a PNG that cannot be written leaves nothing behind") {
   const Folder folder("unwritable");
   const io::Image image{1, 1, {1, 2, 3}};
   CHECK_THROWS_AS(io::write_png(folder.path / "none" / "a.png", image), std::runtime_error);
@@ -78,7 +78,7 @@ TEST_CASE("A PNG that cannot be written leaves nothing behind") {
   CHECK(folder.files() == 1);
 }
 
-TEST_CASE("An image whose pixels do not match its sides is refused before the file is touched") {
+TEST_CASE("png_file: an image whose pixels do not match its sides is refused before the file is touched") {
   const Folder folder("mismatch");
   const fs::path path = folder.path / "a.png";
   CHECK_THROWS_AS(io::write_png(path, {0, 0, {}}), std::invalid_argument);
@@ -87,7 +87,7 @@ TEST_CASE("An image whose pixels do not match its sides is refused before the fi
   CHECK(folder.files() == 0);
 }
 
-TEST_CASE("A file that is no PNG is a content error that names it") {
+TEST_CASE("png_file: a file that is no PNG is a content error that names it") {
   const Folder folder("no_png");
   const fs::path path = folder.path / "text.png";
   std::ofstream(path) << "not a picture";

@@ -9,7 +9,7 @@
 namespace furrow::tests {
 namespace {
 
-TEST_CASE("A prepared sphere has diagonal 1, radial normals and even bulges") {
+TEST_CASE("prepared_scene: a prepared sphere has diagonal 1, radial normals and even bulges") {
   io::RenderMesh mesh = sphere(3, 48);
   mesh.style = io::Style::cloth;
   for (auto& p : mesh.vertices) p = {p[0] + 7, p[1] - 2, p[2]};
@@ -31,7 +31,7 @@ TEST_CASE("A prepared sphere has diagonal 1, radial normals and even bulges") {
   CHECK(hollow.bulges[24 * 97 + 40] == Approx(-prepared.bulges[24 * 97 + 40]));
 }
 
-TEST_CASE("The camera's frame is orthonormal and right-handed") {
+TEST_CASE("prepared_scene: the camera's frame is orthonormal and right-handed") {
   io::RenderOptions options = from_the_front(4, 4);
   options.camera = io::Camera{{1, 2, 3}, {-0.5, 0, 0.25}, {0.1, 1, 0.2}, 60};
   const auto camera = io::prepare({{sphere(1, 8)}, {}}, options).camera;
@@ -43,7 +43,7 @@ TEST_CASE("The camera's frame is orthonormal and right-handed") {
   CHECK(camera.slope == Approx(std::tan(std::numbers::pi / 6)));
 }
 
-TEST_CASE("sRGB to linear light and back is the identity, with the standard's points") {
+TEST_CASE("prepared_scene: sRGB to linear light and back is the identity, with the standard's points") {
   for (int i = 0; i <= 255; ++i)
     CHECK(io::srgb(io::linear_light(i / 255.0)) == Approx(i / 255.0).margin(1e-6));
   CHECK(io::linear_light(0) == 0);

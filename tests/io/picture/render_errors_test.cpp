@@ -12,7 +12,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TEST_CASE("A scene that cannot be drawn is refused") {
+TEST_CASE("render: a scene that cannot be drawn is refused") {
   const io::RenderScene good{{square({0, 0, 0}, 1, pure_red)}, {}};
   const io::RenderOptions options = from_the_front(4, 4);
   const auto refused = [&](const auto& spoil, const char* reason) {
@@ -36,7 +36,7 @@ TEST_CASE("A scene that cannot be drawn is refused") {
   refused([](auto& s) { s.meshes[0].vertices.assign(4, {1, 1, 1}); }, "no extent");
 }
 
-TEST_CASE("An option out of its range is refused by its name") {
+TEST_CASE("render: an option out of its range is refused by its name") {
   const io::RenderScene scene{{square({0, 0, 0}, 1, pure_red)}, {}};
   const auto refused = [&](const auto& spoil, const char* reason) {
     io::RenderOptions options = from_the_front(4, 4);
@@ -60,7 +60,7 @@ TEST_CASE("An option out of its range is refused by its name") {
   refused([](auto& o) { o.camera.reset(), o.view.margin = 0.7; }, "margin");
 }
 
-TEST_CASE("A scene of nothing but degenerate triangles is an empty picture") {
+TEST_CASE("render: a scene of nothing but degenerate triangles is an empty picture") {
   io::RenderMesh needle;
   needle.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   needle.triangles = {{0, 1, 2}};
@@ -68,7 +68,7 @@ TEST_CASE("A scene of nothing but degenerate triangles is an empty picture") {
   for (int y = 0; y < 9; ++y) CHECK(pixel(image, 4, y) == background_pixel(y, 9));
 }
 
-TEST_CASE("Any triangles and lines of finite points are drawn: no ray becomes NaN") {
+TEST_CASE("render: any triangles and lines of finite points are drawn, no ray becomes NaN") {
   CHECK(rc::check([] {
     const auto coordinate =
         rc::gen::oneOf(rc::gen::element(0.0, 1.0, -1.0, 1e-12, 1e9, -1e9, 1e-300),
@@ -99,7 +99,7 @@ TEST_CASE("Any triangles and lines of finite points are drawn: no ray becomes Na
   }));
 }
 
-TEST_CASE("A camera inside of the scene, and lines behind it, are drawn without fault") {
+TEST_CASE("render: a camera inside of the scene, and lines behind it, are drawn without fault") {
   io::RenderScene scene{{sphere(1, 12)}, {}};
   scene.lines.push_back({{{0, 0, -5}, {0, 0, 5}}, pure_blue});
   scene.lines.push_back({{{0.3, 0, 0}}, pure_blue});

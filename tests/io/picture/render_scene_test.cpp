@@ -40,7 +40,7 @@ std::size_t count(const std::vector<io::RenderLine>& lines, const io::Colour& co
       std::count_if(lines.begin(), lines.end(), [&](const auto& l) { return l.colour == colour; }));
 }
 
-TEST_CASE("A mesh is drawn with its vertices, faces and colours, without removed vertices") {
+TEST_CASE("render_scene: a mesh is drawn with its vertices, faces and colours, without removed vertices") {
   Mesh mesh = grid_mesh(2);
   mesh.remove_vertex(mesh.add_vertex(Point(9, 9, 9)));
   io::RenderMesh drawn = io::render_mesh_from(mesh);
@@ -61,7 +61,7 @@ TEST_CASE("A mesh is drawn with its vertices, faces and colours, without removed
   CHECK(drawn.vertex_colours[4] == io::Colour{0.5f, 0.25f, 0});
 }
 
-TEST_CASE("A face that is no triangle is a content error") {
+TEST_CASE("render_scene: a face that is no triangle is a content error") {
   Mesh mesh;
   const Vertex a = mesh.add_vertex(Point(0, 0, 0)), b = mesh.add_vertex(Point(1, 0, 0)),
                c = mesh.add_vertex(Point(1, 1, 0)), d = mesh.add_vertex(Point(0, 1, 0));
@@ -69,7 +69,7 @@ TEST_CASE("A face that is no triangle is a content error") {
   CHECK_THROWS_AS(io::render_mesh_from(mesh), geometry::ContentError);
 }
 
-TEST_CASE("Line edges take the colour of their line's sign") {
+TEST_CASE("render_scene: line edges take the colour of their line's sign") {
   Mesh mesh = grid_mesh(3);
   CHECK(io::render_lines_from(mesh, {}).empty());
   auto line = geometry::ensure_map(mesh, geometry::attribute::line);
@@ -96,7 +96,7 @@ TEST_CASE("Line edges take the colour of their line's sign") {
                   std::invalid_argument);
 }
 
-TEST_CASE("Without marked edges the vertices of one line are joined, but not across a corner") {
+TEST_CASE("render_scene: without marked edges the vertices of one line are joined, but not across a corner") {
   Mesh mesh = grid_mesh(2);
   auto line = geometry::ensure_map(mesh, geometry::attribute::line);
   for (int v : {0, 1, 4, 7}) line[Vertex(v)] = 0;  // right, then up, up: 0-4 is a diagonal of a square
@@ -107,7 +107,8 @@ TEST_CASE("Without marked edges the vertices of one line are joined, but not acr
   }
 }
 
-TEST_CASE("At a crossing an edge keeps the colour of the line that runs through its other end") {
+TEST_CASE(
+    "render_scene: at a crossing an edge keeps the colour of the line that runs through its other end") {
   Mesh mesh = grid_mesh(2);
   auto line = geometry::ensure_map(mesh, geometry::attribute::line);
   auto marked = geometry::ensure_map(mesh, geometry::attribute::line_edge);
@@ -124,7 +125,7 @@ TEST_CASE("At a crossing an edge keeps the colour of the line that runs through 
   CHECK(count(lines, panel_colours.valley) == 2);
 }
 
-TEST_CASE("Strokes are drawn on the surface, face by face, a closed one to its start") {
+TEST_CASE("render_scene: strokes are drawn on the surface, face by face, a closed one to its start") {
   Mesh mesh = grid_mesh(8);
   for (Vertex v : mesh.vertices())
     mesh.point(v) = Point(mesh.point(v).x(), mesh.point(v).y(), 0.3 * std::abs(mesh.point(v).x() - 4));
@@ -145,7 +146,7 @@ TEST_CASE("Strokes are drawn on the surface, face by face, a closed one to its s
   CHECK(std::hypot(first[0] - last[0], first[1] - last[1]) < 1e-9);
 }
 
-TEST_CASE("A stroke that lies nowhere near is drawn as it is, with a warning, in its parts") {
+TEST_CASE("render_scene: a stroke that lies nowhere near is drawn as it is, with a warning, in its parts") {
   geometry::Stroke far{"far", 0.01, {Point(1, 1, 5), Point(2, 1, 5), Point(4, 4, 5), Point(5, 4, 5)},
                        false, {},   {2}};
   std::vector<std::string> warnings;
@@ -157,7 +158,7 @@ TEST_CASE("A stroke that lies nowhere near is drawn as it is, with a warning, in
   CHECK(warnings[0].find("stroke \"far\"") != std::string::npos);
 }
 
-TEST_CASE("A preview highlights the changed triangles, dots new vertices and colours lines") {
+TEST_CASE("render_scene: a preview highlights the changed triangles, dots new vertices and colours lines") {
   Mesh mesh = grid_mesh(8);
   const std::size_t before = mesh.num_vertices();
   geometry::Stroke ridge{"", 0.01, {Point(1.1, 2.3, 0), Point(6.7, 2.4, 0)}, false, {}};

@@ -33,7 +33,7 @@ double contrast(const io::Image& image) {
   return std::sqrt(std::max(0.0, sum2 / count - sum / count * (sum / count)));
 }
 
-TEST_CASE("The silhouette of a sphere has the area of its cone of sight") {
+TEST_CASE("render: the silhouette of a sphere has the area of its cone of sight") {
   const double radius = 1, distance = 5;
   const io::RenderOptions options = from_the_front(300, distance);
   const io::Image image = io::render({{sphere(radius)}, {}}, options);
@@ -48,7 +48,7 @@ TEST_CASE("The silhouette of a sphere has the area of its cone of sight") {
   CHECK(seen == Approx(expected).epsilon(0.01));
 }
 
-TEST_CASE("The corners of a picture have the colour of the background") {
+TEST_CASE("render: the corners of a picture have the colour of the background") {
   const io::Image image = io::render({{sphere(1)}, {}}, from_the_front(64, 6));
   CHECK(image.width == 64);
   CHECK(image.rgb.size() == 3u * 64 * 64);
@@ -58,7 +58,7 @@ TEST_CASE("The corners of a picture have the colour of the background") {
   CHECK(io::background_colour(0, 64)[0] > io::background_colour(63, 64)[0]);
 }
 
-TEST_CASE("The nearer of two surfaces is seen, in whatever order they come") {
+TEST_CASE("render: the nearer of two surfaces is seen, in whatever order they come") {
   const io::RenderMesh near = square({0, 0, 0.5}, 0.3, pure_red), far = square({0, 0, 0}, 0.6, pure_green);
   const io::Image a = io::render({{near, far}, {}}, from_the_front(61, 4));
   const io::Image b = io::render({{far, near}, {}}, from_the_front(61, 4));
@@ -68,7 +68,7 @@ TEST_CASE("The nearer of two surfaces is seen, in whatever order they come") {
   CHECK(is_greenish(pixel(b, 30, 44)));
 }
 
-TEST_CASE("Right is right and up is up") {
+TEST_CASE("render: right is right and up is up") {
   const io::RenderScene scene{{square({0.5, 0, 0}, 0.2, pure_red), square({0, 0.5, 0}, 0.2, pure_green)}, {}};
   const io::Image image = io::render(scene, from_the_front(60, 4));
   const int off = int(0.5 / (4 * std::tan(15 * std::numbers::pi / 180)) * 30);
@@ -78,7 +78,7 @@ TEST_CASE("Right is right and up is up") {
   CHECK(pixel(image, 30, 30 + off) == background_pixel(30 + off, 60));
 }
 
-TEST_CASE("A wide picture does not stretch what it shows") {
+TEST_CASE("render: a wide picture does not stretch what it shows") {
   io::RenderOptions options = from_the_front(60, 4);
   const io::Image tall = io::render({{square({0, 0, 0}, 0.5, pure_red)}, {}}, options);
   options.width = 100;
@@ -91,7 +91,8 @@ TEST_CASE("A wide picture does not stretch what it shows") {
   CHECK(same == 60);
 }
 
-TEST_CASE("The same picture comes from one thread and from two, and again, and in any unit of length") {
+TEST_CASE(
+    "render: the same picture comes from one thread and from two, and again, and in any unit of length") {
   io::RenderScene scene{{waves(0.02, 0.2), sphere(0.3, 24)}, {}};
   scene.lines.push_back({{{-0.4, -0.3, 0.3}, {0.4, 0.3, 0.3}}, pure_red});
   io::RenderOptions options;
@@ -111,7 +112,7 @@ TEST_CASE("The same picture comes from one thread and from two, and again, and i
   CHECK(io::render(scene, options).rgb == one.rgb);
 }
 
-TEST_CASE("A line is seen on and before a surface and hidden behind it") {
+TEST_CASE("render: a line is seen on and before a surface and hidden behind it") {
   const io::RenderMesh sheet = square({0, 0, 0}, 0.5, pure_green);
   const auto middle = [&](double z, std::optional<double> radius) {
     io::RenderOptions options = from_the_front(61, 4);
@@ -129,7 +130,7 @@ TEST_CASE("A line is seen on and before a surface and hidden behind it") {
   }
 }
 
-TEST_CASE("A line's tube is as wide as asked for, in pixels or metres") {
+TEST_CASE("render: a line's tube is as wide as asked for, in pixels or metres") {
   const auto rows = [](double pixels, std::optional<double> radius) {
     io::RenderOptions options = from_the_front(101, 4);
     options.line_radius_pixels = pixels;
@@ -146,7 +147,7 @@ TEST_CASE("A line's tube is as wide as asked for, in pixels or metres") {
   CHECK(std::abs(rows(1, 8 * pixel_size) - 16) <= 1);
 }
 
-TEST_CASE("Cloth shows its back darker, a body does not") {
+TEST_CASE("render: cloth shows its back darker, a body does not") {
   io::RenderMesh cloth = square({0, 0, 0}, 0.5, io::cloth_colour);
   const auto luminances = [&](io::Style style) {
     cloth.style = style;
@@ -161,7 +162,7 @@ TEST_CASE("Cloth shows its back darker, a body does not") {
   CHECK(body_back == Approx(body_front).margin(1));
 }
 
-TEST_CASE("Waves of half a centimetre are seen on a sheet of a metre, a flat sheet is even") {
+TEST_CASE("render: waves of half a centimetre are seen on a sheet of a metre, a flat sheet is even") {
   io::RenderOptions options = from_the_front(120, 2.5);
   options.quality = io::Quality::normal;
   const io::Image cloth = io::render({{waves(0.005, 0.1)}, {}}, options);
@@ -178,7 +179,7 @@ TEST_CASE("Waves of half a centimetre are seen on a sheet of a metre, a flat she
   CHECK(ridge_over_valley(cloth) > ridge_over_valley(io::render({{mesh}, {}}, options)) + 2);
 }
 
-TEST_CASE("What lies close over a surface shades it") {
+TEST_CASE("render: what lies close over a surface shades it") {
   const io::RenderMesh floor = grid(4, 4, [](double u, double v) {
     return io::Position{4 * u - 2, 0, 2 - 4 * v};
   });
@@ -195,7 +196,7 @@ TEST_CASE("What lies close over a surface shades it") {
   CHECK(shaded(10, 40) == Approx(1).margin(0.01));
 }
 
-TEST_CASE("Degenerate triangles and vertices of no triangle change nothing") {
+TEST_CASE("render: degenerate triangles and vertices of no triangle change nothing") {
   const io::RenderMesh plain = square({0, 0, 0}, 0.5, pure_red);
   io::RenderMesh bad = plain;
   bad.triangles.push_back({0, 0, 1});
@@ -207,7 +208,7 @@ TEST_CASE("Degenerate triangles and vertices of no triangle change nothing") {
   CHECK(io::render({{bad}, {}}, options).rgb == io::render({{plain}, {}}, options).rgb);
 }
 
-TEST_CASE("Vertex colours are blended over the triangles") {
+TEST_CASE("render: vertex colours are blended over the triangles") {
   io::RenderMesh mesh = square({0, 0, 0}, 0.5, pure_blue);
   mesh.vertex_colours = {pure_red, pure_green, pure_red, pure_green};
   for (std::size_t i = 0; i < 4; ++i)
@@ -217,7 +218,7 @@ TEST_CASE("Vertex colours are blended over the triangles") {
   CHECK(is_greenish(pixel(image, 42, 30)));
 }
 
-TEST_CASE("The automatic camera holds the framed meshes and one camera serves several scenes") {
+TEST_CASE("render: the automatic camera holds the framed meshes and one camera serves several scenes") {
   io::RenderMesh small = square({0, 0, 0}, 0.1, pure_red), large = square({0, 0, -1}, 3, pure_green);
   large.framed = false;
   io::RenderOptions options;
@@ -231,7 +232,7 @@ TEST_CASE("The automatic camera holds the framed meshes and one camera serves se
   CHECK(io::automatic_camera(both, options).target[0] == Approx(1.0));
 }
 
-TEST_CASE("Triangle colours come before all others") {
+TEST_CASE("render: triangle colours come before all others") {
   io::RenderScene scene{{square({0, 0, 0}, 0.9, pure_blue)}, {}};
   scene.meshes[0].vertex_colours.assign(4, pure_blue);
   scene.meshes[0].triangle_colours = {pure_red, pure_green};
@@ -242,7 +243,7 @@ TEST_CASE("Triangle colours come before all others") {
   CHECK_THROWS_WITH(io::render(scene, from_the_front(8, 4)), Catch::Contains("1 colours for 2 triangles"));
 }
 
-TEST_CASE("One point is a ball, as wide as asked for") {
+TEST_CASE("render: one point is a ball, as wide as asked for") {
   io::RenderScene scene{{square({0, 0, 0}, 0.9, pure_blue)}, {{{{0, 0, 0}}, pure_red, 2.5}}};
   io::RenderOptions options = from_the_front(100, 4);
   options.line_radius_pixels = 4;
@@ -256,7 +257,7 @@ TEST_CASE("One point is a ball, as wide as asked for") {
   CHECK_THROWS_WITH(io::render(scene, options), Catch::Contains("line 0: width"));
 }
 
-TEST_CASE("Parallel lines of sight show near and far alike, and as large as they are") {
+TEST_CASE("render: parallel lines of sight show near and far alike, and as large as they are") {
   // Two squares of 0.4 m, one 2 m behind the other, in a picture 2 m high.
   io::RenderScene scene{{square({-0.5, 0, 1}, 0.2, pure_red), square({0.5, 0, -1}, 0.2, pure_green)}, {}};
   io::RenderOptions options = from_the_front(100, 4);
@@ -274,7 +275,7 @@ TEST_CASE("Parallel lines of sight show near and far alike, and as large as they
   CHECK_THROWS_WITH(io::render(scene, options), Catch::Contains("parallel_height"));
 }
 
-TEST_CASE("The line of sight through a pixel leads to what the picture shows there") {
+TEST_CASE("render: the line of sight through a pixel leads to what the picture shows there") {
   io::RenderOptions options = from_the_front(100, 4);
   options.width = 140;
   options.camera = io::Camera{{0.3, 1, 4}, {0.1, 0.2, 0}, {0.2, 1, 0.1}, 35};

@@ -25,7 +25,7 @@ std::pair<int, int> ink_below(const io::Image& image, int row, int left, int rig
   return found;
 }
 
-TEST_CASE("Panels stand side by side, the lower one in the middle, on paper") {
+TEST_CASE("strip: panels stand side by side, the lower one in the middle, on paper") {
   const std::vector<io::Panel> panels{{plain(50, 80, 10), ""}, {plain(30, 40, 90), ""}};
   const io::Image strip = io::strip(panels, {0.05, 6, {1, 1, 1}, {0, 0, 0}});
   CHECK(strip.width == 6 + 50 + 6 + 30 + 6);
@@ -44,7 +44,7 @@ TEST_CASE("Panels stand side by side, the lower one in the middle, on paper") {
   CHECK(first + second + white == strip.width * strip.height);
 }
 
-TEST_CASE("Captions stand centred under their panels and inside their widths") {
+TEST_CASE("strip: captions stand centred under their panels and inside their widths") {
   const std::vector<io::Panel> panels{
       {plain(200, 200, 255), "smoothed"}, {plain(200, 200, 255), ""}, {plain(200, 200, 255), "one\ntwo"}};
   const io::Image strip = io::strip(panels, {0.06, 10, {1, 1, 1}, {0, 0, 0}});
@@ -57,7 +57,7 @@ TEST_CASE("Captions stand centred under their panels and inside their widths") {
   CHECK(ink_below(strip, 210, 425, 640).first > 430);
 }
 
-TEST_CASE("A caption that is too long makes the letters smaller, not the strip wider") {
+TEST_CASE("strip: a caption that is too long makes the letters smaller, not the strip wider") {
   const std::string text = "a caption that is far too long for a panel of a hundred pixels";
   const io::Image strip = io::strip(std::vector<io::Panel>{{plain(100, 300, 255), text}}, {0.1, 4});
   CHECK(strip.width == 108);
@@ -67,7 +67,7 @@ TEST_CASE("A caption that is too long makes the letters smaller, not the strip w
   CHECK(ink.second - ink.first > 85);
 }
 
-TEST_CASE("A strip of nothing and options out of range are refused") {
+TEST_CASE("strip: a strip of nothing and options out of range are refused") {
   const std::vector<io::Panel> good{{plain(10, 10, 1), "a"}};
   CHECK_THROWS_AS(io::strip({}), std::invalid_argument);
   CHECK_THROWS_WITH(io::strip(std::vector<io::Panel>{good[0], {{2, 2, {1}}, "b"}}),

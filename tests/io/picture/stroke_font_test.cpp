@@ -16,7 +16,7 @@ io::Image paper(int width, int height) {
   return {width, height, std::vector<std::uint8_t>(std::size_t(3 * width * height), 255)};
 }
 
-TEST_CASE("Every printable character has strokes of its own inside the line's height") {
+TEST_CASE("stroke_font: every printable character has strokes of its own inside the line's height") {
   std::set<std::vector<std::vector<std::array<double, 2>>>> seen;
   for (char c = '!'; c <= '~'; ++c) {
     INFO(c);
@@ -38,13 +38,13 @@ TEST_CASE("Every printable character has strokes of its own inside the line's he
   CHECK(io::glyph('\xe4').strokes == io::glyph('\t').strokes);
 }
 
-TEST_CASE("Text grows with its letters and its height") {
+TEST_CASE("stroke_font: text grows with its letters and its height") {
   CHECK(io::text_width("", 20) == 0);
   CHECK(io::text_width("ab", 20) > io::text_width("a", 20));
   CHECK(io::text_width("ab", 40) == Approx(2 * io::text_width("ab", 20)));
 }
 
-TEST_CASE("Drawn text fills its box and nothing outside") {
+TEST_CASE("stroke_font: drawn text fills its box and nothing outside") {
   io::Image image = paper(200, 60);
   io::draw_text(image, "HI", 30, 50, 40, {0, 0, 0});
   int left = 200, right = 0, top = 60, bottom = 0;
@@ -61,7 +61,7 @@ TEST_CASE("Drawn text fills its box and nothing outside") {
   CHECK(std::abs(bottom - 50) <= 3);
 }
 
-TEST_CASE("Text outside of the image is cut, an unusable place is refused") {
+TEST_CASE("stroke_font: text outside of the image is cut, an unusable place is refused") {
   io::Image image = paper(20, 20);
   const auto blank = image.rgb;
   io::draw_text(image, "far away", 5000, 10, 10, {0, 0, 0});

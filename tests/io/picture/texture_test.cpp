@@ -38,7 +38,7 @@ io::RenderScene shown(const std::array<double, 2>& offset = {0, 0}) {
 
 }  // namespace
 
-TEST_CASE("a texture lies on the mesh as its coordinates say, v upwards, and repeats") {
+TEST_CASE("texture: a texture lies on the mesh as its coordinates say, v upwards, and repeats") {
   for (const std::array<double, 2> offset : {std::array{0., 0.}, std::array{-3., 7.}}) {
     const io::Image image = io::render(shown(offset), from_the_front(80, 5));
     CHECK(is_reddish(pixel(image, 30, 30)));
@@ -48,7 +48,8 @@ TEST_CASE("a texture lies on the mesh as its coordinates say, v upwards, and rep
   }
 }
 
-TEST_CASE("a triangle without coordinates keeps the mesh's colour, degenerate ones take none along") {
+TEST_CASE(
+    "texture: a triangle without coordinates keeps the mesh's colour, degenerate ones take none along") {
   io::RenderScene scene = shown();
   io::RenderMesh& mesh = scene.meshes[0];
   mesh.texture_coordinates[1][2][0] = std::numeric_limits<double>::quiet_NaN();  // the upper left triangle
@@ -61,7 +62,7 @@ TEST_CASE("a triangle without coordinates keeps the mesh's colour, degenerate on
   CHECK(is_bluish(pixel(image, 50, 54)));
 }
 
-TEST_CASE("a mesh's texture coordinates go by its corners: a seam is sharp") {
+TEST_CASE("texture: a mesh's coordinates go by its corners, so a seam is sharp") {
   geometry::Mesh mesh = tests::grid(2, 2, 2, 2);
   auto texture = geometry::ensure_map(mesh, geometry::attribute::texture);
   for (auto& p : mesh.points()) p = geometry::Point(p.x() - 1, p.y() - 1, 0);
@@ -82,7 +83,7 @@ TEST_CASE("a mesh's texture coordinates go by its corners: a seam is sharp") {
                   geometry::ContentError);
 }
 
-TEST_CASE("a texture that does not fit is refused") {
+TEST_CASE("texture: a texture that does not fit is refused") {
   io::RenderScene scene = shown();
   scene.meshes[0].texture_coordinates.pop_back();
   CHECK_THROWS_AS(io::render(scene, from_the_front(8, 5)), std::invalid_argument);
@@ -91,7 +92,7 @@ TEST_CASE("a texture that does not fit is refused") {
   CHECK_THROWS_AS(io::render(scene, from_the_front(8, 5)), std::invalid_argument);
 }
 
-TEST_CASE("the checker's squares differ from their neighbours and carry a dark label") {
+TEST_CASE("texture: the checker's squares differ from their neighbours and carry a dark label") {
   const io::Image image = io::checker_texture(400, 10);
   REQUIRE(image.rgb.size() == 3u * 400 * 400);
   const auto brightness = [&](int column, int row) {

@@ -19,7 +19,8 @@ physics::TriangleMesh tetrahedron(double size) {
 
 }  // namespace
 
-TEST_CASE("a field file gives the field back for its body, and refuses another body or a cut file") {
+TEST_CASE(
+    "field_file: a field file gives the field back for its body, and refuses another body or a cut file") {
   const auto path = std::filesystem::temp_directory_path() / "furrow-field-file-test.field";
   const physics::TriangleMesh body = tetrahedron(0.5);
   const auto field = physics::DistanceField::build(body);
@@ -33,7 +34,7 @@ TEST_CASE("a field file gives the field back for its body, and refuses another b
   std::filesystem::remove(path);
 }
 
-TEST_CASE("a slice is blue inside, orange outside, black on the surface, and upright") {
+TEST_CASE("field_file: a slice is blue inside, orange outside, black on the surface, and upright") {
   struct Floor : physics::Collider {  // solid below y = 0
     physics::SignedDistance at(const physics::Vec3& x) const override { return {x.y(), {0, 1, 0}}; }
   };

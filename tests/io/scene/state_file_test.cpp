@@ -61,12 +61,12 @@ io::SavedState state() {
 
 }  // namespace
 
-TEST_CASE("a state that is read and written again has the same bytes") {
+TEST_CASE("state_file: a state that is read and written again has the same bytes") {
   const std::string bytes = io::state_bytes(state());
   CHECK(io::state_bytes(io::parse_state(bytes, "s.ply")) == bytes);
 }
 
-TEST_CASE("a state holds everything to the last bit") {
+TEST_CASE("state_file: a state holds everything to the last bit") {
   const io::SavedState was = state(), is = io::parse_state(io::state_bytes(was), "s.ply");
   const auto &a = was.simulation, &b = is.simulation;
   CHECK(a.time == b.time);
@@ -107,7 +107,9 @@ TEST_CASE("a state holds everything to the last bit") {
   for (auto f : was.file.mesh.faces()) CHECK(generation[f] == generation_read[f]);
 }
 
-TEST_CASE("a rest state that was stored element by element gives the same elements after save and load") {
+TEST_CASE(
+    "state_file: a rest state that was stored element by element gives the same elements after save and "
+    "load") {
   io::SavedState was = state();
   geometry::Mesh& mesh = was.file.mesh;
   bridge::GatherOptions o;
@@ -131,7 +133,7 @@ TEST_CASE("a rest state that was stored element by element gives the same elemen
     }
 }
 
-TEST_CASE("a state is a mesh to others, and no state is no state") {
+TEST_CASE("state_file: a state is a mesh to others, and no state is no state") {
   const std::string bytes = io::state_bytes(state());
   std::istringstream in(bytes);
   const io::MeshFile mesh = io::read_mesh(in, io::MeshFormat::ply, "s.ply");
@@ -145,7 +147,7 @@ TEST_CASE("a state is a mesh to others, and no state is no state") {
   CHECK_THROWS_AS(io::parse_state(out.str(), "s.ply"), geometry::ContentError);
 }
 
-TEST_CASE("damaged states are refused") {
+TEST_CASE("state_file: damaged states are refused") {
   const std::string bytes = io::state_bytes(state());
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string copy = bytes;

@@ -30,7 +30,7 @@ std::string error_of(const std::string& json) {
 
 }  // namespace
 
-TEST_CASE("drawn strokes: on pictures, in the texture, between vertices, in space") {
+TEST_CASE("drawn_stroke: strokes are on pictures, in the texture, between vertices, in space") {
   const auto read = drawn(R"({"camera": "cam.json", "strokes": [
     {"name": "a", "height": -0.02, "pixels": [[10, 20.5], [300, 40]]},
     {"pixels": [[1, 2], [3, 4], [5, 6]], "closed": true,
@@ -72,7 +72,7 @@ TEST_CASE("drawn strokes: on pictures, in the texture, between vertices, in spac
   CHECK(back[0].stroke.height == -0.02);
 }
 
-TEST_CASE("drawn strokes: what is not allowed is named with stroke and key") {
+TEST_CASE("drawn_stroke: what is not allowed is named with stroke and key") {
   CHECK(error_of(R"({"strokes": [{"pixles": [[0,0]]}]})") ==
         "stroke 0: unknown key 'pixles'; did you mean 'pixels'?");
   CHECK(error_of(R"({"strokes": [{"pixels": [[0,0]]}]})").find("need a 'camera'") != std::string::npos);
@@ -119,7 +119,7 @@ TEST_CASE("cameras: what is written comes back with the same bits") {
   CHECK_THROWS_AS(io::write_camera(folder / "c.json", picture), std::invalid_argument);
 }
 
-TEST_CASE("strokes are found by name and moved in their own coordinates") {
+TEST_CASE("drawn_stroke: strokes are found by name and moved in their own coordinates") {
   auto strokes = drawn(R"({"camera": "cam.json", "strokes": [
     {"name": "fold", "points": [[0, 1, 2]]}, {"name": "hem", "pixels": [[10, 20]]},
     {"name": "path", "vertices": [1, 2]}, {"name": "twin", "points": [[0,0,0]]}, {"name": "twin", "points": [[0,0,0]]}]})");
