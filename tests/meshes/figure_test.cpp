@@ -97,7 +97,7 @@ double outwardness(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("the mannequin is one closed solid of 1.70 m that stands on the ground") {
+TEST_CASE("meshes: the mannequin is one closed solid of 1.70 m that stands on the ground") {
   const Mesh mesh = committed("mannequin.obj");
   const MeshInfo info = measure(mesh);
   CHECK(info.closed);
@@ -115,7 +115,7 @@ TEST_CASE("the mannequin is one closed solid of 1.70 m that stands on the ground
   CHECK(info.box_max.x() == Approx(-info.box_min.x()).margin(0.005));
 }
 
-TEST_CASE("the mannequin has the girths of a woman") {
+TEST_CASE("meshes: the mannequin has the girths of a woman") {
   const Mesh mesh = committed("mannequin.obj");
   const auto extreme = [&](double from, double to, bool largest) {
     double value = girth(mesh, from);
@@ -128,13 +128,13 @@ TEST_CASE("the mannequin has the girths of a woman") {
   CHECK(extreme(0.80, 0.95, true) == Approx(0.95).margin(0.015));   // hip
 }
 
-TEST_CASE("the shirt has four openings and even triangles, and leaves the mannequin everywhere") {
+TEST_CASE("meshes: the shirt has four openings and even triangles, and leaves the mannequin everywhere") {
   const Mesh mesh = committed("shirt.obj");
   check_garment(mesh, 4, 0.013);
   CHECK(outwardness(mesh) > 0);
 }
 
-TEST_CASE("the skirt has two openings and even triangles, and leaves the mannequin everywhere") {
+TEST_CASE("meshes: the skirt has two openings and even triangles, and leaves the mannequin everywhere") {
   const Mesh mesh = committed("skirt.obj");
   check_garment(mesh, 2, 0.020);
   CHECK(outwardness(mesh) > 0);
@@ -143,7 +143,7 @@ TEST_CASE("the skirt has two openings and even triangles, and leaves the mannequ
   for (Vertex v : loops.at(find_border_loop(loops, "bottom")).vertices) CHECK(mesh.point(v).y() == 0.49);
 }
 
-TEST_CASE("the lines for the sheet, the skirt and the shirt are drawn whole on sound meshes") {
+TEST_CASE("meshes: the lines for the sheet, the skirt and the shirt are drawn whole on sound meshes") {
   const auto [garment, strokes, count] =
       GENERATE(table<std::string, std::string, std::size_t>({{"sheet.obj", "round_bulge.json", 3},
                                                              {"skirt.obj", "figure_skirt.json", 10},
