@@ -7,7 +7,7 @@
 
 using furrow::physics::ThreadPool;
 
-TEST_CASE("a thread pool covers the range once, round after round") {
+TEST_CASE("thread_pool: a thread pool covers the range once, round after round") {
   ThreadPool pool(GENERATE(1, 2, 3, 5));
   for (const int n : {0, 1, 2, 4, 1000}) {
     std::vector<int> touched(std::size_t(n), 0);
@@ -21,7 +21,7 @@ TEST_CASE("a thread pool covers the range once, round after round") {
   }
 }
 
-TEST_CASE("an exception of a chunk reaches the caller and the pool lives on") {
+TEST_CASE("thread_pool: an exception of a chunk reaches the caller and the pool lives on") {
   ThreadPool pool(3);
   const auto fail = [](int begin, int) {
     if (begin > 0) throw std::runtime_error("chunk at " + std::to_string(begin));
@@ -33,7 +33,7 @@ TEST_CASE("an exception of a chunk reaches the caller and the pool lives on") {
   CHECK_THROWS_AS(ThreadPool(0), std::invalid_argument);
 }
 
-TEST_CASE("thread pool: every piece is done once, whoever takes it") {
+TEST_CASE("thread_pool: every piece is done once, whoever takes it") {
   for (const int threads : {1, 2, 5}) {
     ThreadPool pool(threads);
     std::vector<int> done(100, 0);

@@ -62,7 +62,7 @@ Cloth lying_sheet(int n, double edge, double height) {
 
 }  // namespace
 
-TEST_CASE("between frames the distance is that of the body in between") {
+TEST_CASE("animated_body: between frames the distance is that of the body in between") {
   const VertexAt motion = GENERATE(shift, inflate, bend);
   const BodyFrames frames = frames_of(sphere_mesh(0.1), {0, 0.5, 1}, motion);
   AnimatedBody body(frames, fine());
@@ -78,7 +78,7 @@ TEST_CASE("between frames the distance is that of the body in between") {
   CHECK(body.frames_built() == 3);
 }
 
-TEST_CASE("between frames of depth maps, too") {
+TEST_CASE("animated_body: between frames of depth maps, too") {
   const VertexAt motion = GENERATE(shift, inflate, bend);
   const BodyFrames frames = frames_of(sphere_mesh(0.1, 64, 32), {0, 0.5, 1, 1.5}, motion);
   DepthMapOptions six;
@@ -98,7 +98,7 @@ TEST_CASE("between frames of depth maps, too") {
   CHECK(body.samples_built() == 0);
 }
 
-TEST_CASE("a body that shifts by more than its size between frames keeps its shape") {
+TEST_CASE("animated_body: a body that shifts by more than its size between frames keeps its shape") {
   const auto far = [](const Vec3& x, double t) { return Vec3(x + t * Vec3(0.3, 0, 0)); };
   AnimatedBody body(frames_of(sphere_mesh(0.1), {0, 1}, far), fine());
   body.prepare(0.5, 0.5);
@@ -110,7 +110,7 @@ TEST_CASE("a body that shifts by more than its size between frames keeps its sha
   }
 }
 
-TEST_CASE("frames are read once, in order, and two are in memory") {
+TEST_CASE("animated_body: frames are read once, in order, and two are in memory") {
   std::vector<int> reads;
   AnimatedBody body(frames_of(sphere_mesh(0.1, 8, 6), {0, 0.1, 0.2, 0.3, 0.4, 0.5}, shift, &reads));
   CHECK(reads.empty());
@@ -127,7 +127,7 @@ TEST_CASE("frames are read once, in order, and two are in memory") {
   CHECK(body.travel() == 0);
 }
 
-TEST_CASE("broken frames are refused") {
+TEST_CASE("animated_body: broken frames are refused") {
   const TriangleMesh mesh = sphere_mesh(0.1, 8, 6);
   const auto make = [&](std::vector<double> times) { return AnimatedBody(frames_of(mesh, times, shift)); };
   CHECK_THROWS_WITH(make({0}), Catch::Contains("1 frames"));
@@ -145,7 +145,7 @@ TEST_CASE("broken frames are refused") {
   CHECK_THROWS_WITH(body.prepare(0, 0.1), Catch::Contains("frame 1 has"));
 }
 
-TEST_CASE("a shifting body as frames does to cloth what the rigid one does") {
+TEST_CASE("animated_body: a shifting body as frames does to cloth what the rigid one does") {
   const TriangleMesh mesh = sphere_mesh(0.2);
   const DistanceField field = DistanceField::build(mesh, fine());
   const Vec3 v(0.3, 0.1, 0);
@@ -174,7 +174,7 @@ TEST_CASE("a shifting body as frames does to cloth what the rigid one does") {
   CHECK(worst < 1e-3);
 }
 
-TEST_CASE("a body that inflates or bends pushes cloth away and takes it along") {
+TEST_CASE("animated_body: a body that inflates or bends pushes cloth away and takes it along") {
   const VertexAt motion = GENERATE(inflate, bend);
   const bool maps = GENERATE(false, true);
   const BodyFrames frames = frames_of(sphere_mesh(0.1), {0, 0.2, 0.4, 0.6, 0.8, 1}, motion);
@@ -197,7 +197,7 @@ TEST_CASE("a body that inflates or bends pushes cloth away and takes it along") 
   CHECK(deepest == 0);
 }
 
-TEST_CASE("a particle on a conveyor of frames gains mu g", "[accuracy]") {
+TEST_CASE("animated_body: a particle on a conveyor of frames gains mu g", "[accuracy]") {
   // A long box whose vertices shift: the surface next to the particle moves, its distance does not change.
   TriangleMesh box;
   for (int i = 0; i < 8; ++i)
@@ -225,7 +225,7 @@ TEST_CASE("a particle on a conveyor of frames gains mu g", "[accuracy]") {
   CHECK(cloth.particles.v[0].x() == Approx(1).epsilon(1e-6));
 }
 
-TEST_CASE("a run over an animated body that is stopped and resumed gives the same bits") {
+TEST_CASE("animated_body: a run over an animated body that is stopped and resumed gives the same bits") {
   const BodyFrames frames = frames_of(sphere_mesh(0.1), {0, 0.1, 0.2, 0.3}, inflate);
   AnimatedBody body(frames, fine()), second(frames, fine());
   World world;

@@ -74,7 +74,7 @@ bool same_bits(const Collider& a, const Collider& b, double reach) {
 
 }  // namespace
 
-TEST_CASE("DepthMapCollider: near a ball it is the exact distance, with a smooth normal") {
+TEST_CASE("depth_map_collider: near a ball it is the exact distance, with a smooth normal") {
   const TriangleMesh m = furrow::tests::sphere(40, 0.2, {0.3, 1, -0.1});
   const ExactDistance exact(m);
   const Worst three = worst_near(DepthMapCollider(m), exact, m),
@@ -86,7 +86,7 @@ TEST_CASE("DepthMapCollider: near a ball it is the exact distance, with a smooth
   CHECK(six.angle < 0.06);  // half the angle between two triangles
 }
 
-TEST_CASE("DepthMapCollider: a ring is open to who sees through it") {
+TEST_CASE("depth_map_collider: a ring is open along a line of sight through it") {
   const TriangleMesh m = torus(0.3, 0.08);
   const ExactDistance exact(m);
   REQUIRE(exact.at({0, 0, 0}).value == Approx(0.22).epsilon(0.01));
@@ -99,7 +99,7 @@ TEST_CASE("DepthMapCollider: a ring is open to who sees through it") {
   CHECK(six.value < 8e-3);  // there, seen from above and below at a grazing angle
 }
 
-TEST_CASE("DepthMapCollider: the sides of a box along the lines of sight") {
+TEST_CASE("depth_map_collider: the sides of a box along the lines of sight are seen") {
   const Vec3 low(-0.1, 0, -0.05), high(0.1, 0.4, 0.05);
   const TriangleMesh m = furrow::tests::box(low, high);
   const DepthMapCollider collider(m);
@@ -113,7 +113,7 @@ TEST_CASE("DepthMapCollider: the sides of a box along the lines of sight") {
   }
 }
 
-TEST_CASE("DepthMapCollider: sharp edges stay sharp") {
+TEST_CASE("depth_map_collider: sharp edges stay sharp") {
   const Vec3 low(-0.1, 0, -0.05), high(0.1, 0.4, 0.05);
   const TriangleMesh m = furrow::tests::box(low, high);
   const DepthMapCollider three(m), six(m, with(DepthMaps::six));
@@ -131,7 +131,7 @@ TEST_CASE("DepthMapCollider: sharp edges stay sharp") {
   }
 }
 
-TEST_CASE("DepthMapCollider: far values are at most the distance") {
+TEST_CASE("depth_map_collider: far values are at most the distance") {
   const TriangleMesh m = furrow::tests::sphere(40, 0.2);
   const ExactDistance exact(m);
   const DepthMapCollider collider(m);
@@ -154,7 +154,7 @@ TEST_CASE("DepthMapCollider: far values are at most the distance") {
   CHECK(std::isnan(collider.at({0, std::numeric_limits<double>::quiet_NaN(), 0}).value));
 }
 
-TEST_CASE("DepthMapCollider: points that lie in a body come out") {
+TEST_CASE("depth_map_collider: points that lie in a body come out") {
   const TriangleMesh m = torus(0.3, 0.08);
   const ExactDistance exact(m);
   const DepthMapCollider collider(m);
@@ -173,7 +173,7 @@ TEST_CASE("DepthMapCollider: points that lie in a body come out") {
   for (const Vec3& p : x) CHECK(exact.at(p).value > 0.0025);
 }
 
-TEST_CASE("DepthMapCollider: the same bits by rebuild, and with any number of threads") {
+TEST_CASE("depth_map_collider: it has the same bits by rebuild, and with any number of threads") {
   TriangleMesh m = torus(0.3, 0.08);
   DepthMapCollider moved(m, with(DepthMaps::six, 200));
   TriangleMesh other = m;
@@ -188,7 +188,7 @@ TEST_CASE("DepthMapCollider: the same bits by rebuild, and with any number of th
   CHECK(same_bits(moved, DepthMapCollider(m, with(DepthMaps::six, 200)), 0.4));
 }
 
-TEST_CASE("DepthMapCollider: another up and front are a turn of the body") {
+TEST_CASE("depth_map_collider: another up and front are a turn of the body") {
   const TriangleMesh m = torus(0.3, 0.08);
   const auto turned = [](const Vec3& x) { return Vec3(x[2], x[0], x[1]); };  // y, up, becomes z
   TriangleMesh other = m;
@@ -206,7 +206,7 @@ TEST_CASE("DepthMapCollider: another up and front are a turn of the body") {
   }
 }
 
-TEST_CASE("DepthMapCollider: bad options and bodies are refused, and a refused rebuild changes nothing") {
+TEST_CASE("depth_map_collider: bad options and bodies are refused, and a refused rebuild changes nothing") {
   const TriangleMesh m = furrow::tests::sphere(8, 0.2);
   const auto refuse = [&](const char* name, auto change) {
     DepthMapOptions options;

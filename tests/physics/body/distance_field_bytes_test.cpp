@@ -37,7 +37,7 @@ void seal(Bytes& block) {
 
 }  // namespace
 
-TEST_CASE("a field goes through its bytes unchanged") {
+TEST_CASE("distance_field: a field goes through its bytes unchanged") {
   for (GradientRule rule : {GradientRule::exact_derivative, GradientRule::interpolated_corners}) {
     const DistanceField field = small_field(rule, 1);
     const Bytes bytes = field.to_bytes();
@@ -55,14 +55,14 @@ TEST_CASE("a field goes through its bytes unchanged") {
   }
 }
 
-TEST_CASE("a field has the same bits for one, two and three threads, and again") {
+TEST_CASE("distance_field: a field has the same bits for one, two and three threads, and again") {
   const Bytes one = small_field(GradientRule::exact_derivative, 1).to_bytes();
   CHECK(small_field(GradientRule::exact_derivative, 1).to_bytes() == one);
   CHECK(small_field(GradientRule::exact_derivative, 2).to_bytes() == one);
   CHECK(small_field(GradientRule::exact_derivative, 3).to_bytes() == one);
 }
 
-TEST_CASE("cut and damaged blocks are refused") {
+TEST_CASE("distance_field: cut and damaged blocks are refused") {
   const Bytes bytes = small_field(GradientRule::exact_derivative, 1, 5).to_bytes();
   CHECK_THROWS_AS(DistanceField::from_bytes({}), std::invalid_argument);
   CHECK(rc::check([&] {
@@ -74,7 +74,8 @@ TEST_CASE("cut and damaged blocks are refused") {
   CHECK_THROWS_WITH(DistanceField::from_bytes(other), Catch::Contains("checksum"));
 }
 
-TEST_CASE("blocks that contradict themselves are refused or harmless, even with a right checksum") {
+TEST_CASE(
+    "distance_field: blocks that contradict themselves are refused or harmless, even with a right checksum") {
   const Bytes bytes = small_field(GradientRule::exact_derivative, 1, 5).to_bytes();
   int refused = 0;
   CHECK(rc::check([&] {

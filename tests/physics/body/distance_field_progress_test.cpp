@@ -8,7 +8,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("DistanceField: progress never falls, ends at 1, comes from the caller's thread, changes no bit") {
+TEST_CASE("distance_field: progress never falls, ends at 1, comes from the caller's thread, changes no bit") {
   const TriangleMesh ball = sphere(12, 0.3);
   const auto silent = DistanceField::build(ball);
   for (const int threads : {1, 3}) {
@@ -31,7 +31,7 @@ TEST_CASE("DistanceField: progress never falls, ends at 1, comes from the caller
   }
 }
 
-TEST_CASE("DistanceField: a build is cancelled where its progress says no, or throws") {
+TEST_CASE("distance_field: a build is cancelled where its progress says no, or throws") {
   const TriangleMesh ball = sphere(12, 0.3);
   for (const int threads : {1, 3})
     for (const int allowed : {0, 7}) {
@@ -45,7 +45,7 @@ TEST_CASE("DistanceField: a build is cancelled where its progress says no, or th
     }
 }
 
-TEST_CASE("DistanceField: a tolerance that asks for too much is cancelled, not waited for") {
+TEST_CASE("distance_field: a tolerance that asks for too much is cancelled, not waited for") {
   DistanceFieldOptions options;
   options.tolerance = 1e-9;
   options.max_depth = 12;

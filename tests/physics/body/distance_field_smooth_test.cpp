@@ -38,7 +38,7 @@ double jump(const DistanceField& field, const Vec3& x, int axis, bool smooth) {
 
 }  // namespace
 
-TEST_CASE("a smooth distance has no kinks where the sampled one has") {
+TEST_CASE("distance_field: a smooth distance has no kinks where the sampled one has") {
   const DistanceField field = ball();
   std::mt19937_64 random(3);
   double sampled = 0, smooth = 0, in_value = 0, border = 0;
@@ -58,7 +58,7 @@ TEST_CASE("a smooth distance has no kinks where the sampled one has") {
   CHECK(in_value > 0);
 }
 
-TEST_CASE("a smooth distance's gradient is its value's derivative, at faces, too") {
+TEST_CASE("distance_field: a smooth distance's gradient is its value's derivative, at faces, too") {
   const DistanceField field = ball();
   std::mt19937_64 random(4);
   for (int i = 0; i < 300; ++i) {
@@ -73,7 +73,8 @@ TEST_CASE("a smooth distance's gradient is its value's derivative, at faces, too
   }
 }
 
-TEST_CASE("a smooth distance is the sampled one's away from faces, and of no number for none") {
+TEST_CASE(
+    "distance_field: a smooth distance is the sampled one's away from faces, and of no number for none") {
   const DistanceField field = ball();
   std::mt19937_64 random(5);
   const double cell = field.size() / 1024;
@@ -87,7 +88,7 @@ TEST_CASE("a smooth distance is the sampled one's away from faces, and of no num
   CHECK(field.smooth_at(far).value == Approx(field.at(far).value));
 }
 
-TEST_CASE("a posed body is as smooth as the body") {
+TEST_CASE("distance_field: a posed body is as smooth as the body") {
   const DistanceField field = ball();
   const Pose pose{Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vec3::UnitZ())), Vec3(1, 2, 3)};
   const PosedCollider posed(field, pose);

@@ -121,7 +121,7 @@ void check_against_samples(const char* mesh, const char* csv) {
 
 }  // namespace
 
-TEST_CASE("the field of a real body that crosses itself keeps its error bounds") {
+TEST_CASE("distance_field: the field of a real body that crosses itself keeps its error bounds") {
   if (!furrow::tests::have_shared()) {
     WARN("skipped: no shared data");
     return;
@@ -129,7 +129,7 @@ TEST_CASE("the field of a real body that crosses itself keeps its error bounds")
   check_against_samples("pairs/mh_male/body.obj", "accuracy/mh_male_body_sdf.csv");
 }
 
-TEST_CASE("the field of a torus keeps its error bounds") {
+TEST_CASE("distance_field: the field of a torus keeps its error bounds") {
   if (!furrow::tests::have_shared()) {
     WARN("skipped: no shared data");
     return;
@@ -137,7 +137,9 @@ TEST_CASE("the field of a torus keeps its error bounds") {
   check_against_samples("closed/torus.obj", "accuracy/torus_sdf.csv");
 }
 
-TEST_CASE("the field of a sphere is continuous, close to the analytic one, and its gradient is its slope") {
+TEST_CASE(
+    "distance_field: the field of a sphere is continuous, close to the analytic one, and its gradient is its "
+    "slope") {
   const TriangleMesh m = furrow::tests::sphere(48, 0.5, {1, 2, 3});
   const DistanceField field = DistanceField::build(m, with_tolerance(1e-3));
   CHECK(field.report().sign.rule == SignRule::pseudonormal);
@@ -158,7 +160,7 @@ TEST_CASE("the field of a sphere is continuous, close to the analytic one, and i
   CHECK(gradient_error < 0.2);
 }
 
-TEST_CASE("the field of a box is close to the analytic one and exact on its sides") {
+TEST_CASE("distance_field: the field of a box is close to the analytic one and exact on its sides") {
   const Vec3 low(-0.2, -0.1, 0), high(0.2, 0.15, 0.3);
   const DistanceField field = DistanceField::build(furrow::tests::box(low, high), with_tolerance(5e-4));
   CHECK(rc::check([&] {
@@ -172,7 +174,7 @@ TEST_CASE("the field of a box is close to the analytic one and exact on its side
   CHECK((field.at({0, 0.02, 0.31}).gradient - Vec3(0, 0, 1)).norm() < 1e-5);
 }
 
-TEST_CASE("a finer tolerance means a smaller error", "[accuracy]") {
+TEST_CASE("distance_field: a finer tolerance means a smaller error", "[accuracy]") {
   const TriangleMesh m = furrow::tests::box({-0.2, -0.1, 0}, {0.2, 0.15, 0.3});
   const ExactDistance exact(m);
   double before = 1;
@@ -184,7 +186,7 @@ TEST_CASE("a finer tolerance means a smaller error", "[accuracy]") {
   }
 }
 
-TEST_CASE("outside the cube the value goes on continuously and the gradient points away") {
+TEST_CASE("distance_field: outside the cube the value goes on continuously and the gradient points away") {
   const DistanceField field = DistanceField::build(furrow::tests::sphere(16, 0.3), with_tolerance(2e-3));
   CHECK(rc::check([&] {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
@@ -204,7 +206,7 @@ TEST_CASE("outside the cube the value goes on continuously and the gradient poin
   CHECK(field.at({1e6, 1e6, -1e6}).value == Approx(std::sqrt(3.0) * 1e6).epsilon(1e-3));
 }
 
-TEST_CASE("interpolated corner gradients are continuous and near the exact direction") {
+TEST_CASE("distance_field: interpolated corner gradients are continuous and near the exact direction") {
   DistanceFieldOptions options = with_tolerance(1e-3);
   options.gradient = GradientRule::interpolated_corners;
   const TriangleMesh m = furrow::tests::sphere(32, 0.4);
@@ -229,7 +231,7 @@ TEST_CASE("interpolated corner gradients are continuous and near the exact direc
   CHECK(error < 0.2);
 }
 
-TEST_CASE("one triangle has a field: a sheet without an inside") {
+TEST_CASE("distance_field: one triangle has one, as a sheet without an inside") {
   TriangleMesh m;
   m.vertices = {{0, 0, 0}, {0.3, 0, 0}, {0, 0.3, 0}};
   m.triangles = {{0, 1, 2}};
@@ -240,7 +242,7 @@ TEST_CASE("one triangle has a field: a sheet without an inside") {
   CHECK(largest_jump(field, 2000) < 1e-6);
 }
 
-TEST_CASE("the default tolerance is the thousandth part of the diagonal, at most 2 mm") {
+TEST_CASE("distance_field: the default tolerance is the thousandth part of the diagonal, at most 2 mm") {
   DistanceFieldOptions options;
   options.max_depth = 5;
   options.band_depth = 5;
@@ -251,7 +253,7 @@ TEST_CASE("the default tolerance is the thousandth part of the diagonal, at most
         2e-3);
 }
 
-TEST_CASE("bad options and bodies are refused by name") {
+TEST_CASE("distance_field: bad options and bodies are refused by name") {
   const TriangleMesh m = furrow::tests::box({0, 0, 0}, {1, 1, 1});
   const auto refused = [&](auto change, const char* name) {
     DistanceFieldOptions options;

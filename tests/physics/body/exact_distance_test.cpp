@@ -47,7 +47,7 @@ double wrong_signs(const ExactDistance& exact, double reach, double away, Inside
 
 }  // namespace
 
-TEST_CASE("the exact distance of a box is the analytic one, value and gradient") {
+TEST_CASE("exact_distance: the exact distance of a box is the analytic one, value and gradient") {
   const Vec3 low(-0.3, -0.2, 0.1), high(0.5, 0.4, 0.6);
   const ExactDistance exact(furrow::tests::box(low, high));
   CHECK(exact.report().rule == SignRule::pseudonormal);
@@ -62,7 +62,7 @@ TEST_CASE("the exact distance of a box is the analytic one, value and gradient")
   }));
 }
 
-TEST_CASE("the exact distance agrees with the reference samples of a body and a torus") {
+TEST_CASE("exact_distance: the exact distance agrees with the reference samples of a body and a torus") {
   if (!furrow::tests::have_shared()) {
     WARN("skipped: no shared data");
     return;
@@ -71,7 +71,7 @@ TEST_CASE("the exact distance agrees with the reference samples of a body and a 
   check_against("closed/torus.obj", "accuracy/torus_sdf.csv");
 }
 
-TEST_CASE("a soup without shared vertices has the same sign") {
+TEST_CASE("exact_distance: a soup without shared vertices has the same sign") {
   const TriangleMesh m = furrow::tests::sphere(16, 1);
   TriangleMesh soup;
   for (const auto& t : m.triangles) {
@@ -84,7 +84,9 @@ TEST_CASE("a soup without shared vertices has the same sign") {
   CHECK(wrong_signs(exact, 1.5, 0.02, [](const Vec3& x) { return x.norm() < 1; }) == 0);
 }
 
-TEST_CASE("two overlapping spheres: whole inner walls stay walls only where they cross, no sign is wrong") {
+TEST_CASE(
+    "exact_distance: of two overlapping spheres inner walls stay walls only where they cross, no sign is "
+    "wrong") {
   TriangleMesh m = furrow::tests::sphere(24, 1, {-0.5, 0, 0});
   furrow::tests::append(m, furrow::tests::sphere(24, 1, {0.5, 0.01, 0.02}));
   const ExactDistance exact(m);
@@ -100,7 +102,7 @@ TEST_CASE("two overlapping spheres: whole inner walls stay walls only where they
   CHECK(exact.at({0, 0, 0}).value < -0.6);  // the lens between the spheres is no wall any more
 }
 
-TEST_CASE("a body inside a body is an inner wall") {
+TEST_CASE("exact_distance: a body inside a body is an inner wall") {
   TriangleMesh m = furrow::tests::sphere(16, 1);
   furrow::tests::append(m, furrow::tests::box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}));
   const ExactDistance exact(m);
@@ -108,7 +110,7 @@ TEST_CASE("a body inside a body is an inner wall") {
   CHECK(exact.at({0, 0, 0}).value < -0.9);
 }
 
-TEST_CASE("a cavity with its faces turned inwards stays outside") {
+TEST_CASE("exact_distance: a cavity with its faces turned inwards stays outside") {
   TriangleMesh m = furrow::tests::sphere(16, 1),
                hole = furrow::tests::box({-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3});
   for (auto& t : hole.triangles) std::swap(t[0], t[1]);
@@ -119,7 +121,7 @@ TEST_CASE("a cavity with its faces turned inwards stays outside") {
   CHECK(exact.at({0.5, 0, 0}).value == Approx(-0.2));
 }
 
-TEST_CASE("flipped and missing triangles leave the sign right away from the surface") {
+TEST_CASE("exact_distance: flipped and missing triangles leave the sign right away from the surface") {
   TriangleMesh flipped = furrow::tests::sphere(24, 1), open = flipped;
   for (std::size_t t = 0; t < flipped.triangles.size(); t += 20)
     std::swap(flipped.triangles[t][0], flipped.triangles[t][1]);
@@ -135,7 +137,7 @@ TEST_CASE("flipped and missing triangles leave the sign right away from the surf
   CHECK(wrong_signs(of_open, 1.3, 0.1, inside) == 0);
 }
 
-TEST_CASE("a sample with the help of a neighbour is the sample without") {
+TEST_CASE("exact_distance: a sample with the help of a neighbour is the sample without") {
   TriangleMesh m = furrow::tests::sphere(12, 1);
   furrow::tests::append(m, furrow::tests::sphere(12, 0.7, {0.8, 0, 0}));
   for (bool open : {false, true}) {
@@ -155,7 +157,7 @@ TEST_CASE("a sample with the help of a neighbour is the sample without") {
   }
 }
 
-TEST_CASE("penetration counts and measures points inside") {
+TEST_CASE("exact_distance: penetration counts and measures points inside") {
   const ExactDistance exact(furrow::tests::box({0, 0, 0}, {1, 1, 1}));
   const std::vector<Vec3> points{{0.5, 0.5, 0.1}, {0.5, 0.5, 2}, {0.9, 0.5, 0.5}, {0.5, 0.5, 0.3}};
   const Penetration p = penetration(exact, points);
@@ -164,7 +166,7 @@ TEST_CASE("penetration counts and measures points inside") {
   CHECK(penetration(exact, {}).inside == 0);
 }
 
-TEST_CASE("one triangle is a body without an inside, unusable bodies are refused") {
+TEST_CASE("exact_distance: one triangle is a body without an inside, unusable bodies are refused") {
   TriangleMesh m;
   m.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   CHECK_THROWS_AS(ExactDistance(m), std::invalid_argument);

@@ -31,7 +31,7 @@ RigidMotion tumble() {
 
 }  // namespace
 
-TEST_CASE("no motion is the identity, and a keyframe holds before and after") {
+TEST_CASE("rigid_motion: no motion is the identity, and a keyframe holds before and after") {
   CHECK(equal(pose({}, 7), Pose{}, 1e-300));
   CHECK(at_rest({}));
   CHECK(is_identity({}));
@@ -49,7 +49,7 @@ TEST_CASE("no motion is the identity, and a keyframe holds before and after") {
   CHECK(pose(motion, 1.5).translation.z() == 3.5);
 }
 
-TEST_CASE("keyframes are met, a uniform motion stays uniform and no coordinate overshoots") {
+TEST_CASE("rigid_motion: keyframes are met, a uniform motion stays uniform and no coordinate overshoots") {
   const RigidMotion motion = tumble();
   RigidMotion keys = motion;
   keys.spin.reset();
@@ -76,7 +76,7 @@ TEST_CASE("keyframes are met, a uniform motion stays uniform and no coordinate o
   }
 }
 
-TEST_CASE("the velocity has no jumps") {
+TEST_CASE("rigid_motion: the velocity has no jumps") {
   const RigidMotion motion = tumble();
   const Vec3 x(0.3, -0.2, 0.5);
   const double h = 1e-6;
@@ -88,7 +88,7 @@ TEST_CASE("the velocity has no jumps") {
   }
 }
 
-TEST_CASE("a spin runs up over its ramp, turns about its axis and is carried along") {
+TEST_CASE("rigid_motion: a spin runs up over its ramp, turns about its axis and is carried along") {
   const Spin spin{Vec3(1, 0, 0), Vec3(0, 3, 0), 2, 0.5, 1};
   CHECK(spin_angle(spin, 0.5) == 0);
   CHECK(spin_rate(spin, 0.4) == 0);
@@ -110,7 +110,7 @@ TEST_CASE("a spin runs up over its ramp, turns about its axis and is carried alo
   CHECK((pose(motion, 2.5).to_world({1, 7, 0}) - Vec3(1, 7, 5)).norm() < 1e-14);
 }
 
-TEST_CASE("a broken rigid motion is refused") {
+TEST_CASE("rigid_motion: a broken rigid motion is refused") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](RigidMotion motion, const char* text) {
     CHECK_THROWS_WITH(check(motion), Catch::Contains(text));

@@ -44,7 +44,7 @@ double by_brute_force(const TriangleMesh& m, const Vec3& x) {
 
 }  // namespace
 
-TEST_CASE("the closest point is the one of an exhaustive search") {
+TEST_CASE("triangle_bvh: the closest point is the one of an exhaustive search") {
   CHECK(rc::check([] {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
     const int count = *rc::gen::inRange(1, 200);
@@ -62,7 +62,7 @@ TEST_CASE("the closest point is the one of an exhaustive search") {
   }));
 }
 
-TEST_CASE("the closest point agrees with CGAL's tree on a dense sphere, also from its centre") {
+TEST_CASE("triangle_bvh: the closest point agrees with CGAL's tree on a dense sphere, also from its centre") {
   using Kernel = CGAL::Simple_cartesian<double>;
   using Triangles = std::vector<Kernel::Triangle_3>;
   const TriangleMesh m = furrow::tests::sphere(40, 0.8, {5, -3, 2});
@@ -82,7 +82,7 @@ TEST_CASE("the closest point agrees with CGAL's tree on a dense sphere, also fro
   }
 }
 
-TEST_CASE("dropped triangles are not found, and one must stay") {
+TEST_CASE("triangle_bvh: dropped triangles are not found, and one must stay") {
   const TriangleMesh m = furrow::tests::box({0, 0, 0}, {1, 1, 1});
   TriangleBvh bvh(m);
   std::vector<char> dropped(12, 1);
@@ -94,7 +94,7 @@ TEST_CASE("dropped triangles are not found, and one must stay") {
   CHECK_THROWS_AS(bvh.drop(std::vector<char>(3, 0)), std::invalid_argument);
 }
 
-TEST_CASE("the feature of a closest point tells face, edge and corner") {
+TEST_CASE("triangle_bvh: the feature of a closest point tells face, edge and corner") {
   const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
   CHECK(closest_on_triangle({0.2, 0.2, 3}, a, b, c).feature == Feature::face);
   CHECK(closest_on_triangle({0.5, -1, 3}, a, b, c).feature == Feature::edge01);
@@ -106,7 +106,7 @@ TEST_CASE("the feature of a closest point tells face, edge and corner") {
   CHECK((closest_on_triangle({0.4, 5, 0}, a, b, Vec3(0.5, 0, 0)).point - Vec3(0.4, 0, 0)).norm() < 1e-15);
 }
 
-TEST_CASE("crossed triangles are found, neighbours and flat faces are not taken for them") {
+TEST_CASE("triangle_bvh: crossed triangles are found, neighbours and flat faces are not taken for them") {
   const auto crossed_of = [](const TriangleMesh& m) {
     const auto crossed = crossed_triangles(TriangleBvh(m), surface_topology(m));
     return std::count(crossed.begin(), crossed.end(), 1);
@@ -124,7 +124,7 @@ TEST_CASE("crossed triangles are found, neighbours and flat faces are not taken 
   CHECK(crossed_of(fold) == 2);
 }
 
-TEST_CASE("the topology counts borders, irregular edges and merged vertices") {
+TEST_CASE("triangle_bvh: the topology counts borders, irregular edges and merged vertices") {
   TriangleMesh m = furrow::tests::box({0, 0, 0}, {1, 1, 1});
   CHECK(surface_topology(m).closed);
   TriangleMesh soup;

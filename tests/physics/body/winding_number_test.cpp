@@ -25,7 +25,7 @@ Vec3 random_point(std::mt19937_64& random, double reach) {
 
 }  // namespace
 
-TEST_CASE("the winding number of a closed body is 1 inside and 0 outside") {
+TEST_CASE("winding_number: the winding number of a closed body is 1 inside and 0 outside") {
   const TriangleMesh m = furrow::tests::sphere(24, 1);
   const TriangleBvh bvh(m);
   const WindingNumber w(bvh);
@@ -38,7 +38,7 @@ TEST_CASE("the winding number of a closed body is 1 inside and 0 outside") {
   }
 }
 
-TEST_CASE("the fast winding number follows the exact sum on open and flipped bodies") {
+TEST_CASE("winding_number: the fast winding number follows the exact sum on open and flipped bodies") {
   CHECK(rc::check([] {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
     TriangleMesh m = furrow::tests::sphere(10, 1);
@@ -58,7 +58,7 @@ TEST_CASE("the fast winding number follows the exact sum on open and flipped bod
   }));
 }
 
-TEST_CASE("where two bodies overlap the winding number is 2") {
+TEST_CASE("winding_number: where two bodies overlap the winding number is 2") {
   TriangleMesh m = furrow::tests::sphere(20, 1);
   furrow::tests::append(m, furrow::tests::sphere(20, 1, {1, 0, 0}));
   const TriangleBvh bvh(m);
@@ -69,7 +69,7 @@ TEST_CASE("where two bodies overlap the winding number is 2") {
   CHECK(w.at({3, 0, 0}) == Approx(0).margin(0.03));
 }
 
-TEST_CASE("half of the directions from the middle of an open half sphere hit it") {
+TEST_CASE("winding_number: half of the directions from the middle of an open half sphere hit it") {
   TriangleMesh m = furrow::tests::sphere(30, 1), half;
   half.vertices = m.vertices;
   for (const auto& [a, b, c] : m.triangles)

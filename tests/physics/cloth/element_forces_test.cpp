@@ -23,7 +23,7 @@ Cloth all_kinds() {
 
 }  // namespace
 
-TEST_CASE("element forces: those of all elements with their energy, the same bits on any number of threads") {
+TEST_CASE("element_forces: all elements with their energy have the same bits on any number of threads") {
   const Cloth cloth = all_kinds();
   const std::vector<Vec3>& x = cloth.particles.x;
   std::vector<Vec3> whole(x.size(), Vec3::Zero()), first;
@@ -45,7 +45,7 @@ TEST_CASE("element forces: those of all elements with their energy, the same bit
   }
 }
 
-TEST_CASE("element forces: bad elements and lengths are refused") {
+TEST_CASE("element_forces: bad elements and lengths are refused") {
   Cloth cloth = all_kinds();
   ThreadPool pool(1);
   ElementForces elements(cloth);

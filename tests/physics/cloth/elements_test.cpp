@@ -9,7 +9,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("springs behind one door: derivatives agree with finite differences") {
+TEST_CASE("elements: derivatives of springs agree with finite differences") {
   for (int seed = 1; seed <= 5; ++seed) {
     Cloth cloth = sheet(4, 3, 0.1, 0.2, seed, 300, 40);
     Noise noise(seed);

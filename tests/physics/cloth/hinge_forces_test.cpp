@@ -44,7 +44,7 @@ Cloth crumpled(int seed, HingeLaw law) {
 
 }  // namespace
 
-TEST_CASE("a dihedral angle is signed: ridges count positive") {
+TEST_CASE("dihedral: an angle is signed, ridges count positive") {
   for (const double theta : {-3.1, -2.0, -0.5, -1e-9, 0.0, 1e-9, 0.3, 1.7, 3.1})
     CHECK(angle_of(book(theta)) == Approx(theta).epsilon(1e-12).margin(1e-16));
   const auto x = book(0.3).particles.x;
@@ -83,7 +83,7 @@ TEST_CASE("hinges: no total force or moment, and rigid motions change nothing") 
   CHECK(potential_energy(cloth, turned) == Approx(potential_energy(cloth, x)).epsilon(1e-11));
 }
 
-TEST_CASE("tips are pushed along the flaps' normals with moment over distance, back to rest") {
+TEST_CASE("hinge_forces: tips are pushed along the flaps' normals with moment over distance, back to rest") {
   // Paper 2: F = N/d, N = c (cos theta - 1); the linear law has N = -k theta.
   for (const double theta : {-2.5, -1.0, -0.1, 0.1, 1.0, 2.5}) {
     for (const HingeLaw law : {HingeLaw::linear, HingeLaw::cosine}) {
@@ -104,7 +104,7 @@ TEST_CASE("tips are pushed along the flaps' normals with moment over distance, b
   }
 }
 
-TEST_CASE("the cosine hinge has no stiffness about rest, and its energy no cancellation") {
+TEST_CASE("hinge_forces: the cosine hinge has no stiffness about rest, and its energy no cancellation") {
   CHECK(hinge_moment(HingeLaw::cosine, 2, 0).curvature == 0);
   CHECK(hinge_moment(HingeLaw::cosine, 2, 1e-6).moment == Approx(1e-12).epsilon(1e-10));
   CHECK(hinge_moment(HingeLaw::cosine, 2, -1e-6).moment == Approx(-1e-12).epsilon(1e-10));
@@ -113,7 +113,7 @@ TEST_CASE("the cosine hinge has no stiffness about rest, and its energy no cance
         Approx(hinge_moment(HingeLaw::cosine, 1, 0.1 - 1e-12).energy).epsilon(1e-10));
 }
 
-TEST_CASE("a moment jumps opposite the rest angle only") {
+TEST_CASE("hinge_forces: a moment jumps opposite the rest angle only") {
   const HingeLaw law = GENERATE(HingeLaw::linear, HingeLaw::cosine);
   const auto moment = [&](double theta, double rest) {
     return hinge_moment(law, 1, bend(angle_of(book(theta)), rest)).moment;
@@ -126,7 +126,7 @@ TEST_CASE("a moment jumps opposite the rest angle only") {
   for (const double rest : {-3.0, -1.0, 0.5, 3.1}) CHECK(moment(rest, rest) == Approx(0).margin(1e-12));
 }
 
-TEST_CASE("a cylinder of hinges has the bending energy of a plate") {
+TEST_CASE("hinge_forces: a cylinder of hinges has the bending energy of a plate") {
   // Isometric: 1/2 B kappa^2 an area. Equilateral triangles with an edge along the axis are right in the
   // mean.
   const double rigidity = 2e-3, radius = 5, edge = 0.1;

@@ -43,7 +43,7 @@ TEST_CASE("membrane: derivatives agree with finite differences at random configu
   }
 }
 
-TEST_CASE("membrane patch test: an affine map has the energy of the formula, no force on the inside") {
+TEST_CASE("membrane: an affine map has the energy of the formula, no force on the inside") {
   Cloth cloth = membrane_sheet(3);
   const double area = whole_area(cloth), lambda = cloth.membrane[0].lambda, mu = cloth.membrane[0].mu;
   Noise noise(17);

@@ -8,7 +8,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("pinned particles lose velocity and inverse mass and keep their mass") {
+TEST_CASE("pins: pinned particles lose velocity and inverse mass and keep their mass") {
   Cloth cloth = sheet(3, 3, 0.1);
   for (Vec3& v : cloth.particles.v) v = Vec3(1, 2, 3);
   const Particles before = cloth.particles;
@@ -21,7 +21,7 @@ TEST_CASE("pinned particles lose velocity and inverse mass and keep their mass")
   }
 }
 
-TEST_CASE("a pin out of range is refused and pins nothing") {
+TEST_CASE("pins: a pin out of range is refused and pins nothing") {
   Cloth cloth = sheet(3, 3, 0.1);
   const Particles before = cloth.particles;
   for (const int bad : {-1, 9}) {
@@ -30,7 +30,7 @@ TEST_CASE("a pin out of range is refused and pins nothing") {
   }
 }
 
-TEST_CASE("hinges between a held and a free flap count double, others do not") {
+TEST_CASE("pins: hinges between a held and a free flap count double, others do not") {
   // A row of triangles 0 1 2, 1 3 2, 3 5 2 ... : hinges over (1,2), (2,3), (3,4).
   Cloth cloth;
   cloth.particles.inv_mass.assign(6, 1);

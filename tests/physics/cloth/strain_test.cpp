@@ -8,7 +8,7 @@
 
 using namespace furrow::physics;
 
-TEST_CASE("strain statistics of known strains") {
+TEST_CASE("strain: known strains have their statistics") {
   std::vector<Vec3> x{Vec3::Zero()};
   std::vector<Spring> springs;
   for (int i = 1; i <= 200; ++i) {  // strains 0.001, 0.002 … 0.2, every second one compressed
@@ -24,7 +24,7 @@ TEST_CASE("strain statistics of known strains") {
   CHECK(std::isnan(strain_statistics(x, springs).max));
 }
 
-TEST_CASE("kinetic energy leaves pinned particles out") {
+TEST_CASE("strain: kinetic energy leaves pinned particles out") {
   Particles p{{Vec3::Zero(), Vec3::Zero()}, {{3, 4, 0}, {1, 0, 0}}, {2, 7}, {0.5, 1.0 / 7}};
   CHECK(kinetic_energy(p) == Approx(28.5));
   p.inv_mass[1] = 0;

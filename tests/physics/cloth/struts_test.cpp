@@ -64,7 +64,7 @@ TEST_CASE("struts: bending springs stay and no force appears") {
         Approx(potential_energy(before, cloth.particles.x)).epsilon(1e-12));
 }
 
-TEST_CASE("struts of a width: as long on a fine mesh as on a coarse one, and about as many") {
+TEST_CASE("struts: those of a width are as long on a fine mesh as on a coarse one, and about as many") {
   std::vector<int> counts;
   for (const int n : {9, 17, 49}) {  // squares of an eighth of the width, and finer ones
     Cloth cloth = sheet(n, n, 0.8 / (n - 1), 0, 1, 300, 0);

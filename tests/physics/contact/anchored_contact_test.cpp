@@ -10,7 +10,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("anchored contact: forces are derivatives of its energy") {
+TEST_CASE("anchored_contact: forces are derivatives of its energy") {
   const Sphere ball(Vec3::Zero(), 0.1);
   Cloth cloth;
   const Vec3 out = Vec3(0.3, 0.9, 0.2).normalized();
@@ -50,7 +50,7 @@ TEST_CASE("anchored contact: forces are derivatives of its energy") {
   }
 }
 
-TEST_CASE("anchored contact: stiffness is the derivative of its forces") {
+TEST_CASE("anchored_contact: stiffness is the derivative of its forces") {
   const Floor floor;  // no curvature, which stiffness leaves out
   Cloth cloth;
   for (const double depth : {0.0002, 0.0008, 0.002})
@@ -86,7 +86,7 @@ TEST_CASE("anchored contact: stiffness is the derivative of its forces") {
 }
 
 TEST_CASE(
-    "anchored contact: between two walls there is room from the next look on, and friction follows it") {
+    "anchored_contact: between two walls there is room from the next look on, and friction follows it") {
   struct Walls : Collider {  // 4 mm apart
     SignedDistance at(const Vec3& x) const override {
       return x.x() < 0 ? SignedDistance{0.002 + x.x(), Vec3::UnitX()}
@@ -115,7 +115,7 @@ TEST_CASE(
   CHECK(contact.energy() == 0);
 }
 
-TEST_CASE("anchored contact: a push without a direction keeps its energy") {
+TEST_CASE("anchored_contact: a push without a direction keeps its energy") {
   struct Flat : Collider {
     SignedDistance at(const Vec3&) const override { return {0.001, Vec3::Zero()}; }
   } flat;

@@ -43,7 +43,7 @@ std::pair<double, double> slide(double tan_angle, const SimulateOptions& options
 
 }  // namespace
 
-TEST_CASE("on an incline friction holds exactly up to its angle and slides as Coulomb says beyond") {
+TEST_CASE("contact: on an incline friction holds exactly up to its angle and slides as Coulomb says beyond") {
   const double friction = GENERATE(0.2, 0.3, 0.5, 0.75, 1.0), dt = GENERATE(1.0 / 120, 1e-3, 1e-4);
   CAPTURE(friction, dt);
   const SimulateOptions options = frictional(friction, dt);
@@ -59,7 +59,7 @@ TEST_CASE("on an incline friction holds exactly up to its angle and slides as Co
   }
 }
 
-TEST_CASE("friction is right where the field's slope is not 1") {
+TEST_CASE("contact: friction is right where the field's slope is not 1") {
   const SimulateOptions options = frictional(0.5, 1e-4);
   CHECK(std::abs(slide(0.49, options, 0.7).first) < 1e-9);
   const double angle = std::atan(0.8), exact = 2 * 9.81 * (std::sin(angle) - 0.5 * std::cos(angle));
@@ -67,14 +67,15 @@ TEST_CASE("friction is right where the field's slope is not 1") {
   CHECK(slide(0.8, options, 1.2).first == Approx(exact).epsilon(0.01));
 }
 
-TEST_CASE("on an incline a cloth lets go at the angle of friction and does not creep below", "[accuracy]") {
+TEST_CASE("contact: on an incline a cloth lets go at the angle of friction and does not creep below",
+          "[accuracy]") {
   const double friction = GENERATE(0.05, 0.3, 0.75, 1.45), dt = GENERATE(1e-3, 2e-4);
   const double degree = 3.14159265358979323846 / 180, exact = std::atan(friction);
   CHECK(std::abs(incline_threshold(friction, dt) - exact) < 0.02 * degree);
   CHECK(slide_of_sheet(exact - 0.2 * degree, friction, dt) < 1e-9);  // in 2 s
 }
 
-TEST_CASE("a strip over a cylinder slips beyond the heavy capstan's length and holds below it") {
+TEST_CASE("contact: a strip over a cylinder slips beyond the heavy capstan's length and holds below it") {
   const double mu = GENERATE(0.2, 0.4), R = 0.1, l1 = 0.2, critical = capstan_length(mu, R, l1);
   const int half_turn = GENERATE(32, 64);
   const Cylinder cylinder(R - 0.003);
@@ -87,21 +88,21 @@ TEST_CASE("a strip over a cylinder slips beyond the heavy capstan's length and h
   }
 }
 
-TEST_CASE("a tablecloth slips over the rounded edge when enough of it hangs down") {
+TEST_CASE("contact: a tablecloth slips over the rounded edge when enough of it hangs down") {
   const double mu = GENERATE(0.2, 0.5), R = 0.02, l1 = 0.2, critical = tablecloth_length(mu, R, l1);
   const RoundedTable table(R - 0.003);
   CHECK(slip(strip_over_edge(R, l1, 0.97 * critical, 16), table, {mu}).moved < 1e-6);
   CHECK(slip(strip_over_edge(R, l1, 1.03 * critical, 16), table, {mu}).moved > 1e-3);
 }
 
-TEST_CASE("the closed forms of strips are those of an independent program") {
+TEST_CASE("contact: the closed forms of strips are those of an independent program") {
   CHECK(capstan_length(0.2, 0.05, 0.1) == Approx(0.242723610443).epsilon(1e-11));
   CHECK(capstan_length(0.4, 0.02, 0.05) == Approx(0.237935634653).epsilon(1e-11));
   CHECK(tablecloth_length(0.2, 0.005, 0.2) == Approx(0.0503684288067).epsilon(1e-11));
   CHECK(tablecloth_length(0.8, 0.02, 0.4) == Approx(1.12843409703).epsilon(1e-11));
 }
 
-TEST_CASE("a braking particle stops after v^2 / (2 mu g)") {
+TEST_CASE("contact: a braking particle stops after v^2 / (2 mu g)") {
   const Plane floor(Vec3::UnitY());
   const double dt = GENERATE(1e-3, 1e-4), speed = GENERATE(2.0, 5.0), mu = GENERATE(0.4, 0.8);
   Cloth cloth;
@@ -111,7 +112,7 @@ TEST_CASE("a braking particle stops after v^2 / (2 mu g)") {
   CHECK(std::abs(cloth.particles.v[0].x()) < 1e-12);
 }
 
-TEST_CASE("a particle that falls on a floor stays there, without a bounce") {
+TEST_CASE("contact: a particle that falls on a floor stays there, without a bounce") {
   const Plane floor(Vec3::UnitY());
   Cloth cloth;
   add_particle(cloth, {0, 0.5, 0}, 1e-4);
@@ -131,7 +132,7 @@ TEST_CASE("a particle that falls on a floor stays there, without a bounce") {
   CHECK(highest < 0.003 + 1e-9);
 }
 
-TEST_CASE("depth that was there before is pushed out slowly and never enters the velocity") {
+TEST_CASE("contact: depth that was there before is pushed out slowly and never enters the velocity") {
   const Plane floor(Vec3::UnitY());
   Cloth cloth;
   add_particle(cloth, {0, -0.007, 0}, 1e-4);
@@ -153,7 +154,7 @@ TEST_CASE("depth that was there before is pushed out slowly and never enters the
   CHECK(deepest > -1e-9);
 }
 
-TEST_CASE("a fast particle does not pass through a thin body") {
+TEST_CASE("contact: a fast particle does not pass through a thin body") {
   const Ball ball(0.005);
   Cloth cloth;
   add_particle(cloth, {-0.5, 0.001, 0}, 1e-4, {60, 0, 0});
@@ -176,7 +177,7 @@ TEST_CASE("a fast particle does not pass through a thin body") {
   CHECK(closest < 0.009);
 }
 
-TEST_CASE("far particles are not asked for, and what is skipped changes nothing") {
+TEST_CASE("contact: far particles are not asked for, and what is skipped changes nothing") {
   const Plane floor(Vec3::UnitY());
   Cloth cloth;
   add_particle(cloth, {0, 100, 0}, 1e-4);
@@ -187,7 +188,7 @@ TEST_CASE("far particles are not asked for, and what is skipped changes nothing"
   CHECK(cloth.particles.x[0].y() == Approx(100 - 2 * 9.81).epsilon(1e-12));
 }
 
-TEST_CASE("contact refuses options out of range") {
+TEST_CASE("contact: it refuses options out of range") {
   const Plane floor(Vec3::UnitY());
   CHECK_THROWS_AS(BodyContact(floor, {.friction = -0.1}, 1), std::invalid_argument);
   CHECK_THROWS_AS(BodyContact(floor, {.gap = 0}, 1), std::invalid_argument);

@@ -14,7 +14,7 @@ struct Ball : Collider {
 
 }  // namespace
 
-TEST_CASE("push_out brings the named points to the level along the gradient, and leaves the others") {
+TEST_CASE("push_out: it brings the named points to the level along the gradient, and leaves the others") {
   std::vector<Vec3> x{{0.5, 0, 0}, {0, 0.9, 0}, {0, 0, 2}, {0.1, 0, 0}};
   const std::vector<int> which{0, 1, 2};
   const PushOutReport report = push_out(x, which, Ball(), 0.1);
@@ -27,7 +27,7 @@ TEST_CASE("push_out brings the named points to the level along the gradient, and
   CHECK(report.still_inside == 0);
 }
 
-TEST_CASE("push_out refuses an index out of range before anything moves") {
+TEST_CASE("push_out: it refuses an index out of range before anything moves") {
   std::vector<Vec3> x{{0.5, 0, 0}};
   const std::vector<int> which{0, 1};
   CHECK_THROWS_AS(push_out(x, which, Ball()), std::invalid_argument);

@@ -18,7 +18,7 @@ struct Floor : Collider {
 
 }  // namespace
 
-TEST_CASE("residual force: free fall is 1, a loaded spring in balance is 0") {
+TEST_CASE("residual_force: free fall is 1, a loaded spring in balance is 0") {
   const Vec3 g(0, -9.81, 0);
   Cloth cloth = pendulum(0.2, 40, 1, {0, -1, 0});
   CHECK(residual_force(cloth, g, nullptr, 0.3, 0.003) == Approx(1));
@@ -26,7 +26,7 @@ TEST_CASE("residual force: free fall is 1, a loaded spring in balance is 0") {
   CHECK(residual_force(cloth, g, nullptr, 0.3, 0.003) < 1e-12);
 }
 
-TEST_CASE("residual force: not a number where a position is none") {
+TEST_CASE("residual_force: it is not a number where a position is none") {
   Cloth cloth = pendulum(0.2, 40, 1, {0, -1, 0});
   cloth.tension.push_back({0, 1, 1, 40, 4});
   cloth.particles.x[1].x() = std::numeric_limits<double>::quiet_NaN();
@@ -38,7 +38,7 @@ TEST_CASE("residual force: not a number where a position is none") {
   }
 }
 
-TEST_CASE("residual force takes the best contact force in the friction cone") {
+TEST_CASE("residual_force: residual force takes the best contact force in the friction cone") {
   // A mass on the floor, pulled by a spring whose other end is pinned; the spring's force is f.
   const double mu = 0.5, m = 0.1, g = 10, k = 100;
   const Floor floor;
@@ -59,7 +59,7 @@ TEST_CASE("residual force takes the best contact force in the friction cone") {
   CHECK(residual({0.49, 0, 0}, 0.0031) == Approx(std::hypot(0.49, 1)));                  // no contact
 }
 
-TEST_CASE("residual force: loads count with the weight, one a particle") {
+TEST_CASE("residual_force: loads count with the weight, one a particle") {
   Cloth cloth = pendulum(0.2, 40, 1, {0, -1, 0});
   const Vec3 g(0, -9.81, 0);
   std::vector<Vec3> loads{Vec3(5, 5, 5), -0.2 * g};  // that on a pin does not count

@@ -41,7 +41,7 @@ Cloth lying_sheet(int n, double edge, double height) {
 
 }  // namespace
 
-TEST_CASE("a belt takes a particle along: mu g until it has the belt's speed") {
+TEST_CASE("rigid_contact: a belt takes a particle along by mu g until it has the belt's speed") {
   const double mu = GENERATE(0.2, 0.5), dt = GENERATE(1e-3, 2e-4), speed = 1;
   const Floor floor;
   World world;
@@ -61,7 +61,9 @@ TEST_CASE("a belt takes a particle along: mu g until it has the belt's speed") {
   CHECK(cloth.particles.x[0].y() == Approx(0.003).margin(1e-9));
 }
 
-TEST_CASE("a plate that accelerates takes a particle along without slip below mu g, and slips beyond") {
+TEST_CASE(
+    "rigid_contact: a plate that accelerates takes a particle along without slip below mu g, and slips "
+    "beyond") {
   // x = D (3 s^2 - 2 s^3) starts with the acceleration 6 D / T^2
   const double mu = 0.4, T = 1, share = GENERATE(0.5, 0.98, 1.5);
   const Floor floor;
@@ -85,7 +87,7 @@ TEST_CASE("a plate that accelerates takes a particle along without slip below mu
   }
 }
 
-TEST_CASE("a turntable holds a particle while omega^2 r and the ramp stay within mu g") {
+TEST_CASE("rigid_contact: a turntable holds a particle while omega^2 r and the ramp stay within mu g") {
   const double mu = 0.5, r = 0.2, rate = GENERATE(4.0, 4.8, 5.2, 8.0);
   const bool holds = rate * rate * r < mu * g;
   const Floor floor;
@@ -110,7 +112,7 @@ TEST_CASE("a turntable holds a particle while omega^2 r and the ramp stay within
   }
 }
 
-TEST_CASE("a spinning ball takes the cloth on it along, by friction alone") {
+TEST_CASE("rigid_contact: a spinning ball takes the cloth on it along, by friction alone") {
   const double friction = GENERATE(0.0, 0.5), rate = 3;
   const Sphere ball(Vec3::Zero(), 0.2);
   World world;
@@ -134,7 +136,7 @@ TEST_CASE("a spinning ball takes the cloth on it along, by friction alone") {
   if (friction > 0) CHECK(momentum / inertia == Approx(rate).epsilon(0.2));
 }
 
-TEST_CASE("a scene that moves and is turned as a whole is the same scene") {
+TEST_CASE("rigid_contact: a scene that moves and is turned as a whole is the same scene") {
   const Vec3 v(0.7, -0.3, 0.4), turn(0.3, -1.1, 0.6);
   const Eigen::AngleAxisd R(turn.norm(), turn.normalized());
   const Sphere ball(Vec3(0.02, 0.01, 0.03), 0.2);
@@ -162,7 +164,7 @@ TEST_CASE("a scene that moves and is turned as a whole is the same scene") {
   CHECK(worst < 1e-7);
 }
 
-TEST_CASE("a body that runs into cloth does not pass through it") {
+TEST_CASE("rigid_contact: a body that runs into cloth does not pass through it") {
   const double dt = GENERATE(5e-3, 1e-3);  // 25 mm a step, through a plate of 4 mm
   const Slab slab(0.002);
   World world;
@@ -203,7 +205,7 @@ TEST_CASE("a body that runs into cloth does not pass through it") {
   CHECK(deepest == 0);
 }
 
-TEST_CASE("a body that stands elsewhere is met there, and far particles are not asked for") {
+TEST_CASE("rigid_contact: a body that stands elsewhere is met there, and far particles are not asked for") {
   const Floor floor;
   World world;
   world.collider = &floor;

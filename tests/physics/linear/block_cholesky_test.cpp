@@ -59,7 +59,7 @@ Eigen::VectorXd some_vector(Eigen::Index n) {
 }  // namespace
 
 TEST_CASE(
-    "block Cholesky: solutions are the dense ones, on sheets, lines, single blocks and scattered links") {
+    "block_cholesky: solutions are the dense ones, on sheets, lines, single blocks and scattered links") {
   for (const auto& [columns, rows, links] :
        {std::array{12, 11, 0}, {12, 11, 40}, {40, 1, 0}, {1, 1, 0}, {5, 1, 10}}) {
     CAPTURE(columns, rows, links);
@@ -80,7 +80,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("block Cholesky: pieces that nothing joins, and nothing at all") {
+TEST_CASE("block_cholesky: pieces that nothing joins are solved, and nothing at all") {
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(60, 60);
   const Eigen::MatrixXd piece = symmetric(5, 2, 0);
   a.topLeftCorner(30, 30) = piece;
@@ -96,7 +96,7 @@ TEST_CASE("block Cholesky: pieces that nothing joins, and nothing at all") {
 }
 
 TEST_CASE(
-    "block Cholesky: says when a matrix is not positive definite, at the eigenvalue, and takes another") {
+    "block_cholesky: it says when a matrix is not positive definite, at the eigenvalue, and takes another") {
   const Eigen::MatrixXd a = symmetric(9, 9, 0);
   const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues()[0];
   const BlockCholesky::Sparse sparse = lower(a);

@@ -32,7 +32,7 @@ struct Problem {
 
 }  // namespace
 
-TEST_CASE("dense front: columns of the factor, and what is left, for every size") {
+TEST_CASE("dense_front: columns of the factor, and what is left, are right for every size") {
   for (const int width : {3, 6, 15, 18, 33, 48}) {
     for (const int rest : {0, 3, 6, 9, 12, 39}) {
       CAPTURE(width, rest);
@@ -55,7 +55,7 @@ TEST_CASE("dense front: columns of the factor, and what is left, for every size"
   }
 }
 
-TEST_CASE("dense front: a large one, the same bits on any number of threads") {
+TEST_CASE("dense_front: a large one has the same bits on any number of threads") {
   std::vector<double> first, first_update;
   for (int threads = 1; threads <= 3; ++threads) {
     Problem p(420, 150);
@@ -80,7 +80,7 @@ TEST_CASE("dense front: a large one, the same bits on any number of threads") {
   }
 }
 
-TEST_CASE("dense front: substitution forward and backward solves") {
+TEST_CASE("dense_front: substitution forward and backward solves") {
   for (const int height : {3, 9, 24, 51}) {
     Problem p(height, height);
     REQUIRE(eliminate(p.front));
@@ -107,7 +107,7 @@ TEST_CASE("dense front: substitution forward and backward solves") {
   CHECK((own.transpose() * x.head(12) + side.transpose() * x.segment(12, 18) - y.head(12)).norm() < 1e-12);
 }
 
-TEST_CASE("dense front: what is not positive definite, or no number, is told") {
+TEST_CASE("dense_front: what is not positive definite, or no number, is told") {
   Problem p(20, 18);
   p.panel[std::size_t(17 * p.front.stride + 17)] = -1e6;
   CHECK_FALSE(eliminate(p.front));

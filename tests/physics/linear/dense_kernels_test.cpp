@@ -37,7 +37,7 @@ std::vector<double> results(const DenseKernels& k, int width, int rest) {
 
 }  // namespace
 
-TEST_CASE("dense kernels: every version of a processor with fused multiply-add gives the same bits") {
+TEST_CASE("dense_kernels: every version of a processor with fused multiply-add gives the same bits") {
   const auto versions = all_dense_kernels();
   REQUIRE(!versions.empty());
   CHECK(&dense_kernels() == versions.front());

@@ -34,7 +34,7 @@ Eigen::MatrixXd dense(const Cloth& cloth, Stiffness stiffness) {
 
 }  // namespace
 
-TEST_CASE("the stiffness of free particles: solutions, signs and scale agree with the dense matrix") {
+TEST_CASE("free_stiffness: solutions, signs and scale agree with the dense matrix") {
   for (const double crumple : {0.002, 0.03}) {
     const Cloth cloth = crumpled(crumple);
     FreeStiffness k(cloth);
@@ -71,7 +71,7 @@ TEST_CASE("the stiffness of free particles: solutions, signs and scale agree wit
   }
 }
 
-TEST_CASE("the stiffness of free particles: blocks that are added count until the next assembly") {
+TEST_CASE("free_stiffness: blocks that are added count until the next assembly") {
   Cloth cloth = crumpled(0);
   FreeStiffness k(cloth);
   k.assemble(cloth, cloth.particles.x, Stiffness::positive_part);
@@ -90,7 +90,7 @@ TEST_CASE("the stiffness of free particles: blocks that are added count until th
   CHECK(k.mean_diagonal() == mean);
 }
 
-TEST_CASE("the stiffness of free particles: nothing free, and a cloth that changed") {
+TEST_CASE("free_stiffness: nothing free, and a cloth that changed, are told") {
   Cloth cloth = crumpled(0);
   FreeStiffness k(cloth);
   cloth.hinges.pop_back();
@@ -110,7 +110,7 @@ TEST_CASE("the stiffness of free particles: nothing free, and a cloth that chang
   CHECK_THROWS_AS(FreeStiffness(cloth), std::invalid_argument);
 }
 
-TEST_CASE("the stiffness of free particles: the same bits on any number of threads") {
+TEST_CASE("free_stiffness: it has the same bits on any number of threads") {
   Cloth cloth = sheet(40, 30, 0.02, 0.2, 3, 300, 40);
   add_membrane(cloth, 500);
   add_hinges(cloth, 0.01);

@@ -39,7 +39,7 @@ std::size_t factor_size(const Lists& below, const std::vector<int>& place) {
 
 }  // namespace
 
-TEST_CASE("nested dissection: a permutation, the same each time, with a small factor") {
+TEST_CASE("nested_dissection: it is a permutation, the same each time, with a small factor") {
   const Lists below = sheet(40);
   const std::vector<int> place = nested_dissection(below);
   std::vector<int> sorted = place, natural(place.size());
@@ -51,7 +51,7 @@ TEST_CASE("nested dissection: a permutation, the same each time, with a small fa
   CHECK(factor_size(below, place) < factor_size(below, natural) / 2);
 }
 
-TEST_CASE("nested dissection: nothing, one column, and columns that nothing joins") {
+TEST_CASE("nested_dissection: it takes nothing, one column, and columns that nothing joins") {
   CHECK(nested_dissection(Lists{}).empty());
   CHECK(nested_dissection(Lists(1)) == std::vector{0});
   CHECK(nested_dissection(Lists(3)) == std::vector{0, 1, 2});

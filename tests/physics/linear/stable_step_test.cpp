@@ -30,7 +30,7 @@ double exact_limit(const Cloth& cloth, Stiffness stiffness) {
 
 }  // namespace
 
-TEST_CASE("the limit of a chain between walls is that of its highest mode") {
+TEST_CASE("stable_step: the limit of a chain between walls is that of its highest mode") {
   // Along x with springs at rest only longitudinal modes have stiffness; the top of their spectrum is
   // crowded, so the largest eigenvalue comes slowly and its residual counts.
   const int n = GENERATE(20, 200, 2000);
@@ -50,7 +50,8 @@ TEST_CASE("the limit of a chain between walls is that of its highest mode") {
   CHECK(fine.dt_limit == Approx(exact).epsilon(1e-9));
 }
 
-TEST_CASE("the limit is never above the exact one and within 2 % of it on irregular meshes", "[accuracy]") {
+TEST_CASE("stable_step: the limit is never above the exact one and within 2 % of it on irregular meshes",
+          "[accuracy]") {
   const double jitter = GENERATE(0.0, 0.2, 0.3, 0.45), stretch = GENERATE(1.0, 1.1, 0.95);
   for (int seed = 1; seed <= 6; ++seed) {
     Cloth cloth = sheet(9, 8, 0.05, jitter, seed, 1000, seed % 2 ? 10 : 300);
@@ -68,7 +69,7 @@ TEST_CASE("the limit is never above the exact one and within 2 % of it on irregu
   }
 }
 
-TEST_CASE("nothing stiff, no limit, and bad options are refused") {
+TEST_CASE("stable_step: nothing stiff, no limit, and bad options are refused") {
   Cloth cloth;
   add_particle(cloth, {0, 0, 0}, 1);
   CHECK(std::isinf(stable_step(cloth).dt_limit));

@@ -41,7 +41,7 @@ double farthest(const Cloth& cloth, const Cloth& start) {
 
 }  // namespace
 
-TEST_CASE("the force jump sums to nothing, and with gravity to the weight that was added") {
+TEST_CASE("compensation: the force jump sums to nothing, and with gravity to the weight that was added") {
   const Cloth before = square(false), after = square(true);
   const std::vector<Vec3> jump = force_jump(before, after);
   REQUIRE(jump.size() == 6);
@@ -57,7 +57,7 @@ TEST_CASE("the force jump sums to nothing, and with gravity to the weight that w
   CHECK_THROWS_AS(force_jump(after, before), std::invalid_argument);
 }
 
-TEST_CASE("an equilibrium stays one after an insertion while its forces are compensated") {
+TEST_CASE("compensation: an equilibrium stays one after an insertion while its forces are compensated") {
   const Vec3 gravity = GENERATE(Vec3(0, 0, 0), Vec3(0, -9.81, 0));
   Cloth before = square(false);
   SimulateOptions options;
@@ -83,7 +83,7 @@ TEST_CASE("an equilibrium stays one after an insertion while its forces are comp
   CHECK(farthest(loose, start) > 1e-3);
 }
 
-TEST_CASE("compensation decays as set and is then forgotten") {
+TEST_CASE("compensation: it decays as set and is then forgotten") {
   // One free particle, m v' = -f exp(-t / tau): v = -f tau (1 - exp(-t/tau)) / m
   Cloth cloth;
   add_particle(cloth, Vec3::Zero(), 0.5);
@@ -108,7 +108,7 @@ TEST_CASE("compensation decays as set and is then forgotten") {
   CHECK(cloth.particles.v[0].y() == Approx(-2 * 0.3 / 0.5).epsilon(1e-5));
 }
 
-TEST_CASE("what is left of earlier forces goes on under a new jump") {
+TEST_CASE("compensation: what is left of earlier forces goes on under a new jump") {
   Compensation c;
   c.time_constant = 0.5;
   add(c, {Vec3(1, 0, 0)}, 1);

@@ -7,7 +7,9 @@ using namespace furrow;
 using namespace furrow::cases;
 using physics::Integrator;
 
-TEST_CASE("a sheet that drapes over a ball never gains energy, never sinks in, and stays on the axis") {
+TEST_CASE(
+    "drop_on_ball: a sheet that drapes over a ball never gains energy, never sinks in, and stays on the "
+    "axis") {
   const Drop drop = drop_on_ball({.rings = 6});
   const double limit = step_limit(drop.fall);
   for (const double ratio : {0.25, 0.5}) {
@@ -21,7 +23,7 @@ TEST_CASE("a sheet that drapes over a ball never gains energy, never sinks in, a
   }
 }
 
-TEST_CASE("contact leaves the stability limit where it is") {
+TEST_CASE("drop_on_ball: contact leaves the stability limit where it is") {
   const Drop drop = drop_on_ball({.rings = 5, .stiffness = 1000});
   const double limit = step_limit(drop.fall);
   CHECK(run(drop, {Integrator::leapfrog, {}, {}}, 0.95 * limit).gain < 0.01);

@@ -11,7 +11,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("explicit Euler gains amplitude by sqrt(1 + z^2) each step") {
+TEST_CASE("euler_step: it gains amplitude by sqrt(1 + z^2) each step") {
   const double z = GENERATE(0.01, 0.1, 1.0);
   ThreadPool pool(1);
   Motion motion(pendulum(1, 1, 4, {5, 0, 0}), {.gravity = Vec3::Zero()}, pool);
@@ -24,7 +24,7 @@ TEST_CASE("explicit Euler gains amplitude by sqrt(1 + z^2) each step") {
   if (z == 1) CHECK(q * q + v * v > 10);
 }
 
-TEST_CASE("explicit Euler has order one on the elastic pendulum") {
+TEST_CASE("euler_step: it has order one on the elastic pendulum") {
   const Vec3 exact(0.389103045248, -0.920914325687, 0);
   std::vector<double> errors;
   for (const int steps : {40000, 80000, 160000}) {
@@ -40,7 +40,7 @@ TEST_CASE("explicit Euler has order one on the elastic pendulum") {
   CHECK(std::log2(errors[1] / errors[2]) == Approx(1).margin(0.1));
 }
 
-TEST_CASE("explicit Euler diverges on a cloth at a fifth of leapfrog's limit, where leapfrog holds") {
+TEST_CASE("euler_step: it diverges on a cloth at a fifth of leapfrog's limit, where leapfrog holds") {
   Cloth cloth = sheet(8, 8, 0.1, 0.2);
   Noise noise(3);
   for (Vec3& x : cloth.particles.x) x += 1e-6 * noise.vector();

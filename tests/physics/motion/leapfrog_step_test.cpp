@@ -61,7 +61,7 @@ Vec3 angular_momentum(const Particles& p) {
 
 }  // namespace
 
-TEST_CASE("leapfrog reaches the elastic pendulum's end point with order two") {
+TEST_CASE("leapfrog_step: it reaches the elastic pendulum's end point with order two") {
   const Vec3 exact(0.389103045248, -0.920914325687, 0);
   std::vector<double> errors;
   for (const int steps : {4000, 8000, 16000}) {
@@ -73,7 +73,7 @@ TEST_CASE("leapfrog reaches the elastic pendulum's end point with order two") {
   CHECK(std::log2(errors[1] / errors[2]) == Approx(2).margin(0.03));
 }
 
-TEST_CASE("leapfrog has order two on a cloth, with drag and with spring damping, too") {
+TEST_CASE("leapfrog_step: it has order two on a cloth, with drag and with spring damping, too") {
   const Loads loads =
       GENERATE(Loads{.air_drag = 0, .spring_damping = 0}, Loads{.air_drag = 5, .spring_damping = 0},
                Loads{.air_drag = 0, .spring_damping = 0.3}, Loads{.air_drag = 2, .spring_damping = 0.02});
@@ -81,7 +81,7 @@ TEST_CASE("leapfrog has order two on a cloth, with drag and with spring damping,
   for (const double order : orders(loads)) CHECK(order == Approx(2).margin(0.03));
 }
 
-TEST_CASE("a cloth falls as the parabola says") {
+TEST_CASE("leapfrog_step: a cloth falls as the parabola says") {
   Cloth cloth = sheet(6, 6, 0.1, 0.2);
   const Vec3 v(0.3, 2, -0.1), g(0.5, -9.81, 0.25);
   for (Vec3& u : cloth.particles.v) u = v;
@@ -92,7 +92,7 @@ TEST_CASE("a cloth falls as the parabola says") {
   }
 }
 
-TEST_CASE("leapfrog keeps momentum and angular momentum, with spring damping, too") {
+TEST_CASE("leapfrog_step: it keeps momentum and angular momentum, with spring damping, too") {
   Cloth cloth = swinging_sheet();
   for (std::size_t i = 0; i < cloth.particles.size(); ++i)
     cloth.particles.inv_mass[i] = 1 / cloth.particles.mass[i];
@@ -108,7 +108,7 @@ TEST_CASE("leapfrog keeps momentum and angular momentum, with spring damping, to
   CHECK((angular_momentum(end) - angular_momentum(cloth.particles)).norm() < 1e-12 * l_scale);
 }
 
-TEST_CASE("leapfrog keeps its modified energy over a million steps") {
+TEST_CASE("leapfrog_step: it keeps its modified energy over a million steps") {
   // Along its axis a spring is linear: q = x - L obeys q'' = -omega^2 q.
   const double omega = 1, z = 0.5, dt = z / omega;
   ThreadPool pool(1);
@@ -129,7 +129,7 @@ TEST_CASE("leapfrog keeps its modified energy over a million steps") {
   CHECK(worst < 1e-10);
 }
 
-TEST_CASE("leapfrog run backwards returns to the start") {
+TEST_CASE("leapfrog_step: run backwards it returns to the start") {
   Cloth cloth = swinging_sheet();
   const Particles start = cloth.particles;
   cloth.particles = after(cloth, {}, 1e-3, 300);
@@ -139,7 +139,7 @@ TEST_CASE("leapfrog run backwards returns to the start") {
   CHECK(distance(cloth.particles, start) < 1e-9);
 }
 
-TEST_CASE("leapfrog is stable at 0.98 of 2/omega_max and diverges at 1.03") {
+TEST_CASE("leapfrog_step: it is stable at 0.98 of 2/omega_max and diverges at 1.03") {
   const double jitter = GENERATE(0.0, 0.3, 0.45);
   Cloth cloth = sheet(8, 8, 0.1, jitter, 4, GENERATE(20, 2000), 5);
   const double limit = stable_step(cloth, {.tolerance = 1e-6}).dt_limit;
@@ -154,7 +154,7 @@ TEST_CASE("leapfrog is stable at 0.98 of 2/omega_max and diverges at 1.03") {
   CHECK(!(distance(diverged, rest) < 1e4 * start));
 }
 
-TEST_CASE("leapfrog refuses a step that is not positive") {
+TEST_CASE("leapfrog_step: it refuses a step that is not positive") {
   ThreadPool pool(1);
   Motion motion(sheet(3, 3, 0.1), {}, pool);
   CHECK_THROWS_AS(leapfrog_step(motion, 0), std::invalid_argument);

@@ -11,7 +11,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("moved pins are exactly where their motion says, with its velocity") {
+TEST_CASE("moved_pins: moved pins are exactly where their motion says, with its velocity") {
   Cloth cloth = sheet(8, 6, 0.05, 0.1, 2);
   pin(cloth.particles, std::vector<int>{0, 7});
   World world;
@@ -40,7 +40,7 @@ TEST_CASE("moved pins are exactly where their motion says, with its velocity") {
   CHECK(cloth.particles.inv_mass[0] == 0);
 }
 
-TEST_CASE("a mass on a spring whose other end is shaken does what the driven oscillator does") {
+TEST_CASE("moved_pins: a mass on a spring whose other end is shaken does what the driven oscillator does") {
   // m z'' = -k (z - y(t)), y = D (3 s^2 - 2 s^3), s = t/T, z(0) = z'(0) = 0. With y'' = 6 D/T^2 (1 - 2 t/T):
   // e = z - y solves e'' + w^2 e = -y'', so e = -(6 D / (T w)^2) (1 - 2 t/T - cos wt + 2/(w T) sin wt).
   const double mass = 0.1, k = 40, w = std::sqrt(k / mass), T = 0.7, D = 0.2, L = 1;
@@ -71,7 +71,7 @@ TEST_CASE("a mass on a spring whose other end is shaken does what the driven osc
   CHECK(coarse / fine == Approx(4).epsilon(0.05));
 }
 
-TEST_CASE("spring damping sees the pins' velocity: damping drags the mass after the pin") {
+TEST_CASE("moved_pins: spring damping sees their velocity and drags the mass after the pin") {
   // A critically damped pair that flies along with its pin is not braked by the damping.
   Cloth cloth = pendulum(0.1, 40, 1, {0, -1, 0}, {0, -2, 0});
   World world;
@@ -86,7 +86,7 @@ TEST_CASE("spring damping sees the pins' velocity: damping drags the mass after 
   CHECK(cloth.particles.v[1].y() == Approx(-2).epsilon(1e-12));
 }
 
-TEST_CASE("moved pins that do not fit the cloth are refused") {
+TEST_CASE("moved_pins: moved pins that do not fit the cloth are refused") {
   Cloth cloth = sheet(4, 4, 0.05);
   pin(cloth.particles, std::vector<int>{0, 3});
   World world;

@@ -64,7 +64,7 @@ void check_limit(Cloth cloth, double dt_limit) {
 
 }  // namespace
 
-TEST_CASE("leapfrog has order two with membrane and hinges, with damping, too") {
+TEST_CASE("simulate: leapfrog has order two with membrane and hinges, with damping, too") {
   const HingeLaw law = GENERATE(HingeLaw::linear, HingeLaw::cosine);
   const Loads loads = GENERATE(Loads{}, Loads{.air_drag = 2, .spring_damping = 0.3});
   std::vector<Particles> runs;
@@ -77,7 +77,7 @@ TEST_CASE("leapfrog has order two with membrane and hinges, with damping, too") 
   }
 }
 
-TEST_CASE("a free fluttering sheet keeps its energy, and damping takes it away") {
+TEST_CASE("simulate: a free fluttering sheet keeps its energy, and damping takes it away") {
   Cloth cloth = shell(8, 8, 0.05, 0.2, 50, 1e-3);
   Noise noise(4);
   for (Vec3& v : cloth.particles.v) v = 0.3 * noise.vector();
@@ -96,7 +96,7 @@ TEST_CASE("a free fluttering sheet keeps its energy, and damping takes it away")
   CHECK(drift(0.25, 0.1) < -0.05);
 }
 
-TEST_CASE("the limit of sheets of membrane or hinges is that where leapfrog diverges") {
+TEST_CASE("simulate: the limit of sheets of membrane or hinges is that where leapfrog diverges") {
   const double jitter = GENERATE(0.0, 0.3);
   for (const auto& [young, rigidity] : {std::pair{200.0, 1e-6}, {200.0, 0.0}, {1.0, 1.0}}) {
     CAPTURE(jitter, young, rigidity);
@@ -105,7 +105,7 @@ TEST_CASE("the limit of sheets of membrane or hinges is that where leapfrog dive
   }
 }
 
-TEST_CASE("the limit of a plate of equilateral triangles has the known constant") {
+TEST_CASE("simulate: the limit of a plate of equilateral triangles has the known constant") {
   // dt = C h^2 sqrt(rho_A / B). Inside, theta = (w0 + w1 - w2 - w3) / (h sqrt(3)/2), and the wave of three
   // colours (cos 2 pi/3 between neighbours) is the fastest: omega^2 = 48 B / (rho_A h^4), C = 2 / sqrt(48).
   // The border of a free sheet is lighter, but softer still: its waves are slower.
@@ -125,7 +125,7 @@ TEST_CASE("the limit of a plate of equilateral triangles has the known constant"
   CHECK(free == Approx(2 / std::sqrt(48)).epsilon(0.01));
 }
 
-TEST_CASE("a hinge that is bent and a cosine hinge count in the limit") {
+TEST_CASE("simulate: a hinge that is bent and a cosine hinge count in the limit") {
   Cloth cloth = shell(6, 6, 0.1, 0.2, 20, 1);
   const double flat = stable_step(cloth).dt_limit;
   cloth.hinge_law = HingeLaw::cosine;
@@ -135,7 +135,7 @@ TEST_CASE("a hinge that is bent and a cosine hinge count in the limit") {
   CHECK(stable_step(cloth).dt_limit < flat);
 }
 
-TEST_CASE("simulate counts what it evaluates, through a stop, too") {
+TEST_CASE("simulate: it counts what it evaluates, through a stop, too") {
   Cloth cloth = shell(5, 5, 0.1, 0.2, 50, 1e-4);
   pin(cloth.particles, std::vector<int>{0, 4});
   SimulateOptions options;
@@ -164,7 +164,7 @@ TEST_CASE("simulate counts what it evaluates, through a stop, too") {
         other.force_evaluations * std::int64_t(springs.structural.size() + springs.bending.size()));
 }
 
-TEST_CASE("forces of membrane and hinges count in the residual force and in a jump") {
+TEST_CASE("simulate: forces of membrane and hinges count in the residual force and in a jump") {
   Cloth cloth = shell(4, 4, 0.1, 0.2, 50, 1e-4);
   CHECK(residual_force(cloth, Vec3::Zero(), nullptr, 0.3, 0.003) < 1e-9);
   Cloth strained = cloth;

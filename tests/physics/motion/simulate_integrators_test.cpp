@@ -18,7 +18,7 @@ Cloth hung_sheet() {
 
 }  // namespace
 
-TEST_CASE("each integrator has its own limit, or none, and counts its work") {
+TEST_CASE("simulate: each integrator has its own limit, or none, and counts its work") {
   Cloth cloth = hung_sheet();
   SimulateOptions options;
   options.seconds = 0.05;
@@ -47,7 +47,7 @@ TEST_CASE("each integrator has its own limit, or none, and counts its work") {
   CHECK(xpbd.linear_solves == 0);
 }
 
-TEST_CASE("damping that would make RK4 diverge shortens its step") {
+TEST_CASE("simulate: damping that would make RK4 diverge shortens its step") {
   Cloth cloth = hung_sheet();
   SimulateOptions options;
   options.seconds = 0.2;
@@ -60,7 +60,7 @@ TEST_CASE("damping that would make RK4 diverge shortens its step") {
   CHECK_THROWS_WITH(simulate(cloth, nullptr, options), Catch::Contains("above the stability limit"));
 }
 
-TEST_CASE("a run goes on with another integrator, within its limit") {
+TEST_CASE("simulate: a run goes on with another integrator, within its limit") {
   Cloth cloth = hung_sheet();
   SimulateOptions options;
   options.seconds = 0.2;

@@ -67,7 +67,7 @@ void check_same(const Scene& a, const SimulateReport& ra, const Scene& b, const 
 
 }  // namespace
 
-TEST_CASE("a run that is stopped twenty times gives the bits of one that is not") {
+TEST_CASE("simulate: a run that is stopped twenty times gives the bits of one that is not") {
   const Sphere ball(Vec3::Zero(), 0.2);
   const std::uint64_t seed = GENERATE(1, 2, 3);
   Scene whole = busy_scene(ball), parts = whole;
@@ -112,7 +112,8 @@ TEST_CASE("a run that is stopped twenty times gives the bits of one that is not"
   CHECK(parts.cloth.particles.v == end.particles.v);
 }
 
-TEST_CASE("a run with any integrator that is stopped in the middle gives the bits of one that is not") {
+TEST_CASE(
+    "simulate: a run with any integrator that is stopped in the middle gives the bits of one that is not") {
   const Sphere ball(Vec3::Zero(), 0.2);
   const Integrator integrator = GENERATE(Integrator::leapfrog, Integrator::explicit_euler, Integrator::rk4,
                                          Integrator::backward_euler, Integrator::xpbd);
@@ -135,7 +136,7 @@ TEST_CASE("a run with any integrator that is stopped in the middle gives the bit
   check_same(whole, one, parts, simulate(parts.cloth, parts.world, parts.options, &parts.state));
 }
 
-TEST_CASE("a later end divides the rest anew and is hit exactly") {
+TEST_CASE("simulate: a later end divides the rest anew and is hit exactly") {
   const Sphere ball(Vec3::Zero(), 0.2);
   Scene scene = busy_scene(ball);
   scene.options.stop_at = 0.1;
@@ -156,7 +157,7 @@ TEST_CASE("a later end divides the rest anew and is hit exactly") {
   CHECK(report.dt <= 0.3 * report.dt_limit);
 }
 
-TEST_CASE("a state that does not fit is refused and nothing changes") {
+TEST_CASE("simulate: a state that does not fit is refused and nothing changes") {
   const Sphere ball(Vec3::Zero(), 0.2);
   Scene scene = busy_scene(ball);
   scene.options.stop_at = 0.02;
@@ -187,7 +188,7 @@ TEST_CASE("a state that does not fit is refused and nothing changes") {
   refused("home is not finite");
 }
 
-TEST_CASE("a cloth that was changed is planned anew") {
+TEST_CASE("simulate: a cloth that was changed is planned anew") {
   Cloth cloth = sheet(8, 8, 0.05, 0.1, 3);
   pin(cloth.particles, std::vector<int>{0, 7});
   SimulateOptions options;

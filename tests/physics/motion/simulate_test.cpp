@@ -35,7 +35,7 @@ bool same_bits(const Cloth& a, const Cloth& b) {
 
 }  // namespace
 
-TEST_CASE("two runs, and runs with one and two threads, give the same bits") {
+TEST_CASE("simulate: two runs, and runs with one and two threads, give the same bits") {
   Cloth first = sheet(60, 55, 0.02, 0.2, 2);  // several blocks
   pin(first.particles, std::vector<int>{0, 59});
   Cloth second = first, third = first;
@@ -57,7 +57,7 @@ TEST_CASE("two runs, and runs with one and two threads, give the same bits") {
   CHECK(two.collider_queries == report.collider_queries);
 }
 
-TEST_CASE("an undamped hung sheet keeps its energy, a damped one comes to rest") {
+TEST_CASE("simulate: an undamped hung sheet keeps its energy, a damped one comes to rest") {
   Cloth cloth = hung_sheet();
   const auto energy = [&] {
     double e = kinetic_energy(cloth.particles);
@@ -100,7 +100,7 @@ TEST_CASE("an undamped hung sheet keeps its energy, a damped one comes to rest")
   }
 }
 
-TEST_CASE("a sheet that drops on a ball lies on it, and its energy never rises") {
+TEST_CASE("simulate: a sheet that drops on a ball lies on it, and its energy never rises") {
   Cloth cloth = sheet(13, 15, 0.05, 0, 1);
   const double R = 0.2;
   Vec3 centre = Vec3::Zero();
@@ -136,7 +136,7 @@ TEST_CASE("a sheet that drops on a ball lies on it, and its energy never rises")
   CHECK(rise < 1e-5 * mgh);
 }
 
-TEST_CASE("an observer stops a run, and the next call goes on from there") {
+TEST_CASE("simulate: an observer stops a run, and the next call goes on from there") {
   Cloth whole = hung_sheet(), parts = whole;
   SimulateOptions options;
   options.seconds = 0.1;
@@ -159,7 +159,7 @@ TEST_CASE("an observer stops a run, and the next call goes on from there") {
   CHECK(difference < 1e-10);
 }
 
-TEST_CASE("the step follows the limit and a longer one is refused unless forced") {
+TEST_CASE("simulate: the step follows the limit and a longer one is refused unless forced") {
   Cloth cloth = hung_sheet();
   const Cloth start = cloth;
   SimulateOptions options;
@@ -184,7 +184,7 @@ TEST_CASE("the step follows the limit and a longer one is refused unless forced"
   CHECK(forced.dt == Approx(*options.dt).epsilon(0.02));
 }
 
-TEST_CASE("explicit Euler diverges where leapfrog finishes") {
+TEST_CASE("simulate: explicit Euler diverges where leapfrog finishes") {
   Cloth cloth = hung_sheet();
   SimulateOptions options;
   options.air_drag = options.spring_damping = 0;
@@ -195,7 +195,7 @@ TEST_CASE("explicit Euler diverges where leapfrog finishes") {
   CHECK(simulate(cloth, nullptr, options).outcome == Outcome::finished);
 }
 
-TEST_CASE("pinned and isolated particles do not move") {
+TEST_CASE("simulate: pinned and isolated particles do not move") {
   Cloth cloth = hung_sheet();
   cloth.particles.v[0] = Vec3(1, 1, 1);
   add_particle(cloth, {1, 2, 3}, 0);
@@ -207,7 +207,7 @@ TEST_CASE("pinned and isolated particles do not move") {
   CHECK(cloth.particles.x.back() == Vec3(1, 2, 3));
 }
 
-TEST_CASE("simulate refuses options out of range before it moves anything") {
+TEST_CASE("simulate: it refuses options out of range before it moves anything") {
   Cloth cloth = hung_sheet();
   const Cloth start = cloth;
   const auto refused = [&](auto change) {
@@ -232,7 +232,7 @@ TEST_CASE("simulate refuses options out of range before it moves anything") {
   CHECK(same_bits(cloth, start));
 }
 
-TEST_CASE("surroundings that do nothing change no bit") {
+TEST_CASE("simulate: surroundings that do nothing change no bit") {
   const Ball ball({0.3, -0.3, -0.16}, 0.2);
   Cloth plain = hung_sheet(), still = plain;
   SimulateOptions options;
@@ -252,7 +252,7 @@ TEST_CASE("surroundings that do nothing change no bit") {
   CHECK(state.step == b.steps);
 }
 
-TEST_CASE("wind without drag is no wind") {
+TEST_CASE("simulate: wind without drag is no wind") {
   Cloth calm = hung_sheet(), windy = calm;
   SimulateOptions options;
   options.seconds = 0.05;
@@ -267,7 +267,7 @@ TEST_CASE("wind without drag is no wind") {
   CHECK(windy.particles.v.back().z() > 0.1);
 }
 
-TEST_CASE("one body at a time") {
+TEST_CASE("simulate: one body at a time") {
   const Ball ball(Vec3::Zero(), 0.2);
   AnimatedBody body({{{0, 1, 2}}, {0, 1}, [](int) {
                        return std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

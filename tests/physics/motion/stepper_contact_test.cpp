@@ -43,7 +43,7 @@ double step_of(Integrator integrator) { return integrator == Integrator::explici
 
 }  // namespace
 
-TEST_CASE("a sheet rests on a slab with each integrator") {
+TEST_CASE("stepper: a sheet rests on a slab with each integrator") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const double dt = step_of(integrator);
   const Slide rest = slide(integrator, 0.3, 0, dt, 0.5);
@@ -53,7 +53,7 @@ TEST_CASE("a sheet rests on a slab with each integrator") {
   CHECK(rest.height < 1e-9);
 }
 
-TEST_CASE("a sheet sticks on an incline of 30 degrees with friction 0.6, with each integrator") {
+TEST_CASE("stepper: a sheet sticks on an incline of 30 degrees with friction 0.6, with each integrator") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const double dt = step_of(integrator);
   const Slide rest = slide(integrator, 0.6, incline, dt, 0.5);
@@ -63,7 +63,7 @@ TEST_CASE("a sheet sticks on an incline of 30 degrees with friction 0.6, with ea
   CHECK(rest.height < 1e-9);
 }
 
-TEST_CASE("a sheet slides down an incline with friction 0.3 as theory says, with each integrator") {
+TEST_CASE("stepper: a sheet slides down an incline with friction 0.3 as theory says, with each integrator") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const double dt = step_of(integrator), t = 0.5, a = g * (std::sin(incline) - 0.3 * std::cos(incline));
   const Slide down = slide(integrator, 0.3, incline, dt, t);
@@ -75,7 +75,7 @@ TEST_CASE("a sheet slides down an incline with friction 0.3 as theory says, with
   CHECK(half < 0.6 * std::abs(down.way.x() - a * t * t / 2) + 1e-9);  // order one or better
 }
 
-TEST_CASE("pins are led with each integrator, and what they hold follows") {
+TEST_CASE("stepper: pins are led with each integrator, and what they hold follows") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   Cloth cloth = sheet(5, 4, 0.05, 0.1, 3, 1, 0.1);
   pin(cloth.particles, std::vector<int>{0, 4});

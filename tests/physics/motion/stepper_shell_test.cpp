@@ -24,7 +24,7 @@ Cloth swinging_shell(double young = 20, double rigidity = 1e-3) {
 
 }  // namespace
 
-TEST_CASE("RK4 and backward Euler keep their orders on a shell, with damping, too", "[accuracy]") {
+TEST_CASE("stepper: RK4 and backward Euler keep their orders on a shell, with damping, too", "[accuracy]") {
   const Integrator integrator = GENERATE(Integrator::rk4, Integrator::backward_euler);
   const bool rk4 = integrator == Integrator::rk4;
   const Loads loads{.air_drag = 1, .spring_damping = 0.1};
@@ -38,7 +38,7 @@ TEST_CASE("RK4 and backward Euler keep their orders on a shell, with damping, to
   CHECK(order == Approx(rk4 ? 4 : 1).margin(0.1));
 }
 
-TEST_CASE("backward Euler keeps a shell's momentum and is stable at a hundred times the limit") {
+TEST_CASE("stepper: backward Euler keeps a shell's momentum and is stable at a hundred times the limit") {
   Cloth cloth = swinging_shell(1000, 1e-4);
   Particles& p = cloth.particles;
   for (std::size_t i = 0; i < p.size(); ++i) p.inv_mass[i] = 1 / p.mass[i];
@@ -56,7 +56,7 @@ TEST_CASE("backward Euler keeps a shell's momentum and is stable at a hundred ti
   CHECK(change.norm() < 1e-9 * scale);  // of systems whose stiffness outweighs the masses ten thousand times
 }
 
-TEST_CASE("XPBD refuses a shell") {
+TEST_CASE("stepper: XPBD refuses a shell") {
   ThreadPool pool(1);
   Motion motion(swinging_shell(), {}, pool);
   CHECK_THROWS_WITH(make_stepper(motion, {Integrator::xpbd, {}, {}}), Catch::Contains("springs only"));

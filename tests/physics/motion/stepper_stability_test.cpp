@@ -7,7 +7,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("the limits of stability are where theory has them") {
+TEST_CASE("stepper: the limits of stability are where theory has them") {
   struct Limit {
     Integrator integrator;
     double z;
@@ -24,7 +24,7 @@ TEST_CASE("the limits of stability are where theory has them") {
   CHECK(!(amplitude(1.005 * limit.z) < 1000));
 }
 
-TEST_CASE("damping shortens the limit neither of leapfrog nor of semi-implicit Euler") {
+TEST_CASE("stepper: damping shortens the limit neither of leapfrog nor of semi-implicit Euler") {
   const Integrator integrator = GENERATE(Integrator::leapfrog, furrow::cases::semi_implicit);
   const double damping = GENERATE(0.02, 0.3, 3.0);
   const Cloth start = pendulum(1, 1, 1e6, {1e6 + 1, 0, 0});
@@ -34,7 +34,7 @@ TEST_CASE("damping shortens the limit neither of leapfrog nor of semi-implicit E
   CHECK(std::hypot(end.x[1].x() - 1e6, end.v[1].x()) < 1);
 }
 
-TEST_CASE("backward Euler and XPBD stay stable at a hundred times the limit") {
+TEST_CASE("stepper: backward Euler and XPBD stay stable at a hundred times the limit") {
   const Integrator integrator = GENERATE(Integrator::backward_euler, Integrator::xpbd);
   const bool newton = GENERATE(false, true);
   Cloth cloth = sheet(12, 10, 0.05, 0.2, 2);
@@ -62,7 +62,7 @@ TEST_CASE("backward Euler and XPBD stay stable at a hundred times the limit") {
   CHECK(low > -1);
 }
 
-TEST_CASE("each integrator keeps the momentum of a free cloth, with spring damping, too") {
+TEST_CASE("stepper: each integrator keeps the momentum of a free cloth, with spring damping, too") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const double damping = GENERATE(0.0, 0.1);
   Cloth cloth = swinging_sheet();
@@ -82,7 +82,7 @@ TEST_CASE("each integrator keeps the momentum of a free cloth, with spring dampi
   CHECK(change.norm() < 1e-12 * scale);
 }
 
-TEST_CASE("XPBD with many sweeps is backward Euler but for its turning directions") {
+TEST_CASE("stepper: XPBD with many sweeps is backward Euler but for its turning directions") {
   const Cloth cloth = swinging_sheet();
   const Particles implicit = after(cloth, {}, solved(Integrator::backward_euler), 1e-3, 100);
   const Particles sweeps =
@@ -92,7 +92,7 @@ TEST_CASE("XPBD with many sweeps is backward Euler but for its turning direction
   CHECK(distance(implicit, sweeps) < 0.1 * distance(implicit, exact));
 }
 
-TEST_CASE("each integrator gives the same bits for any number of threads") {
+TEST_CASE("stepper: each integrator gives the same bits for any number of threads") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   Cloth cloth = sheet(60, 50, 0.02, 0.2, 2);  // two blocks
   Noise noise(4);
@@ -108,7 +108,7 @@ TEST_CASE("each integrator gives the same bits for any number of threads") {
   CHECK(one.v == two.v);
 }
 
-TEST_CASE("wind and drag carry each integrator's cloth to the air's speed") {
+TEST_CASE("stepper: wind and drag carry each integrator's cloth to the air's speed") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const Cloth cloth = sheet(4, 4, 0.1, 0, 1, 0.01, 0.01);  // so soft that explicit Euler holds, too
   Wind wind;
@@ -118,7 +118,7 @@ TEST_CASE("wind and drag carry each integrator's cloth to the air's speed") {
   for (const Vec3& v : end.v) CHECK((v - (1 - std::exp(-2.0)) * wind.velocity).norm() < 1e-3);
 }
 
-TEST_CASE("steppers refuse what is out of range") {
+TEST_CASE("stepper: steppers refuse what is out of range") {
   ThreadPool pool(1);
   Motion motion(sheet(3, 3, 0.1), {}, pool);
   for (const Integrator integrator : all_integrators)

@@ -63,7 +63,7 @@ Order pendulum_order(Integrator integrator) {
 
 }  // namespace
 
-TEST_CASE("each integrator turns and scales an oscillator as its theory says") {
+TEST_CASE("stepper: each integrator turns and scales an oscillator as its theory says") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const double z = GENERATE(0.01, 0.1, 0.5, 1.0, 1.9);
   const OneStep is = one_step(integrator, z), should = theory(integrator, z);
@@ -72,7 +72,7 @@ TEST_CASE("each integrator turns and scales an oscillator as its theory says") {
   CHECK(is.angle / z == Approx(should.angle / z).epsilon(1e-10));
 }
 
-TEST_CASE("each integrator has its order on the elastic pendulum") {
+TEST_CASE("stepper: each integrator has its order on the elastic pendulum") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const Order order = pendulum_order(integrator);
   const Vec3 exact(0.389103045248, -0.920914325687, 0);
@@ -87,7 +87,7 @@ TEST_CASE("each integrator has its order on the elastic pendulum") {
   CHECK(std::log2(errors[1] / errors[2]) == Approx(order.value).margin(order.margin));
 }
 
-TEST_CASE("drag and spring damping keep each integrator's order", "[accuracy]") {
+TEST_CASE("stepper: drag and spring damping keep each integrator's order", "[accuracy]") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const Loads loads =
       GENERATE(Loads{.air_drag = 5, .spring_damping = 0}, Loads{.air_drag = 0, .spring_damping = 0.3},
@@ -102,7 +102,7 @@ TEST_CASE("drag and spring damping keep each integrator's order", "[accuracy]") 
   CHECK(measured == Approx(order.value).margin(order.value == 2 ? 0.03 : 0.1));
 }
 
-TEST_CASE("linearised backward Euler and XPBD of one sweep have order one, too") {
+TEST_CASE("stepper: linearised backward Euler and XPBD of one sweep have order one, too") {
   const Vec3 exact(0.389103045248, -0.920914325687, 0);
   const Integrator integrator = GENERATE(Integrator::backward_euler, Integrator::xpbd);
   std::vector<double> errors;

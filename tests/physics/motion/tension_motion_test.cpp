@@ -29,7 +29,8 @@ Cloth crumpled_sheet(int columns, int rows, bool all_kinds) {
 
 }  // namespace
 
-TEST_CASE("packed tension exerts the same force as plain one, alone and beside all other kinds") {
+TEST_CASE(
+    "tension_forces: packed tension exerts the same force as plain one, alone and beside all other kinds") {
   for (const bool all_kinds : {false, true}) {
     const Cloth cloth = crumpled_sheet(31, 23, all_kinds);
     std::vector<Vec3> force(cloth.particles.size(), Vec3::Zero());
@@ -52,7 +53,7 @@ TEST_CASE("packed tension exerts the same force as plain one, alone and beside a
   }
 }
 
-TEST_CASE("tension moves alike with any number of threads") {
+TEST_CASE("tension_forces: tension moves alike with any number of threads") {
   Cloth cloth = crumpled_sheet(61, 53, false);
   pin(cloth.particles, std::vector<int>{0, 60});
   const auto run = [&](int threads) {
@@ -66,7 +67,7 @@ TEST_CASE("tension moves alike with any number of threads") {
   }
 }
 
-TEST_CASE("leapfrog keeps energy, momentum and angular momentum of a free sheet of tension") {
+TEST_CASE("tension_forces: leapfrog keeps energy, momentum and angular momentum of a free sheet of tension") {
   Cloth cloth = crumpled_sheet(7, 6, false);
   for (std::size_t i = 0; i < cloth.particles.size(); ++i)
     cloth.particles.v[i] = Vec3(4, 6, 19).cross(cloth.particles.x[i]) + Vec3(1, -0.5, 0.3);
@@ -102,7 +103,7 @@ TEST_CASE("leapfrog keeps energy, momentum and angular momentum of a free sheet 
   CHECK(half < 0.3 * whole);  // order two
 }
 
-TEST_CASE("XPBD refuses tension instead of leaving it out") {
+TEST_CASE("tension_forces: XPBD refuses tension instead of leaving it out") {
   Cloth cloth = with_tension(pendulum(0.1, 1, 1, {0, -1, 0}), 50, 0);
   SimulateOptions options;
   options.integrator = Integrator::xpbd;

@@ -29,7 +29,7 @@ SimulateOptions airy(double drag, double seconds) {
 
 }  // namespace
 
-TEST_CASE("in steady wind the velocity decays towards the air's, exactly") {
+TEST_CASE("wind: in steady wind the velocity decays towards the air's, exactly") {
   Cloth cloth = loose(3);
   const Cloth start = cloth;
   World world;
@@ -41,7 +41,7 @@ TEST_CASE("in steady wind the velocity decays towards the air's, exactly") {
   }
 }
 
-TEST_CASE("still air is no wind, whichever way it is written") {
+TEST_CASE("wind: still air is no wind, whichever way it is written") {
   Wind wind;
   CHECK(is_still(wind));
   wind.velocity = Vec3(1, 0, 0);
@@ -54,7 +54,7 @@ TEST_CASE("still air is no wind, whichever way it is written") {
   CHECK_FALSE(is_still(wind));
 }
 
-TEST_CASE("gusts are linear between their times and held outside, the cloth follows with order two") {
+TEST_CASE("wind: gusts are linear between their times and held outside, the cloth follows with order two") {
   Wind wind;
   wind.velocity = Vec3(2, 0, 0);
   wind.gusts = {{1, 0.5}, {2, 1.5}, {4, 0}};
@@ -80,7 +80,7 @@ TEST_CASE("gusts are linear between their times and held outside, the cloth foll
   CHECK(error(0.01) / error(0.005) == Approx(4).epsilon(0.05));
 }
 
-TEST_CASE("a swirl takes a ring along as fast as the air turns") {
+TEST_CASE("wind: a swirl takes a ring along as fast as the air turns") {
   Wind wind;
   wind.swirl = Spin{Vec3(1, 0, 0), Vec3(0, 2, 0), 3, 0, 1};
   CHECK((air_velocity(wind, {1, 5, 1}, 5) - Vec3(3, 0, 0)).norm() < 1e-14);
@@ -105,7 +105,7 @@ TEST_CASE("a swirl takes a ring along as fast as the air turns") {
   }
 }
 
-TEST_CASE("broken wind is refused") {
+TEST_CASE("wind: broken wind is refused") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Cloth cloth = loose(1);
   World world;

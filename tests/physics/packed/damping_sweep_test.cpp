@@ -23,7 +23,7 @@ struct Swept {
 
 }  // namespace
 
-TEST_CASE("one spring's relative velocity decays exactly") {
+TEST_CASE("damping_sweep: one spring's relative velocity decays exactly") {
   Cloth cloth = pendulum(2, 8, 1, {0, 3, 4}, {1, 3, 4});
   const bool pinned = GENERATE(true, false);
   if (!pinned) cloth.particles.inv_mass[0] = 0.5;  // reduced mass 1
@@ -35,7 +35,7 @@ TEST_CASE("one spring's relative velocity decays exactly") {
   CHECK((v - v.dot(along) * along - Vec3(1, 0, 0)).norm() < 1e-14);
 }
 
-TEST_CASE("a sweep never adds energy, keeps rigid motion, leaves pins alone") {
+TEST_CASE("damping_sweep: a sweep never adds energy, keeps rigid motion, leaves pins alone") {
   Cloth cloth = sheet(9, 9, 0.1, 0.2);
   Noise noise(2);
   for (Vec3& v : cloth.particles.v) v = noise.vector();
@@ -62,7 +62,7 @@ TEST_CASE("a sweep never adds energy, keeps rigid motion, leaves pins alone") {
   }
 }
 
-TEST_CASE("the reverse sweep is the adjoint of the forward one") {
+TEST_CASE("damping_sweep: the reverse sweep is the adjoint of the forward one") {
   Cloth cloth = sheet(8, 8, 0.1, 0.2);
   Noise noise(21);
   std::vector<Vec3> u, w;

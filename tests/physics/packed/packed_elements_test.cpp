@@ -29,7 +29,7 @@ Cloth shell(int columns, int rows, HingeLaw law, bool springs) {
 
 }  // namespace
 
-TEST_CASE("arc tangents of four at once are those of the standard library") {
+TEST_CASE("packed_elements: arc tangents of four at once are those of the standard library") {
   double worst = 0;
   for (int i = 0; i <= 20000; ++i) {
     const double angle = -3.14159265358979 + i * 6.28318530717958 / 20000, size = std::exp(i % 41 - 20);
@@ -44,7 +44,7 @@ TEST_CASE("arc tangents of four at once are those of the standard library") {
   CHECK(worst < 9e-16);
 }
 
-TEST_CASE("packed elements exert the same force as plain ones") {
+TEST_CASE("packed_elements: packed elements exert the same force as plain ones") {
   const Cloth cloth = shell(31, 23, GENERATE(HingeLaw::linear, HingeLaw::cosine), GENERATE(true, false));
   std::vector<Vec3> force(cloth.particles.size(), Vec3::Zero());
   add_forces(cloth, cloth.particles.x, force);
@@ -67,7 +67,7 @@ TEST_CASE("packed elements exert the same force as plain ones") {
   CHECK(motion.work().spring_evaluations == std::int64_t(cloth.structural.size() + cloth.bending.size()));
 }
 
-TEST_CASE("membrane and hinges move alike with any number of threads") {
+TEST_CASE("packed_elements: membrane and hinges move alike with any number of threads") {
   Cloth cloth = shell(61, 53, GENERATE(HingeLaw::linear, HingeLaw::cosine), false);
   pin(cloth.particles, std::vector<int>{0, 60});
   const auto run = [&](int threads) {
@@ -81,7 +81,7 @@ TEST_CASE("membrane and hinges move alike with any number of threads") {
   }
 }
 
-TEST_CASE("broken elements are refused before anything moves") {
+TEST_CASE("packed_elements: broken elements are refused before anything moves") {
   const Cloth good = shell(4, 4, HingeLaw::linear, false);
   const auto refused = [&](auto change) {
     Cloth cloth = good;

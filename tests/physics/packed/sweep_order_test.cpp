@@ -23,7 +23,7 @@ Pairs random_pairs(int n, int count) {
 
 }  // namespace
 
-TEST_CASE("a sweep holds every pair once, groups share no particle, blocks do not meet") {
+TEST_CASE("sweep_order: a sweep holds every pair once, groups share no particle, blocks do not meet") {
   CHECK(rc::check([] {
     const int n = *rc::gen::inRange(2, 60);
     const Pairs pairs = random_pairs(n, *rc::gen::inRange(0, 200));
@@ -49,7 +49,7 @@ TEST_CASE("a sweep holds every pair once, groups share no particle, blocks do no
   }));
 }
 
-TEST_CASE("a particle with more pairs than colours still works") {
+TEST_CASE("sweep_order: a particle with more pairs than colours still works") {
   Pairs star;
   for (int i = 1; i <= 100; ++i) star.push_back({0, i});
   const SweepOrder order = sweep_order(101, star);
@@ -57,7 +57,7 @@ TEST_CASE("a particle with more pairs than colours still works") {
   CHECK(std::set<int>(order.pairs.begin(), order.pairs.end()).size() == 100);
 }
 
-TEST_CASE("breadth-first order is a permutation and follows a chain from its end") {
+TEST_CASE("sweep_order: breadth-first order is a permutation and follows a chain from its end") {
   CHECK(rc::check([] {
     const int n = *rc::gen::inRange(2, 60);
     const std::vector<int> order = breadth_first_order(n, random_pairs(n, *rc::gen::inRange(0, 100)));

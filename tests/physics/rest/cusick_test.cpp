@@ -36,7 +36,7 @@ SettleReport hang(Cusick& specimen, double tolerance = 1e-3) {
 
 }  // namespace
 
-TEST_CASE("Cusick's specimen: a ring lies on the discs' edge and is held there, hinges on it count twice") {
+TEST_CASE("cusick: a ring lies on the discs' edge and is held there, hinges on it count twice") {
   CusickOptions options;
   const Cusick whole = cusick_specimen(options);
   const Particles& p = whole.cloth.particles;
@@ -62,7 +62,8 @@ TEST_CASE("Cusick's specimen: a ring lies on the discs' edge and is held there, 
   CHECK_THROWS_WITH(cusick_specimen(options), Catch::Contains("rings * support / radius = 11.06"));
 }
 
-TEST_CASE("drape coefficient: 1 for a flat specimen, 0 for one that hangs straight, a cone's between") {
+TEST_CASE(
+    "cusick: the coefficient is 1 for a flat specimen, 0 for one that hangs straight, a cone's between") {
   Cusick specimen = cusick_specimen({});
   const auto shape = [&](auto&& outside) {  // the distance from the axis that a point outside comes to
     Cusick shaped = specimen;
@@ -85,7 +86,7 @@ TEST_CASE("drape coefficient: 1 for a flat specimen, 0 for one that hangs straig
   }
 }
 
-TEST_CASE("Cusick's drape: a coarse specimen is near the elastic curve and stable, softer is limper") {
+TEST_CASE("cusick: a coarse specimen is near the elastic curve and stable, softer is limper") {
   double last = 1;
   for (const Point& p : {elastic_curve[0], elastic_curve[2]}) {
     CusickOptions options;
@@ -107,7 +108,7 @@ TEST_CASE("Cusick's drape: a coarse specimen is near the elastic curve and stabl
   }
 }
 
-TEST_CASE("Cusick's drape: settle meets the elastic curve within 0.05 from starts with folds", "[accuracy]") {
+TEST_CASE("cusick: settle meets the elastic curve within 0.05 from starts with folds", "[accuracy]") {
   for (const Point& p : elastic_curve) {
     for (const int folds : {6, 8}) {
       CusickOptions options;
@@ -124,7 +125,7 @@ TEST_CASE("Cusick's drape: settle meets the elastic curve within 0.05 from start
   }
 }
 
-TEST_CASE("Cusick's drape: where leapfrog comes to rest, settle stays", "[accuracy]") {
+TEST_CASE("cusick: where leapfrog comes to rest, settle stays", "[accuracy]") {
   CusickOptions options;
   options.rings = 10;
   Cusick moved = cusick_specimen(options);

@@ -185,7 +185,7 @@ TEST_CASE("displace_by_force: deterministic, watched, stopped, and nothing to do
   CHECK(outcome(falling, nullptr, options) == DisplaceOutcome::unfinished);
 }
 
-TEST_CASE("displace_by_force refuses bad options and cloths, and changes nothing", "[displace]") {
+TEST_CASE("displace_by_force: it refuses bad options and cloths, and changes nothing", "[displace]") {
   Cloth cloth = pendulum(0.2, 40, 1, {0, -1, 0}, {1, 0, 0});
   const auto refuses = [&](const Cloth& bad, const DisplaceOptions& options, const char* name) {
     Cloth copy = bad;

@@ -7,7 +7,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("a hanging chain of uneven springs comes to rest at the exact solution") {
+TEST_CASE("simulate: a hanging chain of uneven springs comes to rest at the exact solution") {
   Cloth chain = hanging_chain();
   const std::vector<Eigen::Vector2d> exact = exact_chain(chain);
   SimulateOptions options;

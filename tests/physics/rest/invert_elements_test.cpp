@@ -23,7 +23,7 @@ Eigen::Vector3d tensions(const MembraneTriangle& t, const std::array<Vec3, 3>& x
 
 }  // namespace
 
-TEST_CASE("inverted elements: a spring gets the length that makes its tension") {
+TEST_CASE("invert_elements: a spring gets the length that makes its tension") {
   for (const double t : {-3.0, 0.0, 0.01, 40.0}) {
     const double rest = *rest_length_for(0.7, 100, t);
     CHECK(100 * (0.7 - rest) == Approx(t).margin(1e-12 * 70));
@@ -34,7 +34,7 @@ TEST_CASE("inverted elements: a spring gets the length that makes its tension") 
   CHECK_FALSE(rest_length_for(0.7, 0, 1));
 }
 
-TEST_CASE("inverted elements: a hinge gets the angle that makes its moment, by either law, across the jump") {
+TEST_CASE("invert_elements: a hinge gets the angle that makes its moment, by either law, across the jump") {
   const double k = 3e-5;
   for (const HingeLaw law : {HingeLaw::linear, HingeLaw::cosine}) {
     for (const double theta : {0.0, 0.4, -3.0, 3.1}) {
@@ -53,7 +53,7 @@ TEST_CASE("inverted elements: a hinge gets the angle that makes its moment, by e
   CHECK_FALSE(rest_angle_for(HingeLaw::linear, 0, 0, 1e-9));
 }
 
-TEST_CASE("inverted elements: a triangle gets the lengths that make its tensions") {
+TEST_CASE("invert_elements: a triangle gets the lengths that make its tensions") {
   Noise noise(5);
   for (const double poisson : {-0.5, 0.0, 0.3, 0.9}) {
     const PlaneLame lame = plane_stress(300, poisson);
@@ -76,7 +76,7 @@ TEST_CASE("inverted elements: a triangle gets the lengths that make its tensions
   }
 }
 
-TEST_CASE("inverted elements: one axis bears compression to the law's limit and no further") {
+TEST_CASE("invert_elements: one axis bears compression to the law's limit and no further") {
   const std::array<Vec3, 3> x{Vec3(0, 0, 0), Vec3(0.01, 0, 0), Vec3(0, 0.01, 0)};
   // A stress along x alone: sigma A = 2 s e e^T of the edge along x, which is opposite corner 2.
   const PlaneLame lame = plane_stress(1, 0);
@@ -91,7 +91,7 @@ TEST_CASE("inverted elements: one axis bears compression to the law's limit and 
   CHECK(along_x(0.5));
 }
 
-TEST_CASE("inverted elements: the law has an answer to all stresses that prestress may ask for") {
+TEST_CASE("invert_elements: the law has an answer to all stresses that prestress may ask for") {
   Noise noise(8);
   for (const double poisson : {-0.5, 0.0, 0.3, 0.5}) {
     const PlaneLame lame = plane_stress(300, poisson);

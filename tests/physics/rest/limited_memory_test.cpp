@@ -41,7 +41,7 @@ void halve(std::span<Vec3> f) {
 
 }  // namespace
 
-TEST_CASE("limited memory: the last step is what its forces ask for, the base where nothing is known") {
+TEST_CASE("limited_memory: the last step is what its forces ask for, the base where nothing is known") {
   Noise noise(3);
   LimitedMemory memory(halve, 4);
   const Vectors f = random(6, noise);
@@ -64,7 +64,7 @@ TEST_CASE("limited memory: the last step is what its forces ask for, the base wh
   for (std::size_t i = 0; i < f.size(); ++i) CHECK(x[i] == 0.5 * f[i]);
 }
 
-TEST_CASE("limited memory: with exact steps it solves a chain in as many as it has different stiffnesses") {
+TEST_CASE("limited_memory: with exact steps it solves a chain in as many as it has different stiffnesses") {
   Noise noise(4);
   const Vectors load = random(4, noise);
   LimitedMemory memory(halve, 12);
@@ -85,7 +85,7 @@ TEST_CASE("limited memory: with exact steps it solves a chain in as many as it h
   CHECK(steps <= 4);
 }
 
-TEST_CASE("limited memory: a step along which forces grow is left out, other lengths are refused") {
+TEST_CASE("limited_memory: a step along which forces grow is left out, other lengths are refused") {
   LimitedMemory memory(halve, 2);
   const Vectors s = {Vec3::UnitX(), Vec3::UnitY()};
   CHECK_FALSE(memory.add(s, {-Vec3::UnitX(), Vec3::Zero()}));

@@ -19,7 +19,7 @@ std::vector<Vec3> weight(const Cloth& cloth, const Vec3& gravity = Vec3(0, -9.81
 
 }  // namespace
 
-TEST_CASE("rigid imbalance: pins leave six, three, one or no freedoms") {
+TEST_CASE("rigid_imbalance: pins leave six, three, one or no freedoms") {
   const auto freedoms = [](const std::vector<int>& pins) {
     Cloth cloth = sheet(5, 5, 0.1);
     pin(cloth.particles, pins);
@@ -33,7 +33,7 @@ TEST_CASE("rigid imbalance: pins leave six, three, one or no freedoms") {
   CHECK(freedoms({0, 1, 20}) == 0);
 }
 
-TEST_CASE("rigid imbalance: a mass beside its pin, a rod beside its axis, two pieces") {
+TEST_CASE("rigid_imbalance: a mass beside its pin, a rod beside its axis and two pieces are out of balance") {
   Cloth cloth = pendulum(2, 50, 0.5, {0.3, -0.4, 0});
   auto found = rigid_imbalances(cloth, weight(cloth));
   REQUIRE(found.size() == 1);
@@ -56,7 +56,7 @@ TEST_CASE("rigid imbalance: a mass beside its pin, a rod beside its axis, two pi
   CHECK(found[1].moment.norm() < 1e-12);
 }
 
-TEST_CASE("rigid imbalance: what hangs on a line or a point is turned under it, and keeps its shape") {
+TEST_CASE("rigid_imbalance: what hangs on a line or a point is turned under it, and keeps its shape") {
   const Vec3 gravity(0, -9.81, 0);
   for (const std::vector<int>& pins : {std::vector<int>{0, 1, 2, 3, 4}, std::vector<int>{4}}) {
     Cloth cloth = sheet(5, 5, 0.1);
@@ -77,7 +77,7 @@ TEST_CASE("rigid imbalance: what hangs on a line or a point is turned under it, 
   }
 }
 
-TEST_CASE("rigid imbalance: free pieces and axes along gravity are not turned, bad arrays refused") {
+TEST_CASE("rigid_imbalance: free pieces and axes along gravity are not turned, bad arrays refused") {
   Cloth cloth = sheet(4, 4, 0.1);
   const std::vector<Vec3> before = cloth.particles.x;
   CHECK(balance_rigidly(cloth, {0, -9.81, 0}) == 0);

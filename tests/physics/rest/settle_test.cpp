@@ -163,7 +163,7 @@ TEST_CASE("settle: the observer stops it, and options out of range change nothin
   CHECK(cloth.particles.x == before);
 }
 
-TEST_CASE("elastic band: a ring of particles contracts to the band's length") {
+TEST_CASE("elastic_band: a ring of particles contracts to the band's length") {
   Cloth cloth;
   std::vector<int> ring;
   for (int i = 0; i < 12; ++i) {
