@@ -22,6 +22,7 @@
 
 #include "geometry/refine/subdivide.h"
 #include "physics/cloth/elements.h"
+#include "physics/contact/push_out.h"
 #include "physics/contact/residual_force.h"
 #include "physics/motion/simulate.h"
 #include "physics/rest/certificate.h"
@@ -171,7 +172,7 @@ std::vector<Cloth> starts_of(const Scene& scene, const cases::GarmentPair& pair,
     geometry::Mesh made = scene.shape;
     if (i + 1 == starts.size()) starts[i] = make(made);
     disturb(starts[i], disturbance, unsigned(i) + 1);
-    cases::bring_out(starts[i], *scene.body, scene.gap);
+    physics::bring_out(starts[i].particles, *scene.body, scene.gap);
   }
   return starts;
 }

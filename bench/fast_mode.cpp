@@ -13,10 +13,10 @@
 
 #include "physics/cloth/pins.h"
 #include "physics/rest/displace_by_force.h"
-#include "physics/rest/static_equilibrium.h"
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/shell_cloths.h"
 #include "tests/physics/cloth/tension_cloths.h"
+#include "tests/physics/rest/settled.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;
@@ -56,9 +56,7 @@ Cloth hanging_sheet() {
 
 /// alpha that makes alpha c e / L = 1, e the largest strain where the cloth hangs in balance.
 double unit_rate(Cloth cloth) {
-  StaticOptions options;
-  options.tolerance = 1e-4;
-  const StaticReport report = find_static_equilibrium(cloth, options);
+  const Settled report = find_rest(cloth, down_to(1e-4));
   std::fprintf(stderr, "balance: residual %g, %s\n", report.residual,
                report.stable ? "stable" : "not stable");
   double most = 0;

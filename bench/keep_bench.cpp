@@ -16,9 +16,9 @@
 #include "physics/cloth/struts.h"
 #include "physics/motion/simulate.h"
 #include "physics/rest/certificate.h"
+#include "physics/rest/clamped_elements.h"
 #include "physics/rest/prestress.h"
 #include "physics/rest/rigid_imbalance.h"
-#include "physics/rest/sag_system.h"
 
 namespace furrow::bench {
 namespace {

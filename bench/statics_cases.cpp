@@ -11,14 +11,13 @@ namespace furrow::bench {
 namespace {
 
 using namespace furrow::tests;
-using physics::StaticOptions;
 
 void catenaries() {
   for (const double unevenness : {0.0, 0.7}) {
     Cloth chain = hanging_chain(32, unevenness);
     const auto exact = exact_chain(chain);
     Row row{"catenary node [m]", unevenness > 0 ? "uneven" : "even", 32, 32, 0, 0, 0, 0, 1e-5};
-    rest(chain, {}, row);
+    rest(chain, down_to(1e-6), row);
     for (std::size_t i = 0; i < exact.size(); ++i) {
       const double error = (chain.particles.x[i] - Vec3(exact[i].x(), exact[i].y(), 0)).norm();
       row.error = std::max(row.error, error);
@@ -28,7 +27,7 @@ void catenaries() {
   for (const int n : {4, 8, 16, 32, 64, 128, 256}) {
     Cloth chain = hanging_chain(n, 0);
     Row row{"catenary sag [m]", "even", double(n), n, 0, 0, 0.505865838778};
-    rest(chain, {}, row);
+    rest(chain, down_to(1e-6), row);
     row.measured = -chain.particles.x[n / 2].y();
     row.error = row.measured - row.reference;
     print(row);
@@ -41,11 +40,9 @@ void ladders() {
       LadderOptions o;
       o.links = links;
       Strip strip = ladder(o);
-      StaticOptions options;
-      options.tolerance = 1e-4;
-      options.gravity = {0, 0, -gravity_for(gamma, o.density, o.length, o.rigidity)};
+      const double gravity = gravity_for(gamma, o.density, o.length, o.rigidity);
       Row row{"ladder tip H/L", "ladder", gamma, links, 1};
-      rest(strip.cloth, options, row);
+      rest(strip.cloth, down_to(1e-4, {0, 0, -gravity}), row);
       row.measured = -strip.tip().z() / o.length;
       row.reference = heavy_elastica(gamma).height;
       row.error = row.measured - row.reference;
@@ -61,11 +58,9 @@ void ladders() {
 /// H/W of a cantilever.
 Row cantilever(const StripOptions& o, double gamma) {
   Strip strip = equilateral_strip(o);
-  StaticOptions options;
-  options.tolerance = 1e-5;
-  options.gravity = {0, 0, -gravity_for(gamma, o.density, o.length, o.rigidity)};
+  const double gravity = gravity_for(gamma, o.density, o.length, o.rigidity);
   Row row{"cantilever H/W", "equilateral", gamma, o.rows, o.columns};
-  rest(strip.cloth, options, row);
+  rest(strip.cloth, down_to(1e-5, {0, 0, -gravity}), row);
   const Elastica exact = heavy_elastica(gamma);
   row.measured = -strip.tip().z() / strip.tip().x();
   row.reference = exact.height / exact.width;
@@ -153,12 +148,10 @@ void third_power() {
     for (Vec3& x : strip.cloth.particles.x) {
       if (x.x() > 0) x.z() = -exact.height * o.length * std::pow(x.x() / o.length, 5.0 / 3);
     }
-    StaticOptions options;
-    options.tolerance = gamma < 1 ? 0.02 : 1e-4;
     const double rigidity = 0.0608929 * spring * std::pow(edge, 4);
-    options.gravity = {0, 0, -gamma * rigidity / (o.density * std::pow(o.length, 5))};
+    const double gravity = gamma * rigidity / (o.density * std::pow(o.length, 5));
     Row row{"springs across edges H/L", "equilateral", gamma, o.rows, o.columns};
-    rest(strip.cloth, options, row);
+    rest(strip.cloth, down_to(gamma < 1 ? 0.02 : 1e-4, {0, 0, -gravity}), row);
     row.measured = -strip.tip().z() / o.length;
     row.reference = exact.height;
     row.error = row.measured / row.reference - 1;

@@ -21,9 +21,9 @@ void print(const Row& r) {
   std::fflush(stdout);
 }
 
-void rest(physics::Cloth& cloth, const physics::StaticOptions& options, Row& row) {
+void rest(physics::Cloth& cloth, const physics::SettleOptions& options, Row& row) {
   const auto start = std::chrono::steady_clock::now();
-  row.report = physics::find_static_equilibrium(cloth, options);
+  row.report = tests::find_rest(cloth, options);
   row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

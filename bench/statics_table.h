@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "physics/rest/static_equilibrium.h"
+#include "tests/physics/rest/settled.h"
 
 namespace furrow::bench {
 
@@ -14,7 +14,7 @@ struct Row {
   double error =
       0;  ///< relative to the reference; of chains and slopes absolute, of ladder tips by the length
   double target = 0;  ///< largest |error| asked for; 0: none
-  physics::StaticReport report = {};
+  tests::Settled report = {};
   double seconds = 0;
 };
 
@@ -22,7 +22,7 @@ void print_header();
 void print(const Row& row);
 
 /// Finds the rest and notes in the row what it took.
-void rest(physics::Cloth& cloth, const physics::StaticOptions& options, Row& row);
+void rest(physics::Cloth& cloth, const physics::SettleOptions& options, Row& row);
 
 void buckling();
 void postbuckled();

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <random>
-#include <stdexcept>
-#include <string>
 
 #include "bridge/convert.h"
 #include "bridge/scatter.h"
 #include "geometry/refine/subdivide.h"
+#include "physics/base/require.h"
 #include "physics/rest/displace_by_force.h"
 #include "physics/rest/hinge_friction.h"
 
@@ -22,18 +20,17 @@ namespace {
 using physics::Vec3;
 
 void check(const DrapeOptions& o) {
-  const auto need = [](bool good, const char* name, double value, const char* range) {
-    if (good && std::isfinite(value)) return;
-    throw std::invalid_argument(std::string("drape: ") + name + " = " + std::to_string(value) + " is not " +
-                                range);
-  };
-  need(o.refinements >= 0 && o.refinements <= 6, "refinements", o.refinements, "in [0, 6]");
-  need(o.coarse_tolerance > 0, "coarse_tolerance", o.coarse_tolerance, "> 0");
-  need(o.disturbance >= 0, "disturbance", o.disturbance, ">= 0");
-  need(!o.plain || std::isinf(o.settle.contact_depth), "contact_depth",
-       std::min(o.settle.contact_depth, 1e300), "left away, as the plain scheme needs it");
-  need(o.bending_friction >= 0 && !(o.bending_friction > 0 && o.plain), "bending_friction",
-       o.bending_friction, o.plain ? "0, as the plain scheme needs it" : ">= 0");
+  using physics::require;
+  constexpr const char* me = "drape";
+  const double depth = o.settle.contact_depth;
+  require(me, "refinements", o.refinements, o.refinements >= 0 && o.refinements <= 6, "in [0, 6]");
+  require(me, "coarse_tolerance", o.coarse_tolerance, o.coarse_tolerance > 0, "> 0");
+  require(me, "disturbance", o.disturbance, o.disturbance >= 0, ">= 0");
+  require(me, "contact_depth", std::min(depth, 1e300), !o.plain || std::isinf(depth),
+          "left away, as the plain scheme needs it");
+  require(me, "bending_friction", o.bending_friction,
+          o.bending_friction >= 0 && !(o.bending_friction > 0 && o.plain),
+          o.plain ? "0, as the plain scheme needs it" : ">= 0");
 }
 
 /// Moves each free particle along its normal, in or out, by up to so much of the mean edge, the same way in
@@ -59,14 +56,6 @@ double disturb(physics::Cloth& cloth, double share) {
 /// How deep cloth at rest may lie inside the gap: moving it out would only strain it.
 double rest_depth(double gap) { return std::min(gap / 6, 5e-4); }
 
-physics::PushOutReport bring_out(physics::Cloth& cloth, const physics::Collider* body, double gap) {
-  if (!body) return {};
-  std::vector<int> free;
-  for (std::size_t i = 0; i < cloth.particles.size(); ++i)
-    if (cloth.particles.inv_mass[i] > 0) free.push_back(int(i));
-  return physics::push_out(cloth.particles.x, free, *body, gap);
-}
-
 physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* body, bool plain,
                                 const physics::SettleOptions& o, const physics::SettleObserver& observer) {
   if (!plain) return physics::settle(cloth, body, o, observer);
@@ -89,22 +78,47 @@ physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* 
 constexpr double least_slip = 2e-3;  // rad
 constexpr int most_rounds = 60;
 
+struct WornRest {
+  physics::SettleReport settle;  ///< of all rounds together
+  int rounds = 0;                ///< after which hinges gave way
+  double slip = 0;               ///< of a hinge in the last of them [rad]
+};
 /// Finds rest on the last level, again while hinges give way; their friction stands at the end of the cloth's
 /// hinges.
-void give_way(physics::Cloth& cloth, const physics::Collider* body, double moment,
-              const physics::SettleOptions& o, const physics::SettleObserver& observer,
-              physics::SettleReport& settled, DrapeReport& report) {
+WornRest give_way(physics::Cloth& cloth, const physics::Collider* body, double moment,
+                  const physics::SettleOptions& o, const physics::SettleObserver& observer) {
   const physics::HingeFriction friction = physics::add_hinge_friction(cloth, {.moment = moment});
+  WornRest rest;
   do {
-    const physics::SettleReport now = physics::settle(cloth, body, o, observer);
-    const physics::SettleReport before = settled;
-    settled = now;
-    settled.iterations += before.iterations;
-    settled.factorisations += before.factorisations;
-    settled.followers += before.followers;
-    if (!now.converged) return;
-    report.slip = physics::update_friction(cloth, friction);
-  } while (report.slip > least_slip && ++report.friction_rounds < most_rounds);
+    const physics::SettleReport before = rest.settle;
+    rest.settle = physics::settle(cloth, body, o, observer);
+    const bool converged = rest.settle.converged;
+    rest.settle.iterations += before.iterations;
+    rest.settle.factorisations += before.factorisations;
+    rest.settle.followers += before.followers;
+    if (!converged) break;
+    rest.slip = physics::update_friction(cloth, friction);
+  } while (rest.slip > least_slip && ++rest.rounds < most_rounds);
+  return rest;
+}
+
+/// The next level's mesh. Returns where the shape that was found lies on it.
+std::vector<Vec3> refine(const physics::Particles& found, geometry::Mesh& garment) {
+  geometry::Mesh shape = garment;  // so that new vertices come in the same order
+  scatter(found, shape);
+  geometry::loop_subdivide(shape, 1);
+  geometry::loop_subdivide(garment, 1);
+  return positions_of(shape);
+}
+
+physics::SettleOptions options_of(const DrapeOptions& o, bool last, bool stopped) {
+  physics::SettleOptions settle = o.settle;
+  if (!last) {
+    settle.tolerance = std::max(settle.tolerance, o.coarse_tolerance);
+    settle.contact_depth = std::numeric_limits<double>::infinity();
+  }
+  if (stopped) settle.max_iterations = 0;
+  return settle;
 }
 
 }  // namespace
@@ -115,13 +129,7 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
   DrapeReport report;
   std::vector<Vec3> carried;  // positions that the level before ended at, refined
   for (int level = 0; level <= o.refinements; ++level) {
-    if (level > 0) {
-      geometry::Mesh shape = garment;  // so that new vertices come in the same order
-      scatter(cloth.particles, shape);
-      geometry::loop_subdivide(shape, 1);
-      carried = positions_of(shape);
-      geometry::loop_subdivide(garment, 1);
-    }
+    if (level > 0) carried = refine(cloth.particles, garment);
     const bool last = level == o.refinements;
     geometry::Mesh made = garment;
     cloth = make_cloth(made);
@@ -130,25 +138,24 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     report.disturbance = disturb(cloth, report.stopped ? 0 : o.disturbance);
     DrapeLevel& now = report.levels.emplace_back();
     now.vertices = cloth.particles.size();
-    now.pushed = bring_out(cloth, body, o.settle.gap - (carried.empty() ? 0 : rest_depth(o.settle.gap)));
-    physics::SettleOptions settle = o.settle;
-    if (!last) {
-      settle.tolerance = std::max(settle.tolerance, o.coarse_tolerance);
-      settle.contact_depth = std::numeric_limits<double>::infinity();
-    }
-    if (report.stopped) settle.max_iterations = 0;
+    const double gap = o.settle.gap - (carried.empty() ? 0 : rest_depth(o.settle.gap));
+    if (body) now.pushed = physics::bring_out(cloth.particles, *body, gap);
+    const physics::SettleOptions settle = options_of(o, last, report.stopped);
     const auto observer = [&](const physics::SettleProgress& progress) {
       return !go_on || report.stopped || go_on(level, progress, cloth);
     };
-    if (last && o.bending_friction > 0 && !report.stopped)
-      give_way(cloth, body, o.bending_friction, settle, observer, now.settle, report);
-    else
+    if (last && o.bending_friction > 0 && !report.stopped) {
+      const WornRest rest = give_way(cloth, body, o.bending_friction, settle, observer);
+      now.settle = rest.settle;
+      report.friction_rounds = rest.rounds;
+      report.slip = rest.slip;
+    } else {
       now.settle = find_rest(cloth, body, o.plain, settle, observer);
-    report.stopped = report.stopped || now.settle.stopped;
-    if (last) {
-      garment = std::move(made);
-      scatter(cloth.particles, garment);
     }
+    report.stopped = report.stopped || now.settle.stopped;
+    if (!last) continue;
+    garment = std::move(made);
+    scatter(cloth.particles, garment);
   }
   return report;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "bridge/keep_shape.h"
 #include "bridge/keep_trial.h"
@@ -21,58 +23,91 @@ constexpr double share_of_mode = 0.1;  // of an unstable motion's energy that ma
 constexpr double out_of_balance = 1e-6;
 constexpr double reserve = 0.4;  // of what a line may lose or win, where the shape is not stable
 
+using Flags = std::vector<char>;  // one a line
+
+/// The lines and their help.
+struct Plan {
+  std::vector<HelpedLine> lines;
+  std::size_t rest_step = 0;  ///< of presses, on what lies in no line's patch
+};
+/// Where a plan leads.
+struct Outcome {
+  physics::Cloth cloth;                 ///< with its rest state
+  KeptShape shape;                      ///< of that
+  double rest_press;                    ///< factor on the hinges outside of all patches [-]
+  std::vector<double> kept, kept_gust;  ///< of each line, shares of its height [-]; NaN: not run
+};
+struct Found {
+  Plan plan;
+  Outcome outcome;
+};
+/// What it took so far.
+struct Tally {
+  int trials = 0, runs = 0;
+  double drift = 0;  ///< of any vertex in the last run [m]
+  bool interrupted = false;
+};
+
+bool any(const Flags& flags) {
+  return std::any_of(flags.begin(), flags.end(), [](char flag) { return flag != 0; });
+}
+
+/// Shares in the motion that nothing holds back, of each line and last of the rest; 0 if there is no such
+/// motion.
+std::vector<double> loose_shares(const Found& found) {
+  const physics::Certificate& certificate = found.outcome.shape.certificate;
+  if (certificate.stable()) return std::vector<double>(found.plan.lines.size() + 1, 0.0);
+  return shares_of(found.plan.lines, found.outcome.cloth.particles, certificate.mode);
+}
+
+/// Lines with a good part in it.
+Flags loose_lines(const Found& found) {
+  const std::vector<double> shares = loose_shares(found);
+  Flags loose(found.plan.lines.size());
+  for (std::size_t i = 0; i < loose.size(); ++i) loose[i] = shares[i] > share_of_mode;
+  return loose;
+}
+
+bool hangs_wrong(const Outcome& outcome) {
+  return outcome.shape.rest.residual > out_of_balance && !outcome.shape.rest.imbalance.empty();
+}
+
+bool is_bound(const HelpedLine& line, const Outcome& outcome) {
+  return outcome.shape.rest.residual > out_of_balance && on_bounds(line, outcome.shape.rest, outcome.cloth);
+}
+
+bool holds(const Outcome& outcome, std::size_t line, double least) {
+  // An unstable shape ends elsewhere each time: a run is a sample, and the next one may be worse.
+  const double most = (outcome.shape.certificate.stable() ? 1 : reserve) * (1 - least);
+  return std::abs(outcome.kept[line] - 1) <= most && std::abs(outcome.kept_gust[line] - 1) <= most;
+}
+
+/// Lines that hold, as far as is known; least: share of its height that a line must keep [-].
+Flags good_lines(const Found& found, double least) {
+  const Flags loose = loose_lines(found);
+  Flags good(loose.size(), 0);
+  if (hangs_wrong(found.outcome)) return good;
+  for (std::size_t i = 0; i < good.size(); ++i)
+    good[i] = holds(found.outcome, i, least) && !is_bound(found.plan.lines[i], found.outcome) && !loose[i];
+  return good;
+}
+
+/// Goes from plan to plan; the members are what all of them have in common.
 class Keeper {
  public:
-  Keeper(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
-         const std::vector<double>& base, const KeepOptions& options,
-         const std::function<bool(double)>& go_on)
-      : mesh_(mesh),
-        cloth_(cloth),
-        world_(world),
-        o_(options),
-        go_on_(go_on),
-        meter_(mesh, base, options.line_widths) {
-    o_.bounds.gravity = o_.run.gravity;
-    o_.bounds.friction = o_.run.friction;
-    o_.bounds.gap = o_.run.contact_gap;
-    start_ = cloth_;
-    for (Vec3& v : start_.particles.v) v.setZero();
-    const physics::PushOutReport pushed = bring_out(start_, world, o_.run.contact_gap);
-    report_.pushed_out = pushed.moved;
-    report_.farthest_push = pushed.farthest;
-    find_lines();
-  }
+  Keeper(const geometry::Mesh& mesh, const physics::Cloth& start, const physics::World& world,
+         const KeepOptions& options, LineMeter& meter, const std::function<bool(double)>& go_on)
+      : mesh_(mesh), start_(start), world_(world), o_(options), meter_(meter), go_on_(go_on) {}
 
-  KeepReport run() {
-    help_by_stiffness();
-    if (!report_.interrupted) help_all();
-    if (!report_.interrupted && o_.height_trials > 0 &&
-        geometry::find_map(mesh_, geometry::attribute::rest_position))
-      help_by_height();
-    scatter(solved_.particles, mesh_);
-    cloth_ = solved_;
-    for (const HelpedLine& line : lines_) report_.lines.push_back(verdict(line));
-    for (const int id : meter_.unmeasured()) {
-      KeptLine line;
-      line.line = id;
-      line.height = line.kept = line.kept_gust = NAN;
-      line.reason =
-          "its height cannot be measured: its fold leaves too little cloth around it, or runs along a border";
-      report_.lines.push_back(line);
-    }
-    std::sort(report_.lines.begin(), report_.lines.end(),
-              [](const KeptLine& a, const KeptLine& b) { return a.line < b.line; });
-    return report_;
-  }
-
- private:
-  void find_lines() {
+  /// The lines without help.
+  Plan plan() const {
     const auto id = geometry::find_map(mesh_, geometry::attribute::line);
     const std::vector<double> drawn = meter_.heights(start_.particles),
                               lengths = geometry::lengths_before_lines(mesh_);
     const auto of_line = [](const std::vector<double>& list, int line, double missing) {
       return std::size_t(line) < list.size() ? list[line] : missing;
     };
+    Plan plan;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       std::vector<geometry::Vertex> vertices;
       for (const geometry::Vertex v : mesh_.vertices())
@@ -83,191 +118,182 @@ class Keeper {
       line.width = width > 0 ? width : 0;
       for (const geometry::Vertex v : geometry::line_region(mesh_, vertices, width, lengths))
         line.patch.push_back(int(v));
-      lines_.push_back(std::move(line));
+      plan.lines.push_back(std::move(line));
     }
+    return plan;
   }
 
-  void solve() {
-    solved_ = start_;
-    place_lines(lines_, mesh_, start_.particles, solved_.particles);
-    report_.rest_press = rest_step_ > 0 ? o_.presses[rest_step_ - 1] : 1;
-    stiffen_lines(lines_, o_, report_.rest_press, solved_);
-    KeptShape shape = keep_shape(solved_, world_, o_.bounds, o_.largest_turn);
-    report_.rest = std::move(shape.rest);
-    report_.certificate = std::move(shape.certificate);
-    report_.turned = shape.turned;
-    ++report_.trials;
-    for (HelpedLine& line : lines_) line.kept = line.kept_gust = NAN;
-  }
-
-  /// The lines that may be helped and do not hold; with `may_end` the run ends early if one is far from it.
-  std::vector<HelpedLine*> run_forward(bool may_end) {
-    const bool stable = report_.certificate.stable();
-    report_.runs += stable ? 1 : o_.pushes;
-    const auto lost = [&](std::size_t i, double kept) {
-      return lines_[i].step < help_steps(o_) && std::abs(kept - 1) > 2 * (1 - o_.kept);
-    };
-    std::vector<HelpedLine*> weak;
-    const auto in_vain = [&](const std::vector<double>& kept) {
-      for (std::size_t i = 0; may_end && i < lines_.size(); ++i)
-        if (lost(i, kept[i])) weak.push_back(&lines_[i]);
-      return !weak.empty();
-    };
-    const KeepTrial trial = try_shape(solved_, stable, world_, o_, meter_, in_vain, go_on_);
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      lines_[i].kept = trial.kept[i];
-      lines_[i].kept_gust = trial.kept_gust[i];
-    }
-    report_.drift = trial.drift;
-    report_.interrupted = report_.interrupted || trial.stopped;
-    if (!weak.empty()) return weak;
-    for (HelpedLine& line : lines_)
-      if (line.step < help_steps(o_) && !holds(line)) weak.push_back(&line);
-    return weak;
-  }
-
-  /// Shares in the motion that nothing holds back; none if there is no such motion.
-  std::vector<double> loose_shares() const {
-    if (report_.certificate.stable()) return std::vector<double>(lines_.size() + 1, 0.0);
-    return shares_of(lines_, solved_.particles, report_.certificate.mode);
-  }
-
-  /// Lines with a good part in it.
-  std::vector<HelpedLine*> lines_of_mode() {
-    std::vector<HelpedLine*> found;
-    const std::vector<double> shares = loose_shares();
-    for (std::size_t i = 0; i < lines_.size(); ++i)
-      if (shares[i] > share_of_mode) found.push_back(&lines_[i]);
-    return found;
-  }
-
-  bool hangs_wrong() const {
-    return report_.rest.residual > out_of_balance && !report_.rest.imbalance.empty();
-  }
-
-  bool is_bound(const HelpedLine& line) const {
-    return report_.rest.residual > out_of_balance && on_bounds(line, report_.rest, solved_);
-  }
-
-  bool rest_needs_help() const {
-    return o_.whole && rest_step_ < o_.presses.size() && loose_shares().back() > share_of_mode;
-  }
-
-  bool holds(const HelpedLine& line) const {
-    // An unstable shape ends elsewhere each time: a run is a sample, and the next one may be worse.
-    const double most = (report_.certificate.stable() ? 1 : reserve) * (1 - o_.kept);
-    return std::abs(line.kept - 1) <= most && std::abs(line.kept_gust - 1) <= most;
-  }
-
-  bool good(const HelpedLine& line, const std::vector<HelpedLine*>& loose) const {
-    return holds(line) && !is_bound(line) && !hangs_wrong() &&
-           std::none_of(loose.begin(), loose.end(), [&](const HelpedLine* l) { return l->id == line.id; });
-  }
-
-  void help_by_stiffness() {
+  /// More help for what needs it, until nothing does or all is given.
+  Found help_by_stiffness(Plan plan, Tally& tally) const {
     for (;;) {
-      solve();
-      std::vector<HelpedLine*> weak = lines_of_mode();
-      for (HelpedLine& line : lines_)
-        if (is_bound(line) && std::find(weak.begin(), weak.end(), &line) == weak.end()) weak.push_back(&line);
-      std::erase_if(weak, [&](const HelpedLine* l) { return l->step == help_steps(o_); });
-      const bool rest = rest_needs_help();
-      if (weak.empty() && !rest) weak = run_forward(true);
-      if ((weak.empty() && !rest) || report_.interrupted || hangs_wrong()) return;
-      for (HelpedLine* line : weak) ++line->step;
-      rest_step_ += rest ? 1 : 0;
+      Found found{plan, solve(plan, tally)};
+      Flags weak = loose_lines(found);
+      for (std::size_t i = 0; i < weak.size(); ++i)
+        weak[i] = can_be_helped(plan.lines[i]) && (weak[i] || is_bound(plan.lines[i], found.outcome));
+      const bool rest = rest_needs_help(found);
+      if (!any(weak) && !rest) weak = run_forward(found, true, tally);
+      if ((!any(weak) && !rest) || tally.interrupted || hangs_wrong(found.outcome)) return found;
+      for (std::size_t i = 0; i < weak.size(); ++i) plan.lines[i].step += weak[i] ? 1 : 0;
+      plan.rest_step += rest ? 1 : 0;
     }
-  }
-
-  std::size_t failing() {
-    const std::vector<HelpedLine*> loose = lines_of_mode();
-    return std::count_if(lines_.begin(), lines_.end(), [&](const auto& line) { return !good(line, loose); });
   }
 
   /// Gives all help to all lines, since a neighbour that holds by itself can let a line go. The help stays if
   /// more lines hold.
-  void help_all() {
-    const std::size_t before = failing();
-    if (before == 0 || hangs_wrong()) return;
-    if (std::all_of(lines_.begin(), lines_.end(), [&](const auto& l) { return l.step == help_steps(o_); }))
-      return;
-    const std::vector<HelpedLine> least = lines_;
-    const KeepReport of_least = report_;
-    const physics::Cloth solved = solved_;
-    for (HelpedLine& line : lines_) line.step = help_steps(o_);
-    solve();
-    run_forward(false);
-    if (report_.interrupted || failing() < before) return;
-    KeepReport counted = of_least;
-    counted.trials = report_.trials, counted.runs = report_.runs;
-    lines_ = least, report_ = counted, solved_ = solved;
+  Found help_all(Found least, Tally& tally) const {
+    const auto is_helped = [&](const HelpedLine& line) { return !can_be_helped(line); };
+    const std::size_t before = failing(least);
+    if (before == 0 || hangs_wrong(least.outcome) ||
+        std::all_of(least.plan.lines.begin(), least.plan.lines.end(), is_helped))
+      return least;
+    const double drift = tally.drift;
+    Plan plan = least.plan;
+    for (HelpedLine& line : plan.lines) line.step = help_steps(o_);
+    Found most{plan, solve(plan, tally)};
+    run_forward(most, false, tally);
+    if (tally.interrupted || failing(most) < before) return most;
+    tally.drift = drift;
+    return least;
   }
 
   /// Bisects the heights of all lines that fail at once.
-  void help_by_height() {
-    std::vector<std::pair<HelpedLine*, double>> low;  // the greatest height that held
-    const std::vector<HelpedLine*> loose_now = lines_of_mode();
-    for (HelpedLine& line : lines_)
-      if (!good(line, loose_now)) low.push_back({&line, 0});
-    if (low.empty() || hangs_wrong()) return;
-    std::vector<double> high(low.size(), 1);
-    for (int trial = 0; trial < o_.height_trials && !report_.interrupted; ++trial) {
-      for (std::size_t i = 0; i < low.size(); ++i) low[i].first->height = (low[i].second + high[i]) / 2;
-      solve();
-      const std::vector<HelpedLine*> loose = lines_of_mode();
-      run_forward(false);
-      for (std::size_t i = 0; i < low.size(); ++i) {
-        HelpedLine* line = low[i].first;
-        (good(*line, loose) ? low[i].second : high[i]) = line->height;
-      }
+  Found help_by_height(Found found, Tally& tally) const {
+    const Flags good = good_lines(found, o_.kept);
+    std::vector<std::size_t> lines;
+    for (std::size_t i = 0; i < good.size(); ++i)
+      if (!good[i]) lines.push_back(i);
+    if (lines.empty() || hangs_wrong(found.outcome)) return found;
+    Plan plan = std::move(found.plan);
+    std::vector<double> low(lines.size(), 0), high(lines.size(), 1);  // low: the greatest that held
+    for (int trial = 0; trial < o_.height_trials && !tally.interrupted; ++trial) {
+      for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = (low[i] + high[i]) / 2;
+      const Flags now = good_lines(tried(plan, tally), o_.kept);
+      for (std::size_t i = 0; i < lines.size(); ++i)
+        (now[lines[i]] ? low[i] : high[i]) = plan.lines[lines[i]].height;
     }
-    for (auto& [line, height] : low) line->height = height > 0 ? height : 1;
-    solve();
-    run_forward(false);
+    for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = low[i] > 0 ? low[i] : 1;
+    return tried(plan, tally);
   }
 
-  KeptLine verdict(const HelpedLine& line) {
-    KeptLine v;
+ private:
+  Outcome solve(const Plan& plan, Tally& tally) const {
+    const std::vector<double> unknown(plan.lines.size(), NAN);
+    Outcome outcome{start_, {}, plan.rest_step > 0 ? o_.presses[plan.rest_step - 1] : 1, unknown, unknown};
+    place_lines(plan.lines, mesh_, start_.particles, outcome.cloth.particles);
+    stiffen_lines(plan.lines, o_, outcome.rest_press, outcome.cloth);
+    outcome.shape = keep_shape(outcome.cloth, world_, o_.bounds, o_.largest_turn);
+    ++tally.trials;
+    return outcome;
+  }
+
+  /// Notes what the lines keep. Returns those that may be helped and do not hold; with `may_end` the run ends
+  /// early if one is far from it.
+  Flags run_forward(Found& found, bool may_end, Tally& tally) const {
+    const bool stable = found.outcome.shape.certificate.stable();
+    tally.runs += stable ? 1 : o_.pushes;
+    const std::vector<HelpedLine>& lines = found.plan.lines;
+    Flags weak(lines.size(), 0);
+    const auto in_vain = [&](const std::vector<double>& kept) {
+      for (std::size_t i = 0; may_end && i < lines.size(); ++i)
+        weak[i] = can_be_helped(lines[i]) && std::abs(kept[i] - 1) > 2 * (1 - o_.kept);
+      return any(weak);
+    };
+    KeepTrial trial = try_shape(found.outcome.cloth, stable, world_, o_, meter_, in_vain, go_on_);
+    found.outcome.kept = std::move(trial.kept);
+    found.outcome.kept_gust = std::move(trial.kept_gust);
+    tally.drift = trial.drift;
+    tally.interrupted = tally.interrupted || trial.stopped;
+    if (any(weak)) return weak;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      weak[i] = can_be_helped(lines[i]) && !holds(found.outcome, i, o_.kept);
+    return weak;
+  }
+
+  Found tried(const Plan& plan, Tally& tally) const {
+    Found found{plan, solve(plan, tally)};
+    run_forward(found, false, tally);
+    return found;
+  }
+
+  bool can_be_helped(const HelpedLine& line) const { return line.step < help_steps(o_); }
+
+  bool rest_needs_help(const Found& found) const {
+    return o_.whole && found.plan.rest_step < o_.presses.size() && loose_shares(found).back() > share_of_mode;
+  }
+
+  std::size_t failing(const Found& found) const {
+    const Flags good = good_lines(found, o_.kept);
+    return std::size_t(std::count(good.begin(), good.end(), 0));
+  }
+
+  const geometry::Mesh& mesh_;
+  const physics::Cloth& start_;
+  const physics::World& world_;
+  const KeepOptions& o_;
+  LineMeter& meter_;
+  const std::function<bool(double)>& go_on_;
+};
+
+std::string why_not(bool interrupted, const Found& found, std::size_t line) {
+  if (interrupted) return "interrupted";
+  if (hangs_wrong(found.outcome)) return "nothing holds the garment in balance as it lies; see imbalance";
+  if (is_bound(found.plan.lines[line], found.outcome))
+    return "the bounds on strain and angle leave no balance";
+  if (loose_lines(found)[line])
+    return "the fold can give way without effort: the cloth bends too easily for it";
+  return "the fold goes over into another shape";
+}
+
+std::vector<KeptLine> verdicts(const Found& found, const KeepOptions& o, bool interrupted) {
+  const Flags good = good_lines(found, o.kept);
+  std::vector<KeptLine> kept;
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    const HelpedLine& line = found.plan.lines[i];
+    KeptLine& v = kept.emplace_back();
     v.line = line.id;
-    v.press = line.press * press_of(line, o_);
-    v.struts = struts_of(line, o_);
+    v.press = line.press * press_of(line, o);
+    v.struts = struts_of(line, o);
     v.lowered = line.height;
     v.height = line.height * line.drawn;
-    v.kept = line.kept;
-    v.kept_gust = line.kept_gust;
-    const std::vector<HelpedLine*> loose = lines_of_mode();
-    if (!good(line, loose)) {
-      const bool of_mode =
-          std::any_of(loose.begin(), loose.end(), [&](const HelpedLine* l) { return l->id == line.id; });
-      v.reason = reason(of_mode, is_bound(line));
-      return v;
+    v.kept = found.outcome.kept[i];
+    v.kept_gust = found.outcome.kept_gust[i];
+    if (!good[i]) {
+      v.reason = why_not(interrupted, found, i);
+      continue;
     }
     v.verdict = line.height < 1 ? Verdict::lowered
                 : v.struts > 0  ? Verdict::strutted
                 : line.step > 0 ? Verdict::pressed
                                 : Verdict::held;
-    return v;
   }
+  return kept;
+}
 
-  std::string reason(bool of_mode, bool bound) const {
-    if (report_.interrupted) return "interrupted";
-    if (hangs_wrong()) return "nothing holds the garment in balance as it lies; see imbalance";
-    if (bound) return "the bounds on strain and angle leave no balance";
-    if (of_mode) return "the fold can give way without effort: the cloth bends too easily for it";
-    return "the fold goes over into another shape";
-  }
+KeptLine unmeasured(int id) {
+  KeptLine line;
+  line.line = id;
+  line.height = line.kept = line.kept_gust = NAN;
+  line.reason =
+      "its height cannot be measured: its fold leaves too little cloth around it, or runs along a border";
+  return line;
+}
 
-  geometry::Mesh& mesh_;
-  physics::Cloth& cloth_;
-  const physics::World& world_;
-  KeepOptions o_;
-  const std::function<bool(double)>& go_on_;
-  LineMeter meter_;
-  physics::Cloth start_, solved_;
-  std::vector<HelpedLine> lines_;
-  std::size_t rest_step_ = 0;  // of presses, on what lies in no line's patch
-  KeepReport report_;
-};
+KeepReport report_of(Found& found, const KeepOptions& o, const LineMeter& meter, const Tally& tally) {
+  KeepReport report;
+  report.lines = verdicts(found, o, tally.interrupted);
+  for (const int id : meter.unmeasured()) report.lines.push_back(unmeasured(id));
+  std::sort(report.lines.begin(), report.lines.end(),
+            [](const KeptLine& a, const KeptLine& b) { return a.line < b.line; });
+  report.rest = std::move(found.outcome.shape.rest);
+  report.certificate = std::move(found.outcome.shape.certificate);
+  report.rest_press = found.outcome.rest_press;
+  report.turned = found.outcome.shape.turned;
+  report.trials = tally.trials;
+  report.runs = tally.runs;
+  report.drift = tally.drift;
+  report.interrupted = tally.interrupted;
+  return report;
+}
 
 }  // namespace
 
@@ -279,7 +305,31 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
                                 std::to_string(cloth.particles.size()));
   require_legal(options);
   require_still(world);
-  return Keeper(mesh, cloth, world, base, options, go_on).run();
+  KeepOptions o = options;
+  o.bounds.gravity = o.run.gravity;
+  o.bounds.friction = o.run.friction;
+  o.bounds.gap = o.run.contact_gap;
+  LineMeter meter(mesh, base, o.line_widths);
+  physics::Cloth start = cloth;
+  for (Vec3& v : start.particles.v) v.setZero();
+  physics::PushOutReport pushed;
+  if (const auto body = standing_body(world))
+    pushed = physics::bring_out(start.particles, *body, o.run.contact_gap);
+
+  const Keeper keeper(mesh, start, world, o, meter, go_on);
+  Tally tally;
+  Found found = keeper.help_by_stiffness(keeper.plan(), tally);
+  if (!tally.interrupted) found = keeper.help_all(std::move(found), tally);
+  if (!tally.interrupted && o.height_trials > 0 &&
+      geometry::find_map(mesh, geometry::attribute::rest_position))
+    found = keeper.help_by_height(std::move(found), tally);
+
+  scatter(found.outcome.cloth.particles, mesh);
+  KeepReport report = report_of(found, o, meter, tally);
+  report.pushed_out = pushed.moved;
+  report.farthest_push = pushed.farthest;
+  cloth = std::move(found.outcome.cloth);
+  return report;
 }
 
 }  // namespace furrow::bridge

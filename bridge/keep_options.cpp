@@ -2,15 +2,15 @@
 #include "bridge/keep_options.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
+
+#include "physics/base/require.h"
 
 namespace furrow::bridge {
 
 void require_legal(const KeepOptions& o) {
   const auto need = [](bool good, const char* what, double value) {
-    if (!good)
-      throw std::invalid_argument("keep_lines: " + std::string(what) + " = " + std::to_string(value));
+    if (!good) physics::refuse("keep_lines", what, " = ", std::to_string(value));
   };
   need(o.seconds > 0, "seconds", o.seconds);
   need(o.gust >= 0 && std::isfinite(o.gust), "gust", o.gust);

@@ -9,8 +9,8 @@ namespace furrow::bridge {
 
 /// How bridge/keep_lines.h tries and helps.
 struct KeepOptions {
-  physics::SimulateOptions
-      run;  ///< of the forward runs; gravity, friction and gap also of balance and certificate
+  /// Of the forward runs; gravity, friction and gap also of balance and certificate.
+  physics::SimulateOptions run;
   physics::PrestressOptions bounds;  ///< of the rest state; its gravity, friction and gap are those of `run`
   double seconds = 5;                ///< the first forward run, from rest [s]; > 0
   double gust = 12;                  ///< then an acceleration to one side [m/s^2]; >= 0; 0: no gust
@@ -21,8 +21,8 @@ struct KeepOptions {
   int pushes = 2;      ///< >= 1
   double push = 1e-4;  ///< [m]; > 0
   double kept = 0.95;  ///< share of the height that a line must keep, and not outgrow by more [-]; in (0, 1)
-  std::vector<double> presses{10, 30,
-                              100};        ///< factors on the hinges of a line, in the order tried; each > 1
+  /// Factors on the hinges of a line, in the order tried [-]; rising, each > 1.
+  std::vector<double> presses{10, 30, 100};
   std::vector<double> struts{0.3, 3, 30};  ///< then also struts [N/m]; each > 0
   int height_trials = 4;                   ///< then bisections of the height; >= 0; 0: none
   /// A garment that hangs on a line of pins, or on one pin, is first turned about it into balance, if by no

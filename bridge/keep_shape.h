@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <optional>
+
+#include "physics/body/posed_collider.h"
 #include "physics/contact/push_out.h"
 #include "physics/motion/world.h"
 #include "physics/rest/certificate.h"
@@ -17,15 +20,16 @@ struct KeptShape {
 /// Gives a pinned cloth the rest state with which it is in equilibrium as it lies, on the body where that
 /// stands (physics/rest/prestress.h), and tells whether that equilibrium is stable
 /// (physics/rest/certificate.h). Without a body, what hangs on a line of pins or on one pin is first turned
-/// about it into balance, if by no more than largest_turn [rad] (physics/rest/rigid_imbalance.h); on a body,
-/// bring_out() comes first. Otherwise positions stay; velocities and stiffnesses always do. Wind is no load
-/// here. Cost: a factorisation or two. Throws std::invalid_argument, nothing changed, as require_still() and
-/// prestress() do.
+/// about it into balance, if by no more than largest_turn [rad] (physics/rest/rigid_imbalance.h); what is
+/// nearer to a body than the gap is first brought out to it. Otherwise positions stay; velocities and
+/// stiffnesses always do. Wind is no load here. Cost: a factorisation or two. Throws std::invalid_argument,
+/// nothing changed, as require_still() and prestress() do.
 KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
                      const physics::PrestressOptions& options, double largest_turn = 0);
 
-/// Moves the free particles that are nearer to the body than the gap [m] out to it, as a simulation would.
-physics::PushOutReport bring_out(physics::Cloth& cloth, const physics::World& world, double gap);
+/// The body where it stands when a simulation begins; none if there is none. The world's collider must
+/// outlive it.
+std::optional<physics::PosedCollider> standing_body(const physics::World& world);
 
 /// Throws std::invalid_argument if body or pins move.
 void require_still(const physics::World& world);

@@ -16,8 +16,9 @@ namespace {
 using physics::Vec3;
 
 constexpr double first_part = 0.2;  // of the first run, before it is asked whether it is in vain
-constexpr double first_look = 0.5,
-                 look = 0.1;  // at what is on its way elsewhere, when the push has calmed [s]
+// At what is on its way elsewhere, when the push has calmed [s].
+constexpr double first_look = 0.5, look = 0.1;
+constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The options' direction of the gust; if they name none, the level direction in which the cloth is thinnest.
 Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
@@ -76,59 +77,100 @@ std::vector<double> LineMeter::heights(const physics::Particles& p) {
   return result;
 }
 
+namespace {
+
+/// A cloth on its way.
+struct Run {
+  physics::Cloth cloth;
+  physics::SimulateState state;
+  double before = 0;     ///< simulated in runs before this one [s]
+  double next_look = 0;  ///< at the lines [s]
+};
+
+/// Each line's worst of several runs, or on their way.
+void note(const std::vector<double>& shares, std::vector<double>& worst) {
+  for (std::size_t i = 0; i < worst.size(); ++i) {
+    const double share = std::isfinite(shares[i]) ? shares[i] : never;
+    if (!(std::abs(share - 1) <= std::abs(worst[i] - 1))) worst[i] = share;  // the first time it is NaN
+  }
+}
+
+/// What all runs of a trial have in common.
+struct Setting {
+  const physics::World& world;
+  const KeepOptions& o;
+  const std::function<bool(double)>& go_on;
+  LineMeter& meter;
+  const std::vector<double> drawn;  ///< heights at the start [m]
+  const double whole;               ///< all that is simulated [s]
+
+  /// Shares of the heights at the start.
+  std::vector<double> shares(const physics::Cloth& cloth) const {
+    std::vector<double> now = meter.heights(cloth.particles);
+    for (std::size_t i = 0; i < now.size(); ++i) now[i] /= drawn[i];
+    return now;
+  }
+
+  /// Simulates until so many seconds from the run's beginning; from next_look on it notes what lines keep.
+  physics::Outcome on_to(double seconds, const Vec3& gravity, Run& run, std::vector<double>& worst) const {
+    physics::SimulateOptions options = o.run;
+    options.seconds = seconds;
+    options.gravity = gravity;
+    return physics::simulate(run.cloth, world, options, &run.state,
+                             [&](const auto& now) {
+                               if (now.time >= run.next_look) {
+                                 note(shares(run.cloth), worst);
+                                 run.next_look += look;
+                               }
+                               return !go_on || go_on((run.before + now.time) / whole);
+                             })
+        .outcome;
+  }
+};
+
+double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
+
+}  // namespace
+
 KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
                     const KeepOptions& o, LineMeter& meter,
                     const std::function<bool(const std::vector<double>&)>& in_vain,
                     const std::function<bool(double)>& go_on) {
-  const std::vector<double> drawn = meter.heights(start.particles);
-  const std::vector<double> unknown(drawn.size(), NAN);
-  KeepTrial trial{unknown, unknown};
-  physics::Cloth cloth;
-  physics::SimulateState state;
+  using physics::Outcome;
   const int runs = stable ? 1 : o.pushes;
-  const double after = o.gust > 0 ? o.gust_seconds + o.calm_seconds : 0, whole = runs * o.seconds + after;
-  double done = 0, next_look = std::numeric_limits<double>::infinity();
-  const auto shares = [&] {
-    std::vector<double> now = meter.heights(cloth.particles);
-    for (std::size_t i = 0; i < now.size(); ++i) now[i] /= drawn[i];
-    return now;
+  const double after = o.gust > 0 ? o.gust_seconds + o.calm_seconds : 0;
+  const Setting setting{world, o, go_on, meter, meter.heights(start.particles), runs * o.seconds + after};
+  const std::vector<double> unknown(setting.drawn.size(), NAN);
+  KeepTrial trial{unknown, unknown};
+  const auto lost = [&](Outcome end) {
+    return KeepTrial{unknown, unknown, 0, end == Outcome::stopped_by_observer};
   };
-  const auto note = [&](std::vector<double>& kept) {  // the worst of several runs, and on their way
-    const std::vector<double> now = shares();
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      const double share = std::isfinite(now[i]) ? now[i] : std::numeric_limits<double>::infinity();
-      if (!(std::abs(share - 1) <= std::abs(kept[i] - 1))) kept[i] = share;  // the first time it is NaN
-    }
-  };
-  const auto on_to = [&](double seconds, const Vec3& gravity) {
-    physics::SimulateOptions options = o.run;
-    options.seconds = seconds;
-    options.gravity = gravity;
-    const auto report = physics::simulate(cloth, world, options, &state, [&](const auto& now) {
-      if (now.time >= next_look) note(trial.kept), next_look += look;
-      return !go_on || go_on((done + now.time) / whole);
-    });
-    trial.stopped = trial.stopped || report.outcome == physics::Outcome::stopped_by_observer;
-    return report.outcome == physics::Outcome::finished;
-  };
-  for (int run = 1; run <= runs; ++run, done += o.seconds) {
-    cloth = start;
-    state = {};
-    push(cloth, o.push, std::uint64_t(run));
-    if (!stable) next_look = first_look;
-    if (!on_to(first_part * o.seconds, o.run.gravity)) return {unknown, unknown, 0, trial.stopped};
-    if (const std::vector<double> early = shares(); in_vain && in_vain(early)) return {early, unknown};
-    if (!on_to(o.seconds, o.run.gravity)) return {unknown, unknown, 0, trial.stopped};
-    note(trial.kept);
-    for (std::size_t i = 0; i < cloth.particles.size(); ++i)
-      trial.drift = std::max(trial.drift, (cloth.particles.x[i] - start.particles.x[i]).norm());
+  Run run;
+  for (int number = 1; number <= runs; ++number) {
+    run = {start, {}, (number - 1) * o.seconds, stable ? never : first_look};
+    push(run.cloth, o.push, std::uint64_t(number));
+    Outcome end = setting.on_to(first_part * o.seconds, o.run.gravity, run, trial.kept);
+    if (end != Outcome::finished) return lost(end);
+    if (const std::vector<double> early = setting.shares(run.cloth); in_vain && in_vain(early))
+      return {early, unknown};
+    end = setting.on_to(o.seconds, o.run.gravity, run, trial.kept);
+    if (end != Outcome::finished) return lost(end);
+    note(setting.shares(run.cloth), trial.kept);
+    trial.drift = std::max(trial.drift, farthest(run.cloth.particles.x, start.particles.x));
   }
-  done -= o.seconds;
-  next_look = std::numeric_limits<double>::infinity();  // the gust may bend what comes back
+  run.next_look = never;  // the gust may bend what comes back
+  const Vec3 gust = gust_of(o, start.particles.x);
   const double blown = o.seconds + o.gust_seconds;
-  const bool calm = o.gust == 0 || (on_to(blown, o.run.gravity + gust_of(o, start.particles.x)) &&
-                                    on_to(blown + o.calm_seconds, o.run.gravity));
-  if (calm) note(trial.kept_gust);
+  Outcome end = Outcome::finished;
+  if (o.gust > 0) end = setting.on_to(blown, o.run.gravity + gust, run, trial.kept);
+  if (o.gust > 0 && end == Outcome::finished)
+    end = setting.on_to(blown + o.calm_seconds, o.run.gravity, run, trial.kept);
+  if (end == Outcome::finished) note(setting.shares(run.cloth), trial.kept_gust);
+  trial.stopped = end == Outcome::stopped_by_observer;
   return trial;
 }
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <cmath>
-
 #include "bridge/keep_lines.h"
 
 namespace furrow::bridge {
@@ -9,11 +7,10 @@ namespace furrow::bridge {
 /// A line on the way to its verdict, and the help that it has so far.
 struct HelpedLine {
   int id;
-  std::vector<int> patch;  ///< its region, see geometry/fold/line_region.h
-  double drawn;            ///< height [m]
-  int step = 0;            ///< of presses, then of struts on top of the strongest press
-  double height = 1;       ///< over that as drawn [-]
-  double kept = NAN, kept_gust = NAN;
+  std::vector<int> patch;       ///< its region, see geometry/fold/line_region.h
+  double drawn;                 ///< height [m]
+  int step = 0;                 ///< of presses, then of struts on top of the strongest press
+  double height = 1;            ///< over that as drawn [-]
   double width = 0, press = 1;  ///< as drawn [m], 0: none; and [-]
 };
 

@@ -8,11 +8,11 @@
 #include "bench/accuracy_table.h"
 #include "bench/charts/charts.h"
 #include "physics/contact/residual_force.h"
-#include "physics/rest/static_equilibrium.h"
 #include "tests/cases/semi_implicit.h"
 #include "tests/cases/swing.h"
 #include "tests/physics/cloth/strips.h"
 #include "tests/physics/rest/hanging_chains.h"
+#include "tests/physics/rest/settled.h"
 
 namespace furrow::bench {
 namespace {
@@ -111,12 +111,10 @@ Rest settle(const Scene& scene, const Method& method, double dt, double most) {
 
 Rest newton(const Scene& scene) {
   Cloth cloth = scene.cloth;
-  physics::StaticOptions options;
-  options.gravity = scene.gravity;
-  options.tolerance = at_rest;
+  const physics::SettleOptions options = tests::down_to(at_rest, scene.gravity);
   Rest rest;
   const double started = thread_seconds();
-  const physics::StaticReport report = physics::find_static_equilibrium(cloth, options);
+  const physics::SettleReport report = physics::settle(cloth, nullptr, options);
   rest.cpu = thread_seconds() - started;
   rest.residual = report.residual;
   rest.error = scene.error(cloth);

@@ -13,6 +13,7 @@
 #include "tests/cases/draped.h"
 #include "tests/physics/cloth/strips.h"
 #include "tests/physics/rest/hanging_chains.h"
+#include "tests/physics/rest/settled.h"
 
 namespace furrow::bench {
 namespace {
@@ -148,7 +149,7 @@ class Chart {
             "change. distance: median between the surfaces, both ways. Targets: moved 1e-3 (chain, "
             "cantilever); "
             "|energy| 0.01 and distance 3 mm (skirts). Compared with the same method unchanged; other "
-            "integrator: with leapfrog; Newton: with find_static_equilibrium.",
+            "integrator: with leapfrog; Newton: with settle().",
             "subject,change,method,dt[s],moved[-],energy[-],distance[m],passes,residual[weight],contacts,"
             "simulated[s],cpu[s]"),
         effort_(effort) {}
@@ -180,9 +181,7 @@ class Chart {
  private:
   static Rest newton(const RestCase& c) {
     physics::Cloth cloth = c.cloth;
-    physics::StaticOptions options;
-    options.gravity = c.options.gravity;
-    const physics::StaticReport report = find_static_equilibrium(cloth, options);
+    const tests::Settled report = tests::find_rest(cloth, tests::down_to(1e-6, c.options.gravity));
     Rest rest;
     rest.x = cloth.particles.x;
     rest.at_rest = report.converged && report.stable;

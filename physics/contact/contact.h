@@ -23,7 +23,10 @@ struct ContactCounts {
 
 /// Contact of particles with a body, after Fuhrmann, Sobottka, Gross 2003 (method S1.10): a particle that
 /// a step brings closer than the gap is moved back along the field's gradient, then Coulomb friction shortens
-/// its tangential motion relative to the body, then its velocity is what it moved; no bounce.
+/// its tangential motion relative to the body, then its velocity is what it moved; no bounce. This class: a
+/// body at rest. RigidContact and AnimatedContact: bodies that move.
+///
+/// \details
 ///  - Depth already there before the step is no motion: only what the step adds is pushed back with friction
 ///    and velocity. The old depth is taken out at recovery_speed without touching the velocity.
 ///  - Up to 3 moves of at most 2 cm bring back a deep particle. A depth below 0.1 mm, which is all that
@@ -33,7 +36,6 @@ struct ContactCounts {
 ///    where one enters the body; from inside, a move is at most gap/2 (tunnelling).
 ///  - The field is taken to change by at most 2 m a metre; a particle that has not moved far enough since its
 ///    last query is not asked for.
-/// This class: a body at rest. RigidContact and AnimatedContact: bodies that move.
 class BodyContact {
  public:
   /// The collider must outlive this object. Throws std::invalid_argument if an option is out of its range.

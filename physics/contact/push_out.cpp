@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace furrow::physics {
 
@@ -31,6 +32,13 @@ PushOutReport push_out(std::span<Vec3> x, std::span<const int> which, const Coll
     report.still_inside += d.value < level - enough;
   }
   return report;
+}
+
+PushOutReport bring_out(Particles& particles, const Collider& body, double gap) {
+  std::vector<int> free;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (particles.inv_mass[i] > 0) free.push_back(int(i));
+  return push_out(particles.x, free, body, gap);
 }
 
 }  // namespace furrow::physics

@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "physics/base/particles.h"
 #include "physics/body/collider.h"
 
 namespace furrow::physics {
@@ -12,9 +13,14 @@ struct PushOutReport {
   int still_inside = 0;  ///< points that 20 moves did not bring out (a slot narrower than twice the level)
 };
 
-/// Moves the points `which` of x that lie deeper than `level` [m] along the body's gradient until they do
-/// not. For what the simulation does not move: pins that start inside a body. Throws std::invalid_argument,
-/// nothing moved, for an index out of range or a level that is not finite. Cost: a few queries a point.
+/// Moves those points `which` of x that lie deeper than `level` [m] along the body's gradient until they do
+/// not. For points that a simulation does not move: pins that start inside a body. Throws
+/// std::invalid_argument, nothing moved, for an index out of range or a level that is not finite. Cost: a few
+/// queries a point.
 PushOutReport push_out(std::span<Vec3> x, std::span<const int> which, const Collider& body, double level = 0);
+
+/// The same of all particles that can move (inv_mass > 0), out to a gap [m]: a start from which a body pushes
+/// no harder than it will at rest.
+PushOutReport bring_out(Particles& particles, const Collider& body, double gap);
 
 }  // namespace furrow::physics

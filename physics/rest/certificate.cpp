@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
+#include "physics/base/check_particles.h"
+#include "physics/base/require.h"
 #include "physics/cloth/elements.h"
 #include "physics/contact/residual_force.h"
 #include "physics/linear/free_stiffness.h"
@@ -26,22 +26,12 @@ constexpr double enough = 1e-11;     // relative error of (lambda + shift)^-1
 using Vectors = std::vector<Vec3>;
 
 void check(const Cloth& cloth, const CertificateOptions& o, std::span<const Vec3> loads) {
-  const auto fail = [](const std::string& what) { throw std::invalid_argument("certify: " + what); };
-  if (!o.gravity.allFinite()) fail("gravity is not finite");
-  if (!(o.friction >= 0) || !std::isfinite(o.friction))
-    fail("friction = " + std::to_string(o.friction) + " is not >= 0");
-  if (!(o.gap > 0) || !std::isfinite(o.gap)) fail("gap = " + std::to_string(o.gap) + " is not > 0");
-  if (o.max_steps < 2) fail("max_steps = " + std::to_string(o.max_steps) + " is not >= 2");
-  const Particles& p = cloth.particles;
-  if (p.mass.size() != p.size() || p.inv_mass.size() != p.size())
-    fail("the particles' arrays differ in length");
-  if (!loads.empty() && loads.size() != p.size()) fail("there are not as many loads as particles");
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (!p.x[i].allFinite()) fail("position " + std::to_string(i) + " is not finite");
-    if (!loads.empty() && !loads[i].allFinite()) fail("load " + std::to_string(i) + " is not finite");
-    if (p.inv_mass[i] > 0 && !(p.mass[i] > 0 && std::isfinite(p.mass[i])))
-      fail("mass of free particle " + std::to_string(i) + " = " + std::to_string(p.mass[i]) + " is not > 0");
-  }
+  constexpr const char* me = "certify";
+  if (!o.gravity.allFinite()) refuse(me, "gravity is not finite");
+  require(me, "friction", o.friction, o.friction >= 0, ">= 0");
+  require(me, "gap", o.gap, o.gap > 0, "> 0");
+  if (o.max_steps < 2) refuse(me, "max_steps = ", o.max_steps, " is not >= 2");
+  check_loaded_particles(cloth.particles, loads, me);
 }
 
 /// Second derivative of the field in the tangent plane of n [1/m], by central differences.
@@ -78,7 +68,7 @@ class Certifier {
     if (!stiffness_.factorise_definite()) {
       result_.negative_eigenvalues = stiffness_.factorise();
       for (assemble(shift = 1); !stiffness_.factorise_definite(); assemble(shift *= 16)) {
-        if (!(shift < 1e20)) throw std::invalid_argument("certify: a stiffness is not finite");
+        if (!(shift < 1e20)) refuse("certify", "a stiffness is not finite");
       }
     }
     find_smallest(shift);

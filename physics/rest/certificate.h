@@ -30,19 +30,20 @@ struct Certificate {
 /// Whether a cloth at its positions is in equilibrium, and whether that is a stable one: K, the second
 /// derivative of the energy of all elements (exact stiffness, loads and weight do not change), is positive
 /// definite where particles may move. Then the state is a strict minimum of the energy and small disturbances
-/// stay small, without friction or damping. How far it may be disturbed is not said.
+/// stay small, without friction or damping. How far it may be disturbed is not said. Cost: one factorisation,
+/// more if it is not positive definite; a solve a step. Same input, same bits. Throws std::invalid_argument
+/// if an option is out of its range, arrays differ in length, something is not finite, a free particle has no
+/// mass, or as the elements do.
 ///
-/// Contact: a particle within the gap whose best contact force presses (by more than 1e-6 of its weight) is
-/// held by a stiffness of 10^6 times K's mean diagonal, along the normal alone, or in all directions where
-/// the force lies inside the friction cone. Where it may slide, the body's curvature counts: - N d2psi/dx2 in
-/// the tangent plane, N the force, from differences of the field's gradient over the gap (a coarse field
-/// blurs that). To hold by friction is no minimum of energy: such a state keeps for disturbances below the
-/// friction that is left. The eigenvalue by Lanczos' method on (K + s M)^-1, s = 1e-6/s^2, or, if K is not
-/// positive definite, the least s = 1, 16, 256 ... /s^2 with which it is. So motions that cost no energy (a
-/// swing about a vertical axis) count as neither. Cost: one factorisation, more if it is not positive
-/// definite; a solve a step. Same input, same bits. Throws std::invalid_argument if an option is out of its
-/// range, arrays differ in length, something is not finite, a free particle has no mass, or as the elements
-/// do. Source: Parlett, The Symmetric Eigenvalue Problem, chapters 13 and 15.
+/// \details Contact: a particle within the gap whose best contact force presses (by more than 1e-6 of its
+/// weight) is held by a stiffness of 10^6 times K's mean diagonal, along the normal alone, or in all
+/// directions where the force lies inside the friction cone. Where it may slide, the body's curvature counts:
+/// - N d2psi/dx2 in the tangent plane, N the force, from differences of the field's gradient over the gap (a
+/// coarse field blurs that). To hold by friction is no minimum of energy: such a state keeps for disturbances
+/// below the friction that is left. The eigenvalue by Lanczos' method on (K + s M)^-1, s = 1e-6/s^2, or, if K
+/// is not positive definite, the least s = 1, 16, 256 ... /s^2 with which it is. So motions that cost no
+/// energy (a swing about a vertical axis) count as neither.
+/// Source: Parlett, The Symmetric Eigenvalue Problem, chapters 13 and 15.
 Certificate certify(const Cloth& cloth, const CertificateOptions& options = {},
                     const Collider* collider = nullptr, std::span<const Vec3> loads = {});
 

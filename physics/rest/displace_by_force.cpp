@@ -4,10 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "physics/base/check_particles.h"
+#include "physics/base/require.h"
 #include "physics/cloth/elements.h"
 #include "physics/cloth/tension_forces.h"
 #include "physics/contact/contact.h"
@@ -28,22 +27,18 @@ constexpr double came_back = 0.1;          // of its path: a net way below
 double strength(const Vec3& gravity) { return gravity.norm() > 0 ? gravity.norm() : standard_gravity; }
 
 void check(const Cloth& cloth, const DisplaceOptions& o) {
-  const auto need = [](bool good, const char* name, double value, const char* range) {
-    if (good && std::isfinite(value)) return;
-    throw std::invalid_argument(std::string("displace_by_force: ") + name + " = " + std::to_string(value) +
-                                " is not " + range);
-  };
-  for (const double g : o.gravity) need(true, "gravity", g, "finite");
-  need(o.friction >= 0, "friction", o.friction, ">= 0");
-  need(o.gap > 0, "gap", o.gap, "> 0");
-  need(o.tolerance > 0, "tolerance", o.tolerance, "> 0");
-  need(o.max_passes >= 0, "max_passes", o.max_passes, ">= 0");
-  need(o.rate >= 0, "rate", o.rate, ">= 0");
+  constexpr const char* me = "displace_by_force";
+  for (const double g : o.gravity) require(me, "gravity", g, true, "finite");
+  require(me, "friction", o.friction, o.friction >= 0, ">= 0");
+  require(me, "gap", o.gap, o.gap > 0, "> 0");
+  require(me, "tolerance", o.tolerance, o.tolerance > 0, "> 0");
+  require(me, "max_passes", o.max_passes, o.max_passes >= 0, ">= 0");
+  require(me, "rate", o.rate, o.rate >= 0, ">= 0");
   if (o.cap) {
-    need(o.limit > 0, "limit", o.limit, "> 0");
-    need(o.replacement > 0 && o.replacement <= o.limit, "replacement", o.replacement, "in (0, limit]");
+    require(me, "limit", o.limit, o.limit > 0, "> 0");
+    require(me, "replacement", o.replacement, o.replacement > 0 && o.replacement <= o.limit, "in (0, limit]");
   }
-  check_particles(cloth.particles, "displace_by_force");
+  check_particles(cloth.particles, me);
 }
 
 /// Of the free particles [N]; 0 if there are none.
@@ -104,9 +99,7 @@ class Displacer {
         collider_(collider),
         o_(options),
         weights_(p_, o_.gravity),
-        recurrence_(options.max_passes),
         moves_(p_.size(), Vec3::Zero()) {
-    report_.rate = o_.rate > 0 ? o_.rate : displacement_rate(cloth, o_.gravity, o_.gap);
     Eigen::AlignedBox3d box;
     for (const Vec3& x : p_.x) box.extend(x);
     if (p_.size() == 0) return;
@@ -116,47 +109,54 @@ class Displacer {
   }
 
   DisplaceReport run(const SettleObserver& observer) {
+    DisplaceReport report;
+    report.rate = o_.rate > 0 ? o_.rate : displacement_rate(cloth_, o_.gravity, o_.gap);
+    Recurrence recurrence(o_.max_passes);
     bool lost = false;
-    for (;; ++report_.passes) {
-      find_forces();
-      const bool converged = report_.residual <= o_.tolerance && !lost;
-      const bool stopped = observer && !observer({report_.passes, report_.residual});
-      const bool last = report_.passes == o_.max_passes;
+    for (;; ++report.passes) {
+      report.residual = find_forces();
+      const bool converged = report.residual <= o_.tolerance && !lost;
+      const bool stopped = observer && !observer({report.passes, report.residual});
+      const bool last = report.passes == o_.max_passes;
       if (lost || converged || stopped || last) {
-        report_.outcome = lost                      ? DisplaceOutcome::diverged
-                          : converged               ? DisplaceOutcome::converged
-                          : stopped                 ? DisplaceOutcome::stopped
-                          : recurrence_.found(p_.x) ? DisplaceOutcome::limit_cycle
-                                                    : DisplaceOutcome::unfinished;
+        report.outcome = lost                     ? DisplaceOutcome::diverged
+                         : converged              ? DisplaceOutcome::converged
+                         : stopped                ? DisplaceOutcome::stopped
+                         : recurrence.found(p_.x) ? DisplaceOutcome::limit_cycle
+                                                  : DisplaceOutcome::unfinished;
         break;
       }
-      find_moves();
+      report.capped += find_moves(report.rate);
       before_ = p_.x;
       lost = !displace();
-      recurrence_.note(report_.passes, report_.residual, before_, p_.x);
+      recurrence.note(report.passes, report.residual, before_, p_.x);
     }
-    report_.touching = collider_ ? count_contacts(p_.x, *collider_, o_.gap) : 0;
-    return report_;
+    report.touching = collider_ ? count_contacts(p_.x, *collider_, o_.gap) : 0;
+    return report;
   }
 
  private:
-  void find_forces() {
+  /// Fills force_. Returns the residual [-].
+  double find_forces() {
     force_.assign(p_.size(), Vec3::Zero());
     add_forces(cloth_, p_.x, force_);
-    report_.residual = residual_of(force_, p_, o_.gravity, collider_, o_.friction, o_.gap);
+    return residual_of(force_, p_, o_.gravity, collider_, o_.friction, o_.gap);
   }
 
-  void find_moves() {
+  /// Fills moves_. Returns how many forces were replaced.
+  long long find_moves(double rate) {
+    long long capped = 0;
     for (std::size_t i = 0; i < p_.size(); ++i) {
       if (p_.inv_mass[i] == 0) continue;
       Vec3 f = force_[i] + o_.gravity / p_.inv_mass[i];
       const double size = f.norm();
       if (o_.cap && size > o_.limit * weights_.mean) {
         f *= o_.replacement * weights_.mean / size;
-        ++report_.capped;
+        ++capped;
       }
-      moves_[i] = report_.rate * f;
+      moves_[i] = rate * f;
     }
+    return capped;
   }
 
   /// false: it diverged.
@@ -192,12 +192,10 @@ class Displacer {
   const Collider* collider_;
   const DisplaceOptions& o_;
   Weights weights_;
-  Recurrence recurrence_;
-  Vectors force_, moves_, before_;
-  std::vector<int> touching_;
   Vec3 centre_ = Vec3::Zero();
-  double reach_ = 0;  // of particles from the centre [m]
-  DisplaceReport report_;
+  double reach_ = 0;                // of particles from the centre [m]
+  Vectors force_, moves_, before_;  // of a pass
+  std::vector<int> touching_;
 };
 
 }  // namespace

@@ -38,25 +38,25 @@ struct DisplaceReport {
 
 /// Fitting without velocities: in each pass every free particle is displaced by its force,
 ///   x += alpha f,   f of elements (elements.h) and weight m g, all taken before any particle moves.
-/// Where |f| > limit w, w the mean weight of the free particles (9.81 m/s^2 where gravity is 0), f becomes
-/// replacement w f/|f|. This bounds the travel of a pass, so that a start far from rest does not break the
-/// cloth; a rate that is not stable stays so, but goes round in a limit cycle. (By its own weight a light
-/// corner could not follow the others; the paper's particles all weigh the same.)
-/// A particle that came nearer to the body (null: none) than the gap has its way along the surface shortened
-/// by friction times the correction that the way into the body calls for, maybe to nothing (it sticks), and
-/// is moved out along the gradient. Bodies thinner than alpha |f| are passed through. Velocities become 0.
-/// The states on the way are no motion.
+/// Velocities become 0; the states on the way are no motion. Cost: passes * (elements + a query of the field
+/// a particle); passes grow as the square of the particles across the cloth, where settle() needs fewer than
+/// a hundred iterations. One thread; same input, same bits. What diverged is left as it is, maybe not finite.
+/// Throws std::invalid_argument, nothing changed, if an option is out of its range, arrays differ in length,
+/// a position is not finite, a free particle has no mass, or as the elements do.
+///
+/// \details Where |f| > limit w, w the mean weight of the free particles (9.81 m/s^2 where gravity is 0), f
+/// becomes replacement w f/|f|. This bounds the travel of a pass, so that a start far from rest does not
+/// break the cloth; a rate that is not stable stays so, but goes round in a limit cycle. (By its own weight a
+/// light corner could not follow the others; the paper's particles all weigh the same.) A particle that came
+/// nearer to the body (null: none) than the gap has its way along the surface shortened by friction times the
+/// correction that the way into the body calls for, maybe to nothing (it sticks), and is moved out along the
+/// gradient. Bodies thinner than alpha |f| are passed through.
 ///
 /// Stable for alpha < 2 / (largest eigenvalue of K). Tension c e^2 on edges of length L has the slope 2 c e /
 /// L: a chain is stable for alpha c e / L < 1/4, by Gershgorin a sheet of valence v for < 1/(2 v), 1/12 on
 /// regular triangles. Balance needs e = sqrt(T / c), so small strains want small rates.
-///
-/// Cost: passes * (elements + a query of the field a particle); passes grow as the square of the particles
-/// across the cloth. settle() needs fewer than a hundred iterations. One thread; same input, same bits.
-/// What diverged is left as it is, maybe not finite. Throws std::invalid_argument, nothing changed, if an
-/// option is out of its range, arrays differ in length, a position is not finite, a free particle has no
-/// mass, or as the elements do. Source: Hanami and Tokoi (method S2.6 to S2.8), whose alpha is 1; the
-/// replacement's direction, the friction and the kinds of end are ours.
+/// Source: Hanami and Tokoi (method S2.6 to S2.8), whose alpha is 1; the replacement's direction, the
+/// friction and the kinds of end are ours.
 DisplaceReport displace_by_force(Cloth& cloth, const Collider* collider, const DisplaceOptions& options,
                                  const SettleObserver& observer = {});
 

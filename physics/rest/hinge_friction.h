@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "physics/rest/static_equilibrium.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::physics {
 
@@ -32,21 +32,10 @@ struct HingeFrictionOptions {
 HingeFriction add_hinge_friction(Cloth& cloth, const HingeFrictionOptions& options);
 
 /// The return mapping at the cloth's positions: where |moment| is above the limit, theta_p follows until it
-/// is the limit. Call it after each converged state, or each step. Returns the largest move of a theta_p
-/// [rad]. O(hinges). Throws std::invalid_argument if the friction is not this cloth's.
+/// is the limit. Call it after each converged state, or each step; for rest with friction settle() and this
+/// in turns, until no theta_p moves (a round leaves about k_f / (k + k_f) of the slip; the state depends on
+/// the path). Returns the largest move of a theta_p [rad]. O(hinges). Throws std::invalid_argument if the
+/// friction is not this cloth's.
 double update_friction(Cloth& cloth, const HingeFriction& friction);
-
-struct FrictionReport {
-  StaticReport last;     ///< of the last equilibrium
-  int rounds = 0;        ///< equilibria
-  double slip = 0;       ///< of the last update [rad]
-  bool settled = false;  ///< slip <= slip_tolerance, converged
-};
-/// Rest with friction: find_static_equilibrium() and update_friction() in turns, until no theta_p moves by
-/// more than slip_tolerance [rad] (> 0), at most max_rounds (>= 1) times. A round leaves about k_f / (k +
-/// k_f) of the slip. The state depends on the path: load in steps where that matters. Throws as both.
-FrictionReport settle_with_friction(Cloth& cloth, const HingeFriction& friction,
-                                    const StaticOptions& options = {}, double slip_tolerance = 1e-8,
-                                    int max_rounds = 200);
 
 }  // namespace furrow::physics

@@ -2,22 +2,19 @@
 #include "physics/rest/limited_memory.h"
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
+#include "physics/base/require.h"
 #include "physics/base/vector_sums.h"
 
 namespace furrow::physics {
 
 LimitedMemory::LimitedMemory(Base base, int pairs) : base_(std::move(base)), most_(std::size_t(pairs)) {
-  if (pairs < 0)
-    throw std::invalid_argument("LimitedMemory: pairs = " + std::to_string(pairs) + " is not >= 0");
+  if (pairs < 0) refuse("LimitedMemory", "pairs = ", pairs, " is not >= 0");
 }
 
 bool LimitedMemory::add(std::vector<Vec3> s, std::vector<Vec3> y) {
   if (s.size() != y.size() || (!pairs_.empty() && s.size() != pairs_.front().s.size()))
-    throw std::invalid_argument("LimitedMemory: a step of " + std::to_string(s.size()) +
-                                " particles with forces of " + std::to_string(y.size()));
+    refuse("LimitedMemory", "a step of ", s.size(), " particles with forces of ", y.size());
   const double curvature = dot(s, y);
   if (!(curvature > 1e-12 * std::sqrt(dot(s, s) * dot(y, y))) || most_ == 0) return false;
   if (pairs_.size() == most_) pairs_.pop_front();

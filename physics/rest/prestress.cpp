@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
+#include "physics/base/check_particles.h"
+#include "physics/base/require.h"
 #include "physics/cloth/dihedral.h"
 #include "physics/cloth/hinge_forces.h"
 #include "physics/contact/residual_force.h"
-#include "physics/rest/find_sag.h"
+#include "physics/rest/balance_forces.h"
 #include "physics/rest/invert_elements.h"
 #include "physics/rest/rigid_imbalance.h"
 
@@ -18,42 +18,26 @@ namespace {
 
 constexpr double contact_tolerance = 1e-5;  // m, as residual_force()
 constexpr double standard_gravity = 9.81;
-constexpr double largest_sag = 1e6;       // m: gravity over the shift
 constexpr double least_imbalance = 1e-9;  // of gravity
 
 using Forces = std::vector<Vec3>;
 
 void check(const Cloth& cloth, const PrestressOptions& o, std::span<const Vec3> loads) {
-  const auto fail = [](const std::string& what) { throw std::invalid_argument("prestress: " + what); };
-  const auto range = [&](bool good, const char* name, double value, const char* limits) {
-    if (!good || !std::isfinite(value)) fail(std::string(name) + " = " + std::to_string(value) + limits);
-  };
-  if (!o.gravity.allFinite()) fail("gravity is not finite");
-  range(o.friction >= 0, "friction", o.friction, " is not >= 0");
-  range(o.gap > 0, "gap", o.gap, " is not > 0");
-  range(o.max_strain > 0 && o.max_strain <= 0.15, "max_strain", o.max_strain, " is not in (0, 0.15]");
-  range(o.max_compression >= 0 && o.max_compression <= 0.15, "max_compression", o.max_compression,
-        " is not in [0, 0.15]");
-  range(o.max_angle > 0 && o.max_angle <= 3, "max_angle", o.max_angle, " is not in (0, 3]");
-  range(o.tolerance > 0, "tolerance", o.tolerance, " is not > 0");
-  range(o.max_iterations >= 1, "max_iterations", o.max_iterations, " is not >= 1");
-  const Particles& p = cloth.particles;
-  if (p.mass.size() != p.size() || p.inv_mass.size() != p.size())
-    fail("the particles' arrays differ in length");
-  if (!loads.empty() && loads.size() != p.size()) {
-    fail(std::to_string(loads.size()) + " loads for " + std::to_string(p.size()) + " particles");
-  }
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (!p.x[i].allFinite()) fail("position " + std::to_string(i) + " is not finite");
-    if (!loads.empty() && !loads[i].allFinite()) fail("load " + std::to_string(i) + " is not finite");
-    if (p.inv_mass[i] > 0 && !(p.mass[i] > 0 && std::isfinite(p.mass[i]))) {
-      fail("mass of free particle " + std::to_string(i) + " = " + std::to_string(p.mass[i]) + " is not > 0");
-    }
-  }
+  constexpr const char* me = "prestress";
+  if (!o.gravity.allFinite()) refuse(me, "gravity is not finite");
+  require(me, "friction", o.friction, o.friction >= 0, ">= 0");
+  require(me, "gap", o.gap, o.gap > 0, "> 0");
+  require(me, "max_strain", o.max_strain, o.max_strain > 0 && o.max_strain <= 0.15, "in (0, 0.15]");
+  require(me, "max_compression", o.max_compression, o.max_compression >= 0 && o.max_compression <= 0.15,
+          "in [0, 0.15]");
+  require(me, "max_angle", o.max_angle, o.max_angle > 0 && o.max_angle <= 3, "in (0, 3]");
+  require(me, "tolerance", o.tolerance, o.tolerance > 0, "> 0");
+  require(me, "max_iterations", o.max_iterations, o.max_iterations >= 1, ">= 1");
+  check_loaded_particles(cloth.particles, loads, me);
 }
 
-std::vector<SagContact> contacts_of(const Particles& p, const Collider* collider, double gap) {
-  std::vector<SagContact> contacts;
+std::vector<ContactPoint> contacts_of(const Particles& p, const Collider* collider, double gap) {
+  std::vector<ContactPoint> contacts;
   for (std::size_t i = 0; collider && i < p.size(); ++i) {
     if (!(p.inv_mass[i] > 0)) continue;
     const SignedDistance field = collider->at(p.x[i]);
@@ -65,10 +49,10 @@ std::vector<SagContact> contacts_of(const Particles& p, const Collider* collider
 
 /// Pieces that the load moves, with a contact or without one.
 std::vector<RigidImbalance> moved(const Cloth& cloth, const Forces& load,
-                                  std::span<const SagContact> contacts, bool touching, double g) {
+                                  std::span<const ContactPoint> contacts, bool touching, double g) {
   std::vector<RigidImbalance> pieces = rigid_imbalances(cloth, load);
   std::vector<char> touches(cloth.particles.size());
-  for (const SagContact& c : contacts) touches[c.particle] = 1;
+  for (const ContactPoint& c : contacts) touches[c.particle] = 1;
   std::erase_if(pieces, [&](const RigidImbalance& r) {
     const bool any = std::any_of(r.piece.begin(), r.piece.end(), [&](int i) { return touches[i]; });
     return any != touching || !(r.largest > least_imbalance * g);
@@ -96,7 +80,7 @@ void invert_tension(const Particles& p, std::span<const double> pull, std::vecto
   }
 }
 
-void invert_triangles(const Particles& p, const SagForces& f, std::vector<MembraneTriangle>& triangles,
+void invert_triangles(const Particles& p, const ClampedForces& f, std::vector<MembraneTriangle>& triangles,
                       PrestressReport& report) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     MembraneTriangle& t = triangles[i];
@@ -113,7 +97,7 @@ void invert_triangles(const Particles& p, const SagForces& f, std::vector<Membra
   }
 }
 
-void invert_hinges(const SagForces& f, Cloth& cloth, PrestressReport& report) {
+void invert_hinges(const ClampedForces& f, Cloth& cloth, PrestressReport& report) {
   const std::vector<Vec3>& x = cloth.particles.x;
   for (std::size_t i = 0; i < cloth.hinges.size(); ++i) {
     Hinge& h = cloth.hinges[i];
@@ -124,7 +108,7 @@ void invert_hinges(const SagForces& f, Cloth& cloth, PrestressReport& report) {
   }
 }
 
-void invert(const SagForces& f, Cloth& cloth, PrestressReport& report) {
+void invert(const ClampedForces& f, Cloth& cloth, PrestressReport& report) {
   invert_springs(cloth.particles, f.structural, cloth.structural, report);
   invert_springs(cloth.particles, f.bending, cloth.bending, report);
   invert_tension(cloth.particles, f.tension, cloth.tension, report);
@@ -150,9 +134,9 @@ PrestressReport prestress(Cloth& cloth, const PrestressOptions& o, const Collide
   check(cloth, o, loads);
   const Particles& p = cloth.particles;
   const double g = o.gravity.norm() > 0 ? o.gravity.norm() : standard_gravity;
-  const std::vector<SagContact> contacts = contacts_of(p, collider, o.gap);
-  SagSystem system(cloth, {o.max_strain, std::min(o.max_compression, o.max_strain), o.max_angle, o.friction},
-                   contacts);
+  const std::vector<ContactPoint> contacts = contacts_of(p, collider, o.gap);
+  ClampedElements system(
+      cloth, {o.max_strain, std::min(o.max_compression, o.max_strain), o.max_angle, o.friction}, contacts);
   Forces load(p.size(), Vec3::Zero());
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!(p.inv_mass[i] > 0)) continue;
@@ -162,17 +146,17 @@ PrestressReport prestress(Cloth& cloth, const PrestressOptions& o, const Collide
   PrestressReport report;
   report.imbalance = moved(cloth, load, contacts, false, g);
   for (const RigidImbalance& r : report.imbalance) remove_rigid_load(cloth, r, load);
-  const Sag sag = find_sag(p, system, load, {g, o.tolerance, o.max_iterations});
-  report.iterations = sag.iterations;
-  report.factorisations = sag.factorisations;
+  const Balance balance = balance_forces(p, system, load, {g, o.tolerance, o.max_iterations});
+  report.iterations = balance.iterations;
+  report.factorisations = balance.factorisations;
   if (!contacts.empty()) {
-    for (RigidImbalance& r : moved(cloth, sag.net, contacts, true, g))
+    for (RigidImbalance& r : moved(cloth, balance.net, contacts, true, g))
       report.imbalance.push_back(std::move(r));
   }
-  invert(sag.forces, cloth, report);
+  invert(balance.forces, cloth, report);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     report.touching.push_back(contacts[i].particle);
-    report.contact_force.push_back(sag.forces.contact[i]);
+    report.contact_force.push_back(balance.forces.contact[i]);
   }
   report.residual = residual_force(cloth, o.gravity, collider, o.friction, o.gap, loads);
   return report;

@@ -12,7 +12,7 @@ struct PrestressOptions {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]; finite
   double friction = 0.3;      ///< Coulomb coefficient with the body [-]; >= 0; 0: without friction
   double gap = 0.003;         ///< a body at most this far (and 1e-5 m) carries [m]; > 0
-  double max_strain = 0.1;    ///< bound of |l - L| / L, see SagSystem for triangles [-]; in (0, 0.15]
+  double max_strain = 0.1;    ///< bound of |l - L| / L, see ClampedElements for triangles [-]; in (0, 0.15]
   /// Bound of (L - l) / L of springs and tension, where less than max_strain, for cloth that buckles [-]; in
   /// [0, 0.15]
   double max_compression = 0.15;
@@ -54,27 +54,26 @@ struct PrestressReport {
 
 /// Sets the rest state (rest lengths of springs, tension and triangles, rest angles of hinges) with which the
 /// cloth is in equilibrium as it lies: forces of elements, weight, `loads` and a contact force in the
-/// friction cone balance on each free particle. Stiffnesses, positions and all else stay; which rest state it
-/// has does not count. Among all such states the one whose elements store least energy, each by its own
-/// stiffness:
+/// friction cone balance on each free particle. Stiffnesses and positions stay. Of all such states it takes
+/// the one whose elements store least energy. loads: further forces that act whatever moves [N], one a
+/// particle; may be empty. Cost: a symbolic and, without bounds and body, one numeric factorisation, O(n^1.5)
+/// for n particles of a sheet. Same input, same bits. Throws std::invalid_argument, nothing changed, if an
+/// option is out of its range, arrays differ in length, a position or load is not finite, a free particle has
+/// no mass, or elements are broken or have no area.
+///
+/// \details With each element's own stiffness,
 ///   min 1/2 z^T C z  subject to  A z + f = 0  and the bounds,  z = -C^-1 A^T u,  (A C^-1 A^T) u = f,
 /// where A C^-1 A^T is the stiffness matrix of a cloth at rest as it lies; then each element's law is
-/// inverted (invert_elements.h). Bounds and the cone make it a convex problem without equations (Newton's
-/// method on SagSystem, the matrix shifted by m g / 10^6 m): where they leave no equilibrium it comes as near
-/// as they allow, and `residual` and the lists tell.
+/// inverted (invert_elements.h). Bounds and the cone make it a convex problem without equations
+/// (balance_forces()): where they leave no equilibrium it comes as near as they allow, and `residual` and the
+/// lists tell. The rest state that the cloth had does not count; one that is relaxed and bears no load is at
+/// rest as it lies. Whether the equilibrium is stable is not asked here: certificate.h.
 ///
-/// A cloth that is relaxed and bears no load is at rest as it lies. Whether the equilibrium is stable is not
-/// asked here: certificate.h. `imbalance`: pieces that pins leave free to move as rigid bodies while the load
-/// moves them by more than 1e-9 g (balance_rigidly() helps if they hang), and pieces for which also the
-/// body's contact cannot prevent it.
-///
-/// loads: further forces that act whatever moves [N], one a particle; may be empty. Where the body is nearer
-/// than the gap, a simulation will push the cloth out; that motion is not foreseen. A triangle with Poisson's
-/// ratio near 1 may bear less than its bound; it then gets the largest share of the stress that it can.
-/// Cost: a symbolic and, without bounds and body, one numeric factorisation, O(n^1.5) for n particles of a
-/// sheet, and some passes. Same input, same bits.
-/// Throws std::invalid_argument, nothing changed, if an option is out of its range, arrays differ in length,
-/// a position or load is not finite, a free particle has no mass, or elements are broken or have no area.
+/// `imbalance`: pieces that pins leave free to move as rigid bodies while the load moves them by more than
+/// 1e-9 g (balance_rigidly() helps if they hang), and pieces for which also the body's contact cannot prevent
+/// it. Where the body is nearer than the gap, a simulation will push the cloth out; that motion is not
+/// foreseen. A triangle with Poisson's ratio near 1 may bear less than its bound; it then gets the largest
+/// share of the stress that it can.
 /// Source: Hsu, Truong, Yuksel, Wu 2022, A general two-stage initialization for sag-free deformable
 /// simulations, ACM TOG 41(4); bounds as Takahashi and Batty do for rods.
 PrestressReport prestress(Cloth& cloth, const PrestressOptions& options = {},

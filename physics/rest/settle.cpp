@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <stdexcept>
-#include <string>
+#include <optional>
+#include <utility>
 
 #include "physics/base/check_particles.h"
+#include "physics/base/require.h"
 #include "physics/base/vector_sums.h"
 #include "physics/cloth/element_forces.h"
 #include "physics/contact/anchored_contact.h"
@@ -33,22 +33,67 @@ constexpr int most_followers = 15;        // steps with one factorisation, after
 constexpr double follow_until = 1e-2;     // share of the first one's expected fall of energy
 
 void check(const Cloth& cloth, const SettleOptions& o) {
-  const auto need = [](bool good, const char* name, double value, const char* range) {
-    if (good && std::isfinite(value)) return;
-    throw std::invalid_argument(std::string("settle: ") + name + " = " + std::to_string(value) + " is not " +
-                                range);
-  };
-  for (const double g : o.gravity) need(true, "gravity", g, "finite");
-  need(o.friction >= 0, "friction", o.friction, ">= 0");
-  need(o.gap > 0, "gap", o.gap, "> 0");
-  need(o.contact_depth >= least_depth, "contact_depth", std::min(o.contact_depth, 1e300), ">= 1e-7");
-  need(o.tolerance > 0, "tolerance", o.tolerance, "> 0");
-  need(o.max_iterations >= 0, "max_iterations", o.max_iterations, ">= 0");
-  need(o.longest_move > 0, "longest_move", o.longest_move, "> 0");
-  need(o.threads >= 1, "threads", o.threads, ">= 1");
-  check_particles(cloth.particles, "settle");
+  constexpr const char* me = "settle";
+  for (const double g : o.gravity) require(me, "gravity", g, true, "finite");
+  require(me, "friction", o.friction, o.friction >= 0, ">= 0");
+  require(me, "gap", o.gap, o.gap > 0, "> 0");
+  require(me, "contact_depth", std::min(o.contact_depth, 1e300), o.contact_depth >= least_depth, ">= 1e-7");
+  require(me, "tolerance", o.tolerance, o.tolerance > 0, "> 0");
+  require(me, "max_iterations", o.max_iterations, o.max_iterations >= 0, ">= 0");
+  require(me, "longest_move", o.longest_move, o.longest_move > 0, "> 0");
+  require(me, "threads", o.threads, o.threads >= 1, ">= 1");
+  check_particles(cloth.particles, me);
 }
 
+/// What elements and weight answer at a place.
+struct Answer {
+  Vectors force;      ///< of the elements [N]
+  double energy = 0;  ///< of elements and weight [J]
+};
+struct Move {
+  Vectors way;   ///< of each particle [m]
+  double share;  ///< the largest that the options allow [-]; in (0, 1]
+};
+/// Where a move led.
+struct Trial {
+  double share = 0;  ///< of the move [-]; 0: no share lowers the energy, and the rest says nothing
+  Vectors x;
+  Answer answer;
+};
+/// What one Newton step passes on to the next.
+struct Pace {
+  double tau = first_time;  ///< [s]
+  double clamp = 1;         ///< share of the Hessian's clamped part [-]
+};
+struct Factors {
+  bool definite;  ///< there are factors
+  double clamp;   ///< share of the clamped part that they have, or the last try had [-]
+  int tries;      ///< factorisations that it took
+};
+/// What a step took, and how to go on.
+struct Step {
+  Pace next;
+  int factorisations, followers;
+};
+
+/// Pseudo-transient continuation: the longer a step reaches, the less time holds it back; and where the
+/// Hessian alone will not do, more of its clamped part is added.
+Pace next_pace(Pace pace, const Factors& factors, const Move& move, double share) {
+  pace.clamp = factors.clamp;
+  if (factors.tries == 1) pace.clamp = factors.clamp < least_clamp / 2 ? 0 : relax_clamp * factors.clamp;
+  if (share == 0) return {0.25 * pace.tau, std::min(1.0, 2 * factors.clamp + least_clamp)};
+  if (share == 1) pace.tau *= 4;
+  if (share < move.share) return {0.9 * pace.tau, std::min(1.0, 1.5 * factors.clamp + least_clamp / 2)};
+  return pace;
+}
+
+Vectors moved(Vectors x, double share, const Vectors& way) {
+  add_multiple(x, share, way);
+  return x;
+}
+
+/// One search for rest. The particles' positions are the state, with the contact's anchors; the members
+/// beside them are tools.
 class Settler {
  public:
   Settler(Cloth& cloth, const Collider* collider, const SettleOptions& options)
@@ -58,161 +103,164 @@ class Settler {
         o_(options),
         elements_(cloth),
         stiffness_(cloth),
-        pool_(options.threads),
-        memory_([this](std::span<Vec3> f) { stiffness_.solve(f, &pool_); }, most_followers) {
+        pool_(options.threads) {
     stiffness_.assemble(cloth, p_.x, Stiffness::positive_part);
     if (!collider) return;
     const double k = contact_share * stiffness_.mean_diagonal();
-    contact_ = std::make_unique<AnchoredContact>(
-        *collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
+    contact_.emplace(*collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
   }
 
   SettleReport run(const SettleObserver& observer) {
-    look(p_.x);
+    SettleReport report;
+    Pace pace;
+    Answer here = look(p_.x);
     if (contact_) contact_->move_anchors();
-    for (;; ++report_.iterations) {
-      find_net();
-      report_.residual = residual_of(elastic_, p_, o_.gravity, collider_, o_.friction, o_.gap);
-      const bool rests = report_.residual <= o_.tolerance;
-      report_.converged = rests && !(contact_ && contact_->deepest() > o_.contact_depth);
-      report_.stopped = observer && !observer({report_.iterations, report_.residual});
-      if (report_.converged || report_.stopped || report_.iterations == o_.max_iterations) break;
-      rests ? stiffen() : step();
+    for (;; ++report.iterations) {
+      report.residual = residual_of(here.force, p_, o_.gravity, collider_, o_.friction, o_.gap);
+      const bool rests = report.residual <= o_.tolerance;
+      report.converged = rests && !(contact_ && contact_->deepest() > o_.contact_depth);
+      report.stopped = observer && !observer({report.iterations, report.residual});
+      if (report.converged || report.stopped || report.iterations == o_.max_iterations) break;
+      if (rests) {
+        here = stiffen();
+        pace.tau = first_time;
+      } else {
+        const Step done = step(pace, here, report.residual < far_from_rest);
+        pace = done.next;
+        report.factorisations += done.factorisations;
+        report.followers += done.followers;
+      }
     }
     if (contact_) {
-      report_.touching = contact_->touching();
-      report_.deepest = contact_->deepest();
+      report.touching = contact_->touching();
+      report.deepest = contact_->deepest();
     }
-    return report_;
+    return report;
   }
 
  private:
-  /// Asks elements and body what they do at x.
-  void look(const Vectors& x) {
-    elastic_.resize(x.size());
-    at_ = elements_(x, elastic_, pool_);
+  /// Asks elements, weight and body at x; contact_ answers for x until it is asked elsewhere.
+  Answer look(const Vectors& x) {
+    Answer answer{Vectors(x.size())};
+    answer.energy = elements_(x, answer.force, pool_);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (p_.inv_mass[i] > 0) at_ -= p_.mass[i] * o_.gravity.dot(x[i]);
+      if (p_.inv_mass[i] > 0) answer.energy -= p_.mass[i] * o_.gravity.dot(x[i]);
     if (contact_) contact_->look(x, p_.inv_mass, &pool_);
+    return answer;
   }
 
-  double energy() const { return contact_ ? at_ + contact_->energy() : at_; }
+  /// [J], with the contact's, which must have been asked there last.
+  double energy(const Answer& at) const { return contact_ ? at.energy + contact_->energy() : at.energy; }
 
-  void find_net() {
-    net_ = elastic_;
-    if (contact_) contact_->add_forces(net_);
-    for (std::size_t i = 0; i < net_.size(); ++i) {
+  /// Of elements, weight and contact [N]; 0 on what is held. As energy().
+  Vectors net_force(const Answer& at) const {
+    Vectors net = at.force;
+    if (contact_) contact_->add_forces(net);
+    for (std::size_t i = 0; i < net.size(); ++i) {
       if (p_.inv_mass[i] > 0)
-        net_[i] += p_.mass[i] * o_.gravity;
+        net[i] += p_.mass[i] * o_.gravity;
       else
-        net_[i].setZero();
+        net[i].setZero();
     }
+    return net;
   }
 
-  void stiffen() {
+  /// Rest is found, but too deep in the gap: the contact becomes stiffer.
+  Answer stiffen() {
     contact_->stiffen(stiffer, p_.x);
-    look(p_.x);
+    Answer answer = look(p_.x);
     contact_->move_anchors();
-    tau_ = first_time;
+    return answer;
   }
 
   /// Clamps the Hessian until it is positive definite.
-  bool factorise() {
-    memory_.clear();
-    for (int failures = 0;; ++failures) {
-      stiffness_.assemble(cloth_, p_.x, {clamp_}, &pool_);
+  Factors factorise(const Pace& pace) {
+    double clamp = pace.clamp;
+    for (int tries = 1;; ++tries) {
+      stiffness_.assemble(cloth_, p_.x, {clamp}, &pool_);
       if (contact_) contact_->add_stiffness(stiffness_);
       for (std::size_t i = 0; i < p_.size(); ++i)
-        if (p_.inv_mass[i] > 0) stiffness_.add(int(i), p_.mass[i] / (tau_ * tau_) * Mat3::Identity());
-      ++report_.factorisations;
-      if (stiffness_.factorise_definite(0, &pool_)) {
-        clamped_ = clamp_;
-        if (failures == 0) clamp_ = clamp_ < least_clamp / 2 ? 0 : relax_clamp * clamp_;
-        return true;
-      }
-      if (clamp_ == 1) return false;
-      clamp_ = failures == 3 ? 1 : std::min(1.0, std::max(least_clamp, 2 * clamp_));
+        if (p_.inv_mass[i] > 0) stiffness_.add(int(i), p_.mass[i] / (pace.tau * pace.tau) * Mat3::Identity());
+      if (stiffness_.factorise_definite(0, &pool_)) return {true, clamp, tries};
+      if (clamp == 1) return {false, clamp, tries};
+      clamp = tries == 4 ? 1 : std::min(1.0, std::max(least_clamp, 2 * clamp));
     }
   }
 
-  void find_move() {
-    move_ = net_;
-    memory_.apply(move_);
+  Move find_move(const LimitedMemory& inverse, const Vectors& net) const {
+    Move move{net, 1};
+    inverse.apply(move.way);
     double longest = 0;
-    for (const Vec3& m : move_) longest = std::max(longest, m.norm());
-    first_ = longest > o_.longest_move ? o_.longest_move / longest : 1;
+    for (const Vec3& m : move.way) longest = std::max(longest, m.norm());
+    if (longest > o_.longest_move) move.share = o_.longest_move / longest;
+    return move;
   }
 
-  /// The longest share of the move, from first_ halved, that lowers the energy; trial_ is there, and all has
-  /// looked there. 0: none, and all has looked where it was.
-  double search() {
-    const double before = energy(), slope = -dot(net_, move_);
-    if (!(slope < 0)) return 0;
-    for (double share = first_; share > least_share * first_; share *= 0.5) {
-      trial_ = moved(share);
-      look(trial_);
-      if (energy() <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return share;
+  /// The longest share of the move, from its largest halved, that lowers the energy. Asks the contact there
+  /// last; if there is none, where the particles are.
+  Trial search(const Answer& here, const Vectors& net, const Move& move) {
+    const double before = energy(here), slope = -dot(net, move.way);
+    if (!(slope < 0)) return {};
+    for (double share = move.share; share > least_share * move.share; share *= 0.5) {
+      Trial trial{share, moved(p_.x, share, move.way), {}};
+      trial.answer = look(trial.x);
+      if (energy(trial.answer) <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return trial;
     }
-    look(p_.x);
-    return 0;
+    if (contact_) contact_->look(p_.x, p_.inv_mass, &pool_);
+    return {};
   }
 
-  Vectors moved(double share) const {
-    Vectors x = p_.x;
-    add_multiple(x, share, move_);
-    return x;
+  void accept(Trial trial, Answer& here) {
+    p_.x = std::move(trial.x);
+    here = std::move(trial.answer);
   }
 
-  void step() {
-    if (!factorise()) {
-      tau_ *= 0.25;
-      return;
+  /// One Newton step and, near rest, those that follow it with its factors. The particles move, and `here`
+  /// becomes what is answered there.
+  Step step(const Pace& pace, Answer& here, bool near) {
+    const Factors factors = factorise(pace);
+    if (!factors.definite) return {{0.25 * pace.tau, factors.clamp}, factors.tries, 0};
+    LimitedMemory inverse([this](std::span<Vec3> f) { stiffness_.solve(f, &pool_); }, most_followers);
+    Vectors net = net_force(here);
+    Move move = find_move(inverse, net);
+    if (contact_ && near) {
+      contact_->expect(move.way);
+      net = net_force(here);
+      move = find_move(inverse, net);
     }
-    find_move();
-    if (contact_ && report_.residual < far_from_rest) {
-      contact_->expect(move_);
-      find_net();
-      find_move();
-    }
-    const double share = search();
-    const bool refused = share < first_;
-    if (contact_ && refused) contact_->make_room(p_.x, moved(first_), p_.inv_mass);
-    if (share > 0) p_.x = trial_;
-    if (contact_ && refused) contact_->look(p_.x, p_.inv_mass, &pool_);  // as there is room now
-    if (share == 0) {
-      if (contact_) contact_->expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
-      tau_ *= 0.25;
-      clamp_ = std::min(1.0, 2 * clamped_ + least_clamp);
-      return;
-    }
-    if (share == 1) tau_ *= 4;
-    if (refused) {
-      tau_ *= 0.9;
-      clamp_ = std::min(1.0, 1.5 * clamped_ + least_clamp / 2);
-    }
-    if (report_.residual < far_from_rest) follow();
-    if (contact_) contact_->move_anchors();
+    Trial trial = search(here, net, move);
+    const double share = trial.share;
+    const bool refused = contact_ && share < move.share;
+    if (refused) contact_->make_room(p_.x, moved(p_.x, move.share, move.way), p_.inv_mass);
+    if (share > 0) accept(std::move(trial), here);
+    if (refused) contact_->look(p_.x, p_.inv_mass, &pool_);  // as there is room now
+    const int followers = share > 0 && near ? follow(inverse, here) : 0;
+    if (contact_ && share > 0) contact_->move_anchors();
+    if (contact_ && share == 0)
+      contact_->expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
+    return {next_pace(pace, factors, move, share), factors.tries, followers};
   }
 
-  /// Goes on with the same factors and what the steps with them show, as long as that pays.
-  void follow() {
-    find_net();
+  /// Goes on with the same factors and what the steps with them show, as long as that pays. Returns how many
+  /// steps those were.
+  int follow(LimitedMemory& inverse, Answer& here) {
+    Vectors net = net_force(here);
     double most = 0;
     for (int k = 0; k < most_followers; ++k) {
-      find_move();
-      const double fall = dot(net_, move_);
+      Move move = find_move(inverse, net);
+      const double fall = dot(net, move.way);
       most = std::max(most, fall);
-      if (fall < follow_until * most) return;
-      const double share = search();
-      if (share == 0) return;
-      p_.x = trial_;
-      ++report_.followers;
-      Vectors way = move_, change = net_;
-      for (Vec3& m : way) m *= share;
-      find_net();
-      add_multiple(change, -1, net_);
-      memory_.add(std::move(way), std::move(change));
+      if (fall < follow_until * most) return k;
+      Trial trial = search(here, net, move);
+      if (trial.share == 0) return k;
+      for (Vec3& m : move.way) m *= trial.share;
+      accept(std::move(trial), here);
+      Vectors now = net_force(here), change = std::move(net);
+      add_multiple(change, -1, now);
+      inverse.add(std::move(move.way), std::move(change));
+      net = std::move(now);
     }
+    return most_followers;
   }
 
   Cloth& cloth_;
@@ -222,13 +270,7 @@ class Settler {
   ElementForces elements_;
   FreeStiffness stiffness_;
   ThreadPool pool_;
-  std::unique_ptr<AnchoredContact> contact_;
-  LimitedMemory memory_;
-  double tau_ = first_time, clamp_ = 1, clamped_ = 1;  // clamped_: of the last factorisation
-  double at_ = 0;                                      // energy but contact's, where all looked last [J]
-  double first_ = 1;                                   // share of a move that search() begins with
-  Vectors elastic_, net_, move_, trial_;
-  SettleReport report_;
+  std::optional<AnchoredContact> contact_;
 };
 
 }  // namespace

@@ -41,22 +41,22 @@ struct SettleReport {
   double deepest = 0;      ///< of them, inside the gap [m]
 };
 
-/// Moves the free particles to rest on a body (null: none), from cloth.particles.x, without regard to the way
-/// there: what is asked for is a state in which elements, weight and contact forces within the friction cone
-/// balance. Velocities become 0. Where friction acts there are many such states; the start chooses.
-///
-/// Newton's method on the energy of elements, weight and AnchoredContact: the Hessian, where it is not
-/// positive definite as much of its clamped part (Stiffness) as makes it so, plus m / tau^2 with tau from
-/// 0.03 s up while steps succeed (pseudo-transient continuation), by Cholesky's factorisation; a step is
-/// halved until the energy falls (Armijo, 1e-4). Near rest, up to fifteen quasi-Newton steps (LimitedMemory)
-/// follow each Newton step with its factors. Limits of friction follow the push within a step. A start that
-/// lies deeper in the body than the gap should be brought out first (push_out.h).
-///
+/// Moves the free particles to rest on a body (null: none), from cloth.particles.x: to a state in which
+/// elements, weight and contact forces within the friction cone balance. Velocities become 0. The way there
+/// counts for nothing. Where friction acts there are many such states, and the start chooses; a start that
+/// lies deeper in the body than the gap should be brought out first (bring_out()).
 /// Cost: a factorisation or two an iteration, O(n^1.5) for n particles of a sheet; some 10 to 30 iterations.
 /// Same input, same bits. Throws std::invalid_argument, nothing changed, if an option is out of its range,
 /// arrays differ in length, a position is not finite, a free particle has no mass, or as the elements do.
-/// Source: Nocedal and Wright, Numerical Optimization, 2nd ed., 3.1; Kelley and Keyes 1998, Convergence
-/// analysis of pseudo-transient continuation, SIAM J. Numer. Anal. 35(2).
+///
+/// \details Newton's method on the energy of elements, weight and AnchoredContact. Where the Hessian is not
+/// positive definite, as much of its clamped part (Stiffness) is added as makes it so, and m / tau^2, tau
+/// from 0.03 s up while steps succeed (pseudo-transient continuation). A step is halved until the energy
+/// falls (Armijo, 1e-4). Near rest, up to fifteen quasi-Newton steps (LimitedMemory) follow each Newton step
+/// with its factors. Limits of friction follow the push within a step. It looks for balance alone: from a
+/// start within a plane of symmetry it may end in a saddle, which certify() tells. Source: Nocedal and
+/// Wright, Numerical Optimization, 2nd ed., 3.1; Kelley and Keyes 1998, Convergence analysis of
+/// pseudo-transient continuation, SIAM J. Numer. Anal. 35(2).
 SettleReport settle(Cloth& cloth, const Collider* collider, const SettleOptions& options,
                     const SettleObserver& observer = {});
 

@@ -13,7 +13,7 @@
 #include "geometry/rest/rest_metric.h"
 #include "physics/cloth/elements.h"
 #include "physics/cloth/pins.h"
-#include "physics/rest/static_equilibrium.h"
+#include "tests/physics/rest/settled.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;
@@ -59,7 +59,7 @@ double elongation(const Mesh& mesh, double shear, double compression) {
   for (std::size_t i = 0; i < cloth.particles.size(); ++i)
     if (cloth.particles.x[i].y() > 0.3 - 1e-9) top.push_back(int(i));
   physics::pin(cloth.particles, top);
-  CHECK(physics::find_static_equilibrium(cloth).converged);
+  CHECK(tests::find_rest(cloth, tests::down_to(1e-6)).converged);
   double lowest = 0;
   for (const physics::Vec3& x : cloth.particles.x) lowest = std::min(lowest, x.y());
   return -lowest;

@@ -86,13 +86,6 @@ bridge::MakeCloth make_cotton(const GarmentPair& pair, std::optional<int> held) 
   };
 }
 
-void bring_out(physics::Cloth& cloth, const physics::Collider& body, double gap) {
-  std::vector<int> free;
-  for (std::size_t i = 0; i < cloth.particles.size(); ++i)
-    if (cloth.particles.inv_mass[i] > 0) free.push_back(int(i));
-  physics::push_out(cloth.particles.x, free, body, gap);
-}
-
 Depth depth_of(const physics::Cloth& cloth, const physics::Collider& body, double gap) {
   Depth result;
   for (std::size_t i = 0; i < cloth.particles.size(); ++i) {

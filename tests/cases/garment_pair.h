@@ -30,9 +30,6 @@ int vertex_at_top(const geometry::Mesh& garment);
 /// inside. The pair must outlive it.
 bridge::MakeCloth make_cotton(const GarmentPair& pair, std::optional<int> held = {});
 
-/// Moves free particles that lie nearer than the gap [m] out to it.
-void bring_out(physics::Cloth& cloth, const physics::Collider& body, double gap);
-
 struct Depth {
   int particles = 0;             ///< free ones nearer than the gap and 1e-5 m
   double mean = 0, largest = 0;  ///< of theirs, below the gap [m]

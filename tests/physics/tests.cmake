@@ -64,8 +64,8 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   rest/limited_memory_test.cpp
   rest/prestress_test.cpp
   rest/rigid_imbalance_test.cpp
+  rest/settle_alone_test.cpp
   rest/settle_cases_test.cpp
+  rest/settle_strips_test.cpp
   rest/settle_test.cpp
-  rest/static_cases_test.cpp
-  rest/static_equilibrium_test.cpp
 )

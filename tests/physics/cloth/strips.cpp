@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/physics/cloth/shell_cloths.h"
+#include "tests/physics/rest/settled.h"
 
 namespace furrow::tests {
 namespace {
@@ -164,13 +165,11 @@ double critical_gamma(const Strip& strip, const Vec3& direction, double below, d
       area += physics::membrane_constants(t).area;
     return mass / area;
   }();
-  physics::StaticOptions options;
-  options.tolerance = 1e-4;
   Cloth cloth = strip.cloth;
   while (above - below > 1e-4 * above) {
     const double gamma = (below + above) / 2;
-    options.gravity = gravity_for(gamma, density, strip.length, strip.rigidity) * direction;
-    (physics::find_static_equilibrium(cloth, options).stable ? below : above) = gamma;
+    const Vec3 gravity = gravity_for(gamma, density, strip.length, strip.rigidity) * direction;
+    (find_rest(cloth, down_to(1e-4, gravity)).stable ? below : above) = gamma;
   }
   return (below + above) / 2;
 }

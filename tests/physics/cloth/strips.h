@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/rest/static_equilibrium.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::tests {
 

@@ -33,3 +33,16 @@ TEST_CASE("push_out: it refuses an index out of range before anything moves") {
   CHECK_THROWS_AS(push_out(x, which, Ball()), std::invalid_argument);
   CHECK(x[0] == Vec3(0.5, 0, 0));
 }
+
+TEST_CASE("bring_out: free particles come out to the gap, and pins stay") {
+  Particles p;
+  p.x = {{0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 2}};
+  p.v.assign(3, Vec3::Zero());
+  p.mass.assign(3, 1);
+  p.inv_mass = {1, 0, 1};
+  const PushOutReport report = bring_out(p, Ball(), 0.1);
+  CHECK((p.x[0] - Vec3(1.1, 0, 0)).norm() < 1e-8);
+  CHECK(p.x[1] == Vec3(0, 0.5, 0));
+  CHECK(p.x[2] == Vec3(0, 0, 2));
+  CHECK(report.moved == 1);
+}

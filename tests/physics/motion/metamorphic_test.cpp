@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "physics/rest/static_equilibrium.h"
 #include "tests/physics/cloth/strips.h"
 #include "tests/physics/rest/hanging_chains.h"
+#include "tests/physics/rest/settled.h"
 
 using namespace furrow;
 using namespace furrow::cases;
@@ -52,9 +52,7 @@ double moved(const RestCase& c, const Rest& from) {
 
 std::vector<Vec3> rest_by_newton(const RestCase& c) {
   physics::Cloth cloth = c.cloth;
-  physics::StaticOptions options;
-  options.gravity = c.options.gravity;
-  REQUIRE(find_static_equilibrium(cloth, options).stable);
+  REQUIRE(tests::find_rest(cloth, tests::down_to(1e-6, c.options.gravity)).stable);
   return cloth.particles.x;
 }
 

@@ -101,7 +101,7 @@ TEST_CASE("invert_elements: the law has an answer to all stresses that prestress
       MembraneTriangle t{{0, 1, 2}, {}, lame.lambda, lame.mu};
       for (int e = 0; e < 3; ++e) t.rest_lengths[e] = (x[(e + 2) % 3] - x[(e + 1) % 3]).norm();
       const MembraneConstants c = membrane_constants(t);
-      // The energy of a strain of 0.15 along one axis, as SagSystem limits it.
+      // The energy of a strain of 0.15 along one axis, as ClampedElements limits it.
       const Vec3 d = noise.vector();
       const double scale = 0.15 * std::sqrt(c.area * 300 / d.dot(c.quadratic * d));
       CHECK(rest_lengths_for(x, lame.lambda, lame.mu, scale * c.quadratic * d));

@@ -4,25 +4,16 @@
 
 #include "physics/cloth/elements.h"
 #include "physics/motion/simulate.h"
-#include "physics/rest/certificate.h"
-#include "physics/rest/settle.h"
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/strips.h"
 #include "tests/physics/cloth/tension_chains.h"
 #include "tests/physics/rest/hanging_chains.h"
+#include "tests/physics/rest/settled.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;
 
 namespace {
-
-SettleReport bring_to_rest(Cloth& cloth, double tolerance, const Vec3& gravity = {0, -9.81, 0}) {
-  SettleOptions options;
-  options.tolerance = tolerance;
-  options.gravity = gravity;
-  options.max_iterations = 500;
-  return settle(cloth, nullptr, options);
-}
 
 double energy(const Cloth& cloth, const Vec3& gravity) {
   double e = potential_energy(cloth, cloth.particles.x);
@@ -66,11 +57,13 @@ int check_equal_rests(const Cloth& start, double size, const Vec3& gravity, cons
 TEST_CASE("settle: a chain of uneven springs meets the exact discrete solution") {
   Cloth chain = hanging_chain();
   const auto exact = exact_chain(chain);
-  CHECK(bring_to_rest(chain, 1e-9).converged);
+  const Settled report = find_rest(chain, down_to(1e-9));
+  CHECK(report.converged);
+  CHECK(report.stable);
   double worst = 0;
   for (std::size_t i = 0; i < exact.size(); ++i)
     worst = std::max(worst, (chain.particles.x[i] - Vec3(exact[i].x(), exact[i].y(), 0)).norm());
-  CHECK(worst < 1e-9);
+  CHECK(worst < 1e-10);
 }
 
 TEST_CASE(
@@ -78,11 +71,14 @@ TEST_CASE(
   for (const Hanging& chain : hanging_chains) {
     CAPTURE(chain.springs, chain.c);
     Cloth cloth = hanging_at_rest(chain);
-    const SettleReport report = bring_to_rest(cloth, 1e-8);
+    const Settled report = find_rest(cloth, down_to(1e-10));
     CAPTURE(report.iterations, report.residual);
     CHECK(report.converged);
-    CHECK(largest_strain_error(cloth, chain) < 1e-8);
-    CHECK(lowest(cloth) == Approx(chain.hanging_length).epsilon(1e-8));
+    CHECK(report.stable);
+    CHECK(largest_strain_error(cloth, chain) < 1e-9);
+    const double largest = largest_strain(cloth) * cloth.tension[0].rest_length;
+    CHECK(largest == Approx(chain.largest_extension).epsilon(1e-9));
+    CHECK(lowest(cloth) == Approx(chain.hanging_length).epsilon(1e-9));
   }
 }
 
@@ -94,11 +90,11 @@ TEST_CASE(
         CAPTURE(chain.span, chain.length, depth, compress);
         Cloth cloth = level_chain(chain, depth, compress);
         if (depth == 0) cloth.particles.x[std::size_t(chain.springs / 3)].y() -= 1e-4;  // off the symmetry
-        const SettleReport report = bring_to_rest(cloth, 1e-7);
+        const Settled report = find_rest(cloth, down_to(1e-8));
         CAPTURE(report.iterations, report.residual);
         CHECK(report.converged);
-        CHECK(lowest(cloth) == Approx(chain.sag).margin(1e-7));
-        CHECK(largest_strain(cloth) == Approx(chain.largest_strain).epsilon(1e-5));
+        CHECK(lowest(cloth) == Approx(chain.sag).margin(1e-8));
+        CHECK(largest_strain(cloth) == Approx(chain.largest_strain).epsilon(1e-6));
       }
     }
   }
@@ -108,7 +104,7 @@ TEST_CASE("settle: a cantilever of equilateral triangles meets the heavy elastic
   for (const auto& [gamma, bound] : {std::pair{1.0, 0.04}, {10.0, 0.01}, {25.0, 0.01}}) {
     Strip strip = equilateral_strip({});
     const Vec3 gravity(0, 0, -gravity_for(gamma, 0.1, strip.length, strip.rigidity));
-    const SettleReport report = bring_to_rest(strip.cloth, 1e-4, gravity);
+    const Settled report = find_rest(strip.cloth, down_to(1e-4, gravity));
     CHECK(report.converged);
     const Elastica exact = heavy_elastica(gamma);
     const double error = -strip.tip().z() / strip.tip().x() / (exact.height / exact.width) - 1;
@@ -165,10 +161,8 @@ TEST_CASE("settle: a strip that stands keeps upright below Greenhill's load and 
     for (Vec3& x : strip.cloth.particles.x)
       if (x.x() > 0) x.z() += disturbance * x.x() * x.x() / strip.length;
     const Vec3 gravity(-gravity_for(gamma, options.density, strip.length, strip.rigidity), 0, 0);
-    CHECK(bring_to_rest(strip.cloth, 1e-4, gravity).converged);
-    CertificateOptions certifying;
-    certifying.gravity = gravity;
-    return std::pair(strip.tip(), certify(strip.cloth, certifying).negative_eigenvalues);
+    CHECK(settle(strip.cloth, nullptr, down_to(1e-4, gravity)).converged);
+    return std::pair(strip.tip(), certify(strip.cloth, {.gravity = gravity}).negative_eigenvalues);
   };
   // 7.84 for a rod, 6.97 for a plate with the hinges' Poisson's ratio -1/3
   const auto [below, none] = stand(6, 0.01);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "physics/rest/sag_system.h"
+#include "physics/rest/clamped_elements.h"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
+#include "physics/base/require.h"
 #include "physics/cloth/dihedral.h"
 #include "physics/cloth/hinge_forces.h"
 #include "physics/cloth/membrane.h"
@@ -62,7 +62,8 @@ Vec3 onto_cone(const Vec3& p, const Vec3& n, double friction) {
 
 }  // namespace
 
-SagSystem::SagSystem(const Cloth& cloth, const SagLimits& limits, std::span<const SagContact> contacts)
+ClampedElements::ClampedElements(const Cloth& cloth, const ElementLimits& limits,
+                                 std::span<const ContactPoint> contacts)
     : rest_(at_rest(cloth)),
       now_(rest_),
       contacts_(contacts.begin(), contacts.end()),
@@ -80,33 +81,31 @@ SagSystem::SagSystem(const Cloth& cloth, const SagLimits& limits, std::span<cons
   if (!(contact_stiffness_ > 0)) contact_stiffness_ = 1;  // a cloth without stiffness
 }
 
-void SagSystem::add_bars(std::span<const Spring> springs, const SagLimits& limits) {
+void ClampedElements::add_bars(std::span<const Spring> springs, const ElementLimits& limits) {
   for (const Spring& s : springs) {
     const double k = s.stiffness, l = s.rest_length;
     const Vec3 d = rest_.particles.x[s.b] - rest_.particles.x[s.a];
-    if (!(l > 0)) throw std::invalid_argument("prestress: a spring has no length");
+    if (!(l > 0)) refuse("prestress", "a spring has no length");
     bars_.push_back({s.a, s.b, d / l, k, -k * l * limits.compression / (1 - limits.compression),
                      k * l * limits.strain / (1 + limits.strain)});
   }
 }
 
 /// A law that cannot push has its lower limit at 0.
-void SagSystem::add_tension(const Cloth& cloth, const SagLimits& limits) {
+void ClampedElements::add_tension(const Cloth& cloth, const ElementLimits& limits) {
   for (std::size_t i = 0; i < cloth.tension.size(); ++i) {
     const Tension& t = cloth.tension[i];
     const Spring& s = rest_.bending[cloth.bending.size() + i];
-    if (!(s.rest_length > 0)) throw std::invalid_argument("prestress: a tension has no length");
+    if (!(s.rest_length > 0)) refuse("prestress", "a tension has no length");
     bars_.push_back({s.a, s.b, (rest_.particles.x[s.b] - rest_.particles.x[s.a]) / s.rest_length, s.stiffness,
                      tension_law(t, -limits.compression).force, tension_law(t, limits.strain).force});
   }
 }
 
-void SagSystem::add_plates(const Cloth& cloth, double strain) {
+void ClampedElements::add_plates(const Cloth& cloth, double strain) {
   for (const MembraneTriangle& t : cloth.membrane) {
-    if (!(t.mu > 0) && t.lambda != 0) {
-      throw std::invalid_argument("prestress: a membrane triangle has lambda = " + std::to_string(t.lambda) +
-                                  " but mu = 0");
-    }
+    if (!(t.mu > 0) && t.lambda != 0)
+      refuse("prestress", "a membrane triangle has lambda = ", std::to_string(t.lambda), " but mu = 0");
     Plate p{t.vertices, {}, {}, 0};
     const MembraneConstants constants = membrane_constants(t);
     p.quadratic = constants.quadratic;
@@ -118,7 +117,7 @@ void SagSystem::add_plates(const Cloth& cloth, double strain) {
   }
 }
 
-void SagSystem::add_bends(const Cloth& cloth, double angle) {
+void ClampedElements::add_bends(const Cloth& cloth, double angle) {
   const auto& x = cloth.particles.x;
   for (const Hinge& h : cloth.hinges) {
     const auto& v = h.vertices;
@@ -128,7 +127,7 @@ void SagSystem::add_bends(const Cloth& cloth, double angle) {
   }
 }
 
-void SagSystem::respond_bars(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const {
+void ClampedElements::respond_bars(std::span<const Vec3> w, std::span<Vec3> force, ClampedForces& f) const {
   for (std::size_t i = 0; i < bars_.size(); ++i) {
     const Bar& b = bars_[i];
     const Clamped c = clamped(b.stiffness, b.direction.dot(w[b.b] - w[b.a]), b.low, b.high);
@@ -143,7 +142,7 @@ void SagSystem::respond_bars(std::span<const Vec3> w, std::span<Vec3> force, Sag
   }
 }
 
-void SagSystem::respond_plates(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const {
+void ClampedElements::respond_plates(std::span<const Vec3> w, std::span<Vec3> force, ClampedForces& f) const {
   for (const Plate& p : plates_) {
     Eigen::Vector3d d;
     for (int i = 0; i < 3; ++i)
@@ -163,7 +162,7 @@ void SagSystem::respond_plates(std::span<const Vec3> w, std::span<Vec3> force, S
   }
 }
 
-void SagSystem::respond_bends(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const {
+void ClampedElements::respond_bends(std::span<const Vec3> w, std::span<Vec3> force, ClampedForces& f) const {
   for (const Bend& b : bends_) {
     double q = 0;
     for (int i = 0; i < 4; ++i) q += b.gradient[i].dot(w[b.vertices[i]]);
@@ -175,8 +174,9 @@ void SagSystem::respond_bends(std::span<const Vec3> w, std::span<Vec3> force, Sa
   }
 }
 
-void SagSystem::respond_contacts(std::span<const Vec3> w, std::span<Vec3> force, SagForces& f) const {
-  for (const SagContact& c : contacts_) {
+void ClampedElements::respond_contacts(std::span<const Vec3> w, std::span<Vec3> force,
+                                       ClampedForces& f) const {
+  for (const ContactPoint& c : contacts_) {
     const Vec3 wanted = -contact_stiffness_ * w[c.particle], z = onto_cone(wanted, c.normal, friction_);
     f.contact.push_back(z);
     f.potential += 0.5 * z.squaredNorm() / contact_stiffness_;
@@ -185,8 +185,8 @@ void SagSystem::respond_contacts(std::span<const Vec3> w, std::span<Vec3> force,
   }
 }
 
-SagForces SagSystem::respond(std::span<const Vec3> w, std::span<Vec3> force) const {
-  SagForces f;
+ClampedForces ClampedElements::respond(std::span<const Vec3> w, std::span<Vec3> force) const {
+  ClampedForces f;
   f.scale.reserve(bars_.size() + plates_.size() + bends_.size() + contacts_.size());
   respond_bars(w, force, f);
   respond_plates(w, force, f);
@@ -196,7 +196,7 @@ SagForces SagSystem::respond(std::span<const Vec3> w, std::span<Vec3> force) con
 }
 
 /// The derivative of onto_cone() times the stiffness.
-Mat3 SagSystem::contact_stiffness(const SagContact& contact, const Vec3& w) const {
+Mat3 ClampedElements::contact_stiffness(const ContactPoint& contact, const Vec3& w) const {
   const Vec3 p = -w, &n = contact.normal, z = onto_cone(p, n, friction_);
   if (z == p) return contact_stiffness_ * Mat3::Identity();
   if (z.isZero(0)) return Mat3::Zero();
@@ -210,7 +210,7 @@ Mat3 SagSystem::contact_stiffness(const SagContact& contact, const Vec3& w) cons
   return contact_stiffness_ * k;
 }
 
-void SagSystem::factorise(const SagForces& at, std::span<const Vec3> w, double shift) {
+void ClampedElements::factorise(const ClampedForces& at, std::span<const Vec3> w, double shift) {
   std::size_t i = 0;
   for (auto [now, rest] : {std::pair{&now_.structural, &rest_.structural}, {&now_.bending, &rest_.bending}})
     for (std::size_t s = 0; s < now->size(); ++s) (*now)[s].stiffness = at.scale[i++] * (*rest)[s].stiffness;
@@ -221,14 +221,14 @@ void SagSystem::factorise(const SagForces& at, std::span<const Vec3> w, double s
   for (std::size_t h = 0; h < now_.hinges.size(); ++h)
     now_.hinges[h].stiffness = at.scale[i++] * rest_.hinges[h].stiffness;
   stiffness_.assemble(now_, now_.particles.x, Stiffness::positive_part);
-  for (const SagContact& c : contacts_) stiffness_.add(c.particle, contact_stiffness(c, w[c.particle]));
+  for (const ContactPoint& c : contacts_) stiffness_.add(c.particle, contact_stiffness(c, w[c.particle]));
   for (double added = shift;; added *= 100) {
     const Particles& p = now_.particles;
     for (std::size_t v = 0; v < p.size(); ++v) {
       if (p.inv_mass[v] > 0) stiffness_.add(int(v), added / p.inv_mass[v] * Mat3::Identity());
     }
     if (stiffness_.factorise_definite()) return;
-    if (!(added < largest_shift)) throw std::invalid_argument("prestress: a stiffness is not finite");
+    if (!(added < largest_shift)) refuse("prestress", "a stiffness is not finite");
   }
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "physics/rest/static_equilibrium.h"
 #include "tests/physics/cloth/strips.h"
+#include "tests/physics/rest/settled.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;
@@ -18,10 +18,8 @@ struct Fall {
 };
 
 Fall hang(Strip strip, double density, double gamma) {
-  StaticOptions options;
-  options.tolerance = 1e-5;
-  options.gravity = Vec3(0, 0, -gravity_for(gamma, density, strip.length, strip.rigidity));
-  const StaticReport report = find_static_equilibrium(strip.cloth, options);
+  const double gravity = gravity_for(gamma, density, strip.length, strip.rigidity);
+  const Settled report = find_rest(strip.cloth, down_to(1e-5, {0, 0, -gravity}));
   CHECK(report.converged);
   CHECK(report.stable);
   return {strip.tip().x() / strip.length, -strip.tip().z() / strip.length};
@@ -100,10 +98,8 @@ TEST_CASE("cantilever: springs across edges follow the third root of the load") 
     }
     // M = B_3 curvature^3 with B_3 = 0.0608929 k edge^4,  Gamma_3 = density g L^5 / B_3.
     const double rigidity = 0.0608929 * spring * std::pow(edge, 4);
-    StaticOptions options;
-    options.tolerance = 0.01;
-    options.gravity = {0, 0, -gamma * rigidity / (o.density * std::pow(o.length, 5))};
-    CHECK(find_static_equilibrium(strip.cloth, options).converged);
+    const double gravity = gamma * rigidity / (o.density * std::pow(o.length, 5));
+    CHECK(find_rest(strip.cloth, down_to(0.01, {0, 0, -gravity})).converged);
     drop[k] = -strip.tip().z() / o.length;
     CHECK(drop[k] == Approx(exact.height).epsilon(0.01));
   }
@@ -129,9 +125,7 @@ TEST_CASE("buckling: a strip between two clamps rises as the elastica does") {
       const double s = std::clamp(x.x() / o.length, 0.0, 1.0);
       x += o.length * Vec3(-shortening * s, 0, 0.5 * height * (1 - std::cos(2 * std::numbers::pi * s)));
     }
-    StaticOptions options;
-    options.gravity.setZero();
-    const StaticReport report = find_static_equilibrium(strip.cloth, options);
+    const Settled report = find_rest(strip.cloth, down_to(1e-6, Vec3::Zero()));
     CHECK(report.converged);
     CHECK(report.stable);
     CHECK(strip.middle(17).z() / o.length == Approx(height).epsilon(0.01));
