@@ -163,24 +163,6 @@ int drape(const DrapeArguments& a) {
   return code == exit_ok && interrupted() ? exit_interrupted : code;
 }
 
-/// Where drape's defaults are not simulate's.
-void describe_cloth(CLI::App& sub) {
-  constexpr std::pair<const char*, const char*> help_texts[] = {
-      {"--fabric",
-       "a measured fabric: cotton, silk, denim, … (docs/scenes.md); default what the garment's PLY notes, "
-       "else cotton"},
-      {"--membrane",
-       "in place of a fabric: triangles (of constant strain, as fabrics are), tension (quadratic and "
-       "asymmetric), or springs: paper, uniform, inverse, van-gelder"},
-      {"--bending-law",
-       "in place of a fabric: hinge (of a rigidity, as fabrics are), cosine, or cross (springs)"},
-      {"--stretch", "Young's modulus times thickness [N/m]; default the fabric's"},
-      {"--rigidity", "bending rigidity of hinges [N m]; default the fabric's"},
-      {"--friction", "Coulomb friction with the body; default the fabric's, else 0.3"},
-      {"--stiffness", "in place of a fabric: k_std of structural springs [N/m]"}};
-  for (const auto& [flag, help] : help_texts) sub.get_option(flag)->description(help);
-}
-
 }  // namespace
 
 void add_drape(CLI::App& app, int& exit_code) {
@@ -235,8 +217,7 @@ void add_drape(CLI::App& app, int& exit_code) {
   sub->add_option("--iterations", a->settings.iterations,
                   "at most, on each level (default 200; --plain: 20000)")
       ->check(CLI::NonNegativeNumber);
-  a->flags.add_to(*sub, true);
-  describe_cloth(*sub);
+  a->flags.add_to(*sub, io::used_by::drape);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);
   sub->callback([a, sub, &exit_code] {

@@ -4,26 +4,10 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "io/scene/settings_schema.h"
+
 namespace furrow::cli {
 namespace {
-
-/// Settings of motion, of output, and of what `simulate` alone does.
-constexpr const char* unused[] = {"garment.rest",          "material.damping",
-                                  "material.drag",         "forces.wind",
-                                  "forces.gusts",          "forces.swirl",
-                                  "simulation.seconds",    "simulation.stop_at",
-                                  "simulation.dt",         "simulation.force_dt",
-                                  "simulation.integrator", "simulation.sweeps",
-                                  "simulation.newton",     "output"};
-
-bool is_said(const io::TomlDocument& document, const std::string& path) {
-  const std::size_t dot = path.find('.');
-  const Json& root = document.root;
-  if (path == "garment.rest") return root.value("/garment/rest"_json_pointer, "stored") == "keep";
-  if (dot == std::string::npos) return root.contains(path) && !root[path].empty();
-  const std::string table = path.substr(0, dot), key = path.substr(dot + 1);
-  return root.contains(table) && root[table].contains(key);
-}
 
 std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(' ');
@@ -72,12 +56,8 @@ std::vector<std::string> parse_fabrics(const std::string& text) {
 
 void warn_of_unused_settings(const io::TomlDocument& document, const CommonArguments& common) {
   std::string names;
-  const auto add = [&](const std::string& path) { names += (names.empty() ? "" : ", ") + path; };
-  for (const char* path : unused)
-    if (is_said(document, path)) add(path);
-  const Json pins = document.root.value("pins", Json::array());
-  for (std::size_t i = 0; i < pins.size(); ++i)
-    if (pins[i].contains("motion")) add("pins." + std::to_string(i) + ".motion");
+  for (const std::string& path : io::settings_without_use(document, io::used_by::drape))
+    names += (names.empty() ? "" : ", ") + path;
   if (!names.empty()) warn("a garment at rest has no use for " + names + "; furrow simulate has", common);
 }
 

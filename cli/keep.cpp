@@ -214,7 +214,7 @@ void add_keep(CLI::App& app, int& exit_code) {
       "--picture", a->picture,
       "picture of the garment, lines coloured by verdict: green held, yellow pressed, orange struts, blue "
       "lower, red cannot hold");
-  a->flags.add_to(*sub);
+  a->flags.add_to(*sub, io::used_by::keep);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] { exit_code = keep(*a); });

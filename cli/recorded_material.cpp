@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/recorded_material.h"
 
-#include "cli/scene_flags.h"
 #include "io/mesh/wrinkle_record.h"
+#include "io/scene/equivalent_flags.h"
 #include "io/scene/fabrics.h"
 
 namespace furrow::cli {
@@ -20,7 +20,7 @@ bool same_cloth(const Json& a, const Json& b) {
 
 /// "--fabric cotton --friction 0.4"
 std::string flags_of(const Json& material) {
-  const std::string command = equivalent_flags(Json{{"material", material}}, "", {});
+  const std::string command = io::equivalent_flags(Json{{"material", material}}, "", {});
   return command.substr(std::string("simulate ").size());
 }
 

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/toml_document.h"
+#include "io/scene/settings_schema.h"
 
 namespace furrow::cli {
 
-/// The flags of `simulate`: each sets one setting of a scene (docs/scenes.md), and --set sets any.
+/// Flags that set settings of a scene: those of io/scene/settings_schema.h, and --set, which sets any.
 class SceneFlags {
  public:
-  /// at_rest: only those that say what a garment hangs in that stands still: material, gravity, pins, body.
-  void add_to(CLI::App& sub, bool at_rest = false);
+  /// Those that the subcommand has, one of io::used_by; --set for those of a garment that moves.
+  void add_to(CLI::App& sub, unsigned subcommand);
   /// Writes what was given on the command line into the document, flags first, then --set in their order.
   /// Throws UsageError for a --set without a key or with one that cannot be.
   void apply(io::TomlDocument& document) const;
@@ -23,13 +23,14 @@ class SceneFlags {
 
  private:
   struct Given {
-    const char* path;
-    bool is_text;
-    std::string flag, text;
+    const io::Setting* setting;
+    std::string flag = {}, text = {};
+    bool is_on = false;  ///< of yes_no
     CLI::Option* option = nullptr;
   };
+  void add_pin_flags(CLI::App& sub);
+
   std::list<Given> given_;  // a list: CLI11 keeps pointers to the texts
-  bool force_dt_ = false;
   std::vector<std::string> pin_boxes_, pin_loops_, pin_groups_, sets_;
   std::vector<int> pin_vertices_;
 };
@@ -37,9 +38,5 @@ class SceneFlags {
 /// Writes each key=value of --set into the document, in their order. Throws UsageError as
 /// SceneFlags::apply().
 void apply_sets(io::TomlDocument& document, const std::vector<std::string>& sets);
-
-/// The command line that says the same as these settings, without the program's name: flags where there is
-/// one, --set for the rest. With a state: what differs from the settings that the state had.
-std::string equivalent_flags(const io::Json& settings, const std::string& state, const io::Json& before);
 
 }  // namespace furrow::cli

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "geometry/mesh/errors.h"
-#include "io/scene/check_keep.h"
 #include "io/scene/scene_file.h"
+#include "io/scene/scene_rules.h"
 
 namespace furrow::cli {
 

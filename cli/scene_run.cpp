@@ -12,11 +12,11 @@
 #include "cli/recorded_material.h"
 #include "cli/run_warnings.h"
 #include "cli/scene_cloth.h"
-#include "cli/scene_flags.h"
 #include "cli/simulate_report.h"
 #include "cli/wrinkle_reports.h"
 #include "io/mesh/ply_motion.h"
 #include "io/mesh/wrinkle_record.h"
+#include "io/scene/equivalent_flags.h"
 #include "io/scene/relocated.h"
 
 namespace furrow::cli {
@@ -215,7 +215,8 @@ class SceneRun {
     if (!rounds_.empty()) json["rounds"] = rounds_;
     if (!animations_.reports().empty()) json["animations"] = animations_.reports();
     if (!choice_.is_null()) json["choice"] = choice_;
-    json["flags"] = equivalent_flags(io::relocated(document_, folder_, ""), state_path_, settings_before_);
+    json["flags"] =
+        io::equivalent_flags(io::relocated(document_, folder_, ""), state_path_, settings_before_);
     print_report(json, common_);
     if (diverged) {
       tell_divergence(scene_, report_);

@@ -158,7 +158,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
       "garment", a->in,
       "garment to read (PLY of furrow wrinkle brings rest lengths and masses), or a scene: a .toml file");
   sub->add_option("--state", a->state, "go on from a saved state");
-  a->flags.add_to(*sub);
+  a->flags.add_to(*sub, io::used_by::simulate);
   a->budget_option = sub->add_option(
       "--budget", a->budget,
       "predicted seconds of one thread that choosing for --tolerance 1% may take [s] (default 60)");

@@ -171,7 +171,7 @@ void add_wrinkle(CLI::App& app) {
       "--preview", a->preview,
       "PNG of what is inserted where, before anything is displaced; without -o no mesh is written");
   add_drawing_options(*sub, *a);
-  a->flags.add_to(*sub, true);
+  a->flags.add_to(*sub, io::used_by::wrinkle);
   add_smoothing_options(*sub, a->smoothing);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);

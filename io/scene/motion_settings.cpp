@@ -3,39 +3,131 @@
 
 #include <cmath>
 
-namespace furrow::io {
+#include "io/scene/setting_row.h"
 
-void read_motion(SettingsTable& parent, physics::RigidMotion& motion) {
-  auto table = parent.table("motion");
-  if (!table) return;
-  table->read("pivot", motion.pivot);
-  for (SettingsTable& key : table->tables("keyframes")) {
-    physics::Keyframe keyframe{0};
-    key.read("time", keyframe.time, not_negative("s"));
-    key.read("translation", keyframe.translation);
-    key.read("rotation", keyframe.rotation);
-    key.finish();
-    if (!motion.keyframes.empty() && keyframe.time <= motion.keyframes.back().time)
-      key.fail("time", "must be later than that of the keyframe before");
-    motion.keyframes.push_back(keyframe);
+namespace furrow::io {
+namespace {
+
+using physics::Gust, physics::Keyframe, physics::RigidMotion, physics::Spin;
+
+const Row<Spin> spin_rows[] = {{{.path = "spin.centre", .what = "a point of the axis"},
+                                vector(
+                                    [](auto& s) -> auto& { return s.centre; }, "m")},
+                               {{.path = "spin.axis", .what = "of any length but 0"},
+                                vector(
+                                    [](auto& s) -> auto& { return s.axis; }, "")},
+                               {{.path = "spin.rate", .what = "counter-clockwise, seen against the axis"},
+                                Number{[](auto& s) -> auto& {return s.rate;
+}  // namespace
+, any("rad/s")
+}  // namespace furrow::io
+}
+, {{.path = "spin.start", .what = "when it begins"}, Number{[](auto& s) -> auto& {return s.start;
+}
+, not_negative("s")
+}
+}
+, {
+  {.path = "spin.ramp", .what = "how long it takes to its rate"}, Number {
+    [](auto& s) -> auto& { return s.ramp; }
+    , not_negative("s")
   }
-  motion.spin = read_spin(*table, "spin");
+}
+}
+;
+
+const Row<Keyframe> keyframe_rows[] = {
+    {{.path = "keyframes.time", .what = "later than that of the keyframe before"},
+     Number{[](auto& k) -> auto& {return k.time;
+}
+, not_negative("s")
+}
+}
+,
+    {{.path = "keyframes.translation", .what = "from its place at first"},
+     vector(
+         [](auto& k) -> auto& { return k.translation; }, "m")},
+{
+  {.path = "keyframes.rotation", .what = "axis times angle"},
+      vector(
+          [](auto& k) -> auto& { return k.rotation; }, "rad")
+}
+}
+;
+
+const Row<Gust> gust_rows[] = {{{.path = "gusts.time", .what = "later than that of the gust before"},
+                                Number{[](auto& g) -> auto& {return g.time;
+}
+, not_negative("s")
+}
+}
+, {
+  {.path = "gusts.factor", .what = "of the wind"}, Number {
+    [](auto& g) -> auto& { return g.factor; }
+    , any()
+  }
+}
+}
+;
+
+/// The elements of the list `key`, by time.
+template <class T>
+void read_timed(SettingsTable& parent, const char* key, std::span<const Row<T>> rows, const char* fault,
+                std::vector<T>& list) {
+  for (SettingsTable& table : parent.tables(key)) {
+    T element{};
+    read_rows<T>(table, key, rows, element);
+    table.finish();
+    if (!list.empty() && element.time <= list.back().time) table.fail("time", fault);
+    list.push_back(element);
+  }
+}
+
+const Row<RigidMotion> motion_rows[] = {
+    {{.path = "motion.pivot", .what = "what keyframes turn it about"},
+     vector(
+         [](auto& m) -> auto& { return m.pivot; }, "m")},
+    {{.path = "motion.keyframes", .what = "`[{time, translation, rotation}, …]`"},
+     Own{Kind::table, "tables",
+         [](SettingsTable& table, const char* key, RigidMotion& m) {
+           read_timed<Keyframe>(table, key, keyframe_rows, "must be later than that of the keyframe before",
+                                m.keyframes);
+         }}},
+    {{.path = "motion.spin", .what = "`{centre, axis, rate, start, ramp}`"},
+     Own{Kind::table, "table",
+         [](SettingsTable& table, const char* key, RigidMotion& m) { m.spin = read_spin(table, key); }}}};
+
+}  // namespace
+
+std::vector<Setting> settings_of_motion() {
+  std::vector<Setting> list;
+  for (const auto& row : motion_rows) list.push_back(row.setting);
+  for (const auto& row : keyframe_rows) list.push_back(row.setting);
+  for (const auto& row : spin_rows) list.push_back(row.setting);
+  for (const auto& row : gust_rows) list.push_back(row.setting);
+  return list;
+}
+
+void read_motion(SettingsTable& parent, const char* key, RigidMotion& motion) {
+  auto table = parent.table(key);
+  if (!table) return;
+  read_rows<RigidMotion>(*table, "motion", motion_rows, motion);
   table->finish();
 }
 
-std::optional<physics::Spin> read_spin(SettingsTable& parent, const char* key) {
+std::optional<Spin> read_spin(SettingsTable& parent, const char* key) {
   auto table = parent.table(key);
   if (!table) return std::nullopt;
-  physics::Spin spin;
-  table->read("centre", spin.centre);
-  table->read("axis", spin.axis);
-  table->read("rate", spin.rate, any("rad/s"));
-  table->read("start", spin.start, not_negative("s"));
-  table->read("ramp", spin.ramp, not_negative("s"));
+  Spin spin;
+  read_rows<Spin>(*table, "spin", spin_rows, spin);
   table->finish();
   if (!(spin.axis.norm() > 1e-12) || !std::isfinite(spin.axis.norm()))
     table->fail("axis", "must have a length above 0 that is no overflow; write a unit vector");
   return spin;
+}
+
+void read_gusts(SettingsTable& parent, const char* key, std::vector<Gust>& gusts) {
+  read_timed<Gust>(parent, key, gust_rows, "must be later than that of the gust before", gusts);
 }
 
 }  // namespace furrow::io

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/relocated.h"
 
-#include <map>
-#include <vector>
+#include "io/scene/settings_schema.h"
 
 namespace furrow::io {
 
@@ -11,7 +10,7 @@ Json relocated(const TomlDocument& document, const std::filesystem::path& folder
   namespace fs = std::filesystem;
   Json root = document.root;
   const fs::path here = fs::current_path();
-  const auto move = [&](Json& table, const char* key, const std::string& path) {
+  const auto move = [&](Json& table, const std::string& key, const std::string& path) {
     if (!table.is_object() || !table.contains(key) || table[key] == "-" || table[key] == "") return;
     const fs::path given(table[key].get<std::string>());
     if (given.is_absolute()) return;
@@ -19,16 +18,15 @@ Json relocated(const TomlDocument& document, const std::filesystem::path& folder
     const fs::path relative = full.lexically_relative((here / target).lexically_normal());
     table[key] = (relative.empty() ? full : relative).generic_string();
   };
-  for (const auto& [table, keys] : std::map<std::string, std::vector<const char*>>{
-           {"garment", {"mesh"}},
-           {"body", {"mesh", "field", "frames"}},
-           {"output", {"mesh", "state", "inserted", "smoothed", "animation", "body"}}})
-    for (const char* key : keys)
-      if (root.contains(table)) move(root[table], key, table + "." + key);
-  if (!root.contains("lines")) return root;
-  if (root["lines"].is_object()) root["lines"] = Json::array({root["lines"]});
-  for (std::size_t i = 0; i < root["lines"].size(); ++i)
-    move(root["lines"][i], "strokes", "lines." + std::to_string(i) + ".strokes");
+  if (root.contains("lines") && root["lines"].is_object()) root["lines"] = Json::array({root["lines"]});
+  for (const Setting& setting : scene_settings()) {
+    if (setting.kind != Kind::path || !root.contains(setting.table())) continue;
+    Json& table = root[setting.table()];
+    const std::string key = setting.key();
+    if (!table.is_array()) move(table, key, setting.path);
+    for (std::size_t i = 0; table.is_array() && i < table.size(); ++i)
+      move(table[i], key, setting.table() + "." + std::to_string(i) + "." + key);
+  }
   return root;
 }
 

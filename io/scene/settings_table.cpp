@@ -7,7 +7,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/base/nearest_word.h"
-#include "io/scene/scene_keys.h"
+#include "io/scene/settings_schema.h"
 
 namespace furrow::io {
 namespace {
@@ -21,6 +21,8 @@ const Json& node_at(const TomlDocument& document, const std::string& path) {
   return *at;
 }
 
+}  // namespace
+
 std::string range_text(const Limits& l) {
   std::ostringstream text;
   text << "a number";
@@ -30,10 +32,11 @@ std::string range_text(const Limits& l) {
   return text.str();
 }
 
-}  // namespace
-
-SettingsTable::SettingsTable(const TomlDocument& document, std::string path)
-    : document_(document), path_(std::move(path)), node_(&node_at(document, path_)) {
+SettingsTable::SettingsTable(const TomlDocument& document, std::filesystem::path folder, std::string path)
+    : document_(document),
+      folder_(std::move(folder)),
+      path_(std::move(path)),
+      node_(&node_at(document, path_)) {
   if (!node_->is_object()) refuse_list(path_, *node_);
 }
 
@@ -69,6 +72,11 @@ const Json* SettingsTable::find(const char* key) {
 }
 
 bool SettingsTable::has(const char* key) { return find(key) != nullptr; }
+
+bool SettingsTable::has_list(const char* key) {
+  const Json* item = find(key);
+  return item && item->is_array();
+}
 
 double SettingsTable::number(const char* key, const Json& item, const Limits& limits) const {
   const double value = item.is_number() ? item.get<double>() : NAN;
@@ -108,8 +116,13 @@ void SettingsTable::read(const char* key, bool& value) {
 void SettingsTable::read(const char* key, std::string& value) {
   if (const Json* item = find(key)) value = text(key, *item);
 }
-void SettingsTable::read(const char* key, std::optional<std::string>& value) {
-  if (const Json* item = find(key)) value = text(key, *item);
+
+void SettingsTable::read(const char* key, std::filesystem::path& value) {
+  const Json* item = find(key);
+  if (!item) return;
+  const std::filesystem::path given = text(key, *item);
+  const bool from_file = document_.is_of_file(path_of(key));
+  value = from_file && given != "-" ? (folder_ / given).lexically_normal() : given;
 }
 
 void SettingsTable::read_name_or_index(const char* key, std::string& value) {
@@ -168,17 +181,17 @@ std::optional<SettingsTable> SettingsTable::table(const char* key) {
   const Json* item = find(key);
   if (!item) return std::nullopt;
   if (!item->is_object()) refuse_list(path_of(key), *item);
-  return SettingsTable(document_, path_of(key));
+  return SettingsTable(document_, folder_, path_of(key));
 }
 
 std::vector<SettingsTable> SettingsTable::tables(const char* key) {
   const Json* item = find(key);
   std::vector<SettingsTable> list;
   if (!item) return list;
-  if (item->is_object()) return {SettingsTable(document_, path_of(key))};
+  if (item->is_object()) return {SettingsTable(document_, folder_, path_of(key))};
   if (!item->is_array()) fail(key, std::string("must be a list of tables, [[") + path_of(key) + "]]");
   for (std::size_t i = 0; i < item->size(); ++i)
-    list.emplace_back(document_, path_of(key) + "." + std::to_string(i));
+    list.emplace_back(document_, folder_, path_of(key) + "." + std::to_string(i));
   return list;
 }
 

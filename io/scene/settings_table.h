@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -23,23 +24,27 @@ inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 inline constexpr Limits any(const char* unit = "") { return {-no_limit, no_limit, false, unit}; }
 inline constexpr Limits not_negative(const char* unit = "") { return {0, no_limit, false, unit}; }
 inline constexpr Limits positive(const char* unit = "") { return {0, no_limit, true, unit}; }
+/// As messages say it after "must be": "a number > 0 [m]".
+std::string range_text(const Limits& limits);
 
 /// Reads the keys of one table of a document, each with its type and range. Every fault is a
 /// geometry::ContentError with file, line and column; a key that nobody read is a fault, too, and the message
 /// names the nearest one that there is.
 class SettingsTable {
  public:
-  explicit SettingsTable(const TomlDocument& document, std::string path = "");
+  /// `folder`: what paths that a file names are relative to.
+  SettingsTable(const TomlDocument& document, std::filesystem::path folder, std::string path = "");
   /// Refuses keys that nobody asked for. To be called when all are read.
   void finish() const;
 
   bool has(const char* key);
+  bool has_list(const char* key);  ///< whether it is there as [a, b]
   void read(const char* key, double& value, const Limits& limits);
   void read(const char* key, std::optional<double>& value, const Limits& limits);
   void read(const char* key, int& value, int least, int most);
   void read(const char* key, bool& value);
   void read(const char* key, std::string& value);
-  void read(const char* key, std::optional<std::string>& value);
+  void read(const char* key, std::filesystem::path& value);      ///< as the program can open it
   void read_name_or_index(const char* key, std::string& value);  ///< a text, or a whole number >= 0
   void read(const char* key, Eigen::Vector3d& value);
   void read(const char* key, std::vector<double>& values, std::size_t count);  ///< exactly `count` of them
@@ -67,6 +72,7 @@ class SettingsTable {
   std::size_t choice(const char* key, const std::vector<std::string>& words);
 
   const TomlDocument& document_;
+  std::filesystem::path folder_;
   std::string path_;
   const nlohmann::ordered_json* node_;
   std::set<std::string> known_;

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "io/scene/settings_schema.h"
 #include "run_furrow.h"
 
 using namespace furrow::tests;
@@ -20,6 +21,26 @@ TEST_CASE("every subcommand has help with units, and help succeeds") {
     CHECK(run.err.empty());
   }
   CHECK(run_furrow("simulate --help").out.find("[N/m]") != std::string::npos);
+}
+
+TEST_CASE("usage: the help of each subcommand has the flags that the schema of settings gives it") {
+  namespace used_by = furrow::io::used_by;
+  for (const auto& [sub, bit] : {std::pair("simulate", used_by::simulate),
+                                 {"keep", used_by::keep},
+                                 {"drape", used_by::drape},
+                                 {"wrinkle", used_by::wrinkle}}) {
+    const std::string help = run_furrow(std::string(sub) + " --help").out;
+    for (const furrow::io::Setting& s : furrow::io::scene_settings()) {
+      if (s.flag.empty()) continue;
+      const bool says_other = bit == used_by::drape && !s.help_at_rest.empty();
+      const std::string& words = says_other ? s.help_at_rest : s.help;
+      INFO(sub << " " << s.flag << ": " << words);
+      const bool is_there = help.find(words) != std::string::npos;
+      const bool is_common = s.flag_in == used_by::nobody;  // with words of its own
+      CHECK((is_common || is_there == ((s.flag_in & bit) != 0)));
+      if (is_common || is_there) CHECK(help.find(s.long_flag()) != std::string::npos);
+    }
+  }
 }
 
 TEST_CASE("the version names the libraries") {

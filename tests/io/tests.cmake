@@ -20,8 +20,10 @@ furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   stroke/drawn_stroke_test.cpp
   stroke/resolve_strokes_test.cpp
   stroke/stroke_file_test.cpp
+  scene/equivalent_flags_test.cpp
   scene/field_file_test.cpp
   scene/scene_file_test.cpp
+  scene/settings_schema_test.cpp
   scene/state_file_test.cpp
   animation/animation_file_test.cpp
   animation/frame_source_test.cpp

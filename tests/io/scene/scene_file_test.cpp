@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/mesh/errors.h"
-#include "io/scene/check_keep.h"
 #include "io/scene/fabrics.h"
 #include "io/scene/relocated.h"
+#include "io/scene/scene_rules.h"
 
 using namespace furrow;
 using io::parse_toml;

@@ -1,0 +1,711 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/scene/settings_schema.h"
+
+#include <tuple>
+
+#include "io/scene/fabrics.h"
+#include "io/scene/motion_settings.h"
+#include "io/scene/scene.h"
+#include "io/scene/setting_row.h"
+
+namespace furrow::io {
+
+/// With one of each thing that a scene may have.
+template <>
+Scene fresh<Scene>() {
+  Scene scene;
+  scene.body.emplace();
+  scene.lines.emplace_back();
+  scene.pins.emplace_back();
+  return scene;
+}
+
+namespace {
+
+using bridge::Bending, bridge::MassRule, bridge::Membrane;
+using geometry::BorderRule, geometry::InsertionRule, geometry::LineRule, geometry::RestRule;
+using geometry::SmoothingRegion, geometry::SmoothingWeights;
+using physics::GradientRule, physics::Integrator, physics::StepRule;
+using Word = std::optional<std::string>;
+
+std::vector<std::pair<std::string, std::string>> fabric_names() {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const Fabric& fabric : fabrics()) names.emplace_back(fabric.name, fabric.name);
+  return names;
+}
+
+void read_gravity(SettingsTable& table, const char* key, Scene& scene) {
+  if (table.has_list(key)) return table.read(key, scene.simulation.gravity);
+  double down = 9.81;
+  table.read(key, down, any("m/s^2"));
+  scene.simulation.gravity = {0, -down, 0};
+}
+
+/// The rule of the rest state, and whether the shape is kept.
+void read_rest(SettingsTable& table, const char* key, Scene& scene) {
+  SceneLines& lines = scene.lines.back();
+  std::pair rest(lines.options.rest, false);
+  table.choose<std::pair<RestRule, bool>>(key, rest,
+                                          {{"drawn", {RestRule::drawn, false}},
+                                           {"flat", {RestRule::flat, false}},
+                                           {"copied", {RestRule::copied, false}},
+                                           {"keep", {RestRule::drawn, true}}});
+  std::tie(lines.options.rest, lines.keep) = rest;
+}
+
+constexpr const char* as_wrinkle = "as the flag of `furrow wrinkle`";
+
+/// One row a setting: its words, and the field that it sets with what it may be. A new setting is a row here
+/// and a field in its struct; docs/scenes.md is then made anew (tests/io/scene/settings_schema_test.cpp).
+const Row<Scene> rows[] = {
+    // [output]
+    {{.path = "output.mesh",
+      .flag = "-o,--output",
+      .help = "mesh to write: obj, ply, off or stl; - is OBJ to standard output",
+      .what = "the garment at the end",
+      .used = used_by::moving},
+     path([](auto& s) -> auto& { return s.output.mesh; })},
+    {{.path = "output.state",
+      .flag = "--save-state",
+      .help = "state to write (a PLY), to go on from with --state or wrinkle --state",
+      .what = "to go on from",
+      .used = used_by::moving},
+     path([](auto& s) -> auto& { return s.output.state; })},
+    {{.path = "output.inserted",
+      .flag = "--inserted",
+      .help = "also write the mesh after the lines of time 0 were inserted",
+      .what = "the garment with the lines of time 0 inserted",
+      .used = used_by::moving},
+     path([](auto& s) -> auto& { return s.output.inserted; })},
+    {{.path = "output.smoothed",
+      .flag = "--smoothed",
+      .help = "also write it after they were smoothed",
+      .what = "and after they were smoothed",
+      .used = used_by::moving},
+     path([](auto& s) -> auto& { return s.output.smoothed; })},
+    {{.path = "output.animation",
+      .flag = "--animation",
+      .help = "animation to write: pc2, mdd or glb",
+      .what = "pc2, mdd or glb ([animations.md](animations.md))",
+      .used = used_by::moving},
+     path([](auto& s) -> auto& { return s.output.animation; })},
+    {{.path = "output.body",
+      .flag = "--save-body",
+      .help = "also write the body where it is at the end: a mesh",
+      .what = "the body where it is at the end",
+      .used = used_by::moving},
+     path([](auto& s) -> auto& { return s.output.body; })},
+    {{.path = "output.fps",
+      .flag = "--fps",
+      .help = "its frames a second (default 25)",
+      .what = "frames a second of the animation",
+      .used = used_by::moving},
+     Number{[](auto& s) -> auto& {return s.output.fps;
+}  // namespace
+, positive("1/s")
+}  // namespace furrow::io
+}
+,
+
+    // [simulation]: its end
+    {{.path = "simulation.seconds",
+      .flag = "--seconds",
+      .what = "the end of the simulation",
+      .used = used_by::moving},
+     Number{[](auto& s) -> auto& {return s.simulation.seconds;
+}
+, not_negative("s")
+}
+}
+, {{.path = "simulation.stop_at",
+    .flag = "--stop-at",
+    .help = "stop earlier, at this time [s], and keep the plan in the state",
+    .what = "stop earlier, with the plan kept",
+    .used = used_by::moving},
+   Number{[](auto& s) -> auto& {return s.stop_at;
+}
+, not_negative("s")
+}
+}
+,
+
+    // [material]
+    {{.path = "material.density",
+      .flag = "--density",
+      .help = "mass of the cloth [kg/m^2]; default that of the file, else 0.15",
+      .what = "mass of the cloth",
+      .usual = "the file's, else 0.15"},
+     Number{[](auto& s) -> auto& {return s.material.density;
+}
+, positive("kg/m^2")
+}
+}
+,
+    {{.path = "material.preset",
+      .flag = "--fabric",
+      .help = "a measured fabric: denim, interlock, rib-knit, … (docs/scenes.md)",
+      .help_at_rest = "a measured fabric: cotton, silk, denim, … (docs/scenes.md); default what the "
+                      "garment's PLY notes, else cotton",
+      .what = "a measured fabric, see below; the keys beside it go before it",
+      .flag_in = used_by::all},
+     choice<std::string>(
+         [](auto& s) -> auto& { return s.material.preset; }, fabric_names())},
+    {{.path = "material.membrane",
+      .flag = "--membrane",
+      .help = "what resists stretching: paper (springs of the paper's law, default), uniform, inverse, "
+              "van-gelder, triangles (of constant strain), or tension (quadratic and asymmetric)",
+      .help_at_rest = "in place of a fabric: triangles (of constant strain, as fabrics are), tension "
+                      "(quadratic and asymmetric), or springs: paper, uniform, inverse, van-gelder",
+      .what = "what resists stretching: springs by a law, triangles of constant strain, or tension (paper 2)",
+      .flag_in = used_by::all},
+     choice<Membrane>([](auto& s) -> auto& { return s.material.membrane; },
+                      {{"paper", Membrane::paper},
+                       {"uniform", Membrane::uniform},
+                       {"inverse", Membrane::inverse},
+                       {"van-gelder", Membrane::van_gelder},
+                       {"triangles", Membrane::triangles},
+                       {"tension", Membrane::tension}})},
+    {{.path = "material.bending_law",
+      .flag = "--bending-law",
+      .help = "what resists bending: cross (springs, default), hinge (of a rigidity), or cosine",
+      .help_at_rest =
+          "in place of a fabric: hinge (of a rigidity, as fabrics are), cosine, or cross (springs)",
+      .what = "what resists bending: springs across the edges, a plate's hinges, or the cosine law (paper 2)",
+      .flag_in = used_by::all},
+     choice<Bending>([](auto& s) -> auto& { return s.material.bending_law; },
+                     {{"cross", Bending::cross}, {"hinge", Bending::hinge}, {"cosine", Bending::cosine}})},
+    {{.path = "material.stretch",
+      .flag = "--stretch",
+      .help = "Young's modulus times thickness [N/m], in place of --stiffness",
+      .help_at_rest = "Young's modulus times thickness [N/m]; default the fabric's",
+      .what = "Young's modulus times thickness, in place of `stiffness`",
+      .usual = "√3/2 · `stretch` = `stiffness`",
+      .flag_in = used_by::all},
+     Number{[](auto& s) -> auto& {return s.material.stretch;
+}
+, positive("N/m")
+}
+}
+, {{.path = "material.poisson", .what = "Poisson's ratio of `triangles`; below 1"},
+   Number{[](auto& s) -> auto& {return s.material.poisson;
+}
+, Limits { -1, 1, true }
+}
+}
+, {{.path = "material.rigidity",
+    .flag = "--rigidity",
+    .help = "bending rigidity of hinges [N m] (default 1e-5)",
+    .help_at_rest = "bending rigidity of hinges [N m]; default the fabric's",
+    .what = "B of hinges",
+    .usual = "1e-5",
+    .flag_in = used_by::all},
+   Number{[](auto& s) -> auto& {return s.material.rigidity;
+}
+, not_negative("N m")
+}
+}
+, {{.path = "material.tension",
+    .flag = "--tension",
+    .help = "of membrane tension: force a metre of width at strain 1 [N/m]; default that of --stretch at "
+            "2 %",
+    .what = "of membrane `tension`: force a metre of width at strain 1",
+    .usual = "50 · `stretch`",
+    .flag_in = used_by::all},
+   Number{[](auto& s) -> auto& {return s.material.tension;
+}
+, positive("N/m")
+}
+}
+, {{.path = "material.compression", .what = "share of `tension` that pushes"},
+   Number{[](auto& s) -> auto& {return s.material.compression;
+}
+, Limits { 0, 1 }
+}
+}
+, {{.path = "material.shear", .what = "share of `tension` that a diagonal has"},
+   Number{[](auto& s) -> auto& {return s.material.shear;
+}
+, Limits { 0, 1 }
+}
+}
+, {{.path = "material.stiffness",
+    .flag = "--stiffness",
+    .help_at_rest = "in place of a fabric: k_std of structural springs [N/m]",
+    .what = "k_std of the structural springs",
+    .flag_in = used_by::all},
+   Number{[](auto& s) -> auto& {return s.material.stiffness;
+}
+, positive("N/m")
+}
+}
+, {{.path = "material.bending", .flag = "--bending", .what = "k_std of the bending springs"},
+   Number{[](auto& s) -> auto& {return s.material.bending;
+}
+, not_negative("N/m")
+}
+}
+,
+    {{.path = "material.mass_rule",
+      .what = "mass by area, or the same for each vertex: the garment's over its vertices (paper 2)"},
+     choice<MassRule>([](auto& s) -> auto& { return s.material.mass_rule; },
+                      {{"area", MassRule::area}, {"equal", MassRule::equal}})},
+    {{.path = "material.damping",
+      .flag = "--damping",
+      .what = "damping of each spring, as a share of critical",
+      .used = used_by::moving},
+     Number{[](auto& s) -> auto& {return s.simulation.spring_damping;
+}
+, not_negative()
+}
+}
+, {{.path = "material.drag", .flag = "--drag", .what = "air drag", .used = used_by::moving},
+   Number{[](auto& s) -> auto& {return s.simulation.air_drag;
+}
+, not_negative("1/s")
+}
+}
+, {{.path = "material.friction",
+    .flag = "--friction",
+    .help_at_rest = "Coulomb friction with the body; default the fabric's, else 0.3",
+    .what = "Coulomb friction with the body",
+    .flag_in = used_by::all},
+   Number{[](auto& s) -> auto& {return s.simulation.friction;
+}
+, not_negative()
+}
+}
+, {{.path = "material.gap",
+    .flag = "--gap",
+    .help = "distance that the cloth keeps from the body [m]; raised to what the mesh and the field need "
+            "(default 0.003)",
+    .what = "distance that the cloth keeps from the body; raised to what the mesh and the field need",
+    .flag_in = used_by::all},
+   Number{[](auto& s) -> auto& {return s.simulation.contact_gap;
+}
+, positive("m")
+}
+}
+,
+
+    // [forces]
+    {{.path = "forces.gravity",
+      .flag = "--gravity",
+      .help = "acceleration downwards [m/s^2] (default 9.81), or x,y,z",
+      .what = "acceleration down, or as a vector",
+      .usual = "9.81",
+      .flag_in = used_by::all},
+     Own{Kind::vector, "number, or [x, y, z] [m/s^2]", read_gravity}},
+    {{.path = "forces.wind",
+      .flag = "--wind",
+      .help = "velocity of the air x,y,z [m/s]; acts through the drag",
+      .what = "velocity of the air; acts through `drag`",
+      .used = used_by::moving},
+     vector(
+         [](auto& s) -> auto& { return s.wind.velocity; }, "m/s")},
+    {{.path = "forces.gusts",
+      .what = "`[{time, factor}, …]` of the wind, linear between",
+      .usual = "1",
+      .used = used_by::moving},
+     Own{Kind::table, "tables",
+         [](SettingsTable& table, const char* key, Scene& s) { read_gusts(table, key, s.wind.gusts); }}},
+    {{.path = "forces.swirl",
+      .what = "air that turns like a rigid body; as `spin` below",
+      .used = used_by::moving},
+     Own{Kind::table, "table",
+         [](SettingsTable& table, const char* key, Scene& s) { s.wind.swirl = read_spin(table, key); }}},
+
+    // [simulation]: its steps
+    {{.path = "simulation.dt",
+      .flag = "--dt",
+      .help = "time step [s]; default 0.9 of the limit, 1/240 with backward-euler, 1/1200 with xpbd",
+      .what = "time step",
+      .usual = "0.9 of the limit; 1/240 with backward-euler, 1/1200 with xpbd, which have none",
+      .used = used_by::moving},
+     Number{[](auto& s) -> auto& {return s.simulation.dt;
+}
+, positive("s")
+}
+}
+, {{.path = "simulation.force_dt",
+    .flag = "--force-dt",
+    .help = "take a --dt above the stability limit",
+    .what = "take `dt` although it is above the limit",
+    .used = used_by::moving},
+   Switch{[](auto& s) -> auto& {return s.simulation.step_rule;
+}
+, StepRule::limited, StepRule::forced
+}
+}
+,
+    {{.path = "simulation.integrator",
+      .flag = "--integrator",
+      .help = "leapfrog (default), rk4, backward-euler, xpbd, or euler (the baseline that diverges)",
+      .what = "the scheme of its steps; euler is the baseline that diverges",
+      .used = used_by::moving},
+     choice<Integrator>([](auto& s) -> auto& { return s.simulation.integrator; },
+                        {{"leapfrog", Integrator::leapfrog},
+                         {"euler", Integrator::explicit_euler},
+                         {"rk4", Integrator::rk4},
+                         {"backward-euler", Integrator::backward_euler},
+                         {"xpbd", Integrator::xpbd}})},
+    {{.path = "simulation.sweeps",
+      .flag = "--sweeps",
+      .help = "of xpbd over all springs a step (default 10); few make the cloth softer",
+      .what = "of xpbd over all springs a step; few make the cloth softer",
+      .used = used_by::moving},
+     Whole{[](auto& s) -> auto& {return s.simulation.xpbd.iterations;
+}
+, 1, 100000
+}
+}
+, {{.path = "simulation.newton",
+    .flag = "--newton",
+    .help = "iterations of backward-euler a step, at most (default 1: linearised once)",
+    .what = "iterations of backward-euler a step, at most; 1: linearised once",
+    .used = used_by::moving},
+   Whole{[](auto& s) -> auto& {return s.simulation.backward_euler.newton_iterations;
+}
+, 1, 100000
+}
+}
+, {{.path = "simulation.threads",
+    .flag = "--threads",
+    .help = "threads (default: one for each 10,000 vertices, at most all cores); the result does not "
+            "depend on them",
+    .what = "the result does not depend on them",
+    .usual = "one for each 10,000 vertices, at most all cores"},
+   Whole{[](auto& s) -> auto& {return s.threads;
+}
+, 1, 256
+}
+}
+,
+
+    // [garment]
+    {{.path = "garment.mesh", .what = "obj, ply, off, stl, gltf or glb", .usual = "must be there"},
+     path([](auto& s) -> auto& { return s.garment; })},
+    {{.path = "garment.subdivide",
+      .flag = "--subdivide",
+      .help = "refine the garment so many times (Loop) before the first line",
+      .what = "Loop steps before the first line"},
+     Whole{[](auto& s) -> auto& {return s.subdivide;
+}
+, 0, 4
+}
+}
+,
+    {{.path = "garment.rest",
+      .flag = "--rest",
+      .help = "stored (default): the rest state that the file has; keep: that which holds the garment's "
+              "shape at time 0 (docs/keep.md)",
+      .what = "`stored`: the rest state that the file has; `keep`: that which holds the shape that the "
+              "garment has at time 0 ([keep.md](keep.md))",
+      .used = used_by::moving},
+     choice<bool>([](auto& s) -> auto& { return s.keep; }, {{"stored", false}, {"keep", true}})},
+
+    // [body]
+    {{.path = "body.mesh",
+      .flag = "--body",
+      .help = "body that the garment rests on",
+      .what = "the body that the garment rests on",
+      .usual = "must be there",
+      .flag_in = used_by::all},
+     path([](auto& s) -> auto& { return s.body->mesh; })},
+    {{.path = "body.frames",
+      .flag = "--body-frames",
+      .help = "its motion: a PC2 or MDD file, or OBJ files as name_####.obj",
+      .what = "a body that changes its shape: PC2, MDD, or `name_####.obj`"},
+     path([](auto& s) -> auto& { return s.body->frames; })},
+    {{.path = "body.fps",
+      .flag = "--body-fps",
+      .help = "frames a second of OBJ files (default 25)",
+      .what = "frames a second of OBJ files",
+      .usual = "25"},
+     Number{[](auto& s) -> auto& {return s.body->fps;
+}
+, positive("1/s")
+}
+}
+,
+    {{.path = "body.field",
+      .flag = "--field",
+      .help = "the body's distance field, saved by furrow sdf",
+      .what = "the body's distance field, saved by `furrow sdf`",
+      .usual = "built",
+      .flag_in = used_by::all},
+     path([](auto& s) -> auto& { return s.body->field; })},
+    {{.path = "body.tolerance",
+      .flag = "--tolerance",
+      .help = "error of the body's distance field [m]; default 1/1000 of its diagonal, at most 0.002. With a "
+              "% sign, --tolerance 1%: the error of the result, as a share of the garment's diagonal; "
+              "integrator and step are chosen for it first (docs/chart.md)",
+      .what = "error of the field",
+      .usual = "1/1000 of the body's diagonal, at most 0.002"},
+     Number{[](auto& s) -> auto& {return s.body->options.tolerance;
+}
+, positive("m")
+}
+}
+,
+    {{.path = "body.gradient",
+      .flag = "--gradient",
+      .help = "of the field: exact (of the interpolated distance, default) or interpolated (of the "
+              "corners', as in the paper)",
+      .what = "of the field: that of the interpolated distance, or interpolated from the corners (paper 1)"},
+     choice<GradientRule>(
+         [](auto& s) -> auto& { return s.body->options.gradient; },
+         {{"exact", GradientRule::exact_derivative}, {"interpolated", GradientRule::interpolated_corners}})},
+    {{.path = "body.collider",
+      .what = "of a body with frames: its distance field, or depth maps from six sides, which are redrawn "
+              "faster and asked slower ([decision 18](../decisions/0018-depth-maps.md))"},
+     choice<bool>([](auto& s) -> auto& { return s.body->depth_maps; },
+                  {{"field", false}, {"depth-maps", true}})},
+    {{.path = "body.motion", .what = "of a rigid body, see below"},
+     Own{Kind::table, "table",
+         [](SettingsTable& table, const char* key, Scene& s) { read_motion(table, key, s.body->motion); }}},
+
+    // [[lines]]
+    {{.path = "lines.strokes",
+      .what = "strokes to draw ([strokes.md](strokes.md))",
+      .usual = "must be there"},
+     path([](auto& s) -> auto& { return s.lines.back().strokes; })},
+    {{.path = "lines.time", .what = "when they are drawn"},
+     Number{[](auto& s) -> auto& {return s.lines.back().time;
+}
+, not_negative("s")
+}
+}
+, {{.path = "lines.height", .what = "of strokes that name none"},
+   Number{[](auto& s) -> auto& {return s.lines.back().height;
+}
+, any("m")
+}
+}
+, {{.path = "lines.fade", .what = "how slowly the forces of lines drawn later set in; inf: never"},
+   Number{[](auto& s) -> auto& {return s.lines.back().fade;
+}
+, Limits { 0, no_limit, true, "s", true }
+}
+}
+, {{.path = "lines.without", .what = "names of strokes to leave out"},
+   Plain{Kind::list, "text, or texts", [](auto& s) -> auto& {return s.lines.back().without;
+}
+}
+}
+,
+    {{.path = "lines.rest",
+      .what = "`drawn`: lines add cloth, rest angles stay; `copied`: they turn, too; `flat`: lines only push "
+              "it out; `keep`: as `drawn`, then the garment's shape is made its equilibrium "
+              "([rest-state.md](rest-state.md))",
+      .usual = "drawn"},
+     Own{Kind::choice, "`drawn`, `flat`, `copied`, `keep`", read_rest}},
+    {{.path = "lines.rule", .what = as_wrinkle},
+     choice<InsertionRule>([](auto& s) -> auto& { return s.lines.back().options.insertion.rule; },
+                           {{"safe", InsertionRule::safe}, {"paper", InsertionRule::paper}})},
+    {{.path = "lines.region", .what = as_wrinkle},
+     choice<SmoothingRegion>(
+         [](auto& s) -> auto& { return s.lines.back().options.region; },
+         {{"two-ring", SmoothingRegion::two_ring}, {"whole-mesh", SmoothingRegion::whole_mesh}})},
+    {{.path = "lines.max_distance", .what = as_wrinkle},
+     Number{[](auto& s) -> auto& {return s.lines.back().options.insertion.max_distance;
+}
+, positive("m")
+}
+}
+, {{.path = "lines.iterations", .what = as_wrinkle},
+   Whole{[](auto& s) -> auto& {return s.lines.back().options.smoothing.iterations;
+}
+, 0, 100000
+}
+}
+, {{.path = "lines.lambda", .what = as_wrinkle},
+   Number{[](auto& s) -> auto& {return s.lines.back().options.smoothing.lambda;
+}
+, positive()
+}
+}
+, {{.path = "lines.mu", .what = as_wrinkle},
+   Number{[](auto& s) -> auto& {return s.lines.back().options.smoothing.mu;
+}
+, Limits { -no_limit, 0 }
+}
+}
+,
+    {{.path = "lines.weights", .what = as_wrinkle},
+     choice<SmoothingWeights>(
+         [](auto& s) -> auto& { return s.lines.back().options.smoothing.weights; },
+         {{"uniform", SmoothingWeights::uniform}, {"cotangent", SmoothingWeights::cotangent}})},
+    {{.path = "lines.keep_lines", .what = as_wrinkle},
+     Switch{[](auto& s) -> auto& {return s.lines.back().options.smoothing.lines;
+}
+, LineRule::free, LineRule::keep
+}
+}
+, {{.path = "lines.keep_border", .what = as_wrinkle},
+   Switch{[](auto& s) -> auto& {return s.lines.back().options.smoothing.border;
+}
+, BorderRule::free, BorderRule::keep
+}
+}
+,
+
+    // [[pins]]: a flag adds a set of its own
+    {{.path = "pins.box",
+      .flag = "--pin-box",
+      .help = "hold the vertices in a box x0,y0,z0,x1,y1,z1 [m, y up]; may be given again",
+      .what = "the vertices in `[x0, y0, z0, x1, y1, z1]`",
+      .flag_in = used_by::all},
+     Own{Kind::list, "6 numbers [m]",
+         [](SettingsTable& table, const char* key, Scene& s) { table.read(key, s.pins.back().box, 6); }}},
+    {{.path = "pins.loop",
+      .flag = "--pin-loop",
+      .help = "hold a boundary loop: top, bottom, or its index (the longest is 0)",
+      .what = "a boundary loop: top, bottom or an index (the longest is 0)",
+      .flag_in = used_by::all},
+     Own{Kind::text, "text, or whole number",
+         [](SettingsTable& table, const char* key, Scene& s) {
+           table.read_name_or_index(key, s.pins.back().loop);
+         }}},
+    {{.path = "pins.group",
+      .flag = "--pin-group",
+      .help = "hold the vertices of a group, by its name",
+      .what = "the vertices of a group, by its name",
+      .flag_in = used_by::all},
+     text([](auto& s) -> auto& { return s.pins.back().group; })},
+    {{.path = "pins.vertices",
+      .flag = "--pin-vertices",
+      .help = "hold vertices, by their indices from 0",
+      .what = "vertices, by their indices from 0",
+      .flag_in = used_by::all},
+     Own{Kind::list, "whole numbers",
+         [](SettingsTable& table, const char* key, Scene& s) {
+           table.read(key, s.pins.back().vertices, 0, 1 << 30);
+         }}},
+    {{.path = "pins.motion", .what = "see below", .usual = "held", .used = used_by::moving},
+     Own{Kind::table, "table",
+         [](SettingsTable& table, const char* key, Scene& s) {
+           read_motion(table, key, s.pins.back().motion);
+         }}},
+
+    // The root
+    {{.path = "title", .what = "for people", .used = used_by::nobody},
+     text([](auto& s) -> auto& { return s.title; })},
+    {{.path = "unit",
+      .flag = "--unit",
+      .what = "of the mesh and stroke files",
+      .usual = "what the garment's PLY notes, else m",
+      .flag_in = used_by::nobody},
+     choice<Word>([](auto& s) -> auto& { return s.unit; },
+                  {{"m", "m"}, {"cm", "cm"}, {"mm", "mm"}, {"inch", "inch"}})},
+    {{.path = "up",
+      .flag = "--up",
+      .what = "their upward axis",
+      .usual = "what the garment's PLY notes, else y",
+      .flag_in = used_by::nobody},
+     choice<Word>([](auto& s) -> auto& { return s.up; }, {{"y", "y"}, {"z", "z"}})},
+}
+;
+
+/// "the end of the simulation [s] (default 2)", where a row says no more.
+std::string usual_help(const Setting& s) {
+  std::string text = s.what;
+  std::erase(text, '`');
+  if (const std::size_t unit = s.range.find(" ["); unit != s.range.npos) text += s.range.substr(unit);
+  return text + " (default " + s.usual + ")";
+}
+
+std::vector<Setting> all_settings() {
+  std::vector<Setting> list;
+  for (const Row<Scene>& row : rows) list.push_back(row.setting);
+  for (const Setting& setting : settings_of_motion()) list.push_back(setting);
+  for (Setting& setting : list)
+    if (!setting.flag.empty() && setting.help.empty()) setting.help = usual_help(setting);
+  return list;
+}
+
+/// Whether the table says it; rest = "stored" is what all do.
+bool is_said(const Json& table, const Setting& setting) {
+  if (!table.is_object() || !table.contains(setting.key())) return false;
+  return setting.path != "garment.rest" || table["rest"] == "keep";
+}
+
+}  // namespace
+
+std::string Setting::table() const {
+  const std::size_t dot = path.rfind('.');
+  return dot == path.npos ? "" : path.substr(0, dot);
+}
+
+std::string Setting::key() const { return path.substr(path.rfind('.') + 1); }
+
+std::string Setting::long_flag() const { return flag.substr(flag.find("--")); }
+
+const std::vector<Setting>& scene_settings() {
+  static const std::vector<Setting> list = all_settings();
+  return list;
+}
+
+const std::vector<SettingTable>& setting_tables() {
+  static const std::vector<SettingTable> list = {{"", ""},
+                                                 {"garment", "[garment]"},
+                                                 {"lines", "[[lines]]"},
+                                                 {"body", "[body]"},
+                                                 {"material", "[material]"},
+                                                 {"pins", "[[pins]]"},
+                                                 {"forces", "[forces]"},
+                                                 {"simulation", "[simulation]"},
+                                                 {"output", "[output]"},
+                                                 {"motion", "motion"},
+                                                 {"keyframes", ""},
+                                                 {"spin", ""},
+                                                 {"gusts", ""}};
+  return list;
+}
+
+const Setting* find_setting(std::string_view path) {
+  const auto& list = scene_settings();
+  const auto found = std::find_if(list.begin(), list.end(), [&](const Setting& s) { return s.path == path; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+void read_settings(SettingsTable& table, const std::string& name, Scene& scene) {
+  read_rows<Scene>(table, name, rows, scene);
+}
+
+void read_setting(SettingsTable& table, const std::string& path, Scene& scene) {
+  for (const Row<Scene>& row : rows)
+    if (row.setting.path == path) row.read(table, row.key.c_str(), scene);
+}
+
+std::string tables_of_key(std::string_view key) {
+  std::string found;
+  for (const SettingTable& table : setting_tables())
+    if (!table.heading.empty() && find_setting(table.name + "." + std::string(key)))
+      found += (found.empty() ? "" : " or ") + table.heading;
+  return found;
+}
+
+std::vector<std::string> settings_without_use(const TomlDocument& document, unsigned subcommand) {
+  std::vector<std::string> plain, listed;
+  for (const SettingTable& table : setting_tables()) {
+    if (!document.root.contains(table.name) || document.root[table.name].empty()) continue;
+    const Json& node = document.root[table.name];
+    bool is_used = false;
+    std::vector<std::string> idle;
+    for (const Setting& setting : scene_settings()) {
+      if (setting.table() != table.name) continue;
+      is_used = is_used || (setting.used & subcommand);
+      if (setting.used & subcommand) continue;
+      if (is_said(node, setting)) idle.push_back(setting.path);
+      for (std::size_t i = 0; node.is_array() && i < node.size(); ++i)
+        if (is_said(node[i], setting))
+          listed.push_back(table.name + "." + std::to_string(i) + "." + setting.key());
+    }
+    if (!is_used) idle = {table.name};
+    plain.insert(plain.end(), idle.begin(), idle.end());
+  }
+  plain.insert(plain.end(), listed.begin(), listed.end());
+  return plain;
+}
+
+}  // namespace furrow::io
