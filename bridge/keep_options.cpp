@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bridge/keep_options.h"
-
 #include <cmath>
 #include <string>
 
+#include "bridge/keep_lines.h"
 #include "physics/base/require.h"
 
 namespace furrow::bridge {
