@@ -15,6 +15,7 @@ list(JOIN furrow_doxygen_input " \\\n  " furrow_doxygen_input)
 file(RELATIVE_PATH furrow_doxygen_up ${PROJECT_BINARY_DIR}/doxygen/html ${PROJECT_SOURCE_DIR})
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/Doxyfile @ONLY CONTENT "@INCLUDE = docs/Doxyfile
 OUTPUT_DIRECTORY = @PROJECT_BINARY_DIR@/doxygen
+USE_MDFILE_AS_MAINPAGE = @PROJECT_SOURCE_DIR@/README.md
 INPUT = @furrow_doxygen_input@
 FILTER_PATTERNS = \"*.md=sh docs/doxygen-links @furrow_doxygen_up@\"
 ")
