@@ -3,17 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "geometry/mesh/preconditions.h"
 
 namespace furrow::geometry {
 
 int count_peaks(std::span<const double> values, double prominence) {
-  if (!(prominence > 0))
-    throw std::invalid_argument("count_peaks: prominence = " + std::to_string(prominence) + " is not > 0");
+  if (!(prominence > 0)) refuse("count_peaks", "prominence = " + std::to_string(prominence) + " is not > 0");
   if (!std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
-    throw std::invalid_argument("count_peaks: a value is not finite");
+    refuse("count_peaks", "a value is not finite");
   if (values.empty()) return 0;
   // Once around from the lowest value: up by the prominence from the last valley is a peak, down by it from
   // the last peak a valley.

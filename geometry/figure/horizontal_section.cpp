@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <unordered_map>
 
@@ -34,8 +33,8 @@ std::vector<Piece> cut(std::span<const Point> points, std::span<const std::array
     for (std::size_t k = 0; k < 3; ++k) {
       const int v = triangles[t][k];
       if (v < 0 || static_cast<std::size_t>(v) >= points.size())
-        throw std::invalid_argument("horizontal_section: triangle " + std::to_string(t) + " has corner " +
-                                    std::to_string(v) + " of " + std::to_string(points.size()) + " points");
+        refuse("horizontal_section", "triangle " + std::to_string(t) + " has corner " + std::to_string(v) +
+                                         " of " + std::to_string(points.size()) + " points");
       above[k] = points[static_cast<std::size_t>(v)].y() >= height;
     }
     if (above[0] == above[1] && above[1] == above[2]) continue;
@@ -86,7 +85,7 @@ void for_each_wedge(const SectionLoop& loop, const Visit& visit) {
 std::vector<SectionLoop> horizontal_section(std::span<const Point> points,
                                             std::span<const std::array<int, 3>> triangles, double height) {
   if (!std::isfinite(height))
-    throw std::invalid_argument("horizontal_section: height = " + std::to_string(height) + " is not finite");
+    refuse("horizontal_section", "height = " + std::to_string(height) + " is not finite");
   const std::vector<Piece> pieces = cut(points, triangles, height);
   std::unordered_map<EdgeKey, std::size_t> starting, ending;
   for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -171,7 +170,7 @@ double enclosed_area(const SectionLoop& loop) {
 }
 
 std::array<double, 2> centre_of(const SectionLoop& loop) {
-  if (loop.points.empty()) throw std::invalid_argument("centre_of: the curve has no points");
+  if (loop.points.empty()) refuse("centre_of", "the curve has no points");
   double doubled = 0, x = 0, z = 0, mean_x = 0, mean_z = 0;
   for_each_wedge(loop, [&](double px, double pz, double qx, double qz) {
     const double wedge = px * qz - pz * qx;

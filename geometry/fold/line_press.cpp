@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "geometry/fold/line_region.h"
+#include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 
 namespace furrow::geometry {
@@ -15,8 +15,8 @@ std::vector<double> hinge_presses(const Mesh& mesh, const std::vector<double>& p
                                   const std::vector<double>& widths) {
   for (std::size_t i = 0; i < presses.size(); ++i)
     if (!(presses[i] >= 1) || !std::isfinite(presses[i]))
-      throw std::invalid_argument("hinge_presses: press of line " + std::to_string(i) + " is " +
-                                  std::to_string(presses[i]) + ", not >= 1");
+      refuse("hinge_presses",
+             "press of line " + std::to_string(i) + " is " + std::to_string(presses[i]) + ", not >= 1");
   const auto id = find_map(mesh, attribute::line);
   std::vector<std::vector<Vertex>> lines(presses.size());
   if (id)

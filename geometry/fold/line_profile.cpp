@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "geometry/fold/line_region.h"
 #include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/preconditions.h"
 
 namespace furrow::geometry {
 namespace {
@@ -22,7 +22,7 @@ double line_profile(double t, double sharpness) {
 
 std::vector<Lift> lift_by_profile(const Mesh& mesh, std::span<const Vertex> line,
                                   std::span<const StrokeSegment> path, const Stroke& stroke) {
-  if (!stroke.width) throw std::invalid_argument("lift_by_profile: the stroke has no width");
+  if (!stroke.width) refuse("lift_by_profile", "the stroke has no width");
   const double half = *stroke.width / 2;
   std::vector<char> own(mesh.num_vertices(), 0);
   for (Vertex v : line) own[v.idx()] = 1;

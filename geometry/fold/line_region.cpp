@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <queue>
-#include <stdexcept>
 #include <string>
 
 #include "geometry/mesh/edge_metric.h"
@@ -29,7 +28,7 @@ std::vector<double> lengths_before_lines(const Mesh& mesh) {
 
 std::vector<Vertex> vertices_within(const Mesh& mesh, std::span<const Vertex> seeds, double reach,
                                     const std::vector<double>& length_of_edge) {
-  if (!(reach >= 0)) throw std::invalid_argument("vertices_within: reach is " + std::to_string(reach));
+  if (!(reach >= 0)) refuse("vertices_within", "reach is " + std::to_string(reach));
   require_vertices(mesh, seeds, "vertices_within");
   std::vector<double> distance(mesh.num_vertices(), std::numeric_limits<double>::infinity());
   using Entry = std::pair<double, Vertex>;  // ties by index

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -33,19 +32,21 @@ void filter_step(const SmoothingRows& rows, double factor, const std::vector<Pad
 }
 
 void check(const TaubinOptions& o, double k_max) {
-  const auto refuse = [](const std::string& what) { throw std::invalid_argument("taubin_smooth: " + what); };
   const std::string pair = "lambda " + std::to_string(o.lambda) + ", mu " + std::to_string(o.mu);
   if (o.iterations < 0 || o.iterations > 100000)
-    refuse("iterations is " + std::to_string(o.iterations) + ", not in [0, 100000]");
-  if (!(o.lambda > 0) || !std::isfinite(o.lambda)) refuse(pair + ": lambda must be finite and > 0");
-  if (!(o.mu < -o.lambda) || !std::isfinite(o.mu)) refuse(pair + ": mu must be finite and < -lambda");
+    refuse("taubin_smooth", "iterations is " + std::to_string(o.iterations) + ", not in [0, 100000]");
+  if (!(o.lambda > 0) || !std::isfinite(o.lambda))
+    refuse("taubin_smooth", pair + ": lambda must be finite and > 0");
+  if (!(o.mu < -o.lambda) || !std::isfinite(o.mu))
+    refuse("taubin_smooth", pair + ": mu must be finite and < -lambda");
   const double k_stab = stability_limit(o.lambda, o.mu);
   if (!(k_max <= k_stab))
-    refuse(pair + " is unstable: it bears waves up to k_stab = " + std::to_string(k_stab) +
-           ", these weights can have k_max = " + std::to_string(k_max) + "; use lambda 0.33, mu -0.34");
+    refuse("taubin_smooth", pair + " is unstable: it bears waves up to k_stab = " + std::to_string(k_stab) +
+                                ", these weights can have k_max = " + std::to_string(k_max) +
+                                "; use lambda 0.33, mu -0.34");
   if (const double pass_band = 1 / o.lambda + 1 / o.mu; !(pass_band < k_max))
-    refuse(pair + ": every wave would grow, the pass band reaches k_PB = " + std::to_string(pass_band) +
-           "; use lambda 0.33, mu -0.34");
+    refuse("taubin_smooth", pair + ": every wave would grow, the pass band reaches k_PB = " +
+                                std::to_string(pass_band) + "; use lambda 0.33, mu -0.34");
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <map>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 
 #include "geometry/fold/displace_line.h"
 #include "geometry/fold/line_height.h"
@@ -17,6 +16,7 @@
 #include "geometry/fold/line_region.h"
 #include "geometry/insert/insert_along_stroke.h"
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/tangent_frames.h"
 #include "geometry/mesh/two_ring.h"
@@ -30,19 +30,18 @@ namespace furrow::geometry {
 namespace {
 
 void check_all(const Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options) {
-  if (!(options.density > 0)) throw std::invalid_argument("wrinkle: density must be > 0 kg/m^2");
+  if (!(options.density > 0)) refuse("wrinkle", "density must be > 0 kg/m^2");
   if (options.first_line < 0)
-    throw std::invalid_argument("wrinkle: first_line must be >= 0, not " +
-                                std::to_string(options.first_line));
+    refuse("wrinkle", "first_line must be >= 0, not " + std::to_string(options.first_line));
   for (const auto& r_avg : {options.mean_structural_length, options.mean_bending_length})
-    if (r_avg && !(*r_avg > 0)) throw std::invalid_argument("wrinkle: a mean rest length must be > 0 m");
+    if (r_avg && !(*r_avg > 0)) refuse("wrinkle", "a mean rest length must be > 0 m");
   check(options.insertion);
   for (const Stroke& stroke : strokes)
     if (const std::string fault = shape_fault(stroke); !fault.empty())
       throw ContentError("stroke \"" + stroke.name + "\": " + fault);
   for (Vertex v : options.held)
     if (v.idx() >= mesh.num_vertices())
-      throw std::invalid_argument("wrinkle: held vertex " + std::to_string(v.idx()) + " is not in the mesh");
+      refuse("wrinkle", "held vertex " + std::to_string(v.idx()) + " is not in the mesh");
 }
 
 struct Moves {
@@ -105,8 +104,9 @@ std::string millimetres(double length) {
   return text.str();
 }
 
-void warn_if_coarse(const Mesh& mesh, const std::vector<Insertion>& lines, std::span<const Stroke> strokes,
-                    WrinkleReport& report) {
+std::vector<std::string> warnings_of_coarse(const Mesh& mesh, const std::vector<Insertion>& lines,
+                                            std::span<const Stroke> strokes) {
+  std::vector<std::string> warnings;
   const std::vector<double> lengths = lengths_before_lines(mesh);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (!strokes[i].width) continue;
@@ -115,11 +115,11 @@ void warn_if_coarse(const Mesh& mesh, const std::vector<Insertion>& lines, std::
     const double width = *strokes[i].width;
     const double coarse = coarseness(mesh, line_region(mesh, own, width, lengths), width, lengths);
     if (coarse > 1)
-      report.warnings.push_back("stroke \"" + strokes[i].name + "\": its width of " + millimetres(width) +
-                                " is less than three edges of the mesh there (" +
-                                millimetres(coarse * width / 3) +
-                                "); subdivide the garment, or draw the fold wider");
+      warnings.push_back("stroke \"" + strokes[i].name + "\": its width of " + millimetres(width) +
+                         " is less than three edges of the mesh there (" + millimetres(coarse * width / 3) +
+                         "); subdivide the garment, or draw the fold wider");
   }
+  return warnings;
 }
 
 std::vector<Insertion> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
@@ -160,6 +160,27 @@ void smooth(Mesh& mesh, const Moves& moves, const WrinkleOptions& options, const
   taubin_smooth(mesh, region, options.smoothing);
 }
 
+/// Gives the mesh a whole rest state and notes what it is before the first line.
+WrinkleReport prepare(Mesh& mesh, const WrinkleOptions& options) {
+  ensure_rest_lengths(mesh);
+  ensure_bending_springs(mesh);
+  ensure_rest_angles(mesh);
+  WrinkleReport report;
+  report.mean_structural_length = options.mean_structural_length.value_or(mean_rest_length(mesh));
+  report.mean_bending_length = options.mean_bending_length.value_or(mean_bending_rest_length(mesh));
+  report.rest_area_before = rest_area(mesh);
+  return report;
+}
+
+void note_heights(std::vector<WrinkledLine>& lines, const std::vector<double>& base,
+                  const std::vector<double>& drawn, const std::vector<double>& smoothed) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    lines[i].base_height = base[i];
+    lines[i].drawn_height = drawn[i] - base[i];
+    lines[i].smoothed_height = smoothed[i] - base[i];
+  }
+}
+
 }  // namespace
 
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options,
@@ -170,18 +191,11 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
     if (observer) observer(stage, m);
   };
   Mesh work = mesh;
-  WrinkleReport report;
-  ensure_rest_lengths(work);
-  ensure_bending_springs(work);
-  ensure_rest_angles(work);
-  report.mean_structural_length = options.mean_structural_length.value_or(mean_rest_length(work));
-  report.mean_bending_length = options.mean_bending_length.value_or(mean_bending_rest_length(work));
-  report.rest_area_before = rest_area(work);
-
+  WrinkleReport report = prepare(work, options);
   const std::vector<Insertion> lines = insert_lines(work, strokes, options, report);
   rebuild_bending_springs(work, report.insertion.changed_faces);
   ensure_rest_angles(work);
-  warn_if_coarse(work, lines, strokes, report);
+  report.warnings = warnings_of_coarse(work, lines, strokes);
   tell(Stage::inserted, work);
 
   const RestSnapshot before = take_rest_snapshot(work);
@@ -197,16 +211,11 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   displace_line(work, moves.profiles);
   press_stored_hinges(work, strokes, options.first_line);
   apply_rest_rule(work, before, options.rest);
-  const std::vector<double> smoothed = heights(work, options.first_line, strokes);
+  note_heights(report.lines, base, drawn, heights(work, options.first_line, strokes));
   report.total_mass = lump_masses(work, options.density);
   report.rest_area_after = rest_area(work);
   report.structural_springs = work.number_of_edges();
   report.bending_springs = bending_springs(work).size();
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    report.lines[i].base_height = base[i];
-    report.lines[i].drawn_height = drawn[i] - base[i];
-    report.lines[i].smoothed_height = smoothed[i] - base[i];
-  }
   tell(Stage::smoothed, work);
   mesh = std::move(work);
   return report;

@@ -23,229 +23,258 @@ bool too_small(const MeshEditor& editor, Face face, double mean_edge) {
          editor.generation()[face] >= generations;
 }
 
-class LineDrawing {
- public:
-  LineDrawing(DrawnLine& out, const TracedStroke& traced, const LinePlan& plan, int line_id, double mean_edge,
-              const InsertionOptions& options)
-      : out_(out),
-        report_(out.insertion.report),
-        editor_(out.mesh),
-        traced_(traced),
-        plan_(plan),
-        line_id_(line_id),
-        mean_edge_(mean_edge),
-        options_(options) {}
-
-  void run() {
-    choose_nodes();
-    const auto rim = edges_in_flip_order(editor_.mesh(), selected(), crossed_between_new());
-    for (auto& [face, point] : to_split_) split(face, point);
-    make_links();
-    std::vector<Link> links;
-    for (const auto& entry : out_.links) links.push_back(entry.first);
-    const std::set<Edge> fresh = connect_line(editor_, links, mean_edge_, options_, report_);
-    for (std::size_t i = 0; i < links.size(); ++i) out_.links[i].first = links[i];
-    make_chains(fresh);
-    std::vector<Edge> left;
-    for (Edge e : rim) {
-      if (fresh.count(e) == 0) left.push_back(e);
-    }
-    flip_edges(editor_, left, options_, report_);
-    if (options_.rule == InsertionRule::safe) report_.delaunay_flips = restore_delaunay(editor_, options_);
-    note_missing_edges();
-    describe_vertices();
-    conclude(editor_, report_);
-  }
-
- private:
-  std::vector<Face> selected() const {
-    std::vector<Face> faces;
-    for (const auto& entry : to_split_) faces.push_back(entry.first);
-    return faces;
-  }
-
-  const Barycentrics& node_of(const CrossedFace& visit) const {
-    const auto pinned = plan_.pinned.find(visit.face);
-    return pinned == plan_.pinned.end() ? visit.node : pinned->second;
-  }
-
-  /// A corner in place of a new vertex, if the safe rule wants one.
-  std::optional<Vertex> corner_for(const CrossedFace& visit) {
-    const Mesh& mesh = editor_.mesh();
-    const auto corners = corners_of(mesh, visit.face);
-    const auto away = lengths_to_corners(rest_lengths_of(mesh, editor_.rest(), visit.face), node_of(visit));
-    std::optional<int> reused;
-    for (int i = 0; i < 3; ++i) {
-      const bool near = editor_.line()[corners[i]] >= 0 && away[i] <= reuse * mean_edge_;
-      if (near && (!reused || away[i] < away[*reused])) reused = i;
-    }
-    if (reused) return ++report_.reused, corners[*reused];
-    const auto place = plan_.places.find(visit.face);
-    const bool small = too_small(editor_, visit.face, mean_edge_);
-    if (!small && (place == plan_.places.end() || place->second != LinePlan::Place::corner))
-      return std::nullopt;
-    report_.too_small += small;
-    ++report_.snapped;
-    return corners[std::min_element(away.begin(), away.end()) - away.begin()];
-  }
-
-  Barycentrics place_in(const CrossedFace& visit) const {
-    if (options_.rule == InsertionRule::paper) return visit.node;
-    if (plan_.places.count(visit.face) == 0) return clamped(node_of(visit), options_.min_barycentric);
-    return incenter(rest_lengths_of(editor_.mesh(), editor_.rest(), visit.face));
-  }
-
-  void choose_nodes() {
-    std::set<Face> seen;
-    for (const SubStroke& part : traced_.sub_strokes) {
-      for (const CrossedFace& visit : part.faces) {
-        if (!seen.insert(visit.face).second) continue;
-        check_face(editor_.mesh(), editor_.rest(), visit.face);
-        const auto corner = options_.rule == InsertionRule::safe ? corner_for(visit) : std::nullopt;
-        if (corner) {
-          nodes_[visit.face] = *corner;
-          parameters_.try_emplace(*corner, visit.stroke_parameter);
-        } else {
-          to_split_.push_back({visit.face, place_in(visit)});
-          split_parameters_[visit.face] = visit.stroke_parameter;
-        }
-      }
-    }
-  }
-
-  /// Crossed edges with a new vertex on either side: connect_line sees to them.
-  std::set<Edge> crossed_between_new() const {
-    std::set<Edge> edges;
-    const Mesh& mesh = editor_.mesh();
-    for (const SubStroke& part : traced_.sub_strokes) {
-      for (const CrossedFace& visit : part.faces) {
-        if (!visit.exit || mesh.is_border(mesh.edge(visit.exit->halfedge))) continue;
-        const Face next = mesh.face(mesh.opposite(visit.exit->halfedge));
-        if (nodes_.count(visit.face) == 0 && nodes_.count(next) == 0)
-          edges.insert(mesh.edge(visit.exit->halfedge));
-      }
-    }
-    return edges;
-  }
-
-  void split(Face face, const Barycentrics& point) {
-    normals_.insert({face, normalized(area_normal_of(editor_.mesh(), face))});
-    const Vertex v = editor_.split_face({face, point});
-    nodes_[face] = v;
-    out_.inserted_in[v] = face;
-    parameters_[v] = split_parameters_[face];
-    ++report_.inserted;
-  }
-
-  void make_links() {
-    // Splitting a face keeps its three edges and their halfedges.
-    for (const SubStroke& part : traced_.sub_strokes) {
-      const std::size_t n = part.faces.size();
-      for (std::size_t i = 0; i + (part.closed ? 0 : 1) < n; ++i) {
-        const EdgeCrossing& x = *part.faces[i].exit;
-        const Mesh& mesh = editor_.mesh();
-        const Edge edge = mesh.edge(x.halfedge);
-        Link link;
-        link.from = nodes_.at(part.faces[i].face);
-        link.to = nodes_.at(part.faces[(i + 1) % n].face);
-        link.a = mesh.source(x.halfedge);
-        link.b = mesh.target(x.halfedge);
-        link.t = x.t;
-        link.route = plan_.routed.count(edge) > 0;
-        out_.links.push_back({link, edge});
-      }
-    }
-  }
-
-  /// Where a stroke leaves the cloth or comes onto it, the line goes to the nearer end of the border edge
-  /// there: a hem that is drawn over takes part in the wrinkle. That end is a corner of the face, so an edge
-  /// leads to it.
-  std::optional<Vertex> border_end(const SubStroke& part, const CrossedFace& visit,
-                                   const std::optional<EdgeCrossing>& x) {
-    const Mesh& mesh = editor_.mesh();
-    if (options_.rule != InsertionRule::safe || part.closed || !x || !mesh.is_border(mesh.edge(x->halfedge)))
-      return std::nullopt;
-    const Vertex end = x->t < 0.5 ? mesh.source(x->halfedge) : mesh.target(x->halfedge);
-    if (!editor_.edge_between(nodes_.at(visit.face), end)) return std::nullopt;
-    parameters_.try_emplace(end, visit.stroke_parameter);
-    return end;
-  }
-
-  void make_chains(const std::set<Edge>& fresh) {
-    std::size_t next = 0;
-    std::set<Edge> used;
-    std::set<Vertex> is_node;
-    for (const auto& entry : nodes_) is_node.insert(entry.second);
-    for (const SubStroke& part : traced_.sub_strokes) {
-      std::vector<Vertex> chain;
-      const auto push = [&](Vertex v) {
-        if (!chain.empty() && chain.back() == v) return;
-        const std::size_t n = chain.size();
-        // A way round through a corner and back again adds nothing.
-        const bool spike = n >= 2 && chain[n - 2] == v && is_node.count(chain[n - 1]) == 0;
-        spike ? chain.pop_back() : chain.push_back(v);
-      };
-      if (const auto end = border_end(part, part.faces.front(), part.faces.front().entry)) push(*end);
-      push(nodes_.at(part.faces.front().face));
-      for (std::size_t i = 0; i + (part.closed ? 0 : 1) < part.faces.size(); ++i, ++next) {
-        for (Vertex v : out_.links[next].first.between) push(v);
-        push(out_.links[next].first.to);
-      }
-      if (const auto end = border_end(part, part.faces.back(), part.faces.back().exit)) push(*end);
-      for (std::size_t i = 1; i < chain.size(); ++i) {
-        if (const auto e = editor_.edge_between(chain[i - 1], chain[i])) used.insert(*e);
-      }
-      for (Vertex v : chain) editor_.line()[v] = line_id_;
-      out_.insertion.line.chains.push_back(std::move(chain));
-    }
-    for (Edge e : fresh) editor_.line_edge()[e] = false;
-    for (Edge e : used) editor_.line_edge()[e] = true;
-  }
-
-  void note_missing_edges() {
-    for (const auto& [link, edge] : out_.links) {
-      if (!link.refusal || !link.between.empty() || editor_.edge_between(link.from, link.to)) continue;
-      report_.missing_edges.push_back({link.from, link.to, *link.refusal});
-    }
-  }
-
-  Vector normal_of(Vertex v) const {
-    const auto inserted = out_.inserted_in.find(v);
-    if (inserted != out_.inserted_in.end()) return normals_.at(inserted->second);
-    const Mesh& mesh = editor_.mesh();
-    Vector sum(0, 0, 0);
-    for (Face f : mesh.faces_around_target(mesh.halfedge(v))) {
-      if (f.is_valid()) sum = sum + area_normal_of(mesh, f);
-    }
-    return normalized(sum);
-  }
-
-  void describe_vertices() {
-    std::set<Vertex> seen;
-    for (const auto& chain : out_.insertion.line.chains) {
-      double last = parameters_.at(chain.front());
-      for (Vertex v : chain) {
-        const auto known = parameters_.find(v);
-        if (known != parameters_.end()) last = known->second;
-        if (seen.insert(v).second) out_.insertion.line.vertices.push_back({v, normal_of(v), last});
-      }
-    }
-  }
-
-  DrawnLine& out_;
-  InsertionReport& report_;
-  MeshEditor editor_;
-  const TracedStroke& traced_;
-  const LinePlan& plan_;
-  int line_id_;
-  double mean_edge_;
-  const InsertionOptions& options_;
-  std::map<Face, Vertex> nodes_;
-  std::vector<std::pair<Face, Barycentrics>> to_split_;
-  std::map<Face, double> split_parameters_;
-  std::map<Vertex, double> parameters_;
-  std::map<Face, Vector> normals_;
+/// What stays the same throughout a round.
+struct Drawing {
+  const TracedStroke& traced;
+  const LinePlan& plan;
+  int line_id;
+  double mean_edge;  ///< h [m]
+  const InsertionOptions& options;
 };
+
+/// A corner of a crossed face in place of a new vertex, and why.
+struct CornerNode {
+  Vertex vertex;
+  bool is_reused = false;     ///< of an earlier line
+  bool is_too_small = false;  ///< the face is too small or was split too often
+};
+
+struct NewNode {
+  FacePoint point;
+  double stroke_parameter;
+};
+
+/// Where the line's nodes go.
+struct NodePlan {
+  std::map<Face, Vertex> corners;       ///< of faces that take a corner
+  std::map<Vertex, double> parameters;  ///< stroke parameters of those corners
+  std::vector<NewNode> splits;          ///< the other faces, by stroke order
+  std::size_t reused = 0, snapped = 0, too_small = 0;
+};
+
+/// The nodes as vertices of the mesh.
+struct Nodes {
+  std::map<Face, Vertex> of_face;
+  std::map<Vertex, double> parameters;  ///< along the stroke, of every node
+  std::map<Vertex, Face> inserted_in;   ///< new vertices
+  std::map<Vertex, Vector> normals;     ///< of the faces that new vertices split
+};
+
+using Links = std::vector<std::pair<Link, Edge>>;
+
+struct Chains {
+  std::vector<std::vector<Vertex>> chains;     ///< one a sub-stroke
+  std::map<Vertex, double> border_parameters;  ///< of border vertices that chains begin or end with
+};
+
+const Barycentrics& node_of(const LinePlan& plan, const CrossedFace& visit) {
+  const auto pinned = plan.pinned.find(visit.face);
+  return pinned == plan.pinned.end() ? visit.node : pinned->second;
+}
+
+/// A corner in place of a new vertex, if the safe rule wants one.
+std::optional<CornerNode> corner_for(const MeshEditor& editor, const Drawing& d, const CrossedFace& visit) {
+  const Mesh& mesh = editor.mesh();
+  const auto corners = corners_of(mesh, visit.face);
+  const auto away =
+      lengths_to_corners(rest_lengths_of(mesh, editor.rest(), visit.face), node_of(d.plan, visit));
+  std::optional<int> reused;
+  for (int i = 0; i < 3; ++i) {
+    const bool near = editor.line()[corners[i]] >= 0 && away[i] <= reuse * d.mean_edge;
+    if (near && (!reused || away[i] < away[*reused])) reused = i;
+  }
+  if (reused) return CornerNode{corners[*reused], true};
+  const auto place = d.plan.places.find(visit.face);
+  const bool small = too_small(editor, visit.face, d.mean_edge);
+  if (!small && (place == d.plan.places.end() || place->second != LinePlan::Place::corner))
+    return std::nullopt;
+  return CornerNode{corners[std::min_element(away.begin(), away.end()) - away.begin()], false, small};
+}
+
+Barycentrics place_in(const MeshEditor& editor, const Drawing& d, const CrossedFace& visit) {
+  if (d.options.rule == InsertionRule::paper) return visit.node;
+  if (d.plan.places.count(visit.face) == 0) return clamped(node_of(d.plan, visit), d.options.min_barycentric);
+  return incenter(rest_lengths_of(editor.mesh(), editor.rest(), visit.face));
+}
+
+NodePlan choose_nodes(const MeshEditor& editor, const Drawing& d) {
+  NodePlan nodes;
+  std::set<Face> seen;
+  for (const SubStroke& part : d.traced.sub_strokes) {
+    for (const CrossedFace& visit : part.faces) {
+      if (!seen.insert(visit.face).second) continue;
+      check_face(editor.mesh(), editor.rest(), visit.face);
+      const auto corner = d.options.rule == InsertionRule::safe ? corner_for(editor, d, visit) : std::nullopt;
+      if (!corner) {
+        nodes.splits.push_back({{visit.face, place_in(editor, d, visit)}, visit.stroke_parameter});
+        continue;
+      }
+      nodes.corners[visit.face] = corner->vertex;
+      nodes.parameters.try_emplace(corner->vertex, visit.stroke_parameter);
+      nodes.reused += corner->is_reused;
+      nodes.snapped += !corner->is_reused;
+      nodes.too_small += corner->is_too_small;
+    }
+  }
+  return nodes;
+}
+
+/// Crossed edges with a new vertex on either side: connect_line sees to them.
+std::set<Edge> crossed_between_new(const Mesh& mesh, const TracedStroke& traced, const NodePlan& nodes) {
+  std::set<Edge> edges;
+  for (const SubStroke& part : traced.sub_strokes) {
+    for (const CrossedFace& visit : part.faces) {
+      if (!visit.exit || mesh.is_border(mesh.edge(visit.exit->halfedge))) continue;
+      const Face next = mesh.face(mesh.opposite(visit.exit->halfedge));
+      if (nodes.corners.count(visit.face) == 0 && nodes.corners.count(next) == 0)
+        edges.insert(mesh.edge(visit.exit->halfedge));
+    }
+  }
+  return edges;
+}
+
+/// The other edges of faces that will be split, which Algorithm 2 flips.
+std::vector<Edge> rim_of(const Mesh& mesh, const TracedStroke& traced, const NodePlan& nodes) {
+  std::vector<Face> selected;
+  for (const NewNode& node : nodes.splits) selected.push_back(node.point.face);
+  return edges_in_flip_order(mesh, selected, crossed_between_new(mesh, traced, nodes));
+}
+
+Nodes split_faces(MeshEditor& editor, const NodePlan& plan) {
+  Nodes nodes{plan.corners, plan.parameters, {}, {}};
+  for (const NewNode& node : plan.splits) {
+    const Vector normal = normalized(area_normal_of(editor.mesh(), node.point.face));
+    const Vertex v = editor.split_face(node.point);
+    nodes.of_face[node.point.face] = v;
+    nodes.parameters[v] = node.stroke_parameter;
+    nodes.inserted_in[v] = node.point.face;
+    nodes.normals.insert({v, normal});
+  }
+  return nodes;
+}
+
+/// Splitting a face keeps its three edges and their halfedges.
+Links links_between(const Mesh& mesh, const Drawing& d, const Nodes& nodes) {
+  Links links;
+  for (const SubStroke& part : d.traced.sub_strokes) {
+    const std::size_t n = part.faces.size();
+    for (std::size_t i = 0; i + (part.closed ? 0 : 1) < n; ++i) {
+      const EdgeCrossing& x = *part.faces[i].exit;
+      const Edge edge = mesh.edge(x.halfedge);
+      Link link;
+      link.from = nodes.of_face.at(part.faces[i].face);
+      link.to = nodes.of_face.at(part.faces[(i + 1) % n].face);
+      link.a = mesh.source(x.halfedge);
+      link.b = mesh.target(x.halfedge);
+      link.t = x.t;
+      link.route = d.plan.routed.count(edge) > 0;
+      links.push_back({link, edge});
+    }
+  }
+  return links;
+}
+
+/// connect_line for links with their edges; returns the edges that were no line edges before.
+std::set<Edge> connect(MeshEditor& editor, Links& links, const Drawing& d, InsertionReport& report) {
+  std::vector<Link> bare;
+  for (const auto& entry : links) bare.push_back(entry.first);
+  const std::set<Edge> fresh = connect_line(editor, bare, d.mean_edge, d.options, report);
+  for (std::size_t i = 0; i < bare.size(); ++i) links[i].first = bare[i];
+  return fresh;
+}
+
+/// Where a stroke leaves the cloth or comes onto it, the line goes to the nearer end of the border edge
+/// there: a hem that is drawn over takes part in the wrinkle. That end is a corner of the face, so an edge
+/// leads to it.
+std::optional<Vertex> border_end(const MeshEditor& editor, const Drawing& d, const Nodes& nodes,
+                                 const SubStroke& part, const CrossedFace& visit,
+                                 const std::optional<EdgeCrossing>& x) {
+  const Mesh& mesh = editor.mesh();
+  if (d.options.rule != InsertionRule::safe || part.closed || !x || !mesh.is_border(mesh.edge(x->halfedge)))
+    return std::nullopt;
+  const Vertex end = x->t < 0.5 ? mesh.source(x->halfedge) : mesh.target(x->halfedge);
+  if (!editor.edge_between(nodes.of_face.at(visit.face), end)) return std::nullopt;
+  return end;
+}
+
+/// Adds a vertex to a chain; a way round through a corner and back again adds nothing.
+void push(std::vector<Vertex>& chain, Vertex v, const std::set<Vertex>& nodes) {
+  if (!chain.empty() && chain.back() == v) return;
+  const std::size_t n = chain.size();
+  const bool spike = n >= 2 && chain[n - 2] == v && nodes.count(chain[n - 1]) == 0;
+  spike ? chain.pop_back() : chain.push_back(v);
+}
+
+Chains chains_along(const MeshEditor& editor, const Drawing& d, const Nodes& nodes, const Links& links) {
+  Chains result;
+  std::size_t next = 0;
+  std::set<Vertex> is_node;
+  for (const auto& entry : nodes.of_face) is_node.insert(entry.second);
+  for (const SubStroke& part : d.traced.sub_strokes) {
+    const CrossedFace &first = part.faces.front(), &last = part.faces.back();
+    std::vector<Vertex> chain;
+    const auto push_end = [&](const CrossedFace& visit, const std::optional<EdgeCrossing>& x) {
+      const auto end = border_end(editor, d, nodes, part, visit, x);
+      if (!end) return;
+      result.border_parameters.try_emplace(*end, visit.stroke_parameter);
+      push(chain, *end, is_node);
+    };
+    push_end(first, first.entry);
+    push(chain, nodes.of_face.at(first.face), is_node);
+    for (std::size_t i = 0; i + (part.closed ? 0 : 1) < part.faces.size(); ++i, ++next) {
+      for (Vertex v : links[next].first.between) push(chain, v, is_node);
+      push(chain, links[next].first.to, is_node);
+    }
+    push_end(last, last.exit);
+    result.chains.push_back(std::move(chain));
+  }
+  return result;
+}
+
+/// Line vertices are those of the chains, line edges those between them; of `fresh` no others stay.
+void mark_line(MeshEditor& editor, const std::vector<std::vector<Vertex>>& chains, int line_id,
+               const std::set<Edge>& fresh) {
+  for (Edge e : fresh) editor.line_edge()[e] = false;
+  for (const auto& chain : chains) {
+    for (std::size_t i = 1; i < chain.size(); ++i)
+      if (const auto e = editor.edge_between(chain[i - 1], chain[i])) editor.line_edge()[*e] = true;
+    for (Vertex v : chain) editor.line()[v] = line_id;
+  }
+}
+
+std::vector<MissingLineEdge> missing_edges(const MeshEditor& editor, const Links& links) {
+  std::vector<MissingLineEdge> missing;
+  for (const auto& [link, edge] : links)
+    if (link.refusal && link.between.empty() && !editor.edge_between(link.from, link.to))
+      missing.push_back({link.from, link.to, *link.refusal});
+  return missing;
+}
+
+Vector normal_of(const Mesh& mesh, const Nodes& nodes, Vertex v) {
+  const auto known = nodes.normals.find(v);
+  if (known != nodes.normals.end()) return known->second;
+  Vector sum(0, 0, 0);
+  for (Face f : mesh.faces_around_target(mesh.halfedge(v)))
+    if (f.is_valid()) sum = sum + area_normal_of(mesh, f);
+  return normalized(sum);
+}
+
+/// Each vertex of the chains once; one without a stroke parameter has that of the one before it.
+std::vector<LineVertex> describe_vertices(const Mesh& mesh, const Nodes& nodes, const Chains& chains) {
+  std::map<Vertex, double> parameters = nodes.parameters;
+  parameters.insert(chains.border_parameters.begin(), chains.border_parameters.end());
+  std::vector<LineVertex> vertices;
+  std::set<Vertex> seen;
+  for (const auto& chain : chains.chains) {
+    double last = parameters.at(chain.front());
+    for (Vertex v : chain) {
+      const auto known = parameters.find(v);
+      if (known != parameters.end()) last = known->second;
+      if (seen.insert(v).second) vertices.push_back({v, normal_of(mesh, nodes, v), last});
+    }
+  }
+  return vertices;
+}
 
 }  // namespace
 
@@ -253,8 +282,28 @@ DrawnLine draw_line(const Mesh& mesh, const TracedStroke& traced, const LinePlan
                     double mean_edge, const InsertionOptions& options) {
   DrawnLine out;
   out.mesh = mesh;
-  out.insertion.line.id = line_id;
-  LineDrawing(out, traced, plan, line_id, mean_edge, options).run();
+  InsertionReport& report = out.insertion.report;
+  const Drawing drawing{traced, plan, line_id, mean_edge, options};
+  MeshEditor editor(out.mesh);
+  const NodePlan chosen = choose_nodes(editor, drawing);
+  report.reused = chosen.reused;
+  report.snapped = chosen.snapped;
+  report.too_small = chosen.too_small;
+  report.inserted = chosen.splits.size();
+  std::vector<Edge> rim = rim_of(editor.mesh(), traced, chosen);
+  const Nodes nodes = split_faces(editor, chosen);
+  out.inserted_in = nodes.inserted_in;
+  out.links = links_between(editor.mesh(), drawing, nodes);
+  const std::set<Edge> fresh = connect(editor, out.links, drawing, report);
+  Chains chains = chains_along(editor, drawing, nodes, out.links);
+  mark_line(editor, chains.chains, line_id, fresh);
+  std::erase_if(rim, [&](Edge e) { return fresh.count(e) > 0; });
+  flip_edges(editor, rim, options, report);
+  if (options.rule == InsertionRule::safe) report.delaunay_flips = restore_delaunay(editor, options);
+  report.missing_edges = missing_edges(editor, out.links);
+  out.insertion.line = {line_id, {}, describe_vertices(editor.mesh(), nodes, chains)};
+  out.insertion.line.chains = std::move(chains.chains);
+  conclude(editor, report);
   return out;
 }
 

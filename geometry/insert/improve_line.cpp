@@ -36,6 +36,52 @@ std::map<Face, double> longest_edges_around(const Mesh& mesh, const EdgeMap<doub
   return longest;
 }
 
+/// Moves those of a bad face's new vertices that have moved least: to the incenter, then to a corner. Whether
+/// any was.
+bool move_nodes(const DrawnLine& drawn, const std::vector<Vertex>& fresh, const LinePlan& plan,
+                LinePlan& next) {
+  const auto place_of = [&](Vertex v) {
+    const auto found = plan.places.find(drawn.inserted_in.at(v));
+    return found == plan.places.end() ? Place::clamped : found->second;
+  };
+  Place lowest = Place::corner;
+  for (Vertex v : fresh) lowest = std::min(lowest, place_of(v));
+  bool changed = false;
+  for (Vertex v : fresh) {
+    if (place_of(v) != lowest) continue;
+    next.places[drawn.inserted_in.at(v)] = lowest == Place::clamped ? Place::incenter : Place::corner;
+    changed = true;
+  }
+  return changed;
+}
+
+/// Routes the links that pass a bad face between old vertices. Whether any was not before.
+bool route_links(const DrawnLine& drawn, Face face, LinePlan& next) {
+  const auto corners = corners_of(drawn.mesh, face);
+  const auto at_corner = [&](Vertex v) {
+    return std::find(corners.begin(), corners.end(), v) != corners.end();
+  };
+  bool changed = false;
+  for (const auto& [link, edge] : drawn.links) {
+    const bool here = (at_corner(link.from) && at_corner(link.to)) ||
+                      std::any_of(link.between.begin(), link.between.end(), at_corner);
+    if (here) changed = next.routed.insert(edge).second || changed;
+  }
+  return changed;
+}
+
+/// Moves a face's node to a sample that is too far from the line, then to the corner there. Whether it moved.
+bool pin(const ProjectedSample& sample, const LinePlan& plan, LinePlan& next) {
+  const Face face = sample.point.face;
+  if (next.pinned.try_emplace(face, sample.point.barycentrics).second) return true;
+  if (plan.pinned.count(face) == 0) return false;
+  // The place in the face was still too far from the tip where the sample lies.
+  const auto placed = next.places.find(face);
+  const bool changed = placed == next.places.end() || placed->second != Place::corner;
+  next.places[face] = Place::corner;
+  return changed;
+}
+
 }  // namespace
 
 LineDeviation deviation_of(const DrawnLine& drawn, const Mesh& before, const EdgeMap<double>& rest_before,
@@ -78,45 +124,15 @@ bool improve_plan(const DrawnLine& drawn, const LineDeviation& deviation, double
   const auto rest = *find_map(drawn.mesh, attribute::rest_length);
   LinePlan next = plan;
   bool changed = false;
-  const auto place_of = [&](Vertex v) {
-    const auto found = plan.places.find(drawn.inserted_in.at(v));
-    return found == plan.places.end() ? Place::clamped : found->second;
-  };
   for (Face face : drawn.insertion.report.changed_faces) {
     if (smallest_angle(rest_lengths_of(drawn.mesh, rest, face)) >= least_angle) continue;
-    const auto corners = corners_of(drawn.mesh, face);
     std::vector<Vertex> fresh;
-    for (Vertex v : corners) {
+    for (Vertex v : corners_of(drawn.mesh, face))
       if (drawn.inserted_in.count(v) > 0) fresh.push_back(v);
-    }
-    Place lowest = Place::corner;
-    for (Vertex v : fresh) lowest = std::min(lowest, place_of(v));
-    for (Vertex v : fresh) {
-      if (place_of(v) != lowest) continue;
-      next.places[drawn.inserted_in.at(v)] = lowest == Place::clamped ? Place::incenter : Place::corner;
-      changed = true;
-    }
-    if (!fresh.empty()) continue;
-    const auto at_corner = [&](Vertex v) {
-      return std::find(corners.begin(), corners.end(), v) != corners.end();
-    };
-    for (const auto& [link, edge] : drawn.links) {
-      const bool here = (at_corner(link.from) && at_corner(link.to)) ||
-                        std::any_of(link.between.begin(), link.between.end(), at_corner);
-      if (here) changed = next.routed.insert(edge).second || changed;
-    }
+    const bool here = fresh.empty() ? route_links(drawn, face, next) : move_nodes(drawn, fresh, plan, next);
+    changed = here || changed;
   }
-  for (const ProjectedSample& sample : deviation.samples) {
-    const Face face = sample.point.face;
-    if (next.pinned.try_emplace(face, sample.point.barycentrics).second) {
-      changed = true;
-    } else if (plan.pinned.count(face) > 0) {
-      // The place in the face was still too far from the tip where the sample lies.
-      const auto placed = next.places.find(face);
-      changed = changed || placed == next.places.end() || placed->second != Place::corner;
-      next.places[face] = Place::corner;
-    }
-  }
+  for (const ProjectedSample& sample : deviation.samples) changed = pin(sample, plan, next) || changed;
   plan = std::move(next);
   return changed;
 }

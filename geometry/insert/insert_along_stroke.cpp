@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <stdexcept>
 
 #include "geometry/insert/improve_line.h"
 #include "geometry/insert/insert_in_faces.h"
@@ -34,8 +33,7 @@ bool better(const Round& a, const Round& b, double least_angle) {
 Insertion insert_along_stroke(Mesh& mesh, const Stroke& stroke, int line_id,
                               const InsertionOptions& options) {
   check(options);
-  if (line_id < 0)
-    throw std::invalid_argument("insertion: line_id must be >= 0, not " + std::to_string(line_id));
+  if (line_id < 0) refuse("insertion", "line_id must be >= 0, not " + std::to_string(line_id));
   require_triangles(mesh, "insert_along_stroke");
   const SurfaceProjector projector(mesh);
   Mesh original = mesh;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "geometry/insert/flip_rules.h"
 #include "geometry/insert/restore_delaunay.h"
@@ -17,17 +16,16 @@ namespace {
 void check_points(const Mesh& mesh, std::span<const FacePoint> points) {
   std::set<Face> seen;
   for (const FacePoint& p : points) {
-    const std::string where = "insert_in_faces: face " + std::to_string(p.face);
+    const std::string where = "face " + std::to_string(p.face);
     if (!mesh.is_valid(p.face) || !mesh.has_valid_index(p.face))
-      throw std::invalid_argument(where + " is not in the mesh");
-    if (!seen.insert(p.face).second) throw std::invalid_argument(where + " is given twice");
+      refuse("insert_in_faces", where + " is not in the mesh");
+    if (!seen.insert(p.face).second) refuse("insert_in_faces", where + " is given twice");
     const double sum = p.barycentrics[0] + p.barycentrics[1] + p.barycentrics[2];
     const bool inside =
         std::all_of(p.barycentrics.begin(), p.barycentrics.end(), [](double b) { return b > 0; });
-    if (!inside || !(std::abs(sum - 1) < 1e-9)) {
-      throw std::invalid_argument(where + ": barycentrics must be > 0 and sum to 1, not " +
-                                  std::to_string(sum));
-    }
+    if (!inside || !(std::abs(sum - 1) < 1e-9))
+      refuse("insert_in_faces",
+             where + ": barycentrics must be > 0 and sum to 1, not " + std::to_string(sum));
   }
 }
 

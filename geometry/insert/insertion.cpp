@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
+
+#include "geometry/mesh/preconditions.h"
 
 namespace furrow::geometry {
 
@@ -31,19 +32,15 @@ const char* to_string(Refusal refusal) {
 }
 
 void check(const InsertionOptions& options) {
-  const auto require = [](bool holds, const char* rule, double value) {
-    if (!holds)
-      throw std::invalid_argument(std::string("insertion: ") + rule + ", not " + std::to_string(value));
-  };
-  require(options.max_distance > 0, "max_distance must be > 0 m", options.max_distance);
-  require(options.min_barycentric >= 0 && options.min_barycentric <= 1.0 / 3,
-          "min_barycentric must be in [0, 1/3]", options.min_barycentric);
-  require(options.min_angle_deg >= 0 && options.min_angle_deg <= 30, "min_angle_deg must be in [0, 30]",
-          options.min_angle_deg);
-  if (options.mean_edge) {
-    require(*options.mean_edge > 0 && std::isfinite(*options.mean_edge), "mean_edge must be > 0 m",
-            *options.mean_edge);
-  }
+  if (!(options.max_distance > 0))
+    refuse("insertion", "max_distance must be > 0 m, not " + std::to_string(options.max_distance));
+  if (!(options.min_barycentric >= 0 && options.min_barycentric <= 1.0 / 3))
+    refuse("insertion",
+           "min_barycentric must be in [0, 1/3], not " + std::to_string(options.min_barycentric));
+  if (!(options.min_angle_deg >= 0 && options.min_angle_deg <= 30))
+    refuse("insertion", "min_angle_deg must be in [0, 30], not " + std::to_string(options.min_angle_deg));
+  if (options.mean_edge && !(*options.mean_edge > 0 && std::isfinite(*options.mean_edge)))
+    refuse("insertion", "mean_edge must be > 0 m, not " + std::to_string(*options.mean_edge));
 }
 
 InsertionReport& operator+=(InsertionReport& sum, const InsertionReport& line) {

@@ -36,18 +36,9 @@ MeshEditor::MeshEditor(Mesh& mesh)
       line_edge_(ensure_map(mesh, attribute::line_edge)),
       generation_(ensure_map(mesh, attribute::generation)),
       texture_(find_map(mesh, attribute::texture)),
-      blend_((ensure_rest_positions(mesh), mesh)),
       group_(find_map(mesh, attribute::group)),
       material_(find_map(mesh, attribute::material)),
-      bending_(find_map(mesh, attribute::bending_rest_length)),
-      stiffness_(find_map(mesh, attribute::stiffness)),
-      bending_stiffness_(find_map(mesh, attribute::bending_stiffness)),
-      hinge_stiffness_(find_map(mesh, attribute::hinge_stiffness)),
-      tension_(find_map(mesh, attribute::tension)),
-      diagonal_(find_map(mesh, attribute::diagonal)),
-      bending_count_(find_map(mesh, attribute::bending_count)),
-      rest_angle_(find_map(mesh, attribute::rest_angle)),
-      triangle_rest_(find_map(mesh, attribute::triangle_rest_length)) {}
+      attributes_((ensure_rest_positions(mesh), mesh)) {}
 
 /// Texture coordinate of `vertex` in the face of `inside`.
 TextureCoordinate MeshEditor::corner_in(Halfedge inside, Vertex vertex) const {
@@ -56,23 +47,11 @@ TextureCoordinate MeshEditor::corner_in(Halfedge inside, Vertex vertex) const {
   return (*texture_)[h];
 }
 
-void MeshEditor::copy_face(Face from, Face to) {
-  if (group_) (*group_)[to] = (*group_)[from];
-  if (material_) (*material_)[to] = (*material_)[from];
-  generation_[to] = generation_[from];
-  unset_triangle(to);
-  changed_.insert(to);
-}
-
-void MeshEditor::unset_springs(Edge edge) {
-  for (auto* map : {&bending_, &rest_angle_, &stiffness_, &bending_stiffness_, &hinge_stiffness_, &tension_})
-    if (*map) (**map)[edge] = unset_value;
-  if (bending_count_) (*bending_count_)[edge] = 0;
-}
-
-void MeshEditor::unset_triangle(Face face) {
-  if (!triangle_rest_) return;
-  for (Halfedge h : halfedges_of(mesh_, face)) (*triangle_rest_)[h] = unset_value;
+void MeshEditor::make_part(Face whole, Face part) {
+  attributes_.copy(whole, part);
+  attributes_.change(part);
+  generation_[part] = generation_[whole];
+  changed_.insert(part);
 }
 
 Vertex MeshEditor::split_face(const FacePoint& point) {
@@ -88,15 +67,15 @@ Vertex MeshEditor::split_face(const FacePoint& point) {
   const Halfedge in = CGAL::Euler::add_center_vertex(mesh_.halfedge(point.face), mesh_);
   const Vertex centre = mesh_.target(in);
   mesh_.point(centre) = position;
-  blend_.set(centre, corners, point.barycentrics);
+  attributes_.blend(centre, corners, point.barycentrics);
   for (int i = 0; i < 3; ++i) {
     // The part on side i: corner i, corner i + 1, centre.
     const Halfedge to_centre = mesh_.next(sides[i]), from_centre = mesh_.next(to_centre);
     const Edge spoke = mesh_.edge(from_centre);
     rest_[spoke] = spokes[i];
-    unset_springs(spoke);
-    unset_springs(mesh_.edge(sides[i]));
-    copy_face(point.face, mesh_.face(sides[i]));
+    attributes_.change(spoke);
+    attributes_.change(mesh_.edge(sides[i]));
+    make_part(point.face, mesh_.face(sides[i]));
     if (!texture_) continue;
     (*texture_)[to_centre] = blend_corners(texture, point.barycentrics);
     (*texture_)[from_centre] = texture[i];
@@ -109,7 +88,6 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
   const Halfedge opposite = mesh_.opposite(halfedge);
   const Edge edge = mesh_.edge(halfedge);
   const double length = rest_[edge];
-  const bool line_edge = line_edge_[edge];
   const auto left = lengths_to_corners(
       {length, rest_[mesh_.edge(mesh_.next(halfedge))], rest_[mesh_.edge(mesh_.prev(halfedge))]},
       {1 - t, t, 0});
@@ -128,14 +106,10 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
       CGAL::Euler::split_edge(halfedge, mesh_);  // a to the new vertex; halfedge goes on to b
   const Vertex middle = mesh_.target(first);
   mesh_.point(middle) = position;
-  blend_.set(middle, {a, b, b}, {1 - t, t, 0});
+  attributes_.blend(middle, {a, b, b}, {1 - t, t, 0});
   rest_[mesh_.edge(first)] = t * length;
   rest_[mesh_.edge(halfedge)] = (1 - t) * length;
-  for (Halfedge part : {first, halfedge}) {
-    line_edge_[mesh_.edge(part)] = line_edge;
-    if (diagonal_) (*diagonal_)[mesh_.edge(part)] = false;
-    unset_springs(mesh_.edge(part));
-  }
+  attributes_.halve(edge, mesh_.edge(first));
   const std::array<Halfedge, 2> to_middle{first, mesh_.opposite(halfedge)};
   split_side(to_middle[0], left[2], {a, b}, texture[0], t);
   split_side(to_middle[1], right[2], {a, b}, texture[1], t);
@@ -154,9 +128,9 @@ void MeshEditor::split_side(Halfedge to_middle, double spoke_length, const std::
   rest_[mesh_.edge(spoke)] = spoke_length;
   ++generation_[face];
   for (Halfedge part : {spoke, mesh_.opposite(spoke)}) {
-    copy_face(face, mesh_.face(part));
+    make_part(face, mesh_.face(part));
     for (Halfedge h : halfedges_of(mesh_, mesh_.face(part))) {
-      unset_springs(mesh_.edge(h));
+      attributes_.change(mesh_.edge(h));
       if (!texture_) continue;
       const Vertex v = mesh_.target(h);
       if (v == middle) (*texture_)[h] = blend_corners({texture[0], texture[1], texture[1]}, {1 - t, t, 0});
@@ -174,15 +148,13 @@ void MeshEditor::flip_edge(Edge edge) {
   const std::array<Face, 2> faces{mesh_.face(h), mesh_.face(mesh_.opposite(h))};
   const int generation = std::max(generation_[faces[0]], generation_[faces[1]]);
   for (Halfedge side : {to_c, mesh_.prev(h), to_d, mesh_.prev(mesh_.opposite(h))})
-    unset_springs(mesh_.edge(side));
+    attributes_.change(mesh_.edge(side));
   CGAL::Euler::flip_edge(h, mesh_);
   rest_[edge] = length;
-  line_edge_[edge] = false;
-  if (diagonal_) (*diagonal_)[edge] = false;
-  unset_springs(edge);
+  attributes_.flip(edge);
   for (Face face : faces) {
     generation_[face] = generation;
-    unset_triangle(face);
+    attributes_.change(face);
     changed_.insert(face);
   }
   if (!texture_) return;

@@ -4,21 +4,19 @@
 #include <set>
 #include <vector>
 
-#include "geometry/mesh/vertex_attributes.h"
+#include "geometry/mesh/carry_attributes.h"
 #include "geometry/rest/rest_metric.h"
 
 namespace furrow::geometry {
 
-/// The three local operators of insertion on a triangle mesh. Each sets, beside the half-edges, the position,
-/// the rest lengths and every other map of property_names.h that the mesh has: corner texture coordinates,
-/// colours, rest positions and attributes of vertices are interpolated, groups and materials copied; masses
-/// and bending springs of what changed become unset (their own operations compute them anew). Other maps get
-/// their defaults. Each operator is O(valence).
+/// The three local operators of insertion on a triangle mesh. Each sets, beside the half-edges, the position
+/// and the rest lengths, and carries every attribute of the mesh by its rule for insertion
+/// (attribute_register.h). Texture coordinates are interpolated in the corners; a split face counts one
+/// generation more, a flip gives both faces the larger. Each operator is O(valence).
 class MeshEditor {
  public:
   /// Adds the maps for rest lengths (in-space lengths where unset), rest positions (positions where unset),
-  /// lines, line edges and generations. An edge of a changed face loses its bending spring, rest angle and
-  /// stiffnesses, a changed face the rest lengths of its own: they become unset.
+  /// lines, line edges and generations.
   explicit MeshEditor(Mesh& mesh);
 
   /// Splits a face in three at a point strictly inside.
@@ -32,6 +30,7 @@ class MeshEditor {
   const Mesh& mesh() const { return mesh_; }
   const EdgeMap<double>& rest() const { return rest_; }
   VertexMap<int>& line() { return line_; }
+  const VertexMap<int>& line() const { return line_; }
   EdgeMap<bool>& line_edge() { return line_edge_; }
   const EdgeMap<bool>& line_edge() const { return line_edge_; }
   const FaceMap<int>& generation() const { return generation_; }
@@ -50,9 +49,7 @@ class MeshEditor {
   TextureCoordinate corner_in(Halfedge inside, Vertex vertex) const;
   void split_side(Halfedge to_middle, double spoke_length, const std::array<Vertex, 2>& ends,
                   const std::array<TextureCoordinate, 3>& texture, double t);
-  void copy_face(Face from, Face to);
-  void unset_springs(Edge edge);
-  void unset_triangle(Face face);
+  void make_part(Face whole, Face part);
 
   Mesh& mesh_;
   EdgeMap<double> rest_;
@@ -60,13 +57,8 @@ class MeshEditor {
   EdgeMap<bool> line_edge_;
   FaceMap<int> generation_;
   std::optional<HalfedgeMap<TextureCoordinate>> texture_;
-  VertexBlend blend_;
   std::optional<FaceMap<int>> group_, material_;
-  std::optional<EdgeMap<double>> bending_, stiffness_, bending_stiffness_, hinge_stiffness_, tension_;
-  std::optional<EdgeMap<bool>> diagonal_;
-  std::optional<EdgeMap<int>> bending_count_;
-  std::optional<EdgeMap<double>> rest_angle_;
-  std::optional<HalfedgeMap<double>> triangle_rest_;
+  EditedAttributes attributes_;
   std::set<Face> changed_;
 };
 

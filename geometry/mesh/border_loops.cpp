@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/preconditions.h"
 
 namespace furrow::geometry {
 namespace {
@@ -81,8 +82,8 @@ double rest_length(const Mesh& mesh, const BorderLoop& loop) {
     const Vertex a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.vertices.size()];
     const Halfedge h = mesh.halfedge(a, b);
     if (!h.is_valid())
-      throw std::invalid_argument("border loop: vertices " + std::to_string(a.idx()) + " and " +
-                                  std::to_string(b.idx()) + " are not joined by an edge");
+      refuse("border loop", "vertices " + std::to_string(a.idx()) + " and " + std::to_string(b.idx()) +
+                                " are not joined by an edge");
     sum += lengths[mesh.edge(h).idx()];
   }
   return sum;

@@ -6,18 +6,99 @@
 #include "geometry/mesh/struts.h"
 
 namespace furrow::geometry {
+namespace {
 
-SavedAttributes::SavedAttributes(const Mesh& mesh) : old_vertices_(mesh.number_of_vertices()) {
-  const auto texture = find_map(mesh, attribute::texture);
-  const auto group = find_map(mesh, attribute::group), material = find_map(mesh, attribute::material);
+template <std::size_t n>
+void add(std::array<double, n>& sum, double weight, const std::array<double, n>& value) {
+  for (std::size_t k = 0; k < n; ++k) sum[k] += weight * value[k];
+}
+void add(Vector& sum, double weight, const Vector& value) { sum += weight * value; }
+void add(double& sum, double weight, double value) { sum += weight * value; }
+
+template <class Value>
+concept Blendable = requires(Value sum) {
+  add(sum, 0.0, sum);
+};
+
+/// The weighted sum of the values of three keys. One of weight 0 is left out: an unset value (NaN) spoils
+/// only what it has a part in.
+template <class Map, class Keys>
+auto weighted(const Map& map, const Keys& keys, const std::array<double, 3>& weights) {
+  auto sum = typename Map::value_type{};
+  if constexpr (std::is_same_v<typename Map::value_type, Vector>) sum = Vector(0, 0, 0);
+  for (int i = 0; i < 3; ++i)
+    if (weights[i] != 0) add(sum, weights[i], map[keys[i]]);
+  return sum;
+}
+
+template <class Key, class Value>
+void set_all(const Mesh& mesh, Map<Key, Value> map, const Value& value) {
+  if constexpr (std::is_same_v<Key, Vertex>)
+    for (Vertex v : mesh.vertices()) map[v] = value;
+  else if constexpr (std::is_same_v<Key, Edge>)
+    for (Edge e : mesh.edges()) map[e] = value;
+  else if constexpr (std::is_same_v<Key, Halfedge>)
+    for (Halfedge h : mesh.halfedges()) map[h] = value;
+  else
+    for (Face f : mesh.faces()) map[f] = value;
+}
+
+}  // namespace
+
+VertexBlend::VertexBlend(const Mesh& mesh, CarryRule Carry::*rule)
+    : registered_(mesh), rule_(rule), others_(vertex_attributes(mesh)) {}
+
+void VertexBlend::set(Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) const {
+  registered_.for_each([&](const auto& attribute, const auto& before, auto map) {
+    if constexpr (Blendable<typename decltype(map)::value_type>)
+      if (attribute.carry.*rule_ == CarryRule::blend) map[to] = weighted(before, from, weights);
+  });
+  for (const VertexAttribute& attribute : others_) {
+    VertexMap<double> map = attribute.values;
+    map[to] = weighted(map, from, weights);
+  }
+}
+
+EditedAttributes::EditedAttributes(const Mesh& mesh)
+    : mesh_(mesh), vertices_(mesh, &Carry::insertion), faces_(mesh), edges_(mesh), halfedges_(mesh) {}
+
+void EditedAttributes::copy(Face whole, Face part) const {
+  faces_.for_each([&](const auto& attribute, const auto&, auto map) {
+    if (attribute.carry.insertion == CarryRule::copy) map[part] = map[whole];
+  });
+}
+
+void EditedAttributes::halve(Edge edge, Edge half) const {
+  edges_.for_each([&](const auto& attribute, const auto&, auto map) {
+    const CarryRule rule = attribute.carry.insertion;
+    if (rule == CarryRule::halves) map[half] = map[edge];
+    if (rule == CarryRule::fresh || rule == CarryRule::unset) map[edge] = map[half] = attribute.default_value;
+  });
+}
+
+void EditedAttributes::flip(Edge edge) const {
+  edges_.for_each([&](const auto& attribute, const auto&, auto map) {
+    if (attribute.carry.insertion != CarryRule::computed) map[edge] = attribute.default_value;
+  });
+}
+
+void EditedAttributes::change(Edge edge) const {
+  edges_.for_each([&](const auto& attribute, const auto&, auto map) {
+    if (attribute.carry.insertion == CarryRule::unset) map[edge] = attribute.default_value;
+  });
+}
+
+void EditedAttributes::change(Face face) const {
+  halfedges_.for_each([&](const auto& attribute, const auto&, auto map) {
+    if (attribute.carry.insertion != CarryRule::unset) return;
+    for (Halfedge h : halfedges_of(mesh_, face)) map[h] = attribute.default_value;
+  });
+}
+
+SavedAttributes::SavedAttributes(const Mesh& mesh) : before_(mesh) {
   for (Face f : mesh.faces()) {
-    std::array<Halfedge, 3> h = {mesh.halfedge(f)};
-    h[1] = mesh.next(h[0]);
-    h[2] = mesh.next(h[1]);
-    corners_.push_back({mesh.target(h[0]), mesh.target(h[1]), mesh.target(h[2])});
-    if (texture) texture_.push_back({(*texture)[h[0]], (*texture)[h[1]], (*texture)[h[2]]});
-    if (group) group_.push_back((*group)[f]);
-    if (material) material_.push_back((*material)[f]);
+    const Halfedge h = mesh.halfedge(f), next = mesh.next(h);
+    corners_.push_back({mesh.target(h), mesh.target(next), mesh.target(mesh.next(next))});
   }
 }
 
@@ -26,50 +107,61 @@ std::size_t SavedAttributes::corner(Face face, Vertex v) const {
   return static_cast<std::size_t>(std::find(c.begin(), c.end(), v) - c.begin());
 }
 
-TextureCoordinate SavedAttributes::texture_at(const Origin& at) const {
-  TextureCoordinate sum{0, 0};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (at.weights[i] == 0)
-      continue;  // a corner without a coordinate (NaN) spoils only what it has a part in
-    const TextureCoordinate& t = texture_[at.face.idx()][i];
-    sum = {sum[0] + at.weights[i] * t[0], sum[1] + at.weights[i] * t[1]};
-  }
-  return sum;
+void SavedAttributes::restore_vertices(Mesh& mesh) const {
+  AttributeMaps<Vertex>(mesh).for_each([&](const auto& attribute, const auto&, auto map) {
+    if (attribute.carry.subdivision == CarryRule::unset) set_all(mesh, map, attribute.default_value);
+  });
+  set_struts(mesh, {});
 }
 
-void SavedAttributes::restore(Mesh& mesh, const std::function<Face(Face)>& parent,
-                              const std::function<Origin(Vertex, Face)>& origin) const {
-  const auto texture = find_map(mesh, attribute::texture);
-  const auto group = find_map(mesh, attribute::group), material = find_map(mesh, attribute::material);
-  const VertexBlend blend(mesh);
-  if (texture)
-    for (Halfedge h : mesh.halfedges()) (*texture)[h] = attribute::texture.default_value;
+void SavedAttributes::restore_faces(Mesh& mesh, const std::function<Face(Face)>& parent) const {
+  AttributeMaps<Face>(before_, mesh).for_each([&](const auto& attribute, const auto& before, auto map) {
+    if (attribute.carry.subdivision == CarryRule::unset) set_all(mesh, map, attribute.default_value);
+    if (attribute.carry.subdivision != CarryRule::copy) return;
+    for (Face f : mesh.faces()) map[f] = before[parent(f)];
+  });
+}
+
+void SavedAttributes::restore_corners(Mesh& mesh, const std::function<Face(Face)>& parent,
+                                      const std::function<Origin(Vertex, Face)>& origin) const {
+  const VertexBlend blend(mesh, &Carry::subdivision);
+  const AttributeMaps<Halfedge> maps(before_, mesh);
+  maps.for_each([&](const auto& attribute, const auto&, auto map) {
+    if (attribute.carry.subdivision != CarryRule::computed) set_all(mesh, map, attribute.default_value);
+  });
   for (Face f : mesh.faces()) {
     const Face from = parent(f);
-    if (group) (*group)[f] = group_[from.idx()];
-    if (material) (*material)[f] = material_[from.idx()];
     for (Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
       const Vertex v = mesh.target(h);
       const Origin at = origin(v, from);
-      if (texture) (*texture)[h] = texture_at(at);
-      if (v.idx() >= old_vertices_) blend.set(v, corners_[at.face.idx()], at.weights);
+      maps.for_each([&](const auto& attribute, const auto& before, auto map) {
+        if constexpr (Blendable<typename decltype(map)::value_type>)
+          if (attribute.carry.subdivision == CarryRule::blend)
+            map[h] = weighted(before, halfedges_of(before_, at.face), at.weights);
+      });
+      if (v.idx() >= before_.number_of_vertices()) blend.set(v, corners_[at.face.idx()], at.weights);
     }
   }
 }
 
-void unset_rest_state(Mesh& mesh) {
-  for (const auto* name : {&attribute::rest_length, &attribute::bending_rest_length, &attribute::rest_angle,
-                           &attribute::stiffness, &attribute::bending_stiffness, &attribute::hinge_stiffness,
-                           &attribute::tension})
-    if (const auto map = find_map(mesh, *name))
-      for (Edge e : mesh.edges()) (*map)[e] = name->default_value;
-  if (const auto count = find_map(mesh, attribute::bending_count))
-    for (Edge e : mesh.edges()) (*count)[e] = attribute::bending_count.default_value;
-  if (const auto rest = find_map(mesh, attribute::triangle_rest_length))
-    for (Halfedge h : mesh.halfedges()) (*rest)[h] = attribute::triangle_rest_length.default_value;
-  set_struts(mesh, {});
-  if (const auto mass = find_map(mesh, attribute::mass))
-    for (Vertex v : mesh.vertices()) (*mass)[v] = attribute::mass.default_value;
+void SavedAttributes::restore(Mesh& mesh, const std::function<Face(Face)>& parent,
+                              const std::function<Origin(Vertex, Face)>& origin) const {
+  restore_vertices(mesh);
+  restore_faces(mesh, parent);
+  restore_corners(mesh, parent, origin);
+  AttributeMaps<Edge>(mesh).for_each(
+      [&](const auto& attribute, const auto&, auto map) { set_all(mesh, map, attribute.default_value); });
+}
+
+void SavedAttributes::restore_halves(Mesh& mesh) const {
+  AttributeMaps<Edge>(before_, mesh).for_each([&](const auto& attribute, const auto& before, auto map) {
+    if (attribute.carry.subdivision != CarryRule::halves) return;
+    for (Edge e : before_.edges()) {
+      if (before[e] == attribute.default_value) continue;
+      const Vertex middle(static_cast<Vertex::size_type>(before_.number_of_vertices() + e.idx()));
+      for (int end : {0, 1}) map[mesh.edge(mesh.halfedge(before_.vertex(e, end), middle))] = before[e];
+    }
+  });
 }
 
 }  // namespace furrow::geometry

@@ -9,6 +9,10 @@
 
 namespace furrow::geometry {
 
+void refuse(const char* operation, const std::string& what) {
+  throw std::invalid_argument(operation + (": " + what));
+}
+
 void require_finite(const Mesh& mesh, const char* operation) {
   for (Vertex v : mesh.vertices()) {
     const Point& p = mesh.point(v);
@@ -30,8 +34,7 @@ void require_triangles(const Mesh& mesh, const char* operation) {
 void require_vertices(const Mesh& mesh, std::span<const Vertex> vertices, const char* operation) {
   for (Vertex v : vertices) {
     if (v.is_valid() && v.idx() < mesh.num_vertices() && !mesh.is_removed(v)) continue;
-    throw std::invalid_argument(std::string(operation) + ": the mesh has no vertex " +
-                                (v.is_valid() ? std::to_string(v.idx()) : std::string("(null)")));
+    refuse(operation, "the mesh has no vertex " + (v.is_valid() ? std::to_string(v.idx()) : "(null)"));
   }
 }
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <tuple>
 
+#include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 
 namespace furrow::geometry {
@@ -19,17 +19,18 @@ bool has(const Mesh& mesh, Vertex v) {
   return v.is_valid() && v.idx() < mesh.num_vertices() && !mesh.is_removed(v);
 }
 
+[[noreturn]] void refuse(const Strut& s, const std::string& what) {
+  geometry::refuse("set_struts", "the strut between vertices " + std::to_string(s.a.idx()) + " and " +
+                                     std::to_string(s.b.idx()) + what);
+}
+
 void check(const Mesh& mesh, const Strut& s) {
-  const auto fail = [&](const std::string& what) {
-    throw std::invalid_argument("set_struts: the strut between vertices " + std::to_string(s.a.idx()) +
-                                " and " + std::to_string(s.b.idx()) + what);
-  };
-  if (!has(mesh, s.a) || !has(mesh, s.b)) fail(" names one that is not in the mesh");
-  if (!(s.a < s.b)) fail(" must name the lower one first");
+  if (!has(mesh, s.a) || !has(mesh, s.b)) refuse(s, " names one that is not in the mesh");
+  if (!(s.a < s.b)) refuse(s, " must name the lower one first");
   if (!(s.rest_length > 0) || !std::isfinite(s.rest_length))
-    fail(": rest_length = " + std::to_string(s.rest_length) + " m is not > 0 and finite");
+    refuse(s, ": rest_length = " + std::to_string(s.rest_length) + " m is not > 0 and finite");
   if (!(s.stiffness >= 0) || !std::isfinite(s.stiffness))
-    fail(": stiffness = " + std::to_string(s.stiffness) + " N/m is not >= 0 and finite");
+    refuse(s, ": stiffness = " + std::to_string(s.stiffness) + " N/m is not >= 0 and finite");
 }
 
 }  // namespace

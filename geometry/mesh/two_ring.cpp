@@ -2,7 +2,6 @@
 #include "geometry/mesh/two_ring.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
 #include "geometry/mesh/preconditions.h"
@@ -11,7 +10,7 @@
 namespace furrow::geometry {
 
 std::vector<Vertex> vertices_within_rings(const Mesh& mesh, std::span<const Vertex> seeds, int rings) {
-  if (rings < 0) throw std::invalid_argument("vertices_within_rings: rings is " + std::to_string(rings));
+  if (rings < 0) refuse("vertices_within_rings", "rings is " + std::to_string(rings));
   require_vertices(mesh, seeds, "vertices_within_rings");
   std::vector<char> seen(mesh.num_vertices(), 0);
   std::vector<Vertex> result;

@@ -4,23 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
 
 namespace furrow::geometry {
 namespace {
 
 const std::string prefix = "v:attribute:";
 const std::string weight = "weight_";
-
-template <class Value, std::size_t n>
-void blend(VertexMap<Value> map, Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) {
-  Value sum{};
-  for (int i = 0; i < 3; ++i)
-    for (std::size_t k = 0; weights[i] != 0 && k < n; ++k) sum[k] += weights[i] * map[from[i]][k];
-  map[to] = sum;
-}
 
 /// Leaves the `strongest` largest weights and makes their sum 1. False if all is well already.
 bool normalize(std::vector<double>& weights, int strongest) {
@@ -64,33 +56,9 @@ VertexMap<RestPosition> ensure_rest_positions(Mesh& mesh) {
   return rest;
 }
 
-VertexBlend::VertexBlend(const Mesh& mesh)
-    : color_(find_map(mesh, attribute::color)),
-      rest_position_(find_map(mesh, attribute::rest_position)),
-      velocity_(find_map(mesh, attribute::velocity)),
-      attributes_(vertex_attributes(mesh)) {}
-
-void VertexBlend::set(Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) const {
-  if (color_) blend<Color, 4>(*color_, to, from, weights);
-  if (rest_position_) blend<RestPosition, 3>(*rest_position_, to, from, weights);
-  if (auto velocity = velocity_) {
-    Vector sum(0, 0, 0);
-    for (int i = 0; i < 3; ++i) sum += weights[i] * (*velocity)[from[i]];
-    (*velocity)[to] = sum;
-  }
-  for (const VertexAttribute& attribute : attributes_) {
-    VertexMap<double> values = attribute.values;
-    double sum = 0;
-    for (int i = 0; i < 3; ++i)
-      if (weights[i] != 0) sum += weights[i] * values[from[i]];
-    values[to] = sum;
-  }
-}
-
 std::size_t normalize_skin_weights(Mesh& mesh, int strongest) {
   if (strongest < 0)
-    throw std::invalid_argument("normalize_skin_weights: strongest is " + std::to_string(strongest) +
-                                ", not >= 0");
+    refuse("normalize_skin_weights", "strongest is " + std::to_string(strongest) + ", not >= 0");
   std::vector<VertexAttribute> joints = vertex_attributes(mesh);
   std::erase_if(joints, [](const VertexAttribute& a) { return !a.name.starts_with(weight); });
   for (const VertexAttribute& joint : joints)

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh/face_point.h"
 #include "geometry/mesh/property_names.h"
 
 namespace furrow::geometry {
@@ -24,23 +23,6 @@ VertexMap<double> ensure_vertex_attribute(Mesh& mesh, const std::string& name);
 /// Rest positions, added and set to the positions where a vertex has none: before the cloth moves or lines
 /// are drawn.
 VertexMap<RestPosition> ensure_rest_positions(Mesh& mesh);
-
-/// Everything at vertices that is interpolated where a vertex is added: colours, rest positions,
-/// velocities, attributes.
-class VertexBlend {
- public:
-  /// Takes handles of the maps that the mesh has now.
-  explicit VertexBlend(const Mesh& mesh);
-  /// Sets the values of `to` to the weighted sum of those of three vertices (sum of weights 1). A weight of
-  /// exactly 0 leaves its vertex out, NaN or not. O(number of maps).
-  void set(Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) const;
-
- private:
-  std::optional<VertexMap<Color>> color_;
-  std::optional<VertexMap<RestPosition>> rest_position_;
-  std::optional<VertexMap<Vector>> velocity_;
-  std::vector<VertexAttribute> attributes_;
-};
 
 /// Skin weights are the attributes "weight_<joint>". Keeps the `strongest` largest of each vertex (0: all;
 /// at equal weight the joint added first), sets the others to 0 and divides by the sum. A vertex that loses

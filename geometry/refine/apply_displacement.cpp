@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/tangent_frames.h"
 #include "geometry/refine/subdivide.h"
@@ -36,9 +36,8 @@ std::array<double, 3> sample(const VectorMap& map, const TextureCoordinate& at) 
 void apply_displacement(Mesh& mesh, const VectorMap& displacement, int steps) {
   if (displacement.size < 1 ||
       displacement.texels.size() != std::size_t(displacement.size) * displacement.size)
-    throw std::invalid_argument("apply_displacement: the map has " +
-                                std::to_string(displacement.texels.size()) + " texels for a size of " +
-                                std::to_string(displacement.size));
+    refuse("apply_displacement", "the map has " + std::to_string(displacement.texels.size()) +
+                                     " texels for a size of " + std::to_string(displacement.size));
   if (!find_map(mesh, attribute::texture))
     throw ContentError("apply_displacement: the mesh has no texture coordinates");
   Mesh fine = mesh;

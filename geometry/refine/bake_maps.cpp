@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "geometry/mesh/errors.h"
@@ -159,8 +158,7 @@ class Baker {
 std::optional<BakedMaps> bake_maps(const Mesh& low, const Mesh& high, const BakeOptions& options,
                                    const BakeObserver& observer) {
   if (options.padding < 0 || options.padding > 1024)
-    throw std::invalid_argument("bake: padding must be in [0, 1024] texels, not " +
-                                std::to_string(options.padding));
+    refuse("bake", "padding must be in [0, 1024] texels, not " + std::to_string(options.padding));
   Baker baker(low, high, options);
   if (!baker.fill(observer) || !baker.pad(observer)) return std::nullopt;
   return baker.take();

@@ -55,64 +55,46 @@ class MidpointMask : public CGAL::PQQ_stencil_3<Mesh, PointMap> {
 };
 
 void check(Mesh& mesh, int steps, int faces_per_face, const char* operation) {
-  if (steps < 0 || steps > 6)
-    throw std::invalid_argument(std::string(operation) + ": steps is " + std::to_string(steps) +
-                                ", not in [0, 6]");
+  if (steps < 0 || steps > 6) refuse(operation, "steps is " + std::to_string(steps) + ", not in [0, 6]");
   require_triangles(mesh, operation);
   require_finite(mesh, operation);
   const double faces = static_cast<double>(mesh.number_of_faces()) * std::pow(faces_per_face, steps);
   if (faces > 50e6)
-    throw std::invalid_argument(std::string(operation) + ": steps is " + std::to_string(steps) +
-                                ", which would make more than 50 million faces");
+    refuse(operation, "steps is " + std::to_string(steps) + ", which would make more than 50 million faces");
   if (steps > 0) mesh.collect_garbage();
 }
 
-/// Marks the halves of the edges of lines, and gives their mid-points the line of both ends.
-void carry_lines(Mesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& old_edges,
-                 const std::vector<char>& was_line_edge, std::size_t old_vertices) {
+/// CGAL appends the mid-points in the order of the edges.
+Vertex middle_of(const Mesh& before, Edge e) {
+  return Vertex(static_cast<Vertex::size_type>(before.number_of_vertices() + e.idx()));
+}
+
+/// Mid-points of the edges of lines get the line of both ends.
+void carry_lines(const Mesh& before, Mesh& mesh) {
   const auto line = find_map(mesh, attribute::line);
-  const auto line_edge = find_map(mesh, attribute::line_edge);
-  if (line_edge)
-    for (Edge e : mesh.edges()) (*line_edge)[e] = false;
-  for (std::size_t i = 0; i < old_edges.size(); ++i) {
-    if (!was_line_edge[i]) continue;
-    const auto [a, b] = old_edges[i];
-    const Vertex mid(static_cast<Vertex::size_type>(old_vertices + i));
-    if (line && (*line)[a] == (*line)[b]) (*line)[mid] = (*line)[a];
-    for (Vertex end : {a, b}) (*line_edge)[mesh.edge(mesh.halfedge(end, mid))] = true;
+  const auto was_line_edge = find_map(before, attribute::line_edge);
+  if (!line || !was_line_edge) return;
+  for (Edge e : before.edges()) {
+    const Vertex a = before.vertex(e, 0), b = before.vertex(e, 1);
+    if ((*was_line_edge)[e] && (*line)[a] == (*line)[b]) (*line)[middle_of(before, e)] = (*line)[a];
   }
 }
 
-/// Diagonals (attribute::diagonal) of a mesh before a step that cuts triangles into four.
-class Diagonals {
- public:
-  explicit Diagonals(const Mesh& mesh) : map_(find_map(mesh, attribute::diagonal)) {
-    if (!map_) return;
-    for (Edge e : mesh.edges()) {
-      if (!(*map_)[e]) continue;
-      halved_.push_back(e);
-      for (Halfedge h : {mesh.halfedge(e), mesh.opposite(mesh.halfedge(e))})
-        if (!mesh.is_border(h)) parallel_.emplace_back(mesh.edge(mesh.next(h)), mesh.edge(mesh.prev(h)));
-    }
+/// Marks the halves of diagonals, and the new edges parallel to them: between the mid-points of the other two
+/// sides of a face.
+void carry_diagonals(const Mesh& before, Mesh& mesh) {
+  const auto was_diagonal = find_map(before, attribute::diagonal);
+  const auto diagonal = find_map(mesh, attribute::diagonal);
+  if (!was_diagonal || !diagonal) return;
+  const auto mark = [&](Vertex a, Vertex b) { (*diagonal)[mesh.edge(mesh.halfedge(a, b))] = true; };
+  for (Edge e : before.edges()) {
+    if (!(*was_diagonal)[e]) continue;
+    for (int end : {0, 1}) mark(before.vertex(e, end), middle_of(before, e));
+    for (Halfedge h : {before.halfedge(e), before.opposite(before.halfedge(e))})
+      if (!before.is_border(h))
+        mark(middle_of(before, before.edge(before.next(h))), middle_of(before, before.edge(before.prev(h))));
   }
-  /// Marks their halves, and the new edges parallel to them: between the mid-points of a face's other sides.
-  void carry(const Mesh& mesh, const std::vector<std::pair<Vertex, Vertex>>& old_edges,
-             std::size_t old_vertices) const {
-    if (!map_) return;
-    auto map = *map_;
-    const auto mid = [&](Edge e) { return Vertex(static_cast<Vertex::size_type>(old_vertices + e.idx())); };
-    for (Edge e : mesh.edges()) map[e] = false;
-    for (Edge e : halved_)
-      for (Vertex end : {old_edges[e.idx()].first, old_edges[e.idx()].second})
-        map[mesh.edge(mesh.halfedge(end, mid(e)))] = true;
-    for (const auto& [a, b] : parallel_) map[mesh.edge(mesh.halfedge(mid(a), mid(b)))] = true;
-  }
-
- private:
-  std::optional<EdgeMap<bool>> map_;
-  std::vector<Edge> halved_;
-  std::vector<std::pair<Edge, Edge>> parallel_;  // the other two sides of each face beside a diagonal
-};
+}
 
 /// A face keeps its index for one of its four parts; the other three are appended, face by face.
 Face old_parent(Face f, std::size_t old_faces) {
@@ -124,20 +106,15 @@ template <class Mask>
 void quadrisect(Mesh& mesh) {
   const SavedAttributes saved(mesh);
   const std::size_t old_vertices = mesh.number_of_vertices(), old_faces = mesh.number_of_faces();
-  std::vector<std::pair<Vertex, Vertex>> ends;  // CGAL appends the mid-points in the order of the edges
-  std::vector<char> was_line_edge;
-  const auto line_edge = find_map(mesh, attribute::line_edge);
-  for (Edge e : mesh.edges()) {
-    ends.emplace_back(mesh.vertex(e, 0), mesh.vertex(e, 1));
-    was_line_edge.push_back(line_edge && (*line_edge)[e]);
-  }
-  const Diagonals diagonals(mesh);
+  const Mesh& before = saved.before();
   Mask mask(mesh);
   cgal::PTQ(mesh, mask, CGAL::parameters::number_of_iterations(1));
   const auto parent = [&](Face f) { return old_parent(f, old_faces); };
   const auto origin = [&](Vertex v, Face in) {
     Origin at{in};
-    const auto [a, b] = v.idx() < old_vertices ? std::pair(v, v) : ends[v.idx() - old_vertices];
+    const bool is_old = v.idx() < old_vertices;
+    const Edge cut(is_old ? Edge() : Edge(static_cast<Edge::size_type>(v.idx() - old_vertices)));
+    const Vertex a = is_old ? v : before.vertex(cut, 0), b = is_old ? v : before.vertex(cut, 1);
     if (saved.corner(in, a) == 3 || saved.corner(in, b) == 3)
       throw std::logic_error("subdivide: CGAL numbers its faces in an unknown way");
     at.weights[saved.corner(in, a)] += 0.5;
@@ -145,8 +122,9 @@ void quadrisect(Mesh& mesh) {
     return at;
   };
   saved.restore(mesh, parent, origin);
-  carry_lines(mesh, ends, was_line_edge, old_vertices);
-  diagonals.carry(mesh, ends, old_vertices);
+  saved.restore_halves(mesh);
+  carry_lines(before, mesh);
+  carry_diagonals(before, mesh);
 }
 
 /// Where CGAL's step will put the new vertices, in its order: the centroid of each face, or, where the border
@@ -193,9 +171,6 @@ void sqrt3_step(Mesh& mesh, bool refine_border) {
     return at;
   };
   saved.restore(mesh, parent, origin);
-  for (const auto* name : {&attribute::line_edge, &attribute::diagonal})
-    if (const auto map = find_map(mesh, *name))
-      for (Edge e : mesh.edges()) (*map)[e] = false;
 }
 
 }  // namespace
@@ -203,7 +178,6 @@ void sqrt3_step(Mesh& mesh, bool refine_border) {
 void loop_subdivide(Mesh& mesh, int steps) {
   check(mesh, steps, 4, "loop_subdivide");
   for (int i = 0; i < steps; ++i) quadrisect<KeepIsolated<CGAL::Loop_mask_3<Mesh, PointMap>>>(mesh);
-  if (steps > 0) unset_rest_state(mesh);
 }
 
 std::vector<Face> midpoint_subdivide(Mesh& mesh, int steps) {
@@ -216,14 +190,12 @@ std::vector<Face> midpoint_subdivide(Mesh& mesh, int steps) {
     for (std::size_t f = old_faces; f < mesh.number_of_faces(); ++f)
       parents.push_back(parents[old_parent(Face(static_cast<Face::size_type>(f)), old_faces).idx()]);
   }
-  if (steps > 0) unset_rest_state(mesh);
   return parents;
 }
 
 void sqrt3_subdivide(Mesh& mesh, int steps) {
   check(mesh, steps, 3, "sqrt3_subdivide");
   for (int i = 0; i < steps; ++i) sqrt3_step(mesh, i % 2 == 1);
-  if (steps > 0) unset_rest_state(mesh);
 }
 
 }  // namespace furrow::geometry

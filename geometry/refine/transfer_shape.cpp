@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -96,8 +95,7 @@ class Transfer {
 
 TransferReport transfer_shape(Mesh& original, const Mesh& wrinkled, const TransferOptions& options) {
   if (!(options.max_distance > 0))
-    throw std::invalid_argument("transfer: max_distance must be > 0 m, not " +
-                                std::to_string(options.max_distance));
+    refuse("transfer", "max_distance must be > 0 m, not " + std::to_string(options.max_distance));
   require_finite(original, "transfer");
   require_finite(wrinkled, "transfer");
   Transfer transfer(original, wrinkled, options);

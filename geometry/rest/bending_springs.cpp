@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -141,7 +140,7 @@ void rebuild_bending_springs(Mesh& mesh) {
 void rebuild_bending_springs(Mesh& mesh, std::span<const Face> changed) {
   for (Face f : changed) {
     if (f.is_valid() && f.idx() < mesh.num_faces() && !mesh.is_removed(f)) continue;
-    throw std::invalid_argument("rebuild_bending_springs: the mesh has no face " + std::to_string(f.idx()));
+    refuse("rebuild_bending_springs", "the mesh has no face " + std::to_string(f.idx()));
   }
   const std::vector<Edge> edges = edges_around(mesh, changed);
   for (Edge e : edges)

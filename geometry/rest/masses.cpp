@@ -2,7 +2,6 @@
 #include "geometry/rest/masses.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "geometry/mesh/edge_metric.h"
@@ -13,8 +12,7 @@ namespace furrow::geometry {
 
 double lump_masses(Mesh& mesh, double density) {
   if (!(density > 0) || !std::isfinite(density))
-    throw std::invalid_argument("lump_masses: density is " + std::to_string(density) +
-                                " kg/m^2; it must be finite and > 0");
+    refuse("lump_masses", "density is " + std::to_string(density) + " kg/m^2; it must be finite and > 0");
   require_triangles(mesh, "lump_masses");
   const std::vector<double> lengths = rest_lengths(mesh);
   auto mass = ensure_map(mesh, attribute::mass);

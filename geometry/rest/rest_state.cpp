@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 #include "geometry/mesh/edge_metric.h"
@@ -77,10 +76,10 @@ RestSnapshot take_rest_snapshot(const Mesh& mesh) {
 
 RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule) {
   if (before.positions.size() != mesh.num_vertices() || before.edges != mesh.num_edges())
-    throw std::invalid_argument(
-        "apply_rest_rule: the snapshot has " + std::to_string(before.positions.size()) + " vertices and " +
-        std::to_string(before.edges) + " edges, the mesh has " + std::to_string(mesh.num_vertices()) +
-        " and " + std::to_string(mesh.num_edges()));
+    refuse("apply_rest_rule", "the snapshot has " + std::to_string(before.positions.size()) +
+                                  " vertices and " + std::to_string(before.edges) + " edges, the mesh has " +
+                                  std::to_string(mesh.num_vertices()) + " and " +
+                                  std::to_string(mesh.num_edges()));
   require_finite(mesh, "apply_rest_rule");
   RestReport report;
   if (rule == RestRule::flat) return report;

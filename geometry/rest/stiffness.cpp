@@ -7,18 +7,17 @@
 
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
 #include "geometry/rest/bending_springs.h"
 
 namespace furrow::geometry {
 
 double spring_stiffness(double rest_length, double mean_rest_length, double k_std, StiffnessLaw law) {
-  const auto require = [](bool holds, const char* name, double value) {
-    if (holds && std::isfinite(value)) return;
-    throw std::invalid_argument(std::string("spring_stiffness: ") + name + " is " + std::to_string(value));
-  };
-  require(rest_length > 0, "rest_length", rest_length);
-  require(mean_rest_length > 0, "mean_rest_length", mean_rest_length);
-  require(k_std >= 0, "k_std", k_std);
+  if (!(rest_length > 0) || !std::isfinite(rest_length))
+    refuse("spring_stiffness", "rest_length is " + std::to_string(rest_length));
+  if (!(mean_rest_length > 0) || !std::isfinite(mean_rest_length))
+    refuse("spring_stiffness", "mean_rest_length is " + std::to_string(mean_rest_length));
+  if (!(k_std >= 0) || !std::isfinite(k_std)) refuse("spring_stiffness", "k_std is " + std::to_string(k_std));
   switch (law) {
     case StiffnessLaw::proportional:
       return rest_length / mean_rest_length * k_std;
@@ -27,7 +26,7 @@ double spring_stiffness(double rest_length, double mean_rest_length, double k_st
     case StiffnessLaw::inverse:
       return mean_rest_length / rest_length * k_std;
   }
-  throw std::invalid_argument("spring_stiffness: there is no such law");
+  refuse("spring_stiffness", "there is no such law");
 }
 
 double mean_rest_length(const Mesh& mesh) {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
 #include "geometry/stroke/stroke_tracer.h"
 
 namespace furrow::geometry {
@@ -136,8 +136,8 @@ void place_nodes(const Mesh& mesh, std::vector<SubStroke>& sub_strokes) {
 
 TracedStroke trace_stroke(const Mesh& mesh, const SurfaceProjector& projector, const Stroke& stroke,
                           const TraceOptions& options) {
-  if (!(options.max_distance > 0)) throw std::invalid_argument("trace_stroke: max_distance must be > 0 m");
-  if (!(options.mean_edge > 0)) throw std::invalid_argument("trace_stroke: mean_edge must be > 0 m");
+  if (!(options.max_distance > 0)) refuse("trace_stroke", "max_distance must be > 0 m");
+  if (!(options.mean_edge > 0)) refuse("trace_stroke", "mean_edge must be > 0 m");
   check_content(stroke);
   const std::vector<double> parameters = parameters_of(stroke);
   std::vector<StrokeHit> original;

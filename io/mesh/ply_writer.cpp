@@ -6,15 +6,12 @@
 #include <ostream>
 #include <tuple>
 
+#include "geometry/mesh/attribute_slots.h"
 #include "geometry/mesh/errors.h"
-#include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/base/number_text.h"
 #include "io/mesh/mesh_writers.h"
-#include "io/mesh/ply_edges.h"
-#include "io/mesh/ply_motion.h"
-#include "io/mesh/ply_triangles.h"
 
 namespace furrow::io {
 namespace {
@@ -23,46 +20,41 @@ using namespace geometry;
 
 constexpr const char* ends = "property int vertex1\nproperty int vertex2\n";
 
+bool are_bytes(const Mesh& mesh, const VertexMap<Color>& colors) {
+  return std::ranges::all_of(mesh.vertices(), [&](Vertex v) {
+    return std::ranges::all_of(colors[v], [](double c) { return std::round(c * 255) / 255 == c; });
+  });
+}
+
+/// Every registered attribute that the mesh has becomes its columns, in the register's order.
 class PlyWriter {
  public:
   PlyWriter(const MeshFile& file, const WriteOptions& options)
       : file_(file),
         mesh_(file.mesh),
         options_(options),
-        colors_(find_map(mesh_, attribute::color)),
-        lines_(find_map(mesh_, attribute::line)),
-        masses_(find_map(mesh_, attribute::mass)),
-        rest_positions_(find_map(mesh_, attribute::rest_position)),
-        attributes_(vertex_attributes(mesh_)),
-        textures_(find_map(mesh_, attribute::texture)),
-        groups_(find_map(mesh_, attribute::group)),
-        materials_(find_map(mesh_, attribute::material)),
-        generations_(find_map(mesh_, attribute::generation)),
-        triangle_lengths_(find_map(mesh_, attribute::triangle_rest_length)),
-        bending_counts_(find_map(mesh_, attribute::bending_count)),
-        line_edges_(find_map(mesh_, attribute::line_edge)),
-        diagonals_(find_map(mesh_, attribute::diagonal)),
+        of_vertices_(mesh_),
+        of_faces_(mesh_),
+        of_edges_(mesh_),
+        others_(vertex_attributes(mesh_)),
         struts_(struts(mesh_)) {
-    for (const PlyEdgeNumber& number : ply_edge_numbers())
-      if (const auto map = find_map(mesh_, number.map)) edge_numbers_.emplace_back(&number, *map);
-    byte_colors_ =
-        colors_ && std::ranges::all_of(mesh_.vertices(), [&](Vertex v) {
-          return std::ranges::all_of((*colors_)[v], [](double c) { return std::round(c * 255) / 255 == c; });
-        });
+    const auto colors = find_map(mesh_, attribute::color);
+    byte_colors_ = colors && are_bytes(mesh_, *colors);
+    of_edges_.for_each([&](const auto& attribute, const auto&, const auto&) {
+      has_edges_ = has_edges_ || attribute.ply.value != PlyValue::none;
+    });
   }
 
   std::string bytes() {
     write_header();
     write_vertices();
     write_faces();
-    if (has_edges()) write_edges();
+    if (has_edges_) write_edges();
     for (const Strut& s : struts_) write_strut(s);
     return std::move(out_);
   }
 
  private:
-  bool has_edges() const { return !edge_numbers_.empty() || bending_counts_ || line_edges_ || diagonals_; }
-
   template <class T>
   void put(T value) {
     auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
@@ -72,6 +64,25 @@ class PlyWriter {
   void put_index(std::size_t value) { put(static_cast<std::int32_t>(value)); }
   /// Length in the file's unit.
   void put_length(double metres) { put(metres / options_.metres_per_unit); }
+
+  void put_value(PlyValue, int value) { put(static_cast<std::int32_t>(value)); }
+  void put_value(PlyValue, bool value) { put(static_cast<std::uint8_t>(value)); }
+  void put_value(PlyValue kind, double value) { kind == PlyValue::length ? put_length(value) : put(value); }
+  void put_value(PlyValue, const Vector& value) {
+    for (int k = 0; k < 3; ++k) put(value[k]);
+  }
+  void put_value(PlyValue kind, const RestPosition& p) {
+    put_value(kind, to_file({p[0], p[1], p[2]}, options_));
+  }
+  void put_value(PlyValue, const Color& color) {
+    for (const double c : color) byte_colors_ ? put(static_cast<std::uint8_t>(std::lround(c * 255))) : put(c);
+  }
+
+  template <class K, class V>
+  void put_at(const Attribute<K, V>& attribute, const Map<K, V>& map, K key) {
+    const V& value = map[key];
+    if (attribute.ply.value != PlyValue::none) put_value(attribute.ply.value, value);
+  }
 
   void write_names(const char* kind, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -83,8 +94,33 @@ class PlyWriter {
     out_ += std::string("element ") + element + " " + std::to_string(count) + "\n";
   }
 
+  const char* type_of(PlyValue kind) const {
+    switch (kind) {
+      case PlyValue::color:
+        return byte_colors_ ? "uchar " : "double ";
+      case PlyValue::index:
+      case PlyValue::count:
+        return "int ";
+      case PlyValue::flag:
+        return "uchar ";
+      case PlyValue::texture:
+        return "list uchar double ";
+      default:
+        return "double ";
+    }
+  }
+
+  template <class Maps>
+  void declare_columns(const Maps& maps) {
+    maps.for_each([&](const auto& attribute, const auto&, const auto&) {
+      const PlyColumns& columns = attribute.ply;
+      for (std::size_t k = 0; columns.value != PlyValue::none && k < columns.size(); ++k)
+        out_ += std::string("property ") + type_of(columns.value) + columns.names[k] + "\n";
+    });
+  }
+
   /// `vertex` is where the element begins.
-  void declare_attribute(const std::string& name, std::size_t vertex) {
+  void declare_other(const std::string& name, std::size_t vertex) {
     if (out_.find(" " + name + "\n", vertex) != std::string::npos)
       throw ContentError("the vertex attribute '" + name +
                          "' has the name of another column of the PLY; rename it in the garment's file");
@@ -99,88 +135,67 @@ class PlyWriter {
     const std::size_t vertex = out_.size();
     declare("vertex", mesh_.number_of_vertices());
     out_ += "property double x\nproperty double y\nproperty double z\n";
-    if (colors_)
-      for (const char* channel : {"red", "green", "blue", "alpha"})
-        out_ += std::string("property ") + (byte_colors_ ? "uchar " : "double ") + channel + "\n";
-    if (lines_) out_ += "property int line\n";
-    if (masses_) out_ += "property double mass\n";
-    out_ += ply_motion_header(mesh_);
-    if (rest_positions_) out_ += "property double rest_x\nproperty double rest_y\nproperty double rest_z\n";
-    for (const VertexAttribute& attribute : attributes_) declare_attribute(one_line(attribute.name), vertex);
+    declare_columns(of_vertices_);
+    for (const VertexAttribute& attribute : others_) declare_other(one_line(attribute.name), vertex);
     declare("face", mesh_.number_of_faces());
     out_ += "property list uchar int vertex_indices\n";
-    if (textures_) out_ += "property list uchar double texcoord\n";
-    if (groups_) out_ += "property int group\n";
-    if (materials_) out_ += "property int material\n";
-    if (generations_) out_ += "property int generation\n";
-    if (triangle_lengths_)
-      for (const char* name : ply_triangle_lengths) out_ += std::string("property double ") + name + "\n";
-    declare_edges();
+    declare_columns(of_faces_);
+    if (has_edges_) {
+      declare("edge", mesh_.number_of_edges());
+      out_ += ends;
+      declare_columns(of_edges_);
+    }
     if (!struts_.empty()) {
       declare("strut", struts_.size());
-      out_ += std::string(ends) + "property double rest_length\nproperty double stiffness\n";
+      out_ += ends;
+      out_ += "property double rest_length\nproperty double stiffness\n";
     }
     out_ += "end_header\n";
-  }
-
-  void declare_edges() {
-    if (!has_edges()) return;
-    declare("edge", mesh_.number_of_edges());
-    out_ += ends;
-    for (const auto& [number, map] : edge_numbers_)
-      out_ += std::string("property double ") + number->name + "\n";
-    if (bending_counts_) out_ += "property int bending_count\n";
-    if (line_edges_) out_ += "property uchar line_edge\n";
-    if (diagonals_) out_ += "property uchar diagonal\n";
   }
 
   void write_vertices() {
     for (const Vertex v : mesh_.vertices()) {
       const Vector p = to_file(mesh_.point(v), options_);
       for (int k = 0; k < 3; ++k) put(p[k]);
-      if (colors_)
-        for (const double c : (*colors_)[v])
-          byte_colors_ ? put(static_cast<std::uint8_t>(std::lround(c * 255))) : put(c);
-      if (lines_) put(static_cast<std::int32_t>((*lines_)[v]));
-      if (masses_) put((*masses_)[v]);
-      put_ply_motion(mesh_, v, [&](double x) { put(x); });
-      if (rest_positions_) put_rest_position((*rest_positions_)[v]);
-      for (const VertexAttribute& attribute : attributes_) put(attribute.values[v]);
+      of_vertices_.for_each(
+          [&](const auto& attribute, const auto&, const auto& map) { put_at(attribute, map, v); });
+      for (const VertexAttribute& attribute : others_) put(attribute.values[v]);
     }
   }
 
-  void put_rest_position(const RestPosition& p) {
-    const Vector v = to_file({p[0], p[1], p[2]}, options_);
-    for (int k = 0; k < 3; ++k) put(v[k]);
+  template <class V>
+  void put_of_face(const Attribute<Face, V>& attribute, const FaceMap<V>& map, Face f) {
+    put_at(attribute, map, f);
+  }
+  void put_of_face(const Attribute<Halfedge, TextureCoordinate>&, const HalfedgeMap<TextureCoordinate>& map,
+                   Face f) {
+    put(std::uint8_t{6});
+    for (const Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f)))
+      for (const double t : map[h]) put(t);
+  }
+  /// Of the edges between the corners 0 and 1, 1 and 2, 2 and 0.
+  void put_of_face(const Attribute<Halfedge, double>& attribute, const HalfedgeMap<double>& map, Face f) {
+    for (const Halfedge h : mesh_.halfedges_around_face(mesh_.next(mesh_.halfedge(f))))
+      put_value(attribute.ply.value, map[h]);
   }
 
   void write_faces() {
     for (const Face f : mesh_.faces()) {
       put(std::uint8_t{3});
       for (const Vertex v : mesh_.vertices_around_face(mesh_.halfedge(f))) put_index(numbers_[v]);
-      if (textures_) {
-        put(std::uint8_t{6});
-        for (const Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f)))
-          for (const double t : (*textures_)[h]) put(t);
-      }
-      if (groups_) put(static_cast<std::int32_t>((*groups_)[f]));
-      if (materials_) put(static_cast<std::int32_t>((*materials_)[f]));
-      if (generations_) put(static_cast<std::int32_t>((*generations_)[f]));
-      if (!triangle_lengths_) continue;
-      for (const Halfedge h : mesh_.halfedges_around_face(mesh_.next(mesh_.halfedge(f))))  // 01, 12, 20
-        put_length((*triangle_lengths_)[h]);
+      of_faces_.for_each([&](const auto& attribute, const auto&, const auto& map) {
+        if (attribute.ply.value != PlyValue::none) put_of_face(attribute, map, f);
+      });
     }
   }
 
   void write_edges() {
-    for (const auto& [a, b, e] : sorted_edges()) {
+    for (const auto& [a, b, edge] : sorted_edges()) {
       put_index(a);
       put_index(b);
-      for (const auto& [number, map] : edge_numbers_)
-        number->kind == PlyEdgeNumber::Kind::length ? put_length(map[e]) : put(map[e]);
-      if (bending_counts_) put(static_cast<std::int32_t>((*bending_counts_)[e]));
-      if (line_edges_) put(static_cast<std::uint8_t>((*line_edges_)[e]));
-      if (diagonals_) put(static_cast<std::uint8_t>((*diagonals_)[e]));
+      const Edge e = edge;  // what a structured binding names cannot be captured by every compiler
+      of_edges_.for_each(
+          [&](const auto& attribute, const auto&, const auto& map) { put_at(attribute, map, e); });
     }
   }
 
@@ -206,20 +221,19 @@ class PlyWriter {
   const Mesh& mesh_;
   const WriteOptions& options_;
   std::vector<std::size_t> numbers_ = vertex_numbers(mesh_);
-  std::optional<VertexMap<Color>> colors_;
-  std::optional<VertexMap<int>> lines_;
-  std::optional<VertexMap<double>> masses_;
-  std::optional<VertexMap<RestPosition>> rest_positions_;
-  std::vector<VertexAttribute> attributes_;
-  std::optional<HalfedgeMap<TextureCoordinate>> textures_;
-  std::optional<FaceMap<int>> groups_, materials_, generations_;
-  std::optional<HalfedgeMap<double>> triangle_lengths_;
-  std::optional<EdgeMap<int>> bending_counts_;
-  std::optional<EdgeMap<bool>> line_edges_, diagonals_;
-  std::vector<std::pair<const PlyEdgeNumber*, EdgeMap<double>>> edge_numbers_;
+  AttributeMaps<Vertex> of_vertices_;
+  AttributeMaps<Face, Halfedge> of_faces_;
+  AttributeMaps<Edge> of_edges_;
+  std::vector<VertexAttribute> others_;
   std::vector<Strut> struts_;
-  bool byte_colors_ = false;
+  bool byte_colors_ = false, has_edges_ = false;
   std::string out_;
+};
+
+template <class A>
+struct Named {
+  explicit Named(const A& a) : columns(a.ply) {}
+  PlyColumns columns;
 };
 
 }  // namespace
@@ -228,6 +242,17 @@ void write_ply(std::ostream& out, const MeshFile& file, const WriteOptions& opti
   check_positions(file.mesh, options);
   const std::string bytes = PlyWriter(file, options).bytes();
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+void check_state_attributes(const Mesh& mesh) {
+  AttributeSlots<Named, Vertex>().for_each([&](const auto& slot) {
+    if (slot.columns.value != PlyValue::state) return;
+    for (const VertexAttribute& attribute : vertex_attributes(mesh))
+      for (std::size_t k = 0; k < slot.columns.size(); ++k)
+        if (attribute.name == slot.columns.names[k])
+          throw ContentError("the vertex attribute '" + attribute.name +
+                             "' has the name of a column of saved states; rename it in the garment's file");
+  });
 }
 
 }  // namespace furrow::io

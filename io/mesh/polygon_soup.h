@@ -19,9 +19,6 @@ struct SoupAttribute {
 struct PolygonSoup {
   std::vector<geometry::Point> points;  ///< in the file's order; metres, y up; finite
   std::vector<geometry::Color> colors;  ///< empty, or one a point
-  std::vector<int> lines;               ///< empty, or one a point: geometry::attribute::line
-  std::vector<double> masses;           ///< empty, or one a point: geometry::attribute::mass [kg]
-  std::vector<geometry::RestPosition> rest_positions;  ///< empty, or one a point: metres, y up
   std::vector<SoupAttribute> attributes;
   std::vector<std::size_t> first_corner = {0};  ///< F + 1 numbers: face f has corners [f], …, [f + 1] - 1
   std::vector<std::size_t> corners;             ///< point of each corner, from 0; may be out of range
@@ -30,7 +27,6 @@ struct PolygonSoup {
   std::vector<double> triangle_rest_lengths;
   std::vector<int> groups;              ///< empty, or one a face
   std::vector<int> materials;           ///< empty, or one a face
-  std::vector<int> generations;         ///< empty, or one a face: geometry::attribute::generation
   std::vector<std::size_t> face_lines;  ///< line of the file of each face, for errors; or empty
 
   std::size_t faces() const { return first_corner.size() - 1; }

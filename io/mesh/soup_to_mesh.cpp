@@ -149,9 +149,6 @@ void mark_diagonals(const PolygonSoup& soup, const Triangles& triangles, Mesh& m
 
 void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& out) {
   fill_vertex_map(out, attribute::color, soup.colors);
-  fill_vertex_map(out, attribute::line, soup.lines);
-  fill_vertex_map(out, attribute::mass, soup.masses);
-  fill_vertex_map(out, attribute::rest_position, soup.rest_positions);
   for (const SoupAttribute& attribute : soup.attributes) {
     auto values = ensure_vertex_attribute(out.mesh, attribute.name);
     for (const Vertex v : out.mesh.vertices()) values[v] = attribute.values[out.origin[v]];
@@ -164,10 +161,6 @@ void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& ou
   if (!soup.materials.empty()) {
     auto materials = ensure_map(mesh, attribute::material);
     for (const Face f : mesh.faces()) materials[f] = soup.materials[triangles[f].face];
-  }
-  if (!soup.generations.empty()) {
-    auto generations = ensure_map(mesh, attribute::generation);
-    for (const Face f : mesh.faces()) generations[f] = soup.generations[triangles[f].face];
   }
   fill_corners(soup, triangles, mesh);
   mark_diagonals(soup, triangles, mesh);
@@ -195,6 +188,7 @@ SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name) {
       throw ContentError(name +
                          ": the faces cannot be parted into a manifold; repair the mesh in a modeller");
   }
+  for (const SoupTriangle& t : triangles) out.face_origin.push_back(t.face);
   fill_maps(soup, triangles, out);
   for (const Vertex v : out.mesh.vertices()) out.repairs.isolated_vertices += out.mesh.is_isolated(v);
   return out;

@@ -12,17 +12,18 @@ struct SoupMesh {
   RepairReport repairs;
   /// The soup's point of each vertex: i for vertex i, but for those added at the end.
   std::vector<std::size_t> origin;
+  std::vector<std::size_t> face_origin;  ///< the soup's face of each face
 };
 
-/// Makes an oriented manifold of triangles from a soup, in order: vertex i is point i, triangles follow the
-/// faces. Faces are cut by triangulate_polygon(). Triangles with a repeated corner, and those with the three
-/// vertices of an earlier one (whichever way they wind), are dropped. If the rest is no oriented manifold
-/// already, make_manifold() turns faces and appends copies of vertices. Unused points stay as isolated
-/// vertices. Sets v:color, v:line, v:mass, v:rest_position, vertex attributes, h:texture, h:rest_length,
-/// f:group, f:material, and e:diagonal where a face of four corners was cut, where the soup has them; copies
-/// carry them along. Throws geometry::ContentError
-/// ("name:line: …" or "name: face i: …") if a corner's index is out of range, and if no face is left. Cost:
-/// O(F log F).
+/// Makes an oriented manifold of triangles from a soup: vertex i is point i, triangles follow the faces. Maps
+/// are set where the soup has them: colours, vertex attributes, texture, rest lengths of triangles, group,
+/// material, and e:diagonal where a face of four corners was cut; copies of vertices carry them along. Throws
+/// geometry::ContentError ("name:line: …" or "name: face i: …") if a corner's index is out of range, and if
+/// no face is left. Cost: O(F log F).
+/// \details Faces are cut by triangulate_polygon(). Triangles with a repeated corner, and those with the
+/// three vertices of an earlier one (whichever way they wind), are dropped. If the rest is no oriented
+/// manifold already, make_manifold() turns faces and appends copies of vertices. Unused points stay as
+/// isolated vertices.
 SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name);
 
 }  // namespace furrow::io

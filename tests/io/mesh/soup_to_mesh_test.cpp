@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/mesh/vertex_attributes.h"
 #include "io/mesh/make_manifold.h"
 #include "tests/io/base/io_test_helpers.h"
 
@@ -81,16 +82,16 @@ TEST_CASE("soup_to_mesh: the minority of a component is turned, with its corners
 
 TEST_CASE("soup_to_mesh: three faces at an edge are parted, copies carry their data") {
   io::PolygonSoup soup = soup_of(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  soup.lines = {7, 8, -1, -1, -1};
-  soup.masses = {0.5, 0.25, 0.1, 0.1, 0.1};
+  soup.attributes = {{"mask", {7, 8, -1, -1, -1}}};
   soup.colors.assign(5, Color{0, 0, 1, 1});
   const auto out = io::soup_to_mesh(soup, "t");
   CHECK(out.repairs.duplicated_vertices == 4);
   CHECK(out.origin == List{0, 1, 2, 3, 4, 1, 0, 0, 1});
   CHECK(out.mesh.number_of_faces() == 3);
   CHECK(out.mesh.point(Vertex(5)) == soup.points[1]);
-  CHECK((*find_map(out.mesh, attribute::line))[Vertex(8)] == 8);
-  CHECK((*find_map(out.mesh, attribute::mass))[Vertex(6)] == 0.5);
+  CHECK(out.face_origin == List{0, 1, 2});
+  CHECK(vertex_attributes(out.mesh).at(0).values[Vertex(8)] == 8);
+  CHECK(vertex_attributes(out.mesh).at(0).values[Vertex(6)] == 7);
   CHECK((*find_map(out.mesh, attribute::color))[Vertex(6)] == Color{0, 0, 1, 1});
   CHECK(is_manifold(out.mesh));
 }
