@@ -99,7 +99,9 @@ TEST_CASE("cantilever: springs across edges follow the third root of the load") 
     // M = B_3 curvature^3 with B_3 = 0.0608929 k edge^4,  Gamma_3 = density g L^5 / B_3.
     const double rigidity = 0.0608929 * spring * std::pow(edge, 4);
     const double gravity = gamma * rigidity / (o.density * std::pow(o.length, 5));
-    CHECK(find_rest(strip.cloth, down_to(0.01, {0, 0, -gravity})).converged);
+    // The smaller load is a gravity of 1.7e-4 m/s^2. There round-off of the energy hides descents below 0.2
+    // weights, which are within 2 nm of the rest.
+    CHECK(find_rest(strip.cloth, down_to(k ? 0.01 : 1, {0, 0, -gravity})).converged);
     drop[k] = -strip.tip().z() / o.length;
     CHECK(drop[k] == Approx(exact.height).epsilon(0.01));
   }
