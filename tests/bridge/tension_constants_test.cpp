@@ -67,7 +67,7 @@ double elongation(const Mesh& mesh, double shear, double compression) {
 
 }  // namespace
 
-TEST_CASE("a cell of threads: its sides get half a cell each, its diagonal the shear") {
+TEST_CASE("tension_constants: the sides of a cell of threads get half a cell each, its diagonal the shear") {
   const Mesh mesh = geometry::woven_sheet(0.1, 0.1, 0.1);
   const std::vector<double> c = bridge::tension_constants(mesh, 3000, 0.25);
   for (Edge e : mesh.edges()) {
@@ -79,7 +79,7 @@ TEST_CASE("a cell of threads: its sides get half a cell each, its diagonal the s
   CHECK_THROWS_AS(bridge::tension_constants(mesh, 3000, 1.1), std::invalid_argument);
 }
 
-TEST_CASE("the energy of a strain does not depend on the mesh") {
+TEST_CASE("tension_constants: the energy of a strain does not depend on the mesh") {
   const Mesh woven = geometry::woven_sheet(0.2, 0.3, 0.05),
              plain = geometry::equilateral_sheet(0.2, 0.3, 0.05);
   const double e = 0.03, e3 = e * e * e;
@@ -99,7 +99,9 @@ TEST_CASE("the energy of a strain does not depend on the mesh") {
   }
 }
 
-TEST_CASE("a sheet that hangs by its threads stretches as the continuum does, the better the finer") {
+TEST_CASE(
+    "tension_constants: a sheet that hangs by its threads stretches as the continuum does, the better the "
+    "finer") {
   // rho g s = c e^2 at the distance s from the hem: (2/3) sqrt(rho g / c) H^(3/2).
   const double exact = 2.0 / 3 * std::sqrt(0.15 * 9.81 / 3000) * std::pow(0.3, 1.5);
   std::vector<double> errors;
@@ -124,7 +126,7 @@ TEST_CASE("a sheet that hangs by its threads stretches as the continuum does, th
   }
 }
 
-TEST_CASE("equal masses: the garment's weight over its number of vertices") {
+TEST_CASE("gather_particles: equal masses are the garment's mass over its number of vertices") {
   Mesh mesh = tests::jittered(5, 4, 0.2, 3);
   mesh.add_vertex({9, 9, 9});
   const physics::Particles area = cloth_of(mesh, 0).particles,
@@ -140,7 +142,7 @@ TEST_CASE("equal masses: the garment's weight over its number of vertices") {
   CHECK(area.mass[0] != Approx(area.mass[1]));
 }
 
-TEST_CASE("tension that is stored on an edge goes before the material") {
+TEST_CASE("tension_constants: tension that is stored on an edge goes before the material") {
   Mesh mesh = geometry::woven_sheet(0.1, 0.1, 0.1);
   geometry::ensure_map(mesh, geometry::attribute::tension)[Edge(1)] = 7;
   int own = 0;

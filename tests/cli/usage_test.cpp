@@ -11,7 +11,7 @@ namespace {
 const char* const square_obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 }
 
-TEST_CASE("every subcommand has help with units, and help succeeds") {
+TEST_CASE("usage: every subcommand has help with units, and help succeeds") {
   for (const char* sub :
        {"info", "subdivide", "smooth", "wrinkle", "simulate", "sdf", "render", "transfer", "bake", "chart"}) {
     const Run run = run_furrow(std::string(sub) + " --help");
@@ -43,14 +43,14 @@ TEST_CASE("usage: the help of each subcommand has the flags that the schema of s
   }
 }
 
-TEST_CASE("the version names the libraries") {
+TEST_CASE("usage: the version names the libraries") {
   const Run run = run_furrow("--version");
   CHECK(run.exit_code == 0);
   for (const char* library : {"furrow", "CGAL", "Eigen", "Embree", "assimp"})
     CHECK(run.out.find(library) != std::string::npos);
 }
 
-TEST_CASE("a wrong call exits with 2 and one line that begins with error:") {
+TEST_CASE("usage: a wrong call exits with 2 and one line that begins with error:") {
   const ScratchDirectory scratch;
   write_text(scratch / "square.obj", square_obj);
   const std::string square = scratch / "square.obj";
@@ -73,7 +73,7 @@ TEST_CASE("a wrong call exits with 2 and one line that begins with error:") {
   CHECK(run_furrow("wrinkel a b").err.find("did you mean 'wrinkle'") != std::string::npos);
 }
 
-TEST_CASE("a file that cannot be read exits with 3") {
+TEST_CASE("usage: a file that cannot be read exits with 3") {
   CHECK(run_furrow("info /nonexistent/shirt.obj").exit_code == 3);
   const ScratchDirectory scratch;
   write_text(scratch / "bad.obj", "v 0 0 0\nv 1 0 zero\n");
@@ -82,7 +82,7 @@ TEST_CASE("a file that cannot be read exits with 3") {
   CHECK(run.err.find("bad.obj:2") != std::string::npos);
 }
 
-TEST_CASE("a file that cannot be written exits with 1 and leaves nothing behind") {
+TEST_CASE("usage: a file that cannot be written exits with 1 and leaves nothing behind") {
   const ScratchDirectory scratch;
   write_text(scratch / "square.obj", square_obj);
   const Run run =
@@ -91,7 +91,7 @@ TEST_CASE("a file that cannot be written exits with 1 and leaves nothing behind"
   CHECK(run.err.rfind("error: ", 0) == 0);
 }
 
-TEST_CASE("info counts a square and says it as JSON") {
+TEST_CASE("usage: info counts a square and says it as JSON") {
   const ScratchDirectory scratch;
   write_text(scratch / "square.obj", square_obj);
   const Run run = run_furrow("info --json " + (scratch / "square.obj"));
@@ -108,7 +108,7 @@ TEST_CASE("info counts a square and says it as JSON") {
   CHECK(report["repairs"]["triangulated_faces"] == 1);
 }
 
-TEST_CASE("units and the up axis turn what is read and turn it back when written") {
+TEST_CASE("usage: units and the up axis turn what is read and turn it back when written") {
   const ScratchDirectory scratch;
   write_text(scratch / "square.obj", square_obj);
   const Run run = run_furrow("info --json --unit cm " + (scratch / "square.obj"));
@@ -123,7 +123,7 @@ TEST_CASE("units and the up axis turn what is read and turn it back when written
   CHECK(same["bounding_box"]["max"] == nlohmann::json::parse("[1.0, 1.0, 0.0]"));
 }
 
-TEST_CASE("a garment taller than 10 m is refused with a hint at the unit") {
+TEST_CASE("usage: a garment taller than 10 m is refused with a hint at the unit") {
   const ScratchDirectory scratch;
   write_text(scratch / "tall.obj", "v 0 0 0\nv 1 0 0\nv 1 170 0\nf 1 2 3\n");
   const Run run = run_furrow("simulate " + (scratch / "tall.obj") + " -o " + (scratch / "o.obj"));

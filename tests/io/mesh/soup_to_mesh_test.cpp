@@ -178,7 +178,7 @@ TEST_CASE("make_manifold: a component is turned whole where that turns fewer fac
   CHECK(t[0].corners == std::array<std::size_t, 3>{0, 2, 1});
 }
 
-TEST_CASE("the cut of a four-sided face is a diagonal, other edges are none") {
+TEST_CASE("soup_to_mesh: the cut of a four-sided face is a diagonal, other edges are none") {
   // A quad, a triangle beside it, a pentagon, and a quad that is wound the other way.
   const io::SoupMesh out =
       io::soup_to_mesh(soup_of(10, {{0, 1, 2, 3}, {1, 4, 2}, {5, 6, 7, 8, 9}, {0, 1, 6, 5}}), "soup");

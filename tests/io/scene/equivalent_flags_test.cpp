@@ -8,7 +8,7 @@
 using namespace furrow;
 using io::equivalent_flags, io::Json;
 
-TEST_CASE("equivalent flags: a flag where there is one, --set for the rest, and the garment first") {
+TEST_CASE("equivalent_flags: a flag where there is one, --set for the rest, and the garment first") {
   const Json scene{{"title", "for people"},
                    {"unit", "cm"},
                    {"garment", {{"mesh", "my skirt.obj"}, {"subdivide", 1}}},
@@ -24,12 +24,12 @@ TEST_CASE("equivalent flags: a flag where there is one, --set for the rest, and 
         "'[0, -1, 0]' --set forces.swirl.rate=3 --dt 0.001 --force-dt --output o.ply");
 }
 
-TEST_CASE("equivalent flags: a switch that is off needs no flag, and a quote in a name is kept") {
+TEST_CASE("equivalent_flags: a switch that is off needs no flag, and a quote in a name is kept") {
   CHECK(equivalent_flags(Json{{"simulation", {{"force_dt", false}}}}, "", {}) == "simulate");
   CHECK(equivalent_flags(Json{{"garment", {{"mesh", "a'b.obj"}}}}, "", {}) == "simulate 'a'\\''b.obj'");
 }
 
-TEST_CASE("equivalent flags: of a state, what is not as the state had it") {
+TEST_CASE("equivalent_flags: of a state, what is not as the state had it") {
   const Json before{{"garment", {{"mesh", "g.obj"}}},
                     {"material", {{"bending", 1}, {"drag", 2}}},
                     {"pins", Json::array({{{"loop", "top"}}, {{"loop", "bottom"}}})}};
@@ -41,7 +41,7 @@ TEST_CASE("equivalent flags: of a state, what is not as the state had it") {
         "simulate --state at1.ply --bending 5 --set pins.1.motion.spin.rate=2");
 }
 
-TEST_CASE("equivalent flags: every setting of the schema with a flag is said with it") {
+TEST_CASE("equivalent_flags: every setting of the schema with a flag is said with it") {
   for (const io::Setting& s : io::scene_settings()) {
     if (s.flag.empty() || s.table().empty() || s.table() == "pins") continue;
     const Json value = s.kind == io::Kind::yes_no ? Json(true) : s.is_text() ? Json("word") : Json(3);

@@ -31,7 +31,7 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("a scene file says everything that a simulation is made of") {
+TEST_CASE("scene_file: a scene file says everything that a simulation is made of") {
   const io::Scene s = scene(R"(
 title = "all"
 unit = "cm"
@@ -122,7 +122,7 @@ fps = 30
   CHECK(s.output.fps == 30);
 }
 
-TEST_CASE("the rules of the rest state have their names") {
+TEST_CASE("scene_file: the rules of the rest state have their names") {
   using geometry::RestRule;
   for (const auto& [name, rule] :
        {std::pair("drawn", RestRule::drawn), {"flat", RestRule::flat}, {"copied", RestRule::copied}})
@@ -132,7 +132,7 @@ TEST_CASE("the rules of the rest state have their names") {
               .options.rest == rule);
 }
 
-TEST_CASE("the cloth of fast fitting: quadratic tension, and the same mass for each vertex") {
+TEST_CASE("scene_file: the cloth of fast fitting has quadratic tension, and the same mass for each vertex") {
   const io::SceneMaterial m = scene(
                                   "[garment]\nmesh = \"g.obj\"\n[material]\nmembrane = \"tension\"\n"
                                   "tension = 3e4\ncompression = 0\nshear = 1\nmass_rule = \"equal\"\n")
@@ -160,7 +160,7 @@ TEST_CASE("the cloth of fast fitting: quadratic tension, and the same mass for e
   CHECK(io::shear_ratio(io::fabric_named("jersey")) == 1);
 }
 
-TEST_CASE("a kept shape needs hinges, and a body and pins that stand still") {
+TEST_CASE("scene_file: a kept shape needs hinges, and a body and pins that stand still") {
   const std::string keep = "[[lines]]\nstrokes = \"l.json\"\nrest = \"keep\"\n",
                     hinges = "[material]\npreset = \"denim\"\n";
   const io::Scene s = scene("[garment]\nmesh = \"g.obj\"\nrest = \"keep\"\n" + keep + hinges);
@@ -190,7 +190,7 @@ TEST_CASE("a kept shape needs hinges, and a body and pins that stand still") {
   CHECK(moved("", -1) == "");
 }
 
-TEST_CASE("a scene's faults are told with file, line, column and the nearest setting") {
+TEST_CASE("scene_file: a scene's faults are told with file, line, column and the nearest setting") {
   CHECK(fault("[simulation]\nsecnds = 3\n") ==
         "a/s.toml:2:1: there is no setting 'simulation.secnds'; did you mean 'seconds'?");
   CHECK(fault("[simulaton]\n") ==
@@ -229,12 +229,12 @@ TEST_CASE("a scene's faults are told with file, line, column and the nearest set
   CHECK(has(fault("[simulation]\nseconds = 1\nseconds = 2\n"), "a/s.toml:3:"));
 }
 
-TEST_CASE("a pinned loop is named, or numbered without quotes") {
+TEST_CASE("scene_file: a pinned loop is named, or numbered without quotes") {
   CHECK(scene("[[pins]]\nloop = 5\n").pins.at(0).loop == "5");
   CHECK(scene("[[pins]]\nloop = \"top\"\n").pins.at(0).loop == "top");
 }
 
-TEST_CASE("settings of the command line go over those of the file and say so in faults") {
+TEST_CASE("scene_file: settings of the command line go over those of the file and say so in faults") {
   io::TomlDocument document =
       parse_toml("[material]\nbending = 1\n[garment]\nmesh = \"g.obj\"\n", "a/s.toml");
   io::set_value(document, "material.bending", io::parse_value("2.5"), "--bending");
@@ -252,7 +252,7 @@ TEST_CASE("settings of the command line go over those of the file and say so in 
   CHECK_THROWS_AS(io::set_value(document, "material..x", 1, "--set"), std::invalid_argument);
 }
 
-TEST_CASE("values of the command line are TOML where they can be") {
+TEST_CASE("scene_file: values of the command line are TOML where they can be") {
   CHECK(io::parse_value("3") == 3);
   CHECK(io::parse_value("[1, 2.5]") == io::Json{1, 2.5});
   CHECK(io::parse_value("{rate = 2}") == io::Json{{"rate", 2}});
@@ -263,7 +263,7 @@ TEST_CASE("values of the command line are TOML where they can be") {
     CHECK(io::parse_value(io::value_text(io::parse_value(text))) == io::parse_value(text));
 }
 
-TEST_CASE("a scene's paths can be made relative to another folder") {
+TEST_CASE("scene_file: a scene's paths can be made relative to another folder") {
   io::TomlDocument document =
       parse_toml("[garment]\nmesh = \"../g.obj\"\n[[lines]]\nstrokes = \"l.json\"\n[output]\nmesh = \"-\"\n",
                  "a/b/s.toml");

@@ -9,7 +9,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("leapfrog, RK4 and backward Euler bring a chain of tension to the same rest") {
+TEST_CASE("tension_forces: leapfrog, RK4 and backward Euler bring a chain of tension to the same rest") {
   const Level& chain = level_chains[2];
   Cloth exact = level_chain(chain, 0.4, 0.2);
   CHECK(find_rest(exact, down_to(1e-10)).converged);

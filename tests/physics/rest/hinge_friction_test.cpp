@@ -56,7 +56,9 @@ bool settles(Cloth& cloth, const HingeFriction& friction, const SettleOptions& o
 
 }  // namespace
 
-TEST_CASE("the loop of moment and angle has the width 2 limit and the area 4 limit (theta_m - theta_y)") {
+TEST_CASE(
+    "hinge_friction: the loop of moment and angle has the width 2 limit and the area 4 limit (theta_m - "
+    "theta_y)") {
   Cloth cloth = flaps();
   const HingeFriction friction = add_hinge_friction(cloth, {.stiffness = 3, .moment = 1e-3});
   REQUIRE(friction.limit.size() == 1);
@@ -78,7 +80,9 @@ TEST_CASE("the loop of moment and angle has the width 2 limit and the area 4 lim
   CHECK(down == Approx(-limit).epsilon(1e-6));
 }
 
-TEST_CASE("a flap that is let go keeps the angle k_f / (k + k_f) (theta_m - theta_y), or limit / k") {
+TEST_CASE(
+    "hinge_friction: a flap that is let go keeps the angle k_f / (k + k_f) (theta_m - theta_y), or limit / "
+    "k") {
   const SettleOptions weightless = down_to(1e-7, Vec3::Zero());
   for (const double moment_limit : {2e-4, 6e-4}) {
     for (const double most : {0.2, 0.6, 1.1}) {
@@ -98,7 +102,7 @@ TEST_CASE("a flap that is let go keeps the angle k_f / (k + k_f) (theta_m - thet
   }
 }
 
-TEST_CASE("a strip that hung from a clamp keeps a curve with friction and none without") {
+TEST_CASE("hinge_friction: a strip that hung from a clamp keeps a curve with friction and none without") {
   StripOptions small;
   small.rows = 8;
   small.columns = 2;
@@ -140,7 +144,7 @@ TEST_CASE("a strip that hung from a clamp keeps a curve with friction and none w
   CHECK(kept < hung);
 }
 
-TEST_CASE("friction is refused where it cannot be, and a cloth without it is what it was") {
+TEST_CASE("hinge_friction: friction is refused where it cannot be, and a cloth without it is what it was") {
   const Cloth good = flaps();
   const auto refused = [&](const HingeFrictionOptions& o, HingeLaw law) {
     Cloth cloth = good;

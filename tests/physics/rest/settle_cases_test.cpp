@@ -114,14 +114,14 @@ TEST_CASE("settle: a cantilever of equilateral triangles meets the heavy elastic
   }
 }
 
-TEST_CASE("settle and leapfrog bring a hanging chain to one rest") {
+TEST_CASE("settle: a hanging chain comes to the rest that leapfrog finds") {
   SimulateOptions motion;
   motion.seconds = 6;
   motion.air_drag = 6;
   check_equal_rests(hanging_chain(), chain_length, {0, -9.81, 0}, nullptr, motion);
 }
 
-TEST_CASE("settle and leapfrog bring a chain that lies on a floor without friction to one rest") {
+TEST_CASE("settle: a chain on a floor without friction comes to the rest that leapfrog finds") {
   SimulateOptions motion;
   motion.seconds = 8;
   motion.air_drag = 6;
@@ -132,7 +132,7 @@ TEST_CASE("settle and leapfrog bring a chain that lies on a floor without fricti
   CHECK(check_equal_rests(chain, chain_length, {0, -9.81, 0}, &floor, motion) > 3);
 }
 
-TEST_CASE("settle and leapfrog bring a cantilever to one rest, free or on a ball without friction") {
+TEST_CASE("settle: a cantilever, free or on a ball without friction, comes to the rest that leapfrog finds") {
   for (const HingeLaw law : {HingeLaw::linear, HingeLaw::cosine}) {
     StripOptions options;
     options.rows = 8;

@@ -33,7 +33,7 @@ double chart_error(const StripOptions& options, double gamma) {
 
 }  // namespace
 
-TEST_CASE("the heavy elastica: shooting meets the table") {
+TEST_CASE("cantilever: shooting for the heavy elastica meets the table") {
   const Elastica a = heavy_elastica(10), b = heavy_elastica(1, 3);
   CHECK(a.width == Approx(0.6563537612).epsilon(1e-9));
   CHECK(a.height == Approx(0.7001997155).epsilon(1e-9));
