@@ -14,7 +14,7 @@
 #include "cli/scene_cloth.h"
 #include "cli/simulate_report.h"
 #include "cli/wrinkle_reports.h"
-#include "io/mesh/mesh_writers.h"
+#include "io/mesh/ply_motion.h"
 #include "io/mesh/wrinkle_record.h"
 #include "io/scene/equivalent_flags.h"
 #include "io/scene/relocated.h"

@@ -21,9 +21,6 @@ void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& opti
 /// vertex attributes (decision 0005). Throws geometry::ContentError for an attribute that is named like
 /// another column of the vertices.
 void write_ply(std::ostream& out, const MeshFile& file, const WriteOptions& options);
-/// Throws geometry::ContentError for a vertex attribute (vertex_attributes.h) that is named like a column of
-/// saved states: a state with both could not be read again.
-void check_state_attributes(const geometry::Mesh& mesh);
 /// OFF, or COFF where the mesh has colours, in double. Everything else is left out.
 void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& options);
 /// Binary STL: single precision, no vertex is shared. Everything but the triangles is left out.

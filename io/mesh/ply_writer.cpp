@@ -12,6 +12,7 @@
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/base/number_text.h"
 #include "io/mesh/mesh_writers.h"
+#include "io/mesh/ply_motion.h"
 
 namespace furrow::io {
 namespace {
