@@ -12,7 +12,6 @@ namespace furrow::bench {
 
 using namespace cases;
 using physics::Cloth;
-using physics::MembraneLaw;
 
 namespace {
 

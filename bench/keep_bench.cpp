@@ -10,7 +10,6 @@
 #include "machine_probes.h"
 #include "physics/cloth/dihedral.h"
 #include "physics/cloth/hinge_forces.h"
-#include "physics/cloth/membrane_laws.h"
 #include "physics/cloth/pins.h"
 #include "physics/cloth/press.h"
 #include "physics/cloth/struts.h"

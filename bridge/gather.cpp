@@ -98,9 +98,8 @@ class Gatherer {
     cloth_.particles = gather_particles(mesh_, o_.mass_rule);
     cloth_.triangles = triangles_of(mesh_);
     for (Edge e : mesh_.edges()) require_length(rest_[e], mesh_.vertex(e, 0), mesh_.vertex(e, 1));
-    o_.membrane == Membrane::triangles ? add_triangles()
-    : o_.membrane == Membrane::tension ? add_tension()
-                                       : add_structural_springs();
+    if (!visit_triangles(o_.membrane, cloth_, [&](auto& elements) { add_triangles(elements); }))
+      o_.membrane == Membrane::tension ? add_tension() : add_structural_springs();
     o_.bending == Bending::cross ? add_bending_springs() : add_hinges();
     add_struts();
     return std::move(result_);
@@ -166,11 +165,13 @@ class Gatherer {
     return first;
   }
 
-  void add_triangles() {
+  template <class Triangle>
+  void add_triangles(std::vector<Triangle>& elements) {
     const physics::PlaneLame lame = physics::plane_stress(o_.stretch, o_.poisson);
     const auto own = find_map(mesh_, attribute::triangle_rest_length);
     for (Face f : mesh_.faces()) {
-      physics::MembraneTriangle t{{}, {}, lame.lambda, lame.mu};
+      Triangle t;
+      t.lambda = lame.lambda, t.mu = lame.mu;
       int i = 0;
       for (Halfedge h : mesh_.halfedges_around_face(first_of(f))) {
         const Halfedge opposite = mesh_.prev(h);  // joins the other two corners
@@ -182,7 +183,7 @@ class Gatherer {
       if (!(triangle_area(t.rest_lengths[0], t.rest_lengths[1], t.rest_lengths[2]) > 0))
         throw ContentError("face " + std::to_string(f.idx()) +
                            " has no area at rest; remove it, or choose a law of springs");
-      cloth_.membrane.push_back(t);
+      elements.push_back(t);
       result_.membrane.push_back(first_of(f));
     }
   }

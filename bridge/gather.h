@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <utility>
 #include <vector>
 
 #include "geometry/mesh/mesh.h"
@@ -16,6 +17,24 @@ enum class Membrane {
   triangles,   ///< triangles of constant strain: a plane sheet of Y and Poisson's ratio on every mesh
   tension      ///< quadratic, asymmetric tension (method S2.2, bridge/tension_constants.h)
 };
+
+/// The word of each in scenes and flags.
+inline constexpr std::pair<const char*, Membrane> membrane_words[] = {
+    {"paper", Membrane::paper},           {"uniform", Membrane::uniform},     {"inverse", Membrane::inverse},
+    {"van-gelder", Membrane::van_gelder}, {"triangles", Membrane::triangles}, {"tension", Membrane::tension}};
+
+/// The array of a cloth that a membrane of triangles fills: calls visit(elements); false if it is none of
+/// triangles. The kind must be a physics::MembraneTriangle or derive from it.
+template <class Visit>
+bool visit_triangles(Membrane membrane, physics::Cloth& cloth, Visit&& visit) {
+  switch (membrane) {
+    case Membrane::triangles:
+      visit(cloth.membrane);
+      return true;
+    default:
+      return false;
+  }
+}
 
 /// What resists bending.
 enum class Bending {

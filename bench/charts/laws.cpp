@@ -11,7 +11,6 @@ namespace furrow::bench {
 namespace {
 
 using namespace cases;
-using physics::MembraneLaw;
 
 struct Named {
   const char* name;

@@ -15,7 +15,6 @@ namespace {
 
 using namespace cases;
 using physics::Integrator;
-using physics::MembraneLaw;
 
 /// One row of cells.
 struct Series {

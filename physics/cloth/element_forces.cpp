@@ -2,13 +2,13 @@
 #include "physics/cloth/element_forces.h"
 
 #include <array>
+#include <concepts>
 #include <stdexcept>
 #include <string>
 
 #include "physics/cloth/elements.h"
-#include "physics/cloth/hinge_forces.h"
-#include "physics/cloth/spring_forces.h"
-#include "physics/cloth/tension_forces.h"
+#include "physics/cloth/energy.h"
+#include "physics/cloth/kinds.h"
 
 namespace furrow::physics {
 namespace {
@@ -23,18 +23,25 @@ void for_half(const std::vector<Element>& all, int which, const Work& work) {
 }  // namespace
 
 ElementForces::ElementForces(const Cloth& cloth) : cloth_(cloth) {
-  (void)potential_energy(cloth, cloth.particles.x);  // checks the elements
+  check_elements(cloth, cloth.particles.size());
   for (const MembraneTriangle& t : cloth.membrane) membrane_.push_back(membrane_constants(t));
 }
 
 double ElementForces::add_half(std::span<const Vec3> x, int which, std::span<Vec3> force) const {
   double e = 0;
-  const Cloth& c = cloth_;
-  for_half(c.structural, which, [&](std::size_t i) { e += add_forces(x, c.structural[i], force); });
-  for_half(c.bending, which, [&](std::size_t i) { e += add_forces(x, c.bending[i], force); });
-  for_half(c.membrane, which, [&](std::size_t i) { e += add_forces(x, c.membrane[i], membrane_[i], force); });
-  for_half(c.tension, which, [&](std::size_t i) { e += add_forces(x, c.tension[i], force); });
-  for_half(c.hinges, which, [&](std::size_t i) { e += add_forces(x, c.hinges[i], c.hinge_law, force); });
+  for_each_kind(cloth_, [&](const auto& kind, auto... law) {
+    for_half(kind, which, [&](std::size_t i) {
+      if constexpr (std::same_as<KindOf<decltype(kind)>, MembraneTriangle>)
+        e += add_forces(x, kind[i], membrane_[i], force);
+      else
+        e += add_forces(x, kind[i], law..., force);
+    });
+  });
+  if (which == 0) return e;
+  for (const auto& own : cloth_.energies) {
+    e += own->energy(x);
+    own->add_forces(x, force);
+  }
   return e;
 }
 

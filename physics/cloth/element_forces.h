@@ -11,7 +11,7 @@ namespace furrow::physics {
 
 /// Energy and forces of a cloth's elements (elements.h) for callers that ask often. The cloth is checked once
 /// and the rest constants of its membrane are kept. Both results come from one pass, in two halves of the
-/// elements that threads share.
+/// elements that threads share. Cloth::energies belong to the second half.
 class ElementForces {
  public:
   /// The cloth must outlive this object and keep its elements as they are. O(elements). Throws

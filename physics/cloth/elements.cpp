@@ -1,33 +1,61 @@
 // SPDX-License-Identifier: MIT
 #include "physics/cloth/elements.h"
 
-#include "physics/cloth/hinge_forces.h"
-#include "physics/cloth/membrane.h"
-#include "physics/cloth/spring_forces.h"
-#include "physics/cloth/tension_forces.h"
+#include <algorithm>
+
+#include "physics/base/require.h"
+#include "physics/cloth/energy.h"
+#include "physics/cloth/kinds.h"
 
 namespace furrow::physics {
 
+void check_elements(const Cloth& cloth, std::size_t particles) {
+  for_each_kind(cloth, [&](const auto& elements, auto...) {
+    for (const auto& e : elements) check(e, particles);
+  });
+  for (const auto& own : cloth.energies)
+    if (!own) refuse("cloth", "one of its energies is null");
+}
+
 double potential_energy(const Cloth& cloth, std::span<const Vec3> x) {
-  return spring_energy(x, cloth.structural) + spring_energy(x, cloth.bending) +
-         membrane_energy(x, cloth.membrane) + tension_energy(x, cloth.tension) +
-         hinge_energy(x, cloth.hinges, cloth.hinge_law);
+  check_elements(cloth, x.size());
+  double sum = 0;
+  for_each_kind(cloth, [&](const auto& elements, auto... law) {
+    double of_kind = 0;
+    for (const auto& e : elements) of_kind += energy(x, e, law...);
+    sum += of_kind;
+  });
+  for (const auto& own : cloth.energies) sum += own->energy(x);
+  return sum;
 }
 
 void add_forces(const Cloth& cloth, std::span<const Vec3> x, std::span<Vec3> force) {
-  add_spring_forces(x, cloth.structural, force);
-  add_spring_forces(x, cloth.bending, force);
-  add_membrane_forces(x, cloth.membrane, force);
-  add_tension_forces(x, cloth.tension, force);
-  add_hinge_forces(x, cloth.hinges, cloth.hinge_law, force);
+  if (force.size() != x.size())
+    refuse("add_forces", x.size(), " positions, but an array of ", force.size(), " forces");
+  check_elements(cloth, x.size());
+  for_each_kind(cloth, [&](const auto& elements, auto... law) {
+    for (const auto& e : elements) add_forces(x, e, law..., force);
+  });
+  for (const auto& own : cloth.energies) own->add_forces(x, force);
 }
 
 void add_stiffness(const Cloth& cloth, std::span<const Vec3> x, Stiffness stiffness, const BlockSink& sink) {
-  add_spring_stiffness(x, cloth.structural, stiffness, sink);
-  add_spring_stiffness(x, cloth.bending, stiffness, sink);
-  add_membrane_stiffness(x, cloth.membrane, stiffness, sink);
-  add_tension_stiffness(x, cloth.tension, stiffness, sink);
-  add_hinge_stiffness(x, cloth.hinges, cloth.hinge_law, stiffness, sink);
+  check_elements(cloth, x.size());
+  for_each_kind(cloth, [&](const auto& elements, auto... law) {
+    for (const auto& e : elements) {
+      const auto particles = vertices(e);
+      Mat3 lower[lower_blocks(int(particles.size()))];
+      stiffness_blocks(x, e, law..., stiffness, lower);
+      hand_out(particles, lower, sink);
+    }
+  });
+  for (const auto& own : cloth.energies) own->add_stiffness(x, stiffness, sink);
+}
+
+bool has_all_stiffness(const Cloth& cloth) {
+  return std::all_of(cloth.energies.begin(), cloth.energies.end(), [&](const auto& own) {
+    return own->add_stiffness(cloth.particles.x, Stiffness::exact, [](int, int, const Mat3&) {});
+  });
 }
 
 }  // namespace furrow::physics

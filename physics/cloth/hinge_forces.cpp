@@ -6,18 +6,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/base/require.h"
 #include "physics/cloth/dihedral.h"
 
 namespace furrow::physics {
 namespace {
-
-void check_all(std::span<const Hinge> hinges, std::size_t n, std::size_t others, const char* function) {
-  if (others != n) {
-    throw std::invalid_argument(std::string(function) + ": " + std::to_string(n) +
-                                " positions, but arrays of " + std::to_string(others));
-  }
-  for (const Hinge& h : hinges) check(h, n);
-}
 
 Dihedral dihedral_of(std::span<const Vec3> x, const Hinge& h) {
   const auto& v = h.vertices;
@@ -79,29 +72,20 @@ HingeMoment hinge_moment(HingeLaw law, double k, double phi) {
 }
 
 double hinge_stiffness(double rigidity, double length, double area1, double area2, double factor) {
-  const auto require = [](bool good, const char* name, double value, const char* range) {
-    if (good && std::isfinite(value)) return;
-    throw std::invalid_argument(std::string("hinge_stiffness: ") + name + " = " + std::to_string(value) +
-                                " is not " + range);
-  };
-  require(rigidity >= 0, "rigidity", rigidity, ">= 0");
-  require(length > 0, "length", length, "> 0");
-  require(area1 >= 0, "area1", area1, ">= 0");
-  require(area2 >= 0, "area2", area2, ">= 0");
-  require(area1 + area2 > 0, "area1 + area2", area1 + area2, "> 0");
-  require(factor >= 0, "factor", factor, ">= 0");
+  const char* const operation = "hinge_stiffness";
+  require(operation, "rigidity", rigidity, rigidity >= 0, ">= 0");
+  require(operation, "length", length, length > 0, "> 0");
+  require(operation, "area1", area1, area1 >= 0, ">= 0");
+  require(operation, "area2", area2, area2 >= 0, ">= 0");
+  require(operation, "area1 + area2", area1 + area2, area1 + area2 > 0, "> 0");
+  require(operation, "factor", factor, factor >= 0, ">= 0");
   return factor * rigidity * length * length / (area1 + area2);
 }
 
-double hinge_energy(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law) {
-  check_all(hinges, x.size(), x.size(), "hinge_energy");
-  double energy = 0;
-  for (const Hinge& h : hinges) {
-    const auto& v = h.vertices;
-    const double theta = dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
-    energy += hinge_moment(law, h.stiffness, bend(theta, h.rest_angle)).energy;
-  }
-  return energy;
+double energy(std::span<const Vec3> x, const Hinge& h, HingeLaw law) {
+  const auto& v = h.vertices;
+  const double theta = dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+  return hinge_moment(law, h.stiffness, bend(theta, h.rest_angle)).energy;
 }
 
 double add_forces(std::span<const Vec3> x, const Hinge& h, HingeLaw law, std::span<Vec3> force) {
@@ -111,12 +95,6 @@ double add_forces(std::span<const Vec3> x, const Hinge& h, HingeLaw law, std::sp
   return m.energy;
 }
 
-void add_hinge_forces(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
-                      std::span<Vec3> force) {
-  check_all(hinges, x.size(), force.size(), "add_hinge_forces");
-  for (const Hinge& h : hinges) add_forces(x, h, law, force);
-}
-
 void stiffness_blocks(std::span<const Vec3> x, const Hinge& h, HingeLaw law, Stiffness stiffness,
                       Mat3* lower) {
   const Dihedral d = dihedral_of(x, h);
@@ -124,26 +102,10 @@ void stiffness_blocks(std::span<const Vec3> x, const Hinge& h, HingeLaw law, Sti
   make_blocks(x, h, d, m.curvature, (1 - stiffness.clamped) * m.moment, lower);
 }
 
-void add_hinge_stiffness(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
-                         Stiffness stiffness, const BlockSink& sink) {
-  check_all(hinges, x.size(), x.size(), "add_hinge_stiffness");
-  std::array<Mat3, lower_blocks(4)> lower;
-  for (const Hinge& h : hinges) {
-    stiffness_blocks(x, h, law, stiffness, lower.data());
-    hand_out(h.vertices, lower.data(), sink);
-  }
-}
-
-void add_hinge_stiffness_bound(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
-                               const BlockSink& sink) {
-  check_all(hinges, x.size(), x.size(), "add_hinge_stiffness_bound");
-  std::array<Mat3, lower_blocks(4)> lower;
-  for (const Hinge& h : hinges) {
-    const Dihedral d = dihedral_of(x, h);
-    const double moment = hinge_moment(law, h.stiffness, bend(d.angle, h.rest_angle)).moment;
-    make_blocks(x, h, d, h.stiffness, moment, lower.data());
-    hand_out(h.vertices, lower.data(), sink);
-  }
+void stiffness_bound_blocks(std::span<const Vec3> x, const Hinge& h, HingeLaw law, Mat3* lower) {
+  const Dihedral d = dihedral_of(x, h);
+  const double moment = hinge_moment(law, h.stiffness, bend(d.angle, h.rest_angle)).moment;
+  make_blocks(x, h, d, h.stiffness, moment, lower);
 }
 
 }  // namespace furrow::physics

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <span>
+#include <tuple>
 
 #include "physics/cloth/cloth.h"
 #include "physics/cloth/stiffness.h"
@@ -25,30 +27,28 @@ double bend(double theta, double rest_angle);
 /// edge. Throws std::invalid_argument unless B >= 0, l > 0, A1 + A2 > 0, factor >= 0.
 double hinge_stiffness(double rigidity, double length, double area1, double area2, double factor = 1);
 
-/// As the functions of springs do: energy [J]; forces [N] -dE/dtheta dtheta/dx, in total without force or
-/// moment (tips pushed along the flaps' normals, the edge takes the reaction); blocks of K [N/m] of the
-/// hinge's vertices in order (0, 0), (0, 1) ... (3, 3). Stiffness::exact: E'' g g^T + E' d2theta/dx2;
-/// positive_part: E'' g g^T alone (Gauss and Newton's), g the gradient of theta: semidefinite, equal at rest,
-/// but not >= exact where a hinge is bent. Cost: one pass. Throw std::invalid_argument, nothing changed, if
-/// lengths differ, a hinge names a particle out of range, its rest angle is not in [-pi, pi] or its stiffness
-/// not >= 0.
-double hinge_energy(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law);
-void add_hinge_forces(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
-                      std::span<Vec3> force);
-void add_hinge_stiffness(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
-                         Stiffness stiffness, const BlockSink& sink);
-/// One hinge's, whose particles are in range: adds its forces and returns its energy; its blocks on and below
-/// the diagonal.
+/// What elements.h asks of a kind; the law is all hinges'.
+inline std::array<int, 4> vertices(const Hinge& h) { return h.vertices; }
+inline void renumber(Hinge& h, std::span<const int> place) {
+  for (int& v : h.vertices) v = place[v];
+}
+inline auto fields(const Hinge& h) {
+  const auto& [a, b, left, right] = h.vertices;
+  return std::tuple(a, b, left, right, h.rest_angle, h.stiffness);
+}
+/// Throws std::invalid_argument if it names a particle out of range or one twice, its rest angle is not in
+/// [-pi, pi] or its stiffness not >= 0.
+void check(const Hinge& hinge, std::size_t particles);
+double energy(std::span<const Vec3> x, const Hinge& hinge, HingeLaw law);
+/// -dE/dtheta dtheta/dx, in total without force or moment: tips pushed along the flaps' normals, the edge
+/// takes the reaction.
 double add_forces(std::span<const Vec3> x, const Hinge& hinge, HingeLaw law, std::span<Vec3> force);
+/// Stiffness::exact: E'' g g^T + E' d2theta/dx2; positive_part: E'' g g^T alone (Gauss and Newton's), g the
+/// gradient of theta: semidefinite, equal at rest, but not >= exact where a hinge is bent.
 void stiffness_blocks(std::span<const Vec3> x, const Hinge& hinge, HingeLaw law, Stiffness stiffness,
                       Mat3* lower);
-
 /// For limits of steps: exact, but with the law's largest E'' (that is k), so that a cosine hinge counts
 /// before it bends.
-void add_hinge_stiffness_bound(std::span<const Vec3> x, std::span<const Hinge> hinges, HingeLaw law,
-                               const BlockSink& sink);
-
-/// The precondition of these functions for one hinge.
-void check(const Hinge& hinge, std::size_t particles);
+void stiffness_bound_blocks(std::span<const Vec3> x, const Hinge& hinge, HingeLaw law, Mat3* lower);
 
 }  // namespace furrow::physics

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/base/require.h"
+
 namespace furrow::physics {
 namespace {
 
@@ -27,23 +29,22 @@ Edges edges_of(std::span<const Vec3> x, const MembraneTriangle& t, const Membran
   return e;
 }
 
-std::vector<MembraneConstants> checked(std::span<const MembraneTriangle> triangles, std::size_t n,
-                                       std::size_t others, const char* function) {
-  if (others != n) {
-    throw std::invalid_argument(std::string(function) + ": " + std::to_string(n) +
-                                " positions, but arrays of " + std::to_string(others));
+/// Heron's. Throws std::invalid_argument if the lengths make no triangle.
+double rest_area(const MembraneTriangle& t) {
+  const Eigen::Vector3d l(t.rest_lengths[0], t.rest_lengths[1], t.rest_lengths[2]);
+  const double half = l.sum() / 2, area = std::sqrt(half * (half - l[0]) * (half - l[1]) * (half - l[2]));
+  if (!(l.minCoeff() > 0) || !(half - l.maxCoeff() > 0) || !(area > 0) || !std::isfinite(area)) {
+    throw std::invalid_argument("membrane triangle: rest lengths " + std::to_string(l[0]) + ", " +
+                                std::to_string(l[1]) + ", " + std::to_string(l[2]) + " make no triangle");
   }
-  std::vector<MembraneConstants> constants;
-  constants.reserve(triangles.size());
-  for (const MembraneTriangle& t : triangles) {
-    for (const int v : t.vertices) {
-      if (v >= 0 && std::size_t(v) < n) continue;
-      throw std::invalid_argument(std::string(function) + ": a membrane triangle names particle " +
-                                  std::to_string(v) + " of " + std::to_string(n));
-    }
-    constants.push_back(membrane_constants(t));
+  return area;
+}
+
+void check_parameters(const MembraneTriangle& t) {
+  if (!(t.mu >= 0) || !(t.lambda + t.mu >= 0) || !std::isfinite(t.lambda + t.mu)) {
+    throw std::invalid_argument("membrane triangle: lambda = " + std::to_string(t.lambda) +
+                                " and mu = " + std::to_string(t.mu) + " are not mu >= 0, lambda + mu >= 0");
   }
-  return constants;
 }
 
 /// The tensions t whose quadratic form  sum 2 t_i |u_{i+2} - u_{i+1}|^2  is the positive part of these'. In
@@ -63,28 +64,15 @@ Eigen::Vector3d positive_part(const Eigen::Vector3d& t) {
 
 PlaneLame plane_stress(double young_times_thickness, double poisson) {
   const double y = young_times_thickness;
-  if (!(y >= 0) || !std::isfinite(y)) {
-    throw std::invalid_argument("plane_stress: young_times_thickness = " + std::to_string(y) +
-                                " is not >= 0");
-  }
-  if (!(poisson > -1 && poisson < 1)) {
-    throw std::invalid_argument("plane_stress: poisson = " + std::to_string(poisson) + " is not in (-1, 1)");
-  }
+  require("plane_stress", "young_times_thickness", y, y >= 0, ">= 0");
+  require("plane_stress", "poisson", poisson, poisson > -1 && poisson < 1, "in (-1, 1)");
   return {y * poisson / (1 - poisson * poisson), y / (2 * (1 + poisson))};
 }
 
 MembraneConstants membrane_constants(const MembraneTriangle& t) {
+  const double area = rest_area(t);
+  check_parameters(t);
   const Eigen::Vector3d l(t.rest_lengths[0], t.rest_lengths[1], t.rest_lengths[2]);
-  const double half = l.sum() / 2,
-               area = std::sqrt(half * (half - l[0]) * (half - l[1]) * (half - l[2]));  // Heron
-  if (!(l.minCoeff() > 0) || !(half - l.maxCoeff() > 0) || !(area > 0) || !std::isfinite(area)) {
-    throw std::invalid_argument("membrane triangle: rest lengths " + std::to_string(l[0]) + ", " +
-                                std::to_string(l[1]) + ", " + std::to_string(l[2]) + " make no triangle");
-  }
-  if (!(t.mu >= 0) || !(t.lambda + t.mu >= 0) || !std::isfinite(t.lambda + t.mu)) {
-    throw std::invalid_argument("membrane triangle: lambda = " + std::to_string(t.lambda) +
-                                " and mu = " + std::to_string(t.mu) + " are not mu >= 0, lambda + mu >= 0");
-  }
   MembraneConstants c{area, l.cwiseAbs2(), {}};
   // cot a_i / (4 A),  cot a_i = (sum L^2 - 2 L_i^2) / (4 A)
   const Eigen::Vector3d trace = (c.length2.sum() - 2 * c.length2.array()) / (16 * area * area);
@@ -99,12 +87,25 @@ double edge_stiffness(const MembraneConstants& c, int edge) {
   return 4 * c.length2[edge] * c.quadratic(edge, edge);
 }
 
-double membrane_energy(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles) {
-  const auto constants = checked(triangles, x.size(), x.size(), "membrane_energy");
-  double energy = 0;
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    energy += edges_of(x, triangles[i], constants[i]).energy();
-  return energy;
+std::array<double, 3> edge_stiffness(const MembraneTriangle& t) {
+  const MembraneConstants c = membrane_constants(t);
+  return {edge_stiffness(c, 0), edge_stiffness(c, 1), edge_stiffness(c, 2)};
+}
+
+void check(const MembraneTriangle& t, std::size_t n) {
+  for (int i = 0; i < 3; ++i) {
+    const int v = t.vertices[i];
+    if (v < 0 || std::size_t(v) >= n || v == t.vertices[(i + 1) % 3]) {
+      throw std::invalid_argument("membrane triangle: names particle " + std::to_string(v) + " of " +
+                                  std::to_string(n) + ", or one twice");
+    }
+  }
+  rest_area(t);
+  check_parameters(t);
+}
+
+double energy(std::span<const Vec3> x, const MembraneTriangle& t) {
+  return edges_of(x, t, membrane_constants(t)).energy();
 }
 
 double add_forces(std::span<const Vec3> x, const MembraneTriangle& t, const MembraneConstants& c,
@@ -118,10 +119,8 @@ double add_forces(std::span<const Vec3> x, const MembraneTriangle& t, const Memb
   return e.energy();
 }
 
-void add_membrane_forces(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
-                         std::span<Vec3> force) {
-  const auto constants = checked(triangles, x.size(), force.size(), "add_membrane_forces");
-  for (std::size_t i = 0; i < triangles.size(); ++i) add_forces(x, triangles[i], constants[i], force);
+double add_forces(std::span<const Vec3> x, const MembraneTriangle& t, std::span<Vec3> force) {
+  return add_forces(x, t, membrane_constants(t), force);
 }
 
 void stiffness_blocks(std::span<const Vec3> x, const MembraneTriangle& t, Stiffness stiffness, Mat3* lower) {
@@ -151,16 +150,6 @@ void stiffness_blocks(std::span<const Vec3> x, const MembraneTriangle& t, Stiffn
   lower[lower_block(0, 0)] = -(pair[2] + pair[1]).transpose();
   lower[lower_block(1, 1)] = -(pair[2] + pair[0].transpose());
   lower[lower_block(2, 2)] = -(pair[1] + pair[0]);
-}
-
-void add_membrane_stiffness(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
-                            Stiffness stiffness, const BlockSink& sink) {
-  checked(triangles, x.size(), x.size(), "add_membrane_stiffness");
-  std::array<Mat3, lower_blocks(3)> lower;
-  for (const MembraneTriangle& t : triangles) {
-    stiffness_blocks(x, t, stiffness, lower.data());
-    hand_out(t.vertices, lower.data(), sink);
-  }
 }
 
 }  // namespace furrow::physics

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <span>
+#include <tuple>
 
 #include "physics/cloth/cloth.h"
 #include "physics/cloth/stiffness.h"
@@ -32,22 +34,34 @@ MembraneConstants membrane_constants(const MembraneTriangle& triangle);
 /// Summed over an edge's triangles it is the spring that the edge resembles.
 double edge_stiffness(const MembraneConstants& constants, int edge);
 
-/// As the functions of springs do: energy [J], forces [N], blocks of K [N/m] of each triangle's corners in
-/// order, (0, 0), (0, 1) ... (2, 2). The tension of an edge is 2 dW/dd times its vector.
+/// What elements.h asks of a kind.
+inline std::array<int, 3> vertices(const MembraneTriangle& t) { return t.vertices; }
+inline void renumber(MembraneTriangle& t, std::span<const int> place) {
+  for (int& v : t.vertices) v = place[v];
+}
+inline auto fields(const MembraneTriangle& t) {
+  const auto& [a, b, c] = t.vertices;
+  const auto& [l0, l1, l2] = t.rest_lengths;
+  return std::tuple(a, l0, b, l1, c, l2, t.lambda, t.mu);
+}
+/// Throws std::invalid_argument if it names a particle out of range or one twice, or as membrane_constants().
+void check(const MembraneTriangle& triangle, std::size_t particles);
+double energy(std::span<const Vec3> x, const MembraneTriangle& triangle);
+/// The tension of an edge is 2 dW/dd times its vector.
+double add_forces(std::span<const Vec3> x, const MembraneTriangle& triangle, std::span<Vec3> force);
 /// Stiffness::positive_part clamps the eigenvalues of the part that the tensions make (K >= exact); the other
-/// part is semidefinite. Cost: one pass. Throw std::invalid_argument, nothing changed, if lengths differ, a
-/// triangle names a particle out of range, or as membrane_constants() does.
-double membrane_energy(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles);
-void add_membrane_forces(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
-                         std::span<Vec3> force);
-void add_membrane_stiffness(std::span<const Vec3> x, std::span<const MembraneTriangle> triangles,
-                            Stiffness stiffness, const BlockSink& sink);
-
-/// One triangle's, whose particles are in range: adds its forces and returns its energy; its blocks on and
-/// below the diagonal.
-double add_forces(std::span<const Vec3> x, const MembraneTriangle& triangle,
-                  const MembraneConstants& constants, std::span<Vec3> force);
+/// part is semidefinite.
 void stiffness_blocks(std::span<const Vec3> x, const MembraneTriangle& triangle, Stiffness stiffness,
                       Mat3* lower);
+/// The same forces, for callers that keep what the rest state comes to.
+double add_forces(std::span<const Vec3> x, const MembraneTriangle& triangle,
+                  const MembraneConstants& constants, std::span<Vec3> force);
+
+/// As edges that stretch: ends and rest length, and the stiffness that they are damped by [N/m].
+inline std::array<Spring, 3> edges(const MembraneTriangle& t) {
+  const auto& [a, b, c] = t.vertices;
+  return {Spring{b, c, t.rest_lengths[0], 0}, {c, a, t.rest_lengths[1], 0}, {a, b, t.rest_lengths[2], 0}};
+}
+std::array<double, 3> edge_stiffness(const MembraneTriangle& triangle);
 
 }  // namespace furrow::physics

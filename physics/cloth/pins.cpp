@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "physics/cloth/pins.h"
 
-#include <stdexcept>
-#include <string>
+#include "physics/base/require.h"
 
 namespace furrow::physics {
 
 void pin(Particles& particles, std::span<const int> indices) {
-  for (const int i : indices) {
-    if (i < 0 || std::size_t(i) >= particles.size()) {
-      throw std::invalid_argument("pin: no particle " + std::to_string(i) + " among " +
-                                  std::to_string(particles.size()));
-    }
-  }
+  for (const int i : indices)
+    if (i < 0 || std::size_t(i) >= particles.size())
+      refuse("pin", "no particle ", i, " among ", particles.size());
   for (const int i : indices) {
     particles.inv_mass[i] = 0;
     particles.v[i] = Vec3::Zero();

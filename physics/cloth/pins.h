@@ -15,8 +15,8 @@ void pin(Particles& particles, std::span<const int> indices);
 /// limp at 8 to 16 cells, and the error falls with the first power of the cell instead of the second. Once
 /// for a new cloth, when all its pins are set.
 void stiffen_clamps(Cloth& cloth);
-/// Its inverse, exactly: halves what stiffen_clamps doubled, with the same pins. For who keeps the hinges'
-/// stiffness elsewhere.
+/// Its inverse, exactly: halves what stiffen_clamps doubled, with the same pins. For callers that keep the
+/// hinges' stiffness elsewhere.
 void soften_clamps(Cloth& cloth);
 
 }  // namespace furrow::physics

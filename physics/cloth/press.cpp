@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "physics/cloth/press.h"
 
-#include <cmath>
-#include <stdexcept>
-#include <string>
+#include <vector>
+
+#include "physics/base/require.h"
 
 namespace furrow::physics {
 
 int press(Cloth& cloth, std::span<const int> patch, double factor) {
-  if (!(factor > 0) || !std::isfinite(factor)) {
-    throw std::invalid_argument("press: factor = " + std::to_string(factor) + " is not > 0");
-  }
+  require("press", "factor", factor, factor > 0, "> 0");
   std::vector<char> inside(cloth.particles.size());
   for (const int i : patch) {
-    if (i < 0 || std::size_t(i) >= inside.size()) {
-      throw std::invalid_argument("press: no particle " + std::to_string(i) + " among " +
-                                  std::to_string(inside.size()));
-    }
+    if (i < 0 || std::size_t(i) >= inside.size())
+      refuse("press", "no particle ", i, " among ", inside.size());
     inside[i] = 1;
   }
   int pressed = 0;

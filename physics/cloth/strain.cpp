@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/cloth/kinds.h"
+
 namespace furrow::physics {
 
 StrainStatistics strain_statistics(std::span<const Vec3> x, std::span<const Spring> springs) {
@@ -29,17 +31,28 @@ StrainStatistics strain_statistics(std::span<const Vec3> x, std::span<const Spri
   return result;
 }
 
+namespace {
+
+/// Appends the edges of all kinds that have so many particles.
+template <std::size_t particles>
+void add_edges(const Cloth& cloth, std::vector<Spring>& to) {
+  for_each_kind(cloth, [&](const auto& kind, auto...) {
+    if constexpr (requires { edges(kind[0]); }) {
+      if constexpr (decltype(vertices(kind[0])){}.size() == particles)
+        for (const auto& e : kind)
+          for (const Spring& edge : edges(e)) to.push_back(edge);
+    }
+  });
+}
+
+}  // namespace
+
 StrainStatistics strain_statistics(const Cloth& cloth) {
   if (cloth.tension.empty() && !cloth.structural.empty())
     return strain_statistics(cloth.particles.x, cloth.structural);
   std::vector<Spring> edges = cloth.structural;
-  for (const Tension& t : cloth.tension) edges.push_back({t.a, t.b, t.rest_length, 0});
-  if (!edges.empty()) return strain_statistics(cloth.particles.x, edges);
-  edges.reserve(3 * cloth.membrane.size());
-  for (const MembraneTriangle& t : cloth.membrane) {
-    for (std::size_t i = 0; i < 3; ++i)
-      edges.push_back({t.vertices[(i + 1) % 3], t.vertices[(i + 2) % 3], t.rest_lengths[i], 0});
-  }
+  add_edges<2>(cloth, edges);
+  if (edges.empty()) add_edges<3>(cloth, edges);
   return strain_statistics(cloth.particles.x, edges);
 }
 

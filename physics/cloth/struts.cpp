@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <tuple>
+
+#include "physics/base/require.h"
 
 namespace furrow::physics {
 namespace {
@@ -13,15 +13,14 @@ namespace {
 using Neighbours = std::vector<std::vector<int>>;
 
 void check(const Cloth& cloth, std::span<const int> patch, const StrutOptions& o) {
-  const auto fail = [](const std::string& what) { throw std::invalid_argument("add_struts: " + what); };
-  if (!(o.stiffness >= 0) || !std::isfinite(o.stiffness))
-    fail("stiffness = " + std::to_string(o.stiffness) + " is not >= 0");
-  if (o.nearest < 2) fail("nearest = " + std::to_string(o.nearest) + " is not >= 2");
-  if (o.farthest < o.nearest) fail("farthest = " + std::to_string(o.farthest) + " is less than nearest");
-  if (!(o.width >= 0) || !std::isfinite(o.width)) fail("width = " + std::to_string(o.width) + " is not >= 0");
+  const char* const operation = "add_struts";
+  require(operation, "stiffness", o.stiffness, o.stiffness >= 0, ">= 0");
+  if (o.nearest < 2) refuse(operation, "nearest = ", o.nearest, " is not >= 2");
+  if (o.farthest < o.nearest) refuse(operation, "farthest = ", o.farthest, " is less than nearest");
+  require(operation, "width", o.width, o.width >= 0, ">= 0");
   const auto n = int(cloth.particles.size());
   const auto in_range = [&](int i) {
-    if (i < 0 || i >= n) fail("no particle " + std::to_string(i) + " among " + std::to_string(n));
+    if (i < 0 || i >= n) refuse(operation, "no particle ", i, " among ", n);
   };
   for (const int i : patch) in_range(i);
   for (const auto& t : cloth.triangles)

@@ -6,16 +6,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/base/require.h"
+
 namespace furrow::physics {
 namespace {
-
-void check_all(std::span<const Tension> tension, std::size_t n, std::size_t others, const char* function) {
-  if (others != n) {
-    throw std::invalid_argument(std::string(function) + ": " + std::to_string(n) +
-                                " positions, but arrays of " + std::to_string(others));
-  }
-  for (const Tension& t : tension) check(t, n);
-}
 
 /// T' n n^T + T/l (I - n n^T), on and below the diagonal.
 void make_blocks(const Vec3& d, double along, double across, Mat3* lower) {
@@ -39,20 +33,15 @@ TensionLaw tension_law(const Tension& t, double e) {
 }
 
 double remaining_strain(double stretch, double force) {
-  if (!(stretch > 0) || !std::isfinite(stretch))
-    throw std::invalid_argument("remaining_strain: stretch = " + std::to_string(stretch) + " is not > 0");
-  if (!(force >= 0))
-    throw std::invalid_argument("remaining_strain: force = " + std::to_string(force) + " is not >= 0");
+  require("remaining_strain", "stretch", stretch, stretch > 0, "> 0");
+  require("remaining_strain", "force", std::min(force, 1e300), force >= 0, ">= 0");
   return std::sqrt(force / stretch);
 }
 
 double tension_slope(const Tension& tension, double strain) { return tension_law(tension, strain).slope; }
 
-double tension_energy(std::span<const Vec3> x, std::span<const Tension> tension) {
-  check_all(tension, x.size(), x.size(), "tension_energy");
-  double energy = 0;
-  for (const Tension& t : tension) energy += tension_law(t, strain_of(t, (x[t.b] - x[t.a]).norm())).energy;
-  return energy;
+double energy(std::span<const Vec3> x, const Tension& t) {
+  return tension_law(t, strain_of(t, (x[t.b] - x[t.a]).norm())).energy;
 }
 
 double add_forces(std::span<const Vec3> x, const Tension& t, std::span<Vec3> force) {
@@ -67,11 +56,6 @@ double add_forces(std::span<const Vec3> x, const Tension& t, std::span<Vec3> for
   return law.energy;
 }
 
-void add_tension_forces(std::span<const Vec3> x, std::span<const Tension> tension, std::span<Vec3> force) {
-  check_all(tension, x.size(), force.size(), "add_tension_forces");
-  for (const Tension& t : tension) add_forces(x, t, force);
-}
-
 void stiffness_blocks(std::span<const Vec3> x, const Tension& t, Stiffness stiffness, Mat3* lower) {
   const Vec3 d = x[t.b] - x[t.a];
   const double l = d.norm();
@@ -81,28 +65,12 @@ void stiffness_blocks(std::span<const Vec3> x, const Tension& t, Stiffness stiff
   make_blocks(d, law.slope, across, lower);
 }
 
-void add_tension_stiffness(std::span<const Vec3> x, std::span<const Tension> tension, Stiffness stiffness,
-                           const BlockSink& sink) {
-  check_all(tension, x.size(), x.size(), "add_tension_stiffness");
-  std::array<Mat3, lower_blocks(2)> lower;
-  for (const Tension& t : tension) {
-    stiffness_blocks(x, t, stiffness, lower.data());
-    hand_out(std::array{t.a, t.b}, lower.data(), sink);
-  }
-}
-
-void add_tension_stiffness_bound(std::span<const Vec3> x, std::span<const Tension> tension,
-                                 const BlockSink& sink, double margin) {
-  check_all(tension, x.size(), x.size(), "add_tension_stiffness_bound");
-  std::array<Mat3, lower_blocks(2)> lower;
-  for (const Tension& t : tension) {
-    const Vec3 d = x[t.b] - x[t.a];
-    const double e = strain_of(t, d.norm()), more = e + margin;
-    const double along = tension_slope(t, std::abs(e) + margin);
-    const double across = more > 0 ? tension_law(t, more).force / ((1 + more) * t.rest_length) : 0;
-    make_blocks(d, along, across, lower.data());
-    hand_out(std::array{t.a, t.b}, lower.data(), sink);
-  }
+void stiffness_bound_blocks(std::span<const Vec3> x, const Tension& t, Mat3* lower, double margin) {
+  const Vec3 d = x[t.b] - x[t.a];
+  const double e = strain_of(t, d.norm()), more = e + margin;
+  const double along = tension_slope(t, std::abs(e) + margin);
+  const double across = more > 0 ? tension_law(t, more).force / ((1 + more) * t.rest_length) : 0;
+  make_blocks(d, along, across, lower);
 }
 
 void check(const Tension& t, std::size_t particles) {

@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <stdexcept>
 #include <string>
-
-#include "physics/cloth/element_blocks.h"
 
 namespace furrow::physics {
 namespace {
@@ -58,7 +55,7 @@ std::vector<std::vector<int>> FreeStiffness::make_pattern(const Pairs& pairs) {
 /// Where each block goes; in each chunk those of a bucket of columns follow each other in the elements'
 /// order.
 void FreeStiffness::place_blocks(const Pairs& pairs, const std::vector<std::vector<int>>& below) {
-  const int elements = std::accumulate(counts_.begin(), counts_.end(), 0);
+  const int elements = counts_.total();
   buckets_.assign(1, 0);
   for (int begin = 0; begin < elements; begin += chunk) {
     const int first = first_block(counts_, begin),
@@ -106,7 +103,7 @@ void FreeStiffness::sum(int number, int bucket) {
 
 void FreeStiffness::assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffness stiffness,
                              ThreadPool* pool) {
-  if (count_elements(cloth) != counts_)
+  if (!fits(counts_, cloth))
     throw std::invalid_argument("FreeStiffness: the cloth has other numbers of elements now");
   if (x.size() != row_.size())
     throw std::invalid_argument("FreeStiffness: " + std::to_string(x.size()) + " positions of " +
@@ -116,12 +113,12 @@ void FreeStiffness::assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffn
     for (int i = 0; i < n; ++i) work(i);
   };
   std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
-  const int elements = std::accumulate(counts_.begin(), counts_.end(), 0);
+  const int elements = counts_.total();
   for (int begin = 0; begin < elements; begin += chunk) {
     const int end = std::min(begin + chunk, elements), first = first_block(counts_, begin);
     each((end - begin + piece - 1) / piece, [&](int i) {
       const int from = begin + i * piece;
-      stiffness_blocks(cloth, x, stiffness, from, std::min(from + piece, end),
+      stiffness_blocks(cloth, counts_, x, stiffness, from, std::min(from + piece, end),
                        blocks_.data() + (first_block(counts_, from) - first));
     });
     each(buckets, [&](int bucket) { sum(begin / chunk, bucket); });

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/cloth/elements.h"
+#include "physics/cloth/element_blocks.h"
 #include "physics/linear/block_cholesky.h"
 
 namespace furrow::physics {
@@ -60,7 +60,7 @@ class FreeStiffness {
   void sum(int chunk, int bucket);
 
   int free_particles_ = 0;
-  std::array<int, 5> counts_{};       ///< of elements of each kind
+  ElementCounts counts_;
   std::vector<int> row_;              ///< of each particle among the free ones; -1: held
   std::vector<Addend> addends_;       ///< chunk by chunk of elements; in a chunk by buckets of columns
   std::vector<std::size_t> buckets_;  ///< where each begins, and the end

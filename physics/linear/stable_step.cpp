@@ -21,6 +21,7 @@ using Eigen::VectorXd;
 
 // A residual can be small before the largest eigenvalue has shown up at all, but hardly after so many rounds.
 constexpr std::size_t least_iterations = 32;
+constexpr double difference_error = 1e-7;  // of a product by differences of forces
 
 /// In [-1/2, 1/2), a function of its argument only (the mixer splitmix64).
 double pseudo_random(std::uint64_t i) {
@@ -38,6 +39,7 @@ class Operator {
     for (const double w : cloth.particles.inv_mass) scale_.push_back(std::sqrt(w));
   }
   Index size() const { return Index(3 * u_.size()); }
+  bool is_bounded() const { return elements_.is_bounded(); }
   const std::vector<double>& scale() const { return scale_; }
 
   void apply(const Eigen::Ref<const VectorXd>& q, VectorXd& result) {
@@ -110,13 +112,19 @@ void check(const StableStepOptions& options) {
 StepLimit stable_step(const Cloth& cloth, const StableStepOptions& options) {
   check(options);
   Operator op(cloth);
-  const double bound = op.gershgorin();
-  if (bound == 0) return {std::numeric_limits<double>::infinity(), 0, 0, 0};
+  const double sums = op.gershgorin();
+  if (sums == 0 && op.is_bounded()) return {std::numeric_limits<double>::infinity(), 0, 0, 0};
+  const double bound = op.is_bounded() ? sums : std::numeric_limits<double>::infinity();
   const Index most = std::min<Index>(op.size(), options.max_iterations);
   std::vector<VectorXd> basis{start_vector(op)};
   std::vector<double> alpha, beta;
   Ritz ritz{};
   VectorXd w(op.size());
+  double nothing = 1e-13 * sums;
+  if (!op.is_bounded()) {
+    op.apply(basis[0], w);
+    nothing = difference_error * w.norm();
+  }
   while (true) {
     op.apply(basis.back(), w);
     alpha.push_back(basis.back().dot(w));
@@ -124,7 +132,7 @@ StepLimit stable_step(const Cloth& cloth, const StableStepOptions& options) {
       for (const VectorXd& q : basis) w -= q.dot(w) * q;
     }
     beta.push_back(w.norm());
-    const bool exhausted = beta.back() <= 1e-13 * bound || Index(alpha.size()) >= most;
+    const bool exhausted = beta.back() <= nothing || Index(alpha.size()) >= most;
     if (exhausted || (alpha.size() >= least_iterations && alpha.size() % 4 == 0)) {
       ritz = largest_ritz_value(alpha, beta);
       if (exhausted || ritz.residual <= options.tolerance * ritz.theta) break;

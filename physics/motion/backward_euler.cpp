@@ -163,7 +163,8 @@ double BackwardEuler::energy(double dt) const {
   const Motion& motion = motion_;
   const PackedCloth& cloth = motion.cloth();
   const Loads& loads = motion.loads();
-  double sum = shell_.empty() ? 0 : potential_energy(cloth.shell, positions(cloth));
+  const bool has_shell = !shell_.empty() || !cloth.shell.energies.empty();
+  double sum = has_shell ? potential_energy(cloth.shell, positions(cloth)) : 0;
   for (std::size_t i = 0; i < cloth.v.size(); ++i) {
     if (cloth.inv_mass[i] == 0) continue;
     const Vec3 v = vec3(cloth.v[i]), air = motion.wind() ? vec3(air_[i]) : Vec3::Zero();

@@ -146,6 +146,7 @@ void Motion::drift(double seconds) {
 void Motion::update_forces(double time) {
   update_spring_forces(cloth_, pool_);
   add_element_forces(cloth_.elements, cloth_.x, cloth_.force, pool_);
+  add_other_forces(cloth_);
   if (around_.compensation) compensate(time);
   ++work_.force_evaluations;
   work_.spring_evaluations += cloth_.springs() - cloth_.dashpots + cloth_.elements.tension_count;

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstring>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
+
+#include "physics/cloth/kinds.h"
 
 #include "physics/motion/compensation.h"
 
@@ -36,29 +40,22 @@ class Hash {
   std::uint64_t hash_ = 0xcbf29ce484222325;
 };
 
+/// A kind that came later counts only where there is any of it, so that older states keep their fingerprints.
+template <class Element>
+constexpr bool always_counted =
+    std::same_as<Element, Spring> || std::same_as<Element, MembraneTriangle> || std::same_as<Element, Hinge>;
+
 }  // namespace
 
 std::uint64_t fingerprint(const Cloth& cloth) {
   Hash hash;
   for (const double inv_mass : cloth.particles.inv_mass) hash.add(inv_mass);
-  for (const auto* springs : {&cloth.structural, &cloth.bending}) {
-    hash.add(springs->size());
-    for (const Spring& s : *springs)
-      hash.add(s.a), hash.add(s.b), hash.add(s.rest_length), hash.add(s.stiffness);
-  }
-  hash.add(cloth.membrane.size());
-  for (const MembraneTriangle& t : cloth.membrane) {
-    for (int k = 0; k < 3; ++k) hash.add(t.vertices[k]), hash.add(t.rest_lengths[k]);
-    hash.add(t.lambda), hash.add(t.mu);
-  }
-  if (!cloth.tension.empty()) hash.add(cloth.tension.size());  // as ever where there is none
-  for (const Tension& t : cloth.tension)
-    hash.add(t.a), hash.add(t.b), hash.add(t.rest_length), hash.add(t.stretch), hash.add(t.compress);
-  hash.add(cloth.hinges.size()), hash.add(int(cloth.hinge_law));
-  for (const Hinge& h : cloth.hinges) {
-    for (const int v : h.vertices) hash.add(v);
-    hash.add(h.rest_angle), hash.add(h.stiffness);
-  }
+  for_each_kind(cloth, [&](const auto& kind, auto... law) {
+    if (!kind.empty() || always_counted<KindOf<decltype(kind)>>) hash.add(kind.size());
+    (hash.add(int(law)), ...);
+    for (const auto& e : kind) std::apply([&](auto... field) { (hash.add(field), ...); }, fields(e));
+  });
+  if (!cloth.energies.empty()) hash.add(cloth.energies.size());  // what they are nobody knows
   return hash.value();
 }
 

@@ -61,7 +61,9 @@ struct SimulateState {
   SimulateTotals totals;
 };
 
-/// Tells one cloth's springs and masses from another's: a plan is made anew when they changed at a stop.
+/// Tells one cloth's elements and masses from another's: a plan is made anew when they changed at a stop. Of
+/// Cloth::energies it knows only how many there are: a caller that changes one for another at a stop must
+/// make the plan anew (planned = false).
 std::uint64_t fingerprint(const Cloth& cloth);
 
 /// Throws std::invalid_argument if the state contradicts itself or does not fit a cloth of so many particles.

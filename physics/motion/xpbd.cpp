@@ -97,6 +97,19 @@ double solve_groups(const Sweep& sweep, const std::vector<int>& begin, int first
   return most;
 }
 
+void require_springs_only(const Cloth& shell) {
+  std::size_t elements = 0;
+  for_each_kind(shell, [&](const auto& kind, auto...) { elements += kind.size(); });
+  if (elements == 0 && shell.energies.empty()) return;
+  const std::size_t known = shell.membrane.size() + shell.tension.size() + shell.hinges.size();
+  throw std::invalid_argument(
+      "xpbd knows springs only: not " + std::to_string(shell.membrane.size()) + " membrane triangles, " +
+      std::to_string(shell.tension.size()) + " tensions and " + std::to_string(shell.hinges.size()) +
+      " hinges" + (elements > known ? ", nor " + std::to_string(elements - known) + " of other kinds" : "") +
+      (shell.energies.empty() ? "" : ", nor " + std::to_string(shell.energies.size()) + " energies") +
+      "; choose springs for both, or another integrator");
+}
+
 }  // namespace
 
 Xpbd::Xpbd(Motion& motion, const XpbdOptions& options) : motion_(motion), options_(options) {
@@ -107,13 +120,7 @@ Xpbd::Xpbd(Motion& motion, const XpbdOptions& options) : motion_(motion), option
     throw std::invalid_argument("xpbd: tolerance = " + std::to_string(options.tolerance) + " is not >= 0");
   }
   const PackedCloth& cloth = motion.cloth();
-  if (!cloth.shell.membrane.empty() || !cloth.shell.tension.empty() || !cloth.shell.hinges.empty()) {
-    throw std::invalid_argument("xpbd knows springs only: not " +
-                                std::to_string(cloth.shell.membrane.size()) + " membrane triangles, " +
-                                std::to_string(cloth.shell.tension.size()) + " tensions and " +
-                                std::to_string(cloth.shell.hinges.size()) +
-                                " hinges; choose springs for both, or another integrator");
-  }
+  require_springs_only(cloth.shell);
   dashpots_ = dashpots(cloth, motion.loads().spring_damping);
   dashpots_.resize(cloth.a.size(), 0.0);
   for (std::size_t i = 0; i < cloth.a.size(); ++i)

@@ -3,13 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 
-#include "physics/cloth/membrane.h"
-#include "physics/cloth/tension_forces.h"
+#include "physics/base/require.h"
+#include "physics/cloth/elements.h"
+#include "physics/cloth/energy.h"
+#include "physics/cloth/kinds.h"
 
 namespace furrow::physics {
 namespace {
@@ -60,20 +65,19 @@ struct PackedSpring {
   double k, kL, damping_k;
 };
 
-/// One for each edge of the membrane or tension, sorted; damping_k: the sum of its triangles'
-/// edge_stiffness() and of tension's slope at the working strain.
+/// One for each edge of kinds that have an edge_stiffness(), sorted; damping_k: its sum.
 std::vector<PackedSpring> element_dashpots(const Cloth& cloth, const std::vector<int>& place) {
   std::map<std::pair<int, int>, double> edges;
-  for (const MembraneTriangle& t : cloth.membrane) {
-    const MembraneConstants constants = membrane_constants(t);
-    for (int i = 0; i < 3; ++i) {
-      edges[std::minmax(place[std::size_t(t.vertices[(i + 1) % 3])],
-                        place[std::size_t(t.vertices[(i + 2) % 3])])] += edge_stiffness(constants, i);
+  for_each_kind(cloth, [&](const auto& kind, auto...) {
+    if constexpr (requires { edge_stiffness(kind[0]); }) {
+      for (const auto& e : kind) {
+        const auto ends = physics::edges(e);
+        const auto stiffness = edge_stiffness(e);
+        for (std::size_t i = 0; i < ends.size(); ++i)
+          edges[std::minmax(place[std::size_t(ends[i].a)], place[std::size_t(ends[i].b)])] += stiffness[i];
+      }
     }
-  }
-  for (const Tension& t : cloth.tension) {
-    edges[std::minmax(place[std::size_t(t.a)], place[std::size_t(t.b)])] += tension_slope(t, working_strain);
-  }
+  });
   std::vector<PackedSpring> dashpots;
   for (const auto& [edge, k] : edges) dashpots.push_back({edge.first, edge.second, 0, 0, k});
   return dashpots;
@@ -112,30 +116,62 @@ void pack_springs(const std::vector<PackedSpring>& springs, PackedCloth& packed)
   packed.inv_length2.assign(springs.size(), 0.0);
 }
 
-Cloth renumbered_shell(const Cloth& cloth, const std::vector<int>& place) {
-  Cloth shell;
-  shell.membrane = cloth.membrane;
-  shell.tension = cloth.tension;
-  shell.hinges = cloth.hinges;
-  shell.hinge_law = cloth.hinge_law;
-  for (MembraneTriangle& t : shell.membrane)
-    for (int& v : t.vertices) v = place[std::size_t(v)];
-  for (Tension& t : shell.tension) t.a = place[std::size_t(t.a)], t.b = place[std::size_t(t.b)];
-  for (Hinge& h : shell.hinges)
-    for (int& v : h.vertices) v = place[std::size_t(v)];
+/// An energy of the cloth's particles, asked by places.
+class PlacedEnergy : public Energy {
+ public:
+  PlacedEnergy(std::shared_ptr<const Energy> own, const std::vector<int>& particle,
+               const std::vector<int>& place)
+      : own_(std::move(own)), particle_(particle), place_(place) {}
+
+  double energy(std::span<const Vec3> x) const override { return own_->energy(by_particle(x)); }
+  void add_forces(std::span<const Vec3> x, std::span<Vec3> force) const override {
+    std::vector<Vec3> sum(x.size(), Vec3::Zero());
+    own_->add_forces(by_particle(x), sum);
+    for (std::size_t i = 0; i < sum.size(); ++i) force[i] += sum[std::size_t(particle_[i])];
+  }
+  bool add_stiffness(std::span<const Vec3> x, Stiffness part, const BlockSink& sink) const override {
+    return own_->add_stiffness(by_particle(x), part, [&](int i, int j, const Mat3& block) {
+      if (i < 0 || j < 0 || std::size_t(std::max(i, j)) >= place_.size())
+        refuse("cloth", "an energy names particles ", i, " and ", j, " of ", place_.size());
+      sink(place_[std::size_t(i)], place_[std::size_t(j)], block);
+    });
+  }
+
+ private:
+  std::vector<Vec3> by_particle(std::span<const Vec3> x) const {
+    std::vector<Vec3> y(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) y[std::size_t(particle_[i])] = x[i];
+    return y;
+  }
+
+  std::shared_ptr<const Energy> own_;
+  std::vector<int> particle_, place_;
+};
+
+Cloth renumbered_shell(const Cloth& cloth, const std::vector<int>& particle, const std::vector<int>& place) {
+  Cloth shell = cloth;
+  shell.particles = {};
+  shell.triangles.clear();
+  for_each_kind(shell, [&](auto& kind, auto...) {
+    if constexpr (std::same_as<KindOf<decltype(kind)>, Spring>)
+      kind.clear();
+    else
+      for (auto& e : kind) renumber(e, place);
+  });
+  for (auto& own : shell.energies) own = std::make_shared<PlacedEnergy>(own, particle, place);
   return shell;
 }
 
-/// Which particles act on each other.
+/// Which particles act on each other: those that follow each other in an element, around.
 std::vector<std::array<int, 2>> neighbour_pairs(const Cloth& cloth) {
   std::vector<std::array<int, 2>> pairs;
-  for (const Spring& s : cloth.structural) pairs.push_back({s.a, s.b});
-  for (const Spring& s : cloth.bending) pairs.push_back({s.a, s.b});
-  for (const MembraneTriangle& t : cloth.membrane)
-    for (std::size_t i = 0; i < 3; ++i) pairs.push_back({t.vertices[i], t.vertices[(i + 1) % 3]});
-  for (const Tension& t : cloth.tension) pairs.push_back({t.a, t.b});
-  for (const Hinge& h : cloth.hinges)
-    for (std::size_t i = 0; i < 4; ++i) pairs.push_back({h.vertices[i], h.vertices[(i + 1) % 4]});
+  for_each_kind(cloth, [&](const auto& kind, auto...) {
+    for (const auto& e : kind) {
+      const auto v = vertices(e);
+      const std::size_t n = v.size(), sides = n == 2 ? 1 : n;
+      for (std::size_t i = 0; i < sides; ++i) pairs.push_back({v[i], v[(i + 1) % n]});
+    }
+  });
   return pairs;
 }
 
@@ -146,7 +182,7 @@ PackedCloth pack(const Cloth& cloth, bool dashpots) {
   check_particles(from);
   check_springs(cloth.structural, from.size(), "structural");
   check_springs(cloth.bending, from.size(), "bending");
-  check_elements(cloth);
+  check_elements(cloth, from.size());
   PackedCloth packed;
   packed.particle = breadth_first_order(int(from.size()), neighbour_pairs(cloth));
   packed.force.assign(from.size(), Vec4{});
@@ -162,8 +198,28 @@ PackedCloth pack(const Cloth& cloth, bool dashpots) {
   packed.dashpots = int(edges.size());
   pack_springs(renumbered_springs(cloth, place, edges), packed);
   packed.elements = pack_elements(cloth, place);
-  packed.shell = renumbered_shell(cloth, place);
+  packed.shell = renumbered_shell(cloth, packed.particle, place);
   return packed;
+}
+
+void add_other_forces(PackedCloth& packed) {
+  const Cloth& shell = packed.shell;
+  bool any = !shell.energies.empty();
+  for_each_kind(shell, [&](const auto& kind, auto...) {
+    if constexpr (!is_laid_out<KindOf<decltype(kind)>>) any = any || !kind.empty();
+  });
+  if (!any) return;
+  std::vector<Vec3> x, force(packed.x.size(), Vec3::Zero());
+  for (const Vec4& p : packed.x) x.emplace_back(p.x, p.y, p.z);
+  for_each_kind(shell, [&](const auto& kind, auto... law) {
+    if constexpr (!is_laid_out<KindOf<decltype(kind)>>)
+      for (const auto& e : kind) add_forces(x, e, law..., force);
+  });
+  for (const auto& own : shell.energies) own->add_forces(x, force);
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    Vec4& sum = packed.force[i];
+    sum = {sum.x + force[i].x(), sum.y + force[i].y(), sum.z + force[i].z(), 0};
+  }
 }
 
 void unpack(const PackedCloth& packed, Particles& particles) {

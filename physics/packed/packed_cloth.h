@@ -25,8 +25,9 @@ struct PackedCloth {
   SweepOrder sweep;                 ///< groups and blocks of the springs; `pairs` is empty (already applied)
   int dashpots = 0;                 ///< how many of the springs
   PackedElements elements;
-  Cloth
-      shell;  ///< membrane, tension and hinges alone, their vertices places, for the functions of elements.h
+  /// All but springs and particles, with places for vertices, for the functions of elements.h; its energies
+  /// take positions by place, too.
+  Cloth shell;
 
   int particles() const { return int(x.size()); }
   int springs() const { return int(a.size()); }  ///< with dashpots
@@ -36,6 +37,10 @@ struct PackedCloth {
 /// particle out of range or one twice, or a mass, stiffness, rest length or rest angle is not in its range.
 /// dashpots: whether the membrane's edges and tension get one each.
 PackedCloth pack(const Cloth& cloth, bool dashpots = true);
+
+/// Adds the forces at x of what is not laid out for speed: kinds without a layout, and Cloth::energies. Cost:
+/// nothing where there are none; else their own, by one thread, and a copy of positions and forces.
+void add_other_forces(PackedCloth& packed);
 
 /// Writes positions and velocities back; pinned particles keep theirs bit by bit.
 void unpack(const PackedCloth& packed, Particles& particles);

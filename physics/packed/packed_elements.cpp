@@ -2,32 +2,17 @@
 #include "physics/packed/packed_elements.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
-#include "physics/cloth/hinge_forces.h"
-#include "physics/cloth/membrane.h"
-#include "physics/cloth/tension_forces.h"
+#include "physics/cloth/kinds.h"
 
 namespace furrow::physics {
 namespace {
 
-void check_corners(const MembraneTriangle& t, std::size_t n) {
-  for (int i = 0; i < 3; ++i) {
-    const int v = t.vertices[i];
-    if (v < 0 || std::size_t(v) >= n || v == t.vertices[(i + 1) % 3]) {
-      throw std::invalid_argument("membrane triangle: names particle " + std::to_string(v) + " of " +
-                                  std::to_string(n) + ", or one twice");
-    }
-  }
-}
-
 /// The elements with places for vertices, sorted by the least.
 template <typename Element>
 std::vector<Element> renumbered(std::vector<Element> elements, const std::vector<int>& place) {
-  for (Element& e : elements)
-    for (int& v : e.vertices) v = place[std::size_t(v)];
-  const auto least = [](const Element& e) { return *std::min_element(e.vertices.begin(), e.vertices.end()); };
+  for (Element& e : elements) renumber(e, place);
+  const auto least = [](const Element& e) { return std::ranges::min(vertices(e)); };
   std::stable_sort(elements.begin(), elements.end(),
                    [&](const Element& e, const Element& f) { return least(e) < least(f); });
   return elements;
@@ -43,23 +28,11 @@ void put(const MembraneTriangle& t, int lane, PackedElements::FourTriangles& fou
   }
 }
 
-/// A Tension whose ends are in an array, as those of the other kinds.
-struct PlacedTension {
-  std::array<int, 2> vertices;
-  Tension law;
-};
-
-std::vector<PlacedTension> with_vertices(const std::vector<Tension>& tension) {
-  std::vector<PlacedTension> result;
-  for (const Tension& t : tension) result.push_back({{t.a, t.b}, t});
-  return result;
-}
-
-void put(const PlacedTension& t, int lane, PackedElements::FourTensions& four) {
-  for (int i = 0; i < 2; ++i) four.end[i][lane] = t.vertices[i];
-  four.rest_length[lane] = t.law.rest_length;
-  four.stretch[lane] = t.law.stretch;
-  four.compress[lane] = t.law.compress;
+void put(const Tension& t, int lane, PackedElements::FourTensions& four) {
+  four.end[0][lane] = t.a, four.end[1][lane] = t.b;
+  four.rest_length[lane] = t.rest_length;
+  four.stretch[lane] = t.stretch;
+  four.compress[lane] = t.compress;
 }
 
 void put(const Hinge& h, int lane, PackedElements::FourHinges& four) {
@@ -91,18 +64,9 @@ void plan_gathering(const std::vector<int>& slots, std::size_t places, PackedEle
 
 }  // namespace
 
-void check_elements(const Cloth& cloth) {
-  for (const MembraneTriangle& t : cloth.membrane) {
-    check_corners(t, cloth.particles.size());
-    membrane_constants(t);
-  }
-  for (const Tension& t : cloth.tension) check(t, cloth.particles.size());
-  for (const Hinge& h : cloth.hinges) check(h, cloth.particles.size());
-}
-
 PackedElements pack_elements(const Cloth& cloth, const std::vector<int>& place) {
   const auto triangles = renumbered(cloth.membrane, place);
-  const auto tensions = renumbered(with_vertices(cloth.tension), place);
+  const auto tensions = renumbered(cloth.tension, place);
   const auto hinges = renumbered(cloth.hinges, place);
   PackedElements packed;
   packed.law = cloth.hinge_law;
@@ -116,12 +80,13 @@ PackedElements pack_elements(const Cloth& cloth, const std::vector<int>& place) 
   const std::size_t first_tension = 12 * packed.triangles.size(),
                     first_hinge = first_tension + 8 * packed.tensions.size();
   std::vector<int> slots(first_hinge + 16 * packed.hinges.size(), -1);
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) slots[3 * i + c] = triangles[i].vertices[c];
-  for (std::size_t i = 0; i < tensions.size(); ++i)
-    for (std::size_t c = 0; c < 2; ++c) slots[first_tension + 2 * i + c] = tensions[i].vertices[c];
-  for (std::size_t i = 0; i < hinges.size(); ++i)
-    for (std::size_t c = 0; c < 4; ++c) slots[first_hinge + 4 * i + c] = hinges[i].vertices[c];
+  const auto own_slots = [&](const auto& elements, std::size_t first) {
+    for (const auto& e : elements)
+      for (const int v : vertices(e)) slots[first++] = v;
+  };
+  own_slots(triangles, 0);
+  own_slots(tensions, first_tension);
+  own_slots(hinges, first_hinge);
   packed.slot.resize(slots.size());
   plan_gathering(slots, place.size(), packed);
   return packed;

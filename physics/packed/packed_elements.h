@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <concepts>
 #include <vector>
 
 #include "physics/base/thread_pool.h"
@@ -36,9 +37,11 @@ struct PackedElements {
   std::vector<int> gather;        ///< slots
 };
 
-/// Throws std::invalid_argument if a membrane triangle, tension or hinge names a particle out of range or one
-/// twice, or is not in its range (membrane_constants, check()).
-void check_elements(const Cloth& cloth);
+/// Whether a kind is laid out for speed; what is not goes through add_other_forces() (packed_cloth.h).
+template <class Element>
+inline constexpr bool is_laid_out =
+    std::same_as<Element, Spring> || std::same_as<Element, MembraneTriangle> ||
+    std::same_as<Element, Tension> || std::same_as<Element, Hinge>;
 
 /// place: of each particle. The elements must have passed check_elements().
 PackedElements pack_elements(const Cloth& cloth, const std::vector<int>& place);

@@ -32,6 +32,9 @@ void check(const Cloth& cloth, const CertificateOptions& o, std::span<const Vec3
   require(me, "gap", o.gap, o.gap > 0, "> 0");
   if (o.max_steps < 2) refuse(me, "max_steps = ", o.max_steps, " is not >= 2");
   check_loaded_particles(cloth.particles, loads, me);
+  check_elements(cloth, cloth.particles.size());
+  if (!has_all_stiffness(cloth))
+    refuse(me, "an energy of the cloth has no stiffness: whether the state is stable is not known");
 }
 
 /// Second derivative of the field in the tangent plane of n [1/m], by central differences.

@@ -33,7 +33,7 @@ struct Certificate {
 /// stay small, without friction or damping. How far it may be disturbed is not said. Cost: one factorisation,
 /// more if it is not positive definite; a solve a step. Same input, same bits. Throws std::invalid_argument
 /// if an option is out of its range, arrays differ in length, something is not finite, a free particle has no
-/// mass, or as the elements do.
+/// mass, as the elements do, or where one of Cloth::energies has no stiffness.
 ///
 /// \details Contact: a particle within the gap whose best contact force presses (by more than 1e-6 of its
 /// weight) is held by a stiffness of 10^6 times K's mean diagonal, along the normal alone, or in all

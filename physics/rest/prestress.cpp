@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 
 #include "physics/base/check_particles.h"
 #include "physics/base/require.h"
 #include "physics/cloth/dihedral.h"
 #include "physics/cloth/hinge_forces.h"
+#include "physics/cloth/kinds.h"
 #include "physics/contact/residual_force.h"
 #include "physics/rest/balance_forces.h"
 #include "physics/rest/invert_elements.h"
@@ -22,6 +24,11 @@ constexpr double least_imbalance = 1e-9;  // of gravity
 
 using Forces = std::vector<Vec3>;
 
+/// The kinds of invert_elements.h.
+template <class Element>
+constexpr bool is_inverted = std::same_as<Element, Spring> || std::same_as<Element, MembraneTriangle> ||
+                             std::same_as<Element, Tension> || std::same_as<Element, Hinge>;
+
 void check(const Cloth& cloth, const PrestressOptions& o, std::span<const Vec3> loads) {
   constexpr const char* me = "prestress";
   if (!o.gravity.allFinite()) refuse(me, "gravity is not finite");
@@ -34,6 +41,12 @@ void check(const Cloth& cloth, const PrestressOptions& o, std::span<const Vec3> 
   require(me, "tolerance", o.tolerance, o.tolerance > 0, "> 0");
   require(me, "max_iterations", o.max_iterations, o.max_iterations >= 1, ">= 1");
   check_loaded_particles(cloth.particles, loads, me);
+  for_each_kind(cloth, [](const auto& kind, auto...) {
+    if (!is_inverted<KindOf<decltype(kind)>> && !kind.empty())
+      refuse(me, "the cloth has elements of a kind whose rest state cannot be solved for");
+  });
+  if (!cloth.energies.empty())
+    refuse(me, "energies of a caller's own have no rest state to change; give their forces as loads");
 }
 
 std::vector<ContactPoint> contacts_of(const Particles& p, const Collider* collider, double gap) {

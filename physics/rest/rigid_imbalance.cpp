@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/cloth/kinds.h"
+
 namespace furrow::physics {
 namespace {
 
@@ -19,13 +21,10 @@ class Pieces {
  public:
   explicit Pieces(const Cloth& cloth) : parent_(cloth.particles.size()) {
     std::iota(parent_.begin(), parent_.end(), 0);
-    for (const auto* springs : {&cloth.structural, &cloth.bending})
-      for (const Spring& s : *springs) join(s.a, s.b);
-    for (const MembraneTriangle& t : cloth.membrane)
-      for (const int v : t.vertices) join(t.vertices[0], v);
-    for (const Tension& t : cloth.tension) join(t.a, t.b);
-    for (const Hinge& h : cloth.hinges)
-      for (const int v : h.vertices) join(h.vertices[0], v);
+    for_each_kind(cloth, [&](const auto& kind, auto...) {
+      for (const auto& e : kind)
+        for (const int v : vertices(e)) join(vertices(e)[0], v);
+    });
   }
   int root(int i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

@@ -53,10 +53,11 @@ struct SettleReport {
 /// positive definite, as much of its clamped part (Stiffness) is added as makes it so, and m / tau^2, tau
 /// from 0.03 s up while steps succeed (pseudo-transient continuation). A step is halved until the energy
 /// falls (Armijo, 1e-4). Near rest, up to fifteen quasi-Newton steps (LimitedMemory) follow each Newton step
-/// with its factors. Limits of friction follow the push within a step. It looks for balance alone: from a
-/// start within a plane of symmetry it may end in a saddle, which certify() tells. Source: Nocedal and
-/// Wright, Numerical Optimization, 2nd ed., 3.1; Kelley and Keyes 1998, Convergence analysis of
-/// pseudo-transient continuation, SIAM J. Numer. Anal. 35(2).
+/// with its factors. Limits of friction follow the push within a step. One of Cloth::energies without
+/// stiffness counts in forces and energies alone: the same rest by more iterations, or none where it is the
+/// stiffest of all. It looks for balance alone: from a start within a plane of symmetry it may end in a
+/// saddle, which certify() tells. Source: Nocedal and Wright, Numerical Optimization, 2nd ed., 3.1; Kelley
+/// and Keyes 1998, Convergence analysis of pseudo-transient continuation, SIAM J. Numer. Anal. 35(2).
 SettleReport settle(Cloth& cloth, const Collider* collider, const SettleOptions& options,
                     const SettleObserver& observer = {});
 

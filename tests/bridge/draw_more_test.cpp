@@ -13,10 +13,10 @@
 #include "geometry/rest/rest_metric.h"
 #include "geometry/rest/stiffness.h"
 #include "physics/cloth/pins.h"
-#include "physics/cloth/spring_forces.h"
 #include "physics/cloth/strain.h"
 #include "physics/motion/compensation.h"
 #include "physics/motion/simulate.h"
+#include "tests/physics/cloth/one_kind.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;
@@ -66,8 +66,8 @@ void stretch(Mesh& mesh, double factor) {
 
 std::vector<Vec3> forces(const physics::Cloth& cloth) {
   std::vector<Vec3> f(cloth.particles.size(), Vec3::Zero());
-  physics::add_spring_forces(cloth.particles.x, cloth.structural, f);
-  physics::add_spring_forces(cloth.particles.x, cloth.bending, f);
+  for (const auto* springs : {&cloth.structural, &cloth.bending})
+    physics::add_forces(tests::only(*springs), cloth.particles.x, f);
   return f;
 }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/cloth/membrane_laws.h"
 #include "tests/cases/flat_meshes.h"
+#include "tests/cases/membrane_laws.h"
 
 namespace furrow::cases {
 namespace {
@@ -149,9 +149,9 @@ CriticalLength critical_length(const std::function<Cloth(double)>& make, const p
 double slide_of_sheet(double angle, double friction, double dt) {
   const Vec3 n(-std::sin(angle), std::cos(angle), 0), down(-std::cos(angle), -std::sin(angle), 0);
   Cloth cloth = right_sheet(0.04, 0.04, 4, 4, 0.15, true);
-  const std::vector<double> areas = physics::rest_areas(cloth);
+  const std::vector<double> areas = rest_areas(cloth);
   // Soft enough for the step: dt below 0.4 h sqrt(rho/Y).
-  set_membrane_stiffness(cloth, physics::MembraneLaw::van_gelder, std::min(50.0, 2.4e-6 / (dt * dt)), areas);
+  set_membrane_stiffness(cloth, MembraneLaw::van_gelder, std::min(50.0, 2.4e-6 / (dt * dt)), areas);
   for (Vec3& x : cloth.particles.x) x = x.x() * down + x.y() * Vec3::UnitZ() + 0.003 * n;
   const std::vector<Vec3> start = cloth.particles.x;
   physics::SimulateOptions o;

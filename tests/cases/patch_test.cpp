@@ -72,7 +72,7 @@ PatchAnswer answer(const Cloth& cloth, const Relaxation& relax, const Eigen::Mat
 }  // namespace
 
 PatchScore patch_test(Cloth sheet, int columns, const Carrier& carrier) {
-  const std::vector<double> areas = physics::rest_areas(sheet);
+  const std::vector<double> areas = rest_areas(sheet);
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   const double mass = std::accumulate(sheet.particles.mass.begin(), sheet.particles.mass.end(), 0.0);
   double width = 0;

@@ -2,12 +2,12 @@
 #pragma once
 #include <optional>
 
-#include "physics/cloth/membrane_laws.h"
+#include "tests/cases/membrane_laws.h"
 
 namespace furrow::cases {
 
 /// What carries the plane of a cloth: springs of a law, or (none) constant-strain triangles with nu = 1/3.
-using Carrier = std::optional<physics::MembraneLaw>;
+using Carrier = std::optional<MembraneLaw>;
 
 /// The answers to one affine displacement of the border.
 struct PatchAnswer {

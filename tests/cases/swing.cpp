@@ -23,7 +23,7 @@ Swing sheet_swing(const SheetOptions& o) {
   const int rows = equilateral_rows(side, side, o.columns);
   Swing swing{triangular_sheet(side, side, o.columns, rows, density, o.jitter), {}, o.seconds};
   physics::Cloth& cloth = swing.cloth;
-  const std::vector<double> areas = physics::rest_areas(cloth);
+  const std::vector<double> areas = rest_areas(cloth);
   const double young = 2 / std::sqrt(3.0) * o.stiffness;
   set_membrane_stiffness(cloth, o.law, calibrated_stiffness(cloth, o.law, young, areas), areas);
   for (Vec3& x : cloth.particles.x) x = Vec3(x.x(), 0, x.y());

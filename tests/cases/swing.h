@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "physics/cloth/membrane_laws.h"
 #include "physics/motion/stepper.h"
+#include "tests/cases/membrane_laws.h"
 
 namespace furrow::cases {
 
@@ -17,9 +17,9 @@ struct SheetOptions {
   double stiffness =
       200;            ///< of a spring of a regular lattice [N/m]; Y = 2/sqrt(3) of it, see membrane_laws.h
   double jitter = 0;  ///< of the mesh [edges]; in [0, 0.3]
-  physics::MembraneLaw law = physics::MembraneLaw::paper;  ///< calibrated to Y
-  double spring_damping = 0.02;                            ///< share of critical [-]
-  double seconds = 0.3;                                    ///< [s]
+  MembraneLaw law = MembraneLaw::paper;  ///< calibrated to Y
+  double spring_damping = 0.02;          ///< share of critical [-]
+  double seconds = 0.3;                  ///< [s]
 };
 /// A square sheet of springs, 0.4 m, 0.15 kg/m^2, that lies level and hangs by two corners: it swings down.
 /// Air drag 0.2 1/s.

@@ -4,6 +4,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   base/thread_pool_test.cpp
   cloth/element_forces_test.cpp
   cloth/elements_test.cpp
+  cloth/energy_test.cpp
   cloth/hinge_forces_test.cpp
   cloth/membrane_laws_test.cpp
   cloth/membrane_test.cpp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/cloth/membrane_laws.h"
+#include "tests/cases/membrane_laws.h"
 
 #include <catch2/catch.hpp>
 #include <numeric>
@@ -9,7 +9,7 @@
 
 using namespace furrow::physics;
 using namespace furrow::tests;
-using furrow::cases::triangular_sheet;
+using namespace furrow::cases;
 
 namespace {
 

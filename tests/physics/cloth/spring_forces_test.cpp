@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/physics/cloth/one_kind.h"
 #include "tests/physics/cloth/test_cloths.h"
 
 using namespace furrow::physics;
@@ -24,24 +25,24 @@ TEST_CASE("a stretched spring pulls its ends together with k (l - L)") {
   const std::vector<Vec3> x{{0, 0, 0}, {0, 3, 4}};
   const std::vector<Spring> springs{{0, 1, 4.5, 100}};
   std::vector<Vec3> force(2, Vec3::Zero());
-  add_spring_forces(x, springs, force);
+  add_forces(only(springs), x, force);
   CHECK((force[0] - Vec3(0, 30, 40)).norm() < 1e-12);
   CHECK(force[1] == -force[0]);
-  CHECK(spring_energy(x, springs) == Approx(12.5).epsilon(1e-15));
+  CHECK(potential_energy(only(springs), x) == Approx(12.5).epsilon(1e-15));
 }
 
 TEST_CASE("the springs' force is minus the gradient of their energy") {
   const Cloth cloth = crumpled(GENERATE(1, 2, 3));
   std::vector<Vec3> force(cloth.particles.size(), Vec3::Zero()), x = cloth.particles.x;
-  add_spring_forces(x, cloth.structural, force);
+  add_forces(only(cloth.structural), x, force);
   const double h = 1e-6;
   for (std::size_t i = 0; i < x.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
       const double at = x[i][c];
       x[i][c] = at + h;
-      const double above = spring_energy(x, cloth.structural);
+      const double above = potential_energy(only(cloth.structural), x);
       x[i][c] = at - h;
-      const double below = spring_energy(x, cloth.structural);
+      const double below = potential_energy(only(cloth.structural), x);
       x[i][c] = at;
       CHECK(std::abs(force[i][c] + (above - below) / (2 * h)) < 2e-7 * 1000 * 0.1);
     }
@@ -57,9 +58,9 @@ TEST_CASE("the stiffness product is the derivative of the force") {
   add_spring_stiffness_product(x, cloth.structural, u, Stiffness::exact, ku);
   const double h = 1e-7;
   for (std::size_t i = 0; i < n; ++i) x[i] = cloth.particles.x[i] + h * u[i];
-  add_spring_forces(x, cloth.structural, above);
+  add_forces(only(cloth.structural), x, above);
   for (std::size_t i = 0; i < n; ++i) x[i] = cloth.particles.x[i] - h * u[i];
-  add_spring_forces(x, cloth.structural, below);
+  add_forces(only(cloth.structural), x, below);
   for (std::size_t i = 0; i < n; ++i) CHECK((ku[i] + (above[i] - below[i]) / (2 * h)).norm() < 1e-3);
 }
 
@@ -85,9 +86,9 @@ TEST_CASE("the positive part of the stiffness is at least 0 and at least the exa
 TEST_CASE("a spring of length 0 exerts no force, and a spring out of range is refused") {
   const std::vector<Vec3> x(2, Vec3(1, 2, 3));
   std::vector<Vec3> force(2, Vec3::Zero());
-  add_spring_forces(x, std::vector<Spring>{{0, 1, 0.1, 10}}, force);
+  add_forces(only(std::vector<Spring>{{0, 1, 0.1, 10}}), x, force);
   CHECK(force[0] == Vec3::Zero());
-  CHECK_THROWS_AS(add_spring_forces(x, std::vector<Spring>{{0, 2, 0.1, 10}}, force), std::invalid_argument);
+  CHECK_THROWS_AS(add_forces(only(std::vector<Spring>{{0, 2, 0.1, 10}}), x, force), std::invalid_argument);
   force.resize(3);
-  CHECK_THROWS_AS(add_spring_forces(x, std::vector<Spring>{{0, 1, 0.1, 10}}, force), std::invalid_argument);
+  CHECK_THROWS_AS(add_forces(only(std::vector<Spring>{{0, 1, 0.1, 10}}), x, force), std::invalid_argument);
 }

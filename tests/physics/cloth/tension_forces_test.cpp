@@ -13,6 +13,7 @@
 #include "physics/rest/prestress.h"
 #include "physics/rest/rigid_imbalance.h"
 #include "tests/physics/cloth/finite_differences.h"
+#include "tests/physics/cloth/one_kind.h"
 #include "tests/physics/cloth/shell_cloths.h"
 #include "tests/physics/cloth/tension_cloths.h"
 
@@ -34,7 +35,7 @@ Cloth crumpled(std::uint64_t seed, double compress = 20) {
 double force_between(double length, const Tension& t) {
   const std::vector<Vec3> x{{1, 2, 3}, Vec3(1, 2, 3) + length * Vec3(2, 1, 2) / 3};
   std::vector<Vec3> force(2, Vec3::Zero());
-  add_tension_forces(x, std::vector<Tension>{t}, force);
+  add_forces(only(std::vector<Tension>{t}), x, force);
   CHECK((force[0] + force[1]).norm() == 0);
   return force[0].dot(Vec3(2, 1, 2) / 3);  // > 0 pulls
 }
@@ -48,7 +49,7 @@ TEST_CASE("tension pulls with stretch e^2 and pushes with compress e^2") {
   CHECK(force_between(0.5, t) == Approx(0).margin(1e-25));
   CHECK(force_between(0, t) == 0);
   const std::vector<Vec3> x{Vec3::Zero(), {0, 0.6, 0}};
-  CHECK(tension_energy(x, std::vector<Tension>{t}) == Approx(90 * 0.5 * 0.008 / 3).epsilon(1e-12));
+  CHECK(potential_energy(only(std::vector<Tension>{t}), x) == Approx(90 * 0.5 * 0.008 / 3).epsilon(1e-12));
   CHECK(tension_slope(t, 0.1) == Approx(36));
   CHECK(tension_slope(t, -0.1) == Approx(12));
 }
@@ -75,8 +76,13 @@ TEST_CASE("tension: derivatives agree with finite differences, and the parts bou
     const auto into = [](Eigen::MatrixXd& matrix) {
       return [&matrix](int i, int j, const Mat3& block) { matrix.block<3, 3>(3 * i, 3 * j) += block; };
     };
-    add_tension_stiffness_bound(cloth.particles.x, cloth.tension, into(bound));
-    add_tension_stiffness_bound(cloth.particles.x, cloth.tension, into(tight), 0);
+    for (const Tension& t : cloth.tension) {
+      std::array<Mat3, lower_blocks(2)> lower;
+      stiffness_bound_blocks(cloth.particles.x, t, lower.data());
+      hand_out(vertices(t), lower.data(), into(bound));
+      stiffness_bound_blocks(cloth.particles.x, t, lower.data(), 0);
+      hand_out(vertices(t), lower.data(), into(tight));
+    }
     CHECK(least_eigenvalue(exact) < -1e-3 * part.norm());
     CHECK(least_eigenvalue(part) > -1e-12 * part.norm());
     CHECK(least_eigenvalue(part - exact) > -1e-12 * part.norm());
@@ -90,7 +96,7 @@ TEST_CASE("tension exerts neither force nor moment in total, and turns with the 
   const Cloth cloth = crumpled(3, 70);
   const std::vector<Vec3>& x = cloth.particles.x;
   std::vector<Vec3> force(x.size(), Vec3::Zero()), other = force, y = x;
-  add_tension_forces(x, cloth.tension, force);
+  add_forces(only(cloth.tension), x, force);
   Vec3 sum = Vec3::Zero(), moment = sum;
   double scale = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -101,7 +107,7 @@ TEST_CASE("tension exerts neither force nor moment in total, and turns with the 
   CHECK(moment.norm() < 1e-14 * scale);
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
   for (Vec3& p : y) p = turn * p + Vec3(0.3, -2, 1);
-  add_tension_forces(y, cloth.tension, other);
+  add_forces(only(cloth.tension), y, other);
   for (std::size_t i = 0; i < x.size(); ++i) CHECK((other[i] - turn * force[i]).norm() < 1e-12 * scale);
 }
 
@@ -196,11 +202,11 @@ TEST_CASE("broken tension is refused") {
                              {0, 1, 1, 1, -1},
                              {0, 1, 1, nan, 0}}) {
     const std::vector<Tension> one{bad};
-    CHECK_THROWS_AS(tension_energy(x, one), std::invalid_argument);
-    CHECK_THROWS_AS(add_tension_forces(x, one, force), std::invalid_argument);
-    CHECK_THROWS_AS(add_tension_stiffness(x, one, Stiffness::exact, [](int, int, const Mat3&) {}),
+    CHECK_THROWS_AS(potential_energy(only(one), x), std::invalid_argument);
+    CHECK_THROWS_AS(add_forces(only(one), x, force), std::invalid_argument);
+    CHECK_THROWS_AS(add_stiffness(only(one), x, Stiffness::exact, [](int, int, const Mat3&) {}),
                     std::invalid_argument);
   }
   force.pop_back();
-  CHECK_THROWS_AS(add_tension_forces(x, std::vector<Tension>{{0, 1, 1, 1, 1}}, force), std::invalid_argument);
+  CHECK_THROWS_AS(add_forces(only(std::vector<Tension>{{0, 1, 1, 1, 1}}), x, force), std::invalid_argument);
 }

@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 
 #include "physics/cloth/elements.h"
-#include "physics/cloth/membrane_laws.h"
 #include "physics/linear/stable_step.h"
 #include "physics/motion/leapfrog_step.h"
 #include "tests/cases/flat_meshes.h"
+#include "tests/cases/membrane_laws.h"
 #include "tests/cases/twisted_ribbon.h"
 #include "tests/physics/cloth/test_cloths.h"
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "physics/cloth/pins.h"
-#include "physics/cloth/spring_forces.h"
 #include "physics/packed/packed_forces.h"
+#include "tests/physics/cloth/one_kind.h"
 #include "tests/physics/cloth/test_cloths.h"
 
 using namespace furrow::physics;
@@ -17,8 +17,8 @@ TEST_CASE("packed springs exert the same force as plain ones") {
   Noise noise(5);
   for (Vec3& x : cloth.particles.x) x += 0.005 * noise.vector();
   std::vector<Vec3> force(cloth.particles.size(), Vec3::Zero());
-  add_spring_forces(cloth.particles.x, cloth.structural, force);
-  add_spring_forces(cloth.particles.x, cloth.bending, force);
+  add_forces(only(cloth.structural), cloth.particles.x, force);
+  add_forces(only(cloth.bending), cloth.particles.x, force);
   PackedCloth packed = pack(cloth);
   REQUIRE(packed.sweep.blocks() > 1);
   ThreadPool pool(1);

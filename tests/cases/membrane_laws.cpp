@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
-#include "physics/cloth/membrane_laws.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/cases/membrane_laws.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,10 @@
 #include <string>
 #include <tuple>
 
-namespace furrow::physics {
+namespace furrow::cases {
 namespace {
+
+using physics::Spring;
 
 bool before(const Spring& s, const Spring& t) { return std::tie(s.a, s.b) < std::tie(t.a, t.b); }
 
@@ -121,4 +123,4 @@ void set_membrane_stiffness(Cloth& cloth, MembraneLaw law, double stiffness, std
   for (std::size_t i = 0; i < factor.size(); ++i) cloth.structural[i].stiffness = factor[i] * stiffness;
 }
 
-}  // namespace furrow::physics
+}  // namespace furrow::cases

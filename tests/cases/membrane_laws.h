@@ -1,11 +1,13 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <span>
 #include <vector>
 
 #include "physics/cloth/cloth.h"
 
-namespace furrow::physics {
+namespace furrow::cases {
+
+using physics::Cloth;
 
 /// How the stiffness k [N/m] of a structural spring follows from its rest length r and the rest areas A of
 /// the one or two triangles at its edge. r_avg: mean rest length of the structural springs. No law makes an
@@ -43,4 +45,4 @@ double calibrated_stiffness(const Cloth& cloth, MembraneLaw law, double young_ti
 /// are not as many areas as triangles, or the springs are not sorted by (a, b).
 void set_membrane_stiffness(Cloth& cloth, MembraneLaw law, double stiffness, std::span<const double> areas);
 
-}  // namespace furrow::physics
+}  // namespace furrow::cases
