@@ -16,6 +16,7 @@ namespace {
 using physics::Vec3;
 
 constexpr double first_part = 0.2;  // of the first run, before it is asked whether it is in vain
+constexpr int look_steps = 100;     // between two moments that are looked at, however often a run is observed
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -118,7 +119,8 @@ struct Setting {
     options.gravity = gravity;
     return physics::simulate(run.cloth, world, options, &run.state,
                              [&](const auto& now) {
-                               if (now.time >= run.next_look) {
+                               const bool looks = now.step % look_steps == 0 || now.time >= seconds;
+                               if (looks && now.time >= run.next_look) {
                                  note(shares(run.cloth), worst);
                                  run.next_look += look;
                                }

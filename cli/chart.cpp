@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
-#include <filesystem>
+#include "jobs/chart.h"
+
 #include <iostream>
 #include <memory>
 
-#include "cli/chart_files.h"
-#include "cli/judge_report.h"
-#include "cli/recorded_material.h"
-#include "cli/scene_flags.h"
-#include "cli/scene_input.h"
+#include "cli/exit_codes.h"
+#include "cli/scene_settings.h"
 #include "cli/subcommands.h"
+#include "jobs/judge_report.h"
 
 namespace furrow::cli {
 namespace {
@@ -36,51 +34,32 @@ io::TomlDocument settings(const ChartArguments& a) {
 
 /// The numbers stand beside the picture if they have no name of their own.
 void name_outputs(ChartArguments& a) {
-  if (!a.out.empty()) check_chart_picture(a.out);
   if (a.csv.empty() && !a.out.empty())
     a.csv = std::filesystem::path(a.out).replace_extension(".csv").string();
-  if (!a.csv.empty()) check_folder(a.csv);
-  refuse_same({a.out, a.csv}, {a.in});
 }
 
-/// No output may replace what the scene reads.
-void spare_inputs(const io::Scene& scene, const ChartArguments& a) {
-  std::vector<std::string> files{scene.garment.string()};
-  if (scene.body)
-    for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
-      files.push_back(path.string());
-  for (const io::SceneLines& lines : scene.lines) files.push_back(lines.strokes.string());
-  refuse_same({a.out, a.csv}, files);
+ChartJob job_of(ChartArguments& a) {
+  ChartJob job;
+  job.options = {parse_share(a.tolerance, "--tolerance"), a.budget};
+  name_outputs(a);
+  job.scene = {settings(a), std::filesystem::path(a.in).parent_path()};
+  job.name = a.in;
+  job.csv = a.csv;
+  job.picture = a.out;
+  return job;
 }
 
 int chart(ChartArguments& a) {
-  const JudgeOptions options{parse_share(a.tolerance, "--tolerance"), a.budget};
-  check(options);
-  name_outputs(a);
-  io::TomlDocument document = settings(a);
-  io::Scene scene = scene_of(document, std::filesystem::path(a.in).parent_path());
-  if (take_recorded_material(document, scene.garment, nullptr))
-    scene = scene_of(document, std::filesystem::path(a.in).parent_path());
-  if (scene.garment.empty()) throw UsageError(document.name + ": garment.mesh is missing");
-  check_inputs(scene, document, -1);
-  spare_inputs(scene, a);
-  take_noted_frame(scene, document);
+  const ChartJob job = job_of(a);
+  catch_interrupts();
+  Terminal terminal(a);
+  const ChartReport report = jobs::chart(job, terminal);
   CommonArguments common = a;
-  common.unit = scene.unit;
-  common.up = scene.up;
-  const SceneCloth cloth = prepare_scene(scene, common);
-  const Judgement j = judge(cloth, cloth.world(scene), options, common);
-  if (!a.csv.empty()) write_chart_csv(a.csv, j);
-  const std::string file = std::filesystem::path(a.in).filename().string();
-  if (!a.out.empty() && std::isfinite(j.reference_error))
-    draw_chart(a.out, j, file + ", first " + Json(j.seconds).dump() + " s");
   common.out.clear();
-  const bool scene_dt = scene.simulation.dt.has_value();
-  Json report{{"scene", a.in}};
-  report.update(to_json(j, scene_dt));
-  print_report(report, common);
-  const int code = exit_code_of(j);
-  if (code != exit_ok) std::cerr << "error: " << a.in << ": " << words(j, scene_dt) << "\n";
+  print_report(to_json(report), common);
+  const int code = exit_code_of(report.judgement);
+  if (code != exit_ok)
+    std::cerr << "error: " << a.in << ": " << words(report.judgement, report.scene_dt) << "\n";
   return code;
 }
 

@@ -9,53 +9,14 @@
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
-#include <map>
 
 #include "cli/print_text.h"
-#include "geometry/mesh/errors.h"
-#include "geometry/mesh/vertex_attributes.h"
-#include "io/mesh/wrinkle_record.h"
-#include "io/scene/state_file.h"
 
 namespace furrow::cli {
 namespace {
 
-const std::map<std::string, double>& units() {
-  static const std::map<std::string, double> metres{{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
-  return metres;
-}
-
-std::string unit_of(const CommonArguments& common) { return common.unit.value_or(common.noted_unit); }
-std::string up_of(const CommonArguments& common) { return common.up.value_or(common.noted_up); }
-io::Axis axis(const std::string& up) { return up == "z" ? io::Axis::z : io::Axis::y; }
-
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-void tell_repairs(const std::string& path, const io::MeshFile& file, const CommonArguments& common) {
-  for (const std::string& w : file.warnings) warn(path + ": " + w, common);
-  const io::RepairReport& r = file.repairs;
-  const auto tell = [&](std::size_t n, const char* what) {
-    if (n) warn(path + ": " + std::to_string(n) + " " + what, common);
-  };
-  tell(r.degenerate_faces, "degenerate faces dropped");
-  tell(r.duplicate_faces, "duplicate faces dropped");
-  tell(r.reversed_faces, "faces turned to agree with their neighbours");
-  tell(r.duplicated_vertices, "vertices duplicated where the surface was not manifold");
-}
-
-/// Formats other than PLY have no place for them.
-void warn_of_lost_attributes(const std::string& path, const io::MeshFile& file,
-                             const CommonArguments& common) {
-  if (io::mesh_format(path) == io::MeshFormat::ply) return;
-  std::string names;
-  for (const geometry::VertexAttribute& attribute : geometry::vertex_attributes(file.mesh))
-    names += (names.empty() ? "" : ", ") + attribute.name;
-  if (!names.empty())
-    warn((path == "-" ? "standard output" : path) +
-             ": only PLY keeps vertex attributes; not written: " + names,
-         common);
 }
 
 volatile std::sig_atomic_t interrupt_flag = 0;
@@ -80,56 +41,14 @@ void add_common_options(CLI::App& sub, CommonArguments& common) {
                "no report, no progress, no warnings; with --json the report alone");
 }
 
-void take_noted_frame(CommonArguments& common, const std::vector<std::string>& files) {
-  for (const std::string& file : files) {
-    const auto record = io::read_wrinkle_record(file);
-    if (!record || !units().count(record->unit)) continue;
-    common.noted_unit = record->unit;
-    common.noted_up = record->up;
-    return;
-  }
-}
-
-io::ReadOptions read_options(const CommonArguments& common) {
-  return {units().at(unit_of(common)), axis(up_of(common))};
-}
-
-io::WriteOptions write_options(const CommonArguments& common) {
-  return {units().at(unit_of(common)), axis(up_of(common))};
-}
-
 io::MeshFile read_mesh(const std::string& path, const CommonArguments& common) {
-  io::MeshFile file = io::read_mesh(path, read_options(common));
-  const auto record = io::find_wrinkle_record(file);
-  const bool noted = record && units().count(record->unit);
-  CommonArguments actual;
-  actual.unit = noted && !common.unit ? record->unit : unit_of(common);
-  actual.up = noted && !common.up ? record->up : up_of(common);
-  if (actual.unit != unit_of(common) || actual.up != up_of(common))
-    file = io::read_mesh(path, read_options(actual));
-  if (noted && (record->unit != actual.unit || record->up != actual.up))
-    warn(path + ": was written with --unit " + record->unit + " --up " + record->up, common);
-  tell_repairs(path, file, common);
-  io::drop_motion(file);  // a state that is used as a mesh is one
-  return file;
-}
-
-std::string too_tall(const geometry::Mesh& mesh, const std::string& what) {
-  double low = INFINITY, high = -INFINITY;
-  for (geometry::Vertex v : mesh.vertices()) {
-    low = std::min(low, mesh.point(v).y());
-    high = std::max(high, mesh.point(v).y());
-  }
-  if (!(high - low > 10)) return "";
-  return "the " + what + " is " + std::to_string(high - low) +
-         " m tall; if its file is not in metres, say so with --unit cm, mm or inch";
+  Terminal terminal(common);
+  return jobs::read_mesh(path, {common, terminal});
 }
 
 io::MeshFile read_garment(const std::string& path, const CommonArguments& common, const std::string& what) {
-  io::MeshFile file = read_mesh(path, common);
-  if (const std::string fault = too_tall(file.mesh, what); !fault.empty())
-    throw geometry::ContentError(path + ": " + fault);
-  return file;
+  Terminal terminal(common);
+  return jobs::read_garment(path, {common, terminal}, what);
 }
 
 void write_mesh(const io::MeshFile& file, const CommonArguments& common) {
@@ -137,20 +56,12 @@ void write_mesh(const io::MeshFile& file, const CommonArguments& common) {
 }
 
 void write_mesh(const std::string& path, const io::MeshFile& file, const CommonArguments& common) {
-  const io::WriteOptions options = write_options(common);
-  warn_of_lost_attributes(path, file, common);
-  if (path == "-") {
-    io::write_mesh(std::cout, io::MeshFormat::obj, file, options);
-    flush_output();
-  } else if (auto record = io::find_wrinkle_record(file)) {
-    record->unit = unit_of(common);
-    record->up = up_of(common);
-    io::MeshFile noted = file;
-    io::set_wrinkle_record(noted, *record);
-    io::write_mesh(path, noted, options);
-  } else {
-    io::write_mesh(path, file, options);
-  }
+  Terminal terminal(common);
+  const Context context{common, terminal};
+  if (path != "-") return jobs::write_mesh(path, file, context);
+  warn_of_lost_attributes(path, file, context);
+  io::write_mesh(std::cout, io::MeshFormat::obj, file, write_options(common));
+  flush_output();
 }
 
 void flush_output() {
@@ -214,11 +125,16 @@ void Progress::show(double share) {
   std::cerr << "\r\033[K" << what_ << " [" << bar << text << std::flush;
 }
 
-std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", 1000 * metres);
-  return text;
+void Terminal::progress(const std::string& what, double share) {
+  if (share >= 1) return bar_.reset();
+  if (!bar_ || what != what_) bar_ = std::make_unique<Progress>(what, common_);
+  what_ = what;
+  bar_->show(share);
 }
+
+void Terminal::warn(const Warning& warning) { cli::warn(warning.text, common_); }
+
+bool Terminal::cancelled() { return interrupted(); }
 
 void catch_interrupts() {
   std::signal(SIGINT, on_interrupt);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
-#include "cli/output_checks.h"
 #include "io/mesh/mesh_file.h"
+#include "jobs/context.h"
+#include "jobs/mesh_input.h"
+#include "jobs/output_checks.h"
 
 /// What the subcommands share: units, reports, progress, interruption, exit codes.
 namespace furrow::cli {
@@ -27,32 +30,24 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Options that every subcommand has.
-struct CommonArguments {
-  /// Unit and upward axis of the meshes read and written; none: what a file notes of itself, else these:
-  std::optional<std::string> unit, up;
-  std::string noted_unit = "m", noted_up = "y";  ///< what an input notes, for those that note none
+using namespace jobs;
+
+/// Options that every subcommand has; with the unit and the axis of the files read and written.
+struct CommonArguments : Frame {
   std::string out;     ///< what is written; "-": OBJ to stdout, and the report goes to stderr
   bool json = false;   ///< the report as JSON
   bool quiet = false;  ///< no progress, no warnings, and no report but that of json
 };
 void add_common_options(CLI::App& sub, CommonArguments& common);
-/// Takes over what the first of these files that notes its unit and axis says of them.
-void take_noted_frame(CommonArguments& common, const std::vector<std::string>& files);
-io::ReadOptions read_options(const CommonArguments& common);
-io::WriteOptions write_options(const CommonArguments& common);
 
-/// Reads a mesh and tells on stderr what was repaired.
+/// As in jobs/mesh_input.h; warnings go to stderr.
 io::MeshFile read_mesh(const std::string& path, const CommonArguments& common);
-/// What is odd about the size of a mesh that is taller than 10 m, with a hint at --unit; else "".
-std::string too_tall(const geometry::Mesh& mesh, const std::string& what);
-/// As read_mesh, and refuses a garment, or what else it is, that is too tall.
 io::MeshFile read_garment(const std::string& path, const CommonArguments& common,
                           const std::string& what = "garment");
 
 /// Writes the mesh to common.out.
 void write_mesh(const io::MeshFile& file, const CommonArguments& common);
-/// Writes it to another file.
+/// Writes it to another file; "-" is OBJ to standard output.
 void write_mesh(const std::string& path, const io::MeshFile& file, const CommonArguments& common);
 
 /// Throws std::runtime_error if what was written to standard output did not arrive.
@@ -87,7 +82,19 @@ class Progress {
 void catch_interrupts();
 bool interrupted();
 
-/// "3.6 mm".
-std::string millimetres(double metres);
+/// Tells on stderr what a job has to say: progress, warnings; Ctrl-C cancels it, once catch_interrupts() was
+/// called.
+class Terminal : public Listener {
+ public:
+  explicit Terminal(const CommonArguments& common) : common_(common) {}
+  void progress(const std::string& what, double share) override;
+  void warn(const Warning& warning) override;
+  bool cancelled() override;
+
+ private:
+  const CommonArguments& common_;
+  std::string what_;
+  std::unique_ptr<Progress> bar_;
+};
 
 }  // namespace furrow::cli

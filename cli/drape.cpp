@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/drape.h"
+
 #include <iostream>
 #include <memory>
 
-#include "cli/body.h"
 #include "cli/camera_options.h"
 #include "cli/drape_checks.h"
-#include "cli/drape_garment.h"
-#include "cli/drape_report.h"
-#include "cli/fit_output.h"
-#include "cli/recorded_material.h"
-#include "cli/scene_flags.h"
-#include "cli/scene_input.h"
+#include "cli/scene_settings.h"
 #include "cli/subcommands.h"
-#include "io/animation/animation_file.h"
+#include "io/picture/png_file.h"
+#include "jobs/fit_picture.h"
 
 namespace furrow::cli {
 namespace {
@@ -28,80 +25,55 @@ struct DrapeArguments : CommonArguments {
   bool view_chosen = false;
 };
 
-void check_call(const DrapeArguments& a, const io::Scene& scene) {
-  if (!scene.body) throw UsageError("a garment is draped on a body: name one with --body");
-  if (!scene.body->frames.empty())
-    throw UsageError("--body-frames: drape fits a garment to one pose; simulate moves it");
-  if (!physics::at_rest(scene.body->motion))
-    throw UsageError("body.motion: drape takes the body as it lies in its file; move it there, or simulate");
-  if (!scene.lines.empty())
-    throw UsageError("drape draws no lines; draw them on what it writes, with furrow wrinkle");
+void check_call(const DrapeArguments& a) {
   if (a.out.empty() && a.picture.empty() && a.animation.empty())
     throw UsageError("nothing to write: name --output, --picture or --animation");
   if (a.compare && a.picture.empty()) throw UsageError("--compare is a picture: name it with --picture");
   if (a.compare && (!a.out.empty() || !a.animation.empty()))
     throw UsageError("--compare writes a picture only; drape each by itself for its mesh");
-  if (!(a.settings.residual > 0)) throw UsageError("--residual takes a number > 0");
-  if (a.settings.plain && a.settings.contact_depth)
-    throw UsageError("--contact-depth: --plain moves cloth out to the gap at once; leave one of them away");
   if (a.picture.empty() && (a.view_chosen || !a.camera.save_camera.empty()))
     throw UsageError("a view and --save-camera are of use with --picture only");
-  if (!a.out.empty()) check_output(a.out);
   check_picture(a.picture, "--picture");
   check_folder(a.camera.save_camera);
-  if (!a.animation.empty() && !io::animation_format(a.animation))
-    throw UsageError(a.animation + ": the ending names no animation; choose pc2, mdd or glb");
-  check_folder(a.animation);
-  std::vector<std::string> inputs{scene.garment.string(), scene.body->mesh.string(),
-                                  scene.body->field.string(), a.camera.camera};
-  if (is_scene(a.in)) inputs.push_back(a.in);
-  refuse_same({a.out, a.picture, a.animation, a.camera.save_camera}, inputs);
 }
 
-/// What the garment's file notes, or cotton, unless something is said of what the cloth is.
-void choose_fabric(io::TomlDocument& document, const std::filesystem::path& garment) {
-  take_recorded_material(document, garment, nullptr);
-  if (!names_cloth(document)) io::set_value(document, "material.preset", "cotton", "furrow drape");
+DrapeJob job_of(const DrapeArguments& a) {
+  check_call(a);
+  DrapeJob job;
+  job.scene.settings = scene_settings(a.in, "", std::nullopt, a.flags, a);
+  if (is_scene(a.in)) job.scene.folder = std::filesystem::path(a.in).parent_path();
+  warn_of_unused_settings(job.scene.settings, a);
+  job.settings = a.settings;
+  job.settings.bands = parse_bands(a.bands);
+  job.settings.animation = a.animation;
+  job.subdivide = a.subdivide;
+  if (a.compare) job.fabrics = parse_fabrics(*a.compare);
+  job.output = a.out;
+  job.more_outputs = {a.picture, a.camera.save_camera};
+  job.more_inputs = {a.camera.camera};
+  if (is_scene(a.in)) job.more_inputs.push_back(a.in);
+  return job;
 }
 
-DrapedRow row_of(const Draped& d, const DrapeSettings& settings) {
-  return {d.name, &d.report, &d.fit, &d.fit_options, d.seconds, d.gap, d.too_near, settings.penetration,
-          d.falls};
-}
-
-void write_picture(std::vector<Draped>& all, const io::Scene& scene, const DrapeArguments& a,
-                   const CommonArguments& common) {
-  const auto quantity = a.colour == "distance" ? io::FitQuantity::distance : io::FitQuantity::strain;
-  const io::FitScale scale = fit_scale(quantity, all[0].fit_options);
+void write_picture(DrapeJobReport& report, const DrapeArguments& a, const CommonArguments& common) {
+  const FitColour colour = a.colour == "distance" ? FitColour::distance : FitColour::strain;
+  std::vector<Draped>& all = report.garments;
+  const io::FitScale scale = fit_scale(colour, all[0].fit_options);
   CommonArguments silent = common;  // its repairs are told already
   silent.quiet = true;
-  const io::MeshFile body = read_mesh(scene.body->mesh.string(), silent);
+  const io::MeshFile body = read_mesh(report.scene.body->mesh.string(), silent);
   std::vector<FitPanel> panels;
   for (Draped& d : all) {
     colour_garment(d.file.mesh, scale);
-    const std::string outcome = outcome_of(row_of(d, a.settings));
-    const std::string caption = d.name + (outcome == "at rest" ? "" : " (" + outcome + ")") +
-                                (all.size() > 1 ? "\n" : ": ") + fit_words(d.fit, d.fit_options, quantity);
-    panels.push_back({&d.file.mesh, &body.mesh, caption});
+    const std::string outcome = d.outcome();
+    panels.push_back({&d.file.mesh, &body.mesh,
+                      d.name + (outcome == "at rest" ? "" : " (" + outcome + ")") +
+                          (all.size() > 1 ? "\n" : ": ") + fit_words(d.fit, d.fit_options, colour)});
   }
-  io::write_png(a.picture, fit_picture(panels, scale, a.camera, a.view_chosen, common));
-}
-
-/// One for each fabric, or the scene alone.
-std::vector<io::Scene> scenes_of(const io::Scene& scene, const io::TomlDocument& document,
-                                 const std::filesystem::path& folder,
-                                 const std::vector<std::string>& fabrics) {
-  if (fabrics.empty()) return {scene};
-  if (document.root.contains("/material/preset"_json_pointer) && !document.is_of_file("material.preset"))
-    throw UsageError("--fabric: --compare names the fabrics; leave one of them away");
-  std::vector<io::Scene> scenes;
-  for (const std::string& fabric : fabrics) {
-    io::TomlDocument other = document;
-    io::set_value(other, "material.preset", fabric, "--compare");
-    scenes.push_back(scene_of(other, folder));
-    scenes.back().subdivide = scene.subdivide;
-  }
-  return scenes;
+  const std::vector<io::RenderScene> scenes = fit_scenes(panels);
+  Terminal terminal(common);
+  io::write_png(a.picture, fit_picture(panels, scenes, scale, render_options(scenes, a.camera), a.view_chosen,
+                                       terminal));
 }
 
 /// On stderr: which of the files that were asked for there are.
@@ -118,48 +90,36 @@ void tell_interruption(const DrapeArguments& a, bool drawn, bool animated) {
             << (missing.empty() ? "" : "; not written: " + missing) << '\n';
 }
 
+/// Says what is to be said of the result, and returns the exit code for it.
+int tell_remarks(const DrapeJobReport& report, Terminal& terminal) {
+  for (const DrapeRemark& r : report.remarks) {
+    if (r.fails)
+      std::cerr << "error: " << r.remark.text << "\n";
+    else
+      terminal.warn(r.remark);
+  }
+  if (report.cancelled()) return exit_interrupted;
+  return report.fails() ? exit_not_converged : exit_ok;
+}
+
 int drape(const DrapeArguments& a) {
   catch_interrupts();
-  io::TomlDocument document = scene_settings(a.in, "", std::nullopt, a.flags, a);
-  const std::filesystem::path folder = is_scene(a.in) ? std::filesystem::path(a.in).parent_path() : "";
-  warn_of_unused_settings(document, a);
-  if (!a.compare) choose_fabric(document, scene_of(document, folder).garment);
-  io::Scene scene = scene_of(document, folder);
-  if (scene.garment.empty()) throw UsageError(document.name + ": garment.mesh is missing");
-  check_inputs(scene, document, -1);
-  take_noted_frame(scene, document);
-  if (a.subdivide) scene.subdivide = *a.subdivide;
-  check_call(a, scene);
-  DrapeSettings settings = a.settings;
-  settings.bands = parse_bands(a.bands);
-  settings.animation = a.animation;
+  Terminal terminal(a);
+  DrapeJobReport report = jobs::drape(job_of(a), terminal);
   CommonArguments common = a;
-  common.unit = scene.unit;
-  common.up = scene.up;
-  const std::vector<std::string> fabrics = a.compare ? parse_fabrics(*a.compare) : std::vector<std::string>{};
-  const std::vector<io::Scene> scenes = scenes_of(scene, document, folder, fabrics);
-  const BodyCollider body = load_body(*scene.body, common);
-  std::vector<Draped> all;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    all.push_back(drape_garment(scenes[i], body, settings, common));
-    all.back().name = fabrics.empty() ? scene.garment.stem().string() : fabrics[i];
-    if (all.back().report.stopped) break;
-  }
-  if (!a.out.empty()) {
-    note_material(all[0].file, document, all[0].gap);
-    write_mesh(all[0].file, common);
-  }
+  common.unit = report.frame.unit;
+  common.up = report.frame.up;
+  if (a.out == "-") write_mesh(report.garments[0].file, common);
   const bool draws = !a.picture.empty() && !interrupted();  // that may take longer than the fit
-  if (draws) write_picture(all, scene, a, common);
-  std::vector<DrapedRow> rows;
-  for (const Draped& d : all) rows.push_back(row_of(d, settings));
-  Json report = to_json(rows);
-  if (!a.out.empty()) report["written"] = a.out;
-  if (draws) report["picture"] = a.picture;
-  if (all[0].animated) report["animation"] = a.animation;
-  print_report(report, common);
-  const int code = exit_code_of(rows, common);
-  if (interrupted()) tell_interruption(a, draws, all[0].animated);
+  if (draws) write_picture(report, a, common);
+  Json json = to_json(report);
+  const bool animated = report.garments[0].animated;
+  if (!a.out.empty()) json["written"] = a.out;
+  if (draws) json["picture"] = a.picture;
+  if (animated) json["animation"] = a.animation;
+  print_report(json, common);
+  const int code = tell_remarks(report, terminal);
+  if (interrupted()) tell_interruption(a, draws, animated);
   return code == exit_ok && interrupted() ? exit_interrupted : code;
 }
 

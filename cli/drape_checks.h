@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "cli/common.h"
-#include "cli/drape_garment.h"
 #include "io/scene/toml_document.h"
+#include "jobs/drape.h"
 
 /// What the command line of `furrow drape` says in words of its own.
 namespace furrow::cli {

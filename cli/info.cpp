@@ -2,12 +2,12 @@
 #include <memory>
 
 #include "cli/common.h"
-#include "cli/simulate_report.h"
 #include "cli/subcommands.h"
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/self_intersections.h"
 #include "io/mesh/wrinkle_record.h"
+#include "jobs/measure_shape.h"
 
 namespace furrow::cli {
 namespace {
@@ -37,7 +37,7 @@ void info(const InfoArguments& a) {
               {"bounding_box", {{"min", to_json(i.box_min)}, {"max", to_json(i.box_max)}}},
               {"mean_edge_length", i.mean_edge_length},
               {"min_angle_deg", i.min_angle_deg}};
-  report["borders"] = borders_to_json(file.mesh);
+  report["borders"] = to_json(measure_borders(file.mesh));
   report["groups"] = file.group_names;
   report["materials"] = file.material_names;
   report["texture_coordinates"] = geometry::find_map(file.mesh, geometry::attribute::texture).has_value();

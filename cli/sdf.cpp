@@ -3,10 +3,11 @@
 #include <memory>
 
 #include "bridge/body.h"
-#include "cli/body.h"
+#include "cli/common.h"
 #include "cli/subcommands.h"
 #include "io/picture/render_slice.h"
 #include "io/scene/field_file.h"
+#include "jobs/body.h"
 
 namespace furrow::cli {
 namespace {
@@ -56,8 +57,9 @@ void sdf(SdfArguments a) {
   check_picture(a.slice, "--slice");
   refuse_same({a.out, a.slice}, {a.body_path});
   catch_interrupts();
+  Terminal terminal(a);
   const auto start = std::chrono::steady_clock::now();
-  const BodyCollider body = load_body(a.body, a);
+  const BodyCollider body = load_body(a.body, {a, terminal});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const physics::DistanceFieldReport& r = body.field.report();
   if (!a.out.empty()) io::write_field(a.out, body.field, body.triangles);

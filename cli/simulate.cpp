@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
+#include "jobs/simulate.h"
+
 #include <iostream>
 #include <memory>
 
 #include "cli/common.h"
-#include "cli/judge_report.h"
-#include "cli/recorded_material.h"
-#include "cli/scene_flags.h"
-#include "cli/scene_input.h"
-#include "cli/scene_run.h"
+#include "cli/exit_codes.h"
+#include "cli/scene_settings.h"
 #include "cli/subcommands.h"
-#include "geometry/mesh/errors.h"
-#include "io/animation/animation_file.h"
-#include "io/scene/scene_file.h"
-#include "io/scene/state_file.h"
+#include "io/scene/equivalent_flags.h"
+#include "jobs/judge_report.h"
 
 namespace furrow::cli {
 namespace {
@@ -25,121 +21,60 @@ struct SimulateArguments : CommonArguments {
   SceneFlags flags;
 };
 
-/// Files that are read; no output may replace one, but the garment itself, by its result.
-std::vector<std::string> inputs(const io::Scene& scene, const SimulateArguments& a) {
-  std::vector<std::string> files;
-  if (is_scene(a.in)) files.push_back(a.in);
-  if (scene.body)
-    for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
-      files.push_back(path.string());
-  for (const io::SceneLines& lines : scene.lines) files.push_back(lines.strokes.string());
-  std::erase(files, "");
-  return files;
-}
-
-/// Folders that a scene file names are made, so that a fresh copy of it runs; those of flags must be there.
-void make_folders(const io::Scene& scene, const io::TomlDocument& document) {
-  const io::SceneOutput& out = scene.output;
-  const std::pair<const char*, std::filesystem::path> outputs[] = {
-      {"mesh", out.mesh},         {"state", out.state},         {"inserted", out.inserted},
-      {"smoothed", out.smoothed}, {"animation", out.animation}, {"body", out.body}};
-  for (const auto& [key, path] : outputs)
-    if (!path.parent_path().empty() && document.is_of_file("output." + std::string(key)))
-      std::filesystem::create_directories(path.parent_path());
-}
-
-void check_output_formats(const io::SceneOutput& out, bool has_body) {
-  for (const auto& path : {out.mesh, out.inserted, out.smoothed, out.body})
-    if (!path.empty()) check_output(path.string());
-  for (const auto& path : {out.inserted, out.smoothed, out.body})
-    if (path == "-") throw UsageError("only the garment at the end (-o) can go to standard output");
-  if (!out.animation.empty() && !io::animation_format(out.animation))
-    throw UsageError(out.animation.string() + ": the ending names no animation; choose pc2, mdd or glb");
-  check_folder(out.animation.string());
-  if (!out.state.empty() && out.state.extension() != ".ply")
-    throw UsageError(out.state.string() + ": a state is a .ply file");
-  if (!out.state.empty()) check_output(out.state.string());
-  if (!out.body.empty() && !has_body) throw UsageError("--save-body: there is no body; name one with --body");
-}
-
-/// What can be known to fail is said before the work.
-void check_outputs(const io::Scene& scene, const SimulateArguments& a) {
-  const io::SceneOutput& out = scene.output;
-  if (out.mesh.empty() && out.state.empty() && out.animation.empty() && (a.quiet || !is_scene(a.in)))
-    throw UsageError("nothing to write: name --output, --save-state or --animation");
-  check_output_formats(out, scene.body.has_value());
-  const std::vector<std::string> read = inputs(scene, a);
-  std::vector<std::string> written;
-  for (const auto& path : {out.mesh, out.state, out.inserted, out.smoothed, out.animation, out.body}) {
-    if (path.empty() || path == "-") continue;
-    for (const std::string& other : read) refuse_same(path.string(), other);
-    if (path != out.mesh) refuse_same(path.string(), scene.garment.string());
-    if (path != out.state) refuse_same(path.string(), a.state);
-    for (const std::string& other : written) refuse_same(path.string(), other);
-    written.push_back(path.string());
-  }
-}
-
-/// Integrator and step for --tolerance 1%: sets them in document and scene and returns the judgement. Builds
-/// the scene's body, if it has one, for the run, too.
-Judgement choose_setting(const SimulateArguments& a, const CommonArguments& common,
-                         std::shared_ptr<WorldBody>& body, io::TomlDocument& document, io::Scene& scene,
-                         const std::filesystem::path& folder) {
-  const JudgeOptions options{parse_share(a.flags.accuracy(), "--tolerance"), a.budget};
-  check(options);
-  if (scene.body) body = std::make_shared<WorldBody>(*scene.body, common);
-  CommonArguments silent = common;  // the run itself warns
-  silent.quiet = true;
-  const SceneCloth cloth = prepare_scene(scene, silent, body);
-  const Judgement j = judge(cloth, cloth.world(scene), options, common);
-  if (exit_code_of(j) != exit_ok) return j;
-  set_candidate(document, j.candidates[static_cast<std::size_t>(j.chosen)].candidate);
-  scene = scene_of(document, folder);
-  return j;
-}
-
-int simulate(SimulateArguments& a) {
-  std::optional<io::SavedState> state;
-  if (!a.state.empty()) state = io::read_state(a.state);
-  io::TomlDocument document = scene_settings(a.in, a.state, state, a.flags, a);
-  const std::filesystem::path folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
-  io::Scene scene = scene_of(document, folder);
-  if (!state && take_recorded_material(document, scene.garment, &a)) scene = scene_of(document, folder);
-  if (state && !a.flags.accuracy().empty())
-    throw UsageError("--tolerance " + a.flags.accuracy() +
-                     " judges a scene from its beginning; leave it or --state away");
-  if (a.flags.accuracy().empty() && a.budget_option->count())
+/// Throws UsageError for a tolerance beside what it chooses, and a budget without one.
+void check_tolerance(const SimulateArguments& a, const SimulateJob& job) {
+  const std::string accuracy = a.flags.accuracy();
+  if (accuracy.empty() && a.budget_option->count())
     throw UsageError("--budget bounds the choice for --tolerance 1%; give that, too, or leave --budget away");
-  if (scene.garment.empty() && !state) throw UsageError(document.name + ": garment.mesh is missing");
-  if (state && scene.subdivide != state->scene.value("garment", io::Json::object()).value("subdivide", 0))
-    throw UsageError("--subdivide: the garment of a state is in motion; refine it before the first step");
-  if (state &&
-      scene.keep != (state->scene.value("garment", io::Json::object()).value("rest", "stored") == "keep"))
-    throw UsageError("--rest: the garment of a state is in motion; furrow keep --state keeps its shape");
+  if (accuracy.empty()) return;
+  if (job.state)
+    throw UsageError("--tolerance " + accuracy +
+                     " judges a scene from its beginning; leave it or --state away");
+  const io::TomlDocument& settings = job.scene.settings;
   for (const char* key : {"simulation.integrator", "simulation.dt", "simulation.sweeps", "simulation.newton"})
-    if (!a.flags.accuracy().empty() && document.place(key).rfind("--", 0) == 0)
-      throw UsageError("--tolerance " + a.flags.accuracy() + " chooses integrator and step, and " +
-                       document.place(key) + " names one; leave one of them away");
-  check_inputs(scene, document, state ? state->lines_drawn : -1);
-  if (!state) take_noted_frame(scene, document);
-  if (is_scene(a.in)) make_folders(scene, document);
-  check_outputs(scene, a);
-  CommonArguments common = a;
-  common.unit = scene.unit;
-  common.up = scene.up;
-  common.out = scene.output.mesh.string();
-  Json choice;
-  std::shared_ptr<WorldBody> body;
-  if (!a.flags.accuracy().empty()) {
-    const bool scene_dt = scene.simulation.dt.has_value();
-    const Judgement j = choose_setting(a, common, body, document, scene, folder);
-    if (const int code = exit_code_of(j); code != exit_ok) {
-      std::cerr << "error: " << a.in << ": " << words(j, scene_dt) << "\n";
-      return code;
-    }
-    choice = to_json(j, scene_dt);
+    if (settings.place(key).rfind("--", 0) == 0)
+      throw UsageError("--tolerance " + accuracy + " chooses integrator and step, and " +
+                       settings.place(key) + " names one; leave one of them away");
+}
+
+SimulateJob job_of(const SimulateArguments& a) {
+  SimulateJob job;
+  if (!a.state.empty()) job.state = io::read_state(a.state);
+  job.state_path = a.state;
+  job.scene.settings = scene_settings(a.in, a.state, job.state, a.flags, a);
+  job.scene.folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
+  job.needs_output = a.quiet || !is_scene(a.in);
+  check_tolerance(a, job);
+  if (!a.flags.accuracy().empty()) job.tolerance = parse_share(a.flags.accuracy(), "--tolerance");
+  job.budget = a.budget;
+  return job;
+}
+
+/// The mesh, if it goes to standard output, then the report.
+void print(const SimulateReport& report, CommonArguments common) {
+  common.unit = report.frame.unit;
+  common.up = report.frame.up;
+  common.out = report.settings.value("/output/mesh"_json_pointer, std::string());
+  if (common.out == "-" && report.failure.empty()) write_mesh(report.garment, common);
+  Json json = to_json(report);
+  json["flags"] = io::equivalent_flags(report.settings, report.state, report.settings_before);
+  print_report(json, common);
+}
+
+int simulate(const SimulateArguments& a) {
+  const SimulateJob job = job_of(a);
+  catch_interrupts();
+  Terminal terminal(a);
+  const SimulateReport report = jobs::simulate(job, terminal);
+  if (!report.ran) {
+    std::cerr << "error: " << a.in << ": " << words(*report.choice, report.scene_dt) << "\n";
+    return exit_code_of(*report.choice);
   }
-  return run_scene(scene, document, folder, std::move(state), a.state, common, body, choice);
+  print(report, a);
+  for (const Warning& w : report.warnings) terminal.warn(w);
+  if (!report.failure.empty()) std::cerr << "error: " << report.failure << "\n";
+  if (!report.failure.empty()) return exit_not_converged;
+  return report.run.outcome == physics::Outcome::stopped_by_observer ? exit_interrupted : exit_ok;
 }
 
 }  // namespace

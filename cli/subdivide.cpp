@@ -6,13 +6,13 @@
 #include "cli/common.h"
 #include "cli/max_weights.h"
 #include "cli/subcommands.h"
-#include "cli/wrinkle_reports.h"
 #include "geometry/insert/insert_along_stroke.h"
 #include "geometry/insert/insert_in_faces.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/bending_springs.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/wrinkle_reports.h"
 
 namespace furrow::cli {
 namespace {

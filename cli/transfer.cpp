@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/transfer.h"
+
 #include <iostream>
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "geometry/mesh/errors.h"
-#include "geometry/mesh/property_names.h"
-#include "geometry/refine/transfer_shape.h"
-#include "io/base/atomic_file.h"
-#include "io/base/bytes_file.h"
-#include "io/mesh/rewrite_obj_vertices.h"
 
 namespace furrow::cli {
 namespace {
@@ -19,57 +15,24 @@ struct TransferArguments : CommonArguments {
   geometry::TransferOptions options;
 };
 
-/// Rest positions from a mesh with the same vertices.
-void set_rest_positions(geometry::Mesh& mesh, const TransferArguments& a) {
-  const io::MeshFile rest = read_mesh(a.rest, a);
-  if (rest.mesh.num_vertices() != mesh.num_vertices())
-    throw geometry::ContentError(a.rest + ": has " + std::to_string(rest.mesh.num_vertices()) +
-                                 " vertices, but " + a.wrinkled + " has " +
-                                 std::to_string(mesh.num_vertices()));
-  auto map = geometry::ensure_map(mesh, geometry::attribute::rest_position);
-  for (geometry::Vertex v : mesh.vertices()) {
-    const geometry::Point& p = rest.mesh.point(v);
-    map[v] = {p.x(), p.y(), p.z()};
+void transfer(const TransferArguments& a) {
+  using Path = std::filesystem::path;
+  TransferJob job{Path(a.original), Path(a.wrinkled), {}, a, a.options, a.out};
+  if (!a.rest.empty()) job.rest = Path(a.rest);
+  Terminal terminal(a);
+  const TransferReport report = jobs::transfer(job, terminal);
+  CommonArguments common = a;
+  common.unit = report.frame.unit_in_use();
+  common.up = report.frame.up_in_use();
+  if (a.out == "-" && report.obj_text) {
+    std::cout << *report.obj_text;
+    flush_output();
+  } else if (a.out == "-") {
+    write_mesh(report.result, common);
   }
-}
-
-/// An OBJ file for an OBJ file: its text with other positions, so that polygons stay polygons.
-void write_as_read(const io::MeshFile& file, const std::string& text, const TransferArguments& a) {
-  std::vector<geometry::Point> positions;
-  for (geometry::Vertex v : file.mesh.vertices()) positions.push_back(file.mesh.point(v));
-  const std::string changed = io::rewrite_obj_vertices(text, a.original, positions, write_options(a));
-  if (a.out != "-") return io::write_atomically(a.out, [&](std::ostream& out) { out << changed; });
-  std::cout << changed;
-  flush_output();
-}
-
-void write_result(const io::MeshFile& file, const TransferArguments& a) {
-  const auto is_obj = [](const std::string& path) { return io::mesh_format(path) == io::MeshFormat::obj; };
-  if (is_obj(a.original) && is_obj(a.out) && a.original != "-")
-    return write_as_read(file, io::read_text(a.original), a);
-  if (const std::size_t cut = file.repairs.triangulated_faces)
-    warn(a.out + ": " + std::to_string(cut) +
-             " faces with more than three corners are written as triangles; from OBJ to OBJ they stay whole",
-         a);
-  write_mesh(file, a);
-}
-
-void transfer(TransferArguments a) {
-  check_output(a.out);
-  refuse_same({a.out}, {a.original, a.wrinkled, a.rest});
-  take_noted_frame(a, {a.original, a.wrinkled, a.rest});
-  io::MeshFile original = read_mesh(a.original, a);
-  io::MeshFile wrinkled = read_mesh(a.wrinkled, a);
-  if (!a.rest.empty()) set_rest_positions(wrinkled.mesh, a);
-  const geometry::TransferReport r = geometry::transfer_shape(original.mesh, wrinkled.mesh, a.options);
-  write_result(original, a);
-  print_report({{"vertices", original.mesh.number_of_vertices()},
-                {"copied", r.copied},
-                {"interpolated", r.interpolated},
-                {"unchanged", r.unchanged},
-                {"max_distance", r.max_distance},
-                {"written", a.out}},
-               a);
+  Json json = to_json(report);
+  json["written"] = a.out;
+  print_report(json, a);
 }
 
 }  // namespace

@@ -1,39 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <filesystem>
+#include "jobs/recorded_material.h"
+#include "jobs/wrinkle.h"
+
 #include <memory>
 
-#include "cli/keep_at_rest.h"
-#include "cli/line_round.h"
-#include "cli/max_weights.h"
-#include "cli/pins.h"
-#include "cli/prepare_garment.h"
-#include "cli/recorded_material.h"
-#include "cli/scene_input.h"
+#include "cli/scene_settings.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_drawing.h"
-#include "cli/wrinkle_reports.h"
-#include "geometry/mesh/property_names.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/picture/png_file.h"
 #include "io/scene/relocated.h"
-#include "io/scene/scene_file.h"
-#include "io/scene/state_file.h"
+#include "jobs/wrinkle_reports.h"
 
 namespace furrow::cli {
 namespace {
 
-void check_outputs(const WrinkleArguments& a) {
+void check_call(const WrinkleArguments& a) {
   if (a.out.empty() && a.preview.empty())
     throw UsageError("wrinkle writes a mesh (-o) or a picture (--preview)");
   if (a.out.empty() && !a.inserted.empty()) throw UsageError("--inserted goes with -o");
-  if (!a.out.empty()) check_output(a.out);
-  if (!a.state.empty() && !a.out.empty() && std::filesystem::path(a.out).extension() != ".ply")
-    throw UsageError(a.out + ": lines drawn into a state make a state, a .ply file");
-  if (!a.inserted.empty()) check_output(a.inserted);
   check_picture(a.preview, "--preview");
   check_folder(a.camera.save_camera);
-  refuse_same({a.out, a.inserted, a.preview, a.camera.save_camera}, {a.strokes, a.camera.camera});
-  // The result alone may take the place of what it was made of.
-  refuse_same({a.inserted, a.preview, a.camera.save_camera}, {a.in, a.state});
   if (!a.state.empty()) refuse_same(a.out, a.in);  // with --state these are the strokes
   const std::string flag = a.flags.first();
   if (!flag.empty() && a.rest != "keep")
@@ -42,101 +28,95 @@ void check_outputs(const WrinkleArguments& a) {
     throw UsageError(flag + ": --state has material, pins and body; leave it away");
 }
 
-void write_preview(const io::RenderScene& scene, const WrinkleArguments& a) {
-  const io::RenderOptions options = render_options({&scene, 1}, a.camera);
-  io::write_png(a.preview, io::render(scene, options));
-  save_camera(options, a.camera);
+/// With --state the one file that is named is that of the strokes.
+void take_state(const WrinkleArguments& a, WrinkleJob& job) {
+  if (!a.strokes.empty()) throw UsageError(a.in + ": --state has its garment; leave the mesh away");
+  if (a.density) throw UsageError("--density: furrow simulate --state S --density changes that of a state");
+  job.state = io::read_state(a.state);
+  job.state_path = a.state;
+  job.strokes = std::filesystem::path(a.in);
 }
 
-/// The springs of the simulation that a state belongs to.
-bridge::GatherOptions springs_of(const io::SavedState& state, const io::MeshFile& file,
-                                 const std::string& path) {
-  const io::TomlDocument document = io::document_of(state.scene, path);
-  return spring_options(file, io::read_scene(document, std::filesystem::path(path).parent_path()).material);
+/// The garment, strokes and options that a wrinkled mesh was made with, and over them those of the command
+/// line.
+void draw_again(WrinkleArguments& a, WrinkleJob& job) {
+  refuse_same({a.inserted, a.preview, a.camera.save_camera}, {a.in});
+  Terminal terminal(a);
+  Frame frame = a;
+  take_noted_frame(frame, {a.in});
+  RecordedDrawing recorded = recorded_drawing(a.in, {frame, terminal});
+  if (a.typed->count("--height"))
+    throw UsageError("--height: the strokes of " + a.in +
+                     " have theirs; change them with furrow strokes --height, and draw that file");
+  take_recorded_options(a, recorded.options);
+  if (a.rest != "keep" && recorded.was_kept)
+    warn(a.in + " was kept; its lines are drawn again without that: add --rest keep, or keep the result", a);
+  refuse_same({a.out, a.inserted, a.preview, a.camera.save_camera}, {recorded.garment.string()});
+  job.frame = frame;
+  job.garment = recorded.garment;
+  job.strokes = std::move(recorded.strokes);
 }
 
 /// What a garment is kept in: material, forces, pins and body of the state, or of flags.
-io::TomlDocument surroundings(const WrinkleArguments& a, const Drawing& drawing) {
+SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
   io::TomlDocument document;
-  if (drawing.state) document = io::document_of(drawing.state->scene, a.state);
+  if (job.state) document = io::document_of(job.state->scene, a.state);
   for (const char* list : {"lines", "pins"}) io::make_list(document, list);
   a.flags.apply(document);
-  if (!drawing.state) take_recorded_material(document, a.in, nullptr);
+  if (!job.state) jobs::take_recorded_material(document, a.in);
   // Of a mesh drawn again, a.density is that of its record: the fabric's goes before it.
   const bool has_fabric = document.root.value("material", Json::object()).contains("preset");
   if (a.density && (a.typed->count("--density") || !has_fabric))
     io::set_value(document, "material.density", *a.density, "--density");
   io::set_value(document, "garment.rest", "keep", "--rest keep");
-  return document;
+  return {document, job.state_path.parent_path()};
 }
 
-void write_result(const WrinkleArguments& a, Drawing& drawing) {
-  if (!drawing.state) return write_mesh(drawing.file, a);
-  io::SavedState state = *drawing.state;
-  state.file = drawing.file;
-  const auto folder = [](const std::string& path) { return std::filesystem::path(path).parent_path(); };
-  const io::TomlDocument document = io::document_of(state.scene, a.state);
-  state.scene = io::relocated(document, folder(a.state), folder(a.out));
-  io::write_state(a.out, std::move(state));
+WrinkleJob job_of(WrinkleArguments& a) {
+  WrinkleJob job;
+  job.frame = a;
+  if (!a.state.empty()) {
+    take_state(a, job);
+  } else if (a.strokes.empty()) {
+    draw_again(a, job);
+  } else {
+    job.garment = std::filesystem::path(a.in);
+    job.strokes = std::filesystem::path(a.strokes);
+  }
+  job.without = a.without;
+  job.height = a.height;
+  job.fade = a.fade;
+  job.options = to_options(a);
+  job.density = a.density;
+  job.max_weights = a.max_weights;
+  if (a.rest == "keep") job.keep = surroundings(a, job);
+  job.output = a.out;
+  job.inserted = a.inserted;
+  job.wants_stages = !a.preview.empty();
+  job.more_outputs = {a.preview, a.camera.save_camera};
+  job.more_inputs = {a.camera.camera};
+  return job;
+}
+
+void write_preview(const WrinkleReport& report, const WrinkleArguments& a) {
+  const io::RenderScene scene = preview_scene(report);
+  const io::RenderOptions options = render_options({&scene, 1}, a.camera);
+  io::write_png(a.preview, io::render(scene, options));
+  save_camera(options, a.camera);
 }
 
 void wrinkle(WrinkleArguments a) {
-  check_outputs(a);
-  take_noted_frame(a, {a.in});
-  Drawing drawing = read_drawing(a);
-  io::MeshFile& file = drawing.file;
-  std::optional<io::Scene> scene;
-  io::TomlDocument document;
-  if (a.rest == "keep") {
-    document = surroundings(a, drawing);
-    scene = scene_of(document, std::filesystem::path(a.state).parent_path());
-  }
-  const auto density = scene && !drawing.state ? scene->material.density : a.density;
-  LineTarget target{file, drawing.path, density, nullptr, {}};
-  std::vector<std::vector<int>> pins;
-  if (drawing.state)
-    pins = drawing.state->pins;
-  else if (scene)
-    pins = find_pins(file, scene->pins);
-  if (drawing.state) {
-    target.moving = &drawing.state->simulation;
-    target.springs = springs_of(*drawing.state, file, a.state);
-    target.pins = pins;
-  }
-  io::SceneLines lines;
-  lines.options = to_options(a);
-  lines.fade = a.fade;
-  std::optional<geometry::Mesh> inserted, displaced;
-  const auto keep_stage = [&](geometry::Stage stage, const geometry::Mesh& mesh) {
-    if (!a.preview.empty() && stage == geometry::Stage::inserted) inserted = mesh;
-    if (!a.inserted.empty() && stage == geometry::Stage::displaced) displaced = mesh;
-  };
-  const geometry::Mesh before = file.mesh;
-  const LineRound round = draw_lines(target, drawing.strokes, lines, keep_stage);
-  for (const std::string& w : round.warnings) warn(w, a);
-  pin_new_vertices(file.mesh, before.number_of_vertices(), pins);
-  if (drawing.state) drawing.state->pins = pins;
-  Json kept;
-  if (scene) {
-    std::optional<WorldBody> body;
-    if (scene->body) body.emplace(*scene->body, a);
-    kept = keep_at_rest(file, *scene, pins, body ? &*body : nullptr, target.moving ? target.moving->time : 0,
-                        drawing.state ? drawing.state->contact_gap : 0, target.moving, a);
-  }
-  if (a.max_weights) limit_noted_weights(file, *a.max_weights);
-  if (inserted) write_preview(preview_of(*inserted, before, round.report, *io::find_wrinkle_record(file)), a);
-  if (scene) warn_if_shape_only(a.out, a);
-  if (scene && !drawing.state) note_material(file, document, 0);
-  if (!a.out.empty()) write_result(a, drawing);
-  Json json = to_json(round.report, file.mesh, round.first_line);
-  if (round.moving) json["moving"] = to_json(*round.moving, drawing.state->simulation.time);
-  if (scene) json["kept"] = std::move(kept);
-  if (displaced) {
-    file.mesh = std::move(*displaced);
-    io::drop_motion(file);
-    write_mesh(a.inserted, file, a);
-  }
-  print_report(json, a);
+  check_call(a);
+  const WrinkleJob job = job_of(a);
+  Terminal terminal(a);
+  const WrinkleReport report = jobs::wrinkle(job, terminal);
+  CommonArguments common = a;
+  common.unit = report.frame.unit_in_use();
+  common.up = report.frame.up_in_use();
+  if (!a.preview.empty()) write_preview(report, a);
+  if (a.out == "-") write_mesh(report.garment, common);
+  if (a.inserted == "-") write_mesh("-", inserted_garment(report), common);
+  print_report(to_json(report), a);
 }
 
 }  // namespace

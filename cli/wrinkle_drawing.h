@@ -6,8 +6,6 @@
 #include "cli/smoothing_options.h"
 #include "geometry/fold/wrinkle.h"
 #include "io/scene/scene.h"
-#include "io/scene/state_file.h"
-#include "io/stroke/drawn_stroke.h"
 
 namespace furrow::cli {
 
@@ -25,21 +23,11 @@ struct WrinkleArguments : CommonArguments {
   const CLI::App* typed = nullptr;  ///< what was on the command line
 };
 
-/// A garment, perhaps in motion, and the strokes to be drawn on it.
-struct Drawing {
-  io::MeshFile file;
-  std::string path;
-  std::vector<io::DrawnStroke> strokes;
-  std::optional<io::SavedState> state;  ///< its mesh is in `file`
-};
-
 /// The flags of `wrinkle` that say how lines are drawn, but for those of smoothing.
 void add_drawing_options(CLI::App& sub, WrinkleArguments& a);
 geometry::WrinkleOptions to_options(const WrinkleArguments& a);
 
-/// Reads garment or state and strokes; or, without strokes, the garment that a wrinkled mesh was made of, and
-/// its strokes and options again, over which those of the command line go. Throws UsageError for flags that
-/// contradict each other, geometry::ContentError for files that do.
-Drawing read_drawing(WrinkleArguments& a);
+/// Takes over the options that a wrinkled mesh was made with; those of the command line go over them.
+void take_recorded_options(WrinkleArguments& a, const std::string& recorded);
 
 }  // namespace furrow::cli

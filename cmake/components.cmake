@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The parts of Furrow that can be built and installed alone, from the ground up, and which others each one stands on.
 # furrow-config.cmake knows the same table.
-set(furrow_components physics geometry bridge io program)
+set(furrow_components physics geometry bridge io jobs program)
 set(furrow_libraries ${furrow_components})
 list(REMOVE_ITEM furrow_libraries program)
 set(furrow_needs_physics "")
 set(furrow_needs_geometry "")
 set(furrow_needs_bridge physics geometry)
 set(furrow_needs_io physics geometry bridge)
+set(furrow_needs_jobs physics geometry bridge io)
 set(furrow_needs_program ${furrow_libraries})
 
 # furrow_with_needs(OUT COMPONENTS…): these and what they stand on, in the order of the table.
@@ -43,6 +44,9 @@ macro(furrow_find_for component)
     find_package(embree 3 REQUIRED)
     find_package(nlohmann_json 3.11 REQUIRED)
     find_package(tomlplusplus 3.3 REQUIRED)
+    find_package(fmt 9 REQUIRED)
+  elseif(${component} STREQUAL jobs)
+    find_package(nlohmann_json 3.11 REQUIRED)
     find_package(fmt 9 REQUIRED)
   elseif(${component} STREQUAL program)
     find_package(CLI11 2.1 REQUIRED)

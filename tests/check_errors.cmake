@@ -6,10 +6,11 @@ set(may_throw_physics ${everywhere} Cancelled std::bad_alloc)  # the last one: M
 set(may_throw_geometry ${everywhere} ContentError std::logic_error)  # the last one: a fault of ours, never an input's
 set(may_throw_bridge ${everywhere} geometry::ContentError ContentError)
 set(may_throw_io ${everywhere} geometry::ContentError ContentError std::runtime_error)
+set(may_throw_jobs ${everywhere} geometry::ContentError std::runtime_error physics::Cancelled)
 set(faults "")
 set(seen 0)
 file(READ ${ROOT}/docs/library.md manual)
-foreach(folder physics geometry bridge io)
+foreach(folder physics geometry bridge io jobs)
   file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp)
   foreach(file ${files})
     file(STRINGS ${file} lines REGEX "(^|[^a-zA-Z])throw +[a-zA-Z_:]+ *[({]")

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/chart.h"
+
+#include <cmath>
+
+#include "jobs/chart_files.h"
+#include "jobs/judge.h"
+#include "jobs/judge_report.h"
+#include "jobs/output_checks.h"
+#include "jobs/recorded_material.h"
+
+namespace furrow::jobs {
+namespace {
+
+/// No output may replace what the scene reads.
+void spare_inputs(const io::Scene& scene, const ChartJob& job) {
+  std::vector<std::string> files{scene.garment.string()};
+  if (scene.body)
+    for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
+      files.push_back(path.string());
+  for (const io::SceneLines& lines : scene.lines) files.push_back(lines.strokes.string());
+  refuse_same({job.picture.string(), job.csv.string()}, files);
+}
+
+void check_outputs(const ChartJob& job) {
+  if (!job.picture.empty()) check_chart_picture(job.picture.string());
+  if (!job.csv.empty()) check_folder(job.csv.string());
+  refuse_same({job.picture.string(), job.csv.string()}, {job.name});
+}
+
+OpenScene open_scene(const ChartJob& job) {
+  OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
+  open.scene = scene_of(open.document, open.folder);
+  if (take_recorded_material(open.document, open.scene.garment, job.scene.memory).taken)
+    open.scene = scene_of(open.document, open.folder);
+  if (open.scene.garment.empty())
+    throw std::invalid_argument(open.document.name + ": garment.mesh is missing");
+  check_inputs(open.scene, open.document, -1, job.scene.memory);
+  spare_inputs(open.scene, job);
+  take_noted_frame(open.scene, open.document, job.scene.memory);
+  open.frame.unit = open.scene.unit;
+  open.frame.up = open.scene.up;
+  return open;
+}
+
+}  // namespace
+
+ChartReport chart(const ChartJob& job, Listener& listener) {
+  check(job.options);
+  check_outputs(job);
+  const OpenScene open = open_scene(job);
+  const Context context{open.frame, listener, &job.scene.memory};
+  const SceneCloth cloth = prepare_scene(open.scene, context);
+  ChartReport report{job.name, judge(cloth, cloth.world(open.scene), job.options, context),
+                     open.scene.simulation.dt.has_value()};
+  const Judgement& j = report.judgement;
+  if (!job.csv.empty()) write_chart_csv(job.csv.string(), j);
+  const std::string file = std::filesystem::path(job.name).filename().string();
+  if (!job.picture.empty() && std::isfinite(j.reference_error))
+    draw_chart(job.picture.string(), j, file + ", first " + Json(j.seconds).dump() + " s");
+  return report;
+}
+
+Json to_json(const ChartReport& report) {
+  Json json{{"scene", report.scene}};
+  json.update(to_json(report.judgement, report.scene_dt));
+  return json;
+}
+
+}  // namespace furrow::jobs

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/drape.h"
+
+#include <algorithm>
+
+#include "io/animation/animation_file.h"
+#include "jobs/drape_garment.h"
+#include "jobs/drape_remarks.h"
+#include "jobs/output_checks.h"
+#include "jobs/recorded_material.h"
+
+namespace furrow::jobs {
+namespace {
+
+void check_scene(const io::Scene& scene) {
+  if (!scene.body) throw std::invalid_argument("a garment is draped on a body: name one with --body");
+  if (!scene.body->frames.empty())
+    throw std::invalid_argument("--body-frames: drape fits a garment to one pose; simulate moves it");
+  if (!physics::at_rest(scene.body->motion))
+    throw std::invalid_argument(
+        "body.motion: drape takes the body as it lies in its file; move it there, or simulate");
+  if (!scene.lines.empty())
+    throw std::invalid_argument("drape draws no lines; draw them on what it writes, with furrow wrinkle");
+}
+
+void check(const DrapeJob& job, const io::Scene& scene) {
+  check_scene(scene);
+  const DrapeSettings& s = job.settings;
+  if (job.fabrics.size() > 1 && (!job.output.empty() || !s.animation.empty()))
+    throw std::invalid_argument("--compare writes a picture only; drape each by itself for its mesh");
+  if (!(s.residual > 0)) throw std::invalid_argument("--residual takes a number > 0");
+  if (s.plain && s.contact_depth)
+    throw std::invalid_argument(
+        "--contact-depth: --plain moves cloth out to the gap at once; leave one of them away");
+  const std::string output = job.output.string(), animation = s.animation.string();
+  if (!output.empty()) check_output(output);
+  if (!animation.empty() && !io::animation_format(s.animation))
+    throw std::invalid_argument(animation + ": the ending names no animation; choose pc2, mdd or glb");
+  check_folder(animation);
+  std::vector<std::string> inputs{scene.garment.string(), scene.body->mesh.string(),
+                                  scene.body->field.string()};
+  inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
+  std::vector<std::string> outputs{output, animation};
+  outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
+  refuse_same(outputs, inputs);
+}
+
+/// The settings with what the garment's file notes, or cotton, unless something is said of what the cloth is.
+io::TomlDocument with_fabric(const DrapeJob& job) {
+  io::TomlDocument document = job.scene.settings;
+  if (!job.fabrics.empty()) return document;
+  take_recorded_material(document, scene_of(document, job.scene.folder).garment, job.scene.memory);
+  if (!names_cloth(document)) io::set_value(document, "material.preset", "cotton", "furrow drape");
+  return document;
+}
+
+OpenScene open_scene(const DrapeJob& job) {
+  OpenScene open{{}, with_fabric(job), job.scene.folder, {}};
+  open.scene = scene_of(open.document, open.folder);
+  if (open.scene.garment.empty())
+    throw std::invalid_argument(open.document.name + ": garment.mesh is missing");
+  check_inputs(open.scene, open.document, -1, job.scene.memory);
+  take_noted_frame(open.scene, open.document, job.scene.memory);
+  if (job.subdivide) open.scene.subdivide = *job.subdivide;
+  open.frame.unit = open.scene.unit;
+  open.frame.up = open.scene.up;
+  check(job, open.scene);
+  return open;
+}
+
+/// One for each fabric, or the scene alone.
+std::vector<io::Scene> scenes_of(const DrapeJob& job, const OpenScene& open) {
+  if (job.fabrics.empty()) return {open.scene};
+  const io::TomlDocument& document = open.document;
+  if (document.root.contains("/material/preset"_json_pointer) && !document.is_of_file("material.preset"))
+    throw std::invalid_argument("--fabric: --compare names the fabrics; leave one of them away");
+  std::vector<io::Scene> scenes;
+  for (const std::string& fabric : job.fabrics) {
+    io::TomlDocument other = document;
+    io::set_value(other, "material.preset", fabric, "--compare");
+    scenes.push_back(scene_of(other, open.folder));
+    scenes.back().subdivide = open.scene.subdivide;
+  }
+  return scenes;
+}
+
+}  // namespace
+
+bool DrapeJobReport::fails() const {
+  return std::any_of(garments.begin(), garments.end(),
+                     [](const Draped& d) { return !d.rests() || d.is_pierced(); });
+}
+
+DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
+  const OpenScene open = open_scene(job);
+  const std::vector<io::Scene> scenes = scenes_of(job, open);
+  const Context context{open.frame, listener, &job.scene.memory};
+  const BodyCollider body = load_body(*open.scene.body, context);
+  DrapeJobReport report{{}, {}, scenes[0], open.frame};
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    report.garments.push_back(drape_garment(scenes[i], body, job.settings, context));
+    Draped& draped = report.garments.back();
+    draped.name = job.fabrics.empty() ? open.scene.garment.stem().string() : job.fabrics[i];
+    draped.penetration = job.settings.penetration;
+    if (draped.report.stopped) break;
+  }
+  if (job.fabrics.size() < 2) note_material(report.garments[0].file, open.document, report.garments[0].gap);
+  if (!job.output.empty() && job.output != "-") write_mesh(job.output, report.garments[0].file, context);
+  report.remarks = remarks_on(report.garments);
+  return report;
+}
+
+}  // namespace furrow::jobs

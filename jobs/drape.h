@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bridge/drape.h"
+#include "bridge/fit_report.h"
+#include "jobs/scene_input.h"
+
+namespace furrow::jobs {
+
+/// An elastic band: a border loop's name, and its length over the loop's [-].
+struct Band {
+  std::string loop;
+  double length;
+};
+
+/// What draping knows beyond a scene.
+struct DrapeSettings {
+  bool plain = false;                                    ///< paper 2's own scheme
+  double residual = physics::SettleOptions{}.tolerance;  ///< at which it rests [-]; > 0
+  std::optional<double> contact_depth;  ///< that cloth may lie inside the gap [m]; none: no limit
+  double penetration = 0.005;           ///< depth to which the body may come through the cloth [m]
+  std::optional<int> iterations;        ///< on each level; none: those of the method
+  std::vector<Band> bands;
+  double band_stiffness = 50;       ///< [N]
+  double bending_friction = 0;      ///< [N]
+  std::filesystem::path animation;  ///< of the finest level, a frame an iteration; empty: none
+};
+
+/// A garment to be put on a body: the scene's, under its material, pins and gravity.
+struct DrapeJob {
+  SceneInput scene;
+  DrapeSettings settings = {};
+  std::optional<int> subdivide;           ///< refinements (Loop), in [0, 6]; none: the scene's
+  std::vector<std::string> fabrics = {};  ///< the same garment in each; none: in the scene's, else what its
+                                          ///< file notes, else cotton
+  std::filesystem::path output;           ///< mesh of a single fabric; empty or "-": not written
+  std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another
+  std::vector<std::string> more_inputs = {};   ///< files that the caller reads: none may be replaced
+};
+
+/// A garment that was draped.
+struct Draped {
+  io::MeshFile file;  ///< [m], y up, with the columns of its fit
+  bridge::DrapeReport report;
+  bridge::FitReport fit;
+  bridge::FitOptions fit_options;
+  double gap = 0;           ///< that was to be kept from the body [m]
+  std::size_t too_near = 0; /**< vertices that keep less than nine tenths of a gap that was not raised, by
+                                 more than the field's tolerance */
+  bool falls = false;       ///< nothing carries it: its forces balance at no time
+  bool animated = false;    ///< the animation was written
+  double seconds = 0;       ///< that the fit took, without reading and the body's field [s]
+  std::string name;         ///< of the garment, or of the fabric
+  double penetration = 0;   ///< depth to which the body may come through the cloth [m]
+
+  bool rests() const { return report.levels.back().settle.converged && !falls; }
+  /// Whether the body comes through the cloth by more than was allowed.
+  bool is_pierced() const { return fit.distance.deepest_penetration > penetration; }
+  /// "at rest", "not at rest", "falls" or "interrupted", and whether it is pierced.
+  std::string outcome() const;
+};
+
+/// What is to be said of the result; one that fails says why it is no success.
+struct DrapeRemark {
+  bool fails = false;
+  Warning remark;
+};
+
+/// What jobs::drape() reached.
+struct DrapeJobReport {
+  std::vector<Draped> garments;  ///< in the order of the fabrics; the last one may have been cancelled
+  std::vector<DrapeRemark> remarks;
+  io::Scene scene;  ///< that was draped, in its first fabric
+  Frame frame;      ///< of the file written
+
+  bool cancelled() const { return garments.back().report.stopped; }
+  bool fails() const;  ///< one does not rest, or is pierced
+};
+
+/// Finds how the garment comes to rest on the body (bridge/drape.h), measures how it fits, and writes the
+/// mesh, whole or not at all. Where it is cancelled on the way, what was reached is returned and written.
+/// Throws std::invalid_argument for a job that cannot be, geometry::ContentError for files that cannot be
+/// used, physics::Cancelled before anything was found.
+DrapeJobReport drape(const DrapeJob& job, Listener& listener);
+
+/// The report for programs, and what the command line prints, without the names of the files written.
+Json to_json(const DrapeJobReport& report);
+
+}  // namespace furrow::jobs

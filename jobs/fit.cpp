@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "jobs/body.h"
+#include "jobs/fit_picture.h"
+#include "jobs/output_checks.h"
+
+namespace furrow::jobs {
+namespace {
+
+void check(const FitJob& job) {
+  if (job.worn.empty()) throw std::invalid_argument("fit: there is no garment");
+  if (job.bodies.empty() || (job.bodies.size() > 1 && job.bodies.size() != job.worn.size()))
+    throw std::invalid_argument("--body: " + std::to_string(job.bodies.size()) + " bodies for " +
+                                std::to_string(job.worn.size()) + " garments; give one, or one for each");
+  const std::string output = job.output.string();
+  if (!output.empty() && job.worn.size() > 1)
+    throw std::invalid_argument("-o writes one garment, not those of --compare");
+  if (job.rest && job.worn.size() > 1) throw std::invalid_argument("--rest is that of one garment");
+  if (job.range && !(*job.range > 0 && std::isfinite(*job.range)))
+    throw std::invalid_argument("--range takes a number > 0, not " + Json(*job.range).dump());
+  if (!output.empty()) check_output(output);
+  std::vector<std::string> outputs{output}, inputs = job.more_inputs;
+  outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
+  for (const MeshInput& input : job.worn) inputs.push_back(name_of(input, ""));
+  for (const MeshInput& input : job.bodies) inputs.push_back(name_of(input, ""));
+  if (job.rest) inputs.push_back(name_of(*job.rest, ""));
+  refuse_same(outputs, inputs);
+}
+
+/// Rest lengths as the edges are long in a mesh with the same vertices.
+void take_rest(geometry::Mesh& mesh, const FitJob& job, const Context& context) {
+  const io::MeshFile rest = read_mesh(*job.rest, context);
+  if (rest.mesh.num_vertices() != mesh.num_vertices())
+    throw geometry::ContentError(name_of(*job.rest, "the rest") + ": has " +
+                                 std::to_string(rest.mesh.num_vertices()) + " vertices, but " +
+                                 name_of(job.worn[0], "the garment") + " has " +
+                                 std::to_string(mesh.num_vertices()));
+  auto lengths = geometry::ensure_map(mesh, geometry::attribute::rest_length);
+  for (geometry::Edge e : mesh.edges())
+    lengths[e] = std::sqrt(
+        CGAL::squared_distance(rest.mesh.point(mesh.vertex(e, 0)), rest.mesh.point(mesh.vertex(e, 1))));
+}
+
+struct Body {
+  physics::TriangleMesh triangles;
+  physics::ExactDistance distance;
+};
+
+Body read_wearer(const MeshInput& input, const Context& context) {
+  physics::TriangleMesh triangles = read_body(input, context);
+  physics::ExactDistance distance(triangles);
+  return {std::move(triangles), std::move(distance)};
+}
+
+FittedGarment measure(const MeshInput& worn, const Body& body, const FitJob& job, const Context& context) {
+  const std::string path = name_of(worn, "garment");
+  FittedGarment fitted{
+      path, std::filesystem::path(path).stem().string(), read_garment(worn, context), {}, job.options};
+  geometry::Mesh& mesh = fitted.garment.mesh;
+  if (job.rest) take_rest(mesh, job, context);
+  if (mesh.number_of_edges() > 0)
+    fitted.options.contact_distance =
+        job.contact ? *job.contact : contact_distance(fitted.garment, body.distance);
+  fitted.report = bridge::fit_report(mesh, body.triangles, body.distance, fitted.options);
+  if (!fitted.report.strain)
+    context.warn("strain_unknown",
+                 path +
+                     ": has no rest lengths, so its strain is not known; --rest takes the garment as it was "
+                     "made" +
+                     (job.worn.size() > 1 ? " (a second body needs a --body of its own)" : ""),
+                 path, "rest");
+  if (fitted.report.ease.empty())
+    context.warn("sections_not_found",
+                 "no chest, waist and hips were found on the body; --section chest=1.25 tells their heights",
+                 "", "sections");
+  return fitted;
+}
+
+/// The quantity that is asked for, or strain where all garments know theirs.
+FitColour shown_colour(const std::vector<FittedGarment>& all, const std::optional<FitColour>& wanted) {
+  const auto without =
+      std::find_if(all.begin(), all.end(), [](const FittedGarment& f) { return !f.report.strain; });
+  if (wanted == FitColour::strain && without != all.end())
+    throw geometry::ContentError(without->name +
+                                 ": has no rest lengths, so no strain can be shown; give --rest, or --colour "
+                                 "distance");
+  return wanted == FitColour::distance || without != all.end() ? FitColour::distance : FitColour::strain;
+}
+
+Json to_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json to_json(const std::vector<bridge::FitZone>& zones) {
+  Json rows = Json::array();
+  for (const bridge::FitZone& z : zones)
+    rows.push_back({{"side", z.side},
+                    {"height_share", z.height_share},
+                    {"area", z.area},
+                    {"peak", z.peak},
+                    {"x", z.centre.x()},
+                    {"y", z.centre.y()},
+                    {"z", z.centre.z()}});
+  return rows;
+}
+
+Json to_json(const std::vector<bridge::FitEase>& list) {
+  Json rows = Json::array();
+  for (const bridge::FitEase& e : list) {
+    rows.push_back({{"section", e.name},
+                    {"height", e.height},
+                    {"body_girth", to_json(e.body_girth)},
+                    {"garment_girth", to_json(e.garment_girth)},
+                    {"ease", to_json(e.ease)},
+                    {"rest_girth", to_json(e.rest_girth)},
+                    {"rest_ease", to_json(e.rest_ease)},
+                    {"note", e.note}});
+  }
+  return rows;
+}
+
+}  // namespace
+
+FitJobReport fit(const FitJob& job, Listener& listener) {
+  check(job);
+  FitJobReport report;
+  report.frame = job.frame;
+  std::vector<std::string> names;
+  for (const MeshInput& input : job.worn) names.push_back(name_of(input, ""));
+  take_noted_frame(report.frame, names);
+  const Context context{report.frame, listener};
+  std::vector<Body> bodies;
+  for (const MeshInput& input : job.bodies) bodies.push_back(read_wearer(input, context));
+  for (std::size_t i = 0; i < job.worn.size(); ++i) {
+    stop_if_cancelled(context);
+    report.garments.push_back(measure(job.worn[i], bodies[bodies.size() > 1 ? i : 0], job, context));
+  }
+  report.shown = shown_colour(report.garments, job.colour);
+  const io::FitScale scale = fit_scale(report.shown, job.options, job.range);
+  for (FittedGarment& fitted : report.garments) colour_garment(fitted.garment.mesh, scale);
+  stop_if_cancelled(context);
+  if (!job.output.empty() && job.output != "-") write_mesh(job.output, report.garments[0].garment, context);
+  return report;
+}
+
+Json to_json(const bridge::FitReport& r, const bridge::FitOptions& o) {
+  Json json{{"area", r.area}, {"body_height", r.body_high - r.body_low}};
+  if (r.strain)
+    json["strain"] = {{"share_over", r.strain->share_over},
+                      {"over", o.tight_strain},
+                      {"p50", r.strain->p50},
+                      {"p99", r.strain->p99},
+                      {"max", r.strain->max},
+                      {"unknown_faces", r.strain->unknown_faces}};
+  else
+    json["strain"] = nullptr;
+  json["distance"] = {{"min", r.distance.min},
+                      {"median", r.distance.median},
+                      {"p95", r.distance.p95},
+                      {"share_in_contact", r.distance.share_in_contact},
+                      {"contact", o.contact_distance},
+                      {"vertices_inside", r.distance.vertices_inside},
+                      {"pierced_faces", r.piercing.faces},
+                      {"deepest_penetration", r.distance.deepest_penetration}};
+  json["ease"] = to_json(r.ease);
+  json["tight_zones"] = to_json(r.tight);
+  json["loose_zones"] = to_json(r.loose);
+  json["pierced_zones"] = to_json(r.piercing.zones);
+  json["loose_over"] = o.loose_distance;
+  json["zones_left_out"] = r.left_out;
+  return json;
+}
+
+Json to_json(const FitJobReport& report) {
+  const std::vector<FittedGarment>& all = report.garments;
+  if (all.size() == 1) return to_json(all[0].report, all[0].options);
+  Json garments = Json::array();
+  for (const FittedGarment& fitted : all) {
+    garments.push_back({{"garment", fitted.path}});
+    garments.back().update(to_json(fitted.report, fitted.options));
+  }
+  return {{"garments", garments}};
+}
+
+}  // namespace furrow::jobs

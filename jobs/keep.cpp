@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/keep.h"
+
+#include <algorithm>
+
+#include "bridge/store_rest_state.h"
+#include "io/mesh/ply_motion.h"
+#include "io/scene/relocated.h"
+#include "jobs/keep_at_rest.h"
+#include "jobs/observation.h"
+#include "jobs/output_checks.h"
+#include "jobs/prepare_garment.h"
+#include "jobs/recorded_material.h"
+#include "jobs/run_warnings.h"
+#include "jobs/scene_cloth.h"
+#include "jobs/simulate.h"
+#include "physics/cloth/pins.h"
+
+namespace furrow::jobs {
+namespace {
+
+void check_outputs(const KeepJob& job, const OpenScene& open) {
+  if (job.whole && !job.help)
+    throw std::invalid_argument("--whole is help for what lies between the lines; leave --no-help away");
+  const io::Scene& scene = open.scene;
+  const io::SceneOutput& out = scene.output;
+  const bool of_file = is_scene(open.document.name);
+  for (const auto& path : {out.mesh, out.state})
+    if (!path.empty()) check_output(path.string());
+  if (!out.state.empty() && out.state.extension() != ".ply")
+    throw std::invalid_argument(out.state.string() + ": a state is a .ply file");
+  if (!out.animation.empty() || !out.inserted.empty() || !out.smoothed.empty() || !out.body.empty())
+    if (!of_file) throw std::invalid_argument("keep writes --output, --save-state and --picture alone");
+  for (const std::string& path : job.more_outputs)
+    if (!path.empty()) check_folder(path);
+  std::vector<std::string> inputs{job.state_path.string(), scene.garment.string()};
+  if (of_file) inputs.push_back(open.document.name);
+  if (scene.body)
+    for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
+      inputs.push_back(path.string());
+  for (const io::SceneLines& lines : scene.lines) inputs.push_back(lines.strokes.string());
+  std::vector<std::string> outputs{out.mesh.string(), out.state.string()};
+  outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
+  refuse_same(outputs, inputs);
+}
+
+OpenScene open_scene(const KeepJob& job) {
+  OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
+  open.scene = scene_of(open.document, open.folder);
+  if (!job.state && take_recorded_material(open.document, open.scene.garment, job.scene.memory).taken)
+    open.scene = scene_of(open.document, open.folder);
+  if (open.scene.garment.empty() && !job.state)
+    throw std::invalid_argument(open.document.name + ": garment.mesh is missing");
+  check_inputs(open.scene, open.document, job.state ? job.state->lines_drawn : -1, job.scene.memory);
+  if (!job.state) take_noted_frame(open.scene, open.document, job.scene.memory);
+  check_outputs(job, open);
+  open.frame.unit = open.scene.unit;
+  open.frame.up = open.scene.up;
+  return open;
+}
+
+/// The gap that a state's cloth has settled at [m]; 0: on another body, or under another gap.
+double settled_gap(const io::SavedState& state, const WorldBody* body, double gap) {
+  const Json material = state.scene.value("material", Json::object());
+  const bool settled = body && body->fingerprint() == state.body &&
+                       material.value("gap", physics::SimulateOptions{}.contact_gap) == gap;
+  return settled ? state.contact_gap : 0;
+}
+
+/// The garment in its drawn shape, of a scene that draws at time 0 alone.
+SceneCloth drawn_by(const io::Scene& scene, const Context& context) {
+  io::Scene drawn = scene;  // what is kept, keep_lines() finds out
+  drawn.keep = false;
+  for (io::SceneLines& lines : drawn.lines) lines.keep = false;
+  return prepare_scene(drawn, context);
+}
+
+/// The same of a state; notes there at what gap it rests.
+SceneCloth drawn_in(io::SavedState& state, const io::Scene& scene, const Context& context) {
+  SceneCloth result;
+  result.file = state.file;
+  result.pins = state.pins;
+  if (scene.body) result.body = std::make_shared<WorldBody>(*scene.body, context);
+  complete_garment(result.file, scene.material);
+  result.cloth = bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
+  pin_cloth(result.cloth, result.pins, result.body.get(), state.simulation.time, context);
+  result.options = scene.simulation;
+  double& gap = result.options.contact_gap;
+  state.contact_gap = settled_gap(state, result.body.get(), gap);
+  if (result.body)
+    gap = state.contact_gap =
+        std::max(state.contact_gap, contact_gap(gap, result.body->tolerance(), result.file));
+  result.options.threads = threads_of(scene, result.cloth.particles.size());
+  return result;
+}
+
+/// Heights that lines would have without displacement.
+std::vector<double> base_heights(const io::WrinkleRecord& record) {
+  std::vector<double> base;
+  for (const auto& line : record.lines) base.push_back(line.base_height);
+  return base;
+}
+
+/// Each line's press from now on, so that keeping it again goes on from there.
+void note_presses(const bridge::KeepReport& report, io::WrinkleRecord record, io::MeshFile& file) {
+  for (const bridge::KeptLine& line : report.lines)
+    if (std::size_t(line.line) < record.lines.size()) record.lines[line.line].press = line.press;
+  io::set_wrinkle_record(file, record);
+}
+
+/// From rest, with nothing that fades in any more.
+void write_kept_state(const OpenScene& open, const SceneCloth& cloth, std::optional<io::SavedState> state) {
+  const std::filesystem::path& path = open.scene.output.state;
+  io::SavedState kept;
+  if (state)
+    kept = std::move(*state);
+  else
+    kept.lines_drawn = int(std::count_if(open.scene.lines.begin(), open.scene.lines.end(),
+                                         [](const io::SceneLines& lines) { return lines.time == 0; }));
+  const double time = kept.simulation.time;
+  kept.simulation = {};
+  kept.simulation.time = time;
+  kept.file = cloth.file;
+  io::drop_motion(kept.file);
+  kept.pins = cloth.pins;
+  kept.body = cloth.body ? cloth.body->fingerprint() : "";
+  kept.scene = io::relocated(open.document, open.folder, path.parent_path());
+  kept.scene.erase("output");
+  io::write_state(path, std::move(kept));
+}
+
+bridge::KeepOptions options_of(const KeepJob& job, const SceneCloth& cloth, const io::WrinkleRecord& record) {
+  bridge::KeepOptions options;
+  options.run = cloth.options;
+  options.run.stop_at.reset();
+  options.run.observe_steps = observation_of(options.run, cloth.cloth, cloth.body != nullptr, false).steps;
+  options.seconds = job.seconds;
+  options.kept = job.kept;
+  options.gust = job.gust;
+  options.line_widths = io::line_widths(record);
+  options.line_presses = io::line_presses(record);
+  options.whole = job.whole;
+  if (!job.balance) options.largest_turn = 0;
+  if (!job.help) options.presses.clear(), options.struts.clear(), options.height_trials = 0;
+  return options;
+}
+
+bridge::KeepReport find_rest(const KeepJob& job, const io::Scene& scene, SceneCloth& garment,
+                             const io::WrinkleRecord& record, const Context& context) {
+  const ProgressScope progress(context.listener, "keeping");
+  return bridge::keep_lines(garment.file.mesh, garment.cloth, garment.world(scene), base_heights(record),
+                            options_of(job, garment, record), std::cref(progress));
+}
+
+void write_outputs(const OpenScene& open, SceneCloth& garment, std::optional<io::SavedState> state,
+                   const Context& context) {
+  const io::SceneOutput& out = open.scene.output;
+  if (!out.state.empty()) write_kept_state(open, garment, std::move(state));
+  warn_if_shape_only(out.mesh, context);
+  note_material(garment.file, open.document, garment.body ? garment.options.contact_gap : 0);
+  if (!out.mesh.empty() && out.mesh != "-") write_mesh(out.mesh, garment.file, context);
+}
+
+}  // namespace
+
+KeepReport keep(const KeepJob& job, Listener& listener) {
+  const OpenScene open = open_scene(job);
+  const io::Scene& scene = open.scene;
+  const Context context{open.frame, listener, &job.scene.memory};
+  KeepReport report;
+  std::optional<io::SavedState> state = job.state;
+  const bool later =
+      std::any_of(scene.lines.begin(), scene.lines.end(), [](const auto& l) { return l.time > 0; });
+  if (!state && later && !(state = run_until_drawn(open, context))) return report;
+  SceneCloth garment = state ? drawn_in(*state, scene, context) : drawn_by(scene, context);
+  stop_if_cancelled(context);
+  report.ran = true;
+  report.frame = open.frame;
+  report.mesh = scene.output.mesh;
+  report.record = *io::find_wrinkle_record(garment.file);
+  report.lines = find_rest(job, scene, garment, report.record, context);
+  note_presses(report.lines, report.record, garment.file);
+  physics::soften_clamps(garment.cloth);
+  bridge::store_rest_state(garment.cloth, spring_options(garment.file, scene.material), garment.file.mesh);
+  write_outputs(open, garment, std::move(state), context);
+  report.warnings = idle_presses(scene.material, report.record);
+  report.garment = std::move(garment.file);
+  return report;
+}
+
+}  // namespace furrow::jobs

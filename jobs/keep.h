@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+
+#include "io/scene/state_file.h"
+#include "jobs/keep_report.h"
+#include "jobs/scene_input.h"
+
+namespace furrow::jobs {
+
+/// A garment whose lines are to be kept: of a scene, or of a saved state.
+struct KeepJob {
+  SceneInput scene;
+  std::optional<io::SavedState>
+      state;  ///< with lines drawn on the cloth as it hangs or lies; none: the scene draws
+  std::filesystem::path state_path;  ///< where it was read from
+  double seconds = 5;                ///< how long each trial runs forward from rest [s]; > 0
+  double gust = 12;                  ///< then an acceleration to one side [m/s^2]; >= 0
+  double kept = 0.95;                ///< share of its height with which a line holds [-], in (0, 1)
+  bool balance = true;               ///< what hangs on a line of pins is first turned into balance
+  bool help = true;    ///< press, struts or a lower height where the rest state alone does not hold
+  bool whole = false;  ///< what lies between the lines is pressed, too, where it could give way
+  std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another
+};
+
+/// Gives a garment the rest state that keeps its drawn lines, tells of each whether it will hold
+/// (bridge/keep_lines.h), and writes the mesh and the state that the settings' output names, each file whole
+/// or not at all; a mesh named "-" is in the report alone. A job that is cancelled on the way to its lines
+/// has nothing to report (`ran`); later, the last rest state stands. Throws as jobs::simulate().
+KeepReport keep(const KeepJob& job, Listener& listener);
+
+}  // namespace furrow::jobs

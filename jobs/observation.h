@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "physics/motion/simulate.h"
+
+namespace furrow::jobs {
+
+/// How often a run is observed: often enough that one that is cancelled ends soon, by counts and never by a
+/// clock.
+struct Observation {
+  int steps = physics::SimulateOptions{}.observe_steps;  ///< between two calls of the observer
+  int shown = 20;  ///< steps between two that an animation sees; its frames are interpolated between them
+
+  /// Whether an animation sees this one; `stop`: where the run ends [s].
+  bool shows(const physics::SimulateProgress& p, double stop) const {
+    return p.step % shown == 0 || p.time >= stop;
+  }
+};
+
+/// As many steps as take 0.2 s by jobs/cost_table.h, at most 100, or 20 with an animation; one of backward
+/// Euler's, each of which factorises. What the run comes to does not depend on it.
+Observation observation_of(const physics::SimulateOptions& options, const physics::Cloth& cloth,
+                           bool has_body, bool animated);
+
+}  // namespace furrow::jobs

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/scene.h"
+#include "jobs/listener.h"
+
+namespace furrow::jobs {
+
+/// What is no error of a scene's run, and hardly what was meant.
+std::vector<Warning> oddities_of(const io::Scene& scene, const physics::SimulateReport& report);
+
+/// Lines with a press where nothing has hinges to be pressed.
+std::vector<Warning> idle_presses(const io::SceneMaterial& material, const io::WrinkleRecord& record);
+
+/// That the run was broken off, and what was kept.
+Warning interruption_of(const io::Scene& scene, const physics::SimulateReport& report);
+
+/// That the run diverged, and what helps: a sentence.
+std::string words_of_divergence(const io::Scene& scene, const physics::SimulateReport& report);
+
+}  // namespace furrow::jobs

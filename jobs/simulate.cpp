@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/simulate.h"
+
+#include <algorithm>
+
+#include "bridge/scatter.h"
+#include "io/mesh/ply_motion.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/relocated.h"
+#include "jobs/animation_series.h"
+#include "jobs/judge.h"
+#include "jobs/judge_report.h"
+#include "jobs/keep_at_rest.h"
+#include "jobs/line_round.h"
+#include "jobs/measure_shape.h"
+#include "jobs/observation.h"
+#include "jobs/pins.h"
+#include "jobs/prepare_garment.h"
+#include "jobs/recorded_material.h"
+#include "jobs/run_warnings.h"
+#include "jobs/scene_cloth.h"
+#include "jobs/simulate_checks.h"
+
+namespace furrow::jobs {
+namespace {
+
+/// What a run is made of; it does not change on the way.
+struct Run {
+  const OpenScene& of;
+  const io::Scene& scene;
+  const Context& context;
+  std::shared_ptr<WorldBody> body;  ///< null: none
+  bool resumed;
+  std::vector<std::vector<io::DrawnStroke>> strokes = {};  ///< of each round
+};
+
+/// How far it has come.
+struct Reached {
+  io::SavedState now;
+  std::vector<double> heights = {};  ///< of lines at the start, or when the last ones were drawn [m]
+  bool starts = false;               ///< the next stretch is the first: pins are put onto the body
+};
+
+/// A stretch between two rounds of lines.
+struct Stretch {
+  physics::SimulateReport report;
+  bool goes_on = false;  ///< the cloth came to its end, and the run is not to stop there
+};
+
+io::SavedState begin(const io::Scene& scene, const Context& context) {
+  io::SavedState state;
+  state.file = begin_garment(scene, context);
+  if (!scene.output.state.empty()) io::check_state_attributes(state.file.mesh);
+  return state;
+}
+
+/// What is not the state's any more.
+void change_plan(const Run& run, io::SavedState& now) {
+  const Json& said = run.of.document.root;
+  const auto value = [](const Json& settings, const char* key) {
+    return settings.contains(key) ? settings[key] : Json();
+  };
+  if (value(now.scene, "pins") != value(said, "pins")) now.simulation.homes.clear();
+  if (value(value(now.scene, "material"), "gap") != value(value(said, "material"), "gap"))
+    now.contact_gap = 0;
+  const auto density = run.scene.material.density;
+  if (density && *density != io::find_wrinkle_record(now.file)->density)
+    complete_garment(now.file, run.scene.material);
+}
+
+/// The state with pins, on the run's body; strokes are read.
+Reached take_up(Run& run, io::SavedState now) {
+  if (run.scene.body && !run.body) run.body = std::make_shared<WorldBody>(*run.scene.body, run.context);
+  if (run.resumed && now.pins.size() != run.scene.pins.size())
+    throw std::invalid_argument("the state has " + std::to_string(now.pins.size()) +
+                                " sets of pins, the scene " + std::to_string(run.scene.pins.size()) +
+                                "; go on with the same pins");
+  if (!run.resumed) now.pins = find_pins(now.file, run.scene.pins);
+  const std::string body = run.body ? run.body->fingerprint() : "";
+  if (now.body != body) now.simulation.contact.clear();
+  if (now.body != body) now.simulation.body_travel = now.contact_gap = 0;
+  now.body = body;
+  if (run.resumed)
+    change_plan(run, now);
+  else if (run.body)
+    warn_if_apart(run.scene, *run.body, now.file.mesh, run.context);
+  Reached reached{std::move(now)};
+  reached.heights = line_heights_by_id(reached.now.file);
+  run.strokes = read_rounds(run.scene, reached.now.lines_drawn, run.context);
+  stop_if_cancelled(run.context);
+  return reached;
+}
+
+bridge::KeptShape keep_shape(const Run& run, io::SavedState& now, physics::SimulateState* moving) {
+  return keep_at_rest(now.file, run.scene, now.pins, run.body.get(), now.simulation.time, now.contact_gap,
+                      moving, run.context);
+}
+
+LineTarget target_of(const Run& run, io::SavedState& now, bool moving) {
+  LineTarget target{now.file,
+                    run.scene.subdivide ? "" : run.scene.garment.string(),
+                    run.scene.material.density,
+                    nullptr,
+                    {}};
+  if (moving) {
+    target.moving = &now.simulation;
+    target.springs = spring_options(now.file, run.scene.material);
+    target.pins = now.pins;
+  }
+  return target;
+}
+
+/// Draws the next round.
+DrawnRound draw_round(const Run& run, Reached& reached) {
+  io::SavedState& now = reached.now;
+  const std::size_t round = std::size_t(now.lines_drawn);
+  const io::SceneLines& lines = run.scene.lines[round];
+  const bool moving = now.simulation.step > 0;
+  if (moving) now = io::parse_state(io::state_bytes(std::move(now)), "state");  // as if it had been saved
+  const std::size_t old_count = now.file.mesh.number_of_vertices();
+  DrawnRound drawn{draw_lines(target_of(run, now, moving), run.strokes[round], lines,
+                              lines.time == 0 ? stage_writer(run.scene.output, now.file, run.context)
+                                              : geometry::StageObserver{}),
+                   {},
+                   now.simulation.time,
+                   {}};
+  pin_new_vertices(now.file.mesh, old_count, now.pins);
+  ++now.lines_drawn;
+  for (const std::string& w : drawn.round.warnings) run.context.warn("drawing", w, lines.strokes.string());
+  drawn.rest = geometry::audit_rest_metric(now.file.mesh);
+  if (lines.keep && (moving || run.resumed)) drawn.kept = keep_shape(run, now, &now.simulation);
+  if (moving) reached.heights = line_heights_by_id(now.file);
+  return drawn;
+}
+
+/// Draws the rounds whose time has come. After those of time 0 the garment is complete: masses and springs.
+void draw_due_rounds(const Run& run, Reached& reached, AnimationSeries& animations, SimulateReport& report) {
+  io::SavedState& now = reached.now;
+  const auto& rounds = run.scene.lines;
+  while (now.lines_drawn < int(rounds.size()) && rounds[now.lines_drawn].time <= now.simulation.time) {
+    animations.finish();
+    report.rounds.push_back(draw_round(run, reached));
+  }
+  if (now.simulation.step > 0 || run.resumed) return;
+  complete_garment(now.file, run.scene.material);
+  if (keeps_first_shape(run.scene)) report.kept = keep_shape(run, now, nullptr);
+  reached.heights = line_heights_by_id(now.file);
+  reached.starts = true;
+}
+
+double next_stop(const io::Scene& scene, int lines_drawn) {
+  double stop = scene.simulation.seconds;
+  if (lines_drawn < int(scene.lines.size())) stop = std::min(stop, scene.lines[lines_drawn].time);
+  if (scene.stop_at) stop = std::min(stop, *scene.stop_at);
+  return stop;
+}
+
+/// Options of the stretch to `stop`; raises the gap that the state has kept.
+physics::SimulateOptions options_of(const Run& run, io::SavedState& now, double stop, std::size_t vertices) {
+  physics::SimulateOptions options = run.scene.simulation;
+  if (run.body)
+    options.contact_gap = now.contact_gap =
+        std::max(now.contact_gap, contact_gap(options.contact_gap, run.body->tolerance(), now.file));
+  if (stop < options.seconds) options.stop_at = stop;
+  options.threads = threads_of(run.scene, vertices);
+  return options;
+}
+
+Stretch simulate_to(double stop, const Run& run, Reached& reached, AnimationSeries& animations) {
+  io::SavedState& now = reached.now;
+  const io::Scene& scene = run.scene;
+  physics::Cloth cloth = bridge::gather(now.file.mesh, spring_options(now.file, scene.material));
+  pin_cloth(cloth, now.pins, reached.starts ? run.body.get() : nullptr, now.simulation.time, run.context);
+  reached.starts = false;
+  physics::SimulateOptions options = options_of(run, now, stop, cloth.particles.size());
+  const Observation observation = observation_of(options, cloth, run.body != nullptr, animations.is_on());
+  options.observe_steps = observation.steps;
+  animations.start(now.file.mesh, now.simulation.time, cloth.particles.x);
+  const physics::World world = world_of(scene, run.body.get(), now.pins);
+  const ProgressScope progress(run.context.listener, "simulating");
+  Stretch stretch;
+  stretch.report =
+      physics::simulate(cloth, world, options, &now.simulation, [&](const physics::SimulateProgress& p) {
+        if (observation.shows(p, stop)) animations.observe(p.time, cloth.particles.x);
+        return progress(p.time / scene.simulation.seconds);
+      });
+  bridge::scatter(cloth.particles, now.file.mesh);
+  bridge::scatter_velocities(cloth.particles, now.file.mesh);
+  const physics::Outcome outcome = stretch.report.outcome;
+  const bool stopped =
+      outcome == physics::Outcome::stopped_at && scene.stop_at && now.simulation.time >= *scene.stop_at;
+  stretch.goes_on = (outcome == physics::Outcome::finished || outcome == physics::Outcome::stopped_at) &&
+                    now.simulation.time < scene.simulation.seconds && !stopped;
+  return stretch;
+}
+
+void write_state(const Run& run, const io::SavedState& now) {
+  const std::filesystem::path& path = run.scene.output.state;
+  io::SavedState state = now;
+  state.scene = io::relocated(run.of.document, run.of.folder, path.parent_path());
+  state.scene.erase("output");  // it and stop_at belong to one call
+  if (state.scene.contains("simulation")) state.scene["simulation"].erase("stop_at");
+  io::write_state(path, std::move(state));
+}
+
+/// Draws and simulates by turns. Where a round of lines cannot be drawn, the state reached is written before
+/// that comes out.
+physics::SimulateReport run_to_end(const Run& run, Reached& reached, AnimationSeries& animations,
+                                   SimulateReport& report) {
+  Stretch stretch;
+  try {
+    do {
+      draw_due_rounds(run, reached, animations, report);
+      stretch = simulate_to(next_stop(run.scene, reached.now.lines_drawn), run, reached, animations);
+    } while (stretch.goes_on);
+  } catch (const std::exception&) {
+    if (reached.now.simulation.step > 0 && !run.scene.output.state.empty()) {
+      write_state(run, reached.now);
+      run.context.warn("state_rescued",
+                       "the state reached at " + std::to_string(reached.now.simulation.time) +
+                           " s was written to " + run.scene.output.state.string(),
+                       run.scene.output.state.string());
+    }
+    throw;
+  }
+  return stretch.report;
+}
+
+/// Drops what belongs to motion from the garment and writes what the scene names.
+void write_outputs(const Run& run, io::SavedState& now, AnimationSeries& animations) {
+  const io::SceneOutput& out = run.scene.output;
+  if (!out.state.empty()) write_state(run, now);
+  animations.finish();
+  io::drop_motion(now.file);
+  if (run.body && !out.body.empty())
+    write_mesh(out.body, run.body->at(now.simulation.time, run.context), run.context);
+  note_material(now.file, run.of.document, run.body ? now.contact_gap : 0);
+  if (!out.mesh.empty() && out.mesh != "-") write_mesh(out.mesh, now.file, run.context);
+}
+
+std::vector<Warning> remarks_on(const Run& run, const physics::SimulateReport& r, const io::MeshFile& file,
+                                std::int64_t steps_before) {
+  std::vector<Warning> all = oddities_of(run.scene, r);
+  const std::vector<Warning> presses = idle_presses(run.scene.material, *io::find_wrinkle_record(file));
+  all.insert(all.end(), presses.begin(), presses.end());
+  if (run.resumed && r.time >= run.scene.simulation.seconds && r.steps == steps_before)
+    all.push_back({"at_end_already", "the state is at the end already; --seconds puts that off", "",
+                   "simulation.seconds"});
+  if (r.outcome == physics::Outcome::stopped_by_observer) all.push_back(interruption_of(run.scene, r));
+  return all;
+}
+
+/// Writes, measures and remarks on what was reached.
+void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std::int64_t steps_before,
+              SimulateReport& report) {
+  io::SavedState& now = reached.now;
+  if (report.run.outcome == physics::Outcome::diverged) {
+    report.failure = words_of_divergence(run.scene, report.run);
+  } else {
+    write_outputs(run, now, animations);
+    report.shape = measure_shape(now.file, reached.heights, run.body.get(), now.contact_gap, report.run.time);
+    report.warnings = remarks_on(run, report.run, now.file, steps_before);
+    report.garment = std::move(now.file);
+  }
+  report.animations = animations.reports();
+}
+
+/// Integrator and step for the tolerance: sets them in the scene. Builds the scene's body, if it has one, for
+/// the run, too.
+Judgement choose_setting(const SimulateJob& job, OpenScene& scene, const Context& context,
+                         std::shared_ptr<WorldBody>& body) {
+  const JudgeOptions options{*job.tolerance, job.budget};
+  check(options);
+  if (scene.scene.body) body = std::make_shared<WorldBody>(*scene.scene.body, context);
+  SilentListener silent(context.listener);  // the run itself warns
+  const SceneCloth cloth = prepare_scene(scene.scene, {context.frame, silent, context.memory}, body);
+  Judgement judgement = judge(cloth, cloth.world(scene.scene), options, context);
+  if (!judgement.has_answer()) return judgement;
+  set_candidate(scene.document, judgement.candidates[std::size_t(judgement.chosen)].candidate);
+  scene.scene = scene_of(scene.document, scene.folder);
+  return judgement;
+}
+
+}  // namespace
+
+SimulateJob resume_from(const std::filesystem::path& path) {
+  SimulateJob job;
+  job.state = io::read_state(path);
+  job.state_path = path;
+  job.scene = {io::document_of(job.state->scene, path.string()), path.parent_path(), {}};
+  return job;
+}
+
+SimulateReport simulate(const SimulateJob& job, Listener& listener) {
+  OpenScene scene = open_scene(job, listener);
+  const Context context{scene.frame, listener, &job.scene.memory};
+  SimulateReport report;
+  report.title = scene.scene.title;
+  std::shared_ptr<WorldBody> body;
+  if (job.tolerance) {
+    report.scene_dt = scene.scene.simulation.dt.has_value();
+    report.choice = choose_setting(job, scene, context, body);
+    if (!report.choice->has_answer()) return report;
+  }
+  report.ran = true;
+  report.state = job.state_path.string();
+  if (job.state)
+    report.settings_before =
+        io::relocated(io::document_of(job.state->scene, report.state), job.state_path.parent_path(), "");
+  report.frame = scene.frame;
+  Run run{scene, scene.scene, context, std::move(body), job.state.has_value()};
+  AnimationSeries animations(scene.scene.output, context.frame);
+  const std::int64_t steps_before = job.state ? job.state->simulation.step : 0;
+  Reached reached = take_up(run, job.state ? *job.state : begin(scene.scene, context));
+  report.run = run_to_end(run, reached, animations, report);
+  conclude(run, reached, animations, steps_before, report);
+  report.settings = io::relocated(scene.document, scene.folder, "");
+  return report;
+}
+
+std::optional<io::SavedState> run_until_drawn(const OpenScene& scene, const Context& context) {
+  io::Scene silent = scene.scene;
+  silent.output = {};
+  silent.stop_at.reset();
+  Run run{scene, silent, context, nullptr, false};
+  AnimationSeries animations(silent.output, context.frame);
+  SimulateReport report;
+  Reached reached = take_up(run, begin(silent, context));
+  for (;;) {
+    draw_due_rounds(run, reached, animations, report);
+    const io::SavedState& now = reached.now;
+    if (now.lines_drawn == int(silent.lines.size()) || now.simulation.time >= silent.simulation.seconds)
+      return std::move(reached.now);
+    const Stretch stretch = simulate_to(next_stop(silent, now.lines_drawn), run, reached, animations);
+    if (stretch.report.outcome == physics::Outcome::stopped_by_observer) return std::nullopt;
+    if (stretch.report.outcome == physics::Outcome::diverged)
+      throw std::runtime_error("the simulation diverged at " + std::to_string(stretch.report.time) +
+                               " s, before its last lines; furrow simulate tells more");
+  }
+}
+
+}  // namespace furrow::jobs

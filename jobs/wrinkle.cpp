@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/wrinkle.h"
+
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "io/base/bytes_file.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/relocated.h"
+#include "io/scene/scene_file.h"
+#include "io/stroke/stroke_file.h"
+#include "jobs/keep_at_rest.h"
+#include "jobs/line_round.h"
+#include "jobs/max_weights.h"
+#include "jobs/output_checks.h"
+#include "jobs/pins.h"
+#include "jobs/prepare_garment.h"
+#include "jobs/recorded_material.h"
+#include "jobs/wrinkle_reports.h"
+
+namespace furrow::jobs {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string path_of(const StrokeInput& strokes) {
+  const auto* path = std::get_if<fs::path>(&strokes);
+  return path ? path->string() : "";
+}
+
+void check(const WrinkleJob& job) {
+  const std::string output = job.output.string(), inserted = job.inserted.string();
+  if (!output.empty()) check_output(output);
+  if (job.state && !output.empty() && job.output.extension() != ".ply")
+    throw std::invalid_argument(output + ": lines drawn into a state make a state, a .ply file");
+  if (!inserted.empty()) check_output(inserted);
+  std::vector<std::string> besides{inserted}, inputs{path_of(job.strokes)};
+  besides.insert(besides.end(), job.more_outputs.begin(), job.more_outputs.end());
+  inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
+  std::vector<std::string> outputs{output};
+  outputs.insert(outputs.end(), besides.begin(), besides.end());
+  refuse_same(outputs, inputs);
+  // The result alone may take the place of what it was made of.
+  refuse_same(besides, {job.state ? "" : name_of(job.garment, ""), job.state_path.string()});
+}
+
+/// The frame that the garment's file or the state notes, where the job names none.
+Frame frame_of(const WrinkleJob& job) {
+  Frame frame = job.frame;
+  if (!job.state) {
+    take_noted_frame(frame, {name_of(job.garment, "")});
+    return frame;
+  }
+  const Json& scene = job.state->scene;
+  if (!frame.unit && scene.contains("unit")) frame.unit = scene["unit"].get<std::string>();
+  if (!frame.up && scene.contains("up")) frame.up = scene["up"].get<std::string>();
+  return frame;
+}
+
+std::vector<io::DrawnStroke> strokes_of(const WrinkleJob& job, const Context& context) {
+  const auto* path = std::get_if<fs::path>(&job.strokes);
+  std::vector<io::DrawnStroke> strokes =
+      path ? io::read_drawn_strokes(*path, job.height, read_options(context.frame))
+           : std::get<std::vector<io::DrawnStroke>>(job.strokes);
+  if (!job.without.empty()) leave_out(strokes, job.without);
+  return strokes;
+}
+
+/// The garment, perhaps in motion.
+struct Canvas {
+  io::MeshFile file;
+  std::optional<io::SavedState> state;  ///< its mesh is in `file`
+  std::vector<std::vector<int>> pins;
+};
+
+Canvas canvas_of(const WrinkleJob& job, const io::Scene* keep, const Context& context) {
+  Canvas canvas;
+  if (job.state) {
+    canvas.state = job.state;
+    canvas.file = std::move(canvas.state->file);
+    canvas.pins = canvas.state->pins;
+  } else {
+    canvas.file = read_garment(job.garment, context);
+    if (keep) canvas.pins = find_pins(canvas.file, keep->pins);
+  }
+  return canvas;
+}
+
+/// The springs of the simulation that a state belongs to.
+bridge::GatherOptions springs_of(const io::SavedState& state, const io::MeshFile& file,
+                                 const fs::path& path) {
+  const io::TomlDocument document = io::document_of(state.scene, path.string());
+  return spring_options(file, io::read_scene(document, path.parent_path()).material);
+}
+
+LineTarget target_of(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep) {
+  const auto density = keep && !job.state ? keep->material.density : job.density;
+  LineTarget target{canvas.file, job.state ? "" : name_of(job.garment, ""), density, nullptr, {}};
+  if (!canvas.state) return target;
+  target.moving = &canvas.state->simulation;
+  target.springs = springs_of(*canvas.state, canvas.file, job.state_path);
+  target.pins = canvas.pins;
+  return target;
+}
+
+/// The round drawn into the canvas. `stages` (null: not wanted) are filled on the way.
+DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, WrinkleStages* stages,
+                const Context& context) {
+  const std::vector<io::DrawnStroke> strokes = strokes_of(job, context);
+  io::SceneLines lines;
+  lines.options = job.options;
+  lines.fade = job.fade;
+  if (stages) stages->before = canvas.file.mesh;
+  const auto keep_stage = [&](geometry::Stage stage, const geometry::Mesh& mesh) {
+    if (stages && stage == geometry::Stage::inserted) stages->inserted = mesh;
+    if (stages && stage == geometry::Stage::displaced) stages->displaced = mesh;
+  };
+  const std::size_t old_count = canvas.file.mesh.number_of_vertices();
+  DrawnRound drawn;
+  drawn.round = draw_lines(target_of(job, canvas, keep), strokes, lines, keep_stage);
+  for (const std::string& w : drawn.round.warnings) context.warn("drawing", w, path_of(job.strokes));
+  pin_new_vertices(canvas.file.mesh, old_count, canvas.pins);
+  if (canvas.state) {
+    canvas.state->pins = canvas.pins;
+    drawn.time = canvas.state->simulation.time;
+  }
+  return drawn;
+}
+
+bridge::KeptShape keep_drawn(Canvas& canvas, const io::Scene& scene, const Context& context) {
+  std::optional<WorldBody> body;
+  if (scene.body) body.emplace(*scene.body, context);
+  physics::SimulateState* moving = canvas.state ? &canvas.state->simulation : nullptr;
+  return keep_at_rest(canvas.file, scene, canvas.pins, body ? &*body : nullptr, moving ? moving->time : 0,
+                      canvas.state ? canvas.state->contact_gap : 0, moving, context);
+}
+
+void write(const WrinkleJob& job, const WrinkleReport& report, const Context& context) {
+  if (!job.output.empty() && job.output != "-") {
+    if (!report.state) {
+      write_mesh(job.output, report.garment, context);
+    } else {
+      io::SavedState state = *report.state;
+      const io::TomlDocument document = io::document_of(state.scene, job.state_path.string());
+      state.scene = io::relocated(document, job.state_path.parent_path(), job.output.parent_path());
+      io::write_state(job.output, std::move(state));
+    }
+  }
+  if (job.inserted.empty() || job.inserted == "-") return;
+  write_mesh(job.inserted, inserted_garment(report), context);
+}
+
+/// The garment that a wrinkled mesh was made of: where it was, or beside the mesh; unchanged.
+fs::path find_garment(const io::WrinkleRecord& record, const fs::path& wrinkled) {
+  const fs::path named = record.garment, folder = wrinkled.parent_path();
+  for (const fs::path& path : {named, folder / named, folder / named.filename()})
+    if (fs::is_regular_file(path) && io::content_hash(path) == record.garment_hash) return path;
+  throw geometry::ContentError(
+      wrinkled.string() + ": the garment '" + record.garment +
+      "' that its lines were drawn on is not there, or has changed; lay it beside this "
+      "file, or write the strokes with furrow strokes and draw them on another");
+}
+
+}  // namespace
+
+RecordedDrawing recorded_drawing(const fs::path& wrinkled, const Context& context) {
+  const io::MeshFile file = read_mesh(wrinkled, context);
+  const auto record = io::find_wrinkle_record(file);
+  const std::string name = wrinkled.string();
+  if (!record || record->strokes.empty() || record->garment.empty())
+    throw std::invalid_argument(name + " holds no strokes to draw again: name a file of strokes");
+  const bool was_kept = geometry::find_map(file.mesh, geometry::attribute::hinge_stiffness).has_value();
+  return {find_garment(*record, wrinkled), io::drawn_strokes_from(record->strokes, name), record->options,
+          was_kept};
+}
+
+WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
+  check(job);
+  WrinkleReport report;
+  report.frame = frame_of(job);
+  const Context context{report.frame, listener, job.keep ? &job.keep->memory : nullptr};
+  std::optional<io::Scene> keep;
+  if (job.keep) keep = scene_of(job.keep->settings, job.keep->folder);
+  const io::Scene* scene = keep ? &*keep : nullptr;
+  Canvas canvas = canvas_of(job, scene, context);
+  stop_if_cancelled(context);
+  if (job.wants_stages || !job.inserted.empty()) report.stages.emplace();
+  report.drawn = draw(job, canvas, scene, report.stages ? &*report.stages : nullptr, context);
+  stop_if_cancelled(context);
+  if (scene) report.drawn.kept = keep_drawn(canvas, *scene, context);
+  if (job.max_weights) limit_noted_weights(canvas.file, *job.max_weights);
+  if (scene) warn_if_shape_only(job.output, context);
+  if (scene && !job.state) note_material(canvas.file, job.keep->settings, 0);
+  report.drawn.rest = geometry::audit_rest_metric(canvas.file.mesh);
+  report.garment = std::move(canvas.file);
+  if (canvas.state) {
+    report.state = std::move(canvas.state);
+    report.state->file = report.garment;
+  }
+  stop_if_cancelled(context);
+  write(job, report, context);
+  return report;
+}
+
+Json to_json(const WrinkleReport& report) { return to_json(report.drawn); }
+
+}  // namespace furrow::jobs

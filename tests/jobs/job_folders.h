@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "io/mesh/mesh_file.h"
+
+/// Files that the tests of jobs write, and what is in them.
+namespace furrow::tests {
+
+inline std::filesystem::path empty_folder(const std::string& name) {
+  const auto folder = std::filesystem::temp_directory_path() / ("furrow_jobs_" + name);
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+inline std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+inline std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+inline std::vector<geometry::Point> positions(const io::MeshFile& file) {
+  return {file.mesh.points().begin(), file.mesh.points().end()};
+}
+
+}  // namespace furrow::tests

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/keep.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <thread>
+
+#include "io/scene/toml_document.h"
+#include "physics/base/progress.h"
+#include "tests/cli/hung_patch.h"
+#include "tests/jobs/recorder.h"
+#include "tests/test_paths.h"
+
+using namespace furrow;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A patch that hangs by an edge, with a ridge in it.
+jobs::KeepJob hung_ridge(double height = 0.004) {
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "ridge";
+  ridge.stroke.height = height;
+  ridge.stroke.points = {{-0.03, 0.003, 0.02}, {0.03, 0.003, 0.02}};
+  jobs::KeepJob job;
+  job.scene.memory.meshes["patch"] = io::read_mesh(tests::source_dir() / "meshes/validation/patch.obj");
+  job.scene.memory.strokes["ridge"] = {ridge};
+  job.scene.settings = io::parse_toml(
+      "[garment]\nmesh = \"patch\"\n[[lines]]\nstrokes = \"ridge\"\n" + std::string(tests::hung_patch),
+      "test");
+  job.seconds = 0.05;
+  job.gust = 0;
+  return job;
+}
+
+std::vector<geometry::Point> positions(const io::MeshFile& file) {
+  return {file.mesh.points().begin(), file.mesh.points().end()};
+}
+
+}  // namespace
+
+TEST_CASE("keep: two jobs at once in one process give the bits and the words of single runs") {
+  tests::Recorder recorder, first, second;
+  const jobs::KeepJob low = hung_ridge(), high = hung_ridge(0.006);
+  const jobs::KeepReport single_low = jobs::keep(low, recorder), single_high = jobs::keep(high, recorder);
+  REQUIRE(single_low.lines.lines.size() == 1);
+  CHECK(single_low.all_hold());
+  jobs::KeepReport report_low, report_high;
+  std::thread beside([&] { report_low = jobs::keep(low, first); });
+  report_high = jobs::keep(high, second);
+  beside.join();
+  CHECK(positions(report_low.garment) == positions(single_low.garment));
+  CHECK(positions(report_high.garment) == positions(single_high.garment));
+  CHECK(to_json(report_low) == to_json(single_low));
+  CHECK(to_json(report_high) == to_json(single_high));
+  CHECK(positions(report_low.garment) != positions(report_high.garment));
+}
+
+TEST_CASE(
+    "keep: a job that is cancelled before its trials writes nothing, later its last rest state, whole") {
+  const fs::path folder = fs::temp_directory_path() / "furrow_jobs_keep_cancelled";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  jobs::KeepJob job = hung_ridge();
+  io::set_value(job.scene.settings, "output.mesh", (folder / "kept.ply").string(), "the test");
+  tests::Recorder early(1);
+  CHECK_THROWS_AS(jobs::keep(job, early), physics::Cancelled);
+  CHECK(fs::is_empty(folder));
+  tests::Recorder whole;
+  jobs::keep(job, whole);
+  fs::remove(folder / "kept.ply");
+  tests::Recorder late(whole.asked - 1);
+  const jobs::KeepReport report = jobs::keep(job, late);
+  CHECK(report.lines.interrupted);
+  CHECK(late.asked - (whole.asked - 1) <= 3);
+  CHECK(positions(io::read_mesh(folder / "kept.ply")) == positions(report.garment));
+  CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
+}
+
+TEST_CASE("keep: help that excludes help is refused") {
+  jobs::KeepJob job = hung_ridge();
+  job.whole = true;
+  job.help = false;
+  tests::Recorder recorder;
+  CHECK_THROWS_AS(jobs::keep(job, recorder), std::invalid_argument);
+}

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/simulate.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "geometry/mesh/sheet.h"
+#include "io/scene/toml_document.h"
+#include "physics/base/progress.h"
+#include "tests/jobs/recorder.h"
+#include "tests/test_meshes.h"
+
+using namespace furrow;
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path empty_folder(const std::string& name) {
+  const fs::path folder = fs::temp_directory_path() / ("furrow_jobs_" + name);
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+/// A sheet of 0.4 m that hangs by its upper border, with a ridge across it, drawn at `time` [s].
+jobs::SimulateJob hung_sheet(double seconds, double time = 0) {
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "ridge";
+  ridge.stroke.height = 0.01;
+  ridge.stroke.points = {{-0.1, 0.2, 0}, {0.1, 0.2, 0}};
+  jobs::SimulateJob job;
+  job.scene.memory.meshes["sheet"].mesh = geometry::equilateral_sheet(0.4, 0.4, 0.03);
+  job.scene.memory.strokes["ridge"] = {ridge};
+  job.scene.settings = io::parse_toml("[garment]\nmesh = \"sheet\"\n[simulation]\ndt = 1e-4\n", "test");
+  io::set_value(job.scene.settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
+  io::set_value(job.scene.settings, "simulation.seconds", seconds, "test");
+  io::set_value(job.scene.settings, "lines.0", io::Json{{"strokes", "ridge"}, {"time", time}}, "test");
+  return job;
+}
+
+/// The same over a ball that it swings against.
+jobs::SimulateJob sheet_on_ball(double seconds) {
+  jobs::SimulateJob job = hung_sheet(seconds);
+  job.scene.memory.meshes["ball"].mesh = tests::icosphere(2, 0.1, {0, 0.15, -0.12});
+  io::set_value(job.scene.settings, "body.mesh", "ball", "test");
+  io::set_value(job.scene.settings, "body.tolerance", 0.005, "test");
+  io::set_value(job.scene.settings, "forces.wind", io::Json{0, 0, -3}, "test");
+  return job;
+}
+
+void set_output(jobs::SimulateJob& job, const std::string& key, const fs::path& path) {
+  io::set_value(job.scene.settings, "output." + key, path.string(), "the test");
+}
+
+std::vector<geometry::Point> positions(const io::MeshFile& file) {
+  return {file.mesh.points().begin(), file.mesh.points().end()};
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// Numbers of a report that no clock made.
+io::Json without_clock(const jobs::SimulateReport& report) {
+  io::Json json = to_json(report);
+  json.erase("seconds");
+  json.erase("cpu_seconds");
+  return json;
+}
+
+}  // namespace
+
+TEST_CASE("simulate: a garment and strokes in memory come to the bits of their files") {
+  const fs::path folder = empty_folder("memory");
+  tests::Recorder recorder;
+  const jobs::SimulateJob in_memory = hung_sheet(0.02);
+  jobs::SimulateJob of_files = in_memory;
+  io::write_mesh(folder / "sheet.ply", in_memory.scene.memory.meshes.at("sheet"));
+  std::ofstream(folder / "ridge.json")
+      << R"({"strokes": [{"name": "ridge", "height": 0.01, "points": [[-0.1, 0.2, 0], [0.1, 0.2, 0]]}]})";
+  of_files.scene.memory = {};
+  io::set_value(of_files.scene.settings, "garment.mesh", (folder / "sheet.ply").string(), "the test");
+  io::set_value(of_files.scene.settings, "lines.0.strokes", (folder / "ridge.json").string(), "the test");
+  const jobs::SimulateReport a = jobs::simulate(in_memory, recorder), b = jobs::simulate(of_files, recorder);
+  REQUIRE(a.shape);
+  CHECK(a.run.outcome == physics::Outcome::finished);
+  CHECK(a.rounds.size() == 1);
+  CHECK(a.shape->lines.size() == 1);
+  CHECK(positions(a.garment) == positions(b.garment));
+  CHECK(without_clock(a) == without_clock(b));
+  CHECK(recorder.warnings.empty());
+}
+
+TEST_CASE("simulate: two jobs at once in one process give the bits of single runs") {
+  tests::Recorder recorder;
+  const jobs::SimulateJob one = hung_sheet(0.05, 0.02), two = sheet_on_ball(0.05);
+  const jobs::SimulateReport single_one = jobs::simulate(one, recorder),
+                             single_two = jobs::simulate(two, recorder);
+  tests::Recorder first, second;
+  jobs::SimulateReport report_one, report_two;
+  std::thread beside([&] { report_one = jobs::simulate(one, first); });
+  report_two = jobs::simulate(two, second);
+  beside.join();
+  CHECK(positions(report_one.garment) == positions(single_one.garment));
+  CHECK(positions(report_two.garment) == positions(single_two.garment));
+  CHECK(without_clock(report_one) == without_clock(single_one));
+  CHECK(without_clock(report_two) == without_clock(single_two));
+}
+
+TEST_CASE("simulate: a job that is cancelled ends with the next question and leaves whole files or none") {
+  const fs::path folder = empty_folder("cancelled");
+  jobs::SimulateJob job = hung_sheet(0.1);
+  for (const char* key : {"mesh", "state"}) set_output(job, key, folder / (std::string(key) + ".ply"));
+  set_output(job, "animation", folder / "run.pc2");
+  tests::Recorder whole;
+  const jobs::SimulateReport reference = jobs::simulate(job, whole);
+  REQUIRE(reference.run.outcome == physics::Outcome::finished);
+  const std::set<std::string> all{"mesh.ply", "run.pc2", "state.ply"};
+  REQUIRE(names_in(folder) == all);
+  int before_anything = 0, on_the_way = 0;
+  for (int cancel_at = 1; cancel_at < whole.asked; ++cancel_at) {
+    for (const std::string& name : all) fs::remove(folder / name);
+    tests::Recorder recorder(cancel_at);
+    try {
+      const jobs::SimulateReport report = jobs::simulate(job, recorder);
+      CHECK(report.run.outcome == physics::Outcome::stopped_by_observer);
+      CHECK(names_in(folder) == all);
+      CHECK_NOTHROW(io::read_mesh(folder / "mesh.ply"));
+      CHECK(io::read_state(folder / "state.ply").simulation.time == report.run.time);
+      ++on_the_way;
+    } catch (const physics::Cancelled&) {
+      CHECK(names_in(folder).empty());
+      ++before_anything;
+    }
+    CHECK(recorder.asked == cancel_at);
+  }
+  CHECK(before_anything > 0);
+  CHECK(on_the_way > 5);
+}
+
+TEST_CASE("simulate: a job that is cancelled while the body's field is built writes nothing") {
+  const fs::path folder = empty_folder("cancelled_field");
+  jobs::SimulateJob job = sheet_on_ball(0.05);
+  set_output(job, "mesh", folder / "mesh.ply");
+  for (const int cancel_at : {3, 4, 5}) {
+    tests::Recorder recorder(cancel_at);
+    CHECK_THROWS_AS(jobs::simulate(job, recorder), physics::Cancelled);
+    CHECK(recorder.asked == cancel_at);
+  }
+  CHECK(names_in(folder).empty());
+}
+
+TEST_CASE("simulate: what was cancelled goes on to the bits of a run that was not") {
+  const fs::path folder = empty_folder("resumed");
+  tests::Recorder whole;
+  jobs::SimulateJob job = hung_sheet(0.05);
+  set_output(job, "state", folder / "state.ply");
+  const jobs::SimulateReport reference = jobs::simulate(job, whole);
+  tests::Recorder impatient(whole.asked - 1);
+  REQUIRE(jobs::simulate(job, impatient).run.outcome == physics::Outcome::stopped_by_observer);
+  jobs::SimulateJob rest = jobs::resume_from(folder / "state.ply");
+  tests::Recorder recorder;
+  const jobs::SimulateReport report = jobs::simulate(rest, recorder);
+  CHECK(report.run.outcome == physics::Outcome::finished);
+  CHECK(positions(report.garment) == positions(reference.garment));
+}
+
+TEST_CASE("simulate: a job that cannot be is refused, and writes nothing") {
+  const fs::path folder = empty_folder("refused");
+  tests::Recorder recorder;
+  jobs::SimulateJob job = hung_sheet(0.02);
+  job.needs_output = true;
+  CHECK_THROWS_AS(jobs::simulate(job, recorder), std::invalid_argument);
+  set_output(job, "mesh", folder / "mesh.gltf");
+  CHECK_THROWS_AS(jobs::simulate(job, recorder), std::invalid_argument);
+  set_output(job, "mesh", folder / "there" / "is" / "none.ply");
+  CHECK_THROWS_AS(jobs::simulate(job, recorder), std::runtime_error);
+  set_output(job, "mesh", folder / "mesh.ply");
+  io::set_value(job.scene.settings, "simulation.dt", 1.0, "test");
+  CHECK_THROWS_AS(jobs::simulate(job, recorder), std::invalid_argument);
+  CHECK(names_in(folder).empty());
+}
+
+TEST_CASE("simulate: warnings have codes that say what they are about") {
+  tests::Recorder recorder;
+  const jobs::SimulateReport report = jobs::simulate(hung_sheet(0.02, 0.5), recorder);
+  REQUIRE(recorder.warned_of("lines_after_end"));
+  CHECK(recorder.warnings[0].where == "ridge");
+  CHECK(recorder.warnings[0].help == "simulation.seconds");
+  jobs::SimulateJob gusts = hung_sheet(0.02);
+  io::set_value(gusts.scene.settings, "forces.gusts.0", io::Json{{"time", 0.5}, {"factor", 2.0}}, "test");
+  const std::vector<jobs::Warning> remarks = jobs::simulate(gusts, recorder).warnings;
+  REQUIRE(remarks.size() == 1);
+  CHECK(remarks[0].code == "gusts_without_wind");
+  CHECK(remarks[0].help == "forces.wind");
+  CHECK(report.rounds.empty());
+}
+
+TEST_CASE("simulate: integrator and step are chosen for a tolerance, and named in the settings") {
+  tests::Recorder recorder;
+  jobs::SimulateJob job = hung_sheet(0.05);
+  job.tolerance = 0.01;
+  job.budget = 20;
+  const jobs::SimulateReport report = jobs::simulate(job, recorder);
+  REQUIRE(report.choice);
+  REQUIRE(report.ran);
+  CHECK(report.settings["simulation"].contains("integrator"));
+  CHECK(to_json(report).contains("choice"));
+}

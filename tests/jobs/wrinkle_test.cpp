@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/wrinkle.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <thread>
+
+#include "geometry/mesh/sheet.h"
+#include "io/mesh/wrinkle_record.h"
+#include "physics/base/progress.h"
+#include "tests/jobs/job_folders.h"
+#include "tests/jobs/recorder.h"
+
+using namespace furrow;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A sheet with a ridge across it, in memory.
+jobs::WrinkleJob ridged_sheet(double height = 0.01) {
+  jobs::WrinkleJob job;
+  io::MeshFile sheet;
+  sheet.mesh = geometry::equilateral_sheet(0.4, 0.4, 0.03);
+  job.garment = sheet;
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "ridge";
+  ridge.stroke.height = height;
+  ridge.stroke.points = {{-0.1, 0.2, 0}, {0.1, 0.2, 0}};
+  job.strokes = std::vector{ridge};
+  return job;
+}
+
+void write_strokes(const fs::path& path) {
+  std::ofstream(path)
+      << R"({"strokes": [{"name": "ridge", "height": 0.01, "points": [[-0.1, 0.2, 0], [0.1, 0.2, 0]]}]})";
+}
+
+}  // namespace
+
+TEST_CASE("wrinkle: a garment and strokes in memory come to the bits of their files") {
+  const fs::path folder = tests::empty_folder("wrinkle_memory");
+  tests::Recorder recorder;
+  const jobs::WrinkleJob in_memory = ridged_sheet();
+  jobs::WrinkleJob of_files = in_memory;
+  io::write_mesh(folder / "sheet.ply", std::get<io::MeshFile>(in_memory.garment));
+  write_strokes(folder / "ridge.json");
+  of_files.garment = folder / "sheet.ply";
+  of_files.strokes = folder / "ridge.json";
+  of_files.output = folder / "ridged.ply";
+  const jobs::WrinkleReport a = jobs::wrinkle(in_memory, recorder), b = jobs::wrinkle(of_files, recorder);
+  CHECK(a.drawn.round.report.lines.size() == 1);
+  CHECK(a.garment.mesh.number_of_vertices() >
+        std::get<io::MeshFile>(in_memory.garment).mesh.number_of_vertices());
+  CHECK(tests::positions(a.garment) == tests::positions(b.garment));
+  CHECK(to_json(a) == to_json(b));
+  CHECK(tests::positions(io::read_mesh(folder / "ridged.ply")) == tests::positions(b.garment));
+  CHECK(recorder.warnings.empty());
+}
+
+TEST_CASE("wrinkle: what a wrinkled file was made of draws the same lines again") {
+  const fs::path folder = tests::empty_folder("wrinkle_again");
+  tests::Recorder recorder;
+  jobs::WrinkleJob job = ridged_sheet();
+  io::write_mesh(folder / "sheet.obj", std::get<io::MeshFile>(job.garment));
+  job.garment = folder / "sheet.obj";
+  job.output = folder / "ridged.ply";
+  const jobs::WrinkleReport first = jobs::wrinkle(job, recorder);
+  const jobs::RecordedDrawing recorded = jobs::recorded_drawing(job.output, {{}, recorder});
+  CHECK(recorded.garment == folder / "sheet.obj");
+  CHECK_FALSE(recorded.was_kept);
+  CHECK(recorded.options.find("--rule safe") != std::string::npos);
+  job.garment = recorded.garment;
+  job.strokes = recorded.strokes;
+  job.output.clear();
+  CHECK(tests::positions(jobs::wrinkle(job, recorder).garment) == tests::positions(first.garment));
+  CHECK_THROWS_AS(jobs::recorded_drawing(folder / "sheet.obj", {{}, recorder}), std::invalid_argument);
+}
+
+TEST_CASE("wrinkle: a cancelled job leaves nothing") {
+  const fs::path folder = tests::empty_folder("wrinkle_cancelled");
+  jobs::WrinkleJob job = ridged_sheet();
+  job.output = folder / "ridged.ply";
+  job.inserted = folder / "inserted.ply";
+  tests::Recorder all;
+  jobs::wrinkle(job, all);
+  REQUIRE(all.asked >= 3);
+  for (int at = 1; at <= all.asked; ++at) {
+    fs::remove(job.output);
+    fs::remove(job.inserted);
+    tests::Recorder recorder(at);
+    CHECK_THROWS_AS(jobs::wrinkle(job, recorder), physics::Cancelled);
+    CHECK(tests::names_in(folder).empty());
+  }
+}
+
+TEST_CASE("wrinkle: a job that cannot be is refused before anything is written") {
+  const fs::path folder = tests::empty_folder("wrinkle_refused");
+  tests::Recorder recorder;
+  jobs::WrinkleJob job = ridged_sheet();
+  io::write_mesh(folder / "sheet.obj", std::get<io::MeshFile>(job.garment));
+  write_strokes(folder / "ridge.json");
+  const std::string sheet = tests::bytes_of(folder / "sheet.obj");
+  job.garment = folder / "sheet.obj";
+  job.strokes = folder / "ridge.json";
+  job.inserted = folder / "sheet.obj";
+  CHECK_THROWS_AS(jobs::wrinkle(job, recorder), std::invalid_argument);
+  job.inserted.clear();
+  job.output = folder / "ridge.json";
+  CHECK_THROWS_AS(jobs::wrinkle(job, recorder), std::invalid_argument);
+  job.output = folder / "nowhere" / "out.ply";
+  CHECK_THROWS_AS(jobs::wrinkle(job, recorder), std::runtime_error);
+  job.output = folder / "out.ply";
+  job.without = {"fold"};
+  CHECK_THROWS(jobs::wrinkle(job, recorder));
+  CHECK(tests::names_in(folder) == std::set<std::string>{"ridge.json", "sheet.obj"});
+  CHECK(tests::bytes_of(folder / "sheet.obj") == sheet);
+}
+
+TEST_CASE("wrinkle: two jobs at once in one process give the bits of single runs") {
+  tests::Recorder recorder;
+  const jobs::WrinkleJob one = ridged_sheet(0.01), two = ridged_sheet(-0.02);
+  const jobs::WrinkleReport single_one = jobs::wrinkle(one, recorder),
+                            single_two = jobs::wrinkle(two, recorder);
+  jobs::WrinkleReport both_one, both_two;
+  std::thread other([&] {
+    tests::Recorder own;
+    both_two = jobs::wrinkle(two, own);
+  });
+  both_one = jobs::wrinkle(one, recorder);
+  other.join();
+  CHECK(tests::positions(both_one.garment) == tests::positions(single_one.garment));
+  CHECK(tests::positions(both_two.garment) == tests::positions(single_two.garment));
+  CHECK(tests::positions(both_one.garment) != tests::positions(both_two.garment));
+}
