@@ -3,16 +3,15 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include "io/picture/prepared_scene.h"
 #include "io/picture/ray_scene.h"
 #include "io/picture/shade.h"
+#include "physics/base/thread_pool.h"
 
 namespace furrow::io {
 namespace {
@@ -132,16 +131,10 @@ Image render(const RenderScene& scene, const RenderOptions& options) {
   Image image{options.width, options.height, {}};
   const std::size_t row_size = std::size_t{3} * options.width;
   image.rgb.resize(row_size * options.height);
-  std::atomic<int> next_row{0};  // who draws a row does not change it
-  const auto work = [&] {
-    for (int row; (row = next_row++) < options.height;)
-      picture.draw_row(row, image.rgb.data() + row * row_size);
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int i = 1; i < options.threads; ++i) others.emplace_back(work);
-    work();
-  }
+  physics::ThreadPool pool(options.threads);
+  pool.share(options.height, [&](int row, int) {  // who draws a row does not change it
+    picture.draw_row(row, image.rgb.data() + std::size_t(row) * row_size);
+  });
   return image;
 }
 
