@@ -71,19 +71,6 @@ double query_nanoseconds(const furrow::physics::Collider& field, const std::vect
   return runs[3];
 }
 
-/// The same through at_many().
-double batch_nanoseconds(const DistanceField& field, const std::vector<Vec3>& points) {
-  std::vector<double> runs;
-  std::vector<furrow::physics::SignedDistance> result(points.size());
-  for (int r = 0; r < 7; ++r) {
-    const double start = cpu_seconds();
-    field.at_many(points, result);
-    runs.push_back(1e9 * (cpu_seconds() - start) / static_cast<double>(points.size()));
-  }
-  std::sort(runs.begin(), runs.end());
-  return runs[3];
-}
-
 /// "NAME_max", p99.9, p99 and mean of numbers, as JSON.
 std::string spread(const std::string& name, std::vector<double> e) {
   std::sort(e.begin(), e.end());
@@ -111,7 +98,7 @@ void measure(const std::string& name, const TriangleMesh& mesh, double relative,
   std::sort(field_s.begin(), field_s.end());
   const DistanceField field = DistanceField::build(exact, options);
   std::vector<Vec3> points = band_points(mesh, 1'000'000, options.inner_band);
-  const double random_ns = query_nanoseconds(field, points), batch_ns = batch_nanoseconds(field, points);
+  const double random_ns = query_nanoseconds(field, points);
   std::vector<double> in_tolerance, in_allow;
   double jump = 0;
   for (std::size_t i = 0; i < 50'000; ++i) {
@@ -136,10 +123,9 @@ void measure(const std::string& name, const TriangleMesh& mesh, double relative,
             << ", \"total_build_cpu_s\": " << exact_s[1] + field_s[1] << ", \"leaves\": " << report.leaves
             << ", \"samples\": " << report.samples << ", \"depth\": " << report.depth
             << ", \"megabytes\": " << 1e-6 * static_cast<double>(field.memory())
-            << ", \"ns_random\": " << random_ns << ", \"ns_random_at_many\": " << batch_ns
-            << ", \"ns_ordered\": " << ordered_ns << spread("error_in_tolerance", in_tolerance)
-            << spread("error_in_allow", in_allow) << ", \"jump_over_diagonal\": " << jump / exact.diagonal()
-            << "}" << std::endl;
+            << ", \"ns_random\": " << random_ns << ", \"ns_ordered\": " << ordered_ns
+            << spread("error_in_tolerance", in_tolerance) << spread("error_in_allow", in_allow)
+            << ", \"jump_over_diagonal\": " << jump / exact.diagonal() << "}" << std::endl;
 }
 
 }  // namespace

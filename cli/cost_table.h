@@ -33,8 +33,8 @@ struct CostTable {                  ///< [s]
   double frame_query = 470e-9;  ///< with its share of the closest points, and two fields
   double sample = 1.2e-6;
   double sweep = 8.5e-9;           ///< of XPBD, a spring
-  double factorisation = 8.65e-6;  ///< with assembly, a vertex
-  double fill = 1.16e-8;           ///< and times vertices^2: the factor fills in
+  double factorisation = 2.55e-6;  ///< with assembly, a vertex
+  double fill = 4.7e-10;           ///< and times vertices^2: the factor fills in
 };
 constexpr CostTable costs;
 

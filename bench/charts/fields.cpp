@@ -30,7 +30,7 @@ class AdaptiveField : public SampledField {
   AdaptiveField(const TriangleMesh& mesh, double tolerance, const Band& band)
       : field_(DistanceField::build(mesh, options(tolerance, band))) {}
   void at_many(std::span<const Vec3> x, std::span<SignedDistance> result) const override {
-    field_.at_many(x, result);
+    for (std::size_t i = 0; i < x.size(); ++i) result[i] = field_.at(x[i]);
   }
   std::size_t memory() const override { return field_.memory(); }
 

@@ -5,15 +5,11 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
-#include <string>
-
-#include "physics/body/distance_field_layout.h"
 
 namespace furrow::physics {
-
-using namespace distance_field_layout;
-
 namespace {
+
+constexpr double widest = 1e-4;  // m, of the cube that smooth_at() takes the mean over
 
 typedef float Float2 __attribute__((vector_size(8)));
 typedef double Double2 __attribute__((vector_size(16)));
@@ -28,6 +24,19 @@ inline Double2 load2(const float* f) {
 inline double clamp(double t, double high) {
   const double above = t > 0 ? t : 0;
   return above < high ? above : high;
+}
+
+/// An interval around a coordinate, split at a lattice plane that crosses it.
+struct Pieces {
+  int count = 1;
+  std::array<double, 2> middle{}, share{1, 0};
+};
+
+Pieces pieces_of(double x, double half, double low, double cell) {
+  const double plane = low + std::round((x - low) / cell) * cell;
+  if (!(std::abs(plane - x) < half)) return {1, {x, 0}, {1, 0}};
+  const double below = (plane - (x - half)) / (2 * half);
+  return {2, {0.5 * (x - half + plane), 0.5 * (x + half + plane)}, {below, 1 - below}};
 }
 
 }  // namespace
@@ -148,39 +157,6 @@ inline SignedDistance DistanceField::value_at(const Vec3& x, const Cell& cell, c
   return {border.value + distance, beyond / distance};
 }
 
-void DistanceField::at_many(std::span<const Vec3> x, std::span<SignedDistance> result) const {
-  if (x.size() != result.size())
-    throw std::invalid_argument("DistanceField::at_many: " + std::to_string(x.size()) + " points, room for " +
-                                std::to_string(result.size()));
-  constexpr std::size_t block = 32;  // in flight: enough to hide a cache miss
-  const int top_shift = max_depth_ - top_depth_;
-  Cell cell[block];
-  Place place[block];
-  const Entry* top[block];
-  for (std::size_t begin = 0; begin < x.size(); begin += block) {
-    const std::size_t n = std::min(block, x.size() - begin);
-    for (std::size_t i = 0; i < n; ++i) {
-      cell[i] = cell_of(x[begin + i]);
-      const auto& [ix, iy, iz] = cell[i].i;
-      top[i] =
-          &top_[((((iz >> top_shift) << top_depth_) + (iy >> top_shift)) << top_depth_) + (ix >> top_shift)];
-      __builtin_prefetch(top[i]);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const int depth = *top[i] >> brick_shift, in_brick = (1 << depth) - 1, shift = top_shift - depth;
-      const auto& [ix, iy, iz] = cell[i].i;
-      __builtin_prefetch(
-          &bricks_[(*top[i] & brick_mask) + (ix >> shift & in_brick) + ((iy >> shift & in_brick) << depth) +
-                   ((iz >> shift & in_brick) << 2 * depth)]);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      place[i] = find(cell[i].i[0], cell[i].i[1], cell[i].i[2]);
-      __builtin_prefetch(&leaves_[place[i].leaf]);
-    }
-    for (std::size_t i = 0; i < n; ++i) result[begin + i] = value_at(x[begin + i], cell[i], place[i]);
-  }
-}
-
 inline SignedDistance DistanceField::inside_at(const Cell& cell, const Place& place) const {
   const auto& [ix, iy, iz] = cell.i;
   const auto& [tx, ty, tz] = cell.t;
@@ -209,6 +185,23 @@ Vec3 DistanceField::corner_gradient_at(std::size_t leaf, const Vec3& u) const {
     sum += weight * Vec3(corners[c][0], corners[c][1], corners[c][2]);
   }
   return sum;
+}
+
+SignedDistance DistanceField::smooth_at(const Vec3& x) const {
+  const double cell = 1 / per_unit_, half = 0.5 * std::min(widest, 0.5 * cell);
+  std::array<Pieces, 3> p;
+  for (int k = 0; k < 3; ++k) p[k] = pieces_of(x[k], half, low_[k], cell);
+  if (p[0].count * p[1].count * p[2].count == 1) return DistanceField::at(x);
+  SignedDistance mean{0, Vec3::Zero()};
+  for (int a = 0; a < p[0].count; ++a)
+    for (int b = 0; b < p[1].count; ++b)
+      for (int c = 0; c < p[2].count; ++c) {
+        const double share = p[0].share[a] * p[1].share[b] * p[2].share[c];
+        const SignedDistance d = DistanceField::at({p[0].middle[a], p[1].middle[b], p[2].middle[c]});
+        mean.value += share * d.value;
+        mean.gradient += share * d.gradient;
+      }
+  return mean;
 }
 
 }  // namespace furrow::physics

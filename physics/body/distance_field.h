@@ -59,10 +59,6 @@ class DistanceField : public Collider {
   /// in its gradient within the field's cube, and equal to at() farther than half of that from a cell's face.
   /// Exact, since what is averaged is trilinear on either side of a face. 1 to 8 queries, 1.2 in the mean.
   SignedDistance smooth_at(const Vec3& x) const override;
-  /// The bits of at() for many points at once, `result[i]` for x[i]: what a point needs is fetched while
-  /// others are computed, so points in no order cost about what ordered ones do. std::invalid_argument if the
-  /// lengths differ.
-  void at_many(std::span<const Vec3> x, std::span<SignedDistance> result) const;
 
   const DistanceFieldReport& report() const { return report_; }
   double allowed_error(double distance) const;  ///< tolerance, and more beyond the band [m]
@@ -77,7 +73,19 @@ class DistanceField : public Collider {
   static DistanceField from_bytes(std::span<const std::byte> bytes);
 
  private:
-  using Entry = std::uint32_t;  ///< see distance_field_layout.h
+  /// How the leaf of a point is found in three steps without a loop: a dense top table names a brick, a dense
+  /// table of 2^k cells along each edge, which names the leaf. 32 bits each:
+  ///   top cell     k in the four highest bits, the place of the brick's first cell in the others;
+  ///   brick cell   leaf: leaf_bit, its level in four bits, its index; node (below brick_depth levels only):
+  ///   its index; node child   leaf: leaf_bit and its index; node: its index.
+  using Entry = std::uint32_t;
+  static constexpr Entry leaf_bit = 1u << 31;
+  static constexpr int level_shift = 27;
+  static constexpr Entry level_mask = 15, index_mask = (1u << level_shift) - 1;
+  static constexpr int brick_shift = 28;
+  static constexpr Entry brick_mask = (1u << brick_shift) - 1;
+  static constexpr int brick_depth = 3;  ///< largest k
+
   using Leaf = std::array<float, 8>;
   using LeafGradient = std::array<std::array<float, 3>, 8>;
 
@@ -90,6 +98,7 @@ class DistanceField : public Collider {
   void fill_brick(Entry entry, int level, const std::array<int, 3>& low, int left, int depth,
                   std::size_t base);
   int depth_below(Entry entry) const;
+  struct TreeCheck;
   struct Cell {
     std::array<double, 3> t;  ///< lattice coordinates, clamped into the cube
     std::array<int, 3> i;     ///< of the finest cell there

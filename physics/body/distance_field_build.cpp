@@ -1,34 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
-#include <string>
 
+#include "physics/base/require.h"
 #include "physics/body/distance_field.h"
-#include "physics/body/distance_field_layout.h"
 #include "physics/body/distance_octree.h"
 
 namespace furrow::physics {
 namespace {
 
-using namespace distance_field_layout;
-
-void check(bool good, const char* option, double value, const char* range) {
-  if (good) return;
-  throw std::invalid_argument(std::string("DistanceFieldOptions: ") + option + " = " + std::to_string(value) +
-                              ", must be " + range);
-}
-
 void check(const DistanceFieldOptions& o) {
-  if (o.tolerance)
-    check(*o.tolerance > 0 && std::isfinite(*o.tolerance), "tolerance", *o.tolerance, "> 0 [m]");
-  check(o.outer_band >= 0 && std::isfinite(o.outer_band), "outer_band", o.outer_band, ">= 0 [m]");
-  check(o.inner_band >= 0 && std::isfinite(o.inner_band), "inner_band", o.inner_band, ">= 0 [m]");
-  check(o.far_slope >= 0 && o.far_slope <= 1, "far_slope", o.far_slope, "in 0 ... 1");
-  check(o.margin > 0 && std::isfinite(o.margin), "margin", o.margin, "> 0 [m]");
-  check(o.max_depth >= 3 && o.max_depth <= 12, "max_depth", o.max_depth, "in 3 ... 12");
-  check(o.band_depth >= 3 && o.band_depth <= o.max_depth, "band_depth", o.band_depth, "in 3 ... max_depth");
-  check(o.threads >= 1 && o.threads <= 256, "threads", o.threads, "in 1 ... 256");
+  const auto check = [](const char* option, double value, bool good, const char* range) {
+    require("DistanceFieldOptions", option, value, good, range);
+  };
+  if (o.tolerance) check("tolerance", *o.tolerance, *o.tolerance > 0, "> 0 [m]");
+  check("outer_band", o.outer_band, o.outer_band >= 0, ">= 0 [m]");
+  check("inner_band", o.inner_band, o.inner_band >= 0, ">= 0 [m]");
+  check("far_slope", o.far_slope, o.far_slope >= 0 && o.far_slope <= 1, "in [0, 1]");
+  check("margin", o.margin, o.margin > 0, "> 0 [m]");
+  check("max_depth", o.max_depth, o.max_depth >= 3 && o.max_depth <= 12, "in [3, 12]");
+  check("band_depth", o.band_depth, o.band_depth >= 3 && o.band_depth <= o.max_depth, "in [3, max_depth]");
+  check("threads", o.threads, o.threads >= 1 && o.threads <= 256, "in [1, 256]");
 }
 
 }  // namespace

@@ -4,12 +4,9 @@
 
 #include "physics/base/byte_block.h"
 #include "physics/body/distance_field.h"
-#include "physics/body/distance_field_layout.h"
 
 namespace furrow::physics {
 namespace {
-
-using namespace distance_field_layout;
 
 constexpr std::uint64_t magic = 0x444c454946525546;  // "FURFIELD"
 constexpr std::uint32_t version = 1;
@@ -33,14 +30,16 @@ void visit_report(Report& r, const Visit& visit) {
   visit(r.sign.disagreement), visit(r.sign.signed_volume);
 }
 
-/// Nodes and leaves each met exactly once, in order, from the root, and no leaf below max_depth.
-struct TreeCheck {
-  std::span<const std::array<std::uint32_t, 8>> nodes;
-  int max_depth;
-  std::uint32_t next_node = 1, next_leaf = 0;
+}  // namespace
 
-  void visit(std::uint32_t node, int level) {
-    for (std::uint32_t entry : nodes[node]) {
+/// Nodes and leaves each met exactly once, in order, from the root, and no leaf below max_depth.
+struct DistanceField::TreeCheck {
+  std::span<const std::array<Entry, 8>> nodes;
+  int max_depth;
+  Entry next_node = 1, next_leaf = 0;
+
+  void visit(Entry node, int level) {
+    for (Entry entry : nodes[node]) {
       require(level < max_depth, "the tree is deeper than it says");
       if (entry & leaf_bit) {
         require((entry & ~leaf_bit) == next_leaf++, "a leaf is out of order");
@@ -52,8 +51,6 @@ struct TreeCheck {
     }
   }
 };
-
-}  // namespace
 
 std::vector<std::byte> DistanceField::to_bytes() const {
   ByteWriter out;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <thread>
 
 namespace furrow::physics {
 namespace {
@@ -21,7 +20,7 @@ std::uint64_t scramble(std::uint64_t key) {
 }  // namespace
 
 LatticeSamples::LatticeSamples(const ExactDistance& exact, const Vec3& low, double unit, int threads)
-    : exact_(exact), low_(low), unit_(unit), threads_(threads), slots_(1 << 16) {}
+    : exact_(exact), low_(low), unit_(unit), pool_(threads), slots_(1 << 16) {}
 
 std::size_t LatticeSamples::slot_of(std::uint64_t key) const {
   std::size_t slot = scramble(key) & (slots_.size() - 1);
@@ -60,26 +59,25 @@ void LatticeSamples::evaluate_range(int begin, int end) {
 
 void LatticeSamples::evaluate(const std::function<void(double)>& tell) {
   constexpr int block = 512;
-  std::atomic<int> next = evaluated_;
-  std::atomic<bool> stop = false;
-  const auto work = [&](const std::function<void(double)>& after_block) {
-    for (int begin; !stop && (begin = next.fetch_add(block)) < size();) {
-      const int end = std::min(begin + block, size());
-      evaluate_range(begin, end);
-      if (after_block) after_block(static_cast<double>(end - evaluated_) / (size() - evaluated_));
-    }
-  };
-  const int helpers = std::min(threads_ - 1, (size() - evaluated_) / block);
-  {
-    std::vector<std::jthread> pool;
-    for (int i = 0; i < helpers; ++i) pool.emplace_back(work, std::function<void(double)>());
+  const int first = evaluated_, count = size() - first;
+  std::atomic<bool> stop = false;  // the others' work is in vain once `tell` threw
+  const auto work = [&](int i, int thread) {
+    if (stop) return;
+    const int end = std::min(first + (i + 1) * block, size());
+    evaluate_range(first + i * block, end);
+    if (thread > 0 || !tell) return;
     try {
-      work(tell);
+      tell(double(end - first) / count);
     } catch (...) {
       stop = true;
       throw;
     }
-  }
+  };
+  const int blocks = (count + block - 1) / block;
+  if (blocks > 1)
+    pool_.share(blocks, work);
+  else if (blocks == 1)
+    work(0, 0);
   evaluated_ = size();
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "physics/base/thread_pool.h"
 #include "physics/body/exact_distance.h"
 
 namespace furrow::physics {
@@ -15,7 +16,7 @@ using LatticePoint = std::array<int, 3>;
 /// together, so that several threads can share the work; the values depend on the order of adding only.
 class LatticeSamples {
  public:
-  /// A lattice of points low + unit * p, p in [0, 2^20]^3; `exact` must outlive it.
+  /// A lattice of points low + unit * p, p in [0, 2^20]^3; `exact` must outlive it. threads >= 1.
   LatticeSamples(const ExactDistance& exact, const Vec3& low, double unit, int threads);
 
   /// Index of a point, new or not. `guess` is the index of an evaluated sample nearby.
@@ -43,7 +44,7 @@ class LatticeSamples {
   const ExactDistance& exact_;
   Vec3 low_;
   double unit_;
-  int threads_;
+  ThreadPool pool_;
   int evaluated_ = 0;
   std::vector<ExactDistance::Sample> samples_;
   std::vector<LatticePoint> points_;

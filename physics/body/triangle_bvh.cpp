@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace furrow::physics {
 namespace {
@@ -27,6 +29,42 @@ int split(const std::vector<Vec3>& centroids, std::vector<int>& order, int begin
     return cs < ct || (cs == ct && s < t);
   });
   return middle;
+}
+
+/// Squares of the distances from p to the four boxes.
+Float4 box_distances(const TriangleBvh::Node& node, const Float4* p) {
+  Float4 sum = splat(0);
+  for (int k = 0; k < 3; ++k) {
+    const Float4 d = positive_part(absolute(p[k] - node.middle[k]) - node.half[k]);
+    sum += d * d;
+  }
+  return sum;
+}
+
+Float4 square(const Float4* r) { return r[0] * r[0] + r[1] * r[1] + r[2] * r[2]; }
+
+/// Squares of the distances from p to the four triangles: the least over the edges and, above the face, the
+/// plane.
+Float4 triangle_distances(const TriangleBvh::Leaf& leaf, const Float4* p) {
+  Float4 q[3], k1 = splat(0), k2 = splat(0), height = splat(0);
+  for (int k = 0; k < 3; ++k) {
+    q[k] = p[k] - leaf.a[k];
+    k1 += q[k] * leaf.e1[k];
+    k2 += q[k] * leaf.e2[k];
+    height += q[k] * leaf.n[k];
+  }
+  const Float4 t1 = clamp01(k1 * leaf.inverse11), t2 = clamp01(k2 * leaf.inverse22);
+  const Float4 t3 = clamp01((k2 - k1 - leaf.g12 + leaf.g11) * leaf.inverse33);
+  Float4 r1[3], r2[3], r3[3];
+  for (int k = 0; k < 3; ++k) {
+    r1[k] = q[k] - t1 * leaf.e1[k];
+    r2[k] = q[k] - t2 * leaf.e2[k];
+    r3[k] = (q[k] - leaf.e1[k]) - t3 * (leaf.e2[k] - leaf.e1[k]);
+  }
+  const Float4 edges = min(min(square(r1), square(r2)), square(r3));
+  const Float4 v = leaf.g22 * k1 - leaf.g12 * k2, w = leaf.g11 * k2 - leaf.g12 * k1;
+  const Float4 rest = leaf.det - v - w;
+  return min(min(v, w), rest) >= splat(0) ? min(edges, height * height) : edges;
 }
 
 }  // namespace
@@ -131,6 +169,135 @@ void TriangleBvh::drop(std::span<const char> dropped) {
     throw std::invalid_argument("TriangleBvh::drop: needs one entry a triangle, and one of them kept");
   first_kept_ = static_cast<int>(kept - dropped.begin());
   refit(dropped);
+}
+
+/// Float distances are off by less than `slack`. So nothing whose float distance is above `limit` can be the
+/// answer; what is below waits in `waiting` to be computed in double.
+struct TriangleBvh::Search {
+  struct Entry {
+    float distance;  ///< squared
+    int child;
+  };
+  struct Candidate {
+    float distance;  ///< squared
+    int slot;
+  };
+  Vec3 x;
+  Float4 p[3];
+  double slack;
+  float limit;
+  bool trust_float;  ///< a float distance may lower the limit
+  ClosestPoint best;
+  int size = 0, waiting_size = 0;
+  Entry stack[96];
+  Candidate waiting[64];
+
+  /// Lowers the limit when something is known to lie within `d` (slack included).
+  void lower_limit(double d) {
+    limit = std::min(limit, static_cast<float>(std::min((d + slack) * (d + slack) * 1.00001, 1e37)));
+  }
+};
+
+void TriangleBvh::settle(Search& s) const {
+  for (int i = 0; i < s.waiting_size; ++i) {
+    const int slot = s.waiting[i].slot, triangle = leaves_[slot / leaf_size].triangle[slot % leaf_size];
+    if (s.waiting[i].distance > s.limit || triangle == s.best.triangle) continue;
+    const auto& [a, b, c] = corners_[slot];
+    const PointOnTriangle q = closest_on_triangle(s.x, a, b, c);
+    const double squared = (s.x - q.point).squaredNorm();
+    if (squared >= s.best.squared_distance) continue;
+    s.best = {squared, q.point, triangle, q.feature};
+    s.lower_limit(std::sqrt(squared));
+  }
+  s.waiting_size = 0;
+}
+
+void TriangleBvh::search_leaf(Search& s, int leaf) const {
+  const Float4 d = triangle_distances(leaves_[leaf], s.p);
+  const float nearest = least(d);
+  if (!(nearest <= s.limit)) return;
+  if (s.trust_float) s.lower_limit(std::sqrt(static_cast<double>(nearest)) + s.slack);
+  if (s.waiting_size + leaf_size >= static_cast<int>(std::size(s.waiting))) settle(s);
+  for (int lane = 0; lane < leaf_size; ++lane) {
+    s.waiting[s.waiting_size] = {d[lane], leaf_size * leaf + lane};
+    s.waiting_size += d[lane] <= s.limit;
+  }
+  if (!s.trust_float) settle(s);
+}
+
+void TriangleBvh::push_children(Search& s, const Node& node) const {
+  const Float4 d = box_distances(node, s.p);
+  const float limit = s.limit;
+  const int base = s.size;
+  int size = base, nearest = base;
+  float least_distance = TriangleBvh::far_away * TriangleBvh::far_away;
+  for (int i = 0; i < 4; ++i) {  // no branch: which children are near is hard to foresee
+    s.stack[size] = {d[i], node.child[i]};
+    nearest = d[i] < least_distance ? size : nearest;
+    least_distance = std::min(least_distance, d[i]);
+    size += d[i] <= limit;
+  }
+  s.size = size;
+  if (base < size) std::swap(s.stack[nearest], s.stack[size - 1]);
+}
+
+void TriangleBvh::search(Search& s) const {
+  s.stack[s.size++] = {0, 0};
+  while (s.size > 0) {
+    const Search::Entry top = s.stack[--s.size];
+    if (top.distance > s.limit) continue;
+    if (top.child >= 0)
+      push_children(s, nodes_[top.child]);
+    else
+      search_leaf(s, ~top.child);
+  }
+  settle(s);
+}
+
+ClosestPoint TriangleBvh::closest(const Vec3& x, int guess) const {
+  const auto& [a, b, c] = corners(guess);
+  const PointOnTriangle q = closest_on_triangle(x, a, b, c);
+  const Vec3 local = x - centre_;
+  Search s;
+  s.best = {(x - q.point).squaredNorm(), q.point, guess, q.feature};
+  if (!(local.cwiseAbs().sum() < 1e12)) return s.best;  // also NaN: float boxes say nothing there
+  s.x = x;
+  for (int k = 0; k < 3; ++k) s.p[k] = splat(static_cast<float>(local[k]));
+  s.slack = 1e-6 * (radius_ + local.cwiseAbs().maxCoeff());
+  s.limit = 1e37f;
+  s.lower_limit(std::sqrt(s.best.squared_distance));
+  s.trust_float = true;
+  search(s);
+  if (s.best.squared_distance <= s.limit) return s.best;
+  // a needle that float took to be nearer than it is: once more, with limits from double only
+  s.limit = 1e37f;
+  s.lower_limit(std::sqrt(s.best.squared_distance));
+  s.trust_float = false;
+  search(s);
+  return s.best;
+}
+
+void TriangleBvh::append_near(const Vec3& low, const Vec3& high, std::vector<int>& triangles) const {
+  const double slack = 1e-6 * radius_;
+  const Vec3 from = low - centre_, to = high - centre_;
+  std::vector<int> stack{0};
+  while (!stack.empty()) {
+    const Node& node = nodes_[stack.back()];
+    stack.pop_back();
+    for (int i = 0; i < 4; ++i) {
+      bool meets = node.child[i] != Node::none;
+      for (int k = 0; k < 3; ++k)
+        meets = meets && std::abs((from[k] + to[k]) / 2 - node.middle[k][i]) <=
+                             (to[k] - from[k]) / 2 + node.half[k][i] + slack;
+      if (!meets) continue;
+      if (node.child[i] >= 0) {
+        stack.push_back(node.child[i]);
+        continue;
+      }
+      for (int t : leaves_[~node.child[i]].triangle)
+        if (t != Node::none) triangles.push_back(t);
+    }
+  }
 }
 
 }  // namespace furrow::physics

@@ -2,8 +2,13 @@
 #include "physics/linear/block_cholesky.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <vector>
 
-#include "physics/linear/extend_add.h"
+#include "physics/base/lanes.h"
+#include "physics/linear/dense_front.h"
+#include "physics/linear/front_tree.h"
 
 namespace furrow::physics {
 namespace {
@@ -23,16 +28,89 @@ void share_columns(int n, double numbers, ThreadPool* pool, Work work) {
   pool->share(pieces, [&](int i, int) { work(n / 3 * i / pieces * 3, n / 3 * (i + 1) / pieces * 3); });
 }
 
+/// Adds a child's update (lower triangle, by columns of `stride`) to some columns of its parent: those whose
+/// place is in [begin, end) go to target + place * target_stride, rows by their place.
+struct ExtendAdd {
+  std::span<const FrontTree::Run> runs;
+  const double* update;
+  int stride;
+  double* target;
+  int target_stride, begin, end;
+};
+
+FURROW_INLINE void add(const double* source, double* target, int length) {
+  int i = 0;
+  for (; i + 4 <= length; i += 4) {
+    const Lanes sum = at(target + i) + at(source + i);
+    std::memcpy(target + i, &sum, sizeof sum);
+  }
+  for (; i < length; ++i) target[i] += source[i];
+}
+
+FURROW_VECTOR_CLONES void extend_add(const ExtendAdd& e) {
+  for (std::size_t k = 0; k < e.runs.size(); ++k) {
+    const FrontTree::Run& columns = e.runs[k];
+    const int end = std::min(columns.length, e.end - columns.to);
+    for (int c = std::max(0, e.begin - columns.to); c < end; ++c) {
+      const double* source = e.update + std::ptrdiff_t(columns.from + c) * e.stride;
+      double* target = e.target + std::ptrdiff_t(columns.to + c) * e.target_stride;
+      add(source + columns.from + c, target + columns.to + c, columns.length - c);
+      for (std::size_t r = k + 1; r < e.runs.size(); ++r)
+        add(source + e.runs[r].from, target + e.runs[r].to, e.runs[r].length);
+    }
+  }
+}
+
 }  // namespace
 
-DenseFront BlockCholesky::dense(int front) const {
+class BlockCholesky::Factors {
+ public:
+  void analyse(const Sparse& lower);
+  bool factorise(const Sparse& lower, double shift, ThreadPool* pool);
+  void solve(Eigen::VectorXd& b, ThreadPool* pool) const;
+
+ private:
+  /// Numbers in whole lines of the cache.
+  struct alignas(64) Line {
+    double number[8];
+  };
+  using Store = std::vector<Line>;
+  /// Where a front's numbers begin [lines]: its columns of L; what it leaves to its parent, lower triangle,
+  /// in held_ or in the stack of the thread that does its branch.
+  struct Place {
+    std::size_t panel = 0, update = 0;
+    bool held = false;
+  };
+  struct Values {  // of the matrix
+    const double* value;
+    double shift;
+  };
+  DenseFront dense(int front) const;
+  void place_updates();
+  double* update(int front, Store& stack);
+  void assemble(int front, const Values& values, Store& stack, int begin, int end);
+  void add_children(int front, Store& stack, double* target, int stride, int begin, int end);
+  bool eliminate(int front, const Values& values, Store& stack, ThreadPool* pool);
+  void forward(int front, Eigen::VectorXd& x, std::vector<double>& left) const;
+  void backward(int front, Eigen::VectorXd& x) const;
+
+  FrontTree tree_;
+  FrontDivision division_;
+  int threads_ = 0;  // of division_
+  std::vector<Place> places_;
+  std::vector<std::size_t> left_;  // of each front what its rows keep during a solution: where it begins
+  Store factor_, held_;
+  std::vector<Store> stacks_;  // one a thread
+};
+
+DenseFront BlockCholesky::Factors::dense(int front) const {
   const FrontTree::Front& f = tree_.fronts[std::size_t(front)];
   const int height = 3 * f.width + rest_of(f);
   return {const_cast<double*>(factor_[places_[std::size_t(front)].panel].number), height, 3 * f.width,
           padded(height)};
 }
 
-void BlockCholesky::analyse(const Sparse& lower) {
+void BlockCholesky::Factors::analyse(const Sparse& lower) {
   tree_ = front_tree(lower);
   places_.assign(tree_.fronts.size(), {});
   left_.assign(1, 0);
@@ -49,7 +127,7 @@ void BlockCholesky::analyse(const Sparse& lower) {
 
 /// What a branch's fronts leave lies on two stacks that take turns from one level of the tree to the next: a
 /// front's children are the topmost ones of the other stack.
-void BlockCholesky::place_updates() {
+void BlockCholesky::Factors::place_updates() {
   std::vector<char> level(tree_.fronts.size());
   for (std::size_t i = tree_.fronts.size(); i-- > 0;) {
     const int parent = tree_.fronts[i].parent;
@@ -75,13 +153,14 @@ void BlockCholesky::place_updates() {
   stacks_.assign(std::size_t(threads_), Store(most[0] + most[1] + 1));
 }
 
-double* BlockCholesky::update(int front, Store& stack) {
+double* BlockCholesky::Factors::update(int front, Store& stack) {
   const Place& place = places_[std::size_t(front)];
   return (place.held ? held_ : stack)[place.update].number;
 }
 
 /// Adds what the children left to the columns whose place is in [begin, end).
-void BlockCholesky::add_children(int front, Store& stack, double* target, int stride, int begin, int end) {
+void BlockCholesky::Factors::add_children(int front, Store& stack, double* target, int stride, int begin,
+                                          int end) {
   for (const int child : tree_.fronts[std::size_t(front)].children) {
     const FrontTree::Front& c = tree_.fronts[std::size_t(child)];
     extend_add({c.runs, update(child, stack), padded(rest_of(c)), target, stride, begin, end});
@@ -89,7 +168,7 @@ void BlockCholesky::add_children(int front, Store& stack, double* target, int st
 }
 
 /// Columns [begin, end) of a front, whole blocks.
-void BlockCholesky::assemble(int front, const Values& values, Store& stack, int begin, int end) {
+void BlockCholesky::Factors::assemble(int front, const Values& values, Store& stack, int begin, int end) {
   const DenseFront a = dense(front);
   std::fill(a.panel + std::ptrdiff_t(begin) * a.stride, a.panel + std::ptrdiff_t(end) * a.stride, 0.0);
   for (const FrontTree::Block& b : tree_.fronts[std::size_t(front)].blocks) {
@@ -105,7 +184,7 @@ void BlockCholesky::assemble(int front, const Values& values, Store& stack, int 
   add_children(front, stack, a.panel, a.stride, begin, end);
 }
 
-bool BlockCholesky::eliminate(int front, const Values& values, Store& stack, ThreadPool* pool) {
+bool BlockCholesky::Factors::eliminate(int front, const Values& values, Store& stack, ThreadPool* pool) {
   const DenseFront a = dense(front);
   const int rest = a.height - a.width;
   share_columns(a.width, double(a.width) * a.height, pool,
@@ -121,7 +200,7 @@ bool BlockCholesky::eliminate(int front, const Values& values, Store& stack, Thr
   return true;
 }
 
-bool BlockCholesky::factorise(const Sparse& lower, double shift, ThreadPool* pool) {
+bool BlockCholesky::Factors::factorise(const Sparse& lower, double shift, ThreadPool* pool) {
   const int threads = pool ? pool->threads() : 1;
   if (threads_ != threads) {
     division_ = divide_fronts(tree_.fronts, threads_ = threads);
@@ -144,5 +223,71 @@ bool BlockCholesky::factorise(const Sparse& lower, double shift, ThreadPool* poo
          std::all_of(division_.trunk.begin(), division_.trunk.end(),
                      [&](int i) { return eliminate(i, values, stacks_[0], pool); });
 }
+
+/// What a front's rows lose goes up the tree from front to front: a branch writes nothing beyond itself.
+void BlockCholesky::Factors::forward(int front, Eigen::VectorXd& x, std::vector<double>& left) const {
+  const DenseFront a = dense(front);
+  const FrontTree::Front& f = tree_.fronts[std::size_t(front)];
+  thread_local std::vector<double> own;
+  own.assign(std::size_t(a.stride), 0.0);
+  std::copy_n(x.data() + 3 * f.first, a.width, own.begin());
+  for (const int child : f.children) {
+    const double* lost = left.data() + left_[std::size_t(child)];
+    for (const FrontTree::Run& run : tree_.fronts[std::size_t(child)].runs)
+      for (int i = 0; i < run.length; ++i) own[std::size_t(run.to + i)] += lost[run.from + i];
+  }
+  substitute_forward(a, own.data());
+  std::copy_n(own.begin(), a.width, x.data() + 3 * f.first);
+  std::copy_n(own.begin() + a.width, a.height - a.width,
+              left.begin() + std::ptrdiff_t(left_[std::size_t(front)]));
+}
+
+void BlockCholesky::Factors::backward(int front, Eigen::VectorXd& x) const {
+  const DenseFront a = dense(front);
+  const FrontTree::Front& f = tree_.fronts[std::size_t(front)];
+  thread_local std::vector<double> own;
+  own.assign(std::size_t(a.stride), 0.0);
+  std::copy_n(x.data() + 3 * f.first, a.width, own.begin());
+  for (std::size_t r = 0; r < f.rows.size(); ++r)
+    std::copy_n(x.data() + 3 * f.rows[r], 3, own.begin() + a.width + 3 * std::ptrdiff_t(r));
+  substitute_backward(a, own.data());
+  std::copy_n(own.begin(), a.width, x.data() + 3 * f.first);
+}
+
+void BlockCholesky::Factors::solve(Eigen::VectorXd& b, ThreadPool* pool) const {
+  Eigen::VectorXd x(b.size());
+  std::vector<double> left(left_.back());
+  for (std::size_t i = 0; i < tree_.position.size(); ++i)
+    x.segment<3>(3 * tree_.position[i]) = b.segment<3>(3 * Eigen::Index(i));
+  const auto each_branch = [&](const auto& work) {
+    const int n = int(division_.branches.size());
+    const auto branch = [&](int i, int) { work(division_.branches[std::size_t(i)]); };
+    if (pool) return pool->share(n, branch);
+    for (int i = 0; i < n; ++i) branch(i, 0);
+  };
+  each_branch([&](const std::array<int, 2>& range) {
+    for (int i = range[0]; i < range[1]; ++i) forward(i, x, left);
+  });
+  for (const int i : division_.trunk) forward(i, x, left);
+  for (auto i = division_.trunk.rbegin(); i != division_.trunk.rend(); ++i) backward(*i, x);
+  each_branch([&](const std::array<int, 2>& range) {
+    for (int i = range[1]; i-- > range[0];) backward(i, x);
+  });
+  for (std::size_t i = 0; i < tree_.position.size(); ++i)
+    b.segment<3>(3 * Eigen::Index(i)) = x.segment<3>(3 * tree_.position[i]);
+}
+
+BlockCholesky::BlockCholesky() : factors_(std::make_unique<Factors>()) {}
+BlockCholesky::~BlockCholesky() = default;
+BlockCholesky::BlockCholesky(BlockCholesky&&) noexcept = default;
+BlockCholesky& BlockCholesky::operator=(BlockCholesky&&) noexcept = default;
+
+void BlockCholesky::analyse(const Sparse& lower) { factors_->analyse(lower); }
+
+bool BlockCholesky::factorise(const Sparse& lower, double shift, ThreadPool* pool) {
+  return factors_->factorise(lower, shift, pool);
+}
+
+void BlockCholesky::solve(Eigen::VectorXd& b, ThreadPool* pool) const { factors_->solve(b, pool); }
 
 }  // namespace furrow::physics

@@ -5,7 +5,7 @@
 namespace furrow::physics {
 
 /// c (-)= a b^T on and below the diagonal, where c's row i and column i are those of a's row i, and b is a.
-/// Of c the rows [from, to), multiples of 8, and `columns` columns; above the diagonal is what nobody reads.
+/// Of c the rows [from, to), multiples of 8, and `columns` columns; what is above the diagonal is not read.
 struct DenseProduct {
   double* c;
   int c_stride;
@@ -15,8 +15,8 @@ struct DenseProduct {
 };
 
 /// The inner loops of DenseFront. All is by columns; a stride is a multiple of 8 doubles. They use fused
-/// multiply-add where the processor has it: versions for AVX-512 and AVX2 give the same bits, what has none
-/// rounds twice.
+/// multiply-add where the processor has it: versions for AVX-512 and AVX2 give the same bits, and a processor
+/// without it rounds twice.
 struct DenseKernels {
   const char* name;
   void (*product)(const DenseProduct&);

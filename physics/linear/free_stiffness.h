@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <array>
 #include <span>
 #include <vector>
@@ -12,8 +11,8 @@
 namespace furrow::physics {
 
 /// The stiffness matrix K [N/m] of the particles that are not held (inv_mass > 0), sparse, and its factors.
-/// Where the blocks lie, the orders of elimination and the factor's pattern are
-/// found once; assembly and factorisation use them again.
+/// Where the blocks lie, the orders of elimination and the factor's pattern are found once; assembly and
+/// factorisation use them again.
 class FreeStiffness {
  public:
   /// Cost: O(blocks log blocks) and later the symbolic factorisation. Throws std::invalid_argument if the
@@ -44,29 +43,25 @@ class FreeStiffness {
 
   /// Mean of the diagonal of K [N/m], 0 if nothing is free: a scale for shifts.
   double mean_diagonal() const;
-  int free_particles() const { return free_particles_; }
+  int free_particles() const { return matrix_.rows(); }
 
  private:
-  using Sparse = Eigen::SparseMatrix<double>;
   /// A block of an element that counts, and where.
   struct Addend {
-    int block;                 // in its chunk
-    int place, column_length;  // first value of its first column, and how many that column has
-    enum { diagonal, below, transposed } kind;
+    int block;  // in its chunk
+    BlockMatrix::Place place;
   };
   using Pairs = std::vector<std::array<int, 2>>;
-  std::vector<std::vector<int>> make_pattern(const Pairs& pairs);
-  void place_blocks(const Pairs& pairs, const std::vector<std::vector<int>>& below);
+  void place_blocks(const Pairs& pairs);
   void sum(int chunk, int bucket);
 
-  int free_particles_ = 0;
+  std::size_t particles_ = 0;
   std::array<int, 5> counts_{};       ///< of elements of each kind
-  std::vector<int> row_;              ///< of each particle among the free ones; -1: held
   std::vector<Addend> addends_;       ///< chunk by chunk of elements; in a chunk by buckets of columns
   std::vector<std::size_t> buckets_;  ///< where each begins, and the end
   std::vector<Mat3> blocks_;          ///< of a chunk
-  Sparse matrix_;                     ///< lower triangle
-  Eigen::SimplicialLDLT<Sparse, Eigen::Lower> factor_;
+  BlockMatrix matrix_;
+  Eigen::SimplicialLDLT<BlockMatrix::Sparse, Eigen::Lower> factor_;
   BlockCholesky definite_;
   bool analysed_ = false, definite_analysed_ = false;  // each when it is first needed
   bool is_definite_ = false;                           // whether the last factors are those of definite_

@@ -2,16 +2,16 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <array>
+#include <span>
 #include <vector>
 
 namespace furrow::physics {
 
-/// The fronts of a multifrontal Cholesky factorisation of a sparse symmetric matrix of 3 x 3 blocks
-/// (BlockCholesky says how it is stored): particles whose columns of the factor look alike are eliminated
-/// together. A front has a parent: that of its first row below its columns.
-/// Source: Liu, The multifrontal method for sparse matrix solution, SIAM Review 34(1), 1992; order of
-/// elimination: nested_dissection(); small fronts join their parents (relaxed supernodes, Ashcraft and Grimes
-/// 1989).
+/// The fronts of a multifrontal Cholesky factorisation of a BlockMatrix: particles whose columns of the
+/// factor look alike are eliminated together. A front's parent is that of its first row below its columns.
+/// Sources: Liu, The multifrontal method for sparse matrix solution, SIAM Review 34(1), 1992; order of
+/// elimination: nested_dissection(); small fronts join their parents: relaxed supernodes, Ashcraft and Grimes
+/// 1989.
 struct FrontTree {
   using Sparse = Eigen::SparseMatrix<double>;
   struct Block {               // of the matrix in a front
@@ -38,5 +38,25 @@ struct FrontTree {
 /// Cost: the order of elimination, 0.1 s for 12,000 vertices, and about half of that. Throws as
 /// nested_dissection().
 FrontTree front_tree(const FrontTree::Sparse& lower);
+
+/// How threads share a tree of fronts: branches, each done by one thread, and the trunk that they grow from,
+/// done by all together.
+struct FrontDivision {
+  std::vector<std::array<int, 2>> branches;  ///< ranges of fronts, the most work first
+  std::vector<int> trunk;                    ///< children before parents
+};
+
+/// The division with the least expected time. One thread: no trunk. Cost: of the order of the fronts.
+FrontDivision divide_fronts(const std::vector<FrontTree::Front>& fronts, int threads);
+
+/// The elimination tree of a sparse symmetric matrix: the parent of a column is the first row below the
+/// diagonal in its column of the Cholesky factor, -1 if there is none (a root). below: of each column the
+/// rows below the diagonal, in range. Cost: nearly linear in them. Source: Liu, The role of elimination trees
+/// in sparse factorization, SIAM J. Matrix Anal. Appl. 11(1), 1990.
+std::vector<int> elimination_tree(std::span<const std::vector<int>> below);
+
+/// The place of each node in an order where each node comes right behind its descendants; children keep their
+/// order. Every parent has a higher index than its children, or is -1.
+std::vector<int> postorder(std::span<const int> parent);
 
 }  // namespace furrow::physics

@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "physics/linear/stable_step.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
+#include "physics/base/require.h"
 #include "physics/cloth/spring_forces.h"
+#include "physics/linear/lanczos.h"
 #include "physics/packed/element_product.h"
 
 namespace furrow::physics {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A residual can be small before the largest eigenvalue has shown up at all, but hardly after so many rounds.
-constexpr std::size_t least_iterations = 32;
+// A residual can be small before the largest eigenvalue has shown up at all, but hardly after so many steps.
+constexpr int least_iterations = 32;
 
 /// In [-1/2, 1/2), a function of its argument only (the mixer splitmix64).
 double pseudo_random(std::uint64_t i) {
@@ -78,31 +77,12 @@ VectorXd start_vector(const Operator& op) {
   for (Index i = 0; i < q.size(); ++i) {
     q[i] = op.scale()[std::size_t(i / 3)] > 0 ? pseudo_random(std::uint64_t(i)) : 0;
   }
-  return q.normalized();
+  return q;
 }
 
-struct Ritz {
-  double theta, residual;
-};
-
-Ritz largest_ritz_value(const std::vector<double>& alpha, const std::vector<double>& beta) {
-  const Index m = Index(alpha.size());
-  Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
-  const VectorXd diagonal = Eigen::Map<const VectorXd>(alpha.data(), m);
-  const VectorXd off = Eigen::Map<const VectorXd>(beta.data(), m - 1);
-  solver.computeFromTridiagonal(diagonal, off, Eigen::ComputeEigenvectors);
-  return {solver.eigenvalues()[m - 1], beta.back() * std::abs(solver.eigenvectors()(m - 1, m - 1))};
-}
-
-void check(const StableStepOptions& options) {
-  if (!(options.tolerance > 0 && options.tolerance < 0.5)) {
-    throw std::invalid_argument("stable_step: tolerance = " + std::to_string(options.tolerance) +
-                                " is not in (0, 0.5)");
-  }
-  if (options.max_iterations < 1) {
-    throw std::invalid_argument("stable_step: max_iterations = " + std::to_string(options.max_iterations) +
-                                " is not >= 1");
-  }
+void check(const StableStepOptions& o) {
+  require("stable_step", "tolerance", o.tolerance, o.tolerance > 0 && o.tolerance < 0.5, "in (0, 0.5)");
+  require("stable_step", "max_iterations", o.max_iterations, o.max_iterations >= 1, ">= 1");
 }
 
 }  // namespace
@@ -112,29 +92,17 @@ StepLimit stable_step(const Cloth& cloth, const StableStepOptions& options) {
   Operator op(cloth);
   const double bound = op.gershgorin();
   if (bound == 0) return {std::numeric_limits<double>::infinity(), 0, 0, 0};
-  const Index most = std::min<Index>(op.size(), options.max_iterations);
-  std::vector<VectorXd> basis{start_vector(op)};
-  std::vector<double> alpha, beta;
-  Ritz ritz{};
-  VectorXd w(op.size());
-  while (true) {
-    op.apply(basis.back(), w);
-    alpha.push_back(basis.back().dot(w));
-    for (int round = 0; round < 2; ++round) {
-      for (const VectorXd& q : basis) w -= q.dot(w) * q;
-    }
-    beta.push_back(w.norm());
-    const bool exhausted = beta.back() <= 1e-13 * bound || Index(alpha.size()) >= most;
-    if (exhausted || (alpha.size() >= least_iterations && alpha.size() % 4 == 0)) {
-      ritz = largest_ritz_value(alpha, beta);
-      if (exhausted || ritz.residual <= options.tolerance * ritz.theta) break;
-    }
-    basis.push_back(w / beta.back());
-  }
-  const double largest = std::min(ritz.theta + ritz.residual, bound) * (1 + 1e-12);
-  if (!(largest > 0)) return {std::numeric_limits<double>::infinity(), 0, 0, int(alpha.size())};
+  const LanczosResult ritz = largest_eigenvalue(
+      [&](const VectorXd& q, VectorXd& product) { op.apply(q, product); }, start_vector(op),
+      {.tolerance = options.tolerance,
+       .most_steps = int(std::min<Index>(op.size(), options.max_iterations)),
+       .least_steps = least_iterations,
+       .steps_a_look = 4,
+       .nothing = 1e-13 * bound});
+  const double largest = std::min(ritz.value + ritz.residual, bound) * (1 + 1e-12);
+  if (!(largest > 0)) return {std::numeric_limits<double>::infinity(), 0, 0, ritz.steps()};
   const double omega = std::sqrt(largest);
-  return {2 / omega, omega, ritz.theta > 0 ? ritz.residual / ritz.theta : 0, int(alpha.size())};
+  return {2 / omega, omega, ritz.value > 0 ? ritz.residual / ritz.value : 0, ritz.steps()};
 }
 
 }  // namespace furrow::physics

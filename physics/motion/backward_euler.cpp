@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
+#include "physics/base/require.h"
 #include "physics/cloth/elements.h"
 #include "physics/packed/dashpots.h"
 
@@ -25,15 +24,13 @@ std::vector<Vec3> positions(const PackedCloth& cloth) {
   return x;
 }
 
-BlockSystem make_system(const PackedCloth& cloth) {
-  std::vector<char> is_free;
-  for (const double inv : cloth.inv_mass) is_free.push_back(inv > 0);
+BlockMatrix make_system(const PackedCloth& cloth) {
   std::vector<std::array<int, 2>> pairs;
   for (int i = 0; i < cloth.springs(); ++i) pairs.push_back({cloth.a[i], cloth.b[i]});
   add_stiffness(cloth.shell, positions(cloth), Stiffness::positive_part, [&](int i, int j, const Mat3&) {
     pairs.push_back({i, j});
   });
-  return BlockSystem(is_free, pairs);
+  return BlockMatrix(cloth.inv_mass, pairs);
 }
 
 /// k n n^T + k (1 - L/l) (I - n n^T) without its second part where that is negative.
@@ -52,28 +49,23 @@ BackwardEuler::BackwardEuler(Motion& motion, const BackwardEulerOptions& options
       options_(options),
       dashpots_(dashpots(motion.cloth(), motion.loads().spring_damping)),
       system_(make_system(motion.cloth())) {
-  if (options.newton_iterations < 1) {
-    throw std::invalid_argument(
-        "backward Euler: newton_iterations = " + std::to_string(options.newton_iterations) + " is not >= 1");
-  }
-  if (!(options.newton_tolerance >= 0)) {
-    throw std::invalid_argument(
-        "backward Euler: newton_tolerance = " + std::to_string(options.newton_tolerance) + " is not >= 0");
-  }
+  const int iterations = options.newton_iterations;
+  require("backward Euler", "newton_iterations", iterations, iterations >= 1, ">= 1");
+  const double tolerance = options.newton_tolerance;
+  require("backward Euler", "newton_tolerance", std::min(tolerance, 1e300), tolerance >= 0, ">= 0");
   const PackedCloth& cloth = motion.cloth();
   dashpots_.resize(cloth.a.size(), 0.0);
   find_places();
 }
 
+/// Of an element's blocks (i, j) and (j, i), which are each other's mirror images, one goes to the matrix.
 void BackwardEuler::find_places() {
   const PackedCloth& cloth = motion_.cloth();
   for (int i = 0; i < cloth.particles(); ++i) diagonal_.push_back(system_.place(i, i));
-  for (int i = 0; i < cloth.springs(); ++i) {
-    off_diagonal_.push_back(
-        std::max(system_.place(cloth.a[i], cloth.b[i]), system_.place(cloth.b[i], cloth.a[i])));
-  }
+  for (int i = 0; i < cloth.springs(); ++i) off_diagonal_.push_back(system_.place(cloth.a[i], cloth.b[i]));
   add_stiffness(cloth.shell, positions(cloth), Stiffness::positive_part,
-                [&](int i, int j, const Mat3&) { shell_.push_back(system_.place(i, j)); });
+                [&](int i, int j, const Mat3&) { shell_.push_back(i >= j ? system_.place(i, j) : Place{}); });
+  factors_.analyse(system_.lower());
 }
 
 void BackwardEuler::find_directions() {
@@ -138,9 +130,11 @@ void BackwardEuler::assemble(double dt, bool first) {
 bool BackwardEuler::solve() {
   WorkCounts& work = motion_.work();
   ++work.factorisations;
-  if (!system_.factorise()) return false;
+  if (!factors_.factorise(system_.lower(), 0, &motion_.pool())) return false;
   ++work.linear_solves;
-  system_.solve(change_);
+  Eigen::VectorXd solution = system_.gather(change_);
+  factors_.solve(solution, &motion_.pool());
+  system_.scatter(solution, change_);
   return true;
 }
 
@@ -202,7 +196,7 @@ void BackwardEuler::improve(double dt) {
 }
 
 void BackwardEuler::step(double dt) {
-  if (!(dt > 0)) throw std::invalid_argument("backward Euler: dt = " + std::to_string(dt) + " is not > 0");
+  require("backward Euler", "dt", std::min(dt, 1e300), dt > 0, "> 0");
   PackedCloth& cloth = motion_.cloth();
   x_ = cloth.x;
   v_ = cloth.v;

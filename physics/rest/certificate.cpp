@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "physics/rest/certificate.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +11,7 @@
 #include "physics/cloth/elements.h"
 #include "physics/contact/residual_force.h"
 #include "physics/linear/free_stiffness.h"
+#include "physics/linear/lanczos.h"
 
 namespace furrow::physics {
 namespace {
@@ -111,78 +111,55 @@ class Certifier {
     }
   }
 
-  double product(const Vectors& a, const Vectors& b) const {  // a.M b
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      if (cloth_.particles.inv_mass[i] > 0) sum += a[i].dot(b[i]) / cloth_.particles.inv_mass[i];
-    }
-    return sum;
+  /// M^1/2 of the free particles, 0 of the held ones [kg^1/2].
+  std::vector<double> roots_of_masses() const {
+    std::vector<double> root;
+    for (const double w : cloth_.particles.inv_mass) root.push_back(w > 0 ? 1 / std::sqrt(w) : 0);
+    return root;
   }
 
   /// The same numbers in every run, in all directions.
-  Vectors start() const {
-    Vectors v(cloth_.particles.size(), Vec3::Zero());
+  static Eigen::VectorXd start(std::span<const double> root) {
+    Eigen::VectorXd v(Eigen::Index(3 * root.size()));
     std::uint64_t state = 1;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      for (int c = 0; c < 3; ++c) {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        if (cloth_.particles.inv_mass[i] > 0) v[i][c] = double(state >> 11) * 0x1p-53 + 0.1;
-      }
+    for (Eigen::Index i = 0; i < v.size(); ++i) {
+      state = state * 6364136223846793005u + 1442695040888963407u;
+      v[i] = root[std::size_t(i / 3)] * (double(state >> 11) * 0x1p-53 + 0.1);
     }
     return v;
   }
 
-  /// (K + shift M)^-1 M v.
-  Vectors apply(const Vectors& v) const {
-    Vectors u = v;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      const double w = cloth_.particles.inv_mass[i];
-      u[i] = w > 0 ? Vec3(v[i] / w) : Vec3::Zero();
-    }
-    stiffness_.solve(u);
-    return u;
-  }
-
-  static void add(double factor, const Vectors& b, Vectors& a) {
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
-  }
-
+  /// The largest eigenvalue of M^1/2 (K + shift M)^-1 M^1/2 is 1 / (lambda + shift); its vector is M^1/2 v.
   void find_smallest(double shift) {
-    std::vector<Vectors> basis{start()};
-    std::vector<double> alpha, beta;
-    add(1 / std::sqrt(product(basis[0], basis[0])) - 1, Vectors(basis[0]), basis[0]);
+    const std::vector<double> root = roots_of_masses();
+    Vectors u(root.size());
+    const auto scaled = [&](const Eigen::VectorXd& q, std::size_t i) {
+      return Vec3(root[i] * q.segment<3>(Eigen::Index(3 * i)));
+    };
+    const LinearOperator inverse = [&](const Eigen::VectorXd& q, Eigen::VectorXd& product) {
+      for (std::size_t i = 0; i < u.size(); ++i) u[i] = scaled(q, i);
+      stiffness_.solve(u);
+      for (std::size_t i = 0; i < u.size(); ++i) product.segment<3>(Eigen::Index(3 * i)) = root[i] * u[i];
+    };
     const int most = std::min(options_.max_steps, 3 * stiffness_.free_particles());
-    for (;;) {
-      Vectors u = apply(basis.back());
-      alpha.push_back(product(u, basis.back()));
-      for (int round = 0; round < 2; ++round)
-        for (const Vectors& q : basis) add(-product(u, q), q, u);
-      beta.push_back(std::sqrt(product(u, u)));
-      const auto m = Eigen::Index(alpha.size());
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-      ritz.computeFromTridiagonal(Eigen::Map<Eigen::VectorXd>(alpha.data(), m),
-                                  Eigen::Map<Eigen::VectorXd>(beta.data(), m - 1));
-      const double value = ritz.eigenvalues()[m - 1];
-      const auto vector = ritz.eigenvectors().col(m - 1);
-      if (m >= most || beta.back() * std::abs(vector[m - 1]) <= enough * value) {
-        result_.smallest_eigenvalue = 1 / value - shift;
-        keep_mode(basis, vector);
-        return;
-      }
-      add(1 / beta.back() - 1, Vectors(u), u);
-      basis.push_back(std::move(u));
-    }
-  }
-
-  void keep_mode(const std::vector<Vectors>& basis, const Eigen::Ref<const Eigen::VectorXd>& weights) {
-    Vectors& mode = result_.mode;
-    mode.assign(basis[0].size(), Vec3::Zero());
-    for (std::size_t j = 0; j < basis.size(); ++j) add(weights[Eigen::Index(j)], basis[j], mode);
-    double longest = 0;
-    for (const Vec3& v : mode) longest = std::max(longest, v.norm());
-    for (Vec3& v : mode) v /= longest;
+    const LanczosResult found =
+        largest_eigenvalue(inverse, start(root), {.tolerance = enough, .most_steps = most});
+    result_.smallest_eigenvalue = 1 / found.value - shift;
     if (result_.smallest_eigenvalue > 0)
       result_.frequency = std::sqrt(result_.smallest_eigenvalue) / (2 * std::numbers::pi);
+    keep_mode(found.vector());
+  }
+
+  void keep_mode(const Eigen::VectorXd& vector) {
+    Vectors& mode = result_.mode;
+    const std::vector<double>& inverse = cloth_.particles.inv_mass;
+    double longest = 0;
+    for (std::size_t i = 0; i < inverse.size(); ++i) {
+      mode.push_back(inverse[i] > 0 ? Vec3(std::sqrt(inverse[i]) * vector.segment<3>(Eigen::Index(3 * i)))
+                                    : Vec3::Zero());
+      longest = std::max(longest, mode.back().norm());
+    }
+    for (Vec3& v : mode) v /= longest;
   }
 
   const Cloth& cloth_;

@@ -2,7 +2,6 @@
 furrow_add_tests(field physics LIBRARIES furrow::physics CGAL::CGAL SOURCES
   body/compare_colliders_test.cpp
   body/depth_map_collider_test.cpp
-  body/distance_field_at_many_test.cpp
   body/distance_field_bytes_test.cpp
   body/distance_field_progress_test.cpp
   body/distance_field_smooth_test.cpp

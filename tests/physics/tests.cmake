@@ -23,10 +23,12 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   packed/packed_elements_test.cpp
   packed/sweep_order_test.cpp
   linear/block_cholesky_test.cpp
+  linear/block_matrix_test.cpp
   linear/dense_front_test.cpp
   linear/dense_kernels_test.cpp
-  linear/elimination_tree_test.cpp
   linear/free_stiffness_test.cpp
+  linear/front_tree_test.cpp
+  linear/lanczos_test.cpp
   linear/nested_dissection_test.cpp
   linear/stable_step_test.cpp
   contact/anchored_contact_test.cpp

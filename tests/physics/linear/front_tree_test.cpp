@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/linear/elimination_tree.h"
+#include "physics/linear/front_tree.h"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "physics/linear/block_matrix.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace furrow::physics {
+namespace {
+
+using Eigen::Index;
+
+std::string name(int i, int j) { return "block (" + std::to_string(i) + ", " + std::to_string(j) + ")"; }
+
+}  // namespace
+
+BlockMatrix::BlockMatrix(std::span<const double> inv_mass, std::span<const std::array<int, 2>> pairs) {
+  for (const double w : inv_mass) row_.push_back(w > 0 ? rows_++ : -1);
+  std::vector<std::vector<int>> below(static_cast<std::size_t>(rows_));
+  for (const auto& [i, j] : pairs) {
+    if (i < 0 || j < 0 || std::size_t(std::max(i, j)) >= row_.size())
+      throw std::invalid_argument("BlockMatrix: " + name(i, j) + " of " + std::to_string(row_.size()) +
+                                  " particles");
+    const int column = std::min(row(i), row(j)), r = std::max(row(i), row(j));
+    if (column >= 0 && column != r) below[std::size_t(column)].push_back(r);
+  }
+  std::vector<int> outer{0}, inner;
+  for (int c = 0; c < rows_; ++c) {
+    std::vector<int>& rows = below[std::size_t(c)];
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    for (int e = 0; e < 3; ++e) {
+      for (int f = e; f < 3; ++f) inner.push_back(3 * c + f);
+      for (const int r : rows) inner.insert(inner.end(), {3 * r, 3 * r + 1, 3 * r + 2});
+      outer.push_back(int(inner.size()));
+    }
+  }
+  const std::vector<double> zeros(inner.size(), 0.0);
+  lower_ = Eigen::Map<const Sparse>(3 * rows_, 3 * rows_, Index(inner.size()), outer.data(), inner.data(),
+                                    zeros.data());
+}
+
+BlockMatrix::Place BlockMatrix::place(int i, int j) const {
+  const int column = std::min(row(i), row(j)), r = std::max(row(i), row(j));
+  if (column < 0) return {};
+  const int begin = lower_.outerIndexPtr()[3 * column];
+  const int length = lower_.outerIndexPtr()[3 * column + 1] - begin;
+  if (r == column) return {begin, length, Place::diagonal};
+  const int* rows = lower_.innerIndexPtr() + begin;  // by threes, the diagonal block first
+  int low = 1, high = length / 3;
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    if (rows[3 * middle] < 3 * r)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  if (low >= length / 3 || rows[3 * low] != 3 * r)
+    throw std::invalid_argument("BlockMatrix: there is no " + name(i, j));
+  return {begin + 3 * low, length, row(i) > row(j) ? Place::below : Place::above};
+}
+
+Eigen::VectorXd BlockMatrix::gather(std::span<const Vec3> v) const {
+  Eigen::VectorXd rows(3 * rows_);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    if (row_[i] >= 0) rows.segment<3>(3 * row_[i]) = v[i];
+  return rows;
+}
+
+void BlockMatrix::scatter(const Eigen::VectorXd& rows, std::span<Vec3> v) const {
+  for (std::size_t i = 0; i < v.size(); ++i)
+    v[i] = row_[i] >= 0 ? Vec3(rows.segment<3>(3 * row_[i])) : Vec3::Zero();
+}
+
+}  // namespace furrow::physics
