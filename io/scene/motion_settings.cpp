@@ -10,65 +10,44 @@ namespace {
 
 using physics::Gust, physics::Keyframe, physics::RigidMotion, physics::Spin;
 
-const Row<Spin> spin_rows[] = {{{.path = "spin.centre", .what = "a point of the axis"},
-                                vector(
-                                    [](auto& s) -> auto& { return s.centre; }, "m")},
-                               {{.path = "spin.axis", .what = "of any length but 0"},
-                                vector(
-                                    [](auto& s) -> auto& { return s.axis; }, "")},
-                               {{.path = "spin.rate", .what = "counter-clockwise, seen against the axis"},
-                                Number{[](auto& s) -> auto& {return s.rate;
-}  // namespace
-, any("rad/s")
-}  // namespace furrow::io
-}
-, {{.path = "spin.start", .what = "when it begins"}, Number{[](auto& s) -> auto& {return s.start;
-}
-, not_negative("s")
-}
-}
-, {
-  {.path = "spin.ramp", .what = "how long it takes to its rate"}, Number {
-    [](auto& s) -> auto& { return s.ramp; }
-    , not_negative("s")
-  }
-}
-}
-;
+const Row<Spin> spin_rows[] = {
+    {{.path = "spin.centre", .what = "a point of the axis"},
+     vector(
+         "m", [](auto& s) -> auto& { return s.centre; })},
+    {{.path = "spin.axis", .what = "of any length but 0"},
+     vector(
+         "", [](auto& s) -> auto& { return s.axis; })},
+    {{.path = "spin.rate", .what = "counter-clockwise, seen against the axis"},
+     number(
+         any("rad/s"), [](auto& s) -> auto& { return s.rate; })},
+    {{.path = "spin.start", .what = "when it begins"},
+     number(
+         not_negative("s"), [](auto& s) -> auto& { return s.start; })},
+    {{.path = "spin.ramp", .what = "how long it takes to its rate"},
+     number(
+         not_negative("s"), [](auto& s) -> auto& { return s.ramp; })},
+};
 
 const Row<Keyframe> keyframe_rows[] = {
     {{.path = "keyframes.time", .what = "later than that of the keyframe before"},
-     Number{[](auto& k) -> auto& {return k.time;
-}
-, not_negative("s")
-}
-}
-,
+     number(
+         not_negative("s"), [](auto& k) -> auto& { return k.time; })},
     {{.path = "keyframes.translation", .what = "from its place at first"},
      vector(
-         [](auto& k) -> auto& { return k.translation; }, "m")},
-{
-  {.path = "keyframes.rotation", .what = "axis times angle"},
-      vector(
-          [](auto& k) -> auto& { return k.rotation; }, "rad")
-}
-}
-;
+         "m", [](auto& k) -> auto& { return k.translation; })},
+    {{.path = "keyframes.rotation", .what = "axis times angle"},
+     vector(
+         "rad", [](auto& k) -> auto& { return k.rotation; })},
+};
 
-const Row<Gust> gust_rows[] = {{{.path = "gusts.time", .what = "later than that of the gust before"},
-                                Number{[](auto& g) -> auto& {return g.time;
-}
-, not_negative("s")
-}
-}
-, {
-  {.path = "gusts.factor", .what = "of the wind"}, Number {
-    [](auto& g) -> auto& { return g.factor; }
-    , any()
-  }
-}
-}
-;
+const Row<Gust> gust_rows[] = {
+    {{.path = "gusts.time", .what = "later than that of the gust before"},
+     number(
+         not_negative("s"), [](auto& g) -> auto& { return g.time; })},
+    {{.path = "gusts.factor", .what = "of the wind"},
+     number(
+         any(), [](auto& g) -> auto& { return g.factor; })},
+};
 
 /// The elements of the list `key`, by time.
 template <class T>
@@ -86,16 +65,17 @@ void read_timed(SettingsTable& parent, const char* key, std::span<const Row<T>> 
 const Row<RigidMotion> motion_rows[] = {
     {{.path = "motion.pivot", .what = "what keyframes turn it about"},
      vector(
-         [](auto& m) -> auto& { return m.pivot; }, "m")},
+         "m", [](auto& m) -> auto& { return m.pivot; })},
     {{.path = "motion.keyframes", .what = "`[{time, translation, rotation}, …]`"},
-     Own{Kind::table, "tables",
+     own(Kind::table, "tables",
          [](SettingsTable& table, const char* key, RigidMotion& m) {
            read_timed<Keyframe>(table, key, keyframe_rows, "must be later than that of the keyframe before",
                                 m.keyframes);
-         }}},
+         })},
     {{.path = "motion.spin", .what = "`{centre, axis, rate, start, ramp}`"},
-     Own{Kind::table, "table",
-         [](SettingsTable& table, const char* key, RigidMotion& m) { m.spin = read_spin(table, key); }}}};
+     own(Kind::table, "table",
+         [](SettingsTable& table, const char* key, RigidMotion& m) { m.spin = read_spin(table, key); })},
+};
 
 }  // namespace
 

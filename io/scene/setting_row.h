@@ -63,6 +63,10 @@ struct Plain {
 };
 
 template <class At>
+Plain<At> plain(Kind kind, const std::string& words, At at) {
+  return {kind, words, at};
+}
+template <class At>
 Plain<At> text(At at) {
   return {Kind::text, "text", at};
 }
@@ -71,7 +75,7 @@ Plain<At> path(At at) {
   return {Kind::path, "file", at};
 }
 template <class At>
-Plain<At> vector(At at, const std::string& unit) {
+Plain<At> vector(const std::string& unit, At at) {
   return {Kind::vector, "[x, y, z]" + (unit.empty() ? "" : " [" + unit + "]"), at};
 }
 
@@ -123,6 +127,23 @@ struct Own {
   std::string range() const { return words; }
   std::string usual(const auto&) const { return "none"; }
 };
+
+template <class At>
+Number<At> number(const Limits& limits, At at) {
+  return {at, limits};
+}
+template <class At>
+Whole<At> whole(int least, int most, At at) {
+  return {at, least, most};
+}
+template <class At, class Value>
+Switch<At, Value> yes_no(Value off, Value on, At at) {
+  return {at, off, on};
+}
+template <class Read>
+Own<Read> own(Kind kind, const std::string& words, Read read) {
+  return {kind, words, read};
+}
 
 /// A T that nothing was said of.
 template <class T>

@@ -100,34 +100,23 @@ const Row<Scene> rows[] = {
       .help = "its frames a second (default 25)",
       .what = "frames a second of the animation",
       .used = used_by::moving},
-     Number{[](auto& s) -> auto& {return s.output.fps;
-}  // namespace
-, positive("1/s")
-}  // namespace furrow::io
-}
-,
+     number(
+         positive("1/s"), [](auto& s) -> auto& { return s.output.fps; })},
 
     // [simulation]: its end
     {{.path = "simulation.seconds",
       .flag = "--seconds",
       .what = "the end of the simulation",
       .used = used_by::moving},
-     Number{[](auto& s) -> auto& {return s.simulation.seconds;
-}
-, not_negative("s")
-}
-}
-, {{.path = "simulation.stop_at",
-    .flag = "--stop-at",
-    .help = "stop earlier, at this time [s], and keep the plan in the state",
-    .what = "stop earlier, with the plan kept",
-    .used = used_by::moving},
-   Number{[](auto& s) -> auto& {return s.stop_at;
-}
-, not_negative("s")
-}
-}
-,
+     number(
+         not_negative("s"), [](auto& s) -> auto& { return s.simulation.seconds; })},
+    {{.path = "simulation.stop_at",
+      .flag = "--stop-at",
+      .help = "stop earlier, at this time [s], and keep the plan in the state",
+      .what = "stop earlier, with the plan kept",
+      .used = used_by::moving},
+     number(
+         not_negative("s"), [](auto& s) -> auto& { return s.stop_at; })},
 
     // [material]
     {{.path = "material.density",
@@ -135,12 +124,8 @@ const Row<Scene> rows[] = {
       .help = "mass of the cloth [kg/m^2]; default that of the file, else 0.15",
       .what = "mass of the cloth",
       .usual = "the file's, else 0.15"},
-     Number{[](auto& s) -> auto& {return s.material.density;
-}
-, positive("kg/m^2")
-}
-}
-,
+     number(
+         positive("kg/m^2"), [](auto& s) -> auto& { return s.material.density; })},
     {{.path = "material.preset",
       .flag = "--fabric",
       .help = "a measured fabric: denim, interlock, rib-knit, … (docs/scenes.md)",
@@ -176,70 +161,45 @@ const Row<Scene> rows[] = {
       .what = "Young's modulus times thickness, in place of `stiffness`",
       .usual = "√3/2 · `stretch` = `stiffness`",
       .flag_in = used_by::all},
-     Number{[](auto& s) -> auto& {return s.material.stretch;
-}
-, positive("N/m")
-}
-}
-, {{.path = "material.poisson", .what = "Poisson's ratio of `triangles`; below 1"},
-   Number{[](auto& s) -> auto& {return s.material.poisson;
-}
-, Limits { -1, 1, true }
-}
-}
-, {{.path = "material.rigidity",
-    .flag = "--rigidity",
-    .help = "bending rigidity of hinges [N m] (default 1e-5)",
-    .help_at_rest = "bending rigidity of hinges [N m]; default the fabric's",
-    .what = "B of hinges",
-    .usual = "1e-5",
-    .flag_in = used_by::all},
-   Number{[](auto& s) -> auto& {return s.material.rigidity;
-}
-, not_negative("N m")
-}
-}
-, {{.path = "material.tension",
-    .flag = "--tension",
-    .help = "of membrane tension: force a metre of width at strain 1 [N/m]; default that of --stretch at "
-            "2 %",
-    .what = "of membrane `tension`: force a metre of width at strain 1",
-    .usual = "50 · `stretch`",
-    .flag_in = used_by::all},
-   Number{[](auto& s) -> auto& {return s.material.tension;
-}
-, positive("N/m")
-}
-}
-, {{.path = "material.compression", .what = "share of `tension` that pushes"},
-   Number{[](auto& s) -> auto& {return s.material.compression;
-}
-, Limits { 0, 1 }
-}
-}
-, {{.path = "material.shear", .what = "share of `tension` that a diagonal has"},
-   Number{[](auto& s) -> auto& {return s.material.shear;
-}
-, Limits { 0, 1 }
-}
-}
-, {{.path = "material.stiffness",
-    .flag = "--stiffness",
-    .help_at_rest = "in place of a fabric: k_std of structural springs [N/m]",
-    .what = "k_std of the structural springs",
-    .flag_in = used_by::all},
-   Number{[](auto& s) -> auto& {return s.material.stiffness;
-}
-, positive("N/m")
-}
-}
-, {{.path = "material.bending", .flag = "--bending", .what = "k_std of the bending springs"},
-   Number{[](auto& s) -> auto& {return s.material.bending;
-}
-, not_negative("N/m")
-}
-}
-,
+     number(
+         positive("N/m"), [](auto& s) -> auto& { return s.material.stretch; })},
+    {{.path = "material.poisson", .what = "Poisson's ratio of `triangles`; below 1"},
+     number(
+         Limits{-1, 1, true}, [](auto& s) -> auto& { return s.material.poisson; })},
+    {{.path = "material.rigidity",
+      .flag = "--rigidity",
+      .help = "bending rigidity of hinges [N m] (default 1e-5)",
+      .help_at_rest = "bending rigidity of hinges [N m]; default the fabric's",
+      .what = "B of hinges",
+      .usual = "1e-5",
+      .flag_in = used_by::all},
+     number(
+         not_negative("N m"), [](auto& s) -> auto& { return s.material.rigidity; })},
+    {{.path = "material.tension",
+      .flag = "--tension",
+      .help = "of membrane tension: force a metre of width at strain 1 [N/m]; default that of --stretch at "
+              "2 %",
+      .what = "of membrane `tension`: force a metre of width at strain 1",
+      .usual = "50 · `stretch`",
+      .flag_in = used_by::all},
+     number(
+         positive("N/m"), [](auto& s) -> auto& { return s.material.tension; })},
+    {{.path = "material.compression", .what = "share of `tension` that pushes"},
+     number(
+         Limits{0, 1}, [](auto& s) -> auto& { return s.material.compression; })},
+    {{.path = "material.shear", .what = "share of `tension` that a diagonal has"},
+     number(
+         Limits{0, 1}, [](auto& s) -> auto& { return s.material.shear; })},
+    {{.path = "material.stiffness",
+      .flag = "--stiffness",
+      .help_at_rest = "in place of a fabric: k_std of structural springs [N/m]",
+      .what = "k_std of the structural springs",
+      .flag_in = used_by::all},
+     number(
+         positive("N/m"), [](auto& s) -> auto& { return s.material.stiffness; })},
+    {{.path = "material.bending", .flag = "--bending", .what = "k_std of the bending springs"},
+     number(
+         not_negative("N/m"), [](auto& s) -> auto& { return s.material.bending; })},
     {{.path = "material.mass_rule",
       .what = "mass by area, or the same for each vertex: the garment's over its vertices (paper 2)"},
      choice<MassRule>([](auto& s) -> auto& { return s.material.mass_rule; },
@@ -248,39 +208,26 @@ const Row<Scene> rows[] = {
       .flag = "--damping",
       .what = "damping of each spring, as a share of critical",
       .used = used_by::moving},
-     Number{[](auto& s) -> auto& {return s.simulation.spring_damping;
-}
-, not_negative()
-}
-}
-, {{.path = "material.drag", .flag = "--drag", .what = "air drag", .used = used_by::moving},
-   Number{[](auto& s) -> auto& {return s.simulation.air_drag;
-}
-, not_negative("1/s")
-}
-}
-, {{.path = "material.friction",
-    .flag = "--friction",
-    .help_at_rest = "Coulomb friction with the body; default the fabric's, else 0.3",
-    .what = "Coulomb friction with the body",
-    .flag_in = used_by::all},
-   Number{[](auto& s) -> auto& {return s.simulation.friction;
-}
-, not_negative()
-}
-}
-, {{.path = "material.gap",
-    .flag = "--gap",
-    .help = "distance that the cloth keeps from the body [m]; raised to what the mesh and the field need "
-            "(default 0.003)",
-    .what = "distance that the cloth keeps from the body; raised to what the mesh and the field need",
-    .flag_in = used_by::all},
-   Number{[](auto& s) -> auto& {return s.simulation.contact_gap;
-}
-, positive("m")
-}
-}
-,
+     number(
+         not_negative(), [](auto& s) -> auto& { return s.simulation.spring_damping; })},
+    {{.path = "material.drag", .flag = "--drag", .what = "air drag", .used = used_by::moving},
+     number(
+         not_negative("1/s"), [](auto& s) -> auto& { return s.simulation.air_drag; })},
+    {{.path = "material.friction",
+      .flag = "--friction",
+      .help_at_rest = "Coulomb friction with the body; default the fabric's, else 0.3",
+      .what = "Coulomb friction with the body",
+      .flag_in = used_by::all},
+     number(
+         not_negative(), [](auto& s) -> auto& { return s.simulation.friction; })},
+    {{.path = "material.gap",
+      .flag = "--gap",
+      .help = "distance that the cloth keeps from the body [m]; raised to what the mesh and the field need "
+              "(default 0.003)",
+      .what = "distance that the cloth keeps from the body; raised to what the mesh and the field need",
+      .flag_in = used_by::all},
+     number(
+         positive("m"), [](auto& s) -> auto& { return s.simulation.contact_gap; })},
 
     // [forces]
     {{.path = "forces.gravity",
@@ -289,25 +236,25 @@ const Row<Scene> rows[] = {
       .what = "acceleration down, or as a vector",
       .usual = "9.81",
       .flag_in = used_by::all},
-     Own{Kind::vector, "number, or [x, y, z] [m/s^2]", read_gravity}},
+     own(Kind::vector, "number, or [x, y, z] [m/s^2]", read_gravity)},
     {{.path = "forces.wind",
       .flag = "--wind",
       .help = "velocity of the air x,y,z [m/s]; acts through the drag",
       .what = "velocity of the air; acts through `drag`",
       .used = used_by::moving},
      vector(
-         [](auto& s) -> auto& { return s.wind.velocity; }, "m/s")},
+         "m/s", [](auto& s) -> auto& { return s.wind.velocity; })},
     {{.path = "forces.gusts",
       .what = "`[{time, factor}, …]` of the wind, linear between",
       .usual = "1",
       .used = used_by::moving},
-     Own{Kind::table, "tables",
-         [](SettingsTable& table, const char* key, Scene& s) { read_gusts(table, key, s.wind.gusts); }}},
+     own(Kind::table, "tables",
+         [](SettingsTable& table, const char* key, Scene& s) { read_gusts(table, key, s.wind.gusts); })},
     {{.path = "forces.swirl",
       .what = "air that turns like a rigid body; as `spin` below",
       .used = used_by::moving},
-     Own{Kind::table, "table",
-         [](SettingsTable& table, const char* key, Scene& s) { s.wind.swirl = read_spin(table, key); }}},
+     own(Kind::table, "table",
+         [](SettingsTable& table, const char* key, Scene& s) { s.wind.swirl = read_spin(table, key); })},
 
     // [simulation]: its steps
     {{.path = "simulation.dt",
@@ -316,22 +263,15 @@ const Row<Scene> rows[] = {
       .what = "time step",
       .usual = "0.9 of the limit; 1/240 with backward-euler, 1/1200 with xpbd, which have none",
       .used = used_by::moving},
-     Number{[](auto& s) -> auto& {return s.simulation.dt;
-}
-, positive("s")
-}
-}
-, {{.path = "simulation.force_dt",
-    .flag = "--force-dt",
-    .help = "take a --dt above the stability limit",
-    .what = "take `dt` although it is above the limit",
-    .used = used_by::moving},
-   Switch{[](auto& s) -> auto& {return s.simulation.step_rule;
-}
-, StepRule::limited, StepRule::forced
-}
-}
-,
+     number(
+         positive("s"), [](auto& s) -> auto& { return s.simulation.dt; })},
+    {{.path = "simulation.force_dt",
+      .flag = "--force-dt",
+      .help = "take a --dt above the stability limit",
+      .what = "take `dt` although it is above the limit",
+      .used = used_by::moving},
+     yes_no(
+         StepRule::limited, StepRule::forced, [](auto& s) -> auto& { return s.simulation.step_rule; })},
     {{.path = "simulation.integrator",
       .flag = "--integrator",
       .help = "leapfrog (default), rk4, backward-euler, xpbd, or euler (the baseline that diverges)",
@@ -348,33 +288,23 @@ const Row<Scene> rows[] = {
       .help = "of xpbd over all springs a step (default 10); few make the cloth softer",
       .what = "of xpbd over all springs a step; few make the cloth softer",
       .used = used_by::moving},
-     Whole{[](auto& s) -> auto& {return s.simulation.xpbd.iterations;
-}
-, 1, 100000
-}
-}
-, {{.path = "simulation.newton",
-    .flag = "--newton",
-    .help = "iterations of backward-euler a step, at most (default 1: linearised once)",
-    .what = "iterations of backward-euler a step, at most; 1: linearised once",
-    .used = used_by::moving},
-   Whole{[](auto& s) -> auto& {return s.simulation.backward_euler.newton_iterations;
-}
-, 1, 100000
-}
-}
-, {{.path = "simulation.threads",
-    .flag = "--threads",
-    .help = "threads (default: one for each 10,000 vertices, at most all cores); the result does not "
-            "depend on them",
-    .what = "the result does not depend on them",
-    .usual = "one for each 10,000 vertices, at most all cores"},
-   Whole{[](auto& s) -> auto& {return s.threads;
-}
-, 1, 256
-}
-}
-,
+     whole(
+         1, 100000, [](auto& s) -> auto& { return s.simulation.xpbd.iterations; })},
+    {{.path = "simulation.newton",
+      .flag = "--newton",
+      .help = "iterations of backward-euler a step, at most (default 1: linearised once)",
+      .what = "iterations of backward-euler a step, at most; 1: linearised once",
+      .used = used_by::moving},
+     whole(
+         1, 100000, [](auto& s) -> auto& { return s.simulation.backward_euler.newton_iterations; })},
+    {{.path = "simulation.threads",
+      .flag = "--threads",
+      .help = "threads (default: one for each 10,000 vertices, at most all cores); the result does not "
+              "depend on them",
+      .what = "the result does not depend on them",
+      .usual = "one for each 10,000 vertices, at most all cores"},
+     whole(
+         1, 256, [](auto& s) -> auto& { return s.threads; })},
 
     // [garment]
     {{.path = "garment.mesh", .what = "obj, ply, off, stl, gltf or glb", .usual = "must be there"},
@@ -383,12 +313,8 @@ const Row<Scene> rows[] = {
       .flag = "--subdivide",
       .help = "refine the garment so many times (Loop) before the first line",
       .what = "Loop steps before the first line"},
-     Whole{[](auto& s) -> auto& {return s.subdivide;
-}
-, 0, 4
-}
-}
-,
+     whole(
+         0, 4, [](auto& s) -> auto& { return s.subdivide; })},
     {{.path = "garment.rest",
       .flag = "--rest",
       .help = "stored (default): the rest state that the file has; keep: that which holds the garment's "
@@ -416,12 +342,8 @@ const Row<Scene> rows[] = {
       .help = "frames a second of OBJ files (default 25)",
       .what = "frames a second of OBJ files",
       .usual = "25"},
-     Number{[](auto& s) -> auto& {return s.body->fps;
-}
-, positive("1/s")
-}
-}
-,
+     number(
+         positive("1/s"), [](auto& s) -> auto& { return s.body->fps; })},
     {{.path = "body.field",
       .flag = "--field",
       .help = "the body's distance field, saved by furrow sdf",
@@ -436,12 +358,8 @@ const Row<Scene> rows[] = {
               "integrator and step are chosen for it first (docs/chart.md)",
       .what = "error of the field",
       .usual = "1/1000 of the body's diagonal, at most 0.002"},
-     Number{[](auto& s) -> auto& {return s.body->options.tolerance;
-}
-, positive("m")
-}
-}
-,
+     number(
+         positive("m"), [](auto& s) -> auto& { return s.body->options.tolerance; })},
     {{.path = "body.gradient",
       .flag = "--gradient",
       .help = "of the field: exact (of the interpolated distance, default) or interpolated (of the "
@@ -456,8 +374,8 @@ const Row<Scene> rows[] = {
      choice<bool>([](auto& s) -> auto& { return s.body->depth_maps; },
                   {{"field", false}, {"depth-maps", true}})},
     {{.path = "body.motion", .what = "of a rigid body, see below"},
-     Own{Kind::table, "table",
-         [](SettingsTable& table, const char* key, Scene& s) { read_motion(table, key, s.body->motion); }}},
+     own(Kind::table, "table",
+         [](SettingsTable& table, const char* key, Scene& s) { read_motion(table, key, s.body->motion); })},
 
     // [[lines]]
     {{.path = "lines.strokes",
@@ -465,35 +383,23 @@ const Row<Scene> rows[] = {
       .usual = "must be there"},
      path([](auto& s) -> auto& { return s.lines.back().strokes; })},
     {{.path = "lines.time", .what = "when they are drawn"},
-     Number{[](auto& s) -> auto& {return s.lines.back().time;
-}
-, not_negative("s")
-}
-}
-, {{.path = "lines.height", .what = "of strokes that name none"},
-   Number{[](auto& s) -> auto& {return s.lines.back().height;
-}
-, any("m")
-}
-}
-, {{.path = "lines.fade", .what = "how slowly the forces of lines drawn later set in; inf: never"},
-   Number{[](auto& s) -> auto& {return s.lines.back().fade;
-}
-, Limits { 0, no_limit, true, "s", true }
-}
-}
-, {{.path = "lines.without", .what = "names of strokes to leave out"},
-   Plain{Kind::list, "text, or texts", [](auto& s) -> auto& {return s.lines.back().without;
-}
-}
-}
-,
+     number(
+         not_negative("s"), [](auto& s) -> auto& { return s.lines.back().time; })},
+    {{.path = "lines.height", .what = "of strokes that name none"},
+     number(
+         any("m"), [](auto& s) -> auto& { return s.lines.back().height; })},
+    {{.path = "lines.fade", .what = "how slowly the forces of lines drawn later set in; inf: never"},
+     number(
+         Limits{0, no_limit, true, "s", true}, [](auto& s) -> auto& { return s.lines.back().fade; })},
+    {{.path = "lines.without", .what = "names of strokes to leave out"},
+     plain(
+         Kind::list, "text, or texts", [](auto& s) -> auto& { return s.lines.back().without; })},
     {{.path = "lines.rest",
       .what = "`drawn`: lines add cloth, rest angles stay; `copied`: they turn, too; `flat`: lines only push "
               "it out; `keep`: as `drawn`, then the garment's shape is made its equilibrium "
               "([rest-state.md](rest-state.md))",
       .usual = "drawn"},
-     Own{Kind::choice, "`drawn`, `flat`, `copied`, `keep`", read_rest}},
+     own(Kind::choice, "`drawn`, `flat`, `copied`, `keep`", read_rest)},
     {{.path = "lines.rule", .what = as_wrinkle},
      choice<InsertionRule>([](auto& s) -> auto& { return s.lines.back().options.insertion.rule; },
                            {{"safe", InsertionRule::safe}, {"paper", InsertionRule::paper}})},
@@ -502,47 +408,29 @@ const Row<Scene> rows[] = {
          [](auto& s) -> auto& { return s.lines.back().options.region; },
          {{"two-ring", SmoothingRegion::two_ring}, {"whole-mesh", SmoothingRegion::whole_mesh}})},
     {{.path = "lines.max_distance", .what = as_wrinkle},
-     Number{[](auto& s) -> auto& {return s.lines.back().options.insertion.max_distance;
-}
-, positive("m")
-}
-}
-, {{.path = "lines.iterations", .what = as_wrinkle},
-   Whole{[](auto& s) -> auto& {return s.lines.back().options.smoothing.iterations;
-}
-, 0, 100000
-}
-}
-, {{.path = "lines.lambda", .what = as_wrinkle},
-   Number{[](auto& s) -> auto& {return s.lines.back().options.smoothing.lambda;
-}
-, positive()
-}
-}
-, {{.path = "lines.mu", .what = as_wrinkle},
-   Number{[](auto& s) -> auto& {return s.lines.back().options.smoothing.mu;
-}
-, Limits { -no_limit, 0 }
-}
-}
-,
+     number(
+         positive("m"), [](auto& s) -> auto& { return s.lines.back().options.insertion.max_distance; })},
+    {{.path = "lines.iterations", .what = as_wrinkle},
+     whole(
+         0, 100000, [](auto& s) -> auto& { return s.lines.back().options.smoothing.iterations; })},
+    {{.path = "lines.lambda", .what = as_wrinkle},
+     number(
+         positive(), [](auto& s) -> auto& { return s.lines.back().options.smoothing.lambda; })},
+    {{.path = "lines.mu", .what = as_wrinkle},
+     number(
+         Limits{-no_limit, 0}, [](auto& s) -> auto& { return s.lines.back().options.smoothing.mu; })},
     {{.path = "lines.weights", .what = as_wrinkle},
      choice<SmoothingWeights>(
          [](auto& s) -> auto& { return s.lines.back().options.smoothing.weights; },
          {{"uniform", SmoothingWeights::uniform}, {"cotangent", SmoothingWeights::cotangent}})},
     {{.path = "lines.keep_lines", .what = as_wrinkle},
-     Switch{[](auto& s) -> auto& {return s.lines.back().options.smoothing.lines;
-}
-, LineRule::free, LineRule::keep
-}
-}
-, {{.path = "lines.keep_border", .what = as_wrinkle},
-   Switch{[](auto& s) -> auto& {return s.lines.back().options.smoothing.border;
-}
-, BorderRule::free, BorderRule::keep
-}
-}
-,
+     yes_no(
+         LineRule::free, LineRule::keep,
+         [](auto& s) -> auto& { return s.lines.back().options.smoothing.lines; })},
+    {{.path = "lines.keep_border", .what = as_wrinkle},
+     yes_no(
+         BorderRule::free, BorderRule::keep,
+         [](auto& s) -> auto& { return s.lines.back().options.smoothing.border; })},
 
     // [[pins]]: a flag adds a set of its own
     {{.path = "pins.box",
@@ -550,17 +438,17 @@ const Row<Scene> rows[] = {
       .help = "hold the vertices in a box x0,y0,z0,x1,y1,z1 [m, y up]; may be given again",
       .what = "the vertices in `[x0, y0, z0, x1, y1, z1]`",
       .flag_in = used_by::all},
-     Own{Kind::list, "6 numbers [m]",
-         [](SettingsTable& table, const char* key, Scene& s) { table.read(key, s.pins.back().box, 6); }}},
+     own(Kind::list, "6 numbers [m]",
+         [](SettingsTable& table, const char* key, Scene& s) { table.read(key, s.pins.back().box, 6); })},
     {{.path = "pins.loop",
       .flag = "--pin-loop",
       .help = "hold a boundary loop: top, bottom, or its index (the longest is 0)",
       .what = "a boundary loop: top, bottom or an index (the longest is 0)",
       .flag_in = used_by::all},
-     Own{Kind::text, "text, or whole number",
+     own(Kind::text, "text, or whole number",
          [](SettingsTable& table, const char* key, Scene& s) {
            table.read_name_or_index(key, s.pins.back().loop);
-         }}},
+         })},
     {{.path = "pins.group",
       .flag = "--pin-group",
       .help = "hold the vertices of a group, by its name",
@@ -572,15 +460,15 @@ const Row<Scene> rows[] = {
       .help = "hold vertices, by their indices from 0",
       .what = "vertices, by their indices from 0",
       .flag_in = used_by::all},
-     Own{Kind::list, "whole numbers",
+     own(Kind::list, "whole numbers",
          [](SettingsTable& table, const char* key, Scene& s) {
            table.read(key, s.pins.back().vertices, 0, 1 << 30);
-         }}},
+         })},
     {{.path = "pins.motion", .what = "see below", .usual = "held", .used = used_by::moving},
-     Own{Kind::table, "table",
+     own(Kind::table, "table",
          [](SettingsTable& table, const char* key, Scene& s) {
            read_motion(table, key, s.pins.back().motion);
-         }}},
+         })},
 
     // The root
     {{.path = "title", .what = "for people", .used = used_by::nobody},
@@ -598,8 +486,7 @@ const Row<Scene> rows[] = {
       .usual = "what the garment's PLY notes, else y",
       .flag_in = used_by::nobody},
      choice<Word>([](auto& s) -> auto& { return s.up; }, {{"y", "y"}, {"z", "z"}})},
-}
-;
+};
 
 /// "the end of the simulation [s] (default 2)", where a row says no more.
 std::string usual_help(const Setting& s) {

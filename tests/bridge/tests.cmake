@@ -6,12 +6,13 @@ furrow_add_tests(bridge bridge LIBRARIES furrow::bridge garment_cases SOURCES
   fit_piercing_test.cpp
   fit_report_test.cpp
   fit_zones_test.cpp
-  garment_rest_test.cpp
   gather_test.cpp
   keep_lines_test.cpp
   store_rest_state_test.cpp
   tension_constants_test.cpp
   body_test.cpp
-  draped_test.cpp
   posed_body_test.cpp
+  RELEASE_SOURCES
+  draped_test.cpp
+  garment_rest_test.cpp
 )
