@@ -118,7 +118,7 @@ double pop(Mesh& mesh, double stiffness, double gravity, double pin_from_y, doub
 
 }  // namespace
 
-TEST_CASE("the mean strain is told of a membrane of triangles, too") {
+TEST_CASE("draw_more: the mean strain is told of a membrane of triangles, too") {
   Mesh mesh = sheet();
   bridge::DrawMoreOptions o = options_for(mesh);
   o.springs.membrane = bridge::Membrane::triangles;
@@ -127,7 +127,7 @@ TEST_CASE("the mean strain is told of a membrane of triangles, too") {
   CHECK(draw_more(mesh, state, strokes(0, 1.05), o).mean_strain == Approx(0.05));
 }
 
-TEST_CASE("lines of height 0 leave a strained cloth isometric") {
+TEST_CASE("draw_more: lines of height 0 leave a strained cloth isometric") {
   Mesh mesh = sheet();
   const bridge::DrawMoreOptions o = options_for(mesh);
   stretch(mesh, 1.05);
@@ -148,7 +148,7 @@ TEST_CASE("lines of height 0 leave a strained cloth isometric") {
   CHECK(worst < 1e-12);
 }
 
-TEST_CASE("a cloth without strain stays free of force when lines of height 0 are drawn") {
+TEST_CASE("draw_more: a cloth without strain stays free of force when lines of height 0 are drawn") {
   Mesh mesh = sheet();
   const bridge::DrawMoreOptions o = options_for(mesh);
   physics::SimulateState state;
@@ -157,7 +157,7 @@ TEST_CASE("a cloth without strain stays free of force when lines of height 0 are
   CHECK(report.largest_jump < 1e-12 * 1000 * edge);
 }
 
-TEST_CASE("what drawing changes in the forces is taken off at first and fades in") {
+TEST_CASE("draw_more: what drawing changes in the forces is taken off at first and fades in") {
   Mesh mesh = sheet();
   const bridge::DrawMoreOptions o = options_for(mesh);
   stretch(mesh, 1.05);
@@ -184,7 +184,7 @@ TEST_CASE("what drawing changes in the forces is taken off at first and fades in
   CHECK(physics::net_force(state.compensation, 2).norm() < 1e-10);
 }
 
-TEST_CASE("a second round of lines carries on what is left of the first one's forces") {
+TEST_CASE("draw_more: a second round of lines carries on what is left of the first one's forces") {
   Mesh mesh = sheet();
   bridge::DrawMoreOptions o = options_for(mesh);
   stretch(mesh, 1.05);
@@ -203,7 +203,7 @@ TEST_CASE("a second round of lines carries on what is left of the first one's fo
   CHECK(worst < 1e-10);
 }
 
-TEST_CASE("drawing keeps the momentum of a cloth in motion") {
+TEST_CASE("draw_more: drawing keeps the momentum of a cloth in motion") {
   for (const double height : {0.0, 0.02}) {
     Mesh mesh = sheet();
     const bridge::DrawMoreOptions o = options_for(mesh);
@@ -223,7 +223,7 @@ TEST_CASE("drawing keeps the momentum of a cloth in motion") {
   }
 }
 
-TEST_CASE("a strained cloth moves little when lines of height 0 are drawn into it") {
+TEST_CASE("draw_more: a strained cloth moves little when lines of height 0 are drawn into it") {
   double strain = 0;
   SECTION("stretched in its plane") {
     Mesh mesh = sheet();
@@ -250,7 +250,7 @@ TEST_CASE("a strained cloth moves little when lines of height 0 are drawn into i
   }
 }
 
-TEST_CASE("drawing that fails leaves cloth and state as they were") {
+TEST_CASE("draw_more: drawing that fails leaves cloth and state as they were") {
   Mesh mesh = sheet();
   bridge::DrawMoreOptions o = options_for(mesh);
   physics::SimulateState state;
@@ -265,7 +265,7 @@ TEST_CASE("drawing that fails leaves cloth and state as they were") {
   CHECK(state.compensation.force.empty());
 }
 
-TEST_CASE("draw more: a line with width and press is raised by its profile, and its press comes with it") {
+TEST_CASE("draw_more: a line with width and press is raised by its profile, and its press comes with it") {
   Mesh mesh = sheet();
   bridge::DrawMoreOptions options = options_for(mesh);
   options.springs.bending = bridge::Bending::hinge;

@@ -45,7 +45,7 @@ Cloth lattice_star(double edge, double k) {
 
 }  // namespace
 
-TEST_CASE("membrane laws: each gives the stiffness of its formula") {
+TEST_CASE("membrane_laws: each gives the stiffness of its formula") {
   Cloth cloth = kite();
   const std::vector<double> areas = rest_areas(cloth);
   const double equilateral = 4 * std::sqrt(3);
@@ -62,7 +62,7 @@ TEST_CASE("membrane laws: each gives the stiffness of its formula") {
   check(MembraneLaw::van_gelder, {600 / 9.0, 600 / 25.0, 600 / 16.0 + rim, rim, rim});
 }
 
-TEST_CASE("membrane laws: a lattice of springs is a membrane with Young's modulus Y and nu = 1/3") {
+TEST_CASE("membrane_laws: a lattice of springs is a membrane with Young's modulus Y and nu = 1/3") {
   // A star owns half of each of its six springs and the area sqrt(3)/2 r^2.
   const double young = 80, edge = 0.02;
   const Cloth star = lattice_star(edge, lattice_stiffness(young));
@@ -79,7 +79,7 @@ TEST_CASE("membrane laws: a lattice of springs is a membrane with Young's modulu
   }
 }
 
-TEST_CASE("membrane laws: calibrated springs answer a dilation as the membrane does") {
+TEST_CASE("membrane_laws: calibrated springs answer a dilation as the membrane does") {
   const double jitter = GENERATE(0.0, 0.2), young = 120, e = 1e-6;
   Cloth cloth = triangular_sheet(0.3, 0.2, 8, 6, 0.1, jitter, 5);
   const std::vector<double> areas = rest_areas(cloth);
@@ -97,7 +97,7 @@ TEST_CASE("membrane laws: calibrated springs answer a dilation as the membrane d
   CHECK(k == Approx(lattice_stiffness(young)).epsilon(0.02));
 }
 
-TEST_CASE("membrane laws: what is out of range is refused and changes nothing") {
+TEST_CASE("membrane_laws: what is out of range is refused and changes nothing") {
   Cloth cloth = kite();
   const std::vector<double> areas = rest_areas(cloth), before = stiffness_of(cloth);
   const auto refuses = [&](MembraneLaw law, double k, const std::vector<double>& a) {

@@ -21,7 +21,7 @@ Cloth crumpled(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("a stretched spring pulls its ends together with k (l - L)") {
+TEST_CASE("spring_forces: a stretched spring pulls its ends together with k (l - L)") {
   const std::vector<Vec3> x{{0, 0, 0}, {0, 3, 4}};
   const std::vector<Spring> springs{{0, 1, 4.5, 100}};
   std::vector<Vec3> force(2, Vec3::Zero());
@@ -31,7 +31,7 @@ TEST_CASE("a stretched spring pulls its ends together with k (l - L)") {
   CHECK(potential_energy(only(springs), x) == Approx(12.5).epsilon(1e-15));
 }
 
-TEST_CASE("the springs' force is minus the gradient of their energy") {
+TEST_CASE("spring_forces: the springs' force is minus the gradient of their energy") {
   const Cloth cloth = crumpled(GENERATE(1, 2, 3));
   std::vector<Vec3> force(cloth.particles.size(), Vec3::Zero()), x = cloth.particles.x;
   add_forces(only(cloth.structural), x, force);
@@ -49,7 +49,7 @@ TEST_CASE("the springs' force is minus the gradient of their energy") {
   }
 }
 
-TEST_CASE("the stiffness product is the derivative of the force") {
+TEST_CASE("spring_forces: the stiffness product is the derivative of the force") {
   const Cloth cloth = crumpled(GENERATE(4, 5, 6));
   const std::size_t n = cloth.particles.size();
   Noise noise(9);
@@ -64,7 +64,7 @@ TEST_CASE("the stiffness product is the derivative of the force") {
   for (std::size_t i = 0; i < n; ++i) CHECK((ku[i] + (above[i] - below[i]) / (2 * h)).norm() < 1e-3);
 }
 
-TEST_CASE("the positive part of the stiffness is at least 0 and at least the exact one") {
+TEST_CASE("spring_forces: the positive part of the stiffness is at least 0 and at least the exact one") {
   const Cloth cloth = crumpled(7);
   const std::size_t n = cloth.particles.size();
   Noise noise(11);
@@ -83,7 +83,7 @@ TEST_CASE("the positive part of the stiffness is at least 0 and at least the exa
   CHECK(compressed > 1);
 }
 
-TEST_CASE("a spring of length 0 exerts no force, and a spring out of range is refused") {
+TEST_CASE("spring_forces: a spring of length 0 exerts no force, and a spring out of range is refused") {
   const std::vector<Vec3> x(2, Vec3(1, 2, 3));
   std::vector<Vec3> force(2, Vec3::Zero());
   add_forces(only(std::vector<Spring>{{0, 1, 0.1, 10}}), x, force);

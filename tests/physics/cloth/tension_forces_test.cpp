@@ -42,7 +42,7 @@ double force_between(double length, const Tension& t) {
 
 }  // namespace
 
-TEST_CASE("tension pulls with stretch e^2 and pushes with compress e^2") {
+TEST_CASE("tension_forces: tension pulls with stretch e^2 and pushes with compress e^2") {
   const Tension t{0, 1, 0.5, 90, 30};
   CHECK(force_between(0.55, t) == Approx(0.9).epsilon(1e-12));
   CHECK(force_between(0.45, t) == Approx(-0.3).epsilon(1e-12));
@@ -54,7 +54,7 @@ TEST_CASE("tension pulls with stretch e^2 and pushes with compress e^2") {
   CHECK(tension_slope(t, -0.1) == Approx(12));
 }
 
-TEST_CASE("tension called at rest below a force keeps a strain of sqrt(f / c)") {
+TEST_CASE("tension_forces: tension called at rest below a force keeps a strain of sqrt(f / c)") {
   const double e = remaining_strain(40, 1e-3);
   CHECK(e == Approx(0.005).epsilon(1e-12));
   CHECK(tension_law({0, 1, 0.2, 40, 10}, e).force == Approx(1e-3).epsilon(1e-12));
@@ -92,7 +92,7 @@ TEST_CASE("tension: derivatives agree with finite differences, and the parts bou
   }
 }
 
-TEST_CASE("tension exerts neither force nor moment in total, and turns with the cloth") {
+TEST_CASE("tension_forces: tension exerts neither force nor moment in total, and turns with the cloth") {
   const Cloth cloth = crumpled(3, 70);
   const std::vector<Vec3>& x = cloth.particles.x;
   std::vector<Vec3> force(x.size(), Vec3::Zero()), other = force, y = x;
@@ -111,7 +111,7 @@ TEST_CASE("tension exerts neither force nor moment in total, and turns with the 
   for (std::size_t i = 0; i < x.size(); ++i) CHECK((other[i] - turn * force[i]).norm() < 1e-12 * scale);
 }
 
-TEST_CASE("tension is inverted: its rest length for any pull that it bears") {
+TEST_CASE("tension_forces: it is inverted to a rest length for any pull that it bears") {
   const Tension t{0, 1, 9, 90, 30};
   for (const double pull : {0.0, 1e-9, 0.5, 7.0, 200.0, -1e-9, -0.5, -7.0, -29.0}) {
     CAPTURE(pull);
@@ -125,7 +125,8 @@ TEST_CASE("tension is inverted: its rest length for any pull that it bears") {
   CHECK(rest_length_for(Tension{0, 1, 1, 0, 0}, 0.3, 0).value() == 0.3);
 }
 
-TEST_CASE("prestress balances a cloth of tension and hinges, whatever its rest lengths were") {
+TEST_CASE(
+    "tension_forces: prestress balances a cloth of tension and hinges, whatever its rest lengths were") {
   Cloth cloth = with_tension(without_springs(sheet(7, 7, 0.03, 0.1, 2)), 0, 0);
   for (const Spring& s : sheet(7, 7, 0.03, 0.1, 2).structural)
     cloth.tension.push_back({s.a, s.b, s.rest_length, 60, 60});
@@ -153,7 +154,7 @@ TEST_CASE("prestress balances a cloth of tension and hinges, whatever its rest l
   }
 }
 
-TEST_CASE("tension counts wherever elements are counted") {
+TEST_CASE("tension_forces: tension counts wherever elements are counted") {
   Cloth cloth = crumpled(2);
   Cloth none = cloth;
   none.tension.clear();
@@ -179,7 +180,7 @@ TEST_CASE("tension counts wherever elements are counted") {
   CHECK(pieces[0].freedoms == 3);  // it swings about its pin; without tension it would be free
 }
 
-TEST_CASE("the limit of a step foresees that tension is strained further") {
+TEST_CASE("tension_forces: the limit of a step foresees that tension is strained further") {
   const auto limit = [](double strain) {
     Cloth cloth = with_tension(pendulum(0.1, 1, 1, {0, -1 - strain, 0}), 50, 10);
     return stable_step(cloth, {.tolerance = 1e-6}).dt_limit;
@@ -189,7 +190,7 @@ TEST_CASE("the limit of a step foresees that tension is strained further") {
     CHECK(limit(e) == Approx(2 / std::sqrt(2 * 50 * (e + tension_margin) / 0.1)).epsilon(1e-4));
 }
 
-TEST_CASE("broken tension is refused") {
+TEST_CASE("tension_forces: broken tension is refused") {
   const std::vector<Vec3> x(2, Vec3::Zero());
   std::vector<Vec3> force(2, Vec3::Zero());
   const double nan = std::numeric_limits<double>::quiet_NaN();

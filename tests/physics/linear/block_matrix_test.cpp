@@ -28,7 +28,7 @@ Eigen::MatrixXd whole(const BlockMatrix& m) {
 
 }  // namespace
 
-TEST_CASE("block matrix: blocks come in where a dense matrix has them, and their mirror images with them") {
+TEST_CASE("block_matrix: blocks come in where a dense matrix has them, and their mirror images with them") {
   BlockMatrix matrix(inv_mass, pairs);
   REQUIRE(matrix.rows() == 4);
   CHECK(matrix.row(1) == -1);
@@ -52,7 +52,7 @@ TEST_CASE("block matrix: blocks come in where a dense matrix has them, and their
   CHECK(matrix.lower().nonZeros() == 4 * 6 + 3 * 9);
 }
 
-TEST_CASE("block matrix: vectors of particles and of rows") {
+TEST_CASE("block_matrix: vectors of particles and of rows") {
   const BlockMatrix matrix(inv_mass, pairs);
   std::vector<Vec3> v(5);
   for (int i = 0; i < 5; ++i) v[std::size_t(i)] = Vec3(i, 10 * i, 100 * i);
@@ -65,7 +65,7 @@ TEST_CASE("block matrix: vectors of particles and of rows") {
   CHECK(back == v);
 }
 
-TEST_CASE("block matrix: nothing free, and pairs that are out of range or were not announced") {
+TEST_CASE("block_matrix: nothing free, and pairs that are out of range or were not announced") {
   const std::vector<double> held(3, 0.0);
   const BlockMatrix none(held, std::vector<std::array<int, 2>>{{0, 2}});
   CHECK(none.rows() == 0);

@@ -9,7 +9,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("elimination tree: parents are those that a dense factorisation shows") {
+TEST_CASE("front_tree: parents of the elimination tree are those that a dense factorisation shows") {
   Noise noise(1);
   for (const int links : {0, 10, 25, 60}) {
     constexpr int n = 25;

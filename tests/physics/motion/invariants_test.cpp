@@ -58,7 +58,8 @@ Invariants measure(const Cloth& cloth) {
 
 }  // namespace
 
-TEST_CASE("a free spinning sheet keeps momentum and angular momentum, and its energy stays in a band") {
+TEST_CASE(
+    "invariants: a free spinning sheet keeps momentum and angular momentum, and its energy stays in a band") {
   const bool springs = GENERATE(true, false);
   Cloth cloth = spinning_sheet(springs);
   const Invariants start = measure(cloth);
@@ -84,7 +85,7 @@ TEST_CASE("a free spinning sheet keeps momentum and angular momentum, and its en
   CHECK(band[1] < 1.5 * band[0]);
 }
 
-TEST_CASE("a twisted ribbon of fibres pulls and turns as the integral over its width says") {
+TEST_CASE("invariants: a twisted ribbon of fibres pulls and turns as the integral over its width says") {
   const RibbonLoad known = fibre_ribbon({0.2, 0.02});
   CHECK(known.force == Approx(0.0262994029273).epsilon(1e-10));
   CHECK(known.torque == Approx(0.00204589716483).epsilon(1e-10));
@@ -99,7 +100,7 @@ TEST_CASE("a twisted ribbon of fibres pulls and turns as the integral over its w
   }
 }
 
-TEST_CASE("a twisted ribbon of membrane triangles comes near the fibres' force and torque") {
+TEST_CASE("invariants: a twisted ribbon of membrane triangles comes near the fibres' force and torque") {
   for (const Twist& twist : {Twist{0.1, 0.01}, Twist{0.1, 0.05}}) {
     const RibbonLoad exact = fibre_ribbon(twist, FibreStrain::green),
                      coarse = membrane_ribbon(twist, 0.1, 4, 40), fine = membrane_ribbon(twist, 0.1, 8, 80);

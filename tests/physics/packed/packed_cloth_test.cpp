@@ -12,7 +12,7 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("packed springs exert the same force as plain ones") {
+TEST_CASE("packed_cloth: packed springs exert the same force as plain ones") {
   Cloth cloth = sheet(61, 53, 0.02, 0.25);  // more than one block
   Noise noise(5);
   for (Vec3& x : cloth.particles.x) x += 0.005 * noise.vector();
@@ -35,7 +35,7 @@ TEST_CASE("packed springs exert the same force as plain ones") {
   CHECK(packed.springs() == int(cloth.structural.size() + cloth.bending.size()));
 }
 
-TEST_CASE("packing and unpacking gives the particles back bit by bit") {
+TEST_CASE("packed_cloth: packing and unpacking gives the particles back bit by bit") {
   Cloth cloth = sheet(7, 9, 0.1, 0.2);
   Noise noise(6);
   for (Vec3& v : cloth.particles.v) v = noise.vector();
@@ -46,7 +46,7 @@ TEST_CASE("packing and unpacking gives the particles back bit by bit") {
   CHECK(copy.v == cloth.particles.v);
 }
 
-TEST_CASE("broken arrays are refused") {
+TEST_CASE("packed_cloth: broken arrays are refused") {
   const Cloth good = sheet(3, 3, 0.1);
   const auto refused = [&](auto change) {
     Cloth cloth = good;

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A test is named "operation: what holds", so that a program's list of tests reads as its contents and
+# `test_physics "settle:*"` runs all of one operation. CTest tears names at semicolons, Catch takes a leading - for
+# an option.
+cmake_minimum_required(VERSION 3.25)
+file(GLOB_RECURSE files ${ROOT}/tests/*.cpp)
+set(faults "")
+set(seen 0)
+foreach(file ${files})
+  file(READ ${file} text)
+  string(REPLACE ";" "@" text "${text}")  # would part a list
+  string(REGEX REPLACE "[][]" "" text "${text}")
+  string(REGEX MATCHALL "TEST_CASE\\([ \n]*\"[^\"]*\"" names "${text}")
+  foreach(name IN LISTS names)
+    string(REGEX REPLACE "^[^\"]*\"(.*)\"$" "\\1" name "${name}")
+    math(EXPR seen "${seen} + 1")
+    if(NOT name MATCHES "^[A-Za-z][A-Za-z0-9_]*( [A-Za-z0-9_]+)?( [A-Za-z0-9_]+)?: [^ ]" OR name MATCHES "@")
+      cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${ROOT} OUTPUT_VARIABLE where)
+      list(APPEND faults "${where}: '${name}' is not named 'operation: what holds'")
+    endif()
+  endforeach()
+endforeach()
+if(seen LESS 100)
+  message(FATAL_ERROR "only ${seen} tests seen below ${ROOT}/tests")
+endif()
+if(faults)
+  list(JOIN faults "\n" text)
+  message(FATAL_ERROR "test names:\n${text}")
+endif()
+message(STATUS "test names: ${seen} have the form")
