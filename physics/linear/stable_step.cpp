@@ -82,6 +82,14 @@ VectorXd start_vector(const Operator& op) {
   return q;
 }
 
+/// |A q| / |q| of the start: a scale where no bound is known; 0 if nothing moves or resists.
+double growth(Operator& op) {
+  const VectorXd q = start_vector(op);
+  VectorXd product(q.size());
+  op.apply(q, product);
+  return q.norm() > 0 ? product.norm() / q.norm() : 0;
+}
+
 void check(const StableStepOptions& o) {
   require("stable_step", "tolerance", o.tolerance, o.tolerance > 0 && o.tolerance < 0.5, "in (0, 0.5)");
   require("stable_step", "max_iterations", o.max_iterations, o.max_iterations >= 1, ">= 1");
@@ -92,18 +100,12 @@ void check(const StableStepOptions& o) {
 StepLimit stable_step(const Cloth& cloth, const StableStepOptions& options) {
   check(options);
   Operator op(cloth);
-  const double sums = op.gershgorin();
-  if (sums == 0 && op.is_bounded()) return {std::numeric_limits<double>::infinity(), 0, 0, 0};
-  const double bound = op.is_bounded() ? sums : std::numeric_limits<double>::infinity();
-  const VectorXd start = start_vector(op);
-  double nothing = 1e-13 * sums;
-  if (!op.is_bounded()) {
-    VectorXd product(op.size());
-    op.apply(start.normalized(), product);
-    nothing = difference_error * product.norm();
-  }
+  const double infinity = std::numeric_limits<double>::infinity(), sums = op.gershgorin();
+  const double bound = op.is_bounded() ? sums : infinity;
+  const double nothing = op.is_bounded() ? 1e-13 * sums : difference_error * growth(op);
+  if (nothing == 0) return {infinity, 0, 0, 0};
   const LanczosResult ritz = largest_eigenvalue(
-      [&](const VectorXd& q, VectorXd& product) { op.apply(q, product); }, start,
+      [&](const VectorXd& q, VectorXd& product) { op.apply(q, product); }, start_vector(op),
       {.tolerance = options.tolerance,
        .most_steps = int(std::min<Index>(op.size(), options.max_iterations)),
        .least_steps = least_iterations,

@@ -103,6 +103,8 @@ void BackwardEuler::add_shell(double dt, bool first) {
   if (shell_.empty()) return;
   std::size_t next = 0;
   add_stiffness(cloth.shell, positions(cloth), Stiffness::positive_part, [&](int i, int j, const Mat3& k) {
+    if (next == shell_.size())
+      throw std::invalid_argument("backward Euler: an energy hands out more blocks of stiffness than before");
     const Mat3 block = dt * dt * k;
     if (first) change_[std::size_t(i)] -= block * vec3(cloth.v[std::size_t(j)]);
     system_.add(shell_[next++], block);

@@ -41,7 +41,7 @@ void check(const Cloth& cloth, const PrestressOptions& o, std::span<const Vec3> 
   require(me, "tolerance", o.tolerance, o.tolerance > 0, "> 0");
   require(me, "max_iterations", o.max_iterations, o.max_iterations >= 1, ">= 1");
   check_loaded_particles(cloth.particles, loads, me);
-  for_each_kind(cloth, [](const auto& kind, auto...) {
+  for_each_kind(cloth, [&](const auto& kind, auto...) {
     if (!is_inverted<KindOf<decltype(kind)>> && !kind.empty())
       refuse(me, "the cloth has elements of a kind whose rest state cannot be solved for");
   });

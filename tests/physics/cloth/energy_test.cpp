@@ -180,6 +180,11 @@ TEST_CASE("energy: the step's limit takes one without stiffness from differences
     CHECK(omega(Extra::own, k) == Approx(std::sqrt(k / 0.2)).epsilon(1e-6));
     CHECK(omega(Extra::own_without_stiffness, k) == Approx(std::sqrt(k / 0.2)).epsilon(1e-6));
   }
+  pendulum.particles.inv_mass[1] = 0;
+  CHECK(std::isinf([&] {
+    pendulum.energies = {std::make_shared<OwnSpring>(0, 1, 1, 50, false)};
+    return stable_step(pendulum).dt_limit;
+  }()));
   const double limit = stable_step(sheet_with(Extra::built_in)).omega_max;
   CHECK(stable_step(sheet_with(Extra::own_without_stiffness)).omega_max == Approx(limit).epsilon(0.01));
 }
