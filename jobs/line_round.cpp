@@ -74,6 +74,11 @@ void note_strokes(io::WrinkleRecord& record, const std::string& garment,
 
 }  // namespace
 
+std::string garment_file(const io::Scene& scene, const Context& context) {
+  const bool in_memory = context.memory && context.memory->holds(scene.garment);
+  return scene.subdivide || in_memory ? "" : scene.garment.string();
+}
+
 LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke>& strokes,
                      const io::SceneLines& lines, const geometry::StageObserver& observer) {
   const std::optional<io::WrinkleRecord> earlier = io::find_wrinkle_record(target.file);

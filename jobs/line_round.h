@@ -21,6 +21,9 @@ struct LineTarget {
   std::vector<std::vector<int>> pins = {};   ///< of its simulation: these vertices keep their places
 };
 
+/// The file that a scene's lines are drawn on, for drawing them again; "": it is refined first, or in memory.
+std::string garment_file(const io::Scene& scene, const Context& context);
+
 /// Draws the lines into the garment and notes them in its wrinkle record, going on from earlier rounds: their
 /// ids, the mean rest lengths before any line, the density.
 LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke>& strokes,

@@ -35,8 +35,7 @@ void draw_first_lines(const io::Scene& scene, SceneCloth& result, const Context&
     }
     const auto strokes = read_strokes(lines, context);
     const std::size_t old_count = result.file.mesh.number_of_vertices();
-    const LineTarget target{
-        result.file, scene.subdivide ? "" : scene.garment.string(), scene.material.density, nullptr, {}};
+    const LineTarget target{result.file, garment_file(scene, context), scene.material.density, nullptr, {}};
     for (const std::string& w : draw_lines(target, strokes, lines).warnings)
       context.warn("drawing", w, lines.strokes.string());
     pin_new_vertices(result.file.mesh, old_count, result.pins);

@@ -97,11 +97,7 @@ bridge::KeptShape keep_shape(const Run& run, io::SavedState& now, physics::Simul
 }
 
 LineTarget target_of(const Run& run, io::SavedState& now, bool moving) {
-  LineTarget target{now.file,
-                    run.scene.subdivide ? "" : run.scene.garment.string(),
-                    run.scene.material.density,
-                    nullptr,
-                    {}};
+  LineTarget target{now.file, garment_file(run.scene, run.context), run.scene.material.density, nullptr, {}};
   if (moving) {
     target.moving = &now.simulation;
     target.springs = spring_options(now.file, run.scene.material);

@@ -66,13 +66,10 @@ TEST_CASE(
   tests::Recorder early(1);
   CHECK_THROWS_AS(jobs::keep(job, early), physics::Cancelled);
   CHECK(fs::is_empty(folder));
-  tests::Recorder whole;
-  jobs::keep(job, whole);
-  fs::remove(folder / "kept.ply");
-  tests::Recorder late(whole.asked - 1);
+  tests::Recorder late(4);  // the first question after the drawn shape is there
   const jobs::KeepReport report = jobs::keep(job, late);
   CHECK(report.lines.interrupted);
-  CHECK(late.asked - (whole.asked - 1) <= 3);
+  CHECK(late.asked <= 8);
   CHECK(positions(io::read_mesh(folder / "kept.ply")) == positions(report.garment));
   CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
 }
