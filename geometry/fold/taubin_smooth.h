@@ -39,18 +39,18 @@ struct SmoothReport {
 double stability_limit(double lambda, double mu);
 
 /// Smooths without shrinking (method S1.5, S1.6): iterations times x -= lambda K x, then x -= mu K x, with K
-/// = I - W. On a closed mesh a wave of eigenvalue k is multiplied by f(k) for each pair. `region` lists the
-/// vertices that may move, in any order; an empty one means the whole mesh. All other vertices keep their
-/// bits, and so do those kept: with lines kept, a line vertex with fewer than two line neighbours (ends, lone
-/// ones) and, with the border kept as well, line vertices on the border. Kept lines and borders weigh by
-/// 1/length where the weights are cotangents. Each step reads the old positions only (Jacobi). Same input,
-/// same bits. Changes positions; connectivity and every property map stay. Triangles are asked for by
-/// cotangents only. Cost: O(iterations x edges of the region), two copies of its positions, and O(mesh) once.
-/// Throws std::invalid_argument, the mesh untouched, for an option out of its range, where k_max > k_stab:
-/// the shortest waves would grow, and where k_PB = 1/lambda + 1/mu >= k_max: all would. k_max = 2 for uniform
-/// weights, 3 for cotangents (reached by needles only, but 2.45 has been seen on real meshes). Throws
-/// ContentError if a position is not finite. Source: G. Taubin, "A signal processing approach to fair surface
-/// design", SIGGRAPH 1995.
+/// = I - W, each step from the old positions only (Jacobi). `region` lists the vertices that may move, in any
+/// order; an empty one means the whole mesh. All other vertices keep their bits; connectivity and every map
+/// stay. Same input, same bits. Throws std::invalid_argument, the mesh untouched, for an option out of its
+/// range or an unstable pair; ContentError if a position is not finite or, with cotangents, a face is no
+/// triangle. Cost: O(iterations x edges of the region), two copies of its positions, and O(mesh) once.
+/// \details On a closed mesh a wave of eigenvalue k is multiplied by f(k) for each pair. Refused are k_max >
+/// k_stab (the shortest waves would grow) and k_PB = 1/lambda + 1/mu >= k_max (all would); k_max = 2 for
+/// uniform weights, 3 for cotangents (reached by needles only, but 2.45 has been seen on real meshes). With
+/// lines kept, a line vertex with fewer than two line neighbours (ends, lone ones) keeps its place, and with
+/// the border kept as well, line vertices on the border do. Kept lines and borders weigh by 1/length where
+/// the weights are cotangents. Source: G. Taubin, "A signal processing approach to fair surface design",
+/// SIGGRAPH 1995.
 SmoothReport taubin_smooth(Mesh& mesh, std::span<const Vertex> region, const TaubinOptions& options = {});
 
 }  // namespace furrow::geometry

@@ -55,17 +55,18 @@ struct WrinkleReport {
 enum class Stage { inserted, displaced, smoothed };
 using StageObserver = std::function<void(Stage, const Mesh&)>;
 
-/// Turns strokes into wrinkles: inserts their lines (Algorithm 2), displaces their vertices along the
-/// normals, smooths, rebuilds the bending springs, and updates rest lengths and masses (method, Algorithm 1,
-/// steps 2 to 4). All lines are inserted into the undisplaced surface, one after the other; then all are
-/// displaced, and smoothed once. A line with a width is raised by its profile (line_profile.h), along the
-/// angle-weighted normals, and not smoothed. Where several lines raise a vertex the highest ridge and the
-/// deepest valley count, and add up; lines without a width raise their own vertices alone. Presses are for
-/// who makes hinges of the mesh (line_press.h). Sets attribute::line, attribute::line_edge,
-/// attribute::rest_length, attribute::bending_rest_length, attribute::bending_count, attribute::rest_angle,
-/// attribute::mass; options.rest says what of the rest state learns of the displacement. An unset rest length
-/// is the length as it is. Throws std::invalid_argument for an option out of its range and ContentError for a
-/// stroke that cannot be used; the mesh is then as it was. Cost: about O(faces log faces) for each stroke.
+/// Turns strokes into wrinkles (method, Algorithm 1, steps 2 to 4): inserts all lines into the undisplaced
+/// surface, one after the other (Algorithm 2), displaces their vertices along the normals, smooths once,
+/// rebuilds the bending springs, and updates rest lengths and masses; options.rest says what of the rest
+/// state learns of the displacement. An unset rest length is the length as it is. Throws
+/// std::invalid_argument for an option out of its range and ContentError for a stroke that cannot be used;
+/// the mesh is then as it was. Cost: about O(faces log faces) for each stroke.
+/// \details A line with a width is raised by its profile (line_profile.h), along the angle-weighted normals,
+/// and not smoothed. Where several lines raise a vertex the highest ridge and the deepest valley count, and
+/// add up; lines without a width raise their own vertices alone. Presses change stored hinge stiffnesses
+/// only; where none is stored, hinge_presses() (line_press.h) gives the factors to the code that makes
+/// hinges. Sets attribute::line, line_edge, rest_length, bending_rest_length, bending_count, rest_angle and
+/// mass.
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options = {},
                       const StageObserver& observer = {});
 

@@ -7,7 +7,8 @@
 
 #include "geometry/mesh/mesh.h"
 
-/// Every map that stays on a mesh: its name, key, type, unit and the value of what nobody set.
+/// Every map that stays on a mesh: its name, key, type, unit and the value of what nobody set. What
+/// insertion, subdivision and PLY files do with each stands in attribute_register.h.
 /// CGAL 5.5 and 6 return different types from property_map(): only this file calls it.
 namespace furrow::geometry {
 

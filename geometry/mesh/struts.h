@@ -17,7 +17,8 @@ struct Strut {
 /// The struts of a mesh, sorted by (a, b), those of one pair in the order in which they were set; none where
 /// a vertex is not in the mesh any more. They stay with their vertices through insertion and flips;
 /// displacement carries their rest lengths along (apply_rest_rule); subdivision drops them. They name
-/// vertices by index: who removes vertices and collects the garbage has to set them anew; Furrow never does.
+/// vertices by index: code that removes vertices and collects the garbage has to set them anew. Furrow never
+/// does.
 std::vector<Strut> struts(const Mesh& mesh);
 
 /// Replaces all struts; none are left for an empty list. Copies of the mesh have them, too. Throws

@@ -32,15 +32,15 @@ struct BakedMaps {
 /// Called some hundred times with the share done; false: stop.
 using BakeObserver = std::function<bool(double share)>;
 
-/// What the surface of `high` is to that of `low`, as textures. A texel's place on both is found by their
-/// texture coordinates, which must agree (insertion and subdivision keep them): the displacement leads from
-/// the flat faces of `low` to those of `high`, the normal is the smooth one of `high`. The displacement is
-/// given in orthonormal(frame_inside(...)) of `low`; the normal in frame_inside(...) as it is, which is what
-/// MikkTSpace's users invert (tangent_frames.h), with +y along growing v ("OpenGL"). Beyond the charts'
-/// borders the first texel goes on affinely, so that interpolation between texels is right up to the border;
-/// the others repeat it. Nothing: the observer stopped it. Throws std::invalid_argument for an option;
-/// ContentError if a mesh has no texture coordinates or leaves the unit square, or if more than half of the
-/// covered texels are unmatched. O(texels).
+/// What the surface of `high` is to that of `low`, as textures: a texel's place on both is found by their
+/// texture coordinates, which must agree (insertion and subdivision keep them). The displacement leads from
+/// the flat faces of `low` to those of `high`, the normal is the smooth one of `high`. Nothing: the observer
+/// stopped it. Throws std::invalid_argument for an option; ContentError if a mesh has no texture coordinates
+/// or leaves the unit square, or if more than half of the covered texels are unmatched. O(texels).
+/// \details The displacement is given in orthonormal(frame_inside(...)) of `low`; the normal in
+/// frame_inside(...), not orthonormalised, which is what MikkTSpace's users invert (tangent_frames.h), with
+/// +y along growing v ("OpenGL"). Beyond the charts' borders the first texel goes on affinely, so that
+/// interpolation between texels is right up to the border; the others repeat it.
 std::optional<BakedMaps> bake_maps(const Mesh& low, const Mesh& high, const BakeOptions& options = {},
                                    const BakeObserver& observer = {});
 

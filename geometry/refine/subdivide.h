@@ -7,15 +7,13 @@
 namespace furrow::geometry {
 
 /// Loop subdivision, `steps` times: every triangle becomes four. Border vertices and edges follow the border
-/// curve only (1/8, 3/4, 1/8 and mid-points). Old vertices keep their indices; texture coordinates of
-/// corners, colours, rest positions, attributes and, along edges of lines (attribute::line_edge), the line
-/// are carried to the mid-points linearly; groups and materials go to the new faces. Halves of diagonals
-/// (attribute::diagonal) and the new edges parallel to one are diagonals. Rest lengths and angles, bending
-/// springs, stiffnesses and masses become unset, struts are dropped: the new shape is the rest shape. `steps`
-/// in [0, 6], and at most 50 million faces in the end. Removed elements are collected first. Throws
-/// std::invalid_argument for steps, ContentError for a face that is no triangle or a position that is not
-/// finite, the mesh untouched. Faces grow as 4^steps. Source: C. Loop, "Smooth subdivision surfaces based on
-/// triangles" (1987); masks of CGAL's Subdivision_method_3.
+/// curve only (1/8, 3/4, 1/8 and mid-points). Old vertices keep their indices; attributes follow their rules
+/// (attribute_register.h): the new shape is the rest shape, struts are dropped. `steps` in [0, 6], and at
+/// most 50 million faces in the end. Removed elements are collected first. Throws std::invalid_argument for
+/// steps, ContentError for a face that is no triangle or a position that is not finite, the mesh untouched.
+/// Faces grow as 4^steps. \details A mid-point on an edge of a line is a vertex of the line, if both ends
+/// are. Halves of diagonals (attribute::diagonal) and the new edges parallel to one are diagonals. Source: C.
+/// Loop, "Smooth subdivision surfaces based on triangles" (1987); masks of CGAL's Subdivision_method_3.
 void loop_subdivide(Mesh& mesh, int steps);
 
 /// Cuts every triangle into four at the mid-points of its edges, `steps` times: the surface stays what it

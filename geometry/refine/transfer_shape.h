@@ -16,15 +16,15 @@ struct TransferReport {
 };
 
 /// Brings the shape of a wrinkled, finer and perhaps simulated mesh back to the mesh that it was made of:
-/// moves the vertices of `original` and changes nothing else, so its topology, texture coordinates, groups
-/// and attributes stay exact. `wrinkled` knows by attribute::rest_position where each vertex came from. A
-/// vertex of the same index whose rest position is the original position (insertion only appends vertices) is
-/// copied. Any other (the mesh was subdivided first, or is another mesh of the same garment) goes to the
-/// closest point q of the rest surface, whose corners' wrinkled positions are interpolated; the offset of the
-/// vertex from q is turned with q's triangle. Where nothing moved, positions keep their bits; vertices
-/// without faces that are not copied stay. Throws std::invalid_argument for max_distance; ContentError,
-/// `original` unchanged, if `wrinkled` has no rest positions, or a vertex is farther than max_distance from
-/// the rest surface. O(n log n).
+/// moves the vertices of `original` and changes nothing else, so that topology and attributes stay exact.
+/// `wrinkled` knows by attribute::rest_position where each vertex came from. Where nothing moved, positions
+/// keep their bits. Throws std::invalid_argument for max_distance; ContentError, `original` unchanged, if
+/// `wrinkled` has no rest positions, or a vertex is farther than max_distance from the rest surface. O(n log
+/// n).
+/// \details A vertex of the same index whose rest position is the original position (insertion only appends
+/// vertices) is copied. Any other (the mesh was subdivided first, or is another mesh of the same garment)
+/// goes to the closest point q of the rest surface, whose corners' wrinkled positions are interpolated; the
+/// offset of the vertex from q is turned with q's triangle. Vertices without faces that are not copied stay.
 TransferReport transfer_shape(Mesh& original, const Mesh& wrinkled, const TransferOptions& options = {});
 
 }  // namespace furrow::geometry

@@ -183,12 +183,6 @@ std::vector<BendingSpring> bending_springs(const Mesh& mesh) {
   return springs;
 }
 
-std::size_t count_hinges_without_spring(const Mesh& mesh) {
-  std::size_t n = 0;
-  for (Edge e : mesh.edges()) n += !mesh.is_border(e) && !wants_spring(mesh, e);
-  return n;
-}
-
 void ensure_bending_springs(Mesh& mesh) {
   const bool known =
       find_map(mesh, attribute::bending_rest_length) && find_map(mesh, attribute::bending_count);

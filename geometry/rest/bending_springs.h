@@ -37,8 +37,4 @@ void rebuild_bending_springs(Mesh& mesh, std::span<const Face> changed);
 /// The springs that the maps hold, sorted by (a, b); none if the mesh has no such maps.
 std::vector<BendingSpring> bending_springs(const Mesh& mesh);
 
-/// How many pairs of faces (interior edges) have no spring of their own, because an edge joins the two
-/// vertices already or they are one vertex: the hinges that only a dihedral angle could resist.
-std::size_t count_hinges_without_spring(const Mesh& mesh);
-
 }  // namespace furrow::geometry

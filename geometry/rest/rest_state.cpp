@@ -104,10 +104,6 @@ RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule
   return report;
 }
 
-RestReport apply_drawn_rest(Mesh& mesh, const RestSnapshot& before) {
-  return apply_rest_rule(mesh, before, RestRule::drawn);
-}
-
 double rest_area(const Mesh& mesh) {
   require_triangles(mesh, "rest_area");
   const std::vector<double> lengths = rest_lengths(mesh);

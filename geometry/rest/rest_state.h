@@ -31,19 +31,16 @@ struct RestReport {
   std::size_t turned_hinges = 0;  ///< rest angles that were changed
 };
 
-/// After displacement and smoothing, rules drawn and copied: the rest length of every edge (also those of a
-/// face's own, attribute::triangle_rest_length), bending spring and strut with a vertex that has moved is
-/// multiplied by length after / length before, so that strain that was there is carried over; where an edge's
-/// rest length was unset, or the length before was 0, it becomes the length after. Rule copied: a rest angle
-/// (attribute::rest_angle, if there is one) grows by what the angle grew. All others keep their bits,
-/// stiffnesses too. Changes attribute::rest_length (added if missing), attribute::triangle_rest_length,
-/// attribute::bending_rest_length, struts and attribute::rest_angle. Rule flat: changes nothing. Throws
-/// std::invalid_argument, the mesh untouched, if the snapshot is of another connectivity; ContentError if a
-/// position is not finite. O(vertices + edges).
+/// What the rest state learns of displacement and smoothing. Rule flat: nothing. Rules drawn and copied:
+/// every rest length of an edge, a face's own edge, a bending spring or a strut with a vertex that has moved
+/// is multiplied by length after / length before, so that strain is carried over. Rule copied: a rest angle
+/// grows by what the angle grew. All others keep their bits, stiffnesses too. Throws std::invalid_argument,
+/// the mesh untouched, if the snapshot is of another connectivity; ContentError if a position is not finite.
+/// O(vertices + edges).
+/// \details Changes attribute::rest_length (added if missing), attribute::triangle_rest_length,
+/// attribute::bending_rest_length, struts and attribute::rest_angle (if there is one). Where an edge's rest
+/// length was unset, or the length before was 0, it becomes the length after.
 RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule);
-
-/// apply_rest_rule(mesh, before, RestRule::drawn).
-RestReport apply_drawn_rest(Mesh& mesh, const RestSnapshot& before);
 
 /// Sum of the areas of the faces at rest [m^2] (Heron's formula on the rest lengths, the present length where
 /// unset; 0 for a face that breaks the triangle inequality).

@@ -15,15 +15,16 @@ struct TextureChoice {
   std::optional<Point> near;  ///< the face nearest to this point [m]
 };
 
-/// Lays a stroke that was drawn in texture space (attribute::texture) onto the surface. A chart is a set of
-/// faces joined by edges across which the texture coordinates agree. From point to point the stroke runs
-/// straight in the texture. Where it comes to a seam (an edge between two charts) it goes on from the same
-/// place of the seam on the other chart, if the next point lies there; else it ends there and starts anew (a
-/// warning). Among several faces at a point the first point takes the one in `choice`, else that of the
-/// lowest index (a warning if they lie apart); later points stay on the chart of the one before where they
-/// can. `closed`: the last point is joined to the first. Throws ContentError, naming stroke and point, if a
-/// point lies in no face's texture triangle or is not finite, or the mesh has no texture coordinates.
-/// `max_distance` is that of the trace that follows [m] (placed_stroke.h). Cost: O(faces) for each point.
+/// Lays a stroke that was drawn in texture space (attribute::texture) onto the surface. From point to point
+/// it runs straight in the texture; across a seam it goes on from the same place on the other chart.
+/// `closed`: the last point is joined to the first. `max_distance` is that of the trace that follows [m]
+/// (placed_stroke.h). Throws ContentError, naming stroke and point, if a point lies in no face's texture
+/// triangle or is not finite, or the mesh has no texture coordinates. Cost: O(faces) for each point.
+/// \details A chart is a set of faces joined by edges across which the texture coordinates agree, a seam an
+/// edge between two charts. If the next point does not lie on the other chart, the stroke ends at the seam
+/// and starts anew (a warning). Among several faces at a point the first point takes the one in `choice`,
+/// else that of the lowest index (a warning if they lie apart); later points stay on the chart of the one
+/// before where they can.
 PlacedStroke place_texture_stroke(const Mesh& mesh, std::span<const TextureCoordinate> points, bool closed,
                                   const TextureChoice& choice, const std::string& stroke_name,
                                   double max_distance = TraceOptions{}.max_distance);

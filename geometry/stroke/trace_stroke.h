@@ -49,13 +49,13 @@ struct TraceOptions {
 
 /// Finds the faces that a stroke crosses, in order (method S1.2). The points are projected to the closest
 /// point, or along Stroke::direction to the first face that faces them; faces between are walked along the
-/// plane through two hits and their mean normal, so that none is missed. A step never leaps to another layer:
-/// where the walk to a hit is longer than 3 |AB| + 4 h, the closest point that is connected nearby takes its
-/// place, and if there is none the stroke breaks (a warning). It also breaks where it leaves the cloth:
-/// points more than h/2 beyond the border. A node lies at the mean of the barycentrics of the samples in the
-/// face, else at the mid-point of the part inside. Throws ContentError, naming stroke and point, if a point
-/// is not finite, misses the surface or is farther than max_distance, or if no point lies on cloth;
-/// std::invalid_argument if an option is out of range.
+/// plane through two hits and their mean normal, so that none is missed. Throws ContentError, naming stroke
+/// and point, if a point is not finite, misses the surface or is farther than max_distance, or if no point
+/// lies on cloth; std::invalid_argument if an option is out of range.
+/// \details A step never leaps to another layer: where the walk to a hit is longer than 3 |AB| + 4 h, the
+/// closest point that is connected nearby takes its place, and if there is none the stroke breaks (a
+/// warning). It also breaks where it leaves the cloth: at points more than h/2 beyond the border. A node lies
+/// at the mean of the barycentrics of the samples in the face, else at the mid-point of the part inside.
 TracedStroke trace_stroke(const Mesh& mesh, const SurfaceProjector& projector, const Stroke& stroke,
                           const TraceOptions& options);
 

@@ -57,6 +57,18 @@ std::vector<Face> change_somewhere(Mesh& mesh) {
   return {mesh.face(h), mesh.face(o)};
 }
 
+/// Interior edges whose two opposite vertices are joined already, or are one vertex: they get no spring.
+std::size_t count_hinges_without_spring(const Mesh& mesh) {
+  std::size_t n = 0;
+  for (Edge e : mesh.edges()) {
+    if (mesh.is_border(e)) continue;
+    const Halfedge h = mesh.halfedge(e);
+    const Vertex a = mesh.target(mesh.next(h)), b = mesh.target(mesh.next(mesh.opposite(h)));
+    n += a == b || mesh.halfedge(a, b).is_valid();
+  }
+  return n;
+}
+
 }  // namespace
 
 TEST_CASE("bending_springs: there is one for each interior edge, except where an edge or another spring is") {

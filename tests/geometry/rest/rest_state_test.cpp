@@ -42,7 +42,7 @@ TEST_CASE("rest_state: the drawn rest state carries the strain over and leaves e
   const RestSnapshot snapshot = take_rest_snapshot(mesh);
   const Vertex lifted(24);
   displace_line(mesh, std::vector{Displacement{lifted, {0, 0, 1}, 0.1}});
-  const RestReport report = apply_drawn_rest(mesh, snapshot);
+  const RestReport report = apply_rest_rule(mesh, snapshot, RestRule::drawn);
   CHECK(report.scaled_edges == 6);
   CHECK(report.scaled_bending_springs == 6);
   const auto rest = *find_map(mesh, attribute::rest_length), old = *find_map(before, attribute::rest_length);
@@ -68,7 +68,7 @@ TEST_CASE("rest_state: the flat rest state changes nothing, neither does a line 
   Mesh mesh = strained_sheet();
   const double area = rest_area(mesh);
   const RestSnapshot snapshot = take_rest_snapshot(mesh);
-  CHECK(apply_drawn_rest(mesh, snapshot).scaled_edges == 0);
+  CHECK(apply_rest_rule(mesh, snapshot, RestRule::drawn).scaled_edges == 0);
   mesh.point(Vertex(24)) = Point(0.5, 0.5, 0.3);
   CHECK(apply_rest_rule(mesh, snapshot, RestRule::flat).scaled_edges == 0);
   CHECK(rest_area(mesh) == area);
@@ -104,7 +104,7 @@ TEST_CASE(
   mesh.point(Vertex(5)) = mesh.point(Vertex(6));
   const RestSnapshot snapshot = take_rest_snapshot(mesh);
   mesh.point(Vertex(5)) = Point(0.3, 0.35, 0.2);
-  apply_drawn_rest(mesh, snapshot);
+  apply_rest_rule(mesh, snapshot, RestRule::drawn);
   const auto rest = *find_map(mesh, attribute::rest_length);
   for (Edge e : mesh.edges())
     if (mesh.vertex(e, 0) == Vertex(5) || mesh.vertex(e, 1) == Vertex(5))
@@ -123,9 +123,10 @@ TEST_CASE("rest_area: it sums Heron areas of the rest lengths") {
 
 TEST_CASE("apply_rest_rule: it refuses a snapshot of another mesh, and positions that are not finite") {
   Mesh mesh = grid(2, 2);
-  CHECK_THROWS_AS(apply_drawn_rest(mesh, take_rest_snapshot(grid(3, 2))), std::invalid_argument);
+  CHECK_THROWS_AS(apply_rest_rule(mesh, take_rest_snapshot(grid(3, 2)), RestRule::drawn),
+                  std::invalid_argument);
   const RestSnapshot snapshot = take_rest_snapshot(mesh);
   mesh.point(Vertex(4)) = Point(0, std::numeric_limits<double>::infinity(), 0);
-  CHECK_THROWS_AS(apply_drawn_rest(mesh, snapshot), ContentError);
+  CHECK_THROWS_AS(apply_rest_rule(mesh, snapshot, RestRule::drawn), ContentError);
   CHECK_FALSE(find_map(mesh, attribute::rest_length));
 }
