@@ -7,7 +7,7 @@
 #include "cli/exit_codes.h"
 #include "cli/scene_settings.h"
 #include "cli/subcommands.h"
-#include "jobs/judge_report.h"
+#include "jobs/report/judge_report.h"
 
 namespace furrow::cli {
 namespace {

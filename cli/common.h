@@ -7,9 +7,8 @@
 #include <string>
 
 #include "io/mesh/mesh_file.h"
-#include "jobs/context.h"
-#include "jobs/mesh_input.h"
-#include "jobs/output_checks.h"
+#include "jobs/inputs.h"
+#include "jobs/run/output_checks.h"
 
 /// What the subcommands share: units, reports, progress, interruption, exit codes.
 namespace furrow::cli {

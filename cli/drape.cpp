@@ -9,7 +9,7 @@
 #include "cli/scene_settings.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
-#include "jobs/fit_picture.h"
+#include "jobs/report/fit_picture.h"
 
 namespace furrow::cli {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "jobs/judge.h"
+#include "jobs/judge/judge.h"
 
 /// What reports mean to whom calls the program, and numbers that several subcommands take.
 namespace furrow::cli {

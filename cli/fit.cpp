@@ -7,7 +7,7 @@
 #include "cli/camera_options.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
-#include "jobs/fit_picture.h"
+#include "jobs/report/fit_picture.h"
 
 namespace furrow::cli {
 namespace {

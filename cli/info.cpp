@@ -7,7 +7,7 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/self_intersections.h"
 #include "io/mesh/wrinkle_record.h"
-#include "jobs/measure_shape.h"
+#include "jobs/run/measure_shape.h"
 
 namespace furrow::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/scene_settings.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
-#include "jobs/verdict_scene.h"
+#include "jobs/report/verdict_scene.h"
 
 namespace furrow::cli {
 namespace {

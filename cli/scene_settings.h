@@ -3,7 +3,7 @@
 #include "cli/common.h"
 #include "cli/scene_flags.h"
 #include "io/scene/state_file.h"
-#include "jobs/scene_input.h"
+#include "jobs/inputs.h"
 
 /// What the command line makes of a scene: what `simulate`, `keep`, `drape` and `chart` share.
 namespace furrow::cli {

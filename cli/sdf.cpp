@@ -7,7 +7,7 @@
 #include "cli/subcommands.h"
 #include "io/picture/render_slice.h"
 #include "io/scene/field_file.h"
-#include "jobs/body.h"
+#include "jobs/run/body.h"
 
 namespace furrow::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "cli/scene_settings.h"
 #include "cli/subcommands.h"
 #include "io/scene/equivalent_flags.h"
-#include "jobs/judge_report.h"
+#include "jobs/report/judge_report.h"
 
 namespace furrow::cli {
 namespace {

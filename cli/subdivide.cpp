@@ -12,7 +12,7 @@
 #include "geometry/rest/bending_springs.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
-#include "jobs/wrinkle_reports.h"
+#include "jobs/report/wrinkle_reports.h"
 
 namespace furrow::cli {
 namespace {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/recorded_material.h"
 #include "jobs/wrinkle.h"
 
 #include <memory>
@@ -9,7 +8,8 @@
 #include "cli/wrinkle_drawing.h"
 #include "io/picture/png_file.h"
 #include "io/scene/relocated.h"
-#include "jobs/wrinkle_reports.h"
+#include "jobs/report/wrinkle_reports.h"
+#include "jobs/run/recorded_material.h"
 
 namespace furrow::cli {
 namespace {

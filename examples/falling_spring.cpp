@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The physics alone, which is MIT and needs only Eigen and METIS: two particles and a spring fall as Galileo says.
+// The physics alone, which is MIT and needs only Eigen and METIS: two particles and a spring fall as Galileo
+// says.
 #include <cmath>
 
 #include "furrow/version.h"

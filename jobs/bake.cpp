@@ -10,7 +10,7 @@
 #include "geometry/refine/surface_deviation.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "io/picture/baked_maps.h"
-#include "jobs/output_checks.h"
+#include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/refine/bake_maps.h"
-#include "jobs/mesh_input.h"
+#include "jobs/inputs.h"
 
 namespace furrow::jobs {
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "io/animation/animation_file.h"
-#include "jobs/drape_garment.h"
-#include "jobs/drape_remarks.h"
-#include "jobs/output_checks.h"
-#include "jobs/recorded_material.h"
+#include "jobs/report/drape_remarks.h"
+#include "jobs/run/drape_garment.h"
+#include "jobs/run/output_checks.h"
+#include "jobs/run/recorded_material.h"
 
 namespace furrow::jobs {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "bridge/drape.h"
 #include "bridge/fit_report.h"
-#include "jobs/scene_input.h"
+#include "jobs/inputs.h"
 
 namespace furrow::jobs {
 

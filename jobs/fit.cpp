@@ -7,9 +7,9 @@
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
-#include "jobs/body.h"
-#include "jobs/fit_picture.h"
-#include "jobs/output_checks.h"
+#include "jobs/report/fit_picture.h"
+#include "jobs/run/body.h"
+#include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {
 namespace {

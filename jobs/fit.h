@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bridge/fit_report.h"
-#include "jobs/mesh_input.h"
+#include "jobs/inputs.h"
 
 namespace furrow::jobs {
 

@@ -2,11 +2,35 @@
 #pragma once
 #include <optional>
 
+#include "bridge/keep_lines.h"
+#include "bridge/keep_shape.h"
+#include "io/mesh/wrinkle_record.h"
 #include "io/scene/state_file.h"
-#include "jobs/keep_report.h"
-#include "jobs/scene_input.h"
+#include "jobs/inputs.h"
 
 namespace furrow::jobs {
+
+/// What jobs::keep() did.
+struct KeepReport {
+  bool ran = false;                    ///< false: it was cancelled before there were lines to keep
+  bridge::KeepReport lines;            ///< verdicts, rest state, certificate
+  io::WrinkleRecord record;            ///< of the garment as drawn: names of lines
+  io::MeshFile garment;                ///< with its new rest state [m], y up
+  std::filesystem::path mesh;          ///< the settings' output; "-": not written
+  Frame frame;                         ///< of the files written
+  std::vector<Warning> warnings = {};  ///< about the result; those on the way went to the listener
+
+  /// Whether every line holds, perhaps with help.
+  bool all_hold() const;
+};
+
+/// "held", "held with press x10", "held with struts of 3 N/m", "held at h = 4.2 mm", or "cannot hold, because
+/// ...".
+std::string words(const bridge::KeptLine& line);
+
+/// A rest state's balance and stability.
+Json to_json(const bridge::KeptShape& kept);
+Json to_json(const KeepReport& report);
 
 /// A garment whose lines are to be kept: of a scene, or of a saved state.
 struct KeepJob {

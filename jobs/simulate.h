@@ -1,12 +1,83 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "io/scene/state_file.h"
-#include "jobs/scene_input.h"
-#include "jobs/simulate_report.h"
+#include "jobs/chart.h"
+#include "jobs/inputs.h"
+#include "jobs/wrinkle.h"
+#include "physics/body/exact_distance.h"
+#include "physics/motion/simulate.h"
 
 namespace furrow::jobs {
+
+/// An animation that was written.
+struct AnimationReport {
+  std::filesystem::path file;
+  double start = 0;  ///< time of the first frame [s]
+  double fps = 25;   ///< [1/s]
+  std::size_t frames = 0;
+};
+
+/// A border loop as it lies.
+struct BorderReport {
+  double rest_length, length;       ///< [m]
+  double mean_height, mean_radius;  ///< horizontal radius [m]
+  int radius_maxima;                ///< folds
+};
+
+/// A line's height against what it was.
+struct LineReport {
+  std::size_t id = 0;
+  std::optional<std::string> name;     ///< name and drawn height: none where the garment notes no such line
+  std::optional<double> drawn_height;  ///< [m]
+  std::optional<double> width;         ///< [m]; none: it has none
+  double smoothed_height = 0;          ///< after it was drawn, or at the run's start [m]
+  double height = 0;                   ///< now [m]
+  std::optional<double> kept;  ///< height over smoothed_height [-]; none: it has no height of its own to keep
+};
+
+/// What the cloth does to the body, and it to the cloth.
+struct ContactReport {
+  double gap = 0;  ///< that was kept [m]
+  physics::Penetration inside;
+};
+
+/// A garment as a simulation left it.
+struct ReachedShape {
+  physics::Vec3 centre{0, 0, 0};         ///< of mass [m]
+  std::optional<ContactReport> contact;  ///< none: there is no body
+  std::size_t self_intersections = 0;
+  std::vector<BorderReport> borders;  ///< longest first
+  std::vector<LineReport> lines;
+};
+
+/// What jobs::simulate() did.
+struct SimulateReport {
+  std::string title;                      ///< of the scene
+  std::optional<Judgement> choice;        ///< of integrator and step, where a tolerance was asked for
+  bool scene_dt = false;                  ///< the settings named a step before the choice
+  bool ran = false;                       ///< false: nothing meets the tolerance; what follows is empty
+  physics::SimulateReport run;            ///< of the whole run; its outcome
+  std::optional<ReachedShape> shape;      ///< none: it diverged
+  std::optional<bridge::KeptShape> kept;  ///< at time 0
+  std::vector<DrawnRound> rounds;
+  std::vector<AnimationReport> animations;  ///< written
+  std::vector<Warning> warnings;            ///< about the result; those on the way went to the listener
+  std::string failure;                      ///< of a run that diverged: why, and what helps; else ""
+  io::MeshFile garment;                     ///< at the end [m], y up; not of a run that diverged
+  Frame frame;                              ///< of the files written
+  Json settings;                            ///< that were run, paths relative to the working directory
+  std::string state;                        ///< that was gone on from: its path, and its settings
+  Json settings_before;
+};
+
+/// The report for programs, and what the command line prints. (Its equivalent flags are the command line's.)
+Json to_json(const SimulateReport& report);
+Json to_json(const std::vector<BorderReport>& borders);
 
 /// A scene to be run from its beginning, or from a saved state on.
 struct SimulateJob {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "geometry/refine/transfer_shape.h"
-#include "jobs/mesh_input.h"
+#include "jobs/inputs.h"
 
 namespace furrow::jobs {
 

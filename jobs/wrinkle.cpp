@@ -8,14 +8,14 @@
 #include "io/scene/relocated.h"
 #include "io/scene/scene_file.h"
 #include "io/stroke/stroke_file.h"
-#include "jobs/keep_at_rest.h"
-#include "jobs/line_round.h"
-#include "jobs/max_weights.h"
-#include "jobs/output_checks.h"
-#include "jobs/pins.h"
-#include "jobs/prepare_garment.h"
-#include "jobs/recorded_material.h"
-#include "jobs/wrinkle_reports.h"
+#include "jobs/report/wrinkle_reports.h"
+#include "jobs/run/keep_at_rest.h"
+#include "jobs/run/line_round.h"
+#include "jobs/run/max_weights.h"
+#include "jobs/run/output_checks.h"
+#include "jobs/run/pins.h"
+#include "jobs/run/prepare_garment.h"
+#include "jobs/run/recorded_material.h"
 
 namespace furrow::jobs {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/mesh_input.h"
-
 #include <catch2/catch.hpp>
 
 #include "geometry/mesh/errors.h"
 #include "io/mesh/wrinkle_record.h"
+#include "jobs/inputs.h"
 #include "tests/jobs/recorder.h"
 
 using namespace furrow;

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/report/drape_remarks.h"
+
+#include <sstream>
+
+#include "jobs/fit.h"
+
+namespace furrow::jobs {
+namespace {
+
+std::string words_of_piercing(const bridge::FitReport& fit) {
+  const double deepest = fit.distance.deepest_penetration;
+  const auto faces = fit.piercing.faces;
+  return "the body comes through " + std::to_string(faces) + (faces == 1 ? " face, by " : " faces, by ") +
+         (deepest < 5e-5 ? "less than 0.1 mm" : "up to " + millimetres(deepest));
+}
+
+/// What the body does to the cloth that has come to rest on it.
+void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  const bridge::FitReport& fit = d.fit;
+  const auto faces = fit.piercing.faces;
+  const std::string through = words_of_piercing(fit);
+  if (d.is_pierced())
+    remarks.push_back(
+        {true,
+         {"pierced",
+          d.name + ": " +
+              (faces ? through
+                     : "lies inside the body, by up to " + millimetres(fit.distance.deepest_penetration)) +
+              "; look at where the garment lies before it is draped (and at --unit), refine it with "
+              "--subdivide, or accept it with --penetration",
+          d.name, "garment.subdivide"}});
+  else if (faces)
+    remarks.push_back(
+        {false,
+         {"body_comes_through", d.name + ": " + through + "; --subdivide lets coarse cloth lie closer",
+          d.name, "garment.subdivide"}});
+  if (d.too_near)
+    remarks.push_back(
+        {false,
+         {"gap_not_kept",
+          d.name + ": " + std::to_string(d.too_near) + " vertices are nearer to the body than the gap of " +
+              millimetres(d.gap) + ", down to " + millimetres(fit.distance.min) +
+              "; the cloth is too tight for it there, or the body leaves no room; choose a smaller --gap",
+          d.name, "material.gap"}});
+}
+
+void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  const physics::SettleReport& last = d.report.levels.back().settle;
+  if (last.touching == 0)
+    remarks.push_back({false,
+                       {"touches_nothing",
+                        d.name + ": never came to lie on the body, which is " +
+                            std::to_string(d.fit.body_high - d.fit.body_low) +
+                            " m tall; look at where the two are, and at --unit, which is that of both files",
+                        d.name, "unit"}});
+  if (d.falls) {
+    remarks.push_back(
+        {true,
+         {"falls",
+          d.name + ": falls, as neither the body nor a pin carries it; put it where it is to be worn", d.name,
+          "pins"}});
+    return;
+  }
+  std::ostringstream text;
+  text << d.name << ": not at rest after " << last.iterations << " iterations, residual force "
+       << last.residual << " of a vertex's weight, cloth " << 1000 * last.deepest
+       << " mm deep in the gap; give more with --iterations, or accept it with --residual";
+  remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
+}
+
+Json to_json(const bridge::DrapeLevel& level) {
+  return {{"vertices", level.vertices},
+          {"pushed_out", level.pushed.moved},
+          {"farthest_push", level.pushed.farthest},
+          {"still_nearer", level.pushed.still_inside},
+          {"iterations", level.settle.iterations},
+          {"factorisations", level.settle.factorisations},
+          {"residual", level.settle.residual}};
+}
+
+Json to_json(const Draped& d) {
+  const bridge::DrapeLevel& last = d.report.levels.back();
+  Json levels = Json::array();
+  for (const bridge::DrapeLevel& level : d.report.levels) levels.push_back(to_json(level));
+  Json json{{"garment", d.name},
+            {"outcome", d.outcome()},
+            {"converged", d.rests()},
+            {"residual_force", last.settle.residual},
+            {"touching", last.settle.touching},
+            {"contact_depth", last.settle.deepest},
+            {"gap", d.gap},
+            {"seconds", d.seconds},
+            {"levels", levels},
+            {"friction_rounds", d.report.friction_rounds},
+            {"slip", d.report.slip}};
+  json["fit"] = jobs::to_json(d.fit, d.fit_options);
+  return json;
+}
+
+}  // namespace
+
+std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
+  std::vector<DrapeRemark> remarks;
+  for (const Draped& d : garments) {
+    if (d.report.stopped) break;
+    remark_on_contact(d, remarks);
+    if (!d.rests()) remark_on_unrest(d, remarks);
+  }
+  return remarks;
+}
+
+std::string Draped::outcome() const {
+  if (report.stopped) return "interrupted";
+  const std::string rest = falls ? "falls" : rests() ? "at rest" : "not at rest";
+  return rest + (is_pierced() ? ", pierced by the body" : "");
+}
+
+Json to_json(const DrapeJobReport& report) {
+  if (report.garments.size() == 1) return to_json(report.garments[0]);
+  Json garments = Json::array();
+  for (const Draped& d : report.garments) garments.push_back(to_json(d));
+  return {{"garments", garments}};
+}
+
+}  // namespace furrow::jobs

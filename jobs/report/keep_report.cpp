@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "jobs/keep.h"
+
+namespace furrow::jobs {
+namespace {
+
+using bridge::KeptLine;
+using bridge::Verdict;
+
+/// A height or a share of it; null where it is not known.
+Json share(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::held:
+      return "held";
+    case Verdict::pressed:
+      return "held with press";
+    case Verdict::strutted:
+      return "held with struts";
+    case Verdict::lowered:
+      return "held lower";
+    case Verdict::cannot_hold:
+      return "cannot hold";
+  }
+  return "";
+}
+
+std::string help_of(const KeptLine& line) {
+  std::string text;
+  if (line.press > 1) text += fmt::format("press x{:g}", line.press);
+  if (line.struts > 0) text += fmt::format("{}struts of {:g} N/m", text.empty() ? "" : " and ", line.struts);
+  return text;
+}
+
+Json to_json(const KeptLine& line, const io::WrinkleRecord& record) {
+  Json json{{"id", line.line}};
+  if (std::size_t(line.line) < record.lines.size()) json["name"] = record.lines[line.line].name;
+  json.update({{"verdict", name_of(line.verdict)},
+               {"height", share(line.height)},
+               {"kept", share(line.kept)},
+               {"kept_after_gust", share(line.kept_gust)},
+               {"press", line.press},
+               {"struts", line.struts},
+               {"lowered", line.lowered},
+               {"words", words(line)}});
+  return json;
+}
+
+/// A rest state's balance and stability.
+Json to_json(const physics::PrestressReport& rest, const physics::Certificate& certificate) {
+  Json imbalance = Json::array();
+  for (const physics::RigidImbalance& i : rest.imbalance)
+    imbalance.push_back({{"vertices", i.piece.size()},
+                         {"freedoms", i.freedoms},
+                         {"axis", {i.axis.x(), i.axis.y(), i.axis.z()}},
+                         {"point", {i.point.x(), i.point.y(), i.point.z()}},
+                         {"acceleration", i.largest}});
+  Json json{{"residual", certificate.residual},
+            {"stable", certificate.stable()},
+            {"negative_eigenvalues", certificate.negative_eigenvalues},
+            {"frequency", certificate.frequency},
+            {"max_strain", rest.max_strain},
+            {"max_angle", rest.max_angle},
+            {"bounds_active", rest.active_bounds()},
+            {"touching", rest.touching.size()}};
+  if (!imbalance.empty()) json["imbalance"] = imbalance;
+  return json;
+}
+
+}  // namespace
+
+bool KeepReport::all_hold() const {
+  return std::all_of(lines.lines.begin(), lines.lines.end(),
+                     [](const KeptLine& l) { return l.verdict != Verdict::cannot_hold; });
+}
+
+std::string words(const KeptLine& line) {
+  const std::string help = help_of(line);
+  switch (line.verdict) {
+    case Verdict::held:
+      return "held";
+    case Verdict::pressed:
+    case Verdict::strutted:
+      return "held with " + help;
+    case Verdict::lowered:
+      return fmt::format("held at h = {:.3g} mm{}", 1e3 * line.height, help.empty() ? "" : " with " + help);
+    case Verdict::cannot_hold:
+      break;
+  }
+  return "cannot hold" + (help.empty() ? "" : ", also with " + help) + ": " + line.reason;
+}
+
+Json to_json(const bridge::KeptShape& kept) {
+  Json json = to_json(kept.rest, kept.certificate);
+  if (kept.turned > 0) json["turned"] = kept.turned;
+  if (kept.pushed.moved > 0)
+    json["pushed_out"] = {{"vertices", kept.pushed.moved}, {"farthest", kept.pushed.farthest}};
+  return json;
+}
+
+Json to_json(const KeepReport& report) {
+  const bridge::KeepReport& r = report.lines;
+  Json lines = Json::array();
+  for (const KeptLine& line : r.lines) lines.push_back(to_json(line, report.record));
+  Json json{{"lines", lines}};
+  json.update(to_json(r.rest, r.certificate));
+  json.update({{"drift", r.drift}, {"trials", r.trials}, {"runs", r.runs}});
+  if (r.rest_press > 1)
+    json["rest_of_garment"] = {{"press", r.rest_press},
+                               {"words", fmt::format("pressed x{:g} between the lines", r.rest_press)}};
+  if (r.turned > 0) json["turned"] = r.turned;
+  if (r.pushed_out > 0) json["pushed_out"] = {{"vertices", r.pushed_out}, {"farthest", r.farthest_push}};
+  return json;
+}
+
+}  // namespace furrow::jobs

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/keep.h"
+#include "jobs/report/judge_report.h"
+#include "jobs/report/wrinkle_reports.h"
+#include "jobs/simulate.h"
+
+namespace furrow::jobs {
+namespace {
+
+using jobs::to_json;  // beside those that follow
+
+const char* name_of(physics::Outcome outcome) {
+  switch (outcome) {
+    case physics::Outcome::finished:
+      return "finished";
+    case physics::Outcome::diverged:
+      return "diverged";
+    case physics::Outcome::stopped_at:
+      return "stopped";
+    case physics::Outcome::stopped_by_observer:
+      return "interrupted";
+  }
+  return "";
+}
+
+Json to_json(const physics::SimulateReport& r) {
+  return {{"outcome", name_of(r.outcome)},
+          {"time", r.time},
+          {"steps", r.steps},
+          {"dt", r.dt},
+          {"dt_limit", r.dt_limit},
+          {"seconds", r.seconds},
+          {"cpu_seconds", r.cpu_seconds},
+          {"force_evaluations", r.force_evaluations},
+          {"spring_evaluations", r.spring_evaluations},
+          {"triangle_evaluations", r.triangle_evaluations},
+          {"hinge_evaluations", r.hinge_evaluations},
+          {"collider_queries", r.collider_queries},
+          {"linear_solves", r.linear_solves},
+          {"factorisations", r.factorisations},
+          {"iterations", r.iterations},
+          {"strain", {{"max", r.strain.max}, {"p99", r.strain.p99}, {"mean", r.strain.mean}}},
+          {"kinetic_energy", r.kinetic_energy},
+          {"residual_force", r.residual_force}};
+}
+
+Json to_json(const LineReport& r) {
+  Json line{{"id", r.id}};
+  if (r.name) line["name"] = *r.name;
+  if (r.drawn_height) line["drawn_height"] = *r.drawn_height;
+  if (r.width) line["width"] = *r.width;
+  line["smoothed_height"] = r.smoothed_height;
+  line["height"] = r.height;
+  line["kept"] = r.kept ? Json(*r.kept) : Json();
+  return line;
+}
+
+Json to_json(const ReachedShape& shape, const physics::SimulateReport& run) {
+  Json json{{"centre", {shape.centre.x(), shape.centre.y(), shape.centre.z()}}};
+  if (shape.contact) {
+    json["contact_gap"] = shape.contact->gap;
+    json["contacts"] = run.contacts;
+    json["vertices_inside"] = shape.contact->inside.inside;
+    json["deepest_penetration"] = shape.contact->inside.deepest;
+    json["truncated_moves"] = run.truncated_moves;
+    if (run.frames_built) json["body_frames"] = {{"built", run.frames_built}, {"seconds", run.frame_seconds}};
+  }
+  json["self_intersections"] = shape.self_intersections;
+  json["borders"] = to_json(shape.borders);
+  json["lines"] = Json::array();
+  for (const LineReport& line : shape.lines) json["lines"].push_back(to_json(line));
+  return json;
+}
+
+Json to_json(const AnimationReport& r) {
+  return {{"file", r.file.string()}, {"start", r.start}, {"fps", r.fps}, {"frames", r.frames}};
+}
+
+}  // namespace
+
+Json to_json(const std::vector<BorderReport>& borders) {
+  Json loops = Json::array();
+  for (const BorderReport& border : borders)
+    loops.push_back({{"rest_length", border.rest_length},
+                     {"length", border.length},
+                     {"mean_height", border.mean_height},
+                     {"mean_radius", border.mean_radius},
+                     {"radius_maxima", border.radius_maxima}});
+  return loops;
+}
+
+Json to_json(const SimulateReport& r) {
+  Json json = Json::object();
+  if (!r.title.empty()) json["title"] = r.title;
+  json.update(to_json(r.run));
+  if (r.shape) json.update(to_json(*r.shape, r.run));
+  if (r.kept) json["kept"] = to_json(*r.kept);
+  for (const DrawnRound& round : r.rounds) json["rounds"].push_back(to_json(round));
+  for (const AnimationReport& animation : r.animations) json["animations"].push_back(to_json(animation));
+  if (r.choice) json["choice"] = to_json(*r.choice, r.scene_dt);
+  return json;
+}
+
+}  // namespace furrow::jobs

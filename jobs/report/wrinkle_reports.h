@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "bridge/draw_more.h"
+#include "geometry/fold/wrinkle.h"
+#include "geometry/insert/audit_rest_metric.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/picture/render.h"
+#include "jobs/inputs.h"
+#include "jobs/wrinkle.h"
+
+namespace furrow::jobs {
+
+/// What an insertion did and what the rest metric is after it, as `subdivide` and `wrinkle` report it.
+Json to_json(const geometry::InsertionReport& report, const geometry::Mesh& mesh);
+Json to_json(const geometry::InsertionReport& report, const geometry::RestMetricAudit& rest);
+/// `first_line` is the id of the first line.
+Json to_json(const geometry::WrinkleReport& report, const geometry::Mesh& mesh, int first_line);
+Json to_json(const geometry::WrinkleReport& report, const geometry::RestMetricAudit& rest, int first_line);
+
+/// What drawing into a cloth in motion did to it, at a time [s].
+Json to_json(const bridge::DrawMoreReport& report, double time);
+
+/// A round of lines, with what drawing it in motion and keeping its shape did.
+Json to_json(const DrawnRound& round);
+
+/// The mesh with its vertices inserted as a picture, before anything is displaced. The report has stages.
+io::RenderScene preview_scene(const WrinkleReport& report);
+/// The garment as it was after insertion and before smoothing. The report has stages.
+io::MeshFile inserted_garment(const WrinkleReport& report);
+
+/// The first id above those of the lines that a mesh has.
+int next_line(const geometry::Mesh& mesh);
+
+}  // namespace furrow::jobs

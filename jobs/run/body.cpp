@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/run/body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <span>
+#include <sstream>
+#include <thread>
+
+#include "bridge/body.h"
+#include "bridge/convert.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/rest/rest_metric.h"
+#include "io/base/bytes_file.h"
+#include "io/mesh/wrinkle_record.h"
+#include "io/scene/field_file.h"
+#include "physics/body/compare_colliders.h"
+#include "physics/body/depth_map_collider.h"
+#include "physics/body/posed_collider.h"
+#include "physics/contact/contact.h"
+#include "physics/motion/simulate.h"
+
+namespace furrow::jobs {
+namespace {
+
+void tell_repairs(const std::string& path, const geometry::BodyReport& r, const Context& context) {
+  const auto tell = [&](const char* code, std::size_t n, const std::string& thing, const char* done) {
+    if (n)
+      context.warn(code, path + ": " + std::to_string(n) + " " + thing + (n > 1 ? "s" : "") + done, path);
+  };
+  tell("body_holes_filled", r.filled_holes, "hole", " of the body filled");
+  tell("body_faces_dropped", r.dropped_faces, "face", " of the body dropped");
+  tell("body_faces_turned", r.reversed_faces, "face", " of the body turned outwards");
+}
+
+/// More than a millionth of its box' diagonal to the third.
+bool has_volume(const physics::TriangleMesh& body) {
+  double volume = 0;
+  const physics::Vec3 origin = body.vertices.empty() ? physics::Vec3(0, 0, 0) : body.vertices[0];
+  const auto from_origin = [&](int i) -> physics::Vec3 { return body.vertices[std::size_t(i)] - origin; };
+  for (const auto& t : body.triangles)
+    volume += from_origin(t[0]).dot(from_origin(t[1]).cross(from_origin(t[2]))) / 6;
+  return std::abs(volume) > 1e-6 * std::pow(box_of(body.vertices).diagonal().norm(), 3);
+}
+
+physics::DistanceFieldOptions threaded(physics::DistanceFieldOptions options) {
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return options;
+}
+
+physics::DepthMapOptions six_maps() {
+  physics::DepthMapOptions options;
+  options.maps = physics::DepthMaps::six;
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return options;
+}
+
+std::string fingerprint_of(const std::vector<physics::Vec3>& vertices, double tolerance) {
+  std::string bytes(reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof(physics::Vec3));
+  bytes.append(reinterpret_cast<const char*>(&tolerance), sizeof tolerance);
+  return io::content_hash(std::as_bytes(std::span(bytes)));
+}
+
+}  // namespace
+
+physics::TriangleMesh read_body(const MeshInput& input, const Context& context) {
+  const std::string path = name_of(input, "body");
+  const geometry::Body repaired = geometry::repair_body(read_garment(input, context, "body").mesh);
+  tell_repairs(path, repaired.report, context);
+  physics::TriangleMesh triangles = bridge::to_triangle_mesh(repaired);
+  if (!has_volume(triangles))
+    throw geometry::ContentError(path +
+                                 ": encloses no volume, so nothing can be inside or outside of it; a "
+                                 "body is a closed surface");
+  return triangles;
+}
+
+BodyCollider load_body(const io::SceneBody& body, const Context& context) {
+  stop_if_cancelled(context);
+  physics::TriangleMesh triangles = read_body(body.mesh, context);
+  physics::ExactDistance exact(triangles);
+  const ProgressScope progress(context.listener, "distance field");
+  physics::DistanceField field =
+      body.field.empty() ? physics::DistanceField::build(exact, threaded(body.options), std::cref(progress))
+                         : io::read_field(body.field, triangles);
+  return {std::move(triangles), std::move(exact), std::move(field)};
+}
+
+WorldBody::WorldBody(const io::SceneBody& body, const Context& context)
+    : path_(body.mesh.string()), motion_(body.motion) {
+  if (!body.frames.empty()) {
+    read_frames(body, context);
+  } else {
+    rigid_ = std::make_unique<BodyCollider>(load_body(body, context));
+    tolerance_ = rigid_->field.report().tolerance;
+    fingerprint_ = fingerprint_of(rigid_->triangles.vertices, tolerance_);
+  }
+}
+
+void WorldBody::read_frames(const io::SceneBody& body, const Context& context) {
+  const geometry::Mesh mesh = read_garment(body.mesh, context, "body").mesh;
+  for (geometry::Halfedge h : mesh.halfedges())
+    if (mesh.is_border(h))
+      throw geometry::ContentError(body.mesh.string() +
+                                   ": a body with frames must be closed, this one has holes; close them");
+  io::FrameSourceOptions options;
+  if (body.fps > 0) options.fps = body.fps;
+  options.frame = read_options(context.frame);
+  frames_ = io::open_frames(body.frames, mesh.number_of_vertices(), options);
+  if (frames_->frames() < 2)
+    throw geometry::ContentError(body.frames.string() + ": has one frame; motion takes two or more");
+  triangles_ = bridge::triangles_of(mesh);
+  const auto read = [this](int i) { return frames_->positions(static_cast<std::size_t>(i)); };
+  physics::DistanceFieldOptions field = threaded(body.options);
+  if (!field.tolerance) field.tolerance = 0.002;
+  tolerance_ = *field.tolerance;  // and of depth maps, 95 times of 100
+  physics::FrameColliderOptions collider = field;
+  if (body.depth_maps) collider = six_maps();
+  animated_ = std::make_unique<physics::AnimatedBody>(physics::BodyFrames{triangles_, frames_->times(), read},
+                                                      collider);
+  if (body.depth_maps) check_maps(context);
+  fingerprint_ = fingerprint_of(frames_->positions(0), tolerance_) +
+                 fingerprint_of(frames_->positions(frames_->frames() - 1), frames_->times().back());
+  if (body.depth_maps) fingerprint_ += "maps";
+}
+
+/// Warns where depth maps of the first, a middle or the last frame do not see enough of the body.
+void WorldBody::check_maps(const Context& context) const {
+  const std::size_t last = frames_->frames() - 1;
+  for (const std::size_t i : {std::size_t(0), last / 2, last}) {
+    const physics::TriangleMesh mesh{frames_->positions(i), triangles_};
+    const auto test = physics::compare_colliders(physics::DepthMapCollider(mesh, six_maps()),
+                                                 physics::ExactDistance(mesh), mesh);
+    if (!test.disagrees()) continue;
+    std::ostringstream text;
+    text << path_ << ": depth maps of frame " << i << " take " << std::setprecision(2)
+         << 100 * test.false_inside_share() << " % of the points beside the body for inside and "
+         << 100 * test.false_outside_share()
+         << " % of those inside for outside, where no map sees it; collider = \"field\" is right there";
+    context.warn("body_hides_from_maps", text.str(), path_, "body.collider");
+    return;
+  }
+}
+
+void WorldBody::add_to(physics::World& world) const {
+  world.collider = rigid_ ? &rigid_->field : nullptr;
+  world.body_motion = motion_;
+  world.animated = animated_.get();
+}
+
+int WorldBody::fields_until(double seconds) const {
+  if (!animated_) return 0;
+  const std::vector<double>& times = frames_->times();
+  const auto reached = std::upper_bound(times.begin(), times.end(), seconds) - times.begin() + 1;
+  return static_cast<int>(std::clamp<std::ptrdiff_t>(reached, 2, std::ssize(times)));
+}
+
+double WorldBody::samples_of_field() const {
+  if (!animated_) return 0;
+  animated_->prepare(0, 0);
+  return double(animated_->samples_built()) / animated_->frames_built();
+}
+
+std::vector<physics::Vec3> WorldBody::vertices_at(double time) const {
+  const std::vector<double>& times = frames_->times();
+  const auto next = std::upper_bound(times.begin(), times.end(), time);
+  if (next == times.begin()) return frames_->positions(0);
+  if (next == times.end()) return frames_->positions(times.size() - 1);
+  const auto i = static_cast<std::size_t>(next - times.begin());
+  std::vector<physics::Vec3> x = frames_->positions(i - 1);
+  const std::vector<physics::Vec3> y = frames_->positions(i);
+  const double share = (time - times[i - 1]) / (times[i] - times[i - 1]);
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] += share * (y[k] - x[k]);
+  return x;
+}
+
+physics::Penetration WorldBody::penetration(std::vector<physics::Vec3> points, double time) const {
+  if (animated_) return physics::penetration(physics::ExactDistance({vertices_at(time), triangles_}), points);
+  const physics::Pose pose = physics::pose(motion_, time);
+  if (!physics::is_identity(motion_))
+    for (physics::Vec3& x : points) x = pose.to_body(x);
+  return physics::penetration(rigid_->exact, points);
+}
+
+int WorldBody::count_near(const std::vector<physics::Vec3>& points, double distance) const {
+  if (rigid_)
+    return physics::count_contacts(points, physics::PosedCollider(rigid_->field, physics::pose(motion_, 0)),
+                                   distance);
+  animated_->prepare(0, 0);
+  return physics::count_contacts(points, *animated_, distance);
+}
+
+physics::PushOutReport WorldBody::push_out(std::vector<physics::Vec3>& points, const std::vector<int>& which,
+                                           double time) const {
+  constexpr double outside = 1e-6;  // [m], so that rounding leaves none inside
+  if (!rigid_) return {};
+  const physics::PosedCollider posed(rigid_->exact, physics::pose(motion_, time));
+  return physics::push_out(points, which, posed, outside);
+}
+
+io::MeshFile WorldBody::at(double time, const Context& context) const {
+  io::MeshFile file = read_mesh(path_, context);
+  const physics::Pose pose = physics::pose(motion_, time);
+  std::vector<physics::Vec3> x = animated_ ? vertices_at(time) : bridge::positions_of(file.mesh);
+  for (geometry::Vertex v : file.mesh.vertices())
+    file.mesh.point(v) = bridge::to_cgal(animated_ ? x[v] : pose.to_world(x[v]));
+  return file;
+}
+
+Eigen::AlignedBox3d box_of(const std::vector<physics::Vec3>& points) {
+  Eigen::AlignedBox3d box;
+  for (const physics::Vec3& p : points) box.extend(p);
+  return box;
+}
+
+Eigen::AlignedBox3d WorldBody::box(double time) const {
+  if (animated_) return box_of(vertices_at(time));
+  const physics::Pose pose = physics::pose(motion_, time);
+  std::vector<physics::Vec3> x = rigid_->triangles.vertices;
+  for (physics::Vec3& p : x) p = pose.to_world(p);
+  return box_of(x);
+}
+
+double edge_sag(const geometry::Mesh& garment) {
+  constexpr double limb_radius = 0.05;
+  std::vector<double> lengths;
+  const auto rest = *geometry::find_map(garment, geometry::attribute::rest_length);
+  for (geometry::Edge e : garment.edges()) lengths.push_back(rest[e]);
+  const auto long_edge = lengths.begin() + static_cast<std::ptrdiff_t>(0.95 * double(lengths.size() - 1));
+  std::nth_element(lengths.begin(), long_edge, lengths.end());
+  return *long_edge * *long_edge / (8 * limb_radius);
+}
+
+double contact_gap(double wanted, double field_tolerance, const io::MeshFile& garment) {
+  const double sag = edge_sag(garment.mesh), gap = sag + 1.5 * field_tolerance;
+  const auto record = io::find_wrinkle_record(garment);
+  if (!record || !(record->contact_gap > 0)) return std::max(wanted, gap);
+  return std::max(wanted, std::clamp(record->contact_gap, sag + field_tolerance, gap));
+}
+
+double contact_distance(double gap) { return 1.2 * gap; }
+
+double contact_distance(const io::MeshFile& garment, const physics::ExactDistance& body) {
+  if (const auto record = io::find_wrinkle_record(garment); record && record->contact_gap > 0)
+    return contact_distance(record->contact_gap);
+  io::MeshFile file = garment;
+  geometry::ensure_rest_lengths(file.mesh);
+  const double field_tolerance = std::min(1e-3 * body.diagonal(), 0.002);  // by default
+  return contact_distance(contact_gap(physics::SimulateOptions{}.contact_gap, field_tolerance, file));
+}
+
+}  // namespace furrow::jobs

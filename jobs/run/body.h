@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Geometry>
+#include <memory>
+
+#include "io/animation/frame_source.h"
+#include "io/scene/scene.h"
+#include "jobs/inputs.h"
+#include "physics/body/animated_body.h"
+#include "physics/body/distance_field.h"
+#include "physics/body/exact_distance.h"
+#include "physics/contact/push_out.h"
+
+namespace furrow::jobs {
+
+/// A rigid body in its own frame.
+struct BodyCollider {
+  physics::TriangleMesh triangles;
+  physics::ExactDistance exact;
+  physics::DistanceField field;
+};
+
+/// Reads and repairs a body; warns of what was repaired.
+physics::TriangleMesh read_body(const MeshInput& input, const Context& context);
+
+/// Reads and repairs a body, and builds its field or loads the saved one; shows progress. Warns of what was
+/// repaired.
+BodyCollider load_body(const io::SceneBody& body, const Context& context);
+
+/// A body as a scene has it: rigid, perhaps moved, or changing its shape.
+class WorldBody {
+ public:
+  /// Throws geometry::ContentError for frames that are not those of the mesh, or a mesh of frames that is not
+  /// closed (it cannot be repaired without losing the order of its vertices).
+  WorldBody(const io::SceneBody& body, const Context& context);
+
+  void add_to(physics::World& world) const;
+  double tolerance() const { return tolerance_; }  ///< of the field [m]
+  /// Fields that a run from time 0 to `seconds` builds on its way; 0: rigid.
+  int fields_until(double seconds) const;
+  /// Exact distances that one of them takes, as the first two do; builds those. 0: rigid.
+  double samples_of_field() const;
+  /// Tells one body's shape and field from another's (not its motion).
+  const std::string& fingerprint() const { return fingerprint_; }
+  /// Puts the points `which` that lie inside at a time onto the surface, by exact distance; rigid bodies
+  /// only.
+  physics::PushOutReport push_out(std::vector<physics::Vec3>& points, const std::vector<int>& which,
+                                  double time) const;
+  /// Of points in the world, at a time, by exact distance.
+  physics::Penetration penetration(std::vector<physics::Vec3> points, double time) const;
+  /// Points that are nearer than `distance` [m] at time 0, or inside; by the field.
+  int count_near(const std::vector<physics::Vec3>& points, double distance) const;
+  /// Around it at a time [m].
+  Eigen::AlignedBox3d box(double time) const;
+  /// Its mesh as it is at a time, for writing.
+  io::MeshFile at(double time, const Context& context) const;
+
+ private:
+  void read_frames(const io::SceneBody& body, const Context& context);
+  void check_maps(const Context& context) const;
+  std::vector<physics::Vec3> vertices_at(double time) const;
+
+  std::string path_, fingerprint_;
+  physics::RigidMotion motion_;
+  double tolerance_ = 0;
+  std::unique_ptr<BodyCollider> rigid_;
+  std::vector<std::array<int, 3>> triangles_;  ///< of the frames
+  std::unique_ptr<io::FrameSource> frames_;
+  std::unique_ptr<physics::AnimatedBody> animated_;
+};
+
+Eigen::AlignedBox3d box_of(const std::vector<physics::Vec3>& points);
+
+/// How far a garment's long edges (95th percentile at rest) cut into a limb of 5 cm radius when their ends
+/// lie on it [m].
+double edge_sag(const geometry::Mesh& garment);
+/// The gap that a garment keeps: at least `wanted`, and never less than edge_sag() plus 1.5 field tolerances,
+/// so that faces and edges stay outside when vertices do [m]. One whose file notes the gap that it kept keeps
+/// no more than that, so that it goes on where it lies, but at least edge_sag() plus one tolerance, as
+/// `drape` does.
+double contact_gap(double wanted, double field_tolerance, const io::MeshFile& garment);
+
+/// Cloth nearer to the body lies on it, where cloth keeps this gap: a fifth more [m].
+double contact_distance(double gap);
+/// The same of a garment: by the gap that its file notes, else that it would keep by default. Its mesh has an
+/// edge.
+double contact_distance(const io::MeshFile& garment, const physics::ExactDistance& body);
+
+}  // namespace furrow::jobs

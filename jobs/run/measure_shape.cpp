@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/run/measure_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bridge/convert.h"
+#include "geometry/figure/hem_folds.h"
+#include "geometry/fold/line_height.h"
+#include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/self_intersections.h"
+#include "io/mesh/wrinkle_record.h"
+
+namespace furrow::jobs {
+namespace {
+
+LineReport measure_line(std::size_t id, double now, double before, const io::WrinkleRecord& record) {
+  LineReport line;
+  line.id = id;
+  if (id < record.lines.size()) {
+    line.name = record.lines[id].name;
+    line.drawn_height = record.lines[id].drawn_height;
+    line.width = record.lines[id].width;
+  }
+  const bool known = id < record.lines.size() && std::isfinite(record.lines[id].smoothed_height);
+  line.smoothed_height = known ? record.lines[id].smoothed_height : before;
+  line.height = known ? now - record.lines[id].base_height : now;
+  // Lines so close together that smoothing made one shape of them have no height of their own to keep.
+  if (std::abs(line.smoothed_height) > 0.1 * std::abs(line.drawn_height.value_or(line.smoothed_height)))
+    line.kept = line.height / line.smoothed_height;
+  return line;
+}
+
+std::vector<LineReport> measure_lines(const io::MeshFile& file, const std::vector<double>& before) {
+  std::vector<LineReport> lines;
+  const io::WrinkleRecord record = io::find_wrinkle_record(file).value();
+  const std::vector<double> now = line_heights_by_id(file);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (std::isfinite(now[i]))  // else its vertices went to later lines
+      lines.push_back(measure_line(i, now[i], before[i], record));
+  return lines;
+}
+
+physics::Vec3 centre_of_mass(const geometry::Mesh& mesh) {
+  const auto mass = *geometry::find_map(mesh, geometry::attribute::mass);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (geometry::Vertex v : mesh.vertices()) {
+    if (mesh.is_isolated(v)) continue;
+    sum += mass[v] * bridge::to_eigen(mesh.point(v));
+    total += mass[v];
+  }
+  sum /= total;
+  return sum;
+}
+
+}  // namespace
+
+std::vector<BorderReport> measure_borders(const geometry::Mesh& mesh) {
+  std::vector<BorderReport> borders;
+  for (const geometry::BorderLoop& loop : geometry::border_loops(mesh))
+    borders.push_back({geometry::rest_length(mesh, loop), loop.length, loop.mean_height, loop.mean_radius,
+                       geometry::count_folds(mesh, loop)});
+  return borders;
+}
+
+std::vector<double> line_heights_by_id(const io::MeshFile& file) {
+  const auto record = io::find_wrinkle_record(file);
+  const std::vector<double> widths = record ? io::line_widths(*record) : std::vector<double>{};
+  std::vector<double> heights;
+  for (const geometry::LineHeight& h : geometry::line_heights(file.mesh, widths)) {
+    heights.resize(std::max(heights.size(), static_cast<std::size_t>(h.line) + 1), geometry::unset_value);
+    heights[h.line] = h.height;
+  }
+  return heights;
+}
+
+ReachedShape measure_shape(const io::MeshFile& file, const std::vector<double>& before, const WorldBody* body,
+                           double contact_gap, double time) {
+  ReachedShape shape;
+  shape.centre = centre_of_mass(file.mesh);
+  if (body)
+    shape.contact = ContactReport{contact_gap, body->penetration(bridge::positions_of(file.mesh), time)};
+  shape.self_intersections = geometry::count_self_intersections(file.mesh);
+  shape.borders = measure_borders(file.mesh);
+  shape.lines = measure_lines(file, before);
+  return shape;
+}
+
+}  // namespace furrow::jobs

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/run/observation.h"
+
+#include <algorithm>
+
+#include "jobs/judge/cost_table.h"
+
+namespace furrow::jobs {
+namespace {
+
+constexpr double longest_stretch = 0.2;  // [s]
+
+/// Seconds of one thread by the table; every tenth vertex asks for the body's distance.
+double cost_of_step(const physics::SimulateOptions& o, const physics::Cloth& cloth, bool has_body) {
+  const bool four_times = o.integrator == physics::Integrator::rk4;
+  const double forces = four_times ? 4 : 1;
+  const double springs = double(cloth.structural.size() + cloth.bending.size() + cloth.tension.size());
+  Work work;
+  work.vertices = double(cloth.particles.size());
+  work.steps = 1;
+  work.springs = forces * springs;
+  work.triangles = forces * double(cloth.membrane.size());
+  work.hinges = forces * double(cloth.hinges.size());
+  if (has_body) work.queries = forces * work.vertices / 10;
+  if (o.integrator == physics::Integrator::xpbd) work.sweeps = o.xpbd.iterations * springs;
+  return cost_of(work, four_times ? costs.rk4_vertex_step : costs.vertex_step);
+}
+
+}  // namespace
+
+Observation observation_of(const physics::SimulateOptions& options, const physics::Cloth& cloth,
+                           bool has_body, bool animated) {
+  Observation observation;
+  if (options.integrator == physics::Integrator::backward_euler) {
+    observation.steps = 1;
+    return observation;
+  }
+  const double most = longest_stretch / cost_of_step(options, cloth, has_body);
+  for (const int steps : {100, 50, 20, 10, 5, 2, 1}) {
+    if (animated && steps > observation.shown) continue;
+    observation.steps = steps;
+    if (steps <= most) break;
+  }
+  return observation;
+}
+
+}  // namespace furrow::jobs

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/run/output_checks.h"
+
+#include <filesystem>
+
+#include "geometry/mesh/errors.h"
+#include "io/base/lower_case.h"
+#include "jobs/inputs.h"
+
+namespace furrow::jobs {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether two names are those of one file, which need not be there yet.
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code none;
+  if (a == b || fs::equivalent(a, b, none)) return true;
+  const fs::path x = fs::weakly_canonical(a, none), y = fs::weakly_canonical(b, none);
+  return !x.empty() && x == y;
+}
+
+}  // namespace
+
+void check_folder(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder))
+    throw std::runtime_error(path + ": cannot be written, there is no folder " + folder.string() +
+                             "; make it first");
+}
+
+void check_output(const std::string& path) {
+  if (path == "-") return;
+  try {
+    if (io::mesh_format(path) == io::MeshFormat::gltf)
+      throw std::invalid_argument(path + ": glTF is read, not written; choose obj, ply, off or stl");
+  } catch (const geometry::ContentError&) {
+    throw std::invalid_argument(
+        path + ": the ending names no format that can be written; choose obj, ply, off or stl");
+  }
+  check_folder(path);
+}
+
+void check_picture(const std::string& path, const std::string& option) {
+  if (path.empty()) return;
+  if (path == "-") throw std::invalid_argument(option + ": a picture needs a file name");
+  if (io::lower_case(fs::path(path).extension().string()) != ".png")
+    throw std::invalid_argument(option + ": " + path +
+                                ": pictures are written as PNG; let the name end in .png");
+  check_folder(path);
+}
+
+void refuse_same(const std::string& output, const std::string& other) {
+  if (!output.empty() && !other.empty() && same_file(output, other))
+    throw std::invalid_argument(output + ": would replace " + other + "; choose another name");
+}
+
+void refuse_same(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (const std::string& input : inputs)
+      if (input != "-") refuse_same(outputs[i], input);
+    for (std::size_t k = 0; k < i; ++k) refuse_same(outputs[i], outputs[k]);
+  }
+}
+
+}  // namespace furrow::jobs

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "io/mesh/mesh_file.h"
+#include "io/scene/toml_document.h"
+#include "jobs/inputs.h"
+
+/// The material that a garment's file notes (io/mesh/wrinkle_record.h): what it came to rest with.
+namespace furrow::jobs {
+
+/// Whether the settings say what kind of cloth it is: preset, membrane, bending_law or stiffness.
+bool names_cloth(const io::TomlDocument& document);
+
+struct RecordedMaterial {
+  bool taken = false;    ///< a setting was
+  io::Json other_cloth;  ///< what it came to rest with, where the document names other cloth; else null
+};
+
+/// Takes over each setting of [material] that the garment's file notes and the document does not say; none if
+/// the document names another cloth, which goes before it. Reads the file's header.
+RecordedMaterial take_recorded_material(io::TomlDocument& document, const std::filesystem::path& garment,
+                                        const MemoryFiles& memory = {});
+
+/// That a garment is other cloth than it came to rest with: a sentence.
+std::string words_of_other_cloth(const std::filesystem::path& garment, const io::Json& other_cloth);
+
+/// Notes the document's [material] in the garment, and the gap that it kept from a body [m] (0: none).
+void note_material(io::MeshFile& file, const io::TomlDocument& document, double contact_gap);
+
+}  // namespace furrow::jobs

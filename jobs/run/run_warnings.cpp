@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/run/run_warnings.h"
+
+#include <sstream>
+
+namespace furrow::jobs {
+
+std::vector<Warning> oddities_of(const io::Scene& scene, const physics::SimulateReport& report) {
+  std::vector<Warning> found;
+  if (report.strain.max > 0.5)
+    found.push_back(
+        {"strained",
+         "the cloth is strained by " + std::to_string(int(100 * report.strain.max)) +
+             " % somewhere; look for lines that are far too high, or pins that do not go with the body",
+         "", ""});
+  const bool body_moves = scene.body && !physics::at_rest(scene.body->motion);
+  for (const io::ScenePins& pins : scene.pins)
+    if (body_moves && physics::at_rest(pins.motion)) {
+      found.push_back({"pins_stay_behind",
+                       "the body moves and pins do not; give them the same motion if they belong to it",
+                       "pins", "pins.motion"});
+      break;
+    }
+  if (!scene.wind.gusts.empty() && scene.wind.velocity.isZero())
+    found.push_back({"gusts_without_wind", "gusts do nothing without wind", "forces.gusts", "forces.wind"});
+  return found;
+}
+
+std::vector<Warning> idle_presses(const io::SceneMaterial& material, const io::WrinkleRecord& record) {
+  std::vector<Warning> found;
+  if (material.bending_law != bridge::Bending::cross) return found;
+  for (const io::WrinkleRecord::Line& line : record.lines)
+    if (line.press > 1)
+      found.push_back({"idle_press",
+                       "line '" + line.name +
+                           "': its press has no effect, for cross springs have no hinges; choose a fabric, "
+                           "or bending_law "
+                           "hinge",
+                       line.name, "material.bending_law"});
+  return found;
+}
+
+Warning interruption_of(const io::Scene& scene, const physics::SimulateReport& report) {
+  return {"interrupted",
+          "interrupted at " + std::to_string(report.time) + " s; " +
+              (scene.output.state.empty() ? "the shape reached was written; with --save-state it could go on"
+                                          : "the state reached was written"),
+          "", "output.state"};
+}
+
+std::string words_of_divergence(const io::Scene& scene, const physics::SimulateReport& report) {
+  std::ostringstream text;
+  text << "the simulation diverged at " << report.time << " s with steps of " << report.dt
+       << " s (stable below " << report.dt_limit << " s); the garment was not written; "
+       << (scene.simulation.integrator == physics::Integrator::explicit_euler
+               ? "explicit Euler always does in the end: use leapfrog"
+           : scene.simulation.dt ? "leave --dt away"
+                                 : "look for pins or cloth that start deep inside the body");
+  return text.str();
+}
+
+}  // namespace furrow::jobs

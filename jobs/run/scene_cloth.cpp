@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/run/scene_cloth.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "bridge/convert.h"
+#include "geometry/refine/subdivide.h"
+#include "io/stroke/stroke_file.h"
+#include "jobs/run/keep_at_rest.h"
+#include "jobs/run/line_round.h"
+#include "jobs/run/pins.h"
+#include "jobs/run/prepare_garment.h"
+#include "physics/cloth/pins.h"
+
+namespace furrow::jobs {
+namespace {
+
+constexpr double near = 0.02;  // [m]
+
+/// Threads wait for each other some five times a step; below some 10,000 vertices each, that costs more than
+/// it saves.
+int worthwhile_threads(std::size_t vertices) {
+  return static_cast<int>(
+      std::clamp<std::size_t>(vertices / 10000, 1, std::max(1u, std::thread::hardware_concurrency())));
+}
+
+/// Those of time 0.
+void draw_first_lines(const io::Scene& scene, SceneCloth& result, const Context& context) {
+  for (const io::SceneLines& lines : scene.lines) {
+    if (lines.time > 0) {
+      result.ends_at_lines = lines.time < result.seconds;
+      result.seconds = std::min(result.seconds, lines.time);
+      return;
+    }
+    const auto strokes = read_strokes(lines, context);
+    const std::size_t old_count = result.file.mesh.number_of_vertices();
+    const LineTarget target{result.file, garment_file(scene, context), scene.material.density, nullptr, {}};
+    for (const std::string& w : draw_lines(target, strokes, lines).warnings)
+      context.warn("drawing", w, lines.strokes.string());
+    pin_new_vertices(result.file.mesh, old_count, result.pins);
+  }
+}
+
+}  // namespace
+
+io::MeshFile begin_garment(const io::Scene& scene, const Context& context) {
+  stop_if_cancelled(context);
+  io::MeshFile file = read_garment(scene.garment, context);
+  stop_if_cancelled(context);
+  if (scene.subdivide > 0) geometry::loop_subdivide(file.mesh, scene.subdivide);
+  return file;
+}
+
+void warn_if_apart(const io::Scene& scene, const WorldBody& body, const geometry::Mesh& garment,
+                   const Context& context) {
+  const auto cloth = box_of(bridge::positions_of(garment)), box = body.box(0);
+  if (!cloth.intersects(box))
+    context.warn("body_apart",
+                 scene.body->mesh.string() + ": body and garment lie apart, their bounding boxes by " +
+                     std::to_string(cloth.exteriorDistance(box)) +
+                     " m; if they should touch, look at --unit, --up and their places",
+                 scene.body->mesh.string(), "unit");
+}
+
+void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& all, const WorldBody* body,
+               double time, const Context& context) {
+  for (const std::vector<int>& pins : all) {
+    physics::pin(cloth.particles, pins);
+    if (!body) continue;
+    const physics::PushOutReport r = body->push_out(cloth.particles.x, pins, time);
+    if (r.moved)
+      context.warn("pins_inside_body",
+                   std::to_string(r.moved) + " pinned vertices were inside the body; moved onto it, by " +
+                       std::to_string(1000 * r.farthest) + " mm at most",
+                   "pins");
+    if (r.still_inside)
+      context.warn("pins_stay_inside", std::to_string(r.still_inside) + " of them could not be brought out",
+                   "pins");
+  }
+  physics::stiffen_clamps(cloth);
+}
+
+physics::World world_of(const io::Scene& scene, const WorldBody* body,
+                        const std::vector<std::vector<int>>& pins) {
+  physics::World world;
+  world.wind = scene.wind;
+  if (body) body->add_to(world);
+  for (std::size_t i = 0; i < pins.size(); ++i)
+    if (!physics::at_rest(scene.pins[i].motion)) world.pins.push_back({pins[i], scene.pins[i].motion});
+  return world;
+}
+
+int threads_of(const io::Scene& scene, std::size_t vertices) {
+  return scene.threads ? scene.threads : worthwhile_threads(vertices);
+}
+
+SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::shared_ptr<WorldBody> body) {
+  SceneCloth result;
+  result.file = begin_garment(scene, context);
+  if (scene.body && !body) body = std::make_shared<WorldBody>(*scene.body, context);
+  result.body = std::move(body);
+  result.pins = find_pins(result.file, scene.pins);
+  if (result.body) warn_if_apart(scene, *result.body, result.file.mesh, context);
+  result.seconds = scene.simulation.seconds;
+  draw_first_lines(scene, result, context);
+  complete_garment(result.file, scene.material);
+  if (keeps_first_shape(scene))
+    keep_at_rest(result.file, scene, result.pins, result.body.get(), 0, 0, nullptr, context);
+  result.cloth = bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
+  pin_cloth(result.cloth, result.pins, result.body.get(), 0, context);
+  result.options = scene.simulation;
+  if (result.body) {
+    result.options.contact_gap =
+        contact_gap(result.options.contact_gap, result.body->tolerance(), result.file);
+    result.near_body = result.body->count_near(result.cloth.particles.x, near);
+    result.field_samples = result.body->samples_of_field();
+  }
+  result.options.threads = threads_of(scene, result.cloth.particles.size());
+  return result;
+}
+
+}  // namespace furrow::jobs
