@@ -11,6 +11,7 @@
 #include "bridge/keep_trial.h"
 #include "bridge/line_help.h"
 #include "bridge/scatter.h"
+#include "bridge/standing_body.h"
 #include "geometry/fold/line_region.h"
 #include "geometry/mesh/property_names.h"
 

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "bridge/standing_body.h"
 #include "physics/rest/rigid_imbalance.h"
 
 namespace furrow::bridge {
@@ -10,12 +11,6 @@ namespace furrow::bridge {
 void require_still(const physics::World& world) {
   if (world.animated || !world.pins.empty() || !physics::at_rest(world.body_motion))
     throw std::invalid_argument("body or pins move; a shape is kept on what stands still");
-}
-
-std::optional<physics::PosedCollider> standing_body(const physics::World& world) {
-  if (!world.collider) return {};
-  return std::optional<physics::PosedCollider>(std::in_place, *world.collider,
-                                               physics::pose(world.body_motion, 0));
 }
 
 KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,

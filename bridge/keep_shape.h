@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <optional>
-
-#include "physics/body/posed_collider.h"
 #include "physics/contact/push_out.h"
 #include "physics/motion/world.h"
 #include "physics/rest/certificate.h"
@@ -26,10 +23,6 @@ struct KeptShape {
 /// nothing changed, as require_still() and prestress() do.
 KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
                      const physics::PrestressOptions& options, double largest_turn = 0);
-
-/// The body where it stands when a simulation begins; none if there is none. The world's collider must
-/// outlive it.
-std::optional<physics::PosedCollider> standing_body(const physics::World& world);
 
 /// Throws std::invalid_argument if body or pins move.
 void require_still(const physics::World& world);
