@@ -4,8 +4,8 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/exit_codes.h"
-#include "cli/scene_settings.h"
+#include "cli/common.h"
+#include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "jobs/report/judge_report.h"
 
@@ -19,11 +19,7 @@ struct ChartArguments : CommonArguments {
 };
 
 io::TomlDocument settings(const ChartArguments& a) {
-  io::TomlDocument document;
-  if (is_scene(a.in))
-    document = io::read_toml(a.in);
-  else
-    io::set_value(document, "garment.mesh", a.in, "the garment");
+  io::TomlDocument document = settings_of(a.in, "", std::nullopt);
   if (a.unit) io::set_value(document, "unit", *a.unit, "--unit");
   if (a.up) io::set_value(document, "up", *a.up, "--up");
   for (const char* list : {"lines", "pins"}) io::make_list(document, list);
@@ -57,7 +53,8 @@ int chart(ChartArguments& a) {
   CommonArguments common = a;
   common.out.clear();
   print_report(to_json(report), common);
-  const int code = exit_code_of(report.judgement);
+  const Judgement& j = report.judgement;
+  const int code = exit_code_of(j.broken == Broken::interrupted, j.has_answer());
   if (code != exit_ok)
     std::cerr << "error: " << a.in << ": " << words(report.judgement, report.scene_dt) << "\n";
   return code;

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <sstream>
 
 #include "cli/print_text.h"
 
@@ -103,6 +104,21 @@ std::vector<double> parse_numbers(const std::string& text, std::size_t n, const 
     throw UsageError(option + " takes " + std::to_string(n) + " numbers parted by commas, not '" + text +
                      "'");
   return numbers;
+}
+
+double parse_share(const std::string& text, const std::string& option) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || std::string(end) != "%" || !(value > 0 && value < 100))
+    throw UsageError(option + " takes a share of the garment's size such as 1%, not '" + text + "'");
+  return value / 100;
+}
+
+std::vector<std::string> split_at_commas(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> parts;
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
 }
 
 Progress::Progress(std::string what, const CommonArguments& common)

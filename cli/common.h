@@ -24,6 +24,11 @@ enum ExitCode {
   exit_interrupted = 130
 };
 
+/// exit_interrupted, else whether it came to what was asked for: exit_ok or exit_not_converged.
+inline ExitCode exit_code_of(bool was_interrupted, bool succeeded) {
+  return was_interrupted ? exit_interrupted : succeeded ? exit_ok : exit_not_converged;
+}
+
 /// A fault in how the program was called; exits with exit_usage.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -58,6 +63,12 @@ void warn(const std::string& message, const CommonArguments& common);
 
 /// `text` as exactly n numbers parted by commas. Throws UsageError that names the option.
 std::vector<double> parse_numbers(const std::string& text, std::size_t n, const std::string& option);
+
+/// "1%" as 0.01. Throws UsageError, naming the option, for anything but a percentage in (0, 100).
+double parse_share(const std::string& text, const std::string& option);
+
+/// What stands between the commas; nothing of "", and no empty part at the end.
+std::vector<std::string> split_at_commas(const std::string& text);
 
 /// Draws a progress bar on stderr if that is a terminal and the user wants to hear of it; cleans up after
 /// itself.

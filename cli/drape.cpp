@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/drape.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 
 #include "cli/camera_options.h"
-#include "cli/drape_checks.h"
-#include "cli/scene_settings.h"
+#include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
 #include "jobs/report/fit_picture.h"
@@ -25,6 +26,51 @@ struct DrapeArguments : CommonArguments {
   bool view_chosen = false;
 };
 
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
+/// Bands as "top=0.9". Throws UsageError that tells what to write.
+std::vector<Band> parse_bands(const std::vector<std::string>& texts) {
+  std::vector<Band> bands;
+  for (const std::string& text : texts) {
+    const auto fail = [&](const std::string& what) {
+      throw UsageError(
+          "--band " + text + ": " + what +
+          "; write a border loop and the band's length as a share of the loop's: --band top=0.95 "
+          "is a band 5 % shorter than the garment's upper border");
+    };
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) fail("there is no length");
+    if (equals == 0) fail("there is no loop");
+    const std::string loop = text.substr(0, equals), number = text.substr(equals + 1);
+    char* end = nullptr;
+    const double length = std::strtod(number.c_str(), &end);
+    if (number.empty() || *end != 0) fail("'" + number + "' is no number");
+    if (!(length > 0 && length <= 2)) fail("the length must be above 0 and at most 2");
+    if (std::any_of(bands.begin(), bands.end(), [&](const Band& b) { return b.loop == loop; }))
+      fail("'" + loop + "' has a band already");
+    bands.push_back({loop, length});
+  }
+  return bands;
+}
+
+/// The fabrics of --compare, parted by commas. Throws UsageError where a name is missing.
+std::vector<std::string> parse_fabrics(const std::string& text) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    names.push_back(trimmed(text.substr(begin, comma - begin)));
+    begin = comma + 1;
+  }
+  if (std::find(names.begin(), names.end(), "") != names.end())
+    throw UsageError(
+        "--compare '" + text +
+        "': a name is missing; write fabrics parted by commas, as in --compare cotton,silk,denim");
+  return names;
+}
+
 void check_call(const DrapeArguments& a) {
   if (a.out.empty() && a.picture.empty() && a.animation.empty())
     throw UsageError("nothing to write: name --output, --picture or --animation");
@@ -42,7 +88,6 @@ DrapeJob job_of(const DrapeArguments& a) {
   DrapeJob job;
   job.scene.settings = scene_settings(a.in, "", std::nullopt, a.flags, a);
   if (is_scene(a.in)) job.scene.folder = std::filesystem::path(a.in).parent_path();
-  warn_of_unused_settings(job.scene.settings, a);
   job.settings = a.settings;
   job.settings.bands = parse_bands(a.bands);
   job.settings.animation = a.animation;
@@ -72,8 +117,9 @@ void write_picture(DrapeJobReport& report, const DrapeArguments& a, const Common
   }
   const std::vector<io::RenderScene> scenes = fit_scenes(panels);
   Terminal terminal(common);
-  io::write_png(a.picture, fit_picture(panels, scenes, scale, render_options(scenes, a.camera), a.view_chosen,
-                                       terminal));
+  const io::RenderOptions options = render_options(scenes, a.camera);
+  io::write_png(a.picture, fit_picture(panels, scenes, scale, options, a.view_chosen, terminal));
+  save_camera(options, a.camera);
 }
 
 /// On stderr: which of the files that were asked for there are.
@@ -98,8 +144,7 @@ int tell_remarks(const DrapeJobReport& report, Terminal& terminal) {
     else
       terminal.warn(r.remark);
   }
-  if (report.cancelled()) return exit_interrupted;
-  return report.fails() ? exit_not_converged : exit_ok;
+  return exit_code_of(report.cancelled(), !report.fails());
 }
 
 int drape(const DrapeArguments& a) {

@@ -2,7 +2,6 @@
 #include "jobs/fit.h"
 
 #include <memory>
-#include <sstream>
 
 #include "cli/camera_options.h"
 #include "cli/subcommands.h"
@@ -37,20 +36,13 @@ void take_sections(FitArguments& a) {
   }
 }
 
-std::vector<std::string> parts_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> parts;
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-  return parts;
-}
-
 void check_call(const FitArguments& a) {
   if (a.worn.size() > 1 && !a.compare)
     throw UsageError(std::to_string(a.worn.size()) + " garments: say --compare to lay them side by side");
   if (a.picture.empty() && (a.view_chosen || !a.captions.empty() || !a.camera.save_camera.empty()))
     throw UsageError("a view, --captions and --save-camera are of use with --picture only");
-  if (parts_of(a.captions).size() > a.worn.size())
-    throw UsageError("--captions: " + std::to_string(parts_of(a.captions).size()) + " for " +
+  if (split_at_commas(a.captions).size() > a.worn.size())
+    throw UsageError("--captions: " + std::to_string(split_at_commas(a.captions).size()) + " for " +
                      std::to_string(a.worn.size()) + " garments");
   check_picture(a.picture, "--picture");
   check_folder(a.camera.save_camera);
@@ -75,7 +67,7 @@ FitJob job_of(const FitArguments& a) {
 void write_picture(const FitJobReport& report, const FitArguments& a, const CommonArguments& common) {
   std::vector<geometry::Mesh> bodies;
   for (const std::string& path : a.bodies) bodies.push_back(io::read_mesh(path, read_options(common)).mesh);
-  const std::vector<std::string> captions = parts_of(a.captions);
+  const std::vector<std::string> captions = split_at_commas(a.captions);
   std::vector<FitPanel> panels;
   for (std::size_t i = 0; i < report.garments.size(); ++i) {
     const FittedGarment& fitted = report.garments[i];
@@ -86,8 +78,10 @@ void write_picture(const FitJobReport& report, const FitArguments& a, const Comm
   }
   const std::vector<io::RenderScene> scenes = fit_scenes(panels);
   Terminal terminal(a);
-  io::write_png(a.picture, fit_picture(panels, scenes, fit_scale(report.shown, a.options, a.range),
-                                       render_options(scenes, a.camera), a.view_chosen, terminal));
+  const io::RenderOptions options = render_options(scenes, a.camera);
+  const io::FitScale scale = fit_scale(report.shown, a.options, a.range);
+  io::write_png(a.picture, fit_picture(panels, scenes, scale, options, a.view_chosen, terminal));
+  save_camera(options, a.camera);
 }
 
 void fit(FitArguments a) {

@@ -4,8 +4,7 @@
 #include <memory>
 
 #include "cli/camera_options.h"
-#include "cli/exit_codes.h"
-#include "cli/scene_settings.h"
+#include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
 #include "jobs/report/verdict_scene.h"
@@ -23,6 +22,9 @@ struct KeepArguments : CommonArguments {
 };
 
 KeepJob job_of(const KeepArguments& a) {
+  if (a.picture.empty() && !a.camera.save_camera.empty())
+    throw UsageError("--save-camera is of use with --picture only");
+  check_folder(a.camera.save_camera);
   KeepJob job;
   if (!a.state.empty()) job.state = io::read_state(a.state);
   job.state_path = a.state;
@@ -34,7 +36,7 @@ KeepJob job_of(const KeepArguments& a) {
   job.balance = !a.no_balance;
   job.help = !a.no_help;
   job.whole = a.whole;
-  job.more_outputs = {a.picture};
+  job.more_outputs = {a.picture, a.camera.save_camera};
   return job;
 }
 
@@ -49,12 +51,13 @@ int keep(const KeepArguments& a) {
   if (report.mesh == "-") write_mesh("-", report.garment, common);
   if (!a.picture.empty()) {
     const std::vector<io::RenderScene> scenes{verdict_scene(report.garment.mesh, report.lines)};
-    io::write_png(a.picture, io::render(scenes[0], render_options(scenes, a.camera)));
+    const io::RenderOptions options = render_options(scenes, a.camera);
+    io::write_png(a.picture, io::render(scenes[0], options));
+    save_camera(options, a.camera);
   }
   print_report(to_json(report), common);
   for (const Warning& w : report.warnings) terminal.warn(w);
-  if (report.lines.interrupted) return exit_interrupted;
-  return report.all_hold() ? exit_ok : exit_not_converged;
+  return exit_code_of(report.lines.interrupted, report.all_hold());
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "io/picture/render.h"
 
 #include <memory>
-#include <sstream>
 
 #include "cli/camera_options.h"
 #include "cli/common.h"
@@ -79,13 +78,6 @@ std::vector<io::RenderScene> scenes(const RenderArguments& a) {
   return list;
 }
 
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-  return parts;
-}
-
 /// What can be known to fail is said before the work.
 void check_call(const RenderArguments& a) {
   check_picture(a.out, "-o");
@@ -103,7 +95,7 @@ void render(RenderArguments a) {
   take_noted_frame(a, a.meshes);
   const std::vector<io::RenderScene> list = scenes(a);
   const io::RenderOptions options = render_options(list, a.camera);
-  const std::vector<std::string> captions = split(a.captions);
+  const std::vector<std::string> captions = split_at_commas(a.captions);
   if (captions.size() > list.size())
     throw UsageError("--captions: " + std::to_string(captions.size()) + " for " +
                      std::to_string(list.size()) + " pictures");

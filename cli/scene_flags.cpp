@@ -90,6 +90,18 @@ std::string SceneFlags::accuracy() const {
   return "";
 }
 
+io::TomlDocument scene_settings(const std::string& in, const std::string& state_path,
+                                const std::optional<io::SavedState>& state, const SceneFlags& flags,
+                                const jobs::Frame& frame) {
+  io::TomlDocument document = jobs::settings_of(in, state_path, state);
+  if (frame.unit) io::set_value(document, "unit", *frame.unit, "--unit");
+  if (frame.up) io::set_value(document, "up", *frame.up, "--up");
+  for (const char* list : {"lines", "pins"}) io::make_list(document, list);
+  flags.apply(document);
+  for (const char* list : {"lines", "pins"}) io::make_list(document, list);
+  return document;
+}
+
 void apply_sets(io::TomlDocument& document, const std::vector<std::string>& sets) {
   for (const std::string& text : sets) {
     const std::size_t equals = text.find('=');

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/scene/settings_schema.h"
+#include "jobs/inputs.h"
 
 namespace furrow::cli {
 
@@ -34,6 +35,12 @@ class SceneFlags {
   std::vector<std::string> pin_boxes_, pin_loops_, pin_groups_, sets_;
   std::vector<int> pin_vertices_;
 };
+
+/// The settings of a scene file, a saved state (null: none) or a garment alone, then what the command line
+/// says over them: unit and axis, flags, --set.
+io::TomlDocument scene_settings(const std::string& in, const std::string& state_path,
+                                const std::optional<io::SavedState>& state, const SceneFlags& flags,
+                                const jobs::Frame& frame);
 
 /// Writes each key=value of --set into the document, in their order. Throws UsageError as
 /// SceneFlags::apply().

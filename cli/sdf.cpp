@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <chrono>
 #include <memory>
 
-#include "bridge/body.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "io/picture/render_slice.h"
-#include "io/scene/field_file.h"
-#include "jobs/run/body.h"
+#include "jobs/field.h"
 
 namespace furrow::cli {
 namespace {
@@ -18,71 +14,23 @@ struct SdfArguments : CommonArguments {
   std::string slice, at;
 };
 
-const char* to_text(physics::SignRule rule) {
-  switch (rule) {
-    case physics::SignRule::pseudonormal:
-      return "pseudonormal";
-    case physics::SignRule::sides:
-      return "sides of the uncrossed parts, winding number where they cross";
-    case physics::SignRule::winding:
-      return "winding number";
-  }
-  return "";
-}
-
-/// Error of the field at points of a lattice in its band [m], by exact distance.
-Json errors(const BodyCollider& body) {
-  double largest = 0, sum = 0;
-  int points = 0;
-  constexpr int n = 40;
-  for (int i = 0; i < n * n * n; ++i) {
-    const physics::Vec3 u((i % n + 0.5) / n, (i / n % n + 0.5) / n, (i / n / n + 0.5) / n);
-    const physics::Vec3 x = body.exact.low() + u.cwiseProduct(body.exact.high() - body.exact.low());
-    const double exact = body.exact.at(x).value;
-    if (exact > 0.03 || exact < -0.02) continue;
-    const double error = std::abs(body.field.at(x).value - exact);
-    largest = std::max(largest, error);
-    sum += error;
-    ++points;
-  }
-  return {{"points", points}, {"max", largest}, {"mean", points ? sum / points : 0}};
-}
-
-void sdf(SdfArguments a) {
-  a.body.mesh = a.body_path;
-  a.body.options.gradient = a.gradient == "exact" ? physics::GradientRule::exact_derivative
-                                                  : physics::GradientRule::interpolated_corners;
-  if (a.out == "-") throw UsageError("-o: a field needs a file name");
-  check_folder(a.out);
-  check_picture(a.slice, "--slice");
-  refuse_same({a.out, a.slice}, {a.body_path});
-  catch_interrupts();
-  Terminal terminal(a);
-  const auto start = std::chrono::steady_clock::now();
-  const BodyCollider body = load_body(a.body, {a, terminal});
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const physics::DistanceFieldReport& r = body.field.report();
-  if (!a.out.empty()) io::write_field(a.out, body.field, body.triangles);
-  if (!a.slice.empty())
-    io::write_png(a.slice, io::render_slice(body.field, body.exact.low(), body.exact.high()));
-  Json report{{"tolerance", r.tolerance},
-              {"leaves", r.leaves},
-              {"samples", r.samples},
-              {"depth", r.depth},
-              {"leaves_at_max_depth", r.leaves_at_max_depth},
-              {"bytes", body.field.memory()},
-              {"sign", to_text(r.sign.rule)},
-              {"seconds", seconds},
-              {"error", errors(body)}};
+FieldJob job_of(const SdfArguments& a) {
+  FieldJob job{a.body, a, a.out, a.slice, {}};
+  job.body.mesh = a.body_path;
+  job.body.options.gradient = a.gradient == "exact" ? physics::GradientRule::exact_derivative
+                                                    : physics::GradientRule::interpolated_corners;
   if (!a.at.empty()) {
     const std::vector<double> p = parse_numbers(a.at, 3, "--at");
-    const physics::Vec3 x(p[0], p[1], p[2]);
-    const physics::SignedDistance field = body.field.at(x);
-    report["at"] = {{"distance", field.value},
-                    {"gradient", {field.gradient.x(), field.gradient.y(), field.gradient.z()}},
-                    {"exact_distance", body.exact.at(x).value}};
+    job.at = physics::Vec3(p[0], p[1], p[2]);
   }
-  print_report(report, a);
+  return job;
+}
+
+void sdf(const SdfArguments& a) {
+  const FieldJob job = job_of(a);
+  catch_interrupts();
+  Terminal terminal(a);
+  print_report(to_json(jobs::field(job, terminal)), a);
 }
 
 }  // namespace

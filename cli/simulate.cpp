@@ -5,8 +5,7 @@
 #include <memory>
 
 #include "cli/common.h"
-#include "cli/exit_codes.h"
-#include "cli/scene_settings.h"
+#include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/scene/equivalent_flags.h"
 #include "jobs/report/judge_report.h"
@@ -68,7 +67,7 @@ int simulate(const SimulateArguments& a) {
   const SimulateReport report = jobs::simulate(job, terminal);
   if (!report.ran) {
     std::cerr << "error: " << a.in << ": " << words(*report.choice, report.scene_dt) << "\n";
-    return exit_code_of(*report.choice);
+    return exit_code_of(report.choice->broken == Broken::interrupted, report.choice->has_answer());
   }
   print(report, a);
   for (const Warning& w : report.warnings) terminal.warn(w);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/smooth.h"
+
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/smoothing_options.h"
 #include "cli/subcommands.h"
-#include "geometry/mesh/property_names.h"
 
 namespace furrow::cli {
 namespace {
@@ -14,16 +15,17 @@ struct SmoothArguments : CommonArguments {
   SmoothingArguments smoothing;
 };
 
-void smooth(SmoothArguments a) {
-  check_output(a.out);
-  take_noted_frame(a, {a.in});
-  io::MeshFile file = read_mesh(a.in, a);
-  geometry::taubin_smooth(file.mesh, {}, to_options(a.smoothing));
-  write_mesh(file, a);
-  print_report({{"vertices", file.mesh.number_of_vertices()},
-                {"iterations", a.smoothing.iterations},
-                {"written", a.out}},
-               a);
+void smooth(const SmoothArguments& a) {
+  const SmoothJob job{std::filesystem::path(a.in), a, to_options(a.smoothing), a.out};
+  Terminal terminal(a);
+  const SmoothReport report = jobs::smooth(job, terminal);
+  CommonArguments common = a;
+  common.unit = report.frame.unit_in_use();
+  common.up = report.frame.up_in_use();
+  if (a.out == "-") write_mesh(report.mesh, common);
+  Json json = to_json(report);
+  json["written"] = a.out;
+  print_report(json, a);
 }
 
 }  // namespace

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
 #include <iostream>
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "geometry/mesh/errors.h"
 #include "io/base/lower_case.h"
-#include "io/mesh/wrinkle_record.h"
-#include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/stroke_list.h"
 
 namespace furrow::cli {
 namespace {
@@ -23,16 +20,6 @@ struct StrokesArguments : CommonArguments {
 
 std::string ending_of(const std::string& path) {
   return io::lower_case(std::filesystem::path(path).extension().string());
-}
-
-/// Of a stroke file, or those that a wrinkled mesh was made with.
-std::vector<io::DrawnStroke> read(const StrokesArguments& a) {
-  if (ending_of(a.in) != ".ply")
-    return io::read_drawn_strokes(a.in, geometry::Stroke{}.height, read_options(a));
-  const auto record = io::find_wrinkle_record(read_mesh(a.in, a));
-  if (!record || record->strokes.empty())
-    throw geometry::ContentError(a.in + ": holds no strokes; furrow wrinkle writes them into a PLY");
-  return io::drawn_strokes_from(record->strokes, a.in);
 }
 
 /// NAME=VALUE, parted at the last '='.
@@ -72,27 +59,12 @@ void edit(std::vector<io::DrawnStroke>& strokes, const StrokesArguments& a) {
   for (const std::string& text : a.sharpness)
     if (const std::string name = parted(text, "--sharpness").first; !named(name).stroke.width)
       throw UsageError("--sharpness " + name + ": the stroke has no width; give it one with --width");
-  for (const io::DrawnStroke& drawn : strokes)
-    if (const std::string fault = geometry::shape_fault(drawn.stroke); !fault.empty())
-      throw UsageError("stroke '" + drawn.stroke.name + "': " + fault);
+  check_shapes(strokes);
   for (const std::string& text : a.rename) {
     const auto [name, value] = parted(text, "--rename");
     named(name).stroke.name = value;
   }
   if (!a.order.empty()) io::order_strokes(strokes, CLI::detail::split(a.order, ','));
-}
-
-Json to_json(const io::DrawnStroke& drawn) {
-  Json item{{"name", drawn.stroke.name}, {"kind", io::kind_of(drawn)}, {"height", drawn.stroke.height}};
-  if (const double length = io::drawn_length(drawn); std::isfinite(length))
-    item["length"] = length, item["unit"] = io::unit_of(drawn);
-  if (drawn.stroke.width) {
-    item["width"] = *drawn.stroke.width;
-    item["sharpness"] = drawn.stroke.sharpness;
-  }
-  if (drawn.stroke.press != 1) item["press"] = drawn.stroke.press;
-  if (drawn.stroke.closed) item["closed"] = true;
-  return item;
 }
 
 /// Strokes may take the place of the file that they were read from; nothing else may be replaced.
@@ -112,20 +84,14 @@ void strokes(StrokesArguments a) {
     throw UsageError("--in-space needs --garment, which the strokes lie on");
   check_output_name(a);
   take_noted_frame(a, {a.in, a.garment});
-  std::vector<io::DrawnStroke> list = read(a);
+  Terminal terminal(a);
+  const Context context{a, terminal};
+  std::vector<io::DrawnStroke> list = read_stroke_list(a.in, context), on_garment;
   edit(list, a);
-  Json report{{"strokes", Json::array()}};
-  for (const io::DrawnStroke& stroke : list) report["strokes"].push_back(to_json(stroke));
-  if (!a.garment.empty()) {
-    const io::ResolvedStrokes resolved = io::resolve_strokes(list, read_garment(a.garment, a));
-    for (const std::string& w : resolved.warnings) warn(w, a);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const io::DrawnStroke in_space{resolved.strokes[i]};
-      report["strokes"][i]["length_on_garment"] = io::drawn_length(in_space);
-      report["strokes"][i]["parts"] = 1 + in_space.stroke.breaks.size();
-      if (a.in_space) list[i] = in_space;
-    }
-  }
+  if (!a.garment.empty())
+    on_garment = lay_on(list, jobs::read_garment(std::filesystem::path(a.garment), context), context);
+  Json report{{"strokes", to_json(list, on_garment)}};
+  if (a.in_space) list = on_garment;
   if (!a.out.empty()) {
     const io::ReadOptions frame = read_options(a);
     const io::WriteOptions options{frame.metres_per_unit, frame.up};

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/refine/subdivide.h"
+#include "jobs/subdivide.h"
 
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/max_weights.h"
 #include "cli/subcommands.h"
-#include "geometry/insert/insert_along_stroke.h"
-#include "geometry/insert/insert_in_faces.h"
-#include "geometry/mesh/property_names.h"
-#include "geometry/rest/bending_springs.h"
-#include "io/stroke/resolve_strokes.h"
-#include "io/stroke/stroke_file.h"
-#include "jobs/report/wrinkle_reports.h"
 
 namespace furrow::cli {
 namespace {
@@ -25,53 +18,36 @@ struct SubdivideArguments : CommonArguments {
   geometry::InsertionOptions options;
 };
 
-/// Springs follow the new edges; masses are lumped anew by whoever needs them.
-Json conclude(geometry::Mesh& mesh, const geometry::InsertionReport& report) {
-  if (geometry::find_map(mesh, geometry::attribute::bending_rest_length))
-    geometry::rebuild_bending_springs(mesh, report.changed_faces);
-  if (auto mass = geometry::find_map(mesh, geometry::attribute::mass)) mesh.remove_property_map(*mass);
-  return to_json(report, mesh);
-}
-
-Json insert_strokes(io::MeshFile& file, const SubdivideArguments& a) {
-  geometry::Mesh& mesh = file.mesh;
-  geometry::InsertionReport sum;
-  int id = next_line(mesh);
-  const auto drawn = io::read_drawn_strokes(a.strokes, geometry::Stroke{}.height, read_options(a));
-  const io::ResolvedStrokes resolved = io::resolve_strokes(drawn, file, a.options.max_distance);
-  for (const std::string& w : resolved.warnings) warn(w, a);
-  for (const geometry::Stroke& stroke : resolved.strokes)
-    sum += geometry::insert_along_stroke(mesh, stroke, id++, a.options).report;
-  for (const std::string& w : sum.warnings) warn(w, a);
-  return conclude(mesh, sum);
-}
-
-Json insert_everywhere(geometry::Mesh& mesh, const SubdivideArguments& a) {
-  std::vector<geometry::FacePoint> centroids;
-  for (geometry::Face f : mesh.faces()) centroids.push_back({f, {1. / 3, 1. / 3, 1. / 3}});
-  return conclude(mesh, geometry::insert_in_faces(mesh, centroids, a.options));
-}
-
-void subdivide(SubdivideArguments a) {
+SubdivideJob job_of(const SubdivideArguments& a) {
   if (!a.strokes.empty() + a.all + (a.loop > 0) + (a.sqrt3 > 0) + (a.linear > 0) != 1)
     throw UsageError("subdivide takes one of --strokes, --all, --loop, --sqrt3 and --linear");
-  a.options.rule = a.rule == "paper" ? geometry::InsertionRule::paper : geometry::InsertionRule::safe;
-  check_output(a.out);
-  refuse_same(a.out, a.strokes);
-  take_noted_frame(a, {a.in});
-  io::MeshFile file = read_mesh(a.in, a);
-  Json report = Json::object();
-  if (!a.strokes.empty()) report = insert_strokes(file, a);
-  if (a.all) report = insert_everywhere(file.mesh, a);
-  if (a.loop > 0) geometry::loop_subdivide(file.mesh, a.loop);
-  if (a.sqrt3 > 0) geometry::sqrt3_subdivide(file.mesh, a.sqrt3);
-  if (a.linear > 0) geometry::midpoint_subdivide(file.mesh, a.linear);
-  if (a.max_weights) geometry::normalize_skin_weights(file.mesh, *a.max_weights);
-  write_mesh(file, a);
-  report["vertices"] = file.mesh.number_of_vertices();
-  report["faces"] = file.mesh.number_of_faces();
-  report["written"] = a.out;
-  print_report(report, a);
+  SubdivideJob job{std::filesystem::path(a.in)};
+  job.refinement = !a.strokes.empty() ? Refinement::strokes
+                   : a.all            ? Refinement::everywhere
+                   : a.loop > 0       ? Refinement::loop
+                   : a.sqrt3 > 0      ? Refinement::sqrt3
+                                      : Refinement::linear;
+  job.steps = a.loop + a.sqrt3 + a.linear;  // one of them
+  job.strokes = std::filesystem::path(a.strokes);
+  job.frame = a;
+  job.options = a.options;
+  job.options.rule = a.rule == "paper" ? geometry::InsertionRule::paper : geometry::InsertionRule::safe;
+  job.max_weights = a.max_weights;
+  job.output = a.out;
+  return job;
+}
+
+void subdivide(const SubdivideArguments& a) {
+  const SubdivideJob job = job_of(a);
+  Terminal terminal(a);
+  const SubdivideReport report = jobs::subdivide(job, terminal);
+  CommonArguments common = a;
+  common.unit = report.frame.unit_in_use();
+  common.up = report.frame.up_in_use();
+  if (a.out == "-") write_mesh(report.mesh, common);
+  Json json = to_json(report);
+  json["written"] = a.out;
+  print_report(json, a);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "cli/scene_settings.h"
+#include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_drawing.h"
 #include "io/picture/png_file.h"

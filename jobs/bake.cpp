@@ -11,6 +11,7 @@
 #include "geometry/stroke/project_onto_surface.h"
 #include "io/picture/baked_maps.h"
 #include "jobs/run/output_checks.h"
+#include "physics/base/require.h"
 
 namespace furrow::jobs {
 namespace {
@@ -23,6 +24,8 @@ constexpr double moved = 1e-4;  // from the low surface: such faces are reported
 void check(const BakeJob& job) {
   const std::string applied = job.applied.string();
   if (!applied.empty() && !job.check) throw std::invalid_argument("--applied goes with --check");
+  if (job.check)
+    physics::require("bake", "check", *job.check, *job.check >= 0 && *job.check <= 6, "in [0, 6]");
   if (job.prefix.empty()) {
     if (job.check)
       throw std::invalid_argument("bake: a check reads the maps that were written: name a prefix");

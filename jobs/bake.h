@@ -16,8 +16,8 @@ struct BakeJob {
   Frame frame = {};     ///< of the files read and written
   geometry::BakeOptions options = {};
   std::string prefix;  ///< that the names of the files begin with; "": nothing is written or checked
-  /// The written map is applied to the low mesh, cut so many times into four, and compared with the high
-  /// mesh.
+  /// The written map is applied to the low mesh, cut so many times into four, in [0, 6], and compared with
+  /// the high mesh.
   std::optional<int> check;
   std::filesystem::path applied;  ///< mesh to write the result of the check to; empty or "-": none
 };

@@ -4,10 +4,12 @@
 #include <algorithm>
 
 #include "io/animation/animation_file.h"
+#include "io/scene/settings_schema.h"
 #include "jobs/report/drape_remarks.h"
 #include "jobs/run/drape_garment.h"
 #include "jobs/run/output_checks.h"
 #include "jobs/run/recorded_material.h"
+#include "physics/base/require.h"
 
 namespace furrow::jobs {
 namespace {
@@ -26,6 +28,12 @@ void check_scene(const io::Scene& scene) {
 void check(const DrapeJob& job, const io::Scene& scene) {
   check_scene(scene);
   const DrapeSettings& s = job.settings;
+  using physics::require;
+  require("drape", "penetration", s.penetration, s.penetration >= 0, ">= 0");
+  require("drape", "band_stiffness", s.band_stiffness, s.band_stiffness >= 0, ">= 0");
+  require("drape", "subdivide", scene.subdivide, scene.subdivide >= 0 && scene.subdivide <= 6, "in [0, 6]");
+  if (s.iterations) require("drape", "iterations", *s.iterations, *s.iterations >= 0, ">= 0");
+  if (s.contact_depth) require("drape", "contact_depth", *s.contact_depth, *s.contact_depth > 0, "> 0");
   if (job.fabrics.size() > 1 && (!job.output.empty() || !s.animation.empty()))
     throw std::invalid_argument("--compare writes a picture only; drape each by itself for its mesh");
   if (!(s.residual > 0)) throw std::invalid_argument("--residual takes a number > 0");
@@ -43,6 +51,16 @@ void check(const DrapeJob& job, const io::Scene& scene) {
   std::vector<std::string> outputs{output, animation};
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
   refuse_same(outputs, inputs);
+}
+
+/// Once of all settings that were said and that rest has no use for: what moves, and how long.
+void warn_of_unused_settings(const io::TomlDocument& document, Listener& listener) {
+  std::string names;
+  for (const std::string& path : io::settings_without_use(document, io::used_by::drape))
+    names += (names.empty() ? "" : ", ") + path;
+  if (names.empty()) return;
+  listener.warn(
+      {"settings_unused", "a garment at rest has no use for " + names + "; furrow simulate has", names, ""});
 }
 
 /// The settings with what the garment's file notes, or cotton, unless something is said of what the cloth is.
@@ -92,6 +110,7 @@ bool DrapeJobReport::fails() const {
 }
 
 DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
+  warn_of_unused_settings(job.scene.settings, listener);
   const OpenScene open = open_scene(job);
   const std::vector<io::Scene> scenes = scenes_of(job, open);
   const Context context{open.frame, listener, &job.scene.memory};

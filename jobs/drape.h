@@ -22,11 +22,11 @@ struct DrapeSettings {
   bool plain = false;                                    ///< paper 2's own scheme
   double residual = physics::SettleOptions{}.tolerance;  ///< at which it rests [-]; > 0
   std::optional<double> contact_depth;  ///< that cloth may lie inside the gap [m]; none: no limit
-  double penetration = 0.005;           ///< depth to which the body may come through the cloth [m]
-  std::optional<int> iterations;        ///< on each level; none: those of the method
+  double penetration = 0.005;           ///< depth to which the body may come through the cloth [m]; >= 0
+  std::optional<int> iterations;        ///< on each level, >= 0; none: those of the method
   std::vector<Band> bands;
-  double band_stiffness = 50;       ///< [N]
-  double bending_friction = 0;      ///< [N]
+  double band_stiffness = 50;       ///< [N]; >= 0
+  double bending_friction = 0;      ///< [N]; >= 0
   std::filesystem::path animation;  ///< of the finest level, a frame an iteration; empty: none
 };
 

@@ -166,6 +166,20 @@ SceneInput scene_from_file(const std::filesystem::path& toml) {
 
 bool is_scene(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
 
+io::TomlDocument settings_of(const std::string& scene_or_garment, const std::string& state_path,
+                             const std::optional<io::SavedState>& state) {
+  if (is_scene(scene_or_garment)) return io::read_toml(scene_or_garment);
+  if (state) {
+    if (!scene_or_garment.empty())
+      throw std::invalid_argument(scene_or_garment + ": --state has its garment; leave the mesh away");
+    return io::document_of(state->scene, state_path);
+  }
+  if (scene_or_garment.empty()) throw std::invalid_argument("name a garment, a scene (.toml), or --state");
+  io::TomlDocument document;
+  io::set_value(document, "garment.mesh", scene_or_garment, "the garment");
+  return document;
+}
+
 namespace {
 
 /// Does it; a fault of a flag is one of the call, not of a file.

@@ -11,6 +11,7 @@
 
 #include "io/mesh/mesh_file.h"
 #include "io/scene/scene.h"
+#include "io/scene/state_file.h"
 #include "io/scene/toml_document.h"
 #include "io/stroke/drawn_stroke.h"
 #include "jobs/listener.h"
@@ -105,6 +106,11 @@ struct SceneInput {
 
 /// The scene of a file. Throws as io::read_toml().
 SceneInput scene_from_file(const std::filesystem::path& toml);
+
+/// The settings of a scene file, of a saved state (null: none), or of a garment alone. Throws
+/// std::invalid_argument if both or neither are named.
+io::TomlDocument settings_of(const std::string& scene_or_garment, const std::string& state_path,
+                             const std::optional<io::SavedState>& state);
 
 /// Settings that were read, with what the garment's file notes.
 struct OpenScene {

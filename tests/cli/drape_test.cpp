@@ -38,8 +38,9 @@ std::string skirt() {
 TEST_CASE("drape: it brings the skirt to rest on the mannequin, the same bits twice, and tells how it fits") {
   ScratchDirectory scratch;
   const std::string call = "drape " + skirt() + " --band top=0.95 --json";
-  const Run run = run_furrow(call + " -o " + (scratch / "a.ply") + " --picture " + (scratch / "a.png") +
-                             " --animation " + (scratch / "a.pc2"));
+  const Run run =
+      run_furrow(call + " -o " + (scratch / "a.ply") + " --picture " + (scratch / "a.png") + " --animation " +
+                 (scratch / "a.pc2") + " --save-camera " + (scratch / "a.json"));
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
   const json r = json::parse(run.out);
@@ -53,6 +54,7 @@ TEST_CASE("drape: it brings the skirt to rest on the mannequin, the same bits tw
   CHECK(worn.mesh.number_of_vertices() == r["levels"][0]["vertices"].get<std::size_t>());
   CHECK(geometry::find_map(worn.mesh, geometry::attribute::rest_length));
   CHECK(io::read_png(scratch / "a.png").width > 0);
+  CHECK(json::parse(read_text(scratch / "a.json")).contains("eye"));
   CHECK(std::filesystem::file_size(scratch / "a.pc2") >
         12 * worn.mesh.number_of_vertices() * r["levels"][0]["iterations"].get<std::size_t>());
   REQUIRE(run_furrow(call + " -o " + (scratch / "b.ply") + " -q").exit_code == 0);

@@ -113,8 +113,12 @@ TEST_CASE("fit: pictures of one garment from both sides, and of several with one
           (f / "one.png"));
   const io::Image one = io::read_png(f / "one.png");
   CHECK(one.width == 8 + 2 * (220 + 8));
-  succeed("fit --json " + f.worn + " --body " + f.body + small + "--view back --picture " + (f / "back.png"));
+  succeed("fit --json " + f.worn + " --body " + f.body + small + "--view back --picture " + (f / "back.png") +
+          " --save-camera " + (f / "back.json"));
   CHECK(io::read_png(f / "back.png").width == 8 + 220 + 8);
+  succeed("fit --json " + f.worn + " --body " + f.body + " --quality draft --camera " + (f / "back.json") +
+          " --picture " + (f / "again.png"));
+  CHECK(read_text(f / "again.png") == read_text(f / "back.png"));
   const json r = succeed("fit --json --compare " + f.worn + " " + f.made + " " + f.worn + " --body " +
                          f.body + small + "--captions S,M,L --picture " + (f / "three.png"));
   CHECK(io::read_png(f / "three.png").width == 8 + 3 * (220 + 8));

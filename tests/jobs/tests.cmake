@@ -2,10 +2,18 @@
 furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   job_folders.h
   recorder.h
+  bake_test.cpp
   chart_test.cpp
+  drape_test.cpp
+  field_test.cpp
+  fit_test.cpp
   keep_test.cpp
   listener_test.cpp
   mesh_input_test.cpp
   simulate_test.cpp
+  smooth_test.cpp
+  stroke_list_test.cpp
+  subdivide_test.cpp
+  transfer_test.cpp
   wrinkle_test.cpp
 )

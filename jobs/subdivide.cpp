@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/subdivide.h"
+
+#include "geometry/insert/insert_along_stroke.h"
+#include "geometry/insert/insert_in_faces.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/vertex_attributes.h"
+#include "geometry/refine/subdivide.h"
+#include "geometry/rest/bending_springs.h"
+#include "io/stroke/resolve_strokes.h"
+#include "io/stroke/stroke_file.h"
+#include "jobs/report/wrinkle_reports.h"
+#include "jobs/run/output_checks.h"
+
+namespace furrow::jobs {
+namespace {
+
+/// Springs follow the new edges; masses are lumped anew by whatever needs them.
+void conclude(geometry::InsertionReport report, SubdivideReport& result) {
+  geometry::Mesh& mesh = result.mesh.mesh;
+  if (geometry::find_map(mesh, geometry::attribute::bending_rest_length))
+    geometry::rebuild_bending_springs(mesh, report.changed_faces);
+  if (auto mass = geometry::find_map(mesh, geometry::attribute::mass)) mesh.remove_property_map(*mass);
+  result.rest = geometry::audit_rest_metric(mesh);
+  result.insertion = std::move(report);
+}
+
+void insert_strokes(const SubdivideJob& job, SubdivideReport& result, const Context& context) {
+  geometry::InsertionReport sum;
+  int id = next_line(result.mesh.mesh);
+  const auto* path = std::get_if<std::filesystem::path>(&job.strokes);
+  const auto drawn =
+      path ? io::read_drawn_strokes(*path, geometry::Stroke{}.height, read_options(context.frame))
+           : std::get<std::vector<io::DrawnStroke>>(job.strokes);
+  const io::ResolvedStrokes resolved = io::resolve_strokes(drawn, result.mesh, job.options.max_distance);
+  for (const std::string& w : resolved.warnings) context.warn("drawing", w, "strokes");
+  for (const geometry::Stroke& stroke : resolved.strokes)
+    sum += geometry::insert_along_stroke(result.mesh.mesh, stroke, id++, job.options).report;
+  for (const std::string& w : sum.warnings) context.warn("drawing", w, "strokes");
+  conclude(std::move(sum), result);
+}
+
+void refine(const SubdivideJob& job, SubdivideReport& result, const Context& context) {
+  geometry::Mesh& mesh = result.mesh.mesh;
+  switch (job.refinement) {
+    case Refinement::strokes:
+      return insert_strokes(job, result, context);
+    case Refinement::everywhere: {
+      std::vector<geometry::FacePoint> centroids;
+      for (geometry::Face f : mesh.faces()) centroids.push_back({f, {1. / 3, 1. / 3, 1. / 3}});
+      return conclude(geometry::insert_in_faces(mesh, centroids, job.options), result);
+    }
+    case Refinement::loop:
+      return geometry::loop_subdivide(mesh, job.steps);
+    case Refinement::sqrt3:
+      return geometry::sqrt3_subdivide(mesh, job.steps);
+    case Refinement::linear:
+      geometry::midpoint_subdivide(mesh, job.steps);
+  }
+}
+
+}  // namespace
+
+SubdivideReport subdivide(const SubdivideJob& job, Listener& listener) {
+  const std::string output = job.output.string();
+  if (!output.empty()) check_output(output);
+  if (const auto* path = std::get_if<std::filesystem::path>(&job.strokes))
+    refuse_same(output, path->string());
+  SubdivideReport report{{}, {}, {}, job.frame};
+  take_noted_frame(report.frame, {name_of(job.mesh, "")});
+  const Context context{report.frame, listener};
+  report.mesh = read_mesh(job.mesh, context);
+  stop_if_cancelled(context);
+  refine(job, report, context);
+  if (job.max_weights) geometry::normalize_skin_weights(report.mesh.mesh, *job.max_weights);
+  stop_if_cancelled(context);
+  if (!output.empty() && output != "-") write_mesh(job.output, report.mesh, context);
+  return report;
+}
+
+Json to_json(const SubdivideReport& r) {
+  Json json = Json::object();
+  if (r.insertion) json = to_json(*r.insertion, *r.rest);
+  json["vertices"] = r.mesh.mesh.number_of_vertices();
+  json["faces"] = r.mesh.mesh.number_of_faces();
+  return json;
+}
+
+}  // namespace furrow::jobs

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/drape.h"
+
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/sheet.h"
+#include "io/scene/toml_document.h"
+#include "physics/base/progress.h"
+#include "tests/jobs/job_folders.h"
+#include "tests/jobs/recorder.h"
+#include "tests/test_meshes.h"
+
+using namespace furrow;
+namespace fs = std::filesystem;
+
+namespace {
+
+void set(jobs::DrapeJob& job, const std::string& path, const io::Json& value) {
+  io::set_value(job.scene.settings, path, value, "the test");
+}
+
+/// A square of cloth that lies across a ball, in memory.
+jobs::DrapeJob across_ball(const std::string& fabric = "cotton") {
+  jobs::DrapeJob job;
+  geometry::Mesh& sheet = job.scene.memory.meshes["sheet"].mesh;
+  sheet = geometry::equilateral_sheet(0.3, 0.3, 0.06);
+  for (const geometry::Vertex v : sheet.vertices()) {
+    const geometry::Point p = sheet.point(v);
+    sheet.point(v) = {p.x(), 0.105, p.y() - 0.15};
+  }
+  job.scene.memory.meshes["ball"].mesh = tests::icosphere(2, 0.1);
+  job.scene.settings = io::parse_toml("[garment]\nmesh = \"sheet\"\n", "test");
+  set(job, "body.mesh", "ball");
+  set(job, "body.tolerance", 0.005);
+  set(job, "material.preset", fabric);
+  return job;
+}
+
+/// The same with its meshes in files.
+jobs::DrapeJob of_files(jobs::DrapeJob job, const fs::path& folder) {
+  for (const char* name : {"sheet", "ball"})
+    io::write_mesh(folder / (name + std::string(".ply")), job.scene.memory.meshes.at(name));
+  job.scene.memory = {};
+  set(job, "garment.mesh", (folder / "sheet.ply").string());
+  set(job, "body.mesh", (folder / "ball.ply").string());
+  return job;
+}
+
+/// Numbers of a report that no clock made.
+io::Json without_clock(const jobs::DrapeJobReport& report) {
+  io::Json json = to_json(report);
+  json.erase("seconds");
+  return json;
+}
+
+bool remarks_on(const jobs::DrapeJobReport& report, const std::string& code) {
+  return std::any_of(report.remarks.begin(), report.remarks.end(),
+                     [&](const jobs::DrapeRemark& r) { return r.remark.code == code; });
+}
+
+/// Cancels once draping was told so many times.
+class EndsDraping : public tests::Recorder {
+ public:
+  explicit EndsDraping(int at) : at_(at) {}
+  void progress(const std::string& what, double) override { draped_ += what == "draping"; }
+  bool cancelled() override { return draped_ >= at_; }
+
+ private:
+  int at_, draped_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("drape: a garment and a body in memory come to the bits of their files") {
+  const fs::path folder = tests::empty_folder("drape_memory");
+  tests::Recorder recorder;
+  const jobs::DrapeJob in_memory = across_ball();
+  jobs::DrapeJob filed = of_files(in_memory, folder);
+  filed.output = folder / "worn.ply";
+  const jobs::DrapeJobReport a = jobs::drape(in_memory, recorder), b = jobs::drape(filed, recorder);
+  INFO(to_json(a).dump(1));
+  CHECK(a.garments.at(0).rests());
+  CHECK(a.garments[0].outcome() == "at rest");
+  CHECK(a.garments[0].report.levels.back().settle.touching > 3);
+  CHECK(tests::positions(a.garments[0].file) == tests::positions(b.garments[0].file));
+  CHECK(without_clock(a) == without_clock(b));
+  CHECK(tests::positions(io::read_mesh(filed.output)) == tests::positions(b.garments[0].file));
+  CHECK_FALSE(a.fails());
+}
+
+TEST_CASE("drape: fabrics are draped one after the other, each to the bits of its own job") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = across_ball();
+  job.scene.settings.root.at("material").erase("preset");
+  job.fabrics = {"silk", "denim"};
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  REQUIRE(report.garments.size() == 2);
+  for (const jobs::Draped& d : report.garments)
+    CHECK(tests::positions(jobs::drape(across_ball(d.name), recorder).garments[0].file) ==
+          tests::positions(d.file));
+  CHECK(to_json(report).at("garments").size() == 2);
+}
+
+TEST_CASE("drape: warnings and remarks have their codes") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = across_ball();
+  set(job, "material.gap", 0.0005);
+  set(job, "simulation.seconds", 3);
+  set(job, "pins.0", io::Json{{"box", {-1, -1, -1, 1, 1, 1}}});
+  for (geometry::Point& p : job.scene.memory.meshes["sheet"].mesh.points()) p = {p.x(), 0.05, p.z()};
+  jobs::drape(job, recorder);
+  CHECK(recorder.warned_of("gap_raised"));
+  CHECK(recorder.warned_of("pins_inside_body"));
+  CHECK(recorder.warned_of("settings_unused"));
+  job = across_ball();
+  job.settings.iterations = 1;
+  const jobs::DrapeJobReport hurried = jobs::drape(job, recorder);
+  CHECK(remarks_on(hurried, "not_at_rest"));
+  CHECK(hurried.fails());
+  for (geometry::Point& p : job.scene.memory.meshes["sheet"].mesh.points()) p = {p.x() + 2, p.y(), p.z()};
+  const jobs::DrapeJobReport beside = jobs::drape(job, recorder);
+  CHECK(remarks_on(beside, "touches_nothing"));
+  CHECK(remarks_on(beside, "falls"));
+  CHECK(beside.fails());
+}
+
+TEST_CASE("drape: a job that is cancelled before anything was found leaves nothing") {
+  const fs::path folder = tests::empty_folder("drape_cancelled_early");
+  jobs::DrapeJob job = across_ball();
+  job.output = folder / "worn.ply";
+  job.settings.animation = folder / "way.pc2";
+  tests::Recorder recorder(1);
+  CHECK_THROWS_AS(jobs::drape(job, recorder), physics::Cancelled);
+  CHECK(tests::names_in(folder).empty());
+}
+
+TEST_CASE("drape: what a cancelled job reached is reported, and written whole") {
+  const fs::path folder = tests::empty_folder("drape_cancelled");
+  jobs::DrapeJob job = across_ball();
+  job.output = folder / "worn.ply";
+  job.settings.animation = folder / "way.pc2";
+  const std::size_t iterations = [&] {
+    tests::Recorder all;
+    jobs::drape(job, all);
+    return std::count_if(all.told.begin(), all.told.end(),
+                         [](const auto& t) { return t.first == "draping"; });
+  }();
+  REQUIRE(iterations > 6);
+  for (int at : {1, 3, 6}) {
+    for (const fs::path& file : {job.output, job.settings.animation}) fs::remove(file);
+    EndsDraping listener(at);
+    const jobs::DrapeJobReport report = jobs::drape(job, listener);
+    CHECK(report.cancelled());
+    CHECK(report.fails());
+    CHECK(report.remarks.empty());
+    CHECK(report.garments.at(0).outcome() == "interrupted");
+    CHECK(tests::positions(io::read_mesh(job.output)) == tests::positions(report.garments[0].file));
+    std::set<std::string> files{"worn.ply"};
+    if (report.garments[0].animated) files.insert("way.pc2");
+    CHECK(tests::names_in(folder) == files);
+  }
+}
+
+TEST_CASE("drape: a job that cannot be is refused before anything is written") {
+  const fs::path folder = tests::empty_folder("drape_refused");
+  tests::Recorder recorder;
+  const jobs::DrapeJob good = of_files(across_ball(), folder);
+  const std::string sheet = tests::bytes_of(folder / "sheet.ply");
+  const auto refused = [&](const auto& spoil) {
+    jobs::DrapeJob job = good;
+    job.output = folder / "worn.ply";
+    job.settings.animation = folder / "way.pc2";
+    spoil(job);
+    CHECK_THROWS_AS(jobs::drape(job, recorder), std::invalid_argument);
+  };
+  refused([](auto& job) { job.scene.settings.root.erase("body"); });
+  refused([](auto& job) { job.settings.residual = 0; });
+  refused([](auto& job) { job.settings.penetration = -1; });
+  refused([](auto& job) { job.settings.bending_friction = -1; });
+  refused([](auto& job) { job.settings.iterations = -1; });
+  refused([](auto& job) { job.settings.contact_depth = 0; });
+  refused([](auto& job) { job.settings.plain = true, job.settings.contact_depth = 1e-5; });
+  refused([](auto& job) { job.settings.bands = {{"no-such-loop", 0.9}}; });
+  refused([](auto& job) { job.settings.bands = {{"top", 0}}; });
+  refused([](auto& job) { job.settings.bands = {{"top", 0.9}}, job.settings.band_stiffness = -1; });
+  refused([](auto& job) { job.subdivide = -1; });
+  refused([](auto& job) { job.subdivide = 7; });
+  refused([](auto& job) { job.fabrics = {"cotton", "silk"}; });
+  refused([](auto& job) { set(job, "lines.0", io::Json{{"strokes", "sheet.ply"}}); });
+  refused([&](auto& job) { job.settings.animation = folder / "way.avi"; });
+  refused([&](auto& job) { job.settings.animation = job.output = folder / "way.obj"; });
+  refused([&](auto& job) { job.output = folder / "sheet.ply"; });
+  refused([&](auto& job) { job.more_inputs = {job.output.string()}; });
+  jobs::DrapeJob job = good;
+  job.output = folder / "nowhere" / "worn.ply";
+  CHECK_THROWS_AS(jobs::drape(job, recorder), std::runtime_error);
+  job.output = folder / "worn.ply";
+  set(job, "garment.mesh", (folder / "none.ply").string());
+  CHECK_THROWS_AS(jobs::drape(job, recorder), std::runtime_error);
+  CHECK(tests::names_in(folder) == std::set<std::string>{"ball.ply", "sheet.ply"});
+  CHECK(tests::bytes_of(folder / "sheet.ply") == sheet);
+}
+
+TEST_CASE("drape: two jobs at once in one process give the bits of single runs") {
+  tests::Recorder recorder;
+  const jobs::DrapeJob one = across_ball("silk"), two = across_ball("denim");
+  const jobs::DrapeJobReport single_one = jobs::drape(one, recorder), single_two = jobs::drape(two, recorder);
+  jobs::DrapeJobReport both_one, both_two;
+  std::thread other([&] {
+    tests::Recorder own;
+    both_two = jobs::drape(two, own);
+  });
+  both_one = jobs::drape(one, recorder);
+  other.join();
+  CHECK(tests::positions(both_one.garments[0].file) == tests::positions(single_one.garments[0].file));
+  CHECK(tests::positions(both_two.garments[0].file) == tests::positions(single_two.garments[0].file));
+  CHECK(tests::positions(both_one.garments[0].file) != tests::positions(both_two.garments[0].file));
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/transfer.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <thread>
+
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/sheet.h"
+#include "jobs/wrinkle.h"
+#include "physics/base/progress.h"
+#include "tests/jobs/job_folders.h"
+#include "tests/jobs/recorder.h"
+
+using namespace furrow;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A sheet and what a ridge made of it, in memory.
+jobs::TransferJob ridged_sheet(double height = 0.02) {
+  io::MeshFile sheet;
+  sheet.mesh = geometry::equilateral_sheet(0.4, 0.4, 0.03);
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "ridge";
+  ridge.stroke.height = height;
+  ridge.stroke.points = {{-0.1, 0.2, 0}, {0.1, 0.2, 0}};
+  jobs::WrinkleJob draw;
+  draw.garment = sheet;
+  draw.strokes = std::vector{ridge};
+  jobs::Listener nobody;
+  jobs::TransferJob job;
+  job.original = sheet;
+  job.wrinkled = jobs::wrinkle(draw, nobody).garment;
+  return job;
+}
+
+io::MeshFile mesh_of(const jobs::MeshInput& input) { return std::get<io::MeshFile>(input); }
+
+double highest(const io::MeshFile& file) {
+  double z = 0;
+  for (const geometry::Point& p : file.mesh.points()) z = std::max(z, p.z());
+  return z;
+}
+
+}  // namespace
+
+TEST_CASE("transfer: meshes in memory come to the bits of their files") {
+  const fs::path folder = tests::empty_folder("transfer_memory");
+  tests::Recorder recorder;
+  const jobs::TransferJob in_memory = ridged_sheet();
+  jobs::TransferJob of_files = in_memory;
+  io::write_mesh(folder / "sheet.ply", mesh_of(in_memory.original));
+  io::write_mesh(folder / "ridged.ply", mesh_of(in_memory.wrinkled));
+  of_files.original = folder / "sheet.ply";
+  of_files.wrinkled = folder / "ridged.ply";
+  of_files.output = folder / "moved.ply";
+  const jobs::TransferReport a = jobs::transfer(in_memory, recorder), b = jobs::transfer(of_files, recorder);
+  CHECK(a.moved.copied == mesh_of(in_memory.original).mesh.number_of_vertices());
+  CHECK(a.moved.unchanged < a.moved.copied);
+  CHECK(highest(a.result) > 0.003);
+  CHECK(tests::positions(a.result) == tests::positions(b.result));
+  CHECK(to_json(a) == to_json(b));
+  CHECK(tests::positions(io::read_mesh(folder / "moved.ply")) == tests::positions(b.result));
+  CHECK(recorder.warnings.empty());
+}
+
+TEST_CASE("transfer: polygons stay whole from OBJ to OBJ, and are warned of elsewhere") {
+  const fs::path folder = tests::empty_folder("transfer_polygons");
+  tests::Recorder recorder;
+  std::ofstream(folder / "quad.obj") << "# drawn by hand\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+  std::ofstream(folder / "raised.obj") << "v 0 0 0.5\nv 1 0 0.5\nv 1 1 0.5\nv 0 1 0.5\nf 1 2 3 4\n";
+  jobs::TransferJob job;
+  job.original = folder / "quad.obj";
+  job.wrinkled = folder / "raised.obj";
+  job.rest = folder / "quad.obj";
+  job.output = folder / "moved.obj";
+  const jobs::TransferReport report = jobs::transfer(job, recorder);
+  REQUIRE(report.obj_text);
+  CHECK(tests::bytes_of(job.output) == *report.obj_text);
+  CHECK(report.obj_text->find("# drawn by hand") != std::string::npos);
+  CHECK(report.obj_text->find("f 1 2 3 4") != std::string::npos);
+  CHECK_FALSE(recorder.warned_of("polygons_cut"));
+  job.output = folder / "moved.ply";
+  CHECK_FALSE(jobs::transfer(job, recorder).obj_text);
+  CHECK(recorder.warned_of("polygons_cut"));
+}
+
+TEST_CASE("transfer: a cancelled job leaves nothing") {
+  const fs::path folder = tests::empty_folder("transfer_cancelled");
+  jobs::TransferJob job = ridged_sheet();
+  job.output = folder / "moved.ply";
+  tests::Recorder all;
+  jobs::transfer(job, all);
+  REQUIRE(all.asked >= 2);
+  for (int at = 1; at <= all.asked; ++at) {
+    fs::remove(job.output);
+    tests::Recorder recorder(at);
+    CHECK_THROWS_AS(jobs::transfer(job, recorder), physics::Cancelled);
+    CHECK(tests::names_in(folder).empty());
+  }
+}
+
+TEST_CASE("transfer: a job that cannot be is refused before anything is written") {
+  const fs::path folder = tests::empty_folder("transfer_refused");
+  tests::Recorder recorder;
+  const jobs::TransferJob good = ridged_sheet();
+  io::write_mesh(folder / "sheet.ply", mesh_of(good.original));
+  const std::string sheet = tests::bytes_of(folder / "sheet.ply");
+  jobs::TransferJob job = good;
+  job.original = job.output = folder / "sheet.ply";
+  CHECK_THROWS_AS(jobs::transfer(job, recorder), std::invalid_argument);
+  job = good;
+  job.rest = job.output = folder / "sheet.ply";
+  CHECK_THROWS_AS(jobs::transfer(job, recorder), std::invalid_argument);
+  job = good;
+  job.output = folder / "moved.glb";
+  CHECK_THROWS_AS(jobs::transfer(job, recorder), std::invalid_argument);
+  job.output = folder / "nowhere" / "moved.ply";
+  CHECK_THROWS_AS(jobs::transfer(job, recorder), std::runtime_error);
+  job.output = folder / "moved.ply";
+  job.options.max_distance = 0;
+  CHECK_THROWS_AS(jobs::transfer(job, recorder), std::invalid_argument);
+  job.options = {};
+  job.rest = good.original;  // which has fewer vertices than the wrinkled mesh
+  CHECK_THROWS_AS(jobs::transfer(job, recorder), geometry::ContentError);
+  job.rest.reset();
+  job.wrinkled = good.original;  // which knows no rest
+  CHECK_THROWS_AS(jobs::transfer(job, recorder), geometry::ContentError);
+  CHECK(tests::names_in(folder) == std::set<std::string>{"sheet.ply"});
+  CHECK(tests::bytes_of(folder / "sheet.ply") == sheet);
+}
+
+TEST_CASE("transfer: two jobs at once in one process give the bits of single runs") {
+  tests::Recorder recorder;
+  const jobs::TransferJob one = ridged_sheet(0.02), two = ridged_sheet(-0.03);
+  const jobs::TransferReport single_one = jobs::transfer(one, recorder),
+                             single_two = jobs::transfer(two, recorder);
+  jobs::TransferReport both_one, both_two;
+  std::thread other([&] {
+    tests::Recorder own;
+    both_two = jobs::transfer(two, own);
+  });
+  both_one = jobs::transfer(one, recorder);
+  other.join();
+  CHECK(tests::positions(both_one.result) == tests::positions(single_one.result));
+  CHECK(tests::positions(both_two.result) == tests::positions(single_two.result));
+  CHECK(tests::positions(both_one.result) != tests::positions(both_two.result));
+}
