@@ -15,8 +15,7 @@ using nlohmann::json;
 namespace {
 
 const std::string patch = FURROW_SOURCE_DIR "/meshes/validation/patch.obj";  // 0.1 m wide, in the x-z plane
-const std::string attribute::material =
-    " --membrane triangles --stretch 100 --bending-law hinge --rigidity 1e-4";
+const std::string material = " --membrane triangles --stretch 100 --bending-law hinge --rigidity 1e-4";
 const std::string down = " --gravity 0,0,-9.81";
 const std::string pins = " --pin-box -1,-1,0.0499,1,1,1";
 const std::string moving =
@@ -113,18 +112,18 @@ TEST_CASE("rest keep: wrinkle makes what simulate then leaves as it is") {
   const ScratchDirectory scratch;
   const std::string a = write_strokes(scratch, "a", 0.02), kept = scratch / "kept.ply",
                     end = scratch / "end.ply";
-  const json report = run_json("wrinkle " + patch + " " + a + " --rest keep" + attribute::material + down +
-                               pins + " -o " + kept);
+  const json report =
+      run_json("wrinkle " + patch + " " + a + " --rest keep" + material + down + pins + " -o " + kept);
   CHECK(report["kept"]["residual"] < 1e-8);
   CHECK(report["kept"]["stable"] == true);
-  run_json("simulate " + kept + attribute::material + down + pins + " --seconds 0.2 -o " + end);
+  run_json("simulate " + kept + material + down + pins + " --seconds 0.2 -o " + end);
   CHECK(farthest(kept, end) < 1e-6);
   const std::string drawn = scratch / "drawn.ply", moved = scratch / "moved.ply";
   run_json("wrinkle " + patch + " " + a + " -o " + drawn);
-  run_json("simulate " + drawn + attribute::material + down + pins + " --seconds 0.2 -o " + moved);
+  run_json("simulate " + drawn + material + down + pins + " --seconds 0.2 -o " + moved);
   CHECK(farthest(drawn, moved) > 1e-5);
-  const json again = run_json("simulate " + drawn + " --rest keep" + attribute::material + down + pins +
-                              " --seconds 0.2 -o " + moved);
+  const json again =
+      run_json("simulate " + drawn + " --rest keep" + material + down + pins + " --seconds 0.2 -o " + moved);
   CHECK(again["lines"][0]["kept"].get<double>() == Approx(1).margin(1e-6));
   CHECK(farthest(moved, kept) < 1e-6);
 }
@@ -133,7 +132,7 @@ TEST_CASE("rest keep: lines drawn into a state take material and pins from it, a
   const ScratchDirectory scratch;
   const std::string b = write_strokes(scratch, "b", -0.02), state = scratch / "state.ply",
                     more = scratch / "more.ply";
-  run_json("simulate " + patch + " --rest keep" + attribute::material + down + pins +
+  run_json("simulate " + patch + " --rest keep" + material + down + pins +
            " --seconds 1 --stop-at 0.02 --save-state " + state);
   const json report = run_json("wrinkle --state " + state + " " + b + " --rest keep -o " + more);
   CHECK(report["kept"]["residual"] < 0.01);
@@ -147,7 +146,7 @@ TEST_CASE("rest keep: cloth without lines that is relaxed stays where it is, wit
   const ScratchDirectory scratch;
   const std::string end = scratch / "end.ply";
   for (const std::string& gravity : {std::string(" --gravity 0"), down}) {
-    const json report = run_json("simulate " + patch + " --rest keep" + attribute::material + pins + gravity +
+    const json report = run_json("simulate " + patch + " --rest keep" + material + pins + gravity +
                                  " --seconds 0.1 -o " + end);
     CHECK(farthest(patch, end) < 1e-9);
     if (gravity != down) CHECK(report["kept"]["max_strain"] < 1e-9);
@@ -175,10 +174,8 @@ TEST_CASE("rest keep: what it needs and what it refuses is told") {
   refuses("wrinkle " + patch + " " + a + " --fabric denim" + out, 2, "--fabric: goes with --rest keep");
   refuses("wrinkle " + patch + " " + a + pins + out, 2, "--pin-box: goes with --rest keep");
   refuses("simulate " + patch + " --rest keep" + pins + out, 2, "needs hinges");
-  refuses("simulate " + patch + " --rest drawn" + attribute::material + down + pins + out, 2,
-          "none of stored, keep");
-  refuses("simulate " + patch + " --rest keep" + attribute::material + down + pins + moving + out, 2,
-          "stand still");
+  refuses("simulate " + patch + " --rest drawn" + material + down + pins + out, 2, "none of stored, keep");
+  refuses("simulate " + patch + " --rest keep" + material + down + pins + moving + out, 2, "stand still");
   const std::string scene = write_scene(scratch), state = scratch / "s.ply";
   refuses("simulate " + scene + " --set material.bending_law=cross" + out, 3,
           "lines.0.rest = \"keep\" needs hinges");
@@ -193,7 +190,7 @@ TEST_CASE("rest keep: what it needs and what it refuses is told") {
 TEST_CASE("rest keep: a shape that nothing balances is warned of, with a way out") {
   const ScratchDirectory scratch;
   const std::string a = write_strokes(scratch, "a", 0.02);
-  const Run run = run_furrow("wrinkle " + patch + " " + a + " --rest keep" + attribute::material + down +
+  const Run run = run_furrow("wrinkle " + patch + " " + a + " --rest keep" + material + down +
                              " --pin-vertices 0 -o " + (scratch / "o.ply"));
   CHECK(run.exit_code == 0);
   CHECK_THAT(run.err, Catch::Contains("furrow keep finds out"));
