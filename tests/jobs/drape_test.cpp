@@ -25,7 +25,7 @@ void set(jobs::DrapeJob& job, const std::string& path, const io::Json& value) {
 jobs::DrapeJob across_ball(const std::string& fabric = "cotton") {
   jobs::DrapeJob job;
   geometry::Mesh& sheet = job.scene.memory.meshes["sheet"].mesh;
-  sheet = geometry::equilateral_sheet(0.3, 0.3, 0.06);
+  sheet = geometry::equilateral_sheet(0.3, 0.3, 0.05);
   for (const geometry::Vertex v : sheet.vertices()) {
     const geometry::Point p = sheet.point(v);
     sheet.point(v) = {p.x(), 0.105, p.y() - 0.15};
