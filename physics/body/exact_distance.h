@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -8,7 +9,14 @@
 
 namespace furrow::physics {
 
-struct ClosestPoint;
+enum class Feature : std::uint8_t;  // closest_on_triangle.h: face, edge or corner
+
+struct ClosestPoint {
+  double squared_distance;  ///< [m^2]
+  Vec3 point;               ///< [m]
+  int triangle;             ///< index in the mesh
+  Feature feature;          ///< of that triangle
+};
 
 enum class SignRule {
   pseudonormal,  ///< closed, equally oriented, free of crossings, and agreeing with the winding number

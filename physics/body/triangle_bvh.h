@@ -7,15 +7,9 @@
 #include "physics/base/float4.h"
 #include "physics/base/triangle_mesh.h"
 #include "physics/body/closest_on_triangle.h"
+#include "physics/body/exact_distance.h"
 
 namespace furrow::physics {
-
-struct ClosestPoint {
-  double squared_distance;  ///< [m^2]
-  Vec3 point;               ///< [m]
-  int triangle;             ///< index in the mesh
-  Feature feature;          ///< of that triangle
-};
 
 /// Tree of boxes over triangles, four children a node and four triangles a leaf, for exact closest points.
 /// Boxes and leaves are searched in float with a bound on its rounding; the triangles that can be closest are

@@ -14,7 +14,6 @@
 #include "geometry/mesh/self_intersections.h"
 #include "io/stroke/stroke_file.h"
 #include "physics/body/exact_distance.h"
-#include "physics/body/triangle_bvh.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 
