@@ -7,6 +7,7 @@
 
 #include "geometry/insert/flip_rules.h"
 #include "geometry/insert/restore_delaunay.h"
+#include "geometry/mesh/degenerate_faces.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
 
@@ -41,8 +42,8 @@ Barycentrics clamped(const Barycentrics& barycentrics, double least) {
 
 void check_face(const Mesh& mesh, const EdgeMap<double>& rest, Face face) {
   const bool proper = is_proper_triangle(rest_lengths_of(mesh, rest, face));
-  if (!proper || !(area_normal_of(mesh, face).squared_length() > 0)) {
-    throw ContentError("face " + std::to_string(face) + " is degenerate (" +
+  if (!proper || is_degenerate(mesh, face)) {
+    throw ContentError(name_with_place(mesh, face) + " is degenerate (" +
                        (proper ? "no area in space" : "its rest lengths make no triangle") +
                        "); repair the mesh there, or draw elsewhere");
   }

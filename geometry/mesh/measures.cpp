@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/degenerate_faces.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/preconditions.h"
 
@@ -63,7 +64,7 @@ void add_face(const Mesh& mesh, Face f, MeshInfo& info, double& volume) {
     const double angle = std::atan2(doubled, a * b) * 180 / std::numbers::pi;
     info.min_angle_deg = std::min(info.min_angle_deg, angle);
   }
-  info.degenerate_faces += !(0.5 * doubled >= 1e-12 * longest) || longest == 0;
+  info.degenerate_faces += is_degenerate(doubled, longest);
   info.area += 0.5 * doubled;
   // From a corner of the box, so that a body far from the origin loses no digits.
   volume += CGAL::determinant(p[0] - info.box_min, p[1] - info.box_min, p[2] - info.box_min) / 6;

@@ -16,7 +16,7 @@ struct MeshInfo {
   long euler_characteristic = 0;  ///< vertices that have faces - edges + faces
   bool closed = false;            ///< it has faces and no border
   bool manifold = true;           ///< the faces around every vertex are one fan (edges always are manifold)
-  std::size_t degenerate_faces = 0;          ///< area below 1e-12 times the square of the longest side
+  std::size_t degenerate_faces = 0;          ///< as degenerate_faces.h has it
   double area = 0;                           ///< [m^2]
   std::optional<double> volume;              ///< of a closed mesh [m^3]; > 0 if the faces wind outward
   Point box_min{0, 0, 0}, box_max{0, 0, 0};  ///< corners of the bounding box [m]; 0 without vertices

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/stroke/place_path_stroke.h"
 
+#include "geometry/mesh/degenerate_faces.h"
 #include "geometry/stroke/shortest_path.h"
 
 namespace furrow::geometry {
@@ -29,7 +30,12 @@ PlacedStroke place_path_stroke(const Mesh& mesh, std::span<const std::size_t> ve
     const std::string names = std::to_string(stops[i - 1].idx()) + " and " + std::to_string(stops[i].idx());
     if (stops[i] == stops[i - 1])
       placing.refuse(i, "vertex " + std::to_string(stops[i].idx()) + " is repeated");
-    const std::vector<Point> path = shortest_path(mesh, stops[i - 1], stops[i]);
+    const auto [path, degenerate] = shortest_path(mesh, stops[i - 1], stops[i]);
+    if (degenerate)
+      placing.refuse(i, "the way between vertices " + names + " may lead over " +
+                            name_with_place(mesh, *degenerate) +
+                            ", which is degenerate (it has no area); remove such faces from the garment "
+                            "(furrow info counts them), or draw this stroke by points");
     if (path.empty()) placing.refuse(i, "no cloth joins vertices " + names);
     for (std::size_t k = 1; k < path.size(); ++k) placing.add(CGAL::midpoint(path[k - 1], path[k]));
     placing.add(path.back());

@@ -5,11 +5,13 @@
 #include <CGAL/Surface_mesh_shortest_path.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <queue>
 
+#include "geometry/mesh/degenerate_faces.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/face_point.h"
 
@@ -62,11 +64,14 @@ std::vector<Face> faces_in_reach(const Mesh& mesh, Vertex from, Vertex to, doubl
   return faces;
 }
 
-/// A copy of some faces; `index` by vertex of the mesh. False if they cannot be joined alone.
+/// A copy of some faces without the collapsed ones; `index` by vertex of the mesh. False if they cannot be
+/// joined alone.
 bool copy_faces(const Mesh& mesh, const std::vector<Face>& faces, PathMesh& copy,
                 std::vector<PathMesh::Vertex_index>& index) {
+  copy.clear();
   index.assign(mesh.num_vertices(), PathMesh::null_vertex());
   for (Face face : faces) {
+    if (is_degenerate(mesh, face)) continue;
     std::array<PathMesh::Vertex_index, 3> corners;
     for (int i = 0; i < 3; ++i) {
       const Vertex v = corners_of(mesh, face)[i];
@@ -79,23 +84,44 @@ bool copy_faces(const Mesh& mesh, const std::vector<Face>& faces, PathMesh& copy
   return true;
 }
 
+std::vector<Point> path_over(const PathMesh& mesh, PathMesh::Vertex_index from, PathMesh::Vertex_index to) {
+  PathFinder finder(mesh);
+  finder.add_source_point(to);
+  std::vector<PathPoint> way;
+  finder.shortest_path_points_to_source_points(from, std::back_inserter(way));
+  std::vector<Point> path;
+  for (const PathPoint& p : way) path.emplace_back(p.x(), p.y(), p.z());
+  return path;
+}
+
+/// A collapsed face among those that a path of that length can come to.
+std::optional<Face> degenerate_in_reach(const Mesh& mesh, Vertex from, Vertex to, double length) {
+  for (Face face : faces_in_reach(mesh, from, to, length))
+    if (is_degenerate(mesh, face)) return face;
+  return std::nullopt;
+}
+
+double length_of(const std::vector<Point>& path) {
+  double length = 0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    length += std::sqrt(CGAL::squared_distance(path[i - 1], path[i]));
+  return length;
+}
+
 }  // namespace
 
-std::vector<Point> shortest_path(const Mesh& mesh, Vertex from, Vertex to) {
+ShortestPath shortest_path(const Mesh& mesh, Vertex from, Vertex to) {
   const double bound = length_along_edges(mesh, from, to);
   if (!std::isfinite(bound)) return {};
   PathMesh copy;
   std::vector<PathMesh::Vertex_index> index;
-  if (!copy_faces(mesh, faces_in_reach(mesh, from, to, bound), copy, index)) {
-    copy.clear();
-    copy_faces(mesh, {mesh.faces().begin(), mesh.faces().end()}, copy, index);
-  }
-  PathFinder finder(copy);
-  finder.add_source_point(index[to.idx()]);
-  std::vector<PathPoint> way;
-  finder.shortest_path_points_to_source_points(index[from.idx()], std::back_inserter(way));
-  std::vector<Point> path;
-  for (const PathPoint& p : way) path.emplace_back(p.x(), p.y(), p.z());
+  // Some faces alone may not join as they do among all.
+  const bool joined = copy_faces(mesh, faces_in_reach(mesh, from, to, bound), copy, index) ||
+                      copy_faces(mesh, {mesh.faces().begin(), mesh.faces().end()}, copy, index);
+  ShortestPath path;
+  if (joined && index[from.idx()].is_valid() && index[to.idx()].is_valid())
+    path.points = path_over(copy, index[from.idx()], index[to.idx()]);
+  path.degenerate = degenerate_in_reach(mesh, from, to, path.points.empty() ? bound : length_of(path.points));
   return path;
 }
 
