@@ -51,11 +51,45 @@ struct SurfaceProjector::Tree {
   CGAL::AABB_tree<Traits> tree;
 };
 
+namespace {
+
+/// More faces than this with one reference point make CGAL's tree of these points deep, as it cannot part
+/// them: it calls itself once for each.
+constexpr std::size_t most_with_one_point = 1000;
+
+using Tree = CGAL::AABB_tree<Traits>;
+using Hint = Tree::Point_and_primitive_id;
+
+/// The reference points that the tree of hints takes by default, one a face, sorted by place.
+std::vector<Hint> sorted_hints(const Mesh& mesh) {
+  std::vector<Hint> hints;
+  for (Face face : mesh.faces()) hints.emplace_back(mesh.point(mesh.target(mesh.halfedge(face))), face);
+  std::sort(hints.begin(), hints.end());
+  return hints;
+}
+
+/// Lets the tree find first guesses among fewer points where too many coincide: one of each place.
+void part_coincident_hints(Tree& tree, const Mesh& mesh) {
+  std::vector<Hint> hints = sorted_hints(mesh);
+  const auto same_place = [](const Hint& a, const Hint& b) { return a.first == b.first; };
+  std::size_t most = 0;
+  for (std::size_t i = 0, first = 0; i < hints.size(); ++i) {
+    if (!same_place(hints[i], hints[first])) first = i;
+    most = std::max(most, i - first + 1);
+  }
+  if (most <= most_with_one_point) return;
+  hints.erase(std::unique(hints.begin(), hints.end(), same_place), hints.end());
+  tree.accelerate_distance_queries(hints.begin(), hints.end());
+}
+
+}  // namespace
+
 SurfaceProjector::SurfaceProjector(const Mesh& mesh) {
   if (mesh.number_of_faces() == 0) throw ContentError("the mesh has no faces to draw on");
   tree_ = std::make_unique<Tree>(Tree{mesh, {}});
   tree_->tree.insert(faces(mesh).first, faces(mesh).second, mesh);
   tree_->tree.build();
+  part_coincident_hints(tree_->tree, mesh);
 }
 
 SurfaceProjector::~SurfaceProjector() = default;

@@ -6,6 +6,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/base/nearest_word.h"
+#include "io/base/nesting.h"
 #include "io/base/text_scanner.h"
 
 namespace furrow::io {
@@ -26,6 +27,8 @@ void JsonFields::fail(const std::string& what) const {
 }
 
 JsonFields::Json JsonFields::parse(std::string_view text) const {
+  if (is_nested_too_deep(text))
+    throw geometry::ContentError(name_ + ": no valid JSON: " + too_deep_text() + "; correct it");
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& error) {

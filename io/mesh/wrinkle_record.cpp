@@ -9,6 +9,7 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/stroke/stroke.h"
 #include "io/base/lower_case.h"
+#include "io/base/nesting.h"
 
 namespace furrow::io {
 namespace {
@@ -85,11 +86,22 @@ void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record) {
   file.comments.push_back(prefix + json.dump(-1, ' ', true, Handler::replace));
 }
 
+std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file, const std::string& name) {
+  try {
+    return find_wrinkle_record(file);
+  } catch (const geometry::ContentError& e) {
+    throw geometry::ContentError(name + ": " + e.what());
+  }
+}
+
 std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file) {
   const auto comment = std::find_if(file.comments.begin(), file.comments.end(), is_record);
   if (comment == file.comments.end()) return std::nullopt;
+  const std::string text = comment->substr(std::string(prefix).size());
+  if (is_nested_too_deep(text))
+    throw geometry::ContentError("the comment 'furrow wrinkle' is damaged: it is " + too_deep_text());
   try {
-    const auto json = nlohmann::ordered_json::parse(comment->substr(std::string(prefix).size()));
+    const auto json = nlohmann::ordered_json::parse(text);
     WrinkleRecord record{json.at("r_avg_structural"),
                          json.at("r_avg_bending"),
                          json.at("density"),
@@ -128,7 +140,7 @@ std::optional<WrinkleRecord> read_wrinkle_record(const std::filesystem::path& pa
     if (line.back() == '\r') line.pop_back();
     MeshFile header;
     header.comments.push_back(line.substr(mark.size() - std::string(prefix).size()));
-    return find_wrinkle_record(header);
+    return find_wrinkle_record(header, path.string());
   }
   return std::nullopt;
 }

@@ -42,6 +42,8 @@ void set_wrinkle_record(MeshFile& file, const WrinkleRecord& record);
 /// The record, or nothing if the file has none. Fields of later versions that are not there keep their
 /// defaults. Throws geometry::ContentError if it is damaged.
 std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file);
+/// The same of the file of that name, which messages then begin with.
+std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file, const std::string& name);
 /// The same from the first lines of a PLY or OBJ file; nothing for any other, also one that is not there.
 std::optional<WrinkleRecord> read_wrinkle_record(const std::filesystem::path& path);
 

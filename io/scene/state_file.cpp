@@ -10,6 +10,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "io/base/bytes_file.h"
+#include "io/base/nesting.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
 #include "io/mesh/wrinkle_record.h"
@@ -233,7 +234,9 @@ SavedState parse_state(const std::string& bytes, const std::string& name) {
   SavedState state;
   try {
     const std::size_t vertices = file.mesh.number_of_vertices();
-    state = from_json(Json::parse(comment->substr(std::string(prefix).size())), vertices);
+    const std::string text = comment->substr(std::string(prefix).size());
+    if (is_nested_too_deep(text)) refuse("it is " + too_deep_text());
+    state = from_json(Json::parse(text), vertices);
     file.comments.erase(comment);
     state.file = std::move(file);
     take_maps(state);

@@ -12,6 +12,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/base/bytes_file.h"
+#include "io/base/nesting.h"
 
 namespace furrow::io {
 namespace {
@@ -128,6 +129,9 @@ bool TomlDocument::is_of_file(const std::string& path) const {
 TomlDocument parse_toml(const std::string& text, const std::string& name) {
   TomlDocument document;
   document.name = name;
+  if (const int line = line_of_too_long_key(text); line > 0)
+    throw geometry::ContentError(name + ":" + std::to_string(line) + ": a key is " + too_deep_text() +
+                                 "; no setting is");
   try {
     const toml::table table = toml::parse(text, name);
     document.root = Copier(document).copy(table, "");
@@ -171,7 +175,10 @@ void make_list(TomlDocument& document, const std::string& key) {
 void set_value(TomlDocument& document, const std::string& path, Json value, const std::string& where) {
   Json changed = document.root;  // nothing is changed if a later key fails
   Json* at = &changed;
-  for (const std::string& key : split(path)) at = &child(*at, key, path);
+  const std::vector<std::string> keys = split(path);
+  if (keys.size() > most_levels)
+    throw std::invalid_argument(path.substr(0, 40) + "…: the key is " + too_deep_text());
+  for (const std::string& key : keys) at = &child(*at, key, path);
   *at = std::move(value);
   document.root = std::move(changed);
   std::erase_if(document.where, [&](const auto& entry) { return entry.first.rfind(path + ".", 0) == 0; });

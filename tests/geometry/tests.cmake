@@ -14,6 +14,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   stroke/place_path_stroke_test.cpp
   stroke/place_texture_stroke_test.cpp
   stroke/place_view_stroke_test.cpp
+  stroke/project_onto_surface_test.cpp
   rest/bending_springs_test.cpp
   rest/masses_test.cpp
   rest/rest_angles_test.cpp

@@ -112,7 +112,7 @@ TEST_CASE("strokes: broken JSON is named with line and column") {
   CHECK(error_of(R"({"strokes": [{"points": [[0,0,NaN]]}]})").find("no valid JSON") != std::string::npos);
   CHECK(error_of(std::string(300000, '[')).find("no valid JSON") != std::string::npos);
   CHECK(error_of("{\"strokes\": " + std::string(300000, '[') + std::string(300000, ']') + "}")
-            .starts_with(" stroke 0: must be an object"));
+            .starts_with(" no valid JSON: nested more than 100 levels deep"));
 }
 
 TEST_CASE("strokes: what is written comes back with the same bits, also in another unit and axis") {
