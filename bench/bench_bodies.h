@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "physics/base/triangle_mesh.h"
+#include "physics/base/arrays.h"
 
 namespace furrow::bench {
 

@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "geometry/refine/subdivide.h"
+#include "physics/body/collider.h"
 #include "physics/cloth/elements.h"
-#include "physics/contact/push_out.h"
 #include "physics/contact/residual_force.h"
 #include "physics/motion/simulate.h"
 #include "physics/rest/certificate.h"

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "physics/cloth/pins.h"
-#include "physics/rest/displace_by_force.h"
+#include "physics/rest/settle.h"
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/shell_cloths.h"
 #include "tests/physics/cloth/tension_cloths.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bridge/body.h"
-
 #include "bridge/convert.h"
+#include "bridge/gather.h"
 
 namespace furrow::bridge {
 

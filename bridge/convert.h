@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/mesh/mesh.h"
-#include "physics/base/particles.h"
+#include "physics/base/arrays.h"
 
 namespace furrow::bridge {
 

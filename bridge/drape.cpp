@@ -8,11 +8,11 @@
 #include <random>
 
 #include "bridge/convert.h"
-#include "bridge/scatter.h"
+#include "bridge/gather.h"
 #include "geometry/refine/subdivide.h"
 #include "physics/base/require.h"
-#include "physics/rest/displace_by_force.h"
 #include "physics/rest/hinge_friction.h"
+#include "physics/rest/settle.h"
 
 namespace furrow::bridge {
 namespace {

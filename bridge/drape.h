@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/mesh/mesh.h"
-#include "physics/contact/push_out.h"
+#include "physics/body/collider.h"
 #include "physics/rest/settle.h"
 
 namespace furrow::bridge {
@@ -12,7 +12,7 @@ namespace furrow::bridge {
 struct DrapeOptions {
   int refinements = 0;            ///< Loop subdivisions between the given mesh and the fitted one; in [0, 6]
   physics::SettleOptions settle;  ///< of the last level; others end at coarse_tolerance, at any depth
-  /// Paper 2's plain scheme (physics/rest/displace_by_force.h), to compare with: it takes a hundred times as
+  /// Paper 2's plain scheme (displace_by_force()), to compare with: it takes a hundred times as
   /// long. It has the same friction, gap and tolerance; max_iterations bounds its passes.
   bool plain = false;
   double coarse_tolerance = 100;  ///< residual force at which the next level takes over [-]; > 0

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "bridge/convert.h"
-#include "bridge/scatter.h"
+#include "bridge/gather.h"
 #include "geometry/mesh/property_names.h"
-#include "physics/cloth/strain.h"
+#include "physics/cloth/cloth.h"
 #include "physics/motion/compensation.h"
 
 namespace furrow::bridge {

@@ -2,7 +2,7 @@
 #pragma once
 #include "bridge/gather.h"
 #include "geometry/fold/wrinkle.h"
-#include "physics/motion/simulate_state.h"
+#include "physics/motion/simulate.h"
 
 namespace furrow::bridge {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/mesh/mesh.h"
-#include "physics/base/triangle_mesh.h"
+#include "physics/base/arrays.h"
 #include "physics/body/exact_distance.h"
 
 namespace furrow::bridge {
@@ -88,7 +88,7 @@ struct FitReport {
 };
 
 /// How a worn garment fits a body: distances, strain, tight and loose zones, ease. `body` and `distance` are
-/// one body (bridge/body.h), y up, in the pose in which the garment was worn. Writes the attributes
+/// one body (bridge/gather.h), y up, in the pose in which the garment was worn. Writes the attributes
 /// fit_distance and, where any e:rest_length is set, fit_strain; changes nothing else. Cost: a distance query
 /// a vertex (1 us), what measure_piercing() costs, and about 100 plane sections of the body. Throws
 /// std::invalid_argument for an option out of its range, geometry::ContentError for a mesh without area, a

@@ -3,7 +3,9 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/figure/repair_body.h"
 #include "geometry/mesh/mesh.h"
+#include "physics/base/arrays.h"
 #include "physics/cloth/cloth.h"
 
 namespace furrow::bridge {
@@ -95,5 +97,14 @@ GatheredCloth gather_with_origin(const geometry::Mesh& mesh, const GatherOptions
 /// The k_std [N/m] with which springs on equilateral triangles are a sheet of Y [N/m] (and of Poisson's ratio
 /// 1/3): k = sqrt(3)/2 Y.
 double spring_constant_of(double stretch);
+
+/// Writes the particles' positions back to the vertices they were gathered from. All maps stay.
+/// Throws std::invalid_argument, the mesh untouched, if the counts differ.
+void scatter(const physics::Particles& particles, geometry::Mesh& mesh);
+/// The same with their velocities, into v:velocity.
+void scatter_velocities(const physics::Particles& particles, geometry::Mesh& mesh);
+
+/// A repaired body as the plain triangles that distance queries take.
+physics::TriangleMesh to_triangle_mesh(const geometry::Body& body);
 
 }  // namespace furrow::bridge

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bridge/keep_lines.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "bridge/keep_shape.h"
+#include "bridge/gather.h"
+#include "bridge/keep.h"
 #include "bridge/keep_trial.h"
 #include "bridge/line_help.h"
-#include "bridge/scatter.h"
 #include "bridge/standing_body.h"
 #include "geometry/fold/line_region.h"
 #include "geometry/mesh/property_names.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string>
 
-#include "bridge/keep_lines.h"
+#include "bridge/keep.h"
 #include "physics/base/require.h"
 
 namespace furrow::bridge {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bridge/keep_shape.h"
-
 #include <stdexcept>
 
+#include "bridge/keep.h"
 #include "bridge/standing_body.h"
 #include "physics/rest/rigid_imbalance.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "bridge/scatter.h"
+#include "bridge/gather.h"
 #include "geometry/fold/line_height.h"
 
 namespace furrow::bridge {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "bridge/keep_lines.h"
+#include "bridge/keep.h"
 
 namespace furrow::bridge {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bridge/scatter.h"
-
 #include <stdexcept>
 #include <string>
 
 #include "bridge/convert.h"
+#include "bridge/gather.h"
 #include "geometry/mesh/property_names.h"
 
 namespace furrow::bridge {

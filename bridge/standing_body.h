@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "physics/body/posed_collider.h"
-#include "physics/motion/world.h"
+#include "physics/motion/simulate.h"
 
 namespace furrow::bridge {
 

@@ -7,7 +7,7 @@ namespace furrow::bridge {
 /// The inverse of gather() for the rest state: writes rest lengths, rest angles and stiffnesses of a cloth,
 /// element by element, into the maps of the mesh that it was gathered from with these options. Then
 /// gather(mesh, options) gives the same elements again, bit for bit. Positions, velocities and masses stay
-/// (bridge/scatter.h). O(edges log edges). Throws std::invalid_argument, the mesh untouched, if the elements
+/// (bridge/gather.h). O(edges log edges). Throws std::invalid_argument, the mesh untouched, if the elements
 /// are not those of the mesh, a triangle has other Lame parameters than the options give, or a value is out
 /// of the range that physics/cloth/cloth.h states; and as gather() does.
 ///

@@ -7,6 +7,7 @@
 #include "cli/common.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
 
 namespace furrow::cli {

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "cli/print_text.h"
+#include "jobs/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

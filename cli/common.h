@@ -8,6 +8,7 @@
 
 #include "io/mesh/mesh_file.h"
 #include "jobs/inputs.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/output_checks.h"
 
 /// What the subcommands share: units, reports, progress, interruption, exit codes.

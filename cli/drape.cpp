@@ -10,6 +10,7 @@
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/fit_picture.h"
 
 namespace furrow::cli {

@@ -6,6 +6,7 @@
 #include "cli/camera_options.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/fit_picture.h"
 
 namespace furrow::cli {

@@ -7,6 +7,7 @@
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/verdict_scene.h"
 
 namespace furrow::cli {

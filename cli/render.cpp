@@ -8,12 +8,13 @@
 #include "cli/subcommands.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "io/picture/checker_texture.h"
 #include "io/picture/render_scene.h"
 #include "io/picture/strip.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

@@ -2,6 +2,7 @@
 #include "cli/scene_flags.h"
 
 #include "cli/common.h"
+#include "jobs/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

@@ -8,6 +8,7 @@
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/scene/equivalent_flags.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
 
 namespace furrow::cli {

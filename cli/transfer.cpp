@@ -6,6 +6,7 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
+#include "jobs/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

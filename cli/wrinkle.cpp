@@ -8,6 +8,7 @@
 #include "cli/wrinkle_drawing.h"
 #include "io/picture/png_file.h"
 #include "io/scene/relocated.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
 #include "jobs/run/recorded_material.h"
 

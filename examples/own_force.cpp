@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "physics/cloth/energy.h"
+#include "physics/cloth/cloth.h"
 #include "physics/motion/simulate.h"
 #include "physics/rest/settle.h"
 

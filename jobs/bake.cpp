@@ -10,6 +10,7 @@
 #include "geometry/refine/surface_deviation.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "io/picture/baked_maps.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/output_checks.h"
 #include "physics/base/require.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "jobs/judge/judge.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/chart_files.h"
 #include "jobs/report/judge_report.h"
 #include "jobs/run/output_checks.h"

@@ -5,6 +5,7 @@
 
 #include "io/animation/animation_file.h"
 #include "io/scene/settings_schema.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/drape_remarks.h"
 #include "jobs/run/drape_garment.h"
 #include "jobs/run/output_checks.h"

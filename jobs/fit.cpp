@@ -7,6 +7,7 @@
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/fit_picture.h"
 #include "jobs/run/body.h"
 #include "jobs/run/output_checks.h"

@@ -4,7 +4,7 @@
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/self_intersections.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "jobs/run/measure_shape.h"
 
 namespace furrow::jobs {

@@ -10,10 +10,11 @@
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/vertex_attributes.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/scene_rules.h"
 #include "io/scene/state_file.h"
+#include "jobs/read_inputs.h"
 #include "physics/base/progress.h"
 
 namespace furrow::jobs {

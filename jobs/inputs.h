@@ -12,13 +12,61 @@
 #include "io/mesh/mesh_file.h"
 #include "io/scene/scene.h"
 #include "io/scene/state_file.h"
-#include "io/scene/toml_document.h"
-#include "io/stroke/drawn_stroke.h"
-#include "jobs/listener.h"
+#include "io/stroke/stroke_file.h"
 
-/// What jobs take: garments, strokes and scenes in memory or by path, the frame of their files, and who
-/// listens.
+/// What users ask for, as functions of structs: `Report job(const Job&, Listener&)`. Nothing here prints or
+/// exits; what a job has to say, it says to its listener and in its report. Several jobs may run in one
+/// process at once, each with a listener of its own. This header: what jobs take (garments, strokes and
+/// scenes in memory or by path, the frame of their files), and who listens.
 namespace furrow::jobs {
+
+/// What is no error, and hardly what was meant.
+struct Warning {
+  std::string code;   ///< stable, for programs: "lines_after_end"
+  std::string text;   ///< a whole sentence for people; names file and remedy, too
+  std::string where;  ///< the file or setting that it is about; "": the result
+  std::string help;   ///< the option or setting that helps; "": none
+};
+
+/// Told how a job goes on, in the thread that runs it. By default it wants to hear nothing.
+class Listener {
+ public:
+  virtual ~Listener() = default;
+  /// `share` of `what` is done, in [0, 1]; 1 is told at its end, also where it was broken off. Must not
+  /// throw.
+  virtual void progress(const std::string& /*what*/, double /*share*/) {}
+  virtual void warn(const Warning&) {}
+  /// Asked often. true: the job ends within half a second, and leaves no output half written.
+  virtual bool cancelled() { return false; }
+};
+
+/// Passes on nothing but whether the other one cancels.
+class SilentListener : public Listener {
+ public:
+  explicit SilentListener(Listener& other) : other_(other) {}
+  bool cancelled() override { return other_.cancelled(); }
+
+ private:
+  Listener& other_;
+};
+
+/// A stretch of work that a listener sees: its progress, and its end with the scope.
+class ProgressScope {
+ public:
+  ProgressScope(Listener& listener, std::string what) : listener_(listener), what_(std::move(what)) {}
+  ~ProgressScope() { listener_.progress(what_, 1); }
+  ProgressScope(const ProgressScope&) = delete;
+  ProgressScope& operator=(const ProgressScope&) = delete;
+  /// Tells the share that is done; returns whether to go on.
+  bool operator()(double share) const {
+    listener_.progress(what_, share);
+    return !listener_.cancelled();
+  }
+
+ private:
+  Listener& listener_;
+  std::string what_;
+};
 
 /// Unit and upward axis of the files that a job reads and writes.
 struct Frame {
@@ -30,15 +78,6 @@ struct Frame {
   std::string unit_in_use() const { return unit.value_or(noted_unit); }
   std::string up_in_use() const { return up.value_or(noted_up); }
 };
-
-/// Whether it is one of the units.
-bool is_unit(const std::string& unit);
-/// Takes over what the first of these files that notes its unit and axis says of them.
-void take_noted_frame(Frame& frame, const std::vector<std::string>& files);
-
-/// Throw std::invalid_argument for a unit that is none.
-io::ReadOptions read_options(const Frame& frame);
-io::WriteOptions write_options(const Frame& frame);
 
 /// What a job has in memory in place of files: settings name it as if it were one. Keys are paths as the
 /// program would open them; metres, y up.
@@ -68,34 +107,9 @@ struct Context {
   }
 };
 
-/// Throws physics::Cancelled if the listener cancels.
-void stop_if_cancelled(const Context& context);
-
-/// "3.6 mm".
-std::string millimetres(double metres);
-
 /// A mesh in memory (metres, y up), or the file that it is read from. A path may also name one of
 /// Context::memory.
 using MeshInput = std::variant<std::filesystem::path, io::MeshFile>;
-
-/// The file's path, or `unnamed` for a mesh in memory: for messages.
-std::string name_of(const MeshInput& input, const std::string& unnamed);
-
-/// Reads a mesh, in the unit that it notes if the frame says none, and warns of what was repaired. One in
-/// memory is copied. Throws as io::read_mesh().
-io::MeshFile read_mesh(const MeshInput& input, const Context& context);
-/// What is odd about the size of a mesh that is taller than 10 m, with a hint at the unit; else "".
-std::string too_tall(const geometry::Mesh& mesh, const std::string& what);
-/// As read_mesh(); throws geometry::ContentError for a garment, or what else it is, that is too tall.
-io::MeshFile read_garment(const MeshInput& input, const Context& context,
-                          const std::string& what = "garment");
-
-/// Warns of vertex attributes that a format other than PLY has no place for; `path` "-" is standard output.
-void warn_of_lost_attributes(const std::string& path, const io::MeshFile& file, const Context& context);
-/// The file with the frame noted in its wrinkle record, if it has one: as it is to be written.
-io::MeshFile with_noted_frame(io::MeshFile file, const Frame& frame);
-/// Writes a mesh in the context's frame, whole or not at all. Throws as io::write_mesh(), also for "-".
-void write_mesh(const std::filesystem::path& path, const io::MeshFile& file, const Context& context);
 
 /// A scene as a job is given it.
 struct SceneInput {
@@ -106,34 +120,5 @@ struct SceneInput {
 
 /// The scene of a file. Throws as io::read_toml().
 SceneInput scene_from_file(const std::filesystem::path& toml);
-
-/// The settings of a scene file, of a saved state (null: none), or of a garment alone. Throws
-/// std::invalid_argument if both or neither are named.
-io::TomlDocument settings_of(const std::string& scene_or_garment, const std::string& state_path,
-                             const std::optional<io::SavedState>& state);
-
-/// Settings that were read, with what the garment's file notes.
-struct OpenScene {
-  io::Scene scene;
-  io::TomlDocument document;
-  std::filesystem::path folder;
-  Frame frame;
-};
-
-/// Whether the name is that of a scene file: it ends in .toml.
-bool is_scene(const std::string& path);
-
-/// The document as a scene. Throws std::invalid_argument for a fault of a flag, geometry::ContentError for
-/// one of the file.
-io::Scene scene_of(const io::TomlDocument& document, const std::filesystem::path& folder);
-
-/// A garment that notes its unit brings it for the body, the strokes and what is written; one in
-/// memory has none. Reads the file's header.
-void take_noted_frame(io::Scene& scene, io::TomlDocument& document, const MemoryFiles& memory = {});
-
-/// Throws geometry::ContentError for a file that a scene or a state names and that is not there, and says
-/// where it is named. `lines_drawn`: rounds of a state that need no file any more; -1: there is no state.
-void check_inputs(const io::Scene& scene, const io::TomlDocument& document, int lines_drawn,
-                  const MemoryFiles& memory = {});
 
 }  // namespace furrow::jobs

@@ -6,6 +6,7 @@
 #include "bridge/store_rest_state.h"
 #include "io/mesh/ply_motion.h"
 #include "io/scene/relocated.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/observation.h"
 #include "jobs/run/output_checks.h"
@@ -13,6 +14,7 @@
 #include "jobs/run/recorded_material.h"
 #include "jobs/run/run_warnings.h"
 #include "jobs/run/scene_cloth.h"
+#include "jobs/run_until_drawn.h"
 #include "jobs/simulate.h"
 #include "physics/cloth/pins.h"
 

@@ -2,9 +2,8 @@
 #pragma once
 #include <optional>
 
-#include "bridge/keep_lines.h"
-#include "bridge/keep_shape.h"
-#include "io/mesh/wrinkle_record.h"
+#include "bridge/keep.h"
+#include "io/mesh/mesh_file.h"
 #include "io/scene/state_file.h"
 #include "jobs/inputs.h"
 
@@ -48,7 +47,7 @@ struct KeepJob {
 };
 
 /// Gives a garment the rest state that keeps its drawn lines, tells of each whether it will hold
-/// (bridge/keep_lines.h), and writes the mesh and the state that the settings' output names, each file whole
+/// (bridge/keep.h), and writes the mesh and the state that the settings' output names, each file whole
 /// or not at all; a mesh named "-" is in the report alone. A job that is cancelled on the way to its lines
 /// has nothing to report (`ran`); later, the last rest state stands. Throws as jobs::simulate().
 KeepReport keep(const KeepJob& job, Listener& listener);

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 
-#include "bridge/scatter.h"
+#include "bridge/gather.h"
+#include "io/mesh/mesh_file.h"
 #include "io/mesh/ply_motion.h"
-#include "io/mesh/wrinkle_record.h"
 #include "io/scene/relocated.h"
 #include "jobs/judge/judge.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
 #include "jobs/run/animation_series.h"
 #include "jobs/run/keep_at_rest.h"
@@ -20,6 +21,7 @@
 #include "jobs/run/run_warnings.h"
 #include "jobs/run/scene_cloth.h"
 #include "jobs/run/simulate_checks.h"
+#include "jobs/run_until_drawn.h"
 
 namespace furrow::jobs {
 namespace {

@@ -103,8 +103,4 @@ SimulateJob resume_from(const std::filesystem::path& state);
 /// written.
 SimulateReport simulate(const SimulateJob& job, Listener& listener);
 
-/// Runs a scene until its last lines are drawn, or to its end, and writes nothing: the garment as it is then;
-/// nothing if it was cancelled. Throws std::runtime_error if it diverges.
-std::optional<io::SavedState> run_until_drawn(const OpenScene& scene, const Context& context);
-
 }  // namespace furrow::jobs

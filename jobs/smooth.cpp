@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/smooth.h"
 
+#include "jobs/read_inputs.h"
 #include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {

@@ -5,9 +5,10 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/base/lower_case.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/read_inputs.h"
 
 namespace furrow::jobs {
 namespace {

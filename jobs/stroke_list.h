@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "io/stroke/drawn_stroke.h"
+#include "io/stroke/stroke_file.h"
 #include "jobs/inputs.h"
 
 /// Strokes as a list that is read, told and laid on a garment.

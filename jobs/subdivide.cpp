@@ -9,6 +9,7 @@
 #include "geometry/rest/bending_springs.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
 #include "jobs/run/output_checks.h"
 

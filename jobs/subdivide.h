@@ -5,9 +5,9 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/insert/audit_rest_metric.h"
 #include "geometry/insert/insertion.h"
-#include "io/stroke/drawn_stroke.h"
+#include "geometry/rest/rest_state.h"
+#include "io/stroke/stroke_file.h"
 #include "jobs/inputs.h"
 
 namespace furrow::jobs {

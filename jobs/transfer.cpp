@@ -6,6 +6,7 @@
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
 #include "io/mesh/rewrite_obj_vertices.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bridge/draw_more.h"
-#include "bridge/keep_shape.h"
+#include "bridge/keep.h"
 #include "geometry/fold/wrinkle.h"
-#include "geometry/insert/audit_rest_metric.h"
+#include "geometry/rest/rest_state.h"
 #include "io/scene/scene.h"
 #include "io/scene/state_file.h"
 #include "jobs/inputs.h"

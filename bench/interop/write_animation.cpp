@@ -7,7 +7,7 @@
 #include <span>
 
 #include "bridge/convert.h"
-#include "bridge/scatter.h"
+#include "bridge/gather.h"
 #include "geometry/mesh/property_names.h"
 #include "io/animation/animation_file.h"
 #include "io/base/bytes_file.h"

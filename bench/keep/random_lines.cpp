@@ -11,9 +11,9 @@
 #include <optional>
 #include <thread>
 
+#include "bridge/gather.h"
 #include "bridge/keep_trial.h"
 #include "bridge/line_help.h"
-#include "bridge/scatter.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/two_ring.h"
 #include "physics/cloth/press.h"

@@ -9,13 +9,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "bridge/body.h"
 #include "bridge/convert.h"
 #include "bridge/fit_report.h"
+#include "bridge/gather.h"
 #include "geometry/figure/repair_body.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/fabrics.h"
-#include "physics/cloth/strain.h"
+#include "physics/cloth/cloth.h"
 #include "physics/contact/residual_force.h"
 #include "tests/cases/garment_pair.h"
 

@@ -46,4 +46,15 @@ RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule
 /// unset; 0 for a face that breaks the triangle inequality).
 double rest_area(const Mesh& mesh);
 
+struct RestMetricAudit {
+  std::size_t inverted_faces =
+      0;  ///< triangle inequality fails, or Heron area < 1e-12 of the longest edge squared
+  std::size_t duplicate_edges = 0;  ///< edges beyond the first between two vertices
+  double min_angle_deg = 0;         ///< smallest angle of all faces; 0 if a face is inverted [degrees]
+  double area = 0;                  ///< of all faces [m^2]
+};
+
+/// Measures a triangle mesh by e:rest_length (by lengths in space where that is not set). O(edges log edges).
+RestMetricAudit audit_rest_metric(const Mesh& mesh);
+
 }  // namespace furrow::geometry

@@ -9,7 +9,7 @@
 
 #include "bridge/convert.h"
 #include "geometry/mesh/errors.h"
-#include "io/animation/frame_source.h"
+#include "io/animation/animation_file.h"
 #include "io/base/byte_order.h"
 #include "io/mesh/file_frame.h"
 

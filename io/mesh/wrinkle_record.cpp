@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/mesh/wrinkle_record.h"
-
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -10,6 +8,7 @@
 #include "geometry/stroke/stroke.h"
 #include "io/base/lower_case.h"
 #include "io/base/nesting.h"
+#include "io/mesh/mesh_file.h"
 
 namespace furrow::io {
 namespace {

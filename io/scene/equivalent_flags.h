@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "io/scene/toml_document.h"
+#include "io/scene/scene.h"
 
 namespace furrow::io {
 

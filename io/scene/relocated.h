@@ -2,7 +2,7 @@
 #pragma once
 #include <filesystem>
 
-#include "io/scene/toml_document.h"
+#include "io/scene/scene.h"
 
 namespace furrow::io {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "io/scene/scene.h"
-#include "io/scene/toml_document.h"
 
 namespace furrow::io {
 

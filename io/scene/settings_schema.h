@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/scene/toml_document.h"
+#include "io/scene/scene.h"
 
 namespace furrow::io {
 

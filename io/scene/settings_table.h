@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/scene/toml_document.h"
+#include "io/scene/scene.h"
 
 namespace furrow::io {
 

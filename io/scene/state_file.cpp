@@ -11,9 +11,9 @@
 #include "geometry/mesh/property_names.h"
 #include "io/base/bytes_file.h"
 #include "io/base/nesting.h"
+#include "io/mesh/mesh_file.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
-#include "io/mesh/wrinkle_record.h"
 
 namespace furrow::io {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/mesh/mesh_file.h"
-#include "physics/motion/simulate_state.h"
+#include "physics/motion/simulate.h"
 
 namespace furrow::io {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/scene/toml_document.h"
-
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "geometry/mesh/errors.h"
 #include "io/base/bytes_file.h"
 #include "io/base/nesting.h"
+#include "io/scene/scene.h"
 
 namespace furrow::io {
 namespace {

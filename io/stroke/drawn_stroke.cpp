@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/stroke/drawn_stroke.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/nearest_word.h"
+#include "io/stroke/stroke_file.h"
 
 namespace furrow::io {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "geometry/stroke/trace_stroke.h"
 #include "io/mesh/mesh_file.h"
-#include "io/stroke/drawn_stroke.h"
+#include "io/stroke/stroke_file.h"
 
 namespace furrow::io {
 

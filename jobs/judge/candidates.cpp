@@ -8,6 +8,7 @@
 
 #include "io/base/number_text.h"
 #include "jobs/judge/cost_table.h"
+#include "jobs/read_inputs.h"
 
 namespace furrow::jobs {
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "io/scene/toml_document.h"
+#include "io/scene/scene.h"
 #include "jobs/chart.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/scene_cloth.h"
 
 namespace furrow::jobs {

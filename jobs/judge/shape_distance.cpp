@@ -8,8 +8,8 @@
 #include "geometry/mesh/border_loops.h"
 #include "jobs/run/body.h"
 #include "physics/body/triangle_bvh.h"
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/elements.h"
-#include "physics/cloth/strain.h"
 
 namespace furrow::jobs {
 

@@ -12,6 +12,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/lower_case.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
 #include "jobs/run/output_checks.h"
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "jobs/fit.h"
+#include "jobs/read_inputs.h"
 
 namespace furrow::jobs {
 namespace {

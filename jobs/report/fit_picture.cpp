@@ -8,6 +8,7 @@
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/picture/render_scene.h"
 #include "io/picture/strip.h"
+#include "jobs/read_inputs.h"
 
 namespace furrow::jobs {
 namespace {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "jobs/read_inputs.h"
+
 namespace furrow::jobs {
 namespace {
 

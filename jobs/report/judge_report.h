@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "jobs/judge/judge.h"
+#include "jobs/read_inputs.h"
 
 namespace furrow::jobs {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "jobs/keep.h"
+#include "jobs/read_inputs.h"
 
 namespace furrow::jobs {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/keep.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
 #include "jobs/report/wrinkle_reports.h"
 #include "jobs/simulate.h"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/insert/audit_rest_metric.h"
 #include "geometry/mesh/property_names.h"
-#include "io/mesh/wrinkle_record.h"
+#include "geometry/rest/rest_state.h"
+#include "io/mesh/mesh_file.h"
 #include "io/picture/render_preview.h"
 #include "jobs/keep.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 #include "bridge/draw_more.h"
 #include "geometry/fold/wrinkle.h"
-#include "geometry/insert/audit_rest_metric.h"
-#include "io/mesh/wrinkle_record.h"
+#include "geometry/rest/rest_state.h"
+#include "io/mesh/mesh_file.h"
 #include "io/picture/render.h"
 #include "jobs/inputs.h"
 #include "jobs/wrinkle.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/run/animation_series.h"
 
+#include "jobs/read_inputs.h"
+
 namespace furrow::jobs {
 
 AnimationSeries::AnimationSeries(const io::SceneOutput& output, const Frame& frame)

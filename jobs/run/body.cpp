@@ -8,14 +8,15 @@
 #include <sstream>
 #include <thread>
 
-#include "bridge/body.h"
 #include "bridge/convert.h"
+#include "bridge/gather.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/rest_metric.h"
 #include "io/base/bytes_file.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "io/scene/field_file.h"
+#include "jobs/read_inputs.h"
 #include "physics/body/compare_colliders.h"
 #include "physics/body/depth_map_collider.h"
 #include "physics/body/posed_collider.h"

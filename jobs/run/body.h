@@ -3,13 +3,13 @@
 #include <Eigen/Geometry>
 #include <memory>
 
-#include "io/animation/frame_source.h"
+#include "io/animation/animation_file.h"
 #include "io/scene/scene.h"
 #include "jobs/inputs.h"
-#include "physics/body/animated_body.h"
+#include "physics/body/collider.h"
 #include "physics/body/distance_field.h"
 #include "physics/body/exact_distance.h"
-#include "physics/contact/push_out.h"
+#include "physics/body/moving_body.h"
 
 namespace furrow::jobs {
 

@@ -15,11 +15,12 @@
 #include "geometry/mesh/vertex_attributes.h"
 #include "geometry/rest/rest_metric.h"
 #include "io/animation/animation_file.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
+#include "physics/body/collider.h"
 #include "physics/cloth/elastic_band.h"
-#include "physics/contact/push_out.h"
 
 namespace furrow::jobs {
 namespace {

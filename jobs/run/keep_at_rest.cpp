@@ -4,8 +4,7 @@
 #include <algorithm>
 
 #include "bridge/gather.h"
-#include "bridge/keep_shape.h"
-#include "bridge/scatter.h"
+#include "bridge/keep.h"
 #include "bridge/store_rest_state.h"
 #include "io/base/lower_case.h"
 #include "jobs/run/prepare_garment.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "bridge/keep_shape.h"
+#include "bridge/keep.h"
 #include "io/scene/scene.h"
 #include "jobs/inputs.h"
 #include "jobs/run/body.h"

@@ -10,6 +10,7 @@
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/inputs.h"
+#include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
 
 namespace furrow::jobs {

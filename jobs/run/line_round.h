@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "bridge/draw_more.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "io/scene/scene.h"
-#include "io/stroke/drawn_stroke.h"
+#include "io/stroke/stroke_file.h"
 #include "jobs/inputs.h"
 #include "jobs/wrinkle.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "geometry/mesh/vertex_attributes.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 
 namespace furrow::jobs {
 

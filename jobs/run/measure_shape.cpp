@@ -10,7 +10,7 @@
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/self_intersections.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 
 namespace furrow::jobs {
 namespace {

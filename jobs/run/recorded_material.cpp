@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/run/recorded_material.h"
 
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "io/scene/equivalent_flags.h"
 #include "io/scene/fabrics.h"
 

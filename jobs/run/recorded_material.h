@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "io/mesh/mesh_file.h"
-#include "io/scene/toml_document.h"
+#include "io/scene/scene.h"
 #include "jobs/inputs.h"
 
-/// The material that a garment's file notes (io/mesh/wrinkle_record.h): what it came to rest with.
+/// The material that a garment's file notes (io/mesh/mesh_file.h): what it came to rest with.
 namespace furrow::jobs {
 
 /// Whether the settings say what kind of cloth it is: preset, membrane, bending_law or stiffness.

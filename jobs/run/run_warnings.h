@@ -2,9 +2,9 @@
 #pragma once
 #include <vector>
 
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "io/scene/scene.h"
-#include "jobs/listener.h"
+#include "jobs/inputs.h"
 
 namespace furrow::jobs {
 

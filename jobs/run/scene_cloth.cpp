@@ -7,6 +7,7 @@
 #include "bridge/convert.h"
 #include "geometry/refine/subdivide.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
 #include "jobs/run/pins.h"

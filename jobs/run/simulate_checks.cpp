@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/animation/animation_file.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/output_checks.h"
 #include "jobs/run/recorded_material.h"
 

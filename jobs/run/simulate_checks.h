@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "jobs/read_inputs.h"
 #include "jobs/simulate.h"
 
 /// What can be known to fail is said before the work.

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "physics/base/particles.h"
+#include "physics/base/arrays.h"
 
 namespace furrow::physics {
 

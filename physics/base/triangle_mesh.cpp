@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "physics/base/triangle_mesh.h"
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "physics/base/arrays.h"
 
 namespace furrow::physics {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "physics/base/particles.h"
+#include "physics/base/arrays.h"
 
 namespace furrow::physics {
 

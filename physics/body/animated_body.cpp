@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "physics/body/animated_body.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "physics/body/depth_map_collider.h"
+#include "physics/body/moving_body.h"
 #include "physics/body/triangle_bvh.h"
 
 namespace furrow::physics {

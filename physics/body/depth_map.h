@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/base/particles.h"
+#include "physics/base/arrays.h"
 
 namespace furrow::physics {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "physics/body/animated_body.h"
 #include "physics/body/depth_map.h"
+#include "physics/body/moving_body.h"
 
 namespace furrow::physics {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "physics/base/triangle_mesh.h"
+#include "physics/base/arrays.h"
 #include "physics/body/collider.h"
 
 namespace furrow::physics {

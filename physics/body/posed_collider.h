@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "physics/body/collider.h"
-#include "physics/body/rigid_motion.h"
+#include "physics/body/moving_body.h"
 
 namespace furrow::physics {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "physics/body/rigid_motion.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "physics/body/moving_body.h"
 
 namespace furrow::physics {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "physics/base/triangle_mesh.h"
+#include "physics/base/arrays.h"
 #include "physics/body/closest_on_triangle.h"
 
 namespace furrow::physics {

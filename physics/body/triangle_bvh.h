@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "physics/base/arrays.h"
 #include "physics/base/float4.h"
-#include "physics/base/triangle_mesh.h"
 #include "physics/body/closest_on_triangle.h"
 #include "physics/body/exact_distance.h"
 

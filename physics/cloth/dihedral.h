@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "physics/base/particles.h"
+#include "physics/base/arrays.h"
 #include "physics/cloth/stiffness.h"
 
 namespace furrow::physics {

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "physics/base/require.h"
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/elements.h"
-#include "physics/cloth/energy.h"
 #include "physics/cloth/kinds.h"
 
 namespace furrow::physics {

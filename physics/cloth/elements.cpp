@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "physics/base/require.h"
-#include "physics/cloth/energy.h"
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/kinds.h"
 
 namespace furrow::physics {

@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 
-#include "physics/cloth/energy.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::physics {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "physics/cloth/strain.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/kinds.h"
 
 namespace furrow::physics {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "physics/body/rigid_motion.h"
+#include "physics/body/moving_body.h"
 #include "physics/contact/contact.h"
 
 namespace furrow::physics {

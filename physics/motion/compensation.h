@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "physics/motion/simulate_state.h"
+#include "physics/motion/simulate.h"
 
 namespace furrow::physics {
 

@@ -2,13 +2,104 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
+#include <vector>
 
-#include "physics/cloth/strain.h"
-#include "physics/motion/simulate_state.h"
-#include "physics/motion/world.h"
+#include "physics/body/collider.h"
+#include "physics/body/moving_body.h"
+#include "physics/cloth/cloth.h"
 
 namespace furrow::physics {
+
+/// Pinned particles that are led: after every step each is exactly at  pose(t) home,  where home is its
+/// position in the motion's frame; during the step its velocity is the way that it goes in it over dt.
+struct MovedPins {
+  std::vector<int> particles;  ///< pinned ones (see pin()); in no two groups
+  RigidMotion motion;
+};
+
+struct Gust {
+  double time;    ///< [s]; strictly increasing
+  double factor;  ///< [-]
+};
+
+/// Moving air:  w(x, t) = factor(t) velocity + rate(t) axis x (x - centre).  The drag then pulls towards it:
+/// v - w decays by exp(-air_drag t), exactly, whichever way the cloth faces. Without drag wind does nothing.
+struct Wind {
+  Vec3 velocity = Vec3::Zero();  ///< [m/s]
+  std::vector<Gust> gusts;       ///< factor; linear between, held outside; none: 1
+  std::optional<Spin> swirl;     ///< air that turns like a rigid body
+};
+
+/// What surrounds a cloth. What is not used costs nothing. Pointers may be null and must outlive the call.
+struct World {
+  const Collider* collider = nullptr;  ///< a rigid body, in its own frame
+  RigidMotion body_motion;             ///< takes it from there into the world
+  AnimatedBody* animated = nullptr;    ///< or a body that changes its shape; not both
+  std::vector<MovedPins> pins;
+  Wind wind;
+};
+
+/// What a report counts over all calls that shared a state.
+struct SimulateTotals {
+  std::int64_t force_evaluations = 0, collider_queries = 0, truncated_moves = 0;
+  std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
+  std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
+  std::int64_t limit_estimates = 0, frames_built = 0;
+  double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
+  double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< of leapfrog [s]
+  double seconds = 0, cpu_seconds = 0, frame_seconds = 0;              ///< [s]
+};
+
+/// Forces that keep a cloth from jumping when its springs were changed under strain: applied as
+///   -force exp(-(t - start) / time_constant),
+/// forgotten when the factor falls below 1e-9. Springs along a line that splits an edge do not pull as the
+/// edge did, whatever their rest lengths (unlike a membrane's triangles), so an insertion under strain jumps
+/// without it.
+struct Compensation {
+  std::vector<Vec3> force;     ///< one a particle [N]; empty: none
+  double start = 0;            ///< [s]
+  double time_constant = 0.3;  ///< [s]; > 0, may be infinite
+};
+
+/// All that a simulation knows besides cloth, world and options. A call of simulate() that is stopped at any
+/// step and continued with the same state, cloth, world and options gives the bits of one that was not
+/// stopped, for any number of threads. A default state is the beginning. Plain numbers and arrays: a file can
+/// hold them (bit by bit, with infinity and NaN). After a change of the cloth set `planned` to false, and add
+/// a force_jump() to the compensation if the cloth was strained.
+struct SimulateState {
+  double time = 0;        ///< [s]
+  std::int64_t step = 0;  ///< steps made
+
+  /// The plan: steps_left steps of dt until `end`. false, as after a change of the cloth: estimate the limit
+  /// and divide the rest anew, and forget `contact`.
+  bool planned = false;
+  double end = 0;         ///< [s]
+  double dt = 0;          ///< [s]
+  double dt_longest = 0;  ///< that the plan allows [s]
+  std::int64_t steps_left = 0;
+  std::int64_t estimated_at = 0;  ///< step of the last estimate of the limit
+  double dt_limit = 0;            ///< the estimate, of leapfrog, whatever integrates [s]; 0: none was made
+  double strain_at_estimate = 0;  ///< largest strain then [-]
+  std::uint64_t cloth = 0;        ///< fingerprint() of the cloth that the plan is for
+
+  std::vector<ContactMemory> contact;  ///< one a particle, or empty
+  double body_travel = 0;              ///< of an animated body since the beginning, a bound [m]
+  /// Of each of World::pins, one after the other, the particles' positions in the motion's frame [m]. Empty:
+  /// taken from where the particles are now.
+  std::vector<Vec3> homes;
+  Compensation compensation;
+  SimulateTotals totals;
+};
+
+/// Tells one cloth's elements and masses from another's: a plan is made anew when they changed at a stop. Of
+/// Cloth::energies it knows only how many there are: a caller that changes one for another at a stop must
+/// make the plan anew (planned = false).
+std::uint64_t fingerprint(const Cloth& cloth);
+
+/// Throws std::invalid_argument if the state contradicts itself or does not fit a cloth of so many particles.
+void check(const SimulateState& state, std::size_t particles);
 
 enum class Integrator {
   leapfrog,        ///< order 2, symplectic, one force a step; the choice for cloth that moves

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "physics/body/animated_body.h"
+#include "physics/body/moving_body.h"
 #include "physics/body/posed_collider.h"
 #include "physics/contact/residual_force.h"
 #include "physics/motion/compensation.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "physics/motion/simulate_state.h"
-
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -10,8 +8,8 @@
 #include <tuple>
 
 #include "physics/cloth/kinds.h"
-
 #include "physics/motion/compensation.h"
+#include "physics/motion/simulate.h"
 
 namespace furrow::physics {
 namespace {

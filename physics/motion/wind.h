@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "physics/base/thread_pool.h"
-#include "physics/motion/world.h"
+#include "physics/motion/simulate.h"
 #include "physics/packed/packed_cloth.h"
 
 namespace furrow::physics {

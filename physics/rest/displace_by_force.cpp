@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "physics/rest/displace_by_force.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "physics/base/check_particles.h"
 #include "physics/base/require.h"
+#include "physics/body/collider.h"
 #include "physics/cloth/elements.h"
 #include "physics/cloth/tension_forces.h"
 #include "physics/contact/contact.h"
-#include "physics/contact/push_out.h"
 #include "physics/contact/residual_force.h"
 #include "physics/linear/stable_step.h"
+#include "physics/rest/settle.h"
 
 namespace furrow::physics {
 namespace {

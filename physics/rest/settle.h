@@ -61,4 +61,67 @@ struct SettleReport {
 SettleReport settle(Cloth& cloth, const Collider* collider, const SettleOptions& options,
                     const SettleObserver& observer = {});
 
+struct DisplaceOptions {
+  Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]; finite
+  double friction = 0.3;      ///< Coulomb coefficient with the body [-]; >= 0
+  double gap = 0.003;         ///< distance at which cloth rests on the body [m]; > 0
+  double tolerance = 1e-3;    ///< residual_force() at which it ends [-]; > 0
+  int max_passes = 20000;     ///< >= 0
+  double rate = 0;            ///< alpha, way per force [m/N]; >= 0; 0: displacement_rate()
+  bool cap = true;            ///< whether large forces are replaced
+  /// Largest summed force that stays as it is, in mean weights of a free particle [-]; > 0 if cap.
+  double limit = 1.5;
+  double replacement = 1.1;  ///< what a larger one becomes, in the same [-]; in (0, limit] if cap
+};
+
+enum class DisplaceOutcome {
+  converged,    ///< residual <= tolerance
+  limit_cycle,  ///< the last quarter of max_passes came back to where it was and its residual had not fallen
+  unfinished,   ///< still on the way after max_passes, or sliding or falling without end
+  stopped,      ///< by the observer
+  diverged      ///< not finite, or a particle farther from the start than 100 times the cloth's extent there
+};
+/// "limit cycle" and so on.
+const char* name_of(DisplaceOutcome outcome);
+
+struct DisplaceReport {
+  DisplaceOutcome outcome = DisplaceOutcome::unfinished;
+  int passes = 0;
+  double residual = 0;   ///< residual_force() at the end [-]; of the real forces, replaced or not
+  double rate = 0;       ///< alpha [m/N]
+  long long capped = 0;  ///< forces replaced, over all passes
+  int touching = 0;      ///< particles within the gap (plus 1e-5 m) of the body at the end
+};
+
+/// Fitting without velocities: in each pass every free particle is displaced by its force,
+///   x += alpha f,   f of elements (elements.h) and weight m g, all taken before any particle moves.
+/// Velocities become 0; the states on the way are no motion. Cost: passes * (elements + a query of the field
+/// a particle); passes grow as the square of the particles across the cloth, where settle() needs fewer than
+/// a hundred iterations. One thread; same input, same bits. What diverged is left as it is, maybe not finite.
+/// Throws std::invalid_argument, nothing changed, if an option is out of its range, arrays differ in length,
+/// a position is not finite, a free particle has no mass, or as the elements do.
+///
+/// \details Where |f| > limit w, w the mean weight of the free particles (9.81 m/s^2 where gravity is 0), f
+/// becomes replacement w f/|f|. This bounds the travel of a pass, so that a start far from rest does not
+/// break the cloth; a rate that is not stable stays so, but goes round in a limit cycle. (By its own weight a
+/// light corner could not follow the others; the paper's particles all weigh the same.) A particle that came
+/// nearer to the body (null: none) than the gap has its way along the surface shortened by friction times the
+/// correction that the way into the body calls for, maybe to nothing (it sticks), and is moved out along the
+/// gradient. Bodies thinner than alpha |f| are passed through.
+///
+/// Stable for alpha < 2 / (largest eigenvalue of K). Tension c e^2 on edges of length L has the slope 2 c e /
+/// L: a chain is stable for alpha c e / L < 1/4, by Gershgorin a sheet of valence v for < 1/(2 v), 1/12 on
+/// regular triangles. Balance needs e = sqrt(T / c), so small strains want small rates.
+/// Source: Hanami and Tokoi (method S2.6 to S2.8), whose alpha is 1; the replacement's direction, the
+/// friction and the kinds of end are ours.
+DisplaceReport displace_by_force(Cloth& cloth, const Collider* collider, const DisplaceOptions& options,
+                                 const SettleObserver& observer = {});
+
+/// A rate [m/N] for the cloth as it lies: 1 / (largest eigenvalue of K), half of what is stable, K as for
+/// stable_step(), with tension strained by tension_margin more, or by the strain at which it pulls with half
+/// of all free weight if that is more (so it is stable while no edge carries twice the weight). At most what
+/// displaces no free particle's weight farther than `longest` [m, > 0]. 0 if nothing is free. Throws
+/// std::invalid_argument as the elements do.
+double displacement_rate(const Cloth& cloth, const Vec3& gravity, double longest);
+
 }  // namespace furrow::physics

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bridge/body.h"
-
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+
+#include "bridge/gather.h"
 
 using namespace furrow;
 using geometry::Mesh;

@@ -6,14 +6,14 @@
 #include <random>
 
 #include "bridge/convert.h"
-#include "bridge/scatter.h"
+#include "bridge/gather.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/masses.h"
 #include "geometry/rest/rest_metric.h"
 #include "geometry/rest/stiffness.h"
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/pins.h"
-#include "physics/cloth/strain.h"
 #include "physics/motion/compensation.h"
 #include "physics/motion/simulate.h"
 #include "tests/physics/cloth/one_kind.h"

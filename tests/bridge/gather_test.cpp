@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "bridge/scatter.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/bending_springs.h"

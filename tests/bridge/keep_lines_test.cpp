@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bridge/keep_lines.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <optional>
 
 #include "bridge/gather.h"
+#include "bridge/keep.h"
 #include "bridge/keep_trial.h"
 #include "bridge/store_rest_state.h"
 #include "geometry/fold/wrinkle.h"

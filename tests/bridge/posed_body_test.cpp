@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "bridge/body.h"
 #include "bridge/convert.h"
+#include "bridge/gather.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/mesh/self_intersections.h"
 #include "io/mesh/mesh_file.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "bridge/body.h"
 #include "bridge/convert.h"
+#include "bridge/gather.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/masses.h"
@@ -14,10 +14,10 @@
 #include "geometry/rest/rest_metric.h"
 #include "geometry/rest/stiffness.h"
 #include "io/mesh/mesh_file.h"
+#include "physics/body/collider.h"
 #include "physics/body/distance_field.h"
 #include "physics/body/triangle_bvh.h"
 #include "physics/cloth/pins.h"
-#include "physics/contact/push_out.h"
 
 namespace furrow::cases {
 namespace {

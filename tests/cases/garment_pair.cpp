@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bridge/body.h"
 #include "bridge/gather.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/mesh/border_loops.h"
@@ -16,8 +15,8 @@
 #include "geometry/rest/stiffness.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/fabrics.h"
+#include "physics/body/collider.h"
 #include "physics/cloth/pins.h"
-#include "physics/contact/push_out.h"
 
 namespace furrow::cases {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "physics/base/triangle_mesh.h"
+#include "physics/base/arrays.h"
 
 namespace furrow::cases {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "bridge/scatter.h"
+#include "bridge/gather.h"
 #include "bridge/store_rest_state.h"
 #include "geometry/fold/line_height.h"
 #include "geometry/fold/wrinkle.h"

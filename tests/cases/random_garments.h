@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bridge/gather.h"
-#include "bridge/keep_lines.h"
+#include "bridge/keep.h"
 
 namespace furrow::cases {
 

@@ -7,7 +7,7 @@
 #include "bridge/convert.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/property_names.h"
-#include "io/animation/frame_source.h"
+#include "io/animation/animation_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/state_file.h"
 #include "run_furrow.h"

@@ -7,7 +7,7 @@
 
 #include "bridge/convert.h"
 #include "io/mesh/mesh_file.h"
-#include "physics/body/rigid_motion.h"
+#include "physics/body/moving_body.h"
 #include "run_furrow.h"
 #include "tests/test_paths.h"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "geometry/mesh/sheet.h"
-#include "io/scene/toml_document.h"
+#include "io/scene/scene.h"
 #include "tests/jobs/recorder.h"
 
 using namespace furrow;

@@ -6,7 +6,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/sheet.h"
-#include "io/scene/toml_document.h"
+#include "io/scene/scene.h"
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"

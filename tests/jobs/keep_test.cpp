@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "io/scene/toml_document.h"
+#include "io/scene/scene.h"
 #include "physics/base/progress.h"
 #include "tests/cli/hung_patch.h"
 #include "tests/jobs/recorder.h"

@@ -2,8 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/mesh/errors.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "jobs/inputs.h"
+#include "jobs/read_inputs.h"
 #include "tests/jobs/recorder.h"
 
 using namespace furrow;

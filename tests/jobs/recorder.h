@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/listener.h"
+#include "jobs/inputs.h"
 
 namespace furrow::tests {
 

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "geometry/mesh/sheet.h"
-#include "io/scene/toml_document.h"
+#include "io/scene/scene.h"
 #include "physics/base/progress.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_meshes.h"

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "geometry/mesh/sheet.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "geometry/fold/wrinkle.h"
-#include "geometry/insert/audit_rest_metric.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/self_intersections.h"
+#include "geometry/rest/rest_state.h"
 #include "io/stroke/stroke_file.h"
 #include "physics/body/exact_distance.h"
 #include "tests/test_meshes.h"

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <set>
 
-#include "geometry/insert/audit_rest_metric.h"
 #include "geometry/mesh/errors.h"
+#include "geometry/rest/rest_state.h"
 #include "tests/geometry/insert/insertion_checks.h"
 #include "tests/geometry/insert/insertion_meshes.h"
 

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <set>
 
-#include "geometry/insert/audit_rest_metric.h"
 #include "geometry/rest/rest_metric.h"
+#include "geometry/rest/rest_state.h"
 #include "geometry/stroke/trace_stroke.h"
 
 namespace furrow::tests {

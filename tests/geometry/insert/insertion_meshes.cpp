@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/insert/audit_rest_metric.h"
 #include "geometry/insert/connect_line.h"
+#include "geometry/rest/rest_state.h"
 
 namespace furrow::tests {
 

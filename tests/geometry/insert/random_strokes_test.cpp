@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/insert/audit_rest_metric.h"
 #include "geometry/rest/rest_metric.h"
+#include "geometry/rest/rest_state.h"
 #include "geometry/rest/stiffness.h"
 #include "tests/geometry/insert/insertion_checks.h"
 #include "tests/geometry/insert/insertion_meshes.h"

@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/fold/wrinkle.h"
-#include "geometry/insert/audit_rest_metric.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/refine/subdivide.h"
 #include "geometry/rest/rest_metric.h"
+#include "geometry/rest/rest_state.h"
 #include "geometry/rest/stiffness.h"
 #include "io/mesh/mesh_file.h"
 #include "io/stroke/stroke_file.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/insert/audit_rest_metric.h"
+#include "geometry/rest/rest_state.h"
 #include "geometry/rest/stiffness.h"
 #include "tests/geometry/insert/insertion_meshes.h"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/animation/frame_source.h"
-
 #include <rapidcheck.h>
 
 #include <catch2/catch.hpp>

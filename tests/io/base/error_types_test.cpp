@@ -6,11 +6,10 @@
 
 #include "bridge/convert.h"
 #include "bridge/gather.h"
-#include "bridge/scatter.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/property_names.h"
-#include "io/animation/frame_source.h"
+#include "io/animation/animation_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/stroke/stroke_file.h"
 #include "physics/body/distance_field.h"

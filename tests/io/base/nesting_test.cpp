@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include "io/base/json_fields.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
+#include "io/scene/scene.h"
 #include "io/scene/state_file.h"
-#include "io/scene/toml_document.h"
 #include "tests/io/base/io_test_helpers.h"
 
 using namespace furrow;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/mesh/wrinkle_record.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "geometry/mesh/errors.h"
+#include "io/mesh/mesh_file.h"
 
 using namespace furrow::io;
 

@@ -12,7 +12,7 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/masses.h"
-#include "io/mesh/wrinkle_record.h"
+#include "io/mesh/mesh_file.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "physics/body/collider.h"
 #include "physics/body/exact_distance.h"
-#include "physics/contact/push_out.h"
 #include "tests/physics/body/field_inputs.h"
 
 namespace {

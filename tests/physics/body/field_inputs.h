@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/base/triangle_mesh.h"
+#include "physics/base/arrays.h"
 
 namespace furrow::tests {
 

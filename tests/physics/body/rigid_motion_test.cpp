@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/body/rigid_motion.h"
-
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "physics/body/moving_body.h"
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/test_cloths.h"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/base/triangle_mesh.h"
+#include "physics/base/arrays.h"
 #include "physics/body/collider.h"
-#include "physics/body/rigid_motion.h"
+#include "physics/body/moving_body.h"
 
 namespace furrow::tests {
 

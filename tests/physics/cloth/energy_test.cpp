@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/cloth/energy.h"
-
 #include <catch2/catch.hpp>
 #include <optional>
 
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/element_forces.h"
 #include "physics/cloth/pins.h"
 #include "physics/cloth/spring_forces.h"

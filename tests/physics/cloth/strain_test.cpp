@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/cloth/strain.h"
-
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/pins.h"
 
 using namespace furrow::physics;

@@ -4,10 +4,10 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/pins.h"
-#include "physics/cloth/strain.h"
 #include "physics/linear/stable_step.h"
-#include "physics/motion/simulate_state.h"
+#include "physics/motion/simulate.h"
 #include "physics/rest/certificate.h"
 #include "physics/rest/invert_elements.h"
 #include "physics/rest/prestress.h"

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "physics/cloth/strain.h"
+#include "physics/cloth/cloth.h"
 #include "physics/linear/stable_step.h"
 #include "physics/motion/leapfrog_step.h"
 #include "tests/physics/cloth/test_cloths.h"

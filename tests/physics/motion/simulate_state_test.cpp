@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/motion/simulate_state.h"
-
 #include <catch2/catch.hpp>
 
 #include "physics/cloth/pins.h"

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "physics/body/animated_body.h"
+#include "physics/body/moving_body.h"
 #include "physics/cloth/pins.h"
 #include "tests/physics/cloth/test_cloths.h"
 

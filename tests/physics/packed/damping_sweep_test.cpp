@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "physics/cloth/cloth.h"
 #include "physics/cloth/pins.h"
-#include "physics/cloth/strain.h"
 #include "physics/packed/packed_forces.h"
 #include "tests/physics/cloth/test_cloths.h"
 

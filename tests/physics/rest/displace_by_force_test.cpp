@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/rest/displace_by_force.h"
-
 #include <catch2/catch.hpp>
 #include <limits>
 
 #include "physics/cloth/pins.h"
 #include "physics/contact/residual_force.h"
+#include "physics/rest/settle.h"
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/tension_cloths.h"
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "physics/rest/displace_by_force.h"
+#include "physics/rest/settle.h"
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/shell_cloths.h"
 #include "tests/physics/cloth/tension_cloths.h"

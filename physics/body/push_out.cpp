@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "physics/contact/push_out.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "physics/body/collider.h"
 
 namespace furrow::physics {
 

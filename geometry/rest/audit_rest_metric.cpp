@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/insert/audit_rest_metric.h"
-
 #include <algorithm>
 #include <numbers>
 #include <vector>
 
 #include "geometry/rest/rest_metric.h"
+#include "geometry/rest/rest_state.h"
 
 namespace furrow::geometry {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/contact/push_out.h"
-
 #include <catch2/catch.hpp>
 #include <vector>
+
+#include "physics/body/collider.h"
 
 using namespace furrow::physics;
 
