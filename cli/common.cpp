@@ -21,6 +21,22 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Of --progress: its number, or the usual one [s].
+double seconds_between_lines(const std::string& progress) {
+  const double seconds = std::strtod(progress.c_str(), nullptr);
+  return seconds > 0 ? seconds : 10;
+}
+
+/// What is wrong with the value of --progress; "": nothing.
+std::string check_progress(const std::string& value) {
+  for (const char* word : {"auto", "bar", "lines", "none"})
+    if (value == word) return "";
+  char* end = nullptr;
+  return std::strtod(value.c_str(), &end) > 0 && *end == 0
+             ? ""
+             : "takes bar, lines, none or seconds between two lines, not '" + value + "'";
+}
+
 volatile std::sig_atomic_t interrupt_flag = 0;
 /// The second one ends the process at once.
 void on_interrupt(int signal) {
@@ -41,6 +57,10 @@ void add_common_options(CLI::App& sub, CommonArguments& common) {
   sub.add_flag("--json", common.json, "print the report as JSON");
   sub.add_flag("-q,--quiet", common.quiet,
                "no report, no progress, no warnings; with --json the report alone");
+  sub.add_option("--progress", common.progress,
+                 "bar, lines (one every 10 s), seconds between two lines, or none (default: a bar on a "
+                 "terminal, lines elsewhere)")
+      ->check(check_progress);
 }
 
 io::MeshFile read_mesh(const std::string& path, const CommonArguments& common) {
@@ -122,24 +142,44 @@ std::vector<std::string> split_at_commas(const std::string& text) {
   return parts;
 }
 
-Progress::Progress(std::string what, const CommonArguments& common)
-    : what_(std::move(what)), on_(!common.quiet && isatty(STDERR_FILENO)), start_(now()) {}
-
-Progress::~Progress() {
-  if (on_ && shown_ >= 0) std::cerr << "\r\033[K" << std::flush;
+Progress::Form Progress::form_of(const CommonArguments& common) {
+  if (common.quiet || common.progress == "none") return Form::none;
+  if (common.progress == "auto") return isatty(STDERR_FILENO) ? Form::bar : Form::lines;
+  return common.progress == "bar" ? Form::bar : Form::lines;
 }
 
-void Progress::show(double share) {
-  const int permille = static_cast<int>(1000 * std::clamp(share, 0.0, 1.0));
-  if (!on_ || permille == shown_) return;
+Progress::Progress(std::string what, const CommonArguments& common)
+    : what_(std::move(what)),
+      form_(form_of(common)),
+      start_(now()),
+      told_(start_),
+      between_lines_(seconds_between_lines(common.progress)) {}
+
+Progress::~Progress() {
+  if (form_ == Form::bar && shown_ >= 0) std::cerr << "\r\033[K" << std::flush;
+}
+
+void Progress::draw_bar(int permille, double seconds_left) {
+  if (permille == shown_) return;
   shown_ = permille;
-  const double elapsed = now() - start_;
   std::string bar(30, ' ');
   std::fill_n(bar.begin(), 30 * permille / 1000, '=');
   char text[96];
-  std::snprintf(text, sizeof text, "] %5.1f %%  %.0f s left", permille / 10.0,
-                permille > 0 ? elapsed * (1000 - permille) / permille : 0.0);
+  std::snprintf(text, sizeof text, "] %5.1f %%  %.0f s left", permille / 10.0, seconds_left);
   std::cerr << "\r\033[K" << what_ << " [" << bar << text << std::flush;
+}
+
+void Progress::show(double share) {
+  if (form_ == Form::none) return;
+  const int permille = static_cast<int>(1000 * std::clamp(share, 0.0, 1.0));
+  const double time = now();
+  const double left = permille > 0 ? (time - start_) * (1000 - permille) / permille : 0.0;
+  if (form_ == Form::bar) return draw_bar(permille, left);
+  if (time - told_ < between_lines_) return;
+  told_ = time;
+  char text[64];
+  std::snprintf(text, sizeof text, ": %.1f %%, %.0f s left\n", permille / 10.0, left);
+  std::cerr << what_ + text << std::flush;
 }
 
 void Terminal::progress(const std::string& what, double share) {

@@ -42,6 +42,8 @@ struct CommonArguments : Frame {
   std::string out;     ///< what is written; "-": OBJ to stdout, and the report goes to stderr
   bool json = false;   ///< the report as JSON
   bool quiet = false;  ///< no progress, no warnings, and no report but that of json
+  /// bar, lines, none, or seconds between two lines; auto: a bar on a terminal, lines elsewhere.
+  std::string progress = "auto";
 };
 void add_common_options(CLI::App& sub, CommonArguments& common);
 
@@ -71,8 +73,8 @@ double parse_share(const std::string& text, const std::string& option);
 /// What stands between the commas; nothing of "", and no empty part at the end.
 std::vector<std::string> split_at_commas(const std::string& text);
 
-/// Draws a progress bar on stderr if that is a terminal and the user wants to hear of it; cleans up after
-/// itself.
+/// Tells progress on stderr unless the user does not want to hear of it: as a bar that cleans up after
+/// itself, or as a line every ten seconds (or as many as were asked for) where nobody sits at a terminal.
 class Progress {
  public:
   Progress(std::string what, const CommonArguments& common);
@@ -82,10 +84,15 @@ class Progress {
   void show(double share);  ///< in [0, 1]
 
  private:
+  enum class Form { none, bar, lines };
+  static Form form_of(const CommonArguments& common);
+  void draw_bar(int permille, double seconds_left);
+
   std::string what_;
-  bool on_;
-  int shown_ = -1;
-  double start_;
+  Form form_;
+  int shown_ = -1;  ///< by the bar [permille]
+  double start_, told_;
+  double between_lines_;  ///< [s]
 };
 
 /// From the first call on, Ctrl-C and SIGTERM set a flag in place of ending the program; the second one ends

@@ -9,6 +9,7 @@
 #include "cli/camera_options.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
+#include "io/base/atomic_file.h"
 #include "io/picture/png_file.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/fit_picture.h"
@@ -151,13 +152,20 @@ int tell_remarks(const DrapeJobReport& report, Terminal& terminal) {
 int drape(const DrapeArguments& a) {
   catch_interrupts();
   Terminal terminal(a);
+  io::OutputGroup together;
   DrapeJobReport report = jobs::drape(job_of(a), terminal);
   CommonArguments common = a;
   common.unit = report.frame.unit;
   common.up = report.frame.up;
   if (a.out == "-") write_mesh(report.garments[0].file, common);
   const bool draws = !a.picture.empty() && !interrupted();  // that may take longer than the fit
-  if (draws) write_picture(report, a, common);
+  try {
+    if (draws) write_picture(report, a, common);
+  } catch (...) {
+    together.commit();  // the fit took longer than the picture: it is not lost with that
+    throw;
+  }
+  together.commit();
   Json json = to_json(report);
   const bool animated = report.garments[0].animated;
   if (!a.out.empty()) json["written"] = a.out;

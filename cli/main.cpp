@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
@@ -18,17 +21,49 @@ bool has_subcommand(const CLI::App& app, const std::string& word) {
   return std::any_of(subs.begin(), subs.end(), [&](const CLI::App* sub) { return sub->get_name() == word; });
 }
 
-/// The message for a first word that is no subcommand, with the nearest one.
-std::string unknown_subcommand(const CLI::App& app, const std::string& word) {
+/// The word of the list that is fewer than four typing errors away, and nearest; "": none is.
+std::string nearest_of(const std::vector<std::string>& words, const std::string& word) {
   std::string nearest;
   std::size_t least = 4;
-  for (const CLI::App* sub : app.get_subcommands({}))
-    if (const std::size_t d = io::edit_distance(word, sub->get_name()); d < least) {
+  for (const std::string& other : words)
+    if (const std::size_t d = io::edit_distance(word, other); d < least) {
       least = d;
-      nearest = sub->get_name();
+      nearest = other;
     }
+  return nearest;
+}
+
+/// The message for a first word that is no subcommand, with the nearest one.
+std::string unknown_subcommand(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
+  const std::string nearest = nearest_of(names, word);
   return "there is no subcommand '" + word + "'" +
          (nearest.empty() ? "; furrow --help lists them" : "; did you mean '" + nearest + "'?");
+}
+
+/// The message for words that a subcommand does not know: of an option with the nearest one.
+std::string unknown_words(const CLI::App& app) {
+  const CLI::App& sub = app.get_subcommands().empty() ? app : *app.get_subcommands().front();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : sub.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::vector<std::string> words = app.remaining(true);
+  const std::string word = words.empty() ? "" : words.front().substr(0, words.front().find('='));
+  const std::string nearest = word.rfind("--", 0) == 0 ? nearest_of(names, word) : "";
+  const std::string command = "furrow" + (&sub == &app ? "" : " " + sub.get_name());
+  return word + ": " + command +
+         (word.rfind("-", 0) == 0 ? " has no such option" : " takes no further argument") +
+         (nearest.empty() ? "; " + command + " --help tells more" : "; did you mean " + nearest + "?");
+}
+
+/// The words of the command line, less the first; `furrow` alone and `furrow help [NAME]` ask for help.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty()) return {"--help"};
+  if (words[0] != "help") return words;
+  if (words.size() == 1) return {"--help"};
+  return {words[1], "--help"};
 }
 
 int fail(int code, const std::string& message) {
@@ -44,7 +79,7 @@ int run(int argc, char** argv) {
       "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
       "  furrow render worn.ply --body body.obj -o worn.png"};
   app.name("furrow");
-  app.set_version_flag("--version", cli::version_text());
+  app.set_version_flag("-V,--version", cli::version_text());
   app.require_subcommand(1);
   int exit_code = cli::exit_ok;
   cli::add_info(app);
@@ -61,15 +96,17 @@ int run(int argc, char** argv) {
   cli::add_fit(app);
   cli::add_transfer(app);
   cli::add_bake(app, exit_code);
-  if (argc > 1 && argv[1][0] != '-' && !has_subcommand(app, argv[1]))
-    return fail(cli::exit_usage, unknown_subcommand(app, argv[1]));
+  const std::vector<std::string> words = words_of(argc, argv);
+  if (words[0].rfind("-", 0) != 0 && !has_subcommand(app, words[0]))
+    return fail(cli::exit_usage, unknown_subcommand(app, words[0]));
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them off the end
   } catch (const CLI::Success& e) {
     return app.exit(e);
+  } catch (const CLI::ExtrasError&) {
+    return fail(cli::exit_usage, unknown_words(app));
   } catch (const CLI::ParseError& e) {
-    return fail(cli::exit_usage,
-                std::string(e.what()) + "; furrow " + (argc > 1 ? argv[1] : "") + " --help tells more");
+    return fail(cli::exit_usage, std::string(e.what()) + "; furrow " + words[0] + " --help tells more");
   }
   return exit_code;
 }
@@ -77,6 +114,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the user's limit is an error, told like a full disk
   try {
     return run(argc, argv);
   } catch (const physics::Cancelled&) {

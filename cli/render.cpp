@@ -8,6 +8,7 @@
 #include "cli/subcommands.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "io/base/atomic_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/picture/checker_texture.h"
 #include "io/picture/render_scene.h"
@@ -107,8 +108,10 @@ void render(RenderArguments a) {
     progress.show(double(i + 1) / double(list.size()));
   }
   const io::Image image = a.strip ? io::strip(panels) : panels[0].image;
+  io::OutputGroup together;
   io::write_png(a.out, image);
   const Json camera = save_camera(options, a.camera);
+  together.commit();
   print_report({{"width", image.width}, {"height", image.height}, {"camera", camera}, {"written", a.out}}, a);
 }
 

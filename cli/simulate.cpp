@@ -18,6 +18,7 @@ struct SimulateArguments : CommonArguments {
   std::string in, state;
   double budget = 60;
   CLI::Option* budget_option = nullptr;
+  std::optional<std::string> outputs_below;
   SceneFlags flags;
 };
 
@@ -47,6 +48,7 @@ SimulateJob job_of(const SimulateArguments& a) {
   check_tolerance(a, job);
   if (!a.flags.accuracy().empty()) job.tolerance = parse_share(a.flags.accuracy(), "--tolerance");
   job.budget = a.budget;
+  if (a.outputs_below) job.outputs_below = *a.outputs_below;
   return job;
 }
 
@@ -97,6 +99,9 @@ void add_simulate(CLI::App& app, int& exit_code) {
   a->budget_option = sub->add_option(
       "--budget", a->budget,
       "predicted seconds of one thread that choosing for --tolerance 1% may take [s] (default 60)");
+  sub->add_option(
+      "--outputs-below", a->outputs_below,
+      "folder that the outputs named by a scene file must lie in (default: the scene's own folder)");
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] { exit_code = simulate(*a); });
 }

@@ -2,8 +2,10 @@
 #include "jobs/simulate.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "bridge/gather.h"
+#include "io/base/atomic_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/ply_motion.h"
 #include "io/scene/relocated.h"
@@ -164,6 +166,40 @@ physics::SimulateOptions options_of(const Run& run, io::SavedState& now, double 
   return options;
 }
 
+void write_state(const Run& run, const io::SavedState& now) {
+  const std::filesystem::path& path = run.scene.output.state;
+  io::SavedState state = now;
+  state.scene = io::relocated(run.of.document, run.of.folder, path.parent_path());
+  state.scene.erase("output");  // it and stop_at belong to one call
+  if (state.scene.contains("simulation")) state.scene["simulation"].erase("stop_at");
+  io::write_state(path, std::move(state));
+}
+
+/// Simulates until the observer stops it or the end is reached. Whenever a checkpoint is due, the state is
+/// written, and the run goes on from it: by the same bits, though it evaluates the forces once more.
+physics::SimulateReport simulate_with_checkpoints(const Run& run, Reached& reached, physics::Cloth& cloth,
+                                                  const physics::SimulateOptions& options,
+                                                  const physics::Observer& observe) {
+  using Clock = std::chrono::steady_clock;
+  io::SavedState& now = reached.now;
+  const physics::World world = world_of(run.scene, run.body.get(), now.pins);
+  const std::optional<double> every = run.scene.output.checkpoint;
+  for (auto written = Clock::now();;) {
+    bool due = false;
+    const physics::SimulateReport report =
+        physics::simulate(cloth, world, options, &now.simulation, [&](const physics::SimulateProgress& p) {
+          if (!observe(p)) return false;
+          due = every && std::chrono::duration<double>(Clock::now() - written).count() >= *every;
+          return !due;
+        });
+    bridge::scatter(cloth.particles, now.file.mesh);
+    bridge::scatter_velocities(cloth.particles, now.file.mesh);
+    if (!due || report.outcome != physics::Outcome::stopped_by_observer) return report;
+    write_state(run, now);
+    written = Clock::now();
+  }
+}
+
 Stretch simulate_to(double stop, const Run& run, Reached& reached, AnimationSeries& animations) {
   io::SavedState& now = reached.now;
   const io::Scene& scene = run.scene;
@@ -174,31 +210,19 @@ Stretch simulate_to(double stop, const Run& run, Reached& reached, AnimationSeri
   const Observation observation = observation_of(options, cloth, run.body != nullptr, animations.is_on());
   options.observe_steps = observation.steps;
   animations.start(now.file.mesh, now.simulation.time, cloth.particles.x);
-  const physics::World world = world_of(scene, run.body.get(), now.pins);
   const ProgressScope progress(run.context.listener, "simulating");
   Stretch stretch;
   stretch.report =
-      physics::simulate(cloth, world, options, &now.simulation, [&](const physics::SimulateProgress& p) {
+      simulate_with_checkpoints(run, reached, cloth, options, [&](const physics::SimulateProgress& p) {
         if (observation.shows(p, stop)) animations.observe(p.time, cloth.particles.x);
         return progress(p.time / scene.simulation.seconds);
       });
-  bridge::scatter(cloth.particles, now.file.mesh);
-  bridge::scatter_velocities(cloth.particles, now.file.mesh);
   const physics::Outcome outcome = stretch.report.outcome;
   const bool stopped =
       outcome == physics::Outcome::stopped_at && scene.stop_at && now.simulation.time >= *scene.stop_at;
   stretch.goes_on = (outcome == physics::Outcome::finished || outcome == physics::Outcome::stopped_at) &&
                     now.simulation.time < scene.simulation.seconds && !stopped;
   return stretch;
-}
-
-void write_state(const Run& run, const io::SavedState& now) {
-  const std::filesystem::path& path = run.scene.output.state;
-  io::SavedState state = now;
-  state.scene = io::relocated(run.of.document, run.of.folder, path.parent_path());
-  state.scene.erase("output");  // it and stop_at belong to one call
-  if (state.scene.contains("simulation")) state.scene["simulation"].erase("stop_at");
-  io::write_state(path, std::move(state));
 }
 
 /// Draws and simulates by turns. Where a round of lines cannot be drawn, the state reached is written before
@@ -227,6 +251,7 @@ physics::SimulateReport run_to_end(const Run& run, Reached& reached, AnimationSe
 /// Drops what belongs to motion from the garment and writes what the scene names.
 void write_outputs(const Run& run, io::SavedState& now, AnimationSeries& animations) {
   const io::SceneOutput& out = run.scene.output;
+  io::OutputGroup together;
   if (!out.state.empty()) write_state(run, now);
   animations.finish();
   io::drop_motion(now.file);
@@ -234,6 +259,7 @@ void write_outputs(const Run& run, io::SavedState& now, AnimationSeries& animati
     write_mesh(out.body, run.body->at(now.simulation.time, run.context), run.context);
   note_material(now.file, run.of.document, run.body ? now.contact_gap : 0);
   if (!out.mesh.empty() && out.mesh != "-") write_mesh(out.mesh, now.file, run.context);
+  together.commit();
 }
 
 std::vector<Warning> remarks_on(const Run& run, const physics::SimulateReport& r, const io::MeshFile& file,

@@ -90,6 +90,9 @@ struct SimulateJob {
   std::optional<double> tolerance;
   double budget = 60;         ///< predicted seconds of one thread that choosing may take [s]; > 0
   bool needs_output = false;  ///< settings that name no output are refused
+  /// Below which the outputs that a scene file names must lie; none: the scene's folder. Empty: the folder
+  /// that the program runs in.
+  std::optional<std::filesystem::path> outputs_below = {};
 };
 
 /// The job that goes on from a state's file, under the settings that it holds. Throws as io::read_state().

@@ -65,8 +65,8 @@ void refine(const SubdivideJob& job, SubdivideReport& result, const Context& con
 SubdivideReport subdivide(const SubdivideJob& job, Listener& listener) {
   const std::string output = job.output.string();
   if (!output.empty()) check_output(output);
-  if (const auto* path = std::get_if<std::filesystem::path>(&job.strokes))
-    refuse_same(output, path->string());
+  const auto* strokes = std::get_if<std::filesystem::path>(&job.strokes);
+  refuse_same({output}, {name_of(job.mesh, ""), strokes ? strokes->string() : ""});
   SubdivideReport report{{}, {}, {}, job.frame};
   take_noted_frame(report.frame, {name_of(job.mesh, "")});
   const Context context{report.frame, listener};

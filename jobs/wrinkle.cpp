@@ -34,14 +34,12 @@ void check(const WrinkleJob& job) {
   if (job.state && !output.empty() && job.output.extension() != ".ply")
     throw std::invalid_argument(output + ": lines drawn into a state make a state, a .ply file");
   if (!inserted.empty()) check_output(inserted);
-  std::vector<std::string> besides{inserted}, inputs{path_of(job.strokes)};
-  besides.insert(besides.end(), job.more_outputs.begin(), job.more_outputs.end());
+  std::vector<std::string> outputs{output, inserted};
+  std::vector<std::string> inputs{path_of(job.strokes), job.state ? "" : name_of(job.garment, ""),
+                                  job.state_path.string()};
+  outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
-  std::vector<std::string> outputs{output};
-  outputs.insert(outputs.end(), besides.begin(), besides.end());
   refuse_same(outputs, inputs);
-  // The result alone may take the place of what it was made of.
-  refuse_same(besides, {job.state ? "" : name_of(job.garment, ""), job.state_path.string()});
 }
 
 /// The frame that the garment's file or the state notes, where the job names none.

@@ -84,9 +84,11 @@ BakedFiles write_baked_maps(const std::string& prefix, const geometry::BakedMaps
   // A prefix that is not UTF-8 cannot stand in JSON; the part of it that can be read does.
   const std::string record =
       record_of(maps, files, step).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  OutputGroup together;  // the record's scale is that of its maps
   write_png16(files.displacement, displacement);
   write_png16(files.normal, normal);
   write_atomically(files.record, [&](std::ostream& out) { out << record; });
+  together.commit();
   return files;
 }
 

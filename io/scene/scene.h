@@ -95,6 +95,7 @@ struct ScenePins {
 struct SceneOutput {
   std::filesystem::path mesh, state, inserted, smoothed, animation, body;  ///< empty: not written
   double fps = 25;                                                         ///< of the animation [1/s]; > 0
+  std::optional<double> checkpoint;  ///< clock time between two states on the way [s]; > 0; none: no such
 };
 
 /// All that a simulation is made of; what a scene file, flags and a saved state say. Paths are as the program

@@ -71,6 +71,14 @@ const Row<Scene> rows[] = {
       .what = "to go on from",
       .used = used_by::moving},
      path([](auto& s) -> auto& { return s.output.state; })},
+    {{.path = "output.checkpoint",
+      .flag = "--checkpoint",
+      .help = "write the state (--save-state) on the way, too, whenever so many seconds have passed [s]: a "
+              "killed run costs no more",
+      .what = "clock time between two states written on the way to `state`",
+      .used = used_by::moving},
+     number(
+         positive("s"), [](auto& s) -> auto& { return s.output.checkpoint; })},
     {{.path = "output.inserted",
       .flag = "--inserted",
       .help = "also write the mesh after the lines of time 0 were inserted",

@@ -143,6 +143,7 @@ SavedState from_json(const Json& json, std::size_t vertices) {
     throw std::invalid_argument("contact_gap is not in [0, 1) m");
   saved.scene = json.at("scene");
   if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
+  saved.scene.erase("output");  // a state has none: a stranger's would write where nobody said
   return saved;
 }
 

@@ -11,9 +11,10 @@
 namespace furrow::jobs {
 namespace {
 
-/// Files that are read; no output may replace one, but the garment itself, by its result.
-std::vector<std::string> inputs(const io::Scene& scene, const io::TomlDocument& document) {
-  std::vector<std::string> files;
+/// Files that are read; no output may replace one.
+std::vector<std::string> inputs(const io::Scene& scene, const io::TomlDocument& document,
+                                const SimulateJob& job) {
+  std::vector<std::string> files{scene.garment.string(), job.state_path.string()};
   if (is_scene(document.name)) files.push_back(document.name);
   if (scene.body)
     for (const auto& path : {scene.body->mesh, scene.body->field, scene.body->frames})
@@ -23,15 +24,35 @@ std::vector<std::string> inputs(const io::Scene& scene, const io::TomlDocument& 
   return files;
 }
 
+namespace fs = std::filesystem;
+
+/// Where the path leads, links followed, though it need not be there yet.
+fs::path real(const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); }
+
+/// Throws std::invalid_argument for an output of a scene file that lies outside of the folder: who runs a
+/// stranger's scene has not said that it may write there.
+void check_lies_below(const fs::path& output, const fs::path& folder, const std::string& place) {
+  const fs::path way = real(output).lexically_relative(real(folder.empty() ? "." : folder));
+  if (way.empty() || *way.begin() == "..")
+    throw std::invalid_argument(place + ": " + output.string() + " lies outside of the scene's folder, " +
+                                (folder.empty() ? "." : folder.string()) +
+                                "; allow it with --outputs-below FOLDER, or name the output by a flag");
+}
+
 /// Folders that a scene file names are made, so that a fresh copy of it runs; those of flags must be there.
-void make_folders(const io::Scene& scene, const io::TomlDocument& document) {
+void make_folders(const io::Scene& scene, const io::TomlDocument& document, const fs::path& below) {
   const io::SceneOutput& out = scene.output;
-  const std::pair<const char*, std::filesystem::path> outputs[] = {
+  const std::pair<const char*, fs::path> outputs[] = {
       {"mesh", out.mesh},         {"state", out.state},         {"inserted", out.inserted},
       {"smoothed", out.smoothed}, {"animation", out.animation}, {"body", out.body}};
-  for (const auto& [key, path] : outputs)
-    if (!path.parent_path().empty() && document.is_of_file("output." + std::string(key)))
-      std::filesystem::create_directories(path.parent_path());
+  std::vector<fs::path> folders;
+  for (const auto& [key, path] : outputs) {
+    const std::string setting = "output." + std::string(key);
+    if (path.empty() || path == "-" || !document.is_of_file(setting)) continue;
+    check_lies_below(path, below, document.place(setting));
+    if (!path.parent_path().empty()) folders.push_back(path.parent_path());
+  }
+  for (const fs::path& folder : folders) fs::create_directories(folder);
 }
 
 void check_output_formats(const io::SceneOutput& out, bool has_body) {
@@ -56,17 +77,13 @@ void check_outputs(const OpenScene& open, const SimulateJob& job) {
   const io::SceneOutput& out = scene.output;
   if (job.needs_output && out.mesh.empty() && out.state.empty() && out.animation.empty())
     throw std::invalid_argument("nothing to write: name --output, --save-state or --animation");
+  if (out.checkpoint && out.state.empty())
+    throw std::invalid_argument("--checkpoint: there is no state to write; name one with --save-state");
   check_output_formats(out, scene.body.has_value());
-  const std::vector<std::string> read = inputs(scene, open.document);
   std::vector<std::string> written;
-  for (const auto& path : {out.mesh, out.state, out.inserted, out.smoothed, out.animation, out.body}) {
-    if (path.empty() || path == "-") continue;
-    for (const std::string& other : read) refuse_same(path.string(), other);
-    if (path != out.mesh) refuse_same(path.string(), scene.garment.string());
-    if (path != out.state) refuse_same(path.string(), job.state_path.string());
-    for (const std::string& other : written) refuse_same(path.string(), other);
-    written.push_back(path.string());
-  }
+  for (const auto& path : {out.mesh, out.state, out.inserted, out.smoothed, out.animation, out.body})
+    if (!path.empty() && path != "-") written.push_back(path.string());
+  refuse_same(written, inputs(scene, open.document, job));
 }
 
 void check_state(const io::Scene& scene, const io::SavedState& state) {
@@ -102,7 +119,8 @@ OpenScene open_scene(const SimulateJob& job, Listener& listener) {
   if (job.state) check_state(open.scene, *job.state);
   check_inputs(open.scene, open.document, job.state ? job.state->lines_drawn : -1, job.scene.memory);
   if (!job.state) take_noted_frame(open.scene, open.document, job.scene.memory);
-  if (is_scene(open.document.name)) make_folders(open.scene, open.document);
+  if (is_scene(open.document.name))
+    make_folders(open.scene, open.document, job.outputs_below.value_or(open.folder));
   check_outputs(open, job);
   open.frame.unit = open.scene.unit;
   open.frame.up = open.scene.up;

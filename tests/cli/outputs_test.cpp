@@ -103,6 +103,73 @@ TEST_CASE("outputs: no output may replace what is read or another output, and pi
   CHECK(run_furrow("render " + f.mesh + " -o " + (f / "no/a.png")).exit_code == 1);
 }
 
+TEST_CASE("outputs: no subcommand replaces what it reads, by whatever name") {
+  Files f;
+  f.wrinkle();
+  const std::string before = read_text(f.wrinkled), state = f / "s.ply";
+  std::filesystem::create_symlink(f.wrinkled, f / "link.ply");
+  std::filesystem::create_hard_link(f.wrinkled, f / "hard.ply");
+  const std::string pinned = "simulate --seconds 0.01 --pin-loop 0 ";
+  REQUIRE(run_furrow(pinned + f.wrinkled + " --save-state " + state).exit_code == 0);
+  const std::string state_before = read_text(state);
+  for (const std::string& call :
+       {"subdivide --linear 1 " + f.wrinkled, "smooth " + f.wrinkled, "wrinkle " + f.wrinkled,
+        "wrinkle " + f.wrinkled + " " + f.lines, pinned + f.wrinkled, "transfer " + f.cm + " " + f.wrinkled})
+    for (const std::string& output : {f.wrinkled, f / "link.ply", f / "hard.ply", f / "./w.ply"}) {
+      INFO("furrow " << call << " -o " << output);
+      const Run run = run_furrow(call + " -o " + output);
+      CHECK(run.exit_code == 2);
+      CHECK(holds(run.err, "would replace"));
+    }
+  CHECK(run_furrow("simulate --seconds 0.02 --state " + state + " --save-state " + state).exit_code == 2);
+  CHECK(read_text(f.wrinkled) == before);
+  CHECK(read_text(state) == state_before);
+}
+
+TEST_CASE("outputs: those of a scene stay below its folder unless the command line says so") {
+  Files f;
+  std::filesystem::create_directory(f / "scene");
+  std::filesystem::create_directory_symlink(f / "elsewhere", f / "scene/link");
+  const std::string scene = f / "scene/s.toml";
+  const auto write_scene = [&](const std::string& output) {
+    write_text(scene,
+               "[garment]\nmesh = \"../wall.obj\"\n[[pins]]\nloop = 0\n[simulation]\nseconds = 0\n"
+               "[output]\nmesh = \"" +
+                   output + "\"\n");
+  };
+  for (const std::string& output :
+       {std::string("../victim/o.ply"), f / "victim/o.ply", std::string("link/o.ply")}) {
+    INFO(output);
+    write_scene(output);
+    const Run run = run_furrow("simulate -q " + scene);
+    CHECK(run.exit_code == 2);
+    CHECK(holds(run.err, "s.toml:8:"));
+    CHECK(holds(run.err, "--outputs-below"));
+    CHECK_FALSE(std::filesystem::exists(f / "victim"));
+    CHECK_FALSE(std::filesystem::exists(f / "elsewhere"));
+    CHECK(run_furrow("simulate -q " + scene + " -o " + (f / "o.ply")).exit_code == 0);
+  }
+  write_scene("../victim/o.ply");
+  CHECK(run_furrow("simulate -q " + scene + " --outputs-below " + (f / ".")).exit_code == 0);
+  CHECK(std::filesystem::exists(f / "victim/o.ply"));
+}
+
+TEST_CASE("outputs: a state has none, whatever a stranger wrote into it") {
+  Files f;
+  f.wrinkle();
+  REQUIRE(run_furrow("simulate --seconds 0.01 --pin-loop 0 " + f.wrinkled + " --save-state " + (f / "s.ply"))
+              .exit_code == 0);
+  std::string text = read_text(f / "s.ply");
+  const std::string key = "\"scene\":{";
+  REQUIRE(text.find(key) != std::string::npos);
+  text.insert(text.find(key) + key.size(), R"("output":{"mesh":"evil.obj"},)");
+  write_text(f / "evil.ply", text);
+  const std::string call = "simulate --seconds 0.02 --state " + (f / "evil.ply");
+  CHECK(run_furrow(call).exit_code == 2);
+  CHECK(run_furrow(call + " -o " + (f / "o.ply")).exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(f / "evil.obj"));
+}
+
 TEST_CASE("outputs: a garment that came in centimetres goes on and out in centimetres") {
   Files f;
   f.wrinkle();

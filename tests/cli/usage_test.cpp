@@ -55,8 +55,8 @@ TEST_CASE("usage: a wrong call exits with 2 and one line that begins with error:
   write_text(scratch / "square.obj", square_obj);
   const std::string square = scratch / "square.obj";
   for (const std::string& call :
-       {std::string(""), std::string("wrinkel a b"), std::string("info"), "info " + square + " --unit mile",
-        "subdivide " + square + " -o " + (scratch / "o.obj"),
+       {std::string("wrinkel a b"), std::string("help wrinkel"), std::string("info"),
+        "info " + square + " --unit mile", "subdivide " + square + " -o " + (scratch / "o.obj"),
         "subdivide " + square + " --loop 1 --all -o " + (scratch / "o.obj"),
         "smooth " + square + " -o " + (scratch / "o.obj") + " --lambda 2",
         "simulate " + square + " -o " + (scratch / "o.obj") + " --pin-loop middle",
@@ -71,6 +71,42 @@ TEST_CASE("usage: a wrong call exits with 2 and one line that begins with error:
     CHECK_FALSE(std::filesystem::exists(scratch / "o.obj"));
   }
   CHECK(run_furrow("wrinkel a b").err.find("did you mean 'wrinkle'") != std::string::npos);
+}
+
+TEST_CASE("usage: furrow alone and furrow help print the help, furrow help NAME that of a subcommand") {
+  const Run help = run_furrow("--help");
+  REQUIRE(help.exit_code == 0);
+  CHECK(run_furrow("").out == help.out);
+  CHECK(run_furrow("").exit_code == 0);
+  CHECK(run_furrow("help").out == help.out);
+  CHECK(run_furrow("help drape").out == run_furrow("drape --help").out);
+  CHECK(run_furrow("-V").out == run_furrow("--version").out);
+}
+
+TEST_CASE("usage: an option that is not known is named, with the nearest one") {
+  const Run near = run_furrow("simulate a.obj --secnds 1 -o b.ply");
+  CHECK(near.exit_code == 2);
+  CHECK(near.err == "error: --secnds: furrow simulate has no such option; did you mean --seconds?\n");
+  const Run far = run_furrow("simulate a.obj --beautiful=1");
+  CHECK(far.err ==
+        "error: --beautiful: furrow simulate has no such option; furrow simulate --help tells more\n");
+  const Run word = run_furrow("info a.obj b.obj");
+  CHECK(word.err == "error: b.obj: furrow info takes no further argument; furrow info --help tells more\n");
+}
+
+TEST_CASE("usage: without a terminal progress is told in lines") {
+  const ScratchDirectory scratch;
+  write_text(scratch / "square.obj", square_obj);
+  const std::string call = "simulate --pin-vertices 0 --dt 1e-5 --seconds 0.3 " + (scratch / "square.obj") +
+                           " -o " + (scratch / "o.ply");
+  CHECK(run_furrow(call + " --progress none").err.empty());
+  CHECK(run_furrow(call + " --progress 1e-6 -q").err.empty());
+  const Run run = run_furrow(call + " --progress 1e-6");
+  REQUIRE(run.exit_code == 0);
+  CHECK(run.err.rfind("simulating: ", 0) == 0);
+  CHECK(run.err.find(" %, ") != std::string::npos);
+  CHECK(run.err.find('\r') == std::string::npos);
+  CHECK(run_furrow(call + " --progress much").exit_code == 2);
 }
 
 TEST_CASE("usage: a file that cannot be read exits with 3") {

@@ -177,6 +177,23 @@ TEST_CASE("simulate: what was cancelled goes on to the bits of a run that was no
   CHECK(positions(report.garment) == positions(reference.garment));
 }
 
+TEST_CASE("simulate: a state written on the way changes no bit, and a run goes on from it") {
+  const fs::path folder = empty_folder("checkpoints");
+  tests::Recorder recorder;
+  jobs::SimulateJob job = hung_sheet(0.1, 0.05);
+  const jobs::SimulateReport reference = jobs::simulate(job, recorder);
+  set_output(job, "state", folder / "state.ply");
+  io::set_value(job.scene.settings, "output.checkpoint", 1e-9, "test");  // whenever the run is observed
+  tests::Recorder other;
+  const jobs::SimulateReport report = jobs::simulate(job, other);
+  CHECK(report.run.force_evaluations > reference.run.force_evaluations);
+  CHECK(report.run.steps == reference.run.steps);
+  CHECK(positions(report.garment) == positions(reference.garment));
+  job.scene.settings = hung_sheet(0.1, 0.05).scene.settings;
+  io::set_value(job.scene.settings, "output.checkpoint", 60.0, "test");
+  CHECK_THROWS_AS(jobs::simulate(job, recorder), std::invalid_argument);  // no state to write
+}
+
 TEST_CASE("simulate: a job that cannot be is refused, and writes nothing") {
   const fs::path folder = empty_folder("refused");
   tests::Recorder recorder;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/base/atomic_file.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -62,6 +65,71 @@ TEST_CASE("write_atomically: what cannot be written is an error, devices are wri
   io::write_atomically("/dev/null", write);
   CHECK(fs::is_character_file("/dev/null"));
   CHECK_THROWS_AS(io::write_atomically("/dev/full", write), std::runtime_error);
+}
+
+TEST_CASE(
+    "write_atomically: a link to a file that is not there yet is followed, links in a circle are refused") {
+  TemporaryFolder folder;
+  const auto write = [](std::ostream& out) { out << "new"; };
+  fs::create_directory(folder / "there");
+  fs::create_symlink("there/target", folder / "link");
+  io::write_atomically(folder / "link", write);
+  CHECK(fs::is_symlink(folder / "link"));
+  CHECK(slurp(folder / "there/target") == "new");
+  fs::create_symlink("b", folder / "a");
+  fs::create_symlink("a", folder / "b");
+  CHECK_THROWS_AS(io::write_atomically(folder / "a", write), std::runtime_error);
+  CHECK(fs::is_symlink(folder / "a"));
+}
+
+TEST_CASE("write_atomically: a name may be as long as the file system takes it") {
+  TemporaryFolder folder;
+  const fs::path path = folder / (std::string(251, 'n') + ".ply");
+  io::write_atomically(path, [](std::ostream& out) { out << "long"; });
+  CHECK(slurp(path) == "long");
+  CHECK(files_in(folder) == 1);
+}
+
+TEST_CASE("write_atomically: what a killed run left is removed, what another one writes is not") {
+  TemporaryFolder folder;
+  const fs::path abandoned = folder / ".mesh.ply.furrow-99-3.tmp",
+                 used = folder / ".mesh.ply.furrow-98-3.tmp";
+  const fs::path others = folder / ".mesh.ply.99-3.tmp";
+  for (const fs::path& path : {abandoned, used, others}) spit(path, "half");
+  const int file = ::open(used.c_str(), O_RDONLY);
+  REQUIRE(::flock(file, LOCK_EX | LOCK_NB) == 0);
+  io::write_atomically(folder / "mesh.ply", [](std::ostream& out) { out << "whole"; });
+  ::close(file);
+  CHECK_FALSE(fs::exists(abandoned));
+  CHECK(fs::exists(used));
+  CHECK(fs::exists(others));
+}
+
+TEST_CASE("OutputGroup: files appear together, or none of them") {
+  TemporaryFolder folder;
+  const auto write = [](const char* text) { return [text](std::ostream& out) { out << text; }; };
+  spit(folder / "a", "old");
+  {
+    io::OutputGroup group;
+    io::write_atomically(folder / "a", write("new"));
+    io::write_atomically(folder / "b", write("new"));
+  }
+  CHECK(slurp(folder / "a") == "old");
+  CHECK(files_in(folder) == 1);
+  io::OutputGroup group;
+  io::write_atomically(folder / "a", write("first"));
+  io::write_atomically(folder / "a", write("second"));
+  {
+    io::OutputGroup part;
+    io::write_atomically(folder / "b", write("new"));
+    part.commit();
+  }
+  CHECK(slurp(folder / "a") == "old");
+  CHECK_FALSE(fs::exists(folder / "b"));
+  group.commit();
+  CHECK(slurp(folder / "a") == "second");
+  CHECK(slurp(folder / "b") == "new");
+  CHECK(files_in(folder) == 2);
 }
 
 TEST_CASE("bytes_file: any bytes come back, what cannot be read is a content error") {
