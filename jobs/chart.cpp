@@ -31,9 +31,8 @@ void check_outputs(const ChartJob& job) {
 
 OpenScene open_scene(const ChartJob& job) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
+  take_recorded_material(open.document, garment_of(open.document, open.folder), job.scene.memory);
   open.scene = scene_of(open.document, open.folder);
-  if (take_recorded_material(open.document, open.scene.garment, job.scene.memory).taken)
-    open.scene = scene_of(open.document, open.folder);
   if (open.scene.garment.empty())
     throw std::invalid_argument(open.document.name + ": garment.mesh is missing");
   check_inputs(open.scene, open.document, -1, job.scene.memory);

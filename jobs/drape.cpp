@@ -68,7 +68,7 @@ void warn_of_unused_settings(const io::TomlDocument& document, Listener& listene
 io::TomlDocument with_fabric(const DrapeJob& job) {
   io::TomlDocument document = job.scene.settings;
   if (!job.fabrics.empty()) return document;
-  take_recorded_material(document, scene_of(document, job.scene.folder).garment, job.scene.memory);
+  take_recorded_material(document, garment_of(document, job.scene.folder), job.scene.memory);
   if (!names_cloth(document)) io::set_value(document, "material.preset", "cotton", "furrow drape");
   return document;
 }

@@ -48,9 +48,8 @@ void check_outputs(const KeepJob& job, const OpenScene& open) {
 
 OpenScene open_scene(const KeepJob& job) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
+  if (!job.state) take_recorded_material(open.document, garment_of(open.document, open.folder), job.scene.memory);
   open.scene = scene_of(open.document, open.folder);
-  if (!job.state && take_recorded_material(open.document, open.scene.garment, job.scene.memory).taken)
-    open.scene = scene_of(open.document, open.folder);
   if (open.scene.garment.empty() && !job.state)
     throw std::invalid_argument(open.document.name + ": garment.mesh is missing");
   check_inputs(open.scene, open.document, job.state ? job.state->lines_drawn : -1, job.scene.memory);

@@ -284,6 +284,8 @@ void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std
     write_outputs(run, now, animations);
     report.shape = measure_shape(now.file, reached.heights, run.body.get(), now.contact_gap, report.run.time);
     report.warnings = remarks_on(run, report.run, now.file, steps_before);
+    const std::vector<Warning> lost = lost_lines(run.scene, report.shape->lines);
+    report.warnings.insert(report.warnings.end(), lost.begin(), lost.end());
     report.garment = std::move(now.file);
   }
   report.animations = animations.reports();

@@ -130,7 +130,10 @@ std::vector<SectionLoop> horizontal_section(const Mesh& mesh, double height) {
   return horizontal_section(points, triangles, height);
 }
 
-double tape_measure(const SectionLoop& loop) {
+namespace {
+
+/// The corners of the convex hull in the plane, all the way round: the first is repeated at the end.
+std::vector<std::array<double, 2>> hull_of(const SectionLoop& loop) {
   std::vector<std::array<double, 2>> p;
   for (const SectionPoint& q : loop.points) p.push_back({q.x, q.z});
   std::sort(p.begin(), p.end());
@@ -147,10 +150,26 @@ double tape_measure(const SectionLoop& loop) {
   for (const auto& q : p) add(q, 0);
   const std::size_t lower = hull.empty() ? 0 : hull.size() - 1;
   for (std::size_t i = p.size(); i-- > 0;) add(p[i], lower);
+  return hull;
+}
+
+}  // namespace
+
+double tape_measure(const SectionLoop& loop) {
+  const auto hull = hull_of(loop);
   double perimeter = 0;
   for (std::size_t i = 1; i < hull.size(); ++i)
     perimeter += std::hypot(hull[i][0] - hull[i - 1][0], hull[i][1] - hull[i - 1][1]);
   return perimeter;
+}
+
+double breadth(const SectionLoop& loop) {
+  const auto hull = hull_of(loop);
+  double longest = 0;
+  for (std::size_t i = 0; i < hull.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      longest = std::max(longest, std::hypot(hull[i][0] - hull[j][0], hull[i][1] - hull[j][1]));
+  return longest;
 }
 
 bool encloses(const SectionLoop& loop, double x, double z) {

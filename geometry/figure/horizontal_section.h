@@ -42,6 +42,9 @@ std::vector<SectionLoop> horizontal_section(const Mesh& mesh, double height);
 /// points. O(points log points).
 double tape_measure(const SectionLoop& loop);
 
+/// The largest distance between two of its points [m]. O(points log points + corners of the hull^2).
+double breadth(const SectionLoop& loop);
+
 /// Whether a place in the plane lies inside a closed curve (even-odd rule); false for an open one.
 bool encloses(const SectionLoop& loop, double x, double z);
 

@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "geometry/mesh/carry_attributes.h"
+#include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/preconditions.h"
+#include "geometry/refine/refine_rest.h"
 
 namespace furrow::geometry {
 namespace {
@@ -61,7 +63,9 @@ void check(Mesh& mesh, int steps, int faces_per_face, const char* operation) {
   const double faces = static_cast<double>(mesh.number_of_faces()) * std::pow(faces_per_face, steps);
   if (faces > 50e6)
     refuse(operation, "steps is " + std::to_string(steps) + ", which would make more than 50 million faces");
-  if (steps > 0) mesh.collect_garbage();
+  if (steps == 0) return;
+  rest_lengths(mesh);  // throws for one that cannot be refined
+  mesh.collect_garbage();
 }
 
 /// CGAL appends the mid-points in the order of the edges.
@@ -123,6 +127,7 @@ void quadrisect(Mesh& mesh) {
   };
   saved.restore(mesh, parent, origin);
   saved.restore_halves(mesh);
+  refine_rest_of_quarters(saved, mesh, parent);
   carry_lines(before, mesh);
   carry_diagonals(before, mesh);
 }
@@ -171,6 +176,7 @@ void sqrt3_step(Mesh& mesh, bool refine_border) {
     return at;
   };
   saved.restore(mesh, parent, origin);
+  refine_rest_of_sqrt3(saved, mesh, origins);
 }
 
 }  // namespace

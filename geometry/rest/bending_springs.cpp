@@ -127,6 +127,34 @@ std::vector<Known> known_springs(const Mesh& mesh, std::span<const Edge> edges,
   return known;
 }
 
+using PerEdge = PropertyName<Edge, double>;
+
+/// By edge index; empty where the mesh has no such map.
+std::vector<double> values_of(const Mesh& mesh, const PerEdge& name) {
+  std::vector<double> values;
+  if (const auto map = find_map(mesh, name)) {
+    values.assign(mesh.num_edges(), unset_value);
+    for (Edge e : mesh.edges()) values[e.idx()] = (*map)[e];
+  }
+  return values;
+}
+
+/// Gives each spring's holder what was stated on the first of the edges that share it.
+void take_stated(Mesh& mesh, std::span<const Candidate> sorted, const std::vector<double>& stated,
+                 const PerEdge& name) {
+  if (stated.empty()) return;
+  auto map = ensure_map(mesh, name);
+  Edge holder;
+  bool taken = false;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (i == 0 || sorted[i].pair != sorted[i - 1].pair) holder = sorted[i].edge, taken = false;
+    const double value = stated[sorted[i].edge.idx()];
+    if (taken || std::isnan(value)) continue;
+    map[holder] = value;
+    taken = true;
+  }
+}
+
 }  // namespace
 
 void rebuild_bending_springs(Mesh& mesh) {
@@ -186,7 +214,14 @@ std::vector<BendingSpring> bending_springs(const Mesh& mesh) {
 void ensure_bending_springs(Mesh& mesh) {
   const bool known =
       find_map(mesh, attribute::bending_rest_length) && find_map(mesh, attribute::bending_count);
-  if (!known || bending_springs(mesh).empty()) rebuild_bending_springs(mesh);
+  if (known && !bending_springs(mesh).empty()) return;
+  const auto rest = values_of(mesh, attribute::bending_rest_length),
+             stiffness = values_of(mesh, attribute::bending_stiffness);
+  rebuild_bending_springs(mesh);
+  const std::vector<Edge> edges(mesh.edges().begin(), mesh.edges().end());
+  const std::vector<Candidate> all = candidates(mesh, edges);
+  take_stated(mesh, all, rest, attribute::bending_rest_length);
+  take_stated(mesh, all, stiffness, attribute::bending_stiffness);
 }
 
 }  // namespace furrow::geometry

@@ -9,6 +9,7 @@
 #include <assimp/LogStream.hpp>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/bytes_file.h"
@@ -24,6 +25,55 @@ namespace {
 
 using namespace geometry;
 using Transform = aiMatrix4x4t<double>;
+
+constexpr double same_place = 1e-5;  // of entries of transforms: inverse bind matrices are single precision
+
+bool agree(const Transform& a, const Transform& b) {
+  for (unsigned row = 0; row < 4; ++row)
+    for (unsigned column = 0; column < 4; ++column)
+      if (!(std::abs(a[row][column] - b[row][column]) <= same_place)) return false;
+  return true;
+}
+
+/// From a joint's own frame to the scene's.
+Transform place_of(const aiNode* node) {
+  Transform place;
+  for (; node; node = node->mParent) place = Transform(node->mTransformation) * place;
+  return place;
+}
+
+std::size_t depth_of(const aiNode* node) {
+  std::size_t depth = 0;
+  for (; node->mParent; node = node->mParent) ++depth;
+  return depth;
+}
+
+/// Where a skin puts a mesh.
+struct BindPose {
+  Transform place;     ///< of all of it, by the joint nearest to the root
+  bool moved = false;  ///< whether other joints stand otherwise: the file shows another pose
+};
+
+/// The joints alone place a skinned mesh: its node's transform does not count (glTF 2.0, 3.7.3.3). What a
+/// joint does to the mesh is its place times its inverse bind matrix, the same for all in the bind pose.
+std::optional<BindPose> bind_pose(const aiScene& scene, const aiMesh& mesh) {
+  std::optional<BindPose> pose;
+  std::size_t least = 0;
+  std::vector<Transform> all;
+  for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+    const aiNode* joint = scene.mRootNode->FindNode(mesh.mBones[b]->mName);
+    if (!joint) continue;
+    all.push_back(place_of(joint) * Transform(mesh.mBones[b]->mOffsetMatrix));
+    const std::size_t depth = depth_of(joint);
+    if (pose && depth >= least) continue;
+    pose = BindPose{all.back()};
+    least = depth;
+  }
+  if (!pose) return std::nullopt;
+  for (const Transform& place : all) pose->moved = pose->moved || !agree(place, pose->place);
+  if (agree(pose->place, Transform())) pose->place = Transform();
+  return pose;
+}
 
 class SceneReader {
  public:
@@ -52,14 +102,24 @@ class SceneReader {
     PointNumbers numbers;
     const std::size_t base = out_.soup.points.size();
     const int group = groups_.index(node.mName.length ? node.mName.C_Str() : "mesh");
-    const bool mirrored = transform.Determinant() < 0;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       if (node.mMeshes[i] >= scene_.mNumMeshes) throw ContentError("a node names a mesh that is not there");
       const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
-      const std::vector<std::size_t> points = read_points(mesh, transform, numbers, base);
+      const Transform place = place_of_mesh(mesh, node, transform);
+      const std::vector<std::size_t> points = read_points(mesh, place, numbers, base);
       read_weights(mesh, points);
-      read_faces(mesh, points, group, mirrored);
+      read_faces(mesh, points, group, place.Determinant() < 0);
     }
+  }
+
+  /// Its node's transform, or, of a skinned mesh, that of its bind pose.
+  Transform place_of_mesh(const aiMesh& mesh, const aiNode& node, const Transform& transform) {
+    const std::optional<BindPose> pose = bind_pose(scene_, mesh);
+    if (!pose) return transform;
+    if (pose->moved)
+      out_.warnings.push_back(std::string(node.mName.C_Str()) +
+                              ": its skeleton stands in another pose than it was bound in; read as it was bound");
+    return agree(pose->place, transform) ? transform : pose->place;
   }
 
   std::vector<std::size_t> read_points(const aiMesh& mesh, const Transform& transform, PointNumbers& numbers,
@@ -173,7 +233,7 @@ std::string import(const std::filesystem::path& path, const ReadOptions& options
   if (!scene) throw ContentError(importer.GetErrorString());
   if (warnings->damage()) throw ContentError("a face names a vertex that is not there; repair the file");
   SoupFile file = SceneReader(*scene, options).read();
-  file.warnings = std::move(messages);
+  for (std::string& message : messages) file.warnings.push_back("assimp: " + std::move(message));
   return to_bytes(file);
 }
 
@@ -193,7 +253,7 @@ MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options
   file.material_names = std::move(content.material_names);
   file.repairs.merged_vertices = content.merged_vertices;
   file.warnings.push_back(name + ": single precision, vertex order not kept");
-  for (const std::string& warning : content.warnings) file.warnings.push_back(name + ": assimp: " + warning);
+  for (const std::string& warning : content.warnings) file.warnings.push_back(name + ": " + warning);
   set_mesh(file, content.soup, name);
   return file;
 }

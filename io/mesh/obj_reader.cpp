@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/name_table.h"
@@ -26,6 +27,7 @@ constexpr std::array passed_over = {
 struct LineElement {
   std::vector<std::size_t> vertices;
   std::size_t line = 0;
+  std::string object;  ///< that it belongs to, or else its group
 };
 
 class ObjReader {
@@ -41,6 +43,23 @@ class ObjReader {
     resolve_textures();
     resolve_polylines();
     finish_colors();
+  }
+
+  /// The polylines object by object, in the order in which objects have lines first. After read().
+  std::vector<NamedPolyline> polylines_by_object() const {
+    std::vector<std::string> names;
+    NameTable table(names);
+    std::vector<std::vector<LineElement>> of_object(1);  // the first: of no name
+    for (const LineElement& element : lines_) {
+      const auto index = static_cast<std::size_t>(table.index(element.object) + 1);
+      of_object.resize(std::max(of_object.size(), index + 1));
+      of_object[index].push_back(element);
+    }
+    std::vector<NamedPolyline> result;
+    for (std::size_t i = 0; i < of_object.size(); ++i)
+      for (Polyline& line : chained(of_object[i]))
+        result.push_back({std::move(line), i == 0 ? "" : names[i - 1]});
+    return result;
   }
 
   PolygonSoup soup;
@@ -60,13 +79,19 @@ class ObjReader {
     else if (word == "l")
       read_line();
     else if (word == "g" || word == "o")
-      group_ = groups_.index(in_.rest_of_line());
+      read_name(word == "o");
     else if (word == "usemtl")
       material_ = materials_.index(in_.rest_of_line());
     else if (word == "mtllib")
       file.material_libraries.emplace_back(in_.rest_of_line());
     else if (std::ranges::find(passed_over, word) == passed_over.end())
       warn_unknown(word);
+  }
+
+  void read_name(bool of_object) {
+    const std::string_view name = in_.rest_of_line();
+    group_ = groups_.index(name);
+    (of_object ? object_name_ : group_name_) = name;
   }
 
   bool comment() {
@@ -143,7 +168,7 @@ class ObjReader {
   }
 
   void read_line() {
-    LineElement element{{}, in_.line()};
+    LineElement element{{}, in_.line(), object_name_.empty() ? group_name_ : object_name_};
     for (std::string_view word = in_.word(); !word.empty(); word = in_.word())
       element.vertices.push_back(
           resolve(word.substr(0, word.find('/')), soup.points.size(), "vertex of a line"));
@@ -168,15 +193,26 @@ class ObjReader {
       }
   }
 
-  void resolve_polylines() {
-    std::vector<std::array<std::size_t, 2>> segments;
-    std::vector<Chain> chains;
-    for (const LineElement& element : lines_) {
+  void check_lines() const {
+    for (const LineElement& element : lines_)
       for (const std::size_t v : element.vertices)
         if (v >= soup.points.size())
           fail_at(element.line, "a line names a vertex beyond the last of " +
                                     std::to_string(soup.points.size()) +
                                     "; correct the index or add the vertex");
+  }
+
+  void resolve_polylines() {
+    check_lines();
+    for (Polyline& line : chained(lines_)) file.polylines.push_back(std::move(line));
+  }
+
+  /// Longer elements as they are, those of two vertices chained.
+  std::vector<Polyline> chained(std::span<const LineElement> lines) const {
+    std::vector<std::array<std::size_t, 2>> segments;
+    std::vector<Chain> chains;
+    std::vector<Polyline> result;
+    for (const LineElement& element : lines) {
       if (element.vertices.size() == 2) {
         segments.push_back({element.vertices[0], element.vertices[1]});
         continue;
@@ -190,8 +226,9 @@ class ObjReader {
     for (Chain& chain : chains) {
       Polyline line{{}, std::move(chain.vertices), chain.closed};
       for (const std::size_t v : line.vertices) line.points.push_back(soup.points[v]);
-      file.polylines.push_back(std::move(line));
+      result.push_back(std::move(line));
     }
+    return result;
   }
 
   /// Most programs write colours from 0 to 1, some from 0 to 255.
@@ -213,6 +250,7 @@ class ObjReader {
   std::vector<LineElement> lines_;
   NameTable groups_{file.group_names}, materials_{file.material_names};
   int group_ = -1, material_ = -1;
+  std::string object_name_, group_name_;
   bool warned_ = false;
 };
 
@@ -228,11 +266,11 @@ MeshFile read_obj(std::string_view text, const std::string& name, const ReadOpti
   return std::move(reader.file);
 }
 
-std::vector<Polyline> read_obj_polylines(std::string_view text, const std::string& name,
-                                         const ReadOptions& options) {
+std::vector<NamedPolyline> read_obj_polylines(std::string_view text, const std::string& name,
+                                              const ReadOptions& options) {
   ObjReader reader(text, name, options);
   reader.read();
-  return std::move(reader.file.polylines);
+  return reader.polylines_by_object();
 }
 
 }  // namespace furrow::io

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/stroke/stroke_file.h"
 
+#include <charconv>
+#include <cmath>
+#include <optional>
 #include <ostream>
+#include <utility>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/atomic_file.h"
@@ -186,12 +190,63 @@ class StrokeReader {
   std::optional<CameraPicture> camera_;
 };
 
+/// A length with its unit, or in metres: "15mm", "-1.2cm", "0.06".
+std::optional<double> length_from(std::string_view text) {
+  double scale = 1;
+  for (const auto& [unit, metres] : {std::pair("mm", 1e-3), std::pair("cm", 1e-2), std::pair("m", 1.0)})
+    if (text.ends_with(unit)) {
+      scale = metres;
+      text.remove_suffix(std::string_view(unit).size());
+      break;
+    }
+  double value = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return scale * value;
+}
+
+/// Blender tells copies apart by ".001"; a number's own digits are none of it ("h=0.015").
+std::string_view without_copy_number(std::string_view name) {
+  const auto digit = [&](std::size_t i) { return name[i] >= '0' && name[i] <= '9'; };
+  const std::size_t n = name.size();
+  if (n < 5 || name[n - 4] != '.' || !digit(n - 3) || !digit(n - 2) || !digit(n - 1)) return name;
+  const std::size_t word = name.find_last_of(" _", n - 4);
+  const std::string_view before = name.substr(word == name.npos ? 0 : word + 1);
+  const bool number = before.find('=') != before.npos && digit(n - 5) && before.find('.') == before.size() - 4;
+  return number ? name : name.substr(0, n - 4);
+}
+
+/// Takes what an object's name says of the line: "belly h=15mm w=60mm", or with '_' for ' ' as exporters have
+/// it. The other words are its name.
+void take_name(std::string_view object, const std::string& file, Stroke& stroke) {
+  object = without_copy_number(object);
+  while (!object.empty()) {
+    const std::size_t end = std::min(object.find_first_of(" _"), object.size());
+    const std::string_view word = object.substr(0, end);
+    object.remove_prefix(std::min(end + 1, object.size()));
+    if (word.starts_with("h=") || word.starts_with("w=")) {
+      const auto value = length_from(word.substr(2));
+      if (!value || (word[0] == 'w' && !(*value > 0)))
+        throw ContentError(file + ": object '" + std::string(word) +
+                           (word[0] == 'h' ? "': h= takes a height as 15mm, -12mm or 0.015"
+                                           : "': w= takes a width > 0 as 60mm or 0.06"));
+      if (word[0] == 'h')
+        stroke.height = *value;
+      else
+        stroke.width = *value;
+    } else if (!word.empty()) {
+      stroke.name += (stroke.name.empty() ? "" : "_") + std::string(word);
+    }
+  }
+}
+
 std::vector<DrawnStroke> strokes_of_obj(const std::string& text, const std::string& name, double height,
                                         const ReadOptions& options) {
   std::vector<DrawnStroke> strokes;
-  for (Polyline& line : read_obj_polylines(text, name, options)) {
+  for (NamedPolyline& line : read_obj_polylines(text, name, options)) {
     Stroke stroke;
     stroke.height = height;
+    take_name(line.name, name, stroke);
     stroke.points = std::move(line.points);
     stroke.closed = line.closed;
     strokes.push_back({std::move(stroke)});

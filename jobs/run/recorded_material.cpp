@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/run/recorded_material.h"
 
+#include "geometry/mesh/errors.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/equivalent_flags.h"
 #include "io/scene/fabrics.h"
+#include "io/scene/settings_table.h"
 
 namespace furrow::jobs {
 namespace {
@@ -37,6 +39,16 @@ bool names_cloth(const io::TomlDocument& document) {
 
 std::string words_of_other_cloth(const std::filesystem::path& garment, const io::Json& other_cloth) {
   return garment.string() + ": came to rest with " + flags_of(other_cloth) + ", and is other cloth now";
+}
+
+std::filesystem::path garment_of(const io::TomlDocument& document, const std::filesystem::path& folder) {
+  std::filesystem::path mesh;
+  try {
+    if (auto garment = io::SettingsTable(document, folder).table("garment")) garment->read("mesh", mesh);
+  } catch (const geometry::ContentError&) {
+    return {};
+  }
+  return mesh;
 }
 
 RecordedMaterial take_recorded_material(io::TomlDocument& document, const std::filesystem::path& garment,

@@ -22,6 +22,11 @@ struct RecordedMaterial {
 RecordedMaterial take_recorded_material(io::TomlDocument& document, const std::filesystem::path& garment,
                                         const MemoryFiles& memory = {});
 
+/// The garment that settings name, before anything else of them is looked at: what its file notes may be what
+/// another setting needs, as rest = "keep" needs hinges. Empty where there is none, or none can be made out
+/// (reading the settings tells why). `folder`: as for read_scene().
+std::filesystem::path garment_of(const io::TomlDocument& document, const std::filesystem::path& folder);
+
 /// That a garment is other cloth than it came to rest with: a sentence.
 std::string words_of_other_cloth(const std::filesystem::path& garment, const io::Json& other_cloth);
 

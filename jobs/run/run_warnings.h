@@ -4,7 +4,7 @@
 
 #include "io/mesh/mesh_file.h"
 #include "io/scene/scene.h"
-#include "jobs/inputs.h"
+#include "jobs/simulate.h"
 
 namespace furrow::jobs {
 
@@ -13,6 +13,10 @@ std::vector<Warning> oddities_of(const io::Scene& scene, const physics::Simulate
 
 /// Lines with a press where nothing has hinges to be pressed.
 std::vector<Warning> idle_presses(const io::SceneMaterial& material, const io::WrinkleRecord& record);
+
+/// Lines that lost more than half of their height, or turned over to the other side, with figures and what
+/// helps.
+std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineReport>& lines);
 
 /// That the run was broken off, and what was kept.
 Warning interruption_of(const io::Scene& scene, const physics::SimulateReport& report);

@@ -98,20 +98,19 @@ void check_state(const io::Scene& scene, const io::SavedState& state) {
 
 /// What the garment's file notes of its cloth; warns where the settings name another.
 void take_material(OpenScene& open, const MemoryFiles& memory, Listener& listener) {
-  const std::filesystem::path garment = open.scene.garment;
+  const std::filesystem::path garment = garment_of(open.document, open.folder);
   const RecordedMaterial recorded = take_recorded_material(open.document, garment, memory);
   if (!recorded.other_cloth.is_null())
     listener.warn({"other_cloth", words_of_other_cloth(garment, recorded.other_cloth), garment.string(),
                    "material.preset"});
-  if (recorded.taken) open.scene = scene_of(open.document, open.folder);
 }
 
 }  // namespace
 
 OpenScene open_scene(const SimulateJob& job, Listener& listener) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
-  open.scene = scene_of(open.document, open.folder);
   if (!job.state) take_material(open, job.scene.memory, listener);
+  open.scene = scene_of(open.document, open.folder);
   if (job.state && job.tolerance)
     throw std::invalid_argument("tolerance: judges a scene from its beginning; leave it or the state away");
   if (open.scene.garment.empty() && !job.state)

@@ -6,9 +6,12 @@
 #include <numbers>
 
 #include "bridge/convert.h"
+#include "bridge/fit_report.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/property_names.h"
+#include "tests/cases/posed_body.h"
 #include "tests/test_meshes.h"
+#include "tests/test_paths.h"
 
 using namespace furrow;
 using namespace furrow::tests;
@@ -147,4 +150,33 @@ TEST_CASE("fit_ease: a garment that is open in front has no girth") {
   const auto ease = bridge::measure_ease(mesh_of(points, faces), body.view(), {{}, 1.0, {}});
   CHECK_FALSE(ease[0].ease);
   CHECK(ease[0].note.find("does not close") != std::string::npos);
+}
+
+TEST_CASE("fit_ease: a mannequin in T-pose has the chest that it has with its arms down") {
+  const geometry::Mesh standing = read_plain_obj(source_dir() / "meshes/mannequin.obj");
+  physics::TriangleMesh down;
+  for (auto v : standing.vertices()) {
+    const auto& p = standing.point(v);
+    down.vertices.emplace_back(p.x(), p.y(), p.z());
+  }
+  down.triangles = bridge::triangles_of(standing);
+  const auto chest = [](const physics::TriangleMesh& body) {
+    std::vector<geometry::Point> points;
+    for (const auto& p : body.vertices) points.emplace_back(p.x(), p.y(), p.z());
+    double low = INFINITY, high = -INFINITY;
+    for (const auto& p : points) low = std::min(low, p.y()), high = std::max(high, p.y());
+    const auto levels = geometry::torso_levels(points, body.triangles);
+    const auto heights = geometry::torso_heights(levels, low, high);
+    REQUIRE(heights);
+    const auto ease = bridge::measure_ease(cylinder(0.3, 1.7, 64, 17), {points, body.triangles, levels},
+                                           {heights->chest, heights->waist, heights->hip});
+    REQUIRE(ease.size() == 3);
+    REQUIRE(ease[0].body_girth);
+    return *ease[0].body_girth;
+  };
+  for (const double degrees : {0.0, 10.0, 20.0, 30.0}) {
+    const cases::ArmPose pose = cases::a_pose(degrees);
+    INFO(degrees);
+    CHECK(chest(cases::posed(down, cases::mannequin_arm(), pose, pose)) == Approx(chest(down)).margin(0.02));
+  }
 }

@@ -225,6 +225,45 @@ TEST_CASE("simulate: warnings have codes that say what they are about") {
   CHECK(report.rounds.empty());
 }
 
+TEST_CASE("simulate: a line that fades or turns over is warned of by name, with figures and what helps") {
+  jobs::SimulateJob job = hung_sheet(0.5);  // by springs, whose rest is flat
+  tests::Recorder recorder;
+  const jobs::SimulateReport faded = jobs::simulate(job, recorder);
+  REQUIRE(faded.shape->lines.size() == 1);
+  REQUIRE(faded.shape->lines[0].kept.has_value());
+  REQUIRE(*faded.shape->lines[0].kept < 0.5);
+  const auto lost = [](const jobs::SimulateReport& report) -> const jobs::Warning* {
+    for (const jobs::Warning& w : report.warnings)
+      if (w.code == "lines_lost") return &w;
+    return nullptr;
+  };
+  REQUIRE(lost(faded));
+  CHECK(lost(faded)->where == "ridge");
+  CHECK(lost(faded)->help == "furrow keep");
+  CHECK(lost(faded)->text.find("1 of 1 line lost more than half of the height: 'ridge' ") == 0);
+  CHECK(lost(faded)->text.find(" mm)") != std::string::npos);
+  const jobs::SimulateReport fresh = jobs::simulate(hung_sheet(0.001), recorder);
+  REQUIRE(*fresh.shape->lines[0].kept > 0.5);
+  CHECK_FALSE(lost(fresh));
+}
+
+TEST_CASE("simulate: --rest keep takes the fabric that the garment's file notes, as keep does") {
+  const fs::path folder = empty_folder("simulate_noted");
+  tests::Recorder recorder;
+  jobs::SimulateJob first = hung_sheet(0.001);
+  io::set_value(first.scene.settings, "material.preset", "denim", "test");
+  set_output(first, "mesh", folder / "worn.ply");
+  jobs::simulate(first, recorder);
+  jobs::SimulateJob second;
+  second.scene.settings = io::parse_toml("[garment]\nrest = \"keep\"\n[simulation]\ndt = 1e-5\n", "test");
+  io::set_value(second.scene.settings, "garment.mesh", (folder / "worn.ply").string(), "the test");
+  io::set_value(second.scene.settings, "simulation.seconds", 0.001, "test");
+  io::set_value(second.scene.settings, "pins.0", io::Json{{"box", {-1, 0.39, -1, 1, 1, 1}}}, "test");
+  const jobs::SimulateReport kept = jobs::simulate(second, recorder);
+  CHECK(kept.kept.has_value());
+  CHECK(kept.settings["material"]["preset"] == "denim");
+}
+
 TEST_CASE("simulate: integrator and step are chosen for a tolerance, and named in the settings") {
   tests::Recorder recorder;
   jobs::SimulateJob job = hung_sheet(0.05);

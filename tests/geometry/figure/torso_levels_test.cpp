@@ -91,6 +91,28 @@ TEST_CASE("torso_levels: arms that hang apart are others, and the torso ends whe
   CHECK(up_to_arms.back().height == Approx(0.75 * 1.7).margin(0.0086));
 }
 
+TEST_CASE("torso_levels: arms that are stretched out sideways are left out, where they begin to grow") {
+  for (const double growth : {0.05, 0.08, 0.12}) {  // of the breadth in a step, from 72 % of the height on
+    const auto hourglass = [](double share) { return 0.12 + 0.7 * (share - 0.6) * (share - 0.6); };
+    Mesh mesh = turned(hourglass);
+    for (Vertex v : mesh.vertices()) {
+      const Point p = mesh.point(v);
+      const double steps = std::max(0.0, p.y() / 1.7 - 0.72) / 0.005;
+      mesh.point(v) = {p.x() * std::min(8.0, std::pow(1 + growth, steps)), p.y(), p.z()};
+    }
+    const Soup body(mesh);
+    const auto levels = torso_levels(body.points, body.triangles);
+    INFO(growth);
+    REQUIRE_FALSE(levels.empty());
+    CHECK(levels.back().height == Approx(0.72 * 1.7).margin(0.0172));
+    const auto heights = torso_heights(levels, body.low, body.high);
+    REQUIRE(heights);
+    const double girth = tape_measure(
+        torso_section(body.points, body.triangles, levels, heights->chest)->torso);
+    CHECK(girth == Approx(2 * std::numbers::pi * hourglass(0.72)).epsilon(0.03));
+  }
+}
+
 TEST_CASE("torso_levels: what is no standing person has no levels") {
   const Soup ball(icosphere(3, 0.3));
   CHECK(torso_levels(ball.points, ball.triangles).empty());

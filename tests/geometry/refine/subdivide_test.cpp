@@ -13,6 +13,7 @@
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/sheet.h"
+#include "geometry/rest/rest_state.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 
@@ -49,7 +50,83 @@ std::map<int, double> texture_area_by_material(const Mesh& mesh) {
   return area;
 }
 
+/// The largest relative error of a rest length against the distance of the ends' rest positions.
+double worst_rest(const Mesh& mesh) {
+  const auto rest = *find_map(mesh, attribute::rest_length);
+  const auto place = *find_map(mesh, attribute::rest_position);
+  double worst = 0;
+  for (Edge e : mesh.edges()) {
+    const RestPosition a = place[mesh.vertex(e, 0)], b = place[mesh.vertex(e, 1)];
+    const double length = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    worst = std::max(worst, std::isnan(rest[e]) ? 1 : std::abs(rest[e] / length - 1));
+  }
+  return worst;
+}
+
+/// Flat cloth, cut 1.3 times as wide as it lies and 0.9 times as long, on a wavy surface.
+Mesh cut_larger() {
+  Mesh mesh = jittered(6, 5, 0.2, 3);
+  auto rest = ensure_map(mesh, attribute::rest_length);
+  auto place = ensure_map(mesh, attribute::rest_position);
+  for (Vertex v : mesh.vertices()) {
+    const Point p = mesh.point(v);
+    place[v] = {1.3 * p.x(), 0.9 * p.y(), 0};
+    mesh.point(v) = Point(p.x(), p.y(), 0.1 * std::sin(9 * p.x()));
+  }
+  for (Edge e : mesh.edges()) {
+    const RestPosition a = place[mesh.vertex(e, 0)], b = place[mesh.vertex(e, 1)];
+    rest[e] = std::hypot(a[0] - b[0], a[1] - b[1]);
+  }
+  return mesh;
+}
+
 }  // namespace
+
+TEST_CASE("subdivide: rest lengths are those of the pattern, cut finer, wherever the masks move the cloth") {
+  for (const int steps : {1, 2, 3}) {
+    Mesh loop = cut_larger(), middle = loop, sqrt3 = loop;
+    loop_subdivide(loop, steps);
+    midpoint_subdivide(middle, steps);
+    sqrt3_subdivide(sqrt3, steps);
+    INFO(steps);
+    CHECK(worst_rest(loop) < 1e-12);
+    CHECK(worst_rest(middle) < 1e-12);
+    CHECK(worst_rest(sqrt3) < 1e-12);
+    for (const Mesh* mesh : {&loop, &middle, &sqrt3})
+      CHECK(rest_area(*mesh) == Approx(rest_area(cut_larger())).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("subdivide: where no rest length is set, none is made up") {
+  for (const auto subdivide : {&loop_subdivide, &sqrt3_subdivide}) {
+    Mesh none = grid(3, 3), unset = none, mixed = none;
+    ensure_map(unset, attribute::rest_length);
+    subdivide(none, 2);
+    subdivide(unset, 2);
+    CHECK_FALSE(find_map(none, attribute::rest_length).has_value());
+    const auto rest = *find_map(unset, attribute::rest_length);
+    for (Edge e : unset.edges()) CHECK(std::isnan(rest[e]));
+    ensure_map(mixed, attribute::rest_length)[Edge(0)] = -1;
+    const Mesh before = mixed;
+    CHECK_THROWS_AS(subdivide(mixed, 1), ContentError);
+    CHECK(mixed.number_of_faces() == before.number_of_faces());
+  }
+}
+
+TEST_CASE("loop_subdivide: a triangle's own rest lengths are halved in its four parts") {
+  Mesh mesh = grid(2, 2);
+  auto own = ensure_map(mesh, attribute::triangle_rest_length);
+  for (Halfedge h : halfedges_of(mesh, Face(3))) own[h] = 1 + double(h.idx());
+  loop_subdivide(mesh, 1);
+  const auto finer = *find_map(mesh, attribute::triangle_rest_length);
+  std::map<double, int> count;
+  for (Halfedge h : mesh.halfedges())
+    if (!std::isnan(finer[h])) ++count[finer[h]];
+  Mesh coarse = grid(2, 2);
+  std::map<double, int> wanted;
+  for (Halfedge h : halfedges_of(coarse, Face(3))) wanted[(1 + double(h.idx())) / 2] = 4;
+  CHECK(count == wanted);
+}
 
 TEST_CASE("midpoint_subdivide: the surface stays, each face knows what it is a part of") {
   Mesh mesh = dressed(jittered(5, 5, 0.2, 9));
@@ -187,7 +264,7 @@ TEST_CASE("loop_subdivide: it carries a seam of the texture, whose two sides sta
             ((*find_map(mesh, attribute::group))[f] == 1));
 }
 
-TEST_CASE("loop_subdivide: it carries lines, rest lengths, springs and masses become unset") {
+TEST_CASE("loop_subdivide: it carries lines and rest lengths, springs and masses become unset") {
   Mesh mesh = grid(4, 4);
   auto line = ensure_map(mesh, attribute::line);
   auto line_edge = ensure_map(mesh, attribute::line_edge);
@@ -203,7 +280,7 @@ TEST_CASE("loop_subdivide: it carries lines, rest lengths, springs and masses be
   for (Vertex v : mesh.vertices()) vertices += (*find_map(mesh, attribute::line))[v] == 2;
   for (Edge e : mesh.edges()) {
     edges += (*find_map(mesh, attribute::line_edge))[e];
-    CHECK(std::isnan((*find_map(mesh, attribute::rest_length))[e]));
+    CHECK((*find_map(mesh, attribute::rest_length))[e] == 0.25);
   }
   CHECK(vertices == 9);
   CHECK(edges == 8);

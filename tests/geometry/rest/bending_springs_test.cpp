@@ -175,3 +175,40 @@ TEST_CASE("bending_springs: a local rebuild leaves rest lengths and stiffness el
   rebuild_bending_springs(mesh);
   for (Edge s : mesh.edges()) CHECK(std::isnan(stiffness[s]));
 }
+
+TEST_CASE("bending_springs: what a file sets of springs without counting them is kept") {
+  Mesh mesh = jittered(4, 4, 0.2, 7), plain = mesh;
+  auto stiffness = ensure_map(mesh, attribute::bending_stiffness);
+  auto rest = ensure_map(mesh, attribute::bending_rest_length);
+  rebuild_bending_springs(plain);
+  const auto springs = bending_springs(plain);
+  REQUIRE(springs.size() > 4);
+  stiffness[springs[1].across] = 12.5;
+  rest[springs[2].across] = 0.75;
+  ensure_bending_springs(mesh);
+  const auto kept = bending_springs(mesh);
+  CHECK(same_connectivity(kept, springs));
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    CHECK(kept[i].rest_length == (i == 2 ? 0.75 : springs[i].rest_length));
+    const double own = (*find_map(mesh, attribute::bending_stiffness))[kept[i].across];
+    CHECK((i == 1 ? own == 12.5 : std::isnan(own)));
+  }
+}
+
+TEST_CASE("bending_springs: a stiffness set on an edge that shares a spring goes to the spring") {
+  Mesh mesh = union_jack(4, 4);  // valence four: two edges for one spring
+  rebuild_bending_springs(mesh);
+  const auto springs = bending_springs(mesh);
+  const auto shared = std::find_if(springs.begin(), springs.end(), [](const auto& s) { return s.count == 2; });
+  REQUIRE(shared != springs.end());
+  Mesh stated = union_jack(4, 4);
+  auto stiffness = ensure_map(stated, attribute::bending_stiffness);
+  for (Edge e : stated.edges()) {
+    if (stated.is_border(e) || e == shared->across) continue;
+    const Halfedge h = stated.halfedge(e);
+    const Vertex a = stated.target(stated.next(h)), b = stated.target(stated.next(stated.opposite(h)));
+    if (std::minmax(a, b) == std::minmax(shared->a, shared->b)) stiffness[e] = 3;
+  }
+  ensure_bending_springs(stated);
+  CHECK((*find_map(stated, attribute::bending_stiffness))[shared->across] == 3);
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <bit>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
@@ -77,6 +78,44 @@ void check_seam(const io::MeshFile& file) {
   CHECK(file.warnings[0].find("single precision") != std::string::npos);
 }
 
+/// The seam with a skin of two joints, one above the other, whose inverse bind matrices are given by their
+/// translations.
+struct SkinnedSeam : Seam {
+  explicit SkinnedSeam(const std::array<std::array<float, 3>, 2>& inverse_bind = {}) {
+    const std::size_t at = buffer.size();
+    for (int v = 0; v < 6; ++v)
+      for (const std::uint8_t joint : {0, 1, 0, 0}) put(buffer, joint);
+    for (int v = 0; v < 6; ++v)
+      for (const float w : {v < 3 ? 0.25F : 1.F, v < 3 ? 0.75F : 0.F, 0.F, 0.F}) put(buffer, w);
+    for (const auto& to : inverse_bind)  // assimp wants them; column by column
+      for (int i = 0; i < 16; ++i) put(buffer, i >= 12 && i < 15 ? to[i - 12] : i % 5 == 0 ? 1.F : 0.F);
+    scene["buffers"][0]["byteLength"] = buffer.size();
+    scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", 24}});
+    scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at + 24}, {"byteLength", 96}});
+    scene["accessors"].push_back(
+        {{"bufferView", 3}, {"componentType", 5121}, {"count", 6}, {"type", "VEC4"}});
+    scene["accessors"].push_back(
+        {{"bufferView", 4}, {"componentType", 5126}, {"count", 6}, {"type", "VEC4"}});
+    scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at + 120}, {"byteLength", 128}});
+    scene["accessors"].push_back(
+        {{"bufferView", 5}, {"componentType", 5126}, {"count", 2}, {"type", "MAT4"}});
+    json& attributes = scene["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = 3;
+    attributes["WEIGHTS_0"] = 4;
+    scene["nodes"][0]["skin"] = 0;
+    scene["nodes"].push_back({{"name", "upper arm"}, {"children", {2}}});
+    scene["nodes"].push_back({{"name", "hand"}});
+    scene["scenes"][0]["nodes"].push_back(1);
+    scene["skins"] = json::array({{{"joints", {1, 2}}, {"inverseBindMatrices", 5}}});
+  }
+
+  io::MeshFile read() const {
+    TemporaryFolder folder;
+    spit(folder / "a.glb", glb());
+    return io::read_mesh(folder / "a.glb");
+  }
+};
+
 }  // namespace
 
 TEST_CASE("glTF: GLB and glTF with a buffer file are read, seams closed, transforms applied") {
@@ -105,33 +144,7 @@ TEST_CASE("glTF: a mirrored node's faces are turned") {
 }
 
 TEST_CASE("glTF: skin weights become attributes by the joints' names") {
-  Seam seam;
-  const std::size_t at = seam.buffer.size();
-  for (int v = 0; v < 6; ++v)
-    for (const std::uint8_t joint : {0, 1, 0, 0}) put(seam.buffer, joint);
-  for (int v = 0; v < 6; ++v)
-    for (const float w : {v < 3 ? 0.25F : 1.F, v < 3 ? 0.75F : 0.F, 0.F, 0.F}) put(seam.buffer, w);
-  for (int joint = 0; joint < 2; ++joint)  // assimp wants inverse bind matrices
-    for (int i = 0; i < 16; ++i) put(seam.buffer, i % 5 == 0 ? 1.F : 0.F);
-  json& scene = seam.scene;
-  scene["buffers"][0]["byteLength"] = seam.buffer.size();
-  scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", 24}});
-  scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at + 24}, {"byteLength", 96}});
-  scene["accessors"].push_back({{"bufferView", 3}, {"componentType", 5121}, {"count", 6}, {"type", "VEC4"}});
-  scene["accessors"].push_back({{"bufferView", 4}, {"componentType", 5126}, {"count", 6}, {"type", "VEC4"}});
-  scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at + 120}, {"byteLength", 128}});
-  scene["accessors"].push_back({{"bufferView", 5}, {"componentType", 5126}, {"count", 2}, {"type", "MAT4"}});
-  json& attributes = scene["meshes"][0]["primitives"][0]["attributes"];
-  attributes["JOINTS_0"] = 3;
-  attributes["WEIGHTS_0"] = 4;
-  scene["nodes"][0]["skin"] = 0;
-  scene["nodes"].push_back({{"name", "upper arm"}, {"children", {2}}});
-  scene["nodes"].push_back({{"name", "hand"}});
-  scene["scenes"][0]["nodes"].push_back(1);
-  scene["skins"] = json::array({{{"joints", {1, 2}}, {"inverseBindMatrices", 5}}});
-  TemporaryFolder folder;
-  spit(folder / "a.glb", seam.glb());
-  const io::MeshFile file = io::read_mesh(folder / "a.glb");
+  const io::MeshFile file = SkinnedSeam().read();
   const auto list = vertex_attributes(file.mesh);
   REQUIRE(list.size() == 2);
   CHECK(list[0].name == "weight_upper_arm");
@@ -142,6 +155,37 @@ TEST_CASE("glTF: skin weights become attributes by the joints' names") {
     CHECK(list[0].values[v] == (first ? 0.25 : 1));
     CHECK(list[1].values[v] == (first ? 0.75 : 0));
   }
+}
+
+TEST_CASE("glTF: a skinned mesh lies where its joints bind it, whatever its node says") {
+  const Point raw(0, 1, static_cast<double>(0.1F));
+  SkinnedSeam bound({{{0, -1, 0}, {0, -1.5F, 0}}});  // its node says: twice as large, and 5 m away
+  bound.scene["nodes"][1]["translation"] = {0, 1, 0};
+  bound.scene["nodes"][2]["translation"] = {0, 0.5, 0};
+  const io::MeshFile file = bound.read();
+  CHECK(file.mesh.point(Vertex(3)) == raw);
+  CHECK(file.warnings.size() == 1);  // single precision
+
+  // an armature in centimetres that lies on its back
+  bound.scene["nodes"].push_back({{"name", "armature"},
+                                  {"children", {1}},
+                                  {"scale", {0.01, 0.01, 0.01}},
+                                  {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}});
+  bound.scene["scenes"][0]["nodes"][1] = 3;
+  const Point lying = bound.read().mesh.point(Vertex(3));
+  CHECK(lying.x() == Approx(0).margin(1e-6));
+  CHECK(lying.y() == Approx(0.001).margin(1e-6));
+  CHECK(lying.z() == Approx(-0.01).margin(1e-6));
+}
+
+TEST_CASE("glTF: a skeleton in another pose than it was bound in is told") {
+  SkinnedSeam posed({{{0, -1, 0}, {0, -1.5F, 0}}});
+  posed.scene["nodes"][1]["translation"] = {0, 1, 0};
+  posed.scene["nodes"][2]["translation"] = {0.3, 0.5, 0};
+  const io::MeshFile file = posed.read();
+  CHECK(file.mesh.point(Vertex(3)) == Point(0, 1, static_cast<double>(0.1F)));
+  REQUIRE(file.warnings.size() == 2);
+  CHECK(file.warnings[1].find("sleeve: its skeleton stands in another pose") != std::string::npos);
 }
 
 TEST_CASE("glTF: bad files are content errors that name the file") {
