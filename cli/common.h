@@ -41,6 +41,7 @@ using namespace jobs;
 struct CommonArguments : Frame {
   std::string out;     ///< what is written; "-": OBJ to stdout, and the report goes to stderr
   bool json = false;   ///< the report as JSON
+  bool force = false;  ///< go on where a job would take very much memory or time
   bool quiet = false;  ///< no progress, no warnings, and no report but that of json
 };
 void add_common_options(CLI::App& sub, CommonArguments& common);
@@ -101,6 +102,7 @@ class Terminal : public Listener {
   void progress(const std::string& what, double share) override;
   void warn(const Warning& warning) override;
   bool cancelled() override;
+  bool allows(const std::string& demand) override;
 
  private:
   const CommonArguments& common_;
