@@ -39,7 +39,8 @@ TEST_CASE("gate: a size that another unit explains is asked about by that unit's
   CHECK(jobs::odd_size(person, "body", in_unit("m")).empty());
   CHECK_THAT(jobs::odd_size(small, "body", in_unit("mm")),
              Contains("the body is 1.7 mm in size with --unit mm; say --unit m if its file is in that"));
-  CHECK_THAT(jobs::odd_size(tests::icosphere(2, 0.01), "garment", in_unit("cm")), Contains("--unit m or"));
+  CHECK_THAT(jobs::odd_size(tests::icosphere(2, 0.01), "garment", in_unit("mm")),
+             Contains("--unit cm or inch"));
   CHECK_THAT(jobs::odd_size(small, "body", in_unit("m")),
              Contains("no --unit makes it a person's; scale it"));
   CHECK_THAT(jobs::odd_size(tests::icosphere(2, 850), "body", in_unit("m")), Contains("m tall"));
