@@ -54,6 +54,8 @@ void add_common_options(CLI::App& sub, CommonArguments& common) {
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
   sub.add_option("--up", common.up, "axis that points up in those files: y or z (default y, or as noted)")
       ->check(CLI::IsMember({"y", "z"}));
+  sub.add_flag("--force", common.force,
+               "go on where a body, a tolerance or a step asks for very much memory or time");
   sub.add_flag("--json", common.json, "print the report as JSON");
   sub.add_flag("-q,--quiet", common.quiet,
                "no report, no progress, no warnings; with --json the report alone");
@@ -192,6 +194,11 @@ void Terminal::progress(const std::string& what, double share) {
 void Terminal::warn(const Warning& warning) { cli::warn(warning.text, common_); }
 
 bool Terminal::cancelled() { return interrupted(); }
+
+bool Terminal::allows(const std::string& demand) {
+  if (common_.force) cli::warn(demand + "; --force goes on all the same", common_);
+  return common_.force;
+}
 
 void catch_interrupts() {
   std::signal(SIGINT, on_interrupt);

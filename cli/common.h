@@ -41,6 +41,7 @@ using namespace jobs;
 struct CommonArguments : Frame {
   std::string out;     ///< what is written; "-": OBJ to stdout, and the report goes to stderr
   bool json = false;   ///< the report as JSON
+  bool force = false;  ///< go on where a job would take very much memory or time
   bool quiet = false;  ///< no progress, no warnings, and no report but that of json
   /// bar, lines, none, or seconds between two lines; auto: a bar on a terminal, lines elsewhere.
   std::string progress = "auto";
@@ -108,6 +109,7 @@ class Terminal : public Listener {
   void progress(const std::string& what, double share) override;
   void warn(const Warning& warning) override;
   bool cancelled() override;
+  bool allows(const std::string& demand) override;
 
  private:
   const CommonArguments& common_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/info.h"
+#include "jobs/run/gate.h"
 
 #include <memory>
 
@@ -16,7 +17,7 @@ struct InfoArguments : CommonArguments {
 
 void info(const InfoArguments& a) {
   const io::MeshFile file = read_mesh(a.mesh, a);
-  if (const std::string hint = too_tall(file.mesh, "mesh"); !hint.empty()) warn(a.mesh + ": " + hint, a);
+  if (const std::string hint = odd_size(file.mesh, "mesh", a); !hint.empty()) warn(a.mesh + ": " + hint, a);
   print_report(jobs::info(file), a);
 }
 

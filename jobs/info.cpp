@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/info.h"
 
+#include "geometry/mesh/errors.h"
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/self_intersections.h"
@@ -19,6 +20,15 @@ Json to_json(const io::RepairReport& r) {
           {"merged_vertices", r.merged_vertices}};
 }
 
+/// null: too many faces lie at one place to count.
+Json self_intersections_of(const geometry::Mesh& mesh) {
+  try {
+    return geometry::count_self_intersections(mesh);
+  } catch (const geometry::ContentError&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 Json info(const io::MeshFile& file) {
@@ -32,7 +42,7 @@ Json info(const io::MeshFile& file) {
               {"closed", i.closed},
               {"manifold", i.manifold && file.repairs.duplicated_vertices == 0},
               {"degenerate_faces", i.degenerate_faces},
-              {"self_intersections", geometry::count_self_intersections(file.mesh)},
+              {"self_intersections", self_intersections_of(file.mesh)},
               {"area", i.area},
               {"volume", i.volume ? Json(*i.volume) : Json(nullptr)},
               {"bounding_box", {{"min", to_json(i.box_min)}, {"max", to_json(i.box_max)}}},

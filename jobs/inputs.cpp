@@ -15,6 +15,7 @@
 #include "io/scene/scene_rules.h"
 #include "io/scene/state_file.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/gate.h"
 #include "physics/base/progress.h"
 
 namespace furrow::jobs {
@@ -73,7 +74,7 @@ void tell_repairs(const std::string& path, const io::MeshFile& file, const Conte
 io::MeshFile read_file(const std::string& path, const Context& context) {
   const Frame& frame = context.frame;
   io::MeshFile file = io::read_mesh(path, read_options(frame));
-  const auto record = io::find_wrinkle_record(file);
+  const auto record = io::find_wrinkle_record(file, path);
   const bool noted = record && is_unit(record->unit);
   Frame actual;
   actual.unit = noted && !frame.unit ? record->unit : frame.unit_in_use();
@@ -116,21 +117,10 @@ io::MeshFile read_mesh(const MeshInput& input, const Context& context) {
   return file;
 }
 
-std::string too_tall(const geometry::Mesh& mesh, const std::string& what) {
-  double low = INFINITY, high = -INFINITY;
-  for (geometry::Vertex v : mesh.vertices()) {
-    low = std::min(low, mesh.point(v).y());
-    high = std::max(high, mesh.point(v).y());
-  }
-  if (!(high - low > 10)) return "";
-  return "the " + what + " is " + std::to_string(high - low) +
-         " m tall; if its file is not in metres, say so with --unit cm, mm or inch";
-}
-
 io::MeshFile read_garment(const MeshInput& input, const Context& context, const std::string& what) {
   io::MeshFile file = read_mesh(input, context);
-  if (const std::string fault = too_tall(file.mesh, what); !fault.empty())
-    throw geometry::ContentError(name_of(input, what) + ": " + fault);
+  require_area(file.mesh, name_of(input, what));
+  require_size(file.mesh, name_of(input, what), what, context);
   return file;
 }
 

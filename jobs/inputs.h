@@ -38,13 +38,17 @@ class Listener {
   virtual void warn(const Warning&) {}
   /// Asked often. true: the job ends within half a second, and leaves no output half written.
   virtual bool cancelled() { return false; }
+  /// Asked where a job would take more memory or time than is likely meant; `demand` says how much. true: it
+  /// goes on all the same. false: it throws, and says so.
+  virtual bool allows(const std::string& /*demand*/) { return false; }
 };
 
-/// Passes on nothing but whether the other one cancels.
+/// Passes on nothing but whether the other one cancels, and what it allows.
 class SilentListener : public Listener {
  public:
   explicit SilentListener(Listener& other) : other_(other) {}
   bool cancelled() override { return other_.cancelled(); }
+  bool allows(const std::string& demand) override { return other_.allows(demand); }
 
  private:
   Listener& other_;

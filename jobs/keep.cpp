@@ -83,7 +83,9 @@ SceneCloth drawn_in(io::SavedState& state, const io::Scene& scene, const Context
   result.pins = state.pins;
   if (scene.body) result.body = std::make_shared<WorldBody>(*scene.body, context);
   complete_garment(result.file, scene.material);
-  result.cloth = bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
+  result.cloth = naming(scene.garment.string(), [&] {
+    return bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
+  });
   pin_cloth(result.cloth, result.pins, result.body.get(), state.simulation.time, context);
   result.options = scene.simulation;
   double& gap = result.options.contact_gap;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "geometry/mesh/errors.h"
 #include "jobs/inputs.h"
 
 /// How jobs read what they take, check it, and write meshes: for jobs and the program alone.
@@ -27,12 +28,21 @@ std::string name_of(const MeshInput& input, const std::string& unnamed);
 /// memory is copied. Throws as io::read_mesh().
 io::MeshFile read_mesh(const MeshInput& input, const Context& context);
 
-/// What is odd about the size of a mesh that is taller than 10 m, with a hint at the unit; else "".
-std::string too_tall(const geometry::Mesh& mesh, const std::string& what);
-
-/// As read_mesh(); throws geometry::ContentError for a garment, or what else it is, that is too tall.
+/// As read_mesh(); throws geometry::ContentError for a garment, or what else it is, of an odd size or without
+/// area (run/gate.h).
 io::MeshFile read_garment(const MeshInput& input, const Context& context,
                           const std::string& what = "garment");
+
+/// Does it; a geometry::ContentError of it then begins with the file's name.
+template <class Work>
+auto naming(const std::string& name, const Work& work) {
+  try {
+    return work();
+  } catch (const geometry::ContentError& e) {
+    if (name.empty() || std::string(e.what()).rfind(name, 0) == 0) throw;
+    throw geometry::ContentError(name + ": " + e.what());
+  }
+}
 
 /// Warns of vertex attributes that a format other than PLY has no place for; `path` "-" is standard output.
 void warn_of_lost_attributes(const std::string& path, const io::MeshFile& file, const Context& context);

@@ -13,6 +13,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
 #include "jobs/run/animation_series.h"
+#include "jobs/run/gate.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
 #include "jobs/run/measure_shape.h"
@@ -91,6 +92,9 @@ Reached take_up(Run& run, io::SavedState now) {
   Reached reached{std::move(now)};
   reached.heights = line_heights_by_id(reached.now.file);
   run.strokes = read_rounds(run.scene, reached.now.lines_drawn, run.context);
+  if (!run.scene.output.animation.empty())
+    require_animation(run.scene.simulation.seconds - reached.now.simulation.time, run.scene.output.fps,
+                      reached.now.file.mesh.number_of_vertices(), run.context);
   stop_if_cancelled(run.context);
   return reached;
 }
@@ -203,17 +207,22 @@ physics::SimulateReport simulate_with_checkpoints(const Run& run, Reached& reach
 Stretch simulate_to(double stop, const Run& run, Reached& reached, AnimationSeries& animations) {
   io::SavedState& now = reached.now;
   const io::Scene& scene = run.scene;
-  physics::Cloth cloth = bridge::gather(now.file.mesh, spring_options(now.file, scene.material));
+  physics::Cloth cloth = naming(scene.garment.string(), [&] {
+    return bridge::gather(now.file.mesh, spring_options(now.file, scene.material));
+  });
   pin_cloth(cloth, now.pins, reached.starts ? run.body.get() : nullptr, now.simulation.time, run.context);
   reached.starts = false;
   physics::SimulateOptions options = options_of(run, now, stop, cloth.particles.size());
   const Observation observation = observation_of(options, cloth, run.body != nullptr, animations.is_on());
   options.observe_steps = observation.steps;
   animations.start(now.file.mesh, now.simulation.time, cloth.particles.x);
+  SimulationGate gate(scene.simulation.seconds, scene.simulation.dt.has_value(),
+                      cost_of_step(options, cloth, run.body != nullptr), run.context);
   const ProgressScope progress(run.context.listener, "simulating");
   Stretch stretch;
   stretch.report =
       simulate_with_checkpoints(run, reached, cloth, options, [&](const physics::SimulateProgress& p) {
+        gate.check(p);
         if (observation.shows(p, stop)) animations.observe(p.time, cloth.particles.x);
         return progress(p.time / scene.simulation.seconds);
       });

@@ -11,6 +11,7 @@
 #include "io/stroke/stroke_file.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
+#include "jobs/run/gate.h"
 #include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {
@@ -43,6 +44,10 @@ void insert_strokes(const SubdivideJob& job, SubdivideReport& result, const Cont
 
 void refine(const SubdivideJob& job, SubdivideReport& result, const Context& context) {
   geometry::Mesh& mesh = result.mesh.mesh;
+  if (job.refinement == Refinement::loop || job.refinement == Refinement::linear)
+    require_refinement(mesh.number_of_faces(), 4, job.steps, "steps", context);
+  if (job.refinement == Refinement::sqrt3)
+    require_refinement(mesh.number_of_faces(), 3, job.steps, "steps", context);
   switch (job.refinement) {
     case Refinement::strokes:
       return insert_strokes(job, result, context);

@@ -2,11 +2,11 @@
 cmake_minimum_required(VERSION 3.25)
 # The libraries throw the few types that docs/library.md lists, and nothing else.
 set(everywhere std::invalid_argument)
-set(may_throw_physics ${everywhere} Cancelled std::bad_alloc)  # the last one: METIS without memory
+set(may_throw_physics ${everywhere} Cancelled TooMuchWork std::bad_alloc)  # the last one: METIS without memory
 set(may_throw_geometry ${everywhere} ContentError std::logic_error)  # the last one: a fault of ours, never an input's
 set(may_throw_bridge ${everywhere} geometry::ContentError ContentError)
-set(may_throw_io ${everywhere} geometry::ContentError ContentError std::runtime_error)
-set(may_throw_jobs ${everywhere} geometry::ContentError std::runtime_error physics::Cancelled)
+set(may_throw_io ${everywhere} geometry::ContentError ContentError std::runtime_error std::bad_alloc)
+set(may_throw_jobs ${everywhere} physics::TooMuchWork geometry::ContentError std::runtime_error physics::Cancelled)
 set(faults "")
 set(seen 0)
 file(READ ${ROOT}/docs/library.md manual)

@@ -13,6 +13,7 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "geometry/mesh/errors.h"
@@ -133,6 +134,33 @@ void gather(const ExactMesh& mesh, Body& body) {
   }
 }
 
+/// At least 1 where there are too many to count.
+std::size_t intersections_of(const Body& body) {
+  try {
+    return count_self_intersections(body.points, body.triangles);
+  } catch (const ContentError&) {
+    return 1;
+  }
+}
+
+/// Whether every component has a volume, which is what orient_to_bound_a_volume() takes; flat ones have none.
+bool encloses_volume(const ExactMesh& body) {
+  auto copy = body;
+  auto component = copy.add_property_map<ExactMesh::Face_index, std::size_t>("f:component", 0).first;
+  const std::size_t n = pmp::connected_components(copy, component);
+  std::vector<double> volume(n, 0), scale(n, 0);
+  for (auto f : copy.faces()) {
+    std::vector<Exact::Point_3> p;
+    for (auto v : copy.vertices_around_face(copy.halfedge(f))) p.push_back(copy.point(v));
+    const double part = CGAL::determinant(p[0] - CGAL::ORIGIN, p[1] - CGAL::ORIGIN, p[2] - CGAL::ORIGIN);
+    volume[component[f]] += part;
+    scale[component[f]] += std::abs(part);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (!(std::abs(volume[i]) > 1e-12 * scale[i])) return false;
+  return true;
+}
+
 }  // namespace
 
 Body repair_body(const Mesh& mesh) {
@@ -149,8 +177,8 @@ Body repair_body(const Mesh& mesh) {
   body.report.closed = CGAL::is_closed(exact);
 
   gather(exact, body);
-  body.report.self_intersections = count_self_intersections(body.points, body.triangles);
-  if (body.report.closed && body.report.self_intersections == 0)
+  body.report.self_intersections = intersections_of(body);
+  if (body.report.closed && body.report.self_intersections == 0 && encloses_volume(exact))
     pmp::orient_to_bound_a_volume(exact);
   else
     wind_by_volume(exact);

@@ -17,7 +17,7 @@ struct BodyReport {
   std::size_t filled_holes = 0;       ///< border cycles
   std::size_t filling_faces = 0;
   std::size_t components = 0;          ///< joined through edges
-  std::size_t self_intersections = 0;  ///< count_self_intersections of the result
+  std::size_t self_intersections = 0;  ///< count_self_intersections of the result; 1: too many to count
   bool closed = true;                  ///< no border is left
 };
 

@@ -76,7 +76,10 @@ std::size_t find_border_loop(std::span<const BorderLoop> loops, std::string_view
 }
 
 double rest_length(const Mesh& mesh, const BorderLoop& loop) {
-  const std::vector<double> lengths = rest_lengths(mesh);
+  return rest_length(mesh, loop, rest_lengths(mesh));
+}
+
+double rest_length(const Mesh& mesh, const BorderLoop& loop, const std::vector<double>& lengths) {
   double sum = 0;
   for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
     const Vertex a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.vertices.size()];

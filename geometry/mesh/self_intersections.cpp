@@ -19,6 +19,9 @@ namespace {
 using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
+/// Pairs of overlapping boxes that are looked at; a garment has about ten a face.
+double most_candidates(std::size_t triangles) { return std::max(2e7, 200 * double(triangles)); }
+
 bool is_finite(const Point& p) {
   return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
 }
@@ -65,7 +68,10 @@ std::size_t count_self_intersections(std::span<const Point> points,
     boxes.emplace_back(shapes.back().bbox(), shapes.size() - 1);
   }
   std::size_t pairs = 0;
+  double candidates = 0;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    if (++candidates > most_candidates(triangles.size()))
+      throw ContentError("too many of the faces lie at one place to count those that cross each other");
     const auto& s = corners[a.info()];
     const auto& t = corners[b.info()];
     if (std::find_first_of(s.begin(), s.end(), t.begin(), t.end()) != s.end()) return;

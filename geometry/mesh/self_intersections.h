@@ -11,8 +11,9 @@ namespace furrow::geometry {
 /// Number of pairs of faces that cross or touch each other and share no vertex, decided exactly for the given
 /// coordinates. Vertices at exactly the same position count as one (seams that are parted in the file would
 /// touch themselves everywhere). Faces without area are left out.
-/// Throws ContentError if a position is not finite or a face no triangle.
-/// Cost: O(n log n + candidate pairs): overlapping boxes, then exact predicates.
+/// Throws ContentError if a position is not finite or a face no triangle, or if more than 2e7 pairs, and 200
+/// a face, have overlapping boxes: faces that all share one edge would take quadratic time. Cost: O(n log n +
+/// candidate pairs): overlapping boxes, then exact predicates.
 std::size_t count_self_intersections(const Mesh& mesh);
 
 /// The same for plain arrays; `triangles` index `points`. Throws ContentError for an index out of range too.

@@ -14,17 +14,25 @@ namespace furrow::io {
 namespace {
 
 /// Reads a file or stream to its end into any array of bytes.
+[[noreturn]] void refuse_size(const std::string& name, std::size_t most) {
+  const bool in_gib = most >= std::size_t{1} << 30;
+  throw geometry::ContentError(
+      name + ": larger than " + std::to_string(most >> (in_gib ? 30 : 20)) +
+      (in_gib ? " GiB; give a smaller file" : " MiB, and a device may never end; give a file"));
+}
+
+/// `expected` bytes, if they are known, are asked for at once. Throws if there are more than `most`.
 template <class Bytes>
-Bytes read_all(std::istream& in, const std::string& name) {
+Bytes read_all(std::istream& in, const std::string& name, std::size_t expected, std::size_t most) {
   constexpr std::size_t chunk = std::size_t{1} << 16;
   Bytes bytes;
+  bytes.resize(expected > 0 ? expected + 1 : 0);  // and one, to see the end
   std::size_t size = 0;
   while (in) {
-    if (bytes.size() < size + chunk) bytes.resize(std::max(2 * bytes.size(), size + chunk));
+    if (bytes.size() == size) bytes.resize(std::max(2 * bytes.size(), size + chunk));
     in.read(reinterpret_cast<char*>(bytes.data()) + size, static_cast<std::streamsize>(bytes.size() - size));
     size += static_cast<std::size_t>(in.gcount());
-    if (size > largest_file_size)
-      throw geometry::ContentError(name + ": larger than 4 GiB; give a smaller file");
+    if (size > most) refuse_size(name, most);
   }
   if (in.bad()) throw geometry::ContentError(name + ": cannot be read: " + std::strerror(errno));
   bytes.resize(size);
@@ -39,14 +47,22 @@ Bytes read_file(const std::filesystem::path& path) {
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw geometry::ContentError(path.string() + ": cannot be opened: " + std::strerror(errno));
-  return read_all<Bytes>(in, path.string());
+  if (std::filesystem::is_character_file(path, ignored) || std::filesystem::is_block_file(path, ignored))
+    return read_all<Bytes>(in, path.string(), 0, largest_device_size);
+  std::size_t expected = 0;
+  if (std::filesystem::is_regular_file(path, ignored)) expected = std::filesystem::file_size(path, ignored);
+  if (ignored) expected = 0;
+  if (expected > largest_file_size) refuse_size(path.string(), largest_file_size);
+  return read_all<Bytes>(in, path.string(), expected, largest_file_size);
 }
 
 }  // namespace
 
 std::string read_text(const std::filesystem::path& path) { return read_file<std::string>(path); }
 
-std::string read_text(std::istream& in, const std::string& name) { return read_all<std::string>(in, name); }
+std::string read_text(std::istream& in, const std::string& name) {
+  return read_all<std::string>(in, name, 0, largest_file_size);
+}
 
 std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
   return read_file<std::vector<std::byte>>(path);

@@ -12,8 +12,11 @@ namespace furrow::io {
 /// Files above this are refused, so that an endless one (a device) does not fill the memory [bytes].
 inline constexpr std::size_t largest_file_size = std::size_t{4} << 30;
 
+/// The same of a device, such as /dev/zero, whose size is not known [bytes].
+inline constexpr std::size_t largest_device_size = std::size_t{64} << 20;
+
 /// The whole file. Throws geometry::ContentError if it is missing, a folder, unreadable or above
-/// largest_file_size.
+/// largest_file_size, which is said before it is read.
 std::string read_text(const std::filesystem::path& path);
 /// The rest of a stream; `name` stands in messages.
 std::string read_text(std::istream& in, const std::string& name);

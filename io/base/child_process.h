@@ -9,10 +9,10 @@ namespace furrow::io {
 struct ChildLimits {
   /// Address space beyond this process's own [bytes]; > 0. Not held under the address sanitizer, which needs
   /// terabytes of it.
-  std::size_t memory_bytes = std::size_t{4} << 30;
+  std::size_t memory_bytes = std::size_t{1} << 30;
   unsigned cpu_seconds = 60;                        ///< [s]; > 0
   unsigned seconds = 120;                           ///< of waiting for the next bytes of the answer [s]; > 0
-  std::size_t answer_bytes = std::size_t{2} << 30;  ///< longest answer [bytes]; > 0
+  std::size_t answer_bytes = std::size_t{1} << 30;  ///< longest answer [bytes]; > 0
 };
 
 /// Runs `work` in a forked child with limits and returns what it returned, for a library that may crash, hang

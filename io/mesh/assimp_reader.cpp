@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The only source that knows assimp.
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -222,6 +223,44 @@ class Warnings : public Assimp::LogStream {
   bool damage_ = false;
 };
 
+/// Opens ordinary files in a file's own folder, or below it: a file from elsewhere may name any other.
+class OwnFolder : public Assimp::DefaultIOSystem {
+ public:
+  explicit OwnFolder(const std::filesystem::path& file) : folder_(folder_of(file)) {}
+
+  bool Exists(const char* path) const override {
+    return is_own(path) && Assimp::DefaultIOSystem::Exists(path);
+  }
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    if (is_own(path)) return Assimp::DefaultIOSystem::Open(path, mode);
+    refused_ = path;
+    return nullptr;
+  }
+  const std::string& refused() const { return refused_; }  ///< the last one; empty: none
+
+ private:
+  static std::filesystem::path folder_of(const std::filesystem::path& file) {
+    return std::filesystem::canonical(std::filesystem::absolute(file)).parent_path();
+  }
+  bool is_own(const char* path) const {
+    std::error_code fault;
+    const auto real = std::filesystem::canonical(path, fault);
+    if (fault || !std::filesystem::is_regular_file(real, fault)) return false;
+    return std::mismatch(folder_.begin(), folder_.end(), real.begin(), real.end()).first == folder_.end();
+  }
+
+  std::filesystem::path folder_;
+  std::string refused_;
+};
+
+/// Ten seconds, and one more for each megabyte; a gigabyte, and twenty times the file.
+ChildLimits limits_for(std::size_t file_size) {
+  ChildLimits limits;
+  limits.cpu_seconds = 10 + static_cast<unsigned>(file_size >> 20);
+  limits.memory_bytes += 20 * file_size;
+  return limits;
+}
+
 /// Runs in the child: the logger is the child's own.
 std::string import(const std::filesystem::path& path, const ReadOptions& options) {
   std::vector<std::string> messages;
@@ -229,7 +268,13 @@ std::string import(const std::filesystem::path& path, const ReadOptions& options
   Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0)
       ->attachStream(warnings, Assimp::Logger::Warn | Assimp::Logger::Err);
   Assimp::Importer importer;
+  auto* folder = new OwnFolder(path);  // the importer's from here
+  importer.SetIOHandler(folder);
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
+  if (!scene && !folder->refused().empty())
+    throw ContentError("it names '" + folder->refused() +
+                       "', which is no file in its folder or below; lay the file there");
+  if (!scene && std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
   if (!scene) throw ContentError(importer.GetErrorString());
   if (warnings->damage()) throw ContentError("a face names a vertex that is not there; repair the file");
   SoupFile file = SceneReader(*scene, options).read();
@@ -241,11 +286,12 @@ std::string import(const std::filesystem::path& path, const ReadOptions& options
 
 MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string name = path.string();
-  if (read_text(path).empty()) throw ContentError(name + ": the file is empty");
+  const std::size_t size = read_text(path).size();
+  if (size == 0) throw ContentError(name + ": the file is empty");
   MeshFile file;
   SoupFile content;
   try {
-    content = soup_from_bytes(run_in_child([&] { return import(path, options); }));
+    content = soup_from_bytes(run_in_child([&] { return import(path, options); }, limits_for(size)));
   } catch (const ContentError& error) {
     throw ContentError(name + ": " + error.what());
   }

@@ -6,6 +6,8 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <string>
+#include <unordered_set>
 #include <utility>
 
 #include "geometry/mesh/errors.h"
@@ -123,6 +125,7 @@ std::size_t PlyElement::smallest_size(PlyEncoding encoding) const {
 PlyHeader read_ply_header(TextScanner& in, std::size_t file_size) {
   PlyHeader header;
   bool has_format = false;
+  std::unordered_set<std::string> names;
   if (!in.next_line() || in.word() != "ply") in.fail("the first line is not 'ply': this is no PLY file");
   while (in.next_line()) {
     const std::string_view word = in.word();
@@ -138,9 +141,8 @@ PlyHeader read_ply_header(TextScanner& in, std::size_t file_size) {
       header.comments.emplace_back(in.rest_of_line());
     } else if (word == "element") {
       PlyElement element = read_element(in);
-      for (const PlyElement& other : header.elements)
-        if (other.name == element.name)
-          in.fail("a second element " + in_quotes(element.name) + "; remove it");
+      if (!names.insert(element.name).second)
+        in.fail("a second element " + in_quotes(element.name) + "; remove it");
       header.elements.push_back(std::move(element));
     } else if (word == "property") {
       if (header.elements.empty()) in.fail("a property before the first element; move it");

@@ -17,6 +17,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/scene/field_file.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/gate.h"
 #include "physics/body/compare_colliders.h"
 #include "physics/body/depth_map_collider.h"
 #include "physics/body/posed_collider.h"
@@ -44,6 +45,20 @@ bool has_volume(const physics::TriangleMesh& body) {
   for (const auto& t : body.triangles)
     volume += from_origin(t[0]).dot(from_origin(t[1]).cross(from_origin(t[2]))) / 6;
   return std::abs(volume) > 1e-6 * std::pow(box_of(body.vertices).diagonal().norm(), 3);
+}
+
+/// The field, of no more samples than the gate lets pass unasked.
+physics::DistanceField field_of(const physics::ExactDistance& exact, physics::DistanceFieldOptions options,
+                                const std::string& name, const Context& context) {
+  const ProgressScope progress(context.listener, "distance field");
+  if (options.most_samples == 0) options.most_samples = limits.field_samples;
+  try {
+    return physics::DistanceField::build(exact, options, std::cref(progress));
+  } catch (const physics::TooMuchWork& e) {
+    require_allowed(name + ": " + e.what(), context);
+  }
+  options.most_samples = 0;
+  return physics::DistanceField::build(exact, options, std::cref(progress));
 }
 
 physics::DistanceFieldOptions threaded(physics::DistanceFieldOptions options) {
@@ -82,10 +97,9 @@ BodyCollider load_body(const io::SceneBody& body, const Context& context) {
   stop_if_cancelled(context);
   physics::TriangleMesh triangles = read_body(body.mesh, context);
   physics::ExactDistance exact(triangles);
-  const ProgressScope progress(context.listener, "distance field");
-  physics::DistanceField field =
-      body.field.empty() ? physics::DistanceField::build(exact, threaded(body.options), std::cref(progress))
-                         : io::read_field(body.field, triangles);
+  physics::DistanceField field = body.field.empty()
+                                     ? field_of(exact, threaded(body.options), body.mesh.string(), context)
+                                     : io::read_field(body.field, triangles);
   return {std::move(triangles), std::move(exact), std::move(field)};
 }
 
@@ -116,6 +130,7 @@ void WorldBody::read_frames(const io::SceneBody& body, const Context& context) {
   const auto read = [this](int i) { return frames_->positions(static_cast<std::size_t>(i)); };
   physics::DistanceFieldOptions field = threaded(body.options);
   if (!field.tolerance) field.tolerance = 0.002;
+  if (field.most_samples == 0) field.most_samples = limits.field_samples;
   tolerance_ = *field.tolerance;  // and of depth maps, 95 times of 100
   physics::FrameColliderOptions collider = field;
   if (body.depth_maps) collider = six_maps();

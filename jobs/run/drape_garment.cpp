@@ -16,6 +16,7 @@
 #include "geometry/rest/rest_metric.h"
 #include "io/animation/animation_file.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/gate.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
@@ -126,7 +127,9 @@ class Maker {
     for (std::size_t i = 0; i < band_vertices_.size(); ++i)
       sew_band(made.mesh, loop_through(mesh, band_vertices_[i]),
                {settings_.bands[i].length, settings_.band_stiffness});
-    physics::Cloth cloth = bridge::gather(made.mesh, spring_options(made, scene_.material));
+    physics::Cloth cloth = naming(scene_.garment.string(), [&] {
+      return bridge::gather(made.mesh, spring_options(made, scene_.material));
+    });
     pin_cloth(cloth, pins, nullptr, 0, context_);
     int moved = 0;
     for (const std::vector<int>& held : pins)
@@ -193,6 +196,7 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const Dra
   io::Scene coarse = scene;
   coarse.subdivide = 0;
   const io::MeshFile as_read = begin_garment(coarse, context);
+  require_refinement(as_read.mesh.number_of_faces(), 4, scene.subdivide, "--subdivide", context);
   bridge::DrapeOptions options;
   options.refinements = scene.subdivide;
   options.settle.gravity = scene.simulation.gravity;

@@ -2,6 +2,7 @@
 #include "jobs/run/line_round.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "geometry/mesh/property_names.h"
@@ -12,6 +13,7 @@
 #include "jobs/inputs.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
+#include "jobs/run/gate.h"
 
 namespace furrow::jobs {
 namespace {
@@ -73,6 +75,22 @@ void note_strokes(io::WrinkleRecord& record, const std::string& garment,
   record.strokes = text.str();
 }
 
+/// Diagonal of the bounding box [m].
+double size_of(const geometry::Mesh& mesh) {
+  CGAL::Bbox_3 box;
+  for (geometry::Vertex v : mesh.vertices()) box += mesh.point(v).bbox();
+  return std::hypot(box.x_span(), box.y_span(), box.z_span());
+}
+
+/// A height in millimetres, say, that was meant as such.
+void warn_of_heights(const std::vector<geometry::Stroke>& strokes, double garment,
+                     std::vector<std::string>& warnings) {
+  for (const geometry::Stroke& stroke : strokes)
+    if (std::abs(stroke.height) > garment)
+      warnings.push_back("stroke '" + stroke.name + "': its height of " + Json(stroke.height).dump() +
+                         " m is more than the garment's size; heights are in metres");
+}
+
 }  // namespace
 
 std::string garment_file(const io::Scene& scene, const Context& context) {
@@ -87,6 +105,7 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
   for (const std::vector<int>& list : target.pins)
     for (int v : list) options.held.emplace_back(static_cast<geometry::Vertex::size_type>(v));
   io::ResolvedStrokes resolved = io::resolve_strokes(strokes, target.file, options.insertion.max_distance);
+  const double size = size_of(target.file.mesh);
   LineRound round;
   round.first_line = options.first_line;
   round.warnings = std::move(resolved.warnings);
@@ -95,11 +114,19 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
                                      {options, target.springs, lines.fade}, observer);
     round.report = round.moving->wrinkle;
   } else {
-    round.report = geometry::wrinkle(target.file.mesh, resolved.strokes, options, observer);
+    round.report = naming(target.garment, [&] {
+      return geometry::wrinkle(target.file.mesh, resolved.strokes, options, observer);
+    });
   }
+  warn_of_heights(resolved.strokes, size, round.warnings);
   for (const auto* more : {&round.report.insertion.warnings, &round.report.warnings})
     round.warnings.insert(round.warnings.end(), more->begin(), more->end());
   io::WrinkleRecord record = record_of(options, earlier, round.report);
+  if (!target.moving && !is_utf8(target.garment))
+    round.warnings.push_back(
+        target.garment +
+        ": its name is not UTF-8, so that the wrinkled mesh cannot name it, and its lines "
+        "cannot be drawn again from that mesh alone; rename the garment");
   note_strokes(record, target.moving ? "" : target.garment, strokes);
   io::set_wrinkle_record(target.file, record);
   return round;

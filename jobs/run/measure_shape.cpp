@@ -8,6 +8,7 @@
 #include "geometry/figure/hem_folds.h"
 #include "geometry/fold/line_height.h"
 #include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/self_intersections.h"
 #include "io/mesh/mesh_file.h"
@@ -59,9 +60,10 @@ physics::Vec3 centre_of_mass(const geometry::Mesh& mesh) {
 
 std::vector<BorderReport> measure_borders(const geometry::Mesh& mesh) {
   std::vector<BorderReport> borders;
+  const std::vector<double> lengths = geometry::rest_lengths(mesh);
   for (const geometry::BorderLoop& loop : geometry::border_loops(mesh))
-    borders.push_back({geometry::rest_length(mesh, loop), loop.length, loop.mean_height, loop.mean_radius,
-                       geometry::count_folds(mesh, loop)});
+    borders.push_back({geometry::rest_length(mesh, loop, lengths), loop.length, loop.mean_height,
+                       loop.mean_radius, geometry::count_folds(mesh, loop)});
   return borders;
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double longest_stretch = 0.2;  // [s]
 
-/// Seconds of one thread by the table; every tenth vertex asks for the body's distance.
+}  // namespace
+
 double cost_of_step(const physics::SimulateOptions& o, const physics::Cloth& cloth, bool has_body) {
   const bool four_times = o.integrator == physics::Integrator::rk4;
   const double forces = four_times ? 4 : 1;
@@ -23,10 +24,9 @@ double cost_of_step(const physics::SimulateOptions& o, const physics::Cloth& clo
   work.hinges = forces * double(cloth.hinges.size());
   if (has_body) work.queries = forces * work.vertices / 10;
   if (o.integrator == physics::Integrator::xpbd) work.sweeps = o.xpbd.iterations * springs;
+  if (o.integrator == physics::Integrator::backward_euler) work.factorisations = 1;
   return cost_of(work, four_times ? costs.rk4_vertex_step : costs.vertex_step);
 }
-
-}  // namespace
 
 Observation observation_of(const physics::SimulateOptions& options, const physics::Cloth& cloth,
                            bool has_body, bool animated) {

@@ -16,6 +16,9 @@ struct Observation {
   }
 };
 
+/// Seconds of one thread by jobs/judge/cost_table.h; every tenth vertex asks for the body's distance.
+double cost_of_step(const physics::SimulateOptions& options, const physics::Cloth& cloth, bool has_body);
+
 /// As many steps as take 0.2 s by jobs/cost_table.h, at most 100, or 20 with an animation; one of backward
 /// Euler's, each of which factorises. What the run comes to does not depend on it.
 Observation observation_of(const physics::SimulateOptions& options, const physics::Cloth& cloth,

@@ -8,6 +8,7 @@
 #include "geometry/refine/subdivide.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/gate.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
 #include "jobs/run/pins.h"
@@ -49,6 +50,7 @@ io::MeshFile begin_garment(const io::Scene& scene, const Context& context) {
   stop_if_cancelled(context);
   io::MeshFile file = read_garment(scene.garment, context);
   stop_if_cancelled(context);
+  require_refinement(file.mesh.number_of_faces(), 4, scene.subdivide, "--subdivide", context);
   if (scene.subdivide > 0) geometry::loop_subdivide(file.mesh, scene.subdivide);
   return file;
 }
@@ -108,7 +110,9 @@ SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::sh
   complete_garment(result.file, scene.material);
   if (keeps_first_shape(scene))
     keep_at_rest(result.file, scene, result.pins, result.body.get(), 0, 0, nullptr, context);
-  result.cloth = bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
+  result.cloth = naming(scene.garment.string(), [&] {
+    return bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
+  });
   pin_cloth(result.cloth, result.pins, result.body.get(), 0, context);
   result.options = scene.simulation;
   if (result.body) {

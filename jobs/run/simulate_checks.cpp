@@ -72,6 +72,18 @@ void check_output_formats(const io::SceneOutput& out, bool has_body) {
     throw std::invalid_argument("--save-body: there is no body; name one with --body");
 }
 
+/// A state names its files in JSON, which is UTF-8: any other name would be lost.
+void check_names(const io::TomlDocument& document, const std::string& key) {
+  try {
+    document.root.dump();
+  } catch (const Json::exception&) {
+    throw std::invalid_argument(
+        key +
+        ": the scene names a file whose name is not UTF-8, which a state cannot keep; rename that file: " +
+        document.root.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
+}
+
 void check_outputs(const OpenScene& open, const SimulateJob& job) {
   const io::Scene& scene = open.scene;
   const io::SceneOutput& out = scene.output;
@@ -80,6 +92,7 @@ void check_outputs(const OpenScene& open, const SimulateJob& job) {
   if (out.checkpoint && out.state.empty())
     throw std::invalid_argument("--checkpoint: there is no state to write; name one with --save-state");
   check_output_formats(out, scene.body.has_value());
+  if (!out.state.empty()) check_names(open.document, "output.state");
   std::vector<std::string> written;
   for (const auto& path : {out.mesh, out.state, out.inserted, out.smoothed, out.animation, out.body})
     if (!path.empty() && path != "-") written.push_back(path.string());

@@ -14,4 +14,10 @@ struct Cancelled : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Thrown by an operation that would take more than one of its options allows, before it does. The message
+/// says how much, and which other option makes it less.
+struct TooMuchWork : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
 }  // namespace furrow::physics

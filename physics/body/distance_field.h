@@ -27,7 +27,8 @@ struct DistanceFieldOptions {
   int band_depth = 6;               ///< least depth of cells that meet the band; 3 ... max_depth
   int max_depth = 10;               ///< edge of the smallest cell = cube / 2^max_depth; 3 ... 12
   GradientRule gradient = GradientRule::exact_derivative;
-  int threads = 1;  ///< of the build; 1 ... 256; the result does not depend on it
+  std::int64_t most_samples = 0;  ///< exact distances that a build may take; 0: as many as it needs
+  int threads = 1;                ///< of the build; 1 ... 256; the result does not depend on it
 };
 
 struct DistanceFieldReport {
@@ -46,8 +47,9 @@ struct DistanceFieldReport {
 class DistanceField : public Collider {
  public:
   /// Any soup that ExactDistance takes. std::invalid_argument names a bad option or vertex, or says that the
-  /// tolerance asks for more leaves than a field can hold; Cancelled if `progress` said no.
-  /// Cost: about 1 us for each of the body's samples, some 300,000 at the default tolerance.
+  /// tolerance asks for more leaves than a field can hold; TooMuchWork for more samples than most_samples, at
+  /// the first level of the tree that would pass it; Cancelled if `progress` said no.
+  /// Cost: about 1 us and 110 bytes for each of the body's samples, some 300,000 at the default tolerance.
   static DistanceField build(const TriangleMesh& mesh, const DistanceFieldOptions& options = {},
                              const Progress& progress = {});
   static DistanceField build(const ExactDistance& exact, const DistanceFieldOptions& options = {},

@@ -20,6 +20,7 @@ void check(const DistanceFieldOptions& o) {
   check("margin", o.margin, o.margin > 0, "> 0 [m]");
   check("max_depth", o.max_depth, o.max_depth >= 3 && o.max_depth <= 12, "in [3, 12]");
   check("band_depth", o.band_depth, o.band_depth >= 3 && o.band_depth <= o.max_depth, "in [3, max_depth]");
+  check("most_samples", double(o.most_samples), o.most_samples >= 0, ">= 0");
   check("threads", o.threads, o.threads >= 1 && o.threads <= 256, "in [1, 256]");
 }
 
@@ -47,10 +48,11 @@ DistanceField DistanceField::build(const ExactDistance& exact, const DistanceFie
   field.gradient_ = options.gradient;
   const double unit = field.size_ / (1 << options.max_depth);
   LatticeSamples samples(exact, field.low_, unit, options.threads);
-  const DistanceOctree octree(samples,
-                              {field.report_.tolerance, options.outer_band, options.inner_band,
-                               options.far_slope, 3, options.band_depth, options.max_depth},
-                              unit, progress);
+  const DistanceOctree octree(
+      samples,
+      {field.report_.tolerance, options.outer_band, options.inner_band, options.far_slope, 3,
+       options.band_depth, options.max_depth, options.most_samples},
+      unit, progress);
   field.report_.samples = samples.size();
   field.take(octree);
   field.index();

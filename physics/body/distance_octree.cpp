@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <functional>
 
 namespace furrow::physics {
 namespace {
@@ -22,6 +24,9 @@ std::array<double, 27> interpolate(const std::array<double, 8>& corner) {
   for (int i = 0; i < 9; ++i) v[9 + i] = 0.5 * (v[i] + v[18 + i]);
   return v;
 }
+
+/// Of the allowed error: between the tested points, and after the repair, the error is a little larger.
+constexpr double reserve = 0.93;
 
 /// Trilinear interpolation of eight corner values (numbers or vectors) at (u, v, w) in [0, 1]^3.
 template <class T>
@@ -84,8 +89,6 @@ bool DistanceOctree::must_split(const OctreeCell& cell, const std::array<int, 27
   std::array<double, 8> corner;
   for (int c = 0; c < 8; ++c) corner[c] = samples_.value(cell.corner[c]);
   const std::array<double, 27> guess = interpolate(corner);
-  constexpr double reserve =
-      0.93;  // between the tested points, and after the repair, the error is a little larger
   return std::any_of(lattice.begin(), lattice.end(), [&, i = 0](int sample) mutable {
     const double exact = samples_.value(sample);
     return std::abs(exact - guess[i++]) > reserve * rule_.allowed_error(exact);
@@ -106,6 +109,58 @@ void DistanceOctree::append_children(int parent) {
   }
 }
 
+/// The smallest tolerance that the cell keeps as it is [m].
+double DistanceOctree::tolerance_of(const OctreeCell& cell, const std::array<int, 27>& lattice) const {
+  std::array<double, 8> corner;
+  for (int c = 0; c < 8; ++c) corner[c] = samples_.value(cell.corner[c]);
+  const std::array<double, 27> guess = interpolate(corner);
+  double tolerance = 0;
+  for (int i = 0; i < 27; ++i) {
+    const double exact = samples_.value(lattice[i]);
+    const double beyond_band = rule_.allowed_error(exact) - rule_.tolerance;
+    tolerance = std::max(tolerance, std::abs(exact - guess[i]) / reserve - beyond_band);
+  }
+  return tolerance;
+}
+
+/// A tolerance, of one digit, that so many cells of the level from `first` on break at most [m].
+double DistanceOctree::tolerance_for(std::size_t cells, const std::vector<std::array<int, 27>>& lattices,
+                                     std::size_t first) const {
+  std::vector<double> tolerances;
+  for (std::size_t i = 0; i < lattices.size(); ++i)
+    tolerances.push_back(tolerance_of(cells_[first + i], lattices[i]));
+  std::sort(tolerances.begin(), tolerances.end(), std::greater<>());
+  const double least =
+      std::max(1.2 * tolerances[std::min(cells, tolerances.size() - 1)], 2 * rule_.tolerance);
+  const double digit = std::pow(10, std::floor(std::log10(least)));
+  return std::ceil(least / digit) * digit;
+}
+
+/// The cells from `first` to `last` are of one level, those behind it of the next one; `samples_before`: how
+/// many there were before that level's. Further levels are guessed to grow as these did.
+void DistanceOctree::check_next_level(std::size_t first, std::size_t last, int samples_before,
+                                      const std::vector<std::array<int, 27>>& lattices) const {
+  const double cells = double(last - first), next = double(cells_.size() - last);
+  const int level = cells_[first].level;
+  if (rule_.most_samples <= 0 || next == 0 || level + 1 >= rule_.max_depth) return;
+  const double samples_a_cell = (samples_.size() - samples_before) / cells;
+  const double most = double(rule_.most_samples);
+  double total = samples_.size() + samples_a_cell * next;
+  if (total <= most) return;
+  // Of a tolerance's cells that still break it, each has eight children; their error is a quarter.
+  const double left = std::max(0.0, most - samples_.size()) / samples_a_cell / 16;
+  const double tolerance = tolerance_for(static_cast<std::size_t>(left), lattices, first);
+  double growing = next;
+  for (int l = level + 2; l < rule_.max_depth; ++l)
+    total += samples_a_cell * (growing *= std::clamp(next / cells, 1.0, 8.0));
+  constexpr double bytes_a_sample = 110;  // measured: samples, cells and tables while it is built
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the distance field would take about %.1g samples, %.2g GB; raise the tolerance to %.1g m",
+                total, 1e-9 * bytes_a_sample * total, tolerance);
+  throw TooMuchWork(text);
+}
+
 void DistanceOctree::refine(const Progress& progress) {
   const auto tell = [&](double levels) {
     if (progress && !progress(std::min(levels / (rule_.max_depth + 1), 1.0)))
@@ -118,12 +173,14 @@ void DistanceOctree::refine(const Progress& progress) {
   std::vector<std::array<int, 27>> lattices;
   for (std::size_t first = 0; first < cells_.size() && cells_[first].level < rule_.max_depth;) {
     const std::size_t last = cells_.size();
+    const int samples_before = samples_.size();
     lattices.clear();
     for (std::size_t i = first; i < last; ++i) lattices.push_back(add_lattice(cells_[i]));
     const int level = cells_[first].level;
     samples_.evaluate([&](double share) { tell(level + share); });
     for (std::size_t i = first; i < last; ++i)
       if (must_split(cells_[i], lattices[i - first])) append_children(static_cast<int>(i));
+    check_next_level(first, last, samples_before, lattices);
     first = last;
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "physics/base/progress.h"
@@ -10,13 +11,14 @@ namespace furrow::physics {
 
 /// Where and how finely a distance is needed.
 struct RefinementRule {
-  double tolerance;   ///< largest error at the test points in the band [m]; > 0
-  double outer_band;  ///< the band's reach outside the body [m]; >= 0
-  double inner_band;  ///< and inside [m]; >= 0
-  double far_slope;   ///< tolerance gained for each metre beyond the band [-]; >= 0
-  int min_depth;      ///< of every leaf
-  int band_depth;     ///< of every leaf that meets the band
-  int max_depth;      ///< of any leaf
+  double tolerance;               ///< largest error at the test points in the band [m]; > 0
+  double outer_band;              ///< the band's reach outside the body [m]; >= 0
+  double inner_band;              ///< and inside [m]; >= 0
+  double far_slope;               ///< tolerance gained for each metre beyond the band [-]; >= 0
+  int min_depth;                  ///< of every leaf
+  int band_depth;                 ///< of every leaf that meets the band
+  int max_depth;                  ///< of any leaf
+  std::int64_t most_samples = 0;  ///< 0: as many as it takes
 
   /// allow(d) = tolerance + far_slope * (how far d lies outside the band) [m].
   double allowed_error(double distance) const;
@@ -37,7 +39,8 @@ struct OctreeCell {
 /// coarsest wins". Sources: Frisken et al. 2000; method S1.9.
 class DistanceOctree {
  public:
-  /// Throws Cancelled if `progress` says no; its share counts levels.
+  /// Throws Cancelled if `progress` says no, whose share counts levels; TooMuchWork before a level that would
+  /// pass most_samples.
   DistanceOctree(LatticeSamples& samples, const RefinementRule& rule, double unit,
                  const Progress& progress = {});
 
@@ -54,6 +57,11 @@ class DistanceOctree {
     int coarse;  ///< the coarsest leaf around it, of which it is no corner
   };
   void refine(const Progress& progress);
+  double tolerance_of(const OctreeCell& cell, const std::array<int, 27>& lattice) const;
+  double tolerance_for(std::size_t cells, const std::vector<std::array<int, 27>>& lattices,
+                       std::size_t first) const;
+  void check_next_level(std::size_t first, std::size_t last, int samples_before,
+                        const std::vector<std::array<int, 27>>& lattices) const;
   bool must_split(const OctreeCell& cell, const std::array<int, 27>& lattice) const;
   std::array<int, 27> add_lattice(const OctreeCell& cell);
   void append_children(int cell);

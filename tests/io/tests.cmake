@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   base/atomic_file_test.cpp
+  base/bytes_file_test.cpp
   base/child_process_test.cpp
   base/error_types_test.cpp
   base/nesting_test.cpp
@@ -9,6 +10,7 @@ furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   mesh/chain_segments_test.cpp
   mesh/damaged_files_test.cpp
   mesh/hostile_files_test.cpp
+  mesh/mutated_files_test.cpp
   mesh/obj_test.cpp
   mesh/off_test.cpp
   mesh/ply_test.cpp

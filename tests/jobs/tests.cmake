@@ -7,6 +7,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   drape_test.cpp
   field_test.cpp
   fit_test.cpp
+  gate_test.cpp
   keep_test.cpp
   listener_test.cpp
   mesh_input_test.cpp

@@ -73,3 +73,15 @@ TEST_CASE("count_self_intersections: parted seams do not touch themselves, degen
       count_self_intersections(std::vector{Point(0, 0, 0)}, std::vector<std::array<int, 3>>{{0, 0, 1}}),
       ContentError);
 }
+
+TEST_CASE("count_self_intersections: a book of so many pages that pairs cannot be counted is told") {
+  std::vector<Point> points{{0, 0, 0}, {0, 1, 0}};
+  std::vector<std::array<int, 3>> pages;
+  for (int i = 0; i < 8000; ++i) {
+    points.emplace_back(1 + 1e-4 * i, 0.5, 1e-4 * i);
+    pages.push_back({0, 1, i + 2});
+  }
+  CHECK_THROWS_WITH(count_self_intersections(points, pages), Catch::Contains("lie at one place"));
+  pages.resize(1000);
+  CHECK(count_self_intersections(points, pages) == 0);
+}

@@ -223,3 +223,29 @@ TEST_CASE("glTF: damaged files are read or refused, this process lives on") {
   }
   CHECK(refused >= files / 2);
 }
+
+TEST_CASE("gltf: buffers are read from the file's folder and below, not from elsewhere") {
+  TemporaryFolder folder;
+  const std::filesystem::path inner = folder / "in";
+  std::filesystem::create_directories(inner / "below");
+  Seam seam;
+  spit(folder / "outside.bin", seam.buffer);
+  spit(inner / "own.bin", seam.buffer);
+  spit(inner / "below" / "deep.bin", seam.buffer);
+  std::filesystem::create_symlink(folder / "outside.bin", inner / "link.bin");
+  const auto write = [&](const std::string& uri) {
+    seam.scene["buffers"] = json::array({{{"byteLength", seam.buffer.size()}, {"uri", uri}}});
+    spit(inner / "a.gltf", seam.scene.dump());
+    return inner / "a.gltf";
+  };
+  for (const char* uri : {"own.bin", "below/deep.bin", "below/../own.bin"})
+    check_seam(io::read_mesh(write(uri)));
+  const std::string absolute = (folder / "outside.bin").string();
+  for (const std::string& uri : {std::string("../outside.bin"), std::string("link.bin"), absolute,
+                                 std::string("/dev/zero"), std::string("below")}) {
+    INFO(uri);
+    const std::string error = content_error([&] { io::read_mesh(write(uri)); });
+    CHECK_THAT(error, Catch::StartsWith((inner / "a.gltf").string() + ": it names '") &&
+                          Catch::Contains("lay the file there"));
+  }
+}

@@ -192,3 +192,37 @@ TEST_CASE("soup_to_mesh: the cut of a four-sided face is a diagonal, other edges
   CHECK_FALSE(
       find_map(io::soup_to_mesh(soup_of(5, {{0, 1, 2}, {0, 2, 3, 4, 1}}), "soup").mesh, attribute::diagonal));
 }
+
+TEST_CASE("soup_to_mesh: a point of 1,500 faces gives the half-edges that adding one by one gives") {
+  for (const bool closed : {true, false}) {
+    constexpr std::size_t n = 1500;
+    std::vector<List> faces;
+    for (std::size_t i = 0; i < n - !closed; ++i) {
+      const std::size_t k = (7 * i + 3) % (closed ? n : n - 1);
+      faces.push_back({0, 1 + k, 1 + (k + 1) % n});
+    }
+    faces.push_back({1, n + 1, 2});  // beside the fan
+    const auto out = io::soup_to_mesh(soup_of(n + 2, faces), "t");
+    Mesh one_by_one;
+    for (const Point& p : out.mesh.points()) one_by_one.add_vertex(p);
+    for (const List& f : faces)
+      REQUIRE(one_by_one.add_face(Vertex(f[0]), Vertex(f[1]), Vertex(f[2])) != Mesh::null_face());
+    CHECK_FALSE(out.repairs.any());
+    CHECK(is_manifold(out.mesh));
+    REQUIRE(out.mesh.number_of_halfedges() == one_by_one.number_of_halfedges());
+    bool same = true;
+    for (const Halfedge h : out.mesh.halfedges())
+      same &= out.mesh.next(h) == one_by_one.next(h) && out.mesh.face(h) == one_by_one.face(h) &&
+              out.mesh.target(h) == one_by_one.target(h);
+    for (const Face f : out.mesh.faces()) same &= out.mesh.halfedge(f) == one_by_one.halfedge(f);
+    CHECK(same);
+  }
+}
+
+TEST_CASE("soup_to_mesh: 1,500 faces that share one point alone are parted there") {
+  std::vector<List> faces;
+  for (std::size_t i = 0; i < 1500; ++i) faces.push_back({0, 1 + 2 * i, 2 + 2 * i});
+  const auto out = io::soup_to_mesh(soup_of(3001, faces), "t");
+  CHECK(out.repairs.duplicated_vertices == 1499);
+  CHECK(is_manifold(out.mesh));
+}

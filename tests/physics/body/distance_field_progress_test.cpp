@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
+#include <string>
 #include <thread>
 
 #include "physics/body/distance_field.h"
@@ -53,4 +54,38 @@ TEST_CASE("distance_field: a tolerance that asks for too much is cancelled, not 
   int calls = 0;
   CHECK_THROWS_AS(DistanceField::build(sphere(12, 0.3), options, [&](double) { return ++calls < 50; }),
                   Cancelled);
+}
+
+TEST_CASE("distance_field: more samples than allowed are refused before they are taken, with what helps") {
+  const TriangleMesh ball = sphere(12, 0.3);
+  DistanceFieldOptions options;
+  options.tolerance = 2e-5;
+  options.most_samples = 1000000;
+  double furthest = 0;
+  const auto tell = [&](double share) {
+    furthest = share;
+    return true;
+  };
+  double advised = 0;
+  try {
+    DistanceField::build(ball, options, tell);
+    FAIL("built");
+  } catch (const TooMuchWork& e) {
+    const std::string text = e.what();
+    CHECK(text.starts_with("the distance field would take about "));
+    const std::string before = "raise the tolerance to ";
+    advised = std::stod(text.substr(text.find(before) + before.size()));
+  }
+  CHECK(furthest < 0.8);
+  options.tolerance = advised;
+  const DistanceField field = DistanceField::build(ball, options);
+  CHECK(field.report().samples <= 1000000);
+  options.most_samples = 0;
+  CHECK(DistanceField::build(ball, options).to_bytes() == field.to_bytes());
+}
+
+TEST_CASE("distance_field: a body that is tiny beside its band is refused, too") {
+  DistanceFieldOptions options;
+  options.most_samples = 100000;
+  CHECK_THROWS_AS(DistanceField::build(sphere(6, 1e-6), options), TooMuchWork);
 }
