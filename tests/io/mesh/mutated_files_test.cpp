@@ -147,9 +147,10 @@ TEST_CASE("mutated files: PLY and STL as text") {
 
 TEST_CASE("mutated files: GLB") {
   TemporaryFolder folder;
-  io::AnimationWriter writer(folder / "v.glb", garment().mesh, {});
+  const io::MeshFile file = garment();
+  io::AnimationWriter writer(folder / "v.glb", file.mesh, {});
   std::vector<physics::Vec3> x;
-  for (const Point& p : garment().mesh.points()) x.emplace_back(p.x(), p.y(), p.z());
+  for (const Point& p : file.mesh.points()) x.emplace_back(p.x(), p.y(), p.z());
   writer.add(x);
   writer.close();
   check_mutants(slurp(folder / "v.glb"),
