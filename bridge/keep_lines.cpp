@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "bridge/standing_body.h"
 #include "geometry/fold/line_region.h"
 #include "geometry/mesh/property_names.h"
+#include "physics/base/progress.h"
 
 namespace furrow::bridge {
 namespace {
@@ -124,14 +126,17 @@ class Keeper {
 
   /// More help for what needs it, until nothing does or all is given.
   Found help_by_stiffness(Plan plan, Tally& tally) const {
-    for (;;) {
-      Found found{plan, solve(plan, tally)};
+    for (std::optional<Found> last;;) {
+      std::optional<Found> solved = try_solve(plan, tally);
+      if (!solved && !last) throw physics::Cancelled("keep_lines: cancelled");
+      if (!solved) return std::move(*last);
+      Found& found = last.emplace(std::move(*solved));
       Flags weak = loose_lines(found);
       for (std::size_t i = 0; i < weak.size(); ++i)
         weak[i] = can_be_helped(plan.lines[i]) && (weak[i] || is_bound(plan.lines[i], found.outcome));
       const bool rest = rest_needs_help(found);
       if (!any(weak) && !rest) weak = run_forward(found, true, tally);
-      if ((!any(weak) && !rest) || tally.interrupted || hangs_wrong(found.outcome)) return found;
+      if ((!any(weak) && !rest) || tally.interrupted || hangs_wrong(found.outcome)) return std::move(found);
       for (std::size_t i = 0; i < weak.size(); ++i) plan.lines[i].step += weak[i] ? 1 : 0;
       plan.rest_step += rest ? 1 : 0;
     }
@@ -148,9 +153,10 @@ class Keeper {
     const double drift = tally.drift;
     Plan plan = least.plan;
     for (HelpedLine& line : plan.lines) line.step = help_steps(o_);
-    Found most{plan, solve(plan, tally)};
-    run_forward(most, false, tally);
-    if (tally.interrupted || failing(most) < before) return most;
+    std::optional<Found> most = try_solve(plan, tally);
+    if (!most) return least;
+    run_forward(*most, false, tally);
+    if (tally.interrupted || failing(*most) < before) return std::move(*most);
     tally.drift = drift;
     return least;
   }
@@ -162,19 +168,30 @@ class Keeper {
     for (std::size_t i = 0; i < good.size(); ++i)
       if (!good[i]) lines.push_back(i);
     if (lines.empty() || hangs_wrong(found.outcome)) return found;
-    Plan plan = std::move(found.plan);
+    Plan plan = found.plan;
     std::vector<double> low(lines.size(), 0), high(lines.size(), 1);  // low: the greatest that held
     for (int trial = 0; trial < o_.height_trials && !tally.interrupted; ++trial) {
       for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = (low[i] + high[i]) / 2;
-      const Flags now = good_lines(tried(plan, tally), o_.kept);
+      const std::optional<Found> tried = try_forward(plan, tally);
+      if (!tried) return found;
+      const Flags now = good_lines(*tried, o_.kept);
       for (std::size_t i = 0; i < lines.size(); ++i)
         (now[lines[i]] ? low[i] : high[i]) = plan.lines[lines[i]].height;
     }
     for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = low[i] > 0 ? low[i] : 1;
-    return tried(plan, tally);
+    if (tally.interrupted) return found;
+    return try_forward(plan, tally).value_or(std::move(found));
   }
 
  private:
+  /// Nothing, and that is noted, if it was broken off.
+  std::optional<Found> try_solve(const Plan& plan, Tally& tally) const try {
+    return Found{plan, solve(plan, tally)};
+  } catch (const physics::Cancelled&) {
+    tally.interrupted = true;
+    return std::nullopt;
+  }
+
   Outcome solve(const Plan& plan, Tally& tally) const {
     const std::vector<double> unknown(plan.lines.size(), NAN);
     Outcome outcome{start_, {}, plan.rest_step > 0 ? o_.presses[plan.rest_step - 1] : 1, unknown, unknown};
@@ -208,9 +225,9 @@ class Keeper {
     return weak;
   }
 
-  Found tried(const Plan& plan, Tally& tally) const {
-    Found found{plan, solve(plan, tally)};
-    run_forward(found, false, tally);
+  std::optional<Found> try_forward(const Plan& plan, Tally& tally) const {
+    std::optional<Found> found = try_solve(plan, tally);
+    if (found) run_forward(*found, false, tally);
     return found;
   }
 

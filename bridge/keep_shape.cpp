@@ -18,12 +18,14 @@ KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
   const std::optional<physics::PosedCollider> standing = standing_body(world);
   const physics::Collider* body = standing ? &*standing : nullptr;
   KeptShape shape;
-  if (body) shape.pushed = physics::bring_out(cloth.particles, *body, options.gap);
-  physics::Cloth balanced = cloth;
+  physics::Cloth kept = cloth;
+  if (body) shape.pushed = physics::bring_out(kept.particles, *body, options.gap);
+  physics::Cloth balanced = kept;
   const double turn = body ? 0 : physics::balance_rigidly(balanced, options.gravity);
-  if (turn > 0 && turn <= largest_turn) cloth = std::move(balanced), shape.turned = turn;
-  shape.rest = physics::prestress(cloth, options, body);
-  shape.certificate = physics::certify(cloth, {options.gravity, options.friction, options.gap}, body);
+  if (turn > 0 && turn <= largest_turn) kept = std::move(balanced), shape.turned = turn;
+  shape.rest = physics::prestress(kept, options, body);
+  shape.certificate = physics::certify(kept, {options.gravity, options.friction, options.gap}, body);
+  cloth = std::move(kept);
   return shape;
 }
 

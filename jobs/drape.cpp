@@ -10,6 +10,7 @@
 #include "jobs/run/drape_garment.h"
 #include "jobs/run/output_checks.h"
 #include "jobs/run/recorded_material.h"
+#include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
 
 namespace furrow::jobs {
@@ -111,6 +112,7 @@ bool DrapeJobReport::fails() const {
 }
 
 DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   warn_of_unused_settings(job.scene.settings, listener);
   const OpenScene open = open_scene(job);
   const std::vector<io::Scene> scenes = scenes_of(job, open);

@@ -16,6 +16,7 @@
 #include "jobs/run/scene_cloth.h"
 #include "jobs/run_until_drawn.h"
 #include "jobs/simulate.h"
+#include "physics/base/cancel_scope.h"
 #include "physics/cloth/pins.h"
 
 namespace furrow::jobs {
@@ -167,6 +168,7 @@ void write_outputs(const OpenScene& open, SceneCloth& garment, std::optional<io:
 }  // namespace
 
 KeepReport keep(const KeepJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   const OpenScene open = open_scene(job);
   const io::Scene& scene = open.scene;
   const Context context{open.frame, listener, &job.scene.memory};

@@ -49,7 +49,8 @@ struct KeepJob {
 /// Gives a garment the rest state that keeps its drawn lines, tells of each whether it will hold
 /// (bridge/keep.h), and writes the mesh and the state that the settings' output names, each file whole
 /// or not at all; a mesh named "-" is in the report alone. A job that is cancelled on the way to its lines
-/// has nothing to report (`ran`); later, the last rest state stands. Throws as jobs::simulate().
+/// has nothing to report (`ran`), before its first rest state it throws physics::Cancelled; later, the last
+/// one stands. Throws as jobs::simulate().
 KeepReport keep(const KeepJob& job, Listener& listener);
 
 }  // namespace furrow::jobs

@@ -25,6 +25,8 @@
 #include "jobs/run/scene_cloth.h"
 #include "jobs/run/simulate_checks.h"
 #include "jobs/run_until_drawn.h"
+#include "physics/base/cancel_scope.h"
+#include "physics/base/progress.h"
 
 namespace furrow::jobs {
 namespace {
@@ -120,6 +122,8 @@ DrawnRound draw_round(const Run& run, Reached& reached) {
   const std::size_t round = std::size_t(now.lines_drawn);
   const io::SceneLines& lines = run.scene.lines[round];
   const bool moving = now.simulation.step > 0;
+  const bool keeps = lines.keep && (moving || run.resumed);
+  const std::optional<Reached> before = keeps ? std::optional(reached) : std::nullopt;
   if (moving) now = io::parse_state(io::state_bytes(std::move(now)), "state");  // as if it had been saved
   const std::size_t old_count = now.file.mesh.number_of_vertices();
   DrawnRound drawn{draw_lines(target_of(run, now, moving), run.strokes[round], lines,
@@ -132,7 +136,12 @@ DrawnRound draw_round(const Run& run, Reached& reached) {
   ++now.lines_drawn;
   for (const std::string& w : drawn.round.warnings) run.context.warn("drawing", w, lines.strokes.string());
   drawn.rest = geometry::audit_rest_metric(now.file.mesh);
-  if (lines.keep && (moving || run.resumed)) drawn.kept = keep_shape(run, now, &now.simulation);
+  if (keeps) try {
+      drawn.kept = keep_shape(run, now, &now.simulation);
+    } catch (const physics::Cancelled&) {
+      reached = *before;
+      throw;
+    }
   if (moving) reached.heights = line_heights_by_id(now.file);
   return drawn;
 }
@@ -327,6 +336,7 @@ SimulateJob resume_from(const std::filesystem::path& path) {
 }
 
 SimulateReport simulate(const SimulateJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   OpenScene scene = open_scene(job, listener);
   const Context context{scene.frame, listener, &job.scene.memory};
   SimulateReport report;

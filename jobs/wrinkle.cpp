@@ -17,6 +17,7 @@
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/recorded_material.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -173,6 +174,7 @@ RecordedDrawing recorded_drawing(const fs::path& wrinkled, const Context& contex
 }
 
 WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   check(job);
   WrinkleReport report;
   report.frame = frame_of(job);

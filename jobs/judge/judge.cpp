@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/linear/stable_step.h"
 
 namespace furrow::jobs {
@@ -104,6 +105,7 @@ class Judge {
     if (j_.broken != Broken::no) return {};
     physics::SimulateOptions o = options_of(c.candidate, scene_, j_.seconds);
     o.observe_steps = physics::is_unconditionally_stable(o.integrator) ? 1 : 50;
+    const physics::CancelScope cancelling([this] { return must_stop(); });
     const auto r = physics::simulate(cloth, world_, o, nullptr, [&](const physics::SimulateProgress& p) {
       progress_((spent_ + c.cost * p.time) / (rate_ * j_.seconds));
       return !must_stop();

@@ -83,13 +83,17 @@ std::string fingerprint_of(const std::vector<physics::Vec3>& vertices, double to
 
 physics::TriangleMesh read_body(const MeshInput& input, const Context& context) {
   const std::string path = name_of(input, "body");
-  const geometry::Body repaired = geometry::repair_body(read_garment(input, context, "body").mesh);
+  const io::MeshFile file = read_garment(input, context, "body");
+  stop_if_cancelled(context);
+  const geometry::Body repaired = geometry::repair_body(file.mesh);
+  stop_if_cancelled(context);
   tell_repairs(path, repaired.report, context);
   physics::TriangleMesh triangles = bridge::to_triangle_mesh(repaired);
   if (!has_volume(triangles))
     throw geometry::ContentError(path +
                                  ": encloses no volume, so nothing can be inside or outside of it; a "
                                  "body is a closed surface");
+  stop_if_cancelled(context);
   return triangles;
 }
 

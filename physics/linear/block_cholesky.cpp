@@ -2,11 +2,14 @@
 #include "physics/linear/block_cholesky.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstring>
 #include <vector>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/lanes.h"
+#include "physics/base/progress.h"
 #include "physics/linear/dense_front.h"
 #include "physics/linear/front_tree.h"
 
@@ -14,6 +17,7 @@ namespace furrow::physics {
 namespace {
 
 constexpr double least_shared = 5e4;  // numbers to move that are worth waking threads
+constexpr double asked_after = 1e6;   // multiplications: a fraction of a millisecond
 
 /// Rows of a front's update.
 int rest_of(const FrontTree::Front& f) { return 3 * int(f.rows.size()); }
@@ -60,6 +64,26 @@ FURROW_VECTOR_CLONES void extend_add(const ExtendAdd& e) {
     }
   }
 }
+
+/// Whether a factorisation is cancelled. The thread that called asks, the others learn of it.
+class Breaker {
+ public:
+  /// After each front, in any thread; 0 is the one that called. Throws Cancelled in that one.
+  void done(const FrontTree::Front& f, int thread) {
+    if (thread != 0) return;
+    const double width = 3.0 * f.width, height = width + rest_of(f);
+    work_ += width * height * height;
+    if (work_ < asked_after) return;
+    work_ = 0;
+    stopped_ = is_cancelled();
+    if (stopped_) throw Cancelled("factorisation: cancelled");
+  }
+  bool stopped() const { return stopped_; }
+
+ private:
+  double work_ = 0;  // since it was asked
+  std::atomic<bool> stopped_ = false;
+};
 
 }  // namespace
 
@@ -208,11 +232,16 @@ bool BlockCholesky::Factors::factorise(const Sparse& lower, double shift, Thread
   }
   const Values values{lower.valuePtr(), shift};
   std::vector<char> good(division_.branches.size(), true);
+  Breaker breaker;
+  const auto eliminated = [&](int front, int thread, ThreadPool* sharing) {
+    const bool definite = eliminate(front, values, stacks_[std::size_t(thread)], sharing);
+    breaker.done(tree_.fronts[std::size_t(front)], thread);
+    return definite;
+  };
   const auto work = [&](int branch, int thread) {
     const auto [begin, end] = division_.branches[std::size_t(branch)];
     bool all = true;
-    for (int i = begin; i < end && all; ++i)
-      all = eliminate(i, values, stacks_[std::size_t(thread)], nullptr);
+    for (int i = begin; i < end && all && !breaker.stopped(); ++i) all = eliminated(i, thread, nullptr);
     good[std::size_t(branch)] = all;
   };
   if (pool)
@@ -221,7 +250,7 @@ bool BlockCholesky::Factors::factorise(const Sparse& lower, double shift, Thread
     for (std::size_t i = 0; i < good.size(); ++i) work(int(i), 0);
   return std::all_of(good.begin(), good.end(), [](char g) { return g != 0; }) &&
          std::all_of(division_.trunk.begin(), division_.trunk.end(),
-                     [&](int i) { return eliminate(i, values, stacks_[0], pool); });
+                     [&](int i) { return eliminated(i, 0, pool); });
 }
 
 /// What a front's rows lose goes up the tree from front to front: a branch writes nothing beyond itself.

@@ -21,10 +21,12 @@ class BlockCholesky {
   BlockCholesky(BlockCholesky&&) noexcept;
   BlockCholesky& operator=(BlockCholesky&&) noexcept;
 
-  /// Finds order and fronts. Cost: two to four factorisations; the order takes most of it.
+  /// Finds order and fronts. Cost: two to four factorisations; the order takes most of it, and
+  /// cannot be broken off.
   void analyse(const Sparse& lower);
   /// Factorises matrix + shift I; false if it is not positive definite or not finite. Needs the pattern of
-  /// analyse(). pool: threads that share the work (null: the caller alone).
+  /// analyse(). pool: threads that share the work (null: the caller alone). Asks between fronts whether it is
+  /// cancelled (cancel_scope.h): then it throws Cancelled, and there are no factors until the next call.
   bool factorise(const Sparse& lower, double shift, ThreadPool* pool = nullptr);
   /// b becomes the solution. Needs factorise() true. Cost: reads the factor twice.
   void solve(Eigen::VectorXd& b, ThreadPool* pool = nullptr) const;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/base/cancel_scope.h"
+#include "physics/base/progress.h"
 #include "physics/base/require.h"
 #include "physics/cloth/elements.h"
 #include "physics/packed/dashpots.h"
@@ -65,7 +67,6 @@ void BackwardEuler::find_places() {
   for (int i = 0; i < cloth.springs(); ++i) off_diagonal_.push_back(system_.place(cloth.a[i], cloth.b[i]));
   add_stiffness(cloth.shell, positions(cloth), Stiffness::positive_part,
                 [&](int i, int j, const Mat3&) { shell_.push_back(i >= j ? system_.place(i, j) : Place{}); });
-  factors_.analyse(system_.lower());
 }
 
 void BackwardEuler::find_directions() {
@@ -130,6 +131,9 @@ void BackwardEuler::assemble(double dt, bool first) {
 }
 
 bool BackwardEuler::solve() {
+  if (!analysed_) factors_.analyse(system_.lower());
+  analysed_ = true;
+  throw_if_cancelled("backward Euler");
   WorkCounts& work = motion_.work();
   ++work.factorisations;
   if (!factors_.factorise(system_.lower(), 0, &motion_.pool())) return false;
@@ -200,6 +204,16 @@ void BackwardEuler::improve(double dt) {
 
 void BackwardEuler::step(double dt) {
   require("backward Euler", "dt", std::min(dt, 1e300), dt > 0, "> 0");
+  try {
+    take_step(dt);
+  } catch (const Cancelled&) {
+    motion_.cloth().x = x_;
+    motion_.cloth().v = v_;
+    throw;
+  }
+}
+
+void BackwardEuler::take_step(double dt) {
   PackedCloth& cloth = motion_.cloth();
   x_ = cloth.x;
   v_ = cloth.v;

@@ -27,6 +27,7 @@ class BackwardEuler : public Stepper {
  private:
   using Place = BlockMatrix::Place;
   void find_places();
+  void take_step(double dt);
   void find_directions();
   void assemble(double dt, bool first);
   void add_springs(double dt, bool first);
@@ -41,6 +42,7 @@ class BackwardEuler : public Stepper {
   std::vector<double> dashpots_;
   BlockMatrix system_;
   BlockCholesky factors_;
+  bool analysed_ = false;
   std::vector<Place> diagonal_, off_diagonal_;  // of particles' and springs' blocks
   std::vector<Place> shell_;              // of the blocks of membrane, tension and hinges, in their sequence
   std::vector<Vec3> direction_;           // of each spring at x [-]

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <memory>
 
+#include "physics/base/progress.h"
 #include "physics/base/require.h"
 #include "physics/contact/animated_contact.h"
 #include "physics/contact/rigid_contact.h"
@@ -67,6 +68,7 @@ class Simulation {
   void recall();
   void remember();
   bool observe(const Observer& observer, const SimulateReport& report);
+  bool make_step(double to);
 
   Cloth& cloth_;
   const World& world_;
@@ -81,6 +83,7 @@ class Simulation {
   std::optional<Motion> motion_;
   std::unique_ptr<Stepper> stepper_;
   std::optional<StepLength> length_;
+  double travel_;  // of an animated body until the last whole step [m]
 };
 
 Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& options, SimulateState& state)
@@ -89,7 +92,8 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
       options_(options),
       state_(state),
       pool_(options.threads),
-      contact_options_{options.friction, options.contact_gap, options.recovery_speed} {
+      contact_options_{options.friction, options.contact_gap, options.recovery_speed},
+      travel_(state.body_travel) {
   if (world.collider && world.animated) refuse("simulate", "a rigid and an animated body at once");
   check(world.wind);
   check(world.body_motion);
@@ -146,7 +150,7 @@ void Simulation::remember() {
   }
   if (share_left(state_.compensation, state_.time) == 0) state_.compensation.force.clear();
   if (world_.animated) {
-    state_.body_travel = static_cast<AnimatedContact&>(*contact_).travel();
+    state_.body_travel = travel_;
     state_.totals.frames_built += world_.animated->frames_built() - frames_before_;
     state_.totals.frame_seconds += world_.animated->build_seconds() - frame_seconds_before_;
   }
@@ -176,8 +180,10 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
     const double to = last ? s.end : s.time + s.dt;
     report.dt = s.dt;
     s.totals.dt_smallest = std::min(s.totals.dt_smallest, s.dt);
-    motion_->begin_step(s.time, to);
-    stepper_->step(s.dt);
+    if (!make_step(to)) {
+      report.outcome = Outcome::stopped_by_observer;
+      return;
+    }
     ++s.step;
     s.time = to;
 
@@ -194,6 +200,24 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
       return;
     }
   }
+}
+
+/// false: the step was cancelled, and all is as it was before it.
+bool Simulation::make_step(double to) {
+  const WorkCounts work = motion_->work();
+  const bool may_break = leader_ && options_.integrator == Integrator::backward_euler;
+  const auto v = may_break ? motion_->cloth().v : decltype(motion_->cloth().v){};
+  motion_->begin_step(state_.time, to);
+  try {
+    stepper_->step(state_.dt);
+  } catch (const Cancelled&) {
+    if (may_break) motion_->cloth().v = v;
+    if (world_.animated) world_.animated->prepare(state_.time, state_.time);
+    motion_->work() = state_.step > 0 ? work : WorkCounts{};  // the next call counts the beginning, too
+    return false;
+  }
+  if (world_.animated) travel_ = static_cast<AnimatedContact&>(*contact_).travel();
+  return true;
 }
 
 bool Simulation::observe(const Observer& observer, const SimulateReport& report) {

@@ -12,7 +12,8 @@ namespace furrow::physics {
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  /// One step of dt seconds. Throws std::invalid_argument, nothing changed, if dt is not > 0.
+  /// One step of dt seconds. Throws std::invalid_argument, nothing changed, if dt is not > 0; Cancelled, with
+  /// positions and velocities as they were, if it was cancelled on the way (cancel_scope.h).
   virtual void step(double dt) = 0;
 };
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "physics/base/cancel_scope.h"
+
 namespace furrow::physics {
 namespace {
 
@@ -104,6 +106,7 @@ class Newton {
     const double enough = state.pull > 0 ? 1e-8 : options_.tolerance;
     Balance& balance = best.balance;
     for (int i = 0; i < steps && state.slack > enough && balance.iterations < options_.max_iterations; ++i) {
+      throw_if_cancelled("prestress");
       ++balance.iterations;
       balance.factorisations += factorise(state) ? 1 : 0;
       std::optional<State> next = step(state);
@@ -138,6 +141,7 @@ class Newton {
     for (std::size_t i = 0; i < move.size(); ++i) slope -= from.slope[i].dot(move[i]);
     const double noise = 1e-13 * std::abs(from.potential);
     for (double share = 1; share > 1e-6; share *= 0.5) {
+      throw_if_cancelled("prestress");
       Forces w = from.w;
       for (std::size_t i = 0; i < w.size(); ++i) w[i] += share * move[i];
       State next = at(std::move(w), from.pull);

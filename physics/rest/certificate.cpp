@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/check_particles.h"
 #include "physics/base/require.h"
 #include "physics/cloth/elements.h"
@@ -140,6 +141,7 @@ class Certifier {
       return Vec3(root[i] * q.segment<3>(Eigen::Index(3 * i)));
     };
     const LinearOperator inverse = [&](const Eigen::VectorXd& q, Eigen::VectorXd& product) {
+      throw_if_cancelled("certify");
       for (std::size_t i = 0; i < u.size(); ++i) u[i] = scaled(q, i);
       stiffness_.solve(u);
       for (std::size_t i = 0; i < u.size(); ++i) product.segment<3>(Eigen::Index(3 * i)) = root[i] * u[i];

@@ -6,7 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/check_particles.h"
+#include "physics/base/progress.h"
 #include "physics/base/require.h"
 #include "physics/base/vector_sums.h"
 #include "physics/cloth/element_forces.h"
@@ -119,16 +121,18 @@ class Settler {
       report.residual = residual_of(here.force, p_, o_.gravity, collider_, o_.friction, o_.gap);
       const bool rests = report.residual <= o_.tolerance;
       report.converged = rests && !(contact_ && contact_->deepest() > o_.contact_depth);
-      report.stopped = observer && !observer({report.iterations, report.residual});
+      report.stopped = (observer && !observer({report.iterations, report.residual})) || is_cancelled();
       if (report.converged || report.stopped || report.iterations == o_.max_iterations) break;
       if (rests) {
         here = stiffen();
         pace.tau = first_time;
       } else {
-        const Step done = step(pace, here, report.residual < far_from_rest);
-        pace = done.next;
-        report.factorisations += done.factorisations;
-        report.followers += done.followers;
+        const std::optional<Step> done = try_step(pace, here, report.residual < far_from_rest);
+        report.stopped = !done;
+        if (!done) break;
+        pace = done->next;
+        report.factorisations += done->factorisations;
+        report.followers += done->followers;
       }
     }
     if (contact_) {
@@ -177,6 +181,7 @@ class Settler {
   Factors factorise(const Pace& pace) {
     double clamp = pace.clamp;
     for (int tries = 1;; ++tries) {
+      throw_if_cancelled("settle");
       stiffness_.assemble(cloth_, p_.x, {clamp}, &pool_);
       if (contact_) contact_->add_stiffness(stiffness_);
       for (std::size_t i = 0; i < p_.size(); ++i)
@@ -215,6 +220,13 @@ class Settler {
     here = std::move(trial.answer);
   }
 
+  /// As step(); nothing, with the particles as they were, if it was cancelled in a factorisation.
+  std::optional<Step> try_step(const Pace& pace, Answer& here, bool near) try {
+    return step(pace, here, near);
+  } catch (const Cancelled&) {
+    return std::nullopt;
+  }
+
   /// One Newton step and, near rest, those that follow it with its factors. The particles move, and `here`
   /// becomes what is answered there.
   Step step(const Pace& pace, Answer& here, bool near) {
@@ -250,7 +262,7 @@ class Settler {
       Move move = find_move(inverse, net);
       const double fall = dot(net, move.way);
       most = std::max(most, fall);
-      if (fall < follow_until * most) return k;
+      if (fall < follow_until * most || is_cancelled()) return k;
       Trial trial = search(here, net, move);
       if (trial.share == 0) return k;
       for (Vec3& m : move.way) m *= trial.share;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
+  base/cancel_scope_test.cpp
   base/require_test.cpp
   base/thread_pool_test.cpp
   cloth/element_forces_test.cpp

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "physics/base/cancel_scope.h"
+#include "physics/base/progress.h"
 #include "tests/physics/cloth/test_cloths.h"
 
 using namespace furrow::physics;
@@ -114,4 +116,40 @@ TEST_CASE(
   REQUIRE(other.factorise(2 * sparse, 0));
   other.solve(y);
   CHECK(x == y);
+}
+
+TEST_CASE("block_cholesky: it throws where it is cancelled, and the next call has the bits of a fresh one") {
+  const Eigen::MatrixXd a = symmetric(22, 22, 40);
+  const BlockCholesky::Sparse sparse = lower(a);
+  BlockCholesky fresh;
+  fresh.analyse(sparse);
+  REQUIRE(fresh.factorise(sparse, 0));
+  Eigen::VectorXd expected = some_vector(a.rows());
+  fresh.solve(expected);
+  for (const int threads : {1, 2}) {
+    CAPTURE(threads);
+    ThreadPool pool(threads);
+    BlockCholesky factor;
+    factor.analyse(sparse);
+    const auto questions_until = [&](int last) {
+      int asked = 0;
+      const CancelScope scope([&] { return ++asked >= last; });
+      try {
+        factor.factorise(2 * sparse, 1, &pool);
+      } catch (const Cancelled&) {
+        CHECK(asked == last);
+      }
+      return asked;
+    };
+    CHECK(questions_until(1000000) >= (threads == 1 ? 4 : 1));
+    for (const int last : {1, 2, 3}) {
+      const int asked =
+          questions_until(last);  // two threads share the work as it comes, and one of them asks
+      CHECK((asked == last || (threads == 2 && last > 1 && asked < last)));
+      REQUIRE(factor.factorise(sparse, 0, &pool));
+      Eigen::VectorXd x = some_vector(a.rows());
+      factor.solve(x, &pool);
+      CHECK(x == expected);
+    }
+  }
 }

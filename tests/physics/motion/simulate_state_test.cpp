@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/cloth/pins.h"
 #include "physics/motion/simulate.h"
 #include "tests/physics/body/test_bodies.h"
@@ -132,6 +133,34 @@ TEST_CASE(
   }
   parts.options.stop_at.reset();
   check_same(whole, one, parts, simulate(parts.cloth, parts.world, parts.options, &parts.state));
+}
+
+TEST_CASE("simulate: a step that is cancelled is none, and going on gives the bits of a run that was not") {
+  const Sphere ball(Vec3::Zero(), 0.2);
+  Scene whole = busy_scene(ball);
+  whole.options.integrator = Integrator::backward_euler;
+  whole.options.backward_euler.newton_iterations = 4;
+  whole.options.seconds = 0.1;
+  Scene parts = whole;
+  const SimulateReport one = simulate(whole.cloth, whole.world, whole.options, &whole.state);
+  REQUIRE(one.outcome == Outcome::finished);
+  SimulateReport part;
+  int stops = 0, within = 0;
+  do {
+    const Cloth before = parts.cloth;
+    const std::int64_t steps = parts.state.step;
+    int questions = 0;
+    parts.options.threads = 1 + stops % 2;
+    const CancelScope scope([&] { return ++questions >= 50 + 7 * (stops % 9); });
+    part = simulate(parts.cloth, parts.world, parts.options, &parts.state);
+    if (part.outcome == Outcome::finished) break;
+    CHECK(part.outcome == Outcome::stopped_by_observer);
+    within += parts.state.step == steps;
+    if (parts.state.step == steps) CHECK(parts.cloth.particles.v == before.particles.v);
+  } while (++stops < 100);
+  CHECK(stops > 3);
+  CHECK(stops < 100);
+  check_same(whole, one, parts, part);
 }
 
 TEST_CASE("simulate: a later end divides the rest anew and is hit exactly") {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/cloth/elastic_band.h"
 #include "physics/cloth/elements.h"
 #include "physics/contact/residual_force.h"
@@ -161,6 +162,31 @@ TEST_CASE("settle: the observer stops it, and options out of range change nothin
   CHECK_THROWS_WITH(settle(cloth, nullptr, {}), Catch::Contains("position"));
   cloth.particles.x[3] = before[3];
   CHECK(cloth.particles.x == before);
+}
+
+TEST_CASE(
+    "settle: cancelled within an iteration it stays where the last move led, and goes on to rest from "
+    "there") {
+  const Sphere ball(Vec3(0, -0.1, 0), 0.097);
+  const Cloth start = membrane_sheet(8);
+  Cloth cloth = start;
+  const SettleReport whole = settle(cloth, &ball, {.tolerance = 1e-6});
+  REQUIRE(whole.converged);
+  for (const int at : {1, 2, 3, 5, 12}) {
+    CAPTURE(at);
+    Cloth stopped = start;
+    int questions = 0;
+    const SettleReport report = [&] {
+      const CancelScope scope([&] { return ++questions >= at; });
+      return settle(stopped, &ball, {.tolerance = 1e-6});
+    }();
+    CHECK(report.stopped);
+    CHECK_FALSE(report.converged);
+    CHECK(questions <= at + 1);  // a move that follows another is broken off, then the search
+    CHECK(report.iterations < whole.iterations);
+    if (at <= 2) CHECK(stopped.particles.x == start.particles.x);  // 2: within the first factorisation
+    CHECK(settle(stopped, &ball, {.tolerance = 1e-6}).converged);
+  }
 }
 
 TEST_CASE("elastic_band: a ring of particles contracts to the band's length") {
