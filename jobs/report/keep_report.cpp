@@ -112,6 +112,7 @@ Json to_json(const KeepReport& report) {
   Json json{{"lines", lines}};
   json.update(to_json(r.rest, r.certificate));
   json.update({{"drift", r.drift}, {"trials", r.trials}, {"runs", r.runs}});
+  json["crossings"] = jobs::to_json(report.crossings);
   if (r.rest_press > 1)
     json["rest_of_garment"] = {{"press", r.rest_press},
                                {"words", fmt::format("pressed x{:g} between the lines", r.rest_press)}};

@@ -2,6 +2,7 @@
 furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   run_furrow.h
   run_furrow.cpp
+  strict_json_test.cpp
   usage_test.cpp
   pipeline_test.cpp
   resume_test.cpp
