@@ -183,7 +183,7 @@ void add_drape(CLI::App& app, int& exit_code) {
   CLI::App* sub = app.add_subcommand(
       "drape",
       "Put a finished garment on a body: how it comes to rest, and how it fits\n\n"
-      "  furrow drape shirt.obj --body body.obj --subdivide 1 -o worn.ply --picture fit.png\n"
+      "  furrow drape shirt.obj --body body.obj -o worn.ply --picture fit.png\n"
       "  furrow drape skirt.obj --body body.obj --fabric silk --band top=0.95 -o worn.ply\n"
       "  furrow drape shirt.obj --body body.obj --compare cotton,silk,denim --picture fabrics.png");
   sub->add_option("garment", a->in,

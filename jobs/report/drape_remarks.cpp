@@ -21,6 +21,7 @@ std::string words_of_piercing(const bridge::FitReport& fit) {
 
 /// What the body does to the cloth that has come to rest on it.
 void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (d.is_torn() && !d.is_pierced()) return;  // no refinement helps
   const bridge::FitReport& fit = d.fit;
   const auto faces = fit.piercing.faces;
   const std::string through = words_of_piercing(fit);

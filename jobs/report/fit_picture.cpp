@@ -43,6 +43,10 @@ std::string fit_words(const bridge::FitReport& report, const bridge::FitOptions&
             format("%.3g %%", 100 * options.tight_strain);
   else
     words = format("half of the cloth nearer than %.0f mm", 1000 * report.distance.median);
+  if (report.piercing.faces)
+    words += "; the body comes through " + std::to_string(report.piercing.faces) +
+             (report.piercing.faces == 1 ? " face" : " faces") +
+             format(" by %.1f mm", 1000 * report.distance.deepest_penetration);
   std::string rooms;
   for (const bridge::FitEase& e : report.ease)
     if (e.ease)
