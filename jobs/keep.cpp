@@ -187,6 +187,12 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   bridge::store_rest_state(garment.cloth, spring_options(garment.file, scene.material), garment.file.mesh);
   write_outputs(open, garment, std::move(state), context);
   report.warnings = idle_presses(scene.material, report.record);
+  for (const physics::RigidImbalance& i : report.lines.rest.imbalance)
+    report.warnings.push_back({"shape_unbalanced",
+                               words(i) +
+                                   "; let the garment come to rest where it lies (furrow drape) before "
+                                   "lines are drawn on it, or pin it",
+                               scene.garment.string(), "pins"});
   report.crossings = measure_crossings(garment.file, &crossed);
   if (report.crossings.pairs)
     report.warnings.push_back({"cloth_crosses", words(report.crossings), report.mesh.string(), ""});

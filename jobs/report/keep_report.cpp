@@ -41,7 +41,13 @@ std::string help_of(const KeptLine& line) {
 
 Json to_json(const KeptLine& line, const io::WrinkleRecord& record) {
   Json json{{"id", line.line}};
-  if (std::size_t(line.line) < record.lines.size()) json["name"] = record.lines[line.line].name;
+  if (std::size_t(line.line) < record.lines.size()) {
+    const io::WrinkleRecord::Line& drawn = record.lines[line.line];
+    json.update({{"name", drawn.name},
+                 {"asked", share(drawn.height)},
+                 {"drawn", share(drawn.drawn_height)},
+                 {"smoothed", share(drawn.smoothed_height)}});
+  }
   json.update({{"verdict", name_of(line.verdict)},
                {"height", share(line.height)},
                {"kept", share(line.kept)},
