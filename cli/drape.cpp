@@ -20,7 +20,7 @@ namespace {
 struct DrapeArguments : CommonArguments {
   std::string in, picture, colour = "strain", animation;
   std::optional<std::string> compare;
-  std::optional<int> subdivide;
+  std::string subdivide;
   DrapeSettings settings;
   std::vector<std::string> bands;
   SceneFlags flags;
@@ -93,7 +93,11 @@ DrapeJob job_of(const DrapeArguments& a) {
   job.settings = a.settings;
   job.settings.bands = parse_bands(a.bands);
   job.settings.animation = a.animation;
-  job.subdivide = a.subdivide;
+  if (a.subdivide == "auto") {
+    if (auto& root = job.scene.settings.root; root.contains("garment")) root["garment"].erase("subdivide");
+  } else if (!a.subdivide.empty()) {
+    job.subdivide = std::stoi(a.subdivide);
+  }
   if (a.compare) job.fabrics = parse_fabrics(*a.compare);
   job.output = a.out;
   job.more_outputs = {a.picture, a.camera.save_camera};
@@ -115,7 +119,9 @@ void write_picture(DrapeJobReport& report, const DrapeArguments& a, const Common
     const std::string outcome = d.outcome();
     panels.push_back({&d.file.mesh, &body.mesh,
                       d.name + (outcome == "at rest" ? "" : " (" + outcome + ")") +
-                          (all.size() > 1 ? "\n" : ": ") + fit_words(d.fit, d.fit_options, colour)});
+                          (all.size() > 1 ? "\n" : ": ") + fit_words(d.fit, d.fit_options, colour) +
+                          crossing_words(d.crossings),
+                      d.crossings.faces});
   }
   const std::vector<io::RenderScene> scenes = fit_scenes(panels);
   Terminal terminal(common);
@@ -185,7 +191,7 @@ void add_drape(CLI::App& app, int& exit_code) {
   CLI::App* sub = app.add_subcommand(
       "drape",
       "Put a finished garment on a body: how it comes to rest, and how it fits\n\n"
-      "  furrow drape shirt.obj --body body.obj --subdivide 1 -o worn.ply --picture fit.png\n"
+      "  furrow drape shirt.obj --body body.obj -o worn.ply --picture fit.png\n"
       "  furrow drape skirt.obj --body body.obj --fabric silk --band top=0.95 -o worn.ply\n"
       "  furrow drape shirt.obj --body body.obj --compare cotton,silk,denim --picture fabrics.png");
   sub->add_option("garment", a->in,
@@ -193,9 +199,12 @@ void add_drape(CLI::App& app, int& exit_code) {
       ->required();
   sub->add_option("-o,--output", a->out,
                   "mesh to write: the garment as it is worn; PLY keeps strain and distance");
-  sub->add_option("--subdivide", a->subdivide,
-                  "refine the garment so many times (Loop); its shape is found coarse to fine")
-      ->check(CLI::Range(0, 6));
+  sub->add_option(
+         "--subdivide", a->subdivide,
+         "refine the garment so many times (Loop), 0 to 6; its shape is found coarse to fine. auto (the "
+         "default): as often as its edges need to keep the gap, up to some 60,000 vertices; 0 for a "
+         "garment with a rest state of its own")
+      ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4", "5", "6"}));
   sub->add_option("--picture", a->picture, "PNG to write: the garment on the body, coloured, with a legend");
   sub->add_option("--colour", a->colour, "of the picture: strain (default) or distance")
       ->check(CLI::IsMember({"strain", "distance"}));

@@ -72,10 +72,11 @@ void write_picture(const FitJobReport& report, const FitArguments& a, const Comm
   std::vector<FitPanel> panels;
   for (std::size_t i = 0; i < report.garments.size(); ++i) {
     const FittedGarment& fitted = report.garments[i];
-    panels.push_back({&fitted.garment.mesh, &bodies[bodies.size() > 1 ? i : 0],
-                      (i < captions.size() ? captions[i] : fitted.name) +
-                          (report.garments.size() > 1 ? "\n" : ": ") +
-                          fit_words(fitted.report, a.options, report.shown)});
+    panels.push_back(
+        {&fitted.garment.mesh, &bodies[bodies.size() > 1 ? i : 0],
+         (i < captions.size() ? captions[i] : fitted.name) + (report.garments.size() > 1 ? "\n" : ": ") +
+             fit_words(fitted.report, a.options, report.shown) + crossing_words(fitted.crossings),
+         fitted.crossings.faces});
   }
   const std::vector<io::RenderScene> scenes = fit_scenes(panels);
   Terminal terminal(a);

@@ -7,6 +7,7 @@
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
+#include "io/picture/render_scene.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/verdict_scene.h"
 
@@ -51,7 +52,8 @@ int keep(const KeepArguments& a) {
   common.up = report.frame.up;
   if (report.mesh == "-") write_mesh("-", report.garment, common);
   if (!a.picture.empty()) {
-    const std::vector<io::RenderScene> scenes{verdict_scene(report.garment.mesh, report.lines)};
+    std::vector<io::RenderScene> scenes{verdict_scene(report.garment.mesh, report.lines)};
+    io::mark_faces(scenes[0].meshes[0], report.crossings.faces);
     const io::RenderOptions options = render_options(scenes, a.camera);
     io::write_png(a.picture, io::render(scenes[0], options));
     save_camera(options, a.camera);
@@ -92,7 +94,7 @@ void add_keep(CLI::App& app, int& exit_code) {
   sub->add_option(
       "--picture", a->picture,
       "picture of the garment, lines coloured by verdict: green held, yellow pressed, orange struts, blue "
-      "lower, red cannot hold");
+      "lower, red cannot hold; faces that cross are magenta");
   a->flags.add_to(*sub, io::used_by::keep);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);

@@ -75,8 +75,8 @@ int simulate(const SimulateArguments& a) {
   print(report, a);
   for (const Warning& w : report.warnings) terminal.warn(w);
   if (!report.failure.empty()) std::cerr << "error: " << report.failure << "\n";
-  if (!report.failure.empty()) return exit_not_converged;
-  return report.run.outcome == physics::Outcome::stopped_by_observer ? exit_interrupted : exit_ok;
+  for (const Fault& fault : report.faults) std::cerr << "error: " << fault.told.text << "\n";
+  return exit_code_of(report.run.outcome == physics::Outcome::stopped_by_observer, !report.fails());
 }
 
 }  // namespace

@@ -107,8 +107,7 @@ std::vector<io::Scene> scenes_of(const DrapeJob& job, const OpenScene& open) {
 }  // namespace
 
 bool DrapeJobReport::fails() const {
-  return std::any_of(garments.begin(), garments.end(),
-                     [](const Draped& d) { return !d.rests() || d.is_pierced(); });
+  return std::any_of(garments.begin(), garments.end(), [](const Draped& d) { return !d.succeeds(); });
 }
 
 DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
@@ -118,12 +117,15 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   const std::vector<io::Scene> scenes = scenes_of(job, open);
   const Context context{open.frame, listener, &job.scene.memory};
   const BodyCollider body = load_body(*open.scene.body, context);
+  const bool choose =
+      !job.subdivide && !open.document.root.value("garment", Json::object()).contains("subdivide");
   DrapeJobReport report{{}, {}, scenes[0], open.frame};
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    report.garments.push_back(drape_garment(scenes[i], body, job.settings, context));
+    report.garments.push_back(drape_garment(scenes[i], body, job.settings, choose, context));
     Draped& draped = report.garments.back();
     draped.name = job.fabrics.empty() ? open.scene.garment.stem().string() : job.fabrics[i];
     draped.penetration = job.settings.penetration;
+    draped.allowed_crossings = std::size_t(open.scene.allow_crossings);
     if (draped.report.stopped) break;
   }
   if (job.fabrics.size() < 2) note_material(report.garments[0].file, open.document, report.garments[0].gap);

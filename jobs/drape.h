@@ -7,7 +7,7 @@
 
 #include "bridge/drape.h"
 #include "bridge/fit_report.h"
-#include "jobs/inputs.h"
+#include "jobs/crossings.h"
 
 namespace furrow::jobs {
 
@@ -34,7 +34,8 @@ struct DrapeSettings {
 struct DrapeJob {
   SceneInput scene;
   DrapeSettings settings = {};
-  std::optional<int> subdivide;           ///< refinements (Loop), in [0, 6]; none: the scene's
+  /// Refinements (Loop), in [0, 6]; none: the scene's, and if it says none, as many as the gap needs.
+  std::optional<int> subdivide;
   std::vector<std::string> fabrics = {};  ///< the same garment in each; none: in the scene's, else what its
                                           ///< file notes, else cotton
   std::filesystem::path output;           ///< mesh of a single fabric; empty or "-": not written
@@ -48,19 +49,36 @@ struct Draped {
   bridge::DrapeReport report;
   bridge::FitReport fit;
   bridge::FitOptions fit_options;
+  int refinements = 0;      ///< Loop subdivisions of the garment as it was given
   double gap = 0;           ///< that was to be kept from the body [m]
+  double wanted_gap = 0;    ///< that was asked for [m]
   std::size_t too_near = 0; /**< vertices that keep less than nine tenths of a gap that was not raised, by
                                  more than the field's tolerance */
   bool falls = false;       ///< nothing carries it: its forces balance at no time
-  bool animated = false;    ///< the animation was written
-  double seconds = 0;       ///< that the fit took, without reading and the body's field [s]
-  std::string name;         ///< of the garment, or of the fabric
-  double penetration = 0;   ///< depth to which the body may come through the cloth [m]
+  bool broken = false;      ///< its numbers are beyond what can be computed with
+  std::size_t parts = 1;    ///< pieces that it consists of
+  std::vector<std::string> loose = {};  ///< names of those that nothing holds; they stay where they lay
+  bool animated = false;                ///< the animation was written
+  double seconds = 0;                   ///< that the fit took, without reading and the body's field [s]
+  std::string name;                     ///< of the garment, or of the fabric
+  double penetration = 0;               ///< depth to which the body may come through the cloth [m]
+  ClothCrossings crossings;             ///< of the cloth with itself, as it was given and now
+  std::size_t allowed_crossings = 0;    ///< pairs that may be left
 
-  bool rests() const { return report.levels.back().settle.converged && !falls; }
+  bool rests() const { return report.levels.back().settle.converged && !falls && !broken; }
+  /// Whether more than a hundredth of the cloth is strained to over twice its length, or by no number.
+  bool is_torn() const { return fit.strain && !(fit.strain->p99 <= 1); }
+  /// Whether it keeps half as much again as the gap that was asked for, or more.
+  bool floats() const { return gap > 1.5 * wanted_gap; }
   /// Whether the body comes through the cloth by more than was allowed.
   bool is_pierced() const { return fit.distance.deepest_penetration > penetration; }
-  /// "at rest", "not at rest", "falls" or "interrupted", and whether it is pierced.
+  /// Whether the cloth passes through itself more often than was allowed.
+  bool crosses_itself() const { return crossings.pairs > allowed_crossings; }
+  /// Whether it is whole and at rest: not torn, not pierced, not crossing itself, no part loose.
+  bool succeeds() const {
+    return rests() && !is_torn() && !is_pierced() && !crosses_itself() && loose.empty();
+  }
+  /// "at rest", "not at rest", "falls", "torn", "numerical failure" or "interrupted", and what else is wrong.
   std::string outcome() const;
 };
 
@@ -78,7 +96,7 @@ struct DrapeJobReport {
   Frame frame;      ///< of the file written
 
   bool cancelled() const { return garments.back().report.stopped; }
-  bool fails() const;  ///< one does not rest, or is pierced
+  bool fails() const;  ///< one does not succeed
 };
 
 /// Finds how the garment comes to rest on the body (bridge/drape.h), measures how it fits, and writes the

@@ -10,6 +10,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/report/fit_picture.h"
 #include "jobs/run/body.h"
+#include "jobs/run/measure_crossings.h"
 #include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {
@@ -63,13 +64,15 @@ Body read_wearer(const MeshInput& input, const Context& context) {
 FittedGarment measure(const MeshInput& worn, const Body& body, const FitJob& job, const Context& context) {
   const std::string path = name_of(worn, "garment");
   FittedGarment fitted{
-      path, std::filesystem::path(path).stem().string(), read_garment(worn, context), {}, job.options};
+      path, std::filesystem::path(path).stem().string(), read_garment(worn, context), {}, job.options, {}};
   geometry::Mesh& mesh = fitted.garment.mesh;
   if (job.rest) take_rest(mesh, job, context);
   if (mesh.number_of_edges() > 0)
     fitted.options.contact_distance =
         job.contact ? *job.contact : contact_distance(fitted.garment, body.distance);
   fitted.report = bridge::fit_report(mesh, body.triangles, body.distance, fitted.options);
+  fitted.crossings = measure_crossings(fitted.garment);
+  if (fitted.crossings.pairs) context.warn("cloth_crosses", path + ": " + words(fitted.crossings), path);
   if (!fitted.report.strain)
     context.warn("strain_unknown",
                  path +
@@ -179,11 +182,16 @@ Json to_json(const bridge::FitReport& r, const bridge::FitOptions& o) {
 
 Json to_json(const FitJobReport& report) {
   const std::vector<FittedGarment>& all = report.garments;
-  if (all.size() == 1) return to_json(all[0].report, all[0].options);
+  const auto one = [](const FittedGarment& fitted) {
+    Json json = to_json(fitted.report, fitted.options);
+    json["crossings"] = to_json(fitted.crossings);
+    return json;
+  };
+  if (all.size() == 1) return one(all[0]);
   Json garments = Json::array();
   for (const FittedGarment& fitted : all) {
     garments.push_back({{"garment", fitted.path}});
-    garments.back().update(to_json(fitted.report, fitted.options));
+    garments.back().update(one(fitted));
   }
   return {{"garments", garments}};
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bridge/fit_report.h"
-#include "jobs/inputs.h"
+#include "jobs/crossings.h"
 
 namespace furrow::jobs {
 
@@ -34,6 +34,7 @@ struct FittedGarment {
   io::MeshFile garment;    ///< coloured, with the columns fit_distance [m] and strain [-]
   bridge::FitReport report;
   bridge::FitOptions options;
+  ClothCrossings crossings;  ///< of the cloth with itself
 };
 
 /// What jobs::fit() found.

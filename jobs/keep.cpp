@@ -8,6 +8,7 @@
 #include "io/scene/relocated.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/keep_at_rest.h"
+#include "jobs/run/measure_crossings.h"
 #include "jobs/run/observation.h"
 #include "jobs/run/output_checks.h"
 #include "jobs/run/prepare_garment.h"
@@ -183,12 +184,22 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   report.frame = open.frame;
   report.mesh = scene.output.mesh;
   report.record = *io::find_wrinkle_record(garment.file);
+  const CrossedStart crossed = crossed_start(garment.file.mesh);
   report.lines = find_rest(job, scene, garment, report.record, context);
   note_presses(report.lines, report.record, garment.file);
   physics::soften_clamps(garment.cloth);
   bridge::store_rest_state(garment.cloth, spring_options(garment.file, scene.material), garment.file.mesh);
   write_outputs(open, garment, std::move(state), context);
   report.warnings = idle_presses(scene.material, report.record);
+  for (const physics::RigidImbalance& i : report.lines.rest.imbalance)
+    report.warnings.push_back({"shape_unbalanced",
+                               words(i) +
+                                   "; let the garment come to rest where it lies (furrow drape) before "
+                                   "lines are drawn on it, or pin it",
+                               scene.garment.string(), "pins"});
+  report.crossings = measure_crossings(garment.file, &crossed);
+  if (report.crossings.pairs)
+    report.warnings.push_back({"cloth_crosses", words(report.crossings), report.mesh.string(), ""});
   report.garment = std::move(garment.file);
   return report;
 }

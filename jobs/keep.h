@@ -5,7 +5,7 @@
 #include "bridge/keep.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/state_file.h"
-#include "jobs/inputs.h"
+#include "jobs/crossings.h"
 
 namespace furrow::jobs {
 
@@ -15,6 +15,7 @@ struct KeepReport {
   bridge::KeepReport lines;            ///< verdicts, rest state, certificate
   io::WrinkleRecord record;            ///< of the garment as drawn: names of lines
   io::MeshFile garment;                ///< with its new rest state [m], y up
+  ClothCrossings crossings;            ///< of the cloth with itself
   std::filesystem::path mesh;          ///< the settings' output; "-": not written
   Frame frame;                         ///< of the files written
   std::vector<Warning> warnings = {};  ///< about the result; those on the way went to the listener

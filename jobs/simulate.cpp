@@ -16,6 +16,7 @@
 #include "jobs/run/gate.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
+#include "jobs/run/measure_crossings.h"
 #include "jobs/run/measure_shape.h"
 #include "jobs/run/observation.h"
 #include "jobs/run/pins.h"
@@ -44,6 +45,7 @@ struct Run {
 /// How far it has come.
 struct Reached {
   io::SavedState now;
+  CrossedStart crossed = {};         ///< of the garment as it was given
   std::vector<double> heights = {};  ///< of lines at the start, or when the last ones were drawn [m]
   bool starts = false;               ///< the next stretch is the first: pins are put onto the body
 };
@@ -90,8 +92,9 @@ Reached take_up(Run& run, io::SavedState now) {
   if (run.resumed)
     change_plan(run, now);
   else if (run.body)
-    warn_if_apart(run.scene, *run.body, now.file.mesh, run.context);
+    warn_of_start(run.scene, *run.body, now.file.mesh, run.context);
   Reached reached{std::move(now)};
+  reached.crossed = crossed_start(reached.now.file.mesh);
   reached.heights = line_heights_by_id(reached.now.file);
   run.strokes = read_rounds(run.scene, reached.now.lines_drawn, run.context);
   if (!run.scene.output.animation.empty())
@@ -281,8 +284,10 @@ void write_outputs(const Run& run, io::SavedState& now, AnimationSeries& animati
 }
 
 std::vector<Warning> remarks_on(const Run& run, const physics::SimulateReport& r, const io::MeshFile& file,
-                                std::int64_t steps_before) {
+                                double contact_gap, std::int64_t steps_before) {
   std::vector<Warning> all = oddities_of(run.scene, r);
+  if (run.body && contact_gap > 1.5 * run.scene.simulation.contact_gap)
+    all.push_back(raised_gap(run.scene, file.mesh, contact_gap, run.body->tolerance()));
   const std::vector<Warning> presses = idle_presses(run.scene.material, *io::find_wrinkle_record(file));
   all.insert(all.end(), presses.begin(), presses.end());
   if (run.resumed && r.time >= run.scene.simulation.seconds && r.steps == steps_before)
@@ -301,7 +306,9 @@ void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std
   } else {
     write_outputs(run, now, animations);
     report.shape = measure_shape(now.file, reached.heights, run.body.get(), now.contact_gap, report.run.time);
-    report.warnings = remarks_on(run, report.run, now.file, steps_before);
+    report.shape->crossings = measure_crossings(now.file, &reached.crossed);
+    report.faults = faults_of(run.scene, *report.shape, report.run.strain);
+    report.warnings = remarks_on(run, report.run, now.file, now.contact_gap, steps_before);
     const std::vector<Warning> lost = lost_lines(run.scene, report.shape->lines);
     report.warnings.insert(report.warnings.end(), lost.begin(), lost.end());
     report.garment = std::move(now.file);

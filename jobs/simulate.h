@@ -7,6 +7,7 @@
 
 #include "io/scene/state_file.h"
 #include "jobs/chart.h"
+#include "jobs/crossings.h"
 #include "jobs/inputs.h"
 #include "jobs/wrinkle.h"
 #include "physics/body/exact_distance.h"
@@ -42,17 +43,26 @@ struct LineReport {
 
 /// What the cloth does to the body, and it to the cloth.
 struct ContactReport {
-  double gap = 0;  ///< that was kept [m]
+  double gap = 0;        ///< that was kept [m]
+  double tolerance = 0;  ///< error of the body's field [m]
   physics::Penetration inside;
+  physics::Vec3 deepest_at{0, 0, 0};  ///< of a vertex, where any is inside [m]
 };
 
 /// A garment as a simulation left it.
 struct ReachedShape {
   physics::Vec3 centre{0, 0, 0};         ///< of mass [m]
   std::optional<ContactReport> contact;  ///< none: there is no body
-  std::size_t self_intersections = 0;
-  std::vector<BorderReport> borders;  ///< longest first
+  ClothCrossings crossings;
+  physics::Vec3 strained_most{0, 0, 0};  ///< the middle of the edge that is [m]
+  std::vector<BorderReport> borders;     ///< longest first
   std::vector<LineReport> lines;
+};
+
+/// What is wrong with a shape that was reached: a word for the outcome, and a sentence with the remedy.
+struct Fault {
+  std::string word;  ///< "cloth crosses itself"
+  Warning told;
 };
 
 /// What jobs::simulate() did.
@@ -68,11 +78,16 @@ struct SimulateReport {
   std::vector<AnimationReport> animations;  ///< written
   std::vector<Warning> warnings;            ///< about the result; those on the way went to the listener
   std::string failure;                      ///< of a run that diverged: why, and what helps; else ""
+  std::vector<Fault> faults;                ///< of the shape reached, which make the run no success
   io::MeshFile garment;                     ///< at the end [m], y up; not of a run that diverged
   Frame frame;                              ///< of the files written
   Json settings;                            ///< that were run, paths relative to the working directory
   std::string state;                        ///< that was gone on from: its path, and its settings
   Json settings_before;
+
+  /// "finished", "stopped", "interrupted" or "diverged", and what is wrong with the shape reached.
+  std::string outcome() const;
+  bool fails() const { return !failure.empty() || !faults.empty(); }
 };
 
 /// The report for programs, and what the command line prints. (Its equivalent flags are the command line's.)

@@ -7,6 +7,7 @@
 #include "io/base/bytes_file.h"
 #include "io/mesh/rewrite_obj_vertices.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/measure_crossings.h"
 #include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {
@@ -70,7 +71,10 @@ TransferReport transfer(const TransferJob& job, Listener& listener) {
   io::MeshFile wrinkled = read_mesh(job.wrinkled, context);
   if (job.rest) set_rest_positions(wrinkled.mesh, job, context);
   stop_if_cancelled(context);
+  const CrossedStart crossed = crossed_start(report.result.mesh);
   report.moved = geometry::transfer_shape(report.result.mesh, wrinkled.mesh, job.options);
+  report.crossings = measure_crossings(report.result, &crossed);
+  if (report.crossings.pairs) context.warn("cloth_crosses", words(report.crossings), job.output.string());
   stop_if_cancelled(context);
   report.obj_text = text_as_read(job, report.result, report.frame);
   write(job, report, context);
@@ -80,9 +84,11 @@ TransferReport transfer(const TransferJob& job, Listener& listener) {
 Json to_json(const TransferReport& r) {
   return {{"vertices", r.result.mesh.number_of_vertices()},
           {"copied", r.moved.copied},
+          {"by_index", r.moved.by_index},
           {"interpolated", r.moved.interpolated},
           {"unchanged", r.moved.unchanged},
-          {"max_distance", r.moved.max_distance}};
+          {"max_distance", r.moved.max_distance},
+          {"crossings", to_json(r.crossings)}};
 }
 
 }  // namespace furrow::jobs

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "geometry/refine/transfer_shape.h"
-#include "jobs/inputs.h"
+#include "jobs/crossings.h"
 
 namespace furrow::jobs {
 
@@ -22,6 +22,7 @@ struct TransferJob {
 struct TransferReport {
   geometry::TransferReport moved;
   io::MeshFile result;                  ///< the original in its new shape [m], y up
+  ClothCrossings crossings;             ///< of the cloth with itself
   std::optional<std::string> obj_text;  ///< from OBJ to OBJ: the file's text with other positions
   Frame frame;                          ///< of the file written
 };

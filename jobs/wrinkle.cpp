@@ -13,6 +13,7 @@
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
 #include "jobs/run/max_weights.h"
+#include "jobs/run/measure_crossings.h"
 #include "jobs/run/output_checks.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
@@ -184,6 +185,7 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
   const io::Scene* scene = keep ? &*keep : nullptr;
   Canvas canvas = canvas_of(job, scene, context);
   stop_if_cancelled(context);
+  const CrossedStart crossed = crossed_start(canvas.file.mesh);
   if (job.wants_stages || !job.inserted.empty()) report.stages.emplace();
   report.drawn = draw(job, canvas, scene, report.stages ? &*report.stages : nullptr, context);
   stop_if_cancelled(context);
@@ -192,6 +194,9 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
   if (scene) warn_if_shape_only(job.output, context);
   if (scene && !job.state) note_material(canvas.file, job.keep->settings, 0);
   report.drawn.rest = geometry::audit_rest_metric(canvas.file.mesh);
+  report.crossings = measure_crossings(canvas.file, &crossed);
+  if (report.crossings.pairs)
+    context.warn("cloth_crosses", words(report.crossings), path_of(job.strokes), "lines.height");
   report.garment = std::move(canvas.file);
   if (canvas.state) {
     report.state = std::move(canvas.state);
@@ -202,6 +207,10 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
   return report;
 }
 
-Json to_json(const WrinkleReport& report) { return to_json(report.drawn); }
+Json to_json(const WrinkleReport& report) {
+  Json json = to_json(report.drawn);
+  json["crossings"] = to_json(report.crossings);
+  return json;
+}
 
 }  // namespace furrow::jobs

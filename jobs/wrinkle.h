@@ -12,7 +12,7 @@
 #include "geometry/rest/rest_state.h"
 #include "io/scene/scene.h"
 #include "io/scene/state_file.h"
-#include "jobs/inputs.h"
+#include "jobs/crossings.h"
 
 namespace furrow::jobs {
 
@@ -67,6 +67,7 @@ struct WrinkleReport {
   io::MeshFile garment;                 ///< with its lines [m], y up
   std::optional<io::SavedState> state;  ///< what goes on from there, where a state was drawn into
   std::optional<WrinkleStages> stages;  ///< where they were wanted
+  ClothCrossings crossings;             ///< of the cloth with itself
   Frame frame;                          ///< of the files written
 };
 

@@ -42,17 +42,21 @@ std::vector<int> weld(std::span<const Point> points) {
   return first;
 }
 
-}  // namespace
+/// Triangles with an area, as the predicates take them.
+struct Soup {
+  std::vector<Exact::Triangle_3> shapes;
+  std::vector<std::array<int, 3>> corners;  ///< welded
+  std::vector<std::size_t> names;           ///< indices of the triangles given
+  std::vector<Box> boxes;
+};
 
-std::size_t count_self_intersections(std::span<const Point> points,
-                                     std::span<const std::array<int, 3>> triangles) {
+Soup gather(std::span<const Point> points, std::span<const std::array<int, 3>> triangles) {
   if (!std::all_of(points.begin(), points.end(), is_finite))
     throw ContentError("count_self_intersections: a position is not finite; repair the mesh first");
   const std::vector<int> welded = weld(points);
-  std::vector<Exact::Triangle_3> shapes;
-  std::vector<std::array<int, 3>> corners;
-  std::vector<Box> boxes;
-  for (const std::array<int, 3>& t : triangles) {
+  Soup soup;
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    const std::array<int, 3>& t = triangles[k];
     std::array<Exact::Point_3, 3> p;
     std::array<int, 3> ids;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -63,24 +67,32 @@ std::size_t count_self_intersections(std::span<const Point> points,
       ids[i] = welded[static_cast<std::size_t>(t[i])];
     }
     if (CGAL::collinear(p[0], p[1], p[2])) continue;
-    shapes.emplace_back(p[0], p[1], p[2]);
-    corners.push_back(ids);
-    boxes.emplace_back(shapes.back().bbox(), shapes.size() - 1);
+    soup.shapes.emplace_back(p[0], p[1], p[2]);
+    soup.corners.push_back(ids);
+    soup.names.push_back(k);
+    soup.boxes.emplace_back(soup.shapes.back().bbox(), soup.shapes.size() - 1);
   }
-  std::size_t pairs = 0;
-  double candidates = 0;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-    if (++candidates > most_candidates(triangles.size()))
-      throw ContentError("too many of the faces lie at one place to count those that cross each other");
-    const auto& s = corners[a.info()];
-    const auto& t = corners[b.info()];
-    if (std::find_first_of(s.begin(), s.end(), t.begin(), t.end()) != s.end()) return;
-    pairs += CGAL::do_intersect(shapes[a.info()], shapes[b.info()]);
-  });
-  return pairs;
+  return soup;
 }
 
-std::size_t count_self_intersections(const Mesh& mesh) {
+/// Calls `found` with each pair, as the triangles were numbered.
+template <class Found>
+void for_each_pair(std::span<const Point> points, std::span<const std::array<int, 3>> triangles,
+                   const Found& found) {
+  Soup soup = gather(points, triangles);
+  double candidates = 0;
+  CGAL::box_self_intersection_d(soup.boxes.begin(), soup.boxes.end(), [&](const Box& a, const Box& b) {
+    if (++candidates > most_candidates(triangles.size()))
+      throw ContentError("too many of the faces lie at one place to count those that cross each other");
+    const auto& s = soup.corners[a.info()];
+    const auto& t = soup.corners[b.info()];
+    if (std::find_first_of(s.begin(), s.end(), t.begin(), t.end()) != s.end()) return;
+    if (CGAL::do_intersect(soup.shapes[a.info()], soup.shapes[b.info()]))
+      found(soup.names[a.info()], soup.names[b.info()]);
+  });
+}
+
+std::vector<std::array<int, 3>> triangles_of(const Mesh& mesh) {
   require_finite(mesh, "count_self_intersections");
   require_triangles(mesh, "count_self_intersections");
   std::vector<std::array<int, 3>> triangles;
@@ -90,8 +102,32 @@ std::size_t count_self_intersections(const Mesh& mesh) {
     for (Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
       triangles.back()[i++] = static_cast<int>(v.idx());
   }
-  const std::vector<Point> points(mesh.points().begin(), mesh.points().end());
-  return count_self_intersections(points, triangles);
+  return triangles;
+}
+
+std::vector<Point> points_of(const Mesh& mesh) { return {mesh.points().begin(), mesh.points().end()}; }
+
+}  // namespace
+
+std::size_t count_self_intersections(std::span<const Point> points,
+                                     std::span<const std::array<int, 3>> triangles) {
+  std::size_t pairs = 0;
+  for_each_pair(points, triangles, [&](std::size_t, std::size_t) { ++pairs; });
+  return pairs;
+}
+
+std::size_t count_self_intersections(const Mesh& mesh) {
+  return count_self_intersections(points_of(mesh), triangles_of(mesh));
+}
+
+std::vector<std::array<Face, 2>> self_intersections(const Mesh& mesh) {
+  const std::vector<Face> faces(mesh.faces().begin(), mesh.faces().end());
+  std::vector<std::array<Face, 2>> pairs;
+  for_each_pair(points_of(mesh), triangles_of(mesh), [&](std::size_t i, std::size_t j) {
+    pairs.push_back({faces[std::min(i, j)], faces[std::max(i, j)]});
+  });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 }  // namespace furrow::geometry

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "geometry/mesh/mesh.h"
 
@@ -16,7 +17,11 @@ namespace furrow::geometry {
 /// candidate pairs): overlapping boxes, then exact predicates.
 std::size_t count_self_intersections(const Mesh& mesh);
 
-/// The same for plain arrays; `triangles` index `points`. Throws ContentError for an index out of range too.
+/// Those pairs: the lower face first, in ascending order. Errors and cost as above.
+std::vector<std::array<Face, 2>> self_intersections(const Mesh& mesh);
+
+/// The same count for plain arrays; `triangles` index `points`. Throws ContentError for an index out of range
+/// too.
 std::size_t count_self_intersections(std::span<const Point> points,
                                      std::span<const std::array<int, 3>> triangles);
 

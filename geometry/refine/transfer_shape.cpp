@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/refine/transfer_shape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/refine/subdivide.h"
 #include "geometry/stroke/project_onto_surface.h"
 
 namespace furrow::geometry {
@@ -42,21 +44,57 @@ Mesh at_rest(const Mesh& wrinkled) {
   return mesh;
 }
 
+/// Where `steps` Loop subdivisions put the vertices of a mesh, by index; isolated ones stay.
+std::vector<Point> loop_positions(const Mesh& mesh, int steps) {
+  Mesh refined;
+  for (Vertex v : mesh.vertices()) refined.add_vertex(mesh.point(v));
+  for (Face f : mesh.faces()) {
+    const auto c = corners_of(mesh, f);
+    refined.add_face(c[0], c[1], c[2]);
+  }
+  loop_subdivide(refined, steps);
+  std::vector<Point> positions;
+  for (Vertex v : mesh.vertices()) positions.push_back(refined.point(v));
+  return positions;
+}
+
+/// Those positions after as many subdivisions as put the original's vertices where those of the same index
+/// rest in the other mesh; empty if none of one to four do.
+std::vector<Point> positions_at_rest(const Mesh& original, const Mesh& rest) {
+  constexpr double near = 1e-7;  // [m]: what text with few digits leaves
+  if (original.has_garbage() || rest.has_garbage()) return {};
+  std::size_t faces = 4 * original.number_of_faces();
+  for (int steps = 1; steps <= 4 && faces <= rest.number_of_faces(); ++steps, faces *= 4) {
+    const std::vector<Point> moved = loop_positions(original, steps);
+    const bool fits = std::all_of(original.vertices().begin(), original.vertices().end(), [&](Vertex v) {
+      return original.is_isolated(v) || CGAL::squared_distance(moved[v.idx()], rest.point(v)) <= near * near;
+    });
+    if (fits) return moved;
+  }
+  return {};
+}
+
 class Transfer {
  public:
   Transfer(const Mesh& original, const Mesh& wrinkled, const TransferOptions& options)
       : original_(original), wrinkled_(wrinkled), options_(options), rest_(at_rest(wrinkled)) {
     require_triangles(rest_, "transfer");
+    const bool same_mesh = std::all_of(original.vertices().begin(), original.vertices().end(),
+                                       [&](Vertex v) { return original.is_isolated(v) || is_known(v); });
+    if (!same_mesh) refined_ = positions_at_rest(original, rest_);
   }
 
   Point target(Vertex v) {
     const Point& p = original_.point(v);
-    const bool known = wrinkled_.has_valid_index(v) && !wrinkled_.is_removed(v);
-    if (known && CGAL::squared_distance(rest_.point(v), p) <= same * same) {
+    if (is_known(v)) {
       ++report.copied;
       return moved(v) ? wrinkled_.point(v) : p;
     }
     if (original_.is_isolated(v)) return p;
+    if (!refined_.empty()) {
+      ++report.by_index;
+      return by_index(v);
+    }
     ++report.interpolated;
     return by_closest_point(v);
   }
@@ -64,6 +102,29 @@ class Transfer {
   TransferReport report;
 
  private:
+  bool is_known(Vertex v) const {
+    return wrinkled_.has_valid_index(v) && !wrinkled_.is_removed(v) &&
+           CGAL::squared_distance(rest_.point(v), original_.point(v)) <= same * same;
+  }
+
+  /// Follows the vertex of the same index; the way from there to the original is turned with a face at it.
+  Point by_index(Vertex v) const {
+    const Face face =
+        wrinkled_.face(wrinkled_.is_border(wrinkled_.halfedge(v)) ? wrinkled_.opposite(wrinkled_.halfedge(v))
+                                                                  : wrinkled_.halfedge(v));
+    const Point& p = original_.point(v);
+    const auto corners = corners_of(rest_, face);
+    if (!moved(corners[0]) && !moved(corners[1]) && !moved(corners[2])) return p;
+    return turned(wrinkled_.point(v), p - rest_.point(v), face);
+  }
+
+  /// A place of the wrinkled mesh, plus an offset at rest that is turned with a face.
+  Point turned(Point place, const Vector& offset, Face face) const {
+    const Frame before = frame_of(rest_, face), after = frame_of(wrinkled_, face);
+    for (int i = 0; i < 3; ++i) place = place + (offset * before.axes[i]) * after.axes[i];
+    return place;
+  }
+
   bool moved(Vertex v) const { return wrinkled_.point(v) != rest_.point(v); }
 
   Point by_closest_point(Vertex v) {
@@ -78,16 +139,13 @@ class Transfer {
     report.max_distance = std::max(report.max_distance, hit.distance);
     const auto corners = corners_of(rest_, hit.point.face);
     if (!moved(corners[0]) && !moved(corners[1]) && !moved(corners[2])) return p;
-    const Frame before = frame_of(rest_, hit.point.face), after = frame_of(wrinkled_, hit.point.face);
-    const Vector offset = p - hit.position;
-    Point result = position_of(wrinkled_, hit.point);
-    for (int i = 0; i < 3; ++i) result = result + (offset * before.axes[i]) * after.axes[i];
-    return result;
+    return turned(position_of(wrinkled_, hit.point), p - hit.position, hit.point.face);
   }
 
   const Mesh &original_, &wrinkled_;
   const TransferOptions& options_;
   Mesh rest_;
+  std::vector<Point> refined_;  ///< where Loop put the original's vertices; empty: it did not
   std::optional<SurfaceProjector> projector_;
 };
 

@@ -17,6 +17,7 @@ inline constexpr Colour cloth_colour{0.66f, 0.73f, 0.82f};
 inline constexpr Colour body_colour{0.80f, 0.72f, 0.66f};
 inline constexpr Colour ridge_colour{0.85f, 0.22f, 0.08f};
 inline constexpr Colour valley_colour{0.06f, 0.24f, 0.72f};
+inline constexpr Colour mark_colour{0.93f, 0.0f, 0.78f};  ///< magenta: no colour of a fit's scales
 
 /// Cloth shows its back in a darker, warmer colour. Its ridges are a little lighter and its valleys a little
 /// darker than the lights make them, so that wrinkles can be read from every side. A body is one colour.

@@ -89,6 +89,21 @@ RenderMesh render_mesh_from(const Mesh& mesh, Style style, std::shared_ptr<const
   return result;
 }
 
+void mark_faces(RenderMesh& mesh, std::span<const Face> faces, const Colour& colour) {
+  for (Face f : faces)
+    if (f.idx() >= mesh.triangles.size())
+      throw std::invalid_argument("mark_faces: face " + std::to_string(f.idx()) + " of " +
+                                  std::to_string(mesh.triangles.size()));
+  if (faces.empty()) return;
+  if (mesh.vertex_colours.empty()) mesh.vertex_colours.assign(mesh.vertices.size(), mesh.colour);
+  for (Face f : faces)
+    for (int& corner : mesh.triangles[f.idx()]) {
+      mesh.vertices.push_back(Position(mesh.vertices[std::size_t(corner)]));
+      mesh.vertex_colours.push_back(colour);
+      corner = int(mesh.vertices.size()) - 1;
+    }
+}
+
 std::vector<RenderLine> render_lines_from(const Mesh& mesh, const std::vector<double>& heights,
                                           const LineColours& colours) {
   for (std::size_t i = 0; i < heights.size(); ++i) {

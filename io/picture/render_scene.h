@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct LineColours {
 /// a texture if the mesh has no texture coordinates.
 RenderMesh render_mesh_from(const geometry::Mesh& mesh, Style style = Style::cloth,
                             std::shared_ptr<const Image> texture = nullptr);
+
+/// Gives faces of a mesh that was made by render_mesh_from() of one without removed faces a colour of their
+/// own, with sharp edges. Throws std::invalid_argument, nothing changed, for an index out of range.
+void mark_faces(RenderMesh& mesh, std::span<const geometry::Face> faces, const Colour& colour = mark_colour);
 
 /// The lines that a mesh carries, one piece an edge, ordered by edge; empty if the mesh has no such maps.
 /// `heights[id]` is the height of line `id`, of which only the sign is used [m]. Throws std::invalid_argument

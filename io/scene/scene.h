@@ -104,6 +104,7 @@ struct Scene {
   std::string title;
   std::filesystem::path garment;
   int subdivide = 0;                    ///< times that Loop subdivision is applied before the first line
+  int allow_crossings = 0;              ///< pairs of faces that may cross at the end; >= 0
   bool keep = false;                    ///< the garment's shape at time 0 is made its equilibrium
   std::optional<std::string> unit, up;  ///< of the mesh and stroke files
   std::vector<SceneLines> lines;        ///< by time

@@ -323,6 +323,15 @@ const Row<Scene> rows[] = {
       .what = "Loop steps before the first line"},
      whole(
          0, 4, [](auto& s) -> auto& { return s.subdivide; })},
+    {{.path = "garment.allow_crossings",
+      .flag = "--allow-crossings",
+      .help = "pairs of faces of the cloth that may cross at the end (default 0); beyond it the exit code "
+              "is 4",
+      .what = "pairs of faces of the cloth that may cross at the end; beyond it the exit code is 4",
+      .used = used_by::simulate | used_by::drape,
+      .flag_in = used_by::simulate | used_by::drape},
+     whole(
+         0, 1000000000, [](auto& s) -> auto& { return s.allow_crossings; })},
     {{.path = "garment.rest",
       .flag = "--rest",
       .help = "stored (default): the rest state that the file has; keep: that which holds the garment's "

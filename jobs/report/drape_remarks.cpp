@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/report/drape_remarks.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <sstream>
 
 #include "jobs/fit.h"
@@ -18,6 +21,7 @@ std::string words_of_piercing(const bridge::FitReport& fit) {
 
 /// What the body does to the cloth that has come to rest on it.
 void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (d.is_torn() && !d.is_pierced()) return;  // no refinement helps
   const bridge::FitReport& fit = d.fit;
   const auto faces = fit.piercing.faces;
   const std::string through = words_of_piercing(fit);
@@ -46,15 +50,87 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
           d.name, "material.gap"}});
 }
 
+void remark_on_crossings(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (!d.crossings.pairs) return;
+  const std::string accept =
+      d.crosses_itself() ? "; accept them with --allow-crossings " + std::to_string(d.crossings.pairs) : "";
+  remarks.push_back(
+      {d.crosses_itself(),
+       {"cloth_crosses",
+        d.name + ": " + words(d.crossings) +
+            "; cloth has no contact with cloth here, so part its layers before it is draped" + accept,
+        d.name, "garment.allow_crossings"}});
+}
+
+/// Cloth that no cloth survives: the fabric's law says nothing true of it any more.
+void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (!d.is_torn()) return;
+  const bridge::FitStrain& strain = *d.fit.strain;
+  std::string where;
+  if (!d.fit.tight.empty()) {
+    const bridge::FitZone& zone = d.fit.tight.front();
+    where = fmt::format(", most at {:.0f} % of the body's height, {}", 100 * zone.height_share, zone.side);
+  }
+  remarks.push_back(
+      {true,
+       {"torn",
+        d.name +
+            fmt::format(": torn: half of the cloth is strained by {:.0f} % and more, up to {:.0f} %{}; the "
+                        "garment is too small for this body, or lies inside it: look at --unit, and at "
+                        "where it lies",
+                        100 * strain.p50, 100 * strain.max, where),
+        d.name, "unit"}});
+}
+
+void remark_on_loose_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (d.loose.empty()) return;
+  std::string names;
+  for (std::size_t i = 0; i < std::min<std::size_t>(d.loose.size(), 5); ++i)
+    names += (i ? ", " : "") + d.loose[i];
+  if (d.loose.size() > 5) names += fmt::format(" and {} more", d.loose.size() - 5);
+  const std::string cut = d.file.repairs.duplicated_vertices
+                              ? fmt::format(
+                                    "; its file has edges or vertices that more than two faces share, "
+                                    "where it was cut open ({} vertices doubled)",
+                                    d.file.repairs.duplicated_vertices)
+                              : "";
+  remarks.push_back(
+      {true,
+       {"loose_parts",
+        d.name +
+            fmt::format(": nothing holds {} of its {} parts: {}; left where they lay{}; join them to the "
+                        "garment in its file, pin them (--pin-group, --pin-box), or take them out",
+                        d.loose.size(), d.parts, names, cut),
+        d.name, "pins"}});
+}
+
+/// Why a garment that nothing carries does not rest.
+void remark_on_nothing_carried(const Draped& d, const physics::SettleReport& last,
+                               std::vector<DrapeRemark>& remarks) {
+  if (d.broken) {
+    remarks.push_back(
+        {true,
+         {"numerical_failure",
+          d.name +
+              fmt::format(": numerical failure: the forces cannot be computed (residual force {:.2g} of a "
+                          "vertex's weight); look at --stretch, --rigidity, --density and --gravity, one "
+                          "of which is far beyond any cloth's",
+                          last.residual),
+          d.name, "material"}});
+    return;
+  }
+  remarks.push_back({false,
+                     {"touches_nothing",
+                      d.name + ": never came to lie on the body, which is " +
+                          std::to_string(d.fit.body_high - d.fit.body_low) +
+                          " m tall; look at where the two are, and at --unit, which is that of both files",
+                      d.name, "unit"}});
+}
+
 void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
   const physics::SettleReport& last = d.report.levels.back().settle;
-  if (last.touching == 0)
-    remarks.push_back({false,
-                       {"touches_nothing",
-                        d.name + ": never came to lie on the body, which is " +
-                            std::to_string(d.fit.body_high - d.fit.body_low) +
-                            " m tall; look at where the two are, and at --unit, which is that of both files",
-                        d.name, "unit"}});
+  if (last.touching == 0) remark_on_nothing_carried(d, last, remarks);
+  if (d.broken) return;
   if (d.falls) {
     remarks.push_back(
         {true,
@@ -65,8 +141,8 @@ void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
   }
   std::ostringstream text;
   text << d.name << ": not at rest after " << last.iterations << " iterations, residual force "
-       << last.residual << " of a vertex's weight, cloth " << 1000 * last.deepest
-       << " mm deep in the gap; give more with --iterations, or accept it with --residual";
+       << last.residual << " of a vertex's weight, cloth " << 1000 * last.deepest << " mm deep in the gap";
+  if (!d.is_torn()) text << "; give more with --iterations, or accept it with --residual";
   remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
 }
 
@@ -91,10 +167,15 @@ Json to_json(const Draped& d) {
             {"touching", last.settle.touching},
             {"contact_depth", last.settle.deepest},
             {"gap", d.gap},
+            {"gap_asked", d.wanted_gap},
+            {"subdivide", d.refinements},
+            {"parts", d.parts},
+            {"loose_parts", d.loose},
             {"seconds", d.seconds},
             {"levels", levels},
             {"friction_rounds", d.report.friction_rounds},
-            {"slip", d.report.slip}};
+            {"slip", d.report.slip},
+            {"crossings", jobs::to_json(d.crossings)}};
   json["fit"] = jobs::to_json(d.fit, d.fit_options);
   return json;
 }
@@ -105,7 +186,10 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
   std::vector<DrapeRemark> remarks;
   for (const Draped& d : garments) {
     if (d.report.stopped) break;
+    remark_on_strain(d, remarks);
     remark_on_contact(d, remarks);
+    remark_on_loose_parts(d, remarks);
+    remark_on_crossings(d, remarks);
     if (!d.rests()) remark_on_unrest(d, remarks);
   }
   return remarks;
@@ -113,8 +197,15 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
 
 std::string Draped::outcome() const {
   if (report.stopped) return "interrupted";
-  const std::string rest = falls ? "falls" : rests() ? "at rest" : "not at rest";
-  return rest + (is_pierced() ? ", pierced by the body" : "");
+  const std::string rest = broken      ? "numerical failure"
+                           : is_torn() ? "torn"
+                           : falls     ? "falls"
+                           : rests()   ? "at rest"
+                                       : "not at rest";
+  return rest + (is_pierced() ? ", pierced by the body" : "") +
+         (crosses_itself() ? ", cloth crosses itself" : "") +
+         (loose.empty() ? "" : fmt::format(", {} of {} parts loose", loose.size(), parts)) +
+         (floats() && !broken && !falls ? ", " + millimetres(gap) + " off the body" : "");
 }
 
 Json to_json(const DrapeJobReport& report) {

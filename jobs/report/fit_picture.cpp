@@ -24,6 +24,7 @@ std::string format(const char* pattern, double value) {
 io::RenderScene scene_of(const FitPanel& panel) {
   io::RenderScene scene;
   scene.meshes.push_back(io::render_mesh_from(*panel.garment, io::Style::cloth));
+  io::mark_faces(scene.meshes.back(), panel.crossed);
   if (!panel.body) return scene;
   io::RenderMesh body = io::render_mesh_from(*panel.body, io::Style::body);
   body.colour = figure_colour;
@@ -42,12 +43,20 @@ std::string fit_words(const bridge::FitReport& report, const bridge::FitOptions&
             format("%.3g %%", 100 * options.tight_strain);
   else
     words = format("half of the cloth nearer than %.0f mm", 1000 * report.distance.median);
+  if (report.piercing.faces)
+    words += "; the body comes through " + std::to_string(report.piercing.faces) +
+             (report.piercing.faces == 1 ? " face" : " faces") +
+             format(" by %.1f mm", 1000 * report.distance.deepest_penetration);
   std::string rooms;
   for (const bridge::FitEase& e : report.ease)
     if (e.ease)
       rooms += (rooms.empty() ? "ease: " : ", ") + e.name + format(" %+.1f cm", 100 * *e.ease) +
                (e.rest_ease && *e.rest_ease < 0 ? format(" (unstretched %+.1f)", 100 * *e.rest_ease) : "");
   return rooms.empty() ? words : words + "\n" + rooms;
+}
+
+std::string crossing_words(const ClothCrossings& c) {
+  return c.pairs ? "; " + std::to_string(c.pairs) + " pairs of faces cross (magenta)" : "";
 }
 
 io::FitScale fit_scale(FitColour colour, const bridge::FitOptions& options,

@@ -27,7 +27,11 @@ struct FitPanel {
   const geometry::Mesh* garment = nullptr;
   const geometry::Mesh* body = nullptr;
   std::string caption;
+  std::vector<geometry::Face> crossed = {};  ///< faces that cross other cloth; they are marked
 };
+
+/// The words for them: "; 43 pairs of faces cross (magenta)"; none: "".
+std::string crossing_words(const ClothCrossings& crossings);
 
 /// What each panel shows; a camera is chosen for all of them.
 std::vector<io::RenderScene> fit_scenes(std::span<const FitPanel> panels);

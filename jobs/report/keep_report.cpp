@@ -41,7 +41,13 @@ std::string help_of(const KeptLine& line) {
 
 Json to_json(const KeptLine& line, const io::WrinkleRecord& record) {
   Json json{{"id", line.line}};
-  if (std::size_t(line.line) < record.lines.size()) json["name"] = record.lines[line.line].name;
+  if (std::size_t(line.line) < record.lines.size()) {
+    const io::WrinkleRecord::Line& drawn = record.lines[line.line];
+    json.update({{"name", drawn.name},
+                 {"asked", share(drawn.height)},
+                 {"drawn", share(drawn.drawn_height)},
+                 {"smoothed", share(drawn.smoothed_height)}});
+  }
   json.update({{"verdict", name_of(line.verdict)},
                {"height", share(line.height)},
                {"kept", share(line.kept)},
@@ -112,6 +118,7 @@ Json to_json(const KeepReport& report) {
   Json json{{"lines", lines}};
   json.update(to_json(r.rest, r.certificate));
   json.update({{"drift", r.drift}, {"trials", r.trials}, {"runs", r.runs}});
+  json["crossings"] = jobs::to_json(report.crossings);
   if (r.rest_press > 1)
     json["rest_of_garment"] = {{"press", r.rest_press},
                                {"words", fmt::format("pressed x{:g} between the lines", r.rest_press)}};

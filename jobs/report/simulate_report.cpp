@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
 #include "jobs/keep.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
@@ -29,7 +31,7 @@ Json to_json(const physics::SimulateReport& r) {
           {"time", r.time},
           {"steps", r.steps},
           {"dt", r.dt},
-          {"dt_limit", r.dt_limit},
+          {"dt_limit", std::isfinite(r.dt_limit) ? Json(r.dt_limit) : Json()},
           {"seconds", r.seconds},
           {"cpu_seconds", r.cpu_seconds},
           {"force_evaluations", r.force_evaluations},
@@ -66,7 +68,8 @@ Json to_json(const ReachedShape& shape, const physics::SimulateReport& run) {
     json["truncated_moves"] = run.truncated_moves;
     if (run.frames_built) json["body_frames"] = {{"built", run.frames_built}, {"seconds", run.frame_seconds}};
   }
-  json["self_intersections"] = shape.self_intersections;
+  json["self_intersections"] = shape.crossings.pairs;
+  json["crossings"] = jobs::to_json(shape.crossings);
   json["borders"] = to_json(shape.borders);
   json["lines"] = Json::array();
   for (const LineReport& line : shape.lines) json["lines"].push_back(to_json(line));
@@ -90,10 +93,20 @@ Json to_json(const std::vector<BorderReport>& borders) {
   return loops;
 }
 
+std::string SimulateReport::outcome() const {
+  std::string words = name_of(run.outcome);
+  for (const Fault& fault : faults)
+    words = fault.word == "torn" && run.outcome == physics::Outcome::finished ? "torn"
+                                                                              : words + ", " + fault.word;
+  return words;
+}
+
 Json to_json(const SimulateReport& r) {
   Json json = Json::object();
   if (!r.title.empty()) json["title"] = r.title;
   json.update(to_json(r.run));
+  json["outcome"] = r.outcome();
+  if (!std::isfinite(r.run.dt_limit)) json["dt_limit_why"] = "steps of any length are stable";
   if (r.shape) json.update(to_json(*r.shape, r.run));
   if (r.kept) json["kept"] = to_json(*r.kept);
   for (const DrawnRound& round : r.rounds) json["rounds"].push_back(to_json(round));

@@ -204,6 +204,17 @@ physics::Penetration WorldBody::penetration(std::vector<physics::Vec3> points, d
   return physics::penetration(rigid_->exact, points);
 }
 
+physics::Vec3 WorldBody::deepest_of(const std::vector<physics::Vec3>& points, double time) const {
+  const auto deepest = [&](const physics::Collider& body) {
+    return *std::min_element(
+        points.begin(), points.end(),
+        [&](const physics::Vec3& a, const physics::Vec3& b) { return body.at(a).value < body.at(b).value; });
+  };
+  if (points.empty()) return {0, 0, 0};
+  if (animated_) return deepest(physics::ExactDistance({vertices_at(time), triangles_}));
+  return deepest(physics::PosedCollider(rigid_->exact, physics::pose(motion_, time)));
+}
+
 int WorldBody::count_near(const std::vector<physics::Vec3>& points, double distance) const {
   if (rigid_)
     return physics::count_contacts(points, physics::PosedCollider(rigid_->field, physics::pose(motion_, 0)),

@@ -48,6 +48,8 @@ class WorldBody {
                                   double time) const;
   /// Of points in the world, at a time, by exact distance.
   physics::Penetration penetration(std::vector<physics::Vec3> points, double time) const;
+  /// The point that lies deepest; of none, any.
+  physics::Vec3 deepest_of(const std::vector<physics::Vec3>& points, double time) const;
   /// Points that are nearer than `distance` [m] at time 0, or inside; by the field.
   int count_near(const std::vector<physics::Vec3>& points, double distance) const;
   /// Around it at a time [m].

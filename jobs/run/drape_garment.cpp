@@ -6,22 +6,26 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "bridge/convert.h"
 #include "bridge/gather.h"
 #include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/parts.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "geometry/rest/rest_metric.h"
 #include "io/animation/animation_file.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/gate.h"
+#include "jobs/run/measure_crossings.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
 #include "physics/body/collider.h"
 #include "physics/cloth/elastic_band.h"
+#include "physics/cloth/pins.h"
 
 namespace furrow::jobs {
 namespace {
@@ -131,6 +135,10 @@ class Maker {
       return bridge::gather(made.mesh, spring_options(made, scene_.material));
     });
     pin_cloth(cloth, pins, nullptr, 0, context_);
+    held_.assign(cloth.particles.size(), 0);
+    for (const std::vector<int>& held : pins)
+      for (const int i : held) held_[std::size_t(i)] = 1;
+    if (!loose.empty()) hold_loose(mesh, cloth);
     int moved = 0;
     for (const std::vector<int>& held : pins)
       moved += physics::push_out(cloth.particles.x, held, body_.exact).moved;
@@ -143,9 +151,22 @@ class Maker {
     return cloth;
   }
 
-  io::MeshFile made;  ///< of the last level
+  /// Whether a pin holds one of the last level's particles.
+  bool any_held() const { return std::find(held_.begin(), held_.end(), 1) != held_.end(); }
+  const std::vector<char>& held() const { return held_; }
+
+  io::MeshFile made;       ///< of the last level
+  std::vector<int> loose;  ///< a vertex of each part that nothing holds: those parts are held as they lie
 
  private:
+  void hold_loose(const geometry::Mesh& mesh, physics::Cloth& cloth) const {
+    const geometry::Parts parts = geometry::find_parts(mesh);
+    for (const int seed : loose)
+      for (std::size_t i = 0; i < parts.of_vertex.size(); ++i)
+        if (parts.of_vertex[i] == parts.of_vertex[std::size_t(seed)])
+          physics::pin(cloth.particles, std::vector<int>{int(i)});
+  }
+
   std::vector<io::ScenePins> pins_on(const geometry::Mesh& mesh) const {
     std::vector<io::ScenePins> result = scene_.pins;
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -163,6 +184,54 @@ class Maker {
   const io::MeshFile& as_read_;
   const Context& context_;
   std::vector<int> pin_vertices_, band_vertices_;
+  std::vector<char> held_;
+};
+
+/// Finds parts that fall: nothing pins them, and they left the body behind.
+class FallWatch {
+ public:
+  FallWatch(const geometry::Mesh& mesh, const BodyCollider& body, double gap)
+      : start_(bridge::positions_of(mesh)), parts_(geometry::find_parts(mesh)), body_(body), gap_(gap) {
+    for (const geometry::Strut& s : geometry::struts(mesh)) tied_.push_back({int(s.a), int(s.b)});
+  }
+
+  std::size_t count() const { return parts_.list.size(); }
+  const geometry::Parts& parts() const { return parts_; }
+
+  /// A vertex of each part that falls; none where all do, or where there is one part alone. Of the first
+  /// level's cloth.
+  std::vector<int> find(const physics::Cloth& cloth, const std::vector<char>& held) const {
+    if (count() < 2) return {};
+    std::vector<char> carried(count(), 0);
+    std::vector<int> seeds(count(), -1);
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+      const int part = parts_.of_vertex[i];
+      if (part < 0) continue;
+      if (seeds[std::size_t(part)] < 0) seeds[std::size_t(part)] = int(i);
+      char& here = carried[std::size_t(part)];
+      here = here || held[i] || (cloth.particles.x[i] - start_[i]).norm() < far ||
+             body_.field.at(cloth.particles.x[i]).value < 2 * gap_;
+    }
+    for (std::size_t round = 0; round < tied_.size(); ++round)  // what is tied to a carried part is carried
+      for (const auto& [a, b] : tied_) {
+        const int p = parts_.of_vertex[std::size_t(a)], q = parts_.of_vertex[std::size_t(b)];
+        if (p < 0 || q < 0 || p == q) continue;
+        carried[std::size_t(p)] = carried[std::size_t(q)] = carried[std::size_t(p)] | carried[std::size_t(q)];
+      }
+    std::vector<int> falling;
+    for (std::size_t p = 0; p < count(); ++p)
+      if (!carried[p] && seeds[p] >= 0) falling.push_back(seeds[p]);
+    if (falling.size() == count()) falling.clear();
+    return falling;
+  }
+
+ private:
+  static constexpr double far = 0.25;  // [m]
+  std::vector<physics::Vec3> start_;
+  geometry::Parts parts_;
+  const BodyCollider& body_;
+  double gap_;
+  std::vector<std::array<int, 2>> tied_;
 };
 
 /// Of the refined garment: its edges are half as long a level, their sag a quarter.
@@ -171,32 +240,42 @@ double refined_sag(geometry::Mesh garment, int levels) {
   return edge_sag(garment) / std::pow(4, levels);
 }
 
+double gap_with(double wanted, double sag, double tolerance) { return std::max(wanted, sag + tolerance); }
+
+/// What lowers a gap that the edges' sag and the field's tolerance raised.
+std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels, double wanted,
+                          double tolerance) {
+  if (sag <= tolerance) return "--tolerance asks for a finer field of the body";
+  const double vertices = double(garment.number_of_vertices()) * std::pow(4, levels + 1);
+  return "its edges are long: with --subdivide " + std::to_string(levels + 1) + " (some " +
+         std::to_string(std::llround(vertices)) + " vertices) it is " +
+         millimetres(gap_with(wanted, sag / 4, tolerance));
+}
+
 /// What is wanted, or what the sag and the field's tolerance need; warns where that is much more.
 double gap_of(const io::Scene& scene, const BodyCollider& body, const geometry::Mesh& garment,
               const Context& context) {
   const double wanted = scene.simulation.contact_gap, tolerance = body.field.report().tolerance;
-  const double sag = refined_sag(garment, scene.subdivide), gap = std::max(wanted, sag + tolerance);
+  const double sag = refined_sag(garment, scene.subdivide), gap = gap_with(wanted, sag, tolerance);
   if (gap > 1.5 * wanted)
-    context.warn(
-        "gap_raised",
-        scene.garment.stem().string() + ": keeps " + millimetres(gap) + " from the body, not " +
-            millimetres(wanted) + ", so strain and ease come out too large; " +
-            (sag > tolerance ? "its edges are long: with --subdivide " + std::to_string(scene.subdivide + 1) +
-                                   " it is " + millimetres(std::max(wanted, sag / 4 + tolerance))
-                             : "--tolerance asks for a finer field of the body"),
-        scene.garment.string(), sag > tolerance ? "garment.subdivide" : "body.tolerance");
+    context.warn("gap_raised",
+                 scene.garment.stem().string() + ": keeps " + millimetres(gap) + " from the body, not " +
+                     millimetres(wanted) + ", so strain and ease come out too large; " +
+                     remedy_of_gap(garment, sag, scene.subdivide, wanted, tolerance),
+                 scene.garment.string(), sag > tolerance ? "garment.subdivide" : "body.tolerance");
   return gap;
 }
 
-}  // namespace
+/// How the way to rest is looked for on a garment that was read.
+struct DrapePlan {
+  const io::Scene& scene;
+  const BodyCollider& body;
+  const DrapeSettings& settings;
+  const io::MeshFile& as_read;
+  bridge::DrapeOptions options;
+};
 
-Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const DrapeSettings& s,
-                     const Context& context) {
-  Draped draped;
-  io::Scene coarse = scene;
-  coarse.subdivide = 0;
-  const io::MeshFile as_read = begin_garment(coarse, context);
-  require_refinement(as_read.mesh.number_of_faces(), 4, scene.subdivide, "--subdivide", context);
+bridge::DrapeOptions options_of(const io::Scene& scene, const DrapeSettings& s, double gap) {
   bridge::DrapeOptions options;
   options.refinements = scene.subdivide;
   options.settle.gravity = scene.simulation.gravity;
@@ -206,41 +285,136 @@ Draped drape_garment(const io::Scene& scene, const BodyCollider& body, const Dra
   options.plain = s.plain;
   options.bending_friction = s.bending_friction;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
-  options.settle.gap = gap_of(scene, body, as_read.mesh, context);
+  options.settle.gap = gap;
   options.settle.threads =
       scene.threads ? scene.threads : int(std::max(1u, std::thread::hardware_concurrency()));
-  if (scene.subdivide > 0 && !geometry::struts(as_read.mesh).empty())
-    context.warn("struts_dropped",
-                 "--subdivide drops the struts that the garment has, its bands among them; say --band again",
-                 "garment.subdivide", "bands");
-  WayRecorder way(s.animation, scene.subdivide, context);
+  return options;
+}
+
+/// A way to rest that was gone.
+struct Gone {
+  bridge::DrapeReport report;
+  geometry::Mesh mesh;
+  physics::Cloth cloth;
+  std::vector<int> falling;  ///< a vertex of each part that fell, which ended it
+};
+
+Gone go(const DrapePlan& plan, Maker& maker, WayRecorder& way, const FallWatch& watch,
+        const Context& context) {
   const ProgressScope progress(context.listener, "draping");
+  Gone gone;
   double first = 0;
   const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
     way.observe(level, cloth);
+    if (level == 0 && maker.loose.empty() && p.iteration > 0 && p.iteration % 5 == 0)
+      gone.falling = watch.find(cloth, maker.held());
     if (p.iteration == 0 || p.residual > first) first = p.residual;
-    const double least = options.settle.tolerance;
+    const double least = plan.options.settle.tolerance;
     const bool far = std::isfinite(p.residual) && p.residual > least && first > least;
     const double way_there = far ? std::log(first / p.residual) / std::log(first / least) : 1;
-    return progress((level + std::clamp(way_there, 0.0, 1.0)) / (scene.subdivide + 1));
+    const int levels = plan.options.refinements + 1;
+    return progress((level + std::clamp(way_there, 0.0, 1.0)) / levels) && gone.falling.empty();
   };
-  const double start = now();
-  geometry::Mesh mesh = as_read.mesh;
-  physics::Cloth cloth;
-  Maker maker(scene, body, s, as_read, context);
-  draped.report = bridge::drape(mesh, cloth, &body.field, options, std::ref(maker), observe);
-  draped.seconds = now() - start;
+  gone.mesh = plan.as_read.mesh;
+  gone.report =
+      bridge::drape(gone.mesh, gone.cloth, &plan.body.field, plan.options, std::ref(maker), observe);
+  return gone;
+}
+
+/// Whether a garment that nothing carries balances all the same, or is pulled by more than any cloth is.
+/// (What falls lacks one weight.)
+bool is_broken(const physics::SettleReport& last) {
+  return !std::isfinite(last.residual) || last.residual > 1e9 || last.residual < 0.5;
+}
+
+void take_result(Gone gone, Maker& maker, const DrapePlan& plan, const FallWatch& watch, Draped& draped) {
+  draped.report = std::move(gone.report);
   draped.file = std::move(maker.made);
-  draped.file.mesh = std::move(mesh);
-  draped.animated = way.close();
-  draped.falls = draped.report.levels.back().settle.touching == 0 && !scene.simulation.gravity.isZero() &&
-                 std::none_of(cloth.particles.inv_mass.begin(), cloth.particles.inv_mass.end(),
-                              [](double w) { return w == 0; });
-  draped.gap = options.settle.gap;
+  draped.file.mesh = std::move(gone.mesh);
+  const physics::SettleReport& last = draped.report.levels.back().settle;
+  const bool uncarried = last.touching == 0 && !plan.scene.simulation.gravity.isZero() && !maker.any_held();
+  draped.broken = uncarried && is_broken(last);
+  draped.falls = uncarried && !draped.broken;
+  draped.parts = watch.count();
+  for (const int seed : maker.loose)
+    draped.loose.push_back(
+        name_of_part(plan.as_read, watch.parts(), watch.parts().of_vertex[std::size_t(seed)]));
+}
+
+void measure(const DrapePlan& plan, const CrossedStart& crossed, Draped& draped) {
+  draped.refinements = plan.scene.subdivide;
+  draped.gap = plan.options.settle.gap;
+  draped.wanted_gap = plan.scene.simulation.contact_gap;
   draped.fit_options.contact_distance = contact_distance(draped.gap);
-  draped.fit = bridge::fit_report(draped.file.mesh, body.triangles, body.exact, draped.fit_options);
-  if (draped.gap == scene.simulation.contact_gap)
-    draped.too_near = count_nearer(draped.file.mesh, 0.9 * draped.gap - body.field.report().tolerance);
+  draped.fit = bridge::fit_report(draped.file.mesh, plan.body.triangles, plan.body.exact, draped.fit_options);
+  draped.crossings = measure_crossings(draped.file, &crossed);
+  if (draped.gap == draped.wanted_gap)
+    draped.too_near = count_nearer(draped.file.mesh, 0.9 * draped.gap - plan.body.field.report().tolerance);
+}
+
+/// The garment as it was given, and the scene with as many refinements as it is draped with.
+struct Given {
+  io::Scene scene;
+  io::MeshFile file;
+};
+
+Given read_given(const io::Scene& scene, const BodyCollider& body, const DrapeSettings& s, bool choose,
+                 const Context& context) {
+  Given given{scene, {}};
+  given.scene.subdivide = 0;
+  given.file = begin_garment(given.scene, context);
+  given.scene.subdivide = scene.subdivide;
+  if (choose && !s.plain)
+    given.scene.subdivide =
+        refinements_for_gap(given.file.mesh, scene.simulation.contact_gap, body.field.report().tolerance);
+  require_refinement(given.file.mesh.number_of_faces(), 4, given.scene.subdivide, "--subdivide", context);
+  if (given.scene.subdivide > 0 && !geometry::struts(given.file.mesh).empty())
+    context.warn("struts_dropped",
+                 "--subdivide drops the struts that the garment has, its bands among them; say --band again",
+                 "garment.subdivide", "bands");
+  return given;
+}
+
+}  // namespace
+
+int refinements_for_gap(const geometry::Mesh& garment, double wanted, double tolerance) {
+  constexpr double most_vertices = 60000, slack = 1.05;
+  if (geometry::find_map(garment, geometry::attribute::rest_length) || garment.number_of_edges() == 0)
+    return 0;
+  int levels = 0;
+  double sag = refined_sag(garment, 0), vertices = 4.0 * double(garment.number_of_vertices());
+  while (levels < 4 && vertices <= most_vertices && sag > tolerance / 4 && sag + tolerance > slack * wanted) {
+    ++levels;
+    sag /= 4;
+    vertices *= 4;
+  }
+  return levels;
+}
+
+Draped drape_garment(const io::Scene& asked, const BodyCollider& body, const DrapeSettings& s, bool choose,
+                     const Context& context) {
+  const Given given = read_given(asked, body, s, choose, context);
+  const io::Scene& scene = given.scene;
+  const double gap = gap_of(scene, body, given.file.mesh, context);
+  const DrapePlan plan{scene, body, s, given.file, options_of(scene, s, gap)};
+  const CrossedStart crossed = crossed_start(given.file.mesh, scene.subdivide);
+  const FallWatch watch(given.file.mesh, body, gap);
+  const double start = now();
+  Maker maker(scene, body, s, given.file, context);
+  Draped draped;
+  {
+    std::optional<WayRecorder> way(std::in_place, s.animation, scene.subdivide, context);
+    Gone gone = go(plan, maker, *way, watch, context);
+    if (!gone.falling.empty()) {
+      maker.loose = gone.falling;
+      way.emplace(s.animation, scene.subdivide, context);
+      gone = go(plan, maker, *way, watch, context);
+    }
+    take_result(std::move(gone), maker, plan, watch, draped);
+    draped.seconds = now() - start;
+    draped.animated = way->close();
+  }
+  measure(plan, crossed, draped);
   return draped;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/run/keep_at_rest.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "bridge/gather.h"
@@ -21,12 +23,12 @@ void warn_of(const bridge::KeptShape& shape, bool moving, const Context& context
   const char* hint = "furrow keep finds out which lines hold and helps them";
   const bool swings = !shape.rest.imbalance.empty();
   if (shape.rest.residual > out_of_balance && !(moving && swings))
-    context.warn(
-        swings ? "shape_unbalanced" : "shape_out_of_bounds",
-        std::string(swings ? "nothing holds the garment in balance as it lies, it will swing or fall; "
-                           : "the bounds on strain and angle leave no balance of the shape; ") +
-            hint,
-        "", "furrow keep");
+    context.warn(swings ? "shape_unbalanced" : "shape_out_of_bounds",
+                 std::string(swings ? "nothing holds the garment in balance as it lies (" +
+                                          words(shape.rest.imbalance.front()) + "), it will swing or fall; "
+                                    : "the bounds on strain and angle leave no balance of the shape; ") +
+                     hint,
+                 "", "furrow keep");
   else if (!shape.certificate.stable())
     context.warn("shape_unstable",
                  std::string("the shape is balanced, but not stable: it will give way; ") + hint, "",
@@ -34,6 +36,25 @@ void warn_of(const bridge::KeptShape& shape, bool moving, const Context& context
 }
 
 }  // namespace
+
+std::string words(const physics::RigidImbalance& i) {
+  const std::string who = fmt::format("{} vertices are free to ", i.piece.size());
+  const auto text = [](const physics::Vec3& v) {
+    return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z());
+  };
+  if (i.freedoms == 1)
+    return who + fmt::format("turn about the line of their pins through {} m along {}, at {:.2g} rad/s^2",
+                             text(i.point), text(i.axis), i.angular_acceleration.norm());
+  if (i.freedoms == 3)
+    return who + fmt::format("turn about their pin at {} m, about the axis {}, at {:.2g} rad/s^2",
+                             text(i.point), text(i.axis), i.angular_acceleration.norm());
+  const double pull = i.acceleration.norm();
+  return who +
+         fmt::format(
+             "move, as no pin holds them: {:.2g} m/s^2 along {}, and turning about {} at {:.2g} rad/s^2",
+             pull, text(pull > 0 ? physics::Vec3(i.acceleration / pull) : i.acceleration), text(i.axis),
+             i.angular_acceleration.norm());
+}
 
 void warn_if_shape_only(const std::filesystem::path& mesh, const Context& context) {
   if (!mesh.empty() && io::lower_case(mesh.extension().string()) != ".ply")

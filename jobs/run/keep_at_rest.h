@@ -22,6 +22,10 @@ bridge::KeptShape keep_at_rest(io::MeshFile& file, const io::Scene& scene,
                                const std::vector<std::vector<int>>& pins, const WorldBody* body, double time,
                                double settled_gap, physics::SimulateState* moving, const Context& context);
 
+/// The motion that nothing holds: "1204 vertices are free to fall or slide, at 0.80 m/s^2 towards (0, -1,
+/// 0)".
+std::string words(const physics::RigidImbalance& imbalance);
+
 /// Warns that a file of that name holds the shape, and not the rest state that keeps it.
 void warn_if_shape_only(const std::filesystem::path& mesh, const Context& context);
 

@@ -10,7 +10,6 @@
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/property_names.h"
-#include "geometry/mesh/self_intersections.h"
 #include "io/mesh/mesh_file.h"
 
 namespace furrow::jobs {
@@ -56,6 +55,32 @@ physics::Vec3 centre_of_mass(const geometry::Mesh& mesh) {
   return sum;
 }
 
+/// The middle of the edge that is strained most; the mesh has rest lengths.
+physics::Vec3 strained_most(const geometry::Mesh& mesh) {
+  const auto rest = *geometry::find_map(mesh, geometry::attribute::rest_length);
+  physics::Vec3 place{0, 0, 0};
+  double most = -1;
+  for (geometry::Edge e : mesh.edges()) {
+    const physics::Vec3 a = bridge::to_eigen(mesh.point(mesh.vertex(e, 0))),
+                        b = bridge::to_eigen(mesh.point(mesh.vertex(e, 1)));
+    const double strain = std::abs((b - a).norm() / rest[e] - 1);
+    if (!(strain > most)) continue;
+    most = strain;
+    place = (a + b) / 2;
+  }
+  return place;
+}
+
+ContactReport measure_contact(const geometry::Mesh& mesh, const WorldBody& body, double gap, double time) {
+  ContactReport contact;
+  contact.gap = gap;
+  contact.tolerance = body.tolerance();
+  const std::vector<physics::Vec3> x = bridge::positions_of(mesh);
+  contact.inside = body.penetration(x, time);
+  if (contact.inside.inside) contact.deepest_at = body.deepest_of(x, time);
+  return contact;
+}
+
 }  // namespace
 
 std::vector<BorderReport> measure_borders(const geometry::Mesh& mesh) {
@@ -82,9 +107,8 @@ ReachedShape measure_shape(const io::MeshFile& file, const std::vector<double>& 
                            double contact_gap, double time) {
   ReachedShape shape;
   shape.centre = centre_of_mass(file.mesh);
-  if (body)
-    shape.contact = ContactReport{contact_gap, body->penetration(bridge::positions_of(file.mesh), time)};
-  shape.self_intersections = geometry::count_self_intersections(file.mesh);
+  if (body) shape.contact = measure_contact(file.mesh, *body, contact_gap, time);
+  shape.strained_most = strained_most(file.mesh);
   shape.borders = measure_borders(file.mesh);
   shape.lines = measure_lines(file, before);
   return shape;

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/run/run_warnings.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <sstream>
 
+#include "jobs/read_inputs.h"
+#include "jobs/run/body.h"
 #include "jobs/run/keep_at_rest.h"
 
 namespace furrow::jobs {
@@ -22,11 +27,16 @@ std::string words_of_loss(const LineReport& line) {
   return text.str();
 }
 
+/// "(0.11, 1.32, -0.02) m".
+std::string place(const physics::Vec3& x) {
+  return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", x.x(), x.y(), x.z());
+}
+
 }  // namespace
 
 std::vector<Warning> oddities_of(const io::Scene& scene, const physics::SimulateReport& report) {
   std::vector<Warning> found;
-  if (report.strain.max > 0.5)
+  if (report.strain.max > 0.5 && report.strain.p99 <= 1)
     found.push_back(
         {"strained",
          "the cloth is strained by " + std::to_string(int(100 * report.strain.max)) +
@@ -43,6 +53,55 @@ std::vector<Warning> oddities_of(const io::Scene& scene, const physics::Simulate
   if (!scene.wind.gusts.empty() && scene.wind.velocity.isZero())
     found.push_back({"gusts_without_wind", "gusts do nothing without wind", "forces.gusts", "forces.wind"});
   return found;
+}
+
+std::vector<Fault> faults_of(const io::Scene& scene, const ReachedShape& shape,
+                             const physics::StrainStatistics& strain) {
+  std::vector<Fault> faults;
+  const std::string garment = scene.garment.string();
+  if (!(strain.p99 <= 1))
+    faults.push_back(
+        {"torn",
+         {"torn",
+          fmt::format("the cloth is torn: a hundredth of its edges is strained by {:.0f} % and more, most at "
+                      "{}; look for a body that is too large or moves too fast, pins that do not go with it, "
+                      "lines that are far too high, and with xpbd at --sweeps and --dt",
+                      100 * strain.p99, place(shape.strained_most)),
+          garment, "body.mesh"}});
+  if (shape.contact && shape.contact->inside.deepest > shape.contact->tolerance)
+    faults.push_back(
+        {"inside the body",
+         {"inside_body",
+          fmt::format(
+              "{} vertices end inside the body, up to {} deep at {}; the garment is too small for the "
+              "body, started inside it, or the body moves too fast: furrow drape finds out whether it "
+              "can be worn, and --unit and --up say how the files are meant",
+              shape.contact->inside.inside, millimetres(shape.contact->inside.deepest),
+              place(shape.contact->deepest_at)),
+          garment, "unit"}});
+  if (shape.crossings.pairs > std::size_t(scene.allow_crossings))
+    faults.push_back(
+        {"cloth crosses itself",
+         {"cloth_crosses",
+          words(shape.crossings) +
+              "; cloth has no contact with cloth here, so part its layers at the start, or accept "
+              "them with --allow-crossings " +
+              std::to_string(shape.crossings.pairs),
+          garment, "garment.allow_crossings"}});
+  return faults;
+}
+
+Warning raised_gap(const io::Scene& scene, const geometry::Mesh& garment, double gap, double tolerance) {
+  const double wanted = scene.simulation.contact_gap, sag = edge_sag(garment);
+  const double finer = std::max(wanted, sag / 4 + 1.5 * tolerance);
+  const bool long_edges = sag > tolerance;
+  return {"gap_raised",
+          "the cloth keeps " + millimetres(gap) + " from the body, not " + millimetres(wanted) +
+              ", so strain and ease come out too large; " +
+              (long_edges ? "its edges are long: with --subdivide " + std::to_string(scene.subdivide + 1) +
+                                " it is " + millimetres(finer)
+                          : "--tolerance asks for a finer field of the body"),
+          scene.garment.string(), long_edges ? "garment.subdivide" : "body.tolerance"};
 }
 
 std::vector<Warning> idle_presses(const io::SceneMaterial& material, const io::WrinkleRecord& record) {

@@ -11,6 +11,13 @@ namespace furrow::jobs {
 /// What is no error of a scene's run, and hardly what was meant.
 std::vector<Warning> oddities_of(const io::Scene& scene, const physics::SimulateReport& report);
 
+/// What makes a run that came to its end no success.
+std::vector<Fault> faults_of(const io::Scene& scene, const ReachedShape& shape,
+                             const physics::StrainStatistics& strain);
+
+/// That the cloth kept more than the gap that was asked for [m], and what lowers it.
+Warning raised_gap(const io::Scene& scene, const geometry::Mesh& garment, double gap, double field_tolerance);
+
 /// Lines with a press where nothing has hinges to be pressed.
 std::vector<Warning> idle_presses(const io::SceneMaterial& material, const io::WrinkleRecord& record);
 

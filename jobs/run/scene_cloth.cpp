@@ -66,6 +66,22 @@ void warn_if_apart(const io::Scene& scene, const WorldBody& body, const geometry
                  scene.body->mesh.string(), "unit");
 }
 
+void warn_of_start(const io::Scene& scene, const WorldBody& body, const geometry::Mesh& garment,
+                   const Context& context) {
+  constexpr double deep = 0.01;  // [m]
+  warn_if_apart(scene, body, garment, context);
+  const physics::Penetration inside = body.penetration(bridge::positions_of(garment), 0);
+  if (inside.deepest > deep)
+    context.warn(
+        "starts_inside",
+        scene.garment.string() + ": " + std::to_string(inside.inside) + " of " +
+            std::to_string(garment.number_of_vertices()) + " vertices start inside the body, up to " +
+            millimetres(inside.deepest) +
+            " deep, and are driven out; what comes of it is no motion of cloth: move the garment out "
+            "of the body first, or look at --unit",
+        scene.garment.string(), "unit");
+}
+
 void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& all, const WorldBody* body,
                double time, const Context& context) {
   for (const std::vector<int>& pins : all) {

@@ -13,6 +13,10 @@ io::MeshFile begin_garment(const io::Scene& scene, const Context& context);
 void warn_if_apart(const io::Scene& scene, const WorldBody& body, const geometry::Mesh& garment,
                    const Context& context);
 
+/// The same, and of a garment that starts inside the body.
+void warn_of_start(const io::Scene& scene, const WorldBody& body, const geometry::Mesh& garment,
+                   const Context& context);
+
 /// Pins the vertices, and doubles the hinges of clamps. The simulation moves pins only as the scene says, so
 /// with a body (null: none) those that lie inside it at `time` [s] are put on its surface; warns of them.
 void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& pins, const WorldBody* body,

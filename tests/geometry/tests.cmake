@@ -5,6 +5,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   mesh/edge_metric_test.cpp
   mesh/measures_test.cpp
   mesh/select_vertices_test.cpp
+  mesh/crossings_test.cpp
   mesh/self_intersections_test.cpp
   mesh/sheet_test.cpp
   mesh/struts_test.cpp

@@ -275,3 +275,91 @@ TEST_CASE("simulate: integrator and step are chosen for a tolerance, and named i
   CHECK(report.settings["simulation"].contains("integrator"));
   CHECK(to_json(report).contains("choice"));
 }
+
+namespace {
+
+/// A tube around a ball that is too thick for it: it starts inside.
+jobs::SimulateJob tube_in_ball(double radius) {
+  jobs::SimulateJob job;
+  geometry::Mesh& tube = job.scene.memory.meshes["tube"].mesh;
+  tube = tests::cylinder(radius, 0.1, 32, 10);
+  for (geometry::Point& p : tube.points()) p = {p.x(), p.y() - 0.05, p.z()};
+  job.scene.memory.meshes["ball"].mesh = tests::icosphere(3, 0.2);
+  job.scene.settings = io::parse_toml("[garment]\nmesh = \"tube\"\n[simulation]\nseconds = 0.2\n", "test");
+  io::set_value(job.scene.settings, "body.mesh", "ball", "test");
+  io::set_value(job.scene.settings, "body.tolerance", 0.001, "test");
+  return job;
+}
+
+bool has_fault(const jobs::SimulateReport& report, const std::string& code) {
+  return std::any_of(report.faults.begin(), report.faults.end(),
+                     [&](const jobs::Fault& f) { return f.told.code == code; });
+}
+
+}  // namespace
+
+TEST_CASE("simulate: cloth that ends inside the body is no success, and where it lies is said") {
+  tests::Recorder recorder;
+  const jobs::SimulateReport report = jobs::simulate(tube_in_ball(0.1), recorder);
+  INFO(to_json(report).dump(1));
+  REQUIRE(report.shape);
+  REQUIRE(report.shape->contact->inside.inside > 0);
+  CHECK(recorder.warned_of("starts_inside"));
+  CHECK(has_fault(report, "inside_body"));
+  CHECK(report.fails());
+  CHECK(report.outcome().find("inside the body") != std::string::npos);
+  CHECK(0.2 - report.shape->contact->deepest_at.norm() ==
+        Approx(report.shape->contact->inside.deepest).margin(0.004));  // the ball has faces
+}
+
+TEST_CASE("simulate: cloth strained beyond twice its length is torn") {
+  tests::Recorder recorder;
+  jobs::SimulateJob job = hung_sheet(0.4);
+  job.scene.settings.root.erase("lines");
+  io::set_value(job.scene.settings, "material.stiffness", 0.05, "test");
+  io::set_value(job.scene.settings, "material.bending", 0, "test");
+  const jobs::SimulateReport report = jobs::simulate(job, recorder);
+  INFO(to_json(report).dump(1));
+  REQUIRE(report.run.strain.p99 > 1);
+  CHECK(has_fault(report, "torn"));
+  CHECK(report.outcome() == "torn");
+  CHECK(report.fails());
+}
+
+TEST_CASE("simulate: cloth that falls through other cloth is counted, new or from the start") {
+  tests::Recorder recorder;
+  jobs::SimulateJob job = hung_sheet(0.1);
+  job.scene.settings.root.erase("lines");
+  job.scene.settings.root["simulation"].erase("dt");
+  geometry::Mesh& sheet = job.scene.memory.meshes["sheet"].mesh;
+  sheet.add_face(sheet.add_vertex({0.1, 0.3, -0.05}), sheet.add_vertex({0.1, 0.3, 0.05}),
+                 sheet.add_vertex({0.12, 0.3, 0}));  // through the sheet; it falls
+  const jobs::SimulateReport report = jobs::simulate(job, recorder);
+  INFO(to_json(report).dump(1));
+  REQUIRE(report.shape);
+  CHECK(report.shape->crossings.at_start.value() > 0);
+  CHECK(report.shape->crossings.pairs > 0);
+  CHECK(report.shape->crossings.from_start < report.shape->crossings.pairs);
+  CHECK(to_json(report).at("self_intersections") == report.shape->crossings.pairs);
+  CHECK(has_fault(report, "cloth_crosses"));
+  CHECK(report.outcome() == "finished, cloth crosses itself");
+  io::set_value(job.scene.settings, "garment.allow_crossings", report.shape->crossings.pairs, "test");
+  CHECK_FALSE(jobs::simulate(job, recorder).fails());
+}
+
+TEST_CASE("simulate: a gap that edges raise is told, and the advice lowers it") {
+  tests::Recorder recorder;
+  jobs::SimulateJob job = sheet_on_ball(0.005);
+  job.scene.settings.root.erase("lines");
+  io::set_value(job.scene.settings, "body.tolerance", 0.0002, "test");
+  io::set_value(job.scene.settings, "material.gap", 0.0008, "test");
+  const auto told = [](const jobs::SimulateReport& report) {
+    return std::any_of(report.warnings.begin(), report.warnings.end(),
+                       [](const jobs::Warning& w) { return w.code == "gap_raised"; });
+  };
+  const jobs::SimulateReport coarse = jobs::simulate(job, recorder);
+  CHECK(told(coarse));
+  CHECK(coarse.shape->contact->gap > 0.0012);
+  io::set_value(job.scene.settings, "garment.subdivide", 1, "test");
+  CHECK_FALSE(told(jobs::simulate(job, recorder)));
+}

@@ -90,3 +90,33 @@ TEST_CASE("transfer: what cannot be done is said, and the original stays") {
   CHECK_THROWS_AS(transfer_shape(original, far), ContentError);
   for (Vertex v : original.vertices()) CHECK(original.point(v) == before.point(v));
 }
+
+TEST_CASE("transfer: a coarse original follows by index where Loop subdivision moved its vertices") {
+  const Mesh original = cylinder(0.3, 1, 7, 3);
+  Mesh wrinkled = original;
+  loop_subdivide(wrinkled, 2);
+  note_rest(wrinkled);
+  double farthest = 0;
+  for (Vertex v : original.vertices())
+    farthest = std::max(farthest, std::sqrt(CGAL::squared_distance(original.point(v), wrinkled.point(v))));
+  REQUIRE(farthest > 0.02);  // beyond max_distance
+  Mesh still = original;
+  CHECK(transfer_shape(still, wrinkled).unchanged == original.number_of_vertices());
+  for (Vertex v : wrinkled.vertices()) wrinkled.point(v) = posed(wrinkled.point(v));
+  Mesh moved = original;
+  const TransferReport report = transfer_shape(moved, wrinkled);
+  CHECK(report.by_index == original.number_of_vertices());
+  CHECK(report.interpolated == 0);
+  for (Vertex v : original.vertices())
+    CHECK(CGAL::squared_distance(moved.point(v), posed(original.point(v))) < 1e-20);
+}
+
+TEST_CASE("transfer: a mesh that no Loop subdivision made is not taken for one") {
+  const Mesh original = cylinder(0.3, 1, 7, 3);
+  Mesh wrinkled = original;
+  loop_subdivide(wrinkled, 1);
+  for (Point& p : wrinkled.points()) p = {p.x(), p.y() + 0.001, p.z()};
+  note_rest(wrinkled);
+  Mesh moved = original;
+  CHECK_THROWS_AS(transfer_shape(moved, wrinkled), ContentError);
+}
