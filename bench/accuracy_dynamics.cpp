@@ -60,7 +60,7 @@ void write_limits(const std::string& folder) {
   for (const double jitter : {0.0, 0.2, 0.3}) {
     Cloth plate = triangular_sheet(1, 1, 24, equilateral_rows(1, 1, 24), density, jitter);
     plate.structural.clear();
-    add_hinges(plate, rigidity);
+    add_flat_hinges(plate, rigidity);
     const Unknowns unknowns(plate, {false, false, true});
     const double limit =
         2 / highest_frequency(stiffness(plate, plate.particles.x, unknowns), masses(plate, unknowns));

@@ -8,7 +8,9 @@ target_include_directories(furrow_options INTERFACE $<BUILD_INTERFACE:${PROJECT_
 # The same input gives the same bits: no contraction of a*b+c that depends on the compiler's mood.
 target_compile_options(furrow_options INTERFACE -ffp-contract=off)
 target_compile_options(furrow_options INTERFACE
-  $<BUILD_INTERFACE:-fno-math-errno -Wall -Wextra -Wshadow -Wnon-virtual-dtor>)
+  $<BUILD_INTERFACE:-fno-math-errno -Wall -Wextra -Wshadow -Wnon-virtual-dtor>
+  # United sources shadow what their neighbours in the room call so, and are included.
+  $<BUILD_INTERFACE:$<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-shadow$<SEMICOLON>-Wno-subobject-linkage>>)
 if(FURROW_WERROR)
   target_compile_options(furrow_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
@@ -32,6 +34,9 @@ function(furrow_add_library name)
   target_link_libraries(${name} PUBLIC $<BUILD_INTERFACE:furrow_options>)
   target_compile_features(${name} PUBLIC cxx_std_20)
   target_compile_options(${name} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
+  if(CMAKE_BUILD_TYPE STREQUAL Debug)  # optimised ones stay apart: what is tested and measured is what users build
+    furrow_unite(${name})
+  endif()
 endfunction()
 
 # furrow_public_headers(NAME HEADERS…): the doors of this folder, which are installed and documented; all its other headers
@@ -53,3 +58,21 @@ function(furrow_precompile target)
 endfunction()
 set(furrow_mesh_headers ${PROJECT_SOURCE_DIR}/geometry/mesh/mesh.h <Eigen/Core> <algorithm> <functional> <map> <optional> <set>
                         <span> <sstream> <stdexcept> <string> <unordered_map> <vector>)
+
+# furrow_unite(TARGET): with FURROW_UNITY, up to ten sources of a room are compiled as one, so that what they include is parsed
+# and instantiated once. (CMake leaves out sources with options of their own.) Names in their anonymous namespaces must differ.
+function(furrow_unite target)
+  if(NOT FURROW_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH room)
+    string(MAKE_C_IDENTIFIER "in_${room}" room)
+    math(EXPR ${room} "${${room}} + 1")
+    math(EXPR part "(${${room}} + 9) / 10")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room}_${part})
+  endforeach()
+endfunction()

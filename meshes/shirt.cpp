@@ -9,7 +9,7 @@
 namespace furrow::meshes {
 namespace {
 
-constexpr double hem_line = 0.90, sleeve_length = 0.19;  // height; length along the arm [m]
+constexpr double shirt_hem = 0.90, sleeve_length = 0.19;  // height; length along the arm [m]
 
 /// As wide as the bust and the seat everywhere below them: cloth hangs from there.
 const Loft trunk_shape({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1},
@@ -38,7 +38,7 @@ double inside_of_shirt(const Vec& p) {
 
 double from_hole(const Vec& p) {  // > 0: cloth
   const Vec q(std::abs(p.x()), p.y(), p.z());
-  const double hem = q.y() - hem_line;
+  const double hem = q.y() - shirt_hem;
   const bool on_arm = left_arm().from_axis(q) < 0.12;
   const double sleeve = on_arm ? sleeve_length - left_arm().along(q) : 1;
   const double x = q.x() / 0.088, z = (q.z() + 0.010) / 0.084;

@@ -8,7 +8,7 @@
 namespace furrow::meshes {
 namespace {
 
-constexpr double waist = 1.055, hem_line = 0.49;  // heights [m]
+constexpr double waist_level = 1.055, hem_level = 0.49;  // heights [m]
 
 /// A little beyond the waist and the hem, where it is cut.
 const Loft skirt({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1},
@@ -26,7 +26,8 @@ const Loft skirt({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1},
 
 geometry::Mesh make_skirt() {
   const geometry::Mesh tube = mesh_surface(skirt, {-0.3, 0.42, -0.3}, {0.3, 1.14, 0.3}, 0.012);
-  geometry::Mesh mesh = cut(tube, [](const Vec& p) { return std::min(p.y() - hem_line, waist - p.y()); });
+  geometry::Mesh mesh =
+      cut(tube, [](const Vec& p) { return std::min(p.y() - hem_level, waist_level - p.y()); });
   remesh(mesh, 0.021);
   return mesh;
 }

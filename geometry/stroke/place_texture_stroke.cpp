@@ -6,11 +6,10 @@
 #include <set>
 
 #include "geometry/mesh/texture_charts.h"
+#include "geometry/stroke/stroke_tracer.h"
 
 namespace furrow::geometry {
 namespace {
-
-constexpr double inside_margin = 1e-4;  ///< least barycentric of a point, as trace_stroke has it
 
 TextureCoordinate between(const TextureCoordinate& a, const TextureCoordinate& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/stroke/stroke_tracer.h"
+
 namespace furrow::geometry {
 namespace {
-
-constexpr double inside_margin = 1e-4;  ///< least barycentric of a hit, as trace_stroke has it
 
 class ViewPlacing {
  public:

@@ -7,7 +7,6 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double inside_margin = 1e-4;  ///< least barycentric of a hit: it lies strictly inside its face
 constexpr double degenerate_area =
     1e-6;  ///< a barycentric, or a position on an edge, that counts as on the end
 constexpr int bisections = 8;

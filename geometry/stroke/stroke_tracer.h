@@ -7,6 +7,9 @@
 
 namespace furrow::geometry {
 
+/// Least barycentric of a point on the way of a stroke: it lies strictly inside its face.
+inline constexpr double inside_margin = 1e-4;
+
 /// A projected point on the way of a stroke.
 struct StrokeHit {
   FacePoint point;      ///< strictly inside its face

@@ -19,7 +19,7 @@ namespace {
 
 using namespace geometry;
 
-constexpr const char* ends = "property int vertex1\nproperty int vertex2\n";
+constexpr const char* edge_ends = "property int vertex1\nproperty int vertex2\n";
 
 bool are_bytes(const Mesh& mesh, const VertexMap<Color>& colors) {
   return std::ranges::all_of(mesh.vertices(), [&](Vertex v) {
@@ -143,12 +143,12 @@ class PlyWriter {
     declare_columns(of_faces_);
     if (has_edges_) {
       declare("edge", mesh_.number_of_edges());
-      out_ += ends;
+      out_ += edge_ends;
       declare_columns(of_edges_);
     }
     if (!struts_.empty()) {
       declare("strut", struts_.size());
-      out_ += ends;
+      out_ += edge_ends;
       out_ += "property double rest_length\nproperty double stiffness\n";
     }
     out_ += "end_header\n";

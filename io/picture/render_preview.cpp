@@ -11,8 +11,6 @@
 namespace furrow::io {
 namespace {
 
-Position position(const geometry::Point& p) { return {p.x(), p.y(), p.z()}; }
-
 /// A quarter of the mean edge, so that dots do not hide the line between them on a fine mesh, and never more
 /// than a little above the line. In tubes, which are some 1/600 of a garment that fills the picture.
 double dot_width(const geometry::Mesh& mesh, const std::set<geometry::Edge>& edges) {
@@ -43,14 +41,15 @@ RenderScene preview_scene(const geometry::Mesh& inserted, const std::vector<geom
   const auto marked = find_map(inserted, attribute::line_edge);
   for (Edge e : edges) {
     if (marked && (*marked)[e]) continue;
-    scene.lines.push_back(
-        {{position(inserted.point(inserted.vertex(e, 0))), position(inserted.point(inserted.vertex(e, 1)))},
-         colours.edge,
-         0.35});
+    scene.lines.push_back({{position_of(inserted.point(inserted.vertex(e, 0))),
+                            position_of(inserted.point(inserted.vertex(e, 1)))},
+                           colours.edge,
+                           0.35});
   }
   const double dot = dot_width(inserted, edges);
   for (Vertex v : inserted.vertices())
-    if (v.idx() >= old_vertices) scene.lines.push_back({{position(inserted.point(v))}, colours.vertex, dot});
+    if (v.idx() >= old_vertices)
+      scene.lines.push_back({{position_of(inserted.point(v))}, colours.vertex, dot});
   return scene;
 }
 

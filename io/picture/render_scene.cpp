@@ -18,8 +18,6 @@ using geometry::Halfedge;
 using geometry::Mesh;
 using geometry::Vertex;
 
-Position position(const geometry::Point& p) { return {p.x(), p.y(), p.z()}; }
-
 const Colour& colour_of(double height, const LineColours& colours) {
   return height > 0 ? colours.ridge : height < 0 ? colours.valley : colours.other;
 }
@@ -67,7 +65,7 @@ RenderMesh render_mesh_from(const Mesh& mesh, Style style, std::shared_ptr<const
   bool coloured = false;
   for (Vertex v : mesh.vertices()) {
     index[v] = int(result.vertices.size());
-    result.vertices.push_back(position(mesh.point(v)));
+    result.vertices.push_back(position_of(mesh.point(v)));
     if (!colour) continue;
     const auto& c = (*colour)[v];
     coloured = coloured || c[0] < 1 || c[1] < 1 || c[2] < 1;
@@ -125,7 +123,7 @@ std::vector<RenderLine> render_lines_from(const Mesh& mesh, const std::vector<do
     if (id_of(a) >= 0 && id_of(b) >= 0 && valence[a] != valence[b])
       id = id_of(valence[a] < valence[b] ? a : b);
     const double height = id >= 0 && std::size_t(id) < heights.size() ? heights[id] : 0;
-    result.push_back({{position(mesh.point(a)), position(mesh.point(b))}, colour_of(height, colours)});
+    result.push_back({{position_of(mesh.point(a)), position_of(mesh.point(b))}, colour_of(height, colours)});
   }
   return result;
 }

@@ -17,6 +17,8 @@ struct LineColours {
   Colour other{0.12f, 0.12f, 0.14f};
 };
 
+inline Position position_of(const geometry::Point& p) { return {p.x(), p.y(), p.z()}; }
+
 /// The faces of a mesh to be drawn. Vertices removed but not yet collected are left out. With the map
 /// v:color, where any vertex has a colour other than white, the vertices keep their colours. A texture is
 /// laid on by the mesh's texture coordinates. Throws geometry::ContentError if a face is no triangle, or for

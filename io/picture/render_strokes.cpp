@@ -12,15 +12,13 @@ namespace {
 using geometry::Mesh;
 using geometry::Stroke;
 
-Position position(const geometry::Point& p) { return {p.x(), p.y(), p.z()}; }
-
 /// The way from crossing to crossing, over the node in each face.
 std::vector<Position> polyline(const Mesh& mesh, const geometry::SubStroke& part) {
   std::vector<Position> points;
   for (const geometry::CrossedFace& visit : part.faces) {
-    if (visit.entry) points.push_back(position(visit.entry->position));
-    points.push_back(position(geometry::position_of(mesh, {visit.face, visit.node})));
-    if (visit.exit) points.push_back(position(visit.exit->position));
+    if (visit.entry) points.push_back(position_of(visit.entry->position));
+    points.push_back(position_of(geometry::position_of(mesh, {visit.face, visit.node})));
+    if (visit.exit) points.push_back(position_of(visit.exit->position));
   }
   return points;
 }
@@ -29,9 +27,9 @@ std::vector<std::vector<Position>> as_drawn(const Stroke& stroke) {
   std::vector<std::vector<Position>> parts(1);
   for (std::size_t i = 0; i < stroke.points.size(); ++i) {
     if (std::binary_search(stroke.breaks.begin(), stroke.breaks.end(), i)) parts.emplace_back();
-    parts.back().push_back(position(stroke.points[i]));
+    parts.back().push_back(position_of(stroke.points[i]));
   }
-  if (stroke.closed && !stroke.points.empty()) parts[0].push_back(position(stroke.points.front()));
+  if (stroke.closed && !stroke.points.empty()) parts[0].push_back(position_of(stroke.points.front()));
   return parts;
 }
 

@@ -15,26 +15,26 @@ namespace {
 
 constexpr double line_spacing = 2.0;  // of the capitals' height
 
-[[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument("strip: " + text); }
+[[noreturn]] void refuse_strip(const std::string& text) { throw std::invalid_argument("strip: " + text); }
 
 void check(std::span<const Panel> panels, const StripOptions& options) {
-  if (panels.empty()) refuse("no panels");
+  if (panels.empty()) refuse_strip("no panels");
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const Image& image = panels[i].image;
     if (image.width < 1 || image.height < 1 ||
         image.rgb.size() != std::size_t{3} * std::size_t(image.width) * std::size_t(image.height)) {
-      refuse("panel " + std::to_string(i) + ": its pixels do not match its sides");
+      refuse_strip("panel " + std::to_string(i) + ": its pixels do not match its sides");
     }
   }
   if (!(options.text_height >= 0.005 && options.text_height <= 0.2)) {
-    refuse("text_height " + std::to_string(options.text_height) + " is not in [0.005, 0.2]");
+    refuse_strip("text_height " + std::to_string(options.text_height) + " is not in [0.005, 0.2]");
   }
   if (options.gap < 0 || options.gap > 1000) {
-    refuse("gap " + std::to_string(options.gap) + " is not in [0, 1000]");
+    refuse_strip("gap " + std::to_string(options.gap) + " is not in [0, 1000]");
   }
   for (const Colour& colour : {options.paper, options.ink}) {
     for (float c : colour) {
-      if (!(c >= 0 && c <= 1)) refuse("colour value " + std::to_string(c) + " is not in [0, 1]");
+      if (!(c >= 0 && c <= 1)) refuse_strip("colour value " + std::to_string(c) + " is not in [0, 1]");
     }
   }
 }

@@ -24,7 +24,7 @@ std::string text_of(double value) {
 }
 
 /// Three digits, never above: readable as a flag, and still stable.
-double rounded_down(double dt) {
+double rounded_down_step(double dt) {
   const double unit = std::pow(10, std::floor(std::log10(dt)) - 2);
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", std::floor(dt / unit * (1 + 1e-12)) * unit);
@@ -43,7 +43,7 @@ Candidate explicit_at(Integrator integrator, double factor, double dt_limit) {
   c.integrator = integrator;
   c.expected_dt = factor * dt_limit;
   if (integrator == Integrator::rk4) c.expected_dt *= physics::rk4_limit / 2;
-  if (factor != cheapest) c.expected_dt = *(c.dt = rounded_down(c.expected_dt));
+  if (factor != cheapest) c.expected_dt = *(c.dt = rounded_down_step(c.expected_dt));
   return c;
 }
 
@@ -141,7 +141,7 @@ physics::SimulateOptions options_of(const Candidate& c, const SceneCloth& scene,
 std::string flags_of(const Candidate& c, bool scene_dt) {
   std::string flags = std::string("--integrator ") + name_of(c.integrator);
   const bool needs_dt = c.dt || scene_dt;
-  if (needs_dt) flags += " --dt " + text_of(c.dt.value_or(rounded_down(c.expected_dt)));
+  if (needs_dt) flags += " --dt " + text_of(c.dt.value_or(rounded_down_step(c.expected_dt)));
   if (c.integrator == Integrator::xpbd) flags += " --sweeps " + std::to_string(c.iterations);
   if (c.integrator == Integrator::backward_euler) flags += " --newton " + std::to_string(c.iterations);
   return flags + (c.forced ? " --force-dt" : "");

@@ -15,7 +15,9 @@ namespace {
 
 constexpr double small_shift = 1e-3;  // m: surface next to x then and now is the same
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("animated body: " + what); }
+[[noreturn]] void refuse_frames(const std::string& what) {
+  throw std::invalid_argument("animated body: " + what);
+}
 
 /// Weights of the corners at a point of a triangle (Ericson, Real-Time Collision Detection, 3.4); those of
 /// the nearest corner if the triangle has no area.
@@ -53,12 +55,12 @@ struct AnimatedBody::Frame {
 AnimatedBody::AnimatedBody(BodyFrames frames, const FrameColliderOptions& options)
     : frames_(std::move(frames)), options_(options) {
   const std::vector<double>& times = frames_.times;
-  if (times.size() < 2) refuse(std::to_string(times.size()) + " frames; at least two are needed");
-  if (frames_.triangles.empty()) refuse("no triangles");
-  if (!frames_.vertices) refuse("no source of vertices");
+  if (times.size() < 2) refuse_frames(std::to_string(times.size()) + " frames; at least two are needed");
+  if (frames_.triangles.empty()) refuse_frames("no triangles");
+  if (!frames_.vertices) refuse_frames("no source of vertices");
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
-      refuse("time of frame " + std::to_string(i) + " is not finite or not after the one before");
+      refuse_frames("time of frame " + std::to_string(i) + " is not finite or not after the one before");
     }
   }
 }
@@ -84,8 +86,8 @@ std::shared_ptr<AnimatedBody::Frame> AnimatedBody::read(int index) {
   frame->vertices = frames_.vertices(index);
   if (vertex_count_ == 0) vertex_count_ = frame->vertices.size();
   if (frame->vertices.size() != vertex_count_) {
-    refuse("frame " + std::to_string(index) + " has " + std::to_string(frame->vertices.size()) +
-           " vertices instead of " + std::to_string(vertex_count_));
+    refuse_frames("frame " + std::to_string(index) + " has " + std::to_string(frame->vertices.size()) +
+                  " vertices instead of " + std::to_string(vertex_count_));
   }
   const std::string name = "animated body, frame " + std::to_string(index);
   check_body({frame->vertices, frames_.triangles}, name.c_str());

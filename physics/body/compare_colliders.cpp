@@ -11,19 +11,19 @@
 namespace furrow::physics {
 namespace {
 
-void require(bool is_good, const char* name, double value) {
+void require_that(bool is_good, const char* name, double value) {
   if (!is_good)
     throw std::invalid_argument("compare_colliders: " + std::string(name) + " = " + std::to_string(value));
 }
 
 void check(const CompareOptions& o) {
   const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
-  require(o.points >= 2, "points", o.points);
-  require(is_length(o.outside_margin), "outside_margin", o.outside_margin);
-  require(is_length(o.inside_margin), "inside_margin", o.inside_margin);
-  require(is_length(o.outside) && o.outside > o.outside_margin, "outside", o.outside);
-  require(is_length(o.inside) && o.inside > o.inside_margin, "inside", o.inside);
-  require(is_length(o.near) && o.near > 0, "near", o.near);
+  require_that(o.points >= 2, "points", o.points);
+  require_that(is_length(o.outside_margin), "outside_margin", o.outside_margin);
+  require_that(is_length(o.inside_margin), "inside_margin", o.inside_margin);
+  require_that(is_length(o.outside) && o.outside > o.outside_margin, "outside", o.outside);
+  require_that(is_length(o.inside) && o.inside > o.inside_margin, "inside", o.inside);
+  require_that(is_length(o.near) && o.near > 0, "near", o.near);
 }
 
 /// The same numbers everywhere, which those of <random>'s distributions are not; in [0, 1).

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t magic = 0x444c454946525546;  // "FURFIELD"
 constexpr std::uint32_t version = 1;
 
-void require(bool good, const char* what) {
+void require_bytes(bool good, const char* what) {
   if (!good) throw std::invalid_argument(std::string("DistanceField::from_bytes: ") + what);
 }
 
@@ -40,12 +40,12 @@ struct DistanceField::TreeCheck {
 
   void visit(Entry node, int level) {
     for (Entry entry : nodes[node]) {
-      require(level < max_depth, "the tree is deeper than it says");
+      require_bytes(level < max_depth, "the tree is deeper than it says");
       if (entry & leaf_bit) {
-        require((entry & ~leaf_bit) == next_leaf++, "a leaf is out of order");
+        require_bytes((entry & ~leaf_bit) == next_leaf++, "a leaf is out of order");
         continue;
       }
-      require(entry == next_node && entry < nodes.size(), "a node is out of order");
+      require_bytes(entry == next_node && entry < nodes.size(), "a node is out of order");
       ++next_node;
       visit(entry, level + 1);
     }
@@ -77,35 +77,35 @@ std::vector<std::byte> DistanceField::to_bytes() const {
 }
 
 DistanceField DistanceField::from_bytes(std::span<const std::byte> bytes) {
-  require(bytes.size() >= 12, "the block is cut");
+  require_bytes(bytes.size() >= 12, "the block is cut");
   ByteReader in(bytes);
-  require(in.get<std::uint64_t>() == magic, "this is no distance field");
-  require(in.get<std::uint32_t>() == version, "this version is not known");
-  require(bytes.size() >= 20 &&
-              ByteReader(bytes.last(8)).get<std::uint64_t>() == checksum(bytes.first(bytes.size() - 8)),
-          "the block is cut or damaged (checksum)");
+  require_bytes(in.get<std::uint64_t>() == magic, "this is no distance field");
+  require_bytes(in.get<std::uint32_t>() == version, "this version is not known");
+  require_bytes(bytes.size() >= 20 &&
+                    ByteReader(bytes.last(8)).get<std::uint64_t>() == checksum(bytes.first(bytes.size() - 8)),
+                "the block is cut or damaged (checksum)");
   DistanceField field;
   const auto word = [&](std::uint32_t below) {
     const auto value = in.get<std::uint32_t>();
-    require(value < below, "a field is out of its range");
+    require_bytes(value < below, "a field is out of its range");
     return value;
   };
   const auto get = [&](auto& value) { value = in.get<std::remove_reference_t<decltype(value)>>(); };
   const auto finite = [&](double& value) {
     get(value);
-    require(std::isfinite(value), "a number is not finite");
+    require_bytes(std::isfinite(value), "a number is not finite");
   };
   field.max_depth_ = static_cast<int>(word(13));
-  require(field.max_depth_ >= 3, "a field is out of its range");
+  require_bytes(field.max_depth_ >= 3, "a field is out of its range");
   field.gradient_ = word(2) ? GradientRule::interpolated_corners : GradientRule::exact_derivative;
   field.report_.sign.rule = static_cast<SignRule>(word(3));
   field.report_.sign.closed = word(2) != 0;
   for (double* value : {&field.low_[0], &field.low_[1], &field.low_[2], &field.size_, &field.outer_band_,
                         &field.inner_band_, &field.far_slope_})
     finite(*value);
-  require(field.size_ > 0, "the cube has no size");
+  require_bytes(field.size_ > 0, "the cube has no size");
   visit_report(field.report_, get);
-  require(field.report_.tolerance > 0, "the tolerance is not positive");
+  require_bytes(field.report_.tolerance > 0, "the tolerance is not positive");
   field.read_tree(in);
   field.index();
   return field;
@@ -115,21 +115,21 @@ void DistanceField::read_tree(ByteReader& in) {
   const auto node_count = in.get<std::uint64_t>(), leaf_count = in.get<std::uint64_t>();
   const bool with_gradients = gradient_ == GradientRule::interpolated_corners;
   const std::size_t leaf_size = sizeof(Leaf) + (with_gradients ? sizeof(LeafGradient) : 0);
-  require(in.left() >= sizeof(std::uint64_t), "the block is cut");
+  require_bytes(in.left() >= sizeof(std::uint64_t), "the block is cut");
   const std::size_t left = in.left() - sizeof(std::uint64_t);  // the checksum stands last
-  require(node_count > 0 && node_count <= left / 32 && leaf_count <= left / 32 && leaf_count <= index_mask &&
-              node_count * 32 + leaf_count * leaf_size == left,
-          "the counts do not fit the block");
+  require_bytes(node_count > 0 && node_count <= left / 32 && leaf_count <= left / 32 &&
+                    leaf_count <= index_mask && node_count * 32 + leaf_count * leaf_size == left,
+                "the counts do not fit the block");
   nodes_.resize(node_count);
   for (auto& node : nodes_)
     for (Entry& entry : node) entry = in.get<Entry>();
   TreeCheck check{nodes_, max_depth_};
   check.visit(0, 0);
-  require(check.next_node == node_count && check.next_leaf == leaf_count,
-          "the tree does not reach every leaf");
+  require_bytes(check.next_node == node_count && check.next_leaf == leaf_count,
+                "the tree does not reach every leaf");
   const auto number = [&](float& value) {
     value = in.get<float>();
-    require(std::isfinite(value), "a number is not finite");
+    require_bytes(std::isfinite(value), "a number is not finite");
   };
   leaves_.resize(leaf_count);
   for (Leaf& leaf : leaves_)

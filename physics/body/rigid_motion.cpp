@@ -11,7 +11,9 @@ namespace {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("rigid motion: " + what); }
+[[noreturn]] void refuse_motion(const std::string& what) {
+  throw std::invalid_argument("rigid motion: " + what);
+}
 
 Vec6 coordinates(const Keyframe& k) { return (Vec6() << k.translation, k.rotation).finished(); }
 
@@ -67,25 +69,26 @@ double spin_angle(const Spin& spin, double time) {
 }
 
 void check(const Spin& spin) {
-  if (!spin.centre.allFinite()) refuse("the spin's centre is not finite");
-  if (!std::isfinite(spin.axis.norm()) || !(spin.axis.norm() > 0)) refuse("the spin's axis has no direction");
-  if (!std::isfinite(spin.rate)) refuse("the spin's rate is not finite");
-  if (!std::isfinite(spin.start)) refuse("the spin's start is not finite");
+  if (!spin.centre.allFinite()) refuse_motion("the spin's centre is not finite");
+  if (!std::isfinite(spin.axis.norm()) || !(spin.axis.norm() > 0))
+    refuse_motion("the spin's axis has no direction");
+  if (!std::isfinite(spin.rate)) refuse_motion("the spin's rate is not finite");
+  if (!std::isfinite(spin.start)) refuse_motion("the spin's start is not finite");
   if (!(spin.ramp >= 0) || !std::isfinite(spin.ramp)) {
-    refuse("the spin's ramp = " + std::to_string(spin.ramp) + " is not >= 0");
+    refuse_motion("the spin's ramp = " + std::to_string(spin.ramp) + " is not >= 0");
   }
 }
 
 void check(const RigidMotion& motion) {
-  if (!motion.pivot.allFinite()) refuse("the pivot is not finite");
+  if (!motion.pivot.allFinite()) refuse_motion("the pivot is not finite");
   for (std::size_t i = 0; i < motion.keyframes.size(); ++i) {
     const Keyframe& k = motion.keyframes[i];
     const std::string name = "keyframe " + std::to_string(i);
     if (!std::isfinite(k.time) || !k.translation.allFinite() || !k.rotation.allFinite()) {
-      refuse(name + " is not finite");
+      refuse_motion(name + " is not finite");
     }
     if (i > 0 && !(k.time > motion.keyframes[i - 1].time)) {
-      refuse(name + ": time " + std::to_string(k.time) + " is not after that of the one before");
+      refuse_motion(name + ": time " + std::to_string(k.time) + " is not after that of the one before");
     }
   }
   if (motion.spin) check(*motion.spin);

@@ -11,9 +11,6 @@
 namespace furrow::physics {
 namespace {
 
-constexpr double contact_tolerance = 1e-5;  // m
-constexpr double standard_gravity = 9.81;   // m/s^2
-
 /// Length of what is left of f after the best contact force along n within the cone.
 double after_contact(const Vec3& f, const Vec3& n, double friction) {
   const double w_n = -f.dot(n), w_t = (f + w_n * n).norm();

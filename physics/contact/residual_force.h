@@ -7,6 +7,9 @@
 
 namespace furrow::physics {
 
+inline constexpr double contact_tolerance = 1e-5;  ///< [m] beyond the gap, where contact still bears
+inline constexpr double standard_gravity = 9.81;   ///< [m/s^2]
+
 /// How far a cloth is from rest: the largest net force on a particle that is not pinned, elements (see
 /// elements.h) plus weight plus the best contact force inside the friction cone where the body is at most gap
 /// + 1e-5 m away, relative to the particle's weight m |gravity| (standard gravity 9.81 m/s^2 where gravity is

@@ -16,8 +16,8 @@
 namespace furrow::physics {
 namespace {
 
-constexpr double least_shared = 5e4;  // numbers to move that are worth waking threads
-constexpr double asked_after = 1e6;   // multiplications: a fraction of a millisecond
+constexpr double least_shared_numbers = 5e4;  // numbers to move that are worth waking threads
+constexpr double asked_after = 1e6;           // multiplications: a fraction of a millisecond
 
 /// Rows of a front's update.
 int rest_of(const FrontTree::Front& f) { return 3 * int(f.rows.size()); }
@@ -27,7 +27,7 @@ std::size_t lines(int n) { return std::size_t(n) * std::size_t(padded(n) / 8); }
 /// Calls work(begin, end) on pieces of n columns, by three.
 template <class Work>
 void share_columns(int n, double numbers, ThreadPool* pool, Work work) {
-  if (!pool || numbers < least_shared) return work(0, n);
+  if (!pool || numbers < least_shared_numbers) return work(0, n);
   const int pieces = 4 * pool->threads();
   pool->share(pieces, [&](int i, int) { work(n / 3 * i / pieces * 3, n / 3 * (i + 1) / pieces * 3); });
 }

@@ -10,15 +10,15 @@
 namespace furrow::physics {
 namespace {
 
-constexpr int block = 64;             // columns that are eliminated between two products
-constexpr double least_shared = 1e6;  // multiplications that are worth waking threads
+constexpr int block = 64;                      // columns that are eliminated between two products
+constexpr double least_shared_products = 1e6;  // multiplications that are worth waking threads
 
 /// Calls work(from, to) on pieces of the rows [from, to), multiples of 8, of like work: where `triangle`, row
 /// r costs r. Each row is computed alike whatever the pieces are.
 template <class Work>
 void share_rows(int from, int to, bool triangle, double multiplications, ThreadPool* pool, Work work) {
   if (from >= to) return;
-  if (!pool || pool->threads() == 1 || multiplications < least_shared) return work(from, to);
+  if (!pool || pool->threads() == 1 || multiplications < least_shared_products) return work(from, to);
   const int pieces = 3 * pool->threads();
   const auto row = [&](int piece) {
     const double share = double(piece) / pieces;

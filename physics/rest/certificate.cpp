@@ -17,8 +17,6 @@
 namespace furrow::physics {
 namespace {
 
-constexpr double contact_tolerance = 1e-5;  // m, as residual_force()
-constexpr double standard_gravity = 9.81;
 constexpr double least_push = 1e-6;  // of the weight
 constexpr double hold = 1e6;         // over the mean diagonal
 constexpr double neutral = 1e-6;     // 1/s^2

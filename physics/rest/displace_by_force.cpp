@@ -18,10 +18,9 @@ namespace {
 
 using Vectors = std::vector<Vec3>;
 
-constexpr double standard_gravity = 9.81;  // m/s^2
-constexpr double too_far = 100;            // extents
-constexpr double least_fall = 1e-3;        // of the residual from quarter to quarter, or it does not fall
-constexpr double came_back = 0.1;          // of its path: a net way below
+constexpr double too_far = 100;      // extents
+constexpr double least_fall = 1e-3;  // of the residual from quarter to quarter, or it does not fall
+constexpr double came_back = 0.1;    // of its path: a net way below
 
 double strength(const Vec3& gravity) { return gravity.norm() > 0 ? gravity.norm() : standard_gravity; }
 

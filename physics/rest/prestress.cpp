@@ -18,8 +18,6 @@
 namespace furrow::physics {
 namespace {
 
-constexpr double contact_tolerance = 1e-5;  // m, as residual_force()
-constexpr double standard_gravity = 9.81;
 constexpr double least_imbalance = 1e-9;  // of gravity
 
 using Forces = std::vector<Vec3>;

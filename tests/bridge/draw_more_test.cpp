@@ -31,7 +31,7 @@ constexpr double edge = 1.0 / 14;  // h [m]
 constexpr double cloth_density = 0.15;
 
 /// 14 x 14 cells in the unit square, at rest.
-Mesh sheet() {
+Mesh jittered_sheet() {
   Mesh mesh = tests::jittered(14, 14, 0.15, 7);
   geometry::ensure_rest_lengths(mesh);
   geometry::rebuild_bending_springs(mesh);
@@ -119,7 +119,7 @@ double pop(Mesh& mesh, double stiffness, double gravity, double pin_from_y, doub
 }  // namespace
 
 TEST_CASE("draw_more: the mean strain is told of a membrane of triangles, too") {
-  Mesh mesh = sheet();
+  Mesh mesh = jittered_sheet();
   bridge::DrawMoreOptions o = options_for(mesh);
   o.springs.membrane = bridge::Membrane::triangles;
   stretch(mesh, 1.05);
@@ -128,7 +128,7 @@ TEST_CASE("draw_more: the mean strain is told of a membrane of triangles, too") 
 }
 
 TEST_CASE("draw_more: lines of height 0 leave a strained cloth isometric") {
-  Mesh mesh = sheet();
+  Mesh mesh = jittered_sheet();
   const bridge::DrawMoreOptions o = options_for(mesh);
   stretch(mesh, 1.05);
   const std::vector<geometry::Point> old(mesh.points().begin(), mesh.points().end());
@@ -149,7 +149,7 @@ TEST_CASE("draw_more: lines of height 0 leave a strained cloth isometric") {
 }
 
 TEST_CASE("draw_more: a cloth without strain stays free of force when lines of height 0 are drawn") {
-  Mesh mesh = sheet();
+  Mesh mesh = jittered_sheet();
   const bridge::DrawMoreOptions o = options_for(mesh);
   physics::SimulateState state;
   const auto report = draw_more(mesh, state, strokes(0), o);
@@ -158,7 +158,7 @@ TEST_CASE("draw_more: a cloth without strain stays free of force when lines of h
 }
 
 TEST_CASE("draw_more: what drawing changes in the forces is taken off at first and fades in") {
-  Mesh mesh = sheet();
+  Mesh mesh = jittered_sheet();
   const bridge::DrawMoreOptions o = options_for(mesh);
   stretch(mesh, 1.05);
   physics::SimulateState state;
@@ -185,7 +185,7 @@ TEST_CASE("draw_more: what drawing changes in the forces is taken off at first a
 }
 
 TEST_CASE("draw_more: a second round of lines carries on what is left of the first one's forces") {
-  Mesh mesh = sheet();
+  Mesh mesh = jittered_sheet();
   bridge::DrawMoreOptions o = options_for(mesh);
   stretch(mesh, 1.05);
   physics::SimulateState state;
@@ -205,7 +205,7 @@ TEST_CASE("draw_more: a second round of lines carries on what is left of the fir
 
 TEST_CASE("draw_more: drawing keeps the momentum of a cloth in motion") {
   for (const double height : {0.0, 0.02}) {
-    Mesh mesh = sheet();
+    Mesh mesh = jittered_sheet();
     const bridge::DrawMoreOptions o = options_for(mesh);
     auto velocity = geometry::ensure_map(mesh, geometry::attribute::velocity);
     std::mt19937 random(3);
@@ -226,7 +226,7 @@ TEST_CASE("draw_more: drawing keeps the momentum of a cloth in motion") {
 TEST_CASE("draw_more: a strained cloth moves little when lines of height 0 are drawn into it") {
   double strain = 0;
   SECTION("stretched in its plane") {
-    Mesh mesh = sheet();
+    Mesh mesh = jittered_sheet();
     stretch(mesh, 1.05);
     const double most = pop(mesh, 1000, 0, -1, 1.05, strain);
     INFO("pop " << most << " edges at mean strain " << strain);
@@ -235,14 +235,14 @@ TEST_CASE("draw_more: a strained cloth moves little when lines of height 0 are d
     CHECK(most > 1e-4);  // springs do feel another triangulation
   }
   SECTION("sagging in a frame under gravity") {
-    Mesh mesh = sheet();
+    Mesh mesh = jittered_sheet();
     const double most = pop(mesh, 2.35, 9.81, -1, 1.05, strain);
     INFO("pop " << most << " edges at mean strain " << strain);
     CHECK(strain == Approx(0.05).epsilon(0.2));
     CHECK(most <= 6 * strain);
   }
   SECTION("hanging from its upper edge: what the line gives way adds up below it") {
-    Mesh mesh = sheet();
+    Mesh mesh = jittered_sheet();
     const double most = pop(mesh, 4.4, 9.81, 0.99, 1.1, strain);
     INFO("pop " << most << " edges at mean strain " << strain);
     CHECK(strain == Approx(0.05).epsilon(0.1));
@@ -251,7 +251,7 @@ TEST_CASE("draw_more: a strained cloth moves little when lines of height 0 are d
 }
 
 TEST_CASE("draw_more: drawing that fails leaves cloth and state as they were") {
-  Mesh mesh = sheet();
+  Mesh mesh = jittered_sheet();
   bridge::DrawMoreOptions o = options_for(mesh);
   physics::SimulateState state;
   state.planned = true;
@@ -266,7 +266,7 @@ TEST_CASE("draw_more: drawing that fails leaves cloth and state as they were") {
 }
 
 TEST_CASE("draw_more: a line with width and press is raised by its profile, and its press comes with it") {
-  Mesh mesh = sheet();
+  Mesh mesh = jittered_sheet();
   bridge::DrawMoreOptions options = options_for(mesh);
   options.springs.bending = bridge::Bending::hinge;
   std::vector<geometry::Stroke> list = strokes(0.02);
@@ -284,7 +284,7 @@ TEST_CASE("draw_more: a line with width and press is raised by its profile, and 
   for (std::size_t i = 0; i < with.hinges.size(); ++i)
     most = std::max(most, with.hinges[i].stiffness / without.hinges[i].stiffness);
   CHECK(most == Approx(20));
-  Mesh plain = sheet();
+  Mesh plain = jittered_sheet();
   list[0].press = 1;
   physics::SimulateState other;
   CHECK(bridge::draw_more(plain, other, list, options).largest_jump < report.largest_jump);

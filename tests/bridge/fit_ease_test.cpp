@@ -18,10 +18,10 @@ using namespace furrow::tests;
 
 namespace {
 
-struct Body {
+struct MeasuredBody {
   std::vector<geometry::Point> points;
   std::vector<std::array<int, 3>> triangles;
-  explicit Body(const geometry::Mesh& mesh) : triangles(bridge::triangles_of(mesh)) {
+  explicit MeasuredBody(const geometry::Mesh& mesh) : triangles(bridge::triangles_of(mesh)) {
     for (auto v : mesh.vertices()) points.push_back(mesh.point(v));
   }
   bridge::FitBody view() const { return {points, triangles, {}}; }
@@ -37,7 +37,7 @@ geometry::Mesh moved(geometry::Mesh mesh, double x, double y) {
 }  // namespace
 
 TEST_CASE("fit_ease: around a tube in a tube it is the difference of two polygons") {
-  const Body body(cylinder(0.15, 1.7, 64, 17));
+  const MeasuredBody body(cylinder(0.15, 1.7, 64, 17));
   const geometry::Mesh garment = moved(cylinder(0.16, 0.6, 48, 6), 0, 0.8);  // from 0.8 to 1.4
   const auto ease = bridge::measure_ease(garment, body.view(), {1.3, 1.0, 0.7});
   REQUIRE(ease.size() == 3);
@@ -64,7 +64,7 @@ TEST_CASE("fit_ease: folds count for the garment, the tape measure goes over hol
     for (auto v : mesh->vertices())
       if (v.idx() % 2)
         mesh->point(v) = {0.9 * mesh->point(v).x(), mesh->point(v).y(), 0.9 * mesh->point(v).z()};
-  const Body body(star);
+  const MeasuredBody body(star);
   const auto ease = bridge::measure_ease(folds, body.view(), {{}, 1.0, {}});
   REQUIRE(ease.size() == 1);
   CHECK(*ease[0].body_girth == Approx(ngon(0.15, 32)).epsilon(1e-9));
@@ -74,7 +74,7 @@ TEST_CASE("fit_ease: folds count for the garment, the tape measure goes over hol
 }
 
 TEST_CASE("fit_ease: the girth at rest is that of the cloth unstrained, here smaller than the body") {
-  const Body body(cylinder(0.15, 1.7, 64, 17));
+  const MeasuredBody body(cylinder(0.15, 1.7, 64, 17));
   geometry::Mesh garment = cylinder(0.14, 1.7, 48, 17);
   auto rest = geometry::ensure_map(garment, geometry::attribute::rest_length);
   for (auto e : garment.edges()) rest[e] = geometry::spatial_length(garment, e);
@@ -96,7 +96,7 @@ TEST_CASE("fit_ease: sleeves that have grown together with the chest are cut hal
   geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
   append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
   append(figure, moved(cylinder(0.05, 1.7, 32, 17), -0.35, 0));
-  const Body body(figure);
+  const MeasuredBody body(figure);
   // A box-like garment around all: x from -0.5 to 0.5, z from -0.2 to 0.2, by a square tube.
   geometry::Mesh garment = cylinder(1, 1.7, 4, 17);
   for (auto v : garment.vertices()) {
@@ -115,7 +115,7 @@ TEST_CASE("fit_ease: where a sleeve ends at the section's height the chest is me
   geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
   append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
   append(figure, moved(cylinder(0.05, 1.7, 32, 17), -0.35, 0));
-  const Body body(figure);
+  const MeasuredBody body(figure);
   geometry::Mesh sheets = grid(20, 4, 0.6, 1.7);
   for (auto v : sheets.vertices()) sheets.point(v) = sheets.point(v) + geometry::Vector(-0.3, 0, 0.2);
   const auto front_alone = bridge::measure_ease(sheets, body.view(), {1.0, {}, {}});
@@ -132,7 +132,7 @@ TEST_CASE("fit_ease: where a sleeve ends at the section's height the chest is me
 }
 
 TEST_CASE("fit_ease: a garment that is open in front has no girth") {
-  const Body body(cylinder(0.15, 1.7, 64, 17));
+  const MeasuredBody body(cylinder(0.15, 1.7, 64, 17));
   geometry::Mesh coat = cylinder(0.2, 1.7, 32, 17);
   std::vector<geometry::Face> front;
   for (auto f : coat.faces()) {

@@ -15,11 +15,11 @@ using physics::Cloth, physics::Vec3;
 namespace {
 
 /// Who wears the skirt leans forward by 0.5 rad: it lies on her from behind.
-const Vec3 gravity(0, -9.81 * std::cos(0.5), 9.81 * std::sin(0.5));
+const Vec3 tilted_gravity(0, -9.81 * std::cos(0.5), 9.81 * std::sin(0.5));
 
 Cloth moved(Cloth cloth, const physics::Collider& body, double gap, double seconds) {
   physics::SimulateOptions o;
-  o.gravity = gravity;
+  o.gravity = tilted_gravity;
   o.friction = 0;
   o.contact_gap = gap;
   o.air_drag = 6;
@@ -40,7 +40,7 @@ void settle_on_the_gap(Cloth& cloth, const physics::Collider& body, physics::Set
 double energy_gained(const Cloth& a, const Cloth& b) {
   double e = potential_energy(b, b.particles.x) - potential_energy(a, a.particles.x);
   for (std::size_t i = 0; i < a.particles.size(); ++i)
-    e -= a.particles.mass[i] * gravity.dot(b.particles.x[i] - a.particles.x[i]);
+    e -= a.particles.mass[i] * tilted_gravity.dot(b.particles.x[i] - a.particles.x[i]);
   return e;
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("drape: a skirt's rest without friction is one of leapfrog's, too", "[
   const std::filesystem::path folder = tests::source_dir() / "meshes";
   const cases::GarmentPair pair = cases::read_pair(folder / "skirt.obj", folder / "mannequin.obj");
   bridge::DrapeOptions o;
-  o.settle.gravity = gravity;
+  o.settle.gravity = tilted_gravity;
   o.settle.friction = 0;
   o.settle.gap = cases::gap_of(pair, 0);
   o.settle.tolerance = 1e-5;
@@ -68,7 +68,7 @@ TEST_CASE("drape: a skirt's rest without friction is one of leapfrog's, too", "[
   Cloth stiff = rest;
   settle_on_the_gap(stiff, pair.field, o.settle);
   CHECK(cases::median_surface_distance(mesh, rest.particles.x, stiff.particles.x) < 0.003);
-  const physics::CertificateOptions certified{.gravity = gravity, .friction = 0, .gap = o.settle.gap};
+  const physics::CertificateOptions certified{.gravity = tilted_gravity, .friction = 0, .gap = o.settle.gap};
   CHECK(physics::certify(stiff, certified, &pair.field).stable());
 
   const Cloth stayed = moved(stiff, pair.field, o.settle.gap, 0.2);

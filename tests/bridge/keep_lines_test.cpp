@@ -95,7 +95,8 @@ TEST_CASE("keep_lines: a line starts from its own width and press, and help mult
 }
 
 TEST_CASE(
-    "keep_lines: a line with a width is the same fold on a coarse and on a fine mesh, and is kept on both") {
+    "keep_lines: a line with a width is the same fold on a coarse and on a fine mesh, and is kept on both",
+    "[accuracy]") {
   std::vector<bridge::KeptLine> lines;
   for (const double edge : {0.02, 0.01}) {
     Hung hung(1e-4, 0.06, 1, edge);
@@ -219,7 +220,8 @@ TEST_CASE("keep_lines: a shape that stands like a pencil on its tip is pushed be
   CHECK(drift(false) > 1e-3);
 }
 
-TEST_CASE("keep_lines: lines drawn at random on coarse meshes and called held are held in another run, too") {
+TEST_CASE("keep_lines: lines drawn at random on coarse meshes and called held are held in another run, too",
+          "[accuracy]") {
   int held = 0;
   for (const std::uint64_t seed : {20261125, 20261127, 20261132}) {
     CAPTURE(seed);

@@ -25,7 +25,7 @@ using geometry::Vertex;
 
 namespace {
 
-Mesh sheet() {
+Mesh wavy_sheet() {
   Mesh mesh = tests::jittered(5, 4, 0.2, 3);
   tests::lift(mesh, [](double x, double y) { return 0.1 * std::sin(5 * x) * y; });
   geometry::ensure_rest_lengths(mesh);
@@ -92,7 +92,7 @@ TEST_CASE("store_rest_state: what is stored is gathered again with the same bits
                                   Membrane::triangles, Membrane::tension})
     for (const Bending bending : {Bending::cross, Bending::hinge, Bending::cosine}) {
       CAPTURE(int(membrane), int(bending));
-      Mesh mesh = sheet();
+      Mesh mesh = wavy_sheet();
       const GatherOptions o = options_for(mesh, membrane, bending);
       physics::Cloth cloth = bridge::gather(mesh, o);
       bridge::store_rest_state(cloth, o, mesh);
@@ -113,7 +113,7 @@ TEST_CASE(
     "store_rest_state: bending springs that the mesh lacks are stored as struts, also beside a cross "
     "spring") {
   for (const Bending bending : {Bending::cross, Bending::hinge}) {
-    Mesh mesh = sheet();
+    Mesh mesh = wavy_sheet();
     const GatherOptions o = options_for(mesh, Membrane::triangles, bending);
     physics::Cloth cloth = bridge::gather(mesh, o);
     const std::vector<physics::Spring> own = cloth.bending;
@@ -144,7 +144,7 @@ TEST_CASE(
 }
 
 TEST_CASE("store_rest_state: a triangle of its own lengths changes no other triangle, and no metric") {
-  Mesh mesh = sheet();
+  Mesh mesh = wavy_sheet();
   const GatherOptions o = options_for(mesh, Membrane::triangles, Bending::hinge);
   physics::Cloth cloth = bridge::gather(mesh, o);
   const Mesh before = mesh;
@@ -161,7 +161,7 @@ TEST_CASE(
     "stored") {
   const auto refused = [](Membrane membrane, Bending bending, const char* word,
                           const std::function<void(physics::Cloth&)>& spoil) {
-    Mesh mesh = sheet();
+    Mesh mesh = wavy_sheet();
     const GatherOptions o = options_for(mesh, membrane, bending);
     const physics::Cloth good = bridge::gather(mesh, o);
     physics::Cloth bad = good;
@@ -192,7 +192,7 @@ TEST_CASE(
 
 TEST_CASE("store_rest_state: gather refuses a stiffness that makes no sense") {
   for (const double bad : {-1.0, HUGE_VAL}) {
-    Mesh mesh = sheet();
+    Mesh mesh = wavy_sheet();
     ensure_map(mesh, geometry::attribute::hinge_stiffness)[Edge(20)] = bad;
     CHECK_NOTHROW(bridge::gather(mesh, options_for(mesh, Membrane::paper, Bending::cross)));
     CHECK_THROWS_AS(bridge::gather(mesh, options_for(mesh, Membrane::paper, Bending::hinge)),

@@ -19,7 +19,7 @@ namespace {
 using physics::Cloth;
 using physics::Vec3;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double distance_from_axis(const Vec3& x) { return std::hypot(x.x(), x.y()); }
 
@@ -78,9 +78,9 @@ Cusick cusick_specimen(const CusickOptions& o) {
     if (r < o.support + 1e-9 * o.radius) inv_mass[i] = 0;
     if (r > o.radius * (1 - 1e-9)) specimen.rim.push_back(int(i));
   }
-  add_membrane(cloth, o.young, o.poisson);
+  add_flat_membrane(cloth, o.young, o.poisson);
   // B = c^3 w, w the weight an area
-  add_hinges(cloth, std::pow(o.bending_length, 3) * o.density * cusick_gravity);
+  add_flat_hinges(cloth, std::pow(o.bending_length, 3) * o.density * cusick_gravity);
   if (o.stiff_clamp) physics::stiffen_clamps(cloth);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double out = distance_from_axis(x[i]) - o.support, angle = std::atan2(x[i].y(), x[i].x());

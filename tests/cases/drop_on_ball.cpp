@@ -6,14 +6,13 @@
 
 #include "physics/cloth/elements.h"
 #include "tests/cases/flat_meshes.h"
+#include "tests/cases/gravity.h"
 #include "tests/cases/semi_implicit.h"
 
 namespace furrow::cases {
 namespace {
 
 using physics::Vec3;
-
-constexpr double gravity = 9.81;  // m/s^2
 
 struct Ball : physics::Collider {
   physics::SignedDistance at(const Vec3& x) const override {

@@ -225,7 +225,7 @@ Cloth right_sheet(double width, double height, int columns, int rows, double den
   return finished(std::move(x), std::move(triangles), density);
 }
 
-void add_membrane(Cloth& cloth, double young_times_thickness, double poisson) {
+void add_flat_membrane(Cloth& cloth, double young_times_thickness, double poisson) {
   const physics::PlaneLame lame = physics::plane_stress(young_times_thickness, poisson);
   const auto& x = cloth.particles.x;
   for (const auto& t : cloth.triangles) {
@@ -235,7 +235,7 @@ void add_membrane(Cloth& cloth, double young_times_thickness, double poisson) {
   }
 }
 
-void add_hinges(Cloth& cloth, double rigidity, const std::vector<char>& at_clamp) {
+void add_flat_hinges(Cloth& cloth, double rigidity, const std::vector<char>& at_clamp) {
   const auto& x = cloth.particles.x;
   for (const EdgeApexes& e : edges_of(cloth.triangles)) {
     if (e.left < 0 || e.right < 0) continue;

@@ -35,12 +35,12 @@ physics::Cloth right_sheet(double width, double height, int columns, int rows, d
                            bool alternating = false);
 
 /// A membrane triangle of plane stress, nu = 0.3 by default, for each triangle; at rest as the cloth lies.
-void add_membrane(physics::Cloth& cloth, double young_times_thickness, double poisson = 0.3);
+void add_flat_membrane(physics::Cloth& cloth, double young_times_thickness, double poisson = 0.3);
 
 /// A linear hinge for each interior edge, flat at rest, for the bending rigidity [N m]. at_clamp: whether a
 /// particle lies on a clamped edge. A hinge between two such particles counts twice (it stands for half a
 /// cell).
-void add_hinges(physics::Cloth& cloth, double rigidity, const std::vector<char>& at_clamp = {});
+void add_flat_hinges(physics::Cloth& cloth, double rigidity, const std::vector<char>& at_clamp = {});
 
 /// For each edge a < b the apexes of its one or two triangles, sorted by (a, b).
 struct EdgeApexes {

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/cases/flat_meshes.h"
+#include "tests/cases/gravity.h"
 #include "tests/cases/membrane_laws.h"
 
 namespace furrow::cases {
@@ -13,7 +15,7 @@ namespace {
 using physics::Cloth;
 using physics::Vec3;
 
-constexpr double pi = 3.14159265358979323846, gravity = 9.81;
+using std::numbers::pi;
 constexpr double density = 0.15;   // kg/m
 constexpr double membrane = 300;   // N, stiffness of a strip times its length
 constexpr double longest = 0.004;  // m, springs on the table

@@ -3,11 +3,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "physics/cloth/membrane.h"
 #include "physics/motion/leapfrog_step.h"
 #include "tests/cases/flat_meshes.h"
+#include "tests/cases/gravity.h"
 #include "tests/cases/modes.h"
 
 namespace furrow::cases {
@@ -16,7 +18,7 @@ namespace {
 using physics::Cloth;
 using physics::Vec3;
 
-constexpr double pi = 3.14159265358979323846, gravity = 9.81;
+using std::numbers::pi;
 
 void add_particle(Cloth& cloth, const Vec3& x, double mass, bool held) {
   cloth.particles.x.push_back(x);
@@ -100,7 +102,7 @@ Cloth drum(double tension, double density, double width, double height, int colu
       triangular_sheet(width, height, columns, equilateral_rows(width, height, columns), density, jitter);
   cloth.structural.clear();
   const double young = 100 * tension, poisson = 0.3;
-  add_membrane(cloth, young, poisson);
+  add_flat_membrane(cloth, young, poisson);
   // Stretched by s in both directions: S = Y/(1 - nu) (s^2 - 1)/2 and Cauchy's tension (force over present
   // length) is S F F^T / det F = S.
   const double s = std::sqrt(1 + 2 * tension * (1 - poisson) / young);
@@ -118,7 +120,7 @@ double drum_frequency(double tension, double density, double width, double heigh
 Cloth supported_plate(double rigidity, double density, double side, int columns, double jitter) {
   Cloth cloth = triangular_sheet(side, side, columns, equilateral_rows(side, side, columns), density, jitter);
   cloth.structural.clear();
-  add_hinges(cloth, rigidity);
+  add_flat_hinges(cloth, rigidity);
   hold_border(cloth);
   return cloth;
 }
@@ -141,7 +143,7 @@ Cloth cantilever(double rigidity, double density, double length, double width, i
     at_clamp[i] = std::abs(x.y() - row) < 1e-9 * row;
     if (x.y() < 1.0001 * row) cloth.particles.inv_mass[i] = 0;
   }
-  add_hinges(cloth, rigidity, at_clamp);
+  add_flat_hinges(cloth, rigidity, at_clamp);
   return cloth;
 }
 

@@ -81,7 +81,7 @@ PatchScore patch_test(Cloth sheet, int columns, const Carrier& carrier) {
     set_membrane_stiffness(sheet, *carrier, calibrated_stiffness(sheet, *carrier, young, areas), areas);
   } else {
     sheet.structural.clear();
-    add_membrane(sheet, young, 1.0 / 3);
+    add_flat_membrane(sheet, young, 1.0 / 3);
   }
   const Relaxation relax(sheet, with_border_held(sheet));
   const double h = width / columns;

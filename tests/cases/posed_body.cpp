@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace {
 using physics::TriangleMesh;
 using physics::Vec3;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 double smooth_step(double t) {
   t = std::clamp(t, 0.0, 1.0);

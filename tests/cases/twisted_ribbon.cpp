@@ -13,7 +13,7 @@ namespace {
 using physics::Cloth;
 using physics::Vec3;
 
-constexpr double young = 100;  // N/m
+constexpr double youngs_modulus = 100;  // N/m
 
 /// Where a point x beside the axis, at height y of a ribbon of length 1, comes to.
 Vec3 on_helicoid(const Twist& twist, double width, double x, double y) {
@@ -27,8 +27,8 @@ RibbonLoad total(const Cloth& cloth, const std::vector<Vec3>& force, double widt
   for (std::size_t i = 0; i < force.size(); ++i) {
     const Vec3 &x = cloth.particles.x[i], &f = force[i];
     if (!chosen(x.y())) continue;
-    load.force += f.y() / (young * width);
-    load.torque += (x.x() * f.z() - x.z() * f.x()) / (young * width * width / 2);
+    load.force += f.y() / (youngs_modulus * width);
+    load.torque += (x.x() * f.z() - x.z() * f.x()) / (youngs_modulus * width * width / 2);
   }
   return load;
 }
@@ -56,7 +56,8 @@ RibbonLoad spring_ribbon(const Twist& twist, int fibres, int rows) {
     for (int r = 0; r <= rows; ++r) {
       const int i = c * (rows + 1) + r;
       cloth.particles.x.push_back(on_helicoid(twist, width, x, double(r) / rows));
-      if (r < rows) cloth.structural.push_back({i, i + 1, 1.0 / rows, young * width / fibres * rows});
+      if (r < rows)
+        cloth.structural.push_back({i, i + 1, 1.0 / rows, youngs_modulus * width / fibres * rows});
     }
   }
   std::vector<Vec3> force(cloth.particles.size(), Vec3::Zero());
@@ -69,14 +70,14 @@ RibbonLoad spring_ribbon(const Twist& twist, int fibres, int rows) {
 RibbonLoad membrane_ribbon(const Twist& twist, double width, int columns, int rows) {
   Cloth cloth = right_sheet(width, 1, columns, rows, 0.1, true);
   cloth.structural.clear();
-  add_membrane(cloth, young, 0);
-  add_hinges(cloth, 1e-6 * young * width * width);
+  add_flat_membrane(cloth, youngs_modulus, 0);
+  add_flat_hinges(cloth, 1e-6 * youngs_modulus * width * width);
   for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
     Vec3& x = cloth.particles.x[i];
     if (x.y() < 1e-9 || x.y() > 1 - 1e-9) cloth.particles.inv_mass[i] = 0;
     x = on_helicoid(twist, width, x.x() - width / 2, x.y());
   }
-  find_rest(cloth, Unknowns(cloth, {true, true, true}), Vec3::Zero(), 1e-9 * young * width);
+  find_rest(cloth, Unknowns(cloth, {true, true, true}), Vec3::Zero(), 1e-9 * youngs_modulus * width);
   std::vector<Vec3> force(cloth.particles.size(), Vec3::Zero());
   physics::add_forces(cloth, cloth.particles.x, force);
   return total(cloth, force, width, [](double y) { return y < 1e-9; });

@@ -17,8 +17,8 @@ using nlohmann::json;
 namespace {
 
 /// A patch that hangs by two corners.
-std::string write_scene(const ScratchDirectory& scratch, const std::string& seconds = "0.15",
-                        const std::string& more = "") {
+std::string write_patch_scene(const ScratchDirectory& scratch, const std::string& seconds = "0.15",
+                              const std::string& more = "") {
   const std::string path = scratch / "patch.toml";
   write_text(path, "[garment]\nmesh = \"" FURROW_SOURCE_DIR
                    "/meshes/validation/patch.obj\"\n[[pins]]\nvertices = [0, 10]\n[simulation]\nseconds = " +
@@ -76,7 +76,7 @@ std::string box(double top, int missing = 0) {
 TEST_CASE("chart: the recommendation holds against a finer reference, the next cheaper does not",
           "[accuracy]") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch);
+  const std::string scene = write_patch_scene(scratch);
   const json report = report_of(run_furrow("chart --json " + scene));
   CHECK(report["complete"] == true);
   CHECK(report["shortened"] == false);
@@ -93,7 +93,7 @@ TEST_CASE("chart: the recommendation holds against a finer reference, the next c
 
 TEST_CASE("chart: the same twice, to the byte") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch, "0.05");
+  const std::string scene = write_patch_scene(scratch, "0.05");
   const Run first = run_furrow("chart --json " + scene), second = run_furrow("chart --json " + scene);
   CHECK(first.exit_code == 0);
   CHECK(first.out == second.out);
@@ -101,7 +101,8 @@ TEST_CASE("chart: the same twice, to the byte") {
 
 TEST_CASE("chart: a motion without chaos is judged by positions, and the order of leapfrog shows") {
   const ScratchDirectory scratch;
-  const json report = report_of(run_furrow("chart --json --tolerance 5% " + write_scene(scratch, "0.04")));
+  const json report =
+      report_of(run_furrow("chart --json --tolerance 5% " + write_patch_scene(scratch, "0.04")));
   CHECK(report["error_is"] == "positions");
   const json& all = report["candidates"];
   // Steps 1, 1/2 against 1/4: errors of order two are as 1 - 1/16 to 1/4 - 1/16.
@@ -112,7 +113,7 @@ TEST_CASE("chart: a motion without chaos is judged by positions, and the order o
 
 TEST_CASE("chart: chaotic motion is judged by surface, centre, extent and energy", "[accuracy]") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch, "0.2", "[material]\nbending = 0\n");
+  const std::string scene = write_patch_scene(scratch, "0.2", "[material]\nbending = 0\n");
   const json report = report_of(run_furrow("chart --json --tolerance 2% " + scene));
   CHECK(report["twin_drift"] > 2e-4);
   CHECK(report["error_is"] == "shape");
@@ -132,7 +133,8 @@ TEST_CASE("chart: chaotic motion is judged by surface, centre, extent and energy
 
 TEST_CASE("chart: leapfrog's energy converges by order two, as its positions do") {
   const ScratchDirectory scratch;
-  const json report = report_of(run_furrow("chart --json --tolerance 20% " + write_scene(scratch, "0.04")));
+  const json report =
+      report_of(run_furrow("chart --json --tolerance 20% " + write_patch_scene(scratch, "0.04")));
   // Steps 1, 1/2 against 1/4: as 1 - 1/16 to 1/4 - 1/16.
   const double coarse = report["candidates"][0]["energy"], fine = report["candidates"][1]["energy"];
   CHECK(fine > 0);
@@ -141,7 +143,8 @@ TEST_CASE("chart: leapfrog's energy converges by order two, as its positions do"
 
 TEST_CASE("chart: sweeps and Newton's iterations are those of the scene, and flags set them") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch, "0.02", "sweeps = 3\nnewton = 2\n"), end = scratch / "e.ply";
+  const std::string scene = write_patch_scene(scratch, "0.02", "sweeps = 3\nnewton = 2\n"),
+                    end = scratch / "e.ply";
   const json report = report_of(run_furrow("chart --json --tolerance 50% " + scene));
   for (const json& c : report["candidates"]) {
     const std::string name = c["name"], flags = c["flags"];
@@ -165,11 +168,12 @@ TEST_CASE("chart: a body that changes its shape costs, and begins anew each run"
   const ScratchDirectory scratch;
   for (int frame = 0; frame < 3; ++frame)
     write_text(scratch / ("box_000" + std::to_string(frame) + ".obj"), box(-0.01 + 0.002 * frame));
-  const json alone = report_of(run_furrow("chart --json --tolerance 50% " + write_scene(scratch, "0.03")));
+  const json alone =
+      report_of(run_furrow("chart --json --tolerance 50% " + write_patch_scene(scratch, "0.03")));
   const std::string end = scratch / "chosen.ply",
-                    scene = write_scene(scratch, "0.03",
-                                        "[body]\nmesh = \"box_0000.obj\"\ntolerance = 0.01\n"
-                                        "frames = \"box_####.obj\"\n");
+                    scene = write_patch_scene(scratch, "0.03",
+                                              "[body]\nmesh = \"box_0000.obj\"\ntolerance = 0.01\n"
+                                              "frames = \"box_####.obj\"\n");
   const json moving =
       report_of(run_furrow("simulate --json --tolerance 50% " + scene + " -o " + end))["choice"];
   CHECK(moving["complete"] == true);
@@ -181,7 +185,7 @@ TEST_CASE("chart: a body that changes its shape costs, and begins anew each run"
 
 TEST_CASE("chart: a budget that is too small shortens, or is refused with what is needed") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch, "2");
+  const std::string scene = write_patch_scene(scratch, "2");
   const json report = report_of(run_furrow("chart --json --tolerance 10% --budget 0.2 " + scene));
   CHECK(report["shortened"] == true);
   CHECK(report["judged_seconds"] < 1);
@@ -193,7 +197,7 @@ TEST_CASE("chart: a budget that is too small shortens, or is refused with what i
 
 TEST_CASE("chart: nothing within the tolerance exits with 4, a missing scene with 3, a bad call with 2") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch, "0.1");
+  const std::string scene = write_patch_scene(scratch, "0.1");
   const Run none = run_furrow("chart --tolerance 0.0000001% " + scene);
   CHECK(none.exit_code == 4);
   CHECK(none.err.find("larger --tolerance") != std::string::npos);
@@ -204,7 +208,8 @@ TEST_CASE("chart: nothing within the tolerance exits with 4, a missing scene wit
 
 TEST_CASE("chart: numbers as CSV, and a picture where gnuplot is") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch, "0.02"), csv = scratch / "c.csv", svg = scratch / "c.svg";
+  const std::string scene = write_patch_scene(scratch, "0.02"), csv = scratch / "c.csv",
+                    svg = scratch / "c.svg";
   CHECK(run_furrow("chart -q --tolerance 20% " + scene + " --csv " + csv).exit_code == 0);
   CHECK(read_text(csv).rfind("name,integrator,dt,cost,error,error_is,rms,max,surface,centre,extent,borders,"
                              "energy,verdict\n",
@@ -218,7 +223,7 @@ TEST_CASE("chart: numbers as CSV, and a picture where gnuplot is") {
 
 TEST_CASE("chart: simulate with --tolerance in per cent takes its recommendation and says its flags") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch), end = scratch / "end.ply";
+  const std::string scene = write_patch_scene(scratch), end = scratch / "end.ply";
   const json chart = report_of(run_furrow("chart --json " + scene));
   const json run = report_of(run_furrow("simulate --json --tolerance 1% " + scene + " -o " + end));
   CHECK(run["choice"]["recommendation"] == chart["recommendation"]);
@@ -237,7 +242,8 @@ TEST_CASE("chart: simulate with --tolerance in per cent takes its recommendation
 TEST_CASE("chart: simulate with --tolerance in per cent reads and builds the body once") {
   const ScratchDirectory scratch;
   write_text(scratch / "box.obj", box(-0.01, 2));
-  const std::string scene = write_scene(scratch, "0.03", "[body]\nmesh = \"box.obj\"\ntolerance = 0.01\n");
+  const std::string scene =
+      write_patch_scene(scratch, "0.03", "[body]\nmesh = \"box.obj\"\ntolerance = 0.01\n");
   const Run run = run_furrow("simulate --tolerance 50% " + scene + " -o " + (scratch / "end.ply"));
   CHECK(run.exit_code == 0);
   const std::size_t first = run.err.find("of the body filled");
@@ -249,7 +255,7 @@ TEST_CASE("chart: where dt_max bounds the cheapest step, the reference is still 
   const ScratchDirectory scratch;
   const std::string soft = "[material]\nstiffness = 0.02\nbending = 0.002\ndensity = 1\n";
   const json report =
-      report_of(run_furrow("chart --json --tolerance 50% " + write_scene(scratch, "2", soft)));
+      report_of(run_furrow("chart --json --tolerance 50% " + write_patch_scene(scratch, "2", soft)));
   REQUIRE(report["dt_limit"] > 0.005 / 0.225);  // so that a quarter of it would be above dt_max
   const double coarse = report["candidates"][0]["dt"];
   CHECK(coarse == Approx(0.005).epsilon(0.01));
@@ -285,18 +291,19 @@ TEST_CASE("chart: what diverges everywhere is no matter of the tolerance") {
 
 TEST_CASE("chart: a setting of the scene that no run would take is refused before the work") {
   const ScratchDirectory scratch;
-  const Run step = run_furrow("chart " + write_scene(scratch, "0.1", "dt = 0.5\n"));
+  const Run step = run_furrow("chart " + write_patch_scene(scratch, "0.1", "dt = 0.5\n"));
   CHECK(step.exit_code == 2);
   CHECK(step.err.find("stability limit") != std::string::npos);
-  const Run denim = run_furrow(
-      "chart " + write_scene(scratch, "0.1", "integrator = \"xpbd\"\n[material]\npreset = \"denim\"\n"));
+  const Run denim =
+      run_furrow("chart " + write_patch_scene(scratch, "0.1",
+                                              "integrator = \"xpbd\"\n[material]\npreset = \"denim\"\n"));
   CHECK(denim.exit_code == 2);
   CHECK(denim.err.find("choose springs") != std::string::npos);
 }
 
 TEST_CASE("chart: a budget is a number above 0, and is for a choice") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch, "0.01"), end = scratch / "end.ply";
+  const std::string scene = write_patch_scene(scratch, "0.01"), end = scratch / "end.ply";
   for (const char* budget : {"0", "-1", "nan", "inf"}) {
     const Run run = run_furrow("chart " + scene + " --budget " + budget);
     CHECK(run.exit_code == 2);

@@ -9,7 +9,7 @@
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/mesh/mesh_file.h"
 #include "io/picture/png_file.h"
-#include "run_furrow.h"
+#include "run_json.h"
 
 using namespace furrow;
 using namespace furrow::tests;
@@ -38,10 +38,10 @@ std::string tube(double radius, double from, double to, int up) {
   return text;
 }
 
-struct Files {
+struct TubeFiles {
   ScratchDirectory scratch;
   std::string body = scratch / "body.obj", made = scratch / "made.obj", worn = scratch / "worn.obj";
-  Files() {
+  TubeFiles() {
     write_text(body, tube(0.15, 0, 1.7, 34));
     write_text(made, tube(0.148, 0.7, 1.3, 12));
     write_text(worn, tube(0.16, 0.7, 1.3, 12));
@@ -49,19 +49,12 @@ struct Files {
   std::string operator/(const std::string& name) const { return scratch / name; }
 };
 
-json succeed(const std::string& arguments) {
-  const Run run = run_furrow(arguments);
-  INFO(arguments << "\n" << run.err);
-  REQUIRE(run.exit_code == 0);
-  return json::parse(run.out);
-}
-
 double ngon(double radius) { return 2 * around * radius * std::sin(std::numbers::pi / around); }
 
 }  // namespace
 
 TEST_CASE("fit: a stretched tube on a column has the known strain, room and distances") {
-  Files f;
+  TubeFiles f;
   const json r = succeed("fit --json " + f.worn + " --rest " + f.made + " --body " + f.body + " -o " +
                          (f / "c.ply") + " --section waist=1.0");
   CHECK(r["strain"]["p50"].get<double>() == Approx(0.16 / 0.148 - 1).epsilon(1e-3));
@@ -92,7 +85,7 @@ TEST_CASE("fit: a stretched tube on a column has the known strain, room and dist
 }
 
 TEST_CASE("fit: without rest lengths it says so, and colours by distance") {
-  Files f;
+  TubeFiles f;
   const Run run = run_furrow("fit --json " + f.worn + " --body " + f.body);
   REQUIRE(run.exit_code == 0);
   CHECK(run.err.find("no rest lengths") != std::string::npos);
@@ -107,7 +100,7 @@ TEST_CASE("fit: without rest lengths it says so, and colours by distance") {
 }
 
 TEST_CASE("fit: pictures of one garment from both sides, and of several with one legend") {
-  Files f;
+  TubeFiles f;
   const std::string small = " --size 220,260 --quality draft ";
   succeed("fit --json " + f.worn + " --rest " + f.made + " --body " + f.body + small + "--picture " +
           (f / "one.png"));
@@ -137,7 +130,7 @@ TEST_CASE("fit: pictures of one garment from both sides, and of several with one
 }
 
 TEST_CASE("fit: wrong calls of fit are told before the work") {
-  Files f;
+  TubeFiles f;
   const std::string good = "fit " + f.worn + " --body " + f.body + " ";
   for (const std::string& call :
        {good + "--section neck=1.2", good + "--section chest", good + "--section chest=high",

@@ -12,7 +12,7 @@ using nlohmann::json;
 namespace {
 
 /// A patch that hangs by an edge, with two rounds of one ridge each.
-std::string write_scene(const ScratchDirectory& scratch) {
+std::string write_hung_scene(const ScratchDirectory& scratch) {
   write_text(scratch / "a.json",
              R"({"strokes": [{"name": "a", "points": [[-0.03, 0.003, 0.02], [0.03, 0.003, 0.02]]}]})");
   write_text(scratch / "b.json",
@@ -36,7 +36,7 @@ height = 0.004
 
 TEST_CASE("keep: the state goes on with the lines as drawn, all rounds of time 0 in it, at rest") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch), state = scratch / "kept.ply";
+  const std::string scene = write_hung_scene(scratch), state = scratch / "kept.ply";
   const Run run = run_furrow("keep --json --run 1 " + scene + " --save-state " + state);
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
@@ -54,7 +54,7 @@ TEST_CASE("keep: the state goes on with the lines as drawn, all rounds of time 0
 
 TEST_CASE("keep: no output replaces what is read") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch), strokes = read_text(scratch / "a.json");
+  const std::string scene = write_hung_scene(scratch), strokes = read_text(scratch / "a.json");
   for (const std::string& flags : {" --picture " + (scratch / "a.json"), " --save-state " + scene})
     CHECK(run_furrow("keep --run 0.1 " + scene + flags).exit_code == 2);
   CHECK(read_text(scratch / "a.json") == strokes);
@@ -62,7 +62,7 @@ TEST_CASE("keep: no output replaces what is read") {
 
 TEST_CASE("keep: with --whole what gives way between the lines is pressed, and reported") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch);
+  const std::string scene = write_hung_scene(scratch);
   const auto keep = [&](const std::string& flags) {
     const Run run = run_furrow("keep --json --run 0.05 --gust 0 " + scene + flags);
     INFO(run.err);

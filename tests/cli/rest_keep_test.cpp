@@ -45,7 +45,7 @@ std::string write_strokes(const ScratchDirectory& scratch, const std::string& na
 }
 
 /// A patch that hangs by an edge, with a kept ridge at 0 and another at a later time.
-std::string write_scene(const ScratchDirectory& scratch) {
+std::string write_kept_scene(const ScratchDirectory& scratch) {
   write_strokes(scratch, "a", 0.02);
   write_strokes(scratch, "b", -0.02);
   const std::string path = scratch / "kept.toml";
@@ -74,7 +74,7 @@ double farthest(const std::string& a, const std::string& b) {
 
 TEST_CASE("rest keep: lines of a scene stay as drawn, at time 0 and later, and tell how they stand") {
   const ScratchDirectory scratch;
-  const json report = run_json("simulate " + write_scene(scratch) + " -o " + (scratch / "end.ply"));
+  const json report = run_json("simulate " + write_kept_scene(scratch) + " -o " + (scratch / "end.ply"));
   CHECK(report["kept"]["residual"] < 1e-8);
   CHECK(report["kept"]["stable"] == true);
   CHECK(report["kept"]["negative_eigenvalues"] == 0);
@@ -95,7 +95,8 @@ TEST_CASE("rest keep: lines of a scene stay as drawn, at time 0 and later, and t
 
 TEST_CASE("rest keep: a run that was stopped before and after the drawing gives the same bits") {
   const ScratchDirectory scratch;
-  const std::string scene = write_scene(scratch), whole = scratch / "whole.ply", end = scratch / "end.ply";
+  const std::string scene = write_kept_scene(scratch), whole = scratch / "whole.ply",
+                    end = scratch / "end.ply";
   run_json("simulate " + scene + " -o " + whole);
   std::string state = scene;
   for (const char* time : {"0.03", "0.05", "0.07"}) {
@@ -176,7 +177,7 @@ TEST_CASE("rest keep: what it needs and what it refuses is told") {
   refuses("simulate " + patch + " --rest keep" + pins + out, 2, "needs hinges");
   refuses("simulate " + patch + " --rest drawn" + material + down + pins + out, 2, "none of stored, keep");
   refuses("simulate " + patch + " --rest keep" + material + down + pins + moving + out, 2, "stand still");
-  const std::string scene = write_scene(scratch), state = scratch / "s.ply";
+  const std::string scene = write_kept_scene(scratch), state = scratch / "s.ply";
   refuses("simulate " + scene + " --set material.bending_law=cross" + out, 3,
           "lines.0.rest = \"keep\" needs hinges");
   run_json("simulate " + scene + " --stop-at 0.02 --save-state " + state);

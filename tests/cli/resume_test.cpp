@@ -78,7 +78,7 @@ seconds = 0.16
 
 }  // namespace
 
-TEST_CASE("resume: a simulation stopped anywhere goes on as if it had not been stopped") {
+TEST_CASE("resume: a simulation stopped anywhere goes on as if it had not been stopped", "[accuracy]") {
   FallingSheet sheet;
   const std::string scene = sheet.scratch / "scene.toml", state = sheet.scratch / "state.ply";
   const std::string whole = sheet.run(scene + " --threads 1");

@@ -2,11 +2,8 @@
 furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   run_furrow.h
   run_furrow.cpp
-<<<<<<< HEAD
   gate_test.cpp
-=======
   strict_json_test.cpp
->>>>>>> truth
   usage_test.cpp
   pipeline_test.cpp
   resume_test.cpp

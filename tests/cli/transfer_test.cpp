@@ -7,7 +7,7 @@
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/mesh/mesh_file.h"
 #include "io/picture/png_file.h"
-#include "run_furrow.h"
+#include "run_json.h"
 #include "tests/test_paths.h"
 
 using namespace furrow;
@@ -15,13 +15,6 @@ using namespace furrow::tests;
 using nlohmann::json;
 
 namespace {
-
-json succeed(const std::string& arguments) {
-  const Run run = run_furrow(arguments);
-  INFO(arguments << "\n" << run.err);
-  REQUIRE(run.exit_code == 0);
-  return json::parse(run.out);
-}
 
 struct Skirt {
   ScratchDirectory scratch;

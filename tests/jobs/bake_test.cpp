@@ -43,8 +43,6 @@ jobs::BakeJob waves(double height = 0.01) {
   return job;
 }
 
-io::MeshFile mesh_of(const jobs::MeshInput& input) { return std::get<io::MeshFile>(input); }
-
 }  // namespace
 
 TEST_CASE("bake: meshes in memory come to the bits of their files") {
@@ -55,8 +53,8 @@ TEST_CASE("bake: meshes in memory come to the bits of their files") {
   in_memory.prefix = folder / "s";
   in_memory.check = 2;
   jobs::BakeJob of_files = in_memory;
-  io::write_mesh(folder / "low.ply", mesh_of(in_memory.low));
-  io::write_mesh(folder / "high.ply", mesh_of(in_memory.high));
+  io::write_mesh(folder / "low.ply", tests::mesh_of(in_memory.low));
+  io::write_mesh(folder / "high.ply", tests::mesh_of(in_memory.high));
   of_files.low = folder / "low.ply";
   of_files.high = folder / "high.ply";
   of_files.prefix = from_files / "s";
@@ -124,7 +122,7 @@ TEST_CASE("bake: a job that cannot be is refused before anything is written") {
   const fs::path folder = tests::empty_folder("bake_refused");
   tests::Recorder recorder;
   const jobs::BakeJob good = waves();
-  io::write_mesh(folder / "low.ply", mesh_of(good.low));
+  io::write_mesh(folder / "low.ply", tests::mesh_of(good.low));
   const std::string low = tests::bytes_of(folder / "low.ply");
   const auto refused = [&](const auto& spoil) {
     jobs::BakeJob job = good;

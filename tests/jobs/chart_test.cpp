@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-jobs::ChartJob hung_sheet() {
+jobs::ChartJob chart_of_hung_sheet() {
   jobs::ChartJob job;
   job.scene.memory.meshes["sheet"].mesh = geometry::equilateral_sheet(0.4, 0.4, 0.05);
   job.scene.settings = io::parse_toml(
@@ -30,7 +30,7 @@ TEST_CASE("chart: the choice is the same from call to call, and the numbers are 
   fs::remove_all(folder);
   fs::create_directories(folder);
   tests::Recorder recorder;
-  jobs::ChartJob job = hung_sheet();
+  jobs::ChartJob job = chart_of_hung_sheet();
   job.csv = folder / "chart.csv";
   const jobs::ChartReport once = jobs::chart(job, recorder), again = jobs::chart(job, recorder);
   CHECK(once.judgement.has_answer());
@@ -42,9 +42,9 @@ TEST_CASE("chart: the choice is the same from call to call, and the numbers are 
 
 TEST_CASE("chart: a judgement that is cancelled says so and chooses nothing") {
   tests::Recorder whole;
-  jobs::chart(hung_sheet(), whole);
+  jobs::chart(chart_of_hung_sheet(), whole);
   tests::Recorder early(4);
-  const jobs::ChartReport report = jobs::chart(hung_sheet(), early);
+  const jobs::ChartReport report = jobs::chart(chart_of_hung_sheet(), early);
   CHECK(report.judgement.broken == jobs::Broken::interrupted);
   CHECK_FALSE(report.judgement.has_answer());
   CHECK(early.asked == 4);
@@ -53,10 +53,10 @@ TEST_CASE("chart: a judgement that is cancelled says so and chooses nothing") {
 
 TEST_CASE("chart: options out of their range and pictures of other kinds are refused") {
   tests::Recorder recorder;
-  jobs::ChartJob job = hung_sheet();
+  jobs::ChartJob job = chart_of_hung_sheet();
   job.options.tolerance = 0;
   CHECK_THROWS_AS(jobs::chart(job, recorder), std::invalid_argument);
-  job = hung_sheet();
+  job = chart_of_hung_sheet();
   job.picture = "chart.jpg";
   CHECK_THROWS_AS(jobs::chart(job, recorder), std::invalid_argument);
 }

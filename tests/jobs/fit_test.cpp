@@ -32,8 +32,6 @@ jobs::FitJob worn_sleeve(double radius = 0.12) {
   return job;
 }
 
-io::MeshFile mesh_of(const jobs::MeshInput& input) { return std::get<io::MeshFile>(input); }
-
 /// Without what it was made of.
 void forget_rest(jobs::MeshInput& input) {
   io::MeshFile& file = std::get<io::MeshFile>(input);
@@ -48,8 +46,8 @@ TEST_CASE("fit: a garment and a body in memory come to the bits of their files")
   tests::Recorder recorder;
   const jobs::FitJob in_memory = worn_sleeve();
   jobs::FitJob of_files = in_memory;
-  io::write_mesh(folder / "sleeve.ply", mesh_of(in_memory.worn[0]));
-  io::write_mesh(folder / "ball.ply", mesh_of(in_memory.bodies[0]));
+  io::write_mesh(folder / "sleeve.ply", tests::mesh_of(in_memory.worn[0]));
+  io::write_mesh(folder / "ball.ply", tests::mesh_of(in_memory.bodies[0]));
   of_files.worn = {folder / "sleeve.ply"};
   of_files.bodies = {folder / "ball.ply"};
   of_files.output = folder / "fitted.ply";
@@ -69,7 +67,7 @@ TEST_CASE("fit: a garment and a body in memory come to the bits of their files")
 TEST_CASE("fit: what is not known is warned of by its code") {
   tests::Recorder recorder;
   jobs::FitJob job = worn_sleeve();
-  const io::MeshFile made = mesh_of(job.worn[0]);
+  const io::MeshFile made = tests::mesh_of(job.worn[0]);
   forget_rest(job.worn[0]);
   const jobs::FitJobReport unknown = jobs::fit(job, recorder);
   CHECK(recorder.warned_of("strain_unknown"));
@@ -103,7 +101,7 @@ TEST_CASE("fit: a job that cannot be is refused before anything is written") {
   const fs::path folder = tests::empty_folder("fit_refused");
   tests::Recorder recorder;
   const jobs::FitJob good = worn_sleeve();
-  io::write_mesh(folder / "sleeve.ply", mesh_of(good.worn[0]));
+  io::write_mesh(folder / "sleeve.ply", tests::mesh_of(good.worn[0]));
   const std::string sleeve = tests::bytes_of(folder / "sleeve.ply");
   const auto refused = [&](const auto& spoil) {
     jobs::FitJob job = good;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/mesh/mesh_file.h"
+#include "jobs/inputs.h"
 
 /// Files that the tests of jobs write, and what is in them.
 namespace furrow::tests {
@@ -32,6 +33,8 @@ inline std::string bytes_of(const std::filesystem::path& path) {
   text << in.rdbuf();
   return text.str();
 }
+
+inline io::MeshFile mesh_of(const jobs::MeshInput& input) { return std::get<io::MeshFile>(input); }
 
 inline std::vector<geometry::Point> positions(const io::MeshFile& file) {
   return {file.mesh.points().begin(), file.mesh.points().end()};

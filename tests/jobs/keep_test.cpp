@@ -9,6 +9,7 @@
 #include "io/scene/scene.h"
 #include "physics/base/progress.h"
 #include "tests/cli/hung_patch.h"
+#include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_paths.h"
 
@@ -34,10 +35,6 @@ jobs::KeepJob hung_ridge(double height = 0.004) {
   return job;
 }
 
-std::vector<geometry::Point> positions(const io::MeshFile& file) {
-  return {file.mesh.points().begin(), file.mesh.points().end()};
-}
-
 }  // namespace
 
 TEST_CASE("keep: two jobs at once in one process give the bits and the words of single runs") {
@@ -50,11 +47,11 @@ TEST_CASE("keep: two jobs at once in one process give the bits and the words of 
   std::thread beside([&] { report_low = jobs::keep(low, first); });
   report_high = jobs::keep(high, second);
   beside.join();
-  CHECK(positions(report_low.garment) == positions(single_low.garment));
-  CHECK(positions(report_high.garment) == positions(single_high.garment));
+  CHECK(tests::positions(report_low.garment) == tests::positions(single_low.garment));
+  CHECK(tests::positions(report_high.garment) == tests::positions(single_high.garment));
   CHECK(to_json(report_low) == to_json(single_low));
   CHECK(to_json(report_high) == to_json(single_high));
-  CHECK(positions(report_low.garment) != positions(report_high.garment));
+  CHECK(tests::positions(report_low.garment) != tests::positions(report_high.garment));
 }
 
 TEST_CASE("keep: cancelled before its first rest state a job writes nothing, later the last one, whole") {
@@ -80,7 +77,7 @@ TEST_CASE("keep: cancelled before its first rest state a job writes nothing, lat
   REQUIRE(report);
   CHECK(report->ran);
   CHECK(report->lines.interrupted);
-  CHECK(positions(io::read_mesh(folder / "kept.ply")) == positions(report->garment));
+  CHECK(tests::positions(io::read_mesh(folder / "kept.ply")) == tests::positions(report->garment));
   CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
 }
 

@@ -2,28 +2,22 @@
 #include "jobs/simulate.h"
 
 #include <catch2/catch.hpp>
-#include <fstream>
-#include <set>
-#include <sstream>
 #include <thread>
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
 #include "physics/base/progress.h"
+#include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;
+using tests::bytes_of;
+using tests::empty_folder;
+using tests::names_in;
 namespace fs = std::filesystem;
 
 namespace {
-
-fs::path empty_folder(const std::string& name) {
-  const fs::path folder = fs::temp_directory_path() / ("furrow_jobs_" + name);
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
 
 /// A sheet of 0.4 m that hangs by its upper border, with a ridge across it, drawn at `time` [s].
 jobs::SimulateJob hung_sheet(double seconds, double time = 0) {
@@ -55,23 +49,6 @@ void set_output(jobs::SimulateJob& job, const std::string& key, const fs::path& 
   io::set_value(job.scene.settings, "output." + key, path.string(), "the test");
 }
 
-std::vector<geometry::Point> positions(const io::MeshFile& file) {
-  return {file.mesh.points().begin(), file.mesh.points().end()};
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  return names;
-}
-
 /// Numbers of a report that no clock made.
 io::Json without_clock(const jobs::SimulateReport& report) {
   io::Json json = to_json(report);
@@ -98,7 +75,7 @@ TEST_CASE("simulate: a garment and strokes in memory come to the bits of their f
   CHECK(a.run.outcome == physics::Outcome::finished);
   CHECK(a.rounds.size() == 1);
   CHECK(a.shape->lines.size() == 1);
-  CHECK(positions(a.garment) == positions(b.garment));
+  CHECK(tests::positions(a.garment) == tests::positions(b.garment));
   CHECK(without_clock(a) == without_clock(b));
   CHECK(recorder.warnings.empty());
 }
@@ -113,8 +90,8 @@ TEST_CASE("simulate: two jobs at once in one process give the bits of single run
   std::thread beside([&] { report_one = jobs::simulate(one, first); });
   report_two = jobs::simulate(two, second);
   beside.join();
-  CHECK(positions(report_one.garment) == positions(single_one.garment));
-  CHECK(positions(report_two.garment) == positions(single_two.garment));
+  CHECK(tests::positions(report_one.garment) == tests::positions(single_one.garment));
+  CHECK(tests::positions(report_two.garment) == tests::positions(single_two.garment));
   CHECK(without_clock(report_one) == without_clock(single_one));
   CHECK(without_clock(report_two) == without_clock(single_two));
 }
@@ -174,7 +151,7 @@ TEST_CASE("simulate: what was cancelled goes on to the bits of a run that was no
   tests::Recorder recorder;
   const jobs::SimulateReport report = jobs::simulate(rest, recorder);
   CHECK(report.run.outcome == physics::Outcome::finished);
-  CHECK(positions(report.garment) == positions(reference.garment));
+  CHECK(tests::positions(report.garment) == tests::positions(reference.garment));
 }
 
 TEST_CASE("simulate: a state written on the way changes no bit, and a run goes on from it") {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A sheet and what a ridge made of it, in memory.
-jobs::TransferJob ridged_sheet(double height = 0.02) {
+jobs::TransferJob transfer_of_ridge(double height = 0.02) {
   io::MeshFile sheet;
   sheet.mesh = geometry::equilateral_sheet(0.4, 0.4, 0.03);
   io::DrawnStroke ridge;
@@ -36,8 +36,6 @@ jobs::TransferJob ridged_sheet(double height = 0.02) {
   return job;
 }
 
-io::MeshFile mesh_of(const jobs::MeshInput& input) { return std::get<io::MeshFile>(input); }
-
 double highest(const io::MeshFile& file) {
   double z = 0;
   for (const geometry::Point& p : file.mesh.points()) z = std::max(z, p.z());
@@ -49,15 +47,15 @@ double highest(const io::MeshFile& file) {
 TEST_CASE("transfer: meshes in memory come to the bits of their files") {
   const fs::path folder = tests::empty_folder("transfer_memory");
   tests::Recorder recorder;
-  const jobs::TransferJob in_memory = ridged_sheet();
+  const jobs::TransferJob in_memory = transfer_of_ridge();
   jobs::TransferJob of_files = in_memory;
-  io::write_mesh(folder / "sheet.ply", mesh_of(in_memory.original));
-  io::write_mesh(folder / "ridged.ply", mesh_of(in_memory.wrinkled));
+  io::write_mesh(folder / "sheet.ply", tests::mesh_of(in_memory.original));
+  io::write_mesh(folder / "ridged.ply", tests::mesh_of(in_memory.wrinkled));
   of_files.original = folder / "sheet.ply";
   of_files.wrinkled = folder / "ridged.ply";
   of_files.output = folder / "moved.ply";
   const jobs::TransferReport a = jobs::transfer(in_memory, recorder), b = jobs::transfer(of_files, recorder);
-  CHECK(a.moved.copied == mesh_of(in_memory.original).mesh.number_of_vertices());
+  CHECK(a.moved.copied == tests::mesh_of(in_memory.original).mesh.number_of_vertices());
   CHECK(a.moved.unchanged < a.moved.copied);
   CHECK(highest(a.result) > 0.003);
   CHECK(tests::positions(a.result) == tests::positions(b.result));
@@ -89,7 +87,7 @@ TEST_CASE("transfer: polygons stay whole from OBJ to OBJ, and are warned of else
 
 TEST_CASE("transfer: a cancelled job leaves nothing") {
   const fs::path folder = tests::empty_folder("transfer_cancelled");
-  jobs::TransferJob job = ridged_sheet();
+  jobs::TransferJob job = transfer_of_ridge();
   job.output = folder / "moved.ply";
   tests::Recorder all;
   jobs::transfer(job, all);
@@ -105,8 +103,8 @@ TEST_CASE("transfer: a cancelled job leaves nothing") {
 TEST_CASE("transfer: a job that cannot be is refused before anything is written") {
   const fs::path folder = tests::empty_folder("transfer_refused");
   tests::Recorder recorder;
-  const jobs::TransferJob good = ridged_sheet();
-  io::write_mesh(folder / "sheet.ply", mesh_of(good.original));
+  const jobs::TransferJob good = transfer_of_ridge();
+  io::write_mesh(folder / "sheet.ply", tests::mesh_of(good.original));
   const std::string sheet = tests::bytes_of(folder / "sheet.ply");
   jobs::TransferJob job = good;
   job.original = job.output = folder / "sheet.ply";
@@ -134,7 +132,7 @@ TEST_CASE("transfer: a job that cannot be is refused before anything is written"
 
 TEST_CASE("transfer: two jobs at once in one process give the bits of single runs") {
   tests::Recorder recorder;
-  const jobs::TransferJob one = ridged_sheet(0.02), two = ridged_sheet(-0.03);
+  const jobs::TransferJob one = transfer_of_ridge(0.02), two = transfer_of_ridge(-0.03);
   const jobs::TransferReport single_one = jobs::transfer(one, recorder),
                              single_two = jobs::transfer(two, recorder);
   jobs::TransferReport both_one, both_two;

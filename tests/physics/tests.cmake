@@ -9,7 +9,6 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   cloth/hinge_forces_test.cpp
   cloth/membrane_laws_test.cpp
   cloth/membrane_test.cpp
-  cloth/patch_test.cpp
   cloth/pins_test.cpp
   cloth/press_test.cpp
   cloth/spring_forces_test.cpp
@@ -40,18 +39,13 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   contact/residual_force_test.cpp
   contact/rigid_contact_test.cpp
   motion/compensation_test.cpp
-  motion/drop_on_ball_test.cpp
   motion/euler_step_test.cpp
-  motion/invariants_test.cpp
   motion/leapfrog_step_test.cpp
-  motion/metamorphic_test.cpp
   motion/moved_pins_test.cpp
-  motion/oscillations_test.cpp
   motion/shell_motion_test.cpp
   motion/simulate_integrators_test.cpp
   motion/simulate_state_test.cpp
   motion/simulate_test.cpp
-  motion/speed_accuracy_test.cpp
   motion/stepper_contact_test.cpp
   motion/stepper_shell_test.cpp
   motion/stepper_stability_test.cpp
@@ -59,7 +53,6 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   motion/tension_motion_test.cpp
   motion/wind_test.cpp
   rest/certificate_test.cpp
-  rest/cusick_test.cpp
   rest/displace_by_force_test.cpp
   rest/displace_on_body_test.cpp
   rest/hanging_chain_test.cpp
@@ -69,7 +62,15 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   rest/prestress_test.cpp
   rest/rigid_imbalance_test.cpp
   rest/settle_alone_test.cpp
+  rest/settle_test.cpp
+  RELEASE_SOURCES
+  cloth/patch_test.cpp
+  motion/drop_on_ball_test.cpp
+  motion/invariants_test.cpp
+  motion/metamorphic_test.cpp
+  motion/oscillations_test.cpp
+  motion/speed_accuracy_test.cpp
+  rest/cusick_test.cpp
   rest/settle_cases_test.cpp
   rest/settle_strips_test.cpp
-  rest/settle_test.cpp
 )

@@ -10,6 +10,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/face_point.h"
 #include "geometry/stroke/shortest_path.h"
+#include "tests/geometry/stroke/point_distance.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow::geometry;
@@ -17,13 +18,13 @@ using namespace furrow::tests;
 
 namespace {
 
-double distance(const Point& a, const Point& b) { return std::sqrt(CGAL::squared_distance(a, b)); }
 double length(const std::vector<Point>& points) {
   double sum = 0;
   for (std::size_t i = 1; i < points.size(); ++i) sum += distance(points[i - 1], points[i]);
   return sum;
 }
-PlacedStroke place(const Mesh& mesh, const std::vector<std::size_t>& vertices, bool closed = false) {
+PlacedStroke place_along_path(const Mesh& mesh, const std::vector<std::size_t>& vertices,
+                              bool closed = false) {
   return place_path_stroke(mesh, vertices, closed, "seam");
 }
 
@@ -69,13 +70,13 @@ TEST_CASE("shortest_path: around a fold it is the unfolded line") {
 
 TEST_CASE("place_path_stroke: from vertex to vertex, one point in each crossed face") {
   const Mesh mesh = jittered(20, 20, 0.2, 5);
-  const PlacedStroke placed = place(mesh, {22, 350, 360});
+  const PlacedStroke placed = place_along_path(mesh, {22, 350, 360});
   CHECK(placed.points.front() == mesh.point(Vertex(22)));
   CHECK(placed.points.back() == mesh.point(Vertex(360)));
   CHECK(length(placed.points) == Approx(distance(mesh.point(Vertex(22)), mesh.point(Vertex(350))) +
                                         distance(mesh.point(Vertex(350)), mesh.point(Vertex(360)))));
-  CHECK(place(mesh, {5}).points == std::vector<Point>{mesh.point(Vertex(5))});
-  const PlacedStroke loop = place(mesh, {22, 38, 350}, true);
+  CHECK(place_along_path(mesh, {5}).points == std::vector<Point>{mesh.point(Vertex(5))});
+  const PlacedStroke loop = place_along_path(mesh, {22, 38, 350}, true);
   CHECK(loop.closed);
   CHECK(loop.points.back() != loop.points.front());
 }
@@ -84,12 +85,12 @@ TEST_CASE("place_path_stroke: what cannot be joined is refused by stroke and pla
   Mesh mesh = grid(4, 4);
   append(mesh, icosphere(1, 0.2, {5, 5, 5}));
   const auto lone = mesh.add_vertex(Point(0, 0, 1)).idx();
-  CHECK_THROWS_WITH(place(mesh, {0, 9999}),
+  CHECK_THROWS_WITH(place_along_path(mesh, {0, 9999}),
                     Catch::StartsWith("stroke \"seam\", point 1: there is no vertex 9999"));
-  CHECK_THROWS_WITH(place(mesh, {0, lone}), Catch::Contains("belongs to no face"));
-  CHECK_THROWS_WITH(place(mesh, {0, 30}), Catch::Contains("no cloth joins vertices 0 and 30"));
-  CHECK_THROWS_WITH(place(mesh, {3, 3}), Catch::Contains("vertex 3 is repeated"));
-  CHECK_THROWS_AS(place(mesh, {}), ContentError);
+  CHECK_THROWS_WITH(place_along_path(mesh, {0, lone}), Catch::Contains("belongs to no face"));
+  CHECK_THROWS_WITH(place_along_path(mesh, {0, 30}), Catch::Contains("no cloth joins vertices 0 and 30"));
+  CHECK_THROWS_WITH(place_along_path(mesh, {3, 3}), Catch::Contains("vertex 3 is repeated"));
+  CHECK_THROWS_AS(place_along_path(mesh, {}), ContentError);
 }
 
 namespace {
@@ -127,7 +128,7 @@ TEST_CASE("place_path_stroke: 1,000 strokes on sheets with collapsed faces are l
     const std::vector<std::size_t> ends{random() % 81, 81 + random() % 80};
     const std::vector<std::size_t> stops{ends[0], (ends[0] + 1 + ends[1] % 80) % 81};
     try {
-      const double way = length(place(mesh, stops).points);
+      const double way = length(place_along_path(mesh, stops).points);
       const double straight = distance(mesh.point(Vertex(stops[0])), mesh.point(Vertex(stops[1])));
       // The sheet is flat, so that a way that is no straight line went round a collapsed face.
       CHECK(way == Approx(straight).margin(1e-9));
@@ -144,11 +145,11 @@ TEST_CASE("place_path_stroke: 1,000 strokes on sheets with collapsed faces are l
 TEST_CASE("place_path_stroke: a collapsed face is named with its place, and one aside is no matter") {
   Mesh mesh = grid(10, 10);
   mesh.point(Vertex(0)) = mesh.point(Vertex(1));
-  CHECK_THROWS_WITH(place(mesh, {1, 5}),
+  CHECK_THROWS_WITH(place_along_path(mesh, {1, 5}),
                     Catch::Contains("face 0 at (0.1, 0.03333, 0) m, which is degenerate") &&
                         Catch::Contains("draw this stroke by points"));
-  CHECK(length(place(mesh, {60, 65}).points) == Approx(0.5));
-  CHECK_THROWS_WITH(place(mesh, {0, 5}), Catch::Contains("is degenerate"));
+  CHECK(length(place_along_path(mesh, {60, 65}).points) == Approx(0.5));
+  CHECK_THROWS_WITH(place_along_path(mesh, {0, 5}), Catch::Contains("is degenerate"));
 }
 
 TEST_CASE("degenerate_faces: collapsed to a point, an edge, or a line, at any scale") {

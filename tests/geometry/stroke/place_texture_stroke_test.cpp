@@ -9,6 +9,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/face_point.h"
+#include "tests/geometry/stroke/point_distance.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow::geometry;
@@ -49,12 +50,10 @@ Mesh mirrored() {
   });
 }
 
-PlacedStroke place(const Mesh& mesh, const std::vector<TextureCoordinate>& points, bool closed = false,
-                   const TextureChoice& choice = {}) {
+PlacedStroke place_in_texture(const Mesh& mesh, const std::vector<TextureCoordinate>& points,
+                              bool closed = false, const TextureChoice& choice = {}) {
   return place_texture_stroke(mesh, points, closed, choice, "fold");
 }
-double distance(const Point& a, const Point& b) { return std::sqrt(CGAL::squared_distance(a, b)); }
-
 }  // namespace
 
 TEST_CASE("place_texture_stroke: drawn in the texture, a stroke lies where the texture lies") {
@@ -68,7 +67,7 @@ TEST_CASE("place_texture_stroke: drawn in the texture, a stroke lies where the t
       points.emplace_back(x, y, 0);
       drawn.push_back({2 * x - 3, 0.5 * y + 0.1});
     }
-    const PlacedStroke placed = place(mesh, drawn);
+    const PlacedStroke placed = place_in_texture(mesh, drawn);
     RC_ASSERT(placed.warnings.empty());
     RC_ASSERT(placed.breaks.empty());
     std::size_t at = 0;
@@ -86,7 +85,7 @@ TEST_CASE("place_texture_stroke: drawn in the texture, a stroke lies where the t
 
 TEST_CASE("place_texture_stroke: it goes on over a seam where the next point lies on the other chart") {
   const Mesh mesh = two_charts();
-  const PlacedStroke placed = place(mesh, {{0.2, 0.5}, {1.8, 0.5}});
+  const PlacedStroke placed = place_in_texture(mesh, {{0.2, 0.5}, {1.8, 0.5}});
   CHECK(placed.breaks.empty());
   CHECK(placed.warnings.empty());
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
@@ -95,7 +94,7 @@ TEST_CASE("place_texture_stroke: it goes on over a seam where the next point lie
   }
   CHECK(placed.points.size() > 16);
   // Closed over both charts and back.
-  const PlacedStroke loop = place(mesh, {{0.2, 0.3}, {1.8, 0.3}, {1.8, 0.7}, {0.2, 0.7}}, true);
+  const PlacedStroke loop = place_in_texture(mesh, {{0.2, 0.3}, {1.8, 0.3}, {1.8, 0.7}, {0.2, 0.7}}, true);
   CHECK(loop.closed);
   CHECK(loop.breaks.empty());
 }
@@ -111,7 +110,7 @@ TEST_CASE("place_texture_stroke: charts that no seam joins part the stroke, with
     for (Halfedge h : halfedges_of(mesh, f))
       if (mesh.target(h).idx() >= first)
         texture[h] = {mesh.point(mesh.target(h)).x() - 5, mesh.point(mesh.target(h)).y()};
-  const PlacedStroke placed = place(mesh, {{-2, 0.3}, {0.5, 0.3}});
+  const PlacedStroke placed = place_in_texture(mesh, {{-2, 0.3}, {0.5, 0.3}});
   REQUIRE(placed.breaks.size() == 1);
   REQUIRE(placed.warnings.size() == 1);
   CHECK(placed.warnings[0].find("parts it before point 1") != std::string::npos);
@@ -126,24 +125,24 @@ TEST_CASE("place_texture_stroke: of mirrored halves the choice is the lowest fac
   for (Face f : mesh.faces()) group[f] = position_of(mesh, {f, {1. / 3, 1. / 3, 1. / 3}}).x() < 0.5 ? 0 : 1;
   const std::vector<TextureCoordinate> drawn{{0.1, 0.2}, {0.4, 0.9}};
   const auto side = [&](const TextureChoice& choice) {
-    return place(mesh, drawn, false, choice).points.front().x();
+    return place_in_texture(mesh, drawn, false, choice).points.front().x();
   };
-  const PlacedStroke plain = place(mesh, drawn);
+  const PlacedStroke plain = place_in_texture(mesh, drawn);
   CHECK(plain.points.front().x() == Approx(0.1).margin(1e-4));
   REQUIRE(plain.warnings.size() == 1);
   CHECK(plain.warnings[0].find("lies at 2 places") != std::string::npos);
   CHECK(side({1, {}}) == Approx(0.9).margin(1e-4));
   CHECK(side({0, {}}) == Approx(0.1).margin(1e-4));
   CHECK(side({{}, Point(0.95, 0.2, 0)}) == Approx(0.9).margin(1e-4));
-  for (const Point& p : place(mesh, drawn, false, {1, {}}).points) CHECK(p.x() > 0.5);
+  for (const Point& p : place_in_texture(mesh, drawn, false, {1, {}}).points) CHECK(p.x() > 0.5);
   CHECK_THROWS_WITH(side({7, {}}), Catch::Contains("no face of the stroke's group"));
 }
 
 TEST_CASE("place_texture_stroke: what lies on no chart is refused by stroke and point") {
   const Mesh mesh = one_chart();
-  CHECK_THROWS_WITH(place(mesh, {{-2, 0.3}, {7, 0.3}}),
+  CHECK_THROWS_WITH(place_in_texture(mesh, {{-2, 0.3}, {7, 0.3}}),
                     Catch::StartsWith("stroke \"fold\", point 1: (7.000000, 0.300000) lies outside"));
-  CHECK_THROWS_AS(place(mesh, {{-2, NAN}}), ContentError);
-  CHECK_THROWS_AS(place(mesh, {}), ContentError);
-  CHECK_THROWS_WITH(place(grid(2, 2), {{0, 0}}), Catch::Contains("no texture coordinates"));
+  CHECK_THROWS_AS(place_in_texture(mesh, {{-2, NAN}}), ContentError);
+  CHECK_THROWS_AS(place_in_texture(mesh, {}), ContentError);
+  CHECK_THROWS_WITH(place_in_texture(grid(2, 2), {{0, 0}}), Catch::Contains("no texture coordinates"));
 }

@@ -9,6 +9,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "geometry/stroke/trace_stroke.h"
+#include "tests/geometry/stroke/point_distance.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow::geometry;
@@ -24,12 +25,10 @@ std::vector<SightLine> sight_of(const std::vector<Point>& points, const Point& e
   return lines;
 }
 
-PlacedStroke place(const Mesh& mesh, const std::vector<SightLine>& sight, bool closed = false,
-                   bool parallel = false) {
+PlacedStroke place_in_view(const Mesh& mesh, const std::vector<SightLine>& sight, bool closed = false,
+                           bool parallel = false) {
   return place_view_stroke(mesh, SurfaceProjector(mesh), sight, parallel, closed, "fold");
 }
-
-double distance(const Point& a, const Point& b) { return std::sqrt(CGAL::squared_distance(a, b)); }
 
 Mesh bumpy(double amount) {
   Mesh mesh = jittered(24, 24, 0.2, 7);
@@ -59,7 +58,7 @@ TEST_CASE("place_view_stroke: a stroke seen in a picture comes back to where it 
       points.push_back(projector.first_hit({x, y, 2}, {0, 0, -1})->position);
     }
     const auto sight = sight_of(points);
-    const PlacedStroke placed = place(mesh, sight);
+    const PlacedStroke placed = place_in_view(mesh, sight);
     RC_ASSERT(placed.warnings.empty());
     RC_ASSERT(placed.breaks.empty());
     std::size_t at = 0;
@@ -82,7 +81,7 @@ TEST_CASE("place_view_stroke: a stroke seen in a picture comes back to where it 
 
 TEST_CASE("place_view_stroke: each crossed face has a point, so the trace is the plane's cut") {
   const Mesh mesh = bumpy(0.04);
-  const PlacedStroke placed = place(mesh, sight_of({{0.1, 0.2, 0}, {0.9, 0.7, 0}}));
+  const PlacedStroke placed = place_in_view(mesh, sight_of({{0.1, 0.2, 0}, {0.9, 0.7, 0}}));
   const TracedStroke traced = trace(mesh, placed.points);
   REQUIRE(traced.sub_strokes.size() == 1);
   CHECK(traced.sub_strokes[0].faces.size() > 30);
@@ -96,7 +95,8 @@ TEST_CASE(
   Mesh patch = grid(6, 6, 0.3, 0.3);
   for (Vertex v : patch.vertices()) patch.point(v) = patch.point(v) + Vector(0.41, 0.33, 0.2);
   append(mesh, patch);
-  const PlacedStroke placed = place(mesh, sight_of({{0.1, 0.45, 0}, {0.55, 0.45, 0.2}, {0.9, 0.47, 0}}));
+  const PlacedStroke placed =
+      place_in_view(mesh, sight_of({{0.1, 0.45, 0}, {0.55, 0.45, 0.2}, {0.9, 0.47, 0}}));
   REQUIRE(placed.breaks.size() == 2);
   CHECK(placed.warnings.size() == 2);
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
@@ -110,7 +110,7 @@ TEST_CASE(
 
 TEST_CASE("place_view_stroke: where lines of sight miss, the stroke runs over the border, or is cut") {
   const Mesh mesh = grid(20, 20);
-  const PlacedStroke over = place(mesh, sight_of({{0.5, 0.52, 0}, {0.63, 0.83, 0}, {0.7, 1.4, 0}}));
+  const PlacedStroke over = place_in_view(mesh, sight_of({{0.5, 0.52, 0}, {0.63, 0.83, 0}, {0.7, 1.4, 0}}));
   CHECK(over.breaks.empty());
   REQUIRE(over.warnings.size() == 1);
   CHECK(over.warnings[0].find("stroke \"fold\": point 2 misses the garment") == 0);
@@ -125,7 +125,7 @@ TEST_CASE("place_view_stroke: where lines of sight miss, the stroke runs over th
   Mesh right = grid(10, 10, 0.4, 1);
   for (Vertex v : right.vertices()) right.point(v) = right.point(v) + Vector(0.6, 0, 0);
   append(two, right);
-  const PlacedStroke gap = place(two, sight_of({{0.2, 0.52, 0}, {0.5, 0.53, 0}, {0.8, 0.52, 0}}));
+  const PlacedStroke gap = place_in_view(two, sight_of({{0.2, 0.52, 0}, {0.5, 0.53, 0}, {0.8, 0.52, 0}}));
   CHECK(gap.breaks.size() == 1);
   CHECK(trace(two, gap.points, gap.breaks).sub_strokes.size() == 2);
 }
@@ -134,7 +134,7 @@ TEST_CASE("place_view_stroke: over the outline of a ball the stroke stays on the
   const Mesh ball = icosphere(4, 0.5);
   const Point eye(0, 0, 4);
   std::vector<SightLine> sight = sight_of({{0.1, 0.05, 0.4}, {0.3, 0.1, 0.3}, {0.9, 0.2, 0}}, eye);
-  const PlacedStroke placed = place(ball, sight);
+  const PlacedStroke placed = place_in_view(ball, sight);
   CHECK(placed.breaks.empty());
   for (const Point& p : placed.points) CHECK((p - CGAL::ORIGIN) * (eye - p) > -0.02);
   CHECK(placed.points.back().x() > 0.46);
@@ -145,7 +145,7 @@ TEST_CASE("place_view_stroke: closed strokes and parallel lines of sight") {
   std::vector<SightLine> sight;
   for (const auto& [x, y] : {std::pair{0.2, 0.2}, {0.8, 0.25}, {0.5, 0.8}})
     sight.push_back({{x, y, 5}, {0, 0, -1}});
-  const PlacedStroke placed = place(mesh, sight, true, true);
+  const PlacedStroke placed = place_in_view(mesh, sight, true, true);
   CHECK(placed.closed);
   CHECK(placed.breaks.empty());
   CHECK(distance(placed.points.front(), placed.points.back()) > 0.001);
@@ -160,8 +160,8 @@ TEST_CASE("place_view_stroke: closed strokes and parallel lines of sight") {
 
 TEST_CASE("place_view_stroke: it tells each run of misses once") {
   const Mesh mesh = grid(20, 20);
-  const PlacedStroke placed =
-      place(mesh, sight_of({{-2, 0.5, 0}, {-1, 0.5, 0}, {0.3, 0.52, 0}, {0.4, 3, 0}, {0.6, 0.52, 0}}));
+  const PlacedStroke placed = place_in_view(
+      mesh, sight_of({{-2, 0.5, 0}, {-1, 0.5, 0}, {0.3, 0.52, 0}, {0.4, 3, 0}, {0.6, 0.52, 0}}));
   REQUIRE(placed.warnings.size() == 2);
   CHECK(placed.warnings[0].find("points 0 to 1 miss the garment") != std::string::npos);
   CHECK(placed.warnings[1].find("point 3 misses the garment") != std::string::npos);
@@ -171,16 +171,16 @@ TEST_CASE("place_view_stroke: it tells each run of misses once") {
 
 TEST_CASE("place_view_stroke: the inside of the cloth is told, a stroke that misses everything is refused") {
   Mesh mesh = grid(8, 8);
-  const PlacedStroke inside = place(mesh, sight_of({{0.2, 0.3, 0}, {0.8, 0.6, 0}}, {0.5, 0.5, -3}));
+  const PlacedStroke inside = place_in_view(mesh, sight_of({{0.2, 0.3, 0}, {0.8, 0.6, 0}}, {0.5, 0.5, -3}));
   REQUIRE(inside.warnings.size() == 1);
   CHECK(inside.warnings[0].find("inside of the cloth") != std::string::npos);
   CHECK(inside.breaks.empty());
   CHECK(inside.points.size() > 8);
-  CHECK_THROWS_WITH(place(mesh, sight_of({{2, 2, 0}, {3, 2, 0}})),
+  CHECK_THROWS_WITH(place_in_view(mesh, sight_of({{2, 2, 0}, {3, 2, 0}})),
                     Catch::StartsWith("stroke \"fold\", point 0: it and all others miss"));
   std::vector<SightLine> bad = sight_of({{0.2, 0.3, 0}, {0.8, 0.6, 0}});
   bad[1].direction = Vector(0, 0, NAN);
-  CHECK_THROWS_WITH(place(mesh, bad),
+  CHECK_THROWS_WITH(place_in_view(mesh, bad),
                     Catch::StartsWith("stroke \"fold\", point 1: its line of sight is not finite"));
 }
 

@@ -62,7 +62,7 @@ struct Glb {
   const json& primitive() const { return scene["meshes"][0]["primitives"][0]; }
 };
 
-std::vector<Vec3> moved(const geometry::Mesh& mesh, int i) {
+std::vector<Vec3> waved(const geometry::Mesh& mesh, int i) {
   std::vector<Vec3> x = bridge::positions_of(mesh);
   for (Vec3& p : x) p += Vec3(0, std::sin(3 * p.x() + i) - std::sin(3 * p.x()), 0);
   return x;
@@ -71,7 +71,7 @@ std::vector<Vec3> moved(const geometry::Mesh& mesh, int i) {
 Glb glb_of(const geometry::Mesh& mesh, int frames, const io::AnimationOptions& options = {}) {
   TemporaryFolder folder;
   io::AnimationWriter writer(folder / "a.glb", mesh, options);
-  for (int i = 0; i < frames; ++i) writer.add(moved(mesh, i));
+  for (int i = 0; i < frames; ++i) writer.add(waved(mesh, i));
   writer.close();
   return Glb(slurp(folder / "a.glb"));
 }
@@ -88,7 +88,7 @@ double farthest(const Glb& glb, const geometry::Mesh& mesh, int i) {
   const auto base = glb.numbers<float>(glb.primitive()["attributes"]["POSITION"]);
   std::vector<float> added(base.size(), 0);
   if (i > 0) added = glb.numbers<float>(glb.primitive()["targets"][i - 1]["POSITION"]);
-  const std::vector<Vec3> wanted = moved(mesh, i);
+  const std::vector<Vec3> wanted = waved(mesh, i);
   double largest = 0;
   for (std::size_t v = 0; v < wanted.size(); ++v)
     for (std::size_t k = 0; k < 3; ++k)
@@ -167,7 +167,7 @@ TEST_CASE("GLB: our own reader takes the mesh of the first frame back") {
   TemporaryFolder folder;
   const geometry::Mesh mesh = plain_grid(4);
   io::AnimationWriter writer(folder / "a.glb", mesh);
-  for (int i = 0; i < 3; ++i) writer.add(moved(mesh, i));
+  for (int i = 0; i < 3; ++i) writer.add(waved(mesh, i));
   writer.close();
   const geometry::Mesh back = io::read_mesh(folder / "a.glb").mesh;
   CHECK(back.number_of_vertices() == mesh.number_of_vertices());

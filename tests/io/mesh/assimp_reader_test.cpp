@@ -56,7 +56,7 @@ struct Seam {
   }
 };
 
-std::string error_of(const std::string& bytes) {
+std::string error_of_glb(const std::string& bytes) {
   TemporaryFolder folder;
   spit(folder / "a.glb", bytes);
   return content_error([&] { io::read_mesh(folder / "a.glb"); });
@@ -189,18 +189,18 @@ TEST_CASE("glTF: a skeleton in another pose than it was bound in is told") {
 }
 
 TEST_CASE("glTF: bad files are content errors that name the file") {
-  CHECK(error_of("").find("a.glb: the file is empty") != std::string::npos);
-  CHECK(error_of("not a mesh").find("a.glb: ") != std::string::npos);
+  CHECK(error_of_glb("").find("a.glb: the file is empty") != std::string::npos);
+  CHECK(error_of_glb("not a mesh").find("a.glb: ") != std::string::npos);
   CHECK(content_error([] { io::read_mesh("/nowhere/a.glb"); }).find("No such file") != std::string::npos);
   Seam bad_index;
   bad_index.buffer[120] = 77;
-  CHECK(error_of(bad_index.glb()).find("a.glb: ") != std::string::npos);
+  CHECK(error_of_glb(bad_index.glb()).find("a.glb: ") != std::string::npos);
   Seam infinite;
   infinite.buffer.replace(0, 4, std::string("\x00\x00\x80\x7f", 4));
-  CHECK(error_of(infinite.glb()).find("a.glb: ") != std::string::npos);
+  CHECK(error_of_glb(infinite.glb()).find("a.glb: ") != std::string::npos);
   Seam beyond;
   beyond.scene["accessors"][0]["count"] = 2000000000;
-  CHECK(error_of(beyond.glb()).find("a.glb: ") != std::string::npos);
+  CHECK(error_of_glb(beyond.glb()).find("a.glb: ") != std::string::npos);
 }
 
 TEST_CASE("glTF: damaged files are read or refused, this process lives on") {

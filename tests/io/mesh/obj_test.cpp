@@ -15,7 +15,7 @@ const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 io::MeshFile obj(const std::string& text, const io::ReadOptions& options = {}) {
   return read_from(text, MeshFormat::obj, options);
 }
-std::string error_of(const std::string& text) {
+std::string error_of_obj(const std::string& text) {
   return content_error([&] { obj(text); });
 }
 
@@ -56,31 +56,32 @@ TEST_CASE("OBJ: numbers are read in double, and malformed ones are errors") {
   for (const char* bad :
        {"1,5", "abc", "0x10", "1e", "--1", "+-1", "1.#IND", "1e999", "nan", "-inf", "1e10", "1_0"}) {
     INFO(bad);
-    CHECK(error_of(three + "v 0 " + bad + " 0\nf 1 2 3\n").starts_with("test:4: "));
+    CHECK(error_of_obj(three + "v 0 " + bad + " 0\nf 1 2 3\n").starts_with("test:4: "));
   }
 }
 
 TEST_CASE("OBJ: errors name the line") {
-  CHECK(error_of(three + "f 1 2 4\n").starts_with("test:4: a corner names a vertex beyond the last of 3"));
-  CHECK(error_of(three + "f 0 1 2\n").starts_with("test:4: index 0"));
-  CHECK(error_of(three + "\n\nf 1 2 -4\n").starts_with("test:6: index -4"));
-  CHECK(error_of(three + "f 1 2\n").starts_with("test:4: a face has fewer than three corners"));
-  CHECK(error_of(three + "f 1 2 x\n").starts_with("test:4: 'x' is not a whole number"));
-  CHECK(error_of(three + "f 1 2 3.5\n").starts_with("test:4: '3.5' is not a whole number"));
   CHECK(
-      error_of(three + "vt 0 0\nf 1/1 2/1 3/2\n").starts_with("test:5: a corner names a texture coordinate"));
-  CHECK(error_of(three + "f 1 2 3\nl 1 9\n").starts_with("test:5: a line names a vertex beyond"));
-  CHECK(error_of("v 1 2\n").starts_with("test:1: a vertex has 2 numbers"));
-  CHECK(error_of("v 1 2 3 4 5\n").starts_with("test:1: a vertex has 5 numbers"));
-  CHECK(error_of("") == "test: no faces; a mesh with at least one triangle is needed");
-  CHECK(error_of(three).starts_with("test: no faces"));
-  CHECK(error_of(three + "f 1 1 2\n").starts_with("test: no faces but degenerate ones"));
-  CHECK(error_of(std::string("v\0 \0001\0", 6)).find("UTF-16") != std::string::npos);
-  CHECK(error_of("\xFF\xFEv").find("UTF-16") != std::string::npos);
+      error_of_obj(three + "f 1 2 4\n").starts_with("test:4: a corner names a vertex beyond the last of 3"));
+  CHECK(error_of_obj(three + "f 0 1 2\n").starts_with("test:4: index 0"));
+  CHECK(error_of_obj(three + "\n\nf 1 2 -4\n").starts_with("test:6: index -4"));
+  CHECK(error_of_obj(three + "f 1 2\n").starts_with("test:4: a face has fewer than three corners"));
+  CHECK(error_of_obj(three + "f 1 2 x\n").starts_with("test:4: 'x' is not a whole number"));
+  CHECK(error_of_obj(three + "f 1 2 3.5\n").starts_with("test:4: '3.5' is not a whole number"));
+  CHECK(error_of_obj(three + "vt 0 0\nf 1/1 2/1 3/2\n")
+            .starts_with("test:5: a corner names a texture coordinate"));
+  CHECK(error_of_obj(three + "f 1 2 3\nl 1 9\n").starts_with("test:5: a line names a vertex beyond"));
+  CHECK(error_of_obj("v 1 2\n").starts_with("test:1: a vertex has 2 numbers"));
+  CHECK(error_of_obj("v 1 2 3 4 5\n").starts_with("test:1: a vertex has 5 numbers"));
+  CHECK(error_of_obj("") == "test: no faces; a mesh with at least one triangle is needed");
+  CHECK(error_of_obj(three).starts_with("test: no faces"));
+  CHECK(error_of_obj(three + "f 1 1 2\n").starts_with("test: no faces but degenerate ones"));
+  CHECK(error_of_obj(std::string("v\0 \0001\0", 6)).find("UTF-16") != std::string::npos);
+  CHECK(error_of_obj("\xFF\xFEv").find("UTF-16") != std::string::npos);
 }
 
 TEST_CASE("OBJ: the last line of a continued statement is the one that an error names") {
-  CHECK(error_of(three + "f 1 \\\n2 \\\nx\n").starts_with("test:6: 'x'"));
+  CHECK(error_of_obj(three + "f 1 \\\n2 \\\nx\n").starts_with("test:6: 'x'"));
 }
 
 TEST_CASE("OBJ: texture coordinates belong to corners, groups and materials to faces") {

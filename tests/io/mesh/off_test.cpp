@@ -11,7 +11,7 @@ using io::MeshFormat;
 namespace {
 
 io::MeshFile off(const std::string& text) { return read_from(text, MeshFormat::off); }
-std::string error_of(const std::string& text) {
+std::string error_of_off(const std::string& text) {
   return content_error([&] { off(text); });
 }
 
@@ -51,18 +51,19 @@ TEST_CASE("OFF: normals, colours and texture coordinates of vertices") {
 }
 
 TEST_CASE("OFF: errors name the line, a header cannot announce more than the file holds") {
-  CHECK(error_of("").find("no OFF file") != std::string::npos);
-  CHECK(error_of("PLY\n").starts_with("test:1: the first word is not OFF"));
-  CHECK(error_of("OFF BINARY\n").find("binary OFF") != std::string::npos);
-  CHECK(error_of("OFF\n2000000000 6 0\n0 0 0\n").find("more than the file can hold") != std::string::npos);
-  CHECK(error_of("OFF\n1 900719925474099 0\n0 0 0\n").find("more than the file can hold") !=
+  CHECK(error_of_off("").find("no OFF file") != std::string::npos);
+  CHECK(error_of_off("PLY\n").starts_with("test:1: the first word is not OFF"));
+  CHECK(error_of_off("OFF BINARY\n").find("binary OFF") != std::string::npos);
+  CHECK(error_of_off("OFF\n2000000000 6 0\n0 0 0\n").find("more than the file can hold") !=
         std::string::npos);
-  CHECK(error_of("OFF\n3 -1 0\n").starts_with("test:2: a negative count"));
-  CHECK(error_of("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n").starts_with("test:4: a number is missing"));
-  CHECK(
-      error_of("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n").starts_with("test:6: a whole number is missing"));
-  CHECK(error_of("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n")
+  CHECK(error_of_off("OFF\n1 900719925474099 0\n0 0 0\n").find("more than the file can hold") !=
+        std::string::npos);
+  CHECK(error_of_off("OFF\n3 -1 0\n").starts_with("test:2: a negative count"));
+  CHECK(error_of_off("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n").starts_with("test:4: a number is missing"));
+  CHECK(error_of_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n")
+            .starts_with("test:6: a whole number is missing"));
+  CHECK(error_of_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n")
             .starts_with("test:6: a corner names a vertex beyond"));
-  CHECK(error_of("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").find("face 1 of 2: it is cut short") !=
+  CHECK(error_of_off("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").find("face 1 of 2: it is cut short") !=
         std::string::npos);
 }

@@ -42,7 +42,7 @@ const char* const triangle_ply =
     "element face 1\nproperty list uchar int vertex_indices\n";
 const char* const triangle_rows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-std::string error_of(const std::string& text) {
+std::string error_of_ply(const std::string& text) {
   return content_error([&] { read_from(text, MeshFormat::ply); });
 }
 
@@ -255,33 +255,36 @@ TEST_CASE("PLY: texture coordinates of vertices go to the corners") {
 
 TEST_CASE("PLY: errors name the line, or the element in binary files") {
   const std::string head = file_head, triangle = triangle_ply, rows = triangle_rows;
-  CHECK(error_of("plu\n").starts_with("test:1: "));
-  CHECK(error_of(head + "element vertex x\n").starts_with("test:3: 'x' is not a whole number"));
-  CHECK(error_of(head + "element vertex 1\nproperty flot x\n").starts_with("test:4: 'flot' is no type"));
-  CHECK(error_of(head + triangle).find("cut short") != std::string::npos);
-  CHECK(error_of(head + triangle + triangle + "end_header\n").find("second element") != std::string::npos);
-  CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 0 0\n0 1 zero\n").starts_with("test:12: 'zero'"));
-  CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n")
+  CHECK(error_of_ply("plu\n").starts_with("test:1: "));
+  CHECK(error_of_ply(head + "element vertex x\n").starts_with("test:3: 'x' is not a whole number"));
+  CHECK(error_of_ply(head + "element vertex 1\nproperty flot x\n").starts_with("test:4: 'flot' is no type"));
+  CHECK(error_of_ply(head + triangle).find("cut short") != std::string::npos);
+  CHECK(error_of_ply(head + triangle + triangle + "end_header\n").find("second element") !=
+        std::string::npos);
+  CHECK(
+      error_of_ply(head + triangle + "end_header\n0 0 0\n1 0 0\n0 1 zero\n").starts_with("test:12: 'zero'"));
+  CHECK(error_of_ply(head + triangle + "end_header\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n")
             .starts_with("test:11: vertex 1: "));
-  CHECK(error_of(head + triangle + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n").find("face 0") !=
+  CHECK(error_of_ply(head + triangle + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n").find("face 0") !=
         std::string::npos);
   const std::string edge =
       "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty double rest_length\n";
-  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 0.5\n") == "(none)");
-  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 1 -0.5\n")
+  CHECK(error_of_ply(head + triangle + edge + "end_header\n" + rows + "0 1 0.5\n") == "(none)");
+  CHECK(error_of_ply(head + triangle + edge + "end_header\n" + rows + "0 1 -0.5\n")
             .starts_with("test:18: edge 0: a rest"));
-  CHECK(error_of(head + triangle + edge + "end_header\n" + rows + "0 7 0.5\n")
+  CHECK(error_of_ply(head + triangle + edge + "end_header\n" + rows + "0 7 0.5\n")
             .find("between vertices 0 and 7") != std::string::npos);
   std::string bytes = written(decorated_grid(2), MeshFormat::ply);
   bytes.resize(bytes.size() - 1);
-  CHECK(error_of(bytes).starts_with("test: strut 1: the file is cut short"));
+  CHECK(error_of_ply(bytes).starts_with("test: strut 1: the file is cut short"));
 }
 
 TEST_CASE("PLY: hostile stiffnesses, rest angles, struts and lengths of triangles are refused") {
   const std::string head = std::string(file_head) + triangle_ply, rows = triangle_rows;
   const auto edge = [&](const std::string& column, const std::string& value) {
-    return error_of(head + "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty double " +
-                    column + "\nend_header\n" + rows + "0 1 " + value + "\n");
+    return error_of_ply(head +
+                        "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty double " +
+                        column + "\nend_header\n" + rows + "0 1 " + value + "\n");
   };
   for (const char* column : {"stiffness", "bending_stiffness", "hinge_stiffness"}) {
     CHECK(edge(column, "0") == "(none)");
@@ -291,10 +294,10 @@ TEST_CASE("PLY: hostile stiffnesses, rest angles, struts and lengths of triangle
   }
   CHECK(edge("rest_angle", "4").find("edge 0: a rest angle must be in [-pi, pi]") != std::string::npos);
   const auto strut = [&](const std::string& values) {
-    return error_of(head +
-                    "element strut 1\nproperty int vertex1\nproperty int vertex2\n"
-                    "property double rest_length\nproperty double stiffness\nend_header\n" +
-                    rows + values + "\n");
+    return error_of_ply(head +
+                        "element strut 1\nproperty int vertex1\nproperty int vertex2\n"
+                        "property double rest_length\nproperty double stiffness\nend_header\n" +
+                        rows + values + "\n");
   };
   CHECK(strut("2 0 0.5 3") == "(none)");
   for (const auto& [values, what] : {std::pair("0 3 0.5 3", "strut 0: names vertex 3 of 3"),
@@ -306,10 +309,10 @@ TEST_CASE("PLY: hostile stiffnesses, rest angles, struts and lengths of triangle
                                      {"0 1 0.5 nan", "a strut needs"}})
     CHECK(strut(values).find(what) != std::string::npos);
   const auto triangle = [&](const std::string& values) {
-    return error_of(head +
-                    "property double rest_length_01\nproperty double rest_length_12\n"
-                    "property double rest_length_20\nend_header\n0 0 0\n1 0 0\n0 1 0\n" +
-                    values + "\n");
+    return error_of_ply(head +
+                        "property double rest_length_01\nproperty double rest_length_12\n"
+                        "property double rest_length_20\nend_header\n0 0 0\n1 0 0\n0 1 0\n" +
+                        values + "\n");
   };
   CHECK(triangle("3 0 1 2 1 1.4 1") == "(none)");
   CHECK(triangle("3 0 1 2 nan nan nan") == "(none)");
@@ -338,14 +341,14 @@ TEST_CASE("PLY: lengths of a triangle stand for the edges between its corners, w
 
 TEST_CASE("PLY: a header cannot announce more than the file holds") {
   const std::string head = file_head;
-  CHECK(error_of(
+  CHECK(error_of_ply(
             head +
             "element vertex 2000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n")
             .find("more than the file can hold") != std::string::npos);
   const std::string bytes = std::string("ply\nformat binary_little_endian 1.0\n") + triangle_ply +
                             "property list int double huge\nend_header\n" + std::string(36, '\0') + "\3" +
                             std::string(12, '\0') + "\xff\xff\xff\x7f";
-  CHECK(error_of(bytes).starts_with("test: face 0: a list is longer than the file"));
+  CHECK(error_of_ply(bytes).starts_with("test: face 0: a list is longer than the file"));
 }
 
 TEST_CASE("PLY: a name of a group is an attribute where the group is not whole") {

@@ -11,7 +11,7 @@ using io::MeshFormat;
 namespace {
 
 io::MeshFile stl(const std::string& bytes) { return read_from(bytes, MeshFormat::stl); }
-std::string error_of(const std::string& bytes) {
+std::string error_of_stl(const std::string& bytes) {
   return content_error([&] { stl(bytes); });
 }
 
@@ -53,15 +53,16 @@ TEST_CASE("STL: a binary file that begins with solid is read as binary") {
 
 TEST_CASE("STL: errors name the line or the face") {
   const std::string good = "solid\n" + facet("0 0 0", "1 0 0", "0 1 0");
-  CHECK(error_of(good + "endsolid\n") == "(none)");
-  CHECK(error_of(good).find("no 'endsolid'") != std::string::npos);
-  CHECK(error_of("solid\n" + facet("0 0 0", "1 x 0", "0 1 0")).starts_with("test:5: 'x' is not a number"));
+  CHECK(error_of_stl(good + "endsolid\n") == "(none)");
+  CHECK(error_of_stl(good).find("no 'endsolid'") != std::string::npos);
   CHECK(
-      error_of("solid\nfacet normal 0 0 1\nloop\n").starts_with("test:3: 'loop' where 'outer' should stand"));
-  CHECK(error_of("").find("shorter than the header") != std::string::npos);
+      error_of_stl("solid\n" + facet("0 0 0", "1 x 0", "0 1 0")).starts_with("test:5: 'x' is not a number"));
+  CHECK(error_of_stl("solid\nfacet normal 0 0 1\nloop\n")
+            .starts_with("test:3: 'loop' where 'outer' should stand"));
+  CHECK(error_of_stl("").find("shorter than the header") != std::string::npos);
   std::string bytes = written(read_from(cube_obj, MeshFormat::obj), MeshFormat::stl);
-  CHECK(error_of(bytes.substr(0, bytes.size() - 1)).find("announces 12 triangles, the file holds 11") !=
+  CHECK(error_of_stl(bytes.substr(0, bytes.size() - 1)).find("announces 12 triangles, the file holds 11") !=
         std::string::npos);
   bytes.replace(84 + 50 + 12, 4, std::string("\x00\x00\xc0\x7f", 4));
-  CHECK(error_of(bytes).starts_with("test: face 1: a coordinate is not finite"));
+  CHECK(error_of_stl(bytes).starts_with("test: face 1: a coordinate is not finite"));
 }

@@ -20,7 +20,7 @@ std::vector<io::DrawnStroke> drawn(const std::string& json, const io::ReadOption
   spit(folder / "s.json", json);
   return io::read_drawn_strokes(folder / "s.json", 0.01, options);
 }
-std::string error_of(const std::string& json) {
+std::string error_of_drawn(const std::string& json) {
   const std::string text = content_error([&] { drawn(json); });
   const auto name = text.find(".json: ");
   return name == std::string::npos ? text : text.substr(name + 7);
@@ -71,28 +71,32 @@ TEST_CASE("drawn_stroke: strokes are on pictures, in the texture, between vertic
 }
 
 TEST_CASE("drawn_stroke: what is not allowed is named with stroke and key") {
-  CHECK(error_of(R"({"strokes": [{"pixles": [[0,0]]}]})") ==
+  CHECK(error_of_drawn(R"({"strokes": [{"pixles": [[0,0]]}]})") ==
         "stroke 0: unknown key 'pixles'; did you mean 'pixels'?");
-  CHECK(error_of(R"({"strokes": [{"pixels": [[0,0]]}]})").find("need a 'camera'") != std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"pixels": [[0,0]], "points": [[0,0,0]]}]})").find("has both") !=
+  CHECK(error_of_drawn(R"({"strokes": [{"pixels": [[0,0]]}]})").find("need a 'camera'") != std::string::npos);
+  CHECK(error_of_drawn(R"({"strokes": [{"pixels": [[0,0]], "points": [[0,0,0]]}]})").find("has both") !=
         std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "group": "a"}]})") ==
+  CHECK(error_of_drawn(R"({"strokes": [{"points": [[0,0,0]], "group": "a"}]})") ==
         "stroke 0: 'group' goes with 'texture', not with 'points'");
-  CHECK(error_of(R"({"strokes": [{"texture": [[0,0],[1]]}]})")
+  CHECK(error_of_drawn(R"({"strokes": [{"texture": [[0,0],[1]]}]})")
             .starts_with("stroke 0: point 1: 'texture': two"));
-  CHECK(error_of(R"({"strokes": [{"vertices": [0, -1]}]})").find("whole numbers, counted from 0, not -1") !=
+  CHECK(error_of_drawn(R"({"strokes": [{"vertices": [0, -1]}]})")
+            .find("whole numbers, counted from 0, not -1") != std::string::npos);
+  CHECK(error_of_drawn(R"({"strokes": [{"vertices": [0, 1.5]}]})").find("whole numbers") !=
         std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"vertices": [0, 1.5]}]})").find("whole numbers") != std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"vertices": []}]})").find("at least one vertex") != std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0],[1,0,0]], "breaks": [2]}]})")
+  CHECK(error_of_drawn(R"({"strokes": [{"vertices": []}]})").find("at least one vertex") !=
+        std::string::npos);
+  CHECK(error_of_drawn(R"({"strokes": [{"points": [[0,0,0],[1,0,0]], "breaks": [2]}]})")
             .find("'breaks' must ascend") != std::string::npos);
-  CHECK(error_of(R"({"camera": {"eye": [0,0,1], "target": [0,0,0]}, "strokes": []})") ==
+  CHECK(error_of_drawn(R"({"camera": {"eye": [0,0,1], "target": [0,0,0]}, "strokes": []})") ==
         "'size' of the camera is missing");
-  CHECK(error_of(R"({"camera": {"eye": [0,0,1], "target": [0,0,1], "size": [10,10]}, "strokes": []})") ==
-        "camera: eye and target are at one place");
-  CHECK(error_of(R"({"camera": {"eye": [0,0,1], "target": [0,0,0], "size": [10,0]}, "strokes": []})")
+  CHECK(
+      error_of_drawn(R"({"camera": {"eye": [0,0,1], "target": [0,0,1], "size": [10,10]}, "strokes": []})") ==
+      "camera: eye and target are at one place");
+  CHECK(error_of_drawn(R"({"camera": {"eye": [0,0,1], "target": [0,0,0], "size": [10,0]}, "strokes": []})")
             .find("height") != std::string::npos);
-  CHECK(error_of(R"({"camera": {"ey": [0,0,1]}, "strokes": []})") == "unknown key 'ey'; did you mean 'eye'?");
+  CHECK(error_of_drawn(R"({"camera": {"ey": [0,0,1]}, "strokes": []})") ==
+        "unknown key 'ey'; did you mean 'eye'?");
   CHECK(content_error([&] { drawn(R"({"camera": "none.json", "strokes": []})"); }).find("none.json") !=
         std::string::npos);
   TemporaryFolder folder;

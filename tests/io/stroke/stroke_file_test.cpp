@@ -18,7 +18,7 @@ std::vector<Stroke> strokes(const std::string& json, const io::ReadOptions& opti
   return io::read_strokes(folder / "s.json", 0.01, options);
 }
 /// The message behind the file's name.
-std::string error_of(const std::string& json) {
+std::string error_of_strokes(const std::string& json) {
   const std::string text = content_error([&] { strokes(json); });
   const auto name = text.find("s.json:");
   return name == std::string::npos ? text : text.substr(name + 7);
@@ -42,34 +42,35 @@ TEST_CASE("strokes: all keys, and the defaults of those that are missing") {
 }
 
 TEST_CASE("strokes: what is not allowed is named with stroke and key") {
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]]}, {"hieght": 1, "points": [[0,0,0]]}]})") ==
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,0]]}, {"hieght": 1, "points": [[0,0,0]]}]})") ==
         " stroke 1: unknown key 'hieght'; did you mean 'height'?");
-  CHECK(error_of(R"({"stroke": []})") == " unknown key 'stroke'; did you mean 'strokes'?");
-  CHECK(error_of(R"({"strokes": {}})").find("must be a list") != std::string::npos);
-  CHECK(error_of(R"({})").find("must be a list") != std::string::npos);
-  CHECK(error_of(R"([])").find("must hold an object") != std::string::npos);
-  CHECK(error_of(R"({"strokes": []})") == " no strokes; add one to the list");
-  CHECK(error_of(R"({"strokes": [7]})").starts_with(" stroke 0: must be an object"));
-  CHECK(error_of(R"({"strokes": [{"height": 1}]})") ==
+  CHECK(error_of_strokes(R"({"stroke": []})") == " unknown key 'stroke'; did you mean 'strokes'?");
+  CHECK(error_of_strokes(R"({"strokes": {}})").find("must be a list") != std::string::npos);
+  CHECK(error_of_strokes(R"({})").find("must be a list") != std::string::npos);
+  CHECK(error_of_strokes(R"([])").find("must hold an object") != std::string::npos);
+  CHECK(error_of_strokes(R"({"strokes": []})") == " no strokes; add one to the list");
+  CHECK(error_of_strokes(R"({"strokes": [7]})").starts_with(" stroke 0: must be an object"));
+  CHECK(error_of_strokes(R"({"strokes": [{"height": 1}]})") ==
         " stroke 0: 'points' is missing, or one of 'pixels', 'texture' and 'vertices'");
-  CHECK(error_of(R"({"strokes": [{"points": []}]})")
+  CHECK(error_of_strokes(R"({"strokes": [{"points": []}]})")
             .starts_with(" stroke 0: 'points' must be a list of at least one"));
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0],[1,2]]}]})")
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,0],[1,2]]}]})")
             .starts_with(" stroke 0: point 1: 'points': three"));
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,"1"]]}]})")
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,"1"]]}]})")
             .starts_with(" stroke 0: point 0: 'points' must hold num"));
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,1e10]]}]})").find("beyond 1e9 m") != std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "height": true}]})").find("holds a boolean") !=
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,1e10]]}]})").find("beyond 1e9 m") !=
         std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "height": null}]})").find("'height' must") !=
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,0]], "height": true}]})").find("holds a boolean") !=
         std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "closed": 1}]})").find("true or false") !=
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,0]], "height": null}]})").find("'height' must") !=
         std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "closed": true}]})").find("three points") !=
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,0]], "closed": 1}]})").find("true or false") !=
         std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "name": 1}]})").find("'name' must") !=
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,0]], "closed": true}]})").find("three points") !=
         std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,0]], "direction": [0,0,0]}]})").find("zero") !=
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,0]], "name": 1}]})").find("'name' must") !=
+        std::string::npos);
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,0]], "direction": [0,0,0]}]})").find("zero") !=
         std::string::npos);
 }
 
@@ -93,7 +94,7 @@ TEST_CASE("strokes: width, sharpness and press, in metres whatever the unit, and
   bad.press = 0;
   CHECK_THROWS_AS(io::write_strokes(folder / "t.json", std::vector<Stroke>{bad}), std::invalid_argument);
   const auto error = [](const std::string& keys) {
-    return error_of(R"({"strokes": [{"points": [[0, 0, 0]], )" + keys + "}]}");
+    return error_of_strokes(R"({"strokes": [{"points": [[0, 0, 0]], )" + keys + "}]}");
   };
   CHECK(error(R"("width": 0)") == " stroke 0: 'width' = 0.000000 must be > 0 (metres)");
   CHECK(error(R"("width": -1)").find("'width' = -1") != std::string::npos);
@@ -106,12 +107,14 @@ TEST_CASE("strokes: width, sharpness and press, in metres whatever the unit, and
 }
 
 TEST_CASE("strokes: broken JSON is named with line and column") {
-  CHECK(error_of("{\"strokes\": [\n  {\"points\" [[0,0,0]]}]}").starts_with("2:13: no valid JSON: "));
-  CHECK(error_of("").starts_with("1:1: no valid JSON: "));
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,1e999]]}]})").find("no valid JSON") != std::string::npos);
-  CHECK(error_of(R"({"strokes": [{"points": [[0,0,NaN]]}]})").find("no valid JSON") != std::string::npos);
-  CHECK(error_of(std::string(300000, '[')).find("no valid JSON") != std::string::npos);
-  CHECK(error_of("{\"strokes\": " + std::string(300000, '[') + std::string(300000, ']') + "}")
+  CHECK(error_of_strokes("{\"strokes\": [\n  {\"points\" [[0,0,0]]}]}").starts_with("2:13: no valid JSON: "));
+  CHECK(error_of_strokes("").starts_with("1:1: no valid JSON: "));
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,1e999]]}]})").find("no valid JSON") !=
+        std::string::npos);
+  CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,NaN]]}]})").find("no valid JSON") !=
+        std::string::npos);
+  CHECK(error_of_strokes(std::string(300000, '[')).find("no valid JSON") != std::string::npos);
+  CHECK(error_of_strokes("{\"strokes\": " + std::string(300000, '[') + std::string(300000, ']') + "}")
             .starts_with(" no valid JSON: nested more than 100 levels deep"));
 }
 

@@ -144,7 +144,7 @@ TEST_CASE("animated_body: broken frames are refused") {
   CHECK_THROWS_WITH(body.prepare(0, 0.1), Catch::Contains("frame 1 has"));
 }
 
-TEST_CASE("animated_body: a shifting body as frames does to cloth what the rigid one does") {
+TEST_CASE("animated_body: a shifting body as frames does to cloth what the rigid one does", "[accuracy]") {
   const TriangleMesh mesh = sphere_mesh(0.2);
   const DistanceField field = DistanceField::build(mesh, fine());
   const Vec3 v(0.3, 0.1, 0);
@@ -173,7 +173,7 @@ TEST_CASE("animated_body: a shifting body as frames does to cloth what the rigid
   CHECK(worst < 1e-3);
 }
 
-TEST_CASE("animated_body: a body that inflates or bends pushes cloth away and takes it along") {
+TEST_CASE("animated_body: a body that inflates or bends pushes cloth away and takes it along", "[accuracy]") {
   const VertexAt motion = GENERATE(inflate, bend);
   const bool maps = GENERATE(false, true);
   const BodyFrames frames = frames_of(sphere_mesh(0.1), {0, 0.2, 0.4, 0.6, 0.8, 1}, motion);

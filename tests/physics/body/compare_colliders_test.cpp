@@ -79,7 +79,8 @@ TEST_CASE("compare_colliders: the same input gives the same answer, another seed
   CHECK(compare_colliders(collider, exact, m, options).near.median != a.near.median);
 }
 
-TEST_CASE("compare_colliders: depth maps of a ball agree, those of a ball behind a plate do not") {
+TEST_CASE("compare_colliders: depth maps of a ball agree, those of a ball behind a plate do not",
+          "[accuracy]") {
   const TriangleMesh ball = furrow::tests::sphere(30, 0.2), hidden = plate_before_ball();
   const ExactDistance exact_ball(ball), exact_hidden(hidden);
   const auto test = [&](DepthMaps which, const TriangleMesh& m, const ExactDistance& exact) {

@@ -121,7 +121,8 @@ void check_against_samples(const char* mesh, const char* csv) {
 
 }  // namespace
 
-TEST_CASE("distance_field: the field of a real body that crosses itself keeps its error bounds") {
+TEST_CASE("distance_field: the field of a real body that crosses itself keeps its error bounds",
+          "[accuracy]") {
   if (!furrow::tests::have_shared()) {
     WARN("skipped: no shared data");
     return;

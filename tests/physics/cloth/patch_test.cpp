@@ -55,7 +55,7 @@ const Reference references[] = {
 
 }  // namespace
 
-TEST_CASE("patch test: triangles of constant strain are an exact membrane on any mesh") {
+TEST_CASE("patch test: triangles of constant strain are an exact membrane on any mesh", "[accuracy]") {
   const Cloth sheets[] = {square(0), square(0.2, 2), square(0.3, 3), right_sheet(1, 1, 26, 26),
                           right_sheet(1, 1, 26, 26, 0.1, true)};
   for (const Cloth& sheet : sheets) {
@@ -68,7 +68,8 @@ TEST_CASE("patch test: triangles of constant strain are an exact membrane on any
   CHECK(mean_score(0.2, constant_strain, 10).dt_limit == Approx(0.3214).epsilon(0.05));
 }
 
-TEST_CASE("patch test: on regular meshes springs score as an independent program says, to its digits") {
+TEST_CASE("patch test: on regular meshes springs score as an independent program says, to its digits",
+          "[accuracy]") {
   const auto agrees = [](const PatchScore& s, const std::array<double, 5>& r) {
     CHECK(s.dilation.non_affine == Approx(r[0]).epsilon(1e-9).margin(1e-11));
     CHECK(s.dilation.energy == Approx(r[1]).epsilon(1e-9));

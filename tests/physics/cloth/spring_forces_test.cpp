@@ -12,7 +12,7 @@ using namespace furrow::tests;
 namespace {
 
 /// A small mesh, crumpled in space, so that springs are stretched and compressed in all directions.
-Cloth crumpled(std::uint64_t seed) {
+Cloth crumpled_springs(std::uint64_t seed) {
   Cloth cloth = sheet(4, 3, 0.1, 0.2, seed);
   Noise noise(seed + 100);
   for (Vec3& x : cloth.particles.x) x += 0.04 * noise.vector();
@@ -32,7 +32,7 @@ TEST_CASE("spring_forces: a stretched spring pulls its ends together with k (l -
 }
 
 TEST_CASE("spring_forces: the springs' force is minus the gradient of their energy") {
-  const Cloth cloth = crumpled(GENERATE(1, 2, 3));
+  const Cloth cloth = crumpled_springs(GENERATE(1, 2, 3));
   std::vector<Vec3> force(cloth.particles.size(), Vec3::Zero()), x = cloth.particles.x;
   add_forces(only(cloth.structural), x, force);
   const double h = 1e-6;
@@ -50,7 +50,7 @@ TEST_CASE("spring_forces: the springs' force is minus the gradient of their ener
 }
 
 TEST_CASE("spring_forces: the stiffness product is the derivative of the force") {
-  const Cloth cloth = crumpled(GENERATE(4, 5, 6));
+  const Cloth cloth = crumpled_springs(GENERATE(4, 5, 6));
   const std::size_t n = cloth.particles.size();
   Noise noise(9);
   std::vector<Vec3> u(n), ku(n, Vec3::Zero()), above(n, Vec3::Zero()), below = above, x = cloth.particles.x;
@@ -65,7 +65,7 @@ TEST_CASE("spring_forces: the stiffness product is the derivative of the force")
 }
 
 TEST_CASE("spring_forces: the positive part of the stiffness is at least 0 and at least the exact one") {
-  const Cloth cloth = crumpled(7);
+  const Cloth cloth = crumpled_springs(7);
   const std::size_t n = cloth.particles.size();
   Noise noise(11);
   double compressed = 0;

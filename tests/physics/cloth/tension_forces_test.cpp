@@ -23,7 +23,7 @@ using namespace furrow::tests;
 namespace {
 
 /// Stretched and compressed in all directions; only tension.
-Cloth crumpled(std::uint64_t seed, double compress = 20) {
+Cloth crumpled_tension(std::uint64_t seed, double compress = 20) {
   Cloth cloth = with_tension(without_springs(sheet(4, 3, 0.1, 0.2, seed)), 0, 0);
   for (const Spring& s : sheet(4, 3, 0.1, 0.2, seed).structural)
     cloth.tension.push_back({s.a, s.b, s.rest_length, 70 + 10.0 * (s.a % 3), compress});
@@ -64,7 +64,7 @@ TEST_CASE("tension_forces: tension called at rest below a force keeps a strain o
 
 TEST_CASE("tension: derivatives agree with finite differences, and the parts bound each other") {
   for (int seed = 1; seed <= 5; ++seed) {
-    const Cloth cloth = crumpled(seed);
+    const Cloth cloth = crumpled_tension(seed);
     const DerivativeErrors errors = derivative_errors(cloth, cloth.particles.x, 1e-5);
     CAPTURE(seed);
     CHECK(errors.force < 1e-8);
@@ -93,7 +93,7 @@ TEST_CASE("tension: derivatives agree with finite differences, and the parts bou
 }
 
 TEST_CASE("tension_forces: tension exerts neither force nor moment in total, and turns with the cloth") {
-  const Cloth cloth = crumpled(3, 70);
+  const Cloth cloth = crumpled_tension(3, 70);
   const std::vector<Vec3>& x = cloth.particles.x;
   std::vector<Vec3> force(x.size(), Vec3::Zero()), other = force, y = x;
   add_forces(only(cloth.tension), x, force);
@@ -155,7 +155,7 @@ TEST_CASE(
 }
 
 TEST_CASE("tension_forces: tension counts wherever elements are counted") {
-  Cloth cloth = crumpled(2);
+  Cloth cloth = crumpled_tension(2);
   Cloth none = cloth;
   none.tension.clear();
   const StrainStatistics strain = strain_statistics(cloth);

@@ -5,18 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/test_cloths.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;
-
-namespace {
-
-struct Floor : Collider {
-  SignedDistance at(const Vec3& x) const override { return {x.y(), Vec3::UnitY()}; }
-};
-
-}  // namespace
 
 TEST_CASE("residual_force: free fall is 1, a loaded spring in balance is 0") {
   const Vec3 g(0, -9.81, 0);

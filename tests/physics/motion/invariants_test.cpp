@@ -24,8 +24,8 @@ Cloth spinning_sheet(bool springs) {
                            calibrated_stiffness(cloth, MembraneLaw::paper, 50, areas), areas);
   } else {
     cloth.structural.clear();
-    furrow::cases::add_membrane(cloth, 50, 0.3);
-    furrow::cases::add_hinges(cloth, 1e-5);
+    add_flat_membrane(cloth, 50, 0.3);
+    add_flat_hinges(cloth, 1e-5);
   }
   Noise noise(6);
   const Vec3 spin(4, 6, 19), centre(0.1, 0.08, 0);
@@ -59,7 +59,8 @@ Invariants measure(const Cloth& cloth) {
 }  // namespace
 
 TEST_CASE(
-    "invariants: a free spinning sheet keeps momentum and angular momentum, and its energy stays in a band") {
+    "invariants: a free spinning sheet keeps momentum and angular momentum, and its energy stays in a band",
+    "[accuracy]") {
   const bool springs = GENERATE(true, false);
   Cloth cloth = spinning_sheet(springs);
   const Invariants start = measure(cloth);
@@ -85,7 +86,8 @@ TEST_CASE(
   CHECK(band[1] < 1.5 * band[0]);
 }
 
-TEST_CASE("invariants: a twisted ribbon of fibres pulls and turns as the integral over its width says") {
+TEST_CASE("invariants: a twisted ribbon of fibres pulls and turns as the integral over its width says",
+          "[accuracy]") {
   const RibbonLoad known = fibre_ribbon({0.2, 0.02});
   CHECK(known.force == Approx(0.0262994029273).epsilon(1e-10));
   CHECK(known.torque == Approx(0.00204589716483).epsilon(1e-10));
@@ -100,7 +102,8 @@ TEST_CASE("invariants: a twisted ribbon of fibres pulls and turns as the integra
   }
 }
 
-TEST_CASE("invariants: a twisted ribbon of membrane triangles comes near the fibres' force and torque") {
+TEST_CASE("invariants: a twisted ribbon of membrane triangles comes near the fibres' force and torque",
+          "[accuracy]") {
   for (const Twist& twist : {Twist{0.1, 0.01}, Twist{0.1, 0.05}}) {
     const RibbonLoad exact = fibre_ribbon(twist, FibreStrain::green),
                      coarse = membrane_ribbon(twist, 0.1, 4, 40), fine = membrane_ribbon(twist, 0.1, 8, 80);

@@ -6,37 +6,12 @@
 #include "physics/cloth/pins.h"
 #include "physics/cloth/spring_forces.h"
 #include "physics/linear/stable_step.h"
-#include "tests/physics/cloth/test_cloths.h"
+#include "tests/physics/motion/stepper_runs.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;
 
 namespace {
-
-Particles after(const Cloth& cloth, const Loads& loads, double dt, int steps) {
-  ThreadPool pool(1);
-  Motion motion(cloth, loads, pool);
-  for (int i = 0; i < steps; ++i) leapfrog_step(motion, dt);
-  Particles result = cloth.particles;
-  unpack(motion.cloth(), result);
-  return result;
-}
-
-double distance(const Particles& p, const Particles& q) {
-  double sum = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) sum += (p.x[i] - q.x[i]).squaredNorm();
-  return std::sqrt(sum);
-}
-
-/// A small sheet with two pins, far from rest.
-Cloth swinging_sheet() {
-  Cloth cloth = sheet(5, 4, 0.1, 0.2, 3, 20, 2);
-  Noise noise(8);
-  for (Vec3& x : cloth.particles.x) x += 0.01 * noise.vector();
-  for (Vec3& v : cloth.particles.v) v = 0.5 * noise.vector();
-  pin(cloth.particles, std::vector<int>{0, 4});
-  return cloth;
-}
 
 /// Orders measured from the differences of runs with dt, dt/2, dt/4, dt/8.
 std::vector<double> orders(const Loads& loads) {

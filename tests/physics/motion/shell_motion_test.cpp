@@ -9,6 +9,7 @@
 #include "physics/motion/leapfrog_step.h"
 #include "physics/motion/simulate.h"
 #include "tests/physics/cloth/shell_cloths.h"
+#include "tests/physics/motion/stepper_runs.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;
@@ -20,21 +21,6 @@ Cloth shell(int columns, int rows, double edge, double jitter, double young, dou
   if (young > 0) add_membrane(cloth, young);
   if (rigidity > 0) add_hinges(cloth, rigidity);
   return cloth;
-}
-
-Particles after(const Cloth& cloth, const Loads& loads, double dt, int steps) {
-  ThreadPool pool(1);
-  Motion motion(cloth, loads, pool);
-  for (int i = 0; i < steps; ++i) leapfrog_step(motion, dt);
-  Particles result = cloth.particles;
-  unpack(motion.cloth(), result);
-  return result;
-}
-
-double distance(const Particles& p, const Particles& q) {
-  double sum = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) sum += (p.x[i] - q.x[i]).squaredNorm();
-  return std::sqrt(sum);
 }
 
 Cloth swinging(HingeLaw law) {

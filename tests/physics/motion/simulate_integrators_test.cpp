@@ -3,20 +3,10 @@
 
 #include "physics/cloth/pins.h"
 #include "physics/motion/simulate.h"
-#include "tests/physics/cloth/test_cloths.h"
+#include "tests/physics/motion/hung_sheet.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;
-
-namespace {
-
-Cloth hung_sheet() {
-  Cloth cloth = sheet(12, 10, 0.05, 0.2, 2);
-  pin(cloth.particles, std::vector<int>{0, 11});
-  return cloth;
-}
-
-}  // namespace
 
 TEST_CASE("simulate: each integrator has its own limit, or none, and counts its work") {
   Cloth cloth = hung_sheet();

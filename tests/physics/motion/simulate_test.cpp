@@ -5,7 +5,7 @@
 
 #include "physics/body/moving_body.h"
 #include "physics/cloth/pins.h"
-#include "tests/physics/cloth/test_cloths.h"
+#include "tests/physics/motion/hung_sheet.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;
@@ -22,12 +22,6 @@ struct Ball : Collider {
     return {(x - centre).norm() - radius, (x - centre).normalized()};
   }
 };
-
-Cloth hung_sheet(int columns = 12, int rows = 10) {
-  Cloth cloth = sheet(columns, rows, 0.05, 0.2, 2);
-  pin(cloth.particles, std::vector<int>{0, columns - 1});
-  return cloth;
-}
 
 bool same_bits(const Cloth& a, const Cloth& b) {
   return a.particles.x == b.particles.x && a.particles.v == b.particles.v;

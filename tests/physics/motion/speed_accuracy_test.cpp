@@ -35,7 +35,8 @@ struct Bench {
 }  // namespace
 
 TEST_CASE(
-    "speed and accuracy: leapfrog is better than what costs the same forces, RK4 better once they are many") {
+    "speed and accuracy: leapfrog is better than what costs the same forces, RK4 better once they are many",
+    "[accuracy]") {
   const Bench bench({.columns = 6, .jitter = 0.2, .seconds = 0.2});
   const Result leapfrog = bench(Integrator::leapfrog, 0.5), finer = bench(Integrator::leapfrog, 0.25);
   const Result semi = bench(semi_implicit, 0.5), finer_semi = bench(semi_implicit, 0.25);

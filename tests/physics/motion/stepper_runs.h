@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "physics/cloth/pins.h"
+#include "physics/motion/leapfrog_step.h"
 #include "tests/cases/semi_implicit.h"
 #include "tests/physics/cloth/test_cloths.h"
 
@@ -33,6 +34,16 @@ inline Particles after(const Cloth& cloth, const physics::Loads& loads,
   }
   Particles result = cloth.particles;
   motion.unpack(result);
+  return result;
+}
+
+/// By leapfrog_step() alone.
+inline Particles after(const Cloth& cloth, const physics::Loads& loads, double dt, int steps) {
+  physics::ThreadPool pool(1);
+  physics::Motion motion(cloth, loads, pool);
+  for (int i = 0; i < steps; ++i) leapfrog_step(motion, dt);
+  Particles result = cloth.particles;
+  unpack(motion.cloth(), result);
   return result;
 }
 

@@ -36,7 +36,8 @@ SettleReport hang(Cusick& specimen, double tolerance = 1e-3) {
 
 }  // namespace
 
-TEST_CASE("cusick: a ring lies on the discs' edge and is held there, hinges on it count twice") {
+TEST_CASE("cusick: a ring lies on the discs' edge and is held there, hinges on it count twice",
+          "[accuracy]") {
   CusickOptions options;
   const Cusick whole = cusick_specimen(options);
   const Particles& p = whole.cloth.particles;
@@ -62,8 +63,8 @@ TEST_CASE("cusick: a ring lies on the discs' edge and is held there, hinges on i
   CHECK_THROWS_WITH(cusick_specimen(options), Catch::Contains("rings * support / radius = 11.06"));
 }
 
-TEST_CASE(
-    "cusick: the coefficient is 1 for a flat specimen, 0 for one that hangs straight, a cone's between") {
+TEST_CASE("cusick: the coefficient is 1 for a flat specimen, 0 for one that hangs straight, a cone's between",
+          "[accuracy]") {
   Cusick specimen = cusick_specimen({});
   const auto shape = [&](auto&& outside) {  // the distance from the axis that a point outside comes to
     Cusick shaped = specimen;
@@ -86,7 +87,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("cusick: a coarse specimen is near the elastic curve and stable, softer is limper") {
+TEST_CASE("cusick: a coarse specimen is near the elastic curve and stable, softer is limper", "[accuracy]") {
   double last = 1;
   for (const Point& p : {elastic_curve[0], elastic_curve[2]}) {
     CusickOptions options;

@@ -13,9 +13,9 @@ using namespace furrow::tests;
 namespace {
 
 /// A plane through the origin that rises along x.
-struct Incline : Collider {
+struct Ramp : Collider {
   Vec3 up, down;  // normal, way down
-  explicit Incline(double angle)
+  explicit Ramp(double angle)
       : up(-std::sin(angle), std::cos(angle), 0), down(-std::cos(angle), -std::sin(angle), 0) {}
   SignedDistance at(const Vec3& x) const override { return {x.dot(up), up}; }
 };
@@ -45,7 +45,7 @@ double least_distance(const Cloth& cloth, const Collider& body) {
 }  // namespace
 
 TEST_CASE("displace_by_force: without the cap a stretched sheet breaks down, with it it drapes",
-          "[displace]") {
+          "[displace][accuracy]") {
   const Sphere ball(Vec3(0, -0.12, 0), 0.1);
   Cloth rest = with_tension(lying(sheet(9, 11, 0.03, 0, 1, 1000, 0), 0), 1, 0.3);
   weigh_evenly(rest.particles);
@@ -94,7 +94,7 @@ TEST_CASE("displace_by_force: the cap keeps a membrane bounded at a rate that is
 
 TEST_CASE("displace_by_force: a particle sticks to an incline below atan(mu), slides above", "[displace]") {
   const double angle = 0.5, mass = 0.01;
-  const Incline incline(angle);
+  const Ramp incline(angle);
   DisplaceOptions options;
   options.rate = 1e-4 / (mass * 9.81);  // falls 0.1 mm a pass
   const auto end = [&](double friction, double height, int passes) {
@@ -118,7 +118,7 @@ TEST_CASE("displace_by_force: a particle sticks to an incline below atan(mu), sl
 TEST_CASE("displace_by_force: a sheet stays on an incline below atan(mu) only", "[displace]") {
   for (const double share : {0.9, 1.1}) {
     const double angle = std::atan(0.4 * share);
-    const Incline incline(angle);
+    const Ramp incline(angle);
     Cloth cloth = sheet(6, 6, 0.02, 0.1, 1, 10, 0.1);
     for (Vec3& x : cloth.particles.x) x = 0.004 * incline.up + x.y() * incline.down + Vec3(0, 0, x.x());
     const Vec3 start = cloth.particles.x[0];

@@ -33,7 +33,7 @@ double chart_error(const StripOptions& options, double gamma) {
 
 }  // namespace
 
-TEST_CASE("cantilever: shooting for the heavy elastica meets the table") {
+TEST_CASE("cantilever: shooting for the heavy elastica meets the table", "[accuracy]") {
   const Elastica a = heavy_elastica(10), b = heavy_elastica(1, 3);
   CHECK(a.width == Approx(0.6563537612).epsilon(1e-9));
   CHECK(a.height == Approx(0.7001997155).epsilon(1e-9));
@@ -42,7 +42,8 @@ TEST_CASE("cantilever: shooting for the heavy elastica meets the table") {
   CHECK(b.height > 0.28);
 }
 
-TEST_CASE("cantilever: a ladder of 40 hinges meets the elastica, and halving its links quarters the error") {
+TEST_CASE("cantilever: a ladder of 40 hinges meets the elastica, and halving its links quarters the error",
+          "[accuracy]") {
   for (const auto& [gamma, bound] : {std::pair{1.0, 1e-4}, {10.0, 1e-3}, {100.0, 1e-3}}) {
     const Elastica exact = heavy_elastica(gamma);
     double error[2];
@@ -83,7 +84,7 @@ TEST_CASE("cantilever: irregular triangles are a little too stiff", "[accuracy]"
   }
 }
 
-TEST_CASE("cantilever: springs across edges follow the third root of the load") {
+TEST_CASE("cantilever: springs across edges follow the third root of the load", "[accuracy]") {
   double drop[2];
   for (const int k : {0, 1}) {
     const double gamma = k ? 0.1 : 0.001;
@@ -108,7 +109,8 @@ TEST_CASE("cantilever: springs across edges follow the third root of the load") 
   CHECK(std::log10(drop[1] / drop[0]) / 2 == Approx(1.0 / 3).margin(0.01));
 }
 
-TEST_CASE("buckling: a standing strip and a strip on edge lose their stability where theory says") {
+TEST_CASE("buckling: a standing strip and a strip on edge lose their stability where theory says",
+          "[accuracy]") {
   StripOptions o;
   o.rows = 46;  // width / length = 0.1
   const Strip strip = equilateral_strip(o);
@@ -117,7 +119,7 @@ TEST_CASE("buckling: a standing strip and a strip on edge lose their stability w
   CHECK(critical_gamma(strip, {0, -1, 0}, 18, 24) == Approx(20.9901076079).epsilon(0.05));
 }
 
-TEST_CASE("buckling: a strip between two clamps rises as the elastica does") {
+TEST_CASE("buckling: a strip between two clamps rises as the elastica does", "[accuracy]") {
   for (const auto& [shortening, height] : {std::pair{0.1, 0.194924311376}, {0.3, 0.314312612956}}) {
     StripOptions o;
     o.rows = 32;
