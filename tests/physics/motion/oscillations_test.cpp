@@ -30,7 +30,7 @@ TEST_CASE("oscillations: frequencies of a hanging chain at its exact static stat
   const std::array<double, 3> coarse{1.13243059537, 2.63455356434, 4.24698612757},
       fine{1.19413233325, 2.74120146486, 4.29781094467};
   for (const int links : {4, 64}) {
-    const std::vector<double> f = computed_frequencies(hanging_chain(links, 0.25), 0, 3),
+    const std::vector<double> f = computed_frequencies(furrow::cases::hanging_chain(links, 0.25), 0, 3),
                               exact = hanging_chain_frequencies(links, 0.25, 3);
     for (int j = 0; j < 3; ++j) {
       CHECK(exact[j] == Approx((links == 4 ? coarse : fine)[j]).epsilon(1e-10));
@@ -38,7 +38,7 @@ TEST_CASE("oscillations: frequencies of a hanging chain at its exact static stat
     }
   }
   // Newton finds the same state from another one.
-  Cloth chain = hanging_chain(16, 0.5);
+  Cloth chain = furrow::cases::hanging_chain(16, 0.5);
   const std::vector<Vec3> rest = chain.particles.x;
   for (std::size_t i = 1; i < rest.size(); ++i) chain.particles.x[i] += Vec3(0.002 * i, 0.001 * i, 0);
   find_rest(chain, Unknowns(chain, {true, true, true}), {0, -9.81, 0}, 1e-12);
