@@ -127,8 +127,8 @@ class Keeper {
   /// More help for what needs it, until nothing does or all is given.
   Found help_by_stiffness(Plan plan, Tally& tally) const {
     for (std::optional<Found> last;;) {
-      std::optional<Found> solved = try_solve(plan, tally);
-      if (!solved && !last) throw physics::Cancelled("keep_lines: cancelled");
+      // Cancelled before there is any rest state, it comes out.
+      std::optional<Found> solved = last ? try_solve(plan, tally) : Found{plan, solve(plan, tally)};
       if (!solved) return std::move(*last);
       Found& found = last.emplace(std::move(*solved));
       Flags weak = loose_lines(found);
