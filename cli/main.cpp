@@ -21,10 +21,11 @@ bool has_subcommand(const CLI::App& app, const std::string& word) {
   return std::any_of(subs.begin(), subs.end(), [&](const CLI::App* sub) { return sub->get_name() == word; });
 }
 
-/// The word of the list that is fewer than four typing errors away, and nearest; "": none is.
+/// The word of the list that is nearest, if no more than a quarter of its letters and one are wrong; "":
+/// none.
 std::string nearest_of(const std::vector<std::string>& words, const std::string& word) {
   std::string nearest;
-  std::size_t least = 4;
+  std::size_t least = word.size() / 4 + 2;
   for (const std::string& other : words)
     if (const std::size_t d = io::edit_distance(word, other); d < least) {
       least = d;

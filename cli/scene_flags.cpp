@@ -42,7 +42,7 @@ void SceneFlags::add_to(CLI::App& sub, unsigned subcommand) {
     g.option = sub.add_flag(s.flag, g.is_on, s.help);
   }
   add_pin_flags(sub);
-  if (!(subcommand & io::used_by::moving)) return;
+  if (subcommand & io::used_by::wrinkle) return;
   sub.add_option("--set", sets_,
                  "any setting of a scene, as key=value: --set body.motion.spin.rate=3; may be given again")
       ->allow_extra_args(false);

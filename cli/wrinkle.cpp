@@ -41,7 +41,7 @@ void take_state(const WrinkleArguments& a, WrinkleJob& job) {
 /// The garment, strokes and options that a wrinkled mesh was made with, and over them those of the command
 /// line.
 void draw_again(WrinkleArguments& a, WrinkleJob& job) {
-  refuse_same({a.inserted, a.preview, a.camera.save_camera}, {a.in});
+  refuse_same({a.out, a.inserted, a.preview, a.camera.save_camera}, {a.in});
   Terminal terminal(a);
   Frame frame = a;
   take_noted_frame(frame, {a.in});

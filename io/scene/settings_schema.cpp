@@ -310,7 +310,8 @@ const Row<Scene> rows[] = {
       .help = "threads (default: one for each 10,000 vertices, at most all cores); the result does not "
               "depend on them",
       .what = "the result does not depend on them",
-      .usual = "one for each 10,000 vertices, at most all cores"},
+      .usual = "one for each 10,000 vertices, at most all cores",
+      .flag_in = used_by::moving | used_by::drape},
      whole(
          1, 256, [](auto& s) -> auto& { return s.threads; })},
 

@@ -196,9 +196,11 @@ TEST_CASE("scene outputs: the scenes of the demo are read, and begin", "[scenes]
     CAPTURE(name);
     const std::string out = scratch / "out.ply";
     // The body is left away: its field takes longer than all the rest.
-    const Run run =
-        run_furrow("simulate --json " FURROW_SOURCE_DIR "/scenes/" + name + ".toml --set body='{mesh=\"" +
-                   meshes + "ball.obj\"}' --stop-at 0.001 --set output='{mesh=\"" + out + "\"}'");
+    const Run run = run_furrow("simulate --json " FURROW_SOURCE_DIR "/scenes/" + name +
+                               ".toml --set body='{mesh=\"" + meshes +
+                               "ball.obj\", motion={keyframes=[{time=0, translation=[5,0,0]}]}}' --stop-at "
+                               "0.001 --set output='{mesh=\"" +
+                               out + "\"}'");
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     const json report = json::parse(run.out);

@@ -30,13 +30,14 @@ TEST_CASE("strict JSON: every command's report is read") {
   const auto out = [&](const char* name) { return " -o " + (scratch / name); };
   report_of("info " + sheet);
   report_of("subdivide " + sheet + " --loop 1" + out("fine.ply"));
-  report_of("smooth " + (scratch / "fine.ply") + " " + (scratch / "smooth.ply"));
+  report_of("smooth " + (scratch / "fine.ply") + out("smooth.ply"));
   report_of("wrinkle " + sheet + " " + strokes + out("w.ply"));
   report_of("sdf" + body.substr(7) + " --tolerance 0.01" + out("body.sdf"));
   report_of("drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"));
   report_of("fit " + (scratch / "worn.ply") + body);
   report_of("transfer " + sheet + " " + (scratch / "w.ply") + out("back.obj"));
-  report_of("bake " + sheet + " " + (scratch / "w.ply") + out("baked") + " --size 64");
+  const std::string textured = of("meshes/panelled.obj");
+  report_of("bake " + textured + " " + textured + out("baked") + " --size 64");
   report_of("render " + sheet + " --size 200,200 --quality draft" + out("p.png"));
   report_of("strokes " + strokes);
   for (const char* integrator : {"leapfrog", "backward-euler", "xpbd", "rk4"}) {
