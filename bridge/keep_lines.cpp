@@ -124,11 +124,16 @@ class Keeper {
     return plan;
   }
 
+  Found found_by(const Plan& plan, Tally& tally) const {
+    Outcome outcome = solve(plan, tally);
+    return {plan, std::move(outcome)};
+  }
+
   /// More help for what needs it, until nothing does or all is given.
   Found help_by_stiffness(Plan plan, Tally& tally) const {
     for (std::optional<Found> last;;) {
       // Cancelled before there is any rest state, it comes out.
-      std::optional<Found> solved = last ? try_solve(plan, tally) : Found{plan, solve(plan, tally)};
+      std::optional<Found> solved = last ? try_solve(plan, tally) : found_by(plan, tally);
       if (!solved) return std::move(*last);
       Found& found = last.emplace(std::move(*solved));
       Flags weak = loose_lines(found);
@@ -186,7 +191,7 @@ class Keeper {
  private:
   /// Nothing, and that is noted, if it was broken off.
   std::optional<Found> try_solve(const Plan& plan, Tally& tally) const try {
-    return Found{plan, solve(plan, tally)};
+    return found_by(plan, tally);
   } catch (const physics::Cancelled&) {
     tally.interrupted = true;
     return std::nullopt;

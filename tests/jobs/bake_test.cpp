@@ -73,7 +73,7 @@ TEST_CASE("bake: meshes in memory come to the bits of their files") {
   CHECK(json_a.at("written").size() == 3);
   for (jobs::Json* json : {&json_a, &json_b}) json->erase("written");
   CHECK(json_a == json_b);
-  for (const std::string& name : {"s_displacement.png", "s_normal.png"})
+  for (const std::string name : {"s_displacement.png", "s_normal.png"})
     CHECK(tests::bytes_of(folder / name) == tests::bytes_of(from_files / name));
   CHECK(recorder.warnings.empty());
 }
