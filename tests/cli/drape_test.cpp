@@ -169,7 +169,8 @@ TEST_CASE(
   CHECK(below.err.find("comes through") == std::string::npos);
 }
 
-TEST_CASE("drape: it names the settings that it has no use for, and cloth that is nearer than a chosen gap") {
+TEST_CASE("drape: it names the settings that it has no use for, and cloth that is nearer than a chosen gap",
+          "[accuracy]") {
   ScratchDirectory scratch;
   write_text(scratch / "scene.toml",
              "[garment]\nmesh = '" + (source_dir() / "meshes/skirt.obj").string() + "'\n[body]\nmesh = '" +
@@ -190,7 +191,7 @@ TEST_CASE("drape: it names the settings that it has no use for, and cloth that i
   CHECK(help.find("paper's law, default") == std::string::npos);
 }
 
-TEST_CASE("drape: cloth lies no deeper in the gap than it may") {
+TEST_CASE("drape: cloth lies no deeper in the gap than it may", "[accuracy]") {
   ScratchDirectory scratch;
   const auto drape = [&](const std::string& more) {
     const Run run =
@@ -300,7 +301,7 @@ TEST_CASE("drape: a body that encloses nothing is refused, by fit, too") {
         3);
 }
 
-TEST_CASE("drape: a size stays the size that it was cut, refined or not") {
+TEST_CASE("drape: a size stays the size that it was cut, refined or not", "[accuracy]") {
   ScratchDirectory scratch;
   const std::string shirt = (source_dir() / "meshes/shirt.obj").string();
   double ease[2][3] = {}, girth = 0;
