@@ -27,7 +27,7 @@ void check(const DrapeOptions& o) {
   require(me, "coarse_tolerance", o.coarse_tolerance, o.coarse_tolerance > 0, "> 0");
   require(me, "disturbance", o.disturbance, o.disturbance >= 0, ">= 0");
   require(me, "contact_depth", std::min(depth, 1e300), !o.plain || std::isinf(depth),
-          "left away, as the plain scheme needs it");
+          "left out, as the plain scheme needs it");
   require(me, "bending_friction", o.bending_friction,
           o.bending_friction >= 0 && !(o.bending_friction > 0 && o.plain),
           o.plain ? "0, as the plain scheme needs it" : ">= 0");

@@ -140,7 +140,7 @@ std::vector<double> parse_numbers(const std::string& text, std::size_t n, const 
     ++at;
   }
   if (*at != 0 || numbers.size() != n)
-    throw UsageError(option + " takes " + std::to_string(n) + " numbers parted by commas, not '" + text +
+    throw UsageError(option + " takes " + std::to_string(n) + " numbers separated by commas, not '" + text +
                      "'");
   return numbers;
 }

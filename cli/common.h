@@ -65,7 +65,7 @@ void flush_output();
 void print_report(const Json& report, const CommonArguments& common);
 void warn(const std::string& message, const CommonArguments& common);
 
-/// `text` as exactly n numbers parted by commas. Throws UsageError that names the option.
+/// `text` as exactly n numbers separated by commas. Throws UsageError that names the option.
 std::vector<double> parse_numbers(const std::string& text, std::size_t n, const std::string& option);
 
 /// "1%" as 0.01. Throws UsageError, naming the option, for anything but a percentage in (0, 100).

@@ -58,7 +58,7 @@ std::vector<Band> parse_bands(const std::vector<std::string>& texts) {
   return bands;
 }
 
-/// The fabrics of --compare, parted by commas. Throws UsageError where a name is missing.
+/// The fabrics of --compare, separated by commas. Throws UsageError where a name is missing.
 std::vector<std::string> parse_fabrics(const std::string& text) {
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -69,7 +69,7 @@ std::vector<std::string> parse_fabrics(const std::string& text) {
   if (std::find(names.begin(), names.end(), "") != names.end())
     throw UsageError(
         "--compare '" + text +
-        "': a name is missing; write fabrics parted by commas, as in --compare cotton,silk,denim");
+        "': a name is missing; write fabrics separated by commas, as in --compare cotton,silk,denim");
   return names;
 }
 
@@ -208,7 +208,7 @@ void add_drape(CLI::App& app, int& exit_code) {
   sub->add_option("--picture", a->picture, "PNG to write: the garment on the body, coloured, with a legend");
   sub->add_option("--colour", a->colour, "of the picture: strain (default) or distance")
       ->check(CLI::IsMember({"strain", "distance"}));
-  sub->add_option("--compare", a->compare, "fabrics parted by commas: one picture of them all");
+  sub->add_option("--compare", a->compare, "fabrics separated by commas: one picture of them all");
   sub->add_option("--animation", a->animation,
                   "the way to rest, not a motion in time: a frame an iteration; pc2, mdd or glb");
   sub->add_option(
@@ -225,11 +225,10 @@ void add_drape(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--residual", a->settings.residual,
                   "largest net force on a vertex, over its weight, at which it rests (default 0.001)");
-  sub->add_option(
-         "--contact-depth", a->settings.contact_depth,
-         "go on, with contact ever stiffer, until nothing lies deeper in the gap than this [m]: "
-         "1e-6 gives tight cloth its full strain, in about twice the time (default: as it comes, some "
-         "0.1 mm)")
+  sub->add_option("--contact-depth", a->settings.contact_depth,
+                  "go on, with contact ever stiffer, until nothing lies deeper in the gap than this [m]: "
+                  "1e-6 gives tight cloth its full strain, in about twice the time (default: usually some "
+                  "0.1 mm)")
       ->check(CLI::Range(1e-7, 1.0));
   sub->add_option("--penetration", a->settings.penetration,
                   "depth to which the body may come through the cloth, between vertices, too [m] (default "

@@ -149,7 +149,8 @@ void add_fit(CLI::App& app) {
       ->check(CLI::IsMember({"strain", "distance"}));
   sub->add_option("--range", a->range,
                   "where the colours end: strain [-] or distance [m]; default 2 x --tight, 1.2 x --loose");
-  sub->add_option("--captions", a->captions, "words for the pictures, parted by commas; default: file names");
+  sub->add_option("--captions", a->captions,
+                  "words for the pictures, separated by commas; default: file names");
   add_thresholds(*sub, *a);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);

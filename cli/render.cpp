@@ -135,7 +135,7 @@ void add_render(CLI::App& app) {
       ->allow_extra_args(false);
   sub->add_flag("--no-lines", a->no_lines, "leave out the lines that the garments carry");
   sub->add_flag("--strip", a->strip, "one picture a garment, side by side from the same camera");
-  sub->add_option("--captions", a->captions, "words under the pictures of a strip, parted by commas");
+  sub->add_option("--captions", a->captions, "words under the pictures of a strip, separated by commas");
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);
   sub->callback([a] { render(*a); });

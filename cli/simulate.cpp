@@ -26,16 +26,16 @@ struct SimulateArguments : CommonArguments {
 void check_tolerance(const SimulateArguments& a, const SimulateJob& job) {
   const std::string accuracy = a.flags.accuracy();
   if (accuracy.empty() && a.budget_option->count())
-    throw UsageError("--budget bounds the choice for --tolerance 1%; give that, too, or leave --budget away");
+    throw UsageError("--budget bounds the choice for --tolerance 1%; give that, too, or leave out --budget");
   if (accuracy.empty()) return;
   if (job.state)
     throw UsageError("--tolerance " + accuracy +
-                     " judges a scene from its beginning; leave it or --state away");
+                     " judges a scene from its beginning; leave out one of the two");
   const io::TomlDocument& settings = job.scene.settings;
   for (const char* key : {"simulation.integrator", "simulation.dt", "simulation.sweeps", "simulation.newton"})
     if (settings.place(key).rfind("--", 0) == 0)
       throw UsageError("--tolerance " + accuracy + " chooses integrator and step, and " +
-                       settings.place(key) + " names one; leave one of them away");
+                       settings.place(key) + " names one; leave out one of them");
 }
 
 SimulateJob job_of(const SimulateArguments& a) {

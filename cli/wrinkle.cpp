@@ -26,12 +26,12 @@ void check_call(const WrinkleArguments& a) {
   if (!flag.empty() && a.rest != "keep")
     throw UsageError(flag + ": goes with --rest keep; furrow simulate chooses it otherwise");
   if (!flag.empty() && !a.state.empty())
-    throw UsageError(flag + ": --state has material, pins and body; leave it away");
+    throw UsageError(flag + ": --state has material, pins and body; leave it out");
 }
 
 /// With --state the one file that is named is that of the strokes.
 void take_state(const WrinkleArguments& a, WrinkleJob& job) {
-  if (!a.strokes.empty()) throw UsageError(a.in + ": --state has its garment; leave the mesh away");
+  if (!a.strokes.empty()) throw UsageError(a.in + ": --state has its garment; leave out the mesh");
   if (a.density) throw UsageError("--density: furrow simulate --state S --density changes that of a state");
   job.state = io::read_state(a.state);
   job.state_path = a.state;

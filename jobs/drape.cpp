@@ -41,7 +41,7 @@ void check(const DrapeJob& job, const io::Scene& scene) {
   if (!(s.residual > 0)) throw std::invalid_argument("--residual takes a number > 0");
   if (s.plain && s.contact_depth)
     throw std::invalid_argument(
-        "--contact-depth: --plain moves cloth out to the gap at once; leave one of them away");
+        "--contact-depth: --plain moves cloth out to the gap at once; leave out one of them");
   const std::string output = job.output.string(), animation = s.animation.string();
   if (!output.empty()) check_output(output);
   if (!animation.empty() && !io::animation_format(s.animation))
@@ -93,7 +93,7 @@ std::vector<io::Scene> scenes_of(const DrapeJob& job, const OpenScene& open) {
   if (job.fabrics.empty()) return {open.scene};
   const io::TomlDocument& document = open.document;
   if (document.root.contains("/material/preset"_json_pointer) && !document.is_of_file("material.preset"))
-    throw std::invalid_argument("--fabric: --compare names the fabrics; leave one of them away");
+    throw std::invalid_argument("--fabric: --compare names the fabrics; leave out one of them");
   std::vector<io::Scene> scenes;
   for (const std::string& fabric : job.fabrics) {
     io::TomlDocument other = document;

@@ -162,7 +162,7 @@ io::TomlDocument settings_of(const std::string& scene_or_garment, const std::str
   if (is_scene(scene_or_garment)) return io::read_toml(scene_or_garment);
   if (state) {
     if (!scene_or_garment.empty())
-      throw std::invalid_argument(scene_or_garment + ": --state has its garment; leave the mesh away");
+      throw std::invalid_argument(scene_or_garment + ": --state has its garment; leave out the mesh");
     return io::document_of(state->scene, state_path);
   }
   if (scene_or_garment.empty()) throw std::invalid_argument("name a garment, a scene (.toml), or --state");

@@ -25,7 +25,7 @@ namespace {
 
 void check_outputs(const KeepJob& job, const OpenScene& open) {
   if (job.whole && !job.help)
-    throw std::invalid_argument("--whole is help for what lies between the lines; leave --no-help away");
+    throw std::invalid_argument("--whole is help for what lies between the lines; leave out --no-help");
   const io::Scene& scene = open.scene;
   const io::SceneOutput& out = scene.output;
   const bool of_file = is_scene(open.document.name);
@@ -50,7 +50,8 @@ void check_outputs(const KeepJob& job, const OpenScene& open) {
 
 OpenScene open_scene(const KeepJob& job) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
-  if (!job.state) take_recorded_material(open.document, garment_of(open.document, open.folder), job.scene.memory);
+  if (!job.state)
+    take_recorded_material(open.document, garment_of(open.document, open.folder), job.scene.memory);
   open.scene = scene_of(open.document, open.folder);
   if (open.scene.garment.empty() && !job.state)
     throw std::invalid_argument(open.document.name + ": garment.mesh is missing");

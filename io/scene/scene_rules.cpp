@@ -35,21 +35,21 @@ void check_body(SettingsTable& table, const Scene& scene) {
   const bool says_field = table.has("tolerance") || table.has("gradient");
   if (body.mesh.empty()) table.fail("mesh", "is missing: name the body's mesh");
   if (!body.field.empty() && says_field)
-    table.fail("field", "has its own tolerance and gradient; leave those settings away");
+    table.fail("field", "has its own tolerance and gradient; leave out those settings");
   if (body.depth_maps && body.frames.empty())
     table.fail("collider", "is for frames: a rigid body's field is built once, and right everywhere");
   if (body.depth_maps && says_field)
-    table.fail("collider", "has no tolerance and no gradient; leave those settings away");
+    table.fail("collider", "has no tolerance and no gradient; leave out those settings");
   if (!body.field.empty() && !body.frames.empty())
     table.fail("field", "is that of a rigid body; frames have a field each");
   if (!body.frames.empty() && !physics::at_rest(body.motion))
-    table.fail("frames", "move the body already; leave its motion away");
+    table.fail("frames", "move the body already; leave out its motion");
 }
 
 void check_material(SettingsTable& table, const Scene& scene) {
   if (scene.material.poisson == 1) table.fail("poisson", "must be below 1");
   if (table.has("stretch") && table.has("stiffness"))
-    table.fail("stretch", "stands in place of stiffness; leave one away");
+    table.fail("stretch", "stands in place of stiffness; leave out one");
 }
 
 void check_pins(SettingsTable& table, const Scene& scene) {

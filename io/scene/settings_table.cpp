@@ -59,7 +59,7 @@ void SettingsTable::finish() const {
     if (known_.count(key)) continue;
     const std::string tables = tables_of_key(key);
     throw geometry::ContentError(place_of(key) + ": there is no setting '" + path_of(key) + "'" +
-                                 (!tables.empty() ? "; '" + key + "' belongs into " + tables
+                                 (!tables.empty() ? "; '" + key + "' belongs in " + tables
                                   : words.empty() ? ""
                                                   : "; did you mean '" + nearest_word(key, words) + "'?"));
   }

@@ -181,9 +181,9 @@ class Judge {
     return Json(std::stod(text)).dump() + " % of the size";
   }
 
-  /// Richardson's: halves part by d, quarters by d 2^p, so the finer one is off by d / (2^p - 1); the order p
-  /// is what the three runs show, between 1/2 (contact) and 2. A chaotic motion has no order: there, what
-  /// equals parted by.
+  /// Richardson's: halves are d apart, quarters d 2^p, so the finer one is off by d / (2^p - 1); the order p
+  /// is what the three runs show, between 1/2 (contact) and 2. A chaotic motion has no order: there, the
+  /// distance between runs that should be equal.
   double reference_error() const {
     const double fine = error_of(j_.candidates[1].off), coarse = error_of(j_.candidates[0].off);
     if (j_.by_shape) return std::max(fine, error_of(twin_));

@@ -130,7 +130,7 @@ void SimulationGate::check(const physics::SimulateProgress& progress) {
   require_allowed(
       text_of("%.2g steps of %.2g s are to come, about %s of processor time; %s", steps, progress.dt,
               duration_text(steps * cost_of_step_).c_str(),
-              step_is_set_ ? "take a longer --dt, or leave it away"
+              step_is_set_ ? "take a longer --dt, or leave it out"
                            : "steps are that short where cloth is light for its stiffness (--density), or "
                              "faces are next to nothing (furrow info: min_angle_deg): mend these, or try "
                              "--integrator backward-euler"),

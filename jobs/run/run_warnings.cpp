@@ -131,7 +131,8 @@ std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineRe
   if (lost > most_told) told += ", and " + std::to_string(lost - most_told) + " more";
   return {{"lines_lost",
            std::to_string(lost) + " of " + std::to_string(lines.size()) +
-               (lines.size() == 1 ? " line" : " lines") + " lost more than half of the height: " + told + "; " +
+               (lines.size() == 1 ? " line" : " lines") + " lost more than half of the height: " + told +
+               "; " +
                (keeps_first_shape(scene)
                     ? "furrow keep finds out which lines hold, and helps those that do not"
                     : "furrow keep makes the drawn shape the rest and helps lines that do not hold; so does "
@@ -153,7 +154,7 @@ std::string words_of_divergence(const io::Scene& scene, const physics::SimulateR
        << " s (stable below " << report.dt_limit << " s); the garment was not written; "
        << (scene.simulation.integrator == physics::Integrator::explicit_euler
                ? "explicit Euler always does in the end: use leapfrog"
-           : scene.simulation.dt ? "leave --dt away"
+           : scene.simulation.dt ? "leave out --dt"
                                  : "look for pins or cloth that start deep inside the body");
   return text.str();
 }

@@ -125,7 +125,7 @@ OpenScene open_scene(const SimulateJob& job, Listener& listener) {
   if (!job.state) take_material(open, job.scene.memory, listener);
   open.scene = scene_of(open.document, open.folder);
   if (job.state && job.tolerance)
-    throw std::invalid_argument("tolerance: judges a scene from its beginning; leave it or the state away");
+    throw std::invalid_argument("tolerance: judges a scene from its beginning; leave out one of the two");
   if (open.scene.garment.empty() && !job.state)
     throw std::invalid_argument(open.document.name + ": garment.mesh is missing");
   if (job.state) check_state(open.scene, *job.state);

@@ -232,7 +232,7 @@ TEST_CASE("chart: simulate with --tolerance in per cent takes its recommendation
   for (const char* given : {"--integrator rk4", "--dt 1e-5"}) {
     const Run refused = run_furrow("simulate --tolerance 1% " + scene + " -o " + end + " " + given);
     CHECK(refused.exit_code == 2);
-    CHECK(refused.err.find("leave one of them away") != std::string::npos);
+    CHECK(refused.err.find("leave out one of them") != std::string::npos);
   }
   const auto chosen = bridge::positions_of(io::read_mesh(end).mesh);
   CHECK(apart(chosen, simulated(scratch, scene, chart["recommendation"]["flags"])) == 0);

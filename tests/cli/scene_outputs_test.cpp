@@ -195,7 +195,7 @@ TEST_CASE("scene outputs: the scenes of the demo are read, and begin", "[scenes]
     const ScratchDirectory scratch;
     CAPTURE(name);
     const std::string out = scratch / "out.ply";
-    // The body is left away: its field takes longer than all the rest.
+    // The body is left out: its field takes longer than all the rest.
     const Run run = run_furrow("simulate --json " FURROW_SOURCE_DIR "/scenes/" + name +
                                ".toml --set body='{mesh=\"" + meshes +
                                "ball.obj\", motion={keyframes=[{time=0, translation=[5,0,0]}]}}' --stop-at "

@@ -224,7 +224,7 @@ TEST_CASE("scene_file: a scene's faults are told with file, line, column and the
   CHECK(fault("[[body]]\nmesh = \"b\"\n") ==
         "a/s.toml:1:3: body may be there once; write [body], not [[body]]");
   CHECK(has(fault("[garment]\nmesh = skirt.obj\n"), "a text needs quotes: mesh = "));
-  CHECK(has(fault("[output]\nseconds = 4\n"), "'seconds' belongs into [simulation]"));
+  CHECK(has(fault("[output]\nseconds = 4\n"), "'seconds' belongs in [simulation]"));
   CHECK(has(fault("[[pins]]\nloop = -1\n"), "whole number from 0"));
   CHECK(has(fault("[simulation]\nseconds = 1\nseconds = 2\n"), "a/s.toml:3:"));
 }

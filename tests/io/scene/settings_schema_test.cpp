@@ -156,7 +156,7 @@ TEST_CASE("settings: a key in the wrong table is told where it belongs") {
     const std::string what = fault_of(Json{{"pins", Json::array({{{"loop", "top"}, {s.key(), 1}}})}}),
                       wanted = s.table();
     INFO(s.path << ": " << what);
-    CHECK(holds(what, "there is no setting 'pins.0." + s.key() + "'; '" + s.key() + "' belongs into "));
+    CHECK(holds(what, "there is no setting 'pins.0." + s.key() + "'; '" + s.key() + "' belongs in "));
     CHECK((holds(what, "[" + wanted + "]")));
   }
   CHECK(io::tables_of_key("mesh") == "[garment] or [body] or [output]");

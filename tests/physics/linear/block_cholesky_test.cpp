@@ -143,8 +143,7 @@ TEST_CASE("block_cholesky: it throws where it is cancelled, and the next call ha
     };
     CHECK(questions_until(1000000) >= (threads == 1 ? 4 : 1));
     for (const int last : {1, 2, 3}) {
-      const int asked =
-          questions_until(last);  // two threads share the work as it comes, and one of them asks
+      const int asked = questions_until(last);  // two threads share the work, and one of them asks
       CHECK((asked == last || (threads == 2 && last > 1 && asked < last)));
       REQUIRE(factor.factorise(sparse, 0, &pool));
       Eigen::VectorXd x = some_vector(a.rows());
