@@ -42,8 +42,12 @@ void keep_momentum(Mesh& mesh, physics::Particles& p, const Vec3& wanted, std::s
 }
 
 /// The options of the springs with the presses of new lines; those of earlier lines stay.
-GatherOptions with_lines(GatherOptions springs, std::span<const Stroke> strokes, int first_line) {
-  const LineShapes fresh = line_shapes(strokes, first_line);
+GatherOptions with_lines(GatherOptions springs, std::span<const WrinkledLine> lines, int first_line) {
+  LineShapes fresh = line_shapes({}, first_line);
+  for (const WrinkledLine& line : lines) {
+    fresh.presses.push_back(line.press);
+    fresh.widths.push_back(line.width.value_or(unset_value));
+  }
   const auto join = [&](std::vector<double>& list, const std::vector<double>& all, double missing) {
     list.resize(static_cast<std::size_t>(first_line), missing);
     list.insert(list.end(), all.begin() + first_line, all.end());
@@ -64,7 +68,8 @@ DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<co
   ensure_map(work, attribute::velocity);
   DrawMoreReport report;
   report.wrinkle = wrinkle(work, strokes, options.wrinkle, observer);
-  physics::Cloth after = gather(work, with_lines(options.springs, strokes, options.wrinkle.first_line));
+  physics::Cloth after =
+      gather(work, with_lines(options.springs, report.wrinkle.lines, options.wrinkle.first_line));
   const std::set<Vertex> held(options.wrinkle.held.begin(), options.wrinkle.held.end());
   report.momentum_before = momentum(before.particles, held);
   keep_momentum(work, after.particles, report.momentum_before, report.wrinkle.insertion.changed_faces, held);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/info.h"
-#include "jobs/run/gate.h"
 
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/gate.h"
 
 namespace furrow::cli {
 namespace {

@@ -15,6 +15,7 @@ namespace {
 struct StrokesArguments : CommonArguments {
   std::string in, garment;
   std::vector<std::string> remove, move, height, width, sharpness, press, rename;
+  std::vector<std::string> taper, flare, smooth, rest_angles;
   std::string order;
   bool in_space = false;
 };
@@ -48,18 +49,31 @@ void edit(std::vector<io::DrawnStroke>& strokes, const StrokesArguments& a) {
       const auto [name, value] = parted(text, option);
       geometry::Stroke& stroke = named(name).stroke;
       if (option == "--width" && value == "none")
-        stroke.width.reset(), stroke.sharpness = geometry::Stroke{}.sharpness;
+        stroke.width.reset(), stroke.widths.clear(), stroke.sharpness.reset();
       else
         give(stroke, parse_numbers(value, 1, option + " " + name)[0]);
     }
   };
-  set(a.height, "--height", [](auto& stroke, double value) { stroke.height = value; });
-  set(a.width, "--width", [](auto& stroke, double value) { stroke.width = value; });
+  set(a.height, "--height",
+      [](auto& stroke, double value) { stroke.height = value, stroke.heights.clear(); });
+  set(a.width, "--width", [](auto& stroke, double value) { stroke.width = value, stroke.widths.clear(); });
   set(a.sharpness, "--sharpness", [](auto& stroke, double value) { stroke.sharpness = value; });
   set(a.press, "--press", [](auto& stroke, double value) { stroke.press = value; });
-  for (const std::string& text : a.sharpness)
-    if (const std::string name = parted(text, "--sharpness").first; !named(name).stroke.width)
-      throw UsageError("--sharpness " + name + ": the stroke has no width; give it one with --width");
+  set(a.smooth, "--smooth", [](auto& stroke, double value) { stroke.smooth = value; });
+  set(a.rest_angles, "--set", [](auto& stroke, double value) { stroke.set = value; });
+  for (const std::string& text : a.taper) {
+    const auto [name, value] = parted(text, "--taper");
+    geometry::Stroke& stroke = named(name).stroke;
+    const bool two = value.find(',') != std::string::npos;
+    const std::vector<double> lengths = parse_numbers(value, two ? 2 : 1, "--taper " + name);
+    stroke.taper = {lengths.front(), lengths.back()};
+  }
+  for (const std::string& text : a.flare) {
+    const auto [name, value] = parted(text, "--flare");
+    if (value != "yes" && value != "no" && value != "usual")
+      throw UsageError("--flare " + name + " takes yes, no or usual, not '" + value + "'");
+    named(name).stroke.flare = value == "usual" ? std::nullopt : std::optional(value == "yes");
+  }
   check_shapes(strokes);
   for (const std::string& text : a.rename) {
     const auto [name, value] = parted(text, "--rename");
@@ -78,7 +92,8 @@ void check_output_name(const StrokesArguments& a) {
 
 void strokes(StrokesArguments a) {
   bool edits = !a.order.empty();
-  for (const auto* list : {&a.remove, &a.move, &a.height, &a.width, &a.sharpness, &a.press, &a.rename})
+  for (const auto* list : {&a.remove, &a.move, &a.height, &a.width, &a.sharpness, &a.press, &a.rename,
+                           &a.taper, &a.flare, &a.smooth, &a.rest_angles})
     edits = edits || !list->empty();
   if (a.out.empty() && (edits || a.in_space)) throw UsageError("changed strokes are written to -o");
   if (a.in_space && a.garment.empty())
@@ -129,10 +144,17 @@ void add_strokes(CLI::App& app) {
   several("--move", a->move,
           "NAME=dx,dy,dz [m, y up], or =dx,dy in the pixels or texture that it is drawn in");
   several("--height", a->height, "NAME=height [m]; > 0 ridge, < 0 valley");
-  several("--width", a->width,
-          "NAME=width of the whole fold [m], > 0; =none: as wide as the smoothing of the mesh makes it");
+  several(
+      "--width", a->width,
+      "NAME=width of the whole fold [m], > 0; =none: rule fold chooses it, with the others it is as wide as "
+      "the smoothing of the mesh makes it");
   several("--sharpness", a->sharpness, "NAME=sharpness of its crest [0, 1]; 0 round, 1 a tent");
   several("--press", a->press, "NAME=factor on the stiffness of its hinges, >= 1");
+  several("--taper", a->taper,
+          "NAME=length over which the fold rises at an end, or =begin,end [m]; rule fold, as what follows");
+  several("--flare", a->flare, "NAME=yes, no or usual: it rises from end to end (usual: towards a border)");
+  several("--smooth", a->smooth, "NAME=smoothing of the line as drawn, in tenths of the width; 0: none");
+  several("--set", a->rest_angles, "NAME=share of the fold's angles that becomes rest angle [0, 1]");
   several("--rename", a->rename, "NAME=OTHER");
   sub->add_option(
       "--order", a->order,

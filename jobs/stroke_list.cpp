@@ -19,9 +19,17 @@ Json to_json(const io::DrawnStroke& drawn) {
     item["length"] = length, item["unit"] = io::unit_of(drawn);
   if (drawn.stroke.width) {
     item["width"] = *drawn.stroke.width;
-    item["sharpness"] = drawn.stroke.sharpness;
+    item["sharpness"] = drawn.stroke.sharpness.value_or(0.5);
+  } else if (drawn.stroke.sharpness) {
+    item["sharpness"] = *drawn.stroke.sharpness;
   }
+  if (!drawn.stroke.heights.empty()) item["heights"] = drawn.stroke.heights;
+  if (!drawn.stroke.widths.empty()) item["widths"] = drawn.stroke.widths;
   if (drawn.stroke.press != 1) item["press"] = drawn.stroke.press;
+  if (drawn.stroke.taper) item["taper"] = *drawn.stroke.taper;
+  if (drawn.stroke.flare) item["flare"] = *drawn.stroke.flare;
+  if (drawn.stroke.smooth != 1) item["smooth"] = drawn.stroke.smooth;
+  if (drawn.stroke.set != geometry::Stroke{}.set) item["set"] = drawn.stroke.set;
   if (drawn.stroke.closed) item["closed"] = true;
   return item;
 }

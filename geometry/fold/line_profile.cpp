@@ -26,10 +26,11 @@ std::vector<Lift> lift_by_profile(const Mesh& mesh, std::span<const Vertex> line
   const double half = *stroke.width / 2;
   std::vector<char> own(mesh.num_vertices(), 0);
   for (Vertex v : line) own[v.idx()] = 1;
+  const double sharpness = stroke.sharpness.value_or(usual_sharpness);
   std::vector<Lift> lifts;
   for (Vertex v : vertices_within(mesh, line, farthest * half, rest_lengths(mesh))) {
     const double t = own[v.idx()] ? 0 : distance_to(path, mesh.point(v)) / half;
-    const double height = stroke.height * line_profile(t, stroke.sharpness);
+    const double height = stroke.height * line_profile(t, sharpness);
     if (height != 0) lifts.push_back({v, height});
   }
   return lifts;

@@ -12,6 +12,7 @@ namespace furrow::geometry {
 /// (1 - s) (1 + cos pi t) / 2 + s (1 - t), and 0 from t = 1 on. Sharpness s in [0, 1]: 0 is a round bump that
 /// leaves the cloth without a crease, 1 a tent with a crease at the crest and at both feet.
 double line_profile(double t, double sharpness);
+inline constexpr double usual_sharpness = 0.5;  ///< where the stroke names none
 
 struct Lift {
   Vertex vertex;

@@ -10,10 +10,9 @@
 #include <sstream>
 
 #include "geometry/fold/displace_line.h"
-#include "geometry/fold/line_height.h"
-#include "geometry/fold/line_press.h"
 #include "geometry/fold/line_profile.h"
 #include "geometry/fold/line_region.h"
+#include "geometry/fold/wrinkle_steps.h"
 #include "geometry/insert/insert_along_stroke.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
@@ -21,10 +20,8 @@
 #include "geometry/mesh/tangent_frames.h"
 #include "geometry/mesh/two_ring.h"
 #include "geometry/rest/bending_springs.h"
-#include "geometry/rest/masses.h"
 #include "geometry/rest/rest_angles.h"
 #include "geometry/rest/rest_metric.h"
-#include "geometry/rest/stiffness.h"
 
 namespace furrow::geometry {
 namespace {
@@ -88,16 +85,6 @@ Moves displacements(const Mesh& mesh, const std::vector<Insertion>& lines, std::
   return moves;
 }
 
-/// Stored stiffnesses of hinges know nothing of new lines; where none is stored, gather() sees to it.
-void press_stored_hinges(Mesh& mesh, std::span<const Stroke> strokes, int first_line) {
-  const auto stiffness = find_map(mesh, attribute::hinge_stiffness);
-  if (!stiffness) return;
-  const LineShapes shapes = line_shapes(strokes, first_line);
-  const std::vector<double> factors = hinge_presses(mesh, shapes.presses, shapes.widths);
-  if (factors.empty()) return;
-  for (Edge e : mesh.edges()) (*stiffness)[e] *= factors[e.idx()];  // unset: NaN stays
-}
-
 std::string millimetres(double length) {
   std::ostringstream text;
   text << std::setprecision(2) << 1000 * length << " mm";
@@ -131,20 +118,11 @@ std::vector<Insertion> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
     const int id = options.first_line + static_cast<int>(lines.size());
     Insertion one = insert_along_stroke(mesh, stroke, id, insertion);
     report.insertion += one.report;
-    report.lines.push_back(
-        {stroke.name, stroke.height, 0, 0, 0, one.line.chains, stroke.width, stroke.sharpness, stroke.press});
+    report.lines.push_back({stroke.name, stroke.height, 0, 0, 0, one.line.chains, stroke.width,
+                            stroke.sharpness.value_or(usual_sharpness), stroke.press});
     lines.push_back(std::move(one));
   }
   return lines;
-}
-
-/// Heights of the strokes' lines, from id `first` on; NaN for one whose vertices all went to later lines.
-std::vector<double> heights(const Mesh& mesh, int first, std::span<const Stroke> strokes) {
-  std::vector<double> result(strokes.size(), unset_value);
-  for (const LineHeight& h : line_heights(mesh, line_shapes(strokes, first).widths))
-    if (h.line >= first && static_cast<std::size_t>(h.line - first) < strokes.size())
-      result[h.line - first] = h.height;
-  return result;
 }
 
 void smooth(Mesh& mesh, const Moves& moves, const WrinkleOptions& options, const std::set<Vertex>& held) {
@@ -160,38 +138,18 @@ void smooth(Mesh& mesh, const Moves& moves, const WrinkleOptions& options, const
   taubin_smooth(mesh, region, options.smoothing);
 }
 
-/// Gives the mesh a whole rest state and notes what it is before the first line.
-WrinkleReport prepare(Mesh& mesh, const WrinkleOptions& options) {
-  ensure_rest_lengths(mesh);
-  ensure_bending_springs(mesh);
-  ensure_rest_angles(mesh);
-  WrinkleReport report;
-  report.mean_structural_length = options.mean_structural_length.value_or(mean_rest_length(mesh));
-  report.mean_bending_length = options.mean_bending_length.value_or(mean_bending_rest_length(mesh));
-  report.rest_area_before = rest_area(mesh);
-  return report;
-}
-
-void note_heights(std::vector<WrinkledLine>& lines, const std::vector<double>& base,
-                  const std::vector<double>& drawn, const std::vector<double>& smoothed) {
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    lines[i].base_height = base[i];
-    lines[i].drawn_height = drawn[i] - base[i];
-    lines[i].smoothed_height = smoothed[i] - base[i];
-  }
-}
-
 }  // namespace
 
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options,
                       const StageObserver& observer) {
   check_all(mesh, strokes, options);
+  if (options.insertion.rule == InsertionRule::fold) refuse("wrinkle", "the rule fold is not here yet");
   const std::set<Vertex> held(options.held.begin(), options.held.end());
   const auto tell = [&](Stage stage, const Mesh& m) {
     if (observer) observer(stage, m);
   };
   Mesh work = mesh;
-  WrinkleReport report = prepare(work, options);
+  WrinkleReport report = begin_wrinkling(work, options);
   const std::vector<Insertion> lines = insert_lines(work, strokes, options, report);
   rebuild_bending_springs(work, report.insertion.changed_faces);
   ensure_rest_angles(work);
@@ -200,22 +158,20 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
 
   const RestSnapshot before = take_rest_snapshot(work);
   const Moves moves = displacements(work, lines, strokes, held);
-  const std::vector<double> base = heights(work, options.first_line, strokes);
+  const std::vector<double> widths = line_shapes(strokes, options.first_line).widths;
+  const std::vector<double> base = heights_from(work, options.first_line, strokes.size(), widths);
   displace_line(work, moves.lines);
   Mesh displaced = work;
   displace_line(displaced, moves.profiles);
-  const std::vector<double> drawn = heights(displaced, options.first_line, strokes);
+  const std::vector<double> drawn = heights_from(displaced, options.first_line, strokes.size(), widths);
   tell(Stage::displaced, displaced);
 
   smooth(work, moves, options, held);
   displace_line(work, moves.profiles);
-  press_stored_hinges(work, strokes, options.first_line);
+  press_stored_hinges(work, line_shapes(strokes, options.first_line));
   apply_rest_rule(work, before, options.rest);
-  note_heights(report.lines, base, drawn, heights(work, options.first_line, strokes));
-  report.total_mass = lump_masses(work, options.density);
-  report.rest_area_after = rest_area(work);
-  report.structural_springs = work.number_of_edges();
-  report.bending_springs = bending_springs(work).size();
+  note_heights(report.lines, base, drawn, heights_from(work, options.first_line, strokes.size(), widths));
+  end_wrinkling(work, options, report);
   tell(Stage::smoothed, work);
   mesh = std::move(work);
   return report;

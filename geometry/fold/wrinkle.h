@@ -26,6 +26,11 @@ struct WrinkleOptions {
   /// r_avg of the garment before its first line [m]; > 0; none: of the mesh given. For a second round of
   /// lines.
   std::optional<double> mean_structural_length, mean_bending_length;
+  // Of rule fold alone, which takes lambda and mu of `smoothing`, and no more of it, and no `region`:
+  Detail detail = Detail::normal;
+  bool flat_base =
+      false;  ///< new vertices stay on the facets of the mesh given, so that k = 0 is an isometry
+  int fold_iterations = 5;  ///< pairs of smoothing steps; [0, 100000]
 };
 
 struct WrinkledLine {
@@ -38,6 +43,21 @@ struct WrinkledLine {
   std::vector<std::vector<Vertex>> chains;  ///< its vertices, a list for each connected part
   std::optional<double> width = {};         ///< as asked for [m], as the next two
   double sharpness = 0.5, press = 1;
+  /// Rule fold: mean height over the surface before, along its normals, of the vertices where the fold is
+  /// full, scaled to `height` where that varies [m].
+  std::optional<double> crest_height = {};
+};
+
+/// What rule fold did.
+struct FoldReport {
+  /// Sum of the absolute angle defects of inner vertices over the area: how knobbly cloth is [rad/m^2].
+  double angle_defect_before = 0, angle_defect_after = 0;
+  double min_angle_before_deg = 0, min_angle_deg = 0;  ///< at rest, of the refined faces [degrees]
+  double lateral = 0;                   ///< largest distance of a line's vertex from its smoothed stroke [m]
+  std::size_t snapped = 0;              ///< vertices of the mesh given that were moved onto a line
+  std::size_t reshaped_faces = 0;       ///< faces at rest that took the lengths of their displaced shape
+  std::size_t invalid_faces = 0;        ///< faces at rest that break the triangle inequality
+  std::size_t unsmoothed_vertices = 0;  ///< vertices whose smoothing would have spoiled a face
 };
 
 struct WrinkleReport {
@@ -48,7 +68,8 @@ struct WrinkleReport {
   double total_mass = 0;                             ///< [kg]
   double mean_structural_length = 0,
          mean_bending_length = 0;     ///< r_avg of the mesh before any line [m] (S1.7)
-  std::vector<std::string> warnings;  ///< lines for whose width the mesh is too coarse
+  std::vector<std::string> warnings;  ///< lines for whose width the mesh is too coarse, and more
+  std::optional<FoldReport> fold;     ///< of rule fold
 };
 
 /// The stages of method S1.21 that geometry makes.
@@ -65,8 +86,8 @@ using StageObserver = std::function<void(Stage, const Mesh&)>;
 /// and not smoothed. Where several lines raise a vertex the highest ridge and the deepest valley count, and
 /// add up; lines without a width raise their own vertices alone. Presses change stored hinge stiffnesses
 /// only; where none is stored, hinge_presses() (line_press.h) gives the factors to the code that makes
-/// hinges. Sets attribute::line, line_edge, rest_length, bending_rest_length, bending_count, rest_angle and
-/// mass.
+/// hinges. Rule fold does all of this otherwise: fold_lines.h. Sets attribute::line, line_edge, rest_length,
+/// bending_rest_length, bending_count, rest_angle and mass.
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options = {},
                       const StageObserver& observer = {});
 

@@ -34,6 +34,7 @@ Insertion insert_along_stroke(Mesh& mesh, const Stroke& stroke, int line_id,
                               const InsertionOptions& options) {
   check(options);
   if (line_id < 0) refuse("insertion", "line_id must be >= 0, not " + std::to_string(line_id));
+  if (options.rule == InsertionRule::fold) refuse("insertion", "the rule fold is one of wrinkle() alone");
   require_triangles(mesh, "insert_along_stroke");
   const SurfaceProjector projector(mesh);
   Mesh original = mesh;

@@ -16,7 +16,12 @@ namespace furrow::geometry {
 enum class InsertionRule {
   safe,   ///< guarded flips, clamped positions, complete lines, Delaunay flips beside the line
   paper,  ///< every original inner edge of a selected face flipped once; it may fold faces over
+  /// Of wrinkle() alone: a band of fine triangles around a smooth curve (geometry/fold/fold_lines.h).
+  fold,
 };
+
+/// How fine the mesh around a fold becomes (rule fold): edges of 1.4, 1 and 0.7 times the rule's.
+enum class Detail { coarse, normal, fine };
 
 /// Why an edge was not flipped.
 enum class Refusal {

@@ -2,6 +2,8 @@
 #include "io/stroke/resolve_strokes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <memory>
 
 #include "geometry/mesh/errors.h"
@@ -73,6 +75,53 @@ class Resolving {
   std::unique_ptr<SurfaceProjector> projector_;
 };
 
+/// Where each point of a polyline lies along it, as a share of its length [-]: in [0, 1], ascending.
+std::vector<double> shares(std::size_t points, bool closed,
+                           const std::function<double(std::size_t, std::size_t)>& apart) {
+  std::vector<double> along(points, 0);
+  for (std::size_t i = 1; i < points; ++i) along[i] = along[i - 1] + apart(i - 1, i);
+  const double whole = points == 0 ? 0 : along.back() + (closed ? apart(points - 1, 0) : 0);
+  for (double& a : along) a = whole > 0 ? a / whole : 0;
+  return along;
+}
+
+std::vector<double> drawn_shares(const DrawnStroke& drawn) {
+  const auto planar = [&](const std::vector<std::array<double, 2>>& p) {
+    return shares(p.size(), drawn.stroke.closed, [&](std::size_t i, std::size_t j) {
+      return std::hypot(p[j][0] - p[i][0], p[j][1] - p[i][1]);
+    });
+  };
+  if (const auto* on = std::get_if<PictureStroke>(&drawn.on)) return planar(on->pixels);
+  if (const auto* on = std::get_if<TextureStroke>(&drawn.on)) return planar(on->points);
+  const auto* on = std::get_if<VertexStroke>(&drawn.on);
+  return shares(on ? on->vertices.size() : 0, drawn.stroke.closed,
+                [](std::size_t, std::size_t) { return 1; });
+}
+
+/// Numbers at the points drawn become numbers at the points placed, at the same share of the length.
+void move_numbers(const DrawnStroke& drawn, Stroke& stroke) {
+  if (std::holds_alternative<std::monostate>(drawn.on)) return;
+  const std::vector<double> from = drawn_shares(drawn);
+  const std::vector<double> to =
+      shares(stroke.points.size(), stroke.closed, [&](std::size_t i, std::size_t j) {
+        return std::sqrt(CGAL::squared_distance(stroke.points[i], stroke.points[j]));
+      });
+  for (std::vector<double>* list : {&stroke.heights, &stroke.widths}) {
+    if (list->empty()) continue;
+    std::vector<double> placed;
+    for (double share : to) {
+      const auto next = std::upper_bound(from.begin(), from.end(), share) - from.begin();
+      const std::size_t i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - 1, 0));
+      const bool last = i + 1 == from.size();
+      const double end = last ? 1 : from[i + 1];
+      const double after = !last ? (*list)[i + 1] : stroke.closed ? list->front() : list->back();
+      const double t = end > from[i] ? std::clamp((share - from[i]) / (end - from[i]), 0.0, 1.0) : 0;
+      placed.push_back((1 - t) * (*list)[i] + t * after);
+    }
+    *list = std::move(placed);
+  }
+}
+
 }  // namespace
 
 ResolvedStrokes resolve_strokes(std::span<const DrawnStroke> strokes, const MeshFile& garment,
@@ -86,6 +135,7 @@ ResolvedStrokes resolve_strokes(std::span<const DrawnStroke> strokes, const Mesh
     stroke.points = std::move(placed.points);
     stroke.breaks = std::move(placed.breaks);
     stroke.closed = placed.closed;
+    move_numbers(drawn, stroke);
     resolved.strokes.push_back(std::move(stroke));
     for (std::string& warning : placed.warnings) resolved.warnings.push_back(std::move(warning));
   }

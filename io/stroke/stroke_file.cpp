@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/stroke/stroke_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -21,6 +22,12 @@ namespace {
 
 using namespace geometry;
 using Json = JsonFields::Json;
+
+/// The one farthest from 0.
+double largest(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end(),
+                           [](double a, double b) { return std::abs(a) < std::abs(b); });
+}
 
 constexpr const char* triple = "three numbers [x, y, z]";
 
@@ -153,30 +160,60 @@ class StrokeReader {
     return *found;
   }
 
+  /// A number, or numbers at the stroke's points, whose largest is then the number.
+  template <class Value>
+  void read_along(const Json& item, const char* key, Value& value, std::vector<double>& at_points) const {
+    if (!item.is_array()) {
+      value = fields_.number(item, key);
+      return;
+    }
+    if (item.empty()) fields_.fail("'" + std::string(key) + "' must be a number, or numbers at the points");
+    for (const Json& one : item) at_points.push_back(fields_.number(one, key));
+    value = largest(at_points);
+  }
+
+  std::array<double, 2> read_taper(const Json& item) const {
+    if (item.is_array()) return read_pair(item, "taper", "a length, or two [at the beginning, at the end]");
+    const double both = fields_.number(item, "taper");
+    return {both, both};
+  }
+
+  void check_counts(const Stroke& stroke, std::size_t points) const {
+    for (const auto& [key, list] : {std::pair("height", &stroke.heights), std::pair("width", &stroke.widths)})
+      if (!list->empty() && list->size() != points)
+        fields_.fail("'" + std::string(key) + "' has " + std::to_string(list->size()) + " numbers for " +
+                     std::to_string(points) + " points");
+  }
+
   void read_shape(const Json& item, Stroke& stroke) const {
     const auto read = [&](const char* key, auto& value) {
       if (item.contains(key)) value = fields_.number(item[key], key);
     };
-    read("width", stroke.width);
+    if (item.contains("width")) read_along(item["width"], "width", stroke.width, stroke.widths);
     read("sharpness", stroke.sharpness);
     read("press", stroke.press);
-    if (item.contains("sharpness") && !stroke.width) fields_.fail("'sharpness' goes with 'width'");
+    read("smooth", stroke.smooth);
+    read("set", stroke.set);
+    if (item.contains("taper")) stroke.taper = read_taper(item["taper"]);
+    if (item.contains("flare")) stroke.flare = fields_.truth(item["flare"], "flare");
     if (const std::string fault = shape_fault(stroke); !fault.empty()) fields_.fail(fault);
   }
 
   DrawnStroke read_stroke(const Json& item) {
     if (!item.is_object()) fields_.fail("must be an object {\"points\": […], …}");
     fields_.check_keys(
-        item, {"height", "width", "sharpness", "press", "points", "name", "closed", "direction", "breaks",
-               "pixels", "camera", "texture", "group", "near", "vertices"});
+        item, {"height", "width", "sharpness", "press", "taper", "flare", "smooth", "set", "points", "name",
+               "closed", "direction", "breaks", "pixels", "camera", "texture", "group", "near", "vertices"});
     DrawnStroke drawn;
     Stroke& stroke = drawn.stroke;
-    stroke.height = item.contains("height") ? fields_.number(item["height"], "height") : default_height_;
+    stroke.height = default_height_;
+    if (item.contains("height")) read_along(item["height"], "height", stroke.height, stroke.heights);
     read_shape(item, stroke);
     if (item.contains("name")) stroke.name = fields_.text(item["name"], "name");
     if (item.contains("closed")) stroke.closed = fields_.truth(item["closed"], "closed");
     const Kind& kind = kind_of(item);
     (this->*kind.read)(item, drawn);
+    check_counts(stroke, item[kind.key].size());
     if (stroke.closed && item[kind.key].size() < 3)
       fields_.fail("'closed': a closed stroke needs at least three points");
     if (stroke.closed && !stroke.breaks.empty()) fields_.fail("'breaks': a closed stroke has none");
@@ -212,7 +249,8 @@ std::string_view without_copy_number(std::string_view name) {
   if (n < 5 || name[n - 4] != '.' || !digit(n - 3) || !digit(n - 2) || !digit(n - 1)) return name;
   const std::size_t word = name.find_last_of(" _", n - 4);
   const std::string_view before = name.substr(word == name.npos ? 0 : word + 1);
-  const bool number = before.find('=') != before.npos && digit(n - 5) && before.find('.') == before.size() - 4;
+  const bool number =
+      before.find('=') != before.npos && digit(n - 5) && before.find('.') == before.size() - 4;
   return number ? name : name.substr(0, n - 4);
 }
 

@@ -22,11 +22,15 @@ Json to_json(const DrawnStroke& drawn, const WriteOptions& options) {
   Json item = Json::object();
   if (!stroke.name.empty()) item["name"] = stroke.name;
   item["height"] = stroke.height;
-  if (stroke.width) {
-    item["width"] = *stroke.width;
-    item["sharpness"] = stroke.sharpness;
-  }
+  if (!stroke.heights.empty()) item["height"] = stroke.heights;
+  if (stroke.width) item["width"] = *stroke.width;
+  if (!stroke.widths.empty()) item["width"] = stroke.widths;
+  if (stroke.sharpness) item["sharpness"] = *stroke.sharpness;
   if (stroke.press != 1) item["press"] = stroke.press;
+  if (stroke.taper) item["taper"] = *stroke.taper;
+  if (stroke.flare) item["flare"] = *stroke.flare;
+  if (stroke.smooth != 1) item["smooth"] = stroke.smooth;
+  if (stroke.set != Stroke{}.set) item["set"] = stroke.set;
   if (stroke.closed) item["closed"] = true;
   if (const auto* on = std::get_if<PictureStroke>(&drawn.on)) {
     item["camera"] = to_json(on->picture);

@@ -12,6 +12,22 @@
 
 namespace furrow::jobs {
 
+namespace {
+
+Json to_json(const geometry::FoldReport& r) {
+  return {{"angle_defect_before", r.angle_defect_before},
+          {"angle_defect_after", r.angle_defect_after},
+          {"min_angle_before_deg", r.min_angle_before_deg},
+          {"min_angle_after_deg", r.min_angle_deg},
+          {"lateral", r.lateral},
+          {"snapped_vertices", r.snapped},
+          {"unsmoothed_vertices", r.unsmoothed_vertices},
+          {"reshaped_faces", r.reshaped_faces},
+          {"invalid_rest_faces", r.invalid_faces}};
+}
+
+}  // namespace
+
 Json to_json(const geometry::InsertionReport& r, const geometry::Mesh& mesh) {
   return to_json(r, geometry::audit_rest_metric(mesh));
 }
@@ -82,6 +98,7 @@ Json to_json(const geometry::WrinkleReport& r, const geometry::RestMetricAudit& 
   report["rest_area_after"] = r.rest_area_after;
   report["total_mass"] = r.total_mass;
   report["max_deviation"] = r.insertion.max_deviation;
+  if (r.fold) report["fold"] = to_json(*r.fold);
   report["lines"] = Json::array();
   for (std::size_t i = 0; i < r.lines.size(); ++i) {
     const geometry::WrinkledLine& line = r.lines[i];
@@ -92,6 +109,7 @@ Json to_json(const geometry::WrinkleReport& r, const geometry::RestMetricAudit& 
               {"base_height", line.base_height},
               {"drawn_height", line.drawn_height},
               {"smoothed_height", line.smoothed_height}};
+    if (line.crest_height) item["crest_height"] = *line.crest_height;
     if (line.width) item["width"] = *line.width, item["sharpness"] = line.sharpness;
     if (line.press != 1) item["press"] = line.press;
     report["lines"].push_back(std::move(item));

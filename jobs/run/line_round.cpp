@@ -18,18 +18,34 @@
 namespace furrow::jobs {
 namespace {
 
+std::string number(double x) { return Json(x).dump(); }
+
+const char* word_of(geometry::RestRule rule) {
+  return rule == geometry::RestRule::flat ? "flat" : rule == geometry::RestRule::copied ? "copied" : "drawn";
+}
+
+std::string fold_flags(const geometry::WrinkleOptions& o) {
+  using geometry::Detail;
+  return std::string("--rule fold --rest ") + word_of(o.rest) + " --detail " +
+         (o.detail == Detail::coarse ? "coarse"
+          : o.detail == Detail::fine ? "fine"
+                                     : "normal") +
+         (o.flat_base ? " --flat-base" : "") + " --max-distance " + number(o.insertion.max_distance) +
+         " --density " + number(o.density) + " --fold-iterations " + std::to_string(o.fold_iterations) +
+         " --lambda " + number(o.smoothing.lambda) + " --mu " + number(o.smoothing.mu);
+}
+
 /// The flags of `wrinkle` that say the same, for the record in the file.
 std::string flags(const geometry::WrinkleOptions& o) {
   using namespace geometry;
-  const auto number = [](double x) { return Json(x).dump(); };
-  return std::string("--rule ") + (o.insertion.rule == InsertionRule::paper ? "paper" : "safe") + " --rest " +
-         (o.rest == RestRule::flat     ? "flat"
-          : o.rest == RestRule::copied ? "copied"
-                                       : "drawn") +
-         " --region " + (o.region == SmoothingRegion::whole_mesh ? "whole-mesh" : "two-ring") +
-         " --max-distance " + number(o.insertion.max_distance) + " --density " + number(o.density) +
-         " --iterations " + std::to_string(o.smoothing.iterations) + " --lambda " +
-         number(o.smoothing.lambda) + " --mu " + number(o.smoothing.mu) + " --weights " +
+  const InsertionRule rule = o.insertion.rule;
+  if (rule == InsertionRule::fold) return fold_flags(o);
+  return std::string("--rule ") + (rule == InsertionRule::paper ? "paper" : "safe") + " --rest " +
+         word_of(o.rest) + " --region " +
+         (o.region == SmoothingRegion::whole_mesh ? "whole-mesh" : "two-ring") + " --max-distance " +
+         number(o.insertion.max_distance) + " --density " + number(o.density) + " --iterations " +
+         std::to_string(o.smoothing.iterations) + " --lambda " + number(o.smoothing.lambda) + " --mu " +
+         number(o.smoothing.mu) + " --weights " +
          (o.smoothing.weights == SmoothingWeights::cotangent ? "cotangent" : "uniform") +
          (o.smoothing.lines == LineRule::keep ? " --keep-lines" : "") +
          (o.smoothing.border == BorderRule::keep ? " --keep-border" : "");
@@ -65,8 +81,11 @@ io::WrinkleRecord record_of(const geometry::WrinkleOptions& o,
 }
 
 /// So that the lines can be drawn again, without some of them, from the wrinkled mesh alone.
-void note_strokes(io::WrinkleRecord& record, const std::string& garment,
-                  const std::vector<io::DrawnStroke>& strokes) {
+void note_strokes(io::WrinkleRecord& record, const std::string& garment, std::vector<io::DrawnStroke> strokes,
+                  geometry::InsertionRule rule) {
+  if (rule != geometry::InsertionRule::fold)
+    for (io::DrawnStroke& drawn : strokes)
+      if (drawn.stroke.width && !drawn.stroke.sharpness) drawn.stroke.sharpness = 0.5;
   const bool is_file = !garment.empty() && garment != "-";
   record.garment = is_file ? garment : "";
   record.garment_hash = is_file ? io::content_hash(garment) : "";
@@ -127,7 +146,7 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
         target.garment +
         ": its name is not UTF-8, so that the wrinkled mesh cannot name it, and its lines "
         "cannot be drawn again from that mesh alone; rename the garment");
-  note_strokes(record, target.moving ? "" : target.garment, strokes);
+  note_strokes(record, target.moving ? "" : target.garment, strokes, options.insertion.rule);
   io::set_wrinkle_record(target.file, record);
   return round;
 }

@@ -201,7 +201,8 @@ TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carr
   const Run hinges = run_furrow("simulate " + wall.wrinkled + " --fabric cotton --seconds 0.001 -o " +
                                 (wall.scratch / "s.ply"));
   CHECK(hinges.err.find("press") == std::string::npos);
-  for (const std::string flags : {"--width up=0", "--sharpness up=0.5", "--press up=0.1", "--order up,up",
-                                   "--order nobody", "--width up=0.1 --sharpness up=2"})
+  for (const std::string flags :
+       {"--width up=0", "--sharpness up=1.5", "--press up=0.1", "--flare up=maybe", "--taper up=-1",
+        "--set up=2", "--smooth up=-1", "--order up,up", "--order nobody", "--width up=0.1 --sharpness up=2"})
     CHECK(run_furrow("strokes " + wall.strokes + " " + flags + " -o " + edited).exit_code != 0);
 }

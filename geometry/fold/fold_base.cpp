@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/fold/fold_base.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "geometry/mesh/tangent_frames.h"
+
+namespace furrow::geometry {
+namespace {
+
+constexpr double share = 0.75;
+constexpr int rounds = 6;
+
+double angle_between(const Vector& a, const Vector& b) {
+  return std::atan2(std::sqrt(CGAL::cross_product(a, b).squared_length()), a * b);
+}
+
+}  // namespace
+
+Point curved_place(const Mesh& mesh, const std::vector<Vector>& normals, const FacePoint& at) {
+  const auto corners = corners_of(mesh, at.face);
+  const Point flat = position_of(mesh, at);
+  Vector off(0, 0, 0);  // mean of the way to the corners' tangent planes
+  for (int i = 0; i < 3; ++i) {
+    const Vector& n = normals[corners[i].idx()];
+    off = off - at.barycentrics[i] * ((flat - mesh.point(corners[i])) * n) * n;
+  }
+  return flat + share * off;
+}
+
+std::vector<Vector> averaged_normals(const Mesh& mesh) {
+  std::vector<Vector> normals = vertex_normals(mesh), next = normals;
+  for (int round = 0; round < rounds; ++round) {
+    for (Vertex v : mesh.vertices()) {
+      if (mesh.is_isolated(v)) continue;
+      Vector sum = normals[v.idx()];
+      for (Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))
+        sum = sum + normals[mesh.source(h).idx()];
+      const double length = std::sqrt(sum.squared_length());
+      next[v.idx()] = length > 0 ? sum / length : normals[v.idx()];
+    }
+    normals.swap(next);
+  }
+  return normals;
+}
+
+double angle_defect(const Mesh& mesh) {
+  std::vector<double> angles(mesh.num_vertices(), 0);
+  double area = 0;
+  for (Face f : mesh.faces()) {
+    const auto c = corners_of(mesh, f);
+    area += std::sqrt(area_normal_of(mesh, f).squared_length()) / 2;
+    for (int i = 0; i < 3; ++i) {
+      const Point &p = mesh.point(c[i]), &q = mesh.point(c[(i + 1) % 3]), &r = mesh.point(c[(i + 2) % 3]);
+      angles[c[i].idx()] += angle_between(q - p, r - p);
+    }
+  }
+  double sum = 0;
+  for (Vertex v : mesh.vertices())
+    if (!mesh.is_isolated(v) && !mesh.is_border(v)) sum += std::abs(2 * std::numbers::pi - angles[v.idx()]);
+  return area > 0 ? sum / area : 0;
+}
+
+}  // namespace furrow::geometry

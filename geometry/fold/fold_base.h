@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <span>
+#include <vector>
+
+#include "geometry/mesh/face_point.h"
+
+namespace furrow::geometry {
+
+/// Where a point of a mesh lies on a curved surface over its facets (Boubekeur and Alexa 2008, "Phong
+/// tessellation", share 3/4): `normals` are those of the mesh's vertices. Corners stay where they are.
+Point curved_place(const Mesh& mesh, const std::vector<Vector>& normals, const FacePoint& at);
+
+/// Unit normals of the vertices, each six times the mean of its own and its neighbours', so that the facets
+/// of a coarse garment do not print into a fold; by vertex index, 0 for vertices without faces.
+std::vector<Vector> averaged_normals(const Mesh& mesh);
+
+/// Sum of the absolute angle defects (2 pi less the angles around it) of inner vertices over the area
+/// [rad/m^2]; 0 without area. Cloth is nearly developable, so what is more than that of the garment is error.
+double angle_defect(const Mesh& mesh);
+
+}  // namespace furrow::geometry

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/fold/fold_heights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace furrow::geometry {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+constexpr std::size_t block_size = 16;
+constexpr double narrowest = 0.6;      ///< width at a free end, in that of the fold
+constexpr double beyond_border = 0.6;  ///< in widths
+
+/// 0 up to t = 0, 1 from t = 1 on, with two derivatives.
+double smoothstep(double t) {
+  t = std::clamp(t, 0.0, 1.0);
+  return t * t * t * (10 + t * (6 * t - 15));
+}
+
+/// (1 - q)^2, q = r^2 / R^2, 0 beyond R.
+double bump(double squared_distance, double radius) {
+  const double q = squared_distance / (radius * radius);
+  return q < 1 ? (1 - q) * (1 - q) : 0;
+}
+
+double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b, double& t) {
+  const Vec3 e = b - a;
+  t = std::clamp((x - a).dot(e) / std::max(e.squaredNorm(), 1e-300), 0.0, 1.0);
+  return (a + t * e - x).norm();
+}
+
+}  // namespace
+
+FoldHeight::FoldHeight(const FoldCurve& curve)
+    : arc_(curve.arc),
+      heights_(curve.height),
+      length_(curve.length),
+      sharpness_(curve.sharpness),
+      rise_(curve.rise),
+      closed_(curve.closed) {
+  greatest_width_ = *std::max_element(curve.width.begin(), curve.width.end());
+  const std::size_t n = curve.points.size();
+  const double ds = length_ / static_cast<double>(closed_ ? n : n - 1);
+  if (curve.begins_at_border) extend(curve, false, ds);
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool free_end =
+        !closed_ && ((i == 0 && !curve.begins_at_border) || (i + 1 == n && !curve.ends_at_border));
+    add(curve, curve.points[i], i, free_end ? ds / 2 : ds);
+  }
+  if (curve.ends_at_border) extend(curve, true, ds);
+  divide_by_crest(curve);
+  make_blocks();
+}
+
+double FoldHeight::rise(double along) const {
+  double t = 1;
+  if (rise_[0] > 0) t *= smoothstep(along / rise_[0]);
+  if (rise_[1] > 0) t *= smoothstep((length_ - along) / rise_[1]);
+  return t;
+}
+
+double FoldHeight::taper_at(double along) const { return rise(along); }
+
+double FoldHeight::height_at(double along) const {
+  const auto next =
+      static_cast<std::size_t>(std::lower_bound(arc_.begin(), arc_.end(), along) - arc_.begin());
+  if (next == 0) return heights_.front();
+  if (next == arc_.size()) return heights_.back();
+  const double t = (along - arc_[next - 1]) / (arc_[next] - arc_[next - 1]);
+  return (1 - t) * heights_[next - 1] + t * heights_[next];
+}
+
+void FoldHeight::add(const FoldCurve& curve, const Vec3& point, std::size_t i, double ds) {
+  const double t = rise(curve.arc[i]);
+  const double radius = curve.width[i] * (narrowest + (1 - narrowest) * t) / 2;
+  places_.push_back({point, radius, curve.height[i] * t, 15 / (16 * radius) * ds});
+}
+
+void FoldHeight::extend(const FoldCurve& curve, bool at_end, double ds) {
+  const std::size_t n = curve.points.size(), i = at_end ? n - 1 : 0, inner = at_end ? n - 2 : 1;
+  const Vec3 step = ds * (curve.points[i] - curve.points[inner]).normalized();
+  const auto steps = static_cast<int>(std::ceil(beyond_border * curve.width[i] / ds));
+  for (int k = 1; k <= steps; ++k) {
+    const int far = at_end ? k : steps + 1 - k;  // in the order of the curve
+    add(curve, curve.points[i] + far * step, i, ds);
+  }
+}
+
+/// N of each place: the curve, extended at free ends, too, raised by 1.
+void FoldHeight::divide_by_crest(const FoldCurve& curve) {
+  struct Weight {
+    Vec3 point;
+    double radius, weight;
+  };
+  std::vector<Weight> all;
+  const std::size_t n = curve.points.size();
+  const double ds = length_ / static_cast<double>(closed_ ? n : n - 1);
+  for (const Place& p : places_) all.push_back({p.point, p.radius, 15 / (16 * p.radius) * ds});
+  for (const bool at_end : {false, true}) {
+    if (closed_ || (at_end ? curve.ends_at_border : curve.begins_at_border)) continue;
+    const Place& end = at_end ? places_.back() : places_.front();
+    const Vec3 step =
+        ds *
+        (at_end ? curve.points[n - 1] - curve.points[n - 2] : curve.points[0] - curve.points[1]).normalized();
+    for (int k = 1; k * ds < end.radius; ++k)
+      all.push_back({end.point + k * step, end.radius, 15 / (16 * end.radius) * ds});
+  }
+  std::vector<double> crest(places_.size(), 0);
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    for (const Weight& w : all)
+      crest[i] += w.weight * bump((w.point - places_[i].point).squaredNorm(), w.radius);
+  // Beyond a border the curve itself ends: what the extension lacks there is no bend.
+  const auto inside = [&](std::size_t i) { return crest[i] > 0.9 ? crest[i] : 1; };
+  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].weight *= places_[i].height / inside(i);
+}
+
+void FoldHeight::make_blocks() {
+  for (std::size_t first = 0; first < places_.size(); first += block_size) {
+    const std::size_t last = std::min(first + block_size, places_.size());
+    Vec3 centre = Vec3::Zero();
+    for (std::size_t i = first; i < last; ++i) centre += places_[i].point / static_cast<double>(last - first);
+    double reach = 0;
+    for (std::size_t i = first; i < last; ++i)
+      reach = std::max(reach, (places_[i].point - centre).norm() + places_[i].radius);
+    blocks_.push_back({centre, reach});
+  }
+}
+
+double FoldHeight::tent(const Vec3& x) const {
+  double least = std::numeric_limits<double>::infinity(), height = 0;
+  const std::size_t n = places_.size();
+  for (std::size_t i = 0; i + (closed_ ? 0 : 1) < n; ++i) {
+    const Place &a = places_[i], &b = places_[(i + 1) % n];
+    double t = 0;
+    const double distance = distance_to_segment(x, a.point, b.point, t);
+    if (distance >= least) continue;
+    least = distance;
+    const double radius = (1 - t) * a.radius + t * b.radius;
+    height = ((1 - t) * a.height + t * b.height) * std::max(0.0, 1 - distance / radius);
+  }
+  return height;
+}
+
+double FoldHeight::at(const Vec3& x) const {
+  double sum = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if ((x - blocks_[b].centre).squaredNorm() >= blocks_[b].reach * blocks_[b].reach) continue;
+    const std::size_t last = std::min((b + 1) * block_size, places_.size());
+    for (std::size_t i = b * block_size; i < last; ++i)
+      sum += places_[i].weight * bump((x - places_[i].point).squaredNorm(), places_[i].radius);
+  }
+  return sharpness_ > 0 ? (1 - sharpness_) * sum + sharpness_ * tent(x) : sum;
+}
+
+double joined_heights(std::span<const double> heights) {
+  constexpr double p = 1.7095112913514547;  // 2^(1/p) = 3/2
+  double joined = 0;
+  for (const double sign : {1.0, -1.0}) {
+    double largest = 0, sum = 0;
+    for (double h : heights) largest = std::max(largest, sign * h);
+    if (!(largest > 0)) continue;
+    for (double h : heights)
+      if (sign * h > 0) sum += std::pow(sign * h / largest, p);
+    joined += sign * largest * std::pow(sum, 1 / p);
+  }
+  return joined;
+}
+
+}  // namespace furrow::geometry

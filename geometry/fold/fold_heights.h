@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "geometry/stroke/fold_curve.h"
+
+namespace furrow::geometry {
+
+/// The height of a fold at a point of the surface, as an integral along its curve c(s):
+///   u(x) = k int T(s) 15 / (16 R N) (1 - |x - c(s)|^2 / R^2)^2_+ ds ,   R = w(s) / 2 ,
+/// c extended by 0.6 w straight beyond a border. Across a straight line that is k (1 - t^2)^(5/2), t = 2 d /
+/// w: crest k, zero with two derivatives at d = w/2, steepest 3.25 k / w. There is no nearest point, so none
+/// jumps, and ends are round by themselves. T rises as a quintic smoothstep over FoldCurve::rise, and w from
+/// 0.6 of itself over the same way. N is the integral at the crest itself for k = T = 1, which differs from 1
+/// where the curve is bent. FoldCurve::sharpness blends towards the tent k T (1 - t) of the nearest point.
+class FoldHeight {
+ public:
+  explicit FoldHeight(const FoldCurve& curve);
+
+  /// u(x) [m]. O(points nearby).
+  double at(const Eigen::Vector3d& x) const;
+  /// T at an arc length [m] of the curve [-]; [0, 1].
+  double taper_at(double along) const;
+  /// k at an arc length [m], without T [m].
+  double height_at(double along) const;
+  double greatest_width() const { return greatest_width_; }
+
+ private:
+  struct Place {
+    Eigen::Vector3d point;
+    double radius, height, weight;  ///< R, k T, and k T 15 / (16 R N) ds
+  };
+  struct Block {
+    Eigen::Vector3d centre;
+    double reach;  ///< beyond it no place counts [m]
+  };
+  double rise(double along) const;
+  void add(const FoldCurve& curve, const Eigen::Vector3d& point, std::size_t i, double ds);
+  void extend(const FoldCurve& curve, bool at_end, double ds);
+  void divide_by_crest(const FoldCurve& curve);
+  void make_blocks();
+  double tent(const Eigen::Vector3d& x) const;
+
+  const std::vector<double> arc_, heights_;
+  const double length_, sharpness_;
+  const std::array<double, 2> rise_;
+  const bool closed_;
+  double greatest_width_ = 0;
+  std::vector<Place> places_;
+  std::vector<Block> blocks_;
+};
+
+/// Heights of several lines at one point, as one: those of one sign add as
+/// (a^p + b^p + ...)^(1/p), p = 1.71: two equal ones make one and a half, never more than the higher plus
+/// half of the lower, without a crease where one passes the other. Ridges and valleys are added.
+double joined_heights(std::span<const double> heights);
+
+}  // namespace furrow::geometry
