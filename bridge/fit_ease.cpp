@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -15,6 +16,8 @@ namespace {
 
 using geometry::SectionLoop;
 using geometry::SectionPoint;
+
+constexpr double trunk_step = 0.005, trunk_reach = 0.25;  // [m]
 
 /// The half of the plane that is kept: normal . (p - middle) <= 0.
 struct Cut {
@@ -86,6 +89,7 @@ struct Girth {
   double length = 0;  ///< with the closing lines [m]
   double share = 1;   ///< rest length over length, of the cloth [-]
   double angle = 0;   ///< that the cloth covers, seen from the middle of the torso [rad]
+  bool is_cut = false;
 };
 
 using Curves = std::vector<const SectionLoop*>;
@@ -118,6 +122,7 @@ double closing_length(const Curves& curves, const std::vector<Cut>& cuts) {
 Girth girth_of(const Cloth& cloth, const Curves& curves, const std::vector<Cut>& cuts,
                const std::array<double, 2>& middle) {
   Girth girth;
+  girth.is_cut = !cuts.empty();
   double rest = 0;
   for (const SectionLoop* loop : curves)
     for_each_piece(*loop, [&](const SectionPoint& p, const SectionPoint& q, int triangle) {
@@ -179,6 +184,34 @@ std::optional<Girth> find_girth(const Cloth& cloth, const std::vector<SectionLoo
   return girth;
 }
 
+/// The garment around the trunk alone: the highest section from `height` on down whose closed curve runs
+/// around the torso and no other curve of the body.
+struct Trunk {
+  double below = 0;  ///< the height asked for [m]
+  double girth = 0;  ///< [m]
+};
+
+std::optional<Trunk> find_trunk(const Cloth& cloth, const FitBody& body, double height) {
+  for (double below = trunk_step; below <= trunk_reach; below += trunk_step) {
+    const auto section = geometry::torso_section(body.points, body.triangles, body.levels, height - below);
+    if (!section) continue;
+    const auto loops = geometry::horizontal_section(cloth.points, cloth.triangles, height - below);
+    const SectionLoop* around = curve_around(loops, geometry::centre_of(section->torso));
+    if (around && cuts_of(*section, around).empty()) return Trunk{below, around->length};
+  }
+  return std::nullopt;
+}
+
+/// What a section through sleeves does not tell: how wide the garment is below them.
+std::string note_on_trunk(const Trunk& trunk, double body_girth) {
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "measured between the sleeves, which part from the trunk %.1f cm lower; there the garment is "
+                "%.1f cm around, %.1f cm more than the body here",
+                100 * trunk.below, 100 * trunk.girth, 100 * (trunk.girth - body_girth));
+  return text;
+}
+
 FitEase ease_at(const std::string& name, double height, const Cloth& cloth, const FitBody& body) {
   FitEase ease;
   ease.name = name;
@@ -198,6 +231,9 @@ FitEase ease_at(const std::string& name, double height, const Cloth& cloth, cons
   }
   ease.garment_girth = girth->length;
   ease.ease = girth->length - *ease.body_girth;
+  if (girth->is_cut)
+    if (const auto trunk = find_trunk(cloth, body, height))
+      ease.note = note_on_trunk(*trunk, *ease.body_girth);
   if (cloth.rest.empty()) return ease;
   ease.rest_girth = girth->length * girth->share;  // the closing lines as the cloth between them
   ease.rest_ease = *ease.rest_girth - *ease.body_girth;

@@ -72,8 +72,9 @@ struct FitEase {
   std::optional<double> ease;           ///< garment_girth - body_girth [m]
   std::optional<double> rest_girth;     ///< the same curve with the cloth unstrained [m]; none without rest
   std::optional<double>
-      rest_ease;     ///< rest_girth - body_girth [m]: < 0, the garment is smaller than the body
-  std::string note;  ///< "" or why something is missing
+      rest_ease;  ///< rest_girth - body_girth [m]: < 0, the garment is smaller than the body
+  /// "", why something is missing, or of a section through sleeves how wide the garment is below them.
+  std::string note;
 };
 
 struct FitReport {

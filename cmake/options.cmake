@@ -34,7 +34,8 @@ function(furrow_add_library name)
   target_link_libraries(${name} PUBLIC $<BUILD_INTERFACE:furrow_options>)
   target_compile_features(${name} PUBLIC cxx_std_20)
   target_compile_options(${name} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
-  if(CMAKE_BUILD_TYPE STREQUAL Debug)  # optimised ones stay apart: what is tested and measured is what users build
+  # Optimised, the library of physics stays apart: where time is measured, what is tested is what users build.
+  if(CMAKE_BUILD_TYPE STREQUAL Debug OR NOT name STREQUAL physics)
     furrow_unite(${name})
   endif()
 endfunction()

@@ -36,7 +36,8 @@ class Listener {
   /// throw.
   virtual void progress(const std::string& /*what*/, double /*share*/) {}
   virtual void warn(const Warning&) {}
-  /// Asked often. true: the job ends within half a second, and leaves no output half written.
+  /// Asked often. true: the job ends within half a second (garments of up to 30,000 vertices; larger ones
+  /// take as much longer), and leaves no output half written.
   virtual bool cancelled() { return false; }
   /// Asked where a job would take more memory or time than is likely meant; `demand` says how much. true: it
   /// goes on all the same. false: it throws, and says so.

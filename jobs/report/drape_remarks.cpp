@@ -19,6 +19,9 @@ std::string words_of_piercing(const bridge::FitReport& fit) {
          (deepest < 5e-5 ? "less than 0.1 mm" : "up to " + millimetres(deepest));
 }
 
+/// The next refinement.
+std::string finer(const Draped& d) { return "--subdivide " + std::to_string(d.refinements + 1); }
+
 /// What the body does to the cloth that has come to rest on it.
 void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
   if (d.is_torn() && !d.is_pierced()) return;  // no refinement helps
@@ -32,14 +35,15 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
           d.name + ": " +
               (faces ? through
                      : "lies inside the body, by up to " + millimetres(fit.distance.deepest_penetration)) +
-              "; look at where the garment lies before it is draped (and at --unit), refine it with "
-              "--subdivide, or accept it with --penetration",
+              "; look at where the garment lies before it is draped (and at --unit), refine it with " +
+              finer(d) + ", or accept it with --penetration",
           d.name, "garment.subdivide"}});
   else if (faces)
     remarks.push_back(
         {false,
-         {"body_comes_through", d.name + ": " + through + "; --subdivide lets coarse cloth lie closer",
-          d.name, "garment.subdivide"}});
+         {"body_comes_through",
+          d.name + ": " + through + "; with " + finer(d) + " the cloth follows the body more closely", d.name,
+          "garment.subdivide"}});
   if (d.too_near)
     remarks.push_back(
         {false,

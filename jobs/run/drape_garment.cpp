@@ -18,6 +18,7 @@
 #include "geometry/rest/rest_metric.h"
 #include "io/animation/animation_file.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/fall_watch.h"
 #include "jobs/run/gate.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/pins.h"
@@ -185,53 +186,6 @@ class Maker {
   const Context& context_;
   std::vector<int> pin_vertices_, band_vertices_;
   std::vector<char> held_;
-};
-
-/// Finds parts that fall: nothing pins them, and they left the body behind.
-class FallWatch {
- public:
-  FallWatch(const geometry::Mesh& mesh, const BodyCollider& body, double gap)
-      : start_(bridge::positions_of(mesh)), parts_(geometry::find_parts(mesh)), body_(body), gap_(gap) {
-    for (const geometry::Strut& s : geometry::struts(mesh)) tied_.push_back({int(s.a), int(s.b)});
-  }
-
-  std::size_t count() const { return parts_.list.size(); }
-  const geometry::Parts& parts() const { return parts_; }
-
-  /// A vertex of each part that falls; none where all do, or where there is one part alone. Of the first
-  /// level's cloth.
-  std::vector<int> find(const physics::Cloth& cloth, const std::vector<char>& held) const {
-    if (count() < 2) return {};
-    std::vector<char> carried(count(), 0);
-    std::vector<int> seeds(count(), -1);
-    for (std::size_t i = 0; i < start_.size(); ++i) {
-      const int part = parts_.of_vertex[i];
-      if (part < 0) continue;
-      if (seeds[std::size_t(part)] < 0) seeds[std::size_t(part)] = int(i);
-      char& here = carried[std::size_t(part)];
-      here = here || held[i] || (cloth.particles.x[i] - start_[i]).norm() < far ||
-             body_.field.at(cloth.particles.x[i]).value < 2 * gap_;
-    }
-    for (std::size_t round = 0; round < tied_.size(); ++round)  // what is tied to a carried part is carried
-      for (const auto& [a, b] : tied_) {
-        const int p = parts_.of_vertex[std::size_t(a)], q = parts_.of_vertex[std::size_t(b)];
-        if (p < 0 || q < 0 || p == q) continue;
-        carried[std::size_t(p)] = carried[std::size_t(q)] = carried[std::size_t(p)] | carried[std::size_t(q)];
-      }
-    std::vector<int> falling;
-    for (std::size_t p = 0; p < count(); ++p)
-      if (!carried[p] && seeds[p] >= 0) falling.push_back(seeds[p]);
-    if (falling.size() == count()) falling.clear();
-    return falling;
-  }
-
- private:
-  static constexpr double far = 0.25;  // [m]
-  std::vector<physics::Vec3> start_;
-  geometry::Parts parts_;
-  const BodyCollider& body_;
-  double gap_;
-  std::vector<std::array<int, 2>> tied_;
 };
 
 /// Of the refined garment: its edges are half as long a level, their sag a quarter.

@@ -10,7 +10,7 @@ namespace furrow::physics {
 /// Cholesky factors L L^T of a BlockMatrix, by dense fronts (multifrontal method): particles whose columns of
 /// L look alike are eliminated together, so that nearly all work is products of dense matrices. Against
 /// Eigen's SimplicialLDLT it is several times faster from 1,000 particles of a sheet on. It tells only
-/// whether the matrix is positive definite, not how many negative eigenvalues it has.
+/// whether the matrix is positive definite; negative_pivots() counts its negative eigenvalues.
 /// Same input, same bits, for any number of threads; on processors without fused multiply-add other ones than
 /// on those with it. Source: see FrontTree.
 class BlockCholesky {
@@ -21,8 +21,8 @@ class BlockCholesky {
   BlockCholesky(BlockCholesky&&) noexcept;
   BlockCholesky& operator=(BlockCholesky&&) noexcept;
 
-  /// Finds order and fronts. Cost: two to four factorisations; the order takes most of it, and
-  /// cannot be broken off.
+  /// Finds order and fronts. Cost: two to four factorisations; the order takes most of it.
+  /// Throws Cancelled as nested_dissection().
   void analyse(const Sparse& lower);
   /// Factorises matrix + shift I; false if it is not positive definite or not finite. Needs the pattern of
   /// analyse(). pool: threads that share the work (null: the caller alone). Asks between fronts whether it is

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/linear/negative_pivots.h"
+
 namespace furrow::physics {
 namespace {
 
@@ -88,29 +90,20 @@ void FreeStiffness::add(int particle, const Mat3& block) {
   matrix_.add(matrix_.place(particle, particle), block);
 }
 
-bool FreeStiffness::factorise_definite(double shift, ThreadPool* pool) {
-  is_definite_ = true;
-  if (matrix_.rows() == 0) return true;
-  if (!definite_analysed_) definite_.analyse(matrix_.lower());
-  definite_analysed_ = true;
-  return definite_.factorise(matrix_.lower(), shift, pool);
+int FreeStiffness::negative_eigenvalues() const {
+  return matrix_.rows() == 0 ? 0 : negative_pivots(matrix_.lower());
 }
 
-int FreeStiffness::factorise(double shift) {
-  is_definite_ = false;
-  if (matrix_.rows() == 0) return 0;
-  if (!analysed_) factor_.analyzePattern(matrix_.lower());
+bool FreeStiffness::factorise_definite(double shift, ThreadPool* pool) {
+  if (matrix_.rows() == 0) return true;
+  if (!analysed_) definite_.analyse(matrix_.lower());
   analysed_ = true;
-  factor_.setShift(shift);
-  factor_.factorize(matrix_.lower());
-  if (factor_.info() != Eigen::Success || !factor_.vectorD().allFinite()) return -1;
-  return int((factor_.vectorD().array() < 0).count());
+  return definite_.factorise(matrix_.lower(), shift, pool);
 }
 
 void FreeStiffness::solve(std::span<Vec3> b, ThreadPool* pool) const {
   Eigen::VectorXd y = matrix_.gather(b);
-  if (matrix_.rows() > 0 && is_definite_) definite_.solve(y, pool);
-  if (matrix_.rows() > 0 && !is_definite_) y = factor_.solve(y).eval();
+  if (matrix_.rows() > 0) definite_.solve(y, pool);
   matrix_.scatter(y, b);
 }
 

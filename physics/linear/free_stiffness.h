@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <Eigen/SparseCholesky>
 #include <array>
 #include <span>
 #include <vector>
@@ -29,16 +28,12 @@ class FreeStiffness {
   /// particle's is left out.
   void add(int particle, const Mat3& block);
 
-  /// Factorises K + shift I = L D L^T, shift [N/m]. The number of its negative eigenvalues (negative pivots:
-  /// Sylvester's law of inertia), -1 if a pivot is 0 or not finite. Pivots are not permuted: what is not
-  /// positive definite should be used with care.
-  int factorise(double shift = 0);
-  /// K + shift I = L L^T by dense fronts (BlockCholesky), several times faster for thousands of particles;
-  /// false if it is not positive definite. pool: threads that share the work (null: the caller alone).
+  /// Negative eigenvalues of K, -1 if that cannot be told (negative_pivots()).
+  int negative_eigenvalues() const;
+  /// K + shift I = L L^T, shift [N/m], by dense fronts (BlockCholesky); false if it is not positive definite.
+  /// pool: threads that share the work (null: the caller alone).
   bool factorise_definite(double shift = 0, ThreadPool* pool = nullptr);
-  /// b becomes the solution in rows of free particles, 0 in the others. Needs
-  /// factorise() >= 0 or factorise_definite() true, whichever was last; threads share the work after the
-  /// latter.
+  /// b becomes the solution in rows of free particles, 0 in the others. Needs factorise_definite() true.
   void solve(std::span<Vec3> b, ThreadPool* pool = nullptr) const;
 
   /// Mean of the diagonal of K [N/m], 0 if nothing is free: a scale for shifts.
@@ -61,10 +56,8 @@ class FreeStiffness {
   std::vector<std::size_t> buckets_;  ///< where each begins, and the end
   std::vector<Mat3> blocks_;          ///< of a chunk
   BlockMatrix matrix_;
-  Eigen::SimplicialLDLT<BlockMatrix::Sparse, Eigen::Lower> factor_;
   BlockCholesky definite_;
-  bool analysed_ = false, definite_analysed_ = false;  // each when it is first needed
-  bool is_definite_ = false;                           // whether the last factors are those of definite_
+  bool analysed_ = false;  // definite_, when it is first needed
 };
 
 }  // namespace furrow::physics

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/linear/nested_dissection.h"
 
 namespace furrow::physics {
@@ -236,8 +237,10 @@ FrontTree front_tree(const FrontTree::Sparse& lower) {
   tree.position = nested_dissection(below);
   const std::vector<int> place = postorder(elimination_tree(permuted(below, tree.position)));
   for (int& p : tree.position) p = place[std::size_t(p)];
+  throw_if_cancelled("front_tree");
   Lists factor = permuted(below, tree.position);
   tree.fronts = make_fronts(factor);
+  throw_if_cancelled("front_tree");
   join_parents(tree.fronts);
   order_columns(tree);
   find_parents(tree.fronts);

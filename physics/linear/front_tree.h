@@ -35,8 +35,8 @@ struct FrontTree {
   std::vector<Front> fronts;  // children before parents, a branch in one piece
 };
 
-/// Cost: the order of elimination, 0.1 s for 12,000 vertices, and about half of that. Throws as
-/// nested_dissection().
+/// Cost: the order of elimination, 0.1 s for 12,000 vertices, and about half of that. Asks in between whether
+/// it is cancelled; throws as nested_dissection().
 FrontTree front_tree(const FrontTree::Sparse& lower);
 
 /// How threads share a tree of fronts: branches, each done by one thread, and the trunk that they grow from,

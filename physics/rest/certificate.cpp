@@ -68,7 +68,7 @@ class Certifier {
     double shift = neutral;
     assemble(shift);
     if (!stiffness_.factorise_definite()) {
-      result_.negative_eigenvalues = stiffness_.factorise();
+      result_.negative_eigenvalues = stiffness_.negative_eigenvalues();
       for (assemble(shift = 1); !stiffness_.factorise_definite(); assemble(shift *= 16)) {
         if (!(shift < 1e20)) refuse("certify", "a stiffness is not finite");
       }

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "bridge/convert.h"
@@ -129,6 +130,23 @@ TEST_CASE("fit_ease: where a sleeve ends at the section's height the chest is me
   const auto ease = bridge::measure_ease(sheets, body.view(), {1.0, {}, {}});
   REQUIRE(ease[0].garment_girth);
   CHECK(*ease[0].garment_girth == Approx(2 * 0.45 + 2 * 0.4).epsilon(1e-6));
+}
+
+TEST_CASE("fit_ease: a section through sleeves says how wide the garment is below them") {
+  geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
+  append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
+  append(figure, moved(cylinder(0.05, 1.7, 32, 17), -0.35, 0));
+  const MeasuredBody body(figure);
+  geometry::Mesh garment = cylinder(0.2, 0.898, 64, 9);       // the trunk, up to 0.898
+  append(garment, moved(cylinder(0.5, 0.7, 64, 9), 0, 0.9));  // around the arms, too, from there on
+  const auto ease = bridge::measure_ease(garment, body.view(), {1.0, 0.5, {}});
+  REQUIRE(ease[0].ease);
+  char girths[80];
+  std::snprintf(girths, sizeof girths, "10.5 cm lower; there the garment is %.1f cm around, %.1f cm more",
+                100 * ngon(0.2, 64), 100 * (ngon(0.2, 64) - ngon(0.15, 64)));
+  CAPTURE(ease[0].note);
+  CHECK(ease[0].note.find(girths) != std::string::npos);
+  CHECK(ease[1].note.empty());
 }
 
 TEST_CASE("fit_ease: a garment that is open in front has no girth") {

@@ -30,6 +30,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   linear/free_stiffness_test.cpp
   linear/front_tree_test.cpp
   linear/lanczos_test.cpp
+  linear/negative_pivots_test.cpp
   linear/nested_dissection_test.cpp
   linear/stable_step_test.cpp
   contact/anchored_contact_test.cpp

@@ -46,11 +46,16 @@ TEST_CASE("free_stiffness: solutions, signs and scale agree with the dense matri
       CHECK(k.mean_diagonal() == Approx(matrix.diagonal().mean()));
       for (const double shift : {1e-3, -0.5 * (values[9] + values[10]), 2 * std::abs(values[0])}) {
         CAPTURE(crumple, shift);
-        CHECK(k.factorise(shift) == int((values.array() + shift < 0).count()));
+        k.assemble(cloth, cloth.particles.x, stiffness);
+        for (int i = 0; i < 16; ++i) k.add(i, shift * Mat3::Identity());
+        CHECK(k.negative_eigenvalues() == int((values.array() + shift < 0).count()));
       }
+      k.assemble(cloth, cloth.particles.x, stiffness);
       Noise noise(7);
       std::vector<Vec3> b(cloth.particles.size());
       for (Vec3& v : b) v = noise.vector();
+      CHECK_FALSE(k.factorise_definite(-0.5 * (values[9] + values[10])));
+      REQUIRE(k.factorise_definite(2 * std::abs(values[0])));
       std::vector<Vec3> u = b;
       k.solve(u);
       CHECK(u[5] == Vec3::Zero());
@@ -62,11 +67,6 @@ TEST_CASE("free_stiffness: solutions, signs and scale agree with the dense matri
       }
       const Eigen::VectorXd rest = matrix * solution + 2 * std::abs(values[0]) * solution - right;
       CHECK(rest.norm() < 1e-9 * right.norm());
-      CHECK_FALSE(k.factorise_definite(-0.5 * (values[9] + values[10])));
-      REQUIRE(k.factorise_definite(2 * std::abs(values[0])));
-      std::vector<Vec3> same = b;
-      k.solve(same);
-      for (std::size_t i = 0; i < u.size(); ++i) CHECK((same[i] - u[i]).norm() < 1e-9 * u[1].norm());
     }
   }
 }
@@ -100,7 +100,7 @@ TEST_CASE("free_stiffness: nothing free, and a cloth that changed, are told") {
   for (double& w : cloth.particles.inv_mass) w = 0;
   FreeStiffness none(cloth);
   none.assemble(cloth, cloth.particles.x, Stiffness::exact);
-  CHECK(none.factorise() == 0);
+  CHECK(none.negative_eigenvalues() == 0);
   CHECK(none.factorise_definite());
   CHECK(none.mean_diagonal() == 0);
   std::vector<Vec3> b(cloth.particles.size(), Vec3::Ones());

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
 
-using furrow::physics::nested_dissection;
+#include "physics/base/cancel_scope.h"
+#include "physics/base/progress.h"
+
+using namespace furrow::physics;
 using Lists = std::vector<std::vector<int>>;
 
 namespace {
@@ -60,4 +64,24 @@ TEST_CASE("nested_dissection: it takes nothing, one column, and columns that not
   std::vector<int> place = nested_dissection(some);
   std::sort(place.begin(), place.end());
   for (int i = 0; i < 300; ++i) CHECK(place[std::size_t(i)] == i);
+}
+
+TEST_CASE(
+    "nested_dissection: a large graph is cut in pieces, with as small a factor, and questions in between") {
+  const Lists below = sheet(200);
+  int asked = 0;
+  std::vector<int> place;
+  {
+    const CancelScope scope([&] { return ++asked < 0; });
+    place = nested_dissection(below);
+  }
+  CHECK(asked >= 3);
+  CHECK(nested_dissection(below) == place);
+  std::vector<int> sorted = place;
+  std::sort(sorted.begin(), sorted.end());
+  for (int i = 0; i < 40000; ++i) REQUIRE(sorted[std::size_t(i)] == i);
+  // Nested dissection of a sheet of n x n by hand: 31/4 n^2 log2 n entries and lower terms (George 1973).
+  CHECK(double(factor_size(below, place)) < 31.0 / 4 * 40000 * std::log2(200.0));
+  const CancelScope scope([&] { return true; });
+  CHECK_THROWS_AS(nested_dissection(below), Cancelled);
 }
