@@ -87,6 +87,7 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
   const Vertex a = mesh_.source(halfedge), b = mesh_.target(halfedge);
   const Halfedge opposite = mesh_.opposite(halfedge);
   const Edge edge = mesh_.edge(halfedge);
+  const bool border = mesh_.is_border(opposite);
   const double length = rest_[edge];
   const auto left = lengths_to_corners(
       {length, rest_[mesh_.edge(mesh_.next(halfedge))], rest_[mesh_.edge(mesh_.prev(halfedge))]},
@@ -96,7 +97,7 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
       {t, 1 - t, 0});
   std::array<std::array<TextureCoordinate, 3>, 2> texture{};  // a, b, apex of both sides
   const std::array<Halfedge, 2> inside{halfedge, opposite};
-  for (int side = 0; texture_ && side < 2; ++side) {
+  for (int side = 0; texture_ && side < (border ? 1 : 2); ++side) {
     texture[side] = {corner_in(inside[side], a), corner_in(inside[side], b),
                      (*texture_)[mesh_.next(inside[side])]};
   }
@@ -112,7 +113,7 @@ Vertex MeshEditor::split_edge(Halfedge halfedge, double t) {
   attributes_.halve(edge, mesh_.edge(first));
   const std::array<Halfedge, 2> to_middle{first, mesh_.opposite(halfedge)};
   split_side(to_middle[0], left[2], {a, b}, texture[0], t);
-  split_side(to_middle[1], right[2], {a, b}, texture[1], t);
+  if (!border) split_side(to_middle[1], right[2], {a, b}, texture[1], t);
   return middle;
 }
 
@@ -160,6 +161,22 @@ void MeshEditor::flip_edge(Edge edge) {
   if (!texture_) return;
   for (Halfedge part : {h, mesh_.opposite(h)})
     (*texture_)[part] = (*texture_)[mesh_.target(part) == c ? to_c : to_d];
+}
+
+void MeshEditor::set_texture(Vertex vertex, const TextureCoordinate& at) {
+  if (!texture_) return;
+  for (Halfedge h : mesh_.halfedges_around_target(mesh_.halfedge(vertex)))
+    if (!mesh_.is_border(h)) (*texture_)[h] = at;
+}
+
+void MeshEditor::note_moved(Vertex vertex) {
+  for (Halfedge h : mesh_.halfedges_around_target(mesh_.halfedge(vertex))) {
+    attributes_.change(mesh_.edge(h));
+    if (mesh_.is_border(h)) continue;
+    attributes_.change(mesh_.edge(mesh_.prev(mesh_.prev(h))));
+    attributes_.change(mesh_.face(h));
+    changed_.insert(mesh_.face(h));
+  }
 }
 
 bool MeshEditor::is_seam(Edge edge) const {

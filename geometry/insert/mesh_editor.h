@@ -21,11 +21,15 @@ class MeshEditor {
 
   /// Splits a face in three at a point strictly inside.
   Vertex split_face(const FacePoint& point);
-  /// Splits the edge of an inner halfedge at t in (0, 1) from its source, and its two faces with it. Both
-  /// halves keep what the edge was (a line edge, a seam).
+  /// Splits the edge of a halfedge that has a face at t in (0, 1) from its source, and its faces with it.
+  /// Both halves keep what the edge was (a line edge, a seam, a border).
   Vertex split_edge(Halfedge halfedge, double t);
   /// Flips an inner edge; it is no line edge afterwards. The caller has asked the flip rules.
   void flip_edge(Edge edge);
+  /// Sets the texture coordinate of all corners at a vertex that lies on no seam; nothing without texture.
+  void set_texture(Vertex vertex, const TextureCoordinate& at);
+  /// A vertex was moved on the cloth: the edges and faces around it are no more what they were.
+  void note_moved(Vertex vertex);
 
   const Mesh& mesh() const { return mesh_; }
   const EdgeMap<double>& rest() const { return rest_; }

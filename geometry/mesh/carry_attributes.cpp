@@ -45,17 +45,20 @@ void set_all(const Mesh& mesh, Map<Key, Value> map, const Value& value) {
 
 }  // namespace
 
-VertexBlend::VertexBlend(const Mesh& mesh, CarryRule Carry::*rule)
-    : registered_(mesh), rule_(rule), others_(vertex_attributes(mesh)) {}
+VertexBlend::VertexBlend(const Mesh& before, const Mesh& mesh, CarryRule Carry::*rule)
+    : registered_(before, mesh),
+      rule_(rule),
+      others_before_(vertex_attributes(before)),
+      others_(vertex_attributes(mesh)) {}
 
 void VertexBlend::set(Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) const {
   registered_.for_each([&](const auto& attribute, const auto& before, auto map) {
     if constexpr (Blendable<typename decltype(map)::value_type>)
       if (attribute.carry.*rule_ == CarryRule::blend) map[to] = weighted(before, from, weights);
   });
-  for (const VertexAttribute& attribute : others_) {
-    VertexMap<double> map = attribute.values;
-    map[to] = weighted(map, from, weights);
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    VertexMap<double> map = others_[i].values;
+    map[to] = weighted(others_before_[i].values, from, weights);
   }
 }
 

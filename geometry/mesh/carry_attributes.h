@@ -16,7 +16,9 @@ namespace furrow::geometry {
 class VertexBlend {
  public:
   /// Takes handles of the maps that the mesh has now. `rule`: &Carry::insertion or &Carry::subdivision.
-  VertexBlend(const Mesh& mesh, CarryRule Carry::*rule);
+  VertexBlend(const Mesh& mesh, CarryRule Carry::*rule) : VertexBlend(mesh, mesh, rule) {}
+  /// The same with values of another mesh, `before`, that has the same maps.
+  VertexBlend(const Mesh& before, const Mesh& mesh, CarryRule Carry::*rule);
   /// Sets the values of `to` to the weighted sum of those of three vertices (sum of weights 1). A weight of
   /// exactly 0 leaves its vertex out, NaN or not. O(number of maps).
   void set(Vertex to, const std::array<Vertex, 3>& from, const Barycentrics& weights) const;
@@ -24,7 +26,7 @@ class VertexBlend {
  private:
   AttributeMaps<Vertex> registered_;
   CarryRule Carry::*rule_;
-  std::vector<VertexAttribute> others_;
+  std::vector<VertexAttribute> others_before_, others_;
 };
 
 /// The rules for insertion, element by element; what has the rule computed is left alone. Takes handles of

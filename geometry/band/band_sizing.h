@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "geometry/mesh/mesh.h"
+#include "geometry/stroke/fold_curve.h"
+
+namespace furrow::geometry {
+
+/// How fine the band around a fold is: edges of 1.4, 1 and 0.7 times the rule's.
+enum class Detail { coarse, normal, fine };
+
+/// Edge length h wanted at the crest of a fold [m], of its width and height [m]: at most 20 degrees between
+/// two faces where the crest is roundest (radius R = width^2 / (20 |height|)), so h = max(width / 14,
+/// min(width / 8, 0.35 R)), times the detail's factor, and at least `least_edge` [m].
+double crest_edge(double width, double height, Detail detail, double least_edge);
+
+/// The edge length wanted at a point of space: h within 0.55 width of a curve, from there on 0.35 of the
+/// distance more; the least of all curves. A tree of boxes over the segments of the curves: O(n log n) to
+/// build, about O(log n) to ask.
+class BandSizing {
+ public:
+  BandSizing(std::span<const FoldCurve> curves, Detail detail, double least_edge);
+
+  /// Edge length wanted at `p` [m], or `most` if that is less. The lower `most`, the faster.
+  double at(const Point& p, double most) const;
+  /// Whether a curve is within 0.55 of its width, and an h.
+  bool in_band(const Point& p) const;
+  /// h at each point of each curve [m].
+  const std::vector<std::vector<double>>& on_curves() const { return on_curves_; }
+
+ private:
+  struct Segment {
+    Point a, b;
+    double h_a, h_b, reach_a, reach_b;  ///< h, and the distance up to which it is wanted [m]
+  };
+  struct Box {
+    std::array<double, 3> low, high;
+    double least_h, most_h, most_reach;
+    int first, count;  ///< count > 0: segments of a leaf; else children `first` and `first` + 1
+  };
+  void add_segments(const FoldCurve& curve, const std::vector<double>& h);
+  void build(int box, int first, int count);
+  Box bounds(int first, int count) const;
+  struct Nearest {
+    double h, beyond;  ///< h at the nearest point of a segment, and the distance beyond its reach [m]
+  };
+  static Nearest nearest_of(const Segment& segment, const Point& p);
+  static double wanted(const Segment& segment, const Point& p);
+
+  std::vector<std::vector<double>> on_curves_;
+  std::vector<Segment> segments_;
+  std::vector<Box> boxes_;
+};
+
+}  // namespace furrow::geometry

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/band/refine_band.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/band/band_mesh.h"
+#include "geometry/band/embed_curve.h"
+#include "geometry/band/relax_band.h"
+#include "geometry/band/split_band.h"
+#include "geometry/mesh/preconditions.h"
+
+namespace furrow::geometry {
+namespace {
+
+constexpr int most_rounds = 12;  ///< of splits; each halves what is too long
+constexpr int relaxations = 12;  ///< after the curves are embedded
+constexpr int late_rounds = 3;
+
+void check(const Mesh& mesh, std::span<const FoldCurve> curves, const BandOptions& options) {
+  if (!(options.least_edge > 0))
+    refuse("refine_band", "least_edge must be > 0 m, not " + std::to_string(options.least_edge));
+  require_triangles(mesh, "refine_band");
+  require_finite(mesh, "refine_band");
+  for (const FoldCurve& curve : curves) {
+    const std::size_t n = curve.points.size();
+    const std::string name = "the curve of \"" + curve.name + "\" ";
+    if (n < 2 || curve.places.size() != n || curve.width.size() != n || curve.height.size() != n)
+      refuse("refine_band", name + "needs at least two points, each with place, width and height");
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!curve.points[i].allFinite() || !(curve.width[i] > 0) || !std::isfinite(curve.height[i]))
+        refuse("refine_band", name + "has a point, width or height out of range");
+      if (!mesh.has_valid_index(curve.places[i].face))
+        refuse("refine_band", name + "has a place that is not on the mesh");
+    }
+  }
+}
+
+double smallest_angle_of(const BandMesh& band) {
+  double least = std::numbers::pi / 3;
+  for (Face f : band.mesh.faces())
+    if (band.in_band[f.idx()])
+      least = std::min(least, smallest_angle(rest_lengths_of(band.mesh, band.rest, f)));
+  return least * 180 / std::numbers::pi;
+}
+
+BandChain chain_of(const BandMesh& band, int index, const FoldCurve& given) {
+  const BandCurve& curve = band.curves[index];
+  BandChain chain{given.line, {}, {}, curve.closed(), 0};
+  for (const auto& [along, v] : curve.vertices) {
+    chain.vertices.push_back(v);
+    chain.along.push_back(along);
+    chain.lateral =
+        std::max(chain.lateral, curve.nearest(band.mesh.point(v), along, curve.h_at(along)).distance);
+  }
+  return chain;
+}
+
+BandReport report_on(const BandMesh& band, std::span<const FoldCurve> curves) {
+  BandReport report;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    report.chains.push_back(chain_of(band, static_cast<int>(i), curves[i]));
+  report.places = band.place;
+  report.in_band = band.in_band;
+  report.split_edges = band.cut_lines;
+  report.inserted = band.splits;
+  report.flipped = band.flips;
+  report.detours = band.detours;
+  report.changed_faces.assign(band.editor.changed().begin(), band.editor.changed().end());
+  for (std::size_t i = 0; i < band.old_vertices; ++i)
+    if (band.moved[i]) report.snapped.push_back(Vertex(static_cast<Vertex::size_type>(i)));
+  report.min_angle_deg = smallest_angle_of(band);
+  report.shortest_edge = std::numeric_limits<double>::infinity();
+  for (Face f : band.mesh.faces())
+    if (band.in_band[f.idx()])
+      for (double l : rest_lengths_of(band.mesh, band.rest, f))
+        report.shortest_edge = std::min(report.shortest_edge, l);
+  return report;
+}
+
+/// Splits, two relaxations, until nothing is too long.
+void refine(BandMesh& band, const BandSizing& sizing, int rounds) {
+  for (int i = 0; i < rounds; ++i) {
+    if (split_band(band, sizing) == 0) return;
+    for (int k = 0; k < 2; ++k) relax_band(band, sizing);
+  }
+}
+
+}  // namespace
+
+BandReport refine_band(Mesh& mesh, std::span<const FoldCurve> curves, const BandOptions& options) {
+  check(mesh, curves, options);
+  Mesh work = mesh;
+  BandMesh band(work);
+  band.flip_options.may_flip = options.may_flip;
+  const BandSizing sizing(curves, options.detail, options.least_edge);
+  band.in_band = band_faces(work, band.rest, curves, sizing);
+  for (std::size_t i = 0; i < curves.size(); ++i) band.curves.emplace_back(curves[i], sizing.on_curves()[i]);
+  const double before = smallest_angle_of(band);
+  band.flip_to_delaunay();
+  refine(band, sizing, most_rounds);
+  for (std::size_t i = 0; i < curves.size(); ++i) embed_curve(band, static_cast<int>(i), curves[i]);
+  band.flip_to_delaunay();
+  for (int i = 0; i < relaxations; ++i) relax_band(band, sizing);
+  refine(band, sizing, late_rounds);
+  band.finish();
+  BandReport report = report_on(band, curves);
+  report.min_angle_before_deg = before;
+  mesh = std::move(work);
+  return report;
+}
+
+}  // namespace furrow::geometry
