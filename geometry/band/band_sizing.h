@@ -4,13 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "geometry/insert/insertion.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/stroke/fold_curve.h"
 
 namespace furrow::geometry {
-
-/// How fine the band around a fold is: edges of 1.4, 1 and 0.7 times the rule's.
-enum class Detail { coarse, normal, fine };
 
 /// Edge length h wanted at the crest of a fold [m], of its width and height [m]: at most 20 degrees between
 /// two faces where the crest is roundest (radius R = width^2 / (20 |height|)), so h = max(width / 14,
