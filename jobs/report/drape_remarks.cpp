@@ -50,8 +50,8 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
          {"gap_not_kept",
           d.name + ": " + std::to_string(d.too_near) + " vertices are nearer to the body than the gap of " +
               millimetres(d.gap) + ", down to " + millimetres(fit.distance.min) +
-              "; the cloth is too tight for it there, or the body leaves no room; choose a smaller --gap",
-          d.name, "material.gap"}});
+              "; the cloth is too tight for it there, or the body leaves no room",
+          d.name, ""}});
 }
 
 void remark_on_crossings(const Draped& d, std::vector<DrapeRemark>& remarks) {

@@ -96,7 +96,8 @@ TEST_CASE("resume: a simulation stopped anywhere goes on as if it had not been s
   }
 }
 
-TEST_CASE("resume: a simulation stopped twice, and one whose state went to another folder, end the same") {
+TEST_CASE("resume: a simulation stopped twice, and one whose state went to another folder, end the same",
+          "[accuracy]") {
   FallingSheet sheet;
   const std::string scene = sheet.scratch / "scene.toml", one = sheet.scratch / "one.ply";
   const std::string whole = sheet.run(scene);

@@ -90,7 +90,7 @@ TEST_CASE("drape: a garment and a body in memory come to the bits of their files
   CHECK_FALSE(a.fails());
 }
 
-TEST_CASE("drape: fabrics are draped one after the other, each to the bits of its own job") {
+TEST_CASE("drape: fabrics are draped one after the other, each to the bits of its own job", "[accuracy]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   job.scene.settings.root.at("material").erase("preset");

@@ -224,7 +224,8 @@ TEST_CASE("animated_body: a particle on a conveyor of frames gains mu g", "[accu
   CHECK(cloth.particles.v[0].x() == Approx(1).epsilon(1e-6));
 }
 
-TEST_CASE("animated_body: a run over an animated body that is stopped and resumed gives the same bits") {
+TEST_CASE("animated_body: a run over an animated body that is stopped and resumed gives the same bits",
+          "[accuracy]") {
   const BodyFrames frames = frames_of(sphere_mesh(0.1), {0, 0.1, 0.2, 0.3}, inflate);
   AnimatedBody body(frames, fine()), second(frames, fine());
   World world;
