@@ -7,7 +7,8 @@
 
 namespace furrow::geometry {
 
-BandCurve::BandCurve(const FoldCurve& curve, std::vector<double> h) : closed_(curve.closed) {
+BandCurve::BandCurve(const FoldCurve& curve, std::vector<double> h)
+    : line_(curve.line), closed_(curve.closed) {
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const Point p(curve.points[i].x(), curve.points[i].y(), curve.points[i].z());
     if (!points_.empty() && p == points_.back()) continue;

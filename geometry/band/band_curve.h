@@ -14,6 +14,8 @@ class BandCurve {
   /// `h`: edge length wanted at each point [m].
   BandCurve(const FoldCurve& curve, std::vector<double> h);
 
+  int line() const { return line_; }
+
   struct Near {
     double along = 0;     ///< arc length of the nearest point [m]
     double distance = 0;  ///< [m]
@@ -39,6 +41,7 @@ class BandCurve {
   std::map<double, Vertex> vertices;  ///< those on the curve, by arc length
 
  private:
+  int line_;
   bool closed_;
   std::vector<Point> points_;  ///< of a closed curve, the first one again at the end
   std::vector<double> arc_, h_;

@@ -20,29 +20,29 @@ Vector normal_of(const Point& a, const Point& b, const Point& c) { return CGAL::
 
 }  // namespace
 
-BandMesh::BandMesh(Mesh& given)
-    : mesh(given),
-      editor(given),
-      rest(ensure_rest_lengths(given)),
-      base(editor),
-      old_vertices(given.num_vertices()),
+BandMesh::BandMesh(Mesh& refined, const Mesh& given)
+    : mesh(refined),
+      editor(refined),
+      rest(ensure_rest_lengths(refined)),
+      base(given),
+      old_vertices(refined.num_vertices()),
       place(old_vertices),
       hold(old_vertices, Hold::free),
       moved(old_vertices, false),
       on_seam(old_vertices, false),
       on(old_vertices),
-      in_band(given.num_faces(), false) {
+      in_band(refined.num_faces(), false) {
   for (Edge e : mesh.edges()) {
-    const bool fixed = base.is_seam(e) || editor.line_edge()[e];
+    const bool seam = !mesh.is_border(e) && editor.is_seam(e), fixed = seam || editor.line_edge()[e];
     for (int end : {0, 1}) {
       const Vertex v = mesh.vertex(e, end);
       if (fixed) hold[v.idx()] = Hold::fixed;
       if (mesh.is_border(e) && hold[v.idx()] == Hold::free) hold[v.idx()] = Hold::border;
-      if (base.is_seam(e)) on_seam[v.idx()] = true;
+      if (seam) on_seam[v.idx()] = true;
     }
   }
   for (Vertex v : mesh.vertices())
-    if (!mesh.is_isolated(v)) place[v.idx()] = base.of_vertex(v);
+    if (!mesh.is_isolated(v) && v.idx() < base.mesh().num_vertices()) place[v.idx()] = base.of_vertex(v);
 }
 
 std::vector<Vertex> BandMesh::vertices() const {
@@ -59,6 +59,12 @@ std::vector<Vertex> BandMesh::vertices() const {
 Halfedge BandMesh::from_lower(Edge e) const {
   const Halfedge h = mesh.halfedge(e);
   return mesh.source(h) < mesh.target(h) ? h : mesh.opposite(h);
+}
+
+bool BandMesh::touches_band(Edge e) const {
+  for (Halfedge h : {mesh.halfedge(e), mesh.opposite(mesh.halfedge(e))})
+    if (!mesh.is_border(h) && in_band[mesh.face(h).idx()]) return true;
+  return false;
 }
 
 bool BandMesh::is_locked(Edge e) const {
@@ -128,6 +134,7 @@ void BandMesh::join_curve(Vertex v, const CurveEdge& c, double t) {
   const double way = c.ahead ? curve.ahead(c.from, c.to) : curve.ahead(c.to, c.from);
   const double along = curve.wrapped(c.ahead ? c.from + t * way : c.to + (1 - t) * way);
   put_on(v, c.curve, along);
+  editor.line()[v] = curve.line();
   const Point p = curve.at(along);
   if (hold[v.idx()] != Hold::free || (p - mesh.point(v)).squared_length() > std::pow(near_chord * way, 2))
     return;
@@ -188,11 +195,11 @@ bool BandMesh::move_in_space(const Star& star, const Point& p, double least) {
 }
 
 /// Whether the rules allow it, and the faces in space neither turn over nor meet at a sharp edge.
-bool BandMesh::may_be_flipped(Edge e) const {
+bool BandMesh::may_be_flipped(Edge e, const std::function<const Point&(Vertex)>& at) const {
   if (refusal_of_flip(editor, e, flip_options)) return false;
   const Halfedge h = from_lower(e), o = mesh.opposite(h);
-  const Point &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)),
-              &c = mesh.point(mesh.target(mesh.next(h))), &d = mesh.point(mesh.target(mesh.next(o)));
+  const Point &a = at(mesh.source(h)), &b = at(mesh.target(h)), &c = at(mesh.target(mesh.next(h))),
+              &d = at(mesh.target(mesh.next(o)));
   const Vector left = normal_of(a, b, c), right = normal_of(b, a, d), sum = left + right;
   const double lengths = std::sqrt(left.squared_length() * right.squared_length());
   if (left * right < steepest_flip * lengths) return false;
@@ -200,6 +207,7 @@ bool BandMesh::may_be_flipped(Edge e) const {
 }
 
 std::size_t BandMesh::flip_to_delaunay() {
+  const auto shape = [&](Vertex v) -> const Point& { return mesh.point(v); };
   std::vector<bool> waiting(mesh.num_edges(), false);
   std::deque<Edge> queue;
   const auto enqueue = [&](Edge e) {
@@ -224,7 +232,7 @@ std::size_t BandMesh::flip_to_delaunay() {
   for (; !queue.empty() && count < limit; queue.pop_front()) {
     const Edge e = queue.front();
     waiting[e.idx()] = false;
-    if (!(cotangent_sum(mesh, rest, e) < -tie) || !may_be_flipped(e)) continue;
+    if (!(cotangent_sum(mesh, rest, e) < -tie) || !may_be_flipped(e, shape)) continue;
     editor.flip_edge(e);
     ++count;
     const Halfedge h = from_lower(e), o = mesh.opposite(h);

@@ -28,8 +28,10 @@ struct OnCurve {
 /// Arrays go by index and grow with the mesh. All choices go by vertex indices and places, never by indices
 /// of faces or edges: permuted faces give the same surface.
 struct BandMesh {
-  /// Prepares the maps of `mesh`, which must outlive this.
-  explicit BandMesh(Mesh& mesh);
+  /// Prepares the maps of the mesh, which must outlive this.
+  explicit BandMesh(Mesh& refined) : BandMesh(refined, refined) {}
+  /// The same for one that was refined already, from `given`.
+  BandMesh(Mesh& refined, const Mesh& given);
 
   Mesh& mesh;
   MeshEditor editor;
@@ -53,6 +55,8 @@ struct BandMesh {
   std::vector<Vertex> vertices() const;
   /// The halfedge of an edge from its lower vertex.
   Halfedge from_lower(Edge e) const;
+  /// Whether one of its faces is in the band.
+  bool touches_band(Edge e) const;
   /// Whether the edge is never flipped: border, seam or line.
   bool is_locked(Edge e) const;
   /// Mean rest length of the edges at a vertex [m].
@@ -67,6 +71,8 @@ struct BandMesh {
   bool move(const Star& star, const Place2& x, double least, const Point* p = nullptr);
   /// The same for a star that does not lie flat: edges keep their strain, rest lengths over lengths in space.
   bool move_in_space(const Star& star, const Point& p, double least);
+  /// Whether the rules allow the flip of an edge, in the rest metric and in the shape that `at` gives.
+  bool may_be_flipped(Edge e, const std::function<const Point&(Vertex)>& at) const;
   /// Delaunay flips in the rest metric within the band; returns how many.
   std::size_t flip_to_delaunay();
   /// Puts a vertex on a curve's list.
@@ -95,7 +101,6 @@ struct BandMesh {
   void settle(Vertex v, const Point& p, const FacePoint& at, const Star& star,
               const std::vector<double>& lengths);
   void grow(Vertex v, Hold as, Face left, Face right);
-  bool may_be_flipped(Edge e) const;
   void join_curve(Vertex v, const CurveEdge& edge, double t);
 };
 

@@ -55,11 +55,10 @@ Barycentrics nearest_barycentrics(const std::array<Point, 3>& c, const Point& p)
   return best;
 }
 
-BaseSurface::BaseSurface(const MeshEditor& editor)
-    : mesh_(editor.mesh()),
-      seam_(mesh_.num_edges(), false),
-      texture_(find_map(std::as_const(mesh_), attribute::texture)) {
+BaseSurface::BaseSurface(const Mesh& mesh) : mesh_(mesh), seam_(mesh.num_edges(), false) {
+  const MeshEditor editor(mesh_);  // adds the maps that insertion needs
   for (Edge e : mesh_.edges()) seam_[e.idx()] = !mesh_.is_border(e) && editor.is_seam(e);
+  texture_ = find_map(mesh_, attribute::texture);
 }
 
 FacePoint BaseSurface::of_vertex(Vertex v) const {

@@ -11,8 +11,8 @@ namespace furrow::geometry {
 /// change.
 class BaseSurface {
  public:
-  /// Of a mesh that is not edited yet. O(faces).
-  explicit BaseSurface(const MeshEditor& editor);
+  /// O(faces).
+  explicit BaseSurface(const Mesh& mesh);
 
   const Mesh& mesh() const { return mesh_; }
   Point position(const FacePoint& place) const { return position_of(mesh_, place); }

@@ -33,6 +33,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   band/band_checks.cpp
   band/band_checks.h
   band/refine_band_test.cpp
+  band/refine_displaced_test.cpp
   fold/displace_line_test.cpp
   fold/line_height_test.cpp
   fold/line_press_test.cpp

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/band/refine_displaced.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numbers>
+#include <set>
+
+#include "geometry/band/band_mesh.h"
+#include "geometry/band/band_report.h"
+#include "geometry/band/split_longest.h"
+#include "geometry/mesh/preconditions.h"
+
+namespace furrow::geometry {
+namespace {
+
+constexpr double too_long = 1.5;       ///< of the sizing, in the displaced shape
+constexpr double least_height = 0.01;  ///< of a face's longest side, after a flip
+constexpr double tie = 1e-7;
+constexpr int most_rounds = 20;
+
+double distance(const Point& a, const Point& b) { return std::sqrt((a - b).squared_length()); }
+
+/// Cotangent of the angle at c.
+double cotangent_at(const Point& c, const Point& a, const Point& b) {
+  const Vector u = a - c, v = b - c;
+  const double area = std::sqrt(CGAL::cross_product(u, v).squared_length());
+  return u * v / area;
+}
+
+double height_over_side(const Point& a, const Point& b, const Point& c) {
+  const double area = std::sqrt(CGAL::cross_product(b - a, c - a).squared_length());
+  return area / std::max({(b - a).squared_length(), (c - b).squared_length(), (a - c).squared_length()});
+}
+
+class SecondPass {
+ public:
+  SecondPass(BandMesh& band, const BandSizing& sizing, std::vector<Point>& displaced,
+             const Displace& displace)
+      : band_(band), mesh_(band.mesh), sizing_(sizing), displaced_(displaced), displace_(displace) {}
+
+  void run() {
+    for (int i = 0; i < most_rounds; ++i) {
+      const std::size_t count = split();
+      flip();
+      if (count == 0) return;
+    }
+  }
+
+ private:
+  const Point& at(Vertex v) const { return displaced_[v.idx()]; }
+  double length(Edge e) const { return distance(at(mesh_.vertex(e, 0)), at(mesh_.vertex(e, 1))); }
+
+  std::size_t split() {
+    const auto is_too_long = [&](Edge e) {
+      const double most = length(e) / too_long;
+      const Halfedge h = band_.from_lower(e);
+      const Point middle = CGAL::midpoint(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)));
+      return sizing_.at(middle, most) < most;
+    };
+    return split_longest(
+        band_, [&](Edge e) { return length(e); }, is_too_long,
+        [&](Edge e) {
+          const Halfedge h = band_.from_lower(e);
+          const SplitEdge ends{mesh_.source(h), mesh_.target(h), band_.split(e, 0.5)};
+          displaced_.push_back(displace_(ends, band_.place[ends.vertex.idx()]));
+          return ends.vertex;
+        });
+  }
+
+  bool is_delaunay(Edge e) const {
+    const Halfedge h = band_.from_lower(e), o = mesh_.opposite(h);
+    const Point &a = at(mesh_.source(h)), &b = at(mesh_.target(h));
+    return !(cotangent_at(at(mesh_.target(mesh_.next(h))), a, b) +
+                 cotangent_at(at(mesh_.target(mesh_.next(o))), a, b) <
+             -tie);
+  }
+
+  bool may_be_flipped(Edge e) const {
+    const Halfedge h = band_.from_lower(e), o = mesh_.opposite(h);
+    const Point &a = at(mesh_.source(h)), &b = at(mesh_.target(h)), &c = at(mesh_.target(mesh_.next(h))),
+                &d = at(mesh_.target(mesh_.next(o)));
+    if (!(std::min(height_over_side(a, d, c), height_over_side(d, b, c)) >= least_height)) return false;
+    return band_.may_be_flipped(e, [&](Vertex v) -> const Point& { return at(v); });
+  }
+
+  void flip() {
+    std::vector<std::pair<std::pair<Vertex, Vertex>, Edge>> edges;
+    for (Edge e : mesh_.edges()) {
+      const Halfedge h = band_.from_lower(e);
+      if (!mesh_.is_border(e) && band_.touches_band(e) && !is_delaunay(e))
+        edges.push_back({{mesh_.source(h), mesh_.target(h)}, e});
+    }
+    std::sort(edges.begin(), edges.end());
+    std::deque<Edge> queue;
+    for (const auto& entry : edges) queue.push_back(entry.second);
+    const std::size_t limit = 100 * queue.size() + 100;
+    for (std::size_t count = 0; !queue.empty() && count < limit; queue.pop_front()) {
+      const Edge e = queue.front();
+      if (mesh_.is_border(e) || is_delaunay(e) || !may_be_flipped(e)) continue;
+      band_.editor.flip_edge(e);
+      ++band_.flips;
+      ++count;
+      const Halfedge h = band_.from_lower(e), o = mesh_.opposite(h);
+      for (Halfedge s : {mesh_.next(h), mesh_.prev(h), mesh_.next(o), mesh_.prev(o)})
+        if (band_.touches_band(mesh_.edge(s))) queue.push_back(mesh_.edge(s));
+    }
+  }
+
+  BandMesh& band_;
+  const Mesh& mesh_;
+  const BandSizing& sizing_;
+  std::vector<Point>& displaced_;
+  const Displace& displace_;
+};
+
+/// Takes over what the first pass knows.
+void resume(BandMesh& band, const BandReport& report, std::span<const FoldCurve> curves,
+            const BandSizing& sizing) {
+  band.place = report.places;
+  band.in_band = report.in_band;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    band.curves.emplace_back(curves[i], sizing.on_curves()[i]);
+    const BandChain& chain = report.chains[i];
+    for (std::size_t k = 0; k < chain.vertices.size(); ++k)
+      band.put_on(chain.vertices[k], static_cast<int>(i), chain.along[k]);
+  }
+}
+
+/// The report of the first pass with what the second one adds.
+BandReport joined(BandReport first, BandReport second) {
+  second.snapped = std::move(first.snapped);
+  second.min_angle_before_deg = first.min_angle_before_deg;
+  second.inserted += first.inserted;
+  second.flipped += first.flipped;
+  second.detours += first.detours;
+  second.split_edges.insert(second.split_edges.begin(), first.split_edges.begin(), first.split_edges.end());
+  std::set<Face> changed(first.changed_faces.begin(), first.changed_faces.end());
+  changed.insert(second.changed_faces.begin(), second.changed_faces.end());
+  second.changed_faces.assign(changed.begin(), changed.end());
+  return second;
+}
+
+double smallest_angle_in(const BandMesh& band, const std::vector<Point>& displaced) {
+  double least = std::numbers::pi / 3;
+  for (Face f : band.mesh.faces()) {
+    if (!band.in_band[f.idx()]) continue;
+    const auto c = corners_of(band.mesh, f);
+    TriangleLengths lengths;
+    for (int i = 0; i < 3; ++i) lengths[i] = distance(displaced[c[i].idx()], displaced[c[(i + 1) % 3].idx()]);
+    least = std::min(least, smallest_angle(lengths));
+  }
+  return least * 180 / std::numbers::pi;
+}
+
+}  // namespace
+
+DisplacedReport refine_displaced(Mesh& mesh, const Mesh& given, std::span<const FoldCurve> curves,
+                                 std::vector<Point>& displaced, const Displace& displace, BandReport& report,
+                                 const BandOptions& options) {
+  if (displaced.size() != mesh.num_vertices() || report.places.size() != mesh.num_vertices() ||
+      report.in_band.size() != mesh.num_faces() || report.chains.size() != curves.size())
+    refuse("refine_displaced", "displaced places and band are not those of the mesh");
+  Mesh work = mesh;
+  BandMesh band(work, given);
+  band.flip_options.may_flip = options.may_flip;
+  const BandSizing sizing(curves, options.detail, options.least_edge);
+  resume(band, report, curves, sizing);
+  std::vector<Point> places = displaced;
+  SecondPass(band, sizing, places, displace).run();
+  band.finish();
+  report = joined(std::move(report), report_on(band, curves));
+  const DisplacedReport result{band.splits, band.flips, smallest_angle_in(band, places)};
+  displaced = std::move(places);
+  mesh = std::move(work);
+  return result;
+}
+
+}  // namespace furrow::geometry

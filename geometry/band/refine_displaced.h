@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "geometry/band/refine_band.h"
+
+namespace furrow::geometry {
+
+/// Where a new vertex lies once the folds are raised [m]. The edge that was split, and its place on the mesh
+/// that refine_band was given.
+using Displace = std::function<Point(const SplitEdge& split, const FacePoint& place)>;
+
+struct DisplacedReport {
+  std::size_t inserted = 0, flipped = 0;
+  double min_angle_deg = 0;  ///< of the band's faces in the displaced shape [degrees]
+};
+
+/// The second pass: steep flanks stretch the band, so edges longer than 1.5 of the sizing in the displaced
+/// shape are split, and Delaunay flips made in that shape, until nothing is too long. A flip that meets more
+/// than 40 degrees between its faces, or would leave a face with a height below 1 % of its side, is refused.
+/// `mesh` is what refine_band left, undisplaced, and stays so; `given` the mesh before that; `displaced`
+/// holds the displaced place of every vertex and gets those of the new ones. `band` is kept up to date:
+/// chains, places, in_band, split_edges, changed_faces and counts. Throws std::invalid_argument, all
+/// unchanged, unless `displaced` and `band` belong to `mesh`. O(n log n) a round.
+DisplacedReport refine_displaced(Mesh& mesh, const Mesh& given, std::span<const FoldCurve> curves,
+                                 std::vector<Point>& displaced, const Displace& displace, BandReport& band,
+                                 const BandOptions& options = {});
+
+}  // namespace furrow::geometry
