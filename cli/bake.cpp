@@ -36,7 +36,8 @@ int bake(const BakeArguments& a) {
   if (report.check && a.applied == "-") write_mesh("-", report.check->applied, a);
   if (report.cancelled)  // what follows the maps is only a measurement
     warn("interrupted; the maps are written, the check is not complete", a);
-  print_report(to_json(report), a);
+  const Json json = to_json(report);
+  print_report(json, a, {bake_lines(json), json["written"].get<std::vector<std::string>>()});
   return report.cancelled ? exit_interrupted : exit_ok;
 }
 

@@ -53,7 +53,8 @@ int chart(ChartArguments& a) {
   const ChartReport report = jobs::chart(job, terminal);
   CommonArguments common = a;
   common.out.clear();
-  print_report(to_json(report), common);
+  const Json json = to_json(report);
+  print_report(json, common, {chart_lines(json), {a.out, a.csv}});
   const Judgement& j = report.judgement;
   const int code = exit_code_of(j.broken == Broken::interrupted, j.has_answer());
   if (code != exit_ok)

@@ -37,6 +37,12 @@ std::string check_progress(const std::string& value) {
              : "takes bar, lines, none or seconds between two lines, not '" + value + "'";
 }
 
+/// Whether stderr is a terminal that may be told to go back in a line.
+bool takes_control_codes() {
+  const char *plain = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
+  return isatty(STDERR_FILENO) && !(plain && *plain) && !(terminal && std::string(terminal) == "dumb");
+}
+
 volatile std::sig_atomic_t interrupt_flag = 0;
 /// The second one ends the process at once.
 void on_interrupt(int signal) {
@@ -57,11 +63,13 @@ void add_common_options(CLI::App& sub, CommonArguments& common) {
   sub.add_flag("--force", common.force,
                "go on where a body, a tolerance or a step asks for very much memory or time");
   sub.add_flag("--json", common.json, "print the report as JSON");
+  sub.add_flag("-v,--verbose", common.verbose, "all numbers of the report, not its summary alone");
   sub.add_flag("-q,--quiet", common.quiet,
                "no report, no progress, no warnings; with --json the report alone");
-  sub.add_option("--progress", common.progress,
-                 "bar, lines (one every 10 s), seconds between two lines, or none (default: a bar on a "
-                 "terminal, lines elsewhere)")
+  sub.add_option(
+         "--progress", common.progress,
+         "bar (on a terminal, without NO_COLOR), lines (one every 10 s), seconds between two lines, or "
+         "none (default: a bar on a terminal, lines elsewhere)")
       ->check(check_progress);
 }
 
@@ -108,7 +116,7 @@ void make_finite(Json& value, const std::string& path, Json& found) {
 
 }  // namespace
 
-void print_report(const Json& report, const CommonArguments& common) {
+void print_report(const Json& report, const CommonArguments& common, const Summary& summary) {
   std::ostream& out = common.out == "-" ? std::cerr : std::cout;
   if (common.json) {
     Json versioned{{"schema", 1}}, found = Json::array();
@@ -117,7 +125,8 @@ void print_report(const Json& report, const CommonArguments& common) {
     if (!found.empty()) versioned["not_finite"] = found;
     out << versioned.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
   } else if (!common.quiet) {
-    print_text(out, report);
+    print_summary(out, summary);
+    if (common.verbose || summary.lines.empty()) print_text(out, report);
   }
   out.flush();
   flush_output();
@@ -162,8 +171,8 @@ std::vector<std::string> split_at_commas(const std::string& text) {
 
 Progress::Form Progress::form_of(const CommonArguments& common) {
   if (common.quiet || common.progress == "none") return Form::none;
-  if (common.progress == "auto") return isatty(STDERR_FILENO) ? Form::bar : Form::lines;
-  return common.progress == "bar" ? Form::bar : Form::lines;
+  const bool wants_bar = common.progress == "auto" || common.progress == "bar";
+  return wants_bar && takes_control_codes() ? Form::bar : Form::lines;
 }
 
 Progress::Progress(std::string what, const CommonArguments& common)

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/summary.h"
 #include "io/mesh/mesh_file.h"
 #include "jobs/inputs.h"
 #include "jobs/read_inputs.h"
@@ -13,8 +14,6 @@
 
 /// What the subcommands share: units, reports, progress, interruption, exit codes.
 namespace furrow::cli {
-
-using Json = nlohmann::ordered_json;
 
 enum ExitCode {
   exit_ok = 0,
@@ -39,10 +38,11 @@ using namespace jobs;
 
 /// Options that every subcommand has; with the unit and the axis of the files read and written.
 struct CommonArguments : Frame {
-  std::string out;     ///< what is written; "-": OBJ to stdout, and the report goes to stderr
-  bool json = false;   ///< the report as JSON
-  bool force = false;  ///< go on where a job would take very much memory or time
-  bool quiet = false;  ///< no progress, no warnings, and no report but that of json
+  std::string out;       ///< what is written; "-": OBJ to stdout, and the report goes to stderr
+  bool json = false;     ///< the report as JSON
+  bool force = false;    ///< go on where a job would take very much memory or time
+  bool verbose = false;  ///< the whole report as text, too, not its summary alone
+  bool quiet = false;    ///< no progress, no warnings, and no report but that of json
   /// bar, lines, none, or seconds between two lines; auto: a bar on a terminal, lines elsewhere.
   std::string progress = "auto";
 };
@@ -61,8 +61,9 @@ void write_mesh(const std::string& path, const io::MeshFile& file, const CommonA
 /// Throws std::runtime_error if what was written to standard output did not arrive.
 void flush_output();
 
-/// Prints a report to stdout: as text (print_text.h), or JSON with a schema version.
-void print_report(const Json& report, const CommonArguments& common);
+/// Prints a report to stdout: its summary for people, with --verbose all of it (print_text.h), too, or JSON
+/// with a schema version. A report without a summary is printed whole.
+void print_report(const Json& report, const CommonArguments& common, const Summary& summary = {});
 void warn(const std::string& message, const CommonArguments& common);
 
 /// `text` as exactly n numbers separated by commas. Throws UsageError that names the option.

@@ -177,7 +177,13 @@ int drape(const DrapeArguments& a) {
   if (!a.out.empty()) json["written"] = a.out;
   if (draws) json["picture"] = a.picture;
   if (animated) json["animation"] = a.animation;
-  print_report(json, common);
+  const bool many = report.garments.size() > 1;
+  const std::string next =
+      a.out.empty() || a.out == "-" || many
+          ? ""
+          : "furrow fit " + a.out + " --body " + report.scene.body->mesh.string() + " --picture fit.png";
+  print_report(json, common,
+               {drape_lines(json), {a.out, draws ? a.picture : "", animated ? a.animation : ""}, next});
   const int code = tell_remarks(report, terminal);
   if (interrupted()) tell_interruption(a, draws, animated);
   return code == exit_ok && interrupted() ? exit_interrupted : code;

@@ -99,7 +99,10 @@ void fit(FitArguments a) {
   Json json = to_json(report);
   if (!a.picture.empty()) json["picture"] = a.picture;
   if (!a.out.empty()) json["written"] = a.out;
-  print_report(json, a);
+  print_report(json, a,
+               {fit_lines(json),
+                {a.out, a.picture},
+                a.picture.empty() ? "the same with --picture fit.png shows where" : ""});
 }
 
 void add_thresholds(CLI::App& sub, FitArguments& a) {

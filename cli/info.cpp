@@ -15,10 +15,19 @@ struct InfoArguments : CommonArguments {
   std::string mesh;
 };
 
+/// A line needs edges of about a centimetre.
+std::string next_of(const Json& report, const std::string& mesh) {
+  const double edge = report.value("mean_edge_length", 0.0);
+  if (!(edge > 0.015)) return "";
+  return "furrow subdivide " + mesh + " --loop " + (edge > 0.03 ? "2" : "1") +
+         " -o fine.ply, as lines need edges of about 10 mm";
+}
+
 void info(const InfoArguments& a) {
   const io::MeshFile file = read_mesh(a.mesh, a);
   if (const std::string hint = odd_size(file.mesh, "mesh", a); !hint.empty()) warn(a.mesh + ": " + hint, a);
-  print_report(jobs::info(file), a);
+  const Json json = jobs::info(file);
+  print_report(json, a, {info_lines(json), {}, next_of(json, a.mesh)});
 }
 
 }  // namespace

@@ -58,7 +58,14 @@ int keep(const KeepArguments& a) {
     io::write_png(a.picture, io::render(scenes[0], options));
     save_camera(options, a.camera);
   }
-  print_report(to_json(report), common);
+  const Json json = to_json(report);
+  const std::string mesh = report.mesh.string();
+  print_report(json, common,
+               {keep_lines(json),
+                {mesh, a.picture},
+                mesh.empty() || mesh == "-"
+                    ? ""
+                    : "furrow simulate " + mesh + " -o after.ply, with the same pins and body"});
   for (const Warning& w : report.warnings) terminal.warn(w);
   return exit_code_of(report.lines.interrupted, report.all_hold());
 }

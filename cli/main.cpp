@@ -97,6 +97,8 @@ int run(int argc, char** argv) {
   cli::add_fit(app);
   cli::add_transfer(app);
   cli::add_bake(app, exit_code);
+  cli::add_completion(app);
+  cli::add_man(app);
   const std::vector<std::string> words = words_of(argc, argv);
   if (words[0].rfind("-", 0) != 0 && !has_subcommand(app, words[0]))
     return fail(cli::exit_usage, unknown_subcommand(app, words[0]));

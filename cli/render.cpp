@@ -16,6 +16,7 @@
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/measure_crossings.h"
 
 namespace furrow::cli {
 namespace {
@@ -33,12 +34,26 @@ std::shared_ptr<const io::Image> read_texture(const std::string& name) {
   return std::make_shared<io::Image>(name == "checker" ? io::checker_texture() : io::read_png(name));
 }
 
+/// Faces of the cloth that cross are magenta, as in the pictures of drape; counts the pairs.
+void mark_crossings(io::RenderMesh& shown, const io::MeshFile& file, const std::string& path,
+                    std::size_t& pairs, const RenderArguments& a) {
+  try {
+    const ClothCrossings found = measure_crossings(file);
+    io::mark_faces(shown, found.faces);
+    pairs += found.pairs;
+  } catch (const geometry::ContentError& e) {  // a picture may be just what tells why
+    warn(path + ": faces that cross are not marked: " + e.what(), a);
+  }
+}
+
 void add_garment(io::RenderScene& scene, const std::string& path,
-                 const std::shared_ptr<const io::Image>& texture, const RenderArguments& a) {
+                 const std::shared_ptr<const io::Image>& texture, std::size_t& crossings,
+                 const RenderArguments& a) {
   const io::MeshFile file = read_mesh(path, a);
   if (texture && !geometry::find_map(file.mesh, geometry::attribute::texture))
     throw geometry::ContentError(path + ": has no texture coordinates to lay --texture on with");
   scene.meshes.push_back(io::render_mesh_from(file.mesh, io::Style::cloth, texture));
+  mark_crossings(scene.meshes.back(), file, path, crossings, a);
   if (a.no_lines) return;
   std::vector<double> heights;
   if (const auto record = io::find_wrinkle_record(file))
@@ -69,12 +84,13 @@ void add_bodies(std::vector<io::RenderScene>& scenes, const RenderArguments& a) 
   }
 }
 
-/// One scene with all meshes, or for a strip one a mesh (the strokes are drawn on its first).
-std::vector<io::RenderScene> scenes(const RenderArguments& a) {
+/// One scene with all meshes, or for a strip one a mesh (the strokes are drawn on its first). Counts the
+/// pairs of faces that cross.
+std::vector<io::RenderScene> scenes(const RenderArguments& a, std::size_t& crossings) {
   std::vector<io::RenderScene> list(a.strip ? a.meshes.size() : 1);
   const auto texture = read_texture(a.texture);
   for (std::size_t i = 0; i < a.meshes.size(); ++i)
-    add_garment(list[a.strip ? i : 0], a.meshes[i], texture, a);
+    add_garment(list[a.strip ? i : 0], a.meshes[i], texture, crossings, a);
   add_bodies(list, a);
   for (const std::string& strokes : a.strokes) add_strokes(list[0], strokes, a);
   return list;
@@ -95,7 +111,8 @@ void check_call(const RenderArguments& a) {
 void render(RenderArguments a) {
   check_call(a);
   take_noted_frame(a, a.meshes);
-  const std::vector<io::RenderScene> list = scenes(a);
+  std::size_t crossings = 0;
+  const std::vector<io::RenderScene> list = scenes(a, crossings);
   const io::RenderOptions options = render_options(list, a.camera);
   const std::vector<std::string> captions = split_at_commas(a.captions);
   if (captions.size() > list.size())
@@ -112,7 +129,12 @@ void render(RenderArguments a) {
   io::write_png(a.out, image);
   const Json camera = save_camera(options, a.camera);
   together.commit();
-  print_report({{"width", image.width}, {"height", image.height}, {"camera", camera}, {"written", a.out}}, a);
+  const Json json{{"width", image.width},
+                  {"height", image.height},
+                  {"camera", camera},
+                  {"crossing_pairs", crossings},
+                  {"written", a.out}};
+  print_report(json, a, {render_lines(json), {a.out, a.camera.save_camera}});
 }
 
 }  // namespace
@@ -125,7 +147,9 @@ void add_render(CLI::App& app) {
       "  furrow render worn.ply --body body.obj -o worn.png\n"
       "  furrow render shirt.obj --view front -o view.png --save-camera cam.json\n"
       "  furrow render --strip a.obj b.ply c.ply --captions drawn,smoothed,hung -o strip.png");
-  sub->add_option("meshes", a->meshes, "garments to show; ridges are red, valleys blue")->required();
+  sub->add_option("meshes", a->meshes,
+                  "garments to show; ridges are red, valleys blue, faces that cross magenta")
+      ->required();
   sub->add_option("-o,--output", a->out, "PNG to write")->required();
   sub->add_option("--texture", a->texture, "PNG to lay on the garments, or checker: numbered squares");
   sub->add_option("--body", a->bodies,

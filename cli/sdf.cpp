@@ -30,7 +30,11 @@ void sdf(const SdfArguments& a) {
   const FieldJob job = job_of(a);
   catch_interrupts();
   Terminal terminal(a);
-  print_report(to_json(jobs::field(job, terminal)), a);
+  const Json json = to_json(jobs::field(job, terminal));
+  print_report(json, a,
+               {sdf_lines(json),
+                {a.out, a.slice},
+                a.out.empty() ? "" : "furrow simulate GARMENT --body " + a.body_path + " --field " + a.out});
 }
 
 }  // namespace

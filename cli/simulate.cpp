@@ -52,6 +52,16 @@ SimulateJob job_of(const SimulateArguments& a) {
   return job;
 }
 
+/// The files that the settings name.
+std::vector<std::string> outputs_of(const Json& settings) {
+  std::vector<std::string> files;
+  const auto output = settings.find("output");
+  if (output == settings.end()) return files;
+  for (const auto& [key, value] : output->items())
+    if (value.is_string() && key != "folder") files.push_back(value.get<std::string>());
+  return files;
+}
+
 /// The mesh, if it goes to standard output, then the report.
 void print(const SimulateReport& report, CommonArguments common) {
   common.unit = report.frame.unit;
@@ -60,7 +70,7 @@ void print(const SimulateReport& report, CommonArguments common) {
   if (common.out == "-" && report.failure.empty()) write_mesh(report.garment, common);
   Json json = to_json(report);
   json["flags"] = io::equivalent_flags(report.settings, report.state, report.settings_before);
-  print_report(json, common);
+  print_report(json, common, {simulate_lines(json), outputs_of(report.settings)});
 }
 
 int simulate(const SimulateArguments& a) {

@@ -26,7 +26,7 @@ void smooth(const SmoothArguments& a) {
   if (a.out == "-") write_mesh(report.mesh, common);
   Json json = to_json(report);
   json["written"] = a.out;
-  print_report(json, a);
+  print_report(json, a, {smooth_lines(json), {a.out}});
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ void strokes(StrokesArguments a) {
       io::write_strokes(std::filesystem::path(a.out), list, options);
     report["written"] = a.out;
   }
-  print_report(report, a);
+  print_report(report, a, {strokes_lines(report), {a.out}});
 }
 
 }  // namespace

@@ -25,6 +25,10 @@ void add_transfer(CLI::App& app);
 /// Sets exit_code where the run was interrupted.
 void add_bake(CLI::App& app, int& exit_code);
 
+/// These two tell of all others, so they are added last.
+void add_completion(CLI::App& app);
+void add_man(CLI::App& app);
+
 /// The program's version and those of the libraries that it was built with.
 std::string version_text();
 

@@ -33,7 +33,7 @@ void transfer(const TransferArguments& a) {
   }
   Json json = to_json(report);
   json["written"] = a.out;
-  print_report(json, a);
+  print_report(json, a, {transfer_lines(json), {a.out}});
 }
 
 }  // namespace

@@ -117,7 +117,14 @@ void wrinkle(WrinkleArguments a) {
   if (!a.preview.empty()) write_preview(report, a);
   if (a.out == "-") write_mesh(report.garment, common);
   if (a.inserted == "-") write_mesh("-", inserted_garment(report), common);
-  print_report(to_json(report), a);
+  const Json json = to_json(report);
+  const bool has_file = !a.out.empty() && a.out != "-";
+  print_report(json, a,
+               {wrinkle_lines(json),
+                {a.out, a.inserted, a.preview, a.camera.save_camera},
+                has_file ? "furrow simulate " + (a.state.empty() ? "" : std::string("--state ")) + a.out +
+                               (a.state.empty() ? " --body body.obj" : "") + " -o worn.ply"
+                         : ""});
 }
 
 }  // namespace
@@ -150,7 +157,8 @@ void add_wrinkle(CLI::App& app) {
   sub->add_option("--inserted", a->inserted, "also write the mesh after insertion and before smoothing");
   sub->add_option(
       "--preview", a->preview,
-      "PNG of what is inserted where, before anything is displaced; without -o no mesh is written");
+      "PNG of what is inserted where, before anything is displaced, faces that cross in magenta; without "
+      "-o no mesh is written");
   add_drawing_options(*sub, *a);
   a->flags.add_to(*sub, io::used_by::wrinkle);
   add_smoothing_options(*sub, a->smoothing);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -90,12 +89,6 @@ io::MeshFile read_file(const std::string& path, const Context& context) {
 }
 
 }  // namespace
-
-std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", 1000 * metres);
-  return text;
-}
 
 void stop_if_cancelled(const Context& context) {
   if (context.listener.cancelled()) throw physics::Cancelled("cancelled");

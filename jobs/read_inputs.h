@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/measures.h"
 #include "jobs/inputs.h"
 
 /// How jobs read what they take, check it, and write meshes: for jobs and the program alone.
@@ -18,8 +19,8 @@ io::WriteOptions write_options(const Frame& frame);
 /// Throws physics::Cancelled if the listener cancels.
 void stop_if_cancelled(const Context& context);
 
-/// "3.6 mm".
-std::string millimetres(double metres);
+/// As geometry::length_text() writes it.
+inline std::string millimetres(double metres) { return geometry::length_text(metres); }
 
 /// The file's path, or `unnamed` for a mesh in memory: for messages.
 std::string name_of(const MeshInput& input, const std::string& unnamed);

@@ -43,6 +43,10 @@ must(${prefix}/bin/furrow --version)
 if(NOT output MATCHES "^furrow ${VERSION}\n")
   message(FATAL_ERROR "furrow --version says: ${output}")
 endif()
+set(share ${prefix}/share)
+must_be_there(${share}/bash-completion/completions/furrow ${share}/zsh/site-functions/_furrow
+              ${share}/fish/vendor_completions.d/furrow.fish ${share}/man/man1/furrow.1 ${share}/man/man1/furrow-drape.1
+              ${share}/furrow/report.schema.json)
 set(documents ${prefix}/share/doc/furrow)
 must_be_there(${documents}/LICENSE ${documents}/physics/LICENSE ${documents}/README.md ${documents}/docs/library.md
               ${documents}/examples/CMakeLists.txt)

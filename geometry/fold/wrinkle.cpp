@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "geometry/fold/displace_line.h"
 #include "geometry/fold/line_profile.h"
@@ -15,6 +13,7 @@
 #include "geometry/fold/wrinkle_steps.h"
 #include "geometry/insert/insert_along_stroke.h"
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/tangent_frames.h"
@@ -22,6 +21,7 @@
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/rest_angles.h"
 #include "geometry/rest/rest_metric.h"
+#include "geometry/stroke/placed_stroke.h"
 
 namespace furrow::geometry {
 namespace {
@@ -85,12 +85,6 @@ Moves displacements(const Mesh& mesh, const std::vector<Insertion>& lines, std::
   return moves;
 }
 
-std::string millimetres(double length) {
-  std::ostringstream text;
-  text << std::setprecision(2) << 1000 * length << " mm";
-  return text.str();
-}
-
 std::vector<std::string> warnings_of_coarse(const Mesh& mesh, const std::vector<Insertion>& lines,
                                             std::span<const Stroke> strokes) {
   std::vector<std::string> warnings;
@@ -102,8 +96,8 @@ std::vector<std::string> warnings_of_coarse(const Mesh& mesh, const std::vector<
     const double width = *strokes[i].width;
     const double coarse = coarseness(mesh, line_region(mesh, own, width, lengths), width, lengths);
     if (coarse > 1)
-      warnings.push_back("stroke \"" + strokes[i].name + "\": its width of " + millimetres(width) +
-                         " is less than three edges of the mesh there (" + millimetres(coarse * width / 3) +
+      warnings.push_back("stroke \"" + strokes[i].name + "\": its width of " + length_text(width) +
+                         " is less than three edges of the mesh there (" + length_text(coarse * width / 3) +
                          "); subdivide the garment, or draw the fold wider");
   }
   return warnings;
@@ -114,14 +108,22 @@ std::vector<Insertion> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
   InsertionOptions insertion = options.insertion;
   if (!insertion.mean_edge) insertion.mean_edge = report.mean_structural_length;
   std::vector<Insertion> lines;
+  StrokeFaults faults;
   for (const Stroke& stroke : strokes) {
     const int id = options.first_line + static_cast<int>(lines.size());
-    Insertion one = insert_along_stroke(mesh, stroke, id, insertion);
+    Insertion one;
+    try {
+      one = insert_along_stroke(mesh, stroke, id, insertion);
+    } catch (const ContentError& e) {
+      faults.add(e.what());
+      continue;
+    }
     report.insertion += one.report;
     report.lines.push_back({stroke.name, stroke.height, 0, 0, 0, one.line.chains, stroke.width,
                             stroke.sharpness.value_or(usual_sharpness), stroke.press});
     lines.push_back(std::move(one));
   }
+  faults.raise();
   return lines;
 }
 

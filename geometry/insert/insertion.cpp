@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/preconditions.h"
 
 namespace furrow::geometry {
@@ -33,7 +34,7 @@ const char* to_string(Refusal refusal) {
 
 void check(const InsertionOptions& options) {
   if (!(options.max_distance > 0))
-    refuse("insertion", "max_distance must be > 0 m, not " + std::to_string(options.max_distance));
+    refuse("insertion", "max_distance must be > 0 m, not " + length_text(options.max_distance));
   if (!(options.min_barycentric >= 0 && options.min_barycentric <= 1.0 / 3))
     refuse("insertion",
            "min_barycentric must be in [0, 1/3], not " + std::to_string(options.min_barycentric));

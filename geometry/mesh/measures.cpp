@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <vector>
 
@@ -109,6 +110,26 @@ MeshInfo measure(const Mesh& mesh) {
   for (Edge e : mesh.edges()) info.mean_edge_length += spatial_length(mesh, e);
   if (info.edges > 0) info.mean_edge_length /= static_cast<double>(info.edges);
   return info;
+}
+
+std::string length_text(double metres) {
+  const double size = std::abs(metres);
+  if (size == 0) return "0 mm";
+  char text[64];
+  if (!(size >= 1e-6 && size < 1e6)) {
+    std::snprintf(text, sizeof text, "%.3g m", metres);
+    return text;
+  }
+  const bool small = size < 0.9995;  // what rounds to 1000 mm is a metre
+  const double value = small ? 1000 * metres : metres;
+  const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  std::string number = text;
+  if (number.find('.') != std::string::npos) {
+    number.erase(number.find_last_not_of('0') + 1);
+    if (number.back() == '.') number.pop_back();
+  }
+  return number + (small ? " mm" : " m");
 }
 
 }  // namespace furrow::geometry

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include "geometry/mesh/mesh.h"
 
@@ -27,5 +28,10 @@ struct MeshInfo {
 /// Measures the present shape. Sums run in the order of the indices. O(vertices + edges).
 /// Throws ContentError if a position is not finite or a face no triangle.
 MeshInfo measure(const Mesh& mesh);
+
+/// A length as people write it, to three digits: "0.04 mm", "3.6 mm", "130 mm", "1.75 m", "1700 m".
+/// Millimetres below a metre; an exponent only for what no person measures: below a micrometre, above 1000
+/// km.
+std::string length_text(double metres);
 
 }  // namespace furrow::geometry

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 
@@ -30,7 +31,7 @@ std::vector<Vertex> add_row(Mesh& mesh, int columns, bool shifted, double width,
 
 void check_lengths(const char* name, double width, double height, double edge) {
   for (double length : {width, height, edge})
-    if (!(length > 0) || !std::isfinite(length)) refuse(name, "a length is " + std::to_string(length) + " m");
+    if (!(length > 0) || !std::isfinite(length)) refuse(name, "a length is " + length_text(length));
 }
 
 }  // namespace
@@ -40,9 +41,8 @@ Mesh equilateral_sheet(double width, double height, double edge) {
   const double across = std::round(width / edge),
                upwards = std::round(height / (edge * std::numbers::sqrt3 / 2));
   if (edge > width || (across + 2) * (upwards + 1) > 1e7)
-    refuse("equilateral_sheet", "edge is " + std::to_string(edge) + " m for a width of " +
-                                    std::to_string(width) + " m and a height of " + std::to_string(height) +
-                                    " m");
+    refuse("equilateral_sheet", "edge is " + length_text(edge) + " for a width of " + length_text(width) +
+                                    " and a height of " + length_text(height));
   const int columns = static_cast<int>(across), rows = std::max(1, static_cast<int>(upwards));
   Mesh mesh;
   std::vector<Vertex> below = add_row(mesh, columns, false, width, 0);
@@ -73,8 +73,8 @@ Mesh woven_sheet(double width, double height, double edge) {
   check_lengths("woven_sheet", width, height, edge);
   const double across = std::round(width / edge), upwards = std::round(height / edge);
   if (edge > width || edge > height || (across + 1) * (upwards + 1) > 1e7)
-    refuse("woven_sheet", "edge is " + std::to_string(edge) + " m for a width of " + std::to_string(width) +
-                              " m and a height of " + std::to_string(height) + " m");
+    refuse("woven_sheet", "edge is " + length_text(edge) + " for a width of " + length_text(width) +
+                              " and a height of " + length_text(height));
   const int columns = static_cast<int>(across), rows = static_cast<int>(upwards);
   Mesh mesh;
   std::vector<Vertex> below = add_row(mesh, columns, false, width, 0);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/refine/subdivide.h"
@@ -133,9 +134,9 @@ class Transfer {
     const SurfaceHit hit = projector_->closest(p);
     if (!(hit.distance <= options_.max_distance))
       throw ContentError("transfer: vertex " + std::to_string(v.idx()) + " of the original lies " +
-                         std::to_string(hit.distance) + " m from the wrinkled mesh at rest, more than " +
-                         std::to_string(options_.max_distance) +
-                         " m; are they the same garment, in one unit (--unit)?");
+                         length_text(hit.distance) + " from the wrinkled mesh at rest, more than " +
+                         length_text(options_.max_distance) +
+                         "; are they the same garment, in one unit (--unit)?");
     report.max_distance = std::max(report.max_distance, hit.distance);
     const auto corners = corners_of(rest_, hit.point.face);
     if (!moved(corners[0]) && !moved(corners[1]) && !moved(corners[2])) return p;
@@ -153,7 +154,7 @@ class Transfer {
 
 TransferReport transfer_shape(Mesh& original, const Mesh& wrinkled, const TransferOptions& options) {
   if (!(options.max_distance > 0))
-    refuse("transfer", "max_distance must be > 0 m, not " + std::to_string(options.max_distance));
+    refuse("transfer", "max_distance must be > 0 m, not " + length_text(options.max_distance));
   require_finite(original, "transfer");
   require_finite(wrinkled, "transfer");
   Transfer transfer(original, wrinkled, options);

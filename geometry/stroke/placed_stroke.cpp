@@ -65,4 +65,21 @@ PlacedStroke StrokePlacing::take(bool closed) {
   return std::move(placed_);
 }
 
+void StrokeFaults::add(const std::string& fault) {
+  constexpr std::size_t most = 20;
+  if (std::find(faults_.begin(), faults_.end(), fault) != faults_.end()) return;
+  if (faults_.size() < most)
+    faults_.push_back(fault);
+  else
+    ++untold_;
+}
+
+void StrokeFaults::raise() const {
+  if (faults_.empty()) return;
+  std::string text = faults_.front();
+  for (std::size_t i = 1; i < faults_.size(); ++i) text += "\n  " + faults_[i];
+  if (untold_) text += "\n  and " + std::to_string(untold_) + " more";
+  throw ContentError(text);
+}
+
 }  // namespace furrow::geometry

@@ -20,6 +20,20 @@ struct PlacedStroke {
   std::vector<std::string> warnings;
 };
 
+/// What is wrong with several strokes, told at once: the first fault as it is, each other one on a line of
+/// its own, at most twenty.
+class StrokeFaults {
+ public:
+  /// Passes over what is told already.
+  void add(const std::string& fault);
+  /// Throws ContentError if there is one.
+  void raise() const;
+
+ private:
+  std::vector<std::string> faults_;
+  std::size_t untold_ = 0;
+};
+
 /// Builds a PlacedStroke part by part. Used by place_view_stroke, place_texture_stroke, place_path_stroke.
 class StrokePlacing {
  public:

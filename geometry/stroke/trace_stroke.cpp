@@ -6,6 +6,7 @@
 #include <map>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/stroke/stroke_tracer.h"
 
@@ -66,9 +67,8 @@ std::vector<StrokeHit> project(const SurfaceProjector& projector, const StrokeTr
     }
     if (!(hit.distance <= max_distance)) {
       refuse(stroke, i,
-             "it is " + std::to_string(hit.distance) +
-                 " m from the surface, more than the largest distance of " + std::to_string(max_distance) +
-                 " m; check the unit, or raise the limit");
+             "it is " + length_text(hit.distance) + " from the surface, more than the largest distance of " +
+                 length_text(max_distance) + "; check the unit, or raise the limit");
     }
     hits.push_back(tracer.hit_at(hit, points[i], parameters[i]));
     hits.back().starts = std::binary_search(stroke.breaks.begin(), stroke.breaks.end(), i);

@@ -93,6 +93,14 @@ void mark_faces(RenderMesh& mesh, std::span<const Face> faces, const Colour& col
       throw std::invalid_argument("mark_faces: face " + std::to_string(f.idx()) + " of " +
                                   std::to_string(mesh.triangles.size()));
   if (faces.empty()) return;
+  if (!mesh.triangle_colours.empty()) {  // which go before all other colours
+    for (Face f : faces) mesh.triangle_colours[f.idx()] = colour;
+    return;
+  }
+  if (mesh.texture)
+    for (Face f : faces)
+      mesh.texture_coordinates[f.idx()].fill(
+          {NAN, NAN});  // such a triangle shows its colour, not the texture
   if (mesh.vertex_colours.empty()) mesh.vertex_colours.assign(mesh.vertices.size(), mesh.colour);
   for (Face f : faces)
     for (int& corner : mesh.triangles[f.idx()]) {

@@ -128,9 +128,15 @@ ResolvedStrokes resolve_strokes(std::span<const DrawnStroke> strokes, const Mesh
                                 double max_distance) {
   Resolving resolving(garment, max_distance);
   ResolvedStrokes resolved;
+  StrokeFaults faults;
   for (const DrawnStroke& drawn : strokes) {
-    PlacedStroke placed =
-        std::visit([&](const auto& on) { return resolving.place(drawn.stroke, on); }, drawn.on);
+    PlacedStroke placed;
+    try {
+      placed = std::visit([&](const auto& on) { return resolving.place(drawn.stroke, on); }, drawn.on);
+    } catch (const ContentError& e) {
+      faults.add(e.what());
+      continue;
+    }
     Stroke stroke = drawn.stroke;
     stroke.points = std::move(placed.points);
     stroke.breaks = std::move(placed.breaks);
@@ -139,6 +145,7 @@ ResolvedStrokes resolve_strokes(std::span<const DrawnStroke> strokes, const Mesh
     resolved.strokes.push_back(std::move(stroke));
     for (std::string& warning : placed.warnings) resolved.warnings.push_back(std::move(warning));
   }
+  faults.raise();
   return resolved;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/stroke/placed_stroke.h"
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
 #include "io/base/camera_file.h"
@@ -46,13 +47,29 @@ class StrokeReader {
     if (root.contains("camera")) camera_ = read_picture(root["camera"]);
     std::vector<DrawnStroke> strokes;
     for (const Json& item : root["strokes"]) {
-      fields_.place = "stroke " + std::to_string(strokes.size()) + ": ";
-      strokes.push_back(read_stroke(item));
+      place_ = fields_.place = "stroke " + std::to_string(strokes.size()) + ": ";
+      strokes.emplace_back();
+      attempt([&] { read_stroke(item, strokes.back()); });
     }
+    faults_.raise();
     return strokes;
   }
 
  private:
+  /// Does it, and notes what is wrong, so that all faults of a file are told at once: the first with the
+  /// file's name, each of the others on a line of its own.
+  template <class Work>
+  void attempt(const Work& work) {
+    try {
+      work();
+    } catch (const ContentError& e) {
+      const std::string text = e.what(), name = fields_.name() + ": ";
+      faults_.add(fault_before_ && text.starts_with(name) ? text.substr(name.size()) : text);
+      fault_before_ = true;
+    }
+    fields_.place = place_;
+  }
+
   /// A camera that stands in the file, or the name of its own file, which lies beside this one.
   CameraPicture read_picture(const Json& value) const {
     return value.is_string() ? read_camera(folder_ / value.get<std::string>()) : camera_from(value, fields_);
@@ -199,28 +216,35 @@ class StrokeReader {
     if (const std::string fault = shape_fault(stroke); !fault.empty()) fields_.fail(fault);
   }
 
-  DrawnStroke read_stroke(const Json& item) {
+  void read_stroke(const Json& item, DrawnStroke& drawn) {
     if (!item.is_object()) fields_.fail("must be an object {\"points\": […], …}");
-    fields_.check_keys(
-        item, {"height", "width", "sharpness", "press", "taper", "flare", "smooth", "set", "points", "name",
-               "closed", "direction", "breaks", "pixels", "camera", "texture", "group", "near", "vertices"});
-    DrawnStroke drawn;
+    attempt([&] {
+      fields_.check_keys(
+          item, {"height", "width", "sharpness", "press", "taper", "flare", "smooth", "set", "points", "name",
+                 "closed", "direction", "breaks", "pixels", "camera", "texture", "group", "near", "vertices"});
+    });
     Stroke& stroke = drawn.stroke;
     stroke.height = default_height_;
-    if (item.contains("height")) read_along(item["height"], "height", stroke.height, stroke.heights);
-    read_shape(item, stroke);
-    if (item.contains("name")) stroke.name = fields_.text(item["name"], "name");
-    if (item.contains("closed")) stroke.closed = fields_.truth(item["closed"], "closed");
+    attempt([&] {
+      if (item.contains("height")) read_along(item["height"], "height", stroke.height, stroke.heights);
+    });
+    attempt([&] { read_shape(item, stroke); });
+    attempt([&] {
+      if (item.contains("name")) stroke.name = fields_.text(item["name"], "name");
+      if (item.contains("closed")) stroke.closed = fields_.truth(item["closed"], "closed");
+    });
     const Kind& kind = kind_of(item);
     (this->*kind.read)(item, drawn);
     check_counts(stroke, item[kind.key].size());
     if (stroke.closed && item[kind.key].size() < 3)
       fields_.fail("'closed': a closed stroke needs at least three points");
     if (stroke.closed && !stroke.breaks.empty()) fields_.fail("'breaks': a closed stroke has none");
-    return drawn;
   }
 
   JsonFields fields_;
+  std::string place_;  ///< of the stroke that is read
+  StrokeFaults faults_;
+  bool fault_before_ = false;
   std::filesystem::path folder_;
   double default_height_;
   ReadOptions options_;

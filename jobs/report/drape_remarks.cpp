@@ -16,7 +16,7 @@ std::string words_of_piercing(const bridge::FitReport& fit) {
   const double deepest = fit.distance.deepest_penetration;
   const auto faces = fit.piercing.faces;
   return "the body comes through " + std::to_string(faces) + (faces == 1 ? " face, by " : " faces, by ") +
-         (deepest < 5e-5 ? "less than 0.1 mm" : "up to " + millimetres(deepest));
+         (deepest < 5e-5 ? "less than 0.1 mm" : "up to " + geometry::length_text(deepest));
 }
 
 /// The next refinement.
@@ -34,7 +34,8 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
          {"pierced",
           d.name + ": " +
               (faces ? through
-                     : "lies inside the body, by up to " + millimetres(fit.distance.deepest_penetration)) +
+                     : "lies inside the body, by up to " +
+                           geometry::length_text(fit.distance.deepest_penetration)) +
               "; look at where the garment lies before it is draped (and at --unit), refine it with " +
               finer(d) + ", or accept it with --penetration",
           d.name, "garment.subdivide"}});
@@ -49,7 +50,7 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
         {false,
          {"gap_not_kept",
           d.name + ": " + std::to_string(d.too_near) + " vertices are nearer to the body than the gap of " +
-              millimetres(d.gap) + ", down to " + millimetres(fit.distance.min) +
+              geometry::length_text(d.gap) + ", down to " + geometry::length_text(fit.distance.min) +
               "; the cloth is too tight for it there, or the body leaves no room",
           d.name, ""}});
 }
@@ -126,8 +127,8 @@ void remark_on_nothing_carried(const Draped& d, const physics::SettleReport& las
   remarks.push_back({false,
                      {"touches_nothing",
                       d.name + ": never came to lie on the body, which is " +
-                          std::to_string(d.fit.body_high - d.fit.body_low) +
-                          " m tall; look at where the two are, and at --unit, which is that of both files",
+                          geometry::length_text(d.fit.body_high - d.fit.body_low) +
+                          " tall; look at where the two are, and at --unit, which is that of both files",
                       d.name, "unit"}});
 }
 
@@ -145,7 +146,8 @@ void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
   }
   std::ostringstream text;
   text << d.name << ": not at rest after " << last.iterations << " iterations, residual force "
-       << last.residual << " of a vertex's weight, cloth " << 1000 * last.deepest << " mm deep in the gap";
+       << last.residual << " of a vertex's weight, cloth " << geometry::length_text(last.deepest)
+       << " deep in the gap";
   if (!d.is_torn()) text << "; give more with --iterations, or accept it with --residual";
   remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
 }
@@ -209,7 +211,7 @@ std::string Draped::outcome() const {
   return rest + (is_pierced() ? ", pierced by the body" : "") +
          (crosses_itself() ? ", cloth crosses itself" : "") +
          (loose.empty() ? "" : fmt::format(", {} of {} parts loose", loose.size(), parts)) +
-         (floats() && !broken && !falls ? ", " + millimetres(gap) + " off the body" : "");
+         (floats() && !broken && !falls ? ", " + geometry::length_text(gap) + " off the body" : "");
 }
 
 Json to_json(const DrapeJobReport& report) {

@@ -96,7 +96,8 @@ std::string words(const KeptLine& line) {
     case Verdict::strutted:
       return "held with " + help;
     case Verdict::lowered:
-      return fmt::format("held at h = {:.3g} mm{}", 1e3 * line.height, help.empty() ? "" : " with " + help);
+      return fmt::format("held at h = {}{}", geometry::length_text(line.height),
+                         help.empty() ? "" : " with " + help);
     case Verdict::cannot_hold:
       break;
   }

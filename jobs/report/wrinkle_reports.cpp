@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/mesh/crossings.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/rest_state.h"
 #include "io/mesh/mesh_file.h"
 #include "io/picture/render_preview.h"
+#include "io/picture/render_scene.h"
 #include "jobs/keep.h"
 
 namespace furrow::jobs {
@@ -68,8 +70,12 @@ io::RenderScene preview_scene(const WrinkleReport& report) {
   for (const io::WrinkleRecord::Line& line : record.lines)
     heights.push_back(std::isfinite(line.height) ? line.height : 0);
   const WrinkleStages& stages = report.stages.value();
-  return io::preview_scene(stages.inserted, report.drawn.round.report.insertion.changed_faces,
-                           stages.before.num_vertices(), heights);
+  io::RenderScene scene =
+      io::preview_scene(stages.inserted, report.drawn.round.report.insertion.changed_faces,
+                        stages.before.num_vertices(), heights);
+  io::mark_faces(scene.meshes[0],
+                 geometry::find_crossings(stages.inserted, geometry::find_parts(stages.inserted)).faces);
+  return scene;
 }
 
 io::MeshFile inserted_garment(const WrinkleReport& report) {

@@ -203,7 +203,7 @@ std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels,
   const double vertices = double(garment.number_of_vertices()) * std::pow(4, levels + 1);
   return "its edges are long: with --subdivide " + std::to_string(levels + 1) + " (some " +
          std::to_string(std::llround(vertices)) + " vertices) it is " +
-         millimetres(gap_with(wanted, sag / 4, tolerance));
+         geometry::length_text(gap_with(wanted, sag / 4, tolerance));
 }
 
 /// What is wanted, or what the sag and the field's tolerance need; warns where that is much more.
@@ -213,8 +213,9 @@ double gap_of(const io::Scene& scene, const BodyCollider& body, const geometry::
   const double sag = refined_sag(garment, scene.subdivide), gap = gap_with(wanted, sag, tolerance);
   if (gap > 1.5 * wanted)
     context.warn("gap_raised",
-                 scene.garment.stem().string() + ": keeps " + millimetres(gap) + " from the body, not " +
-                     millimetres(wanted) + ", so strain and ease come out too large; " +
+                 scene.garment.stem().string() + ": keeps " + geometry::length_text(gap) +
+                     " from the body, not " + geometry::length_text(wanted) +
+                     ", so strain and ease come out too large; " +
                      remedy_of_gap(garment, sag, scene.subdivide, wanted, tolerance),
                  scene.garment.string(), sag > tolerance ? "garment.subdivide" : "body.tolerance");
   return gap;

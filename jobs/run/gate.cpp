@@ -8,6 +8,7 @@
 
 #include "geometry/mesh/degenerate_faces.h"
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/measures.h"
 #include "jobs/read_inputs.h"
 
 namespace furrow::jobs {
@@ -18,11 +19,6 @@ std::string text_of(const char* format, Args... args) {
   char text[400];
   std::snprintf(text, sizeof text, format, args...);
   return text;
-}
-
-/// "1.7 mm", "1.7 m".
-std::string length_text(double metres) {
-  return metres < 0.1 ? text_of("%.3g mm", 1000 * metres) : text_of("%.3g m", metres);
 }
 
 /// "40 s", "3 h", "12 days".
@@ -63,7 +59,7 @@ std::string units_that_fit(double size, const Frame& frame) {
 std::string too_small(double size, const std::string& what, const Frame& frame) {
   if (size >= limits.least_size) return "";
   const std::string units = units_that_fit(size, frame);
-  const std::string it = "the " + what + " is " + length_text(size) + " in size";
+  const std::string it = "the " + what + " is " + geometry::length_text(size) + " in size";
   if (!units.empty())
     return it + " with --unit " + frame.unit_in_use() + "; say --unit " + units + " if its file is in that";
   if (what != "body" && size >= limits.least_garment) return "";
@@ -80,8 +76,8 @@ void require_allowed(const std::string& demand, const Context& context) {
 std::string odd_size(const geometry::Mesh& mesh, const std::string& what, const Frame& frame) {
   const auto [x, height, z] = box_edges(mesh);
   if (height > 10)
-    return "the " + what + " is " + std::to_string(height) +
-           " m tall; if its file is not in metres, say so with --unit cm, mm or inch";
+    return "the " + what + " is " + geometry::length_text(height) +
+           " tall; if its file is not in metres, say so with --unit cm, mm or inch";
   return too_small(std::max({x, height, z}), what, frame);
 }
 

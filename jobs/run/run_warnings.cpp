@@ -76,7 +76,7 @@ std::vector<Fault> faults_of(const io::Scene& scene, const ReachedShape& shape,
               "{} vertices end inside the body, up to {} deep at {}; the garment is too small for the "
               "body, started inside it, or the body moves too fast: furrow drape finds out whether it "
               "can be worn, and --unit and --up say how the files are meant",
-              shape.contact->inside.inside, millimetres(shape.contact->inside.deepest),
+              shape.contact->inside.inside, geometry::length_text(shape.contact->inside.deepest),
               place(shape.contact->deepest_at)),
           garment, "unit"}});
   if (shape.crossings.pairs > std::size_t(scene.allow_crossings))
@@ -96,10 +96,10 @@ Warning raised_gap(const io::Scene& scene, const geometry::Mesh& garment, double
   const double finer = std::max(wanted, sag / 4 + 1.5 * tolerance);
   const bool long_edges = sag > tolerance;
   return {"gap_raised",
-          "the cloth keeps " + millimetres(gap) + " from the body, not " + millimetres(wanted) +
-              ", so strain and ease come out too large; " +
+          "the cloth keeps " + geometry::length_text(gap) + " from the body, not " +
+              geometry::length_text(wanted) + ", so strain and ease come out too large; " +
               (long_edges ? "its edges are long: with --subdivide " + std::to_string(scene.subdivide + 1) +
-                                " it is " + millimetres(finer)
+                                " it is " + geometry::length_text(finer)
                           : "--tolerance asks for a finer field of the body"),
           scene.garment.string(), long_edges ? "garment.subdivide" : "body.tolerance"};
 }

@@ -76,7 +76,7 @@ void warn_of_start(const io::Scene& scene, const WorldBody& body, const geometry
         "starts_inside",
         scene.garment.string() + ": " + std::to_string(inside.inside) + " of " +
             std::to_string(garment.number_of_vertices()) + " vertices start inside the body, up to " +
-            millimetres(inside.deepest) +
+            geometry::length_text(inside.deepest) +
             " deep, and are driven out; what comes of it is no motion of cloth: move the garment out "
             "of the body first, or look at --unit",
         scene.garment.string(), "unit");
@@ -91,7 +91,7 @@ void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& all, 
     if (r.moved)
       context.warn("pins_inside_body",
                    std::to_string(r.moved) + " pinned vertices were inside the body; moved onto it, by " +
-                       std::to_string(1000 * r.farthest) + " mm at most",
+                       geometry::length_text(r.farthest) + " at most",
                    "pins");
     if (r.still_inside)
       context.warn("pins_stay_inside", std::to_string(r.still_inside) + " of them could not be brought out",

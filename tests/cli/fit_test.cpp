@@ -96,7 +96,7 @@ TEST_CASE("fit: without rest lengths it says so, and colours by distance") {
   const Run text = run_furrow("fit -q " + f.worn + " --body " + f.body);
   CHECK(text.exit_code == 0);
   CHECK(text.out.empty());
-  CHECK(run_furrow("fit " + f.worn + " --body " + f.body).out.find("section") != std::string::npos);
+  CHECK(run_furrow("fit -v " + f.worn + " --body " + f.body).out.find("section") != std::string::npos);
 }
 
 TEST_CASE("fit: pictures of one garment from both sides, and of several with one legend") {

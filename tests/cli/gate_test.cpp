@@ -77,7 +77,7 @@ TEST_CASE("gate: names that are not UTF-8 are shown, and a state refuses them be
   const Run info = run_furrow("info " + (scratch / "latin.obj"));
   CHECK(info.exit_code == 0);
   CHECK(info.err.empty());
-  CHECK_THAT(info.out, Contains("toffe") && Contains("repairs"));
+  CHECK_THAT(info.out, Contains("toffe"));
   CHECK(nlohmann::json::parse(run_furrow("info --json " + (scratch / "latin.obj")).out)["groups"].size() ==
         1);
   const std::string ball = scratch / "b\xe9.obj", state = scratch / "s.ply";

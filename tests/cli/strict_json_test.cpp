@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every report is JSON that a strict reader takes: no NaN, no infinity.
+// Every report is JSON that a strict reader takes, and is as its schema says, jobs/report/report.schema.json.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
+#include "json_schema.h"
 #include "run_furrow.h"
 #include "tests/test_paths.h"
 
@@ -13,33 +16,59 @@ namespace {
 
 std::string of(const char* path) { return (source_dir() / path).string(); }
 
-/// Throws for what is no JSON.
-json report_of(const std::string& arguments) {
+const json& schema() {
+  static const json all = parse_strictly(read_text(of("jobs/report/report.schema.json")));
+  return all;
+}
+
+std::string faults_of(const json& report, const std::string& command) {
+  std::string text;
+  for (const std::string& fault : schema_faults(report, schema()["$defs"][command], schema()))
+    text += fault + "\n";
+  return text;
+}
+
+/// What a run printed, which must end with this exit code; throws for what is no JSON.
+json report_of(const std::string& arguments, int exit_code = 0) {
   const Run run = run_furrow(arguments + " --json");
   INFO(arguments << "\n" << run.err << run.out);
-  REQUIRE(run.exit_code == 0);
-  return json::parse(run.out);
+  REQUIRE(run.exit_code == exit_code);
+  const json report = parse_strictly(run.out);
+  CHECK(faults_of(report, arguments.substr(0, arguments.find(' '))) == "");
+  return report;
 }
 
 }  // namespace
 
-TEST_CASE("strict JSON: every command's report is read") {
+TEST_CASE("strict JSON: every command's report is read, and is as its schema says") {
   ScratchDirectory scratch;
   const std::string sheet = of("meshes/sheet.obj"), body = " --body " + of("meshes/mannequin.obj"),
                     strokes = of("meshes/strokes/round_bulge.json"), skirt = of("meshes/skirt.obj");
   const auto out = [&](const char* name) { return " -o " + (scratch / name); };
   report_of("info " + sheet);
   report_of("subdivide " + sheet + " --loop 1" + out("fine.ply"));
+  report_of("subdivide " + sheet + " --strokes " + strokes + out("lined.ply"));
   report_of("smooth " + (scratch / "fine.ply") + out("smooth.ply"));
   report_of("wrinkle " + sheet + " " + strokes + out("w.ply"));
-  report_of("sdf" + body.substr(7) + " --tolerance 0.01" + out("body.sdf"));
+  report_of("info " + (scratch / "w.ply"));
+  report_of("wrinkle " + sheet + " " + strokes + " --rest keep --fabric denim --pin-loop top" + out("k.ply"));
+  report_of("keep " + (scratch / "w.ply") + " --pin-loop top --fabric denim --run 0.05 --gust 0" +
+            out("kept.ply"));
+  report_of("sdf" + body.substr(7) + " --tolerance 0.01 --at 0,1,0.3" + out("body.sdf"));
   report_of("drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"));
+  report_of("drape " + skirt + body +
+            " --subdivide 0 --band top=0.95 --compare cotton,silk --size 200,200 "
+            "--quality draft --picture " +
+            (scratch / "c.png"));
   report_of("fit " + (scratch / "worn.ply") + body);
+  report_of("fit --compare " + (scratch / "worn.ply") + " " + (scratch / "worn.ply") + body);
   report_of("transfer " + sheet + " " + (scratch / "w.ply") + out("back.obj"));
   const std::string textured = of("meshes/panelled.obj");
-  report_of("bake " + textured + " " + textured + out("baked") + " --size 64");
+  report_of("bake " + textured + " " + textured + out("baked") + " --size 64 --check 1");
   report_of("render " + sheet + " --size 200,200 --quality draft" + out("p.png"));
-  report_of("strokes " + strokes);
+  report_of("strokes " + strokes + " --garment " + sheet);
+  report_of("strokes " + (scratch / "w.ply") + out("s.json"));
+  report_of("chart " + of("scenes/validation/free_fall.toml") + " --set simulation.seconds=0.02");
   for (const char* integrator : {"leapfrog", "backward-euler", "xpbd", "rk4"}) {
     const json r = report_of("simulate " + (scratch / "w.ply") +
                              " --pin-vertices 0,5 --seconds 0.005 --integrator " + integrator + out("s.ply"));
@@ -47,4 +76,50 @@ TEST_CASE("strict JSON: every command's report is read") {
     CHECK(has_limit == (integrator == std::string("leapfrog") || integrator == std::string("rk4")));
     CHECK(has_limit == !r.contains("dt_limit_why"));
   }
+  report_of("simulate " + skirt + body + " --seconds 0.005 --pin-loop top --animation " +
+            (scratch / "a.glb") + " --save-state " + (scratch / "st.ply") + out("s.ply"));
+  report_of("simulate " + of("scenes/validation/free_fall.toml") +
+            " --set simulation.seconds=0.01 --tolerance 5%");
+}
+
+TEST_CASE(
+    "strict JSON: every command that has --json has a schema, and the schema is one file of its words") {
+  std::istringstream help(run_furrow("--help").out);
+  bool listed = false;
+  int found = 0;
+  for (std::string line; std::getline(help, line);) {
+    if (line.rfind("Subcommands:", 0) == 0) listed = true;
+    std::smatch name;
+    if (!listed || !std::regex_search(line, name, std::regex("^  ([a-z][a-z-]*)(\\s|$)"))) continue;
+    if (run_furrow(name[1].str() + " --help").out.find("--json") == std::string::npos) continue;
+    ++found;
+    INFO(name[1]);
+    CHECK(schema()["$defs"].contains(name[1].str()));
+    CHECK(schema()["anyOf"].dump().find("\"#/$defs/" + name[1].str() + "\"") != std::string::npos);
+  }
+  CHECK(found >= 14);
+  CHECK(schema()["$schema"] == "https://json-schema.org/draft/2020-12/schema");
+}
+
+TEST_CASE("strict JSON: the checker refuses what is not as the schema says") {
+  const ScratchDirectory scratch;
+  const json report = report_of("smooth " + of("meshes/sheet.obj") + " -o " + (scratch / "s.ply"));
+  CHECK(faults_of(report, "smooth") == "");
+  json other = report;
+  other["vertixes"] = 3;
+  CHECK(faults_of(other, "smooth") == ": has 'vertixes', which the schema does not know\n");
+  other = report;
+  other.erase("vertices");
+  CHECK(faults_of(other, "smooth") == ": lacks \"vertices\"\n");
+  other = report;
+  other["vertices"] = "many";
+  CHECK(faults_of(other, "smooth") == "/vertices: \"many\" is no \"integer\"\n");
+  other["vertices"] = -1;
+  CHECK(faults_of(other, "smooth") == "/vertices: -1 is below 0\n");
+  other = report;
+  other["schema"] = 2;
+  CHECK(faults_of(other, "smooth") == "/schema: 2 is none of [1]\n");
+  CHECK_THROWS(parse_strictly("{\"a\": NaN}"));
+  CHECK_THROWS(parse_strictly("{\"a\": 1, \"a\": 2}"));
+  CHECK_THROWS(parse_strictly("{\"a\": 1} 2"));
 }

@@ -3,8 +3,12 @@ furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURC
   run_furrow.h
   run_furrow.cpp
   gate_test.cpp
+  json_schema.h
+  json_schema.cpp
   strict_json_test.cpp
   usage_test.cpp
+  completion_test.cpp
+  summary_test.cpp
   pipeline_test.cpp
   resume_test.cpp
   scene_outputs_test.cpp

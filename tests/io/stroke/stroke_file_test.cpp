@@ -41,6 +41,22 @@ TEST_CASE("strokes: all keys, and the defaults of those that are missing") {
   CHECK((read[2].height == 0 && read[2].points.size() == 1));
 }
 
+TEST_CASE("strokes: all faults of a file are told at once, at most twenty") {
+  CHECK(error_of_strokes(R"({"strokes": [{"hieght": 1, "width": -1, "points": [[0,0,0],[1,2]]},
+                                         {"points": [[0,0,0]]}, 7, {"pixles": [[1,2]]}]})") ==
+        " stroke 0: unknown key 'hieght'; did you mean 'height'?\n"
+        "  stroke 0: 'width' = -1.000000 must be > 0 (metres)\n"
+        "  stroke 0: point 1: 'points': three numbers [x, y, z] are needed\n"
+        "  stroke 2: must be an object {\"points\": […], …}\n"
+        "  stroke 3: unknown key 'pixles'; did you mean 'pixels'?\n"
+        "  stroke 3: 'points' is missing, or one of 'pixels', 'texture' and 'vertices'");
+  std::string many = R"({"strokes": [1)";
+  for (int i = 0; i < 100; ++i) many += ",1";
+  const std::string told = error_of_strokes(many + "]}");
+  CHECK(std::count(told.begin(), told.end(), '\n') == 20);
+  CHECK(told.ends_with("\n  and 81 more"));
+}
+
 TEST_CASE("strokes: what is not allowed is named with stroke and key") {
   CHECK(error_of_strokes(R"({"strokes": [{"points": [[0,0,0]]}, {"hieght": 1, "points": [[0,0,0]]}]})") ==
         " stroke 1: unknown key 'hieght'; did you mean 'height'?");

@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "geometry/mesh/measures.h"
+
+namespace furrow::cli {
+namespace {
+
+using geometry::length_text;
+using Lines = std::vector<std::string>;
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+double value_of(const Json& report, const char* key) {
+  const auto at = report.find(key);
+  return at != report.end() && at->is_number() ? at->get<double>() : NAN;
+}
+
+std::string text_of(const Json& report, const char* key) {
+  const auto at = report.find(key);
+  return at != report.end() && at->is_string() ? at->get<std::string>() : "";
+}
+
+const Json& list_of(const Json& report, const char* key) {
+  static const Json empty = Json::array();
+  const auto at = report.find(key);
+  return at != report.end() && at->is_array() ? *at : empty;
+}
+
+const Json& table_of(const Json& report, const char* key) {
+  static const Json empty = Json::object();
+  const auto at = report.find(key);
+  return at != report.end() && at->is_object() ? *at : empty;
+}
+
+long long count_of(const Json& report, const char* key) {
+  const double value = value_of(report, key);
+  return std::isfinite(value) ? static_cast<long long>(value) : 0;
+}
+
+std::string length(const Json& report, const char* key) {
+  const double value = value_of(report, key);
+  return std::isfinite(value) ? length_text(value) : "unknown";
+}
+
+std::string per_cent(double share) { return std::isfinite(share) ? number(100 * share) + " %" : "unknown"; }
+
+/// "1 face", "3 faces".
+std::string counted(long long n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+/// What the garment's crossings are, if there are any.
+void add_crossings(Lines& lines, const Json& report) {
+  const Json& crossings = table_of(report, "crossings");
+  const long long pairs = count_of(crossings, "pairs");
+  if (!pairs) return;
+  std::string line = "look at: " + counted(pairs, "pair") + " of faces cross";
+  if (crossings.contains("new")) line += ", " + std::to_string(count_of(crossings, "new")) + " of them new";
+  if (const Json& places = list_of(crossings, "places"); !places.empty())
+    line += ", most at (" + number(value_of(places[0], "x")) + ", " + number(value_of(places[0], "y")) +
+            ", " + number(value_of(places[0], "z")) + ") m";
+  lines.push_back(line);
+}
+
+std::string name_of_line(const Json& line) {
+  const std::string name = text_of(line, "name");
+  return name.empty() ? "line " + std::to_string(count_of(line, "id")) : name;
+}
+
+/// "chest +7.9 cm, waist +31.9 cm"
+std::string ease_text(const Json& fit) {
+  std::string text;
+  for (const Json& e : list_of(fit, "ease")) {
+    const double ease = value_of(e, "ease");
+    if (!std::isfinite(ease)) continue;
+    char part[64];
+    std::snprintf(part, sizeof part, " %+.1f cm", 100 * ease);
+    text += (text.empty() ? "" : ", ") + text_of(e, "section") + part;
+  }
+  return text;
+}
+
+void add_fit(Lines& lines, const Json& fit) {
+  const Json& strain = table_of(fit, "strain");
+  const Json& distance = table_of(fit, "distance");
+  if (!strain.empty())
+    lines.push_back("strain: " + per_cent(value_of(strain, "share_over")) + " of the cloth over " +
+                    per_cent(value_of(strain, "over")) + ", at most " + per_cent(value_of(strain, "max")));
+  lines.push_back("distance to the body: " + length(distance, "min") + " to " + length(distance, "p95") +
+                  ", half of the cloth nearer than " + length(distance, "median"));
+  if (const std::string ease = ease_text(fit); !ease.empty()) lines.push_back("ease: " + ease);
+  if (const long long faces = count_of(distance, "pierced_faces"))
+    lines.push_back("look at: the body comes through " + counted(faces, "face") + ", by up to " +
+                    length(distance, "deepest_penetration"));
+}
+
+std::string faults_of(const Json& report) {
+  std::string faults;
+  const auto add = [&](long long n, const std::string& what) {
+    if (n) faults += (faults.empty() ? "" : ", ") + counted(n, what);
+  };
+  add(count_of(report, "degenerate_faces"), "degenerate face");
+  if (const long long n = count_of(report, "self_intersections"))
+    faults += (faults.empty() ? "" : ", ") + counted(n, "pair") + " of faces that cross";
+  if (report.contains("self_intersections") && report["self_intersections"].is_null())
+    faults += (faults.empty() ? "" : ", ") + std::string("too many faces at one place");
+  if (report.contains("manifold") && report["manifold"] == false)
+    faults += (faults.empty() ? "" : ", ") + std::string("not manifold");
+  return faults;
+}
+
+std::string joined(const Json& list, std::size_t most) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, list.size()); ++i)
+    text += (i ? ", " : "") + (list[i].is_string() ? list[i].get<std::string>() : list[i].dump());
+  return text + (list.size() > most ? " and " + std::to_string(list.size() - most) + " more" : "");
+}
+
+std::string repairs_of(const Json& report) {
+  std::string text;
+  for (const auto& [key, n] : table_of(report, "repairs").items()) {
+    if (!n.is_number() || n == 0 || key == "triangulated_faces") continue;
+    std::string words = key;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    text += (text.empty() ? "" : ", ") + n.dump() + " " + words;
+  }
+  return text;
+}
+
+/// "not refined", "refined once", "refined 3 times".
+std::string refined(long long times) {
+  return times == 0   ? "not refined"
+         : times == 1 ? "refined once"
+                      : "refined " + std::to_string(times) + " times";
+}
+
+/// Of one garment on a body.
+void add_draped(Lines& lines, const Json& report) {
+  const Json& levels = list_of(report, "levels");
+  const long long vertices = levels.empty() ? 0 : count_of(levels.back(), "vertices");
+  lines.push_back(text_of(report, "garment") + ": " + text_of(report, "outcome") + " (" +
+                  std::to_string(vertices) + " vertices, " + refined(count_of(report, "subdivide")) + ", " +
+                  number(value_of(report, "seconds")) + " s)");
+  lines.push_back("gap: " + length(report, "gap") + " kept, " + length(report, "gap_asked") + " asked; " +
+                  std::to_string(count_of(report, "touching")) + " vertices touch the body");
+  add_fit(lines, table_of(report, "fit"));
+  add_crossings(lines, report);
+}
+
+}  // namespace
+
+Lines info_lines(const Json& report) {
+  Lines lines;
+  lines.push_back(counted(count_of(report, "faces"), "face") + ", " +
+                  std::to_string(count_of(report, "vertices")) + " vertices, " +
+                  counted(count_of(report, "components"), "part") + ", " +
+                  (report.value("closed", false) ? std::string("closed")
+                                                 : counted(count_of(report, "boundary_loops"), "border")));
+  const Json& box = table_of(report, "bounding_box");
+  if (box.contains("min") && box.contains("max")) {
+    std::string size;
+    for (int k = 0; k < 3; ++k)
+      size += (k ? " x " : "") + length_text(box["max"][k].get<double>() - box["min"][k].get<double>());
+    lines.push_back("size: " + size + " (width, height, depth), area " + number(value_of(report, "area")) +
+                    " m^2");
+  }
+  lines.push_back("edges: " + length(report, "mean_edge_length") + " on average; smallest angle " +
+                  number(value_of(report, "min_angle_deg")) + " degrees");
+  if (const Json& borders = list_of(report, "borders"); !borders.empty()) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min<std::size_t>(5, borders.size()); ++i)
+      text += (i ? ", " : "") + length(borders[i], "length");
+    if (borders.size() > 5) text += " and " + std::to_string(borders.size() - 5) + " more";
+    lines.push_back("borders: " + text + " long");
+  }
+  std::string carries;
+  for (const char* key : {"groups", "materials", "lines"})
+    if (const Json& list = list_of(report, key); !list.empty())
+      carries += (carries.empty() ? "" : "; ") + std::string(key) + " " + joined(list, 4);
+  if (report.value("texture_coordinates", false))
+    carries += (carries.empty() ? "" : "; ") + std::string("texture coordinates");
+  if (!carries.empty()) lines.push_back("carries: " + carries);
+  if (const std::string repairs = repairs_of(report); !repairs.empty())
+    lines.push_back("mended while it was read: " + repairs);
+  const std::string faults = faults_of(report);
+  lines.push_back(faults.empty() ? "no faults found" : "look at: " + faults);
+  return lines;
+}
+
+Lines subdivide_lines(const Json& report) {
+  Lines lines{"refined to " + std::to_string(count_of(report, "vertices")) + " vertices, " +
+              std::to_string(count_of(report, "faces")) + " faces"};
+  if (report.contains("inserted"))
+    lines.push_back(std::to_string(count_of(report, "inserted")) +
+                    " vertices inserted along the strokes; smallest angle " +
+                    number(value_of(report, "min_angle_deg")) + " degrees");
+  if (const std::size_t n = list_of(report, "line_edges_missing").size())
+    lines.push_back("look at: " + counted(static_cast<long long>(n), "edge") +
+                    " of the lines could not be made");
+  return lines;
+}
+
+Lines smooth_lines(const Json& report) {
+  return {"smoothed " + std::to_string(count_of(report, "vertices")) + " vertices in " +
+          counted(count_of(report, "iterations"), "pair") + " of steps"};
+}
+
+Lines wrinkle_lines(const Json& report) {
+  const Json& drawn = list_of(report, "lines");
+  Lines lines{counted(static_cast<long long>(drawn.size()), "line") + " drawn, " +
+              std::to_string(count_of(report, "inserted")) + " vertices inserted; smallest angle " +
+              number(value_of(report, "min_angle_deg")) + " degrees"};
+  const std::size_t most = 4;
+  for (std::size_t i = 0; i < std::min(most, drawn.size()); ++i)
+    lines.push_back(name_of_line(drawn[i]) + ": asked " + length(drawn[i], "height") + ", drawn " +
+                    length(drawn[i], "drawn_height") + ", smoothed to " +
+                    length(drawn[i], "smoothed_height"));
+  if (drawn.size() > most)
+    lines.push_back("and " + counted(static_cast<long long>(drawn.size() - most), "more line"));
+  if (const std::size_t n = list_of(report, "line_edges_missing").size())
+    lines.push_back("look at: " + counted(static_cast<long long>(n), "edge") +
+                    " of the lines could not be made");
+  if (const Json& kept = table_of(report, "kept"); !kept.empty())
+    lines.push_back(kept.value("stable", false) ? "kept: the drawn shape is at rest, and stable"
+                                                : "look at: the drawn shape is balanced, but not stable");
+  add_crossings(lines, report);
+  return lines;
+}
+
+Lines strokes_lines(const Json& report) {
+  const Json& strokes = list_of(report, "strokes");
+  Lines lines{counted(static_cast<long long>(strokes.size()), "stroke")};
+  for (const Json& stroke : strokes) {
+    const std::string unit = text_of(stroke, "unit");
+    std::string line = (text_of(stroke, "name").empty() ? "(no name)" : text_of(stroke, "name")) +
+                       ": height " + length(stroke, "height");
+    if (stroke.contains("width")) line += ", width " + length(stroke, "width");
+    if (stroke.contains("length_on_garment"))
+      line += ", " + length(stroke, "length_on_garment") + " long on the garment";
+    else if (unit == "m")
+      line += ", " + length(stroke, "length") + " long";
+    line += ", drawn as " + text_of(stroke, "kind");
+    if (stroke.value("closed", false)) line += ", closed";
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+Lines simulate_lines(const Json& report) {
+  Lines lines;
+  lines.push_back((text_of(report, "title").empty() ? "" : text_of(report, "title") + ": ") +
+                  text_of(report, "outcome") + " at " + number(value_of(report, "time")) + " s, " +
+                  counted(count_of(report, "steps"), "step") + " of " + number(value_of(report, "dt")) +
+                  " s (" + number(value_of(report, "seconds")) + " s of work)");
+  const Json& strain = table_of(report, "strain");
+  lines.push_back("strain: " + per_cent(value_of(strain, "p99")) +
+                  " and less in 99 % of the cloth, at most " + per_cent(value_of(strain, "max")));
+  if (report.contains("contact_gap"))
+    lines.push_back("body: gap " + length(report, "contact_gap") + ", " +
+                    std::to_string(count_of(report, "contacts")) + " vertices in contact, " +
+                    std::to_string(count_of(report, "vertices_inside")) + " inside");
+  std::string kept;
+  std::size_t told = 0, known = 0;
+  for (const Json& line : list_of(report, "lines")) {
+    if (!std::isfinite(value_of(line, "kept"))) continue;
+    if (++known > 4) continue;
+    kept += (told++ ? ", " : "") + name_of_line(line) + " " + per_cent(value_of(line, "kept"));
+  }
+  if (known > told) kept += " and " + std::to_string(known - told) + " more";
+  if (!kept.empty()) lines.push_back("lines keep of their height: " + kept);
+  if (const Json& choice = table_of(report, "choice"); !choice.empty())
+    lines.push_back(text_of(choice, "says"));
+  add_crossings(lines, report);
+  return lines;
+}
+
+Lines keep_lines(const Json& report) {
+  const Json& drawn = list_of(report, "lines");
+  const auto fails = [](const Json& line) { return text_of(line, "verdict") == "cannot hold"; };
+  const auto n = std::count_if(drawn.begin(), drawn.end(), fails);
+  Lines lines{std::to_string(drawn.size() - static_cast<std::size_t>(n)) + " of " +
+              counted(static_cast<long long>(drawn.size()), "line") + " will hold"};
+  for (const bool failing : {true, false})  // what fails first
+    for (const Json& line : drawn)
+      if (fails(line) == failing)
+        lines.push_back(name_of_line(line) + ": " + text_of(line, "words") + " (asked " +
+                        length(line, "asked") + ", drawn " + length(line, "smoothed") + ", kept " +
+                        per_cent(value_of(line, "kept")) + ")");
+  if (lines.size() > 6) {
+    const std::size_t more = lines.size() - 5;
+    lines.resize(5);
+    lines.push_back("and " + counted(static_cast<long long>(more), "more line"));
+  }
+  lines.push_back(report.value("stable", false) ? "the shape is at rest, and stable"
+                                                : "look at: the shape is balanced, but not stable");
+  add_crossings(lines, report);
+  return lines;
+}
+
+Lines chart_lines(const Json& report) {
+  Lines lines{text_of(report, "says")};
+  std::vector<const Json*> good;
+  for (const Json& c : list_of(report, "candidates"))
+    if (text_of(c, "verdict") == "meets") good.push_back(&c);
+  std::stable_sort(good.begin(), good.end(),
+                   [](const Json* a, const Json* b) { return value_of(*a, "cost") < value_of(*b, "cost"); });
+  const std::size_t most = 4;
+  for (std::size_t i = 0; i < std::min(most, good.size()); ++i)
+    lines.push_back(text_of(*good[i], "name") + ": error " + per_cent(value_of(*good[i], "error")) + ", " +
+                    number(value_of(*good[i], "cost")) + " s a simulated second");
+  const std::size_t missed = list_of(report, "candidates").size() - good.size();
+  std::string rest =
+      good.size() > most ? std::to_string(good.size() - most) + " more are accurate enough" : "";
+  if (missed) rest += (rest.empty() ? "" : ", ") + std::to_string(missed) + " are not, or were not run";
+  if (!rest.empty()) lines.push_back(rest);
+  return lines;
+}
+
+Lines sdf_lines(const Json& report) {
+  Lines lines{"field of " + std::to_string(count_of(report, "samples")) + " samples, " +
+              number(1e-6 * value_of(report, "bytes")) + " MB, in " + number(value_of(report, "seconds")) +
+              " s"};
+  const Json& error = table_of(report, "error");
+  lines.push_back("error: " + length(error, "mean") + " on average, at most " + length(error, "max") + "; " +
+                  length(report, "tolerance") + " asked");
+  if (const Json& at = table_of(report, "at"); !at.empty())
+    lines.push_back("there: distance " + length(at, "distance") + ", exactly " +
+                    length(at, "exact_distance"));
+  return lines;
+}
+
+Lines render_lines(const Json& report) {
+  Lines lines{"picture of " + std::to_string(count_of(report, "width")) + " x " +
+              std::to_string(count_of(report, "height")) + " pixels"};
+  if (const long long n = count_of(report, "crossing_pairs"))
+    lines.push_back("look at: " + counted(n, "pair") + " of faces cross, in magenta");
+  return lines;
+}
+
+Lines drape_lines(const Json& report) {
+  Lines lines;
+  const Json& garments = list_of(report, "garments");
+  if (garments.empty()) {
+    add_draped(lines, report);
+    return lines;
+  }
+  for (const Json& d : garments) {
+    const Json& strain = table_of(table_of(d, "fit"), "strain");
+    lines.push_back(text_of(d, "garment") + ": " + text_of(d, "outcome") + "; " +
+                    per_cent(value_of(strain, "share_over")) + " of the cloth strained over " +
+                    per_cent(value_of(strain, "over")) + "; ease " + ease_text(table_of(d, "fit")));
+  }
+  return lines;
+}
+
+Lines fit_lines(const Json& report) {
+  Lines lines;
+  const Json& garments = list_of(report, "garments");
+  if (garments.empty()) {
+    add_fit(lines, report);
+    for (const char* key : {"tight_zones", "loose_zones"})
+      if (const Json& zones = list_of(report, key); !zones.empty())
+        lines.push_back("look at: " + counted(static_cast<long long>(zones.size()), "zone") + " that " +
+                        (zones.size() == 1 ? "is " : "are ") + std::string(key).substr(0, 5) +
+                        ", the largest at " + per_cent(value_of(zones[0], "height_share")) +
+                        " of the body's height, " + text_of(zones[0], "side"));
+    add_crossings(lines, report);
+    return lines;
+  }
+  for (const Json& g : garments) {
+    const Json& strain = table_of(g, "strain");
+    lines.push_back(text_of(g, "garment") + ": " +
+                    (strain.empty()
+                         ? std::string("strain unknown")
+                         : per_cent(value_of(strain, "share_over")) + " of the cloth strained over " +
+                               per_cent(value_of(strain, "over"))) +
+                    "; ease " + ease_text(g));
+  }
+  return lines;
+}
+
+Lines transfer_lines(const Json& report) {
+  Lines lines{std::to_string(count_of(report, "vertices")) + " vertices moved to the wrinkled shape, " +
+              std::to_string(count_of(report, "unchanged")) + " of them unchanged"};
+  if (const long long n = count_of(report, "interpolated"))
+    lines.push_back(std::to_string(n) + " of them by the nearest place, at most " +
+                    length(report, "max_distance") + " away");
+  add_crossings(lines, report);
+  return lines;
+}
+
+Lines bake_lines(const Json& report) {
+  Lines lines{"maps of " + std::to_string(count_of(report, "size")) + " x " +
+              std::to_string(count_of(report, "size")) + " texels, " +
+              std::to_string(count_of(report, "covered_texels")) + " covered; displacement at most " +
+              length(report, "largest_displacement")};
+  for (const auto& [key, words] : {std::pair("unmatched_texels", "texels found no wrinkled mesh"),
+                                   {"overlapping_texels", "texels lie in two charts"}})
+    if (const long long n = count_of(report, key))
+      lines.push_back("look at: " + std::to_string(n) + " " + words);
+  if (const Json& check = table_of(report, "check"); !check.empty()) {
+    const Json& to_high = table_of(check, "to_high");
+    lines.push_back("check: the map's surface lies " + length(to_high, "median") + " (median) to " +
+                    length(to_high, "max") + " from the wrinkled mesh");
+  }
+  return lines;
+}
+
+void print_summary(std::ostream& out, const Summary& summary) {
+  constexpr std::size_t most = 8;
+  const std::size_t n = summary.lines.size(), shown = n > most ? most - 1 : n;
+  for (std::size_t i = 0; i < shown; ++i) out << summary.lines[i] << "\n";
+  if (shown < n) out << "and " << n - shown << " lines more, with -v\n";
+  std::string written;
+  for (const std::string& file : summary.written)
+    if (!file.empty() && file != "-") written += (written.empty() ? "" : ", ") + file;
+  if (!written.empty()) out << "written: " << written << "\n";
+  if (!summary.next.empty()) out << "next: " << summary.next << "\n";
+}
+
+}  // namespace furrow::cli

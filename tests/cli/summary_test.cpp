@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What people read: ten lines a report, numbers as people write them, crossing faces marked in pictures.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/picture/png_file.h"
+#include "run_furrow.h"
+#include "tests/test_paths.h"
+
+using namespace furrow::tests;
+
+namespace {
+
+std::string of(const char* path) { return (source_dir() / path).string(); }
+
+std::string told(const std::string& arguments, int exit_code = 0) {
+  const Run run = run_furrow(arguments);
+  INFO(arguments << "\n" << run.err);
+  CHECK(run.exit_code == exit_code);
+  return run.out;
+}
+
+long lines_of(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+/// Pixels that are as magenta as the mark of faces that cross.
+long magenta_pixels(const std::string& png) {
+  const furrow::io::Image image = furrow::io::read_png(png);
+  long n = 0;
+  for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3)
+    n += image.rgb[i] > 90 && image.rgb[i + 2] > 70 && image.rgb[i + 1] < image.rgb[i + 2] / 2;
+  return n;
+}
+
+/// A square sheet, and with `crossing` a second one through its middle.
+std::string sheets(bool crossing) {
+  std::string obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+  if (crossing) obj += "v 0 0.45 -0.5\nv 1 0.45 -0.5\nv 1 0.55 0.5\nv 0 0.55 0.5\nf 5 6 7\nf 5 7 8\n";
+  return obj;
+}
+
+}  // namespace
+
+TEST_CASE("report: ten lines at most for people, with the files written, and all of it with -v") {
+  ScratchDirectory scratch;
+  const std::string sheet = of("meshes/sheet.obj"), skirt = of("meshes/skirt.obj"),
+                    body = " --body " + of("meshes/mannequin.obj"),
+                    strokes = of("meshes/strokes/round_bulge.json");
+  const auto out = [&](const char* name) { return " -o " + (scratch / name); };
+  for (const auto& [call, file] :
+       {std::pair<std::string, std::string>("info " + sheet, ""),
+        {"subdivide " + sheet + " --linear 1" + out("fine.ply"), "fine.ply"},
+        {"smooth " + sheet + out("smooth.ply"), "smooth.ply"},
+        {"wrinkle " + sheet + " " + strokes + out("w.ply"), "w.ply"},
+        {"keep " + (scratch / "w.ply") + " --pin-loop top --fabric denim --run 0.05 --gust 0" + out("k.ply"),
+         "k.ply"},
+        {"drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"), "worn.ply"},
+        {"fit " + (scratch / "worn.ply") + body + out("fit.ply"), "fit.ply"},
+        {"simulate " + skirt + body + " --pin-loop top --seconds 0.005" + out("s.ply"), "s.ply"},
+        {"strokes " + strokes + out("l.json"), "l.json"},
+        {"transfer " + sheet + " " + (scratch / "w.ply") + out("t.obj"), "t.obj"},
+        {"sdf " + of("meshes/mannequin.obj") + " --tolerance 0.02" + out("b.field"), "b.field"},
+        {"render " + sheet + " --size 100,100 --quality draft" + out("p.png"), "p.png"},
+        {"chart " + of("scenes/validation/free_fall.toml") + " --set simulation.seconds=0.02", ""}}) {
+    INFO(call);
+    const std::string text = told(call);
+    INFO(text);
+    CHECK(lines_of(text) >= 1);
+    CHECK(lines_of(text) <= 10);
+    CHECK(text.find("{") == std::string::npos);
+    if (!file.empty()) CHECK(text.find("written: " + (scratch / file)) != std::string::npos);
+    const std::string whole = told(call + " -v");
+    CHECK(lines_of(whole) > lines_of(text));
+    CHECK(told(call + " -q") == "");
+  }
+}
+
+TEST_CASE("report: a list that is longer than ten lines says how much more there is") {
+  ScratchDirectory scratch;
+  std::string strokes = "{\"strokes\": [";
+  for (int i = 0; i < 30; ++i)
+    strokes += (i ? "," : "") + std::string("{\"points\": [[0,0,0],[1,0,0]], \"name\": \"s") +
+               std::to_string(i) + "\"}";
+  write_text(scratch / "s.json", strokes + "]}");
+  const std::string text = told("strokes " + (scratch / "s.json"));
+  CHECK(lines_of(text) == 8);
+  CHECK(text.rfind("30 strokes\n", 0) == 0);
+  CHECK(text.find("and 24 lines more, with -v\n") != std::string::npos);
+}
+
+TEST_CASE("report: lengths in messages are written as people write them") {
+  ScratchDirectory scratch;
+  write_text(scratch / "tall.obj", "v 0 0 0\nv 1 0 0\nv 1 80 0\nf 1 2 3\n");
+  const Run tall = run_furrow("simulate " + (scratch / "tall.obj") + " -o " + (scratch / "o.ply"));
+  CHECK(tall.err.find("is 80 m tall") != std::string::npos);
+  write_text(scratch / "sheet.obj", sheets(false));
+  write_text(scratch / "far.json",
+             R"({"strokes": [{"name": "a", "points": [[0.2,0.2,1.5],[0.8,0.2,1.5]]},
+                             {"name": "b", "points": [[0.2,0.5,0],[0.8,0.5,0]]},
+                             {"name": "c", "points": [[0.2,0.8,0.13],[0.8,0.8,0.13]]}]})");
+  const Run far = run_furrow("wrinkle " + (scratch / "sheet.obj") + " " + (scratch / "far.json") + " -o " +
+                             (scratch / "o.ply"));
+  INFO(far.err);
+  CHECK(far.exit_code == 3);
+  CHECK(far.err.find("stroke \"a\", point 0: it is 1.5 m from the surface") != std::string::npos);
+  CHECK(far.err.find("\n  stroke \"c\", point 0: it is 130 mm from the surface") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(scratch / "o.ply"));
+}
+
+TEST_CASE("render: faces that cross are magenta, on a texture, too, and counted") {
+  ScratchDirectory scratch;
+  write_text(scratch / "plain.obj", sheets(false));
+  write_text(scratch / "crossing.obj", sheets(true));
+  const std::string how = " --json --size 120,120 --view front --quality draft -o " + (scratch / "p.png");
+  CHECK(nlohmann::json::parse(told("render " + (scratch / "plain.obj") + how))["crossing_pairs"] == 0);
+  CHECK(magenta_pixels(scratch / "p.png") == 0);
+  CHECK(nlohmann::json::parse(told("render " + (scratch / "crossing.obj") + how))["crossing_pairs"] == 3);
+  CHECK(magenta_pixels(scratch / "p.png") > 1000);
+  write_text(scratch / "textured.obj",
+             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0.45 -0.5\nv 1 0.45 -0.5\nv 1 0.55 0.5\nv 0 0.55 0.5\n"
+             "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+             "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 5/1 6/2 7/3\nf 5/1 7/3 8/4\n");
+  told("render " + (scratch / "textured.obj") + " --texture checker" + how);
+  CHECK(magenta_pixels(scratch / "p.png") > 1000);
+}
+
+TEST_CASE("wrinkle: the picture of what is inserted marks faces that cross") {
+  ScratchDirectory scratch;
+  write_text(scratch / "crossing.obj", sheets(true));
+  write_text(scratch / "line.json", R"({"strokes": [{"points": [[0.2,0.2,0],[0.8,0.2,0]]}]})");
+  told("wrinkle " + (scratch / "crossing.obj") + " " + (scratch / "line.json") + " --preview " +
+       (scratch / "p.png") + " --size 120,120 --view front --quality draft");
+  CHECK(magenta_pixels(scratch / "p.png") > 500);
+}
