@@ -49,12 +49,12 @@ void add_bake(CLI::App& app, int& exit_code) {
       "bake",
       "Bake a wrinkled mesh into textures of the mesh it was made of\n\n"
       "Writes PREFIX_normal.png, PREFIX_displacement.png (16 bits, tangent space) and PREFIX_maps.json.\n\n"
-      "  furrow bake shirt.obj worn.ply -o shirt --size 2048");
+      "  furrow bake shirt.obj worn.ply -o shirt --texels 2048");
   sub->add_option("low", a->low, "mesh that the maps are for; its texture charts must not overlap")
       ->required();
   sub->add_option("high", a->high, "wrinkled mesh with the same charts, in the same pose")->required();
   sub->add_option("-o,--output", a->out, "what the names of the files begin with")->required();
-  sub->add_option("--size", a->options.size, "width and height of the maps [texels]")
+  sub->add_option("--texels", a->options.size, "width and height of the maps [texels]")
       ->check(CLI::Range(1, 8192))
       ->capture_default_str();
   sub->add_option("--padding", a->options.padding, "how far the charts go on beyond their borders [texels]")

@@ -89,7 +89,7 @@ void add_camera_options(CLI::App& sub, CameraArguments& a) {
   add("--target", a.target, "what it looks at: x,y,z [m, y up]");
   add("--camera-up", a.up_vector, "what points up in the picture: x,y,z; default 0,1,0");
   add("--fov", a.field_of_view, "vertical opening of the camera [degrees]")->capture_default_str();
-  add("--parallel", a.parallel, "parallel lines of sight in place of --fov: the picture's height [m]");
+  add("--orthographic", a.parallel, "parallel lines of sight in place of --fov: the picture's height [m]");
   add("--size", a.size, "width,height of each picture [pixels]")->capture_default_str();
   sub.add_option("--save-camera", a.save_camera,
                  "write the camera as JSON: strokes in a stroke file can be drawn in its pixels");

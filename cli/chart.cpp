@@ -37,7 +37,7 @@ void name_outputs(ChartArguments& a) {
 
 ChartJob job_of(ChartArguments& a) {
   ChartJob job;
-  job.options = {parse_share(a.tolerance, "--tolerance"), a.budget};
+  job.options = {parse_share(a.tolerance, "--accuracy"), a.budget};
   name_outputs(a);
   job.scene = {settings(a), std::filesystem::path(a.in).parent_path()};
   job.name = a.in;
@@ -71,13 +71,13 @@ void add_chart(CLI::App& app, int& exit_code) {
       "Draw speed against accuracy of integrators and steps on a scene, and name the cheapest within a "
       "tolerance\n\n"
       "  furrow chart scenes/shirt.toml\n"
-      "  furrow chart scenes/shirt.toml --tolerance 0.5% --budget 120 -o chart.svg\n"
+      "  furrow chart scenes/shirt.toml --accuracy 0.5% --budget 120 -o chart.svg\n"
       "  furrow chart scenes/skirt.toml --set simulation.seconds=1 --json");
   sub->add_option("scene", a->in, "scene to judge (.toml), or a garment")->required();
   sub->add_option("-o,--output", a->out,
                   "picture to draw: svg or png, by gnuplot; its numbers as .csv beside it");
   sub->add_option("--csv", a->csv, "file for the chart's numbers");
-  sub->add_option("--tolerance", a->tolerance,
+  sub->add_option("--accuracy", a->tolerance,
                   "error that is accepted, as a share of the garment's diagonal (default 1%)");
   sub->add_option(
       "--budget", a->budget,

@@ -44,7 +44,7 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
 
 OptionWords words_of(const CLI::Option& option) {
   OptionWords words;
-  if (option.get_positional()) {
+  if (option.get_positional() && option.get_lnames().empty()) {
     words.names = {option.get_name(true)};
     words.is_positional = true;
   }

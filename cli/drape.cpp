@@ -58,7 +58,7 @@ std::vector<Band> parse_bands(const std::vector<std::string>& texts) {
   return bands;
 }
 
-/// The fabrics of --compare, separated by commas. Throws UsageError where a name is missing.
+/// The fabrics of --fabrics, separated by commas. Throws UsageError where a name is missing.
 std::vector<std::string> parse_fabrics(const std::string& text) {
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -68,17 +68,17 @@ std::vector<std::string> parse_fabrics(const std::string& text) {
   }
   if (std::find(names.begin(), names.end(), "") != names.end())
     throw UsageError(
-        "--compare '" + text +
-        "': a name is missing; write fabrics separated by commas, as in --compare cotton,silk,denim");
+        "--fabrics '" + text +
+        "': a name is missing; write fabrics separated by commas, as in --fabrics cotton,silk,denim");
   return names;
 }
 
 void check_call(const DrapeArguments& a) {
   if (a.out.empty() && a.picture.empty() && a.animation.empty())
     throw UsageError("nothing to write: name --output, --picture or --animation");
-  if (a.compare && a.picture.empty()) throw UsageError("--compare is a picture: name it with --picture");
+  if (a.compare && a.picture.empty()) throw UsageError("--fabrics is a picture: name it with --picture");
   if (a.compare && (!a.out.empty() || !a.animation.empty()))
-    throw UsageError("--compare writes a picture only; drape each by itself for its mesh");
+    throw UsageError("--fabrics writes a picture only; drape each by itself for its mesh");
   if (a.picture.empty() && (a.view_chosen || !a.camera.save_camera.empty()))
     throw UsageError("a view and --save-camera are of use with --picture only");
   check_picture(a.picture, "--picture");
@@ -199,7 +199,7 @@ void add_drape(CLI::App& app, int& exit_code) {
       "Put a finished garment on a body: how it comes to rest, and how it fits\n\n"
       "  furrow drape shirt.obj --body body.obj -o worn.ply --picture fit.png\n"
       "  furrow drape skirt.obj --body body.obj --fabric silk --band top=0.95 -o worn.ply\n"
-      "  furrow drape shirt.obj --body body.obj --compare cotton,silk,denim --picture fabrics.png");
+      "  furrow drape shirt.obj --body body.obj --fabrics cotton,silk,denim --picture fabrics.png");
   sub->add_option("garment", a->in,
                   "garment to read, where it lies on the body or about it, or a scene: a .toml file")
       ->required();
@@ -214,7 +214,7 @@ void add_drape(CLI::App& app, int& exit_code) {
   sub->add_option("--picture", a->picture, "PNG to write: the garment on the body, coloured, with a legend");
   sub->add_option("--colour", a->colour, "of the picture: strain (default) or distance")
       ->check(CLI::IsMember({"strain", "distance"}));
-  sub->add_option("--compare", a->compare, "fabrics separated by commas: one picture of them all");
+  sub->add_option("--fabrics", a->compare, "fabrics separated by commas: one picture of them all");
   sub->add_option("--animation", a->animation,
                   "the way to rest, not a motion in time: a frame an iteration; pc2, mdd or glb");
   sub->add_option(
@@ -242,7 +242,7 @@ void add_drape(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   sub->add_flag("--plain", a->settings.plain,
                 "paper 2's own scheme: forces used as displacements, with a cap; to compare with");
-  sub->add_option("--iterations", a->settings.iterations,
+  sub->add_option("--max-iterations", a->settings.iterations,
                   "at most, on each level (default 200; --plain: 20000)")
       ->check(CLI::NonNegativeNumber);
   a->flags.add_to(*sub, io::used_by::drape);

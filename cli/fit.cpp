@@ -141,7 +141,7 @@ void add_fit(CLI::App& app) {
       ->required()
       ->allow_extra_args(false);
   sub->add_option(
-      "--rest", a->rest,
+      "--rest-shape", a->rest,
       "the garment as it was made, with the same vertices, where the worn one has no rest lengths");
   sub->add_flag("--compare", a->compare, "several garments side by side, with one scale");
   sub->add_option("--picture", a->picture, "PNG to write: coloured cloth on the body, with a legend");

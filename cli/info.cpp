@@ -19,7 +19,7 @@ struct InfoArguments : CommonArguments {
 std::string next_of(const Json& report, const std::string& mesh) {
   const double edge = report.value("mean_edge_length", 0.0);
   if (!(edge > 0.015)) return "";
-  return "furrow subdivide " + mesh + " --loop " + (edge > 0.03 ? "2" : "1") +
+  return "furrow subdivide " + mesh + " --subdivide " + (edge > 0.03 ? "2" : "1") +
          " -o fine.ply, as lines need edges of about 10 mm";
 }
 

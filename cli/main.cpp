@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "cli/common.h"
+#include "cli/old_names.h"
 #include "cli/subcommands.h"
 #include "geometry/mesh/errors.h"
 #include "io/base/nearest_word.h"
@@ -58,6 +61,17 @@ std::string unknown_words(const CLI::App& app) {
          (nearest.empty() ? "; " + command + " --help tells more" : "; did you mean " + nearest + "?");
 }
 
+/// With the present names of options; tells of old ones, unless it is to be quiet.
+std::vector<std::string> renamed(const std::vector<std::string>& words) {
+  const cli::PresentWords present = cli::with_present_names(words);
+  const auto is_given = [&](const char* flag) {
+    return std::find(words.begin(), words.end(), flag) != words.end();
+  };
+  if (!is_given("-q") && !is_given("--quiet"))
+    for (const std::string& note : present.notes) std::cerr << note << "\n";
+  return present.words;
+}
+
 /// The words of the command line, less the first; `furrow` alone and `furrow help [NAME]` ask for help.
 std::vector<std::string> words_of(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
@@ -65,6 +79,25 @@ std::vector<std::string> words_of(int argc, char** argv) {
   if (words[0] != "help") return words;
   if (words.size() == 1) return {"--help"};
   return {words[1], "--help"};
+}
+
+/// CLI11's message for a word that is no number, in words that help: lengths often come with their unit.
+std::string words_of_conversion(const std::string& what) {
+  const std::string begin = "Could not convert: ";
+  const std::size_t equals = what.find(" = ");
+  if (what.rfind(begin, 0) != 0 || equals == std::string::npos) return what;
+  const std::string option = what.substr(begin.size(), equals - begin.size()),
+                    value = what.substr(equals + 3);
+  std::string text = option + " takes a number, not '" + value + "'";
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  for (const auto& [unit, metres] : {std::pair("mm", 1e-3), {"cm", 1e-2}, {"m", 1.0}})
+    if (end != value.c_str() && std::string(end) == unit) {
+      char in_metres[32];
+      std::snprintf(in_metres, sizeof in_metres, "%.9g", number * metres);
+      return text + "; lengths are metres: write " + in_metres;
+    }
+  return text;
 }
 
 int fail(int code, const std::string& message) {
@@ -99,7 +132,7 @@ int run(int argc, char** argv) {
   cli::add_bake(app, exit_code);
   cli::add_completion(app);
   cli::add_man(app);
-  const std::vector<std::string> words = words_of(argc, argv);
+  const std::vector<std::string> words = renamed(words_of(argc, argv));
   if (words[0].rfind("-", 0) != 0 && !has_subcommand(app, words[0]))
     return fail(cli::exit_usage, unknown_subcommand(app, words[0]));
   try {
@@ -109,7 +142,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ExtrasError&) {
     return fail(cli::exit_usage, unknown_words(app));
   } catch (const CLI::ParseError& e) {
-    return fail(cli::exit_usage, std::string(e.what()) + "; furrow " + words[0] + " --help tells more");
+    return fail(cli::exit_usage,
+                words_of_conversion(e.what()) + "; furrow " + words[0] + " --help tells more");
   }
   return exit_code;
 }

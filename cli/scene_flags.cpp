@@ -7,11 +7,6 @@
 namespace furrow::cli {
 namespace {
 
-constexpr std::string_view field_tolerance = "body.tolerance";
-
-/// Of the result, not of the field.
-bool is_share(const std::string& tolerance) { return !tolerance.empty() && tolerance.back() == '%'; }
-
 /// "1,2,3" as a list, so that vectors need no brackets.
 io::Json value_of(const std::string& text, bool is_text) {
   if (is_text) return text;
@@ -62,7 +57,7 @@ void SceneFlags::add_pin_flags(CLI::App& sub) {
 void SceneFlags::apply(io::TomlDocument& document) const {
   for (const Given& g : given_) {
     const io::Setting& s = *g.setting;
-    if (!g.option->count() || (s.path == field_tolerance && is_share(g.text))) continue;
+    if (!g.option->count()) continue;
     if (s.kind != io::Kind::yes_no)
       io::set_value(document, s.path, value_of(g.text, s.is_text()), g.flag);
     else if (g.is_on)
@@ -83,12 +78,6 @@ std::string SceneFlags::first() const {
   if (!pin_loops_.empty()) return "--pin-loop";
   if (!pin_groups_.empty()) return "--pin-group";
   return pin_vertices_.empty() ? "" : "--pin-vertices";
-}
-
-std::string SceneFlags::accuracy() const {
-  for (const Given& g : given_)
-    if (g.setting->path == field_tolerance && is_share(g.text)) return g.text;
-  return "";
 }
 
 io::TomlDocument scene_settings(const std::string& in, const std::string& state_path,

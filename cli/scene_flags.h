@@ -19,8 +19,6 @@ class SceneFlags {
   /// Throws UsageError for a --set without a key or with one that cannot be.
   void apply(io::TomlDocument& document) const;
   std::string first() const;  ///< the name of one of them that was given, but for --set; "": none was
-  /// --tolerance as a share of the garment, "1%", for which integrator and step are chosen; else "".
-  std::string accuracy() const;
 
  private:
   struct Given {

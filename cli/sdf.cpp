@@ -43,10 +43,10 @@ void add_sdf(CLI::App& app) {
   auto a = std::make_shared<SdfArguments>();
   CLI::App* sub = app.add_subcommand("sdf",
                                      "Make the signed distance field of a body; negative inside\n\n"
-                                     "  furrow sdf body.obj -o body.field --slice body.png");
+                                     "  furrow sdf body.obj -o body.field --picture body.png");
   sub->add_option("body", a->body_path, "body to read")->required();
   sub->add_option("-o,--output", a->out, "file to keep the field in, for furrow simulate --field");
-  sub->add_option("--slice", a->slice, "PNG of the field in the body's middle plane, seen from the front");
+  sub->add_option("--picture", a->slice, "PNG of the field in the body's middle plane, seen from the front");
   sub->add_option("--at", a->at, "report distance and gradient at x,y,z [m]");
   sub->add_option("--tolerance", a->body.options.tolerance,
                   "error of the field [m]; default 1/1000 of the body's diagonal, at most 0.002");

@@ -17,25 +17,26 @@ namespace {
 struct SimulateArguments : CommonArguments {
   std::string in, state;
   double budget = 60;
+  std::string accuracy;
   CLI::Option* budget_option = nullptr;
   std::optional<std::string> outputs_below;
   SceneFlags flags;
 };
 
-/// Throws UsageError for a tolerance beside what it chooses, and a budget without one.
-void check_tolerance(const SimulateArguments& a, const SimulateJob& job) {
-  const std::string accuracy = a.flags.accuracy();
+/// Throws UsageError for an accuracy beside what it chooses, and a budget without one.
+void check_accuracy(const SimulateArguments& a, const SimulateJob& job) {
+  const std::string& accuracy = a.accuracy;
   if (accuracy.empty() && a.budget_option->count())
-    throw UsageError("--budget bounds the choice for --tolerance 1%; give that, too, or leave out --budget");
+    throw UsageError("--budget bounds the choice for --accuracy 1%; give that, too, or leave out --budget");
   if (accuracy.empty()) return;
   if (job.state)
-    throw UsageError("--tolerance " + accuracy +
+    throw UsageError("--accuracy " + accuracy +
                      " judges a scene from its beginning; leave out one of the two");
   const io::TomlDocument& settings = job.scene.settings;
   for (const char* key : {"simulation.integrator", "simulation.dt", "simulation.sweeps", "simulation.newton"})
     if (settings.place(key).rfind("--", 0) == 0)
-      throw UsageError("--tolerance " + accuracy + " chooses integrator and step, and " +
-                       settings.place(key) + " names one; leave out one of them");
+      throw UsageError("--accuracy " + accuracy + " chooses integrator and step, and " + settings.place(key) +
+                       " names one; leave out one of them");
 }
 
 SimulateJob job_of(const SimulateArguments& a) {
@@ -45,8 +46,8 @@ SimulateJob job_of(const SimulateArguments& a) {
   job.scene.settings = scene_settings(a.in, a.state, job.state, a.flags, a);
   job.scene.folder = std::filesystem::path(is_scene(a.in) ? a.in : a.state).parent_path();
   job.needs_output = a.quiet || !is_scene(a.in);
-  check_tolerance(a, job);
-  if (!a.flags.accuracy().empty()) job.tolerance = parse_share(a.flags.accuracy(), "--tolerance");
+  check_accuracy(a, job);
+  if (!a.accuracy.empty()) job.tolerance = parse_share(a.accuracy, "--accuracy");
   job.budget = a.budget;
   if (a.outputs_below) job.outputs_below = *a.outputs_below;
   return job;
@@ -106,9 +107,13 @@ void add_simulate(CLI::App& app, int& exit_code) {
       "garment to read (PLY of furrow wrinkle brings rest lengths and masses), or a scene: a .toml file");
   sub->add_option("--state", a->state, "go on from a saved state");
   a->flags.add_to(*sub, io::used_by::simulate);
+  sub->add_option("--accuracy", a->accuracy,
+                  "error of the result that is accepted, as a share of the garment's diagonal, 1%: "
+                  "integrator and step are "
+                  "chosen for it");
   a->budget_option = sub->add_option(
       "--budget", a->budget,
-      "predicted seconds of one thread that choosing for --tolerance 1% may take [s] (default 60)");
+      "predicted seconds of one thread that choosing for --accuracy 1% may take [s] (default 60)");
   sub->add_option(
       "--outputs-below", a->outputs_below,
       "folder that the outputs named by a scene file must lie in (default: the scene's own folder)");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -14,8 +15,7 @@ namespace {
 
 struct StrokesArguments : CommonArguments {
   std::string in, garment;
-  std::vector<std::string> remove, move, height, width, sharpness, press, rename;
-  std::vector<std::string> taper, flare, smooth, rest_angles;
+  std::vector<std::string> remove, move, change, rename;
   std::string order;
   bool in_space = false;
 };
@@ -32,6 +32,63 @@ std::pair<std::string, std::string> parted(const std::string& text, const std::s
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
+struct Change {
+  std::string name, key, value;
+};
+
+/// NAME.KEY=VALUE
+Change change_of(const std::string& text) {
+  static const std::vector<std::string> keys{"height", "width", "sharpness", "press",
+                                             "taper",  "flare", "smooth",    "set"};
+  const auto [place, value] = parted(text, "--change");
+  const auto at = place.rfind('.');
+  const std::string key = at == std::string::npos ? "" : place.substr(at + 1);
+  if (std::find(keys.begin(), keys.end(), key) == keys.end())
+    throw UsageError(
+        "--change takes NAME.KEY=VALUE, where KEY is height, width, sharpness, press, taper, flare, "
+        "smooth or set, not '" +
+        text + "'");
+  return {place.substr(0, at), key, value};
+}
+
+/// What is no single number: the width that goes, tapers, flares. False: it is one.
+bool change_words(geometry::Stroke& stroke, const Change& c) {
+  if (c.key == "width" && c.value == "none") {
+    stroke.width.reset(), stroke.widths.clear(), stroke.sharpness.reset();
+  } else if (c.key == "taper") {
+    const bool two = c.value.find(',') != std::string::npos;
+    const std::vector<double> lengths = parse_numbers(c.value, two ? 2 : 1, "--change " + c.name + ".taper");
+    stroke.taper = {lengths.front(), lengths.back()};
+  } else if (c.key == "flare") {
+    if (c.value != "yes" && c.value != "no" && c.value != "usual")
+      throw UsageError("--change " + c.name + ".flare takes yes, no or usual, not '" + c.value + "'");
+    stroke.flare = c.value == "usual" ? std::nullopt : std::optional(c.value == "yes");
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// Changes the stroke that `named` finds.
+void change(const std::string& text, const auto& named) {
+  const Change c = change_of(text);
+  geometry::Stroke& stroke = named(c.name).stroke;
+  if (change_words(stroke, c)) return;
+  const double value = parse_numbers(c.value, 1, "--change " + c.name + "." + c.key)[0];
+  if (c.key == "height")
+    stroke.height = value, stroke.heights.clear();
+  else if (c.key == "width")
+    stroke.width = value, stroke.widths.clear();
+  else if (c.key == "sharpness")
+    stroke.sharpness = value;
+  else if (c.key == "press")
+    stroke.press = value;
+  else if (c.key == "smooth")
+    stroke.smooth = value;
+  else
+    stroke.set = value;
+}
+
 void edit(std::vector<io::DrawnStroke>& strokes, const StrokesArguments& a) {
   const auto named = [&](const std::string& name) -> io::DrawnStroke& {
     return strokes[io::find_stroke(strokes, name)];
@@ -44,36 +101,7 @@ void edit(std::vector<io::DrawnStroke>& strokes, const StrokesArguments& a) {
     const bool in_space = std::holds_alternative<std::monostate>(stroke.on);
     io::move_stroke(stroke, parse_numbers(value, in_space ? 3 : 2, "--move " + name));
   }
-  const auto set = [&](const std::vector<std::string>& texts, const std::string& option, const auto& give) {
-    for (const std::string& text : texts) {
-      const auto [name, value] = parted(text, option);
-      geometry::Stroke& stroke = named(name).stroke;
-      if (option == "--width" && value == "none")
-        stroke.width.reset(), stroke.widths.clear(), stroke.sharpness.reset();
-      else
-        give(stroke, parse_numbers(value, 1, option + " " + name)[0]);
-    }
-  };
-  set(a.height, "--height",
-      [](auto& stroke, double value) { stroke.height = value, stroke.heights.clear(); });
-  set(a.width, "--width", [](auto& stroke, double value) { stroke.width = value, stroke.widths.clear(); });
-  set(a.sharpness, "--sharpness", [](auto& stroke, double value) { stroke.sharpness = value; });
-  set(a.press, "--press", [](auto& stroke, double value) { stroke.press = value; });
-  set(a.smooth, "--smooth", [](auto& stroke, double value) { stroke.smooth = value; });
-  set(a.rest_angles, "--set", [](auto& stroke, double value) { stroke.set = value; });
-  for (const std::string& text : a.taper) {
-    const auto [name, value] = parted(text, "--taper");
-    geometry::Stroke& stroke = named(name).stroke;
-    const bool two = value.find(',') != std::string::npos;
-    const std::vector<double> lengths = parse_numbers(value, two ? 2 : 1, "--taper " + name);
-    stroke.taper = {lengths.front(), lengths.back()};
-  }
-  for (const std::string& text : a.flare) {
-    const auto [name, value] = parted(text, "--flare");
-    if (value != "yes" && value != "no" && value != "usual")
-      throw UsageError("--flare " + name + " takes yes, no or usual, not '" + value + "'");
-    named(name).stroke.flare = value == "usual" ? std::nullopt : std::optional(value == "yes");
-  }
+  for (const std::string& text : a.change) change(text, named);
   check_shapes(strokes);
   for (const std::string& text : a.rename) {
     const auto [name, value] = parted(text, "--rename");
@@ -92,9 +120,7 @@ void check_output_name(const StrokesArguments& a) {
 
 void strokes(StrokesArguments a) {
   bool edits = !a.order.empty();
-  for (const auto* list : {&a.remove, &a.move, &a.height, &a.width, &a.sharpness, &a.press, &a.rename,
-                           &a.taper, &a.flare, &a.smooth, &a.rest_angles})
-    edits = edits || !list->empty();
+  for (const auto* list : {&a.remove, &a.move, &a.change, &a.rename}) edits = edits || !list->empty();
   if (a.out.empty() && (edits || a.in_space)) throw UsageError("changed strokes are written to -o");
   if (a.in_space && a.garment.empty())
     throw UsageError("--in-space needs --garment, which the strokes lie on");
@@ -128,8 +154,8 @@ void add_strokes(CLI::App& app) {
       "strokes",
       "List and change strokes; those of a wrinkled PLY can be written as a file\n\n"
       "  furrow strokes lines.json --garment shirt.obj\n"
-      "  furrow strokes lines.json --move fold=0,0.02,0 --height hem=-0.01 -o lines.json\n"
-      "  furrow strokes lines.json --width fold=0.06 --sharpness fold=0.2 --order hem,fold -o lines.json\n"
+      "  furrow strokes lines.json --move fold=0,0.02,0 --change hem.height=-0.01 -o lines.json\n"
+      "  furrow strokes lines.json --change fold.width=0.06 --order hem,fold -o lines.json\n"
       "  furrow strokes wrinkled.ply --remove fold -o lines.json");
   sub->add_option("strokes", a->in, "strokes: JSON, the l elements of an OBJ file, or a wrinkled PLY")
       ->required();
@@ -143,18 +169,19 @@ void add_strokes(CLI::App& app) {
           "NAME: take this stroke out; may be given several times, as all that follow");
   several("--move", a->move,
           "NAME=dx,dy,dz [m, y up], or =dx,dy in the pixels or texture that it is drawn in");
-  several("--height", a->height, "NAME=height [m]; > 0 ridge, < 0 valley");
   several(
-      "--width", a->width,
-      "NAME=width of the whole fold [m], > 0; =none: rule fold chooses it, with the others it is as wide as "
-      "the smoothing of the mesh makes it");
-  several("--sharpness", a->sharpness, "NAME=sharpness of its crest [0, 1]; 0 round, 1 a tent");
-  several("--press", a->press, "NAME=factor on the stiffness of its hinges, >= 1");
-  several("--taper", a->taper,
-          "NAME=length over which the fold rises at an end, or =begin,end [m]; rule fold, as what follows");
-  several("--flare", a->flare, "NAME=yes, no or usual: it rises from end to end (usual: towards a border)");
-  several("--smooth", a->smooth, "NAME=smoothing of the line as drawn, in tenths of the width; 0: none");
-  several("--set", a->rest_angles, "NAME=share of the fold's angles that becomes rest angle [0, 1]");
+      "--change", a->change,
+      "NAME.height=VALUE [m], > 0 ridge, < 0 valley; NAME.width=VALUE [m], > 0, of the whole fold, or none: "
+      "rule "
+      "fold chooses it, with the others it is as wide as the smoothing of the mesh makes it; "
+      "NAME.sharpness=VALUE of its crest [0, 1], 0 round, 1 a tent; NAME.press=VALUE, the factor on the "
+      "stiffness "
+      "of its hinges; and of rule fold NAME.taper=VALUE, or begin,end [m], over which it rises at an end, "
+      "NAME.flare=yes, no or usual: it rises from end to end (usual: towards a border), NAME.smooth=VALUE of "
+      "the "
+      "line as drawn, in tenths of the width, 0: none, NAME.set=VALUE, the share of its angles that becomes "
+      "rest "
+      "angle [0, 1]");
   several("--rename", a->rename, "NAME=OTHER");
   sub->add_option(
       "--order", a->order,

@@ -21,7 +21,7 @@ struct SubdivideArguments : CommonArguments {
 
 SubdivideJob job_of(const SubdivideArguments& a) {
   if (!a.strokes.empty() + a.all + (a.loop > 0) + (a.sqrt3 > 0) + (a.linear > 0) != 1)
-    throw UsageError("subdivide takes one of --strokes, --all, --loop, --sqrt3 and --linear");
+    throw UsageError("subdivide takes one of --strokes, --all, --subdivide, --sqrt3 and --linear");
   SubdivideJob job{std::filesystem::path(a.in)};
   job.refinement = !a.strokes.empty() ? Refinement::strokes
                    : a.all            ? Refinement::everywhere
@@ -62,14 +62,14 @@ void add_subdivide(CLI::App& app) {
   CLI::App* sub =
       app.add_subcommand("subdivide",
                          "Refine a mesh along strokes or everywhere; strokes leave its shape as it is\n\n"
-                         "  furrow subdivide shirt.obj --loop 2 -o fine.obj\n"
+                         "  furrow subdivide shirt.obj --subdivide 2 -o fine.obj\n"
                          "  furrow subdivide shirt.obj --strokes lines.json -o lined.ply");
   sub->add_option("mesh", a->in, "mesh to read")->required();
   sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output")
       ->required();
   sub->add_option("--strokes", a->strokes, "insert lines: JSON, or the l elements of an OBJ file");
   sub->add_flag("--all", a->all, "insert a vertex in every face and flip every edge");
-  sub->add_option("--loop", a->loop, "steps of Loop subdivision")->check(CLI::Range(0, 6));
+  sub->add_option("--subdivide", a->loop, "so many steps of Loop subdivision")->check(CLI::Range(0, 6));
   sub->add_option("--sqrt3", a->sqrt3, "steps of sqrt(3) subdivision")->check(CLI::Range(0, 6));
   sub->add_option("--linear", a->linear, "steps of cutting every triangle into four; the surface stays")
       ->check(CLI::Range(0, 6));

@@ -51,7 +51,11 @@ std::string length(const Json& report, const char* key) {
   return std::isfinite(value) ? length_text(value) : "unknown";
 }
 
-std::string per_cent(double share) { return std::isfinite(share) ? number(100 * share) + " %" : "unknown"; }
+/// What is below a thousandth of a per cent is none.
+std::string per_cent(double share) {
+  if (!std::isfinite(share)) return "unknown";
+  return number(std::abs(share) < 1e-5 ? 0 : 100 * share) + " %";
+}
 
 /// "1 face", "3 faces".
 std::string counted(long long n, const std::string& what) {

@@ -52,7 +52,8 @@ void add_transfer(CLI::App& app) {
       ->required();
   sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output")
       ->required();
-  sub->add_option("--rest", a->rest, "the wrinkled mesh's vertices before lines and motion, if it is no PLY");
+  sub->add_option("--rest-shape", a->rest,
+                  "the wrinkled mesh's vertices before lines and motion, if it is no PLY");
   sub->add_option("--max-distance", a->options.max_distance,
                   "how far an original vertex may lie from the wrinkled mesh's rest surface [m]")
       ->capture_default_str();

@@ -16,10 +16,12 @@ namespace furrow::cli {
 namespace {
 
 void check_call(const WrinkleArguments& a) {
+  if (a.state.empty() && std::filesystem::path(a.in).extension() == ".json")
+    throw UsageError(a.in + ": is a file of strokes; the garment comes first, then its strokes");
   if (a.out.empty() && a.preview.empty())
-    throw UsageError("wrinkle writes a mesh (-o) or a picture (--preview)");
+    throw UsageError("wrinkle writes a mesh (-o) or a picture (--picture)");
   if (a.out.empty() && !a.inserted.empty()) throw UsageError("--inserted goes with -o");
-  check_picture(a.preview, "--preview");
+  check_picture(a.preview, "--picture");
   check_folder(a.camera.save_camera);
   if (!a.state.empty()) refuse_same(a.out, a.in);  // with --state these are the strokes
   const std::string flag = a.flags.first();
@@ -46,9 +48,10 @@ void draw_again(WrinkleArguments& a, WrinkleJob& job) {
   Frame frame = a;
   take_noted_frame(frame, {a.in});
   RecordedDrawing recorded = recorded_drawing(a.in, {frame, terminal});
-  if (a.typed->count("--height"))
-    throw UsageError("--height: the strokes of " + a.in +
-                     " have theirs; change them with furrow strokes --height, and draw that file");
+  for (const char* option : {"--height", "--width"})
+    if (a.typed->count(option))
+      throw UsageError(option + (": the strokes of " + a.in) +
+                       " have theirs; change them with furrow strokes --change, and draw that file");
   take_recorded_options(a, recorded.options);
   if (a.rest != "keep" && recorded.was_kept)
     warn(a.in + " was kept; its lines are drawn again without that: add --rest keep, or keep the result", a);
@@ -86,6 +89,7 @@ WrinkleJob job_of(WrinkleArguments& a) {
   }
   job.without = a.without;
   job.height = a.height;
+  job.width = a.width;
   job.fade = a.fade;
   job.options = to_options(a);
   job.density = a.density;
@@ -135,14 +139,14 @@ void add_wrinkle(CLI::App& app) {
       "wrinkle",
       "Turn drawn ridge and valley lines into wrinkles\n\n"
       "  furrow wrinkle shirt.obj lines.json -o wrinkled.ply\n"
-      "  furrow wrinkle shirt.obj lines.json --preview lines.png --view front\n"
+      "  furrow wrinkle shirt.obj lines.json --picture lines.png --view front\n"
       "  furrow wrinkle wrinkled.ply --without fold -o less.ply\n"
       "  furrow wrinkle --state at1.ply more.json -o at1-more.ply\n"
       "  furrow wrinkle sheet.obj lines.json --rest keep --fabric denim --pin-loop top -o kept.ply\n"
       "  furrow wrinkle skirt.obj lines.obj --height -0.02 -o wrinkled.ply");
   sub->add_option("mesh", a->in, "garment to read; with --state: the file of strokes")->required();
   sub->add_option(
-      "strokes", a->strokes,
+      "strokes,--strokes", a->strokes,
       "lines: JSON, or the l elements of an OBJ file; none: those that the mesh, a wrinkled PLY, was "
       "made with are drawn again on its garment, with its options");
   sub->add_option("-o,--output", a->out, "mesh to write; PLY keeps rest lengths, masses and lines");
@@ -156,7 +160,7 @@ void add_wrinkle(CLI::App& app) {
       ->allow_extra_args(false);
   sub->add_option("--inserted", a->inserted, "also write the mesh after insertion and before smoothing");
   sub->add_option(
-      "--preview", a->preview,
+      "--picture", a->preview,
       "PNG of what is inserted where, before anything is displaced, faces that cross in magenta; without "
       "-o no mesh is written");
   add_drawing_options(*sub, *a);

@@ -31,6 +31,10 @@ geometry::WrinkleOptions to_options(const WrinkleArguments& a) {
 void add_drawing_options(CLI::App& sub, WrinkleArguments& a) {
   sub.add_option("--height", a.height, "height of strokes that name none [m]; > 0 ridge, < 0 valley")
       ->capture_default_str();
+  sub.add_option(
+         "--width", a.width,
+         "width of the fold of strokes that name none [m], > 0 (default: as wide as smoothing makes it)")
+      ->check(CLI::PositiveNumber);
   sub.add_option("--max-distance", a.options.insertion.max_distance,
                  "how far a stroke may lie from the surface [m]")
       ->capture_default_str();

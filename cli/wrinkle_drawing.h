@@ -14,7 +14,7 @@ struct WrinkleArguments : CommonArguments {
   std::vector<std::string> without;
   double height = geometry::Stroke{}.height, fade = io::SceneLines{}.fade;
   std::string rule = "safe", rest = "drawn", region = "two-ring";
-  std::optional<double> density;
+  std::optional<double> width, density;
   std::optional<int> max_weights;
   geometry::WrinkleOptions options;
   SmoothingArguments smoothing;

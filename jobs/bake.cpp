@@ -54,7 +54,7 @@ void check_maps(const geometry::BakedMaps& maps, const Mesh& low, const BakeJob&
   if (maps.covered == 0)
     throw geometry::ContentError(name +
                                  ": its texture coordinates have no area, no texel lies in a face; "
-                                 "unwrap it, or raise --size");
+                                 "unwrap it, or raise --texels");
   const geometry::MeshInfo info = geometry::measure(low);
   const double diagonal = std::sqrt(CGAL::squared_distance(info.box_min, info.box_max));
   if (maps.largest > diagonal / 2)

@@ -37,7 +37,7 @@ void check(const DrapeJob& job, const io::Scene& scene) {
   if (s.iterations) require("drape", "iterations", *s.iterations, *s.iterations >= 0, ">= 0");
   if (s.contact_depth) require("drape", "contact_depth", *s.contact_depth, *s.contact_depth > 0, "> 0");
   if (job.fabrics.size() > 1 && (!job.output.empty() || !s.animation.empty()))
-    throw std::invalid_argument("--compare writes a picture only; drape each by itself for its mesh");
+    throw std::invalid_argument("--fabrics writes a picture only; drape each by itself for its mesh");
   if (!(s.residual > 0)) throw std::invalid_argument("--residual takes a number > 0");
   if (s.plain && s.contact_depth)
     throw std::invalid_argument(
@@ -93,11 +93,11 @@ std::vector<io::Scene> scenes_of(const DrapeJob& job, const OpenScene& open) {
   if (job.fabrics.empty()) return {open.scene};
   const io::TomlDocument& document = open.document;
   if (document.root.contains("/material/preset"_json_pointer) && !document.is_of_file("material.preset"))
-    throw std::invalid_argument("--fabric: --compare names the fabrics; leave out one of them");
+    throw std::invalid_argument("--fabric: --fabrics names the fabrics; leave out one of them");
   std::vector<io::Scene> scenes;
   for (const std::string& fabric : job.fabrics) {
     io::TomlDocument other = document;
-    io::set_value(other, "material.preset", fabric, "--compare");
+    io::set_value(other, "material.preset", fabric, "--fabrics");
     scenes.push_back(scene_of(other, open.folder));
     scenes.back().subdivide = open.scene.subdivide;
   }

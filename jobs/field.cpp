@@ -47,7 +47,7 @@ FieldErrors errors_of(const BodyCollider& body) {
 FieldReport field(const FieldJob& job, Listener& listener) {
   if (job.output == "-") throw std::invalid_argument("-o: a field needs a file name");
   check_folder(job.output.string());
-  check_picture(job.slice.string(), "--slice");
+  check_picture(job.slice.string(), "--picture");
   refuse_same({job.output.string(), job.slice.string()}, {job.body.mesh.string()});
   const auto start = std::chrono::steady_clock::now();
   FieldReport report{load_body(job.body, {job.frame, listener}), {}, job.at, 0};

@@ -24,7 +24,7 @@ void check(const FitJob& job) {
   const std::string output = job.output.string();
   if (!output.empty() && job.worn.size() > 1)
     throw std::invalid_argument("-o writes one garment, not those of --compare");
-  if (job.rest && job.worn.size() > 1) throw std::invalid_argument("--rest is that of one garment");
+  if (job.rest && job.worn.size() > 1) throw std::invalid_argument("--rest-shape is that of one garment");
   if (job.range && !(*job.range > 0 && std::isfinite(*job.range)))
     throw std::invalid_argument("--range takes a number > 0, not " + Json(*job.range).dump());
   if (!output.empty()) check_output(output);
@@ -74,12 +74,13 @@ FittedGarment measure(const MeshInput& worn, const Body& body, const FitJob& job
   fitted.crossings = measure_crossings(fitted.garment);
   if (fitted.crossings.pairs) context.warn("cloth_crosses", path + ": " + words(fitted.crossings), path);
   if (!fitted.report.strain)
-    context.warn("strain_unknown",
-                 path +
-                     ": has no rest lengths, so its strain is not known; --rest takes the garment as it was "
-                     "made" +
-                     (job.worn.size() > 1 ? " (a second body needs a --body of its own)" : ""),
-                 path, "rest");
+    context.warn(
+        "strain_unknown",
+        path +
+            ": has no rest lengths, so its strain is not known; --rest-shape takes the garment as it was "
+            "made" +
+            (job.worn.size() > 1 ? " (a second body needs a --body of its own)" : ""),
+        path, "rest");
   if (fitted.report.ease.empty())
     context.warn("sections_not_found",
                  "no chest, waist and hips were found on the body; --section chest=1.25 tells their heights",
@@ -92,9 +93,10 @@ FitColour shown_colour(const std::vector<FittedGarment>& all, const std::optiona
   const auto without =
       std::find_if(all.begin(), all.end(), [](const FittedGarment& f) { return !f.report.strain; });
   if (wanted == FitColour::strain && without != all.end())
-    throw geometry::ContentError(without->name +
-                                 ": has no rest lengths, so no strain can be shown; give --rest, or --colour "
-                                 "distance");
+    throw geometry::ContentError(
+        without->name +
+        ": has no rest lengths, so no strain can be shown; give --rest-shape, or --colour "
+        "distance");
   return wanted == FitColour::distance || without != all.end() ? FitColour::distance : FitColour::strain;
 }
 

@@ -7,6 +7,7 @@
 #include "geometry/mesh/vertex_attributes.h"
 #include "geometry/refine/subdivide.h"
 #include "geometry/rest/bending_springs.h"
+#include "geometry/stroke/placed_stroke.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/read_inputs.h"
@@ -36,8 +37,13 @@ void insert_strokes(const SubdivideJob& job, SubdivideReport& result, const Cont
            : std::get<std::vector<io::DrawnStroke>>(job.strokes);
   const io::ResolvedStrokes resolved = io::resolve_strokes(drawn, result.mesh, job.options.max_distance);
   for (const std::string& w : resolved.warnings) context.warn("drawing", w, "strokes");
-  for (const geometry::Stroke& stroke : resolved.strokes)
-    sum += geometry::insert_along_stroke(result.mesh.mesh, stroke, id++, job.options).report;
+  geometry::StrokeFaults faults;
+  for (const geometry::Stroke& stroke : resolved.strokes) try {
+      sum += geometry::insert_along_stroke(result.mesh.mesh, stroke, id++, job.options).report;
+    } catch (const geometry::ContentError& e) {
+      faults.add(e.what());
+    }
+  faults.raise();
   for (const std::string& w : sum.warnings) context.warn("drawing", w, "strokes");
   conclude(std::move(sum), result);
 }
@@ -45,9 +51,10 @@ void insert_strokes(const SubdivideJob& job, SubdivideReport& result, const Cont
 void refine(const SubdivideJob& job, SubdivideReport& result, const Context& context) {
   geometry::Mesh& mesh = result.mesh.mesh;
   if (job.refinement == Refinement::loop || job.refinement == Refinement::linear)
-    require_refinement(mesh.number_of_faces(), 4, job.steps, "steps", context);
+    require_refinement(mesh.number_of_faces(), 4, job.steps,
+                       job.refinement == Refinement::loop ? "--subdivide" : "--linear", context);
   if (job.refinement == Refinement::sqrt3)
-    require_refinement(mesh.number_of_faces(), 3, job.steps, "steps", context);
+    require_refinement(mesh.number_of_faces(), 3, job.steps, "--sqrt3", context);
   switch (job.refinement) {
     case Refinement::strokes:
       return insert_strokes(job, result, context);

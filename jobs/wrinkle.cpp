@@ -63,6 +63,9 @@ std::vector<io::DrawnStroke> strokes_of(const WrinkleJob& job, const Context& co
       path ? io::read_drawn_strokes(*path, job.height, read_options(context.frame))
            : std::get<std::vector<io::DrawnStroke>>(job.strokes);
   if (!job.without.empty()) leave_out(strokes, job.without);
+  if (job.width)
+    for (io::DrawnStroke& drawn : strokes)
+      if (!drawn.stroke.width) drawn.stroke.width = job.width;
   return strokes;
 }
 

@@ -54,6 +54,8 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
   check_unit(options.metres_per_unit);
+  if (std::filesystem::is_directory(path))
+    throw geometry::ContentError(path.string() + ": is a folder; name a mesh in it");
   const MeshFormat format = mesh_format(path);
   if (path == "-") return read_mesh(std::cin, format, "standard input", options);
   if (format == MeshFormat::gltf) return read_gltf(path, options);

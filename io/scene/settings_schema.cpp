@@ -371,9 +371,7 @@ const Row<Scene> rows[] = {
      path([](auto& s) -> auto& { return s.body->field; })},
     {{.path = "body.tolerance",
       .flag = "--tolerance",
-      .help = "error of the body's distance field [m]; default 1/1000 of its diagonal, at most 0.002. With a "
-              "% sign, --tolerance 1%: the error of the result, as a share of the garment's diagonal; "
-              "integrator and step are chosen for it first (docs/chart.md)",
+      .help = "error of the body's distance field [m]; default 1/1000 of its diagonal, at most 0.002",
       .what = "error of the field",
       .usual = "1/1000 of the body's diagonal, at most 0.002"},
      number(

@@ -148,15 +148,15 @@ std::string flags_of(const Candidate& c, bool scene_dt) {
 }
 
 void set_candidate(io::TomlDocument& document, const Candidate& c) {
-  io::set_value(document, "simulation.integrator", name_of(c.integrator), "--tolerance");
+  io::set_value(document, "simulation.integrator", name_of(c.integrator), "--accuracy");
   document.root["simulation"].erase("dt");
   document.root["simulation"].erase("force_dt");
-  if (c.dt) io::set_value(document, "simulation.dt", *c.dt, "--tolerance");
-  if (c.forced) io::set_value(document, "simulation.force_dt", true, "--tolerance");
+  if (c.dt) io::set_value(document, "simulation.dt", *c.dt, "--accuracy");
+  if (c.forced) io::set_value(document, "simulation.force_dt", true, "--accuracy");
   if (c.integrator == Integrator::xpbd)
-    io::set_value(document, "simulation.sweeps", c.iterations, "--tolerance");
+    io::set_value(document, "simulation.sweeps", c.iterations, "--accuracy");
   if (c.integrator == Integrator::backward_euler)
-    io::set_value(document, "simulation.newton", c.iterations, "--tolerance");
+    io::set_value(document, "simulation.newton", c.iterations, "--accuracy");
 }
 
 double predicted_cost(const Candidate& c, const SceneCloth& scene, double seconds) {

@@ -216,7 +216,7 @@ class Judge {
 
 void check(const JudgeOptions& o) {
   if (!(o.tolerance > 0 && o.tolerance < 1))
-    throw std::invalid_argument("--tolerance: " + std::to_string(o.tolerance) + " is not between 0 and 1");
+    throw std::invalid_argument("--accuracy: " + std::to_string(o.tolerance) + " is not between 0 and 1");
   if (!(o.budget > 0) || !std::isfinite(o.budget))
     throw std::invalid_argument("--budget: " + std::to_string(o.budget) + " is no number above 0 [s]");
 }

@@ -148,7 +148,7 @@ void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
   text << d.name << ": not at rest after " << last.iterations << " iterations, residual force "
        << last.residual << " of a vertex's weight, cloth " << geometry::length_text(last.deepest)
        << " deep in the gap";
-  if (!d.is_torn()) text << "; give more with --iterations, or accept it with --residual";
+  if (!d.is_torn()) text << "; give more with --max-iterations, or accept it with --residual";
   remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
 }
 

@@ -88,7 +88,7 @@ std::string words(const Judgement& j, bool scene_dt) {
     const double best = j.candidates.back().error;
     return "nothing that was tried is within " + percent(j.options.tolerance) +
            " of the garment's size, the reference itself is known to " + percent(best) +
-           "; choose a larger --tolerance" + judged_on(j);
+           "; choose a larger --accuracy" + judged_on(j);
   }
   const JudgedCandidate& c = j.candidates[static_cast<std::size_t>(j.chosen)];
   const bool is_reference = &c == &j.candidates.back();

@@ -35,7 +35,8 @@ StepLength::StepLength(const Cloth& cloth, const SimulateOptions& options, Simul
   if (as_planned && state.end == options.seconds) return;
   const double most = limit(state.dt_limit);
   if (options.dt && options.step_rule == StepRule::limited && *options.dt > most && !as_planned)
-    refuse("simulate", "dt = ", *options.dt, " s is above the stability limit of ", most, " s");
+    refuse("simulate", "dt = ", *options.dt, " s is above the stability limit of ", most,
+           " s; take a shorter step, or leave dt out");
   state.planned = true;
   state.cloth = present;
   state.end = options.seconds;

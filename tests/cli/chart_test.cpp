@@ -102,7 +102,7 @@ TEST_CASE("chart: the same twice, to the byte") {
 TEST_CASE("chart: a motion without chaos is judged by positions, and the order of leapfrog shows") {
   const ScratchDirectory scratch;
   const json report =
-      report_of(run_furrow("chart --json --tolerance 5% " + write_patch_scene(scratch, "0.04")));
+      report_of(run_furrow("chart --json --accuracy 5% " + write_patch_scene(scratch, "0.04")));
   CHECK(report["error_is"] == "positions");
   const json& all = report["candidates"];
   // Steps 1, 1/2 against 1/4: errors of order two are as 1 - 1/16 to 1/4 - 1/16.
@@ -114,7 +114,7 @@ TEST_CASE("chart: a motion without chaos is judged by positions, and the order o
 TEST_CASE("chart: chaotic motion is judged by surface, centre, extent and energy", "[accuracy]") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch, "0.2", "[material]\nbending = 0\n");
-  const json report = report_of(run_furrow("chart --json --tolerance 2% " + scene));
+  const json report = report_of(run_furrow("chart --json --accuracy 2% " + scene));
   CHECK(report["twin_drift"] > 2e-4);
   CHECK(report["error_is"] == "shape");
   for (const json& c : report["candidates"]) {
@@ -134,7 +134,7 @@ TEST_CASE("chart: chaotic motion is judged by surface, centre, extent and energy
 TEST_CASE("chart: leapfrog's energy converges by order two, as its positions do") {
   const ScratchDirectory scratch;
   const json report =
-      report_of(run_furrow("chart --json --tolerance 20% " + write_patch_scene(scratch, "0.04")));
+      report_of(run_furrow("chart --json --accuracy 20% " + write_patch_scene(scratch, "0.04")));
   // Steps 1, 1/2 against 1/4: as 1 - 1/16 to 1/4 - 1/16.
   const double coarse = report["candidates"][0]["energy"], fine = report["candidates"][1]["energy"];
   CHECK(fine > 0);
@@ -145,7 +145,7 @@ TEST_CASE("chart: sweeps and Newton's iterations are those of the scene, and fla
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch, "0.02", "sweeps = 3\nnewton = 2\n"),
                     end = scratch / "e.ply";
-  const json report = report_of(run_furrow("chart --json --tolerance 50% " + scene));
+  const json report = report_of(run_furrow("chart --json --accuracy 50% " + scene));
   for (const json& c : report["candidates"]) {
     const std::string name = c["name"], flags = c["flags"];
     CHECK((flags.find(" --sweeps 3") != flags.npos) == (name.rfind("xpbd", 0) == 0));
@@ -169,13 +169,13 @@ TEST_CASE("chart: a body that changes its shape costs, and begins anew each run"
   for (int frame = 0; frame < 3; ++frame)
     write_text(scratch / ("box_000" + std::to_string(frame) + ".obj"), box(-0.01 + 0.002 * frame));
   const json alone =
-      report_of(run_furrow("chart --json --tolerance 50% " + write_patch_scene(scratch, "0.03")));
+      report_of(run_furrow("chart --json --accuracy 50% " + write_patch_scene(scratch, "0.03")));
   const std::string end = scratch / "chosen.ply",
                     scene = write_patch_scene(scratch, "0.03",
                                               "[body]\nmesh = \"box_0000.obj\"\ntolerance = 0.01\n"
                                               "frames = \"box_####.obj\"\n");
   const json moving =
-      report_of(run_furrow("simulate --json --tolerance 50% " + scene + " -o " + end))["choice"];
+      report_of(run_furrow("simulate --json --accuracy 50% " + scene + " -o " + end))["choice"];
   CHECK(moving["complete"] == true);
   for (std::size_t i = 0; i < moving["candidates"].size(); ++i)
     CHECK(moving["candidates"][i]["cost"] > 2 * alone["candidates"][i]["cost"].get<double>());
@@ -186,7 +186,7 @@ TEST_CASE("chart: a body that changes its shape costs, and begins anew each run"
 TEST_CASE("chart: a budget that is too small shortens, or is refused with what is needed") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch, "2");
-  const json report = report_of(run_furrow("chart --json --tolerance 10% --budget 0.2 " + scene));
+  const json report = report_of(run_furrow("chart --json --accuracy 10% --budget 0.2 " + scene));
   CHECK(report["shortened"] == true);
   CHECK(report["judged_seconds"] < 1);
   CHECK(report["says"].get<std::string>().find("judged on the first") != std::string::npos);
@@ -198,11 +198,11 @@ TEST_CASE("chart: a budget that is too small shortens, or is refused with what i
 TEST_CASE("chart: nothing within the tolerance exits with 4, a missing scene with 3, a bad call with 2") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch, "0.1");
-  const Run none = run_furrow("chart --tolerance 0.0000001% " + scene);
+  const Run none = run_furrow("chart --accuracy 0.0000001% " + scene);
   CHECK(none.exit_code == 4);
-  CHECK(none.err.find("larger --tolerance") != std::string::npos);
+  CHECK(none.err.find("larger --accuracy") != std::string::npos);
   CHECK(run_furrow("chart " + (scratch / "no.toml")).exit_code == 3);
-  for (const char* flags : {"--tolerance 0.01", "--tolerance -1%", "--budget -1", "-o chart.pdf", "--set x"})
+  for (const char* flags : {"--accuracy 0.01", "--accuracy -1%", "--budget -1", "-o chart.pdf", "--set x"})
     CHECK(run_furrow("chart " + scene + " " + flags).exit_code == 2);
 }
 
@@ -210,27 +210,27 @@ TEST_CASE("chart: numbers as CSV, and a picture where gnuplot is") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch, "0.02"), csv = scratch / "c.csv",
                     svg = scratch / "c.svg";
-  CHECK(run_furrow("chart -q --tolerance 20% " + scene + " --csv " + csv).exit_code == 0);
+  CHECK(run_furrow("chart -q --accuracy 20% " + scene + " --csv " + csv).exit_code == 0);
   CHECK(read_text(csv).rfind("name,integrator,dt,cost,error,error_is,rms,max,surface,centre,extent,borders,"
                              "energy,verdict\n",
                              0) == 0);
   const bool has_gnuplot = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
-  const Run run = run_furrow("chart -q --tolerance 20% " + scene + " -o " + svg);
+  const Run run = run_furrow("chart -q --accuracy 20% " + scene + " -o " + svg);
   CHECK(run.exit_code == (has_gnuplot ? 0 : 1));
   if (has_gnuplot) CHECK(read_text(svg).find("predicted seconds") != std::string::npos);
   if (!has_gnuplot) CHECK(run.err.find("gnuplot-nox") != std::string::npos);
 }
 
-TEST_CASE("chart: simulate with --tolerance in per cent takes its recommendation and says its flags") {
+TEST_CASE("chart: simulate with --accuracy takes its recommendation and says its flags") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch), end = scratch / "end.ply";
   const json chart = report_of(run_furrow("chart --json " + scene));
-  const json run = report_of(run_furrow("simulate --json --tolerance 1% " + scene + " -o " + end));
+  const json run = report_of(run_furrow("simulate --json --accuracy 1% " + scene + " -o " + end));
   CHECK(run["choice"]["recommendation"] == chart["recommendation"]);
   const std::string flags = chart["recommendation"]["flags"];
   CHECK(run["flags"].get<std::string>().find(flags) != std::string::npos);
   for (const char* given : {"--integrator rk4", "--dt 1e-5"}) {
-    const Run refused = run_furrow("simulate --tolerance 1% " + scene + " -o " + end + " " + given);
+    const Run refused = run_furrow("simulate --accuracy 1% " + scene + " -o " + end + " " + given);
     CHECK(refused.exit_code == 2);
     CHECK(refused.err.find("leave out one of them") != std::string::npos);
   }
@@ -239,12 +239,12 @@ TEST_CASE("chart: simulate with --tolerance in per cent takes its recommendation
   CHECK(run_furrow("simulate --tolerance 0.001 " + scene + " -o " + end + " --seconds 0.001").exit_code != 0);
 }
 
-TEST_CASE("chart: simulate with --tolerance in per cent reads and builds the body once") {
+TEST_CASE("chart: simulate with --accuracy reads and builds the body once") {
   const ScratchDirectory scratch;
   write_text(scratch / "box.obj", box(-0.01, 2));
   const std::string scene =
       write_patch_scene(scratch, "0.03", "[body]\nmesh = \"box.obj\"\ntolerance = 0.01\n");
-  const Run run = run_furrow("simulate --tolerance 50% " + scene + " -o " + (scratch / "end.ply"));
+  const Run run = run_furrow("simulate --accuracy 50% " + scene + " -o " + (scratch / "end.ply"));
   CHECK(run.exit_code == 0);
   const std::size_t first = run.err.find("of the body filled");
   REQUIRE(first != std::string::npos);
@@ -255,7 +255,7 @@ TEST_CASE("chart: where dt_max bounds the cheapest step, the reference is still 
   const ScratchDirectory scratch;
   const std::string soft = "[material]\nstiffness = 0.02\nbending = 0.002\ndensity = 1\n";
   const json report =
-      report_of(run_furrow("chart --json --tolerance 50% " + write_patch_scene(scratch, "2", soft)));
+      report_of(run_furrow("chart --json --accuracy 50% " + write_patch_scene(scratch, "2", soft)));
   REQUIRE(report["dt_limit"] > 0.005 / 0.225);  // so that a quarter of it would be above dt_max
   const double coarse = report["candidates"][0]["dt"];
   CHECK(coarse == Approx(0.005).epsilon(0.01));
@@ -286,7 +286,7 @@ TEST_CASE("chart: what diverges everywhere is no matter of the tolerance") {
   CHECK(run.exit_code == 4);
   CHECK(run.err.find("diverged") != std::string::npos);
   CHECK(run.err.find("inf") == std::string::npos);
-  CHECK(run.err.find("--tolerance") == std::string::npos);
+  CHECK(run.err.find("--accuracy") == std::string::npos);
 }
 
 TEST_CASE("chart: a setting of the scene that no run would take is refused before the work") {

@@ -217,7 +217,7 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   refused((source_dir() / "meshes/skirt.obj").string() + out, "--body");
   refused(skirt(), "nothing to write");
   refused(skirt() + out + " --band top", "--band");
-  refused(skirt() + out + " --compare silk,cotton", "--picture");
+  refused(skirt() + out + " --fabrics silk,cotton", "--picture");
   refused(skirt() + " -o " + (source_dir() / "meshes/skirt.obj").string(), "skirt.obj");
   refused(skirt() + out + " --residual 0", "--residual");
   refused(skirt() + out + " --band left=0.9", "--band: border loop 'left'");
@@ -234,7 +234,7 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   refused(skirt() + " --fabric silk --picture " + (scratch / "p.png") + " --compare cotton,wool", "--fabric");
   refused(skirt() + " --picture " + (scratch / "p.png") + " --compare ''", "missing");
   CHECK_FALSE(std::filesystem::exists(scratch / "x.ply"));
-  const Run few = run_furrow("drape " + skirt() + out + " --iterations 2 --fabric silk");
+  const Run few = run_furrow("drape " + skirt() + out + " --max-iterations 2 --fabric silk");
   CHECK(few.exit_code == 4);
   CHECK(few.err.find("not at rest") != std::string::npos);
   CHECK(std::filesystem::exists(scratch / "x.ply"));
@@ -314,9 +314,9 @@ TEST_CASE("drape: a size stays the size that it was cut, refined or not", "[accu
     }
     const std::string cut = scratch / ("cut" + std::to_string(size) + ".obj"), sized = scratch / "sized.ply";
     io::write_mesh(cut, made);
-    REQUIRE(
-        run_furrow("fit " + shirt + " --rest " + cut + " --body " + mannequin_path() + " -o " + sized + " -q")
-            .exit_code == 0);
+    REQUIRE(run_furrow("fit " + shirt + " --rest-shape " + cut + " --body " + mannequin_path() + " -o " +
+                       sized + " -q")
+                .exit_code == 0);
     for (int refined = 0; refined < 2; ++refined) {
       const json r = report_of("drape " + sized + " --body " + mannequin_path() + " --subdivide " +
                                std::to_string(refined) + " -o " + (scratch / "worn.ply"));

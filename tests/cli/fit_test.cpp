@@ -55,7 +55,7 @@ double ngon(double radius) { return 2 * around * radius * std::sin(std::numbers:
 
 TEST_CASE("fit: a stretched tube on a column has the known strain, room and distances") {
   TubeFiles f;
-  const json r = succeed("fit --json " + f.worn + " --rest " + f.made + " --body " + f.body + " -o " +
+  const json r = succeed("fit --json " + f.worn + " --rest-shape " + f.made + " --body " + f.body + " -o " +
                          (f / "c.ply") + " --section waist=1.0");
   CHECK(r["strain"]["p50"].get<double>() == Approx(0.16 / 0.148 - 1).epsilon(1e-3));
   CHECK(r["strain"]["share_over"].get<double>() == Approx(1));
@@ -102,7 +102,7 @@ TEST_CASE("fit: without rest lengths it says so, and colours by distance") {
 TEST_CASE("fit: pictures of one garment from both sides, and of several with one legend") {
   TubeFiles f;
   const std::string small = " --size 220,260 --quality draft ";
-  succeed("fit --json " + f.worn + " --rest " + f.made + " --body " + f.body + small + "--picture " +
+  succeed("fit --json " + f.worn + " --rest-shape " + f.made + " --body " + f.body + small + "--picture " +
           (f / "one.png"));
   const io::Image one = io::read_png(f / "one.png");
   CHECK(one.width == 8 + 2 * (220 + 8));

@@ -78,14 +78,14 @@ TEST_CASE("outputs: no output may replace what is read or another output, and pi
                (f / "cam.json"),
            "render " + f.mesh + " -o " + (f / "a.png") + " --captions one",
            "render " + f.mesh + " -o " + (f / "a.png") + " --fov 0",
-           "wrinkle " + f.mesh + " " + f.lines + " --preview " + (f / "p.jpg"),
-           "wrinkle " + f.mesh + " " + f.lines + " --preview " + (f / "p.png") + " --camera " +
+           "wrinkle " + f.mesh + " " + f.lines + " --picture " + (f / "p.jpg"),
+           "wrinkle " + f.mesh + " " + f.lines + " --picture " + (f / "p.png") + " --camera " +
                (f / "cam.json") + " --save-camera " + (f / "cam.json"),
            "wrinkle " + f.wrinkled + " -o " + f.cm,
            "subdivide " + f.mesh + " --strokes " + f.lines + " -o " + f.lines,
            "sdf " + f.mesh + " -o " + f.mesh,
-           "sdf " + f.mesh + " -o " + (f / "s.png") + " --slice " + (f / "s.png"),
-           "sdf " + f.mesh + " --slice " + (f / "s.field"),
+           "sdf " + f.mesh + " -o " + (f / "s.png") + " --picture " + (f / "s.png"),
+           "sdf " + f.mesh + " --picture " + (f / "s.field"),
            "transfer " + f.cm + " " + f.wrinkled + " -o " + f.wrinkled,
            "transfer " + f.cm + " " + f.wrinkled + " -o " + f.cm,
            "bake " + f.cm + " " + f.wrinkled + " -o " + (f / "b") + " --check 0 --applied " + f.cm,
@@ -206,8 +206,8 @@ TEST_CASE("outputs: transfer, bake and strokes take the unit that one of their m
   REQUIRE(run_furrow("transfer " + f.cm + " " + f.wrinkled + " -o " + (f / "back.obj")).exit_code == 0);
   const std::string back = read_text(f / "back.obj");
   CHECK(back.substr(back.find("vt ")).find("f 1/1 2/2 11/11 10/10\n") != std::string::npos);  // quads
-  CHECK(run_furrow("bake --size 64 " + f.cm + " " + f.wrinkled + " -o " + (f / "b")).exit_code == 0);
-  const Run other = run_furrow("bake --size 64 --unit m " + f.mesh + " " + f.wrinkled + " -o " + (f / "c"));
+  CHECK(run_furrow("bake --texels 64 " + f.cm + " " + f.wrinkled + " -o " + (f / "b")).exit_code == 0);
+  const Run other = run_furrow("bake --texels 64 --unit m " + f.mesh + " " + f.wrinkled + " -o " + (f / "c"));
   CHECK(other.exit_code == 3);
   CHECK(holds(other.err, "--unit"));
   CHECK_FALSE(std::filesystem::exists(f / "c_maps.json"));

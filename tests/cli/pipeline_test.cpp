@@ -210,7 +210,7 @@ TEST_CASE("pipeline: a wrinkled mesh that is refined again still has its springs
   write_text(sheet.strokes, R"({"strokes":[{"points":[[0.3,0,-0.15],[0.7,0,-0.15]]}]})");
   const std::string finer = sheet.scratch / "finer.ply";
   for (const std::string& how :
-       {"--strokes " + sheet.strokes, std::string("--all"), std::string("--loop 1")}) {
+       {"--strokes " + sheet.strokes, std::string("--all"), std::string("--subdivide 1")}) {
     INFO(how);
     REQUIRE(run_furrow("subdivide -q " + sheet.wrinkled + " " + how + " -o " + finer).exit_code == 0);
     const Run run = run_furrow("simulate --json --gravity 0 --seconds 0.001 " + finer + " -o " +

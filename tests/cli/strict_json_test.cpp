@@ -46,7 +46,7 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
                     strokes = of("meshes/strokes/round_bulge.json"), skirt = of("meshes/skirt.obj");
   const auto out = [&](const char* name) { return " -o " + (scratch / name); };
   report_of("info " + sheet);
-  report_of("subdivide " + sheet + " --loop 1" + out("fine.ply"));
+  report_of("subdivide " + sheet + " --subdivide 1" + out("fine.ply"));
   report_of("subdivide " + sheet + " --strokes " + strokes + out("lined.ply"));
   report_of("smooth " + (scratch / "fine.ply") + out("smooth.ply"));
   report_of("wrinkle " + sheet + " " + strokes + out("w.ply"));
@@ -57,14 +57,14 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   report_of("sdf" + body.substr(7) + " --tolerance 0.01 --at 0,1,0.3" + out("body.sdf"));
   report_of("drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"));
   report_of("drape " + skirt + body +
-            " --subdivide 0 --band top=0.95 --compare cotton,silk --size 200,200 "
+            " --subdivide 0 --band top=0.95 --fabrics cotton,silk --size 200,200 "
             "--quality draft --picture " +
             (scratch / "c.png"));
   report_of("fit " + (scratch / "worn.ply") + body);
   report_of("fit --compare " + (scratch / "worn.ply") + " " + (scratch / "worn.ply") + body);
   report_of("transfer " + sheet + " " + (scratch / "w.ply") + out("back.obj"));
   const std::string textured = of("meshes/panelled.obj");
-  report_of("bake " + textured + " " + textured + out("baked") + " --size 64 --check 1");
+  report_of("bake " + textured + " " + textured + out("baked") + " --texels 64 --check 1");
   report_of("render " + sheet + " --size 200,200 --quality draft" + out("p.png"));
   report_of("strokes " + strokes + " --garment " + sheet);
   report_of("strokes " + (scratch / "w.ply") + out("s.json"));
@@ -79,7 +79,7 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   report_of("simulate " + skirt + body + " --seconds 0.005 --pin-loop top --animation " +
             (scratch / "a.glb") + " --save-state " + (scratch / "st.ply") + out("s.ply"));
   report_of("simulate " + of("scenes/validation/free_fall.toml") +
-            " --set simulation.seconds=0.01 --tolerance 5%");
+            " --set simulation.seconds=0.01 --accuracy 5%");
 }
 
 TEST_CASE(

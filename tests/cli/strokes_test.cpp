@@ -87,21 +87,21 @@ TEST_CASE(
   CHECK(run_furrow("render -q " + wall.mesh + " -o " + again + " --camera " + wall.camera + " --view back")
             .exit_code == 2);
   CHECK(run_furrow("render -q " + wall.mesh + " -o " + again + " --eye 0,0,3").exit_code == 2);
-  REQUIRE(wall.render("--parallel 1.2").exit_code == 0);
+  REQUIRE(wall.render("--orthographic 1.2").exit_code == 0);
   CHECK(json::parse(read_text(wall.camera))["parallel"] == 1.2);
-  CHECK(wall.render("--parallel 0").exit_code == 2);
+  CHECK(wall.render("--orthographic 0").exit_code == 2);
 }
 
 TEST_CASE("strokes: a preview writes a picture and no mesh") {
   Wall wall;
   wall.draw();
   const std::string preview = wall.scratch / "preview.png";
-  wall.wrinkle(wall.mesh + " " + wall.strokes + " --preview " + preview + " --camera " + wall.camera +
+  wall.wrinkle(wall.mesh + " " + wall.strokes + " --picture " + preview + " --camera " + wall.camera +
                " --quality draft");
   CHECK(read_text(preview).rfind("\x89PNG", 0) == 0);
   CHECK_FALSE(std::filesystem::exists(wall.wrinkled));
   CHECK(run_furrow("wrinkle " + wall.mesh + " " + wall.strokes).exit_code == 2);
-  CHECK(run_furrow("wrinkle " + wall.mesh + " " + wall.strokes + " --preview " + wall.mesh).exit_code == 2);
+  CHECK(run_furrow("wrinkle " + wall.mesh + " " + wall.strokes + " --picture " + wall.mesh).exit_code == 2);
 }
 
 TEST_CASE(
@@ -133,8 +133,8 @@ TEST_CASE("strokes: they are listed, moved, renamed, raised, laid into space") {
   wall.draw();
   const std::string out = wall.scratch / "out.json";
   REQUIRE(run_furrow("strokes -q " + wall.strokes +
-                     " --move across=0,-20 --move up=0.1,0 --height path=-0.03 " + "--rename up=side -o " +
-                     out)
+                     " --move across=0,-20 --move up=0.1,0 --change path.height=-0.03 " +
+                     "--rename up=side -o " + out)
               .exit_code == 0);
   const json moved = json::parse(read_text(out))["strokes"];
   CHECK(moved[0]["pixels"] == json{{60.0, 59.5}, {140.0, 59.5}});
@@ -175,8 +175,9 @@ TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carr
   Wall wall;
   wall.draw();
   const std::string edited = wall.scratch / "edited.json";
-  const Run run = run_furrow("strokes --json " + wall.strokes +
-                             " --width up=0.2 --sharpness up=0 --press up=10 --order path,up -o " + edited);
+  const Run run = run_furrow(
+      "strokes --json " + wall.strokes +
+      " --change up.width=0.2 --change up.sharpness=0 --change up.press=10 --order path,up -o " + edited);
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
   const json list = json::parse(run.out)["strokes"];
@@ -191,7 +192,7 @@ TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carr
   CHECK(wrinkled["lines"][1]["width"] == 0.2);
   CHECK(wrinkled["lines"][1]["smoothed_height"].get<double>() ==
         Approx(-0.01).epsilon(0.25));  // another line is near
-  const Run again = run_furrow("strokes --json " + wall.wrinkled + " --width up=none -o " + edited);
+  const Run again = run_furrow("strokes --json " + wall.wrinkled + " --change up.width=none -o " + edited);
   CHECK_FALSE(json::parse(again.out)["strokes"][1].contains("width"));
   CHECK(json::parse(again.out)["strokes"][1]["press"] == 10);
   // The press has no effect on cross springs.
@@ -202,7 +203,9 @@ TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carr
                                 (wall.scratch / "s.ply"));
   CHECK(hinges.err.find("press") == std::string::npos);
   for (const std::string flags :
-       {"--width up=0", "--sharpness up=1.5", "--press up=0.1", "--flare up=maybe", "--taper up=-1",
-        "--set up=2", "--smooth up=-1", "--order up,up", "--order nobody", "--width up=0.1 --sharpness up=2"})
+       {"--change up.width=0", "--change up.sharpness=1.5", "--change up.press=0.1",
+        "--change up.flare=maybe", "--change up.taper=-1", "--change up.set=2", "--change up.smooth=-1",
+        "--order up,up", "--order nobody", "--change up.width=0.1 --change up.sharpness=2", "--change up=0.1",
+        "--change up.heigth=0.1"})
     CHECK(run_furrow("strokes " + wall.strokes + " " + flags + " -o " + edited).exit_code != 0);
 }

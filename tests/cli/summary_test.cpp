@@ -105,6 +105,9 @@ TEST_CASE("report: lengths in messages are written as people write them") {
   CHECK(far.exit_code == 3);
   CHECK(far.err.find("stroke \"a\", point 0: it is 1.5 m from the surface") != std::string::npos);
   CHECK(far.err.find("\n  stroke \"c\", point 0: it is 130 mm from the surface") != std::string::npos);
+  const Run lined = run_furrow("subdivide " + (scratch / "sheet.obj") + " --strokes " +
+                               (scratch / "far.json") + " -o " + (scratch / "o.ply"));
+  CHECK(lined.err.find("\n  stroke \"c\", point 0: it is 130 mm from the surface") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(scratch / "o.ply"));
 }
 
@@ -129,7 +132,7 @@ TEST_CASE("wrinkle: the picture of what is inserted marks faces that cross") {
   ScratchDirectory scratch;
   write_text(scratch / "crossing.obj", sheets(true));
   write_text(scratch / "line.json", R"({"strokes": [{"points": [[0.2,0.2,0],[0.8,0.2,0]]}]})");
-  told("wrinkle " + (scratch / "crossing.obj") + " " + (scratch / "line.json") + " --preview " +
+  told("wrinkle " + (scratch / "crossing.obj") + " " + (scratch / "line.json") + " --picture " +
        (scratch / "p.png") + " --size 120,120 --view front --quality draft");
   CHECK(magenta_pixels(scratch / "p.png") > 500);
 }

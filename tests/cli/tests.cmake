@@ -9,6 +9,8 @@ furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURC
   usage_test.cpp
   completion_test.cpp
   summary_test.cpp
+  old_names_test.cpp
+  mistakes_test.cpp
   pipeline_test.cpp
   resume_test.cpp
   scene_outputs_test.cpp

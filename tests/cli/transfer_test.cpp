@@ -51,10 +51,11 @@ TEST_CASE("transfer: it brings the wrinkles back to the skirt's own faces, chart
 }
 
 TEST_CASE(
-    "transfer: it works after subdivision and through another format with --rest, and says what it refuses") {
+    "transfer: it works after subdivision and through another format with --rest-shape, and says what it "
+    "refuses") {
   Skirt skirt;
   const auto at = [&](const char* name) { return skirt.scratch / name; };
-  succeed("subdivide --json " + skirt.mesh + " --loop 1 -o " + at("fine.obj"));
+  succeed("subdivide --json " + skirt.mesh + " --subdivide 1 -o " + at("fine.obj"));
   succeed("wrinkle --json " + at("fine.obj") + " " + skirt.strokes + " -o " + at("fine.ply"));
   const json report = succeed("transfer --json " + skirt.mesh + " " + at("fine.ply") + " -o " + at("b.obj"));
   CHECK(report["by_index"].get<int>() > 1000);
@@ -67,8 +68,8 @@ TEST_CASE(
   const Run without = run_furrow(call);
   CHECK(without.exit_code == 3);
   CHECK(without.err.find("rest mesh") != std::string::npos);
-  CHECK(run_furrow(call + " --rest " + skirt.mesh).exit_code == 3);  // other vertices
-  CHECK(succeed(call + " --rest " + at("w.obj"))["unchanged"].get<int>() > 0);
+  CHECK(run_furrow(call + " --rest-shape " + skirt.mesh).exit_code == 3);  // other vertices
+  CHECK(succeed(call + " --rest-shape " + at("w.obj"))["unchanged"].get<int>() > 0);
   CHECK(run_furrow("transfer " + skirt.mesh + " " + skirt.wrinkled + " -o " + at("c.glb")).exit_code == 2);
 }
 
@@ -109,7 +110,7 @@ TEST_CASE("transfer: bake tells the wrinkled skirt to a fraction of a millimetre
   Skirt skirt;
   const std::string prefix = skirt.scratch / "skirt", applied = skirt.scratch / "applied.obj";
   const json report = succeed("bake --json " + skirt.mesh + " " + skirt.wrinkled + " -o " + prefix +
-                              " --size 256 --check 1 --applied " + applied);
+                              " --texels 256 --check 1 --applied " + applied);
   CHECK(report["size"] == 256);
   CHECK(report["overlapping_texels"] == 0);
   CHECK(report["unmatched_texels"] == 0);
@@ -121,7 +122,7 @@ TEST_CASE("transfer: bake tells the wrinkled skirt to a fraction of a millimetre
   }
   CHECK(io::read_mesh(applied).mesh.number_of_vertices() == report["check"]["vertices"]);
   CHECK(io::read_png16(prefix + "_normal.png").width == 256);
-  CHECK(run_furrow("bake " + skirt.mesh + " " + skirt.wrinkled + " -o " + prefix + " --size 0").exit_code ==
+  CHECK(run_furrow("bake " + skirt.mesh + " " + skirt.wrinkled + " -o " + prefix + " --texels 0").exit_code ==
         2);
   CHECK(run_furrow("bake " + skirt.mesh + " " + skirt.wrinkled + " -o - ").exit_code == 2);
   CHECK(run_furrow("bake " + (source_dir() / "meshes" / "sheet.obj").string() + " " + skirt.wrinkled +

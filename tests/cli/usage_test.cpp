@@ -57,7 +57,7 @@ TEST_CASE("usage: a wrong call exits with 2 and one line that begins with error:
   for (const std::string& call :
        {std::string("wrinkel a b"), std::string("help wrinkel"), std::string("info"),
         "info " + square + " --unit mile", "subdivide " + square + " -o " + (scratch / "o.obj"),
-        "subdivide " + square + " --loop 1 --all -o " + (scratch / "o.obj"),
+        "subdivide " + square + " --subdivide 1 --all -o " + (scratch / "o.obj"),
         "smooth " + square + " -o " + (scratch / "o.obj") + " --lambda 2",
         "simulate " + square + " -o " + (scratch / "o.obj") + " --pin-loop middle",
         "simulate " + square + " -o " + (scratch / "o.obj") + " --pin-vertices 99",
