@@ -33,10 +33,11 @@ void check_accuracy(const SimulateArguments& a, const SimulateJob& job) {
     throw UsageError("--accuracy " + accuracy +
                      " judges a scene from its beginning; leave out one of the two");
   const io::TomlDocument& settings = job.scene.settings;
-  for (const char* key : {"simulation.integrator", "simulation.dt", "simulation.sweeps", "simulation.newton"})
-    if (settings.place(key).rfind("--", 0) == 0)
-      throw UsageError("--accuracy " + accuracy + " chooses integrator and step, and " + settings.place(key) +
-                       " names one; leave out one of them");
+  const Json simulation = settings.root.value("simulation", Json::object());
+  for (const std::string key : {"integrator", "dt", "sweeps", "newton"})
+    if (simulation.contains(key) && settings.place("simulation." + key).rfind("--", 0) == 0)
+      throw UsageError("--accuracy " + accuracy + " chooses integrator and step, and " +
+                       settings.place("simulation." + key) + " names one; leave out one of them");
 }
 
 SimulateJob job_of(const SimulateArguments& a) {

@@ -179,6 +179,13 @@ TEST_CASE("chart: a body that changes its shape costs, and begins anew each run"
   CHECK(moving["complete"] == true);
   for (std::size_t i = 0; i < moving["candidates"].size(); ++i)
     CHECK(moving["candidates"][i]["cost"] > 2 * alone["candidates"][i]["cost"].get<double>());
+  // Of a garment alone --seconds names the table that these would be in, and none of them.
+  const Run plain =
+      run_furrow("simulate " FURROW_SOURCE_DIR "/meshes/validation/patch.obj --pin-vertices 0,10 -o " +
+                 (scratch / "plain.ply") + " --seconds 0.01 --accuracy 5%");
+  INFO(plain.err);
+  CHECK(plain.err.find("chooses integrator and step") == std::string::npos);
+  CHECK(plain.exit_code != 2);
   const auto chosen = bridge::positions_of(io::read_mesh(end).mesh);
   CHECK(apart(chosen, simulated(scratch, scene, moving["recommendation"]["flags"])) == 0);
 }

@@ -228,11 +228,11 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   refused(skirt() + out + " --contact-depth 1e-9", "--contact-depth");
   refused(skirt() + out + " --contact-depth 1e-5 --plain", "--contact-depth");
   refused(skirt() + out + " --set body.motion.spin={axis=[0,1,0],rate=1}", "body.motion");
-  refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,slik", "slik");
-  refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,,silk", "missing");
-  refused(skirt() + " --picture " + (scratch / "p.png") + " --compare cotton,", "missing");
-  refused(skirt() + " --fabric silk --picture " + (scratch / "p.png") + " --compare cotton,wool", "--fabric");
-  refused(skirt() + " --picture " + (scratch / "p.png") + " --compare ''", "missing");
+  refused(skirt() + " --picture " + (scratch / "p.png") + " --fabrics cotton,slik", "slik");
+  refused(skirt() + " --picture " + (scratch / "p.png") + " --fabrics cotton,,silk", "missing");
+  refused(skirt() + " --picture " + (scratch / "p.png") + " --fabrics cotton,", "missing");
+  refused(skirt() + " --fabric silk --picture " + (scratch / "p.png") + " --fabrics cotton,wool", "--fabric");
+  refused(skirt() + " --picture " + (scratch / "p.png") + " --fabrics ''", "missing");
   CHECK_FALSE(std::filesystem::exists(scratch / "x.ply"));
   const Run few = run_furrow("drape " + skirt() + out + " --max-iterations 2 --fabric silk");
   CHECK(few.exit_code == 4);
