@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <numbers>
 
 #include "geometry/insert/flip_rules.h"
@@ -79,16 +80,26 @@ double BandMesh::mean_edge(Vertex v) const {
   return sum / count;
 }
 
-/// Where on the base a new vertex of this edge begins to look for its place: not at a seam, of which a vertex
-/// does not know the side.
-FacePoint BandMesh::start_for(Halfedge h) const {
+/// The place on the base of a point of an edge. It is looked for from a vertex that lies on no seam, since
+/// one on a seam does not know its side; if there is none, from all faces around: the nearest is it.
+FacePoint BandMesh::place_on(Halfedge h, const Point& p) const {
   const Halfedge o = mesh.opposite(h);
-  for (Vertex v : {mesh.source(h), mesh.target(h)})
-    if (!on_seam[v.idx()]) return place[v.idx()];
+  std::vector<Vertex> near{mesh.source(h), mesh.target(h)};
   for (Halfedge side : {h, o})
-    if (!mesh.is_border(side) && !on_seam[mesh.target(mesh.next(side)).idx()])
-      return place[mesh.target(mesh.next(side)).idx()];
-  return place[mesh.source(h).idx()];
+    if (!mesh.is_border(side)) near.push_back(mesh.target(mesh.next(side)));
+  for (Vertex v : near)
+    if (!on_seam[v.idx()]) return base.project(place[v.idx()], p);
+  FacePoint best;
+  double least = std::numeric_limits<double>::infinity();
+  for (Vertex v : near)
+    for (Vertex c : corners_of(base.mesh(), place[v.idx()].face))
+      for (Face f : base.mesh().faces_around_target(base.mesh().halfedge(c))) {
+        if (!f.is_valid()) continue;
+        const FacePoint at = base.project({f, {1, 0, 0}}, p);
+        const double d = (base.position(at) - p).squared_length();
+        if (d < least) least = d, best = at;
+      }
+  return best;
 }
 
 void BandMesh::grow(Vertex v, Hold as, Face left, Face right) {
@@ -108,18 +119,17 @@ Vertex BandMesh::split(Edge e, double t) {
   Halfedge h = from_lower(e);
   const Vertex a = mesh.source(h), b = mesh.target(h);
   const bool border = mesh.is_border(e), seam = !border && editor.is_seam(e);
-  const FacePoint start = start_for(h);
-  // Between two vertices of seams nobody knows the side: such a vertex stays where it is made.
-  const bool lost = on_seam[a.idx()] && on_seam[b.idx()];
+  const Point chord = mesh.point(a) + t * (mesh.point(b) - mesh.point(a));
+  const FacePoint at = place_on(h, chord);
   const std::vector<CurveEdge> chains = curves_of(a, b);
   const bool earlier = editor.line_edge()[e] && chains.empty();
   const Face left = mesh.face(h), right = mesh.face(mesh.opposite(h));
   const bool turned = mesh.is_border(h);
   const Vertex v = turned ? editor.split_edge(mesh.opposite(h), 1 - t) : editor.split_edge(h, t);
-  grow(v, seam || earlier || lost ? Hold::fixed : border ? Hold::border : Hold::free, left, right);
-  on_seam[v.idx()] = seam || lost;
-  place[v.idx()] = base.project(start, mesh.point(v));
-  mesh.point(v) = base.position(place[v.idx()]);
+  grow(v, seam || earlier ? Hold::fixed : border ? Hold::border : Hold::free, left, right);
+  on_seam[v.idx()] = seam;
+  place[v.idx()] = at;
+  mesh.point(v) = base.position(at);
   ++splits;
   if (earlier) {
     editor.line()[v] = std::max(editor.line()[a], editor.line()[b]);

@@ -96,7 +96,7 @@ struct BandMesh {
   void finish();
 
  private:
-  FacePoint start_for(Halfedge h) const;
+  FacePoint place_on(Halfedge h, const Point& p) const;
   bool turns_over(const Star& star, const Point& p) const;
   void settle(Vertex v, const Point& p, const FacePoint& at, const Star& star,
               const std::vector<double>& lengths);

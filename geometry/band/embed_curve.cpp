@@ -22,6 +22,14 @@ constexpr double thin = 0.3;         ///< quality that a snap may come down to
 constexpr double flat = 0.05;        ///< angle defect of a star that counts as flat [rad]
 constexpr double unstrained = 0.02;  ///< edges that are longer or shorter than at rest by no more
 
+/// Which vertices snap onto the curve.
+struct Snap {
+  double within, apart;  ///< beside the curve, and along it from the next that did, in h
+  double least_quality;  ///< that a face around may come down to
+};
+/// The second one takes a vertex onto the curve where two crossings close to each other would be split.
+constexpr std::array<Snap, 2> snaps{{{snap_within, snap_apart, thin}, {0.42, 0.5, 0.45}}};
+
 /// A vertex near the curve.
 struct Candidate {
   Vertex vertex;
@@ -156,14 +164,15 @@ class Embedding {
       if (c.near.distance <= within * c.h && !taken(c.near.along, 1e-3 * c.h))
         band_.put_on(c.vertex, index_, c.near.along);
     }
-    for (const Candidate& c : list) {
-      if (c.near.distance > snap_within * c.h || band_.along(c.vertex, index_) >= 0 || stays(c.vertex))
-        continue;
-      if (!band_.on[c.vertex.idx()].empty()) {
-        slide_to_crossing(c);
-        continue;
-      }
-      if (taken(c.near.along, snap_apart * c.h) || !slide(c.vertex, c.near.along, thin)) continue;
+    for (const Snap& rule : snaps)
+      for (const Candidate& c : list) snap(c, rule);
+  }
+
+  void snap(const Candidate& c, const Snap& rule) {
+    if (c.near.distance > rule.within * c.h || band_.along(c.vertex, index_) >= 0 || stays(c.vertex)) return;
+    if (!band_.on[c.vertex.idx()].empty()) {
+      slide_to_crossing(c);
+    } else if (!taken(c.near.along, rule.apart * c.h) && slide(c.vertex, c.near.along, rule.least_quality)) {
       band_.put_on(c.vertex, index_, c.near.along);
     }
   }

@@ -10,11 +10,12 @@ namespace furrow::geometry {
 /// band.curves[index].vertices, with an edge between every two neighbours.
 /// \details Ends first: the nearest vertex goes onto the end, along the border where the curve ends there.
 /// Then vertices nearer than 0.3 h, the nearest first, if no face gets thin and none on the curve is within
-/// 0.35 h of it along the curve; h: the smaller of the sizing and the mean edge there. A vertex of another
-/// curve slides along that to the crossing. Vertices of borders, seams and earlier lines stay; nearer than
-/// 0.04 h they count as on the curve. Then, from vertex to vertex along the curve: the edge opposite the last
-/// vertex that the curve leaves its star through is split where it does. Where no way leads on, the chain
-/// goes along the shortest path of edges (BandMesh::detours). O(length of the curve over h) steps.
+/// 0.35 h of it along the curve, and once more within 0.42 and 0.5 h where faces stay good; h: the smaller of
+/// the sizing and the mean edge there. A vertex of another curve slides along that to the crossing. Vertices
+/// of borders, seams and earlier lines stay; nearer than 0.04 h they count as on the curve. Then, from vertex
+/// to vertex along the curve: the edge opposite the last vertex that the curve leaves its star through is
+/// split where it does. Where no way leads on, the chain goes along the shortest path of edges
+/// (BandMesh::detours). O(length of the curve over h) steps.
 void embed_curve(BandMesh& band, int index, const FoldCurve& given);
 
 }  // namespace furrow::geometry

@@ -32,9 +32,8 @@ class Relaxation {
  private:
   bool relax(Vertex v) {
     if (band_.hold[v.idx()] == Hold::fixed) return false;
-    if (band_.is_old(v) && !(band_.moved[v.idx()] && band_.on[v.idx()].size() == 1)) return false;
-    if (band_.on[v.idx()].size() > 1) return false;
-    if (band_.on[v.idx()].size() == 1) return slide_on_curve(v, band_.on[v.idx()].front());
+    if (band_.is_old(v) && !(band_.moved[v.idx()] && !band_.on[v.idx()].empty())) return false;
+    if (!band_.on[v.idx()].empty()) return slide_on_curve(v, band_.on[v.idx()].front());
     if (band_.hold[v.idx()] == Hold::border) return slide_on_border(v);
     return centre(v);
   }
@@ -63,7 +62,7 @@ class Relaxation {
     return go(star, {step * sum[0] / weights, step * sum[1] / weights});
   }
 
-  bool slide_on_curve(Vertex v, const OnCurve& at) {
+  bool slide_on_curve(Vertex v, const OnCurve at) {
     if (band_.hold[v.idx()] != Hold::free) return false;
     const BandCurve& curve = band_.curves[at.curve];
     const Vertex before = band_.previous_on(at.curve, at.along), after = band_.next_on(at.curve, at.along);
@@ -75,10 +74,18 @@ class Relaxation {
     const Star star = lay_flat(mesh_, band_.rest, v);
     const StarPoint to = find_in_star(mesh_, star, p);
     if (*std::min_element(to.weights.begin(), to.weights.end()) < -1e-3) return false;
-    const int which = at.curve;
+    // Of several curves, it leaves none: it stays at a crossing, and slides where one lies on the other.
+    std::vector<OnCurve> there;
+    for (const OnCurve& o : band_.on[v.idx()]) {
+      const BandCurve::Near near = band_.curves[o.curve].nearest(p, o.along, on + back);
+      if (near.distance > 1e-6 * (on + back)) return false;
+      there.push_back({o.curve, o.curve == at.curve ? along : near.along});
+    }
     if (!go(star, place_in(star, to), &p)) return false;
-    band_.take_off(v, which);
-    band_.put_on(v, which, along);
+    for (const OnCurve& o : there) {
+      band_.take_off(v, o.curve);
+      band_.put_on(v, o.curve, o.along);
+    }
     return true;
   }
 

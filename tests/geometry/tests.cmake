@@ -30,6 +30,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   figure/principal_strain_test.cpp
   figure/repair_body_test.cpp
   figure/torso_levels_test.cpp
+  band/band_cases_test.cpp
   band/band_checks.cpp
   band/band_checks.h
   band/refine_band_test.cpp
