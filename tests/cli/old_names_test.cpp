@@ -5,14 +5,11 @@
 #include <regex>
 
 #include "run_furrow.h"
-#include "tests/test_paths.h"
 
 using namespace furrow::tests;
 using nlohmann::json;
 
 namespace {
-
-std::string of(const char* path) { return (source_dir() / path).string(); }
 
 /// Both calls end alike and write the same file; the old one notes the new name, once, unless it is quiet.
 void same(const std::string& old_call, const std::string& new_call, const std::string& file,
@@ -37,8 +34,10 @@ void same(const std::string& old_call, const std::string& new_call, const std::s
 
 TEST_CASE("old names: they do what the new ones do, and say so") {
   const ScratchDirectory scratch;
-  const std::string sheet = of("meshes/sheet.obj"), lines = of("meshes/strokes/round_bulge.json"),
-                    body = of("meshes/mannequin.obj"), ply = scratch / "o.ply", png = scratch / "o.png";
+  const std::string sheet = source_file("meshes/sheet.obj"),
+                    lines = source_file("meshes/strokes/round_bulge.json"),
+                    body = source_file("meshes/mannequin.obj"), ply = scratch / "o.ply",
+                    png = scratch / "o.png";
   same("subdivide " + sheet + " --loop 1 -o " + ply, "subdivide " + sheet + " --subdivide 1 -o " + ply, ply,
        "--loop of furrow subdivide is --subdivide now");
   const std::string small = " --size 60,60 --quality draft";
@@ -50,7 +49,7 @@ TEST_CASE("old names: they do what the new ones do, and say so") {
        "--parallel of furrow render is --orthographic now");
   same("sdf " + body + " --tolerance 0.02 --slice " + png,
        "sdf " + body + " --tolerance 0.02 --picture " + png, png, "--slice of furrow sdf is --picture now");
-  const std::string textured = of("meshes/panelled.obj"), prefix = scratch / "m";
+  const std::string textured = source_file("meshes/panelled.obj"), prefix = scratch / "m";
   same("bake " + textured + " " + textured + " --size 32 -o " + prefix,
        "bake " + textured + " " + textured + " --texels 32 -o " + prefix, prefix + "_normal.png",
        "--size of furrow bake is --texels now");
@@ -70,7 +69,8 @@ TEST_CASE("old names: they do what the new ones do, and say so") {
 
 TEST_CASE("old names: --tolerance is a length, and was an accuracy where it was a share") {
   const ScratchDirectory scratch;
-  const std::string scene = of("scenes/validation/free_fall.toml") + " --set simulation.seconds=0.02";
+  const std::string scene =
+      source_file("scenes/validation/free_fall.toml") + " --set simulation.seconds=0.02";
   const Run old = run_furrow("chart --json --tolerance 5% " + scene);
   CHECK(old.err.rfind("note: --tolerance of furrow chart is --accuracy now", 0) == 0);
   CHECK(json::parse(old.out)["tolerance"] == 0.05);
@@ -90,7 +90,7 @@ TEST_CASE("old names: help, completion and manual pages have the new ones alone"
 
 TEST_CASE("wrinkle: --width is that of strokes that name none, and --strokes names their file") {
   const ScratchDirectory scratch;
-  const std::string sheet = of("meshes/sheet.obj");
+  const std::string sheet = source_file("meshes/sheet.obj");
   write_text(scratch / "l.json", R"({"strokes": [{"name": "a", "points": [[-0.2,0.3,0],[0.2,0.3,0]]},
                                                  {"name": "b", "width": 0.1, "points": [[-0.2,0.7,0],[0.2,0.7,0]]}]})");
   const Run run = run_furrow("wrinkle --json " + sheet + " --strokes " + (scratch / "l.json") +

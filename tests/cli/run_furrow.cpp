@@ -31,6 +31,8 @@ ScratchDirectory::~ScratchDirectory() {
   std::filesystem::remove_all(path_, ignored);
 }
 
+std::string source_file(const std::string& path) { return std::string(FURROW_SOURCE_DIR "/") + path; }
+
 std::string read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;

@@ -27,6 +27,9 @@ class ScratchDirectory {
   std::filesystem::path path_;
 };
 
+/// The path of a file of the source tree.
+std::string source_file(const std::string& path);
+
 std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, const std::string& text);
 

@@ -7,17 +7,14 @@
 
 #include "json_schema.h"
 #include "run_furrow.h"
-#include "tests/test_paths.h"
 
 using namespace furrow::tests;
 using nlohmann::json;
 
 namespace {
 
-std::string of(const char* path) { return (source_dir() / path).string(); }
-
 const json& schema() {
-  static const json all = parse_strictly(read_text(of("jobs/report/report.schema.json")));
+  static const json all = parse_strictly(read_text(source_file("jobs/report/report.schema.json")));
   return all;
 }
 
@@ -42,8 +39,10 @@ json report_of(const std::string& arguments, int exit_code = 0) {
 
 TEST_CASE("strict JSON: every command's report is read, and is as its schema says") {
   ScratchDirectory scratch;
-  const std::string sheet = of("meshes/sheet.obj"), body = " --body " + of("meshes/mannequin.obj"),
-                    strokes = of("meshes/strokes/round_bulge.json"), skirt = of("meshes/skirt.obj");
+  const std::string sheet = source_file("meshes/sheet.obj"),
+                    body = " --body " + source_file("meshes/mannequin.obj"),
+                    strokes = source_file("meshes/strokes/round_bulge.json"),
+                    skirt = source_file("meshes/skirt.obj");
   const auto out = [&](const char* name) { return " -o " + (scratch / name); };
   report_of("info " + sheet);
   report_of("subdivide " + sheet + " --subdivide 1" + out("fine.ply"));
@@ -63,12 +62,12 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   report_of("fit " + (scratch / "worn.ply") + body);
   report_of("fit --compare " + (scratch / "worn.ply") + " " + (scratch / "worn.ply") + body);
   report_of("transfer " + sheet + " " + (scratch / "w.ply") + out("back.obj"));
-  const std::string textured = of("meshes/panelled.obj");
+  const std::string textured = source_file("meshes/panelled.obj");
   report_of("bake " + textured + " " + textured + out("baked") + " --texels 64 --check 1");
   report_of("render " + sheet + " --size 200,200 --quality draft" + out("p.png"));
   report_of("strokes " + strokes + " --garment " + sheet);
   report_of("strokes " + (scratch / "w.ply") + out("s.json"));
-  report_of("chart " + of("scenes/validation/free_fall.toml") + " --set simulation.seconds=0.02");
+  report_of("chart " + source_file("scenes/validation/free_fall.toml") + " --set simulation.seconds=0.02");
   for (const char* integrator : {"leapfrog", "backward-euler", "xpbd", "rk4"}) {
     const json r = report_of("simulate " + (scratch / "w.ply") +
                              " --pin-vertices 0,5 --seconds 0.005 --integrator " + integrator + out("s.ply"));
@@ -78,7 +77,7 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   }
   report_of("simulate " + skirt + body + " --seconds 0.005 --pin-loop top --animation " +
             (scratch / "a.glb") + " --save-state " + (scratch / "st.ply") + out("s.ply"));
-  report_of("simulate " + of("scenes/validation/free_fall.toml") +
+  report_of("simulate " + source_file("scenes/validation/free_fall.toml") +
             " --set simulation.seconds=0.01 --accuracy 5%");
 }
 
@@ -103,7 +102,7 @@ TEST_CASE(
 
 TEST_CASE("strict JSON: the checker refuses what is not as the schema says") {
   const ScratchDirectory scratch;
-  const json report = report_of("smooth " + of("meshes/sheet.obj") + " -o " + (scratch / "s.ply"));
+  const json report = report_of("smooth " + source_file("meshes/sheet.obj") + " -o " + (scratch / "s.ply"));
   CHECK(faults_of(report, "smooth") == "");
   json other = report;
   other["vertixes"] = 3;

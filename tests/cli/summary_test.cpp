@@ -7,13 +7,10 @@
 
 #include "io/picture/png_file.h"
 #include "run_furrow.h"
-#include "tests/test_paths.h"
 
 using namespace furrow::tests;
 
 namespace {
-
-std::string of(const char* path) { return (source_dir() / path).string(); }
 
 std::string told(const std::string& arguments, int exit_code = 0) {
   const Run run = run_furrow(arguments);
@@ -44,9 +41,9 @@ std::string sheets(bool crossing) {
 
 TEST_CASE("report: ten lines at most for people, with the files written, and all of it with -v") {
   ScratchDirectory scratch;
-  const std::string sheet = of("meshes/sheet.obj"), skirt = of("meshes/skirt.obj"),
-                    body = " --body " + of("meshes/mannequin.obj"),
-                    strokes = of("meshes/strokes/round_bulge.json");
+  const std::string sheet = source_file("meshes/sheet.obj"), skirt = source_file("meshes/skirt.obj"),
+                    body = " --body " + source_file("meshes/mannequin.obj"),
+                    strokes = source_file("meshes/strokes/round_bulge.json");
   const auto out = [&](const char* name) { return " -o " + (scratch / name); };
   for (const auto& [call, file] :
        {std::pair<std::string, std::string>("info " + sheet, ""),
@@ -60,9 +57,10 @@ TEST_CASE("report: ten lines at most for people, with the files written, and all
         {"simulate " + skirt + body + " --pin-loop top --seconds 0.005" + out("s.ply"), "s.ply"},
         {"strokes " + strokes + out("l.json"), "l.json"},
         {"transfer " + sheet + " " + (scratch / "w.ply") + out("t.obj"), "t.obj"},
-        {"sdf " + of("meshes/mannequin.obj") + " --tolerance 0.02" + out("b.field"), "b.field"},
+        {"sdf " + source_file("meshes/mannequin.obj") + " --tolerance 0.02" + out("b.field"), "b.field"},
         {"render " + sheet + " --size 100,100 --quality draft" + out("p.png"), "p.png"},
-        {"chart " + of("scenes/validation/free_fall.toml") + " --set simulation.seconds=0.02", ""}}) {
+        {"chart " + source_file("scenes/validation/free_fall.toml") + " --set simulation.seconds=0.02",
+         ""}}) {
     INFO(call);
     const std::string text = told(call);
     INFO(text);
