@@ -64,6 +64,11 @@ std::array<int, 27> DistanceOctree::add_lattice(const OctreeCell& cell) {
   std::array<int, 27> lattice;
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i)
+        if (i == 1 || j == 1 || k == 1)
+          samples_.expect({cell.low[0] + i * half, cell.low[1] + j * half, cell.low[2] + k * half});
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i) {
         const int nearby = cell.corner[i / 2 + j / 2 * 2 + k / 2 * 4];
         const bool corner = i != 1 && j != 1 && k != 1;

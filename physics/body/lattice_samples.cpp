@@ -36,6 +36,14 @@ void LatticeSamples::grow() {
   }
 }
 
+void LatticeSamples::expect(const LatticePoint& p) const {
+#if defined(__GNUC__)
+  __builtin_prefetch(&slots_[scramble(key_of(p)) & (slots_.size() - 1)]);
+#else
+  (void)p;
+#endif
+}
+
 int LatticeSamples::add(const LatticePoint& p, int guess) {
   const std::uint64_t key = key_of(p);
   const std::size_t slot = slot_of(key);

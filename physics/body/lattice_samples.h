@@ -23,6 +23,9 @@ class LatticeSamples {
   int add(const LatticePoint& p, int guess);
   /// The same without a guess.
   int add(const LatticePoint& p) { return add(p, static_cast<int>(samples_.size())); }
+  /// Tells the processor that the point is to be added soon: the table of all points does not fit into its
+  /// caches. Changes nothing.
+  void expect(const LatticePoint& p) const;
   /// Evaluates what was added since the last call. Same values for any number of threads. `tell` is called by
   /// this thread, about every millisecond, with the share of the call that is done [0, 1]; what it throws
   /// ends the call, and the samples are then good for nothing.

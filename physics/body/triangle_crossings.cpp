@@ -64,6 +64,19 @@ bool boxes_apart(const Corners& s, const Corners& t, double slack) {
   return false;
 }
 
+/// Triangles at a vertex that more than a thousand share. Each lies in the boxes of all others there, so that
+/// their pairs would take quadratic time.
+std::vector<char> crowded_triangles(const SurfaceTopology& topology) {
+  constexpr int crowd = 1000;
+  std::vector<int> uses(std::size_t(topology.vertices), 0);
+  for (const auto& t : topology.triangles)
+    for (int v : t) ++uses[std::size_t(v)];
+  std::vector<char> crowded;
+  for (const auto& t : topology.triangles)
+    crowded.push_back(std::any_of(t.begin(), t.end(), [&](int v) { return uses[std::size_t(v)] > crowd; }));
+  return crowded;
+}
+
 }  // namespace
 
 bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -87,15 +100,18 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const V
 std::vector<char> crossed_triangles(const TriangleBvh& bvh, const SurfaceTopology& topology) {
   const int count = static_cast<int>(topology.triangles.size());
   std::vector<char> crossed(count, 0);
+  const std::vector<char> crowded = crowded_triangles(topology);
   std::vector<int> near;
   for (int i = 0; i < count; ++i) {
+    if (crowded[i]) continue;
     const Corners& s = bvh.corners(i);
     const Vec3 low = s[0].cwiseMin(s[1]).cwiseMin(s[2]), high = s[0].cwiseMax(s[1]).cwiseMax(s[2]);
     const double slack = 1e-9 * (high - low).norm();
     near.clear();
     bvh.append_near(low, high, near);
     for (int j : near) {
-      if (j <= i || (crossed[i] && crossed[j]) || boxes_apart(s, bvh.corners(j), slack)) continue;
+      if ((j <= i && !crowded[j]) || (crossed[i] && crossed[j]) || boxes_apart(s, bvh.corners(j), slack))
+        continue;
       if (may_meet(bvh, topology, i, j)) crossed[i] = crossed[j] = 1;
     }
   }

@@ -11,14 +11,67 @@ namespace {
 
 constexpr double beta = 2;
 
+/// Half the solid angle of a triangle is the angle of this vector.
+struct HalfAngle {
+  double along, across;
+};
+HalfAngle half_angle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 p = a - x, q = b - x, r = c - x;
+  const double lp = p.norm(), lq = q.norm(), lr = r.norm();
+  return {lp * lq * lr + p.dot(q) * lr + q.dot(r) * lp + r.dot(p) * lq, p.dot(q.cross(r))};
+}
+
+/// Adds angles as one turns a vector, with an arc tangent at the end alone: it counts how often the vector
+/// passes the negative axis.
+class AngleSum {
+ public:
+  void add(const HalfAngle& t) {
+    if (t.across == 0) return;
+    const double along = along_ * t.along - across_ * t.across;
+    const double across = along_ * t.across + across_ * t.along + 0.0;  // never -0
+    if (across_ >= 0 && t.across > 0 && across < 0) ++turns_;
+    if (across_ < 0 && t.across < 0 && across >= 0) --turns_;
+    along_ = along, across_ = across;
+  }
+  /// Once a few were added, before the vector's length leaves the range of numbers. False: it did.
+  bool shorten() {
+    const double length = std::abs(along_) + std::abs(across_);
+    if (!(length > 1e-280 && length < 1e280)) return false;
+    along_ /= length, across_ /= length;
+    return true;
+  }
+  double turns() const { return turns_ + std::atan2(across_, along_) / (2 * std::numbers::pi); }
+
+ private:
+  double along_ = 1, across_ = 0;
+  int turns_ = 0;
+};
+
+/// The triangles of a leaf; what they turn the sum by that does not fit into it is returned.
+double add_leaf(const TriangleBvh& bvh, const Vec3& x, int leaf, AngleSum& sum) {
+  const AngleSum before = sum;
+  const auto& triangles = bvh.leaves()[leaf].triangle;
+  for (int t : triangles) {
+    if (t == TriangleBvh::Node::none) continue;
+    const auto& [a, b, c] = bvh.corners(t);
+    sum.add(half_angle(x, a, b, c));
+  }
+  if (sum.shorten()) return 0;
+  sum = before;
+  double w = 0;
+  for (int t : triangles) {
+    if (t == TriangleBvh::Node::none) continue;
+    const auto& [a, b, c] = bvh.corners(t);
+    w += winding_of_triangle(x, a, b, c);
+  }
+  return w;
+}
+
 }  // namespace
 
 double winding_of_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 p = a - x, q = b - x, r = c - x;
-  const double lp = p.norm(), lq = q.norm(), lr = r.norm();
-  const double num = p.dot(q.cross(r));
-  const double den = lp * lq * lr + p.dot(q) * lr + q.dot(r) * lp + r.dot(p) * lq;
-  return num == 0 ? 0 : std::atan2(num, den) / (2 * std::numbers::pi);
+  const HalfAngle t = half_angle(x, a, b, c);
+  return t.across == 0 ? 0 : std::atan2(t.across, t.along) / (2 * std::numbers::pi);
 }
 
 WindingNumber::WindingNumber(const TriangleBvh& bvh) : bvh_(bvh), dipoles_(4 * bvh.nodes().size()) {
@@ -68,6 +121,7 @@ WindingNumber::Dipole WindingNumber::of_node(int node) const {
 
 double WindingNumber::at(const Vec3& x) const {
   double w = 0;
+  AngleSum near;
   int stack[96], size = 0;
   stack[size++] = 0;
   while (size > 0) {
@@ -83,15 +137,11 @@ double WindingNumber::at(const Vec3& x) const {
       } else if (child >= 0) {
         stack[size++] = child;
       } else {
-        for (int t : bvh_.leaves()[~child].triangle) {
-          if (t == TriangleBvh::Node::none) continue;
-          const auto& [a, b, c] = bvh_.corners(t);
-          w += winding_of_triangle(x, a, b, c);
-        }
+        w += add_leaf(bvh_, x, ~child, near);
       }
     }
   }
-  return w;
+  return w + near.turns();
 }
 
 }  // namespace furrow::physics

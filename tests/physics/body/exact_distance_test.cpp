@@ -182,3 +182,41 @@ TEST_CASE("exact_distance: one triangle is a body without an inside, unusable bo
   m.vertices[1][2] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(ExactDistance(m), Catch::Contains("vertex 1 is not finite"));
 }
+
+namespace {
+
+/// Two cones on one rim: `n` faces meet at either tip.
+TriangleMesh double_cone(int n) {
+  TriangleMesh m;
+  m.vertices = {{0, 0.5, 0}, {0, -0.5, 0}};
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * 3.14159265358979323846 * i / n;
+    m.vertices.emplace_back(0.5 * std::cos(angle), 0, 0.5 * std::sin(angle));
+  }
+  for (int i = 0; i < n; ++i) {
+    const int a = 2 + i, b = 2 + (i + 1) % n;
+    m.triangles.push_back({0, b, a});
+    m.triangles.push_back({1, a, b});
+  }
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("exact_distance: thousands of faces at a vertex are sound, and what pierces them is still found") {
+  const int n = 3000;
+  TriangleMesh m = double_cone(n);
+  const ExactDistance cone(m);
+  CHECK(cone.report().closed);
+  CHECK(cone.report().crossed_triangles == 0);
+  CHECK(cone.report().rule == SignRule::pseudonormal);
+  const double slope = 0.5 / std::sqrt(2);  // from the middle to the surface
+  CHECK(cone.at({0, 0, 0}).value == Approx(-slope).epsilon(1e-5));
+  CHECK(cone.at({0.4, 0.4, 0}).value == Approx(0.3 / std::sqrt(2)).epsilon(1e-5));
+  const int first = int(m.vertices.size());
+  for (const Vec3& p : {Vec3(0.2, 0.2, 0), Vec3(0.4, 0.4, 0), Vec3(0.4, 0.2, 0.1), Vec3(0.4, 0.2, -0.1)})
+    m.vertices.push_back(p);
+  const std::vector<std::array<int, 3>> faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  for (const auto& [a, b, c] : faces) m.triangles.push_back({first + a, first + b, first + c});
+  CHECK(ExactDistance(m).report().crossed_triangles > 2);
+}

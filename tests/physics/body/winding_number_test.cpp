@@ -77,3 +77,23 @@ TEST_CASE("winding_number: half of the directions from the middle of an open hal
   const TriangleBvh bvh(half);
   CHECK(WindingNumber(bvh).at({0, 0, 0}) == Approx(0.5).margin(0.01));
 }
+TEST_CASE("winding_number: bodies in bodies add up beyond a whole turn, wound either way and at any size") {
+  for (const double scale : {1.0, 1e-9, 1e8})
+    for (const bool turned : {false, true}) {
+      TriangleMesh m;
+      for (const double radius : {1.0, 0.9, 0.8}) {
+        const TriangleMesh ball = furrow::tests::sphere(12, radius * scale);
+        const int first = int(m.vertices.size());
+        m.vertices.insert(m.vertices.end(), ball.vertices.begin(), ball.vertices.end());
+        for (const auto& [a, b, c] : ball.triangles)
+          m.triangles.push_back({first + a, first + (turned ? c : b), first + (turned ? b : c)});
+      }
+      const TriangleBvh bvh(m);
+      const WindingNumber w(bvh);
+      std::mt19937_64 random(7);
+      for (int i = 0; i < 50; ++i) {
+        const Vec3 x = scale * random_point(random, 0.3);
+        CHECK(w.at(x) == Approx(turned ? -3 : 3).margin(0.15));
+      }
+    }
+}
