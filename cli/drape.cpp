@@ -112,6 +112,7 @@ void write_picture(DrapeJobReport& report, const DrapeArguments& a, const Common
   const io::FitScale scale = fit_scale(colour, all[0].fit_options);
   CommonArguments silent = common;  // its repairs are told already
   silent.quiet = true;
+  if (report.scene.body->unit) silent.unit = report.scene.body->unit;
   const io::MeshFile body = read_mesh(report.scene.body->mesh.string(), silent);
   std::vector<FitPanel> panels;
   for (Draped& d : all) {

@@ -14,7 +14,7 @@ namespace {
 
 struct FitArguments : CommonArguments {
   std::vector<std::string> worn, bodies, sections;
-  std::string rest, picture, colour, captions;
+  std::string rest, picture, colour, captions, body_unit;
   std::optional<double> range, contact;
   bridge::FitOptions options;
   CameraArguments camera;
@@ -55,6 +55,7 @@ FitJob job_of(const FitArguments& a) {
   for (const std::string& path : a.bodies) job.bodies.emplace_back(std::filesystem::path(path));
   if (!a.rest.empty()) job.rest = std::filesystem::path(a.rest);
   job.frame = a;
+  if (!a.body_unit.empty()) job.body_unit = a.body_unit;
   job.options = a.options;
   job.contact = a.contact;
   if (!a.colour.empty()) job.colour = a.colour == "strain" ? FitColour::strain : FitColour::distance;
@@ -67,7 +68,10 @@ FitJob job_of(const FitArguments& a) {
 
 void write_picture(const FitJobReport& report, const FitArguments& a, const CommonArguments& common) {
   std::vector<geometry::Mesh> bodies;
-  for (const std::string& path : a.bodies) bodies.push_back(io::read_mesh(path, read_options(common)).mesh);
+  Frame of_bodies = common;
+  if (!a.body_unit.empty()) of_bodies.unit = a.body_unit;
+  for (const std::string& path : a.bodies)
+    bodies.push_back(io::read_mesh(path, read_options(of_bodies)).mesh);
   const std::vector<std::string> captions = split_at_commas(a.captions);
   std::vector<FitPanel> panels;
   for (std::size_t i = 0; i < report.garments.size(); ++i) {
@@ -140,6 +144,8 @@ void add_fit(CLI::App& app) {
                   "--body A.obj --body B.obj")
       ->required()
       ->allow_extra_args(false);
+  sub->add_option("--body-unit", a->body_unit, "unit of the bodies' files, where it is not the garments'")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
   sub->add_option(
       "--rest-shape", a->rest,
       "the garment as it was made, with the same vertices, where the worn one has no rest lengths");

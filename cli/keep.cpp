@@ -20,7 +20,7 @@ struct KeepArguments : CommonArguments {
   CameraArguments camera;
   double run = 5, gust = 12;
   std::string kept = "95%";
-  bool no_balance = false, no_help = false, whole = false;
+  bool no_balance = false, no_settle = false, no_help = false, whole = false;
 };
 
 KeepJob job_of(const KeepArguments& a) {
@@ -36,6 +36,7 @@ KeepJob job_of(const KeepArguments& a) {
   job.gust = a.gust;
   job.kept = parse_share(a.kept, "--kept");
   job.balance = !a.no_balance;
+  job.settle = !a.no_settle;
   job.help = !a.no_help;
   job.whole = a.whole;
   job.more_outputs = {a.picture, a.camera.save_camera};
@@ -93,6 +94,10 @@ void add_keep(CLI::App& app, int& exit_code) {
       "--no-balance", a->no_balance,
       "do not turn a garment about a line of pins, or one, until its centre of mass hangs below them "
       "(by at most 0.2 rad)");
+  sub->add_flag(
+      "--no-settle", a->no_settle,
+      "on a body, draw the scene's lines where the garment lies, even if nothing holds it there; by "
+      "default it comes to rest first then");
   sub->add_flag("--no-help", a->no_help,
                 "no press, struts or lower height where the rest state alone does not hold");
   sub->add_flag("--whole", a->whole,

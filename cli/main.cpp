@@ -117,6 +117,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_code = cli::exit_ok;
   cli::add_info(app);
+  cli::add_doctor(app, exit_code);
   cli::add_subdivide(app);
   cli::add_smooth(app);
   cli::add_wrinkle(app);

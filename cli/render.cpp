@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/picture/render.h"
 
+#include <Eigen/Geometry>
 #include <memory>
 
 #include "cli/camera_options.h"
@@ -62,6 +63,19 @@ void add_garment(io::RenderScene& scene, const std::string& path,
     scene.lines.push_back(std::move(line));
 }
 
+/// Throws geometry::ContentError, naming the first file, where nothing is to be seen: all lies at one point.
+void require_extent(const io::RenderScene& scene, const std::string& path) {
+  Eigen::AlignedBox3d box;
+  for (const io::RenderMesh& mesh : scene.meshes)
+    for (const auto& triangle : mesh.triangles)
+      for (const int v : triangle) {
+        const auto& p = mesh.vertices[std::size_t(v)];
+        box.extend(Eigen::Vector3d(p[0], p[1], p[2]));
+      }
+  if (!box.isEmpty() && !(box.diagonal().norm() > 1e-9))
+    throw geometry::ContentError(path + ": all its vertices lie at one point, so there is nothing to see");
+}
+
 /// The strokes of a file as they lie on the first garment.
 void add_strokes(io::RenderScene& scene, const std::string& strokes, const RenderArguments& a) {
   const io::MeshFile garment = read_mesh(a.meshes[0], a);
@@ -91,6 +105,7 @@ std::vector<io::RenderScene> scenes(const RenderArguments& a, std::size_t& cross
   const auto texture = read_texture(a.texture);
   for (std::size_t i = 0; i < a.meshes.size(); ++i)
     add_garment(list[a.strip ? i : 0], a.meshes[i], texture, crossings, a);
+  for (std::size_t i = 0; i < list.size(); ++i) require_extent(list[i], a.meshes[i]);
   add_bodies(list, a);
   for (const std::string& strokes : a.strokes) add_strokes(list[0], strokes, a);
   return list;

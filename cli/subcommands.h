@@ -7,6 +7,8 @@
 namespace furrow::cli {
 
 void add_info(CLI::App& app);
+/// Sets exit_code where something is wrong, or is left after repair.
+void add_doctor(CLI::App& app, int& exit_code);
 void add_subdivide(CLI::App& app);
 void add_smooth(CLI::App& app);
 void add_wrinkle(CLI::App& app);

@@ -10,6 +10,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/report/fit_picture.h"
 #include "jobs/run/body.h"
+#include "jobs/run/gate.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/output_checks.h"
 
@@ -25,6 +26,8 @@ void check(const FitJob& job) {
   if (!output.empty() && job.worn.size() > 1)
     throw std::invalid_argument("-o writes one garment, not those of --compare");
   if (job.rest && job.worn.size() > 1) throw std::invalid_argument("--rest-shape is that of one garment");
+  if (job.body_unit && !is_unit(*job.body_unit))
+    throw std::invalid_argument("--body-unit: '" + *job.body_unit + "' is not m, cm, mm or inch");
   if (job.range && !(*job.range > 0 && std::isfinite(*job.range)))
     throw std::invalid_argument("--range takes a number > 0, not " + Json(*job.range).dump());
   if (!output.empty()) check_output(output);
@@ -53,12 +56,15 @@ void take_rest(geometry::Mesh& mesh, const FitJob& job, const Context& context) 
 struct Body {
   physics::TriangleMesh triangles;
   physics::ExactDistance distance;
+  BodyOutline outline;
 };
 
-Body read_wearer(const MeshInput& input, const Context& context) {
-  physics::TriangleMesh triangles = read_body(input, context);
+Body read_wearer(const MeshInput& input, const FitJob& job, const Context& context) {
+  BodyOutline outline;
+  physics::TriangleMesh triangles =
+      read_body(input, {with_unit(context.frame, job.body_unit), context.listener, context.memory}, &outline);
   physics::ExactDistance distance(triangles);
-  return {std::move(triangles), std::move(distance)};
+  return {std::move(triangles), std::move(distance), outline};
 }
 
 FittedGarment measure(const MeshInput& worn, const Body& body, const FitJob& job, const Context& context) {
@@ -66,6 +72,7 @@ FittedGarment measure(const MeshInput& worn, const Body& body, const FitJob& job
   FittedGarment fitted{
       path, std::filesystem::path(path).stem().string(), read_garment(worn, context), {}, job.options, {}};
   geometry::Mesh& mesh = fitted.garment.mesh;
+  heed(faults_of_pair(mesh, body.outline, job.body_unit.has_value()), path, context);
   if (job.rest) take_rest(mesh, job, context);
   if (mesh.number_of_edges() > 0)
     fitted.options.contact_distance =
@@ -141,7 +148,7 @@ FitJobReport fit(const FitJob& job, Listener& listener) {
   take_noted_frame(report.frame, names);
   const Context context{report.frame, listener};
   std::vector<Body> bodies;
-  for (const MeshInput& input : job.bodies) bodies.push_back(read_wearer(input, context));
+  for (const MeshInput& input : job.bodies) bodies.push_back(read_wearer(input, job, context));
   for (std::size_t i = 0; i < job.worn.size(); ++i) {
     stop_if_cancelled(context);
     report.garments.push_back(measure(job.worn[i], bodies[bodies.size() > 1 ? i : 0], job, context));

@@ -16,9 +16,10 @@ enum class FitColour { strain, distance };
 /// Worn garments, to be measured on the bodies that wear them.
 struct FitJob {
   std::vector<MeshInput> worn;
-  std::vector<MeshInput> bodies;  ///< one, or one for each garment
-  std::optional<MeshInput> rest;  ///< a single garment as it was made, with the same vertices
-  Frame frame = {};               ///< of the files read and written
+  std::vector<MeshInput> bodies;              ///< one, or one for each garment
+  std::optional<MeshInput> rest;              ///< a single garment as it was made, with the same vertices
+  Frame frame = {};                           ///< of the files read and written
+  std::optional<std::string> body_unit = {};  ///< of the bodies' files; none: the frame's
   bridge::FitOptions options = {};
   std::optional<double> contact;    ///< cloth nearer lies on the body [m]; none: by the gap that it kept
   std::optional<FitColour> colour;  ///< none: strain where all garments know theirs

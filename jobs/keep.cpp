@@ -16,6 +16,7 @@
 #include "jobs/run/run_warnings.h"
 #include "jobs/run/scene_cloth.h"
 #include "jobs/run_until_drawn.h"
+#include "jobs/settle_first.h"
 #include "jobs/simulate.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/cloth/pins.h"
@@ -77,6 +78,40 @@ SceneCloth drawn_by(const io::Scene& scene, const Context& context) {
   drawn.keep = false;
   for (io::SceneLines& lines : drawn.lines) lines.keep = false;
   return prepare_scene(drawn, context);
+}
+
+/// Whether nothing holds the garment in balance as it was drawn.
+bool hangs_wrong(const SceneCloth& garment, const io::Scene& scene) {
+  constexpr double out_of_balance = 1e-6;
+  physics::Cloth cloth = garment.cloth;
+  physics::PrestressOptions options;
+  options.gravity = scene.simulation.gravity;
+  options.friction = scene.simulation.friction;
+  options.gap = garment.options.contact_gap;
+  const bridge::KeptShape shape = bridge::keep_shape(cloth, garment.world(scene), options);
+  return shape.rest.residual > out_of_balance && !shape.rest.imbalance.empty();
+}
+
+/// What drawn_by() gives; on a body that does not hold the garment in balance, once it has come to rest
+/// there.
+SceneCloth drawn_at_rest(const KeepJob& job, const io::Scene& scene, const Context& context,
+                         KeepReport& report) {
+  SceneCloth garment = drawn_by(scene, context);
+  const bool draws = !scene.lines.empty() && scene.lines.front().time == 0;
+  if (!job.settle || !scene.body || !draws || !hangs_wrong(garment, scene)) return garment;
+  const std::optional<MemoryFiles> settled = settle_first(scene, context);
+  stop_if_cancelled(context);
+  if (!settled) return garment;
+  report.settled = true;
+  context.warn("settled_first",
+               scene.garment.string() +
+                   ": nothing held it in balance as it lay, so it came to rest on the body before its lines "
+                   "were drawn; --no-settle draws them where it lies",
+               scene.garment.string(), "--no-settle");
+  io::Scene there = scene;
+  there.subdivide = 0;
+  SilentListener silent(context.listener);  // what there is to warn of is said already
+  return drawn_by(there, {context.frame, silent, &*settled});
 }
 
 /// The same of a state; notes there at what gap it rests.
@@ -179,7 +214,7 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   const bool later =
       std::any_of(scene.lines.begin(), scene.lines.end(), [](const auto& l) { return l.time > 0; });
   if (!state && later && !(state = run_until_drawn(open, context))) return report;
-  SceneCloth garment = state ? drawn_in(*state, scene, context) : drawn_by(scene, context);
+  SceneCloth garment = state ? drawn_in(*state, scene, context) : drawn_at_rest(job, scene, context, report);
   stop_if_cancelled(context);
   report.ran = true;
   report.frame = open.frame;

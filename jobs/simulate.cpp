@@ -24,6 +24,7 @@
 #include "jobs/run/recorded_material.h"
 #include "jobs/run/run_warnings.h"
 #include "jobs/run/scene_cloth.h"
+#include "jobs/run/seam_ties.h"
 #include "jobs/run/simulate_checks.h"
 #include "jobs/run_until_drawn.h"
 #include "physics/base/cancel_scope.h"
@@ -97,6 +98,7 @@ Reached take_up(Run& run, io::SavedState now) {
   reached.crossed = crossed_start(reached.now.file.mesh);
   reached.heights = line_heights_by_id(reached.now.file);
   run.strokes = read_rounds(run.scene, reached.now.lines_drawn, run.context);
+  for (const auto& round : run.strokes) require_heights(round, reached.now.file.mesh, run.context);
   if (!run.scene.output.animation.empty())
     require_animation(run.scene.simulation.seconds - reached.now.simulation.time, run.scene.output.fps,
                       reached.now.file.mesh.number_of_vertices(), run.context);
@@ -276,6 +278,7 @@ void write_outputs(const Run& run, io::SavedState& now, AnimationSeries& animati
   if (!out.state.empty()) write_state(run, now);
   animations.finish();
   io::drop_motion(now.file);
+  close_seam_ties(now.file.mesh);
   if (run.body && !out.body.empty())
     write_mesh(out.body, run.body->at(now.simulation.time, run.context), run.context);
   note_material(now.file, run.of.document, run.body ? now.contact_gap : 0);

@@ -7,6 +7,7 @@
 #include "io/base/bytes_file.h"
 #include "io/mesh/rewrite_obj_vertices.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/gate.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/output_checks.h"
 
@@ -68,11 +69,15 @@ TransferReport transfer(const TransferJob& job, Listener& listener) {
   take_noted_frame(report.frame, names_of_inputs(job));
   const Context context{report.frame, listener};
   report.result = read_mesh(job.original, context);
+  require_area(report.result.mesh, name_of(job.original, "the original"));
   io::MeshFile wrinkled = read_mesh(job.wrinkled, context);
+  require_area(wrinkled.mesh, name_of(job.wrinkled, "the wrinkled mesh"));
   if (job.rest) set_rest_positions(wrinkled.mesh, job, context);
   stop_if_cancelled(context);
   const CrossedStart crossed = crossed_start(report.result.mesh);
-  report.moved = geometry::transfer_shape(report.result.mesh, wrinkled.mesh, job.options);
+  report.moved = naming(name_of(job.wrinkled, "the wrinkled mesh"), [&] {
+    return geometry::transfer_shape(report.result.mesh, wrinkled.mesh, job.options);
+  });
   report.crossings = measure_crossings(report.result, &crossed);
   if (report.crossings.pairs) context.warn("cloth_crosses", words(report.crossings), job.output.string());
   stop_if_cancelled(context);

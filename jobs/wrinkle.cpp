@@ -10,6 +10,7 @@
 #include "io/stroke/stroke_file.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
+#include "jobs/run/gate.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
 #include "jobs/run/max_weights.h"
@@ -110,6 +111,7 @@ LineTarget target_of(const WrinkleJob& job, Canvas& canvas, const io::Scene* kee
 DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, WrinkleStages* stages,
                 const Context& context) {
   const std::vector<io::DrawnStroke> strokes = strokes_of(job, context);
+  require_heights(strokes, canvas.file.mesh, context);
   io::SceneLines lines;
   lines.options = job.options;
   lines.fade = job.fade;

@@ -224,6 +224,28 @@ void fill_maps(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& ou
   mark_diagonals(soup, triangles, mesh);
 }
 
+/// Drops triangles of faces of four corners and more whose corners are those of an earlier one: the back of a
+/// garment with two sides, cut along its other diagonal. False if there are none.
+bool drop_backs(const PolygonSoup& soup, Triangles& triangles, RepairReport& repairs) {
+  std::vector<std::pair<std::vector<std::size_t>, std::size_t>> keys;
+  for (std::size_t f = 0; f < soup.faces(); ++f) {
+    if (soup.first_corner[f + 1] - soup.first_corner[f] < 4) continue;
+    keys.push_back({{soup.corners.begin() + std::ptrdiff_t(soup.first_corner[f]),
+                     soup.corners.begin() + std::ptrdiff_t(soup.first_corner[f + 1])},
+                    f});
+    std::sort(keys.back().first.begin(), keys.back().first.end());
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<char> drop(soup.faces(), 0);
+  std::size_t dropped = 0;
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    if (keys[i].first == keys[i - 1].first) drop[keys[i].second] = 1, ++dropped;
+  if (dropped == 0) return false;
+  std::erase_if(triangles, [&](const SoupTriangle& t) { return drop[t.face] != 0; });
+  repairs.duplicate_faces += dropped;
+  return true;
+}
+
 }  // namespace
 
 SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name) {
@@ -237,7 +259,8 @@ SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name) {
                        "; a mesh with at least one triangle is needed");
   out.origin.resize(soup.points.size());
   std::iota(out.origin.begin(), out.origin.end(), std::size_t{0});
-  if (!build(soup, triangles, out)) {
+  if (!build(soup, triangles, out) &&
+      !(drop_backs(soup, triangles, out.repairs) && build(soup, triangles, out))) {
     const ManifoldReport parted = make_manifold(triangles, soup.points.size());
     out.repairs.reversed_faces = parted.reversed_faces;
     out.repairs.duplicated_vertices = parted.added_points.size();

@@ -73,6 +73,19 @@ physics::DepthMapOptions six_maps() {
   return options;
 }
 
+/// Throws geometry::ContentError, naming file and frame, for one that is collapsed.
+void require_area(const std::vector<physics::Vec3>& x, const std::vector<std::array<int, 3>>& triangles,
+                  const std::string& path, int frame) {
+  const auto has_area = [&](const std::array<int, 3>& t) {
+    const physics::Vec3 ab = x[std::size_t(t[1])] - x[std::size_t(t[0])],
+                        ac = x[std::size_t(t[2])] - x[std::size_t(t[0])];
+    return ab.cross(ac).squaredNorm() > 0;
+  };
+  if (std::none_of(triangles.begin(), triangles.end(), has_area))
+    throw geometry::ContentError(path + ": frame " + std::to_string(frame) +
+                                 ": none of the body's faces has an area; a body is a closed surface");
+}
+
 std::string fingerprint_of(const std::vector<physics::Vec3>& vertices, double tolerance) {
   std::string bytes(reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof(physics::Vec3));
   bytes.append(reinterpret_cast<const char*>(&tolerance), sizeof tolerance);
@@ -81,9 +94,16 @@ std::string fingerprint_of(const std::vector<physics::Vec3>& vertices, double to
 
 }  // namespace
 
-physics::TriangleMesh read_body(const MeshInput& input, const Context& context) {
+Frame with_unit(Frame frame, const std::optional<std::string>& unit) {
+  if (unit) frame.unit = unit;
+  return frame;
+}
+
+physics::TriangleMesh read_body(const MeshInput& input, const Context& context, BodyOutline* outline) {
   const std::string path = name_of(input, "body");
   const io::MeshFile file = read_garment(input, context, "body");
+  heed(faults_of_body(file.mesh, context.frame.up.has_value()), path, context);
+  if (outline) *outline = outline_of(file.mesh);
   stop_if_cancelled(context);
   const geometry::Body repaired = geometry::repair_body(file.mesh);
   stop_if_cancelled(context);
@@ -99,18 +119,20 @@ physics::TriangleMesh read_body(const MeshInput& input, const Context& context) 
 
 BodyCollider load_body(const io::SceneBody& body, const Context& context) {
   stop_if_cancelled(context);
-  physics::TriangleMesh triangles = read_body(body.mesh, context);
+  BodyOutline outline;
+  physics::TriangleMesh triangles =
+      read_body(body.mesh, {with_unit(context.frame, body.unit), context.listener, context.memory}, &outline);
   physics::ExactDistance exact(triangles);
   physics::DistanceField field = body.field.empty()
                                      ? field_of(exact, threaded(body.options), body.mesh.string(), context)
                                      : io::read_field(body.field, triangles);
-  return {std::move(triangles), std::move(exact), std::move(field)};
+  return {std::move(triangles), std::move(exact), std::move(field), outline};
 }
 
 WorldBody::WorldBody(const io::SceneBody& body, const Context& context)
-    : path_(body.mesh.string()), motion_(body.motion) {
+    : path_(body.mesh.string()), unit_(body.unit), motion_(body.motion) {
   if (!body.frames.empty()) {
-    read_frames(body, context);
+    read_frames(body, {with_unit(context.frame, body.unit), context.listener, context.memory});
   } else {
     rigid_ = std::make_unique<BodyCollider>(load_body(body, context));
     tolerance_ = rigid_->field.report().tolerance;
@@ -120,6 +142,7 @@ WorldBody::WorldBody(const io::SceneBody& body, const Context& context)
 
 void WorldBody::read_frames(const io::SceneBody& body, const Context& context) {
   const geometry::Mesh mesh = read_garment(body.mesh, context, "body").mesh;
+  heed(faults_of_body(mesh, context.frame.up.has_value()), body.mesh.string(), context);
   for (geometry::Halfedge h : mesh.halfedges())
     if (mesh.is_border(h))
       throw geometry::ContentError(body.mesh.string() +
@@ -131,7 +154,11 @@ void WorldBody::read_frames(const io::SceneBody& body, const Context& context) {
   if (frames_->frames() < 2)
     throw geometry::ContentError(body.frames.string() + ": has one frame; motion takes two or more");
   triangles_ = bridge::triangles_of(mesh);
-  const auto read = [this](int i) { return frames_->positions(static_cast<std::size_t>(i)); };
+  const auto read = [this, path = body.frames.string()](int i) {
+    std::vector<physics::Vec3> x = frames_->positions(static_cast<std::size_t>(i));
+    require_area(x, triangles_, path, i);
+    return x;
+  };
   physics::DistanceFieldOptions field = threaded(body.options);
   if (!field.tolerance) field.tolerance = 0.002;
   if (field.most_samples == 0) field.most_samples = limits.field_samples;
@@ -231,8 +258,14 @@ physics::PushOutReport WorldBody::push_out(std::vector<physics::Vec3>& points, c
   return physics::push_out(points, which, posed, outside);
 }
 
+BodyOutline WorldBody::outline(double time) const {
+  BodyOutline outline = rigid_ ? rigid_->outline : BodyOutline{};
+  outline.box = box(time);
+  return outline;
+}
+
 io::MeshFile WorldBody::at(double time, const Context& context) const {
-  io::MeshFile file = read_mesh(path_, context);
+  io::MeshFile file = read_mesh(path_, {with_unit(context.frame, unit_), context.listener, context.memory});
   const physics::Pose pose = physics::pose(motion_, time);
   std::vector<physics::Vec3> x = animated_ ? vertices_at(time) : bridge::positions_of(file.mesh);
   for (geometry::Vertex v : file.mesh.vertices())

@@ -6,6 +6,7 @@
 #include "io/animation/animation_file.h"
 #include "io/scene/scene.h"
 #include "jobs/inputs.h"
+#include "jobs/run/gate.h"
 #include "physics/body/collider.h"
 #include "physics/body/distance_field.h"
 #include "physics/body/exact_distance.h"
@@ -18,10 +19,16 @@ struct BodyCollider {
   physics::TriangleMesh triangles;
   physics::ExactDistance exact;
   physics::DistanceField field;
+  BodyOutline outline = {};  ///< of its file
 };
 
-/// Reads and repairs a body; warns of what was repaired.
-physics::TriangleMesh read_body(const MeshInput& input, const Context& context);
+/// The frame with another unit, where one is given.
+Frame with_unit(Frame frame, const std::optional<std::string>& unit);
+
+/// Reads and repairs a body; warns of what was repaired. `outline`: of its file. Throws
+/// geometry::ContentError for one that lies as if its file had z up, unless the frame says which axis is.
+physics::TriangleMesh read_body(const MeshInput& input, const Context& context,
+                                BodyOutline* outline = nullptr);
 
 /// Reads and repairs a body, and builds its field or loads the saved one; shows progress. Warns of what was
 /// repaired.
@@ -56,6 +63,8 @@ class WorldBody {
   Eigen::AlignedBox3d box(double time) const;
   /// Its mesh as it is at a time, for writing.
   io::MeshFile at(double time, const Context& context) const;
+  /// As it is in its file; of a body that moves, where it is at that time.
+  BodyOutline outline(double time) const;
 
  private:
   void read_frames(const io::SceneBody& body, const Context& context);
@@ -63,6 +72,7 @@ class WorldBody {
   std::vector<physics::Vec3> vertices_at(double time) const;
 
   std::string path_, fingerprint_;
+  std::optional<std::string> unit_;
   physics::RigidMotion motion_;
   double tolerance_ = 0;
   std::unique_ptr<BodyCollider> rigid_;

@@ -24,6 +24,7 @@
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
+#include "jobs/run/seam_ties.h"
 #include "physics/body/collider.h"
 #include "physics/cloth/elastic_band.h"
 #include "physics/cloth/pins.h"
@@ -129,6 +130,7 @@ class Maker {
     made.mesh = mesh;
     const auto pins = find_pins(made, pins_on(mesh));
     complete_garment(made, scene_.material);
+    tie_seams(mesh);
     for (std::size_t i = 0; i < band_vertices_.size(); ++i)
       sew_band(made.mesh, loop_through(mesh, band_vertices_[i]),
                {settings_.bands[i].length, settings_.band_stiffness});
@@ -160,6 +162,17 @@ class Maker {
   std::vector<int> loose;  ///< a vertex of each part that nothing holds: those parts are held as they lie
 
  private:
+  /// Those of the level; the finer one's are found by what this one is.
+  void tie_seams(const geometry::Mesh& mesh) {
+    if (mesh.num_vertices() == as_read_.mesh.num_vertices())
+      ties_ = seam_ties(as_read_.mesh);
+    else
+      ties_ = refined_ties(tied_, ties_);
+    if (ties_.empty()) return;
+    tied_ = mesh;
+    set_seam_ties(made.mesh, ties_, scene_.material);
+  }
+
   void hold_loose(const geometry::Mesh& mesh, physics::Cloth& cloth) const {
     const geometry::Parts parts = geometry::find_parts(mesh);
     for (const int seed : loose)
@@ -185,6 +198,8 @@ class Maker {
   const io::MeshFile& as_read_;
   const Context& context_;
   std::vector<int> pin_vertices_, band_vertices_;
+  SeamTies ties_;
+  geometry::Mesh tied_;  ///< of the level that has them
   std::vector<char> held_;
 };
 
@@ -286,6 +301,7 @@ void take_result(Gone gone, Maker& maker, const DrapePlan& plan, const FallWatch
   draped.report = std::move(gone.report);
   draped.file = std::move(maker.made);
   draped.file.mesh = std::move(gone.mesh);
+  close_seam_ties(draped.file.mesh);
   const physics::SettleReport& last = draped.report.levels.back().settle;
   const bool uncarried = last.touching == 0 && !plan.scene.simulation.gravity.isZero() && !maker.any_held();
   draped.broken = uncarried && is_broken(last);
@@ -318,12 +334,15 @@ Given read_given(const io::Scene& scene, const BodyCollider& body, const DrapeSe
   Given given{scene, {}};
   given.scene.subdivide = 0;
   given.file = begin_garment(given.scene, context);
+  heed(faults_of_pair(given.file.mesh, body.outline, scene.body->unit.has_value()), scene.garment.string(),
+       context);
   given.scene.subdivide = scene.subdivide;
   if (choose && !s.plain)
     given.scene.subdivide =
         refinements_for_gap(given.file.mesh, scene.simulation.contact_gap, body.field.report().tolerance);
   require_refinement(given.file.mesh.number_of_faces(), 4, given.scene.subdivide, "--subdivide", context);
-  if (given.scene.subdivide > 0 && !geometry::struts(given.file.mesh).empty())
+  if (given.scene.subdivide > 0 &&
+      geometry::struts(given.file.mesh).size() > seam_ties(given.file.mesh).size())
     context.warn("struts_dropped",
                  "--subdivide drops the struts that the garment has, its bands among them; say --band again",
                  "garment.subdivide", "bands");

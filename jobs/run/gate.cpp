@@ -61,7 +61,8 @@ std::string too_small(double size, const std::string& what, const Frame& frame) 
   const std::string units = units_that_fit(size, frame);
   const std::string it = "the " + what + " is " + geometry::length_text(size) + " in size";
   if (!units.empty())
-    return it + " with --unit " + frame.unit_in_use() + "; say --unit " + units + " if its file is in that";
+    return it + " with --unit " + frame.unit_in_use() + "; say --unit " + units + " if its file is in that" +
+           (what == "body" ? ", or --body-unit for the body alone" : "");
   if (what != "body" && size >= limits.least_garment) return "";
   return it + ", and no --unit makes it a person's; scale it";
 }
@@ -77,7 +78,8 @@ std::string odd_size(const geometry::Mesh& mesh, const std::string& what, const 
   const auto [x, height, z] = box_edges(mesh);
   if (height > 10)
     return "the " + what + " is " + geometry::length_text(height) +
-           " tall; if its file is not in metres, say so with --unit cm, mm or inch";
+           " tall; if its file is not in metres, say so with --unit cm, mm or inch" +
+           (what == "body" ? ", or with --body-unit if only the body's is not" : "");
   return too_small(std::max({x, height, z}), what, frame);
 }
 
@@ -99,6 +101,25 @@ bool is_utf8(const std::string& text) {
     return true;
   } catch (const Json::exception&) {
     return false;
+  }
+}
+
+void require_heights(const std::vector<io::DrawnStroke>& strokes, const geometry::Mesh& garment,
+                     const Context& context) {
+  const auto [x, y, z] = box_edges(garment);
+  const double size = std::hypot(x, y, z);
+  for (const io::DrawnStroke& drawn : strokes) {
+    const double height = drawn.stroke.height;
+    if (!(std::abs(height) > size / 2)) continue;
+    const std::string number = Json(height).dump();
+    const std::string demand = "stroke '" + drawn.stroke.name + "': its height is " + number +
+                               " m, on a garment of " + geometry::length_text(size) +
+                               " from corner to corner; heights are in metres: write " +
+                               Json(height / 1000).dump() + " for " + number + " mm";
+    if (std::abs(height) <= size)
+      context.warn("height", demand, "", "height");
+    else if (!context.listener.allows(demand))
+      throw geometry::ContentError(demand + "; --force draws it as it is");
   }
 }
 

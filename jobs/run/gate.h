@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <Eigen/Geometry>
 #include <cstdint>
 
+#include "jobs/doctor.h"
 #include "jobs/inputs.h"
 #include "physics/motion/simulate.h"
 
@@ -37,12 +39,45 @@ void require_area(const geometry::Mesh& mesh, const std::string& name);
 /// Whether JSON can hold it.
 bool is_utf8(const std::string& text);
 
+/// Heights are metres: throws geometry::ContentError, naming the stroke, for one that is larger than the
+/// whole garment and that the listener does not allow; warns of one larger than half of it.
+void require_heights(const std::vector<io::DrawnStroke>& strokes, const geometry::Mesh& garment,
+                     const Context& context);
+
 /// Of a refinement of `faces` into `children` each, `steps` times, below `limits.faces`.
 void require_refinement(std::size_t faces, double children, int steps, const std::string& option,
                         const Context& context);
 
 /// Frames and bytes of an animation of so many vertices, by the shortest layout.
 void require_animation(double seconds, double fps, std::size_t vertices, const Context& context);
+
+/// Faults of any mesh: what reading had to repair, vertices that lie where others do (a soup of loose
+/// triangles, seams that are not joined), faces without area, small holes, many parts. O(F log F).
+std::vector<Ailment> faults_of_mesh(const io::MeshFile& file);
+
+/// Of a garment besides: a shell with two sides. O(F log F).
+std::vector<Ailment> faults_of_garment(const geometry::Mesh& garment);
+
+/// Of a body as its file has it: one that lies along z, as a figure of a file with z up does. `up_said`:
+/// somebody said which axis is up. O(V).
+std::vector<Ailment> faults_of_body(const geometry::Mesh& body, bool up_said);
+
+/// What a body looks like from far.
+struct BodyOutline {
+  Eigen::AlignedBox3d box;    ///< [m]
+  bool closed = true;         ///< in its file
+  bool nearly_closed = true;  ///< but for eyes, a mouth, a neck
+  bool figure = false;        ///< nearly closed, and fills as little of its box as a person
+};
+BodyOutline outline_of(const geometry::Mesh& body);
+
+/// Of a garment beside its body: the two exchanged, sizes that are of two units. `unit_said`: somebody said
+/// in what unit they are. O(F).
+std::vector<Ailment> faults_of_pair(const geometry::Mesh& garment, const BodyOutline& body, bool unit_said);
+
+/// Throws geometry::ContentError, with the file's name, for the first that makes the work useless and that
+/// the listener does not allow; warns of the others that the reader does not tell of itself.
+void heed(const std::vector<Ailment>& found, const std::string& name, const Context& context);
 
 /// Asked on the way, as the length of steps is known only then.
 class SimulationGate {

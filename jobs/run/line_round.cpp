@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/run/line_round.h"
 
+#include <CGAL/squared_distance_3.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -94,20 +96,58 @@ void note_strokes(io::WrinkleRecord& record, const std::string& garment, std::ve
   record.strokes = text.str();
 }
 
-/// Diagonal of the bounding box [m].
-double size_of(const geometry::Mesh& mesh) {
-  CGAL::Bbox_3 box;
-  for (geometry::Vertex v : mesh.vertices()) box += mesh.point(v).bbox();
-  return std::hypot(box.x_span(), box.y_span(), box.z_span());
+/// The share of a stroke's length that lies within `reach` of another's [-].
+double share_near(const geometry::Stroke& stroke, const geometry::Stroke& other, double reach) {
+  using Segment = CGAL::Segment_3<geometry::Point::R>;
+  const auto segments = [](const geometry::Stroke& s) {
+    std::vector<Segment> list;
+    for (std::size_t i = 1; i < s.points.size(); ++i)
+      if (std::find(s.breaks.begin(), s.breaks.end(), i) == s.breaks.end())
+        list.emplace_back(s.points[i - 1], s.points[i]);
+    if (s.closed && s.points.size() > 2) list.emplace_back(s.points.back(), s.points.front());
+    return list;
+  };
+  const std::vector<Segment> of_other = segments(other);
+  double near = 0, length = 0;
+  for (const Segment& s : segments(stroke)) {
+    const double part = std::sqrt(s.squared_length());
+    const int n = int(std::clamp(4 * part / reach, 1.0, 200.0));
+    for (int k = 0; k < n; ++k) {
+      const geometry::Point p = s.source() + (k + 0.5) / n * s.to_vector();
+      length += part / n;
+      if (std::any_of(of_other.begin(), of_other.end(),
+                      [&](const Segment& t) { return CGAL::squared_distance(p, t) < reach * reach; }))
+        near += part / n;
+    }
+  }
+  return length > 0 ? near / length : 0;
 }
 
-/// A height in millimetres, say, that was meant as such.
-void warn_of_heights(const std::vector<geometry::Stroke>& strokes, double garment,
-                     std::vector<std::string>& warnings) {
-  for (const geometry::Stroke& stroke : strokes)
-    if (std::abs(stroke.height) > garment)
-      warnings.push_back("stroke '" + stroke.name + "': its height of " + Json(stroke.height).dump() +
-                         " m is more than the garment's size; heights are in metres");
+/// A ridge and a valley side by side within their widths, of which one has lost a fifth of its height by
+/// that.
+void warn_of_cancelling(const std::vector<geometry::Stroke>& strokes, const geometry::WrinkleReport& report,
+                        std::vector<std::string>& warnings) {
+  constexpr double side_by_side = 0.25, kept = 0.8;  // lines that cross are near each other at one place only
+  const auto line = [&](std::size_t i) -> const geometry::WrinkledLine& { return report.lines[i]; };
+  const auto lost = [&](std::size_t i) {
+    return !(std::copysign(1, line(i).height) * line(i).drawn_height >= kept * std::abs(line(i).height));
+  };
+  const auto told = [&](std::size_t i) {
+    return "'" + strokes[i].name + "' (" + millimetres(line(i).height) + " asked, " +
+           (std::isfinite(line(i).drawn_height) ? millimetres(line(i).drawn_height) : "none") + " drawn)";
+  };
+  for (std::size_t i = 0; i < std::min(strokes.size(), report.lines.size()); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!(strokes[i].height * strokes[j].height < 0) || (!lost(i) && !lost(j))) continue;
+      const double widths = (strokes[i].width.value_or(0) + strokes[j].width.value_or(0)) / 2;
+      const double reach = std::max(widths, report.mean_structural_length);
+      const double share =
+          std::max(share_near(strokes[i], strokes[j], reach), share_near(strokes[j], strokes[i], reach));
+      if (share < side_by_side) continue;
+      warnings.push_back("strokes " + told(j) + " and " + told(i) +
+                         " run side by side, one up and one down, nearer than their widths: they cancel each "
+                         "other; draw them farther apart, or narrower");
+    }
 }
 
 }  // namespace
@@ -124,7 +164,6 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
   for (const std::vector<int>& list : target.pins)
     for (int v : list) options.held.emplace_back(static_cast<geometry::Vertex::size_type>(v));
   io::ResolvedStrokes resolved = io::resolve_strokes(strokes, target.file, options.insertion.max_distance);
-  const double size = size_of(target.file.mesh);
   LineRound round;
   round.first_line = options.first_line;
   round.warnings = std::move(resolved.warnings);
@@ -137,7 +176,7 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
       return geometry::wrinkle(target.file.mesh, resolved.strokes, options, observer);
     });
   }
-  warn_of_heights(resolved.strokes, size, round.warnings);
+  warn_of_cancelling(resolved.strokes, round.report, round.warnings);
   for (const auto* more : {&round.report.insertion.warnings, &round.report.warnings})
     round.warnings.insert(round.warnings.end(), more->begin(), more->end());
   io::WrinkleRecord record = record_of(options, earlier, round.report);

@@ -13,6 +13,7 @@
 #include "jobs/run/line_round.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
+#include "jobs/run/seam_ties.h"
 #include "physics/cloth/pins.h"
 
 namespace furrow::jobs {
@@ -36,6 +37,7 @@ void draw_first_lines(const io::Scene& scene, SceneCloth& result, const Context&
       return;
     }
     const auto strokes = read_strokes(lines, context);
+    require_heights(strokes, result.file.mesh, context);
     const std::size_t old_count = result.file.mesh.number_of_vertices();
     const LineTarget target{result.file, garment_file(scene, context), scene.material.density, nullptr, {}};
     for (const std::string& w : draw_lines(target, strokes, lines).warnings)
@@ -44,26 +46,46 @@ void draw_first_lines(const io::Scene& scene, SceneCloth& result, const Context&
   }
 }
 
+/// Refines the garment; seams that reading cut open are tied.
+void subdivide_tied(io::MeshFile& file, const io::Scene& scene, const Context& context) {
+  SeamTies ties = seam_ties(file.mesh);
+  const SeamTies doubled = doubled_vertices(file);
+  ties.insert(ties.end(), doubled.begin(), doubled.end());
+  if (!doubled.empty())
+    context.warn(
+        "seams_tied",
+        scene.garment.string() + ": " + std::to_string(doubled.size()) +
+            " vertices that reading doubled, where three or more faces meet, are tied together again",
+        scene.garment.string(), "furrow doctor");
+  if (ties.empty()) {
+    if (scene.subdivide > 0) geometry::loop_subdivide(file.mesh, scene.subdivide);
+    return;
+  }
+  for (int step = 0; step < scene.subdivide; ++step) {
+    ties = refined_ties(file.mesh, ties);
+    geometry::loop_subdivide(file.mesh, 1);
+  }
+  set_seam_ties(file.mesh, ties, scene.material);
+  part_seam_ties(file.mesh);
+}
+
 }  // namespace
 
 io::MeshFile begin_garment(const io::Scene& scene, const Context& context) {
   stop_if_cancelled(context);
   io::MeshFile file = read_garment(scene.garment, context);
   stop_if_cancelled(context);
+  heed(faults_of_mesh(file), scene.garment.string(), context);
+  heed(faults_of_garment(file.mesh), scene.garment.string(), context);
   require_refinement(file.mesh.number_of_faces(), 4, scene.subdivide, "--subdivide", context);
-  if (scene.subdivide > 0) geometry::loop_subdivide(file.mesh, scene.subdivide);
+  subdivide_tied(file, scene, context);
   return file;
 }
 
 void warn_if_apart(const io::Scene& scene, const WorldBody& body, const geometry::Mesh& garment,
                    const Context& context) {
-  const auto cloth = box_of(bridge::positions_of(garment)), box = body.box(0);
-  if (!cloth.intersects(box))
-    context.warn("body_apart",
-                 scene.body->mesh.string() + ": body and garment lie apart, their bounding boxes by " +
-                     std::to_string(cloth.exteriorDistance(box)) +
-                     " m; if they should touch, look at --unit, --up and their places",
-                 scene.body->mesh.string(), "unit");
+  heed(faults_of_pair(garment, body.outline(0), scene.body->unit.has_value()), scene.garment.string(),
+       context);
 }
 
 void warn_of_start(const io::Scene& scene, const WorldBody& body, const geometry::Mesh& garment,

@@ -55,6 +55,29 @@ TEST_CASE("gate: a garment without area is refused by its file's name, with exit
     check_refused(command, 3, "line.obj: none of its faces has an area");
 }
 
+TEST_CASE("gate: collapsed meshes are refused by name by render, transfer and as a frame of a body") {
+  const ScratchDirectory scratch;
+  const std::string point = scratch / "point.obj", line = scratch / "line.obj";
+  write_text(point, "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
+  write_text(line, "v 0 0 0\nv 0.5 0 0\nv 1 0 0\nf 1 2 3\n");
+  const Run picture = run_furrow("render " + point + " -o " + (scratch / "p.png"));
+  CHECK(picture.exit_code == 3);
+  CHECK_THAT(picture.err, Contains("point.obj: all its vertices lie at one point"));
+  check_refused("transfer " + line + " " + sheet, 3, "line.obj: none of its faces has an area");
+  check_refused("transfer " + sheet + " " + line, 3, "line.obj: none of its faces has an area");
+  check_refused("transfer " + sheet + " " + mannequin, 3, "mannequin.obj: transfer: ");
+  const std::string faces = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  write_text(scratch / "b_0001.obj", "v 0 0 0\nv 0.3 0 0\nv 0 0.3 0\nv 0 0 0.3\n" + faces);
+  write_text(scratch / "b_0002.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nv 0 0 0\n" + faces);
+  const Run frames =
+      run_furrow("simulate " + sheet + " --pin-loop top --seconds 0.08 --body " + (scratch / "b_0001.obj") +
+                 " --body-frames " + (scratch / "b_####.obj") + " -o " + (scratch / "o.ply"));
+  INFO(frames.err);
+  CHECK(frames.exit_code == 3);
+  CHECK_THAT(frames.err, Contains("frame 1: none of the body's faces has an area"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "o.ply"));
+}
+
 TEST_CASE("gate: strokes between vertices on collapsed faces, and deep records, end without a signal") {
   const ScratchDirectory scratch;
   const std::string stroke = scratch / "s.json", minimal = scratch / "m.obj";
@@ -88,14 +111,16 @@ TEST_CASE("gate: names that are not UTF-8 are shown, and a state refuses them be
   CHECK_FALSE(std::filesystem::exists(state));
 }
 
-TEST_CASE("gate: a height larger than the garment is drawn with a warning") {
+TEST_CASE("gate: a height larger than the garment is asked about, and drawn with --force") {
   const ScratchDirectory scratch;
   write_text(scratch / "s.json",
              R"({"strokes": [{"name": "a", "height": 10, "points": [[-0.1, 0, 0], [0.1, 0, 0]]}]})");
-  const Run run = run_furrow("wrinkle " + sheet + " " + (scratch / "s.json") + " --max-distance 9 -o " +
-                             (scratch / "o.ply"));
+  const std::string wrinkle = "wrinkle " + sheet + " " + (scratch / "s.json") + " --max-distance 9";
+  check_refused(wrinkle, 3, "stroke 'a': its height is 10");
+  check_refused(wrinkle, 3, "write 0.01 for 10");
+  const Run run = run_furrow(wrinkle + " --force -o " + (scratch / "o.ply"));
   CHECK(run.exit_code == 0);
-  CHECK_THAT(run.err, Contains("stroke 'a': its height of 10"));
+  CHECK_THAT(run.err, Contains("stroke 'a': its height is 10"));
 }
 
 TEST_CASE("gate: the files that once crashed the program end with an exit code") {

@@ -88,7 +88,7 @@ const Mistake mistakes[] = {
      "or inch; --force takes it as it is"},
     {"a body in millimetres", "drape {m}/skirt.obj --body {d}/mm.obj -o {d}/o.ply", 3,
      "error: {d}/mm.obj: the body is 1700 m tall; if its file is not in metres, say so with --unit cm, mm or "
-     "inch; --force takes it as it is"},
+     "inch, or with --body-unit if only the body's is not; --force takes it as it is"},
     {"a body that is not there", "drape {m}/skirt.obj --body {d}/bdoy.obj -o {d}/o.ply", 3,
      "error: {d}/bdoy.obj: cannot be opened: No such file or directory"},
     {"the body forgotten", "drape {m}/skirt.obj -o {d}/o.ply", 2,
@@ -142,7 +142,8 @@ const Mistake mistakes[] = {
      "error: --subdivide 6: the mesh would have 2.4e+07 faces and take 14 GB; refine it less; --force goes "
      "on all the same"},
     {"another garment to transfer to", "transfer {m}/skirt.obj {m}/sheet.obj -o {d}/o.obj", 3,
-     "error: transfer: the wrinkled mesh does not say where its vertices lay before (vertex 0); take the PLY "
+     "error: {m}/sheet.obj: transfer: the wrinkled mesh does not say where its vertices lay before (vertex "
+     "0); take the PLY "
      "that insertion wrote, or a rest mesh"},
     {"a stroke changed that is not there",
      "strokes {m}/strokes/round_bulge.json --change rnig.height=0.01 -o {d}/l.json", 3,

@@ -25,6 +25,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   refine/bake_maps_test.cpp
   refine/subdivide_test.cpp
   refine/transfer_shape_test.cpp
+  figure/close_holes_test.cpp
   figure/hem_folds_test.cpp
   figure/horizontal_section_test.cpp
   figure/principal_strain_test.cpp

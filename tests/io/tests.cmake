@@ -17,6 +17,7 @@ furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   mesh/real_files_test.cpp
   mesh/rewrite_obj_vertices_test.cpp
   mesh/soup_to_mesh_test.cpp
+  mesh/weld_test.cpp
   mesh/stl_test.cpp
   mesh/triangulate_polygon_test.cpp
   mesh/wrinkle_record_test.cpp

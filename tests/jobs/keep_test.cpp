@@ -6,11 +6,13 @@
 #include <optional>
 #include <thread>
 
+#include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
 #include "physics/base/progress.h"
 #include "tests/cli/hung_patch.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
+#include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 
 using namespace furrow;
@@ -36,6 +38,42 @@ jobs::KeepJob hung_ridge(double height = 0.004) {
 }
 
 }  // namespace
+
+TEST_CASE("keep: a sheet above a ball comes to rest on it before its lines are drawn, unless told not to") {
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "ridge";
+  ridge.stroke.height = 0.004;
+  ridge.stroke.width = 0.05;
+  ridge.stroke.points = {{-0.06, 0.14, 0.01}, {0.06, 0.14, 0.01}};
+  jobs::KeepJob job;
+  geometry::Mesh& sheet = job.scene.memory.meshes["sheet"].mesh;
+  sheet = geometry::equilateral_sheet(0.3, 0.3, 0.015);
+  for (const geometry::Vertex v : sheet.vertices())
+    sheet.point(v) = {sheet.point(v).x(), 0.14, 0.15 - sheet.point(v).y()};
+  job.scene.memory.meshes["ball"].mesh = tests::icosphere(3, 0.12);
+  job.scene.memory.strokes["ridge"] = {ridge};
+  job.scene.settings = io::parse_toml(
+      "[garment]\nmesh = \"sheet\"\n[[lines]]\nstrokes = \"ridge\"\n[body]\nmesh = \"ball\"\n"
+      "tolerance = 0.001\n[material]\npreset = \"cotton\"\nfriction = 0.6\n",
+      "test");
+  job.seconds = 0.02;
+  job.gust = 0;
+  job.help = false;
+  tests::Recorder settling, falling;
+  const jobs::KeepReport rests = jobs::keep(job, settling);
+  CHECK(rests.settled);
+  CHECK(settling.warned_of("settled_first"));
+  CHECK(rests.lines.rest.imbalance.empty());
+  REQUIRE(rests.lines.lines.size() == 1);
+  CHECK(rests.lines.lines[0].reason.find("nothing holds the garment") == std::string::npos);
+  double lowest = 1;
+  for (const geometry::Point& p : tests::positions(rests.garment)) lowest = std::min(lowest, p.y());
+  CHECK(lowest < 0.1);
+  job.settle = false;
+  const jobs::KeepReport falls = jobs::keep(job, falling);
+  CHECK_FALSE(falls.settled);
+  CHECK_FALSE(falls.lines.rest.imbalance.empty());
+}
 
 TEST_CASE("keep: two jobs at once in one process give the bits and the words of single runs") {
   tests::Recorder recorder, first, second;

@@ -4,6 +4,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   recorder.h
   bake_test.cpp
   chart_test.cpp
+  doctor_test.cpp
   drape_test.cpp
   field_test.cpp
   fit_test.cpp
@@ -11,6 +12,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   keep_test.cpp
   listener_test.cpp
   mesh_input_test.cpp
+  seam_ties_test.cpp
   simulate_test.cpp
   smooth_test.cpp
   stroke_list_test.cpp

@@ -57,6 +57,33 @@ TEST_CASE("wrinkle: a garment and strokes in memory come to the bits of their fi
   CHECK(recorder.warnings.empty());
 }
 
+TEST_CASE("wrinkle: a ridge and a valley side by side within their widths are told, others are not") {
+  const auto told = [](double apart, double second) {
+    jobs::WrinkleJob job;
+    io::MeshFile sheet;
+    sheet.mesh = geometry::equilateral_sheet(0.4, 0.4, 0.01);
+    job.garment = sheet;
+    std::vector<io::DrawnStroke> strokes(2);
+    for (int i = 0; i < 2; ++i) {
+      strokes[i].stroke.name = i ? "valley" : "ridge";
+      strokes[i].stroke.height = i ? second : 0.01;
+      strokes[i].stroke.width = 0.06;
+      const double y = 0.2 + i * apart;
+      strokes[i].stroke.points = {{-0.1, y, 0}, {0.1, y, 0}};
+    }
+    job.strokes = strokes;
+    tests::Recorder recorder;
+    jobs::wrinkle(job, recorder);
+    return std::any_of(recorder.warnings.begin(), recorder.warnings.end(), [](const jobs::Warning& w) {
+      return w.text.find("cancel each other") != std::string::npos;
+    });
+  };
+  CHECK(told(0.005, -0.01));
+  CHECK(told(0.02, -0.01));
+  CHECK_FALSE(told(0.1, -0.01));
+  CHECK_FALSE(told(0.02, 0.01));
+}
+
 TEST_CASE("wrinkle: what a wrinkled file was made of draws the same lines again") {
   const fs::path folder = tests::empty_folder("wrinkle_again");
   tests::Recorder recorder;

@@ -66,6 +66,16 @@ TEST_CASE("soup_to_mesh: degenerate and duplicate triangles are dropped and coun
   CHECK(corners_of(out.mesh) == List{0, 1, 2, 0, 2, 3});
 }
 
+TEST_CASE("soup_to_mesh: the backs of quads with two sides are dropped, whichever diagonal cuts them") {
+  const std::vector<List> front = {{0, 1, 4, 3}, {1, 2, 5, 4}};
+  std::vector<List> both = front;
+  for (const List& f : front) both.push_back({f[3], f[2], f[1], f[0]});
+  const auto one = io::soup_to_mesh(soup_of(6, front), "t"), out = io::soup_to_mesh(soup_of(6, both), "t");
+  CHECK(out.repairs.duplicate_faces == 2);
+  CHECK(out.repairs.duplicated_vertices == 0);
+  CHECK(corners_of(out.mesh) == corners_of(one.mesh));
+}
+
 TEST_CASE("soup_to_mesh: the minority of a component is turned, with its corners' data") {
   io::PolygonSoup soup = soup_of(6, {{0, 2, 1}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}});
   for (std::size_t c = 0; c < 12; ++c) soup.textures.push_back({static_cast<double>(c), 0.5});

@@ -176,6 +176,34 @@ TEST_CASE("strokes: the polylines of an OBJ file, which needs no faces") {
   CHECK_THROWS_AS(io::read_strokes(folder / "lines.obj", unset_value), std::invalid_argument);
 }
 
+TEST_CASE("strokes: lines of an OBJ file have the names of their objects, which say height and width") {
+  TemporaryFolder folder;
+  spit(folder / "lines.obj",
+       "o belly_h=15mm_w=6cm\nv 0 0 0\nv 1 0 0\nv 1 0 1\nl 1 2\no hem h=-0.012\nv 5 5 5\nv 6 5 5\nl 4 5\n"
+       "o belly_h=15mm_w=6cm\nl 2 3\no fold_h=20mm.001\nl 1 2 3\no plain.002\nl 3 2 1\ng panel\n");
+  const auto read = io::read_strokes(folder / "lines.obj", 0.03);
+  REQUIRE(read.size() == 4);
+  CHECK(read[0].name == "belly");
+  CHECK(read[0].points == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}});  // chained within its object
+  CHECK(read[0].height == Approx(0.015));
+  CHECK(read[0].width.value() == Approx(0.06));
+  CHECK(read[1].name == "hem");
+  CHECK(read[1].height == -0.012);
+  CHECK_FALSE(read[1].width);
+  CHECK(read[2].name == "fold");
+  CHECK(read[2].height == Approx(0.02));
+  CHECK(read[3].name == "plain");
+  CHECK(read[3].height == 0.03);
+  spit(folder / "group.obj", "g seam\nv 0 0 0\nv 1 0 0\nl 1 2\n");
+  CHECK(io::read_strokes(folder / "group.obj").at(0).name == "seam");
+  spit(folder / "wrong.obj", "o belly_h=high\nv 0 0 0\nv 1 0 0\nl 1 2\n");
+  CHECK(content_error([&] { io::read_strokes(folder / "wrong.obj"); }).find("h= takes a height") !=
+        std::string::npos);
+  spit(folder / "flat.obj", "o belly_w=-3mm\nv 0 0 0\nv 1 0 0\nl 1 2\n");
+  CHECK(content_error([&] { io::read_strokes(folder / "flat.obj"); }).find("w= takes a width") !=
+        std::string::npos);
+}
+
 TEST_CASE("nearest_word: distances known by hand") {
   CHECK(io::edit_distance("kitten", "sitting") == 3);
   CHECK(io::edit_distance("", "abc") == 3);

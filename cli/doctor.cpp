@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/doctor.h"
+
+#include <memory>
+
+#include "cli/camera_options.h"
+#include "cli/subcommands.h"
+#include "io/picture/png_file.h"
+#include "io/picture/render_scene.h"
+#include "jobs/read_inputs.h"
+
+namespace furrow::cli {
+namespace {
+
+struct DoctorArguments : CommonArguments {
+  std::string mesh, body, body_unit, picture;
+  bool is_body = false, repair = false;
+  CameraArguments camera;
+};
+
+DoctorJob job_of(const DoctorArguments& a) {
+  DoctorJob job;
+  job.mesh = std::filesystem::path(a.mesh);
+  if (!a.body.empty()) job.body = std::filesystem::path(a.body);
+  if (!a.body_unit.empty()) job.body_unit = a.body_unit;
+  job.frame = a;
+  job.is_body = a.is_body;
+  job.repair = a.repair;
+  job.output = a.out;
+  job.more_outputs = {a.picture, a.camera.save_camera};
+  return job;
+}
+
+/// The mesh with a ball at each place where something is wrong.
+void write_picture(const DoctorReport& report, const DoctorArguments& a) {
+  io::RenderScene scene;
+  scene.meshes.push_back(io::render_mesh_from(report.mesh.mesh, io::Style::cloth));
+  for (const Ailment& ailment : report.repaired ? report.left : report.found)
+    for (const geometry::Point& p : ailment.places)
+      scene.lines.push_back({{{p.x(), p.y(), p.z()}}, io::ridge_colour, 4});
+  const io::RenderOptions options = render_options({&scene, 1}, a.camera);
+  io::write_png(a.picture, io::render(scene, options));
+  save_camera(options, a.camera);
+}
+
+/// For people: a sentence an ailment.
+Json sentences(Json report) {
+  for (const char* list : {"found", "left"}) {
+    if (!report.contains(list)) continue;
+    Json words = Json::array();
+    for (const Json& a : report[list]) {
+      std::string text = a["text"];
+      const std::string help = a["help"];
+      if (!help.empty() && text.find(help) == std::string::npos) text += "; " + help;
+      words.push_back(text);
+    }
+    report[list] = words;
+  }
+  return report;
+}
+
+int doctor(const DoctorArguments& a) {
+  check_picture(a.picture, "--picture");
+  Terminal terminal(a);
+  const DoctorReport report = jobs::doctor(job_of(a), terminal);
+  if (a.out == "-") {
+    CommonArguments common = a;
+    common.unit = report.frame.unit_in_use();
+    common.up = report.frame.up_in_use();
+    write_mesh(report.mesh, common);
+  }
+  if (!a.picture.empty()) write_picture(report, a);
+  Json json = a.json ? to_json(report) : sentences(to_json(report));
+  if (!a.picture.empty()) json["picture"] = a.picture;
+  if (!a.out.empty()) json["written"] = a.out;
+  print_report(json, a);
+  return exit_code_of(false, report.well());
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<DoctorArguments>();
+  CLI::App* sub =
+      app.add_subcommand("doctor",
+                         "Say what is wrong with a mesh, where, and what mends it; --repair does\n\n"
+                         "  furrow doctor shirt.obj --body body.obj --picture where.png\n"
+                         "  furrow doctor shirt.obj --repair -o mended.obj\n\n"
+                         "The exit code is 4 where something is wrong, or is left after --repair.");
+  sub->add_option("mesh", a->mesh, "garment to examine; with --as-body a body")->required();
+  sub->add_option("--body", a->body, "body that the garment goes with: sizes, axes, which is which");
+  sub->add_option("--body-unit", a->body_unit, "unit of the body's file, where it is not the garment's")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
+  sub->add_flag("--as-body", a->is_body, "examine the mesh as a body: closed, wound outwards");
+  sub->add_flag(
+      "--repair", a->repair,
+      "join vertices at the same place, drop faces that are twice there, wind neighbours alike, part "
+      "what is not manifold, close holes (small ones of a garment, all of a body)");
+  sub->add_option("-o,--output", a->out, "mended mesh to write: obj, ply, off or stl; - is OBJ to stdout");
+  sub->add_option("--picture", a->picture, "PNG to write: a red ball where something is wrong");
+  add_camera_options(*sub, a->camera);
+  add_common_options(*sub, *a);
+  sub->callback([a, &exit_code] { exit_code = doctor(*a); });
+}
+
+}  // namespace furrow::cli

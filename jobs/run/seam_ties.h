@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <vector>
+
+#include "io/mesh/mesh_file.h"
+#include "io/scene/scene.h"
+
+/// Where three or more faces meet at an edge, reading parts the mesh (its vertices are doubled), and cloth
+/// would fall apart there. Ties hold it together: struts without length to speak of, which files and states
+/// keep as they keep every strut.
+namespace furrow::jobs {
+
+/// Pairs of vertices that are tied, the lower one first.
+using SeamTies = std::vector<std::array<geometry::Vertex, 2>>;
+
+/// Vertices that reading doubled, each with the one that it is a copy of. O(V log V).
+SeamTies doubled_vertices(const io::MeshFile& file);
+
+/// The ties that a mesh has. O(struts).
+SeamTies seam_ties(const geometry::Mesh& mesh);
+
+/// The ties after one step of loop_subdivide() of the mesh: those there are, and of the mid-points of edges
+/// whose ends are tied. O(V + E log E).
+SeamTies refined_ties(const geometry::Mesh& before, const SeamTies& ties);
+
+/// Adds them as struts, as stiff as the material's springs; other struts stay, ties that were there are
+/// replaced.
+void set_seam_ties(geometry::Mesh& mesh, const SeamTies& ties, const io::SceneMaterial& material);
+
+/// Draws tied vertices that lie at one place apart, each towards its own faces by a hundredth of a
+/// micrometre: a spring without any length has no direction, and no step limit would see it.
+void part_seam_ties(geometry::Mesh& mesh);
+
+/// Puts tied vertices, which a load holds apart by less than a micrometre, at one place, their mean: so that
+/// a seam does not count as cloth that crosses itself.
+void close_seam_ties(geometry::Mesh& mesh);
+
+}  // namespace furrow::jobs

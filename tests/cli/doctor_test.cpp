@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "run_furrow.h"
+#include "tests/test_paths.h"
+
+using namespace furrow::tests;
+using Catch::Contains;
+
+namespace {
+
+const std::string our_meshes = FURROW_SOURCE_DIR "/meshes/";
+
+/// Two triangles of a square, each with corners of its own.
+const std::string loose_square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n";
+
+nlohmann::json examined(const std::string& arguments) {
+  const Run run = run_furrow("doctor --json " + arguments);
+  INFO(arguments << "\n" << run.err);
+  REQUIRE((run.exit_code == 0 || run.exit_code == 4));
+  return nlohmann::json::parse(run.out);
+}
+
+}  // namespace
+
+TEST_CASE("doctor: the program says what is wrong, shows where, mends it and exits with 4 or 0") {
+  const ScratchDirectory scratch;
+  const std::string mesh = scratch / "soup.obj", mended = scratch / "mended.obj", png = scratch / "p.png";
+  write_text(mesh, loose_square);
+  const Run found = run_furrow("doctor " + mesh + " --picture " + png + " --size 80,80");
+  CHECK(found.exit_code == 4);
+  CHECK_THAT(found.out, Contains("furrow doctor --repair joins them"));
+  CHECK(std::filesystem::file_size(png) > 100);
+  const Run repaired = run_furrow("doctor " + mesh + " --repair -o " + mended);
+  CHECK(repaired.exit_code == 0);
+  CHECK(examined(mended)["well"] == true);
+  CHECK(examined(mended)["vertices"] == 4);
+  CHECK(run_furrow("doctor " + mesh + " -o " + mended).exit_code == 2);
+  CHECK(run_furrow("doctor " + mesh + " --repair -o " + mesh).exit_code == 2);
+}
+
+TEST_CASE("doctor: our garments on our bodies are well, and each job says so by saying nothing") {
+  for (const char* garment : {"skirt.obj", "shirt.obj", "sheet.obj"}) {
+    const nlohmann::json report = examined(our_meshes + garment + " --body " + our_meshes + "mannequin.obj");
+    INFO(report.dump(1));
+    CHECK(report["well"] == true);
+  }
+  CHECK(examined(our_meshes + "mannequin.obj --as-body")["well"] == true);
+}
+
+TEST_CASE("doctor: garments and bodies of other makers are given no false alarm") {
+  const std::filesystem::path folder = shared_dir() / "meshes/pairs";
+  if (!std::filesystem::exists(folder)) {
+    WARN("skipped: no shared data");
+    return;
+  }
+  for (const auto& person : std::filesystem::directory_iterator(folder)) {
+    const std::filesystem::path body = person.path() / "body.obj";
+    if (!std::filesystem::exists(body)) continue;
+    for (const auto& garment : std::filesystem::directory_iterator(person.path())) {
+      if (garment.path().extension() != ".obj" || garment.path() == body) continue;
+      const std::string of_file = garment.path().string(), on = body.string();
+      const nlohmann::json right = examined(of_file + " --body " + on);
+      INFO(of_file << ": " << right.dump(1));
+      CHECK(right["well"] == true);
+      bool exchanged = false;
+      const nlohmann::json wrong = examined(on + " --body " + of_file);
+      for (const auto& ailment : wrong["found"]) exchanged = exchanged || ailment["code"] == "exchanged";
+      CHECK(exchanged);
+    }
+  }
+}
