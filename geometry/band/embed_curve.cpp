@@ -9,6 +9,7 @@
 #include <set>
 
 #include "geometry/insert/connect_line.h"
+#include "geometry/mesh/errors.h"
 
 namespace furrow::geometry {
 namespace {
@@ -52,7 +53,7 @@ class Embedding {
     }
     snap(candidates(trace(given.places.front().face)));
     if (curve_.vertices.empty()) place_end(0, trace(given.places.front().face).front(), false);
-    march();
+    march(given.name);
     mark(given.line);
   }
 
@@ -366,17 +367,23 @@ class Embedding {
   }
 
   /// From vertex to vertex, from the beginning to the end.
-  void march() {
+  void march(const std::string& name) {
     const Vertex first = curve_.vertices.begin()->second,
                  last = curve_.closed() ? first : std::prev(curve_.vertices.end())->second;
     Vertex v = first;
     std::set<Vertex> seen;
+    // A chain passes each vertex once; detours that lead back would never end.
+    std::size_t steps = 0;
+    const std::size_t most = 2 * mesh_.num_vertices();
     do {
       seen.insert(v);
       const double along = band_.along(v, index_);
       std::optional<Vertex> next = advance(v, along);
       if (!next || (seen.count(*next) > 0 && *next != last)) next = detour(v, along);
       v = *next;
+      if (++steps > most)
+        throw ContentError("\"" + name + "\" goes round in circles on the mesh near vertex " +
+                           std::to_string(v.idx()) + "; draw it elsewhere, or subdivide the garment");
     } while (v != last);
     std::vector<Vertex> left_out;
     for (const auto& [along, w] : curve_.vertices)

@@ -48,7 +48,8 @@ struct BandReport {
 /// splits and flips alone, so that no index changes; rest metric and attributes carried (mesh_editor.h). New
 /// vertices lie on the surface given. Old vertices stay, but for those that snap onto a curve. Sets
 /// attribute::line and line_edge. Throws std::invalid_argument for an option or a curve without two points or
-/// with places out of the mesh, ContentError for a mesh that is not of triangles; the mesh is unchanged then.
+/// with places out of the mesh, ContentError for a mesh that is not of triangles or a curve that cannot be
+/// followed; the mesh is unchanged then.
 /// About O(new vertices). \details Steps: split_band.h, relax_band.h, embed_curve.h.
 BandReport refine_band(Mesh& mesh, std::span<const FoldCurve> curves, const BandOptions& options = {});
 
