@@ -9,9 +9,12 @@
 #include <set>
 
 #include "geometry/insert/connect_line.h"
+#include "geometry/mesh/errors.h"
 
 namespace furrow::geometry {
 namespace {
+
+constexpr int most_detours = 200;  ///< of one curve: more of them come nowhere
 
 constexpr double snap_within = 0.3;  ///< in h, beside the curve
 constexpr double snap_apart = 0.35;  ///< in h, along the curve
@@ -52,7 +55,7 @@ class Embedding {
     }
     snap(candidates(trace(given.places.front().face)));
     if (curve_.vertices.empty()) place_end(0, trace(given.places.front().face).front(), false);
-    march();
+    march(given);
     mark(given.line);
   }
 
@@ -365,17 +368,27 @@ class Embedding {
     return v;
   }
 
+  [[noreturn]] static void refuse_way(const FoldCurve& given) {
+    throw ContentError("stroke \"" + given.name +
+                       "\": the mesh leaves no way along it; draw it in parts, or use the rule safe");
+  }
+
   /// From vertex to vertex, from the beginning to the end.
-  void march() {
+  void march(const FoldCurve& given) {
     const Vertex first = curve_.vertices.begin()->second,
                  last = curve_.closed() ? first : std::prev(curve_.vertices.end())->second;
     Vertex v = first;
     std::set<Vertex> seen;
+    int detours = 0;
     do {
       seen.insert(v);
+      if (seen.size() > 4 * curve_.segments() + 200) refuse_way(given);
       const double along = band_.along(v, index_);
       std::optional<Vertex> next = advance(v, along);
-      if (!next || (seen.count(*next) > 0 && *next != last)) next = detour(v, along);
+      if (!next || (seen.count(*next) > 0 && *next != last)) {
+        if (++detours > most_detours) refuse_way(given);
+        next = detour(v, along);
+      }
       v = *next;
     } while (v != last);
     std::vector<Vertex> left_out;
