@@ -22,7 +22,10 @@ geometry::WrinkleOptions to_options(const WrinkleArguments& a) {
   using namespace geometry;
   WrinkleOptions o = a.options;
   o.smoothing = to_options(a.smoothing);
-  o.insertion.rule = a.rule == "paper" ? InsertionRule::paper : InsertionRule::safe;
+  o.insertion.rule = a.rule == "paper"  ? InsertionRule::paper
+                     : a.rule == "fold" ? InsertionRule::fold
+                                        : InsertionRule::safe;
+  o.detail = a.detail == "coarse" ? Detail::coarse : a.detail == "fine" ? Detail::fine : Detail::normal;
   o.rest = a.rest == "flat" ? RestRule::flat : a.rest == "copied" ? RestRule::copied : RestRule::drawn;
   o.region = a.region == "whole-mesh" ? SmoothingRegion::whole_mesh : SmoothingRegion::two_ring;
   return o;
@@ -38,9 +41,11 @@ void add_drawing_options(CLI::App& sub, WrinkleArguments& a) {
   sub.add_option("--max-distance", a.options.insertion.max_distance,
                  "how far a stroke may lie from the surface [m]")
       ->capture_default_str();
-  sub.add_option("--rule", a.rule,
-                 "safe: flips that would spoil the mesh are refused; paper: the paper's plain rule")
-      ->check(CLI::IsMember({"safe", "paper"}))
+  sub.add_option(
+         "--rule", a.rule,
+         "fold: smooth folds on a mesh refined around them; safe: the paper's chain of vertices, flips "
+         "that would spoil the mesh are refused; paper: the paper's plain rule")
+      ->check(CLI::IsMember({"fold", "safe", "paper"}))
       ->capture_default_str();
   sub.add_option("--rest", a.rest,
                  "drawn: a line adds cloth, rest angles stay; copied: they turn, too; flat: the rest stays "
@@ -51,6 +56,16 @@ void add_drawing_options(CLI::App& sub, WrinkleArguments& a) {
   sub.add_option("--region", a.region, "what is smoothed: two-ring (around the lines) or whole-mesh")
       ->check(CLI::IsMember({"two-ring", "whole-mesh"}))
       ->capture_default_str();
+  sub.add_option("--detail", a.detail, "rule fold: how fine the mesh around folds becomes")
+      ->check(CLI::IsMember({"coarse", "normal", "fine"}))
+      ->capture_default_str();
+  sub.add_option("--fold-iterations", a.options.fold_iterations,
+                 "rule fold: pairs of smoothing steps after the folds are raised")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  sub.add_flag(
+      "--flat-base", a.options.flat_base,
+      "rule fold: new vertices stay on the facets of the garment, not on a curved surface over them");
   sub.add_option("--density", a.density, "mass of the cloth [kg/m^2]; default that of the file, else 0.15");
   add_max_weights(sub, a.max_weights);
 }

@@ -14,6 +14,8 @@
 namespace furrow::geometry {
 namespace {
 
+constexpr int most_detours = 200;  ///< of one curve: more of them come nowhere
+
 constexpr double snap_within = 0.3;  ///< in h, beside the curve
 constexpr double snap_apart = 0.35;  ///< in h, along the curve
 constexpr double end_within = 0.75;  ///< in h, of an end
@@ -53,7 +55,7 @@ class Embedding {
     }
     snap(candidates(trace(given.places.front().face)));
     if (curve_.vertices.empty()) place_end(0, trace(given.places.front().face).front(), false);
-    march(given.name);
+    march(given);
     mark(given.line);
   }
 
@@ -366,24 +368,28 @@ class Embedding {
     return v;
   }
 
+  [[noreturn]] static void refuse_way(const FoldCurve& given) {
+    throw ContentError("stroke \"" + given.name +
+                       "\": the mesh leaves no way along it; draw it in parts, or use the rule safe");
+  }
+
   /// From vertex to vertex, from the beginning to the end.
-  void march(const std::string& name) {
+  void march(const FoldCurve& given) {
     const Vertex first = curve_.vertices.begin()->second,
                  last = curve_.closed() ? first : std::prev(curve_.vertices.end())->second;
     Vertex v = first;
     std::set<Vertex> seen;
-    // A chain passes each vertex once; detours that lead back would never end.
-    std::size_t steps = 0;
-    const std::size_t most = 2 * mesh_.num_vertices();
+    int detours = 0;
     do {
       seen.insert(v);
+      if (seen.size() > 4 * curve_.segments() + 200) refuse_way(given);
       const double along = band_.along(v, index_);
       std::optional<Vertex> next = advance(v, along);
-      if (!next || (seen.count(*next) > 0 && *next != last)) next = detour(v, along);
+      if (!next || (seen.count(*next) > 0 && *next != last)) {
+        if (++detours > most_detours) refuse_way(given);
+        next = detour(v, along);
+      }
       v = *next;
-      if (++steps > most)
-        throw ContentError("\"" + name + "\" goes round in circles on the mesh near vertex " +
-                           std::to_string(v.idx()) + "; draw it elsewhere, or subdivide the garment");
     } while (v != last);
     std::vector<Vertex> left_out;
     for (const auto& [along, w] : curve_.vertices)

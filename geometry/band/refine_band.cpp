@@ -22,6 +22,7 @@ void check(const Mesh& mesh, std::span<const FoldCurve> curves, const BandOption
     refuse("refine_band", "least_edge must be > 0 m, not " + std::to_string(options.least_edge));
   require_triangles(mesh, "refine_band");
   require_finite(mesh, "refine_band");
+  require_vertices(mesh, options.held, "refine_band");
   for (const FoldCurve& curve : curves) {
     const std::size_t n = curve.points.size();
     const std::string name = "the curve of \"" + curve.name + "\" ";
@@ -51,6 +52,7 @@ BandReport refine_band(Mesh& mesh, std::span<const FoldCurve> curves, const Band
   Mesh work = mesh;
   BandMesh band(work);
   band.flip_options.may_flip = options.may_flip;
+  for (Vertex v : options.held) band.hold[v.idx()] = Hold::fixed;
   const BandSizing sizing(curves, options.detail, options.least_edge);
   band.in_band = band_faces(work, band.rest, curves, sizing);
   for (std::size_t i = 0; i < curves.size(); ++i) band.curves.emplace_back(curves[i], sizing.on_curves()[i]);

@@ -17,6 +17,7 @@ struct BandOptions {
   double least_edge = 0.003;  ///< no finer than this [m]; > 0
   /// As InsertionOptions::may_flip. Empty: yes.
   std::function<bool(const std::array<Point, 4>&)> may_flip;
+  std::vector<Vertex> held = {};  ///< vertices of the mesh given that keep their places, as pins do
 };
 
 /// The chain of a curve: an edge joins each vertex to the next, and the last to the first if it is closed.

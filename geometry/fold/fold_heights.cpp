@@ -44,6 +44,7 @@ FoldHeight::FoldHeight(const FoldCurve& curve)
   const std::size_t n = curve.points.size();
   const double ds = length_ / static_cast<double>(closed_ ? n : n - 1);
   if (curve.begins_at_border) extend(curve, false, ds);
+  before_ = places_.size();
   for (std::size_t i = 0; i < n; ++i) {
     const bool free_end =
         !closed_ && ((i == 0 && !curve.begins_at_border) || (i + 1 == n && !curve.ends_at_border));
@@ -111,9 +112,10 @@ void FoldHeight::divide_by_crest(const FoldCurve& curve) {
   for (std::size_t i = 0; i < places_.size(); ++i)
     for (const Weight& w : all)
       crest[i] += w.weight * bump((w.point - places_[i].point).squaredNorm(), w.radius);
-  // Beyond a border the curve itself ends: what the extension lacks there is no bend.
-  const auto inside = [&](std::size_t i) { return crest[i] > 0.9 ? crest[i] : 1; };
-  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].weight *= places_[i].height / inside(i);
+  // Beyond a border the extension ends, too: it takes the integral at the border.
+  const std::size_t first = before_, last = before_ + n - 1;
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    places_[i].weight *= places_[i].height / crest[std::clamp(i, first, last)];
 }
 
 void FoldHeight::make_blocks() {

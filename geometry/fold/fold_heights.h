@@ -48,6 +48,7 @@ class FoldHeight {
   const std::array<double, 2> rise_;
   const bool closed_;
   double greatest_width_ = 0;
+  std::size_t before_ = 0;  ///< places beyond the border at the beginning
   std::vector<Place> places_;
   std::vector<Block> blocks_;
 };

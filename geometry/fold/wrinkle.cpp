@@ -8,6 +8,7 @@
 #include <set>
 
 #include "geometry/fold/displace_line.h"
+#include "geometry/fold/fold_lines.h"
 #include "geometry/fold/line_profile.h"
 #include "geometry/fold/line_region.h"
 #include "geometry/fold/wrinkle_steps.h"
@@ -145,7 +146,7 @@ void smooth(Mesh& mesh, const Moves& moves, const WrinkleOptions& options, const
 WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options,
                       const StageObserver& observer) {
   check_all(mesh, strokes, options);
-  if (options.insertion.rule == InsertionRule::fold) refuse("wrinkle", "the rule fold is not here yet");
+  if (options.insertion.rule == InsertionRule::fold) return fold_lines(mesh, strokes, options, observer);
   const std::set<Vertex> held(options.held.begin(), options.held.end());
   const auto tell = [&](Stage stage, const Mesh& m) {
     if (observer) observer(stage, m);

@@ -17,7 +17,7 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double chord = 1 - 1e-6;     ///< of the rest length: an edge that is shorter leads over a crease
+constexpr double crease = 0.99;  ///< chord over unfolded length: an edge that is shorter leads over a crease
 constexpr double flattest = 1 - 0.01;  ///< longest side over the other two
 
 double apart(const Point& p, const Point& q) { return std::sqrt(CGAL::squared_distance(p, q)); }
@@ -61,9 +61,11 @@ std::optional<double> unfolded_factor(const Mesh& mesh, const RestSnapshot& befo
   const std::array<Vertex, 4> v{mesh.source(h), mesh.target(h), mesh.target(mesh.next(h)),
                                 mesh.target(mesh.next(o))};
   const auto& old = before.positions;
-  if (!(apart(old[v[0].idx()], old[v[1].idx()]) < chord * rest)) return std::nullopt;
+  const double lay = apart(old[v[0].idx()], old[v[1].idx()]);
   const double earlier = unfolded(old[v[0].idx()], old[v[1].idx()], old[v[2].idx()], old[v[3].idx()]);
   const double now = unfolded(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+  // Strained cloth that lies flat has no crease: there both say the same, and the chord goes on.
+  if (!(lay < crease * earlier) || !(std::abs(rest - earlier) < std::abs(rest - lay))) return std::nullopt;
   if (!(earlier > 0) || !(now > 0)) return std::nullopt;
   return now / earlier;
 }
@@ -101,6 +103,29 @@ std::size_t reshape(Mesh& mesh, std::vector<Face> asked) {
     }
   }
   return reshaped;
+}
+
+/// Faces without area keep none in their own shape: their shorter sides grow until they have one.
+void give_area(Mesh& mesh) {
+  constexpr double least = 1e-4;  // of the longest side
+  RestTriangles rest{mesh, ensure_map(mesh, attribute::rest_length),
+                     find_map(mesh, attribute::triangle_rest_length)};
+  bool changed = true;
+  for (int round = 0; changed && round < 1000; ++round) {
+    changed = false;
+    for (Face f : mesh.faces()) {
+      if (rest.flatness(f) < 1 - 1e-9) continue;
+      changed = true;
+      const auto h = halfedges_of(mesh, f);
+      const double longest = std::max({rest.of(h[0]), rest.of(h[1]), rest.of(h[2])});
+      const double sum = rest.of(h[0]) + rest.of(h[1]) + rest.of(h[2]) - longest;
+      for (Halfedge side : h) {
+        if (rest.of(side) == longest) continue;
+        rest.edges[mesh.edge(side)] = rest.of(side) + ((1 + least) * longest - sum) / 2;
+        if (rest.own && !std::isnan((*rest.own)[side])) (*rest.own)[side] = rest.edges[mesh.edge(side)];
+      }
+    }
+  }
 }
 
 std::vector<Face> faces_moved(const Mesh& mesh, const RestSnapshot& before) {
@@ -141,6 +166,7 @@ FoldRestReport apply_fold_rest(Mesh& mesh, const RestSnapshot& before, std::span
   if (rule != RestRule::flat) {
     report.unfolded_edges = unfold_edges(mesh, before, rest_before);
     report.reshaped_faces = reshape(mesh, faces_moved(mesh, before));
+    give_area(mesh);
     report.carried.turned_hinges = turn_hinges(mesh, before, base_angles, set, rule);
   }
   report.invalid_faces = invalid_rest_faces(mesh);

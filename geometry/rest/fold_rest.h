@@ -13,12 +13,12 @@ struct FoldRestReport {
   std::size_t invalid_faces = 0;   ///< of the whole mesh: they break the triangle inequality all the same
 };
 
-/// The rest state after folds are raised (rule fold). Lengths: apply_rest_rule()'s, but where an edge's chord
-/// was shorter than its rest length (a flip over a crease), its factor is that of the two triangles across it
-/// laid flat about the other diagonal; a face that then breaks the triangle inequality, or is within 1 % of
-/// it, takes the lengths of its present shape, until none does. Angles: own + (base - before) + set (now -
-/// base), `base_angles` those of the unraised surface that new vertices were laid on, by edge [rad], `set` in
-/// [0, 1] by edge. Rule flat changes nothing, copied counts as set = 1. Throws as apply_rest_rule().
+/// The rest state after folds are raised (rule fold). Lengths: apply_rest_rule()'s. But an edge over a crease
+/// (a flip: its chord is shorter than its rest length, the unfolded one) grows as in the two triangles across
+/// it laid flat about the other diagonal, and a face that then breaks the triangle inequality, or is within 1
+/// % of it, takes the lengths of its present shape. Angles: own + (base - before) + set (now - base); by
+/// edge, `base_angles` are those of the unraised surface that new vertices were laid on [rad], `set` is in
+/// [0, 1]. Rule flat changes nothing, copied counts as set = 1. Throws as apply_rest_rule().
 FoldRestReport apply_fold_rest(Mesh& mesh, const RestSnapshot& before, std::span<const double> base_angles,
                                std::span<const double> set, RestRule rule);
 

@@ -23,7 +23,7 @@ Scene fresh<Scene>() {
 namespace {
 
 using bridge::Bending, bridge::MassRule, bridge::Membrane;
-using geometry::BorderRule, geometry::InsertionRule, geometry::LineRule, geometry::RestRule;
+using geometry::BorderRule, geometry::Detail, geometry::InsertionRule, geometry::LineRule, geometry::RestRule;
 using geometry::SmoothingRegion, geometry::SmoothingWeights;
 using physics::GradientRule, physics::Integrator, physics::StepRule;
 using Word = std::optional<std::string>;
@@ -425,8 +425,18 @@ const Row<Scene> rows[] = {
       .usual = "drawn"},
      own(Kind::choice, "`drawn`, `flat`, `copied`, `keep`", read_rest)},
     {{.path = "lines.rule", .what = as_wrinkle},
-     choice<InsertionRule>([](auto& s) -> auto& { return s.lines.back().options.insertion.rule; },
-                           {{"safe", InsertionRule::safe}, {"paper", InsertionRule::paper}})},
+     choice<InsertionRule>(
+         [](auto& s) -> auto& { return s.lines.back().options.insertion.rule; },
+         {{"fold", InsertionRule::fold}, {"safe", InsertionRule::safe}, {"paper", InsertionRule::paper}})},
+    {{.path = "lines.detail", .what = as_wrinkle},
+     choice<Detail>([](auto& s) -> auto& { return s.lines.back().options.detail; },
+                    {{"coarse", Detail::coarse}, {"normal", Detail::normal}, {"fine", Detail::fine}})},
+    {{.path = "lines.flat_base", .what = as_wrinkle},
+     yes_no(
+         false, true, [](auto& s) -> auto& { return s.lines.back().options.flat_base; })},
+    {{.path = "lines.fold_iterations", .what = as_wrinkle},
+     whole(
+         0, 100000, [](auto& s) -> auto& { return s.lines.back().options.fold_iterations; })},
     {{.path = "lines.region", .what = as_wrinkle},
      choice<SmoothingRegion>(
          [](auto& s) -> auto& { return s.lines.back().options.region; },

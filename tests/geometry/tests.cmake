@@ -15,8 +15,10 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   stroke/place_path_stroke_test.cpp
   stroke/place_texture_stroke_test.cpp
   stroke/place_view_stroke_test.cpp
+  stroke/prepare_strokes_test.cpp
   stroke/project_onto_surface_test.cpp
   rest/bending_springs_test.cpp
+  rest/fold_rest_test.cpp
   rest/masses_test.cpp
   rest/rest_angles_test.cpp
   rest/rest_state_test.cpp
@@ -37,6 +39,8 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   band/refine_band_test.cpp
   band/refine_displaced_test.cpp
   fold/displace_line_test.cpp
+  fold/fold_heights_test.cpp
+  fold/fold_lines_test.cpp
   fold/line_height_test.cpp
   fold/line_press_test.cpp
   fold/line_profile_test.cpp

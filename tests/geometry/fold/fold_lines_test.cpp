@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/fold/fold_lines.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "geometry/fold/fold_base.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/mesh/sheet.h"
+#include "geometry/rest/fold_rest.h"
+#include "geometry/rest/rest_angles.h"
+#include "geometry/stroke/project_onto_surface.h"
+#include "tests/test_meshes.h"
+
+using namespace furrow::geometry;
+using namespace furrow::tests;
+
+namespace {
+
+constexpr double width = 0.08, height = 0.012;
+
+Stroke line(std::vector<Point> points, double k = height, double w = width) {
+  Stroke stroke;
+  stroke.name = "fold";
+  stroke.height = k;
+  stroke.width = w;
+  stroke.points = std::move(points);
+  return stroke;
+}
+
+/// On beyond both hems of a sheet of 0.5 x 0.5 m.
+Stroke over_both_hems(double k = height) {
+  return line({{0.013, -0.03, 0}, {0.013, 0.25, 0}, {0.013, 0.53, 0}}, k);
+}
+
+WrinkleOptions fold_options() {
+  WrinkleOptions options;
+  options.insertion.rule = InsertionRule::fold;
+  return options;
+}
+
+WrinkleReport fold(Mesh& mesh, const std::vector<Stroke>& strokes,
+                   const WrinkleOptions& options = fold_options()) {
+  return wrinkle(mesh, strokes, options);
+}
+
+double section(double d) {
+  const double t = 2 * d / width;
+  return t < 1 ? std::pow(1 - t * t, 2.5) : 0;
+}
+
+double rms(const std::vector<double>& values) {
+  double sum = 0;
+  for (double v : values) sum += v * v;
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(values.size(), 1)));
+}
+
+std::vector<Point> ring_points(double radius, double y) {
+  std::vector<Point> points;
+  for (int i = 0; i < 60; ++i) {
+    const double a = 2 * std::numbers::pi * i / 60;
+    points.emplace_back(radius * std::sin(a), y, radius * std::cos(a));
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("fold_lines: on a sheet the surface is the closed form, and the crest lies on the stroke") {
+  for (const double k : {height, -height}) {
+    Mesh mesh = equilateral_sheet(0.5, 0.5, 0.015);
+    const WrinkleReport report = fold(mesh, {over_both_hems(k)});
+    std::vector<double> off, lateral, crest;
+    for (Vertex v : mesh.vertices()) {
+      const Point& p = mesh.point(v);
+      off.push_back((p.z() - k * section(std::abs(p.x() - 0.013))) / k);
+    }
+    for (Vertex v : report.lines.at(0).chains.at(0)) {
+      lateral.push_back((mesh.point(v).x() - 0.013) / width);
+      crest.push_back(mesh.point(v).z() / k - 1);
+    }
+    CHECK(rms(off) <= 0.01);
+    CHECK(rms(lateral) <= 0.005);
+    CHECK(rms(crest) <= 0.003);
+    CHECK(report.lines[0].crest_height.value() == Approx(k).epsilon(0.03));
+    CHECK(report.lines[0].drawn_height == Approx(k).epsilon(0.03));
+    CHECK(report.fold.value().min_angle_deg >= 15);
+    CHECK(report.fold->invalid_faces == 0);
+    CHECK(report.fold->angle_defect_after <= 40);
+  }
+}
+
+TEST_CASE("fold_lines: along a tube and around it the fold has its height, ridge and valley") {
+  constexpr double radius = 0.1;
+  for (const double k : {height, -height}) {
+    Mesh mesh = cylinder(radius, 0.5, 32, 25);
+    const WrinkleReport along =
+        fold(mesh, {line({{0.003, -0.03, radius}, {0.003, 0.25, radius}, {0.003, 0.53, radius}}, k)});
+    CHECK(along.lines.at(0).crest_height.value() == Approx(k).epsilon(0.08));
+    CHECK(along.lines[0].drawn_height / k > 0.5);
+    std::vector<double> off;
+    for (Vertex v : mesh.vertices()) {
+      const Point& p = mesh.point(v);
+      const double r = std::hypot(p.x(), p.z()), a = std::atan2(p.x(), p.z()) - std::asin(0.003 / radius);
+      off.push_back((r - radius - k * section(2 * radius * std::sin(std::abs(a) / 2))) / k);
+    }
+    CHECK(rms(off) <= 0.03);
+    Mesh ringed = cylinder(radius, 0.5, 32, 25);
+    Stroke ring = line(ring_points(radius, 0.25), k);
+    ring.closed = true;
+    const WrinkleReport around = fold(ringed, {ring});
+    CHECK(around.lines.at(0).crest_height.value() == Approx(k).epsilon(0.08));
+    CHECK(around.fold->invalid_faces == 0);
+    std::vector<double> crest;
+    for (Vertex v : around.lines[0].chains.at(0))
+      crest.push_back((std::hypot(ringed.point(v).x(), ringed.point(v).z()) - radius) / k - 1);
+    CHECK(rms(crest) <= 0.05);
+  }
+}
+
+TEST_CASE("fold_lines: on a sphere the fold stands out by its height") {
+  constexpr double radius = 0.15;
+  Mesh mesh = icosphere(3, radius);
+  std::vector<Point> points;
+  for (int i = 0; i <= 40; ++i) {
+    const double a = -1.2 + 2.4 * i / 40;
+    points.emplace_back(radius * std::sin(a), 0.01, radius * std::cos(a));
+  }
+  const WrinkleReport report = fold(mesh, {line(points)});
+  CHECK(report.lines.at(0).crest_height.value() == Approx(height).epsilon(0.08));
+  CHECK(report.fold->invalid_faces == 0);
+  double highest = 0;
+  for (Vertex v : mesh.vertices())
+    highest = std::max(highest, std::sqrt((mesh.point(v) - CGAL::ORIGIN).squared_length()) - radius);
+  CHECK(highest == Approx(height).epsilon(0.08));
+}
+
+TEST_CASE("fold_lines: meshes of 20, 10 and 5 mm give one fold") {
+  const auto folded = [](double edge) {
+    Mesh mesh = equilateral_sheet(0.5, 0.3, edge);
+    fold(mesh, {line({{-0.17, 0.1, 0}, {-0.05, 0.13, 0}, {0.06, 0.19, 0}, {0.18, 0.2, 0}})});
+    return mesh;
+  };
+  const Mesh fine = folded(0.0025);
+  const SurfaceProjector projector(fine);
+  for (const double edge : {0.02, 0.01, 0.005}) {
+    CAPTURE(edge);
+    const Mesh mesh = folded(edge);
+    std::vector<double> off;
+    for (Vertex v : mesh.vertices()) {
+      const Point& p = mesh.point(v);
+      if (std::abs(p.x()) > 0.2 || std::abs(p.y() - 0.15) > 0.09) continue;
+      off.push_back((p.z() - projector.first_hit({p.x(), p.y(), 1}, {0, 0, -1})->position.z()) / height);
+    }
+    CHECK(rms(off) <= 0.005);
+  }
+}
+
+TEST_CASE("fold_lines: height 0 on the facets is an isometry, and old vertices stay but for those on lines") {
+  Mesh mesh = cylinder(0.1, 0.5, 24, 20);
+  const Mesh before = mesh;
+  WrinkleOptions options = fold_options();
+  options.flat_base = true;
+  const WrinkleReport report = fold(mesh, {line({{0.02, 0.1, 0.1}, {-0.03, 0.4, 0.1}}, 0)}, options);
+  CHECK(report.rest_area_after == Approx(report.rest_area_before).epsilon(1e-12));
+  std::size_t moved = 0;
+  for (Vertex v : before.vertices()) moved += mesh.point(v) != before.point(v);
+  CHECK(moved <= report.fold->snapped);
+  CHECK(report.lines.at(0).chains.size() == 1);
+}
+
+TEST_CASE("fold_lines: held vertices stay, though a fold runs over them") {
+  Mesh mesh = equilateral_sheet(0.5, 0.5, 0.015);
+  WrinkleOptions options = fold_options();
+  for (Vertex v : mesh.vertices())
+    if (mesh.point(v).y() > 0.49) options.held.push_back(v);
+  const Mesh before = mesh;
+  const WrinkleReport report = fold(mesh, {over_both_hems()}, options);
+  for (Vertex v : options.held) CHECK(mesh.point(v) == before.point(v));
+  CHECK(report.lines.at(0).crest_height.value() > 0.8 * height);
+}
+
+TEST_CASE("fold_lines: of the fold's angles the rest has the share that the stroke sets") {
+  for (const double set : {0.0, 1.0}) {
+    Mesh mesh = equilateral_sheet(0.5, 0.5, 0.015);
+    Stroke stroke = over_both_hems();
+    stroke.set = set;
+    fold(mesh, {stroke});
+    const auto rest = find_map(mesh, attribute::rest_angle).value();
+    for (Edge e : mesh.edges())
+      if (!mesh.is_border(e)) CHECK(rest[e] == Approx(set * dihedral_angle(mesh, e)).margin(1e-9));
+  }
+}
+
+TEST_CASE("fold_lines: random lines on a creased mesh leave no invalid triangle at rest") {
+  Mesh mesh = jittered(24, 24, 0.2, 5, 0.6, 0.6);
+  lift(mesh, [](double x, double y) {
+    return 0.12 * std::abs(std::sin(9 * x)) + 0.05 * std::abs(std::sin(13 * y));
+  });
+  std::vector<Stroke> strokes;
+  for (int i = 0; i < 6; ++i) {
+    const double a = 0.9 * i;
+    strokes.push_back(line({{0.3 + 0.2 * std::cos(a), 0.3 + 0.2 * std::sin(a), 0.1},
+                            {0.3 - 0.2 * std::cos(a + 1), 0.3 - 0.2 * std::sin(a + 1), 0.1}},
+                           i % 2 ? 0.01 : -0.01));
+    strokes.back().width.reset();
+  }
+  WrinkleOptions options = fold_options();
+  options.insertion.max_distance = 1;
+  const WrinkleReport report = fold(mesh, strokes, options);
+  CHECK(report.fold->invalid_faces == 0);
+  CHECK(invalid_rest_faces(mesh) == 0);
+  CHECK(report.fold->min_angle_deg > 3);
+}
+
+TEST_CASE("fold_base: a curved surface over the facets of a sphere is nearer to it, and keeps the corners") {
+  const Mesh mesh = icosphere(2, 1);
+  std::vector<Vector> normals;
+  for (Vertex v : mesh.vertices()) normals.push_back(mesh.point(v) - CGAL::ORIGIN);
+  for (Face f : mesh.faces()) {
+    const FacePoint middle{f, {1.0 / 3, 1.0 / 3, 1.0 / 3}}, corner{f, {1, 0, 0}};
+    const auto off = [](const Point& p) {
+      return std::abs(1 - std::sqrt((p - CGAL::ORIGIN).squared_length()));
+    };
+    CHECK(off(curved_place(mesh, normals, middle)) < 0.5 * off(position_of(mesh, middle)));
+    CHECK(std::sqrt(CGAL::squared_distance(curved_place(mesh, normals, corner), position_of(mesh, corner))) <
+          1e-12);
+  }
+}
+
+TEST_CASE("fold_base: the angle defect is that of Gauss and Bonnet, and 0 of a sheet") {
+  CHECK(angle_defect(icosphere(3, 0.5)) == Approx(1 / 0.25).epsilon(0.02));  // 4 pi over 4 pi r^2
+  CHECK(angle_defect(equilateral_sheet(0.5, 0.5, 0.02)) == Approx(0).margin(1e-9));
+  CHECK(angle_defect(cylinder(0.1, 0.3, 20, 10)) == Approx(0).margin(1e-6));
+}
