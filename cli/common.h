@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/summary.h"
+#include "cli/print_summary.h"
 #include "io/mesh/mesh_file.h"
 #include "jobs/inputs.h"
 #include "jobs/read_inputs.h"

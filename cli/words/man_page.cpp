@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 
-#include "cli/command_words.h"
+#include "cli/words/command_words.h"
 #include "furrow/version.h"
 
 namespace furrow::cli {

@@ -3,7 +3,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "cli/command_words.h"
+#include "cli/words/command_words.h"
 
 namespace furrow::cli {
 namespace {

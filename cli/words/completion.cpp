@@ -2,9 +2,9 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/command_words.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
+#include "cli/words/command_words.h"
 #include "io/base/atomic_file.h"
 
 namespace furrow::cli {

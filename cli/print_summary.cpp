@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/summary.h"
+#include "cli/print_summary.h"
 
 #include <algorithm>
 #include <cmath>

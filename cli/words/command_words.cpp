@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/command_words.h"
+#include "cli/words/command_words.h"
 
 #include <sstream>
 
