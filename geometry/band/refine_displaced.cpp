@@ -15,10 +15,10 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double too_long = 1.5;       ///< of the sizing, in the displaced shape
+constexpr double too_stretched = 1.5;  ///< of the sizing, in the displaced shape
 constexpr double least_height = 0.01;  ///< of a face's longest side, after a flip
-constexpr double tie = 1e-7;
-constexpr int most_rounds = 20;
+constexpr double delaunay_tie = 1e-7;
+constexpr int most_passes = 20;
 
 double distance(const Point& a, const Point& b) { return std::sqrt((a - b).squared_length()); }
 
@@ -41,7 +41,7 @@ class SecondPass {
       : band_(band), mesh_(band.mesh), sizing_(sizing), displaced_(displaced), displace_(displace) {}
 
   void run() {
-    for (int i = 0; i < most_rounds; ++i) {
+    for (int i = 0; i < most_passes; ++i) {
       const std::size_t count = split();
       flip();
       if (count == 0) return;
@@ -54,7 +54,7 @@ class SecondPass {
 
   std::size_t split() {
     const auto is_too_long = [&](Edge e) {
-      const double most = length(e) / too_long;
+      const double most = length(e) / too_stretched;
       const Halfedge h = band_.from_lower(e);
       const Point middle = CGAL::midpoint(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)));
       return sizing_.at(middle, most) < most;
@@ -74,7 +74,7 @@ class SecondPass {
     const Point &a = at(mesh_.source(h)), &b = at(mesh_.target(h));
     return !(cotangent_at(at(mesh_.target(mesh_.next(h))), a, b) +
                  cotangent_at(at(mesh_.target(mesh_.next(o))), a, b) <
-             -tie);
+             -delaunay_tie);
   }
 
   bool may_be_flipped(Edge e) const {

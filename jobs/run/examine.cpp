@@ -21,7 +21,7 @@ using geometry::Mesh;
 using geometry::Point;
 using geometry::Vertex;
 
-constexpr std::size_t most_places = 50;   // of one ailment
+constexpr std::size_t most_marks = 50;    // of one ailment
 constexpr double soup_share = 0.5;        // of vertices that lie where others do
 constexpr double shell = 0.008;           // [m] thickness of a garment that was given two sides
 constexpr double odd_ratio = 30;          // of two sizes that are of one unit, at most
@@ -110,7 +110,7 @@ void add_doubled(const Mesh& mesh, const Places& places, std::vector<Ailment>& f
   a.fatal = soup;
   a.mendable = true;
   for (Vertex v : places.doubled)
-    if (a.places.size() < most_places) a.places.push_back(mesh.point(v));
+    if (a.places.size() < most_marks) a.places.push_back(mesh.point(v));
   found.push_back(std::move(a));
 }
 
@@ -129,7 +129,7 @@ std::size_t count_backed(const Mesh& mesh, const Places& places, std::vector<Poi
   for (std::size_t i = 1; i < keys.size(); ++i) {
     if (keys[i].first != keys[i - 1].first) continue;
     ++backed;
-    if (where.size() < most_places) where.push_back(middle_of(mesh, keys[i].second));
+    if (where.size() < most_marks) where.push_back(middle_of(mesh, keys[i].second));
   }
   return backed;
 }
@@ -141,7 +141,7 @@ void add_holes(const Mesh& mesh, std::vector<Ailment>& found) {
     if (loop.vertices.size() > edges_of_hole || loop.vertices.size() >= mesh.number_of_faces()) continue;
     ++a.count;
     longest = std::max(longest, loop.length);
-    if (a.places.size() < most_places) a.places.push_back(mesh.point(loop.vertices[0]));
+    if (a.places.size() < most_marks) a.places.push_back(mesh.point(loop.vertices[0]));
   }
   const geometry::MeshInfo info = geometry::measure(mesh);
   if (a.count == 0 || info.components > mesh.number_of_faces() / 4)
@@ -160,7 +160,7 @@ void add_flat_faces(const Mesh& mesh, std::vector<Ailment>& found) {
         std::max({CGAL::squared_distance(p, q), CGAL::squared_distance(q, r), CGAL::squared_distance(r, p)});
     if (std::sqrt(CGAL::squared_area(p, q, r)) >= 1e-12 * longest && longest > 0) continue;
     ++a.count;
-    if (a.places.size() < most_places) a.places.push_back(middle_of(mesh, f));
+    if (a.places.size() < most_marks) a.places.push_back(middle_of(mesh, f));
   }
   if (a.count == 0) return;
   a.text = std::to_string(a.count) + " faces have no area";

@@ -14,7 +14,7 @@ namespace {
 
 using Front = FrontTree::Front;
 
-constexpr double asked_after = 1e6;  // multiplications: about a millisecond
+constexpr double asked_again_after = 1e6;  // multiplications: about a millisecond
 
 /// A symmetric matrix by columns, of which what lies on and below the diagonal counts.
 struct Square {
@@ -38,7 +38,7 @@ class Question {
  public:
   void after(double multiplications) {
     work_ += multiplications;
-    if (work_ < asked_after) return;
+    if (work_ < asked_again_after) return;
     work_ = 0;
     throw_if_cancelled("factorisation");
   }

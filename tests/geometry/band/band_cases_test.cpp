@@ -22,7 +22,7 @@ using namespace furrow::tests;
 
 namespace {
 
-constexpr double width = 0.1, height = 0.015;
+constexpr double case_width = 0.1, case_height = 0.015;
 const std::vector<std::string> none;
 
 std::vector<Point> arc_points(double x0, double y0, double x1, double y1, double bend) {
@@ -61,7 +61,7 @@ double group_area(const Mesh& mesh, int group) {
 
 TEST_CASE("refine_band: the same line twice embeds onto itself") {
   const Mesh sheet = equilateral_sheet(0.6, 0.8, 0.025);
-  const FoldCurve curve = curve_on(sheet, arc_points(-0.15, 0.1, 0.15, 0.7, 0.1), width, height);
+  const FoldCurve curve = curve_on(sheet, arc_points(-0.15, 0.1, 0.15, 0.7, 0.1), case_width, case_height);
   Mesh mesh = sheet;
   const std::vector<FoldCurve> both{curve, curve};
   const BandReport report = refine_band(mesh, both);
@@ -71,7 +71,7 @@ TEST_CASE("refine_band: the same line twice embeds onto itself") {
   CHECK(refine_band(alone, std::vector<FoldCurve>{curve}).inserted == report.inserted);
   // and once more, later
   const Mesh before = mesh;
-  const FoldCurve again = curve_on(before, arc_points(-0.15, 0.1, 0.15, 0.7, 0.1), width, height);
+  const FoldCurve again = curve_on(before, arc_points(-0.15, 0.1, 0.15, 0.7, 0.1), case_width, case_height);
   const BandReport second = refine_band(mesh, std::vector<FoldCurve>{again});
   CHECK(second.inserted == 0);
   CHECK(second.snapped.empty());
@@ -82,12 +82,13 @@ TEST_CASE("refine_band: permuted faces give the same surface") {
   const Mesh sheet = jittered(20, 26, 0.2, 7, 0.6, 0.8);
   Mesh mesh = sheet;
   const auto points = arc_points(0.1, 0.1, 0.45, 0.7, 0.1);
-  const BandReport report = refine_band(mesh, std::vector<FoldCurve>{curve_on(sheet, points, width, height)});
+  const BandReport report =
+      refine_band(mesh, std::vector<FoldCurve>{curve_on(sheet, points, case_width, case_height)});
   for (unsigned seed : {1u, 2u}) {
     const Mesh other = permuted(sheet, seed);
     Mesh refined = other;
     const BandReport same =
-        refine_band(refined, std::vector<FoldCurve>{curve_on(other, points, width, height)});
+        refine_band(refined, std::vector<FoldCurve>{curve_on(other, points, case_width, case_height)});
     REQUIRE(refined.num_vertices() == mesh.num_vertices());
     CHECK(same.chains[0].vertices == report.chains[0].vertices);
     for (Vertex v : mesh.vertices()) CHECK((refined.point(v) - mesh.point(v)).squared_length() < 1e-18);
@@ -103,7 +104,8 @@ TEST_CASE("refine_band: a strained cloth keeps its rest metric") {
     cloth.point(v) = {1.06 * p.x(), 0.98 * p.y(), 0};
   }
   Mesh mesh = cloth;
-  const std::vector<FoldCurve> curves{curve_on(cloth, arc_points(-0.15, 0.1, 0.15, 0.7, 0.1), width, height)};
+  const std::vector<FoldCurve> curves{
+      curve_on(cloth, arc_points(-0.15, 0.1, 0.15, 0.7, 0.1), case_width, case_height)};
   const BandReport report = refine_band(mesh, curves);
   CHECK(faults_of_band(cloth, mesh, curves, report) == none);
   CHECK(report.min_angle_deg >= 15);
@@ -124,8 +126,8 @@ TEST_CASE("refine_band: a strained star that does not lie flat is not snapped") 
   for (Vertex v : cone.vertices())
     if (!apex.is_valid() || cone.point(v).z() > cone.point(apex).z()) apex = v;
   Mesh mesh = cone;
-  const std::vector<FoldCurve> curves{
-      curve_on(cone, {{0.05, 0.203, 0.02}, {0.2, 0.203, 0.06}, {0.35, 0.203, 0.02}}, width, height)};
+  const std::vector<FoldCurve> curves{curve_on(
+      cone, {{0.05, 0.203, 0.02}, {0.2, 0.203, 0.06}, {0.35, 0.203, 0.02}}, case_width, case_height)};
   const BandReport report = refine_band(mesh, curves);
   CHECK(std::count(report.snapped.begin(), report.snapped.end(), apex) == 0);
   CHECK(mesh.point(apex) == cone.point(apex));
@@ -146,7 +148,8 @@ TEST_CASE("refine_band: a line over a seam leaves the seam where it was") {
     }
   }
   Mesh mesh = sheet;
-  const std::vector<FoldCurve> curves{curve_on(sheet, arc_points(-0.1, 0.15, 0.1, 0.65, 0.1), width, height)};
+  const std::vector<FoldCurve> curves{
+      curve_on(sheet, arc_points(-0.1, 0.15, 0.1, 0.65, 0.1), case_width, case_height)};
   const BandReport report = refine_band(mesh, curves);
   CHECK(faults_of_band(sheet, mesh, curves, report) == none);
   // vertices of a seam do not slide: where a line crosses one near a vertex, faces get thin
@@ -164,7 +167,7 @@ TEST_CASE("refine_band: a line over a seam leaves the seam where it was") {
 TEST_CASE("refine_band: a line along the hem takes the hem's edges") {
   const Mesh sheet = equilateral_sheet(0.6, 0.8, 0.025);
   Mesh mesh = sheet;
-  const std::vector<FoldCurve> curves{curve_on(sheet, {{-0.2, 0, 0}, {0.2, 0, 0}}, width, height)};
+  const std::vector<FoldCurve> curves{curve_on(sheet, {{-0.2, 0, 0}, {0.2, 0, 0}}, case_width, case_height)};
   const BandReport report = refine_band(mesh, curves);
   CHECK(faults_of_band(sheet, mesh, curves, report) == none);
   CHECK(report.min_angle_deg >= 15);
@@ -181,8 +184,8 @@ TEST_CASE("refine_band: attributes are those of the place that a new vertex came
   }
   for (Vertex v : sheet.vertices()) velocity[v] = sheet.point(v) - Point(1, 2, 3);
   Mesh mesh = sheet;
-  refine_band(mesh,
-              std::vector<FoldCurve>{curve_on(sheet, arc_points(-0.1, 0.15, 0.1, 0.65, 0.1), width, height)});
+  refine_band(mesh, std::vector<FoldCurve>{
+                        curve_on(sheet, arc_points(-0.1, 0.15, 0.1, 0.65, 0.1), case_width, case_height)});
   const auto uv = *find_map(mesh, attribute::texture);
   const auto moving = *find_map(mesh, attribute::velocity);
   for (Face f : mesh.faces())

@@ -13,13 +13,13 @@ using namespace furrow::tests;
 
 namespace {
 
-constexpr double width = 0.1, height = 0.06;
+constexpr double steep_width = 0.1, steep_height = 0.06;
 
 /// A straight fold along x = 0, which begins at y = 0.1 m.
 Point raised(const Point& p) {
-  const double t = 2 * p.x() / width, s = std::clamp((p.y() - 0.1) / 0.15, 0.0, 1.0);
+  const double t = 2 * p.x() / steep_width, s = std::clamp((p.y() - 0.1) / 0.15, 0.0, 1.0);
   const double taper = s * s * s * (10 - 15 * s + 6 * s * s);
-  return {p.x(), p.y(), std::abs(t) < 1 ? height * taper * std::pow(1 - t * t, 2.5) : 0};
+  return {p.x(), p.y(), std::abs(t) < 1 ? steep_height * taper * std::pow(1 - t * t, 2.5) : 0};
 }
 
 std::vector<Point> raised(const Mesh& mesh) {
@@ -33,7 +33,7 @@ double longest_in_band(const Mesh& mesh, const BandReport& band, const std::vect
   for (Face f : mesh.faces())
     for (Halfedge h : halfedges_of(mesh, f)) {
       const Point &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h));
-      if (!band.in_band[f.idx()] || std::abs(a.x() + b.x()) > width || a.y() + b.y() < 0.2) continue;
+      if (!band.in_band[f.idx()] || std::abs(a.x() + b.x()) > steep_width || a.y() + b.y() < 0.2) continue;
       const Point &p = places[mesh.source(h).idx()], &q = places[mesh.target(h).idx()];
       longest = std::max(longest, std::sqrt((p - q).squared_length()));
     }
@@ -45,10 +45,11 @@ double longest_in_band(const Mesh& mesh, const BandReport& band, const std::vect
 TEST_CASE("refine_displaced: edges of a steep flank become short, the chain stays") {
   const Mesh sheet = equilateral_sheet(0.4, 0.5, 0.02);
   Mesh mesh = sheet;
-  const std::vector<FoldCurve> curves{curve_on(sheet, {{0, 0.1, 0}, {0, 0.52, 0}}, width, height)};
+  const std::vector<FoldCurve> curves{
+      curve_on(sheet, {{0, 0.1, 0}, {0, 0.52, 0}}, steep_width, steep_height)};
   BandReport band = refine_band(mesh, curves);
   std::vector<Point> places = raised(mesh);
-  const double h = crest_edge(width, height, Detail::normal, 0.003);
+  const double h = crest_edge(steep_width, steep_height, Detail::normal, 0.003);
   REQUIRE(longest_in_band(mesh, band, places) > 1.5 * h);
   const std::size_t before = mesh.num_vertices();
   const auto on_flat = [&](const SplitEdge&, const FacePoint& at) { return raised(position_of(sheet, at)); };
@@ -66,7 +67,7 @@ TEST_CASE("refine_displaced: edges of a steep flank become short, the chain stay
 TEST_CASE("refine_displaced: nothing to do where nothing is raised") {
   const Mesh sheet = equilateral_sheet(0.4, 0.5, 0.02);
   Mesh mesh = sheet;
-  const std::vector<FoldCurve> curves{curve_on(sheet, {{0, 0.1, 0}, {0.02, 0.4, 0}}, width, 0.01)};
+  const std::vector<FoldCurve> curves{curve_on(sheet, {{0, 0.1, 0}, {0.02, 0.4, 0}}, steep_width, 0.01)};
   BandReport band = refine_band(mesh, curves);
   const BandReport first = band;
   std::vector<Point> places(mesh.points().begin(), mesh.points().end());

@@ -10,7 +10,7 @@ using namespace furrow::geometry;
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-constexpr double width = 0.06, height = 0.01;
+constexpr double section_width = 0.06, section_height = 0.01;
 
 void measure(FoldCurve& curve) {
   curve.arc.assign(1, 0);
@@ -18,8 +18,8 @@ void measure(FoldCurve& curve) {
     curve.arc.push_back(curve.arc.back() + (curve.points[i] - curve.points[i - 1]).norm());
   curve.length = curve.arc.back();
   if (curve.closed) curve.length += (curve.points.front() - curve.points.back()).norm();
-  curve.width.assign(curve.points.size(), width);
-  curve.height.assign(curve.points.size(), height);
+  curve.width.assign(curve.points.size(), section_width);
+  curve.height.assign(curve.points.size(), section_height);
 }
 
 /// Along x from 0 to `length`, both ends on a border: no taper.
@@ -48,25 +48,25 @@ TEST_CASE("fold_heights: a straight line has the section k (1 - t^2)^(5/2) up to
   const FoldHeight fold(straight(0.5));
   for (const double x : {0.0, 0.001, 0.2, 0.25, 0.5})
     for (double t = 0; t < 1.3; t += 0.05) {
-      const double wanted = t < 1 ? height * std::pow(1 - t * t, 2.5) : 0;
-      CHECK(fold.at(Vec3(x, t * width / 2, 0)) == Approx(wanted).margin(1e-4 * height));
+      const double wanted = t < 1 ? section_height * std::pow(1 - t * t, 2.5) : 0;
+      CHECK(fold.at(Vec3(x, t * section_width / 2, 0)) == Approx(wanted).margin(1e-4 * section_height));
     }
   FoldCurve sharp = straight(0.5);
   sharp.sharpness = 1;
-  CHECK(FoldHeight(sharp).at(Vec3(0.2, width / 8, 0)) == Approx(0.75 * height).epsilon(1e-9));
+  CHECK(FoldHeight(sharp).at(Vec3(0.2, section_width / 8, 0)) == Approx(0.75 * section_height).epsilon(1e-9));
 }
 
 TEST_CASE("fold_heights: the section does not depend on how densely the curve is sampled") {
   const FoldHeight coarse(straight(0.5, 167)), fine(straight(0.5, 1001));  // width / 20, width / 120
-  for (double y = 0; y < width / 2; y += width / 30)
-    CHECK(coarse.at(Vec3(0.2503, y, 0)) == Approx(fine.at(Vec3(0.2503, y, 0))).margin(2e-4 * height));
+  for (double y = 0; y < section_width / 2; y += section_width / 30)
+    CHECK(coarse.at(Vec3(0.2503, y, 0)) == Approx(fine.at(Vec3(0.2503, y, 0))).margin(2e-4 * section_height));
 }
 
 TEST_CASE("fold_heights: a ring of small radius has its height at the crest all around") {
   for (const double radius : {0.025, 0.04, 0.1}) {
     const FoldHeight fold(ring(radius));
     for (double a = 0; a < 6; a += 0.37)
-      CHECK(fold.at(radius * Vec3(std::cos(a), std::sin(a), 0)) == Approx(height).epsilon(2e-3));
+      CHECK(fold.at(radius * Vec3(std::cos(a), std::sin(a), 0)) == Approx(section_height).epsilon(2e-3));
   }
 }
 
@@ -78,11 +78,11 @@ TEST_CASE("fold_heights: a free end rises as a smoothstep, and is narrower there
   CHECK(fold.taper_at(0) == 0);
   CHECK(fold.taper_at(0.1) == Approx(0.5));
   CHECK(fold.taper_at(0.2) == 1);
-  CHECK(std::abs(fold.at(Vec3(0, 0, 0))) < 0.02 * height);
-  CHECK(fold.at(Vec3(0.1, 0, 0)) == Approx(0.5 * height).epsilon(0.02));
-  CHECK(fold.at(Vec3(0.3, 0, 0)) == Approx(height).epsilon(1e-3));
-  const double there = fold.at(Vec3(0.05, 0.3 * width, 0)) / fold.at(Vec3(0.05, 0, 0));
-  CHECK(there < 0.7 * fold.at(Vec3(0.3, 0.3 * width, 0)) / height);
+  CHECK(std::abs(fold.at(Vec3(0, 0, 0))) < 0.02 * section_height);
+  CHECK(fold.at(Vec3(0.1, 0, 0)) == Approx(0.5 * section_height).epsilon(0.02));
+  CHECK(fold.at(Vec3(0.3, 0, 0)) == Approx(section_height).epsilon(1e-3));
+  const double there = fold.at(Vec3(0.05, 0.3 * section_width, 0)) / fold.at(Vec3(0.05, 0, 0));
+  CHECK(there < 0.7 * fold.at(Vec3(0.3, 0.3 * section_width, 0)) / section_height);
 }
 
 TEST_CASE("fold_heights: height and width follow the numbers along the line") {
