@@ -147,7 +147,7 @@ TEST_CASE("insert_along_stroke: bad strokes are refused by name, and the mesh ke
   far.points[7] = Point(0.3, 0.3, 0.2);
   CHECK_THROWS_AS(insert_along_stroke(mesh, far, 0), ContentError);
   CHECK_THROWS_WITH(insert_along_stroke(mesh, far, 0),
-                    Catch::Contains("left fold") && Catch::Contains("point 7") && Catch::Contains("0.2"));
+                    Catch::Contains("left fold") && Catch::Contains("point 7") && Catch::Contains("200 mm"));
   CHECK_THROWS_AS(insert_along_stroke(mesh, Stroke{}, 0), ContentError);
   far.points[7] = Point(std::nan(""), 0, 0);
   CHECK_THROWS_AS(insert_along_stroke(mesh, far, 0), ContentError);
