@@ -42,7 +42,7 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
   return words;
 }
 
-OptionWords words_of(const CLI::Option& option) {
+OptionWords option_words(const CLI::Option& option) {
   OptionWords words;
   if (option.get_positional() && option.get_lnames().empty()) {
     words.names = {option.get_name(true)};
@@ -77,7 +77,7 @@ CommandWords words_of(const CLI::App& app) {
     else if (!line.empty())
       words.details += line + "\n";
   for (const CLI::Option* option : app.get_options())
-    if (!option->get_group().empty()) words.options.push_back(words_of(*option));
+    if (!option->get_group().empty()) words.options.push_back(option_words(*option));
   return words;
 }
 
