@@ -85,7 +85,7 @@ TEST_CASE("transfer: what cannot be done is said, and the original stays") {
   Mesh far = grid(4, 4);
   lift(far, [](double, double) { return 0.5; });
   note_rest(far);
-  CHECK_THROWS_WITH(transfer_shape(original, far), Catch::Contains("vertex 0") && Catch::Contains("0.5"));
+  CHECK_THROWS_WITH(transfer_shape(original, far), Catch::Contains("vertex 0") && Catch::Contains("500 mm"));
   CHECK_THROWS_AS(transfer_shape(original, far, {0}), std::invalid_argument);
   far.point(Vertex(1)) = Point(std::nan(""), 0, 0);
   CHECK_THROWS_AS(transfer_shape(original, far), ContentError);
