@@ -59,15 +59,18 @@ class StrokeReader {
   /// Does it, and notes what is wrong, so that all faults of a file are told at once: the first with the
   /// file's name, each of the others on a line of its own.
   template <class Work>
-  void attempt(const Work& work) {
+  bool attempt(const Work& work) {
+    bool good = false;
     try {
       work();
+      good = true;
     } catch (const ContentError& e) {
       const std::string text = e.what(), name = fields_.name() + ": ";
       faults_.add(fault_before_ && text.starts_with(name) ? text.substr(name.size()) : text);
       fault_before_ = true;
     }
     fields_.place = place_;
+    return good;
   }
 
   /// A camera that stands in the file, or the name of its own file, which lies beside this one.
@@ -218,10 +221,10 @@ class StrokeReader {
 
   void read_stroke(const Json& item, DrawnStroke& drawn) {
     if (!item.is_object()) fields_.fail("must be an object {\"points\": […], …}");
-    attempt([&] {
-      fields_.check_keys(
-          item, {"height", "width", "sharpness", "press", "taper", "flare", "smooth", "set", "points", "name",
-                 "closed", "direction", "breaks", "pixels", "camera", "texture", "group", "near", "vertices"});
+    const bool known = attempt([&] {
+      fields_.check_keys(item, {"height", "width", "sharpness", "press", "taper", "flare", "smooth", "set",
+                                "points", "name", "closed", "direction", "breaks", "pixels", "camera",
+                                "texture", "group", "near", "vertices"});
     });
     Stroke& stroke = drawn.stroke;
     stroke.height = default_height_;
@@ -233,6 +236,8 @@ class StrokeReader {
       if (item.contains("name")) stroke.name = fields_.text(item["name"], "name");
       if (item.contains("closed")) stroke.closed = fields_.truth(item["closed"], "closed");
     });
+    const auto is_there = [&](const Kind& kind) { return item.contains(kind.key); };
+    if (!known && std::none_of(kinds().begin(), kinds().end(), is_there)) return;  // the misspelt one is it
     const Kind& kind = kind_of(item);
     (this->*kind.read)(item, drawn);
     check_counts(stroke, item[kind.key].size());
