@@ -224,10 +224,14 @@ Lines wrinkle_lines(const Json& report) {
               std::to_string(count_of(report, "inserted")) + " vertices inserted; smallest angle " +
               number(value_of(report, "min_angle_deg")) + " degrees"};
   const std::size_t most = 4;
-  for (std::size_t i = 0; i < std::min(most, drawn.size()); ++i)
-    lines.push_back(name_of_line(drawn[i]) + ": asked " + length(drawn[i], "height") + ", drawn " +
-                    length(drawn[i], "drawn_height") + ", smoothed to " +
-                    length(drawn[i], "smoothed_height"));
+  for (std::size_t i = 0; i < std::min(most, drawn.size()); ++i) {
+    const Json& line = drawn[i];
+    const std::string asked = name_of_line(line) + ": asked " + length(line, "height");
+    lines.push_back(line.contains("crest_height") ? asked + ", " + length(line, "crest_height") +
+                                                        " at the crest, " + length(line, "width") + " wide"
+                                                  : asked + ", drawn " + length(line, "drawn_height") +
+                                                        ", smoothed to " + length(line, "smoothed_height"));
+  }
   if (drawn.size() > most)
     lines.push_back("and " + counted(static_cast<long long>(drawn.size() - most), "more line"));
   if (const std::size_t n = list_of(report, "line_edges_missing").size())

@@ -134,3 +134,15 @@ TEST_CASE("wrinkle: the picture of what is inserted marks faces that cross") {
        (scratch / "p.png") + " --size 120,120 --view front --quality draft");
   CHECK(magenta_pixels(scratch / "p.png") > 500);
 }
+
+TEST_CASE("report: a smooth fold tells the height of its crest, and its width") {
+  ScratchDirectory scratch;
+  const std::string call = "wrinkle " + source_file("meshes/skirt.obj") + " " +
+                           source_file("meshes/strokes/figure_skirt.json") + " --rule fold -o " +
+                           (scratch / "w.ply");
+  const std::string text = told(call);
+  INFO(text);
+  CHECK(text.find("ridge 1: asked 80 mm, ") != std::string::npos);
+  CHECK(text.find(" at the crest, 127 mm wide\n") != std::string::npos);
+  CHECK(text.find("smoothed to") == std::string::npos);
+}
