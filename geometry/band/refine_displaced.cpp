@@ -10,12 +10,14 @@
 #include "geometry/band/band_mesh.h"
 #include "geometry/band/band_report.h"
 #include "geometry/band/split_longest.h"
+#include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
 
 namespace furrow::geometry {
 namespace {
 
 constexpr double too_stretched = 1.5;  ///< of the sizing, in the displaced shape
+constexpr double least_share = 0.2;    ///< of the sizing, undisplaced: what is shorter spans a jump
 constexpr double least_height = 0.01;  ///< of a face's longest side, after a flip
 constexpr double delaunay_tie = 1e-7;
 constexpr int most_passes = 20;
@@ -57,11 +59,16 @@ class SecondPass {
       const double most = length(e) / too_stretched;
       const Halfedge h = band_.from_lower(e);
       const Point middle = CGAL::midpoint(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)));
-      return sizing_.at(middle, most) < most;
+      const double size = sizing_.at(middle, most);
+      return size < most && band_.rest[e] > least_share * size;
     };
     return split_longest(
         band_, [&](Edge e) { return length(e); }, is_too_long,
         [&](Edge e) {
+          if (displaced_.size() > most_vertices_)
+            throw ContentError(
+                "strokes: the cloth beside them lies in folds so close that their heights jump; draw them "
+                "elsewhere, make them narrower, or use the rule safe");
           const Halfedge h = band_.from_lower(e);
           const SplitEdge ends{mesh_.source(h), mesh_.target(h), band_.split(e, 0.5)};
           displaced_.push_back(displace_(ends, band_.place[ends.vertex.idx()]));
@@ -113,6 +120,7 @@ class SecondPass {
   const BandSizing& sizing_;
   std::vector<Point>& displaced_;
   const Displace& displace_;
+  const std::size_t most_vertices_ = 4 * displaced_.size() + 5000;
 };
 
 /// Takes over what the first pass knows.

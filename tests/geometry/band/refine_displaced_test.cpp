@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <string>
 
 #include "geometry/mesh/sheet.h"
 #include "tests/geometry/band/band_checks.h"
@@ -77,4 +78,27 @@ TEST_CASE("refine_displaced: nothing to do where nothing is raised") {
   CHECK(band.chains[0].vertices == first.chains[0].vertices);
   places.pop_back();
   CHECK_THROWS_AS(refine_displaced(mesh, sheet, curves, places, on_flat, band), std::invalid_argument);
+}
+
+TEST_CASE("refine_displaced: where heights jump it ends or says so, however high the jump is") {
+  const Mesh sheet = equilateral_sheet(0.4, 0.5, 0.02);
+  for (const double jump : {0.05, 5.0}) {
+    Mesh mesh = sheet;
+    const std::vector<FoldCurve> curves{
+        curve_on(sheet, {{0, 0.1, 0}, {0, 0.4, 0}}, steep_width, steep_height)};
+    BandReport band = refine_band(mesh, curves);
+    const auto torn = [&](const Point& p) { return Point(p.x(), p.y(), p.x() > 0.0131 ? jump : 0); };
+    std::vector<Point> places;
+    for (Vertex v : mesh.vertices()) places.push_back(torn(mesh.point(v)));
+    const auto on_torn = [&](const SplitEdge&, const FacePoint& at) { return torn(position_of(sheet, at)); };
+    const std::size_t before = mesh.num_vertices();
+    try {
+      const DisplacedReport report = refine_displaced(mesh, sheet, curves, places, on_torn, band);
+      CHECK(report.inserted > 0);
+    } catch (const ContentError& e) {
+      CHECK(std::string(e.what()).find("their heights jump") != std::string::npos);
+    }
+    CAPTURE(jump, before);
+    CHECK(mesh.num_vertices() <= 5 * before + 5000);
+  }
 }
