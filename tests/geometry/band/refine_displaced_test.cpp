@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "geometry/mesh/errors.h"
 #include "geometry/mesh/sheet.h"
 #include "tests/geometry/band/band_checks.h"
 
