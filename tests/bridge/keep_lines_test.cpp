@@ -109,7 +109,8 @@ TEST_CASE(
   CHECK(lines[1].height == Approx(lines[0].height).epsilon(0.01));
 }
 
-TEST_CASE("keep_lines: with whole what lies between the lines is pressed until nothing in it gives way") {
+TEST_CASE("keep_lines: with whole what lies between the lines is pressed until nothing in it gives way",
+          "[accuracy]") {
   Hung lines(3e-8), whole(3e-8);
   for (Hung* hung : {&lines, &whole}) {
     hung->options.seconds = hung->options.calm_seconds = 0.05;

@@ -35,7 +35,7 @@ std::string skirt() {
 
 }  // namespace
 
-TEST_CASE("drape: it brings the skirt to rest on the mannequin and tells how it fits") {
+TEST_CASE("drape: it brings the skirt to rest on the mannequin and tells how it fits", "[accuracy]") {
   ScratchDirectory scratch;
   const std::string call = "drape " + skirt() + " --subdivide 0 --band top=0.95 --json";
   const Run run =
@@ -109,7 +109,7 @@ TEST_CASE("drape: fit, simulate and drape know the contact, the fabric and the b
   CHECK(geometry::struts(io::read_mesh(scratch / "sewn.ply").mesh).size() == band.size());
 }
 
-TEST_CASE("drape: a density beside a fabric stays with the garment") {
+TEST_CASE("drape: a density beside a fabric stays with the garment", "[accuracy]") {
   ScratchDirectory scratch;
   const std::string worn = scratch / "worn.ply", on = " --body " + mannequin_path() + " --seconds 0.01 -o ";
   write_text(scratch / "scene.toml", "[garment]\nmesh = '" + (source_dir() / "meshes/skirt.obj").string() +
@@ -257,7 +257,8 @@ TEST_CASE("drape: what nothing carries falls, whatever residual is accepted") {
 }
 
 TEST_CASE(
-    "drape: a gap that is raised for long edges is told, and simulate goes on with the gap that was kept") {
+    "drape: a gap that is raised for long edges is told, and simulate goes on with the gap that was kept",
+    "[accuracy]") {
   ScratchDirectory scratch;
   const Run coarse =
       run_furrow("drape " + skirt() + " --gap 0.001 --subdivide 0 --json -o " + (scratch / "a.ply"));

@@ -186,7 +186,8 @@ TEST_CASE("resume: no output replaces an input or another output") {
 }
 
 TEST_CASE(
-    "resume: fabrics, and every integrator that a scene can choose, go on as if they had not been stopped") {
+    "resume: fabrics, and every integrator that a scene can choose, go on as if they had not been stopped",
+    "[accuracy]") {
   FallingSheet sheet;
   const std::string state = sheet.scratch / "state.ply", scene = sheet.scratch / "scene.toml";
   const std::string more = GENERATE(

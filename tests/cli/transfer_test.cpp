@@ -130,7 +130,8 @@ TEST_CASE("transfer: bake tells the wrinkled skirt to a fraction of a millimetre
             .exit_code == 3);
 }
 
-TEST_CASE("transfer: render lays a checker or a PNG on, and says when there is nothing to lay it on with") {
+TEST_CASE("transfer: render lays a checker or a PNG on, and says when there is nothing to lay it on with",
+          "[accuracy]") {
   Skirt skirt;
   const auto at = [&](const char* name) { return skirt.scratch / name; };
   const std::string size = " --size 60,60 --quality draft --no-lines -o " + at("a.png");

@@ -61,7 +61,7 @@ Cloth lying_sheet(int n, double edge, double height) {
 
 }  // namespace
 
-TEST_CASE("animated_body: between frames the distance is that of the body in between") {
+TEST_CASE("animated_body: between frames the distance is that of the body in between", "[accuracy]") {
   const VertexAt motion = GENERATE(shift, inflate, bend);
   const BodyFrames frames = frames_of(sphere_mesh(0.1), {0, 0.5, 1}, motion);
   AnimatedBody body(frames, fine());

@@ -164,7 +164,7 @@ TEST_CASE("rigid_contact: a scene that moves and is turned as a whole is the sam
   CHECK(worst < 1e-7);
 }
 
-TEST_CASE("rigid_contact: a body that runs into cloth does not pass through it") {
+TEST_CASE("rigid_contact: a body that runs into cloth does not pass through it", "[accuracy]") {
   const double dt = GENERATE(5e-3, 1e-3);  // 25 mm a step, through a plate of 4 mm
   const Slab slab(0.002);
   World world;
