@@ -154,7 +154,9 @@ void add_draped(Lines& lines, const Json& report) {
   lines.push_back(text_of(report, "garment") + ": " + text_of(report, "outcome") + " (" +
                   std::to_string(vertices) + " vertices, " + refined(count_of(report, "subdivide")) + ", " +
                   number(value_of(report, "seconds")) + " s)");
-  lines.push_back("gap: " + length(report, "gap") + " kept, " + length(report, "gap_asked") + " asked; " +
+  const std::string asked = length(report, "gap_asked"), taken = length(report, "gap");
+  lines.push_back("gap: " + asked + " asked, " + (taken == asked ? "" : taken + " aimed at, ") +
+                  length(table_of(table_of(report, "fit"), "distance"), "min") + " at the nearest place; " +
                   std::to_string(count_of(report, "touching")) + " vertices touch the body");
   add_fit(lines, table_of(report, "fit"));
   add_crossings(lines, report);

@@ -19,9 +19,6 @@ io::WriteOptions write_options(const Frame& frame);
 /// Throws physics::Cancelled if the listener cancels.
 void stop_if_cancelled(const Context& context);
 
-/// As geometry::length_text() writes it.
-inline std::string millimetres(double metres) { return geometry::length_text(metres); }
-
 /// The file's path, or `unnamed` for a mesh in memory: for messages.
 std::string name_of(const MeshInput& input, const std::string& unnamed);
 

@@ -28,6 +28,7 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 constexpr double reach = 1.5;        ///< of the cloth that a fold moves, along edges, in half widths
 constexpr double full_share = 0.98;  ///< of the highest T: there a crest is measured
+constexpr double thinnest = 3;       ///< angle of a face that physics bears [degrees]
 constexpr double least_angle = 15;   ///< a face may become as thin by smoothing [degrees]
 
 Vec3 vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
@@ -342,6 +343,11 @@ void note_shape(const Mesh& mesh, const Raised& raised, const Folds& folds, cons
   }
   report.fold->angle_defect_after = angle_defect(mesh);
   report.fold->min_angle_deg = smallest_rest_angle(mesh, band.changed_faces);
+  if (report.fold->min_angle_deg < std::min(thinnest, 0.5 * band.min_angle_before_deg))
+    report.warnings.push_back(
+        "the folds leave faces too thin for cloth, as where they lie on close layers or graze a hem; draw "
+        "the "
+        "lines elsewhere or narrower, or use the rule safe");
 }
 
 }  // namespace

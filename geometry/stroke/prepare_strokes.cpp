@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "geometry/stroke/trace_stroke.h"
@@ -28,12 +27,6 @@ Vec3 vec(const Vector& v) { return {v.x(), v.y(), v.z()}; }
 Point point(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::string quoted(const Stroke& stroke) { return "stroke \"" + stroke.name + "\": "; }
-
-std::string millimetres(double length) {
-  std::ostringstream text;
-  text << std::setprecision(2) << 1000 * length << " mm";
-  return text.str();
-}
 
 /// A piece of a stroke as it lies on the surface: segment i, in one face, goes from point i to the next one.
 struct Piece {
@@ -333,8 +326,8 @@ class Preparing {
     for (std::size_t i = 0; i < places.size(); ++i)
       moved = std::max(moved, (curve.points[i] - samples.points[i]).norm());
     if (moved > 0.1 * piece.width)
-      warn(piece.stroke, "smoothing moves it by " + millimetres(moved) +
-                             ", more than a tenth of its width of " + millimetres(piece.width) +
+      warn(piece.stroke, "smoothing moves it by " + length_text(moved) +
+                             ", more than a tenth of its width of " + length_text(piece.width) +
                              "; \"smooth\": 0 takes it as it is drawn");
     measure(curve);
     find_ends(curve);
@@ -399,7 +392,7 @@ class Preparing {
       }
     }
     if (tightest > 1)
-      warn(stroke, "bends with a radius below half its width of " + millimetres(width) +
+      warn(stroke, "bends with a radius below half its width of " + length_text(width) +
                        ", so that the cloth gathers on the inner side; draw it wider bent, or narrower");
     if (slope > steepest)
       warn(stroke, "its height is " + std::to_string(slope).substr(0, 4) +

@@ -146,7 +146,8 @@ void add_holes(const Mesh& mesh, std::vector<Ailment>& found) {
   const geometry::MeshInfo info = geometry::measure(mesh);
   if (a.count == 0 || info.components > mesh.number_of_faces() / 4)
     return;  // loose triangles have such borders
-  a.text = std::to_string(a.count) + " small holes, of " + millimetres(longest) + " around and less";
+  a.text =
+      std::to_string(a.count) + " small holes, of " + geometry::length_text(longest) + " around and less";
   a.mendable = true;
   found.push_back(std::move(a));
 }
@@ -222,7 +223,7 @@ std::vector<Ailment> faults_of_garment(const Mesh& garment) {
   const double thickness = 2 * std::abs(*info.volume) / info.area;
   if (thickness > shell) return {};
   a.count = info.faces;
-  a.text = "the garment is a closed shell " + millimetres(thickness) +
+  a.text = "the garment is a closed shell " + geometry::length_text(thickness) +
            " thick: it has an inner and an outer side, which know nothing of each other";
   return {a};
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "io/base/bytes_file.h"
 #include "io/scene/state_file.h"
@@ -133,8 +134,9 @@ void warn_of_cancelling(const std::vector<geometry::Stroke>& strokes, const geom
     return !(std::copysign(1, line(i).height) * line(i).drawn_height >= kept * std::abs(line(i).height));
   };
   const auto told = [&](std::size_t i) {
-    return "'" + strokes[i].name + "' (" + millimetres(line(i).height) + " asked, " +
-           (std::isfinite(line(i).drawn_height) ? millimetres(line(i).drawn_height) : "none") + " drawn)";
+    return "'" + strokes[i].name + "' (" + geometry::length_text(line(i).height) + " asked, " +
+           (std::isfinite(line(i).drawn_height) ? geometry::length_text(line(i).drawn_height) : "none") +
+           " drawn)";
   };
   for (std::size_t i = 0; i < std::min(strokes.size(), report.lines.size()); ++i)
     for (std::size_t j = 0; j < i; ++j) {
