@@ -2,6 +2,7 @@
 #include "bridge/fit_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -192,52 +193,95 @@ void write_attribute(Mesh& mesh, const char* name, const std::vector<double>& va
   for (Vertex v : mesh.vertices()) map[v] = values[v.idx()];
 }
 
+/// Zones of a garment, each placed on the figure, or on the garment, that `report` has the height of.
+class ZoneFinder {
+ public:
+  ZoneFinder(const Mesh& garment, const FitOptions& options, const std::vector<geometry::TorsoLevel>& levels,
+             const std::array<double, 2>& middle, FitReport& report)
+      : garment_(garment), options_(options), levels_(levels), middle_(middle), report_(report) {}
+  std::vector<FitZone> find(const std::vector<double>& values, double threshold) const {
+    FitZones found = fit_zones(garment_, values, threshold, options_.smallest_zone);
+    report_.left_out += found.left_out;
+    place(found.zones);
+    return std::move(found.zones);
+  }
+  void place(std::vector<FitZone>& zones) const {
+    const double tall = std::max(report_.body_high - report_.body_low, 1e-9);
+    for (FitZone& zone : zones) {
+      zone.height_share = (zone.centre.y() - report_.body_low) / tall;
+      zone.side = side_of(zone.centre, levels_, middle_);
+    }
+  }
+
+ private:
+  const Mesh& garment_;
+  const FitOptions& options_;
+  const std::vector<geometry::TorsoLevel>& levels_;
+  std::array<double, 2> middle_;
+  FitReport& report_;
+};
+
+/// Its area and its strain: a summary, tight zones, and the attribute.
+void measure_strain(Mesh& garment, const FitOptions& options, const std::vector<double>& areas,
+                    const ZoneFinder& zones, FitReport& report) {
+  if (!has_rest(garment)) return;
+  const auto strains = geometry::principal_strains(garment);
+  report.strain = summary_of(garment, strains, areas, options.tight_strain);
+  const std::vector<double> strain = strain_at_vertices(garment, strains, areas);
+  report.tight = zones.find(strain, options.tight_strain);
+  write_attribute(garment, fit_strain, strain);
+}
+
+std::vector<double> checked_areas(const Mesh& garment, const FitOptions& options, FitReport& report) {
+  check(options);
+  geometry::require_finite(garment, "fit_report");
+  geometry::require_triangles(garment, "fit_report");
+  std::vector<double> areas = face_areas(garment);
+  for (Face f : garment.faces()) report.area += areas[f.idx()];
+  if (!(report.area > 0)) throw geometry::ContentError("fit_report: the garment has no faces with an area");
+  return areas;
+}
+
 }  // namespace
 
 FitReport fit_report(Mesh& garment, const physics::TriangleMesh& body, const physics::ExactDistance& distance,
                      const FitOptions& options) {
-  check(options);
-  geometry::require_finite(garment, "fit_report");
-  geometry::require_triangles(garment, "fit_report");
   FitReport report;
-  const std::vector<double> areas = face_areas(garment);
-  for (Face f : garment.faces()) report.area += areas[f.idx()];
-  if (!(report.area > 0)) throw geometry::ContentError("fit_report: the garment has no faces with an area");
+  const std::vector<double> areas = checked_areas(garment, options, report);
   report.body_low = distance.low().y();
   report.body_high = distance.high().y();
   const Measured measured = measure_body(body, distance, options.sections);
   report.ease = measure_ease(garment, {measured.points, body.triangles, measured.levels}, measured.heights);
 
-  std::vector<double> distances(garment.num_vertices(), 0), strain;
+  std::vector<double> distances(garment.num_vertices(), 0);
   for (Vertex v : garment.vertices()) distances[v.idx()] = distance.sample(to_eigen(garment.point(v))).value;
   report.distance = summary_of(garment, distances, areas, options.contact_distance);
-  const auto place = [&](std::vector<FitZone>& zones) {
-    const physics::Vec3 middle = (distance.low() + distance.high()) / 2;
-    const double tall = std::max(report.body_high - report.body_low, 1e-9);
-    for (FitZone& zone : zones) {
-      zone.height_share = (zone.centre.y() - report.body_low) / tall;
-      zone.side = side_of(zone.centre, measured.levels, {middle.x(), middle.z()});
-    }
-  };
-  const auto take = [&](const std::vector<double>& values, double threshold) {
-    FitZones found = fit_zones(garment, values, threshold, options.smallest_zone);
-    report.left_out += found.left_out;
-    place(found.zones);
-    return std::move(found.zones);
-  };
+  const physics::Vec3 middle = (distance.low() + distance.high()) / 2;
+  const ZoneFinder zones(garment, options, measured.levels, {middle.x(), middle.z()}, report);
   report.piercing = measure_piercing(garment, body, distance, distances);
   report.distance.deepest_penetration =
       std::max(report.distance.deepest_penetration, report.piercing.deepest);
-  place(report.piercing.zones);
-  report.loose = take(distances, options.loose_distance);
-  if (has_rest(garment)) {
-    const auto strains = geometry::principal_strains(garment);
-    report.strain = summary_of(garment, strains, areas, options.tight_strain);
-    strain = strain_at_vertices(garment, strains, areas);
-    report.tight = take(strain, options.tight_strain);
-    write_attribute(garment, fit_strain, strain);
-  }
+  zones.place(report.piercing.zones);
+  report.loose = zones.find(distances, options.loose_distance);
+  measure_strain(garment, options, areas, zones, report);
   write_attribute(garment, fit_distance, distances);
+  return report;
+}
+
+FitReport strain_report(Mesh& garment, const FitOptions& options) {
+  FitReport report;
+  report.on_body = false;
+  const std::vector<double> areas = checked_areas(garment, options, report);
+  physics::Vec3 low = physics::Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (Vertex v : garment.vertices()) {
+    low = low.cwiseMin(to_eigen(garment.point(v)));
+    high = high.cwiseMax(to_eigen(garment.point(v)));
+  }
+  report.body_low = low.y();
+  report.body_high = high.y();
+  const physics::Vec3 middle = (low + high) / 2;
+  const std::vector<geometry::TorsoLevel> none;
+  measure_strain(garment, options, areas, {garment, options, none, {middle.x(), middle.z()}, report}, report);
   return report;
 }
 

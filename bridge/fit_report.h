@@ -79,7 +79,8 @@ struct FitEase {
 
 struct FitReport {
   double area = 0;                     ///< of the garment as it is worn [m^2]
-  double body_low = 0, body_high = 0;  ///< lowest and highest y of the body [m]
+  bool on_body = true;                 ///< false: strain_report() made it; distance, loose, ease say nothing
+  double body_low = 0, body_high = 0;  ///< lowest and highest y of the body, else of the garment [m]
   std::optional<FitStrain> strain;     ///< none: the garment has no rest lengths
   FitDistance distance;
   FitPiercing piercing;               ///< zones largest first
@@ -99,5 +100,9 @@ struct FitReport {
 /// faces through edges, by the mean of their corners.
 FitReport fit_report(geometry::Mesh& garment, const physics::TriangleMesh& body,
                      const physics::ExactDistance& distance, const FitOptions& options = {});
+
+/// What a garment tells without a body: area, strain, tight zones, placed by the garment's own box. Writes
+/// the attribute fit_strain where any e:rest_length is set; changes nothing else. Throws as fit_report().
+FitReport strain_report(geometry::Mesh& garment, const FitOptions& options = {});
 
 }  // namespace furrow::bridge

@@ -89,6 +89,8 @@ DrapeJob job_of(const DrapeArguments& a) {
   check_call(a);
   DrapeJob job;
   job.scene.settings = scene_settings(a.in, "", std::nullopt, a.flags, a);
+  if (a.colour == "distance" && !job.scene.settings.root.contains("body"))
+    throw UsageError("--colour distance is that to a body: name one with --body");
   if (is_scene(a.in)) job.scene.folder = std::filesystem::path(a.in).parent_path();
   job.settings = a.settings;
   job.settings.bands = parse_bands(a.bands);
@@ -112,13 +114,16 @@ void write_picture(DrapeJobReport& report, const DrapeArguments& a, const Common
   const io::FitScale scale = fit_scale(colour, all[0].fit_options);
   CommonArguments silent = common;  // its repairs are told already
   silent.quiet = true;
-  if (report.scene.body->unit) silent.unit = report.scene.body->unit;
-  const io::MeshFile body = read_mesh(report.scene.body->mesh.string(), silent);
+  std::optional<io::MeshFile> body;
+  if (report.scene.body) {
+    if (report.scene.body->unit) silent.unit = report.scene.body->unit;
+    body = read_mesh(report.scene.body->mesh.string(), silent);
+  }
   std::vector<FitPanel> panels;
   for (Draped& d : all) {
     colour_garment(d.file.mesh, scale);
     const std::string outcome = d.outcome();
-    panels.push_back({&d.file.mesh, &body.mesh,
+    panels.push_back({&d.file.mesh, body ? &body->mesh : nullptr,
                       d.name + (outcome == "at rest" ? "" : " (" + outcome + ")") +
                           (all.size() > 1 ? "\n" : ": ") + fit_words(d.fit, d.fit_options, colour) +
                           crossing_words(d.crossings),
@@ -179,10 +184,11 @@ int drape(const DrapeArguments& a) {
   if (draws) json["picture"] = a.picture;
   if (animated) json["animation"] = a.animation;
   const bool many = report.garments.size() > 1;
-  const std::string next =
-      a.out.empty() || a.out == "-" || many
-          ? ""
-          : "furrow fit " + a.out + " --body " + report.scene.body->mesh.string() + " --picture fit.png";
+  const std::string next = a.out.empty() || a.out == "-" || many ? ""
+                           : report.scene.body
+                               ? "furrow fit " + a.out + " --body " + report.scene.body->mesh.string() +
+                                     " --picture fit.png"
+                               : "furrow render " + a.out + " -o rests.png";
   print_report(json, common,
                {drape_lines(json), {a.out, draws ? a.picture : "", animated ? a.animation : ""}, next});
   const int code = tell_remarks(report, terminal);
@@ -197,10 +203,11 @@ void add_drape(CLI::App& app, int& exit_code) {
   a->camera.size = "900,1100";
   CLI::App* sub = app.add_subcommand(
       "drape",
-      "Put a finished garment on a body: how it comes to rest, and how it fits\n\n"
+      "Put a finished garment on a body, or hang it from its pins: how it comes to rest, and how it fits\n\n"
       "  furrow drape shirt.obj --body body.obj -o worn.ply --picture fit.png\n"
       "  furrow drape skirt.obj --body body.obj --fabric silk --band top=0.95 -o worn.ply\n"
-      "  furrow drape shirt.obj --body body.obj --fabrics cotton,silk,denim --picture fabrics.png");
+      "  furrow drape shirt.obj --body body.obj --fabrics cotton,silk,denim --picture fabrics.png\n"
+      "  furrow drape curtain.obj --pin-loop top -o hangs.ply");
   sub->add_option("garment", a->in,
                   "garment to read, where it lies on the body or about it, or a scene: a .toml file")
       ->required();

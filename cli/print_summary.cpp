@@ -99,7 +99,8 @@ void add_fit(Lines& lines, const Json& fit) {
   if (!strain.empty())
     lines.push_back("strain: " + per_cent(value_of(strain, "share_over")) + " of the cloth over " +
                     per_cent(value_of(strain, "over")) + ", at most " + per_cent(value_of(strain, "max")));
-  lines.push_back("distance to the body: " + length(distance, "min") + " to " + length(distance, "p95") +
+  if (!distance.empty())
+    lines.push_back("distance to the body: " + length(distance, "min") + " to " + length(distance, "p95") +
                   ", half of the cloth nearer than " + length(distance, "median"));
   if (const std::string ease = ease_text(fit); !ease.empty()) lines.push_back("ease: " + ease);
   if (const long long faces = count_of(distance, "pierced_faces"))
@@ -155,7 +156,10 @@ void add_draped(Lines& lines, const Json& report) {
                   std::to_string(vertices) + " vertices, " + refined(count_of(report, "subdivide")) + ", " +
                   number(value_of(report, "seconds")) + " s)");
   const std::string asked = length(report, "gap_asked"), taken = length(report, "gap");
-  lines.push_back("gap: " + asked + " asked, " + (taken == asked ? "" : taken + " aimed at, ") +
+  if (table_of(table_of(report, "fit"), "distance").empty())
+    lines.push_back("no body: it hangs from its pins");
+  else
+    lines.push_back("gap: " + asked + " asked, " + (taken == asked ? "" : taken + " aimed at, ") +
                   length(table_of(table_of(report, "fit"), "distance"), "min") + " at the nearest place; " +
                   std::to_string(count_of(report, "touching")) + " vertices touch the body");
   add_fit(lines, table_of(report, "fit"));
@@ -367,7 +371,10 @@ Lines drape_lines(const Json& report) {
     const Json& strain = table_of(table_of(d, "fit"), "strain");
     lines.push_back(text_of(d, "garment") + ": " + text_of(d, "outcome") + "; " +
                     per_cent(value_of(strain, "share_over")) + " of the cloth strained over " +
-                    per_cent(value_of(strain, "over")) + "; ease " + ease_text(table_of(d, "fit")));
+                    per_cent(value_of(strain, "over")) +
+                    (table_of(d, "fit").value("body_height", Json()).is_null()
+                         ? ""
+                         : "; ease " + ease_text(table_of(d, "fit"))));
   }
   return lines;
 }

@@ -17,10 +17,13 @@ namespace furrow::jobs {
 namespace {
 
 void check_scene(const io::Scene& scene) {
-  if (!scene.body) throw std::invalid_argument("a garment is draped on a body: name one with --body");
-  if (!scene.body->frames.empty())
+  if (!scene.body && scene.pins.empty())
+    throw std::invalid_argument(
+        "a garment rests on a body or hangs from what holds it: name a body with --body, or what is held with "
+        "--pin-loop, --pin-group, --pin-box or --pin-vertices");
+  if (scene.body && !scene.body->frames.empty())
     throw std::invalid_argument("--body-frames: drape fits a garment to one pose; simulate moves it");
-  if (!physics::at_rest(scene.body->motion))
+  if (scene.body && !physics::at_rest(scene.body->motion))
     throw std::invalid_argument(
         "body.motion: drape takes the body as it lies in its file; move it there, or simulate");
   if (!scene.lines.empty())
@@ -47,8 +50,9 @@ void check(const DrapeJob& job, const io::Scene& scene) {
   if (!animation.empty() && !io::animation_format(s.animation))
     throw std::invalid_argument(animation + ": the ending names no animation; choose pc2, mdd or glb");
   check_folder(animation);
-  std::vector<std::string> inputs{scene.garment.string(), scene.body->mesh.string(),
-                                  scene.body->field.string()};
+  std::vector<std::string> inputs{scene.garment.string()};
+  if (scene.body)
+    for (const auto& path : {scene.body->mesh, scene.body->field}) inputs.push_back(path.string());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
   std::vector<std::string> outputs{output, animation};
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
@@ -116,12 +120,13 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   const OpenScene open = open_scene(job);
   const std::vector<io::Scene> scenes = scenes_of(job, open);
   const Context context{open.frame, listener, &job.scene.memory};
-  const BodyCollider body = load_body(*open.scene.body, context);
+  std::optional<BodyCollider> body;
+  if (open.scene.body) body.emplace(load_body(*open.scene.body, context));
   const bool choose =
       !job.subdivide && !open.document.root.value("garment", Json::object()).contains("subdivide");
   DrapeJobReport report{{}, {}, scenes[0], open.frame};
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    report.garments.push_back(drape_garment(scenes[i], body, job.settings, choose, context));
+    report.garments.push_back(drape_garment(scenes[i], body ? &*body : nullptr, job.settings, choose, context));
     Draped& draped = report.garments.back();
     draped.name = job.fabrics.empty() ? open.scene.garment.stem().string() : job.fabrics[i];
     draped.penetration = job.settings.penetration;

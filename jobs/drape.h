@@ -30,7 +30,7 @@ struct DrapeSettings {
   std::filesystem::path animation;  ///< of the finest level, a frame an iteration; empty: none
 };
 
-/// A garment to be put on a body: the scene's, under its material, pins and gravity.
+/// A garment to be put on the scene's body, hung from its pins, or both, under its material and gravity.
 struct DrapeJob {
   SceneInput scene;
   DrapeSettings settings = {};
@@ -50,8 +50,9 @@ struct Draped {
   bridge::FitReport fit;
   bridge::FitOptions fit_options;
   int refinements = 0;      ///< Loop subdivisions of the garment as it was given
-  double gap = 0;           ///< that was to be kept from the body [m]
-  double wanted_gap = 0;    ///< that was asked for [m]
+  double angle_defect = 0;  ///< how knobbly it rests: sum over inner vertices over the area [rad/m^2]
+  double gap = 0;           ///< that was to be kept from the body [m]; 0: there is none
+  double wanted_gap = 0;    ///< that was asked for [m]; 0: there is none
   std::size_t too_near = 0; /**< vertices that keep less than nine tenths of a gap that was not raised, by
                                  more than the field's tolerance */
   bool falls = false;       ///< nothing carries it: its forces balance at no time
@@ -99,8 +100,7 @@ struct DrapeJobReport {
   bool fails() const;  ///< one does not succeed
 };
 
-/// Finds how the garment comes to rest on the body (bridge/drape.h), measures how it fits, and writes the
-/// mesh, whole or not at all. Where it is cancelled on the way, what was reached is returned and written.
+/// Finds how the garment comes to rest (bridge/drape.h), measures how it fits, and writes the mesh, whole or not at all. Where it is cancelled on the way, what was reached is returned and written.
 /// Throws std::invalid_argument for a job that cannot be, geometry::ContentError for files that cannot be
 /// used, physics::Cancelled before anything was found.
 DrapeJobReport drape(const DrapeJob& job, Listener& listener);

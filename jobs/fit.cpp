@@ -162,7 +162,7 @@ FitJobReport fit(const FitJob& job, Listener& listener) {
 }
 
 Json to_json(const bridge::FitReport& r, const bridge::FitOptions& o) {
-  Json json{{"area", r.area}, {"body_height", r.body_high - r.body_low}};
+  Json json{{"area", r.area}, {"body_height", r.on_body ? Json(r.body_high - r.body_low) : Json(nullptr)}};
   if (r.strain)
     json["strain"] = {{"share_over", r.strain->share_over},
                       {"over", o.tight_strain},
@@ -172,14 +172,16 @@ Json to_json(const bridge::FitReport& r, const bridge::FitOptions& o) {
                       {"unknown_faces", r.strain->unknown_faces}};
   else
     json["strain"] = nullptr;
-  json["distance"] = {{"min", r.distance.min},
-                      {"median", r.distance.median},
-                      {"p95", r.distance.p95},
-                      {"share_in_contact", r.distance.share_in_contact},
-                      {"contact", o.contact_distance},
-                      {"vertices_inside", r.distance.vertices_inside},
-                      {"pierced_faces", r.piercing.faces},
-                      {"deepest_penetration", r.distance.deepest_penetration}};
+  json["distance"] = nullptr;
+  if (r.on_body)
+    json["distance"] = {{"min", r.distance.min},
+                        {"median", r.distance.median},
+                        {"p95", r.distance.p95},
+                        {"share_in_contact", r.distance.share_in_contact},
+                        {"contact", o.contact_distance},
+                        {"vertices_inside", r.distance.vertices_inside},
+                        {"pierced_faces", r.piercing.faces},
+                        {"deepest_penetration", r.distance.deepest_penetration}};
   json["ease"] = to_json(r.ease);
   json["tight_zones"] = to_json(r.tight);
   json["loose_zones"] = to_json(r.loose);

@@ -96,7 +96,8 @@ std::optional<MemoryFiles> settle_first(const io::Scene& scene, const Context& c
   alone.lines.clear();
   alone.output = {};
   const ProgressScope progress(context.listener, "settling");
-  const Draped draped = drape_garment(alone, load_body(*scene.body, quiet), {}, false, quiet);
+  const BodyCollider body = load_body(*scene.body, quiet);
+  const Draped draped = drape_garment(alone, &body, {}, false, quiet);
   if (draped.falls || draped.broken || draped.report.stopped) return std::nullopt;
   io::MeshFile rests = before;
   for (const geometry::Vertex v : rests.mesh.vertices()) rests.mesh.point(v) = draped.file.mesh.point(v);

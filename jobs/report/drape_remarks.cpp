@@ -134,7 +134,7 @@ void remark_on_nothing_carried(const Draped& d, const physics::SettleReport& las
 
 void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
   const physics::SettleReport& last = d.report.levels.back().settle;
-  if (last.touching == 0) remark_on_nothing_carried(d, last, remarks);
+  if (last.touching == 0 && (d.broken || d.fit.on_body)) remark_on_nothing_carried(d, last, remarks);
   if (d.broken) return;
   if (d.falls) {
     remarks.push_back(
@@ -172,8 +172,9 @@ Json to_json(const Draped& d) {
             {"residual_force", last.settle.residual},
             {"touching", last.settle.touching},
             {"contact_depth", last.settle.deepest},
-            {"gap", d.gap},
-            {"gap_asked", d.wanted_gap},
+            {"angle_defect", d.angle_defect},
+            {"gap", d.fit.on_body ? Json(d.gap) : Json(nullptr)},
+            {"gap_asked", d.fit.on_body ? Json(d.wanted_gap) : Json(nullptr)},
             {"subdivide", d.refinements},
             {"parts", d.parts},
             {"loose_parts", d.loose},

@@ -11,6 +11,7 @@
 
 #include "bridge/convert.h"
 #include "bridge/gather.h"
+#include "geometry/fold/fold_base.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/parts.h"
 #include "geometry/mesh/struts.h"
@@ -113,7 +114,7 @@ std::size_t count_nearer(const geometry::Mesh& mesh, double distance) {
 class Maker {
  public:
   /// Throws std::invalid_argument for a pin's or a band's loop that the garment does not have.
-  Maker(const io::Scene& scene, const BodyCollider& body, const DrapeSettings& settings,
+  Maker(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& settings,
         const io::MeshFile& as_read, const Context& context)
       : scene_(scene), body_(body), settings_(settings), as_read_(as_read), context_(context) {
     for (const io::ScenePins& pins : scene.pins)
@@ -143,8 +144,9 @@ class Maker {
       for (const int i : held) held_[std::size_t(i)] = 1;
     if (!loose.empty()) hold_loose(mesh, cloth);
     int moved = 0;
-    for (const std::vector<int>& held : pins)
-      moved += physics::push_out(cloth.particles.x, held, body_.exact).moved;
+    if (body_)
+      for (const std::vector<int>& held : pins)
+        moved += physics::push_out(cloth.particles.x, held, body_->exact).moved;
     if (moved)
       context_.warn("pins_inside_body",
                     std::to_string(moved) + " of " + std::to_string(mesh.number_of_vertices()) +
@@ -193,7 +195,7 @@ class Maker {
   }
 
   const io::Scene& scene_;
-  const BodyCollider& body_;
+  const BodyCollider* body_;
   const DrapeSettings& settings_;
   const io::MeshFile& as_read_;
   const Context& context_;
@@ -222,9 +224,11 @@ std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels,
 }
 
 /// What is wanted, or what the sag and the field's tolerance need; warns where that is much more.
-double gap_of(const io::Scene& scene, const BodyCollider& body, const geometry::Mesh& garment,
+double gap_of(const io::Scene& scene, const BodyCollider* body, const geometry::Mesh& garment,
               const Context& context) {
-  const double wanted = scene.simulation.contact_gap, tolerance = body.field.report().tolerance;
+  const double wanted = scene.simulation.contact_gap;
+  if (!body) return wanted;
+  const double tolerance = body->field.report().tolerance;
   const double sag = refined_sag(garment, scene.subdivide), gap = gap_with(wanted, sag, tolerance);
   if (gap > 1.5 * wanted)
     context.warn("gap_raised",
@@ -239,7 +243,7 @@ double gap_of(const io::Scene& scene, const BodyCollider& body, const geometry::
 /// How the way to rest is looked for on a garment that was read.
 struct DrapePlan {
   const io::Scene& scene;
-  const BodyCollider& body;
+  const BodyCollider* body;  ///< null: none
   const DrapeSettings& settings;
   const io::MeshFile& as_read;
   bridge::DrapeOptions options;
@@ -286,8 +290,8 @@ Gone go(const DrapePlan& plan, Maker& maker, WayRecorder& way, const FallWatch& 
     return progress((level + std::clamp(way_there, 0.0, 1.0)) / levels) && gone.falling.empty();
   };
   gone.mesh = plan.as_read.mesh;
-  gone.report =
-      bridge::drape(gone.mesh, gone.cloth, &plan.body.field, plan.options, std::ref(maker), observe);
+  gone.report = bridge::drape(gone.mesh, gone.cloth, plan.body ? &plan.body->field : nullptr, plan.options,
+                              std::ref(maker), observe);
   return gone;
 }
 
@@ -314,13 +318,19 @@ void take_result(Gone gone, Maker& maker, const DrapePlan& plan, const FallWatch
 
 void measure(const DrapePlan& plan, const CrossedStart& crossed, Draped& draped) {
   draped.refinements = plan.scene.subdivide;
+  draped.crossings = measure_crossings(draped.file, &crossed);
+  draped.angle_defect = geometry::angle_defect(draped.file.mesh);
+  if (!plan.body) {
+    draped.fit = bridge::strain_report(draped.file.mesh, draped.fit_options);
+    return;
+  }
   draped.gap = plan.options.settle.gap;
   draped.wanted_gap = plan.scene.simulation.contact_gap;
   draped.fit_options.contact_distance = contact_distance(draped.gap);
-  draped.fit = bridge::fit_report(draped.file.mesh, plan.body.triangles, plan.body.exact, draped.fit_options);
-  draped.crossings = measure_crossings(draped.file, &crossed);
+  draped.fit =
+      bridge::fit_report(draped.file.mesh, plan.body->triangles, plan.body->exact, draped.fit_options);
   if (draped.gap == draped.wanted_gap)
-    draped.too_near = count_nearer(draped.file.mesh, 0.9 * draped.gap - plan.body.field.report().tolerance);
+    draped.too_near = count_nearer(draped.file.mesh, 0.9 * draped.gap - plan.body->field.report().tolerance);
 }
 
 /// The garment as it was given, and the scene with as many refinements as it is draped with.
@@ -329,17 +339,18 @@ struct Given {
   io::MeshFile file;
 };
 
-Given read_given(const io::Scene& scene, const BodyCollider& body, const DrapeSettings& s, bool choose,
+Given read_given(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& s, bool choose,
                  const Context& context) {
   Given given{scene, {}};
   given.scene.subdivide = 0;
   given.file = begin_garment(given.scene, context);
-  heed(faults_of_pair(given.file.mesh, body.outline, scene.body->unit.has_value()), scene.garment.string(),
-       context);
+  if (body)
+    heed(faults_of_pair(given.file.mesh, body->outline, scene.body->unit.has_value()), scene.garment.string(),
+         context);
   given.scene.subdivide = scene.subdivide;
-  if (choose && !s.plain)
+  if (choose && !s.plain && body)
     given.scene.subdivide =
-        refinements_for_gap(given.file.mesh, scene.simulation.contact_gap, body.field.report().tolerance);
+        refinements_for_gap(given.file.mesh, scene.simulation.contact_gap, body->field.report().tolerance);
   require_refinement(given.file.mesh.number_of_faces(), 4, given.scene.subdivide, "--subdivide", context);
   if (given.scene.subdivide > 0 &&
       geometry::struts(given.file.mesh).size() > seam_ties(given.file.mesh).size())
@@ -365,7 +376,7 @@ int refinements_for_gap(const geometry::Mesh& garment, double wanted, double tol
   return levels;
 }
 
-Draped drape_garment(const io::Scene& asked, const BodyCollider& body, const DrapeSettings& s, bool choose,
+Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const DrapeSettings& s, bool choose,
                      const Context& context) {
   const Given given = read_given(asked, body, s, choose, context);
   const io::Scene& scene = given.scene;

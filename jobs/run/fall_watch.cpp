@@ -24,7 +24,7 @@ void carry_tied(const std::vector<std::array<int, 2>>& tied, std::vector<char>& 
 
 }  // namespace
 
-FallWatch::FallWatch(const geometry::Mesh& mesh, const BodyCollider& body, double gap)
+FallWatch::FallWatch(const geometry::Mesh& mesh, const BodyCollider* body, double gap)
     : start_(bridge::positions_of(mesh)), parts_(geometry::find_parts(mesh)), body_(body), gap_(gap) {
   for (const geometry::Strut& s : geometry::struts(mesh)) {
     const int p = parts_.of_vertex[std::size_t(s.a)], q = parts_.of_vertex[std::size_t(s.b)];
@@ -42,7 +42,7 @@ std::vector<int> FallWatch::find(const physics::Cloth& cloth, const std::vector<
     if (seeds[std::size_t(part)] < 0) seeds[std::size_t(part)] = int(i);
     char& here = carried[std::size_t(part)];
     here = here || held[i] || (cloth.particles.x[i] - start_[i]).norm() < far ||
-           body_.field.at(cloth.particles.x[i]).value < 2 * gap_;
+           (body_ && body_->field.at(cloth.particles.x[i]).value < 2 * gap_);
   }
   carry_tied(tied_, carried);
   std::vector<int> falling;

@@ -9,12 +9,12 @@
 
 namespace furrow::jobs {
 
-/// Finds parts of a garment that fall: nothing pins them, and they left the body behind. The body must
-/// outlive it.
+/// Finds parts of a garment that fall: nothing pins them, and they left the body (null: none) behind. The
+/// body must outlive it.
 class FallWatch {
  public:
   /// mesh: the garment before it is draped. gap: that cloth keeps from the body [m].
-  FallWatch(const geometry::Mesh& mesh, const BodyCollider& body, double gap);
+  FallWatch(const geometry::Mesh& mesh, const BodyCollider* body, double gap);
 
   std::size_t count() const { return parts_.list.size(); }
   const geometry::Parts& parts() const { return parts_; }
@@ -28,7 +28,7 @@ class FallWatch {
   std::vector<physics::Vec3> start_;
   geometry::Parts parts_;
   std::vector<std::array<int, 2>> tied_;  ///< parts that a strut joins
-  const BodyCollider& body_;
+  const BodyCollider* body_;
   double gap_;
 };
 

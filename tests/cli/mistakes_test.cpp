@@ -92,7 +92,10 @@ const Mistake mistakes[] = {
     {"a body that is not there", "drape {m}/skirt.obj --body {d}/bdoy.obj -o {d}/o.ply", 3,
      "error: {d}/bdoy.obj: cannot be opened: No such file or directory"},
     {"the body forgotten", "drape {m}/skirt.obj -o {d}/o.ply", 2,
-     "error: a garment is draped on a body: name one with --body"},
+     "error: a garment rests on a body or hangs from what holds it: name a body with --body, or what is held "
+     "with --pin-loop, --pin-group, --pin-box or --pin-vertices"},
+    {"the distance to no body", "drape {m}/skirt.obj --pin-loop top --colour distance --picture {d}/o.png", 2,
+     "error: --colour distance is that to a body: name one with --body"},
     {"nothing to write", "drape {m}/skirt.obj --body {m}/mannequin.obj", 2,
      "error: nothing to write: name --output, --picture or --animation"},
     {"a fabric misspelt", "simulate {m}/sheet.obj --fabric cottn -o {d}/o.ply", 2,

@@ -357,3 +357,60 @@ TEST_CASE("drape: a gap that edges raise is refined away, and said where it is n
   job.subdivide = refined.refinements;
   CHECK(tests::positions(only(jobs::drape(job, recorder)).file) == tests::positions(refined.file));
 }
+
+namespace {
+
+/// A square of cloth that stands upright in the air, held by its upper edge; in memory.
+jobs::DrapeJob from_its_edge() {
+  jobs::DrapeJob job;
+  geometry::Mesh& sheet = job.scene.memory.meshes["sheet"].mesh;
+  sheet = geometry::equilateral_sheet(0.3, 0.3, 0.02);
+  double top = 0;
+  for (const geometry::Vertex v : sheet.vertices()) top = std::max(top, sheet.point(v).y());
+  job.scene.settings = io::parse_toml("[garment]\nmesh = \"sheet\"\n", "test");
+  set(job, "material", {{"membrane", "triangles"}, {"bending_law", "hinge"}, {"density", 0.2}});
+  set(job, "material.stretch", 100);
+  set(job, "material.poisson", 0);
+  set(job, "pins.0", io::Json{{"box", {-1, top - 0.001, -1, 1, top + 0.001, 1}}});
+  return job;
+}
+
+}  // namespace
+
+TEST_CASE("drape: without a body a sheet hangs from its edge and stretches by its own weight") {
+  tests::Recorder recorder;
+  const jobs::DrapeJob job = from_its_edge();
+  const geometry::Mesh& before = job.scene.memory.meshes.at("sheet").mesh;
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  const jobs::Draped d = only(report);
+  INFO(to_json(report).dump(1));
+  CHECK(d.outcome() == "at rest");
+  CHECK_FALSE(report.fails());
+  CHECK(d.refinements == 0);
+  CHECK_FALSE(d.fit.on_body);
+  double low = 1, low_before = 1, high = -1;
+  for (const geometry::Point& p : d.file.mesh.points()) low = std::min(low, p.y());
+  for (const geometry::Point& p : before.points())
+    low_before = std::min(low_before, p.y()), high = std::max(high, p.y());
+  const double height = high - low_before;
+  CHECK(low_before - low == Approx(0.2 * 9.81 * height * height / (2 * 100)).epsilon(0.03));
+  CHECK(d.fit.strain->max == Approx(0.2 * 9.81 * height / 100).epsilon(0.1));
+  const io::Json json = to_json(report);
+  CHECK(json["gap"].is_null());
+  CHECK(json["fit"]["distance"].is_null());
+  CHECK(json["fit"]["body_height"].is_null());
+  CHECK(json["angle_defect"].get<double>() < 0.1);
+  CHECK_FALSE(remarks_on(report, "touches_nothing"));
+}
+
+TEST_CASE("drape: without a body a part that no pin holds is named, and nothing at all is refused") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = from_its_edge();
+  geometry::Mesh& sheet = job.scene.memory.meshes.at("sheet").mesh;
+  add(sheet, geometry::equilateral_sheet(0.05, 0.05, 0.02), {0.5, 0, 0});
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  CHECK(only(report).outcome() == "at rest, 1 of 2 parts loose");
+  CHECK(remarks_on(report, "loose_parts"));
+  job.scene.settings.root.erase("pins");
+  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--pin-loop") && Catch::Contains("--body"));
+}
