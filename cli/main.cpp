@@ -120,7 +120,7 @@ int run(int argc, char** argv) {
   cli::add_doctor(app, exit_code);
   cli::add_subdivide(app);
   cli::add_smooth(app);
-  cli::add_wrinkle(app);
+  cli::add_wrinkle(app, exit_code);
   cli::add_strokes(app);
   cli::add_simulate(app, exit_code);
   cli::add_keep(app, exit_code);

@@ -101,7 +101,7 @@ void add_fit(Lines& lines, const Json& fit) {
                     per_cent(value_of(strain, "over")) + ", at most " + per_cent(value_of(strain, "max")));
   if (!distance.empty())
     lines.push_back("distance to the body: " + length(distance, "min") + " to " + length(distance, "p95") +
-                  ", half of the cloth nearer than " + length(distance, "median"));
+                    ", half of the cloth nearer than " + length(distance, "median"));
   if (const std::string ease = ease_text(fit); !ease.empty()) lines.push_back("ease: " + ease);
   if (const long long faces = count_of(distance, "pierced_faces"))
     lines.push_back("look at: the body comes through " + counted(faces, "face") + ", by up to " +
@@ -160,8 +160,8 @@ void add_draped(Lines& lines, const Json& report) {
     lines.push_back("no body: it hangs from its pins");
   else
     lines.push_back("gap: " + asked + " asked, " + (taken == asked ? "" : taken + " aimed at, ") +
-                  length(table_of(table_of(report, "fit"), "distance"), "min") + " at the nearest place; " +
-                  std::to_string(count_of(report, "touching")) + " vertices touch the body");
+                    length(table_of(table_of(report, "fit"), "distance"), "min") + " at the nearest place; " +
+                    std::to_string(count_of(report, "touching")) + " vertices touch the body");
   add_fit(lines, table_of(report, "fit"));
   add_crossings(lines, report);
 }
@@ -247,6 +247,9 @@ Lines wrinkle_lines(const Json& report) {
     lines.push_back(kept.value("stable", false) ? "kept: the drawn shape is at rest, and stable"
                                                 : "look at: the drawn shape is balanced, but not stable");
   add_crossings(lines, report);
+  if (const Json& rest = table_of(report, "at_rest"); !rest.empty())
+    lines.push_back("then " + text_of(rest, "outcome") + " (" + number(value_of(rest, "seconds")) +
+                    " s); angle defect " + number(value_of(rest, "angle_defect")) + " rad/m^2");
   return lines;
 }
 
@@ -278,6 +281,12 @@ Lines simulate_lines(const Json& report) {
   const Json& strain = table_of(report, "strain");
   lines.push_back("strain: " + per_cent(value_of(strain, "p99")) +
                   " and less in 99 % of the cloth, at most " + per_cent(value_of(strain, "max")));
+  if (const Json& rest = table_of(report, "at_rest"); !rest.empty())
+    lines.push_back(std::string(rest.value("converged", false) ? "at rest" : "not at rest") +
+                    " before it moved, after " + counted(count_of(rest, "iterations"), "iteration") + " (" +
+                    number(value_of(rest, "seconds")) + " s); angle defect " +
+                    number(value_of(rest, "angle_defect_before")) + " drawn, " +
+                    number(value_of(rest, "angle_defect")) + " rad/m^2 at rest");
   if (report.contains("contact_gap"))
     lines.push_back("body: gap " + length(report, "contact_gap") + ", " +
                     std::to_string(count_of(report, "contacts")) + " vertices in contact, " +

@@ -11,7 +11,8 @@ void add_info(CLI::App& app);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_subdivide(CLI::App& app);
 void add_smooth(CLI::App& app);
-void add_wrinkle(CLI::App& app);
+/// Sets exit_code where what is drawn does not come to rest.
+void add_wrinkle(CLI::App& app, int& exit_code);
 void add_strokes(CLI::App& app);
 /// Sets exit_code where the run was interrupted or diverged.
 void add_simulate(CLI::App& app, int& exit_code);

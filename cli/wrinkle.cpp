@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/wrinkle.h"
 
+#include <iostream>
 #include <memory>
 
 #include "cli/scene_flags.h"
@@ -25,8 +26,17 @@ void check_call(const WrinkleArguments& a) {
   check_folder(a.camera.save_camera);
   if (!a.state.empty()) refuse_same(a.out, a.in);  // with --state these are the strokes
   const std::string flag = a.flags.first();
-  if (!flag.empty() && a.rest != "keep")
-    throw UsageError(flag + ": goes with --rest keep; furrow simulate chooses it otherwise");
+  if (!flag.empty() && a.rest != "keep" && !a.settle)
+    throw UsageError(flag + ": goes with --rest keep or --settle; furrow simulate chooses it otherwise");
+  if (a.settle && a.rest == "keep")
+    throw UsageError("--settle lets the drawn shape go, --rest keep holds it; leave out one of them");
+  if (a.settle && !a.state.empty())
+    throw UsageError("--settle: the garment of --state is in motion; leave out one of the two");
+  if (a.settle && a.out.empty()) throw UsageError("--settle goes with -o");
+  if (a.smoothed == "-")
+    throw UsageError("--smoothed: only the garment at the end (-o) can go to standard output");
+  if (!a.smoothed.empty() && !a.settle)
+    throw UsageError("--smoothed writes what is drawn before it comes to rest; add --settle");
   if (!flag.empty() && !a.state.empty())
     throw UsageError(flag + ": --state has material, pins and body; leave it out");
 }
@@ -61,7 +71,7 @@ void draw_again(WrinkleArguments& a, WrinkleJob& job) {
   job.strokes = std::move(recorded.strokes);
 }
 
-/// What a garment is kept in: material, forces, pins and body of the state, or of flags.
+/// What a garment is kept in, or comes to rest in: material, forces, pins and body of the state, or of flags.
 SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
   io::TomlDocument document;
   if (job.state) document = io::document_of(job.state->scene, a.state);
@@ -72,7 +82,7 @@ SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
   const bool has_fabric = document.root.value("material", Json::object()).contains("preset");
   if (a.density && (a.typed->count("--density") || !has_fabric))
     io::set_value(document, "material.density", *a.density, "--density");
-  io::set_value(document, "garment.rest", "keep", "--rest keep");
+  if (a.rest == "keep") io::set_value(document, "garment.rest", "keep", "--rest keep");
   return {document, job.state_path.parent_path()};
 }
 
@@ -95,6 +105,8 @@ WrinkleJob job_of(WrinkleArguments& a) {
   job.density = a.density;
   job.max_weights = a.max_weights;
   if (a.rest == "keep") job.keep = surroundings(a, job);
+  if (a.settle) job.settle = surroundings(a, job);
+  job.smoothed = a.smoothed;
   job.output = a.out;
   job.inserted = a.inserted;
   job.wants_stages = !a.preview.empty();
@@ -110,8 +122,9 @@ void write_preview(const WrinkleReport& report, const WrinkleArguments& a) {
   save_camera(options, a.camera);
 }
 
-void wrinkle(WrinkleArguments a) {
+int wrinkle(WrinkleArguments a) {
   check_call(a);
+  if (a.settle) catch_interrupts();
   const WrinkleJob job = job_of(a);
   Terminal terminal(a);
   const WrinkleReport report = jobs::wrinkle(job, terminal);
@@ -123,17 +136,21 @@ void wrinkle(WrinkleArguments a) {
   if (a.inserted == "-") write_mesh("-", inserted_garment(report), common);
   const Json json = to_json(report);
   const bool has_file = !a.out.empty() && a.out != "-";
+  const std::string next = report.rest
+                               ? "furrow render " + a.out + " -o rests.png"
+                               : "furrow simulate " + (a.state.empty() ? "" : std::string("--state ")) +
+                                     a.out + (a.state.empty() ? " --body body.obj" : "") + " -o worn.ply";
   print_report(json, a,
                {wrinkle_lines(json),
-                {a.out, a.inserted, a.preview, a.camera.save_camera},
-                has_file ? "furrow simulate " + (a.state.empty() ? "" : std::string("--state ")) + a.out +
-                               (a.state.empty() ? " --body body.obj" : "") + " -o worn.ply"
-                         : ""});
+                {a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera},
+                has_file ? next : ""});
+  for (const Warning& w : report.failures) std::cerr << "error: " << w.text << "\n";
+  return exit_code_of(interrupted(), report.failures.empty());
 }
 
 }  // namespace
 
-void add_wrinkle(CLI::App& app) {
+void add_wrinkle(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<WrinkleArguments>();
   CLI::App* sub = app.add_subcommand(
       "wrinkle",
@@ -143,7 +160,8 @@ void add_wrinkle(CLI::App& app) {
       "  furrow wrinkle wrinkled.ply --without fold -o less.ply\n"
       "  furrow wrinkle --state at1.ply more.json -o at1-more.ply\n"
       "  furrow wrinkle sheet.obj lines.json --rest keep --fabric denim --pin-loop top -o kept.ply\n"
-      "  furrow wrinkle skirt.obj lines.obj --height -0.02 -o wrinkled.ply");
+      "  furrow wrinkle skirt.obj lines.obj --height -0.02 -o wrinkled.ply\n"
+      "  furrow wrinkle skirt.obj lines.json --settle --body body.obj --pin-loop top -o rests.ply");
   sub->add_option("mesh", a->in, "garment to read; with --state: the file of strokes")->required();
   sub->add_option(
       "strokes,--strokes", a->strokes,
@@ -159,6 +177,11 @@ void add_wrinkle(CLI::App& app) {
   sub->add_option("--without", a->without, "leave out the stroke of this name; may be given several times")
       ->allow_extra_args(false);
   sub->add_option("--inserted", a->inserted, "also write the mesh after insertion and before smoothing");
+  sub->add_flag(
+      "--settle", a->settle,
+      "let what is drawn come to rest, as furrow drape does: on --body, on pins or on both, in --fabric "
+      "(cotton); -o is the garment at rest");
+  sub->add_option("--smoothed", a->smoothed, "with --settle: also write the garment as drawn");
   sub->add_option(
       "--picture", a->preview,
       "PNG of what is inserted where, before anything is displaced, faces that cross in magenta; without "
@@ -169,7 +192,7 @@ void add_wrinkle(CLI::App& app) {
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);
   a->typed = sub;
-  sub->callback([a] { wrinkle(*a); });
+  sub->callback([a, &exit_code] { exit_code = wrinkle(*a); });
 }
 
 }  // namespace furrow::cli

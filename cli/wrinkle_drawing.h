@@ -10,7 +10,7 @@
 namespace furrow::cli {
 
 struct WrinkleArguments : CommonArguments {
-  std::string in, strokes, state, inserted, preview;
+  std::string in, strokes, state, inserted, smoothed, preview;
   std::vector<std::string> without;
   double height = geometry::Stroke{}.height, fade = io::SceneLines{}.fade;
   std::string rule = "safe", rest = "drawn", region = "two-ring", detail = "normal";
@@ -18,7 +18,8 @@ struct WrinkleArguments : CommonArguments {
   std::optional<int> max_weights;
   geometry::WrinkleOptions options;
   SmoothingArguments smoothing;
-  SceneFlags flags;  ///< of --rest keep
+  bool settle = false;
+  SceneFlags flags;  ///< of --rest keep and --settle
   CameraArguments camera;
   const CLI::App* typed = nullptr;  ///< what was on the command line
 };

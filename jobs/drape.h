@@ -8,6 +8,7 @@
 #include "bridge/drape.h"
 #include "bridge/fit_report.h"
 #include "jobs/crossings.h"
+#include "jobs/simulate.h"
 
 namespace furrow::jobs {
 
@@ -51,8 +52,9 @@ struct Draped {
   bridge::FitOptions fit_options;
   int refinements = 0;      ///< Loop subdivisions of the garment as it was given
   double angle_defect = 0;  ///< how knobbly it rests: sum over inner vertices over the area [rad/m^2]
-  double gap = 0;           ///< that was to be kept from the body [m]; 0: there is none
-  double wanted_gap = 0;    ///< that was asked for [m]; 0: there is none
+  std::vector<LineReport> lines = {};  ///< heights against what they were, or the file's at its start
+  double gap = 0;                      ///< that was to be kept from the body [m]; 0: there is none
+  double wanted_gap = 0;               ///< that was asked for [m]; 0: there is none
   std::size_t too_near = 0; /**< vertices that keep less than nine tenths of a gap that was not raised, by
                                  more than the field's tolerance */
   bool falls = false;       ///< nothing carries it: its forces balance at no time
@@ -100,12 +102,14 @@ struct DrapeJobReport {
   bool fails() const;  ///< one does not succeed
 };
 
-/// Finds how the garment comes to rest (bridge/drape.h), measures how it fits, and writes the mesh, whole or not at all. Where it is cancelled on the way, what was reached is returned and written.
-/// Throws std::invalid_argument for a job that cannot be, geometry::ContentError for files that cannot be
-/// used, physics::Cancelled before anything was found.
+/// Finds how the garment comes to rest (bridge/drape.h), measures how it fits, and writes the mesh, whole or
+/// not at all. Where it is cancelled on the way, what was reached is returned and written. Throws
+/// std::invalid_argument for a job that cannot be, geometry::ContentError for files that cannot be used,
+/// physics::Cancelled before anything was found.
 DrapeJobReport drape(const DrapeJob& job, Listener& listener);
 
 /// The report for programs, and what the command line prints, without the names of the files written.
 Json to_json(const DrapeJobReport& report);
+Json to_json(const Draped& garment);
 
 }  // namespace furrow::jobs

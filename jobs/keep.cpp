@@ -9,6 +9,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/measure_crossings.h"
+#include "jobs/run/measure_shape.h"
 #include "jobs/run/observation.h"
 #include "jobs/run/output_checks.h"
 #include "jobs/run/prepare_garment.h"
@@ -97,21 +98,25 @@ bool hangs_wrong(const SceneCloth& garment, const io::Scene& scene) {
 SceneCloth drawn_at_rest(const KeepJob& job, const io::Scene& scene, const Context& context,
                          KeepReport& report) {
   SceneCloth garment = drawn_by(scene, context);
-  const bool draws = !scene.lines.empty() && scene.lines.front().time == 0;
-  if (!job.settle || !scene.body || !draws || !hangs_wrong(garment, scene)) return garment;
+  if (!job.settle || !scene.body || !hangs_wrong(garment, scene)) return garment;
   const std::optional<MemoryFiles> settled = settle_first(scene, context);
   stop_if_cancelled(context);
   if (!settled) return garment;
   report.settled = true;
-  context.warn("settled_first",
-               scene.garment.string() +
-                   ": nothing held it in balance as it lay, so it came to rest on the body before its lines "
-                   "were drawn; --no-settle draws them where it lies",
-               scene.garment.string(), "--no-settle");
+  context.warn(
+      "settled_first",
+      scene.garment.string() + ": nothing held it in balance as it lay, so it came to rest on the body " +
+          (scene.lines.empty() ? "with the lines that it has; --no-settle keeps it where it lies"
+                               : "before its lines were drawn; --no-settle draws them where it lies"),
+      scene.garment.string(), "--no-settle");
   io::Scene there = scene;
   there.subdivide = 0;
   SilentListener silent(context.listener);  // what there is to warn of is said already
-  return drawn_by(there, {context.frame, silent, &*settled});
+  SceneCloth rests = drawn_by(there, {context.frame, silent, &*settled});
+  if (scene.lines.empty())
+    for (const Warning& lost : lost_lines(scene, measure_lines(rests.file, line_heights_by_id(garment.file))))
+      context.listener.warn(lost);
+  return rests;
 }
 
 /// The same of a state; notes there at what gap it rests.

@@ -11,14 +11,14 @@ namespace furrow::jobs {
 
 /// What jobs::keep() did.
 struct KeepReport {
-  bool settled = false;                ///< on its body, before the lines were drawn: nothing held it
-  bool ran = false;                    ///< false: it was cancelled before there were lines to keep
-  bridge::KeepReport lines;            ///< verdicts, rest state, certificate
-  io::WrinkleRecord record;            ///< of the garment as drawn: names of lines
-  io::MeshFile garment;                ///< with its new rest state [m], y up
-  ClothCrossings crossings;            ///< of the cloth with itself
-  std::filesystem::path mesh;          ///< the settings' output; "-": not written
-  Frame frame;                         ///< of the files written
+  bool settled = false;        ///< on its body first, before a scene's lines were drawn: nothing held it
+  bool ran = false;            ///< false: it was cancelled before there were lines to keep
+  bridge::KeepReport lines;    ///< verdicts, rest state, certificate
+  io::WrinkleRecord record;    ///< of the garment as drawn: names of lines
+  io::MeshFile garment;        ///< with its new rest state [m], y up
+  ClothCrossings crossings;    ///< of the cloth with itself
+  std::filesystem::path mesh;  ///< the settings' output; "-": not written
+  Frame frame;                 ///< of the files written
   std::vector<Warning> warnings = {};  ///< about the result; those on the way went to the listener
 
   /// Whether every line holds, perhaps with help.
@@ -43,7 +43,7 @@ struct KeepJob {
   double gust = 12;                  ///< then an acceleration to one side [m/s^2]; >= 0
   double kept = 0.95;                ///< share of its height with which a line holds [-], in (0, 1)
   bool balance = true;               ///< what hangs on a line of pins is first turned into balance
-  bool settle = true;  ///< lines of time 0 on a body: where nothing holds the garment, it comes to rest first
+  bool settle = true;                ///< on a body: where nothing holds the garment, it comes to rest first
   bool help = true;    ///< press, struts or a lower height where the rest state alone does not hold
   bool whole = false;  ///< what lies between the lines is pressed, too, where it could give way
   std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another

@@ -22,6 +22,7 @@
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/recorded_material.h"
+#include "jobs/run/rest_stage.h"
 #include "jobs/run/run_warnings.h"
 #include "jobs/run/scene_cloth.h"
 #include "jobs/run/seam_ties.h"
@@ -151,6 +152,20 @@ DrawnRound draw_round(const Run& run, Reached& reached) {
   return drawn;
 }
 
+/// Brings what is drawn to rest, and writes it if the scene says where.
+RestStage settle_garment(const Run& run, io::SavedState& now) {
+  double gap = run.scene.simulation.contact_gap;
+  if (run.body) gap = std::max(now.contact_gap, contact_gap(gap, run.body->tolerance(), now.file));
+  RestStage stage = rest_stage(now.file, run.scene, now.pins, run.body.get(), gap, run.context);
+  if (run.scene.output.settled.empty()) return stage;
+  io::MeshFile written = now.file;
+  io::drop_motion(written);
+  close_seam_ties(written.mesh);
+  note_material(written, run.of.document, run.body ? gap : 0);
+  write_mesh(run.scene.output.settled, written, run.context);
+  return stage;
+}
+
 /// Draws the rounds whose time has come. After those of time 0 the garment is complete: masses and springs.
 void draw_due_rounds(const Run& run, Reached& reached, AnimationSeries& animations, SimulateReport& report) {
   io::SavedState& now = reached.now;
@@ -164,6 +179,7 @@ void draw_due_rounds(const Run& run, Reached& reached, AnimationSeries& animatio
   if (keeps_first_shape(run.scene)) report.kept = keep_shape(run, now, nullptr);
   reached.heights = line_heights_by_id(now.file);
   reached.starts = true;
+  if (run.scene.settle) report.rest = settle_garment(run, now);
 }
 
 double next_stop(const io::Scene& scene, int lines_drawn) {
@@ -311,6 +327,8 @@ void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std
     report.shape = measure_shape(now.file, reached.heights, run.body.get(), now.contact_gap, report.run.time);
     report.shape->crossings = measure_crossings(now.file, &reached.crossed);
     report.faults = faults_of(run.scene, *report.shape, report.run.strain);
+    if (report.rest && !report.rest->settle.converged)
+      report.faults.push_back(words_of_unrest(run.scene, *report.rest, report.run.steps > 0));
     report.warnings = remarks_on(run, report.run, now.file, now.contact_gap, steps_before);
     const std::vector<Warning> lost = lost_lines(run.scene, report.shape->lines);
     report.warnings.insert(report.warnings.end(), lost.begin(), lost.end());

@@ -12,6 +12,7 @@
 #include "jobs/wrinkle.h"
 #include "physics/body/exact_distance.h"
 #include "physics/motion/simulate.h"
+#include "physics/rest/settle.h"
 
 namespace furrow::jobs {
 
@@ -59,6 +60,14 @@ struct ReachedShape {
   std::vector<LineReport> lines;
 };
 
+/// A garment that came to rest before it moved.
+struct RestStage {
+  physics::SettleReport settle;
+  double angle_defect_before = 0, angle_defect = 0;  ///< how knobbly it was drawn, and is at rest [rad/m^2]
+  ClothCrossings crossings;                          ///< at rest
+  double seconds = 0;                                ///< that this took [s]
+};
+
 /// What is wrong with a shape that was reached: a word for the outcome, and a sentence with the remedy.
 struct Fault {
   std::string word;  ///< "cloth crosses itself"
@@ -74,6 +83,7 @@ struct SimulateReport {
   physics::SimulateReport run;            ///< of the whole run; its outcome
   std::optional<ReachedShape> shape;      ///< none: it diverged
   std::optional<bridge::KeptShape> kept;  ///< at time 0
+  std::optional<RestStage> rest;          ///< at time 0, where the settings ask for it
   std::vector<DrawnRound> rounds;
   std::vector<AnimationReport> animations;  ///< written
   std::vector<Warning> warnings;            ///< about the result; those on the way went to the listener
@@ -85,7 +95,8 @@ struct SimulateReport {
   std::string state;                        ///< that was gone on from: its path, and its settings
   Json settings_before;
 
-  /// "finished", "stopped", "interrupted" or "diverged", and what is wrong with the shape reached.
+  /// "finished", "stopped", "interrupted" or "diverged", of no step after it came to rest "at rest", and what
+  /// is wrong with the shape reached.
   std::string outcome() const;
   bool fails() const { return !failure.empty() || !faults.empty(); }
 };
@@ -93,6 +104,7 @@ struct SimulateReport {
 /// The report for programs, and what the command line prints. (Its equivalent flags are the command line's.)
 Json to_json(const SimulateReport& report);
 Json to_json(const std::vector<BorderReport>& borders);
+Json to_json(const std::vector<LineReport>& lines);
 
 /// A scene to be run from its beginning, or from a saved state on.
 struct SimulateJob {

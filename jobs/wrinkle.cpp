@@ -8,8 +8,11 @@
 #include "io/scene/relocated.h"
 #include "io/scene/scene_file.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/drape.h"
 #include "jobs/read_inputs.h"
+#include "jobs/report/drape_remarks.h"
 #include "jobs/report/wrinkle_reports.h"
+#include "jobs/run/drape_garment.h"
 #include "jobs/run/gate.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
@@ -37,7 +40,17 @@ void check(const WrinkleJob& job) {
   if (job.state && !output.empty() && job.output.extension() != ".ply")
     throw std::invalid_argument(output + ": lines drawn into a state make a state, a .ply file");
   if (!inserted.empty()) check_output(inserted);
-  std::vector<std::string> outputs{output, inserted};
+  const std::string smoothed = job.smoothed.string();
+  if (!smoothed.empty()) check_output(smoothed);
+  if (job.settle && (job.keep || job.state))
+    throw std::invalid_argument(job.keep
+                                    ? "--settle lets the drawn shape go, --rest keep holds it; leave out "
+                                      "one of them"
+                                    : "--settle: the garment of a state is in motion; leave out one of "
+                                      "the two");
+  if (!smoothed.empty() && !job.settle)
+    throw std::invalid_argument("--smoothed writes what is drawn before it comes to rest; add --settle");
+  std::vector<std::string> outputs{output, inserted, smoothed};
   std::vector<std::string> inputs{path_of(job.strokes), job.state ? "" : name_of(job.garment, ""),
                                   job.state_path.string()};
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
@@ -166,6 +179,47 @@ fs::path find_garment(const io::WrinkleRecord& record, const fs::path& wrinkled)
       "file, or write the strokes with furrow strokes and draw them on another");
 }
 
+/// What the job's settings bring to rest, in the frame of the drawing. Throws std::invalid_argument where
+/// nothing would hold it.
+io::Scene rest_scene(const WrinkleJob& job, const Frame& frame) {
+  io::TomlDocument document = job.settle->settings;
+  io::set_value(document, "garment.mesh", name_of(job.garment, "garment"), "furrow wrinkle");
+  if (!names_cloth(document)) io::set_value(document, "material.preset", "cotton", "furrow wrinkle");
+  io::Scene scene = scene_of(document, job.settle->folder);
+  scene.unit = frame.unit;
+  scene.up = frame.up;
+  if (!scene.body && scene.pins.empty())
+    throw std::invalid_argument(
+        "--settle: the garment rests on a body or hangs from what holds it: name a body with --body, or what "
+        "is held with --pin-loop, --pin-group, --pin-box or --pin-vertices");
+  return scene;
+}
+
+/// Lets the drawn garment come to rest as furrow drape would, and writes it before and after.
+void settle_drawn(const WrinkleJob& job, const io::Scene& scene, WrinkleReport& report,
+                  const Context& context) {
+  if (!job.smoothed.empty() && job.smoothed != "-") write_mesh(job.smoothed, report.garment, context);
+  MemoryFiles memory = job.settle->memory;
+  memory.meshes[scene.garment.string()] = report.garment;
+  const Context there{context.frame, context.listener, &memory};
+  std::optional<BodyCollider> body;
+  if (scene.body) body.emplace(load_body(*scene.body, there));
+  Draped draped = drape_garment(scene, body ? &*body : nullptr, {}, true, there);
+  draped.name = scene.garment.stem().string();
+  draped.penetration = DrapeSettings{}.penetration;
+  draped.allowed_crossings = std::size_t(scene.allow_crossings);
+  for (const DrapeRemark& r : remarks_on({&draped, 1}))
+    if (r.fails)
+      report.failures.push_back(r.remark);
+    else
+      context.listener.warn(r.remark);
+  io::TomlDocument document = job.settle->settings;
+  if (!names_cloth(document)) io::set_value(document, "material.preset", "cotton", "furrow wrinkle");
+  note_material(draped.file, document, draped.gap);
+  report.garment = draped.file;
+  report.rest = std::make_shared<const Draped>(std::move(draped));
+}
+
 }  // namespace
 
 RecordedDrawing recorded_drawing(const fs::path& wrinkled, const Context& context) {
@@ -187,6 +241,8 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
   const Context context{report.frame, listener, job.keep ? &job.keep->memory : nullptr};
   std::optional<io::Scene> keep;
   if (job.keep) keep = scene_of(job.keep->settings, job.keep->folder);
+  std::optional<io::Scene> settle;
+  if (job.settle) settle = rest_scene(job, report.frame);
   const io::Scene* scene = keep ? &*keep : nullptr;
   Canvas canvas = canvas_of(job, scene, context);
   stop_if_cancelled(context);
@@ -208,6 +264,7 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
     report.state->file = report.garment;
   }
   stop_if_cancelled(context);
+  if (settle) settle_drawn(job, *settle, report, context);
   write(job, report, context);
   return report;
 }
@@ -215,6 +272,7 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
 Json to_json(const WrinkleReport& report) {
   Json json = to_json(report.drawn);
   json["crossings"] = to_json(report.crossings);
+  if (report.rest) json["at_rest"] = to_json(*report.rest);
   return json;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -51,12 +52,18 @@ struct WrinkleJob {
   std::optional<double> density;   ///< of the cloth [kg/m^2]; none: as the garment notes, else the default
   std::optional<int> max_weights;  ///< skin weights that each vertex keeps; none: as interpolated
   std::optional<SceneInput> keep;  ///< the drawn shape is made to bear its weight under these settings
-  std::filesystem::path output;    ///< mesh, or with a state a state, to write; empty or "-": none
+  /// What is drawn comes to rest as furrow drape lets it, on body or pins of these settings; not with keep or
+  /// a state.
+  std::optional<SceneInput> settle = {};
+  std::filesystem::path smoothed = {};  ///< with settle: the garment as drawn; empty or "-": not written
+  std::filesystem::path output;         ///< mesh, or with a state a state, to write; empty or "-": none
   std::filesystem::path inserted;  ///< mesh after insertion and before smoothing; empty or "-": not written
   bool wants_stages = false;       ///< the report has the mesh before and after insertion
   std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another
   std::vector<std::string> more_inputs = {};   ///< files that the caller reads: none may be replaced
 };
+
+struct Draped;
 
 /// The mesh on the way.
 struct WrinkleStages {
@@ -65,12 +72,14 @@ struct WrinkleStages {
 
 /// What jobs::wrinkle() did.
 struct WrinkleReport {
-  DrawnRound drawn;                     ///< the lines; `kept` where the shape is
-  io::MeshFile garment;                 ///< with its lines [m], y up
-  std::optional<io::SavedState> state;  ///< what goes on from there, where a state was drawn into
-  std::optional<WrinkleStages> stages;  ///< where they were wanted
-  ClothCrossings crossings;             ///< of the cloth with itself
-  Frame frame;                          ///< of the files written
+  DrawnRound drawn;                         ///< the lines; `kept` where the shape is
+  io::MeshFile garment;                     ///< with its lines [m], y up
+  std::optional<io::SavedState> state;      ///< what goes on from there, where a state was drawn into
+  std::optional<WrinkleStages> stages;      ///< where they were wanted
+  ClothCrossings crossings;                 ///< of the cloth with itself, as drawn
+  Frame frame;                              ///< of the files written
+  std::shared_ptr<const Draped> rest = {};  ///< where it was to come to rest (jobs/drape.h)
+  std::vector<Warning> failures = {};       ///< why that is no success; empty: it is
 };
 
 /// What a wrinkled PLY was made of.

@@ -94,8 +94,8 @@ struct ScenePins {
 };
 
 struct SceneOutput {
-  std::filesystem::path mesh, state, inserted, smoothed, animation, body;  ///< empty: not written
-  double fps = 25;                                                         ///< of the animation [1/s]; > 0
+  std::filesystem::path mesh, state, inserted, smoothed, settled, animation, body;  ///< empty: not written
+  double fps = 25;                   ///< of the animation [1/s]; > 0
   std::optional<double> checkpoint;  ///< clock time between two states on the way [s]; > 0; none: no such
 };
 
@@ -113,6 +113,7 @@ struct Scene {
   SceneMaterial material;
   std::vector<ScenePins> pins;
   physics::Wind wind;
+  bool settle = false;                  ///< what is drawn at time 0 comes to rest before it moves
   physics::SimulateOptions simulation;  ///< with gravity, friction, damping
   int threads = 0;                      ///< 0: as many as the garment's size is worth
   std::optional<double> stop_at;  ///< [s]; the state then is kept, the plan goes on to simulation.seconds

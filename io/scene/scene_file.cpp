@@ -65,6 +65,7 @@ Scene read_scene(const TomlDocument& document, const std::filesystem::path& fold
       read_part(*table, part, scene);
   }
   root.finish();
+  check_settle(scene, document);
   check_keep(scene, document);
   return scene;
 }

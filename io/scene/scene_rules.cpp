@@ -63,6 +63,17 @@ void check_simulation(SettingsTable& table, const Scene& scene) {
     table.fail("force_dt", "needs dt");
 }
 
+void check_settle(const Scene& scene, const TomlDocument& document) {
+  if (!scene.output.settled.empty() && !scene.settle)
+    throw geometry::ContentError(document.place("output.settled") +
+                                 ": output.settled needs settle in [simulation] (--settle)");
+  if (scene.settle && !scene.body && scene.pins.empty())
+    throw geometry::ContentError(
+        document.place("simulation.settle") +
+        ": simulation.settle needs what the garment rests on or hangs from: name a "
+        "body (--body), or pins (--pin-loop, --pin-group, --pin-box, --pin-vertices)");
+}
+
 void check_keep(const Scene& scene, const TomlDocument& document) {
   const std::string path = path_of_keep(scene, true, 0);
   if (!path.empty() && scene.material.bending_law == bridge::Bending::cross)

@@ -13,6 +13,8 @@ void check_material(SettingsTable& table, const Scene& scene);
 void check_pins(SettingsTable& table, const Scene& scene);  ///< of the last set
 void check_simulation(SettingsTable& table, const Scene& scene);
 
+/// What settle = true, and the output at rest, need of the rest of a scene: a body or pins, and settle.
+void check_settle(const Scene& scene, const TomlDocument& document);
 /// What rest = "keep", of the garment or of a round of lines, needs of the rest of a scene: hinges.
 void check_keep(const Scene& scene, const TomlDocument& document);
 /// What it needs besides, when it is done: a body and pins that stand still. lines_drawn: rounds that are in

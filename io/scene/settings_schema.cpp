@@ -91,6 +91,13 @@ const Row<Scene> rows[] = {
       .what = "and after they were smoothed",
       .used = used_by::moving},
      path([](auto& s) -> auto& { return s.output.smoothed; })},
+    {{.path = "output.settled",
+      .flag = "--settled",
+      .help = "also write it at rest, before it moves (with --settle)",
+      .what = "and at rest, before it moves (with `settle`)",
+      .used = used_by::simulate,
+      .flag_in = used_by::simulate},
+     path([](auto& s) -> auto& { return s.output.settled; })},
     {{.path = "output.animation",
       .flag = "--animation",
       .help = "animation to write: pc2, mdd or glb",
@@ -118,6 +125,17 @@ const Row<Scene> rows[] = {
       .used = used_by::moving},
      number(
          not_negative("s"), [](auto& s) -> auto& { return s.simulation.seconds; })},
+    {{.path = "simulation.settle",
+      .flag = "--settle",
+      .help = "bring the garment to rest first, on its body and its pins as they lie at time 0, as furrow "
+              "drape does; with --seconds 0 that is all",
+      .what = "the garment, with the lines of time 0, comes to rest before it moves, on body and pins as "
+              "they lie "
+              "at time 0; with `seconds = 0` that is all",
+      .used = used_by::simulate | used_by::keep,
+      .flag_in = used_by::simulate},
+     yes_no(
+         false, true, [](auto& s) -> auto& { return s.settle; })},
     {{.path = "simulation.stop_at",
       .flag = "--stop-at",
       .help = "stop earlier, at this time [s], and keep the plan in the state",

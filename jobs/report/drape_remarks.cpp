@@ -8,6 +8,7 @@
 
 #include "jobs/fit.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/run_warnings.h"
 
 namespace furrow::jobs {
 namespace {
@@ -152,7 +153,7 @@ void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
   remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
 }
 
-Json to_json(const bridge::DrapeLevel& level) {
+Json level_json(const bridge::DrapeLevel& level) {
   return {{"vertices", level.vertices},
           {"pushed_out", level.pushed.moved},
           {"farthest_push", level.pushed.farthest},
@@ -160,31 +161,6 @@ Json to_json(const bridge::DrapeLevel& level) {
           {"iterations", level.settle.iterations},
           {"factorisations", level.settle.factorisations},
           {"residual", level.settle.residual}};
-}
-
-Json to_json(const Draped& d) {
-  const bridge::DrapeLevel& last = d.report.levels.back();
-  Json levels = Json::array();
-  for (const bridge::DrapeLevel& level : d.report.levels) levels.push_back(to_json(level));
-  Json json{{"garment", d.name},
-            {"outcome", d.outcome()},
-            {"converged", d.rests()},
-            {"residual_force", last.settle.residual},
-            {"touching", last.settle.touching},
-            {"contact_depth", last.settle.deepest},
-            {"angle_defect", d.angle_defect},
-            {"gap", d.fit.on_body ? Json(d.gap) : Json(nullptr)},
-            {"gap_asked", d.fit.on_body ? Json(d.wanted_gap) : Json(nullptr)},
-            {"subdivide", d.refinements},
-            {"parts", d.parts},
-            {"loose_parts", d.loose},
-            {"seconds", d.seconds},
-            {"levels", levels},
-            {"friction_rounds", d.report.friction_rounds},
-            {"slip", d.report.slip},
-            {"crossings", jobs::to_json(d.crossings)}};
-  json["fit"] = jobs::to_json(d.fit, d.fit_options);
-  return json;
 }
 
 }  // namespace
@@ -198,6 +174,8 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
     remark_on_loose_parts(d, remarks);
     remark_on_crossings(d, remarks);
     if (!d.rests()) remark_on_unrest(d, remarks);
+    if (d.rests() && !d.is_torn())
+      for (const Warning& lost : lost_lines({}, d.lines)) remarks.push_back({false, lost});
   }
   return remarks;
 }
@@ -213,6 +191,32 @@ std::string Draped::outcome() const {
          (crosses_itself() ? ", cloth crosses itself" : "") +
          (loose.empty() ? "" : fmt::format(", {} of {} parts loose", loose.size(), parts)) +
          (floats() && !broken && !falls ? ", " + geometry::length_text(gap) + " off the body" : "");
+}
+
+Json to_json(const Draped& d) {
+  const bridge::DrapeLevel& last = d.report.levels.back();
+  Json levels = Json::array();
+  for (const bridge::DrapeLevel& level : d.report.levels) levels.push_back(level_json(level));
+  Json json{{"garment", d.name},
+            {"outcome", d.outcome()},
+            {"converged", d.rests()},
+            {"residual_force", last.settle.residual},
+            {"touching", last.settle.touching},
+            {"contact_depth", last.settle.deepest},
+            {"angle_defect", d.angle_defect},
+            {"lines", jobs::to_json(d.lines)},
+            {"gap", d.fit.on_body ? Json(d.gap) : Json(nullptr)},
+            {"gap_asked", d.fit.on_body ? Json(d.wanted_gap) : Json(nullptr)},
+            {"subdivide", d.refinements},
+            {"parts", d.parts},
+            {"loose_parts", d.loose},
+            {"seconds", d.seconds},
+            {"levels", levels},
+            {"friction_rounds", d.report.friction_rounds},
+            {"slip", d.report.slip},
+            {"crossings", jobs::to_json(d.crossings)}};
+  json["fit"] = jobs::to_json(d.fit, d.fit_options);
+  return json;
 }
 
 Json to_json(const DrapeJobReport& report) {

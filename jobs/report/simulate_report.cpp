@@ -5,6 +5,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
 #include "jobs/report/wrinkle_reports.h"
+#include "jobs/run/rest_stage.h"
 #include "jobs/simulate.h"
 
 namespace furrow::jobs {
@@ -47,7 +48,7 @@ Json to_json(const physics::SimulateReport& r) {
           {"residual_force", r.residual_force}};
 }
 
-Json to_json(const LineReport& r) {
+Json line_json(const LineReport& r) {
   Json line{{"id", r.id}};
   if (r.name) line["name"] = *r.name;
   if (r.drawn_height) line["drawn_height"] = *r.drawn_height;
@@ -71,8 +72,7 @@ Json to_json(const ReachedShape& shape, const physics::SimulateReport& run) {
   json["self_intersections"] = shape.crossings.pairs;
   json["crossings"] = jobs::to_json(shape.crossings);
   json["borders"] = to_json(shape.borders);
-  json["lines"] = Json::array();
-  for (const LineReport& line : shape.lines) json["lines"].push_back(to_json(line));
+  json["lines"] = to_json(shape.lines);
   return json;
 }
 
@@ -93,11 +93,19 @@ Json to_json(const std::vector<BorderReport>& borders) {
   return loops;
 }
 
+Json to_json(const std::vector<LineReport>& lines) {
+  Json list = Json::array();
+  for (const LineReport& line : lines) list.push_back(line_json(line));
+  return list;
+}
+
 std::string SimulateReport::outcome() const {
-  std::string words = name_of(run.outcome);
+  const bool rests = rest && run.steps == 0 && run.outcome == physics::Outcome::finished;
+  std::string words = rests ? (rest->settle.converged ? "at rest" : "not at rest") : name_of(run.outcome);
   for (const Fault& fault : faults)
-    words = fault.word == "torn" && run.outcome == physics::Outcome::finished ? "torn"
-                                                                              : words + ", " + fault.word;
+    if (fault.word != words)
+      words = fault.word == "torn" && run.outcome == physics::Outcome::finished ? "torn"
+                                                                                : words + ", " + fault.word;
   return words;
 }
 
@@ -109,6 +117,7 @@ Json to_json(const SimulateReport& r) {
   if (!std::isfinite(r.run.dt_limit)) json["dt_limit_why"] = "steps of any length are stable";
   if (r.shape) json.update(to_json(*r.shape, r.run));
   if (r.kept) json["kept"] = to_json(*r.kept);
+  if (r.rest) json["at_rest"] = to_json(*r.rest);
   for (const DrawnRound& round : r.rounds) json["rounds"].push_back(to_json(round));
   for (const AnimationReport& animation : r.animations) json["animations"].push_back(to_json(animation));
   if (r.choice) json["choice"] = to_json(*r.choice, r.scene_dt);

@@ -197,6 +197,14 @@ void WorldBody::add_to(physics::World& world) const {
   world.animated = animated_.get();
 }
 
+std::unique_ptr<physics::Collider> WorldBody::at_start() const {
+  const physics::Pose here = physics::pose(animated_ ? physics::RigidMotion{} : motion_, 0);
+  if (animated_) animated_->prepare(0, 0);
+  const physics::Collider& shape =
+      animated_ ? static_cast<const physics::Collider&>(*animated_) : rigid_->field;
+  return std::make_unique<physics::PosedCollider>(shape, here);
+}
+
 int WorldBody::fields_until(double seconds) const {
   if (!animated_) return 0;
   const std::vector<double>& times = frames_->times();

@@ -42,6 +42,8 @@ class WorldBody {
   WorldBody(const io::SceneBody& body, const Context& context);
 
   void add_to(physics::World& world) const;
+  /// As it lies at time 0. It must not outlive this body.
+  std::unique_ptr<physics::Collider> at_start() const;
   double tolerance() const { return tolerance_; }  ///< of the field [m]
   /// Fields that a run from time 0 to `seconds` builds on its way; 0: rigid.
   int fields_until(double seconds) const;

@@ -22,6 +22,7 @@
 #include "jobs/run/fall_watch.h"
 #include "jobs/run/gate.h"
 #include "jobs/run/measure_crossings.h"
+#include "jobs/run/measure_shape.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
@@ -218,9 +219,11 @@ std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels,
                           double tolerance) {
   if (sag <= tolerance) return "--tolerance asks for a finer field of the body";
   const double vertices = double(garment.number_of_vertices()) * std::pow(4, levels + 1);
-  return "its edges are long: with --subdivide " + std::to_string(levels + 1) + " (some " +
-         std::to_string(std::llround(vertices)) + " vertices) it is " +
-         geometry::length_text(gap_with(wanted, sag / 4, tolerance));
+  const bool drawn = geometry::find_map(garment, geometry::attribute::line).has_value();
+  return std::string("its edges are long: ") +
+         (drawn ? "refine it before its lines are drawn (furrow subdivide), or " : "") + "with --subdivide " +
+         std::to_string(levels + 1) + " (some " + std::to_string(std::llround(vertices)) +
+         " vertices) it is " + geometry::length_text(gap_with(wanted, sag / 4, tolerance));
 }
 
 /// What is wanted, or what the sag and the field's tolerance need; warns where that is much more.
@@ -320,6 +323,7 @@ void measure(const DrapePlan& plan, const CrossedStart& crossed, Draped& draped)
   draped.refinements = plan.scene.subdivide;
   draped.crossings = measure_crossings(draped.file, &crossed);
   draped.angle_defect = geometry::angle_defect(draped.file.mesh);
+  draped.lines = measure_lines(draped.file, line_heights_by_id(plan.as_read));
   if (!plan.body) {
     draped.fit = bridge::strain_report(draped.file.mesh, draped.fit_options);
     return;

@@ -32,16 +32,6 @@ LineReport measure_line(std::size_t id, double now, double before, const io::Wri
   return line;
 }
 
-std::vector<LineReport> measure_lines(const io::MeshFile& file, const std::vector<double>& before) {
-  std::vector<LineReport> lines;
-  const io::WrinkleRecord record = io::find_wrinkle_record(file).value();
-  const std::vector<double> now = line_heights_by_id(file);
-  for (std::size_t i = 0; i < now.size(); ++i)
-    if (std::isfinite(now[i]))  // else its vertices went to later lines
-      lines.push_back(measure_line(i, now[i], before[i], record));
-  return lines;
-}
-
 physics::Vec3 centre_of_mass(const geometry::Mesh& mesh) {
   const auto mass = *geometry::find_map(mesh, geometry::attribute::mass);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -101,6 +91,16 @@ std::vector<double> line_heights_by_id(const io::MeshFile& file) {
     heights[h.line] = h.height;
   }
   return heights;
+}
+
+std::vector<LineReport> measure_lines(const io::MeshFile& file, const std::vector<double>& before) {
+  std::vector<LineReport> lines;
+  const io::WrinkleRecord record = io::find_wrinkle_record(file).value();
+  const std::vector<double> now = line_heights_by_id(file);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (std::isfinite(now[i]))  // else its vertices went to later lines
+      lines.push_back(measure_line(i, now[i], i < before.size() ? before[i] : now[i], record));
+  return lines;
 }
 
 ReachedShape measure_shape(const io::MeshFile& file, const std::vector<double>& before, const WorldBody* body,

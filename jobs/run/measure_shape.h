@@ -9,6 +9,8 @@ namespace furrow::jobs {
 std::vector<BorderReport> measure_borders(const geometry::Mesh& mesh);
 /// Heights of the lines of a mesh by id; NaN where a line has no vertices [m].
 std::vector<double> line_heights_by_id(const io::MeshFile& file);
+/// Its lines, if its file notes any; `before`: as for measure_shape().
+std::vector<LineReport> measure_lines(const io::MeshFile& file, const std::vector<double>& before);
 /// Measures a garment, but not its crossings; `before`: heights by line id at the run's start [m]; `body`:
 /// null: none.
 ReachedShape measure_shape(const io::MeshFile& file, const std::vector<double>& before, const WorldBody* body,

@@ -8,6 +8,7 @@
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
+#include "jobs/wrinkle.h"
 #include "physics/base/progress.h"
 #include "tests/cli/hung_patch.h"
 #include "tests/jobs/job_folders.h"
@@ -69,6 +70,46 @@ TEST_CASE("keep: a sheet above a ball comes to rest on it before its lines are d
   double lowest = 1;
   for (const geometry::Point& p : tests::positions(rests.garment)) lowest = std::min(lowest, p.y());
   CHECK(lowest < 0.1);
+  job.settle = false;
+  const jobs::KeepReport falls = jobs::keep(job, falling);
+  CHECK_FALSE(falls.settled);
+  CHECK_FALSE(falls.lines.rest.imbalance.empty());
+}
+
+TEST_CASE("keep: a wrinkled file above a ball comes to rest on it with its lines before it is kept") {
+  jobs::KeepJob job;
+  io::MeshFile& file = job.scene.memory.meshes["sheet"];
+  {
+    jobs::WrinkleJob drawn;
+    io::MeshFile sheet;
+    sheet.mesh = geometry::equilateral_sheet(0.3, 0.3, 0.015);
+    for (const geometry::Vertex v : sheet.mesh.vertices())
+      sheet.mesh.point(v) = {sheet.mesh.point(v).x(), 0.14, 0.15 - sheet.mesh.point(v).y()};
+    drawn.garment = sheet;
+    io::DrawnStroke ridge;
+    ridge.stroke.name = "ridge";
+    ridge.stroke.height = 0.004;
+    ridge.stroke.width = 0.05;
+    ridge.stroke.points = {{-0.06, 0.14, 0.01}, {0.06, 0.14, 0.01}};
+    drawn.strokes = std::vector{ridge};
+    tests::Recorder silent;
+    file = jobs::wrinkle(drawn, silent).garment;
+  }
+  job.scene.memory.meshes["ball"].mesh = tests::icosphere(3, 0.12);
+  job.scene.settings = io::parse_toml(
+      "[garment]\nmesh = \"sheet\"\n[body]\nmesh = \"ball\"\ntolerance = 0.001\n[material]\n"
+      "preset = \"cotton\"\nfriction = 0.6\n",
+      "test");
+  job.seconds = 0.02;
+  job.gust = 0;
+  job.help = false;
+  tests::Recorder settling, falling;
+  const jobs::KeepReport rests = jobs::keep(job, settling);
+  CHECK(rests.settled);
+  CHECK(settling.warned_of("settled_first"));
+  CHECK(rests.lines.rest.imbalance.empty());
+  REQUIRE(rests.lines.lines.size() == 1);
+  CHECK(rests.lines.lines[0].reason.find("nothing holds the garment") == std::string::npos);
   job.settle = false;
   const jobs::KeepReport falls = jobs::keep(job, falling);
   CHECK_FALSE(falls.settled);

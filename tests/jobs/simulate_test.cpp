@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/simulate.h"
 
+#include <CGAL/squared_distance_3.h>
+
 #include <catch2/catch.hpp>
 #include <thread>
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
+#include "jobs/drape.h"
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
@@ -356,4 +359,90 @@ TEST_CASE("simulate: a gap that edges raise is told, and the advice lowers it") 
   io::set_value(job.scene.settings, "garment.subdivide", 1, "test");
   job.scene.settings.root["simulation"].erase("dt");  // finer springs want a shorter step
   CHECK_FALSE(told(jobs::simulate(job, recorder)));
+}
+
+namespace {
+
+/// The same sheet in cotton, which comes to rest first.
+jobs::SimulateJob settled_sheet(double seconds, double time = 0) {
+  jobs::SimulateJob job = hung_sheet(seconds, time);
+  job.scene.settings.root["simulation"].erase("dt");
+  io::set_value(job.scene.settings, "simulation.settle", true, "test");
+  io::set_value(job.scene.settings, "material.preset", "cotton", "test");
+  return job;
+}
+
+double farthest_apart(const io::MeshFile& a, const io::MeshFile& b) {
+  REQUIRE(a.mesh.number_of_vertices() == b.mesh.number_of_vertices());
+  double most = 0;
+  for (const geometry::Vertex v : a.mesh.vertices())
+    most = std::max(most, CGAL::squared_distance(a.mesh.point(v), b.mesh.point(v)));
+  return std::sqrt(most);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "simulate: with settle the drawn sheet comes to rest as drape lets it, and with no seconds that is all") {
+  const fs::path folder = empty_folder("simulate_settle");
+  tests::Recorder recorder;
+  jobs::SimulateJob job = settled_sheet(0);
+  set_output(job, "smoothed", folder / "drawn.ply");
+  set_output(job, "settled", folder / "rests.ply");
+  const jobs::SimulateReport report = jobs::simulate(job, recorder);
+  INFO(to_json(report).dump(1));
+  CHECK(report.outcome() == "at rest");
+  CHECK_FALSE(report.fails());
+  REQUIRE(report.rest);
+  CHECK(report.rest->settle.converged);
+  CHECK(report.rest->settle.residual <= 1e-3);
+  CHECK(report.rest->angle_defect_before > 0);
+  CHECK(to_json(report)["at_rest"]["angle_defect"].get<double>() == report.rest->angle_defect);
+  CHECK(tests::positions(io::read_mesh(folder / "rests.ply")) == tests::positions(report.garment));
+  jobs::DrapeJob drape;
+  drape.scene.settings = io::parse_toml("[garment]\n[material]\npreset = \"cotton\"\n", "test");
+  io::set_value(drape.scene.settings, "garment.mesh", (folder / "drawn.ply").string(), "test");
+  io::set_value(drape.scene.settings, "pins", job.scene.settings.root["pins"], "test");
+  const jobs::DrapeJobReport draped = jobs::drape(drape, recorder);
+  CHECK(farthest_apart(draped.garments.at(0).file, report.garment) < 1e-9);
+}
+
+TEST_CASE("simulate: what came to rest hardly moves, and lines that come later are drawn into it") {
+  const fs::path folder = empty_folder("simulate_settle_moves");
+  tests::Recorder recorder;
+  jobs::SimulateJob job = settled_sheet(0.05);
+  set_output(job, "settled", folder / "rests.ply");
+  const jobs::SimulateReport moved = jobs::simulate(job, recorder);
+  CHECK(moved.outcome() == "finished");
+  CHECK(farthest_apart(io::read_mesh(folder / "rests.ply"), moved.garment) < 1e-4);
+  io::set_value(job.scene.settings, "simulation.settle", false, "test");
+  job.scene.settings.root["output"].erase("settled");
+  const jobs::SimulateReport falls = jobs::simulate(job, recorder);
+  CHECK(farthest_apart(io::read_mesh(folder / "rests.ply"), falls.garment) > 2e-4);
+  const jobs::SimulateReport later = jobs::simulate(settled_sheet(0.01, 0.005), recorder);
+  REQUIRE(later.rest);
+  CHECK(later.rest->settle.converged);
+  CHECK(later.rounds.size() == 1);
+  CHECK(later.rounds[0].time == Approx(0.005).margin(5e-4));
+  CHECK(later.outcome() == "finished");
+}
+
+TEST_CASE(
+    "simulate: settle without anything that holds the garment is refused, and what falls is not at rest") {
+  tests::Recorder recorder;
+  jobs::SimulateJob job = settled_sheet(0);
+  job.scene.settings.root.erase("pins");
+  CHECK_THROWS_WITH(jobs::simulate(job, recorder), Catch::Contains("--pin-loop"));
+  job.scene.memory.meshes["ball"].mesh = tests::icosphere(2, 0.1, {0, -6, 0});
+  io::set_value(job.scene.settings, "body.mesh", "ball", "test");
+  io::set_value(job.scene.settings, "body.tolerance", 0.005, "test");
+  const jobs::SimulateReport falls = jobs::simulate(job, recorder);
+  CHECK(falls.outcome() == "not at rest");
+  CHECK(falls.fails());
+  REQUIRE(falls.faults.size() == 1);
+  CHECK(falls.faults[0].told.code == "not_at_rest");
+  job = settled_sheet(0);
+  io::set_value(job.scene.settings, "simulation.settle", false, "test");
+  set_output(job, "settled", empty_folder("simulate_not_settled") / "rests.ply");
+  CHECK_THROWS_WITH(jobs::simulate(job, recorder), Catch::Contains("output.settled needs settle"));
 }

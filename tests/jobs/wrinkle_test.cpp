@@ -7,6 +7,7 @@
 
 #include "geometry/mesh/sheet.h"
 #include "io/mesh/mesh_file.h"
+#include "jobs/drape.h"
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
@@ -158,4 +159,52 @@ TEST_CASE("wrinkle: two jobs at once in one process give the bits of single runs
   CHECK(tests::positions(both_one.garment) == tests::positions(single_one.garment));
   CHECK(tests::positions(both_two.garment) == tests::positions(single_two.garment));
   CHECK(tests::positions(both_one.garment) != tests::positions(both_two.garment));
+}
+
+TEST_CASE("wrinkle: with settle the drawn sheet comes to rest in cotton, as drape lets it") {
+  const fs::path folder = tests::empty_folder("wrinkle_settle");
+  tests::Recorder recorder;
+  jobs::WrinkleJob job = ridged_sheet();
+  job.settle.emplace();
+  job.smoothed = folder / "drawn.ply";
+  job.output = folder / "rests.ply";
+  CHECK_THROWS_WITH(jobs::wrinkle(job, recorder), Catch::Contains("--pin-loop") && Catch::Contains("--body"));
+  io::set_value(job.settle->settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
+  const jobs::WrinkleReport report = jobs::wrinkle(job, recorder);
+  REQUIRE(report.rest);
+  INFO(to_json(report)["at_rest"].dump(1));
+  CHECK(report.rest->outcome() == "at rest");
+  CHECK(report.failures.empty());
+  CHECK(tests::positions(io::read_mesh(folder / "rests.ply")) == tests::positions(report.garment));
+  jobs::DrapeJob drape;
+  drape.scene.settings = job.settle->settings;
+  io::set_value(drape.scene.settings, "garment.mesh", (folder / "drawn.ply").string(), "test");
+  const jobs::DrapeJobReport draped = jobs::drape(drape, recorder);
+  CHECK(tests::positions(draped.garments.at(0).file) == tests::positions(report.garment));
+  const auto record = io::find_wrinkle_record(io::read_mesh(folder / "rests.ply"));
+  REQUIRE(record);
+  CHECK(record->material.find("cotton") != std::string::npos);
+  CHECK(record->lines.size() == 1);
+  job.keep = job.settle;
+  CHECK_THROWS_WITH(jobs::wrinkle(job, recorder), Catch::Contains("leave out one"));
+}
+
+TEST_CASE("drape: a line that rest loses is warned of by its name") {
+  tests::Recorder recorder;
+  jobs::WrinkleJob drawn = ridged_sheet();
+  jobs::DrapeJob job;
+  job.scene.memory.meshes["ridged"] = jobs::wrinkle(drawn, recorder).garment;
+  io::set_value(job.scene.settings, "garment.mesh", "ridged", "test");
+  io::set_value(job.scene.settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
+  io::set_value(job.scene.settings, "forces.gravity", 1000, "test");  // draws the sheet taut
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  INFO(to_json(report).dump(1));
+  REQUIRE(report.garments.at(0).rests());
+  REQUIRE(report.garments[0].lines.size() == 1);
+  REQUIRE(*report.garments[0].lines[0].kept < 0.5);
+  const auto lost = std::find_if(report.remarks.begin(), report.remarks.end(),
+                                 [](const jobs::DrapeRemark& r) { return r.remark.code == "lines_lost"; });
+  REQUIRE(lost != report.remarks.end());
+  CHECK_FALSE(lost->fails);
+  CHECK(lost->remark.text.find("'ridge'") != std::string::npos);
 }
