@@ -55,6 +55,12 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
             out("kept.ply"));
   report_of("sdf" + body.substr(7) + " --tolerance 0.01 --at 0,1,0.3" + out("body.sdf"));
   report_of("drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"));
+  report_of("drape " + (scratch / "w.ply") + " --pin-loop top" + out("hangs.ply"));
+  report_of("wrinkle " + sheet + " " + strokes + " --settle --pin-loop top --smoothed " +
+            (scratch / "drawn.ply") + out("rests.ply"));
+  report_of("simulate " + (scratch / "drawn.ply") +
+            " --settle --seconds 0 --fabric cotton --pin-loop top --settled " + (scratch / "settled.ply") +
+            out("moved.ply"));
   report_of("drape " + skirt + body +
             " --subdivide 0 --band top=0.95 --fabrics cotton,silk --size 200,200 "
             "--quality draft --picture " +
