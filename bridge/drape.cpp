@@ -26,6 +26,7 @@ void check(const DrapeOptions& o) {
   require(me, "refinements", o.refinements, o.refinements >= 0 && o.refinements <= 6, "in [0, 6]");
   require(me, "coarse_tolerance", o.coarse_tolerance, o.coarse_tolerance > 0, "> 0");
   require(me, "disturbance", o.disturbance, o.disturbance >= 0, ">= 0");
+  require(me, "soft_start", o.soft_start, o.soft_start >= 1, ">= 1");
   require(me, "contact_depth", std::min(depth, 1e300), !o.plain || std::isinf(depth),
           "left out, as the plain scheme needs it");
   require(me, "bending_friction", o.bending_friction,
@@ -75,6 +76,7 @@ physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* 
   return report;
 }
 
+constexpr int most_soft_iterations = 50;
 constexpr double least_slip = 2e-3;  // rad
 constexpr int most_rounds = 60;
 
@@ -100,6 +102,23 @@ WornRest give_way(physics::Cloth& cloth, const physics::Collider* body, double m
     rest.slip = physics::update_friction(cloth, friction);
   } while (rest.slip > least_slip && ++rest.rounds < most_rounds);
   return rest;
+}
+
+/// Where the cloth comes to rest, roughly, with triangles that are softer: a start for its own search.
+physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collider* body,
+                                    const DrapeOptions& o, const physics::SettleObserver& observer) {
+  physics::SettleOptions rough = o.settle;
+  rough.tolerance = std::max(rough.tolerance, o.coarse_tolerance);
+  rough.contact_depth = std::numeric_limits<double>::infinity();
+  rough.max_iterations = std::min(rough.max_iterations, most_soft_iterations);
+  const std::vector<physics::MembraneTriangle> own = cloth.membrane;
+  for (physics::MembraneTriangle& t : cloth.membrane) {
+    t.lambda /= o.soft_start;
+    t.mu /= o.soft_start;
+  }
+  const physics::SettleReport report = physics::settle(cloth, body, rough, observer);
+  cloth.membrane = own;
+  return report;
 }
 
 /// The next level's mesh. Returns where the shape that was found lies on it.
@@ -140,10 +159,14 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     now.vertices = cloth.particles.size();
     const double gap = o.settle.gap - (carried.empty() ? 0 : rest_depth(o.settle.gap));
     if (body) now.pushed = physics::bring_out(cloth.particles, *body, gap);
-    const physics::SettleOptions settle = options_of(o, last, report.stopped);
     const auto observer = [&](const physics::SettleProgress& progress) {
       return !go_on || report.stopped || go_on(level, progress, cloth);
     };
+    if (level == 0 && o.soft_start > 1 && !o.plain && !cloth.membrane.empty()) {
+      now.soft = settle_softly(cloth, body, o, observer);
+      report.stopped = now.soft.stopped;
+    }
+    const physics::SettleOptions settle = options_of(o, last, report.stopped);
     if (last && o.bending_friction > 0 && !report.stopped) {
       const WornRest rest = give_way(cloth, body, o.bending_friction, settle, observer);
       now.settle = rest.settle;

@@ -19,6 +19,11 @@ struct DrapeOptions {
   /// How far a level's start is disturbed along its normals, as a share of its mean edge [-]; >= 0. Without
   /// it cloth that must buckle balances on the way to it.
   double disturbance = 0.003;
+  /// How many times softer the triangles of the first level are in a search that comes before its own and
+  /// ends at coarse_tolerance [-]; >= 1; 1: none. Stiff cloth with many folds is slow to find its way, as
+  /// every step that turns a fold stretches it; it finds it in a third of the iterations from where soft
+  /// cloth rests.
+  double soft_start = 1;
   /// Internal friction of bending on the last level, as a moment a metre of hinge [N]; >= 0, 0: none. It
   /// needs linear hinges, and not plain. See physics/rest/hinge_friction.h.
   double bending_friction = 0;
@@ -28,6 +33,7 @@ struct DrapeLevel {
   std::size_t vertices = 0;
   physics::PushOutReport pushed;  ///< out of the body before it began
   physics::SettleReport settle;   ///< iterations of the plain scheme: its passes
+  physics::SettleReport soft;     ///< of the search before, with a soft_start
 };
 struct DrapeReport {
   std::vector<DrapeLevel> levels;  ///< coarse to fine

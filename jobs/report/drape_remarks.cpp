@@ -158,8 +158,8 @@ Json level_json(const bridge::DrapeLevel& level) {
           {"pushed_out", level.pushed.moved},
           {"farthest_push", level.pushed.farthest},
           {"still_nearer", level.pushed.still_inside},
-          {"iterations", level.settle.iterations},
-          {"factorisations", level.settle.factorisations},
+          {"iterations", level.soft.iterations + level.settle.iterations},
+          {"factorisations", level.soft.factorisations + level.settle.factorisations},
           {"residual", level.settle.residual}};
 }
 

@@ -366,6 +366,12 @@ Given read_given(const io::Scene& scene, const BodyCollider* body, const DrapeSe
 
 }  // namespace
 
+double soft_start_of(const io::MeshFile& garment) {
+  constexpr double times_softer = 30;  // 10 and 100 do as well
+  const auto record = io::find_wrinkle_record(garment);
+  return record && record->options.find("--rule fold") != std::string::npos ? times_softer : 1;
+}
+
 int refinements_for_gap(const geometry::Mesh& garment, double wanted, double tolerance) {
   constexpr double most_vertices = 60000, slack = 1.05;
   if (geometry::find_map(garment, geometry::attribute::rest_length) || garment.number_of_edges() == 0)
@@ -385,7 +391,8 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   const Given given = read_given(asked, body, s, choose, context);
   const io::Scene& scene = given.scene;
   const double gap = gap_of(scene, body, given.file.mesh, context);
-  const DrapePlan plan{scene, body, s, given.file, options_of(scene, s, gap)};
+  DrapePlan plan{scene, body, s, given.file, options_of(scene, s, gap)};
+  plan.options.soft_start = soft_start_of(given.file);
   const CrossedStart crossed = crossed_start(given.file.mesh, scene.subdivide);
   const FallWatch watch(given.file.mesh, body, gap);
   const double start = now();

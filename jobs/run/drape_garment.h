@@ -5,12 +5,15 @@
 
 namespace furrow::jobs {
 
-/// Reads a scene's garment, fits it on the body (null: it hangs from its pins) and measures how it fits. Shows progress; an interrupt stops
-/// it, what was reached is returned. Bands become struts of the garment, in place of those that its loop had.
-/// Throws as reading, bridge::drape() and bridge::fit_report() do.
+/// Reads a scene's garment, fits it on the body (null: it hangs from its pins) and measures how it fits.
+/// Shows progress; an interrupt stops it, what was reached is returned. Bands become struts of the garment,
+/// in place of those that its loop had. Throws as reading, bridge::drape() and bridge::fit_report() do.
 /// `choose`: it is refined as often as the gap needs (refinements_for_gap()), in place of scene.subdivide.
 Draped drape_garment(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& settings,
                      bool choose, const Context& context);
+
+/// DrapeOptions::soft_start of a garment: 30 where its file notes lines of the rule `fold`, else 1.
+double soft_start_of(const io::MeshFile& garment);
 
 /// The least number of Loop refinements with which a garment's edges let it keep the gap that is wanted from
 /// a body whose field has this tolerance [m]; of 0 to 4, as many as leave it below 60,000 vertices (some 20

@@ -11,6 +11,7 @@
 #include "bridge/gather.h"
 #include "geometry/fold/fold_base.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/drape_garment.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
@@ -18,12 +19,13 @@
 namespace furrow::jobs {
 namespace {
 
-bridge::DrapeOptions rest_options(const io::Scene& scene, double gap, std::size_t vertices) {
+bridge::DrapeOptions rest_options(const io::Scene& scene, double gap, const io::MeshFile& garment) {
   bridge::DrapeOptions options;
+  options.soft_start = soft_start_of(garment);
   options.settle.gravity = scene.simulation.gravity;
   options.settle.friction = scene.simulation.friction;
   options.settle.gap = gap;
-  options.settle.threads = threads_of(scene, vertices);
+  options.settle.threads = threads_of(scene, garment.mesh.number_of_vertices());
   return options;
 }
 
@@ -55,11 +57,12 @@ RestStage rest_stage(io::MeshFile& garment, const io::Scene& scene, const std::v
   geometry::Mesh mesh = garment.mesh;
   physics::Cloth cloth;
   const bridge::DrapeReport report =
-      bridge::drape(mesh, cloth, collider.get(), rest_options(scene, gap, garment.mesh.number_of_vertices()),
-                    make, observe);
+      bridge::drape(mesh, cloth, collider.get(), rest_options(scene, gap, garment), make, observe);
   stop_if_cancelled(context);
   for (const geometry::Vertex v : mesh.vertices()) garment.mesh.point(v) = mesh.point(v);
   stage.settle = report.levels.back().settle;
+  stage.settle.iterations += report.levels.back().soft.iterations;
+  stage.settle.factorisations += report.levels.back().soft.factorisations;
   stage.angle_defect = geometry::angle_defect(garment.mesh);
   stage.crossings = measure_crossings(garment);
   stage.seconds = std::chrono::duration<double>(Clock::now() - start).count();

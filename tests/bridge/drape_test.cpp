@@ -10,6 +10,7 @@
 #include "geometry/rest/masses.h"
 #include "geometry/rest/rest_angles.h"
 #include "geometry/rest/rest_metric.h"
+#include "physics/cloth/pins.h"
 #include "physics/contact/residual_force.h"
 #include "tests/physics/body/test_bodies.h"
 
@@ -144,4 +145,38 @@ TEST_CASE("drape: friction of bending bears what it can, and cloth hangs less fo
   options.bending_friction = 1e-4;
   options.plain = true;
   CHECK_THROWS_WITH(bridge::drape(mesh, cloth, &ball, options, make), Catch::Contains("plain"));
+}
+
+TEST_CASE("drape: with a soft start cloth comes to the same rest where there is one alone") {
+  geometry::Mesh sheet = geometry::equilateral_sheet(0.3, 0.3, 0.04), other = sheet;
+  for (geometry::Mesh* mesh : {&sheet, &other})
+    for (const geometry::Vertex v : mesh->vertices()) {
+      const geometry::Point p = mesh->point(v);
+      mesh->point(v) = geometry::Point(p.x(), 0.1, p.y());  // it swings down from its edge
+    }
+  const auto pinned = [](geometry::Mesh& mesh) {
+    physics::Cloth cloth = make(mesh);
+    for (const geometry::Vertex v : mesh.vertices())
+      if (mesh.point(v).z() < 1e-9) physics::pin(cloth.particles, std::vector<int>{int(v)});
+    return cloth;
+  };
+  bridge::DrapeOptions options;
+  options.disturbance = 0;
+  options.settle.tolerance = 1e-8;
+  options.coarse_tolerance = 0.01;  // the sheet starts at 1
+  physics::Cloth stiff, soft;
+  const bridge::DrapeReport plain = bridge::drape(sheet, stiff, nullptr, options, pinned);
+  options.soft_start = 30;
+  const bridge::DrapeReport start = bridge::drape(other, soft, nullptr, options, pinned);
+  CHECK(plain.levels[0].settle.converged);
+  CHECK(plain.levels[0].soft.iterations == 0);
+  CHECK(start.levels[0].settle.converged);
+  CHECK(start.levels[0].soft.iterations > 0);
+  CHECK(start.levels[0].settle.residual <= 1e-8);
+  REQUIRE(soft.membrane.size() == stiff.membrane.size());
+  for (std::size_t i = 0; i < soft.membrane.size(); ++i) CHECK(soft.membrane[i].mu == stiff.membrane[i].mu);
+  for (std::size_t i = 0; i < soft.particles.size(); ++i)
+    CHECK((soft.particles.x[i] - stiff.particles.x[i]).norm() < 1e-6);
+  options.soft_start = 0.5;
+  CHECK_THROWS_WITH(bridge::drape(other, soft, nullptr, options, pinned), Catch::Contains("soft_start"));
 }
