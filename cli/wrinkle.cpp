@@ -33,6 +33,8 @@ void check_call(const WrinkleArguments& a) {
   if (a.settle && !a.state.empty())
     throw UsageError("--settle: the garment of --state is in motion; leave out one of the two");
   if (a.settle && a.out.empty()) throw UsageError("--settle goes with -o");
+  if (!a.subdivide.empty() && !a.settle)
+    throw UsageError("--subdivide goes with --settle; furrow subdivide refines a garment by itself");
   if (a.smoothed == "-")
     throw UsageError("--smoothed: only the garment at the end (-o) can go to standard output");
   if (!a.smoothed.empty() && !a.settle)
@@ -107,6 +109,7 @@ WrinkleJob job_of(WrinkleArguments& a) {
   if (a.rest == "keep") job.keep = surroundings(a, job);
   if (a.settle) job.settle = surroundings(a, job);
   job.smoothed = a.smoothed;
+  if (!a.subdivide.empty() && a.subdivide != "auto") job.subdivide = std::stoi(a.subdivide);
   job.output = a.out;
   job.inserted = a.inserted;
   job.wants_stages = !a.preview.empty();
@@ -181,6 +184,11 @@ void add_wrinkle(CLI::App& app, int& exit_code) {
       "--settle", a->settle,
       "let what is drawn come to rest, as furrow drape does: on --body, on pins or on both, in --fabric "
       "(cotton); -o is the garment at rest");
+  sub->add_option(
+         "--subdivide", a->subdivide,
+         "with --settle: refine the garment so many times (Loop) before its lines are drawn, 0 to 4; auto "
+         "(the default): as often as its edges need to keep the gap from the body")
+      ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4"}));
   sub->add_option("--smoothed", a->smoothed, "with --settle: also write the garment as drawn");
   sub->add_option(
       "--picture", a->preview,

@@ -10,7 +10,7 @@
 namespace furrow::cli {
 
 struct WrinkleArguments : CommonArguments {
-  std::string in, strokes, state, inserted, smoothed, preview;
+  std::string in, strokes, state, inserted, smoothed, subdivide, preview;
   std::vector<std::string> without;
   double height = geometry::Stroke{}.height, fade = io::SceneLines{}.fade;
   std::string rule = "safe", rest = "drawn", region = "two-ring", detail = "normal";

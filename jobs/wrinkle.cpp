@@ -3,6 +3,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/refine/subdivide.h"
 #include "io/base/bytes_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/relocated.h"
@@ -48,6 +49,9 @@ void check(const WrinkleJob& job) {
                                       "one of them"
                                     : "--settle: the garment of a state is in motion; leave out one of "
                                       "the two");
+  if (job.subdivide && (!job.settle || *job.subdivide < 0 || *job.subdivide > 4))
+    throw std::invalid_argument("--subdivide " + std::to_string(*job.subdivide) +
+                                ": refines 0 to 4 times before lines are drawn that come to rest (--settle)");
   if (!smoothed.empty() && !job.settle)
     throw std::invalid_argument("--smoothed writes what is drawn before it comes to rest; add --settle");
   std::vector<std::string> outputs{output, inserted, smoothed};
@@ -121,8 +125,8 @@ LineTarget target_of(const WrinkleJob& job, Canvas& canvas, const io::Scene* kee
 }
 
 /// The round drawn into the canvas. `stages` (null: not wanted) are filled on the way.
-DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, WrinkleStages* stages,
-                const Context& context) {
+DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, bool refined,
+                WrinkleStages* stages, const Context& context) {
   const std::vector<io::DrawnStroke> strokes = strokes_of(job, context);
   require_heights(strokes, canvas.file.mesh, context);
   io::SceneLines lines;
@@ -135,7 +139,9 @@ DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, Wr
   };
   const std::size_t old_count = canvas.file.mesh.number_of_vertices();
   DrawnRound drawn;
-  drawn.round = draw_lines(target_of(job, canvas, keep), strokes, lines, keep_stage);
+  LineTarget target = target_of(job, canvas, keep);
+  if (refined) target.garment.clear();  // its file alone does not draw the same lines again
+  drawn.round = draw_lines(target, strokes, lines, keep_stage);
   for (const std::string& w : drawn.round.warnings) context.warn("drawing", w, path_of(job.strokes));
   pin_new_vertices(canvas.file.mesh, old_count, canvas.pins);
   if (canvas.state) {
@@ -195,16 +201,47 @@ io::Scene rest_scene(const WrinkleJob& job, const Frame& frame) {
   return scene;
 }
 
+/// Where what is drawn comes to rest.
+struct RestPlan {
+  io::Scene scene;
+  std::optional<BodyCollider> body;
+  int refinements = 0;  ///< of the garment, before its lines were drawn
+};
+
+/// Refines a garment whose edges are too long to keep the gap: once its folds are drawn, that would round
+/// them.
+RestPlan plan_rest(const WrinkleJob& job, geometry::Mesh& garment, const Context& context) {
+  RestPlan plan{rest_scene(job, context.frame), {}, job.subdivide.value_or(0)};
+  if (plan.scene.body) {
+    plan.body.emplace(load_body(*plan.scene.body, {context.frame, context.listener, &job.settle->memory}));
+    if (!job.subdivide)
+      plan.refinements = refinements_for_gap(garment, plan.scene.simulation.contact_gap,
+                                             plan.body->field.report().tolerance);
+  }
+  require_refinement(garment.number_of_faces(), 4, plan.refinements, "--subdivide", context);
+  if (plan.refinements == 0) return plan;
+  geometry::loop_subdivide(garment, plan.refinements);
+  if (!job.subdivide)
+    context.warn("refined_first",
+                 plan.scene.garment.string() + ": refined " +
+                     (plan.refinements == 1 ? "once" : std::to_string(plan.refinements) + " times") +
+                     " before its lines were drawn, as its edges are too long to keep " +
+                     geometry::length_text(plan.scene.simulation.contact_gap) +
+                     " from the body; --subdivide 0 leaves it as it is",
+                 plan.scene.garment.string(), "--subdivide");
+  return plan;
+}
+
 /// Lets the drawn garment come to rest as furrow drape would, and writes it before and after.
-void settle_drawn(const WrinkleJob& job, const io::Scene& scene, WrinkleReport& report,
+void settle_drawn(const WrinkleJob& job, const RestPlan& plan, WrinkleReport& report,
                   const Context& context) {
+  const io::Scene& scene = plan.scene;
   if (!job.smoothed.empty() && job.smoothed != "-") write_mesh(job.smoothed, report.garment, context);
   MemoryFiles memory = job.settle->memory;
   memory.meshes[scene.garment.string()] = report.garment;
   const Context there{context.frame, context.listener, &memory};
-  std::optional<BodyCollider> body;
-  if (scene.body) body.emplace(load_body(*scene.body, there));
-  Draped draped = drape_garment(scene, body ? &*body : nullptr, {}, true, there);
+  Draped draped = drape_garment(scene, plan.body ? &*plan.body : nullptr, {}, false, there);
+  draped.refinements = plan.refinements;
   draped.name = scene.garment.stem().string();
   draped.penetration = DrapeSettings{}.penetration;
   draped.allowed_crossings = std::size_t(scene.allow_crossings);
@@ -241,14 +278,15 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
   const Context context{report.frame, listener, job.keep ? &job.keep->memory : nullptr};
   std::optional<io::Scene> keep;
   if (job.keep) keep = scene_of(job.keep->settings, job.keep->folder);
-  std::optional<io::Scene> settle;
-  if (job.settle) settle = rest_scene(job, report.frame);
   const io::Scene* scene = keep ? &*keep : nullptr;
   Canvas canvas = canvas_of(job, scene, context);
+  std::optional<RestPlan> settle;
+  if (job.settle) settle = plan_rest(job, canvas.file.mesh, context);
   stop_if_cancelled(context);
   const CrossedStart crossed = crossed_start(canvas.file.mesh);
   if (job.wants_stages || !job.inserted.empty()) report.stages.emplace();
-  report.drawn = draw(job, canvas, scene, report.stages ? &*report.stages : nullptr, context);
+  report.drawn = draw(job, canvas, scene, settle && settle->refinements > 0,
+                      report.stages ? &*report.stages : nullptr, context);
   stop_if_cancelled(context);
   if (scene) report.drawn.kept = keep_drawn(canvas, *scene, context);
   if (job.max_weights) limit_noted_weights(canvas.file, *job.max_weights);

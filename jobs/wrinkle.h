@@ -55,6 +55,8 @@ struct WrinkleJob {
   /// What is drawn comes to rest as furrow drape lets it, on body or pins of these settings; not with keep or
   /// a state.
   std::optional<SceneInput> settle = {};
+  /// With settle: refinements (Loop) before the lines are drawn, in [0, 4]; none: as many as the gap needs.
+  std::optional<int> subdivide = {};
   std::filesystem::path smoothed = {};  ///< with settle: the garment as drawn; empty or "-": not written
   std::filesystem::path output;         ///< mesh, or with a state a state, to write; empty or "-": none
   std::filesystem::path inserted;  ///< mesh after insertion and before smoothing; empty or "-": not written

@@ -11,6 +11,7 @@
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
+#include "tests/test_meshes.h"
 
 using namespace furrow;
 namespace fs = std::filesystem;
@@ -187,6 +188,36 @@ TEST_CASE("wrinkle: with settle the drawn sheet comes to rest in cotton, as drap
   CHECK(record->lines.size() == 1);
   job.keep = job.settle;
   CHECK_THROWS_WITH(jobs::wrinkle(job, recorder), Catch::Contains("leave out one"));
+}
+
+TEST_CASE(
+    "wrinkle: with settle a garment of long edges is refined before its lines are drawn, unless told not "
+    "to") {
+  tests::Recorder refining, leaving;
+  jobs::WrinkleJob job = ridged_sheet();
+  job.settle.emplace();
+  geometry::Mesh& sheet = std::get<io::MeshFile>(job.garment).mesh;
+  sheet = geometry::equilateral_sheet(0.4, 0.4, 0.05);
+  for (geometry::Point& p : sheet.points()) p = {p.x(), 0.105, p.y() - 0.2};
+  auto& strokes = std::get<std::vector<io::DrawnStroke>>(job.strokes);
+  strokes[0].stroke.points = {{-0.1, 0.105, 0.02}, {0.1, 0.105, 0.02}};
+  job.settle->memory.meshes["ball"].mesh = tests::icosphere(2, 0.1);
+  io::set_value(job.settle->settings, "body.mesh", "ball", "test");
+  io::set_value(job.settle->settings, "body.tolerance", 0.0005, "test");
+  job.subdivide = 0;
+  const jobs::WrinkleReport coarse = jobs::wrinkle(job, leaving);
+  CHECK(coarse.rest->floats());
+  CHECK_FALSE(leaving.warned_of("refined_first"));
+  job.subdivide.reset();
+  const jobs::WrinkleReport fine = jobs::wrinkle(job, refining);
+  INFO(to_json(fine)["at_rest"].dump(1));
+  CHECK(refining.warned_of("refined_first"));
+  CHECK(fine.rest->refinements > 0);
+  CHECK_FALSE(fine.rest->floats());
+  CHECK(fine.garment.mesh.number_of_vertices() > 2 * coarse.garment.mesh.number_of_vertices());
+  CHECK(io::find_wrinkle_record(fine.garment)->garment.empty());
+  job.subdivide = 5;
+  CHECK_THROWS_WITH(jobs::wrinkle(job, leaving), Catch::Contains("--subdivide 5"));
 }
 
 TEST_CASE("drape: a line that rest loses is warned of by its name") {
