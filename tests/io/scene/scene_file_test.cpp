@@ -160,6 +160,18 @@ TEST_CASE("scene_file: the cloth of fast fitting has quadratic tension, and the 
   CHECK(io::shear_ratio(io::fabric_named("jersey")) == 1);
 }
 
+TEST_CASE("scene_file: what comes to rest first needs a body or pins, and the stage at rest needs settle") {
+  const std::string settle = "[simulation]\nsettle = true\n[output]\nsettled = \"r.ply\"\n",
+                    pins = "[[pins]]\nloop = \"top\"\n";
+  const io::Scene s = scene("[garment]\nmesh = \"g.obj\"\n" + settle + pins);
+  CHECK(s.settle);
+  CHECK(s.output.settled == "a/r.ply");
+  CHECK_FALSE(scene("[garment]\nmesh = \"g.obj\"\n" + pins).settle);
+  CHECK(has(fault(settle), "a/s.toml:2:1: simulation.settle needs what the garment rests on"));
+  CHECK(has(fault("[output]\nsettled = \"r.ply\"\n" + pins), "a/s.toml:2:1: output.settled needs settle"));
+  CHECK(scene("[garment]\nmesh = \"g.obj\"\n" + settle + "[body]\nmesh = \"b.obj\"\n").settle);
+}
+
 TEST_CASE("scene_file: a kept shape needs hinges, and a body and pins that stand still") {
   const std::string keep = "[[lines]]\nstrokes = \"l.json\"\nrest = \"keep\"\n",
                     hinges = "[material]\npreset = \"denim\"\n";
