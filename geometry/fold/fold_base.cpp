@@ -45,20 +45,25 @@ std::vector<Vector> averaged_normals(const Mesh& mesh) {
   return normals;
 }
 
-double angle_defect(const Mesh& mesh) {
+std::vector<double> angle_defects(const Mesh& mesh) {
   std::vector<double> angles(mesh.num_vertices(), 0);
-  double area = 0;
   for (Face f : mesh.faces()) {
     const auto c = corners_of(mesh, f);
-    area += std::sqrt(area_normal_of(mesh, f).squared_length()) / 2;
     for (int i = 0; i < 3; ++i) {
       const Point &p = mesh.point(c[i]), &q = mesh.point(c[(i + 1) % 3]), &r = mesh.point(c[(i + 2) % 3]);
       angles[c[i].idx()] += angle_between(q - p, r - p);
     }
   }
-  double sum = 0;
+  std::vector<double> defects(mesh.num_vertices(), 0);
   for (Vertex v : mesh.vertices())
-    if (!mesh.is_isolated(v) && !mesh.is_border(v)) sum += std::abs(2 * std::numbers::pi - angles[v.idx()]);
+    if (!mesh.is_isolated(v) && !mesh.is_border(v)) defects[v.idx()] = 2 * std::numbers::pi - angles[v.idx()];
+  return defects;
+}
+
+double angle_defect(const Mesh& mesh) {
+  double area = 0, sum = 0;
+  for (Face f : mesh.faces()) area += std::sqrt(area_normal_of(mesh, f).squared_length()) / 2;
+  for (double defect : angle_defects(mesh)) sum += std::abs(defect);
   return area > 0 ? sum / area : 0;
 }
 

@@ -15,6 +15,9 @@ Point curved_place(const Mesh& mesh, const std::vector<Vector>& normals, const F
 /// of a coarse garment do not print into a fold; by vertex index, 0 for vertices without faces.
 std::vector<Vector> averaged_normals(const Mesh& mesh);
 
+/// By vertex index: 2 pi less the angles around an inner vertex [rad]; 0 for all others. O(faces).
+std::vector<double> angle_defects(const Mesh& mesh);
+
 /// Sum of the absolute angle defects (2 pi less the angles around it) of inner vertices over the area
 /// [rad/m^2]; 0 without area. Cloth is nearly developable, so what is more than that of the garment is error.
 double angle_defect(const Mesh& mesh);

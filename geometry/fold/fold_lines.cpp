@@ -298,6 +298,15 @@ std::vector<WrinkledLine> lines_of(std::span<const Stroke> strokes, const Folds&
   return lines;
 }
 
+void note_paths(const Folds& folds, int first, std::vector<WrinkledLine>& lines) {
+  for (const FoldCurve& curve : folds.curves)
+    for (std::size_t i = 0, n = curve.points.size(); i + (curve.closed ? 0 : 1) < n; ++i) {
+      const Vec3 &a = curve.points[i], &b = curve.points[(i + 1) % n];
+      lines[static_cast<std::size_t>(curve.line - first)].path.push_back(
+          {Point(a.x(), a.y(), a.z()), Point(b.x(), b.y(), b.z())});
+    }
+}
+
 LineShapes shapes_of(const std::vector<WrinkledLine>& lines, int first) {
   LineShapes shapes{std::vector<double>(static_cast<std::size_t>(first), 1),
                     std::vector<double>(static_cast<std::size_t>(first), unset_value)};
@@ -369,6 +378,8 @@ WrinkleReport fold_lines(Mesh& mesh, std::span<const Stroke> strokes, const Wrin
   const Raised raised = raised_on(mesh, work, band, folds, options, held);
   note_band(band, report);
   report.lines = lines_of(strokes, folds, band.chains, options.first_line);
+  note_paths(folds, options.first_line, report.lines);
+  report.undisplaced = raised.base;
   complete_springs(work, band.changed_faces);
 
   const LineShapes shapes = shapes_of(report.lines, options.first_line);

@@ -122,6 +122,7 @@ std::vector<Insertion> insert_lines(Mesh& mesh, std::span<const Stroke> strokes,
     report.insertion += one.report;
     report.lines.push_back({stroke.name, stroke.height, 0, 0, 0, one.line.chains, stroke.width,
                             stroke.sharpness.value_or(usual_sharpness), stroke.press});
+    report.lines.back().path = one.path;
     lines.push_back(std::move(one));
   }
   faults.raise();
@@ -160,6 +161,7 @@ WrinkleReport wrinkle(Mesh& mesh, std::span<const Stroke> strokes, const Wrinkle
   tell(Stage::inserted, work);
 
   const RestSnapshot before = take_rest_snapshot(work);
+  report.undisplaced = before.positions;
   const Moves moves = displacements(work, lines, strokes, held);
   const std::vector<double> widths = line_shapes(strokes, options.first_line).widths;
   const std::vector<double> base = heights_from(work, options.first_line, strokes.size(), widths);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -46,6 +47,8 @@ struct WrinkledLine {
   /// Rule fold: mean height over the surface before, along its normals, of the vertices where the fold is
   /// full, scaled to `height` where that varies [m].
   std::optional<double> crest_height = {};
+  /// The stroke as it lies on the cloth before it is raised, as segments; of rule fold smoothed [m].
+  std::vector<std::array<Point, 2>> path = {};
 };
 
 /// What rule fold did.
@@ -70,6 +73,7 @@ struct WrinkleReport {
          mean_bending_length = 0;     ///< r_avg of the mesh before any line [m] (S1.7)
   std::vector<std::string> warnings;  ///< lines for whose width the mesh is too coarse, and more
   std::optional<FoldReport> fold;     ///< of rule fold
+  std::vector<Point> undisplaced;     ///< where each vertex would lie without the lines' heights [m]
 };
 
 /// The stages of method S1.21 that geometry makes.

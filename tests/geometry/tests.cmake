@@ -47,4 +47,6 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   fold/line_region_test.cpp
   fold/taubin_smooth_test.cpp
   fold/wrinkle_test.cpp
+  quality/fold_quality_test.cpp
+  quality/fold_targets_test.cpp
 )
