@@ -73,6 +73,21 @@ void draw_again(WrinkleArguments& a, WrinkleJob& job) {
   job.strokes = std::move(recorded.strokes);
 }
 
+/// Options that the rule in use would not look at are refused, rather than ignored.
+void check_rule(const WrinkleArguments& a) {
+  const bool folds = a.rule == "fold";
+  const auto refuse = [&](std::initializer_list<const char*> options, const char* help) {
+    for (const char* option : options)
+      if (a.typed->count(option))
+        throw UsageError(std::string(option) + ": the rule " + a.rule + " does not use it; " + help);
+  };
+  if (folds)
+    refuse({"--iterations", "--weights", "--keep-lines", "--keep-border", "--region"},
+           "it goes with --rule safe or --rule paper (fold has --fold-iterations)");
+  else
+    refuse({"--detail", "--fold-iterations", "--flat-base"}, "it goes with --rule fold");
+}
+
 /// What a garment is kept in, or comes to rest in: material, forces, pins and body of the state, or of flags.
 SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
   io::TomlDocument document;
@@ -99,6 +114,7 @@ WrinkleJob job_of(WrinkleArguments& a) {
     job.garment = std::filesystem::path(a.in);
     job.strokes = std::filesystem::path(a.strokes);
   }
+  check_rule(a);
   job.without = a.without;
   job.height = a.height;
   job.width = a.width;

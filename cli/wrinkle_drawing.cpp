@@ -23,8 +23,8 @@ geometry::WrinkleOptions to_options(const WrinkleArguments& a) {
   WrinkleOptions o = a.options;
   o.smoothing = to_options(a.smoothing);
   o.insertion.rule = a.rule == "paper"  ? InsertionRule::paper
-                     : a.rule == "fold" ? InsertionRule::fold
-                                        : InsertionRule::safe;
+                     : a.rule == "safe" ? InsertionRule::safe
+                                        : InsertionRule::fold;
   o.detail = a.detail == "coarse" ? Detail::coarse : a.detail == "fine" ? Detail::fine : Detail::normal;
   o.rest = a.rest == "flat" ? RestRule::flat : a.rest == "copied" ? RestRule::copied : RestRule::drawn;
   o.region = a.region == "whole-mesh" ? SmoothingRegion::whole_mesh : SmoothingRegion::two_ring;

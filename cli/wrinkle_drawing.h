@@ -13,7 +13,7 @@ struct WrinkleArguments : CommonArguments {
   std::string in, strokes, state, inserted, smoothed, subdivide, preview;
   std::vector<std::string> without;
   double height = geometry::Stroke{}.height, fade = io::SceneLines{}.fade;
-  std::string rule = "safe", rest = "drawn", region = "two-ring", detail = "normal";
+  std::string rule = "fold", rest = "drawn", region = "two-ring", detail = "normal";
   std::optional<double> width, density;
   std::optional<int> max_weights;
   geometry::WrinkleOptions options;

@@ -17,7 +17,7 @@ namespace furrow::geometry {
 enum class SmoothingRegion { two_ring, whole_mesh };
 
 struct WrinkleOptions {
-  InsertionOptions insertion;
+  InsertionOptions insertion = {.rule = InsertionRule::fold};
   TaubinOptions smoothing;
   SmoothingRegion region = SmoothingRegion::two_ring;
   RestRule rest = RestRule::drawn;

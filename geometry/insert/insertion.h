@@ -42,10 +42,10 @@ struct InsertionOptions {
   double min_barycentric = 0.2;  ///< of a new vertex in its face [-]; [0, 1/3]; safe rule
   double min_angle_deg = 8;      ///< aimed at in the rest metric [degrees]; [0, 30]; safe rule
   /// h: mean rest edge of the mesh before the first line [m]; > 0; none: of the mesh given.
-  std::optional<double> mean_edge;
+  std::optional<double> mean_edge = {};
   /// Asked before a flip of the edge 0-1 to 2-3; says whether the surface may sweep over the tetrahedron.
   /// Empty: yes.
-  std::function<bool(const std::array<Point, 4>&)> may_flip;
+  std::function<bool(const std::array<Point, 4>&)> may_flip = {};
 };
 /// Throws std::invalid_argument that names the option and its value.
 void check(const InsertionOptions& options);

@@ -28,6 +28,16 @@ void check_lines(SettingsTable& table, const Scene& scene) {
   if (lines.strokes.empty()) table.fail("strokes", "is missing: name a stroke file");
   if (scene.lines.size() > 1 && lines.time < scene.lines[scene.lines.size() - 2].time)
     table.fail("time", "is before that of the lines above; write rounds of lines in their order");
+  if (lines.options.insertion.rule == geometry::InsertionRule::fold) {
+    for (const char* key : {"iterations", "weights", "keep_lines", "keep_border", "region"})
+      if (table.has(key))
+        table.fail(key,
+                   "goes with rule = \"safe\" or \"paper\", which this round does not name; the rule fold "
+                   "has fold_iterations");
+  } else {
+    for (const char* key : {"detail", "fold_iterations", "flat_base"})
+      if (table.has(key)) table.fail(key, "goes with rule = \"fold\"");
+  }
 }
 
 void check_body(SettingsTable& table, const Scene& scene) {

@@ -69,7 +69,7 @@ physics::SimulateTotals totals_of(const Json& j) {
 
 Json to_json(const SavedState& saved) {
   const SimulateState& s = saved.simulation;
-  Json json{{"version", 1},
+  Json json{{"version", 2},
             {"time", s.time},
             {"step", s.step},
             {"planned", s.planned},
@@ -111,8 +111,19 @@ std::vector<std::vector<int>> pins_of(const Json& json, std::size_t vertices) {
   return pins;
 }
 
+/// Version 1 is of the time when lines that named no rule were drawn by "safe".
+void name_rule(nlohmann::ordered_json& scene) {
+  if (!scene.contains("lines")) return;
+  auto& lines = scene["lines"];
+  if (lines.is_object() && !lines.contains("rule")) lines["rule"] = "safe";
+  if (!lines.is_array()) return;
+  for (auto& round : lines)
+    if (round.is_object() && !round.contains("rule")) round["rule"] = "safe";
+}
+
 SavedState from_json(const Json& json, std::size_t vertices) {
-  if (json.value("version", 0) != 1) throw std::invalid_argument("its version is not 1");
+  const int version = json.value("version", 0);
+  if (version != 1 && version != 2) throw std::invalid_argument("its version is not 1 or 2");
   SavedState saved;
   SimulateState& s = saved.simulation;
   s.time = json.at("time");
@@ -143,6 +154,7 @@ SavedState from_json(const Json& json, std::size_t vertices) {
     throw std::invalid_argument("contact_gap is not in [0, 1) m");
   saved.scene = json.at("scene");
   if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
+  if (version == 1) name_rule(saved.scene);
   saved.scene.erase("output");  // a state has none: a stranger's would write where nobody said
   return saved;
 }

@@ -13,6 +13,7 @@
 #include "physics/contact/residual_force.h"
 #include "physics/rest/rigid_imbalance.h"
 #include "tests/cases/random_garments.h"
+#include "tests/cases/safe_rule.h"
 
 using namespace furrow;
 using bridge::KeepOptions;
@@ -38,7 +39,8 @@ struct Hung {
     options.line_widths = material.line_widths = {width.value_or(NAN)};
     options.line_presses = material.line_presses = {press};
     ridge.points = {{-0.08, 0.2, 0}, {0.08, 0.2, 0}};
-    const geometry::WrinkleReport report = geometry::wrinkle(mesh, std::span(&ridge, 1), {});
+    const geometry::WrinkleReport report =
+        geometry::wrinkle(mesh, std::span(&ridge, 1), furrow::tests::safe_rule());
     material.mean_structural_length = report.mean_structural_length;
     material.mean_bending_length = report.mean_bending_length;
     material.membrane = bridge::Membrane::triangles;
@@ -178,7 +180,7 @@ TEST_CASE(
     lines[side].height = side ? 0.01 : -0.01;
     lines[side].points = {{x, y, -0.05}, {x, y, 0.05}};
   }
-  const geometry::WrinkleReport report = geometry::wrinkle(mesh, lines, {});
+  const geometry::WrinkleReport report = geometry::wrinkle(mesh, lines, furrow::tests::safe_rule());
   Hung hung(1e-4);
   hung.mesh = mesh;
   hung.material.mean_structural_length = report.mean_structural_length;
@@ -253,7 +255,7 @@ TEST_CASE("keep_lines: a line whose height cannot be measured is told, and not h
   hem.height = 0.01;
   hem.width = 0.08;
   hem.points = {{-0.149, 0.03, 0}, {0.149, 0.03, 0}};
-  geometry::wrinkle(hung.mesh, std::span(&hem, 1), {});
+  geometry::wrinkle(hung.mesh, std::span(&hem, 1), furrow::tests::safe_rule());
   hung.cloth = hung.gathered();
   hung.options.line_widths = {0.08};
   hung.options.seconds = 0.1;

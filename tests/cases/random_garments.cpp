@@ -11,6 +11,7 @@
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/sheet.h"
 #include "physics/cloth/pins.h"
+#include "tests/cases/safe_rule.h"
 
 namespace furrow::cases {
 namespace {
@@ -136,7 +137,7 @@ RandomGarment random_garment(std::uint64_t seed, int lines, double edge) {
     strokes.push_back(stroke_of(line, cut, random));
     g.lines.push_back(line);
   }
-  const geometry::WrinkleReport report = geometry::wrinkle(g.mesh, strokes);
+  const geometry::WrinkleReport report = geometry::wrinkle(g.mesh, strokes, tests::safe_rule());
   for (int i = 0; i < lines; ++i) g.lines[i].base = report.lines[i].base_height;
   g.springs.mean_structural_length = report.mean_structural_length;
   g.springs.mean_bending_length = report.mean_bending_length;

@@ -14,6 +14,7 @@
 #include "geometry/rest/rest_state.h"
 #include "io/stroke/stroke_file.h"
 #include "physics/body/exact_distance.h"
+#include "tests/cases/safe_rule.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 
@@ -151,7 +152,8 @@ TEST_CASE("meshes: the lines for the sheet, the skirt and the shirt are drawn wh
                                                              {"shirt.obj", "figure_shirt_right.json", 1}}));
   CAPTURE(strokes);
   Mesh mesh = committed(garment);
-  const WrinkleReport report = wrinkle(mesh, io::read_strokes(source_dir() / "meshes" / "strokes" / strokes));
+  const WrinkleReport report = wrinkle(mesh, io::read_strokes(source_dir() / "meshes" / "strokes" / strokes),
+                                       furrow::tests::safe_rule());
   REQUIRE(report.lines.size() == count);
   CHECK(report.insertion.max_deviation < 0.01);
   const RestMetricAudit audit = audit_rest_metric(mesh);

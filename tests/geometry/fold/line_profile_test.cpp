@@ -9,6 +9,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/sheet.h"
+#include "tests/cases/safe_rule.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow::geometry;
@@ -42,7 +43,7 @@ Point bent(const Point& p, double radius) {
   return {radius * std::sin(p.x() / radius), p.y(), radius * std::cos(p.x() / radius)};
 }
 
-Mesh raised(Mesh mesh, const std::vector<Stroke>& strokes, const WrinkleOptions& options = {}) {
+Mesh raised(Mesh mesh, const std::vector<Stroke>& strokes, const WrinkleOptions& options = safe_rule()) {
   wrinkle(mesh, strokes, options);
   return mesh;
 }
@@ -76,7 +77,7 @@ TEST_CASE("line_profile: a line with a width has the same heights and cross-sect
     for (double h : {0.02, 0.01, 0.005}) {
       Mesh mesh = equilateral_sheet(0.4, 0.4, h);
       const std::vector<Stroke> strokes{oblique(sharpness)};
-      const WrinkleReport report = wrinkle(mesh, strokes);
+      const WrinkleReport report = wrinkle(mesh, strokes, safe_rule());
       CHECK(report.lines[0].drawn_height == Approx(fold_height).epsilon(1e-9));
       CHECK(report.lines[0].smoothed_height == Approx(fold_height).epsilon(1e-9));  // it is not smoothed
       const auto line = *find_map(mesh, attribute::line);
@@ -101,7 +102,7 @@ TEST_CASE("line_profile: a line with a width on curved cloth has one height on c
     for (int i = 0; i <= 50; ++i)
       stroke.points.push_back(bent(Point(-0.1 + 0.2 * i / 50, 0.12 + 0.11 * i / 50, 0), 0.15));
     const std::vector<Stroke> strokes{stroke};
-    heights.push_back(wrinkle(mesh, strokes).lines[0].smoothed_height);
+    heights.push_back(wrinkle(mesh, strokes, safe_rule()).lines[0].smoothed_height);
   }
   for (double height : heights) CHECK(height == Approx(fold_height).epsilon(0.02));
 }
@@ -186,7 +187,7 @@ TEST_CASE("line_profile: a fold's press reaches hinges whose stiffness is stored
   for (Edge e : mesh.edges()) stiffness[e] = 2;
   Stroke pressed = fold({{-0.1, 0.17, 0}, {0.1, 0.17, 0}});
   pressed.press = 10;
-  wrinkle(mesh, std::vector<Stroke>{pressed});
+  wrinkle(mesh, std::vector<Stroke>{pressed}, safe_rule());
   const auto after = find_map(mesh, attribute::hinge_stiffness);
   REQUIRE(after);
   int near = 0, pressed_edges = 0;
@@ -204,7 +205,7 @@ TEST_CASE("line_profile: a fold's press reaches hinges whose stiffness is stored
 TEST_CASE("line_profile: a fold along a border has a height that nobody can measure, and says so") {
   Mesh mesh = equilateral_sheet(0.3, 0.3, 0.01);
   Stroke hem = fold({{-0.149, 0.02, 0}, {0.149, 0.02, 0}});
-  const WrinkleReport report = wrinkle(mesh, std::vector<Stroke>{hem});
+  const WrinkleReport report = wrinkle(mesh, std::vector<Stroke>{hem}, safe_rule());
   CHECK(std::isnan(report.lines.at(0).drawn_height));
   CHECK(std::isfinite(height_at(mesh, 0, 0.02)));
   CHECK(height_at(mesh, 0, 0.02) > 0.5 * fold_height);
@@ -212,7 +213,7 @@ TEST_CASE("line_profile: a fold along a border has a height that nobody can meas
 
 TEST_CASE("line_profile: a fold over the border raises the hem, and what is held stays") {
   Mesh sheet = equilateral_sheet(0.4, 0.4, 0.01);
-  WrinkleOptions options;
+  WrinkleOptions options = safe_rule();
   for (Vertex v : sheet.vertices())
     if (sheet.point(v).y() > 0.3999) options.held.push_back(v);
   const Mesh mesh =
@@ -236,16 +237,16 @@ TEST_CASE("line_profile: a line without a width keeps its bits beside one with a
 TEST_CASE("line_profile: wrinkle warns of a mesh too coarse for the width, and refuses shapes out of range") {
   Mesh coarse = equilateral_sheet(0.4, 0.4, 0.03), fine = equilateral_sheet(0.4, 0.4, 0.01);
   const std::vector<Stroke> strokes{oblique()};
-  const WrinkleReport report = wrinkle(coarse, strokes);
+  const WrinkleReport report = wrinkle(coarse, strokes, safe_rule());
   REQUIRE(report.warnings.size() == 1);
   CHECK(report.warnings[0].find("60 mm") != std::string::npos);
   Mesh again = fine;
-  CHECK(wrinkle(fine, strokes).warnings.empty());
+  CHECK(wrinkle(fine, strokes, safe_rule()).warnings.empty());
   const auto refused = [&](auto change, const char* what) {
     Stroke stroke = oblique();
     stroke.name = "belly";
     change(stroke);
-    CHECK_THROWS_WITH(wrinkle(again, std::span(&stroke, 1)),
+    CHECK_THROWS_WITH(wrinkle(again, std::span(&stroke, 1), safe_rule()),
                       Catch::Contains("belly") && Catch::Contains(what));
   };
   refused([](Stroke& s) { s.width = 0; }, "'width' = 0");

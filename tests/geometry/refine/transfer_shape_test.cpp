@@ -8,6 +8,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/refine/subdivide.h"
+#include "tests/cases/safe_rule.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow::geometry;
@@ -38,7 +39,7 @@ TEST_CASE("transfer: surviving vertices are copied, all else of the original sta
   for (Halfedge h : original.halfedges()) texture[h] = {h.idx() / 3.0, 0};
   Mesh wrinkled = original;
   const std::vector<Stroke> strokes{ridge()};
-  wrinkle(wrinkled, strokes);
+  wrinkle(wrinkled, strokes, furrow::tests::safe_rule());
   Mesh result = original;
   const TransferReport report = transfer_shape(result, wrinkled);
   CHECK(report.copied == original.number_of_vertices());

@@ -7,6 +7,7 @@
 
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/property_names.h"
+#include "tests/cases/safe_rule.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow::geometry;
@@ -58,7 +59,7 @@ TEST_CASE(
   Stroke stroke;
   stroke.points = {before.point(Vertex(30)), before.point(Vertex(130))};
   stroke.height = 0;
-  WrinkleOptions options;
+  WrinkleOptions options = furrow::tests::safe_rule();
   options.insertion.max_distance = 0.2;
   wrinkle(mesh, std::span(&stroke, 1), options);
   auto rest = *find_map(mesh, attribute::rest_angle);

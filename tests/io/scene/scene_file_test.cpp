@@ -31,6 +31,18 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
+TEST_CASE("scene_file: lines are drawn by the rule fold, and what a rule does not use is refused") {
+  const std::string lines = "[garment]\nmesh = \"g.obj\"\n[[lines]]\nstrokes = \"l.json\"\n";
+  const auto rule_of = [&](const std::string& more) {
+    return scene(lines + more).lines[0].options.insertion.rule;
+  };
+  CHECK(rule_of("") == geometry::InsertionRule::fold);
+  CHECK(rule_of("rule = \"safe\"\niterations = 3\n") == geometry::InsertionRule::safe);
+  CHECK(has(fault(lines + "iterations = 3\n"), "lines.0.iterations = 3 goes with rule = \"safe\""));
+  CHECK(has(fault(lines + "region = \"whole-mesh\"\n"), "goes with rule = \"safe\""));
+  CHECK(has(fault(lines + "rule = \"paper\"\ndetail = \"fine\"\n"), "goes with rule = \"fold\""));
+}
+
 TEST_CASE("scene_file: a scene file says everything that a simulation is made of") {
   const io::Scene s = scene(R"(
 title = "all"
@@ -43,6 +55,7 @@ subdivide = 1
 strokes = "../l.json"
 height = 0.02
 rest = "flat"
+rule = "safe"
 iterations = 4
 keep_lines = true
 without = ["b"]

@@ -13,6 +13,7 @@
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/masses.h"
 #include "io/mesh/mesh_file.h"
+#include "tests/cases/safe_rule.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;
@@ -26,7 +27,7 @@ io::SavedState state() {
   mesh = tests::jittered(6, 6, 0.2, 5);
   geometry::Stroke stroke;
   stroke.points = {{0.2, 0.2, 0}, {0.8, 0.7, 0}};
-  geometry::wrinkle(mesh, std::span(&stroke, 1));
+  geometry::wrinkle(mesh, std::span(&stroke, 1), tests::safe_rule());
   s.file.comments = {"made by hand"};
   io::set_wrinkle_record(s.file, {});
   auto velocity = geometry::ensure_map(mesh, geometry::attribute::velocity);
@@ -105,6 +106,23 @@ TEST_CASE("state_file: a state holds everything to the last bit") {
     CHECK(velocity[v] == read[v]);
   }
   for (auto f : was.file.mesh.faces()) CHECK(generation[f] == generation_read[f]);
+}
+
+TEST_CASE(
+    "state_file: lines of version 1 that name no rule are those of the rule safe, of version 2 of fold") {
+  io::SavedState s = state();
+  s.scene["garment"]["mesh"] = "g.obj";
+  s.scene["lines"] = {{{"strokes", "a.json"}}, {{"strokes", "b.json"}, {"rule", "paper"}}};
+  std::string bytes = io::state_bytes(s);
+  CHECK_FALSE(io::parse_state(bytes, "s.ply").scene["lines"][0].contains("rule"));
+  const std::size_t at = bytes.find("\"version\":2");
+  REQUIRE(at != std::string::npos);
+  bytes[at + 10] = '1';
+  const io::SavedState old = io::parse_state(bytes, "s.ply");
+  CHECK(old.scene["lines"][0]["rule"] == "safe");
+  CHECK(old.scene["lines"][1]["rule"] == "paper");
+  bytes[at + 10] = '3';
+  CHECK_THROWS_AS(io::parse_state(bytes, "s.ply"), geometry::ContentError);
 }
 
 TEST_CASE(
