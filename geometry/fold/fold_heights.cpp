@@ -53,6 +53,20 @@ FoldHeight::FoldHeight(const FoldCurve& curve)
   if (curve.ends_at_border) extend(curve, true, ds);
   divide_by_crest(curve);
   make_blocks();
+  reach_height();
+}
+
+/// A line so short that T is below 1 on most of its width would stay below its height: the highest place of
+/// its crest is taken to it.
+void FoldHeight::reach_height() {
+  double most = 0;
+  for (const Place& place : places_) {
+    if (place.height == 0) continue;
+    const double asked = place.height / std::max(place.taper, 1e-300);
+    most = std::max(most, sum_at(place.point) / asked);
+  }
+  if (!(most > 0) || most >= 1) return;
+  for (Place& place : places_) place.weight /= most;
 }
 
 double FoldHeight::rise(double along) const {
@@ -76,7 +90,7 @@ double FoldHeight::height_at(double along) const {
 void FoldHeight::add(const FoldCurve& curve, const Vec3& point, std::size_t i, double ds) {
   const double t = rise(curve.arc[i]);
   const double radius = curve.width[i] * (narrowest + (1 - narrowest) * t) / 2;
-  places_.push_back({point, radius, curve.height[i] * t, 15 / (16 * radius) * ds});
+  places_.push_back({point, radius, curve.height[i] * t, t, 15 / (16 * radius) * ds});
 }
 
 void FoldHeight::extend(const FoldCurve& curve, bool at_end, double ds) {
@@ -145,7 +159,7 @@ double FoldHeight::tent(const Vec3& x) const {
   return height;
 }
 
-double FoldHeight::at(const Vec3& x) const {
+double FoldHeight::sum_at(const Vec3& x) const {
   double sum = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if ((x - blocks_[b].centre).squaredNorm() >= blocks_[b].reach * blocks_[b].reach) continue;
@@ -153,6 +167,11 @@ double FoldHeight::at(const Vec3& x) const {
     for (std::size_t i = b * block_size; i < last; ++i)
       sum += places_[i].weight * bump((x - places_[i].point).squaredNorm(), places_[i].radius);
   }
+  return sum;
+}
+
+double FoldHeight::at(const Vec3& x) const {
+  const double sum = sum_at(x);
   return sharpness_ > 0 ? (1 - sharpness_) * sum + sharpness_ * tent(x) : sum;
 }
 

@@ -14,7 +14,8 @@ namespace furrow::geometry {
 /// w: crest k, zero with two derivatives at d = w/2, steepest 3.25 k / w. There is no nearest point, so none
 /// jumps, and ends are round by themselves. T rises as a quintic smoothstep over FoldCurve::rise, and w from
 /// 0.6 of itself over the same way. N is the integral at the crest itself for k = T = 1, which differs from 1
-/// where the curve is bent. FoldCurve::sharpness blends towards the tent k T (1 - t) of the nearest point.
+/// where the curve is bent; of a line so short that u stays below k everywhere, it is what takes its highest
+/// place to k. FoldCurve::sharpness blends towards the tent k T (1 - t) of the nearest point.
 class FoldHeight {
  public:
   explicit FoldHeight(const FoldCurve& curve);
@@ -30,7 +31,7 @@ class FoldHeight {
  private:
   struct Place {
     Eigen::Vector3d point;
-    double radius, height, weight;  ///< R, k T, and k T 15 / (16 R N) ds
+    double radius, height, taper, weight;  ///< R, k T, T, and k T 15 / (16 R N) ds
   };
   struct Block {
     Eigen::Vector3d centre;
@@ -41,6 +42,8 @@ class FoldHeight {
   void extend(const FoldCurve& curve, bool at_end, double ds);
   void divide_by_crest(const FoldCurve& curve);
   void make_blocks();
+  void reach_height();
+  double sum_at(const Eigen::Vector3d& x) const;
   double tent(const Eigen::Vector3d& x) const;
 
   const std::vector<double> arc_, heights_;

@@ -9,6 +9,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/stroke/placed_stroke.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "geometry/stroke/trace_stroke.h"
 #include "geometry/stroke/walk_surface.h"
@@ -105,7 +106,7 @@ class Preparing {
   }
 
   PreparedStrokes prepare() {
-    for (std::size_t i = 0; i < strokes_.size(); ++i) trace(i);
+    trace_all();
     choose_widths();
     for (const Piece& piece : pieces_) result_.curves.push_back(curve_of(piece));
     for (std::size_t i = 0; i < strokes_.size(); ++i) warn_of_shape(i);
@@ -116,6 +117,19 @@ class Preparing {
  private:
   void warn(std::size_t stroke, const std::string& what) {
     result_.warnings.push_back(quoted(strokes_[stroke]) + what);
+  }
+
+  /// Every stroke that does not lie on the mesh is told at once.
+  void trace_all() {
+    StrokeFaults faults;
+    for (std::size_t i = 0; i < strokes_.size(); ++i) {
+      try {
+        trace(i);
+      } catch (const ContentError& e) {
+        faults.add(e.what());
+      }
+    }
+    faults.raise();
   }
 
   void trace(std::size_t i) {

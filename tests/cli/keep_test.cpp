@@ -23,9 +23,11 @@ std::string write_hung_scene(const ScratchDirectory& scratch) {
                    R"(
 [[lines]]
 strokes = "a.json"
+rule = "safe"
 height = 0.004
 [[lines]]
 strokes = "b.json"
+rule = "safe"
 height = 0.004
 )" + std::string(hung_patch) +
                        "drag = 4\n");

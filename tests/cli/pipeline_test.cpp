@@ -50,8 +50,7 @@ TEST_CASE("pipeline: wrinkle reports what it did and writes what simulate needs"
   CHECK(report["rest_area_after"].get<double>() > report["rest_area_before"].get<double>());
   CHECK(report["total_mass"].get<double>() == Approx(0.15 * report["rest_area_after"].get<double>()));
   CHECK(report["lines"][0]["name"] == "fold");
-  CHECK(report["lines"][0]["drawn_height"].get<double>() >
-        report["lines"][0]["smoothed_height"].get<double>());
+  CHECK(report["lines"][0]["crest_height"].get<double>() == Approx(0.03).epsilon(0.03));
   const std::string ply = read_text(sheet.wrinkled);
   for (const char* word : {"property double x", "property int line", "property double mass", "element edge",
                            "property int vertex1", "property int vertex2", "property double rest_length",
@@ -196,7 +195,7 @@ TEST_CASE("pipeline: the same stroke twice gives the height of the second, and t
   write_text(sheet.strokes,
              R"({"strokes":[{"height":0.03,"points":[[0.2,0,-0.52],[0.8,0,-0.47]]},
                             {"height":0.01,"points":[[0.2,0,-0.52],[0.8,0,-0.47]]}]})");
-  const json report = sheet.wrinkle();
+  const json report = sheet.wrinkle("--rule safe");
   CHECK(report["lines"][1]["drawn_height"].get<double>() == Approx(0.01).margin(1e-3));
   const Run run =
       run_furrow("simulate --json --seconds 0.01 " + sheet.wrinkled + " -o " + (sheet.scratch / "o.ply"));
@@ -225,7 +224,7 @@ TEST_CASE("pipeline: a PLY in centimetres says so, and is read as such without a
   const std::string cm = sheet.scratch / "cm.ply";
   write_text(sheet.scratch / "cm.obj", "v 0 0 0\nv 100 0 0\nv 100 100 0\nv 0 100 0\nf 1 2 3 4\n");
   write_text(sheet.strokes, R"({"strokes":[{"height":0.1,"points":[[60,40,0]]}]})");
-  REQUIRE(run_furrow("wrinkle -q --iterations 0 --unit cm " + (sheet.scratch / "cm.obj") + " " +
+  REQUIRE(run_furrow("wrinkle -q --rule safe --unit cm " + (sheet.scratch / "cm.obj") + " " +
                      sheet.strokes + " -o " + cm)
               .exit_code == 0);
   const json report = json::parse(run_furrow("info --json " + cm).out);

@@ -52,9 +52,11 @@ std::string write_kept_scene(const ScratchDirectory& scratch) {
   write_text(path, "[garment]\nmesh = \"" + patch + "\"\n" + R"(
 [[lines]]
 strokes = "a.json"
+rule = "safe"
 rest = "keep"
 [[lines]]
 strokes = "b.json"
+rule = "safe"
 rest = "keep"
 time = 0.05
 )" + hung_patch + "[simulation]\nseconds = 0.1\n");

@@ -44,8 +44,10 @@ class FallingSheet {
 mesh = "sheet.ply"
 [[lines]]
 strokes = "first.json"
+rule = "safe"
 [[lines]]
 strokes = "second.json"
+rule = "safe"
 time = 0.07
 [body]
 mesh = "ball.ply"

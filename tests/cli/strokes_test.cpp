@@ -63,7 +63,7 @@ TEST_CASE("strokes: with a picture, its camera and pixels they are drawn without
   CHECK(lines[0]["name"] == "across");
   for (const json& line : lines) {
     CHECK(line["parts"] == 1);
-    CHECK(line["drawn_height"].get<double>() == Approx(line["height"].get<double>()).margin(2e-3));
+    CHECK(line["crest_height"].get<double>() == Approx(line["height"].get<double>()).epsilon(0.05));
   }
   const json listed =
       json::parse(run_furrow("strokes --json " + wall.strokes + " --garment " + wall.mesh).out)["strokes"];
@@ -110,9 +110,10 @@ TEST_CASE(
   wall.draw();
   const std::string fewer = wall.scratch / "fewer.json", direct = wall.scratch / "direct.ply",
                     again = wall.scratch / "again.ply";
-  wall.wrinkle(wall.mesh + " " + wall.strokes + " -o " + wall.wrinkled + " --iterations 4 --density 0.2");
+  wall.wrinkle(wall.mesh + " " + wall.strokes + " -o " + wall.wrinkled +
+               " --fold-iterations 2 --density 0.2");
   REQUIRE(run_furrow("strokes -q " + wall.wrinkled + " --remove up -o " + fewer).exit_code == 0);
-  wall.wrinkle(wall.mesh + " " + fewer + " -o " + direct + " --iterations 4 --density 0.2");
+  wall.wrinkle(wall.mesh + " " + fewer + " -o " + direct + " --fold-iterations 2 --density 0.2");
   wall.wrinkle(wall.wrinkled + " --without up -o " + again);
   CHECK(read_text(again) == read_text(direct));
   CHECK(wall.wrinkle(wall.wrinkled + " -o " + again)["lines"].size() == 3);
@@ -190,7 +191,7 @@ TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carr
   CHECK_FALSE(list[0].contains("width"));
   const json wrinkled = wall.wrinkle(wall.mesh + " " + edited + " -o " + wall.wrinkled);
   CHECK(wrinkled["lines"][1]["width"] == 0.2);
-  CHECK(wrinkled["lines"][1]["smoothed_height"].get<double>() ==
+  CHECK(wrinkled["lines"][1]["crest_height"].get<double>() ==
         Approx(-0.01).epsilon(0.25));  // another line is near
   const Run again = run_furrow("strokes --json " + wall.wrinkled + " --change up.width=none -o " + edited);
   CHECK_FALSE(json::parse(again.out)["strokes"][1].contains("width"));

@@ -97,7 +97,7 @@ TEST_CASE("wrinkle: what a wrinkled file was made of draws the same lines again"
   const jobs::RecordedDrawing recorded = jobs::recorded_drawing(job.output, {{}, recorder});
   CHECK(recorded.garment == folder / "sheet.obj");
   CHECK_FALSE(recorded.was_kept);
-  CHECK(recorded.options.find("--rule safe") != std::string::npos);
+  CHECK(recorded.options.find("--rule fold") != std::string::npos);
   job.garment = recorded.garment;
   job.strokes = recorded.strokes;
   job.output.clear();

@@ -56,6 +56,21 @@ TEST_CASE("fold_heights: a straight line has the section k (1 - t^2)^(5/2) up to
   CHECK(FoldHeight(sharp).at(Vec3(0.2, section_width / 8, 0)) == Approx(0.75 * section_height).epsilon(1e-9));
 }
 
+TEST_CASE("fold_heights: a line with free ends reaches its height, however short it is") {
+  for (const double length : {0.06, 0.09, 0.15, 0.4})
+    for (const double sharpness : {0.0, 1.0}) {
+      FoldCurve curve = straight(length);
+      curve.begins_at_border = curve.ends_at_border = false;
+      curve.rise = {std::min(1.5 * section_width, 0.45 * length),
+                    std::min(1.5 * section_width, 0.45 * length)};
+      curve.sharpness = sharpness;
+      const FoldHeight fold(curve);
+      double most = 0;
+      for (int i = 0; i <= 200; ++i) most = std::max(most, fold.at(Vec3(length * i / 200, 0, 0)));
+      CHECK(most == Approx(section_height).epsilon(1e-6));
+    }
+}
+
 TEST_CASE("fold_heights: the section does not depend on how densely the curve is sampled") {
   const FoldHeight coarse(straight(0.5, 167)), fine(straight(0.5, 1001));  // width / 20, width / 120
   for (double y = 0; y < section_width / 2; y += section_width / 30)
