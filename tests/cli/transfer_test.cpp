@@ -23,7 +23,8 @@ struct Skirt {
   std::string wrinkled = scratch / "wrinkled.ply";
   int snapped = 0;
   Skirt() {
-    snapped = succeed("wrinkle --json " + mesh + " " + strokes + " -o " + wrinkled)["snapped_vertices"];
+    snapped =
+        succeed("wrinkle --json " + mesh + " " + strokes + " -o " + wrinkled)["fold"]["snapped_vertices"];
   }
 };
 
@@ -107,7 +108,8 @@ TEST_CASE("transfer: skin weights and other columns of a PLY survive wrinkle, --
       CHECK(list[2].values[v] == Approx(limited ? 0 : 0.125).epsilon(1e-12));
       if (v.idx() < 121 && list[3].values[v] != v.idx() % 11) ++changed;
     }
-    CHECK(changed <= report["snapped_vertices"].get<int>());  // those that slid onto the line take its values
+    CHECK(changed <=
+          report["fold"]["snapped_vertices"].get<int>());  // those that slid onto the line take its values
   }
 }
 
