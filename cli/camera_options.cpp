@@ -17,6 +17,8 @@ const std::map<std::string, std::pair<double, double>> views{{"three-quarter", {
 const std::map<std::string, io::Quality> qualities{
     {"draft", io::Quality::draft}, {"normal", io::Quality::normal}, {"fine", io::Quality::fine}};
 
+constexpr double wire_pixels = 0.6;
+
 io::Position position(const std::string& text, const std::string& option) {
   const std::vector<double> x = parse_numbers(text, 3, option);
   return {x[0], x[1], x[2]};
@@ -50,6 +52,9 @@ io::Camera camera_of(std::span<const io::RenderScene> scenes, const io::RenderOp
 io::RenderOptions render_options(std::span<const io::RenderScene> scenes, const CameraArguments& a) {
   io::RenderOptions options;
   options.quality = qualities.at(a.quality);
+  options.thickness = a.thickness;
+  options.oversample = a.oversample;
+  if (a.wire) options.wire_pixels = wire_pixels;
   options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   if (!a.camera.empty()) {
     const io::CameraPicture picture = io::read_camera(a.camera);
@@ -96,6 +101,16 @@ void add_camera_options(CLI::App& sub, CameraArguments& a) {
   sub.add_option("--quality", a.quality, "draft, normal or fine")
       ->check(CLI::IsMember(qualities))
       ->capture_default_str();
+  sub.add_option("--oversample", a.oversample,
+                 "make the picture so many times as large, and each pixel the mean of a square: finer, and "
+                 "slower; 1 to 8")
+      ->check(CLI::Range(1, 8))
+      ->capture_default_str();
+  sub.add_option("--thickness", a.thickness,
+                 "of the cloth in the picture [m], 0 to 1; 0 for none. At most 1/200 of the scene is shown")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub.add_flag("--wire", a.wire, "show the edges of the cloth's mesh");
 }
 
 }  // namespace furrow::cli

@@ -7,12 +7,15 @@
 
 namespace furrow::cli {
 
-/// From where a picture is taken, how large it is and how well it is made.
+/// From where a picture is taken, how large it is and how it is made.
 struct CameraArguments {
   std::string view = "three-quarter", eye, target, up_vector, size = "1200,1200", quality = "normal", camera,
               save_camera;
   double field_of_view = io::View{}.field_of_view_deg;
   std::optional<double> parallel;
+  double thickness = io::RenderOptions{}.thickness;
+  int oversample = 1;
+  bool wire = false;
 };
 void add_camera_options(CLI::App& sub, CameraArguments& camera);
 

@@ -25,7 +25,7 @@ struct DrapeArguments : CommonArguments {
   std::vector<std::string> bands;
   SceneFlags flags;
   CameraArguments camera;
-  bool view_chosen = false;
+  bool view_chosen = false, no_legend = false;
 };
 
 std::string trimmed(const std::string& text) {
@@ -132,7 +132,8 @@ void write_picture(DrapeJobReport& report, const DrapeArguments& a, const Common
   const std::vector<io::RenderScene> scenes = fit_scenes(panels);
   Terminal terminal(common);
   const io::RenderOptions options = render_options(scenes, a.camera);
-  io::write_png(a.picture, fit_picture(panels, scenes, scale, options, a.view_chosen, terminal));
+  io::write_png(a.picture,
+                fit_picture(panels, scenes, scale, options, a.view_chosen, terminal, !a.no_legend));
   save_camera(options, a.camera);
 }
 
@@ -222,6 +223,7 @@ void add_drape(CLI::App& app, int& exit_code) {
   sub->add_option("--picture", a->picture, "PNG to write: the garment on the body, coloured, with a legend");
   sub->add_option("--colour", a->colour, "of the picture: strain (default) or distance")
       ->check(CLI::IsMember({"strain", "distance"}));
+  sub->add_flag("--no-legend", a->no_legend, "leave the bar of colours and the words out of the picture");
   sub->add_option("--fabrics", a->compare, "fabrics separated by commas: one picture of them all");
   sub->add_option("--animation", a->animation,
                   "the way to rest, not a motion in time: a frame an iteration; pc2, mdd or glb");

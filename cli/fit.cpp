@@ -18,7 +18,7 @@ struct FitArguments : CommonArguments {
   std::optional<double> range, contact;
   bridge::FitOptions options;
   CameraArguments camera;
-  bool compare = false, view_chosen = false;
+  bool compare = false, view_chosen = false, no_legend = false;
 };
 
 /// "chest=1.25" and the like.
@@ -86,7 +86,8 @@ void write_picture(const FitJobReport& report, const FitArguments& a, const Comm
   Terminal terminal(a);
   const io::RenderOptions options = render_options(scenes, a.camera);
   const io::FitScale scale = fit_scale(report.shown, a.options, a.range);
-  io::write_png(a.picture, fit_picture(panels, scenes, scale, options, a.view_chosen, terminal));
+  io::write_png(a.picture,
+                fit_picture(panels, scenes, scale, options, a.view_chosen, terminal, !a.no_legend));
   save_camera(options, a.camera);
 }
 
@@ -158,6 +159,7 @@ void add_fit(CLI::App& app) {
       ->check(CLI::IsMember({"strain", "distance"}));
   sub->add_option("--range", a->range,
                   "where the colours end: strain [-] or distance [m]; default 2 x --tight, 1.2 x --loose");
+  sub->add_flag("--no-legend", a->no_legend, "leave out the bar of colours and the words beside it");
   sub->add_option("--captions", a->captions,
                   "words for the pictures, separated by commas; default: file names");
   add_thresholds(*sub, *a);

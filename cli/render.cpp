@@ -25,14 +25,26 @@ namespace {
 struct RenderArguments : CommonArguments {
   std::vector<std::string> meshes;
   std::vector<std::string> bodies, strokes;
-  std::string texture, captions;
+  std::string texture, captions, colour;
   CameraArguments camera;
-  bool strip = false, no_lines = false;
+  bool strip = false, no_lines = false, figure = false;
 };
 
 std::shared_ptr<const io::Image> read_texture(const std::string& name) {
   if (name.empty()) return nullptr;
   return std::make_shared<io::Image>(name == "checker" ? io::checker_texture() : io::read_png(name));
+}
+
+/// A colour as in HTML: #rrggbb. Throws UsageError.
+io::Colour parse_colour(const std::string& text) {
+  const std::size_t first = text.starts_with('#') ? 1 : 0;
+  if (text.size() != first + 6 ||
+      text.find_first_not_of("0123456789abcdefABCDEF", first) != std::string::npos)
+    throw UsageError("--colour takes a colour as #rrggbb, such as #b03a48, not '" + text + "'");
+  io::Colour colour;
+  for (std::size_t k = 0; k < 3; ++k)
+    colour[k] = float(std::stoi(text.substr(first + 2 * k, 2), nullptr, 16)) / 255;
+  return colour;
 }
 
 /// Faces of the cloth that cross are magenta, as in the pictures of drape; counts the pairs.
@@ -54,6 +66,10 @@ void add_garment(io::RenderScene& scene, const std::string& path,
   if (texture && !geometry::find_map(file.mesh, geometry::attribute::texture))
     throw geometry::ContentError(path + ": has no texture coordinates to lay --texture on with");
   scene.meshes.push_back(io::render_mesh_from(file.mesh, io::Style::cloth, texture));
+  if (!a.colour.empty()) {
+    scene.meshes.back().colour = parse_colour(a.colour);
+    scene.meshes.back().vertex_colours.clear();
+  }
   mark_crossings(scene.meshes.back(), file, path, crossings, a);
   if (a.no_lines) return;
   std::vector<double> heights;
@@ -92,7 +108,7 @@ void add_bodies(std::vector<io::RenderScene>& scenes, const RenderArguments& a) 
   for (std::size_t i = 0; i < a.bodies.size(); ++i) {
     io::RenderMesh body = io::render_mesh_from(read_mesh(a.bodies[i], a).mesh, io::Style::body);
     body.colour = io::body_colour;
-    body.framed = false;
+    body.framed = a.figure;
     for (std::size_t k = 0; k < scenes.size(); ++k)
       if (!one_each || k == i) scenes[k].meshes.push_back(body);
   }
@@ -120,6 +136,8 @@ void check_call(const RenderArguments& a) {
   inputs.insert(inputs.end(), a.strokes.begin(), a.strokes.end());
   inputs.insert(inputs.end(), {a.texture, a.camera.camera});
   refuse_same({a.out, a.camera.save_camera}, inputs);
+  if (!a.colour.empty()) parse_colour(a.colour);
+  if (a.figure && a.bodies.empty()) throw UsageError("--figure shows the whole of a --body: name one");
   if (!a.captions.empty() && !a.strip) throw UsageError("--captions stand under the pictures of a --strip");
 }
 
@@ -160,6 +178,7 @@ void add_render(CLI::App& app) {
       "render",
       "Make a picture of meshes, without a display\n\n"
       "  furrow render worn.ply --body body.obj -o worn.png\n"
+      "  furrow render worn.ply --body body.obj --figure --no-lines --colour #7a2f3b -o shop.png\n"
       "  furrow render shirt.obj --view front -o view.png --save-camera cam.json\n"
       "  furrow render --strip a.obj b.ply c.ply --captions drawn,smoothed,hung -o strip.png");
   sub->add_option("meshes", a->meshes,
@@ -167,9 +186,12 @@ void add_render(CLI::App& app) {
       ->required();
   sub->add_option("-o,--output", a->out, "PNG to write")->required();
   sub->add_option("--texture", a->texture, "PNG to lay on the garments, or checker: numbered squares");
+  sub->add_option("--colour", a->colour,
+                  "of the garments, as #rrggbb, in place of their own; --texture goes before it");
   sub->add_option("--body", a->bodies,
                   "a body to show with them; may be given again: in a strip with as many, one a picture")
       ->allow_extra_args(false);
+  sub->add_flag("--figure", a->figure, "the whole body is in the picture, not the garment alone");
   sub->add_option("--strokes", a->strokes, "strokes to draw on the first garment; may be given again")
       ->allow_extra_args(false);
   sub->add_flag("--no-lines", a->no_lines, "leave out the lines that the garments carry");

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "io/picture/thicken.h"
+
 namespace furrow::io {
 namespace {
 
@@ -137,7 +139,13 @@ std::vector<double> bulges(const PreparedMesh& mesh) {
   return result;
 }
 
-PreparedMesh prepare_mesh(const RenderMesh& mesh, const Frame& frame) {
+/// Half of the cloth's thickness in the rays' units: never so much that a small scene is all hem.
+double half_thickness(const Frame& frame, const RenderOptions& options) {
+  constexpr double most = 1.0 / 200;  // of the scene's diagonal
+  return 0.5 * std::min(options.thickness / frame.diagonal, most);
+}
+
+PreparedMesh prepare_mesh(const RenderMesh& mesh, const Frame& frame, double half) {
   PreparedMesh result;
   result.style = mesh.style;
   for (const Position& p : mesh.vertices) result.vertices.push_back(frame(p));
@@ -155,9 +163,12 @@ PreparedMesh prepare_mesh(const RenderMesh& mesh, const Frame& frame) {
     add_normals(t, cross.normalized(), result);
   }
   for (Vector3d& n : result.normals) n = n.norm() > 1e-6 ? Vector3d(n.normalized()) : Vector3d(0, 0, 0);
-  if (mesh.style == Style::cloth) result.bulges = bulges(result);
   for (const Colour& c : mesh.vertex_colours) result.colours.push_back(linear(c));
   if (result.colours.empty()) result.colours.push_back(linear(mesh.colour));
+  if (mesh.style != Style::cloth) return result;
+  result.bulges = bulges(result);
+  split_normals(result);
+  if (half > 0) thicken(result, half);
   return result;
 }
 
@@ -195,7 +206,10 @@ void check_options(const RenderOptions& options) {
   check("width", options.width, 1, 16384);
   check("height", options.height, 1, 16384);
   check("threads", options.threads, 1, 64);
+  check("oversample", options.oversample, 1, 8);
   check("line_radius_pixels", options.line_radius_pixels, 0.1, 100);
+  check("thickness", options.thickness, 0, 1e6);
+  check("wire_pixels", options.wire_pixels, 0, 100);
 }
 
 LineRadius line_radius(const Frame& frame, const PreparedCamera& camera, const RenderOptions& options) {
@@ -256,7 +270,9 @@ PreparedScene prepare(const RenderScene& scene, const RenderOptions& options) {
   result.camera = prepare_camera(camera, frame);
   result.line_radius = line_radius(frame, result.camera, options);
   result.segments = prepare_lines(scene, frame, result.camera, result.line_radius);
-  for (const RenderMesh& mesh : scene.meshes) result.meshes.push_back(prepare_mesh(mesh, frame));
+  result.half_thickness = half_thickness(frame, options);
+  for (const RenderMesh& mesh : scene.meshes)
+    result.meshes.push_back(prepare_mesh(mesh, frame, result.half_thickness));
   return result;
 }
 

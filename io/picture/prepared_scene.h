@@ -12,8 +12,13 @@ namespace furrow::io {
 /// light.
 struct PreparedMesh {
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<Eigen::Vector3d> normals;           ///< unit, weighted by angle; 0 where the triangles cancel
-  std::vector<std::array<int, 3>> triangles;      ///< none degenerate
+  /// Unit, weighted by angle; 0 where the triangles cancel. First one a vertex, then those of `corners`
+  /// alone.
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<std::array<int, 3>> triangles;  ///< none degenerate
+  std::vector<std::array<int, 3>> corners;    ///< indices of normals; empty: those of the vertices
+  /// Of cloth with a thickness: where the triangles of its inner copy and of its rims begin; else -1.
+  int first_inner = -1, first_rim = -1;
   std::vector<Eigen::Vector3d> colours;           ///< one, or one a vertex
   std::vector<Eigen::Vector3d> triangle_colours;  ///< none, or one a triangle: before `colours`
   /// How much the surface bulges at a vertex: towards 1 on a sharp ridge, −1 in a sharp valley, ±0.5 on a
@@ -48,13 +53,14 @@ struct PreparedScene {
   std::vector<PreparedMesh> meshes;
   std::vector<PreparedSegment> segments;
   LineRadius line_radius;
+  double half_thickness = 0;  ///< of cloth
   PreparedCamera camera;
 };
 
 /// Checks a scene and its options, as `render` promises, and brings everything into the rays' units.
 PreparedScene prepare(const RenderScene& scene, const RenderOptions& options);
 
-/// Checks the meshes and lines of a scene alone.
+/// Checks the meshes and lines of a scene alone, without a picture's options.
 void check_scene(const RenderScene& scene);
 
 /// sRGB in [0, 1] to linear light, and back.

@@ -19,8 +19,9 @@ inline constexpr Colour ridge_colour{0.85f, 0.22f, 0.08f};
 inline constexpr Colour valley_colour{0.06f, 0.24f, 0.72f};
 inline constexpr Colour mark_colour{0.93f, 0.0f, 0.78f};  ///< magenta: no colour of a fit's scales
 
-/// Cloth shows its back in a darker, warmer colour. Its ridges are a little lighter and its valleys a little
-/// darker than the lights make them, so that wrinkles can be read from every side. A body is one colour.
+/// Cloth has a thickness, shows its back in a darker, warmer colour and, where it is seen at a low angle, a
+/// sheen. Its ridges are a little lighter and its valleys a little darker than the lights make them, so that
+/// wrinkles can be read from every side; edges sharper than 60 degrees stay sharp. A body is one colour.
 enum class Style { cloth, body };
 
 /// A triangle mesh to be drawn. Degenerate triangles and vertices of no triangle are left out.
@@ -50,7 +51,8 @@ struct RenderScene {
   std::vector<RenderLine> lines;
 };
 
-/// Rays a pixel: 4 / 16 / 36 for the shape; each that hits adds 1 for the key light, 1 / 2 / 4 for the sky.
+/// Rays a pixel: 4 / 16 / 36 for the shape; each that hits adds 1 for the key light where it can reach, 1 / 2
+/// / 4 for the sky. A draft's key light is harder.
 enum class Quality { draft, normal, fine };
 
 struct RenderOptions {
@@ -62,6 +64,13 @@ struct RenderOptions {
   double line_radius_pixels = 1.8;  ///< of the tubes, in [0.1, 100] [pixels]
   std::optional<double>
       line_radius;  ///< of the tubes, > 0 and at most the scene's diagonal [m]; before the pixels
+  /// Of the cloth, half before and half behind its surface; at most 1/200 of the scene's diagonal is shown.
+  /// 0: none; in [0, 1e6] [m].
+  double thickness = 0.0016;
+  double wire_pixels = 0;  ///< cloth is darker where its edges are nearer than this; in [0, 100] [pixels]
+  /// The picture is made this many times as wide and high, and each pixel is the mean of its square; in [1,
+  /// 8].
+  int oversample = 1;
   int threads = 2;  ///< in [1, 64]; the picture does not depend on it
 };
 

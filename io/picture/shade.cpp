@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/picture/blue_noise.h"
+
 namespace furrow::io {
 namespace {
 
@@ -13,20 +15,20 @@ using Eigen::Vector3d;
 
 // In units of the scene's diagonal.
 constexpr double ray_offset = 1e-4;    // a ray starts this far above the surface it leaves
-constexpr double sky_distance = 0.12;  // what lies farther away does not hide the sky
-constexpr double key_radius = 0.10;    // tangent of half the key light's angle: soft shadows
+constexpr double sky_distance = 0.35;  // what lies farther away does not hide the sky
 // Strength of the lights.
 constexpr double key = 1.02, sky = 0.52, fill = 0.24;
 constexpr double bounce = 0.15;  // of the sky's light, from whatever hides it
+const Vector3d key_tint(1.03, 1, 0.96), sky_tint(0.95, 0.985, 1.04);
 // Cloth.
-constexpr double cavity = 0.34;  // how much darker a sharp valley is painted, and lighter a sharp ridge
+constexpr double cavity = 0.15;  // how much darker a sharp valley is painted, and lighter a sharp ridge
+constexpr double sheen = 0.12;   // of the light, where cloth is seen along its surface
 const Vector3d back_tint(0.66, 0.54, 0.48);
 
-/// Points of the unit disk, evenly spread however many are taken: the additive recurrence of the plastic
-/// number (Roberts 2018), bent to the disk.
-Eigen::Vector2d disk_point(int i) {
-  const double x = (i + 0.5) * 0.7548776662466927, y = (i + 0.5) * 0.5698402909980532;
-  const double radius = std::sqrt(x - std::floor(x)), angle = 2 * std::numbers::pi * (y - std::floor(y));
+/// A point of a lattice bent to the unit disk, evenly.
+Eigen::Vector2d disk_point(const Lattice& lattice, int i, const PixelShift& shift) {
+  const Eigen::Vector2d p = lattice.point(i, shift.u, shift.v);
+  const double radius = std::sqrt(p.x()), angle = 2 * std::numbers::pi * p.y();
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
@@ -35,13 +37,6 @@ std::array<Vector3d, 2> across(const Vector3d& n) {
   const Vector3d axis = std::abs(n.x()) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY();
   const Vector3d u = axis.cross(n).normalized();
   return {u, n.cross(u)};
-}
-
-/// d, which is given about z, turned about z as the pixel says and then to lie about n.
-Vector3d turned(const Vector3d& d, const PixelTurn& turn, const Vector3d& n,
-                const std::array<Vector3d, 2>& uv) {
-  const double x = turn.cosine * d.x() - turn.sine * d.y(), y = turn.sine * d.x() + turn.cosine * d.y();
-  return x * uv[0] + y * uv[1] + d.z() * n;
 }
 
 /// The point of a curved surface above the hit on its flat triangle: the corners' tangent planes blended.
@@ -98,16 +93,19 @@ struct Seen {
 
 Seen see(const PreparedMesh& mesh, const SurfaceHit& hit, const Vector3d& direction) {
   const auto& t = mesh.triangles[hit.triangle];
+  const auto& n = mesh.corners.empty() ? t : mesh.corners[hit.triangle];
   const std::array<double, 3> weights{std::max(0.0, 1 - hit.u - hit.v), hit.u, hit.v};
   const std::array<Vector3d, 3> corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
   Vector3d flat = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-  const bool back = flat.dot(direction) > 0;
-  const double side = back ? -1 : 1;
+  const bool behind = flat.dot(direction) > 0;
+  const bool inner =
+      mesh.first_inner >= 0 && hit.triangle >= mesh.first_inner && hit.triangle < mesh.first_rim;
+  const double side = behind ? -1 : 1;
   flat *= side;
   std::array<Vector3d, 3> normals;
   Vector3d p = Vector3d::Zero(), smooth = p, colour = p;
   for (int i = 0; i < 3; ++i) {
-    normals[i] = side * mesh.normals[t[i]];
+    normals[i] = side * mesh.normals[n[i]];
     if (normals[i].dot(flat) < 0.1) normals[i] = flat;  // a fold, or triangles that cancel
     p += weights[i] * corners[i];
     smooth += weights[i] * normals[i];
@@ -119,64 +117,72 @@ Seen see(const PreparedMesh& mesh, const SurfaceHit& hit, const Vector3d& direct
     double bulge = 0;
     for (int i = 0; i < 3; ++i) bulge += weights[i] * mesh.bulges[t[i]];
     colour *= 1 + cavity * side * bulge;
-    if (back) colour = colour.cwiseProduct(back_tint);
+    if (behind != inner) colour = colour.cwiseProduct(back_tint);
   }
   return {raised_point(p, corners, normals, weights) + ray_offset * flat, smooth.normalized(), colour};
 }
 
-std::uint32_t mixed(std::uint32_t h) {
-  h = (h ^ (h >> 16)) * 0x7feb352du;
-  h = (h ^ (h >> 15)) * 0x846ca68bu;
-  return h ^ (h >> 16);
-}
-
 }  // namespace
 
-PixelTurn pixel_turn(std::uint32_t column, std::uint32_t row) {
-  const double angle = 2 * std::numbers::pi * 0x1p-32 * mixed(column + mixed(row + 1));
-  return {std::cos(angle), std::sin(angle)};
+PixelShift pixel_shift(int column, int row) {
+  return {blue_noise(column, row), blue_noise(column + 37, row + 23)};  // far apart in the tile
 }
 
-Shader::Shader(const PreparedScene& scene, const RayScene& rays, int samples, int sky_rays)
-    : scene_(scene), rays_(rays), sky_rays_(sky_rays) {
+Shader::Shader(const PreparedScene& scene, const RayScene& rays, int samples, int sky_rays, double key_radius)
+    : scene_(scene),
+      rays_(rays),
+      sky_rays_(sky_rays),
+      key_radius_(key_radius),
+      key_lattice_(samples),
+      sky_lattice_(samples * sky_rays) {
   const PreparedCamera& c = scene.camera;
   key_direction_ = (-0.75 * c.right + 0.58 * c.up - 0.36 * c.forward).normalized();
   key_across_ = across(key_direction_);
   fill_direction_ = (0.9 * c.right - 0.15 * c.up - 0.25 * c.forward).normalized();
-  for (int i = 0; i < samples; ++i) {
-    const Eigen::Vector2d p = key_radius * disk_point(i);
-    key_samples_.push_back(Vector3d(p.x(), p.y(), 1).normalized());
-  }
-  for (int i = 0; i < samples * sky_rays; ++i) {
-    const Eigen::Vector2d p = disk_point(i);
-    sky_samples_.emplace_back(p.x(), p.y(), std::sqrt(std::max(0.0, 1 - p.squaredNorm())));
-  }
 }
 
-double Shader::key_light(const Vector3d& p, const Vector3d& normal, int sample, const PixelTurn& turn) const {
-  const Vector3d d = turned(key_samples_[sample], turn, key_direction_, key_across_);
-  const double cosine = normal.dot(d);
-  return cosine > 0 && !rays_.is_blocked(p, d) ? cosine : 0;
+/// Where all of the light is above the horizon, what it gives without anything in the way is known; the rays
+/// only tell what is lost, so that what is lit has no grain.
+double Shader::key_light(const Vector3d& p, const Vector3d& normal, int sample,
+                         const PixelShift& shift) const {
+  const double height = normal.dot(key_direction_), hypotenuse = std::sqrt(1 + key_radius_ * key_radius_);
+  const double horizon = key_radius_ / hypotenuse;  // sine of half the light's angle
+  if (height < -horizon) return 0;
+  const Eigen::Vector2d q = key_radius_ * disk_point(key_lattice_, sample, shift);
+  const Vector3d d = (q.x() * key_across_[0] + q.y() * key_across_[1] + key_direction_).normalized();
+  const double cosine = std::max(0.0, normal.dot(d));
+  if (height < horizon) return cosine > 0 && !rays_.is_blocked(p, d) ? cosine : 0;
+  // The mean of 1 / sqrt(1 + r^2) over a disk of radius R is 2 / (sqrt(1 + R^2) + 1).
+  return height * 2 / (hypotenuse + 1) - (rays_.is_blocked(p, d) ? cosine : 0);
 }
 
-double Shader::sky_light(const Vector3d& p, const Vector3d& normal, int sample, const PixelTurn& turn) const {
+/// The same: the mean of d over the hemisphere, weighted by the cosine, is 2/3 of the normal.
+double Shader::sky_light(const Vector3d& p, const Vector3d& normal, int sample,
+                         const PixelShift& shift) const {
+  const auto brightness = [&](const Vector3d& d) { return 0.56 + 0.44 * d.dot(scene_.camera.up); };
   const std::array<Vector3d, 2> uv = across(normal);
-  double sum = 0;
+  double lost = 0;
   for (int i = 0; i < sky_rays_; ++i) {
-    const Vector3d d = turned(sky_samples_[sample * sky_rays_ + i], turn, normal, uv);
-    const double brightness = 0.56 + 0.44 * d.dot(scene_.camera.up);
-    sum += brightness * (rays_.is_blocked(p, d, sky_distance) ? bounce : 1);
+    const Eigen::Vector2d q = disk_point(sky_lattice_, sample * sky_rays_ + i, {shift.v, shift.u});
+    const Vector3d d = q.x() * uv[0] + q.y() * uv[1] + std::sqrt(std::max(0.0, 1 - q.squaredNorm())) * normal;
+    if (rays_.is_blocked(p, d, sky_distance)) lost += (1 - bounce) * brightness(d);
   }
-  return sum / sky_rays_;
+  return brightness(2.0 / 3 * normal) - lost / sky_rays_;
 }
 
 Vector3d Shader::surface(const Vector3d& direction, const SurfaceHit& hit, int sample,
-                         const PixelTurn& turn) const {
-  const Seen seen = see(scene_.meshes[hit.mesh], hit, direction);
-  const double light = key * key_light(seen.point, seen.normal, sample, turn) +
-                       sky * sky_light(seen.point, seen.normal, sample, turn) +
-                       fill * std::max(0.0, seen.normal.dot(fill_direction_));
-  return light * seen.colour;
+                         const PixelShift& shift) const {
+  const PreparedMesh& mesh = scene_.meshes[hit.mesh];
+  const Seen seen = see(mesh, hit, direction);
+  const Vector3d light = key * key_light(seen.point, seen.normal, sample, shift) * key_tint +
+                         sky * sky_light(seen.point, seen.normal, sample, shift) * sky_tint +
+                         Vector3d::Constant(fill * std::max(0.0, seen.normal.dot(fill_direction_)));
+  Vector3d reflected = seen.colour;
+  if (mesh.style == Style::cloth) {
+    const double grazing = 1 - std::max(0.0, -seen.normal.dot(direction));
+    reflected += sheen * std::pow(grazing, 4) * (Vector3d::Ones() - seen.colour);
+  }
+  return light.cwiseProduct(reflected);
 }
 
 Vector3d Shader::line(const Vector3d& direction, const LineHit& hit) const {

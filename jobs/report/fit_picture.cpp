@@ -90,7 +90,7 @@ std::vector<io::RenderScene> fit_scenes(std::span<const FitPanel> panels) {
 
 io::Image fit_picture(std::span<const FitPanel> panels, std::span<const io::RenderScene> scenes,
                       const io::FitScale& scale, io::RenderOptions options, bool view_chosen,
-                      Listener& listener) {
+                      Listener& listener, bool legend) {
   const bool both_sides = panels.size() == 1 && !view_chosen;
   const std::size_t pictures = both_sides ? 2 : scenes.size();
   const ProgressScope progress(listener, "rendering");
@@ -108,7 +108,8 @@ io::Image fit_picture(std::span<const FitPanel> panels, std::span<const io::Rend
   if (const std::size_t end = words.find('\n'); end != std::string::npos) words.replace(end, 1, "; ");
   io::StripOptions letters;
   letters.text_height = 0.02;
-  return io::with_fit_legend(io::strip(strip, letters), scale, words);
+  const io::Image image = io::strip(strip, letters);
+  return legend ? io::with_fit_legend(image, scale, words) : image;
 }
 
 }  // namespace furrow::jobs

@@ -36,10 +36,10 @@ std::string crossing_words(const ClothCrossings& crossings);
 /// What each panel shows; a camera is chosen for all of them.
 std::vector<io::RenderScene> fit_scenes(std::span<const FitPanel> panels);
 
-/// Panels side by side, from one camera, with one legend. One panel alone, with no view chosen, is shown from
-/// the front and from the back. `scenes` are those of the panels.
+/// Panels side by side, from one camera, with one legend if `legend`. One panel alone, with no view chosen,
+/// is shown from the front and from the back. `scenes` are those of the panels.
 io::Image fit_picture(std::span<const FitPanel> panels, std::span<const io::RenderScene> scenes,
                       const io::FitScale& scale, io::RenderOptions options, bool view_chosen,
-                      Listener& listener);
+                      Listener& listener, bool legend = true);
 
 }  // namespace furrow::jobs

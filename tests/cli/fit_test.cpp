@@ -106,6 +106,12 @@ TEST_CASE("fit: pictures of one garment from both sides, and of several with one
           (f / "one.png"));
   const io::Image one = io::read_png(f / "one.png");
   CHECK(one.width == 8 + 2 * (220 + 8));
+  succeed("fit --json " + f.worn + " --rest-shape " + f.made + " --body " + f.body + small + "--no-legend " +
+          "--picture " + (f / "bare.png"));
+  const io::Image bare = io::read_png(f / "bare.png");
+  CHECK(bare.width == one.width);
+  CHECK(bare.height < one.height);
+  CHECK(std::equal(bare.rgb.begin(), bare.rgb.end(), one.rgb.begin()));
   succeed("fit --json " + f.worn + " --body " + f.body + small + "--view back --picture " + (f / "back.png") +
           " --save-camera " + (f / "back.json"));
   CHECK(io::read_png(f / "back.png").width == 8 + 220 + 8);

@@ -12,6 +12,7 @@ furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURC
   summary_test.cpp
   old_names_test.cpp
   mistakes_test.cpp
+  picture_options_test.cpp
   pipeline_test.cpp
   resume_test.cpp
   scene_outputs_test.cpp

@@ -13,7 +13,9 @@ TEST_CASE("prepared_scene: a prepared sphere has diagonal 1, radial normals and 
   io::RenderMesh mesh = sphere(3, 48);
   mesh.style = io::Style::cloth;
   for (auto& p : mesh.vertices) p = {p[0] + 7, p[1] - 2, p[2]};
-  const auto prepared = io::prepare({{mesh}, {}}, from_the_front(4, 40)).meshes.at(0);
+  io::RenderOptions options = from_the_front(4, 40);
+  options.thickness = 0;
+  const auto prepared = io::prepare({{mesh}, {}}, options).meshes.at(0);
   const double radius = 1 / (2 * std::sqrt(3.0)), curvature = 2 / (100 * radius);
   int checked = 0;
   for (std::size_t v = 0; v < prepared.vertices.size(); ++v) {
@@ -27,7 +29,7 @@ TEST_CASE("prepared_scene: a prepared sphere has diagonal 1, radial normals and 
   CHECK(checked > 1000);
 
   for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
-  const auto hollow = io::prepare({{mesh}, {}}, from_the_front(4, 40)).meshes.at(0);
+  const auto hollow = io::prepare({{mesh}, {}}, options).meshes.at(0);
   CHECK(hollow.bulges[24 * 97 + 40] == Approx(-prepared.bulges[24 * 97 + 40]));
 }
 

@@ -108,6 +108,7 @@ TEST_CASE(
   for (auto& mesh : scene.meshes) {
     for (auto& p : mesh.vertices) p = {1024 * p[0], 1024 * p[1], 1024 * p[2]};
   }
+  options.thickness *= 1024;
   for (auto& p : scene.lines[0].points) p = {1024 * p[0], 1024 * p[1], 1024 * p[2]};
   CHECK(io::render(scene, options).rgb == one.rgb);
 }
@@ -179,6 +180,68 @@ TEST_CASE("render: waves of half a centimetre are seen on a sheet of a metre, a 
   CHECK(ridge_over_valley(cloth) > ridge_over_valley(io::render({{mesh}, {}}, options)) + 2);
 }
 
+TEST_CASE("render: a wire darkens the cloth near its edges, and nothing else") {
+  io::RenderScene scene{{grid(8, 8,
+                              [](double u, double v) {
+                                return io::Position{u - 0.5, v - 0.5, 0.1 * u * v};
+                              })},
+                        {}};
+  io::RenderOptions options = from_the_front(200, 2.5);
+  const io::Image plain = io::render(scene, options);
+  options.wire_pixels = 0.6;
+  options.threads = 2;
+  const io::Image wired = io::render(scene, options);
+  options.threads = 5;
+  CHECK(io::render(scene, options).rgb == wired.rgb);
+  // A row of squares is 200 / (2 * 2.5 * tan(15 degrees)) / 8 = 19 pixels high.
+  int darker = 0, same = 0;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x) {
+      const double before = luminance(pixel(plain, x, y)), after = luminance(pixel(wired, x, y));
+      REQUIRE(after <= before);
+      darker += after < 0.9 * before;
+      same += pixel(plain, x, y) == pixel(wired, x, y);
+    }
+  CHECK(darker > 2000);
+  CHECK(same > 200 * 200 / 4);
+  scene.meshes[0].style = io::Style::body;
+  const io::Image body = io::render(scene, options);
+  options.wire_pixels = 0;
+  CHECK(io::render(scene, options).rgb == body.rgb);
+}
+
+TEST_CASE("render: cloth that nothing shades has no grain, at any quality") {
+  const io::RenderScene scene{{square({0, 0, 0}, 0.9, io::cloth_colour)}, {}};
+  for (const io::Quality quality : {io::Quality::draft, io::Quality::normal, io::Quality::fine}) {
+    io::RenderOptions options = from_the_front(60, 4);
+    options.quality = quality;
+    CHECK(contrast(io::render(scene, options)) < 0.1);
+  }
+}
+
+TEST_CASE("render: the key light's shadow has a soft edge from normal quality on") {
+  io::RenderScene scene{
+      {square({0, 0, 0}, 1, io::body_colour), square({-0.3, 0.25, 0.15}, 0.2, io::body_colour)}, {}};
+  const auto width_of_edge = [&](io::Quality quality) {  // pixels between dark and light, right of the shadow
+    io::RenderOptions options = from_the_front(200, 4);
+    options.quality = quality;
+    const io::Image image = io::render(scene, options);
+    double darkest = 1e9, lightest = 0;
+    for (int x = 95; x < 190; ++x) {
+      const double l = luminance(pixel(image, x, 100));
+      darkest = std::min(darkest, l), lightest = std::max(lightest, l);
+    }
+    int between = 0;
+    for (int x = 95; x < 190; ++x) {
+      const double at = (luminance(pixel(image, x, 100)) - darkest) / (lightest - darkest);
+      between += at > 0.1 && at < 0.9;
+    }
+    REQUIRE(lightest > 1.3 * darkest);
+    return between;
+  };
+  CHECK(width_of_edge(io::Quality::normal) > 1.5 * width_of_edge(io::Quality::draft));
+}
+
 TEST_CASE("render: what lies close over a surface shades it") {
   const io::RenderMesh floor = grid(4, 4, [](double u, double v) {
     return io::Position{4 * u - 2, 0, 2 - 4 * v};
@@ -186,6 +249,7 @@ TEST_CASE("render: what lies close over a surface shades it") {
   io::RenderMesh ball = sphere(0.3, 24);
   for (auto& p : ball.vertices) p[1] += 0.31;
   io::RenderOptions options = from_the_front(81, 4);
+  options.quality = io::Quality::normal;  // four rays to the sky could miss the ball
   options.camera = io::Camera{{0, 2, 4}, {0, 0, 0}, {0, 1, 0}, 30};
   const io::Image alone = io::render({{floor}, {}}, options), with = io::render({{floor, ball}, {}}, options);
   const auto shaded = [&](int x, int y) {
