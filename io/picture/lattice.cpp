@@ -14,9 +14,9 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> shortest_steps(int points, int gener
   Eigen::Vector2d a(1, generator), b(0, points);
   while (true) {
     if (a.squaredNorm() > b.squaredNorm()) std::swap(a, b);
-    const double times = std::round(a.dot(b) / a.squaredNorm());
-    if (times == 0) return {a, b};
-    b -= times * a;
+    const double times = a.dot(b) / a.squaredNorm();
+    if (std::abs(times) <= 0.5) return {a, b};  // at 0.5 another step would only turn it round
+    b -= std::round(times) * a;
   }
 }
 

@@ -61,7 +61,7 @@ void add_like(PreparedMesh& mesh, int like, const std::array<int, 3>& from,
   }
 }
 
-void add_vertex(PreparedMesh& mesh, int like, const Vector3d& position, double bulge) {
+void add_point(PreparedMesh& mesh, int like, const Vector3d& position, double bulge) {
   mesh.vertices.push_back(position);
   if (!mesh.bulges.empty()) mesh.bulges.push_back(bulge);
   if (mesh.colours.size() > 1) mesh.colours.push_back(Vector3d(mesh.colours[like]));
@@ -74,7 +74,7 @@ void add_inner(PreparedMesh& mesh, double half) {
   for (int n = 0; n < normals; ++n) mesh.normals.push_back(-Vector3d(mesh.normals[n]));
   for (int v = 0; v < vertices; ++v) {
     const Vector3d p = mesh.vertices[v], step = half * mesh.normals[v];
-    add_vertex(mesh, v, p - step, mesh.bulges.empty() ? 0 : -mesh.bulges[v]);
+    add_point(mesh, v, p - step, mesh.bulges.empty() ? 0 : -mesh.bulges[v]);
     mesh.vertices[v] = p + step;
   }
   for (int i = 0; i < triangles; ++i) {
@@ -110,7 +110,7 @@ std::vector<Rim> add_rims(PreparedMesh& mesh, const std::vector<Vector3d>& outwa
       const Vector3d d = std::cos(angle) * n + std::sin(angle) * outward[v];
       rims[v].vertices[k] = int(mesh.vertices.size());
       rims[v].normals[k] = int(mesh.normals.size());
-      add_vertex(mesh, v, middle + half * d, 0);
+      add_point(mesh, v, middle + half * d, 0);
       mesh.normals.push_back(d.normalized());
     }
   }
