@@ -62,6 +62,8 @@ void add_common_options(CLI::App& sub, CommonArguments& common) {
       ->check(CLI::IsMember({"y", "z"}));
   sub.add_flag("--force", common.force,
                "go on where a body, a tolerance or a step asks for very much memory or time");
+  sub.add_flag("--replace", common.replace,
+               "write over files that furrow did not write; those that it wrote are replaced without it");
   sub.add_flag("--json", common.json, "print the report as JSON");
   sub.add_flag("-v,--verbose", common.verbose, "all numbers of the report, not its summary alone");
   sub.add_flag("-q,--quiet", common.quiet,
@@ -134,6 +136,11 @@ void print_report(const Json& report, const CommonArguments& common, const Summa
 
 void warn(const std::string& message, const CommonArguments& common) {
   if (!common.quiet) std::cerr << "warning: " << message << "\n";
+}
+
+std::vector<std::string> names_of_files(std::vector<std::string> names) {
+  std::erase(names, "");
+  return names;
 }
 
 std::vector<double> parse_numbers(const std::string& text, std::size_t n, const std::string& option) {

@@ -41,6 +41,7 @@ struct CommonArguments : Frame {
   std::string out;       ///< what is written; "-": OBJ to stdout, and the report goes to stderr
   bool json = false;     ///< the report as JSON
   bool force = false;    ///< go on where a job would take very much memory or time
+  bool replace = false;  ///< outputs may replace files that furrow did not write
   bool verbose = false;  ///< the whole report as text, too, not its summary alone
   bool quiet = false;    ///< no progress, no warnings, and no report but that of json
   /// bar, lines, none, or seconds between two lines; auto: a bar on a terminal, lines elsewhere.
@@ -65,6 +66,8 @@ void flush_output();
 /// with a schema version. A report without a summary is printed whole.
 void print_report(const Json& report, const CommonArguments& common, const Summary& summary = {});
 void warn(const std::string& message, const CommonArguments& common);
+/// Those that are not empty, for "written" of a report.
+std::vector<std::string> names_of_files(std::vector<std::string> names);
 
 /// `text` as exactly n numbers separated by commas. Throws UsageError that names the option.
 std::vector<double> parse_numbers(const std::string& text, std::size_t n, const std::string& option);
@@ -111,6 +114,7 @@ class Terminal : public Listener {
   void warn(const Warning& warning) override;
   bool cancelled() override;
   bool allows(const std::string& demand) override;
+  bool replaces(const std::string&) override { return common_.replace; }
 
  private:
   const CommonArguments& common_;

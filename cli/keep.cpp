@@ -59,7 +59,9 @@ int keep(const KeepArguments& a) {
     io::write_png(a.picture, io::render(scenes[0], options));
     save_camera(options, a.camera);
   }
-  const Json json = to_json(report);
+  Json json = to_json(report);
+  json["written"] =
+      names_of_files({report.mesh.string(), report.saved_state.string(), a.picture, a.camera.save_camera});
   const std::string mesh = report.mesh.string();
   print_report(json, common,
                {keep_lines(json),

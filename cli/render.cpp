@@ -135,7 +135,8 @@ void check_call(const RenderArguments& a) {
   inputs.insert(inputs.end(), a.bodies.begin(), a.bodies.end());
   inputs.insert(inputs.end(), a.strokes.begin(), a.strokes.end());
   inputs.insert(inputs.end(), {a.texture, a.camera.camera});
-  refuse_same({a.out, a.camera.save_camera}, inputs);
+  Terminal terminal(a);
+  check_replaced({a.out, a.camera.save_camera}, inputs, terminal);
   if (!a.colour.empty()) parse_colour(a.colour);
   if (a.figure && a.bodies.empty()) throw UsageError("--figure shows the whole of a --body: name one");
   if (!a.captions.empty() && !a.strip) throw UsageError("--captions stand under the pictures of a --strip");

@@ -54,6 +54,8 @@ void add_sdf(CLI::App& app) {
                   "exact (of the interpolated distance) or interpolated (of the corners', as in the paper)")
       ->check(CLI::IsMember({"exact", "interpolated"}))
       ->capture_default_str();
+  sub->add_option("--body-unit", a->body.unit, "unit of the body's file: as --unit, which it goes before")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
   add_common_options(*sub, *a);
   sub->callback([a] { sdf(*a); });
 }

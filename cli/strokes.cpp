@@ -115,7 +115,8 @@ void check_output_name(const StrokesArguments& a) {
   if (a.out.empty() || a.out == "-") return;
   check_folder(a.out);
   refuse_same(a.out, a.garment);
-  if (ending_of(a.in) != ".json") refuse_same(a.out, a.in);
+  Terminal terminal(a);
+  if (ending_of(a.in) != ".json" || !same_file(a.out, a.in)) check_replaced({a.out}, {a.in}, terminal);
 }
 
 void strokes(StrokesArguments a) {

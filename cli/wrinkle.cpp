@@ -153,7 +153,8 @@ int wrinkle(WrinkleArguments a) {
   if (!a.preview.empty()) write_preview(report, a);
   if (a.out == "-") write_mesh(report.garment, common);
   if (a.inserted == "-") write_mesh("-", inserted_garment(report), common);
-  const Json json = to_json(report);
+  Json json = to_json(report);
+  json["written"] = names_of_files({a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera});
   const bool has_file = !a.out.empty() && a.out != "-";
   const std::string next = report.rest
                                ? "furrow render " + a.out + " -o rests.png"

@@ -22,7 +22,7 @@ using geometry::Mesh;
 
 constexpr double moved = 1e-4;  // from the low surface: such faces are reported as wrinkled [m]
 
-void check(const BakeJob& job) {
+void check(const BakeJob& job, Listener& listener) {
   const std::string applied = job.applied.string();
   if (!applied.empty() && !job.check) throw std::invalid_argument("--applied goes with --check");
   if (job.check)
@@ -35,8 +35,8 @@ void check(const BakeJob& job) {
   check_folder(job.prefix);
   if (!applied.empty()) check_output(applied);
   const io::BakedFiles files = io::baked_files(job.prefix);
-  refuse_same({files.displacement.string(), files.normal.string(), files.record.string(), applied},
-              {name_of(job.low, ""), name_of(job.high, "")});
+  check_replaced({files.displacement.string(), files.normal.string(), files.record.string(), applied},
+                 {name_of(job.low, ""), name_of(job.high, "")}, listener);
 }
 
 /// Both meshes must have texture coordinates.
@@ -101,7 +101,7 @@ BakeCheck measure_maps(const BakeJob& job, const io::MeshFile& low, const Mesh& 
 }  // namespace
 
 BakeReport bake(const BakeJob& job, Listener& listener) {
-  check(job);
+  check(job, listener);
   BakeReport report;
   report.frame = job.frame;
   report.size = job.options.size;

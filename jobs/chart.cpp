@@ -23,10 +23,10 @@ void spare_inputs(const io::Scene& scene, const ChartJob& job) {
   refuse_same({job.picture.string(), job.csv.string()}, files);
 }
 
-void check_outputs(const ChartJob& job) {
+void check_outputs(const ChartJob& job, Listener& listener) {
   if (!job.picture.empty()) check_chart_picture(job.picture.string());
   if (!job.csv.empty()) check_folder(job.csv.string());
-  refuse_same({job.picture.string(), job.csv.string()}, {job.name});
+  check_replaced({job.picture.string(), job.csv.string()}, {job.name}, listener);
 }
 
 OpenScene open_scene(const ChartJob& job) {
@@ -47,7 +47,7 @@ OpenScene open_scene(const ChartJob& job) {
 
 ChartReport chart(const ChartJob& job, Listener& listener) {
   check(job.options);
-  check_outputs(job);
+  check_outputs(job, listener);
   const OpenScene open = open_scene(job);
   const Context context{open.frame, listener, &job.scene.memory};
   const SceneCloth cloth = prepare_scene(open.scene, context);

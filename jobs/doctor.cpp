@@ -4,7 +4,6 @@
 #include "geometry/figure/close_holes.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/mesh/measures.h"
-#include "io/base/lower_case.h"
 #include "io/mesh/weld.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/body.h"
@@ -17,7 +16,7 @@ namespace {
 
 constexpr std::size_t small_hole = 8;  // edges of one that is closed in a garment
 
-void check(const DoctorJob& job) {
+void check(const DoctorJob& job, Listener& listener) {
   if (job.body && job.is_body) throw std::invalid_argument("--body: the mesh is examined as a body itself");
   if (job.body_unit && !is_unit(*job.body_unit))
     throw std::invalid_argument("--body-unit: '" + *job.body_unit + "' is not m, cm, mm or inch");
@@ -27,7 +26,7 @@ void check(const DoctorJob& job) {
     throw std::invalid_argument("-o writes the mended mesh; say --repair, too");
   std::vector<std::string> outputs{output};
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
-  refuse_same(outputs, {name_of(job.mesh, ""), job.body ? name_of(*job.body, "") : ""});
+  check_replaced(outputs, {name_of(job.mesh, ""), job.body ? name_of(*job.body, "") : ""}, listener);
 }
 
 void append(std::vector<Ailment>& all, std::vector<Ailment> more) {
@@ -142,7 +141,7 @@ Json to_json(const std::vector<Ailment>& all) {
 }  // namespace
 
 DoctorReport doctor(const DoctorJob& job, Listener& listener) {
-  check(job);
+  check(job, listener);
   DoctorReport report;
   report.frame = job.frame;
   take_noted_frame(report.frame, {name_of(job.mesh, "")});
@@ -154,12 +153,7 @@ DoctorReport doctor(const DoctorJob& job, Listener& listener) {
   append(report.found, examine_pair(report.mesh.mesh, job, context));
   stop_if_cancelled(context);
   if (job.repair) mend(report, job);
-  if (!job.output.empty() && !seam_ties(report.mesh.mesh).empty() &&
-      io::lower_case(job.output.extension().string()) != ".ply")
-    listener.warn(
-        {"ties_lost",
-         job.output.string() + ": ties of seams where three or more faces meet go into a .ply alone",
-         job.output.string(), "-o OUT.ply"});
+  warn_of_lost_ties(report.mesh.mesh, job.output, listener);
   if (!job.output.empty() && job.output != "-") write_mesh(job.output, report.mesh, {report.frame, listener});
   return report;
 }

@@ -30,7 +30,7 @@ void check_scene(const io::Scene& scene) {
     throw std::invalid_argument("drape draws no lines; draw them on what it writes, with furrow wrinkle");
 }
 
-void check(const DrapeJob& job, const io::Scene& scene) {
+void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
   check_scene(scene);
   const DrapeSettings& s = job.settings;
   using physics::require;
@@ -56,7 +56,7 @@ void check(const DrapeJob& job, const io::Scene& scene) {
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
   std::vector<std::string> outputs{output, animation};
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
-  refuse_same(outputs, inputs);
+  check_replaced(outputs, inputs, listener);
 }
 
 /// Once of all settings that were said and that rest has no use for: what moves, and how long.
@@ -78,7 +78,7 @@ io::TomlDocument with_fabric(const DrapeJob& job) {
   return document;
 }
 
-OpenScene open_scene(const DrapeJob& job) {
+OpenScene open_scene(const DrapeJob& job, Listener& listener) {
   OpenScene open{{}, with_fabric(job), job.scene.folder, {}};
   open.scene = scene_of(open.document, open.folder);
   if (open.scene.garment.empty())
@@ -88,7 +88,7 @@ OpenScene open_scene(const DrapeJob& job) {
   if (job.subdivide) open.scene.subdivide = *job.subdivide;
   open.frame.unit = open.scene.unit;
   open.frame.up = open.scene.up;
-  check(job, open.scene);
+  check(job, open.scene, listener);
   return open;
 }
 
@@ -117,7 +117,7 @@ bool DrapeJobReport::fails() const {
 DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   warn_of_unused_settings(job.scene.settings, listener);
-  const OpenScene open = open_scene(job);
+  const OpenScene open = open_scene(job, listener);
   const std::vector<io::Scene> scenes = scenes_of(job, open);
   const Context context{open.frame, listener, &job.scene.memory};
   std::optional<BodyCollider> body;

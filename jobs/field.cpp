@@ -48,7 +48,7 @@ FieldReport field(const FieldJob& job, Listener& listener) {
   if (job.output == "-") throw std::invalid_argument("-o: a field needs a file name");
   check_folder(job.output.string());
   check_picture(job.slice.string(), "--picture");
-  refuse_same({job.output.string(), job.slice.string()}, {job.body.mesh.string()});
+  check_replaced({job.output.string(), job.slice.string()}, {job.body.mesh.string()}, listener);
   const auto start = std::chrono::steady_clock::now();
   FieldReport report{load_body(job.body, {job.frame, listener}), {}, job.at, 0};
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

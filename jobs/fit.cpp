@@ -17,7 +17,7 @@
 namespace furrow::jobs {
 namespace {
 
-void check(const FitJob& job) {
+void check(const FitJob& job, Listener& listener) {
   if (job.worn.empty()) throw std::invalid_argument("fit: there is no garment");
   if (job.bodies.empty() || (job.bodies.size() > 1 && job.bodies.size() != job.worn.size()))
     throw std::invalid_argument("--body: " + std::to_string(job.bodies.size()) + " bodies for " +
@@ -36,7 +36,7 @@ void check(const FitJob& job) {
   for (const MeshInput& input : job.worn) inputs.push_back(name_of(input, ""));
   for (const MeshInput& input : job.bodies) inputs.push_back(name_of(input, ""));
   if (job.rest) inputs.push_back(name_of(*job.rest, ""));
-  refuse_same(outputs, inputs);
+  check_replaced(outputs, inputs, listener);
 }
 
 /// Rest lengths as the edges are long in a mesh with the same vertices.
@@ -140,7 +140,7 @@ Json to_json(const std::vector<bridge::FitEase>& list) {
 }  // namespace
 
 FitJobReport fit(const FitJob& job, Listener& listener) {
-  check(job);
+  check(job, listener);
   FitJobReport report;
   report.frame = job.frame;
   std::vector<std::string> names;

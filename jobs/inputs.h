@@ -42,6 +42,9 @@ class Listener {
   /// Asked where a job would take more memory or time than is likely meant; `demand` says how much. true: it
   /// goes on all the same. false: it throws, and says so.
   virtual bool allows(const std::string& /*demand*/) { return false; }
+  /// Asked where an output is a file that is there and that does not look as if furrow had written it. true:
+  /// it is replaced. false: the job throws std::invalid_argument before it begins.
+  virtual bool replaces(const std::string& /*path*/) { return false; }
 };
 
 /// Passes on nothing but whether the other one cancels, and what it allows.
@@ -50,6 +53,7 @@ class SilentListener : public Listener {
   explicit SilentListener(Listener& other) : other_(other) {}
   bool cancelled() override { return other_.cancelled(); }
   bool allows(const std::string& demand) override { return other_.allows(demand); }
+  bool replaces(const std::string& path) override { return other_.replaces(path); }
 
  private:
   Listener& other_;

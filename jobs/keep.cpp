@@ -25,7 +25,7 @@
 namespace furrow::jobs {
 namespace {
 
-void check_outputs(const KeepJob& job, const OpenScene& open) {
+void check_outputs(const KeepJob& job, const OpenScene& open, Listener& listener) {
   if (job.whole && !job.help)
     throw std::invalid_argument("--whole is help for what lies between the lines; leave out --no-help");
   const io::Scene& scene = open.scene;
@@ -47,10 +47,10 @@ void check_outputs(const KeepJob& job, const OpenScene& open) {
   for (const io::SceneLines& lines : scene.lines) inputs.push_back(lines.strokes.string());
   std::vector<std::string> outputs{out.mesh.string(), out.state.string()};
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
-  refuse_same(outputs, inputs);
+  check_replaced(outputs, inputs, listener);
 }
 
-OpenScene open_scene(const KeepJob& job) {
+OpenScene open_scene(const KeepJob& job, Listener& listener) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
   if (!job.state)
     take_recorded_material(open.document, garment_of(open.document, open.folder), job.scene.memory);
@@ -59,7 +59,7 @@ OpenScene open_scene(const KeepJob& job) {
     throw std::invalid_argument(open.document.name + ": garment.mesh is missing");
   check_inputs(open.scene, open.document, job.state ? job.state->lines_drawn : -1, job.scene.memory);
   if (!job.state) take_noted_frame(open.scene, open.document, job.scene.memory);
-  check_outputs(job, open);
+  check_outputs(job, open, listener);
   open.frame.unit = open.scene.unit;
   open.frame.up = open.scene.up;
   return open;
@@ -211,7 +211,7 @@ void write_outputs(const OpenScene& open, SceneCloth& garment, std::optional<io:
 
 KeepReport keep(const KeepJob& job, Listener& listener) {
   const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
-  const OpenScene open = open_scene(job);
+  const OpenScene open = open_scene(job, listener);
   const io::Scene& scene = open.scene;
   const Context context{open.frame, listener, &job.scene.memory};
   KeepReport report;
@@ -224,6 +224,7 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   report.ran = true;
   report.frame = open.frame;
   report.mesh = scene.output.mesh;
+  report.saved_state = scene.output.state;
   report.record = *io::find_wrinkle_record(garment.file);
   const CrossedStart crossed = crossed_start(garment.file.mesh);
   report.lines = find_rest(job, scene, garment, report.record, context);

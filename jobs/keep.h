@@ -18,7 +18,8 @@ struct KeepReport {
   io::MeshFile garment;        ///< with its new rest state [m], y up
   ClothCrossings crossings;    ///< of the cloth with itself
   std::filesystem::path mesh;  ///< the settings' output; "-": not written
-  Frame frame;                 ///< of the files written
+  std::filesystem::path saved_state;   ///< the same
+  Frame frame;                         ///< of the files written
   std::vector<Warning> warnings = {};  ///< about the result; those on the way went to the listener
 
   /// Whether every line holds, perhaps with help.

@@ -8,7 +8,7 @@ namespace furrow::jobs {
 
 SmoothReport smooth(const SmoothJob& job, Listener& listener) {
   if (!job.output.empty()) check_output(job.output.string());
-  refuse_same({job.output.string()}, {name_of(job.mesh, "")});
+  check_replaced({job.output.string()}, {name_of(job.mesh, "")}, listener);
   SmoothReport report{{}, job.options.iterations, job.frame};
   take_noted_frame(report.frame, {name_of(job.mesh, "")});
   const Context context{report.frame, listener};

@@ -14,6 +14,7 @@
 #include "jobs/report/wrinkle_reports.h"
 #include "jobs/run/gate.h"
 #include "jobs/run/output_checks.h"
+#include "jobs/run/seam_ties.h"
 
 namespace furrow::jobs {
 namespace {
@@ -48,7 +49,17 @@ void insert_strokes(const SubdivideJob& job, SubdivideReport& result, const Cont
   conclude(std::move(sum), result);
 }
 
-void refine(const SubdivideJob& job, SubdivideReport& result, const Context& context) {
+/// Step by step, since each doubles the ties.
+void refine_tied(geometry::Mesh& mesh, const SubdivideJob& job, SeamTies& ties) {
+  for (int step = 0; step < job.steps; ++step) {
+    ties = refined_ties(mesh, ties);
+    job.refinement == Refinement::loop ? geometry::loop_subdivide(mesh, 1)
+                                       : void(geometry::midpoint_subdivide(mesh, 1));
+  }
+}
+
+/// The ties follow what refines the whole mesh into four; where vertices are only added, they stay.
+void refine(const SubdivideJob& job, SubdivideReport& result, SeamTies& ties, const Context& context) {
   geometry::Mesh& mesh = result.mesh.mesh;
   if (job.refinement == Refinement::loop || job.refinement == Refinement::linear)
     require_refinement(mesh.number_of_faces(), 4, job.steps,
@@ -63,12 +74,14 @@ void refine(const SubdivideJob& job, SubdivideReport& result, const Context& con
       for (geometry::Face f : mesh.faces()) centroids.push_back({f, {1. / 3, 1. / 3, 1. / 3}});
       return conclude(geometry::insert_in_faces(mesh, centroids, job.options), result);
     }
-    case Refinement::loop:
-      return geometry::loop_subdivide(mesh, job.steps);
     case Refinement::sqrt3:
       return geometry::sqrt3_subdivide(mesh, job.steps);
+    case Refinement::loop:
+      if (ties.empty()) return geometry::loop_subdivide(mesh, job.steps);
+      [[fallthrough]];
     case Refinement::linear:
-      geometry::midpoint_subdivide(mesh, job.steps);
+      if (ties.empty()) return void(geometry::midpoint_subdivide(mesh, job.steps));
+      refine_tied(mesh, job, ties);
   }
 }
 
@@ -78,15 +91,21 @@ SubdivideReport subdivide(const SubdivideJob& job, Listener& listener) {
   const std::string output = job.output.string();
   if (!output.empty()) check_output(output);
   const auto* strokes = std::get_if<std::filesystem::path>(&job.strokes);
-  refuse_same({output}, {name_of(job.mesh, ""), strokes ? strokes->string() : ""});
+  check_replaced({output}, {name_of(job.mesh, ""), strokes ? strokes->string() : ""}, listener);
   SubdivideReport report{{}, {}, {}, job.frame};
   take_noted_frame(report.frame, {name_of(job.mesh, "")});
   const Context context{report.frame, listener};
   report.mesh = read_mesh(job.mesh, context);
   stop_if_cancelled(context);
-  refine(job, report, context);
+  SeamTies ties = all_ties(report.mesh, name_of(job.mesh, "the mesh"), context);
+  refine(job, report, ties, context);
+  if (!ties.empty()) {
+    set_seam_ties(report.mesh.mesh, ties, {});
+    close_seam_ties(report.mesh.mesh);
+  }
   if (job.max_weights) geometry::normalize_skin_weights(report.mesh.mesh, *job.max_weights);
   stop_if_cancelled(context);
+  warn_of_lost_ties(report.mesh.mesh, job.output, listener);
   if (!output.empty() && output != "-") write_mesh(job.output, report.mesh, context);
   return report;
 }

@@ -63,7 +63,7 @@ void write(const TransferJob& job, const TransferReport& report, const Context& 
 
 TransferReport transfer(const TransferJob& job, Listener& listener) {
   if (!job.output.empty()) check_output(job.output.string());
-  refuse_same({job.output.string()}, names_of_inputs(job));
+  check_replaced({job.output.string()}, names_of_inputs(job), listener);
   TransferReport report;
   report.frame = job.frame;
   take_noted_frame(report.frame, names_of_inputs(job));

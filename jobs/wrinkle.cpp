@@ -23,6 +23,7 @@
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/recorded_material.h"
+#include "jobs/run/seam_ties.h"
 #include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
@@ -35,7 +36,7 @@ std::string path_of(const StrokeInput& strokes) {
   return path ? path->string() : "";
 }
 
-void check(const WrinkleJob& job) {
+void check(const WrinkleJob& job, Listener& listener) {
   const std::string output = job.output.string(), inserted = job.inserted.string();
   if (!output.empty()) check_output(output);
   if (job.state && !output.empty() && job.output.extension() != ".ply")
@@ -59,7 +60,7 @@ void check(const WrinkleJob& job) {
                                   job.state_path.string()};
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
-  refuse_same(outputs, inputs);
+  check_replaced(outputs, inputs, listener);
 }
 
 /// The frame that the garment's file or the state notes, where the job names none.
@@ -102,6 +103,8 @@ Canvas canvas_of(const WrinkleJob& job, const io::Scene* keep, const Context& co
     canvas.pins = canvas.state->pins;
   } else {
     canvas.file = read_garment(job.garment, context);
+    const SeamTies ties = all_ties(canvas.file, name_of(job.garment, "the garment"), context);
+    if (!ties.empty()) set_seam_ties(canvas.file.mesh, ties, keep ? keep->material : io::SceneMaterial{});
     if (keep) canvas.pins = find_pins(canvas.file, keep->pins);
   }
   return canvas;
@@ -272,7 +275,7 @@ RecordedDrawing recorded_drawing(const fs::path& wrinkled, const Context& contex
 
 WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
   const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
-  check(job);
+  check(job, listener);
   WrinkleReport report;
   report.frame = frame_of(job);
   const Context context{report.frame, listener, job.keep ? &job.keep->memory : nullptr};
@@ -303,6 +306,7 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
   }
   stop_if_cancelled(context);
   if (settle) settle_drawn(job, *settle, report, context);
+  warn_of_lost_ties(report.garment.mesh, job.output, listener);
   write(job, report, context);
   return report;
 }

@@ -10,23 +10,27 @@
 namespace furrow::cli {
 namespace {
 
-struct ManArguments {
+struct ManArguments : CommonArguments {
   std::string command, folder;
 };
 
-void write_pages(const CLI::App& app, const std::string& folder) {
+void write_pages(const CLI::App& app, const std::string& folder, Listener& listener) {
   if (!std::filesystem::is_directory(folder))
     throw std::runtime_error(folder + ": there is no such folder; make it first");
   const auto write = [&](const std::string& name, const std::string& page) {
-    io::write_atomically(std::filesystem::path(folder) / (name + ".1"),
-                         [&](std::ostream& out) { out << page; });
+    const std::filesystem::path path = std::filesystem::path(folder) / (name + ".1");
+    check_replaced({path.string()}, {}, listener);
+    io::write_atomically(path, [&](std::ostream& out) { out << page; });
   };
   write("furrow", man_page(app));
   for (const CLI::App* sub : shown_subcommands(app)) write("furrow-" + sub->get_name(), man_page(app, *sub));
 }
 
 void print_page(const CLI::App& app, const ManArguments& a) {
-  if (!a.folder.empty()) return write_pages(app, a.folder);
+  if (!a.folder.empty()) {
+    Terminal terminal(a);
+    return write_pages(app, a.folder, terminal);
+  }
   if (a.command.empty()) {
     std::cout << man_page(app);
     return flush_output();
@@ -64,6 +68,7 @@ void add_man(CLI::App& app) {
                                      "  furrow man drape | man -l -");
   sub->add_option("command", a->command, "page of this subcommand; none: of furrow itself");
   sub->add_option("--into", a->folder, "write all pages into this folder, as furrow.1, furrow-drape.1, ...");
+  sub->add_flag("--replace", a->replace, "write over pages that furrow did not write");
   sub->callback([a, &app] { print_page(app, *a); });
 }
 

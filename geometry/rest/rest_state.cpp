@@ -53,7 +53,7 @@ std::size_t carry_struts(Mesh& mesh, const Change& change) {
   std::vector<Strut> list = struts(mesh);
   std::size_t scaled = 0;
   for (Strut& s : list) {
-    if (!change.touches(s.a, s.b)) continue;
+    if (s.rest_length <= tie_length || !change.touches(s.a, s.b)) continue;
     s.rest_length = change.carried(s.rest_length, s.a, s.b);
     ++scaled;
   }

@@ -275,6 +275,8 @@ std::string import(const std::filesystem::path& path, const ReadOptions& options
     throw ContentError("it names '" + folder->refused() +
                        "', which is no file in its folder or below; lay the file there");
   if (!scene && std::string(importer.GetErrorString()) == "std::bad_alloc") throw std::bad_alloc();
+  if (!scene && std::string(importer.GetErrorString()).find("No suitable reader") != std::string::npos)
+    throw ContentError("it is no glTF of version 2, or is damaged where it begins; export it again");
   if (!scene) throw ContentError(importer.GetErrorString());
   if (warnings->damage()) throw ContentError("a face names a vertex that is not there; repair the file");
   SoupFile file = SceneReader(*scene, options).read();

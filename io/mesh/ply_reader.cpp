@@ -278,6 +278,7 @@ class PlyReader {
     use(texture);
     use(find_group(element, {{"x", "y", "z"}}));
     use(find_group(element, {{"nx", "ny", "nz"}}));
+    if (faces_have_texture()) use(find_group(element, {{"s", "t"}}));  // the same again, for Blender
     of_vertices_.for_each([&](auto& slot) {
       const PlyValue kind = slot.attribute.ply.value;
       if (kind == PlyValue::none || (kind == PlyValue::state && !is_state())) return;

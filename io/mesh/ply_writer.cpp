@@ -27,6 +27,27 @@ bool are_bytes(const Mesh& mesh, const VertexMap<Color>& colors) {
   });
 }
 
+/// The texture coordinates of the vertices, by index, as Blender reads them (columns s and t); none where two
+/// corners of a vertex differ, as at a seam of the texture, where a corner has none, or where the names are
+/// those of other attributes. A vertex without faces has (0, 0).
+std::vector<TextureCoordinate> textures_of_vertices(const Mesh& mesh) {
+  const auto textures = find_map(mesh, attribute::texture);
+  if (!textures) return {};
+  for (const VertexAttribute& other : vertex_attributes(mesh))
+    if (other.name == "s" || other.name == "t") return {};
+  std::vector<TextureCoordinate> result(mesh.num_vertices(), {0, 0});
+  std::vector<char> known(mesh.num_vertices(), 0);
+  for (const Face f : mesh.faces())
+    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+      const Vertex v = mesh.target(h);
+      const TextureCoordinate& t = (*textures)[h];
+      if (!std::isfinite(t[0]) || !std::isfinite(t[1])) return {};
+      if (known[v] && result[v] != t) return {};
+      result[v] = t, known[v] = 1;
+    }
+  return result;
+}
+
 /// Every registered attribute that the mesh has becomes its columns, in the register's order.
 class PlyWriter {
  public:
@@ -138,6 +159,7 @@ class PlyWriter {
     out_ += "property double x\nproperty double y\nproperty double z\n";
     declare_columns(of_vertices_);
     for (const VertexAttribute& attribute : others_) declare_other(one_line(attribute.name), vertex);
+    if (!vertex_textures_.empty()) out_ += "property double s\nproperty double t\n";
     declare("face", mesh_.number_of_faces());
     out_ += "property list uchar int vertex_indices\n";
     declare_columns(of_faces_);
@@ -161,6 +183,8 @@ class PlyWriter {
       of_vertices_.for_each(
           [&](const auto& attribute, const auto&, const auto& map) { put_at(attribute, map, v); });
       for (const VertexAttribute& attribute : others_) put(attribute.values[v]);
+      if (!vertex_textures_.empty())
+        for (const double t : vertex_textures_[v]) put(t);
     }
   }
 
@@ -227,6 +251,7 @@ class PlyWriter {
   AttributeMaps<Edge> of_edges_;
   std::vector<VertexAttribute> others_;
   std::vector<Strut> struts_;
+  std::vector<TextureCoordinate> vertex_textures_ = textures_of_vertices(mesh_);
   bool byte_colors_ = false, has_edges_ = false;
   std::string out_;
 };

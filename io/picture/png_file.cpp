@@ -2,14 +2,16 @@
 #include "io/picture/png_file.h"
 
 #include <png.h>
-#include <unistd.h>
 
 #include <bit>
+#include <cerrno>
 #include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <ostream>
 #include <string>
-#include <system_error>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/atomic_file.h"
@@ -161,18 +163,18 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   control.image.width = png_uint_32(image.width);
   control.image.height = png_uint_32(image.height);
   control.image.format = PNG_FORMAT_RGB;
-  const std::filesystem::path temporary = path.string() + ".part" + std::to_string(::getpid());
-  std::error_code error;
-  if (!png_image_write_to_file(&control.image, temporary.c_str(), 0, image.rgb.data(), 0, nullptr)) {
-    std::filesystem::remove(temporary, error);
-    throw std::runtime_error(path.string() + ": cannot write the picture: " + control.image.message);
-  }
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(path.string() + ": cannot write the picture: " + error.message());
-  }
+  const auto fail = [&](const std::string& why) {
+    throw std::runtime_error(path.string() + ": cannot write the picture: " + why);
+  };
+  char* bytes = nullptr;
+  std::size_t size = 0;
+  std::FILE* memory = open_memstream(&bytes, &size);
+  if (!memory) fail(std::strerror(errno));
+  const bool done = png_image_write_to_stdio(&control.image, memory, 0, image.rgb.data(), 0, nullptr);
+  const bool whole = std::fclose(memory) == 0;
+  const std::unique_ptr<char, decltype(&std::free)> owner(bytes, &std::free);
+  if (!done || !whole) fail(done ? "not enough memory" : control.image.message);
+  write_atomically(path, [&](std::ostream& out) { out.write(bytes, std::streamsize(size)); });
 }
 
 Image read_png(const std::filesystem::path& path) {

@@ -13,9 +13,9 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< 3 · width · height values; rows from the top, pixels from the left
 };
 
-/// Writes a picture as PNG, to a temporary beside it that is then renamed, so that no reader ever sees half a
-/// file. Throws std::invalid_argument if a side is < 1 or rgb has another length; std::runtime_error if it
-/// cannot be written.
+/// Writes a picture as PNG, by write_atomically(): no reader ever sees half a file. Throws
+/// std::invalid_argument if a side is < 1 or rgb has another length; std::runtime_error if it cannot be
+/// written.
 void write_png(const std::filesystem::path& path, const Image& image);
 
 /// A picture of three numbers a pixel that are not colours: displacements, normals.

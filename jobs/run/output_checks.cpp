@@ -5,22 +5,18 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/base/lower_case.h"
-#include "jobs/inputs.h"
+#include "jobs/run/own_output.h"
 
 namespace furrow::jobs {
-namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether two names are those of one file, which need not be there yet.
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code none;
   if (a == b || fs::equivalent(a, b, none)) return true;
   const fs::path x = fs::weakly_canonical(a, none), y = fs::weakly_canonical(b, none);
   return !x.empty() && x == y;
 }
-
-}  // namespace
 
 void check_folder(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
@@ -61,6 +57,17 @@ void refuse_same(const std::vector<std::string>& outputs, const std::vector<std:
       if (input != "-") refuse_same(outputs[i], input);
     for (std::size_t k = 0; k < i; ++k) refuse_same(outputs[i], outputs[k]);
   }
+}
+
+void check_replaced(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                    Listener& listener) {
+  refuse_same(outputs, inputs);
+  std::error_code none;
+  for (const std::string& output : outputs)
+    if (!output.empty() && output != "-" && fs::is_regular_file(output, none) && !is_own_output(output) &&
+        !listener.replaces(output))
+      throw std::invalid_argument(
+          output + ": exists, and furrow did not write it; name another file, or add " + "--replace");
 }
 
 }  // namespace furrow::jobs

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "jobs/inputs.h"
+
 /// What can be known to fail when a file is written is said before the work.
 namespace furrow::jobs {
 
@@ -15,10 +17,18 @@ void check_output(const std::string& path);
 /// check_folder(). An empty path is passed over.
 void check_picture(const std::string& path, const std::string& option);
 
+/// Whether two names are those of one file, which need not be there yet.
+bool same_file(const std::string& a, const std::string& b);
 /// Throws std::invalid_argument if the output would replace a file that is read or written beside it.
 void refuse_same(const std::string& output, const std::string& other);
 /// The same for each output against every input and every other output; "-" among the inputs, and empty
 /// names, are passed over.
 void refuse_same(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+/// What every job asks of its outputs: as refuse_same(); and throws std::invalid_argument for one that is
+/// there and that furrow did not write (own_output.h), unless the listener replaces it. "-", and what is no
+/// regular file, is passed over.
+void check_replaced(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                    Listener& listener);
 
 }  // namespace furrow::jobs

@@ -48,15 +48,7 @@ void draw_first_lines(const io::Scene& scene, SceneCloth& result, const Context&
 
 /// Refines the garment; seams that reading cut open are tied.
 void subdivide_tied(io::MeshFile& file, const io::Scene& scene, const Context& context) {
-  SeamTies ties = seam_ties(file.mesh);
-  const SeamTies doubled = doubled_vertices(file);
-  ties.insert(ties.end(), doubled.begin(), doubled.end());
-  if (!doubled.empty())
-    context.warn(
-        "seams_tied",
-        scene.garment.string() + ": " + std::to_string(doubled.size()) +
-            " vertices that reading doubled, where three or more faces meet, are tied together again",
-        scene.garment.string(), "furrow doctor");
+  SeamTies ties = all_ties(file, scene.garment.string(), context);
   if (ties.empty()) {
     if (scene.subdivide > 0) geometry::loop_subdivide(file.mesh, scene.subdivide);
     return;

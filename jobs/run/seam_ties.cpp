@@ -8,15 +8,13 @@
 
 #include "bridge/gather.h"
 #include "geometry/mesh/struts.h"
+#include "io/base/lower_case.h"
 #include "io/mesh/merge_points.h"
 
 namespace furrow::jobs {
 namespace {
 
 using geometry::Vertex;
-
-constexpr double no_length =
-    1e-9;  // of a tie at rest [m]: above 0, as springs need, and far below any load's
 
 /// For each vertex the lowest one that it is tied to, through others, too.
 std::vector<std::size_t> knots_of(std::size_t vertices, const SeamTies& ties) {
@@ -56,8 +54,29 @@ SeamTies doubled_vertices(const io::MeshFile& file) {
 SeamTies seam_ties(const geometry::Mesh& mesh) {
   SeamTies ties;
   for (const geometry::Strut& s : geometry::struts(mesh))
-    if (s.rest_length <= no_length) ties.push_back({s.a, s.b});
+    if (s.rest_length <= geometry::tie_length) ties.push_back({s.a, s.b});
   return ties;
+}
+
+SeamTies all_ties(const io::MeshFile& file, const std::string& name, const Context& context) {
+  SeamTies ties = seam_ties(file.mesh);
+  const SeamTies doubled = doubled_vertices(file);
+  ties.insert(ties.end(), doubled.begin(), doubled.end());
+  if (!doubled.empty())
+    context.warn(
+        "seams_tied",
+        name + ": " + std::to_string(doubled.size()) +
+            " vertices that reading doubled, where three or more faces meet, are tied together again",
+        name, "furrow doctor");
+  return ties;
+}
+
+void warn_of_lost_ties(const geometry::Mesh& mesh, const std::filesystem::path& output, Listener& listener) {
+  if (output.empty() || io::lower_case(output.extension().string()) == ".ply" || seam_ties(mesh).empty())
+    return;
+  listener.warn({"ties_lost",
+                 output.string() + ": ties of seams where three or more faces meet go into a .ply alone",
+                 output.string(), "-o OUT.ply"});
 }
 
 SeamTies refined_ties(const geometry::Mesh& before, const SeamTies& ties) {
@@ -94,8 +113,8 @@ void set_seam_ties(geometry::Mesh& mesh, const SeamTies& ties, const io::SceneMa
   const double stiffness =
       material.stretch ? bridge::spring_constant_of(*material.stretch) : material.stiffness;
   std::vector<geometry::Strut> all = geometry::struts(mesh);
-  std::erase_if(all, [](const geometry::Strut& s) { return s.rest_length <= no_length; });
-  for (const auto& [a, b] : ties) all.push_back({a, b, no_length, stiffness});
+  std::erase_if(all, [](const geometry::Strut& s) { return s.rest_length <= geometry::tie_length; });
+  for (const auto& [a, b] : ties) all.push_back({a, b, geometry::tie_length, stiffness});
   geometry::set_struts(mesh, all);
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <array>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "io/mesh/mesh_file.h"
 #include "io/scene/scene.h"
+#include "jobs/inputs.h"
 
 /// Where three or more faces meet at an edge, reading parts the mesh (its vertices are doubled), and cloth
 /// would fall apart there. Ties hold it together: struts without length to speak of, which files and states
@@ -20,8 +23,14 @@ SeamTies doubled_vertices(const io::MeshFile& file);
 /// The ties that a mesh has. O(struts).
 SeamTies seam_ties(const geometry::Mesh& mesh);
 
-/// The ties after one step of loop_subdivide() of the mesh: those there are, and of the mid-points of edges
-/// whose ends are tied. O(V + E log E).
+/// Both of these; warns, with the file's name, of what reading doubled.
+SeamTies all_ties(const io::MeshFile& file, const std::string& name, const Context& context);
+
+/// Warns where a mesh with ties is written to a file that does not keep them; an empty name: none is.
+void warn_of_lost_ties(const geometry::Mesh& mesh, const std::filesystem::path& output, Listener& listener);
+
+/// The ties after one step of loop_subdivide() or midpoint_subdivide() of the mesh: those there are, and of
+/// the mid-points of edges whose ends are tied. O(V + E log E).
 SeamTies refined_ties(const geometry::Mesh& before, const SeamTies& ties);
 
 /// Adds them as struts, as stiff as the material's springs; other struts stay, ties that were there are

@@ -84,7 +84,7 @@ void check_names(const io::TomlDocument& document, const std::string& key) {
   }
 }
 
-void check_outputs(const OpenScene& open, const SimulateJob& job) {
+void check_outputs(const OpenScene& open, const SimulateJob& job, Listener& listener) {
   const io::Scene& scene = open.scene;
   const io::SceneOutput& out = scene.output;
   if (job.needs_output && out.mesh.empty() && out.state.empty() && out.animation.empty())
@@ -96,7 +96,7 @@ void check_outputs(const OpenScene& open, const SimulateJob& job) {
   std::vector<std::string> written;
   for (const auto& path : {out.mesh, out.state, out.inserted, out.smoothed, out.animation, out.body})
     if (!path.empty() && path != "-") written.push_back(path.string());
-  refuse_same(written, inputs(scene, open.document, job));
+  check_replaced(written, inputs(scene, open.document, job), listener);
 }
 
 void check_state(const io::Scene& scene, const io::SavedState& state) {
@@ -133,7 +133,7 @@ OpenScene open_scene(const SimulateJob& job, Listener& listener) {
   if (!job.state) take_noted_frame(open.scene, open.document, job.scene.memory);
   if (is_scene(open.document.name))
     make_folders(open.scene, open.document, job.outputs_below.value_or(open.folder));
-  check_outputs(open, job);
+  check_outputs(open, job, listener);
   open.frame.unit = open.scene.unit;
   open.frame.up = open.scene.up;
   return open;

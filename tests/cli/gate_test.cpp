@@ -44,6 +44,15 @@ TEST_CASE("gate: a body in the wrong unit is asked about by the unit's name") {
   check_refused("drape " + sheet + " --body " + mannequin + " --unit mm", 3, "say --unit m");
 }
 
+TEST_CASE("gate: sdf takes the --body-unit that its message advises") {
+  const ScratchDirectory scratch;
+  const std::string call = "sdf " + mannequin + " --unit mm --tolerance 0.01 -o " + (scratch / "b.field");
+  const Run run = run_furrow(call);
+  CHECK(run.exit_code == 3);
+  CHECK_THAT(run.err, Contains("--body-unit"));
+  CHECK(run_furrow(call + " --body-unit m").exit_code == 0);
+}
+
 TEST_CASE("gate: a garment without area is refused by its file's name, with exit 3") {
   const ScratchDirectory scratch;
   const std::string line = scratch / "line.obj", stroke = scratch / "s.json";

@@ -126,6 +126,68 @@ TEST_CASE("outputs: no subcommand replaces what it reads, by whatever name") {
   CHECK(read_text(state) == state_before);
 }
 
+TEST_CASE("outputs: a file that furrow did not write is replaced with --replace only, its own without") {
+  Files f;
+  f.wrinkle();
+  const std::string foreign = "# another program\no shirt\nv 0.000000 0.000000 0.000000\n";
+  const std::string small = " --size 60,60 --quality draft ", ball = source_file("meshes/mannequin.obj");
+  const std::vector<std::pair<std::string, std::string>> calls{
+      {"subdivide --linear 1 " + f.mesh + " -o ", "o.obj"},
+      {"smooth " + f.mesh + " -o ", "o.ply"},
+      {"wrinkle " + f.mesh + " " + f.lines + " -o ", "o.ply"},
+      {"wrinkle " + f.mesh + " " + f.lines + small + " --picture ", "p.png"},
+      {"wrinkle " + f.mesh + " " + f.lines + " -o " + (f / "w2.ply") + " --inserted ", "i.off"},
+      {"simulate --seconds 0.01 --pin-loop 0 " + f.mesh + " -o ", "o.stl"},
+      {"simulate --seconds 0.01 --pin-loop 0 " + f.mesh + " --save-state ", "s.ply"},
+      {"simulate --seconds 0.1 --pin-loop 0 " + f.mesh + " --animation ", "a.mdd"},
+      {"simulate --seconds 0.1 --pin-loop 0 " + f.mesh + " --animation ", "a.pc2"},
+      {"simulate --seconds 0.1 --pin-loop 0 " + f.mesh + " --animation ", "a.glb"},
+      {"transfer " + f.cm + " " + f.wrinkled + " -o ", "back.obj"},
+      {"render " + f.mesh + small + " -o ", "r.png"},
+      {"render " + f.mesh + small + " -o " + (f / "r2.png") + " --save-camera ", "cam.json"},
+      {"doctor " + f.mesh + " --repair -o ", "d.obj"},
+      {"strokes " + f.wrinkled + " --rename a=b -o ", "s.json"},
+      {"sdf " + ball + " --tolerance 0.01 -o ", "b.field"},
+  };
+  for (const auto& [call, name] : calls) {
+    write_text(f / name, foreign);
+    INFO("furrow " << call << name);
+    const Run refused = run_furrow(call + (f / name));
+    CHECK(refused.exit_code == 2);
+    CHECK(holds(refused.err, name + ": exists, and furrow did not write it"));
+    CHECK(holds(refused.err, "--replace"));
+    CHECK(read_text(f / name) == foreign);
+    CHECK(run_furrow(call + (f / name) + " --replace").exit_code != 2);
+    CHECK(read_text(f / name) != foreign);
+    const Run again = run_furrow(call + (f / name));
+    INFO(again.err);
+    CHECK(again.exit_code != 2);
+  }
+}
+
+TEST_CASE("outputs: strokes may take the place of their own file, not that of another one") {
+  Files f;
+  CHECK(run_furrow("strokes " + f.lines + " --rename a=b -o " + f.lines).exit_code == 0);
+  write_text(f / "other.json", R"({"strokes":[{"name":"c","height":0.02,"vertices":[30,34]}]})");
+  const std::string call = "strokes " + f.lines + " --rename b=d -o " + (f / "other.json");
+  CHECK(run_furrow(call).exit_code == 2);
+  CHECK(holds(read_text(f / "other.json"), "\"c\""));
+  CHECK(run_furrow(call + " --replace").exit_code == 0);
+}
+
+TEST_CASE("outputs: those of a scene do not replace what furrow did not write") {
+  Files f;
+  const std::string scene = f / "s.toml";
+  write_text(scene,
+             "[garment]\nmesh = \"wall.obj\"\n[[pins]]\nloop = 0\n[simulation]\nseconds = 0\n"
+             "[output]\nmesh = \"o.ply\"\n");
+  write_text(f / "o.ply", "mine");
+  CHECK(run_furrow("simulate -q " + scene).exit_code == 2);
+  CHECK(read_text(f / "o.ply") == "mine");
+  CHECK(run_furrow("simulate -q --replace " + scene).exit_code == 0);
+  CHECK(run_furrow("simulate -q " + scene).exit_code == 0);
+}
+
 TEST_CASE("outputs: those of a scene stay below its folder unless the command line says so") {
   Files f;
   std::filesystem::create_directory(f / "scene");

@@ -48,11 +48,13 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   report_of("subdivide " + sheet + " --subdivide 1" + out("fine.ply"));
   report_of("subdivide " + sheet + " --strokes " + strokes + out("lined.ply"));
   report_of("smooth " + (scratch / "fine.ply") + out("smooth.ply"));
-  report_of("wrinkle " + sheet + " " + strokes + out("w.ply"));
+  CHECK(report_of("wrinkle " + sheet + " " + strokes + out("w.ply"))["written"] ==
+        json::array({scratch / "w.ply"}));
   report_of("info " + (scratch / "w.ply"));
   report_of("wrinkle " + sheet + " " + strokes + " --rest keep --fabric denim --pin-loop top" + out("k.ply"));
-  report_of("keep " + (scratch / "w.ply") + " --pin-loop top --fabric denim --run 0.05 --gust 0" +
-            out("kept.ply"));
+  CHECK(report_of("keep " + (scratch / "w.ply") + " --pin-loop top --fabric denim --run 0.05 --gust 0" +
+                  out("kept.ply") + " --save-state " + (scratch / "ks.ply"))["written"] ==
+        json::array({scratch / "kept.ply", scratch / "ks.ply"}));
   report_of("sdf" + body.substr(7) + " --tolerance 0.01 --at 0,1,0.3" + out("body.sdf"));
   report_of("drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"));
   report_of("drape " + (scratch / "w.ply") + " --pin-loop top" + out("hangs.ply"));

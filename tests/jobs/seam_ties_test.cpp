@@ -9,6 +9,8 @@
 #include "jobs/doctor.h"
 #include "jobs/drape.h"
 #include "jobs/simulate.h"
+#include "jobs/subdivide.h"
+#include "jobs/wrinkle.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_meshes.h"
@@ -118,4 +120,39 @@ TEST_CASE("doctor: a seam of three faces is tied in the mended PLY, and other fo
   job.output = folder / "mended.obj";
   jobs::doctor(job, recorder);
   CHECK(recorder.warned_of("ties_lost"));
+}
+
+TEST_CASE("seam_ties: subdivide and wrinkle write a PLY whose seams are tied, on every new level") {
+  const fs::path folder = tests::empty_folder("seam_ties_kept");
+  write_flapped_sheet(folder / "flap.obj");
+  for (const jobs::Refinement refinement : {jobs::Refinement::loop, jobs::Refinement::linear}) {
+    jobs::SubdivideJob job{folder / "flap.obj"};
+    job.refinement = refinement;
+    job.steps = 2;
+    job.output = folder / "fine.ply";
+    tests::Recorder recorder;
+    jobs::subdivide(job, recorder);
+    CHECK(recorder.warned_of("seams_tied"));
+    CHECK_FALSE(recorder.warned_of("ties_lost"));
+    const geometry::Mesh fine = io::read_mesh(folder / "fine.ply").mesh;
+    const jobs::SeamTies ties = jobs::seam_ties(fine);
+    CHECK(ties.size() == 2 * (4 * across + 1));
+    CHECK(widest(fine, ties) == 0);
+    job.output = folder / "fine.obj";
+    jobs::subdivide(job, recorder);
+    CHECK(recorder.warned_of("ties_lost"));
+  }
+  jobs::WrinkleJob job;
+  job.garment = folder / "flap.obj";
+  geometry::Stroke stroke;  // across the seam
+  stroke.height = 0.01;
+  stroke.points = {{0.11, 1, 0.05}, {0.13, 1, 0.25}};
+  job.strokes = std::vector<io::DrawnStroke>{{stroke}};
+  job.output = folder / "wrinkled.ply";
+  tests::Recorder recorder;
+  jobs::wrinkle(job, recorder);
+  CHECK(jobs::seam_ties(io::read_mesh(job.output).mesh).size() == 2 * (across + 1));
+  job.garment = folder / "fine.ply";
+  jobs::wrinkle(job, recorder);
+  CHECK(jobs::seam_ties(io::read_mesh(job.output).mesh).size() == 2 * (4 * across + 1));
 }

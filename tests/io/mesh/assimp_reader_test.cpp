@@ -249,3 +249,14 @@ TEST_CASE("gltf: buffers are read from the file's folder and below, not from els
                           Catch::Contains("lay the file there"));
   }
 }
+
+TEST_CASE("glTF: a file that is none is refused in words of our own") {
+  const TemporaryFolder folder;
+  for (const std::string& bytes : {std::string("no glTF at all"), std::string("glTX\2\0\0\0\14\0\0\0", 12)}) {
+    spit(folder / "broken.glb", bytes);
+    const std::string error = content_error([&] { io::read_mesh(folder / "broken.glb"); });
+    CHECK(error.find("broken.glb: ") != std::string::npos);
+    CHECK(error.find("it is no glTF of version 2, or is damaged where it begins") != std::string::npos);
+    CHECK(error.find("suitable reader") == std::string::npos);
+  }
+}

@@ -9,6 +9,7 @@
 #include "geometry/mesh/vertex_attributes.h"
 #include "tests/geometry/mesh/filled_attributes.h"
 #include "tests/io/base/io_test_helpers.h"
+#include "tests/test_meshes.h"
 
 using namespace furrow;
 using namespace furrow::geometry;
@@ -251,6 +252,36 @@ TEST_CASE("PLY: texture coordinates of vertices go to the corners") {
   const io::MeshFile file = read_from(text, MeshFormat::ply);
   const Halfedge h = file.mesh.halfedge(Vertex(2), Vertex(0));
   CHECK((*find_map(file.mesh, attribute::texture))[h] == TextureCoordinate{0.5, 0.25});
+}
+
+TEST_CASE("PLY: vertices carry their texture coordinates for Blender, unless a seam gives them two") {
+  io::MeshFile file;
+  file.mesh = grid(2, 2);
+  auto texture = ensure_map(file.mesh, attribute::texture);
+  for (const Halfedge h : file.mesh.halfedges()) {
+    const Point& p = file.mesh.point(file.mesh.target(h));
+    texture[h] = {p.x() / 3, p.y() / 7};
+  }
+  const std::string bytes = written(file, MeshFormat::ply);
+  CHECK(bytes.find("property double z\nproperty double s\nproperty double t\nelement face") != bytes.npos);
+  const io::MeshFile back = read_from(bytes, MeshFormat::ply);
+  check_same_maps(file.mesh, back.mesh);
+  CHECK(vertex_attributes(back.mesh).empty());
+  CHECK(back.warnings.empty());
+  CHECK(written(back, MeshFormat::ply) == bytes);
+  // What a program sees that knows the columns of vertices alone.
+  std::string blind = bytes;
+  for (std::size_t at; (at = blind.find("texcoord")) != blind.npos;) blind.replace(at, 8, "textures");
+  const io::MeshFile seen = read_from(blind, MeshFormat::ply);
+  check_same_map(file.mesh, seen.mesh, attribute::texture);
+  for (const TextureCoordinate& other : {TextureCoordinate{0.5, 0.5}, attribute::texture.default_value}) {
+    io::MeshFile seam = file;
+    (*find_map(seam.mesh, attribute::texture))[seam.mesh.halfedge(Face(3))] = other;
+    CHECK(written(seam, MeshFormat::ply).find("property double s") == std::string::npos);
+  }
+  io::MeshFile clash = file;
+  ensure_vertex_attribute(clash.mesh, "t");
+  CHECK(written(clash, MeshFormat::ply).find("property double s") == std::string::npos);
 }
 
 TEST_CASE("PLY: errors name the line, or the element in binary files") {
