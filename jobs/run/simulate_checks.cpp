@@ -43,8 +43,9 @@ void check_lies_below(const fs::path& output, const fs::path& folder, const std:
 void make_folders(const io::Scene& scene, const io::TomlDocument& document, const fs::path& below) {
   const io::SceneOutput& out = scene.output;
   const std::pair<const char*, fs::path> outputs[] = {
-      {"mesh", out.mesh},         {"state", out.state},         {"inserted", out.inserted},
-      {"smoothed", out.smoothed}, {"animation", out.animation}, {"body", out.body}};
+      {"mesh", out.mesh},         {"state", out.state},     {"inserted", out.inserted},
+      {"smoothed", out.smoothed}, {"settled", out.settled}, {"animation", out.animation},
+      {"body", out.body}};
   std::vector<fs::path> folders;
   for (const auto& [key, path] : outputs) {
     const std::string setting = "output." + std::string(key);
@@ -56,9 +57,9 @@ void make_folders(const io::Scene& scene, const io::TomlDocument& document, cons
 }
 
 void check_output_formats(const io::SceneOutput& out, bool has_body) {
-  for (const auto& path : {out.mesh, out.inserted, out.smoothed, out.body})
+  for (const auto& path : {out.mesh, out.inserted, out.smoothed, out.settled, out.body})
     if (!path.empty()) check_output(path.string());
-  for (const auto& path : {out.inserted, out.smoothed, out.body})
+  for (const auto& path : {out.inserted, out.smoothed, out.settled, out.body})
     if (path == "-")
       throw std::invalid_argument("only the garment at the end (-o) can go to standard output");
   if (!out.animation.empty() && !io::animation_format(out.animation))
@@ -94,7 +95,8 @@ void check_outputs(const OpenScene& open, const SimulateJob& job, Listener& list
   check_output_formats(out, scene.body.has_value());
   if (!out.state.empty()) check_names(open.document, "output.state");
   std::vector<std::string> written;
-  for (const auto& path : {out.mesh, out.state, out.inserted, out.smoothed, out.animation, out.body})
+  for (const auto& path :
+       {out.mesh, out.state, out.inserted, out.smoothed, out.settled, out.animation, out.body})
     if (!path.empty() && path != "-") written.push_back(path.string());
   check_replaced(written, inputs(scene, open.document, job), listener);
 }

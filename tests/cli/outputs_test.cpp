@@ -137,6 +137,8 @@ TEST_CASE("outputs: a file that furrow did not write is replaced with --replace 
       {"wrinkle " + f.mesh + " " + f.lines + " -o ", "o.ply"},
       {"wrinkle " + f.mesh + " " + f.lines + small + " --picture ", "p.png"},
       {"wrinkle " + f.mesh + " " + f.lines + " -o " + (f / "w2.ply") + " --inserted ", "i.off"},
+      {"simulate --settle --seconds 0 --pin-loop 0 " + f.mesh + " -o " + (f / "o2.ply") + " --settled ",
+       "set.ply"},
       {"simulate --seconds 0.01 --pin-loop 0 " + f.mesh + " -o ", "o.stl"},
       {"simulate --seconds 0.01 --pin-loop 0 " + f.mesh + " --save-state ", "s.ply"},
       {"simulate --seconds 0.1 --pin-loop 0 " + f.mesh + " --animation ", "a.mdd"},
