@@ -7,10 +7,6 @@
 
 namespace furrow::geometry {
 
-/// A strut no longer than this at rest is a tie [m]: it holds two vertices at one place, whatever the shape.
-/// Above 0, as springs need, and far below any load's.
-constexpr double tie_length = 1e-9;
-
 /// A spring between any two vertices, mostly some rings apart: it gives a fold depth to stand on.
 struct Strut {
   Vertex a, b;         ///< a < b
@@ -20,9 +16,9 @@ struct Strut {
 
 /// The struts of a mesh, sorted by (a, b), those of one pair in the order in which they were set; none where
 /// a vertex is not in the mesh any more. They stay with their vertices through insertion and flips;
-/// displacement carries their rest lengths along (apply_rest_rule), but for ties; subdivision drops them.
-/// They name vertices by index: code that removes vertices and collects the garbage has to set them anew.
-/// Furrow never does.
+/// displacement carries their rest lengths along (apply_rest_rule); subdivision drops them. They name
+/// vertices by index: code that removes vertices and collects the garbage has to set them anew. Furrow never
+/// does.
 std::vector<Strut> struts(const Mesh& mesh);
 
 /// Replaces all struts; none are left for an empty list. Copies of the mesh have them, too. Throws
