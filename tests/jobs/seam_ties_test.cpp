@@ -148,6 +148,7 @@ TEST_CASE("seam_ties: subdivide and wrinkle write a PLY whose seams are tied, on
   stroke.height = 0.01;
   stroke.points = {{0.11, 1, 0.05}, {0.13, 1, 0.25}};
   job.strokes = std::vector<io::DrawnStroke>{{stroke}};
+  job.options.insertion.rule = geometry::InsertionRule::safe;
   job.output = folder / "wrinkled.ply";
   tests::Recorder recorder;
   jobs::wrinkle(job, recorder);
