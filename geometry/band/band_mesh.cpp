@@ -14,6 +14,7 @@ namespace furrow::geometry {
 namespace {
 
 constexpr double near_chord = 0.2;  ///< of an edge: a new vertex on a chain goes onto the curve within this
+constexpr double astray = 0.05;     ///< of an edge: a place on the base that is farther off is not its own
 constexpr double tie = 1e-7;        ///< four points on a circle: either diagonal is Delaunay
 const double steepest_flip = std::cos(40 * std::numbers::pi / 180);  ///< between the two faces
 
@@ -26,12 +27,12 @@ BandMesh::BandMesh(Mesh& refined, const Mesh& given)
       editor(refined),
       rest(ensure_rest_lengths(refined)),
       base(given),
-      old_vertices(refined.num_vertices()),
-      place(old_vertices),
-      hold(old_vertices, Hold::free),
-      moved(old_vertices, false),
-      on_seam(old_vertices, false),
-      on(old_vertices),
+      old_vertices(given.num_vertices()),
+      place(refined.num_vertices()),
+      hold(refined.num_vertices(), Hold::free),
+      moved(refined.num_vertices(), false),
+      on_seam(refined.num_vertices(), false),
+      on(refined.num_vertices()),
       in_band(refined.num_faces(), false) {
   for (Edge e : mesh.edges()) {
     const bool seam = !mesh.is_border(e) && editor.is_seam(e), fixed = seam || editor.line_edge()[e];
@@ -80,25 +81,29 @@ double BandMesh::mean_edge(Vertex v) const {
   return sum / count;
 }
 
-/// The place on the base of a point of an edge. It is looked for from a vertex that lies on no seam, since
-/// one on a seam does not know its side; if there is none, from all faces around: the nearest is it.
+/// The place on the base of a point of an edge: the nearest that walks from the vertices around lead to. One
+/// walk alone may end at the border or at a seam before it is there, and a vertex on a seam does not know its
+/// side: then walks from all faces around are asked.
 FacePoint BandMesh::place_on(Halfedge h, const Point& p) const {
   const Halfedge o = mesh.opposite(h);
   std::vector<Vertex> near{mesh.source(h), mesh.target(h)};
   for (Halfedge side : {h, o})
     if (!mesh.is_border(side)) near.push_back(mesh.target(mesh.next(side)));
-  for (Vertex v : near)
-    if (!on_seam[v.idx()]) return base.project(place[v.idx()], p);
   FacePoint best;
   double least = std::numeric_limits<double>::infinity();
+  const auto ask = [&](const FacePoint& from) {
+    const FacePoint at = base.project(from, p);
+    const double d = (base.position(at) - p).squared_length();
+    if (d < least) least = d, best = at;
+  };
+  const double length = (mesh.point(near[1]) - mesh.point(near[0])).squared_length();
+  for (Vertex v : near)
+    if (!on_seam[v.idx()] && !(least <= 1e-12 * length)) ask(place[v.idx()]);
+  if (least <= astray * astray * length) return best;
   for (Vertex v : near)
     for (Vertex c : corners_of(base.mesh(), place[v.idx()].face))
-      for (Face f : base.mesh().faces_around_target(base.mesh().halfedge(c))) {
-        if (!f.is_valid()) continue;
-        const FacePoint at = base.project({f, {1, 0, 0}}, p);
-        const double d = (base.position(at) - p).squared_length();
-        if (d < least) least = d, best = at;
-      }
+      for (Face f : base.mesh().faces_around_target(base.mesh().halfedge(c)))
+        if (f.is_valid()) ask({f, {1, 0, 0}});
   return best;
 }
 
@@ -177,8 +182,11 @@ void BandMesh::settle(Vertex v, const Point& p, const FacePoint& at, const Star&
 bool BandMesh::move(const Star& star, const Place2& x, double least, const Point* p) {
   const Vertex v = star.centre;
   if (!(least_quality(star, x) >= least)) return false;
-  const FacePoint at = base.project(place[v.idx()], p ? *p : position_in(mesh, star, find_in_star(star, x)));
+  const Point wanted = p ? *p : position_in(mesh, star, find_in_star(star, x));
+  const FacePoint at = base.project(place[v.idx()], wanted);
   const Point target = p ? *p : base.position(at);
+  if ((target - wanted).squared_length() > std::pow(near_chord * mean_edge(v), 2))
+    return false;  // went astray
   if (turns_over(star, target)) return false;
   std::vector<double> lengths;
   for (const Place2& end : star.ends) lengths.push_back(std::hypot(end[0] - x[0], end[1] - x[1]));

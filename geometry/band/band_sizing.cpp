@@ -8,9 +8,10 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double growth = 0.35;     ///< of the edge with the distance from the band [-]
-constexpr double half_band = 0.55;  ///< of the width
-constexpr double turn = 0.35;       ///< largest angle between two faces at the crest [rad]
+constexpr double growth = 0.35;                         ///< of the edge with the distance from the band [-]
+constexpr double half_band = 0.55;                      ///< of the width
+constexpr double crest_ends = 0.1, flank_begins = 0.3;  ///< distances from the curve, in widths
+constexpr double turn = 0.35;  ///< largest angle between two faces at the crest [rad]
 constexpr int leaf_size = 4;
 
 Point point_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -35,10 +36,12 @@ double crest_edge(double width, double height, Detail detail, double least_edge)
 
 BandSizing::BandSizing(std::span<const FoldCurve> curves, Detail detail, double least_edge) {
   for (const FoldCurve& curve : curves) {
-    std::vector<double> h;
-    for (std::size_t i = 0; i < curve.points.size(); ++i)
+    std::vector<double> h, flank;
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
       h.push_back(crest_edge(curve.width[i], curve.height[i], detail, least_edge));
-    add_segments(curve, h);
+      flank.push_back(crest_edge(curve.width[i], 0, detail, least_edge));  // not as round as the crest
+    }
+    add_segments(curve, h, flank);
     on_curves_.push_back(std::move(h));
   }
   if (segments_.empty()) return;
@@ -47,12 +50,13 @@ BandSizing::BandSizing(std::span<const FoldCurve> curves, Detail detail, double 
   build(0, 0, static_cast<int>(segments_.size()));
 }
 
-void BandSizing::add_segments(const FoldCurve& curve, const std::vector<double>& h) {
+void BandSizing::add_segments(const FoldCurve& curve, const std::vector<double>& h,
+                              const std::vector<double>& flank) {
   const std::size_t n = curve.points.size();
   for (std::size_t i = 0; i + (curve.closed ? 0 : 1) < n; ++i) {
     const std::size_t j = (i + 1) % n;
     segments_.push_back({point_of(curve.points[i]), point_of(curve.points[j]), h[i], h[j],
-                         half_band * curve.width[i], half_band * curve.width[j]});
+                         half_band * curve.width[i], half_band * curve.width[j], flank[i], flank[j]});
   }
 }
 
@@ -98,13 +102,15 @@ BandSizing::Nearest BandSizing::nearest_of(const Segment& s, const Point& p) {
   const double squared = along.squared_length();
   const double t = squared > 0 ? std::clamp(((p - s.a) * along) / squared, 0.0, 1.0) : 0;
   const double d = std::sqrt((p - (s.a + t * along)).squared_length());
-  const double h = s.h_a + t * (s.h_b - s.h_a), reach = s.reach_a + t * (s.reach_b - s.reach_a);
-  return {h, d - reach};
+  const auto at = [t](double a, double b) { return a + t * (b - a); };
+  return {at(s.h_a, s.h_b), at(s.flank_a, s.flank_b), d, d - at(s.reach_a, s.reach_b)};
 }
 
 double BandSizing::wanted(const Segment& segment, const Point& p) {
   const Nearest at = nearest_of(segment, p);
-  return at.h + growth * std::max(0.0, at.beyond);
+  const double width = (at.distance - at.beyond) / half_band;
+  const double off = (at.distance / width - crest_ends) / (flank_begins - crest_ends);
+  return at.h + std::clamp(off, 0.0, 1.0) * (at.flank - at.h) + growth * std::max(0.0, at.beyond);
 }
 
 bool BandSizing::in_band(const Point& p) const {

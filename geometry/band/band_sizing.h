@@ -15,9 +15,9 @@ namespace furrow::geometry {
 /// min(width / 8, 0.35 R)), times the detail's factor, and at least `least_edge` [m].
 double crest_edge(double width, double height, Detail detail, double least_edge);
 
-/// The edge length wanted at a point of space: h within 0.55 width of a curve, from there on 0.35 of the
-/// distance more; the least of all curves. A tree of boxes over the segments of the curves: O(n log n) to
-/// build, about O(log n) to ask.
+/// The edge length wanted at a point of space: h within 0.1 width of a curve, that of a fold without height
+/// (width / 8) from 0.3 width on, and beyond 0.55 width 0.35 of the distance more; the least of all curves. A
+/// tree of boxes over the segments of the curves: O(n log n) to build, about O(log n) to ask.
 class BandSizing {
  public:
   BandSizing(std::span<const FoldCurve> curves, Detail detail, double least_edge);
@@ -33,17 +33,19 @@ class BandSizing {
   struct Segment {
     Point a, b;
     double h_a, h_b, reach_a, reach_b;  ///< h, and the distance up to which it is wanted [m]
+    double flank_a, flank_b;            ///< h away from the crest [m]
   };
   struct Box {
     std::array<double, 3> low, high;
     double least_h, most_h, most_reach;
     int first, count;  ///< count > 0: segments of a leaf; else children `first` and `first` + 1
   };
-  void add_segments(const FoldCurve& curve, const std::vector<double>& h);
+  void add_segments(const FoldCurve& curve, const std::vector<double>& h, const std::vector<double>& flank);
   void build(int box, int first, int count);
   Box bounds(int first, int count) const;
   struct Nearest {
-    double h, beyond;  ///< h at the nearest point of a segment, and the distance beyond its reach [m]
+    double h, flank;          ///< at the nearest point of a segment, and away from the crest [m]
+    double distance, beyond;  ///< from it, and beyond its reach [m]
   };
   static Nearest nearest_of(const Segment& segment, const Point& p);
   static double wanted(const Segment& segment, const Point& p);

@@ -9,6 +9,7 @@
 
 #include "geometry/band/band_mesh.h"
 #include "geometry/band/band_report.h"
+#include "geometry/band/relax_displaced.h"
 #include "geometry/band/split_longest.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
@@ -21,6 +22,7 @@ constexpr double least_share = 0.2;    ///< of the sizing, undisplaced: what is 
 constexpr double least_height = 0.01;  ///< of a face's longest side, after a flip
 constexpr double delaunay_tie = 1e-7;
 constexpr int most_passes = 20;
+constexpr int relaxations = 2;  ///< after the splits of a pass, and twice as many at last
 
 double distance(const Point& a, const Point& b) { return std::sqrt((a - b).squared_length()); }
 
@@ -39,20 +41,30 @@ double height_over_side(const Point& a, const Point& b, const Point& c) {
 class SecondPass {
  public:
   SecondPass(BandMesh& band, const BandSizing& sizing, std::vector<Point>& displaced,
-             const Displace& displace)
-      : band_(band), mesh_(band.mesh), sizing_(sizing), displaced_(displaced), displace_(displace) {}
+             const Displacing& displacing)
+      : band_(band), mesh_(band.mesh), sizing_(sizing), displaced_(displaced), displacing_(displacing) {}
 
   void run() {
     for (int i = 0; i < most_passes; ++i) {
       const std::size_t count = split();
       flip();
-      if (count == 0) return;
+      if (count == 0 && i == 0) return;
+      if (count == 0) break;
+      relax(relaxations);
     }
+    relax(2 * relaxations);
   }
 
  private:
   const Point& at(Vertex v) const { return displaced_[v.idx()]; }
   double length(Edge e) const { return distance(at(mesh_.vertex(e, 0)), at(mesh_.vertex(e, 1))); }
+
+  void relax(int rounds) {
+    for (int i = 0; i < rounds; ++i) {
+      relax_displaced(band_, sizing_, displaced_, displacing_);
+      flip();
+    }
+  }
 
   std::size_t split() {
     const auto is_too_long = [&](Edge e) {
@@ -71,7 +83,9 @@ class SecondPass {
                 "elsewhere, make them narrower, or use the rule safe");
           const Halfedge h = band_.from_lower(e);
           const SplitEdge ends{mesh_.source(h), mesh_.target(h), band_.split(e, 0.5)};
-          displaced_.push_back(displace_(ends, band_.place[ends.vertex.idx()]));
+          const FacePoint& place = band_.place[ends.vertex.idx()];
+          displaced_.push_back(displacing_.at({{ends.from, ends.to, ends.to}, {0.5, 0.5, 0}}, place));
+          displacing_.take(ends.vertex);
           return ends.vertex;
         });
   }
@@ -119,7 +133,7 @@ class SecondPass {
   const Mesh& mesh_;
   const BandSizing& sizing_;
   std::vector<Point>& displaced_;
-  const Displace& displace_;
+  const Displacing& displacing_;
   const std::size_t most_vertices_ = 4 * displaced_.size() + 5000;
 };
 
@@ -165,8 +179,8 @@ double smallest_angle_in(const BandMesh& band, const std::vector<Point>& displac
 }  // namespace
 
 DisplacedReport refine_displaced(Mesh& mesh, const Mesh& given, std::span<const FoldCurve> curves,
-                                 std::vector<Point>& displaced, const Displace& displace, BandReport& report,
-                                 const BandOptions& options) {
+                                 std::vector<Point>& displaced, const Displacing& displacing,
+                                 BandReport& report, const BandOptions& options) {
   if (displaced.size() != mesh.num_vertices() || report.places.size() != mesh.num_vertices() ||
       report.in_band.size() != mesh.num_faces() || report.chains.size() != curves.size())
     refuse("refine_displaced", "displaced places and band are not those of the mesh");
@@ -176,7 +190,7 @@ DisplacedReport refine_displaced(Mesh& mesh, const Mesh& given, std::span<const 
   const BandSizing sizing(curves, options.detail, options.least_edge);
   resume(band, report, curves, sizing);
   std::vector<Point> places = displaced;
-  SecondPass(band, sizing, places, displace).run();
+  SecondPass(band, sizing, places, displacing).run();
   band.finish();
   report = joined(std::move(report), report_on(band, curves));
   const DisplacedReport result{band.splits, band.flips, smallest_angle_in(band, places)};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -7,9 +8,20 @@
 
 namespace furrow::geometry {
 
-/// Where a new vertex lies once the folds are raised [m]. The edge that was split, and its place on the mesh
-/// that refine_band was given.
-using Displace = std::function<Point(const SplitEdge& split, const FacePoint& place)>;
+/// A place on the mesh as a mean of vertices.
+struct Between {
+  std::array<Vertex, 3> vertices;
+  Barycentrics weights;
+};
+
+/// What the caller knows of the displaced shape.
+struct Displacing {
+  /// Where a vertex between others lies once the folds are raised [m]; `place` is its place on the mesh that
+  /// refine_band() was given.
+  std::function<Point(const Between& between, const FacePoint& place)> at;
+  /// This vertex, a new one or one that moved, becomes what `at` was asked for last.
+  std::function<void(Vertex)> take;
+};
 
 struct DisplacedReport {
   std::size_t inserted = 0, flipped = 0;
@@ -17,16 +29,17 @@ struct DisplacedReport {
 };
 
 /// The second pass: steep flanks stretch the band, so edges longer than 1.5 of the sizing in the displaced
-/// shape are split, and Delaunay flips made in that shape, until nothing is too long but edges below 0.2 of
-/// the sizing undisplaced: where heights jump no split helps. A flip that meets more
-/// than 40 degrees between its faces, or would leave a face with a height below 1 % of its side, is refused.
-/// `mesh` is what refine_band left, undisplaced, and stays so; `given` the mesh before that; `displaced`
-/// holds the displaced place of every vertex and gets those of the new ones. `band` is kept up to date:
-/// chains, places, in_band, split_edges, changed_faces and counts. Throws std::invalid_argument, all
-/// unchanged, unless `displaced` and `band` belong to `mesh`; ContentError, all of no use then, where heights
-/// jump so much that four times the vertices and 5,000 do not do. O(n log n) a round.
+/// shape are split, Delaunay flips made in that shape, and new vertices moved to better places
+/// (relax_displaced.h), until nothing is too long but edges below 0.2 of the sizing undisplaced: where
+/// heights jump no split helps. A flip that meets more than 40 degrees between its faces, or would leave a
+/// face with a height below 1 % of its side, is refused. `mesh` is what refine_band left, undisplaced, and
+/// stays so; `given` the mesh before that; `displaced` holds the displaced place of every vertex and gets
+/// those of the new ones. `band` is kept up to date: chains, places, in_band, split_edges, changed_faces and
+/// counts. Throws std::invalid_argument, all unchanged, unless `displaced` and `band` belong to `mesh`;
+/// ContentError, all of no use then, where heights jump so much that four times the vertices and 5,000 do not
+/// do. O(n log n) a round.
 DisplacedReport refine_displaced(Mesh& mesh, const Mesh& given, std::span<const FoldCurve> curves,
-                                 std::vector<Point>& displaced, const Displace& displace, BandReport& band,
-                                 const BandOptions& options = {});
+                                 std::vector<Point>& displaced, const Displacing& displacing,
+                                 BandReport& band, const BandOptions& options = {});
 
 }  // namespace furrow::geometry

@@ -46,20 +46,8 @@ class Relaxation {
 
   bool centre(Vertex v) {
     const Star star = lay_flat(mesh_, band_.rest, v);
-    Place2 sum{0, 0};
-    double weights = 0;
-    for (std::size_t i = 0; i < star.faces(); ++i) {
-      const std::size_t j = star.after(i);
-      const Place2 &a = star.ends[i], &b = star.ends[j];
-      const double h = (size_[v.idx()] + size_[mesh_.target(star.spokes[i]).idx()] +
-                        size_[mesh_.target(star.spokes[j]).idx()]) /
-                       3;
-      const double w = area(a, b) / (h * h);
-      weights += w;
-      for (int k = 0; k < 2; ++k) sum[k] += w * (a[k] + b[k]) / 3;
-    }
-    if (!(weights > 0)) return false;
-    return go(star, {step * sum[0] / weights, step * sum[1] / weights});
+    const Place2 to = relaxed_place(mesh_, star, size_);
+    return (to[0] != 0 || to[1] != 0) && go(star, to);
   }
 
   bool slide_on_curve(Vertex v, const OnCurve at) {
@@ -110,6 +98,23 @@ class Relaxation {
 };
 
 }  // namespace
+
+Place2 relaxed_place(const Mesh& mesh, const Star& star, const std::vector<double>& size) {
+  Place2 sum{0, 0};
+  double weights = 0;
+  for (std::size_t i = 0; i < star.faces(); ++i) {
+    const std::size_t j = star.after(i);
+    const Place2 &a = star.ends[i], &b = star.ends[j];
+    const double h = (size[star.centre.idx()] + size[mesh.target(star.spokes[i]).idx()] +
+                      size[mesh.target(star.spokes[j]).idx()]) /
+                     3;
+    const double w = area(a, b) / (h * h);
+    weights += w;
+    for (int k = 0; k < 2; ++k) sum[k] += w * (a[k] + b[k]) / 3;
+  }
+  if (!(weights > 0)) return {0, 0};
+  return {step * sum[0] / weights, step * sum[1] / weights};
+}
 
 std::size_t relax_band(BandMesh& band, const BandSizing& sizing) { return Relaxation(band, sizing).run(); }
 

@@ -15,4 +15,8 @@ namespace furrow::geometry {
 /// Returns how many moved. O(vertices of the band).
 std::size_t relax_band(BandMesh& band, const BandSizing& sizing);
 
+/// Where relaxation takes the centre of a star: 0.7 of the way to the mean of its faces' centroids, weighted
+/// by area over the square of `size`, the sizing by vertex; (0, 0) for a star without area.
+Place2 relaxed_place(const Mesh& mesh, const Star& star, const std::vector<double>& size);
+
 }  // namespace furrow::geometry

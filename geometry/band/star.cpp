@@ -67,9 +67,8 @@ StarPoint best_of(const Star& star, const auto& weights_in) {
   return best;
 }
 
-}  // namespace
-
-Star lay_flat(const Mesh& mesh, const EdgeMap<double>& rest, Vertex v) {
+template <class Length>
+Star laid_flat(const Mesh& mesh, const Length& length, Vertex v) {
   Star star;
   star.centre = v;
   star.spokes = spokes_of(mesh, v, star.closed);
@@ -78,10 +77,10 @@ Star lay_flat(const Mesh& mesh, const EdgeMap<double>& rest, Vertex v) {
   Place2 direction{1, 0};
   for (std::size_t i = 0; i < n; ++i) {
     const Halfedge h = star.spokes[i];
-    const double r = rest[mesh.edge(h)];
+    const double r = length(h);
     star.ends[i] = {r * direction[0], r * direction[1]};
     if (i + 1 == n && !star.closed) return star;
-    const double s = rest[mesh.edge(star.spokes[star.after(i)])], o = rest[mesh.edge(mesh.next(h))];
+    const double s = length(star.spokes[star.after(i)]), o = length(mesh.next(h));
     direction = turned(direction, angle_between(r, s, o));
   }
   star.defect = -std::atan2(direction[1], direction[0]);
@@ -91,6 +90,20 @@ Star lay_flat(const Mesh& mesh, const EdgeMap<double>& rest, Vertex v) {
     star.ends[i] = turned(star.ends[i], {std::cos(by), std::sin(by)});
   }
   return star;
+}
+
+}  // namespace
+
+Star lay_flat(const Mesh& mesh, const EdgeMap<double>& rest, Vertex v) {
+  return laid_flat(
+      mesh, [&](Halfedge h) { return rest[mesh.edge(h)]; }, v);
+}
+
+Star lay_flat(const Mesh& mesh, const std::vector<Point>& positions, Vertex v) {
+  const auto length = [&](Halfedge h) {
+    return std::sqrt((positions[mesh.target(h).idx()] - positions[mesh.source(h).idx()]).squared_length());
+  };
+  return laid_flat(mesh, length, v);
 }
 
 double quality(const Place2& a, const Place2& b, const Place2& c) {

@@ -25,6 +25,8 @@ struct Star {
 /// Starts at the neighbour of the lowest index, on the border at its right end. A closed star that does not
 /// lie flat is spread evenly. A vertex whose faces are no single fan gives its first fan. O(valence).
 Star lay_flat(const Mesh& mesh, const EdgeMap<double>& rest, Vertex v);
+/// The same in the shape of other positions, by vertex.
+Star lay_flat(const Mesh& mesh, const std::vector<Point>& positions, Vertex v);
 
 /// 4 sqrt(3) area over the sum of squared sides: 1 for an equilateral triangle, 0 for a flat one, < 0 for one
 /// that is turned over.

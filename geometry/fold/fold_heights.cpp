@@ -12,6 +12,8 @@ using Vec3 = Eigen::Vector3d;
 constexpr std::size_t block_size = 16;
 constexpr double narrowest = 0.6;      ///< width at a free end, in that of the fold
 constexpr double beyond_border = 0.6;  ///< in widths
+constexpr double detour = 1.25;        ///< way over distance that a curved surface explains
+constexpr double fading = 0.5;         ///< in half widths: way beyond that in which a fold fades out
 
 /// 0 up to t = 0, 1 from t = 1 on, with two derivatives.
 double smoothstep(double t) {
@@ -45,6 +47,7 @@ FoldHeight::FoldHeight(const FoldCurve& curve)
   const double ds = length_ / static_cast<double>(closed_ ? n : n - 1);
   if (curve.begins_at_border) extend(curve, false, ds);
   before_ = places_.size();
+  own_ = n;
   for (std::size_t i = 0; i < n; ++i) {
     const bool free_end =
         !closed_ && ((i == 0 && !curve.begins_at_border) || (i + 1 == n && !curve.ends_at_border));
@@ -140,8 +143,35 @@ void FoldHeight::make_blocks() {
     double reach = 0;
     for (std::size_t i = first; i < last; ++i)
       reach = std::max(reach, (places_[i].point - centre).norm() + places_[i].radius);
-    blocks_.push_back({centre, reach});
+    double spread = 0;
+    for (std::size_t i = first; i <= last; ++i)
+      spread = std::max(spread, (places_[i % places_.size()].point - centre).norm());
+    blocks_.push_back({centre, reach, spread});
   }
+}
+
+/// Of the curve itself, without what goes on beyond a border.
+FoldHeight::Nearest FoldHeight::nearest(const Vec3& x) const {
+  Nearest best{std::numeric_limits<double>::infinity(), 0};
+  const std::size_t end = before_ + own_, segments_end = closed_ ? end : end - 1;
+  for (std::size_t b = before_ / block_size; b * block_size < segments_end; ++b) {
+    if ((x - blocks_[b].centre).norm() - blocks_[b].spread >= best.distance) continue;
+    const std::size_t last = std::min((b + 1) * block_size, segments_end);
+    for (std::size_t i = std::max(before_, b * block_size); i < last; ++i) {
+      const Place &from = places_[i], &to = places_[i + 1 < end ? i + 1 : before_];
+      double t = 0;
+      const double distance = distance_to_segment(x, from.point, to.point, t);
+      if (distance < best.distance) best = {distance, (1 - t) * from.radius + t * to.radius};
+    }
+  }
+  return best;
+}
+
+double FoldHeight::reach() const { return detour * (1 + fading) * greatest_width_ / 2; }
+
+double FoldHeight::share_at(const Vec3& x, double way) const {
+  const Nearest near = nearest(x);
+  return 1 - smoothstep((way / detour - near.distance) / (fading * near.radius));
 }
 
 double FoldHeight::tent(const Vec3& x) const {

@@ -22,6 +22,11 @@ class FoldHeight {
 
   /// u(x) [m]. O(points nearby).
   double at(const Eigen::Vector3d& x) const;
+  /// The share of u(x) that cloth takes which lies `way` [m] from the curve along the surface [-]: 1 unless
+  /// it is much farther than x is straight, as on a layer that lies close; 0 from there on, smoothly.
+  double share_at(const Eigen::Vector3d& x, double way) const;
+  /// No share from so far along the surface on [m].
+  double reach() const;
   /// T at an arc length [m] of the curve [-]; [0, 1].
   double taper_at(double along) const;
   /// k at an arc length [m], without T [m].
@@ -35,8 +40,13 @@ class FoldHeight {
   };
   struct Block {
     Eigen::Vector3d centre;
-    double reach;  ///< beyond it no place counts [m]
+    double reach;   ///< beyond it no place counts [m]
+    double spread;  ///< of its places, and of the one after them, around the centre [m]
   };
+  struct Nearest {
+    double distance, radius;
+  };
+  Nearest nearest(const Eigen::Vector3d& x) const;
   double rise(double along) const;
   void add(const FoldCurve& curve, const Eigen::Vector3d& point, std::size_t i, double ds);
   void extend(const FoldCurve& curve, bool at_end, double ds);
@@ -52,6 +62,7 @@ class FoldHeight {
   const bool closed_;
   double greatest_width_ = 0;
   std::size_t before_ = 0;  ///< places beyond the border at the beginning
+  std::size_t own_ = 0;     ///< places of the curve itself, which follow those
   std::vector<Place> places_;
   std::vector<Block> blocks_;
 };

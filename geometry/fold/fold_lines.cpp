@@ -3,19 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <map>
 #include <numbers>
 #include <set>
 
-#include "geometry/band/refine_displaced.h"
 #include "geometry/fold/fold_base.h"
-#include "geometry/fold/fold_heights.h"
-#include "geometry/fold/line_region.h"
+#include "geometry/fold/raise_folds.h"
+#include "geometry/fold/smooth_folds.h"
 #include "geometry/fold/wrinkle_steps.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/property_names.h"
-#include "geometry/mesh/tangent_frames.h"
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/fold_rest.h"
 #include "geometry/rest/rest_angles.h"
@@ -25,178 +21,11 @@
 namespace furrow::geometry {
 namespace {
 
-using Vec3 = Eigen::Vector3d;
-constexpr double reach = 1.5;        ///< of the cloth that a fold moves, along edges, in half widths
 constexpr double full_share = 0.98;  ///< of the highest T: there a crest is measured
 constexpr double thinnest = 3;       ///< angle of a face that physics bears [degrees]
-constexpr double least_angle = 15;   ///< a face may become as thin by smoothing [degrees]
-
-Vec3 vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
-
-/// Which curves raise a vertex, by vertex index.
-using CurvesOfVertex = std::vector<std::vector<int>>;
-
-/// The folds as heights over the mesh.
-struct Folds {
-  std::vector<FoldCurve> curves;
-  std::vector<FoldHeight> heights;
-
-  explicit Folds(std::vector<FoldCurve> list) : curves(std::move(list)) {
-    for (const FoldCurve& curve : curves) heights.emplace_back(curve);
-  }
-  /// Of the given curves at a point: of each line, and together [m].
-  struct Joined {
-    std::map<int, double> of_line;
-    double height = 0;
-  };
-  Joined at(const Vec3& x, const std::vector<int>& of) const {
-    Joined joined;
-    for (int i : of) joined.of_line[curves[i].line] += heights[i].at(x);
-    std::vector<double> list;
-    for (const auto& [line, height] : joined.of_line) list.push_back(height);
-    joined.height = joined_heights(list);
-    return joined;
-  }
-};
-
-/// Vertices that ways along edges join to a curve's chain.
-CurvesOfVertex curves_of_vertices(const Mesh& mesh, const Folds& folds,
-                                  const std::vector<BandChain>& chains) {
-  CurvesOfVertex result(mesh.num_vertices());
-  const std::vector<double> lengths = rest_lengths(mesh);
-  for (std::size_t i = 0; i < chains.size(); ++i) {
-    const double far = reach * folds.heights[i].greatest_width() / 2;
-    for (Vertex v : vertices_within(mesh, chains[i].vertices, far, lengths))
-      result[v.idx()].push_back(static_cast<int>(i));
-  }
-  return result;
-}
-
-/// The cloth on its way: flat is the mesh's own positions.
-struct Raised {
-  std::vector<Point> base;      ///< on the curved surface
-  std::vector<Vector> normals;  ///< of that
-  std::vector<double> height;   ///< u [m]
-  std::vector<double> set;      ///< of the lines that raise a vertex, by their shares; NaN: none does [-]
-};
-
-std::vector<Point> base_of(const Mesh& given, const Mesh& mesh, const BandReport& band, bool flat,
-                           const std::set<Vertex>& held) {
-  std::vector<Point> base(mesh.points().begin(), mesh.points().end());
-  if (flat) return base;
-  const std::vector<Vector> normals = vertex_normals(given);
-  for (Vertex v : mesh.vertices()) {
-    const FacePoint& place = band.places[v.idx()];
-    if (held.count(v) || !place.face.is_valid() || given.number_of_faces() == 0) continue;
-    const auto& b = place.barycentrics;
-    if (std::max({b[0], b[1], b[2]}) == 1) continue;  // a vertex of the mesh given
-    base[v.idx()] = curved_place(given, normals, place);
-  }
-  return base;
-}
-
-void raise_vertex(const Folds& folds, const CurvesOfVertex& curves, Raised& raised, std::size_t v) {
-  const Folds::Joined joined = folds.at(vec(raised.base[v]), curves[v]);
-  raised.height[v] = joined.height;
-  double sum = 0, weights = 0;
-  for (int i : curves[v]) {
-    const double weight = std::abs(joined.of_line.at(folds.curves[i].line));
-    sum += weight * folds.curves[i].set;
-    weights += weight;
-  }
-  if (weights > 0) raised.set[v] = sum / weights;
-}
-
-void raise(const Folds& folds, const CurvesOfVertex& curves, const std::set<Vertex>& held, Raised& raised) {
-  const std::size_t n = raised.base.size();
-  raised.height.assign(n, 0);
-  raised.set.assign(n, unset_value);
-  for (std::size_t v = 0; v < n; ++v)
-    if (!curves[v].empty() && !held.count(Vertex(static_cast<Vertex::size_type>(v))))
-      raise_vertex(folds, curves, raised, v);
-}
-
-/// Steep flanks stretch the band: the second pass, whose new vertices get all that the others have.
-void refine_flanks(Mesh& mesh, const Mesh& given, const Folds& folds, const WrinkleOptions& options,
-                   BandReport& band, CurvesOfVertex& curves, Raised& raised) {
-  std::vector<Point> displaced;
-  for (std::size_t v = 0; v < raised.base.size(); ++v)
-    displaced.push_back(raised.base[v] + raised.height[v] * raised.normals[v]);
-  const std::vector<Vector> normals = vertex_normals(given);
-  const auto displace = [&](const SplitEdge& split, const FacePoint& place) {
-    const std::size_t a = split.from.idx(), b = split.to.idx(), v = split.vertex.idx();
-    const std::size_t n = std::max(raised.base.size(), v + 1);
-    raised.base.resize(n), raised.normals.resize(n, Vector(0, 0, 0));
-    raised.height.resize(n, 0), raised.set.resize(n, unset_value), curves.resize(n);
-    curves[v].clear();
-    std::set_union(curves[a].begin(), curves[a].end(), curves[b].begin(), curves[b].end(),
-                   std::back_inserter(curves[v]));
-    raised.base[v] = options.flat_base ? position_of(given, place) : curved_place(given, normals, place);
-    const Vector sum = raised.normals[a] + raised.normals[b];
-    raised.normals[v] = sum / std::max(std::sqrt(sum.squared_length()), 1e-300);
-    raise_vertex(folds, curves, raised, v);
-    return raised.base[v] + raised.height[v] * raised.normals[v];
-  };
-  refine_displaced(mesh, given, folds.curves, displaced, displace, band,
-                   {options.detail, 0.003, options.insertion.may_flip, options.held});
-}
-
-Mesh with_points(const Mesh& mesh, const std::vector<Point>& points) {
-  Mesh copy = mesh;
-  for (Vertex v : copy.vertices()) copy.point(v) = points[v.idx()];
-  return copy;
-}
-
-/// Base, normals and heights of the refined mesh, which the second pass refines again.
-Raised raised_on(const Mesh& given, Mesh& mesh, BandReport& band, const Folds& folds,
-                 const WrinkleOptions& options, const std::set<Vertex>& held) {
-  Raised raised;
-  raised.base = base_of(given, mesh, band, options.flat_base, held);
-  raised.normals = averaged_normals(with_points(mesh, raised.base));
-  CurvesOfVertex curves = curves_of_vertices(mesh, folds, band.chains);
-  raise(folds, curves, held, raised);
-  refine_flanks(mesh, given, folds, options, band, curves, raised);
-  return raised;
-}
 
 void lay(Mesh& mesh, const Raised& raised) {
-  for (Vertex v : mesh.vertices())
-    mesh.point(v) = raised.base[v.idx()] + raised.height[v.idx()] * raised.normals[v.idx()];
-}
-
-/// Smallest angle of a face in space [degrees].
-double face_angle(const Mesh& mesh, Face f) {
-  const auto h = halfedges_of(mesh, f);
-  return smallest_angle({spatial_length(mesh, mesh.edge(h[0])), spatial_length(mesh, mesh.edge(h[1])),
-                         spatial_length(mesh, mesh.edge(h[2]))}) *
-         180 / std::numbers::pi;
-}
-
-/// Takes smoothing back at the corners of faces that it made thinner than they were and than least_angle,
-/// until there are none; returns at how many vertices.
-std::size_t take_back(Mesh& mesh, const std::vector<Point>& before, std::span<const Vertex> region) {
-  std::set<Face> faces;
-  for (Vertex v : region)
-    for (Face f : mesh.faces_around_target(mesh.halfedge(v)))
-      if (f.is_valid()) faces.insert(f);
-  Mesh unsmoothed = mesh;
-  for (Vertex v : region) unsmoothed.point(v) = before[v.idx()];
-  std::map<Face, double> wanted;
-  for (Face f : faces) wanted[f] = std::min(least_angle, face_angle(unsmoothed, f)) - 1e-6;
-  std::set<Vertex> taken;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (Face f : faces) {
-      if (face_angle(mesh, f) >= wanted[f]) continue;
-      for (Vertex v : corners_of(mesh, f))
-        if (mesh.point(v) != before[v.idx()]) {
-          mesh.point(v) = before[v.idx()];
-          taken.insert(v);
-          changed = true;
-        }
-    }
-  }
-  return taken.size();
+  for (Vertex v : mesh.vertices()) mesh.point(v) = raised.displaced(v);
 }
 
 std::size_t smooth(Mesh& mesh, const Raised& raised, const WrinkleOptions& options,
@@ -204,15 +33,9 @@ std::size_t smooth(Mesh& mesh, const Raised& raised, const WrinkleOptions& optio
   std::vector<Vertex> region;
   for (Vertex v : mesh.vertices())
     if (raised.height[v.idx()] != 0 && !held.count(v) && !mesh.is_isolated(v)) region.push_back(v);
-  if (region.empty() || options.fold_iterations == 0) return 0;
   TaubinOptions smoothing = options.smoothing;
   smoothing.iterations = options.fold_iterations;
-  smoothing.weights = SmoothingWeights::cotangent;  // of the rest lengths, which know nothing of folds yet
-  smoothing.lines = LineRule::keep;
-  smoothing.border = BorderRule::keep;
-  const std::vector<Point> before(mesh.points().begin(), mesh.points().end());
-  taubin_smooth(mesh, region, smoothing);
-  return take_back(mesh, before, region);
+  return smooth_folds(mesh, region, smoothing);
 }
 
 std::vector<double> all_angles(const Mesh& mesh) {
@@ -354,9 +177,8 @@ void note_shape(const Mesh& mesh, const Raised& raised, const Folds& folds, cons
   report.fold->min_angle_deg = smallest_rest_angle(mesh, band.changed_faces);
   if (report.fold->min_angle_deg < std::min(thinnest, 0.5 * band.min_angle_before_deg))
     report.warnings.push_back(
-        "the folds leave faces too thin for cloth, as where they lie on close layers or graze a hem; draw "
-        "the "
-        "lines elsewhere or narrower, or use the rule safe");
+        "the folds leave faces too thin for cloth, as where they graze a hem; draw the lines elsewhere or "
+        "narrower, or use the rule safe");
 }
 
 }  // namespace
@@ -369,13 +191,13 @@ WrinkleReport fold_lines(Mesh& mesh, std::span<const Stroke> strokes, const Wrin
   report.fold = FoldReport{};
   report.fold->angle_defect_before = angle_defect(work);
   const Folds folds = folds_of(work, strokes, options, report);
-  BandReport band =
-      refine_band(work, folds.curves, {options.detail, 0.003, options.insertion.may_flip, options.held});
+  const BandOptions refining{options.detail, 0.003, options.insertion.may_flip, options.held};
+  BandReport band = refine_band(work, folds.curves, refining);
   if (observer) {
     complete_springs(work, band.changed_faces);
     observer(Stage::inserted, work);
   }
-  const Raised raised = raised_on(mesh, work, band, folds, options, held);
+  const Raised raised = raise_folds(mesh, work, band, folds, {refining, options.flat_base});
   note_band(band, report);
   report.lines = lines_of(strokes, folds, band.chains, options.first_line);
   note_paths(folds, options.first_line, report.lines);

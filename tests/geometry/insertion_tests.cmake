@@ -15,4 +15,6 @@ furrow_add_tests(insertion geometry LIBRARIES furrow::io SOURCES
   insert/random_strokes_test.cpp
   insert/real_garments_test.cpp
   insert/seams_test.cpp
+RELEASE_SOURCES
+  fold/random_folds_test.cpp
 )

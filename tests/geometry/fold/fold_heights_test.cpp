@@ -128,3 +128,23 @@ TEST_CASE("fold_heights: lines of one sign add to the higher plus half of the lo
     CHECK(joined({lower, 1}) == joined({1, lower}));
   }
 }
+
+TEST_CASE("fold_heights: cloth that is much farther along the surface than straight takes no share") {
+  const FoldHeight fold(straight(0.5));
+  const double radius = section_width / 2;
+  for (double d = 0; d < 1.2 * radius; d += 0.1 * radius) {
+    const Vec3 x(0.2, d, 0);
+    CHECK(fold.share_at(x, d) == 1);
+    CHECK(fold.share_at(x, 1.2 * d) == 1);  // the way over a curved limb
+    if (d < radius) CHECK(fold.share_at(x, fold.reach()) == 0);
+    double before = 1;
+    for (double way = d; way < fold.reach(); way += 0.02 * radius) {  // no jump
+      const double share = fold.share_at(x, way);
+      CHECK(share <= before);
+      CHECK(before - share < 0.08);
+      before = share;
+    }
+  }
+  // beyond a hem the curve's own end counts, not what goes on: an oblique hem keeps its fold
+  CHECK(fold.share_at(Vec3(0.52, 0.2 * radius, 0), std::hypot(0.02, 0.2 * radius)) == 1);
+}

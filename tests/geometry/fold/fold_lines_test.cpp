@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/fold/fold_lines.h"
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <string>
 
 #include "geometry/fold/fold_base.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/sheet.h"
 #include "geometry/rest/fold_rest.h"
 #include "geometry/rest/rest_angles.h"
+#include "geometry/stroke/place_path_stroke.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "tests/test_meshes.h"
+#include "tests/test_paths.h"
 
 using namespace furrow::geometry;
 using namespace furrow::tests;
@@ -213,6 +218,70 @@ TEST_CASE("fold_lines: random lines on a creased mesh leave no invalid triangle 
   CHECK(report.fold->invalid_faces == 0);
   CHECK(invalid_rest_faces(mesh) == 0);
   CHECK(report.fold->min_angle_deg > 3);
+}
+
+TEST_CASE("fold_lines: on cloth that lies double the other layer stays, and no face becomes thin") {
+  // bent about an axis, half a turn of radius 10 mm: a fold at s = -45 mm lies above s = 45 mm
+  constexpr double bend = 0.01, half_turn = bend * std::numbers::pi / 2;
+  Mesh mesh = grid(40, 30, 0.5, 0.4);
+  const auto s_of = [](const Point& p) { return p.x() - 0.25; };
+  const Mesh flat = mesh;
+  for (Vertex v : mesh.vertices()) {
+    const double s = s_of(flat.point(v)), y = flat.point(v).y(),
+                 a = std::clamp(s, -half_turn, half_turn) / bend;
+    const double beyond = std::max(0.0, std::abs(s) - half_turn);
+    mesh.point(v) = Point(bend * std::cos(a) - beyond, y, -bend * std::sin(a));
+  }
+  const Mesh before = mesh;
+  const double x = -(0.045 - half_turn);
+  const WrinkleReport report =
+      fold(mesh, {line({{x, 0.06, 1.1 * bend}, {x, 0.2, 1.1 * bend}, {x, 0.34, 1.1 * bend}}, 0.02, 0.12)});
+  CHECK(report.lines.at(0).crest_height.value() == Approx(0.02).epsilon(0.03));
+  CHECK(report.fold->min_angle_deg >= 10);
+  CHECK(report.fold->invalid_faces == 0);
+  CHECK(mesh.num_vertices() < 6000);
+  for (Vertex v : before.vertices())
+    if (s_of(flat.point(v)) > 0.08) CHECK(mesh.point(v) == before.point(v));
+}
+
+TEST_CASE("fold_lines: a line down both legs of real trousers is drawn, without thin faces") {
+  if (!have_shared()) {
+    WARN("skipped: no shared data");
+    return;
+  }
+  Mesh mesh = read_plain_obj(shared_dir() / "meshes" / "pairs" / "mh_male" / "trousers.obj");
+  const std::array<std::size_t, 2> ends{562, 487};
+  const PlacedStroke placed = place_path_stroke(mesh, ends, false, "fold");
+  Stroke stroke = line(placed.points, 0.02);
+  stroke.width.reset();
+  const WrinkleReport report = fold(mesh, {stroke});  // it was refused: heights jumped from leg to leg
+  CHECK(report.fold->min_angle_deg >= 5);
+  CHECK(report.fold->invalid_faces == 0);
+}
+
+TEST_CASE("fold_lines: folds are drawn over earlier ones, and thin faces that they leave are told") {
+  const auto told = [](const WrinkleReport& report) {
+    return std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& warning) {
+      return warning.find("too thin for cloth") != std::string::npos;
+    });
+  };
+  for (const double slope : {0.0, 0.3, 1.0}) {
+    CAPTURE(slope);
+    Mesh mesh = equilateral_sheet(0.5, 0.5, 0.02);
+    const WrinkleReport first = fold(mesh, {over_both_hems(0.02)});
+    CHECK_FALSE(told(first));
+    WrinkleOptions options = fold_options();
+    options.first_line = 1;
+    options.insertion.max_distance = 0.1;
+    options.insertion.mean_edge = 0.02;
+    const WrinkleReport report =
+        fold(mesh, {line({{-0.2, 0.25 - 0.2 * slope, 0}, {0.2, 0.25 + 0.2 * slope, 0}}, 0.015)}, options);
+    CHECK(report.fold->invalid_faces == 0);
+    CHECK(report.lines.at(0).crest_height.value() == Approx(0.015).epsilon(0.08));
+    CHECK(report.fold->min_angle_deg > 0.5);
+    CHECK(told(report) ==
+          (report.fold->min_angle_deg < std::min(3.0, report.fold->min_angle_before_deg / 2)));
+  }
 }
 
 TEST_CASE("fold_base: a curved surface over the facets of a sphere is nearer to it, and keeps the corners") {
