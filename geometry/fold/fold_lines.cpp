@@ -124,7 +124,7 @@ std::vector<WrinkledLine> lines_of(std::span<const Stroke> strokes, const Folds&
 void note_paths(const Folds& folds, int first, std::vector<WrinkledLine>& lines) {
   for (const FoldCurve& curve : folds.curves)
     for (std::size_t i = 0, n = curve.points.size(); i + (curve.closed ? 0 : 1) < n; ++i) {
-      const Vec3 &a = curve.points[i], &b = curve.points[(i + 1) % n];
+      const Eigen::Vector3d &a = curve.points[i], &b = curve.points[(i + 1) % n];
       lines[static_cast<std::size_t>(curve.line - first)].path.push_back(
           {Point(a.x(), a.y(), a.z()), Point(b.x(), b.y(), b.z())});
     }
