@@ -122,6 +122,7 @@ int run(int argc, char** argv) {
   cli::add_smooth(app);
   cli::add_wrinkle(app, exit_code);
   cli::add_strokes(app);
+  cli::add_quality(app, exit_code);
   cli::add_simulate(app, exit_code);
   cli::add_keep(app, exit_code);
   cli::add_chart(app, exit_code);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "geometry/mesh/measures.h"
 
@@ -268,6 +269,60 @@ Lines strokes_lines(const Json& report) {
     line += ", drawn as " + text_of(stroke, "kind");
     if (stroke.value("closed", false)) line += ", closed";
     lines.push_back(line);
+  }
+  return lines;
+}
+
+/// A measure of a cloth's quality beside its target: "0.2 % of at most 0.3 %".
+std::string measured_text(const Json& m) {
+  static const std::map<std::string, std::string> per_cents{
+      {"crest_ripple", ""}, {"sweep", ""}, {"fit", ""}, {"lateral", " of the width"}};
+  static const std::map<std::string, std::string> units{{"angle_defect", " rad/m^2"},
+                                                        {"vertex_ratio", " times as many"}};
+  const std::string name = text_of(m, "name");
+  const auto share = per_cents.find(name);
+  const auto unit = units.find(name);
+  const auto text = [&](double v) {
+    if (share != per_cents.end()) return per_cent(v);
+    return number(v) + (unit != units.end() ? "" : " degrees");
+  };
+  if (!std::isfinite(value_of(m, "value"))) return "not measured: " + text_of(m, "why");
+  std::string words = text(value_of(m, "value"));
+  for (const auto& [key, bound] : {std::pair("at_most", " of at most "), {"at_least", " of at least "}})
+    if (m.contains(key)) words += bound + text(value_of(m, key));
+  if (share != per_cents.end()) words += share->second;
+  if (unit != units.end()) words += unit->second;
+  if (!text_of(m, "line").empty()) words += " (" + text_of(m, "line") + ")";
+  return words;
+}
+
+Lines quality_lines(const Json& report) {
+  static const std::map<std::string, std::string> titles{
+      {"crest_ripple", "crest ripples by"}, {"lateral", "crest beside its stroke"},
+      {"sweep", "sections waver by"},       {"normals_deg", "normals turn by"},
+      {"fit", "section off its shape by"},  {"angle_defect", "knobs"},
+      {"min_angle_deg", "smallest angle"},  {"hem_turn_deg", "hem turns over 6 mm by"},
+      {"vertex_ratio", "vertices"}};
+  const Json& measures = list_of(report, "measures");
+  long long missed = 0;
+  for (const Json& m : measures) missed += !m.value("met", true);
+  Lines lines;
+  std::string unknown;  // what has one reason is told together
+  std::string why;
+  for (const Json& m : measures) {
+    const auto title = titles.find(text_of(m, "name"));
+    const std::string begin = text_of(m, "id") + " " + (title == titles.end() ? "" : title->second) + ": ";
+    if (!std::isfinite(value_of(m, "value")) && (why.empty() || why == text_of(m, "why"))) {
+      why = text_of(m, "why");
+      unknown += (unknown.empty() ? "" : ", ") + text_of(m, "id");
+      continue;
+    }
+    lines.push_back(begin + measured_text(m) + (m.value("met", true) ? "" : "  MISSED"));
+  }
+  if (!unknown.empty()) lines.insert(lines.begin(), unknown + " not measured: " + why);
+  if (lines.size() == 9) {  // eight fit: two of the whole mesh on one line
+    lines[7] += "; " + lines[8];
+    lines.pop_back();
   }
   return lines;
 }

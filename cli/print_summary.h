@@ -23,6 +23,7 @@ std::vector<std::string> subdivide_lines(const Json& report);
 std::vector<std::string> smooth_lines(const Json& report);
 std::vector<std::string> wrinkle_lines(const Json& report);
 std::vector<std::string> strokes_lines(const Json& report);
+std::vector<std::string> quality_lines(const Json& report);
 std::vector<std::string> simulate_lines(const Json& report);
 std::vector<std::string> keep_lines(const Json& report);
 std::vector<std::string> chart_lines(const Json& report);

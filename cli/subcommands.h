@@ -9,6 +9,8 @@ namespace furrow::cli {
 void add_info(CLI::App& app);
 /// Sets exit_code where something is wrong, or is left after repair.
 void add_doctor(CLI::App& app, int& exit_code);
+/// Sets exit_code where a target is missed, with --check.
+void add_quality(CLI::App& app, int& exit_code);
 void add_subdivide(CLI::App& app);
 void add_smooth(CLI::App& app);
 /// Sets exit_code where what is drawn does not come to rest.

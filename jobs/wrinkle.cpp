@@ -19,6 +19,7 @@
 #include "jobs/run/line_round.h"
 #include "jobs/run/max_weights.h"
 #include "jobs/run/measure_crossings.h"
+#include "jobs/run/measure_drawn.h"
 #include "jobs/run/output_checks.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
@@ -129,14 +130,17 @@ LineTarget target_of(const WrinkleJob& job, Canvas& canvas, const io::Scene* kee
 
 /// The round drawn into the canvas. `stages` (null: not wanted) are filled on the way.
 DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, bool refined,
-                WrinkleStages* stages, const Context& context) {
+                WrinkleStages* stages, DrawnQuality& quality, const Context& context) {
   const std::vector<io::DrawnStroke> strokes = strokes_of(job, context);
   require_heights(strokes, canvas.file.mesh, context);
   io::SceneLines lines;
   lines.options = job.options;
   lines.fade = job.fade;
   if (stages) stages->before = canvas.file.mesh;
+  quality.before = quality_before(canvas.file.mesh);
+  std::vector<geometry::Point> displaced;
   const auto keep_stage = [&](geometry::Stage stage, const geometry::Mesh& mesh) {
+    if (stage == geometry::Stage::displaced) displaced.assign(mesh.points().begin(), mesh.points().end());
     if (stages && stage == geometry::Stage::inserted) stages->inserted = mesh;
     if (stages && stage == geometry::Stage::displaced) stages->displaced = mesh;
   };
@@ -146,6 +150,8 @@ DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, bo
   if (refined) target.garment.clear();  // its file alone does not draw the same lines again
   drawn.round = draw_lines(target, strokes, lines, keep_stage);
   for (const std::string& w : drawn.round.warnings) context.warn("drawing", w, path_of(job.strokes));
+  quality.drawn = quality_of_lines(canvas.file.mesh, displaced, drawn.round.report);
+  quality.after = quality_of_lines(canvas.file.mesh, drawn.round.report);
   pin_new_vertices(canvas.file.mesh, old_count, canvas.pins);
   if (canvas.state) {
     canvas.state->pins = canvas.pins;
@@ -289,7 +295,7 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
   const CrossedStart crossed = crossed_start(canvas.file.mesh);
   if (job.wants_stages || !job.inserted.empty()) report.stages.emplace();
   report.drawn = draw(job, canvas, scene, settle && settle->refinements > 0,
-                      report.stages ? &*report.stages : nullptr, context);
+                      report.stages ? &*report.stages : nullptr, report.quality, context);
   stop_if_cancelled(context);
   if (scene) report.drawn.kept = keep_drawn(canvas, *scene, context);
   if (job.max_weights) limit_noted_weights(canvas.file, *job.max_weights);
@@ -315,6 +321,7 @@ Json to_json(const WrinkleReport& report) {
   Json json = to_json(report.drawn);
   json["crossings"] = to_json(report.crossings);
   if (report.rest) json["at_rest"] = to_json(*report.rest);
+  json["quality"] = to_json(report.quality);
   return json;
 }
 

@@ -72,6 +72,20 @@ struct WrinkleStages {
   geometry::Mesh before, inserted, displaced;
 };
 
+/// How well a cloth is shaped at one moment (geometry/quality/fold_quality.h): of lines, the worst.
+struct ShapeQuality {
+  std::optional<double> crest_ripple;  ///< B1, share of the crest's height; none: no line could be measured
+  std::optional<double> lateral;       ///< B2, share of the width
+  double angle_defect = 0;             ///< B6 [rad/m^2]
+  double min_angle_deg = 0;            ///< B7, of faces in space and at rest [degrees]
+  std::string worst_line = {};         ///< whose crest ripples most
+};
+
+/// The quality of a garment before and after a round of lines.
+struct DrawnQuality {
+  ShapeQuality before, drawn, after;  ///< drawn: raised, and not yet smoothed
+};
+
 /// What jobs::wrinkle() did.
 struct WrinkleReport {
   DrawnRound drawn;                         ///< the lines; `kept` where the shape is
@@ -79,6 +93,7 @@ struct WrinkleReport {
   std::optional<io::SavedState> state;      ///< what goes on from there, where a state was drawn into
   std::optional<WrinkleStages> stages;      ///< where they were wanted
   ClothCrossings crossings;                 ///< of the cloth with itself, as drawn
+  DrawnQuality quality;                     ///< before the lines, as they were drawn, and after smoothing
   Frame frame;                              ///< of the files written
   std::shared_ptr<const Draped> rest = {};  ///< where it was to come to rest (jobs/drape.h)
   std::vector<Warning> failures = {};       ///< why that is no success; empty: it is

@@ -51,6 +51,8 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   CHECK(report_of("wrinkle " + sheet + " " + strokes + out("w.ply"))["written"] ==
         json::array({scratch / "w.ply"}));
   report_of("info " + (scratch / "w.ply"));
+  report_of("quality " + (scratch / "w.ply"));
+  report_of("quality " + sheet + " --base " + sheet);
   report_of("wrinkle " + sheet + " " + strokes + " --rest keep --fabric denim --pin-loop top" + out("k.ply"));
   CHECK(report_of("keep " + (scratch / "w.ply") + " --pin-loop top --fabric denim --run 0.05 --gust 0" +
                   out("kept.ply") + " --save-state " + (scratch / "ks.ply"))["written"] ==

@@ -50,6 +50,7 @@ TEST_CASE("report: ten lines at most for people, with the files written, and all
         {"subdivide " + sheet + " --linear 1" + out("fine.ply"), "fine.ply"},
         {"smooth " + sheet + out("smooth.ply"), "smooth.ply"},
         {"wrinkle " + sheet + " " + strokes + out("w.ply"), "w.ply"},
+        {"quality " + (scratch / "w.ply"), ""},
         {"keep " + (scratch / "w.ply") + " --pin-loop top --fabric denim --run 0.05 --gust 0" + out("k.ply"),
          "k.ply"},
         {"drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"), "worn.ply"},
