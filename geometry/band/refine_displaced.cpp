@@ -22,7 +22,7 @@ constexpr double least_share = 0.2;    ///< of the sizing, undisplaced: what is 
 constexpr double least_height = 0.01;  ///< of a face's longest side, after a flip
 constexpr double delaunay_tie = 1e-7;
 constexpr int most_passes = 20;
-constexpr int relaxations = 2;  ///< after the splits of a pass, and twice as many at last
+constexpr int displaced_relaxations = 2;  ///< after the splits of a pass, and twice as many at last
 
 double distance(const Point& a, const Point& b) { return std::sqrt((a - b).squared_length()); }
 
@@ -50,9 +50,9 @@ class SecondPass {
       flip();
       if (count == 0 && i == 0) return;
       if (count == 0) break;
-      relax(relaxations);
+      relax(displaced_relaxations);
     }
-    relax(2 * relaxations);
+    relax(2 * displaced_relaxations);
   }
 
  private:
