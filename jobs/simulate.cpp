@@ -302,8 +302,8 @@ void write_outputs(const Run& run, io::SavedState& now, AnimationSeries& animati
   together.commit();
 }
 
-std::vector<Warning> remarks_on(const Run& run, const physics::SimulateReport& r, const io::MeshFile& file,
-                                double contact_gap, std::int64_t steps_before) {
+std::vector<Warning> remarks_on_run(const Run& run, const physics::SimulateReport& r,
+                                    const io::MeshFile& file, double contact_gap, std::int64_t steps_before) {
   std::vector<Warning> all = oddities_of(run.scene, r);
   if (run.body && contact_gap > 1.5 * run.scene.simulation.contact_gap)
     all.push_back(raised_gap(run.scene, file.mesh, contact_gap, run.body->tolerance()));
@@ -329,7 +329,7 @@ void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std
     report.faults = faults_of(run.scene, *report.shape, report.run.strain);
     if (report.rest && !report.rest->settle.converged)
       report.faults.push_back(words_of_unrest(run.scene, *report.rest, report.run.steps > 0));
-    report.warnings = remarks_on(run, report.run, now.file, now.contact_gap, steps_before);
+    report.warnings = remarks_on_run(run, report.run, now.file, now.contact_gap, steps_before);
     const std::vector<Warning> lost = lost_lines(run.scene, report.shape->lines);
     report.warnings.insert(report.warnings.end(), lost.begin(), lost.end());
     report.garment = std::move(now.file);
