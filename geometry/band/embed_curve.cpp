@@ -369,8 +369,10 @@ class Embedding {
   }
 
   [[noreturn]] static void refuse_way(const FoldCurve& given) {
-    throw ContentError("stroke \"" + given.name +
-                       "\": the mesh leaves no way along it; draw it in parts, or use the rule safe");
+    throw ContentError(
+        "stroke \"" + given.name +
+        "\": the mesh leaves no way along it, as where it crosses itself; draw it in parts, or use "
+        "the rule safe");
   }
 
   /// From vertex to vertex, from the beginning to the end.

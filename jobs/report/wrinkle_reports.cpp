@@ -70,9 +70,11 @@ io::RenderScene preview_scene(const WrinkleReport& report) {
   for (const io::WrinkleRecord::Line& line : record.lines)
     heights.push_back(std::isfinite(line.height) ? line.height : 0);
   const WrinkleStages& stages = report.stages.value();
-  io::RenderScene scene =
-      io::preview_scene(stages.inserted, report.drawn.round.report.insertion.changed_faces,
-                        stages.before.num_vertices(), heights);
+  // Steep flanks of folds are refined after insertion: those faces are not there yet.
+  std::vector<geometry::Face> changed;
+  for (geometry::Face f : report.drawn.round.report.insertion.changed_faces)
+    if (stages.inserted.has_valid_index(f)) changed.push_back(f);
+  io::RenderScene scene = io::preview_scene(stages.inserted, changed, stages.before.num_vertices(), heights);
   io::mark_faces(scene.meshes[0],
                  geometry::find_crossings(stages.inserted, geometry::find_parts(stages.inserted)).faces);
   return scene;
