@@ -255,8 +255,8 @@ TEST_CASE("draw_more: a strained cloth moves little when lines of height 0 are d
   }
 }
 
-TEST_CASE(
-    "draw_more: a strained membrane of triangles hardly moves when folds of height 0 are drawn into it") {
+TEST_CASE("draw_more: a strained membrane of triangles hardly moves when folds of height 0 are drawn into it",
+          "[accuracy]") {
   Mesh mesh = jittered_sheet();
   stretch(mesh, 1.05);
   bridge::DrawMoreOptions o = options_for(mesh);

@@ -160,7 +160,8 @@ TEST_CASE("keep_lines: a garment that nothing holds is said to be out of balance
 }
 
 TEST_CASE(
-    "keep_lines: a ridge in cloth that lies on a ball holds, and a valley is as deep as the ball allows") {
+    "keep_lines: a ridge in cloth that lies on a ball holds, and a valley is as deep as the ball allows",
+    "[accuracy]") {
   struct Ball : physics::Collider {
     physics::SignedDistance at(const physics::Vec3& x) const override {
       return {x.norm() - 0.2, x.normalized()};

@@ -48,19 +48,22 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   report_of("subdivide " + sheet + " --subdivide 1" + out("fine.ply"));
   report_of("subdivide " + sheet + " --strokes " + strokes + out("lined.ply"));
   report_of("smooth " + (scratch / "fine.ply") + out("smooth.ply"));
-  CHECK(report_of("wrinkle " + sheet + " " + strokes + out("w.ply"))["written"] ==
+  report_of("wrinkle " + sheet + " " + strokes + out("folds.ply"));
+  report_of("quality " + (scratch / "folds.ply"));
+  CHECK(report_of("wrinkle " + sheet + " " + strokes + " --rule safe" + out("w.ply"))["written"] ==
         json::array({scratch / "w.ply"}));
   report_of("info " + (scratch / "w.ply"));
   report_of("quality " + (scratch / "w.ply"));
   report_of("quality " + sheet + " --base " + sheet);
-  report_of("wrinkle " + sheet + " " + strokes + " --rest keep --fabric denim --pin-loop top" + out("k.ply"));
+  report_of("wrinkle " + sheet + " " + strokes + " --rule safe --rest keep --fabric denim --pin-loop top" +
+            out("k.ply"));
   CHECK(report_of("keep " + (scratch / "w.ply") + " --pin-loop top --fabric denim --run 0.05 --gust 0" +
                   out("kept.ply") + " --save-state " + (scratch / "ks.ply"))["written"] ==
         json::array({scratch / "kept.ply", scratch / "ks.ply"}));
   report_of("sdf" + body.substr(7) + " --tolerance 0.01 --at 0,1,0.3" + out("body.sdf"));
   report_of("drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"));
   report_of("drape " + (scratch / "w.ply") + " --pin-loop top" + out("hangs.ply"));
-  report_of("wrinkle " + sheet + " " + strokes + " --settle --pin-loop top --smoothed " +
+  report_of("wrinkle " + sheet + " " + strokes + " --rule safe --settle --pin-loop top --smoothed " +
             (scratch / "drawn.ply") + out("rests.ply"));
   report_of("simulate " + (scratch / "drawn.ply") +
             " --settle --seconds 0 --fabric cotton --pin-loop top --settled " + (scratch / "settled.ply") +

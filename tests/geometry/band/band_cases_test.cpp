@@ -197,7 +197,8 @@ TEST_CASE("refine_band: attributes are those of the place that a new vertex came
     CHECK((moving[v] - (mesh.point(v) - Point(1, 2, 3))).squared_length() < 1e-24);
 }
 
-TEST_CASE("refine_band: random smooth lines on random sheets have complete chains and good angles") {
+TEST_CASE("refine_band: random smooth lines on random sheets have complete chains and good angles",
+          "[accuracy]") {
   CHECK(rc::check([] {
     const auto seed = *rc::gen::resize(100, rc::gen::inRange(0, 1 << 30));
     std::mt19937 random(static_cast<unsigned>(seed));

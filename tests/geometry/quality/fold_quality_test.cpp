@@ -124,7 +124,7 @@ TEST_CASE("fold_quality: a line that runs across the mesh, and a base of another
   CHECK(q.lateral.value() < 0.01);  // the mesh's own edges are w / 80
 }
 
-TEST_CASE("fold_quality: ideal folds along a tube, around it and over a sphere") {
+TEST_CASE("fold_quality: ideal folds along a tube, around it and over a sphere", "[accuracy]") {
   constexpr double radius = 0.1;
   const auto outward = [](const Point& p) { return normalized(Vector(p.x(), 0, p.z())); };
   const Mesh tube = cylinder(radius, 0.3, 500, 200);
@@ -155,7 +155,7 @@ TEST_CASE("fold_quality: ideal folds along a tube, around it and over a sphere")
               k, 5e-3);
 }
 
-TEST_CASE("fold_quality: ripples of known size are measured as such") {
+TEST_CASE("fold_quality: ripples of known size are measured as such", "[accuracy]") {
   for (const double length : {w / 6, w / 4})
     for (const double amplitude : {0.002, 0.01, 0.05}) {
       CAPTURE(length, amplitude);
@@ -177,7 +177,7 @@ TEST_CASE("fold_quality: a height that rises and sinks over widths is no ripple"
   CHECK(q.sweep.value() < 1e-3);
 }
 
-TEST_CASE("fold_quality: a crest that snakes beside its stroke is measured as such") {
+TEST_CASE("fold_quality: a crest that snakes beside its stroke is measured as such", "[accuracy]") {
   for (const double amplitude : {0.002, 0.01, 0.05}) {
     Sheet sheet;
     const auto shift = [&](double s) { return amplitude * w * std::sin(2 * std::numbers::pi * s / w); };
@@ -196,7 +196,7 @@ TEST_CASE("fold_quality: a crest that snakes beside its stroke is measured as su
   }
 }
 
-TEST_CASE("fold_quality: sections that waver, and normals that turn, are measured as such") {
+TEST_CASE("fold_quality: sections that waver, and normals that turn, are measured as such", "[accuracy]") {
   const double length = w / 4;
   for (const double amplitude : {0.005, 0.02}) {
     Sheet sheet;
