@@ -8,9 +8,9 @@
 
 #include "cli/print_summary.h"
 #include "io/mesh/mesh_file.h"
+#include "jobs/check/output_checks.h"
 #include "jobs/inputs.h"
 #include "jobs/read_inputs.h"
-#include "jobs/run/output_checks.h"
 
 /// What the subcommands share: units, reports, progress, interruption, exit codes.
 namespace furrow::cli {

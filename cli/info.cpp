@@ -5,8 +5,8 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
+#include "jobs/check/gate.h"
 #include "jobs/read_inputs.h"
-#include "jobs/run/gate.h"
 
 namespace furrow::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include "geometry/refine/surface_deviation.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "io/picture/baked_maps.h"
+#include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
-#include "jobs/run/output_checks.h"
 #include "physics/base/require.h"
 
 namespace furrow::jobs {

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "jobs/check/output_checks.h"
 #include "jobs/judge/judge.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/chart_files.h"
 #include "jobs/report/judge_report.h"
-#include "jobs/run/output_checks.h"
 #include "jobs/run/recorded_material.h"
 
 namespace furrow::jobs {

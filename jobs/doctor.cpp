@@ -5,11 +5,11 @@
 #include "geometry/figure/repair_body.h"
 #include "geometry/mesh/measures.h"
 #include "io/mesh/weld.h"
+#include "jobs/check/gate.h"
+#include "jobs/check/output_checks.h"
+#include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/body.h"
-#include "jobs/run/gate.h"
-#include "jobs/run/output_checks.h"
-#include "jobs/run/seam_ties.h"
 
 namespace furrow::jobs {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "io/animation/animation_file.h"
 #include "io/scene/settings_schema.h"
+#include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/drape_remarks.h"
 #include "jobs/run/drape_garment.h"
-#include "jobs/run/output_checks.h"
 #include "jobs/run/recorded_material.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
@@ -19,7 +19,8 @@ namespace {
 void check_scene(const io::Scene& scene) {
   if (!scene.body && scene.pins.empty())
     throw std::invalid_argument(
-        "a garment rests on a body or hangs from what holds it: name a body with --body, or what is held with "
+        "a garment rests on a body or hangs from what holds it: name a body with --body, or what is held "
+        "with "
         "--pin-loop, --pin-group, --pin-box or --pin-vertices");
   if (scene.body && !scene.body->frames.empty())
     throw std::invalid_argument("--body-frames: drape fits a garment to one pose; simulate moves it");
@@ -126,7 +127,8 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
       !job.subdivide && !open.document.root.value("garment", Json::object()).contains("subdivide");
   DrapeJobReport report{{}, {}, scenes[0], open.frame};
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    report.garments.push_back(drape_garment(scenes[i], body ? &*body : nullptr, job.settings, choose, context));
+    report.garments.push_back(
+        drape_garment(scenes[i], body ? &*body : nullptr, job.settings, choose, context));
     Draped& draped = report.garments.back();
     draped.name = job.fabrics.empty() ? open.scene.garment.stem().string() : job.fabrics[i];
     draped.penetration = job.settings.penetration;

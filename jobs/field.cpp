@@ -7,7 +7,7 @@
 #include "io/picture/png_file.h"
 #include "io/picture/render_slice.h"
 #include "io/scene/field_file.h"
-#include "jobs/run/output_checks.h"
+#include "jobs/check/output_checks.h"
 
 namespace furrow::jobs {
 namespace {

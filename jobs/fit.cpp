@@ -7,12 +7,12 @@
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "jobs/check/gate.h"
+#include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/fit_picture.h"
 #include "jobs/run/body.h"
-#include "jobs/run/gate.h"
 #include "jobs/run/measure_crossings.h"
-#include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {
 namespace {

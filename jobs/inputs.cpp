@@ -13,8 +13,8 @@
 #include "io/scene/scene_file.h"
 #include "io/scene/scene_rules.h"
 #include "io/scene/state_file.h"
+#include "jobs/check/gate.h"
 #include "jobs/read_inputs.h"
-#include "jobs/run/gate.h"
 #include "physics/base/progress.h"
 
 namespace furrow::jobs {

@@ -11,9 +11,9 @@
 #include "geometry/stroke/prepare_strokes.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/quality_targets.h"
-#include "jobs/run/output_checks.h"
 #include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/smooth.h"
 
+#include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
-#include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {
 

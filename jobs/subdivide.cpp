@@ -10,11 +10,11 @@
 #include "geometry/stroke/placed_stroke.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/check/gate.h"
+#include "jobs/check/output_checks.h"
+#include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
-#include "jobs/run/gate.h"
-#include "jobs/run/output_checks.h"
-#include "jobs/run/seam_ties.h"
 
 namespace furrow::jobs {
 namespace {

@@ -6,10 +6,10 @@
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
 #include "io/mesh/rewrite_obj_vertices.h"
+#include "jobs/check/gate.h"
+#include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
-#include "jobs/run/gate.h"
 #include "jobs/run/measure_crossings.h"
-#include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/lower_case.h"
+#include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
-#include "jobs/run/output_checks.h"
 
 namespace furrow::jobs {
 namespace {

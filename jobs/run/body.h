@@ -5,8 +5,8 @@
 
 #include "io/animation/animation_file.h"
 #include "io/scene/scene.h"
+#include "jobs/check/gate.h"
 #include "jobs/inputs.h"
-#include "jobs/run/gate.h"
 #include "physics/body/collider.h"
 #include "physics/body/distance_field.h"
 #include "physics/body/exact_distance.h"

@@ -13,10 +13,10 @@
 #include "io/scene/state_file.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/check/gate.h"
 #include "jobs/inputs.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
-#include "jobs/run/gate.h"
 
 namespace furrow::jobs {
 namespace {

@@ -7,13 +7,13 @@
 #include "bridge/convert.h"
 #include "geometry/refine/subdivide.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/check/gate.h"
+#include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
-#include "jobs/run/gate.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
-#include "jobs/run/seam_ties.h"
 #include "physics/cloth/pins.h"
 
 namespace furrow::jobs {

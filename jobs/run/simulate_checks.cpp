@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "io/animation/animation_file.h"
+#include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
-#include "jobs/run/output_checks.h"
 #include "jobs/run/recorded_material.h"
 
 namespace furrow::jobs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/run/own_output.h"
+#include "jobs/check/own_output.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -16,8 +16,8 @@
 #include "io/picture/png_file.h"
 #include "io/scene/field_file.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/check/output_checks.h"
 #include "jobs/report/chart_files.h"
-#include "jobs/run/output_checks.h"
 #include "jobs/smooth.h"
 #include "jobs/subdivide.h"
 #include "tests/jobs/job_folders.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/run/seam_ties.h"
+#include "jobs/check/seam_ties.h"
 
 #include <catch2/catch.hpp>
 

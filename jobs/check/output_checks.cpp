@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/run/output_checks.h"
+#include "jobs/check/output_checks.h"
 
 #include <filesystem>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/lower_case.h"
-#include "jobs/run/own_output.h"
+#include "jobs/check/own_output.h"
 
 namespace furrow::jobs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/run/gate.h"
+#include "jobs/check/gate.h"
 
 #include <algorithm>
 #include <array>

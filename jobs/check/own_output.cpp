@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/run/own_output.h"
+#include "jobs/check/own_output.h"
 
 #include <algorithm>
 #include <bit>

@@ -9,9 +9,9 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/measures.h"
 #include "io/mesh/merge_points.h"
+#include "jobs/check/gate.h"
+#include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
-#include "jobs/run/gate.h"
-#include "jobs/run/seam_ties.h"
 
 namespace furrow::jobs {
 namespace {
