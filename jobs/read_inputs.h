@@ -27,7 +27,7 @@ std::string name_of(const MeshInput& input, const std::string& unnamed);
 io::MeshFile read_mesh(const MeshInput& input, const Context& context);
 
 /// As read_mesh(); throws geometry::ContentError for a garment, or what else it is, of an odd size or without
-/// area (run/gate.h).
+/// area (check/gate.h).
 io::MeshFile read_garment(const MeshInput& input, const Context& context,
                           const std::string& what = "garment");
 
