@@ -82,6 +82,49 @@ Cloth finished(std::vector<Vec3> x, Triangles triangles, double density) {
   return cloth;
 }
 
+void check(bool good, const char* what, double value);
+
+/// Splits the triangle that a point lies in into three; nothing happens where it lies too near a corner.
+void insert_point(const Vec3& p, double nearest, std::vector<Vec3>& x, Triangles& triangles) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = triangles[t];
+    if (turn(x[a], x[b], p) <= 0 || turn(x[b], x[c], p) <= 0 || turn(x[c], x[a], p) <= 0) continue;
+    for (const int v : {a, b, c})
+      if ((x[v] - p).norm() < nearest) return;
+    const int i = int(x.size());
+    x.push_back(p);
+    triangles[t] = {a, b, i};
+    triangles.push_back({b, c, i});
+    triangles.push_back({c, a, i});
+    return;
+  }
+}
+
+/// The corners of columns x rows rectangles.
+std::vector<Vec3> lattice(double width, double height, int columns, int rows) {
+  check(columns >= 1, "columns", columns);
+  check(rows >= 1, "rows", rows);
+  std::vector<Vec3> x;
+  for (int r = 0; r <= rows; ++r)
+    for (int c = 0; c <= columns; ++c) x.emplace_back(width * c / columns, height * r / rows, 0);
+  return x;
+}
+
+/// Their triangles; rising(r, c): whether the diagonal does.
+template <class Rising>
+Triangles cut_quads(int columns, int rows, const Rising& rising) {
+  Triangles triangles;
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const int a = r * (columns + 1) + c, b = a + 1, d = a + columns + 1, e = d + 1;
+      const bool up = rising(r, c);
+      triangles.push_back(up ? std::array{a, b, e} : std::array{a, b, d});
+      triangles.push_back(up ? std::array{a, e, d} : std::array{b, e, d});
+    }
+  }
+  return triangles;
+}
+
 void check(bool good, const char* what, double value) {
   if (!good) throw std::invalid_argument(std::string("flat mesh: ") + what + " = " + std::to_string(value));
 }
@@ -223,6 +266,96 @@ Cloth right_sheet(double width, double height, int columns, int rows, double den
     }
   }
   return finished(std::move(x), std::move(triangles), density);
+}
+
+Cloth row_sheet(double width, double height, int columns, int rows, double density) {
+  std::vector<Vec3> x = lattice(width, height, columns, rows);
+  return finished(std::move(x), cut_quads(columns, rows, [](int r, int) { return r % 2 == 0; }), density);
+}
+
+Cloth jittered_right_sheet(double width, double height, int columns, int rows, double density,
+                           std::uint64_t seed) {
+  std::vector<Vec3> x = lattice(width, height, columns, rows);
+  const Triangles triangles = cut_quads(columns, rows, [](int, int) { return true; });
+  const double dx = width / columns, dy = height / rows;
+  Noise unit(seed);
+  for (int r = 1; r < rows; ++r) {
+    for (int c = 1; c < columns; ++c) {
+      const int i = r * (columns + 1) + c;
+      const Vec3 before = x[i];
+      x[i] += 0.3 * Vec3(dx * unit(), dy * unit(), 0);
+      for (const auto& t : triangles)
+        if ((t[0] == i || t[1] == i || t[2] == i) && turn(x[t[0]], x[t[1]], x[t[2]]) < 0.1 * dx * dy)
+          x[i] = before;
+    }
+  }
+  return finished(std::move(x), triangles, density);
+}
+
+Cloth blue_noise_sheet(double width, double height, int columns, int rows, double density,
+                       std::uint64_t seed) {
+  check(columns >= 2, "columns", columns);
+  check(rows >= 2, "rows", rows);
+  std::vector<Vec3> x;
+  for (int c = 0; c < columns; ++c) x.emplace_back(width * c / columns, 0, 0);
+  for (int r = 0; r < rows; ++r) x.emplace_back(width, height * r / rows, 0);
+  for (int c = 0; c < columns; ++c) x.emplace_back(width - width * c / columns, height, 0);
+  for (int r = 0; r < rows; ++r) x.emplace_back(0, height - height * r / rows, 0);
+  const int border = int(x.size());
+  x.emplace_back(0.5 * width, 0.5 * height, 0);
+  Triangles triangles;
+  for (int i = 0; i < border; ++i) triangles.push_back({i, (i + 1) % border, border});
+  Noise unit(seed);
+  const double apart = 0.75 * std::sqrt(width / columns * height / rows), edge = 0.5 * apart;
+  for (int tries = 0; tries < 60 * columns * rows; ++tries) {
+    const Vec3 p(0.5 * width * (1 + unit()), 0.5 * height * (1 + unit()), 0);
+    if (p.x() < edge || p.x() > width - edge || p.y() < edge || p.y() > height - edge) continue;
+    bool far = true;
+    for (const Vec3& q : x) far = far && (p - q).norm() > apart;
+    if (far) insert_point(p, 0, x, triangles);
+  }
+  make_delaunay(x, triangles);
+  return finished(std::move(x), std::move(triangles), density);
+}
+
+Cloth lined_sheet(double width, double height, int columns, int rows, double density) {
+  std::vector<Vec3> x = lattice(width, height, columns, rows);
+  Triangles triangles = cut_quads(columns, rows, [](int, int) { return true; });
+  const double h = std::min(width / columns, height / rows);
+  const Vec3 middle(0.5 * width, 0.5 * height, 0), along(std::cos(0.37), std::sin(0.37), 0);
+  for (double s = -0.35 * std::min(width, height); s < 0.35 * std::min(width, height); s += 0.2 * h)
+    insert_point(middle + s * along + 0.031 * h * Vec3(1, 2, 0), 0.05 * h, x, triangles);
+  make_delaunay(x, triangles);
+  return finished(std::move(x), std::move(triangles), density);
+}
+
+const char* name_of(SheetKind kind) {
+  constexpr const char* names[] = {"one diagonal", "by row",           "union jack", "equilateral",
+                                   "jittered",     "cut and jittered", "blue noise", "inserted line"};
+  return names[int(kind)];
+}
+
+Cloth sheet_of(SheetKind kind, double width, double height, int columns, double density) {
+  const int rows = std::max(1, int(std::lround(height / width * columns)));
+  switch (kind) {
+    case SheetKind::one_diagonal:
+      return right_sheet(width, height, columns, rows, density);
+    case SheetKind::by_row:
+      return row_sheet(width, height, columns, rows, density);
+    case SheetKind::union_jack:
+      return right_sheet(width, height, columns, rows, density, true);
+    case SheetKind::equilateral:
+      return triangular_sheet(width, height, columns, equilateral_rows(width, height, columns), density);
+    case SheetKind::jittered:
+      return triangular_sheet(width, height, columns, equilateral_rows(width, height, columns), density, 0.3);
+    case SheetKind::cut_jittered:
+      return jittered_right_sheet(width, height, columns, rows, density);
+    case SheetKind::blue_noise:
+      return blue_noise_sheet(width, height, columns, rows, density);
+    case SheetKind::lined:
+      return lined_sheet(width, height, columns, rows, density);
+  }
+  throw std::invalid_argument("flat mesh: no such kind");
 }
 
 void add_flat_membrane(Cloth& cloth, double young_times_thickness, double poisson) {

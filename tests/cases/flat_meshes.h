@@ -34,6 +34,38 @@ physics::Cloth disc(double radius, int rings, double density = 0.1);
 physics::Cloth right_sheet(double width, double height, int columns, int rows, double density = 0.1,
                            bool alternating = false);
 
+/// The same with diagonals that alternate from row to row.
+physics::Cloth row_sheet(double width, double height, int columns, int rows, double density = 0.1);
+/// right_sheet whose interior vertices move by up to 0.3 cells in x and y, except where a triangle would lose
+/// nine tenths of its area; no edge is flipped.
+physics::Cloth jittered_right_sheet(double width, double height, int columns, int rows, double density = 0.1,
+                                    std::uint64_t seed = 1);
+/// A Delaunay triangulation of points that keep 0.75 of the mean distance from each other (blue noise), with
+/// columns x rows edges on the border.
+physics::Cloth blue_noise_sheet(double width, double height, int columns, int rows, double density = 0.1,
+                                std::uint64_t seed = 1);
+/// right_sheet with a slanted line of vertices inserted through its middle, a fifth of a cell apart, and made
+/// Delaunay.
+physics::Cloth lined_sheet(double width, double height, int columns, int rows, double density = 0.1);
+
+/// The kinds of meshes that bending is measured on.
+enum class SheetKind {
+  one_diagonal,
+  by_row,
+  union_jack,
+  equilateral,
+  jittered,
+  cut_jittered,
+  blue_noise,
+  lined
+};
+inline constexpr SheetKind sheet_kinds[] = {
+    SheetKind::one_diagonal, SheetKind::by_row,       SheetKind::union_jack, SheetKind::equilateral,
+    SheetKind::jittered,     SheetKind::cut_jittered, SheetKind::blue_noise, SheetKind::lined};
+const char* name_of(SheetKind kind);
+/// width x height, `columns` cells along x; rows to fit.
+physics::Cloth sheet_of(SheetKind kind, double width, double height, int columns, double density = 0.1);
+
 /// A membrane triangle of plane stress, nu = 0.3 by default, for each triangle; at rest as the cloth lies.
 void add_flat_membrane(physics::Cloth& cloth, double young_times_thickness, double poisson = 0.3);
 

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "physics/cloth/plate_bending.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "physics/base/require.h"
+#include "physics/cloth/dihedral.h"
+#include "physics/cloth/hinge_forces.h"
+
+namespace furrow::physics {
+
+PlateBending::PlateBending(Plate plate, std::size_t particles)
+    : plate_(std::move(plate)), particles_(particles) {
+  for (const Hinge& h : plate_.hinges) check(h, particles);
+  gather_begin_.assign(plate_.hinges.size() + 1, 0);
+  for (const int h : plate_.hinge) ++gather_begin_[std::size_t(h) + 1];
+  for (std::size_t h = 0; h < plate_.hinges.size(); ++h) gather_begin_[h + 1] += gather_begin_[h];
+  std::vector<int> next(gather_begin_.begin(), gather_begin_.end() - 1);
+  gather_.resize(plate_.hinge.size());
+  for (std::size_t e = 0; e < plate_.hinge.size(); ++e)
+    gather_[std::size_t(next[std::size_t(plate_.hinge[e])]++)] = int(e);
+  find_pattern();
+}
+
+void PlateBending::find_pattern() {
+  corner_begin_.push_back(0);
+  for (int t = 0; t < plate_.triangles(); ++t) {
+    std::vector<int> corners;
+    for (int e = plate_.begin[std::size_t(t)]; e < plate_.begin[std::size_t(t) + 1]; ++e)
+      for (const int v : plate_.hinges[std::size_t(plate_.hinge[std::size_t(e)])].vertices)
+        corners.push_back(v);
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    for (int e = plate_.begin[std::size_t(t)]; e < plate_.begin[std::size_t(t) + 1]; ++e) {
+      auto& at = corner_of_entry_.emplace_back();
+      for (std::size_t k = 0; k < 4; ++k) {
+        const int v = plate_.hinges[std::size_t(plate_.hinge[std::size_t(e)])].vertices[k];
+        at[k] =
+            static_cast<unsigned char>(std::lower_bound(corners.begin(), corners.end(), v) - corners.begin());
+      }
+    }
+    corner_.insert(corner_.end(), corners.begin(), corners.end());
+    corner_begin_.push_back(int(corner_.size()));
+    for (std::size_t r = 0; r < corners.size(); ++r)
+      for (std::size_t c = 0; c <= r; ++c) pairs_.push_back({corners[r], corners[c]});
+  }
+  std::vector<std::array<int, 2>> all = pairs_;
+  std::sort(pairs_.begin(), pairs_.end());
+  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+  const auto place = [&](int i, int j) {
+    const std::array<int, 2> pair{std::max(i, j), std::min(i, j)};
+    return int(std::lower_bound(pairs_.begin(), pairs_.end(), pair) - pairs_.begin());
+  };
+  for (const auto& [i, j] : all) place_.push_back(place(i, j));
+  for (const Hinge& h : plate_.hinges) {
+    auto& at = hinge_place_.emplace_back();
+    for (int r = 0; r < 4; ++r)
+      for (int c = 0; c <= r; ++c)
+        at[std::size_t(lower_block(r, c))] = place(h.vertices[std::size_t(r)], h.vertices[std::size_t(c)]);
+  }
+}
+
+/// What bends and how it turns with the particles.
+struct PlateBending::Bends {
+  std::vector<double> bend;
+  std::vector<std::array<Vec3, 4>> gradient;
+
+  Bends(const std::vector<Hinge>& hinges, std::span<const Vec3> x) {
+    bend.reserve(hinges.size()), gradient.reserve(hinges.size());
+    for (const Hinge& h : hinges) {
+      const auto& v = h.vertices;
+      const Dihedral d = dihedral(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+      bend.push_back(physics::bend(d.angle, h.rest_angle));
+      gradient.push_back(d.gradient);
+    }
+  }
+};
+
+/// dE/dbend, each triangle's curvature answered by its stiffness.
+std::vector<double> PlateBending::moments_of(const std::vector<double>& bend, double& energy) const {
+  std::vector<double> of_entry(plate_.hinge.size()), moment(bend.size());
+  for (std::size_t t = 0; t < plate_.stiffness.size(); ++t) {
+    const int begin = plate_.begin[t], end = plate_.begin[t + 1];
+    Vec3 k = Vec3::Zero();
+    for (int e = begin; e < end; ++e)
+      k += bend[std::size_t(plate_.hinge[std::size_t(e)])] * plate_.share[std::size_t(e)];
+    const Vec3 answer = plate_.stiffness[t] * k;
+    energy += 0.5 * k.dot(answer);
+    for (int e = begin; e < end; ++e) of_entry[std::size_t(e)] = plate_.share[std::size_t(e)].dot(answer);
+  }
+  for (std::size_t h = 0; h < moment.size(); ++h)
+    for (int i = gather_begin_[h]; i < gather_begin_[h + 1]; ++i)
+      moment[h] += of_entry[std::size_t(gather_[std::size_t(i)])];
+  return moment;
+}
+
+double PlateBending::energy(std::span<const Vec3> x) const {
+  std::vector<double> bend;
+  bend.reserve(plate_.hinges.size());
+  for (const Hinge& h : plate_.hinges) {
+    const auto& v = h.vertices;
+    bend.push_back(physics::bend(dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]), h.rest_angle));
+  }
+  double energy = 0;
+  moments_of(bend, energy);
+  return energy;
+}
+
+std::vector<double> PlateBending::moments(std::span<const Vec3> x) const {
+  double energy = 0;
+  return moments_of(Bends(plate_.hinges, x).bend, energy);
+}
+
+void PlateBending::add_forces(std::span<const Vec3> x, std::span<Vec3> force) const {
+  const Bends b(plate_.hinges, x);
+  double energy = 0;
+  const std::vector<double> moment = moments_of(b.bend, energy);
+  for (std::size_t h = 0; h < moment.size(); ++h)
+    for (std::size_t k = 0; k < 4; ++k) force[plate_.hinges[h].vertices[k]] -= moment[h] * b.gradient[h][k];
+}
+
+/// J^T A D J of each triangle, J = dk/dx.
+void PlateBending::add_curvature_blocks(const std::vector<std::array<Vec3, 4>>& gradient,
+                                        std::vector<Mat3>& blocks) const {
+  std::vector<Mat3> j, answer;
+  std::size_t place = 0;
+  for (std::size_t t = 0; t < plate_.stiffness.size(); ++t) {
+    const std::size_t corners = std::size_t(corner_begin_[t + 1] - corner_begin_[t]);
+    j.assign(corners, Mat3::Zero());
+    for (std::size_t e = std::size_t(plate_.begin[t]); e < std::size_t(plate_.begin[t + 1]); ++e)
+      for (std::size_t k = 0; k < 4; ++k)
+        j[corner_of_entry_[e][k]] += plate_.share[e] * gradient[std::size_t(plate_.hinge[e])][k].transpose();
+    answer.resize(corners);
+    for (std::size_t c = 0; c < corners; ++c) answer[c].noalias() = plate_.stiffness[t] * j[c];
+    for (std::size_t r = 0; r < corners; ++r)
+      for (std::size_t c = 0; c <= r; ++c)
+        blocks[std::size_t(place_[place++])] += j[r].transpose().lazyProduct(answer[c]);
+  }
+}
+
+bool PlateBending::add_stiffness(std::span<const Vec3> x, Stiffness stiffness, const BlockSink& sink) const {
+  const Bends b(plate_.hinges, x);
+  std::vector<Mat3> blocks(pairs_.size(), Mat3::Zero());
+  add_curvature_blocks(b.gradient, blocks);
+  double energy = 0;
+  const std::vector<double> moment = moments_of(b.bend, energy);
+  for (std::size_t h = 0; h < moment.size(); ++h) {
+    const double m = (1 - stiffness.clamped) * moment[h];
+    if (m == 0) continue;
+    const auto& v = plate_.hinges[h].vertices;
+    const auto hessian = dihedral_hessian(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+    for (int r = 0; r < 4; ++r)
+      for (int c = 0; c <= r; ++c) {
+        const std::size_t i = std::size_t(lower_block(r, c));
+        Mat3& block = blocks[std::size_t(hinge_place_[h][i])];
+        if (v[std::size_t(r)] >= v[std::size_t(c)])
+          block += m * hessian[i];
+        else
+          block += m * hessian[i].transpose();
+      }
+  }
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto [i, j] = pairs_[p];
+    sink(i, j, blocks[p]);
+    if (i != j) sink(j, i, blocks[p].transpose());
+  }
+  return true;
+}
+
+CoupledHinges couple_hinges(Cloth& cloth, std::span<const std::array<double, 3>> rest_lengths,
+                            const PlateOptions& options, std::span<const char> apart,
+                            std::span<const double> press) {
+  if (cloth.hinge_law != HingeLaw::linear) refuse("couple_hinges", "the hinges' law is not linear");
+  PlateParts parts = make_plate(
+      {cloth.triangles, rest_lengths, cloth.hinges, cloth.particles.inv_mass, apart, press}, options);
+  CoupledHinges result{int(parts.coupled.size()), int(parts.plain.size()), parts.slivers};
+  if (parts.coupled.empty()) return result;
+  cloth.energies.push_back(std::make_shared<PlateBending>(std::move(parts.plate), cloth.particles.size()));
+  std::vector<Hinge> plain;
+  for (const int h : parts.plain) plain.push_back(cloth.hinges[std::size_t(h)]);
+  cloth.hinges = std::move(plain);
+  return result;
+}
+
+}  // namespace furrow::physics

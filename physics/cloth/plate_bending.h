@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <vector>
+
+#include "physics/cloth/cloth.h"
+#include "physics/cloth/plate.h"
+
+namespace furrow::physics {
+
+/// A plate as an energy of a cloth: E = 1/2 sum k^T A D k, k linear in the hinges' bends. Forces follow from
+/// the hinges' moments m = dE/dtheta; the stiffness is G^T Q G + sum m d2theta/dx2 with the gradients G of
+/// the angles, its positive part the first term (Gauss and Newton's). Energy, total force and moment behave
+/// under rigid motions as those of hinges do; sums have one order.
+class PlateBending : public Energy {
+ public:
+  /// Throws std::invalid_argument as check(Hinge) if a hinge names a particle out of range. Cost: a sort of
+  /// some 60 pairs of particles a triangle.
+  PlateBending(Plate plate, std::size_t particles);
+
+  double energy(std::span<const Vec3> x) const override;
+  void add_forces(std::span<const Vec3> x, std::span<Vec3> force) const override;
+  bool add_stiffness(std::span<const Vec3> x, Stiffness stiffness, const BlockSink& sink) const override;
+
+  /// dE/dtheta of each hinge of the plate at x [N m].
+  std::vector<double> moments(std::span<const Vec3> x) const;
+  const Plate& plate() const { return plate_; }
+
+ private:
+  struct Bends;
+  std::vector<double> moments_of(const std::vector<double>& bend, double& energy) const;
+  void find_pattern();
+  void add_curvature_blocks(const std::vector<std::array<Vec3, 4>>& gradient,
+                            std::vector<Mat3>& blocks) const;
+
+  Plate plate_;
+  std::size_t particles_;
+  std::vector<int> gather_begin_, gather_;  ///< of each hinge its entries in the plate's rows
+  // Which blocks of K there are, on and below the diagonal, and which of them a triangle and a hinge fill.
+  std::vector<std::array<int, 2>> pairs_;
+  std::vector<int> corner_begin_, corner_;  ///< of each triangle the particles that move its curvature
+  std::vector<std::array<unsigned char, 4>> corner_of_entry_;
+  std::vector<int> place_;                        ///< of each triangle's blocks, row by row
+  std::vector<std::array<int, 10>> hinge_place_;  ///< of each hinge's blocks
+};
+
+/// How many hinges of a cloth became a plate, and how many stayed.
+struct CoupledHinges {
+  int coupled = 0, plain = 0, slivers = 0;
+};
+/// Takes the hinges of a cloth that a plate can have out of it and puts a PlateBending of them behind its
+/// energies; the others stay, with the stiffness that they have. rest_lengths: of cloth.triangles. Pins must
+/// be set, and stiffen_clamps() not called: a plate knows its clamps. Nothing happens if none can be coupled.
+/// Throws std::invalid_argument, nothing changed, as make_plate(), and if the hinges' law is not linear.
+CoupledHinges couple_hinges(Cloth& cloth, std::span<const std::array<double, 3>> rest_lengths,
+                            const PlateOptions& options, std::span<const char> apart = {},
+                            std::span<const double> press = {});
+
+}  // namespace furrow::physics

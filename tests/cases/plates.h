@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <array>
+#include <vector>
+
+#include "physics/cloth/cloth.h"
+#include "physics/cloth/plate.h"
+
+namespace furrow::cases {
+
+/// Plates of the flat meshes of flat_meshes.h.
+
+/// The lengths of its triangles' edges, as the cloth lies.
+std::vector<std::array<double, 3>> lengths_of(const physics::Cloth& cloth);
+/// From each triangle's edge 0 -> 1 to a direction of the plane, `angle` [rad] from the x axis.
+std::vector<double> warp_along(const physics::Cloth& cloth, double angle);
+/// The plate over flat hinges of all inner edges. The cloth has triangles, pins and no hinges.
+physics::PlateParts plate_of(const physics::Cloth& cloth, const physics::PlateRigidity& rigidity,
+                             double warp_angle = 0);
+/// Puts it into the cloth's energies, hinges that stay plain among its hinges.
+void add_plate(physics::Cloth& cloth, const physics::PlateRigidity& rigidity, double warp_angle = 0);
+
+/// Triangles none of whose corners is within `rings` edges of the border.
+std::vector<char> core_of(const physics::Cloth& cloth, int rings);
+/// Of each particle, how many edges from the border.
+std::vector<int> rings_from_border(const physics::Cloth& cloth);
+
+}  // namespace furrow::cases

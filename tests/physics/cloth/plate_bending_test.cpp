@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "physics/cloth/plate_bending.h"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "physics/cloth/element_blocks.h"
+#include "physics/cloth/elements.h"
+#include "tests/cases/flat_meshes.h"
+#include "tests/cases/plates.h"
+#include "tests/physics/cloth/finite_differences.h"
+#include "tests/physics/cloth/shell_cloths.h"
+
+using namespace furrow::physics;
+using namespace furrow::tests;
+using namespace furrow::cases;
+
+namespace {
+
+/// A sheet with hinges of random rest angles as a plate, some of it pinned, crumpled.
+Cloth crumpled(SheetKind kind, int seed, bool pinned = true, double size = 0.06) {
+  Cloth cloth = sheet_of(kind, 1, 1, 4);
+  cloth.structural.clear();
+  add_flat_hinges(cloth, 1);
+  Noise noise(seed);
+  for (Hinge& h : cloth.hinges) h.rest_angle = 0.6 * noise();
+  if (pinned)
+    for (const int i : {0, 1, 5, 6}) cloth.particles.inv_mass[i] = 0;
+  couple_hinges(cloth, lengths_of(cloth), {PlateRigidity{2, 1, 0.3, 0.2}, warp_along(cloth, 0.3)});
+  for (Vec3& x : cloth.particles.x) x += size * noise.vector();
+  return cloth;
+}
+
+const PlateBending& plate_in(const Cloth& cloth) {
+  return dynamic_cast<const PlateBending&>(*cloth.energies.at(0));
+}
+
+}  // namespace
+
+TEST_CASE("plate_bending: derivatives agree with finite differences at random configurations") {
+  for (const SheetKind kind : {SheetKind::one_diagonal, SheetKind::jittered, SheetKind::lined}) {
+    const Cloth cloth = crumpled(kind, 3);
+    REQUIRE(cloth.energies.size() == 1);
+    const DerivativeErrors errors = derivative_errors(cloth, cloth.particles.x, 1e-5);
+    CAPTURE(name_of(kind), errors.force, errors.stiffness, errors.symmetry);
+    CHECK(errors.force < 1e-7);
+    CHECK(errors.stiffness < 1e-7);
+    CHECK(errors.symmetry < 1e-13);
+    const Eigen::MatrixXd part = stiffness_matrix(cloth, cloth.particles.x, Stiffness::positive_part);
+    CHECK(least_eigenvalue(part) > -1e-12 * part.norm());
+  }
+}
+
+TEST_CASE("plate_bending: no total force or moment, and rigid motions change nothing") {
+  const Cloth cloth = crumpled(SheetKind::blue_noise, 5);
+  const Positions& x = cloth.particles.x;
+  const Eigen::VectorXd force = forces(cloth, x);
+  Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sum += force.segment<3>(Eigen::Index(3 * i));
+    moment += x[i].cross(Vec3(force.segment<3>(Eigen::Index(3 * i))));
+  }
+  CHECK(sum.norm() < 1e-12 * force.norm());
+  CHECK(moment.norm() < 1e-12 * force.norm());
+  const Eigen::AngleAxisd turn(2.1, Vec3(1, -2, 1).normalized());
+  Positions turned = x;
+  for (Vec3& p : turned) p = turn * p + Vec3(1, 1, -2);
+  CHECK(potential_energy(cloth, turned) == Approx(potential_energy(cloth, x)).epsilon(1e-11));
+}
+
+TEST_CASE("plate_bending: a cloth at rest angles of its own is at rest") {
+  Cloth cloth = sheet_of(SheetKind::cut_jittered, 1, 1, 6);
+  cloth.structural.clear();
+  const auto lengths = lengths_of(cloth);
+  Noise noise(2);
+  for (Vec3& x : cloth.particles.x) x.z() += 0.05 * noise();
+  add_hinges(cloth, 1);  // as it lies
+  const Eigen::VectorXd before = forces(cloth, cloth.particles.x);
+  couple_hinges(cloth, lengths, {isotropic_plate(1)});
+  CHECK(cloth.hinges.empty());
+  CHECK(forces(cloth, cloth.particles.x).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK(potential_energy(cloth, cloth.particles.x) < 1e-24);
+  CHECK(before.norm() < 1e-11);
+  for (const double m : plate_in(cloth).moments(cloth.particles.x)) CHECK(std::abs(m) < 1e-13);
+}
+
+TEST_CASE("plate_bending: moments are the energy's derivatives by the angles") {
+  const Cloth cloth = crumpled(SheetKind::jittered, 4, false);
+  const PlateBending& bending = plate_in(cloth);
+  const std::vector<double> moments = bending.moments(cloth.particles.x);
+  for (const std::size_t h : {std::size_t(0), moments.size() / 2, moments.size() - 1}) {
+    const auto at = [&](double by) {
+      Plate plate = bending.plate();
+      plate.hinges[h].rest_angle -= by;
+      return PlateBending(plate, cloth.particles.size()).energy(cloth.particles.x);
+    };
+    CHECK(moments[h] == Approx((at(1e-5) - at(-1e-5)) / 2e-5).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("plate_bending: coupling leaves plain hinges and changes nothing where there are none") {
+  Cloth cloth = sheet_of(SheetKind::one_diagonal, 1, 1, 3);
+  add_flat_hinges(cloth, 1);
+  const std::size_t hinges = cloth.hinges.size();
+  std::vector<char> apart(hinges, 0);
+  apart[3] = 1;
+  const Hinge kept = cloth.hinges[3];
+  const CoupledHinges made = couple_hinges(cloth, lengths_of(cloth), {isotropic_plate(1)}, apart);
+  CHECK(made.coupled == int(hinges) - 1);
+  CHECK(made.plain == 1);
+  REQUIRE(cloth.hinges.size() == 1);
+  CHECK(cloth.hinges[0].vertices == kept.vertices);
+  CHECK(cloth.hinges[0].stiffness == kept.stiffness);
+  const CoupledHinges again =
+      couple_hinges(cloth, lengths_of(cloth), {isotropic_plate(1)}, std::vector<char>{1});
+  CHECK(again.coupled == 0);
+  CHECK(cloth.energies.size() == 1);
+  cloth.hinge_law = HingeLaw::cosine;
+  CHECK_THROWS_WITH(couple_hinges(cloth, lengths_of(cloth), {isotropic_plate(1)}), Catch::Contains("linear"));
+  CHECK_THROWS_AS(PlateBending(plate_in(cloth).plate(), 3), std::invalid_argument);
+}
+
+TEST_CASE("plate_bending: other orders of triangles and hinges give the same energy and forces") {
+  Cloth cloth = sheet_of(SheetKind::jittered, 1, 1, 5);
+  add_flat_hinges(cloth, 1);
+  Cloth other = cloth;
+  std::reverse(other.triangles.begin(), other.triangles.end());
+  for (auto& t : other.triangles) std::rotate(t.begin(), t.begin() + 1, t.end());
+  std::reverse(other.hinges.begin(), other.hinges.end());
+  for (std::size_t h = 0; h < other.hinges.size(); h += 2) {
+    auto& v = other.hinges[h].vertices;
+    std::swap(v[0], v[1]), std::swap(v[2], v[3]);
+  }
+  for (Cloth* c : {&cloth, &other}) couple_hinges(*c, lengths_of(*c), {isotropic_plate(1, 0.2)});
+  Noise noise(8);
+  Positions x = cloth.particles.x;
+  for (Vec3& p : x) p += 0.05 * noise.vector();
+  CHECK(potential_energy(other, x) == Approx(potential_energy(cloth, x)).epsilon(1e-12));
+  CHECK((forces(other, x) - forces(cloth, x)).norm() < 1e-11 * forces(cloth, x).norm());
+}
