@@ -111,7 +111,7 @@ TEST_CASE("drape: the plain scheme comes to a like rest, an observer stops it, b
   CHECK(untouched.number_of_vertices() == across().number_of_vertices());
 }
 
-TEST_CASE("drape: friction of bending bears what it can, and cloth hangs less for it") {
+TEST_CASE("drape: friction of bending bears what it can, and cloth hangs less for it", "[release]") {
   const Sphere ball(Vec3::Zero(), 0.1);
   const auto lowest = [&](double friction, double* slip) {
     geometry::Mesh mesh = across();

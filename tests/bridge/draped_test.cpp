@@ -34,7 +34,7 @@ Drape tube_over_ball() {
 
 TEST_CASE(
     "metamorphic: a drape stays within 1 % of energy and 3 mm, turned, permuted and read in millimetres",
-    "[accuracy]") {
+    "[release]") {
   const Drape drape = tube_over_ball();
   const DrapedCase base = draped(drape);
   const Rest rest = come_to_rest(base.rest);

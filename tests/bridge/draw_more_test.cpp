@@ -228,7 +228,7 @@ TEST_CASE("draw_more: drawing keeps the momentum of a cloth in motion") {
   }
 }
 
-TEST_CASE("draw_more: a strained cloth moves little when lines of height 0 are drawn into it") {
+TEST_CASE("draw_more: a strained cloth moves little when lines of height 0 are drawn into it", "[release]") {
   double strain = 0;
   SECTION("stretched in its plane") {
     Mesh mesh = jittered_sheet();
@@ -256,7 +256,7 @@ TEST_CASE("draw_more: a strained cloth moves little when lines of height 0 are d
 }
 
 TEST_CASE("draw_more: a strained membrane of triangles hardly moves when folds of height 0 are drawn into it",
-          "[accuracy]") {
+          "[release]") {
   Mesh mesh = jittered_sheet();
   stretch(mesh, 1.05);
   bridge::DrawMoreOptions o = options_for(mesh);

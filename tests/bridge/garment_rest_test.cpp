@@ -46,7 +46,7 @@ double energy_gained(const Cloth& a, const Cloth& b) {
 
 }  // namespace
 
-TEST_CASE("drape: a skirt's rest without friction is one of leapfrog's, too", "[accuracy]") {
+TEST_CASE("drape: a skirt's rest without friction is one of leapfrog's, too", "[release]") {
   const std::filesystem::path folder = tests::source_dir() / "meshes";
   const cases::GarmentPair pair = cases::read_pair(folder / "skirt.obj", folder / "mannequin.obj");
   bridge::DrapeOptions o;

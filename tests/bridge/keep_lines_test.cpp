@@ -68,7 +68,7 @@ struct Hung {
 
 }  // namespace
 
-TEST_CASE("keep_lines: a ridge in cloth that can bear it stays as drawn, and after a gust") {
+TEST_CASE("keep_lines: a ridge in cloth that can bear it stays as drawn, and after a gust", "[release]") {
   Hung hung(1e-4);
   const bridge::KeepReport report = hung.keep();
   REQUIRE(report.lines.size() == 1);
@@ -82,7 +82,7 @@ TEST_CASE("keep_lines: a ridge in cloth that can bear it stays as drawn, and aft
   CHECK(hung.residual(hung.gathered()) > 1e-3);
 }
 
-TEST_CASE("keep_lines: a line starts from its own width and press, and help multiplies it") {
+TEST_CASE("keep_lines: a line starts from its own width and press, and help multiplies it", "[release]") {
   Hung stiff(1e-4, 0.08, 3), soft(1e-6, 0.08, 5);
   const bridge::KeepReport held = stiff.keep();
   CHECK(held.lines[0].verdict == Verdict::held);
@@ -98,7 +98,7 @@ TEST_CASE("keep_lines: a line starts from its own width and press, and help mult
 
 TEST_CASE(
     "keep_lines: a line with a width is the same fold on a coarse and on a fine mesh, and is kept on both",
-    "[accuracy]") {
+    "[release]") {
   std::vector<bridge::KeptLine> lines;
   for (const double edge : {0.02, 0.01}) {
     Hung hung(1e-4, 0.06, 1, edge);
@@ -112,7 +112,7 @@ TEST_CASE(
 }
 
 TEST_CASE("keep_lines: with whole what lies between the lines is pressed until nothing in it gives way",
-          "[accuracy]") {
+          "[release]") {
   Hung lines(3e-8), whole(3e-8);
   for (Hung* hung : {&lines, &whole}) {
     hung->options.seconds = hung->options.calm_seconds = 0.05;
@@ -132,7 +132,7 @@ TEST_CASE("keep_lines: what is stored on the mesh is gathered again as the same 
   CHECK(hung.residual(hung.gathered()) < 1e-8);
 }
 
-TEST_CASE("keep_lines: soft cloth needs help, and without it no line is called held", "[accuracy]") {
+TEST_CASE("keep_lines: soft cloth needs help, and without it no line is called held", "[release]") {
   Hung alone(1e-6), helped(1e-6);
   alone.options.presses.clear();
   alone.options.struts.clear();
@@ -161,7 +161,7 @@ TEST_CASE("keep_lines: a garment that nothing holds is said to be out of balance
 
 TEST_CASE(
     "keep_lines: a ridge in cloth that lies on a ball holds, and a valley is as deep as the ball allows",
-    "[accuracy]") {
+    "[release]") {
   struct Ball : physics::Collider {
     physics::SignedDistance at(const physics::Vec3& x) const override {
       return {x.norm() - 0.2, x.normalized()};
@@ -204,7 +204,8 @@ TEST_CASE(
     CHECK(x.norm() > 0.2 + hung.options.run.contact_gap - 1e-8);
 }
 
-TEST_CASE("keep_lines: a shape that stands like a pencil on its tip is pushed before it is believed") {
+TEST_CASE("keep_lines: a shape that stands like a pencil on its tip is pushed before it is believed",
+          "[release]") {
   Hung standing(1e-3);
   physics::Cloth cloth = bridge::gather(standing.mesh, standing.material);
   std::vector<int> bottom;
@@ -225,7 +226,7 @@ TEST_CASE("keep_lines: a shape that stands like a pencil on its tip is pushed be
 }
 
 TEST_CASE("keep_lines: lines drawn at random on coarse meshes and called held are held in another run, too",
-          "[accuracy]") {
+          "[release]") {
   int held = 0;
   for (const std::uint64_t seed : {20261125, 20261127, 20261132}) {
     CAPTURE(seed);

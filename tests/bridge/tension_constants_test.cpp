@@ -101,7 +101,8 @@ TEST_CASE("tension_constants: the energy of a strain does not depend on the mesh
 
 TEST_CASE(
     "tension_constants: a sheet that hangs by its threads stretches as the continuum does, the better the "
-    "finer") {
+    "finer",
+    "[release]") {
   // rho g s = c e^2 at the distance s from the hem: (2/3) sqrt(rho g / c) H^(3/2).
   const double exact = 2.0 / 3 * std::sqrt(0.15 * 9.81 / 3000) * std::pow(0.3, 1.5);
   std::vector<double> errors;

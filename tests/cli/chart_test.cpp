@@ -74,7 +74,7 @@ std::string box(double top, int missing = 0) {
 }  // namespace
 
 TEST_CASE("chart: the recommendation holds against a finer reference, the next cheaper does not",
-          "[accuracy]") {
+          "[release]") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch);
   const json report = report_of(run_furrow("chart --json " + scene));
@@ -111,7 +111,7 @@ TEST_CASE("chart: a motion without chaos is judged by positions, and the order o
   CHECK(reference == Approx(fine / 3).epsilon(0.1));
 }
 
-TEST_CASE("chart: chaotic motion is judged by surface, centre, extent and energy", "[accuracy]") {
+TEST_CASE("chart: chaotic motion is judged by surface, centre, extent and energy", "[release]") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch, "0.2", "[material]\nbending = 0\n");
   const json report = report_of(run_furrow("chart --json --accuracy 2% " + scene));
@@ -164,7 +164,7 @@ TEST_CASE("chart: sweeps and Newton's iterations are those of the scene, and fla
   CHECK(refused.err.find("sweeps") != std::string::npos);
 }
 
-TEST_CASE("chart: a body that changes its shape costs, and begins anew each run") {
+TEST_CASE("chart: a body that changes its shape costs, and begins anew each run", "[release]") {
   const ScratchDirectory scratch;
   for (int frame = 0; frame < 3; ++frame)
     write_text(scratch / ("box_000" + std::to_string(frame) + ".obj"), box(-0.01 + 0.002 * frame));
@@ -228,7 +228,7 @@ TEST_CASE("chart: numbers as CSV, and a picture where gnuplot is") {
   if (!has_gnuplot) CHECK(run.err.find("gnuplot-nox") != std::string::npos);
 }
 
-TEST_CASE("chart: simulate with --accuracy takes its recommendation and says its flags") {
+TEST_CASE("chart: simulate with --accuracy takes its recommendation and says its flags", "[release]") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch), end = scratch / "end.ply";
   const json chart = report_of(run_furrow("chart --json " + scene));

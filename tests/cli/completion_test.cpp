@@ -131,7 +131,7 @@ TEST_CASE("completion: bash offers commands, words of an option, and leaves file
   CHECK(offers("furrow drape shi") == "  \n");
 }
 
-TEST_CASE("man: every command of --help has a page with its options, which roff takes") {
+TEST_CASE("man: every command of --help has a page with its options, which roff takes", "[release]") {
   const ScratchDirectory scratch;
   REQUIRE(run_furrow("man --into " + scratch.path().string()).exit_code == 0);
   for (const std::string& name : commands()) {
@@ -151,7 +151,7 @@ TEST_CASE("man: every command of --help has a page with its options, which roff 
   CHECK(run_furrow("man --into " + (scratch / "none")).exit_code == 1);
 }
 
-TEST_CASE("usage: NO_COLOR, and what is no terminal, gets no control codes") {
+TEST_CASE("usage: NO_COLOR, and what is no terminal, gets no control codes", "[release]") {
   const ScratchDirectory scratch;
   const std::string sheet = (source_dir() / "meshes/sheet.obj").string();
   const std::vector<std::string> call{"simulate", sheet, "--pin-vertices", "0", "--seconds",

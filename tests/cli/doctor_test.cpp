@@ -50,7 +50,7 @@ TEST_CASE("doctor: our garments on our bodies are well, and each job says so by 
   CHECK(examined(our_meshes + "mannequin.obj --as-body")["well"] == true);
 }
 
-TEST_CASE("doctor: garments and bodies of other makers are given no false alarm") {
+TEST_CASE("doctor: garments and bodies of other makers are given no false alarm", "[release]") {
   const std::filesystem::path folder = shared_dir() / "meshes/pairs";
   if (!std::filesystem::exists(folder)) {
     WARN("skipped: no shared data");

@@ -35,7 +35,7 @@ std::string skirt() {
 
 }  // namespace
 
-TEST_CASE("drape: it brings the skirt to rest on the mannequin and tells how it fits", "[accuracy]") {
+TEST_CASE("drape: it brings the skirt to rest on the mannequin and tells how it fits", "[release]") {
   ScratchDirectory scratch;
   const std::string call = "drape " + skirt() + " --subdivide 0 --band top=0.95 --json";
   const Run run =
@@ -59,7 +59,7 @@ TEST_CASE("drape: it brings the skirt to rest on the mannequin and tells how it 
         12 * worn.mesh.number_of_vertices() * r["levels"][0]["iterations"].get<std::size_t>());
 }
 
-TEST_CASE("drape: it brings the skirt to rest with the same bits twice", "[accuracy]") {
+TEST_CASE("drape: it brings the skirt to rest with the same bits twice", "[release]") {
   ScratchDirectory scratch;
   const std::string call = "drape " + skirt() + " --band top=0.95 -q -o ";
   REQUIRE(run_furrow(call + (scratch / "b.ply")).exit_code == 0);
@@ -68,7 +68,7 @@ TEST_CASE("drape: it brings the skirt to rest with the same bits twice", "[accur
 }
 
 TEST_CASE("drape: fit, simulate and drape know the contact, the fabric and the band of what it wrote",
-          "[accuracy]") {
+          "[release]") {
   ScratchDirectory scratch;
   const std::string worn = scratch / "worn.ply", on = " --body " + mannequin_path();
   const json draped = report_of("drape " + skirt() + " --fabric silk --gap 0.006 --band top=0.95 -o " + worn);
@@ -109,7 +109,7 @@ TEST_CASE("drape: fit, simulate and drape know the contact, the fabric and the b
   CHECK(geometry::struts(io::read_mesh(scratch / "sewn.ply").mesh).size() == band.size());
 }
 
-TEST_CASE("drape: a density beside a fabric stays with the garment", "[accuracy]") {
+TEST_CASE("drape: a density beside a fabric stays with the garment", "[release]") {
   ScratchDirectory scratch;
   const std::string worn = scratch / "worn.ply", on = " --body " + mannequin_path() + " --seconds 0.01 -o ";
   write_text(scratch / "scene.toml", "[garment]\nmesh = '" + (source_dir() / "meshes/skirt.obj").string() +
@@ -170,7 +170,7 @@ TEST_CASE(
 }
 
 TEST_CASE("drape: it names the settings that it has no use for, and cloth that is nearer than a chosen gap",
-          "[accuracy]") {
+          "[release]") {
   ScratchDirectory scratch;
   write_text(scratch / "scene.toml",
              "[garment]\nmesh = '" + (source_dir() / "meshes/skirt.obj").string() + "'\n[body]\nmesh = '" +
@@ -191,7 +191,7 @@ TEST_CASE("drape: it names the settings that it has no use for, and cloth that i
   CHECK(help.find("paper's law, default") == std::string::npos);
 }
 
-TEST_CASE("drape: cloth lies no deeper in the gap than it may", "[accuracy]") {
+TEST_CASE("drape: cloth lies no deeper in the gap than it may", "[release]") {
   ScratchDirectory scratch;
   const auto drape = [&](const std::string& more) {
     const Run run =
@@ -240,7 +240,7 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   CHECK(std::filesystem::exists(scratch / "x.ply"));
 }
 
-TEST_CASE("drape: what nothing carries falls, whatever residual is accepted") {
+TEST_CASE("drape: what nothing carries falls, whatever residual is accepted", "[release]") {
   ScratchDirectory scratch;
   write_text(scratch / "sheet.obj", "v 5 1 0\nv 5.1 1 0\nv 5.1 1 0.1\nv 5 1 0.1\nf 1 4 3\nf 1 3 2\n");
   const std::string call = "drape " + (scratch / "sheet.obj") + " --body " + mannequin_path() +
@@ -258,7 +258,7 @@ TEST_CASE("drape: what nothing carries falls, whatever residual is accepted") {
 
 TEST_CASE(
     "drape: a gap that is raised for long edges is told, and simulate goes on with the gap that was kept",
-    "[accuracy]") {
+    "[release]") {
   ScratchDirectory scratch;
   const Run coarse =
       run_furrow("drape " + skirt() + " --gap 0.001 --subdivide 0 --json -o " + (scratch / "a.ply"));
@@ -302,7 +302,7 @@ TEST_CASE("drape: a body that encloses nothing is refused, by fit, too") {
         3);
 }
 
-TEST_CASE("drape: a size stays the size that it was cut, refined or not", "[accuracy]") {
+TEST_CASE("drape: a size stays the size that it was cut, refined or not", "[release]") {
   ScratchDirectory scratch;
   const std::string shirt = (source_dir() / "meshes/shirt.obj").string();
   double ease[2][3] = {}, girth = 0;

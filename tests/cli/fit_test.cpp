@@ -99,7 +99,7 @@ TEST_CASE("fit: without rest lengths it says so, and colours by distance") {
   CHECK(run_furrow("fit -v " + f.worn + " --body " + f.body).out.find("section") != std::string::npos);
 }
 
-TEST_CASE("fit: pictures of one garment from both sides, and of several with one legend") {
+TEST_CASE("fit: pictures of one garment from both sides, and of several with one legend", "[release]") {
   TubeFiles f;
   const std::string small = " --size 220,260 --quality draft ";
   succeed("fit --json " + f.worn + " --rest-shape " + f.made + " --body " + f.body + small + "--picture " +

@@ -62,7 +62,7 @@ TEST_CASE("keep: no output replaces what is read") {
   CHECK(read_text(scratch / "a.json") == strokes);
 }
 
-TEST_CASE("keep: with --whole what gives way between the lines is pressed, and reported") {
+TEST_CASE("keep: with --whole what gives way between the lines is pressed, and reported", "[release]") {
   const ScratchDirectory scratch;
   const std::string scene = write_hung_scene(scratch);
   const auto keep = [&](const std::string& flags) {

@@ -111,7 +111,7 @@ TEST_CASE("rest keep: a run that was stopped before and after the drawing gives 
   CHECK(read_text(end) == read_text(whole));
 }
 
-TEST_CASE("rest keep: wrinkle makes what simulate then leaves as it is") {
+TEST_CASE("rest keep: wrinkle makes what simulate then leaves as it is", "[release]") {
   const ScratchDirectory scratch;
   const std::string a = write_strokes(scratch, "a", 0.02), kept = scratch / "kept.ply",
                     end = scratch / "end.ply";

@@ -80,7 +80,7 @@ seconds = 0.16
 
 }  // namespace
 
-TEST_CASE("resume: a simulation stopped anywhere goes on as if it had not been stopped", "[accuracy]") {
+TEST_CASE("resume: a simulation stopped anywhere goes on as if it had not been stopped", "[release]") {
   FallingSheet sheet;
   const std::string scene = sheet.scratch / "scene.toml", state = sheet.scratch / "state.ply";
   const std::string whole = sheet.run(scene + " --threads 1");
@@ -99,7 +99,7 @@ TEST_CASE("resume: a simulation stopped anywhere goes on as if it had not been s
 }
 
 TEST_CASE("resume: a simulation stopped twice, and one whose state went to another folder, end the same",
-          "[accuracy]") {
+          "[release]") {
   FallingSheet sheet;
   const std::string scene = sheet.scratch / "scene.toml", one = sheet.scratch / "one.ply";
   const std::string whole = sheet.run(scene);
@@ -189,7 +189,7 @@ TEST_CASE("resume: no output replaces an input or another output") {
 
 TEST_CASE(
     "resume: fabrics, and every integrator that a scene can choose, go on as if they had not been stopped",
-    "[accuracy]") {
+    "[release]") {
   FallingSheet sheet;
   const std::string state = sheet.scratch / "state.ply", scene = sheet.scratch / "scene.toml";
   const std::string more = GENERATE(

@@ -64,7 +64,7 @@ seconds = 0.1
 
 }  // namespace
 
-TEST_CASE("scene outputs: the flags that a scene's report names do the same, byte for byte") {
+TEST_CASE("scene outputs: the flags that a scene's report names do the same, byte for byte", "[release]") {
   Turning t;
   const std::string one = t.scratch / "one.ply", two = t.scratch / "two.ply";
   const json report = t.run(t.scene + " -o " + one);
@@ -97,7 +97,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "scene outputs: a body that rises as frames lifts the cloth, and the report says what its fields cost") {
+    "scene outputs: a body that rises as frames lifts the cloth, and the report says what its fields cost",
+    "[release]") {
   const ScratchDirectory scratch;
   const io::MeshFile slab = io::read_mesh(meshes + "slab.obj");
   for (int frame = 0; frame < 3; ++frame) {
@@ -165,7 +166,8 @@ TEST_CASE(
   CHECK_FALSE(warned(meshes + "slab.obj"));
 }
 
-TEST_CASE("scene outputs: wrinkle --state draws into a stopped simulation, and the result goes on") {
+TEST_CASE("scene outputs: wrinkle --state draws into a stopped simulation, and the result goes on",
+          "[release]") {
   Turning t;
   const std::string state = t.scratch / "state.ply", more = t.scratch / "more.ply",
                     end = t.scratch / "end.ply";
@@ -190,7 +192,7 @@ TEST_CASE("scene outputs: wrinkle --state draws into a stopped simulation, and t
   CHECK(run["lines"][1]["name"] == "late");
 }
 
-TEST_CASE("scene outputs: the scenes of the demo are read, and begin", "[scenes]") {
+TEST_CASE("scene outputs: the scenes of the demo are read, and begin", "[scenes][release]") {
   for (const std::string name : {"bulge", "skirt", "shirt"}) {
     const ScratchDirectory scratch;
     CAPTURE(name);

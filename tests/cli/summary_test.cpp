@@ -73,7 +73,7 @@ TEST_CASE("report: ten lines at most for people, with the files written, and all
   }
 }
 
-TEST_CASE("report: -v says more, and -q nothing") {
+TEST_CASE("report: -v says more, and -q nothing", "[release]") {
   ScratchDirectory scratch;
   const std::string sheet = source_file("meshes/sheet.obj");
   for (const std::string& call :
@@ -122,7 +122,7 @@ TEST_CASE("report: lengths in messages are written as people write them") {
   CHECK_FALSE(std::filesystem::exists(scratch / "o.ply"));
 }
 
-TEST_CASE("render: faces that cross are magenta, on a texture, too, and counted") {
+TEST_CASE("render: faces that cross are magenta, on a texture, too, and counted", "[release]") {
   ScratchDirectory scratch;
   write_text(scratch / "plain.obj", sheets(false));
   write_text(scratch / "crossing.obj", sheets(true));
@@ -148,7 +148,7 @@ TEST_CASE("wrinkle: the picture of what is inserted marks faces that cross") {
   CHECK(magenta_pixels(scratch / "p.png") > 500);
 }
 
-TEST_CASE("report: a smooth fold tells the height of its crest, and its width") {
+TEST_CASE("report: a smooth fold tells the height of its crest, and its width", "[release]") {
   ScratchDirectory scratch;
   const std::string call = "wrinkle " + source_file("meshes/skirt.obj") + " " +
                            source_file("meshes/strokes/figure_skirt.json") + " --rule fold -o " +

@@ -56,7 +56,8 @@ TEST_CASE("transfer: it brings the wrinkles back to the skirt's own faces, chart
 
 TEST_CASE(
     "transfer: it works after subdivision and through another format with --rest-shape, and says what it "
-    "refuses") {
+    "refuses",
+    "[release]") {
   Skirt skirt;
   const auto at = [&](const char* name) { return skirt.scratch / name; };
   succeed("subdivide --json " + skirt.mesh + " --subdivide 1 -o " + at("fine.obj"));
@@ -113,7 +114,8 @@ TEST_CASE("transfer: skin weights and other columns of a PLY survive wrinkle, --
   }
 }
 
-TEST_CASE("transfer: bake tells the wrinkled skirt to a fraction of a millimetre, already with small maps") {
+TEST_CASE("transfer: bake tells the wrinkled skirt to a fraction of a millimetre, already with small maps",
+          "[release]") {
   Skirt skirt;
   const std::string prefix = skirt.scratch / "skirt", applied = skirt.scratch / "applied.obj";
   const json report = succeed("bake --json " + skirt.mesh + " " + skirt.wrinkled + " -o " + prefix +
@@ -138,7 +140,7 @@ TEST_CASE("transfer: bake tells the wrinkled skirt to a fraction of a millimetre
 }
 
 TEST_CASE("transfer: render lays a checker or a PNG on, and says when there is nothing to lay it on with",
-          "[accuracy]") {
+          "[release]") {
   Skirt skirt;
   const auto at = [&](const char* name) { return skirt.scratch / name; };
   const std::string size = " --size 60,60 --quality draft --no-lines -o " + at("a.png");

@@ -54,7 +54,7 @@ Vec3 on_slab(Vec3 x) { return {x.x(), 0, x.z()}; }
 
 }  // namespace
 
-TEST_CASE("validation scenes: free_fall is g t^2 / 2 exactly, at any step") {
+TEST_CASE("validation scenes: free_fall is g t^2 / 2 exactly, at any step", "[release]") {
   for (const char* dt : {"", "--dt 0.00005", "--dt 0.00003"}) {
     const Result r = run_scene("free_fall", dt);
     CHECK(farthest(r, [](const Vec3& x) { return Vec3(x - Vec3(0, 9.81 * 0.5 * 0.5 / 2, 0)); }) < 1e-11);
@@ -62,7 +62,7 @@ TEST_CASE("validation scenes: free_fall is g t^2 / 2 exactly, at any step") {
 }
 
 TEST_CASE("validation scenes: incline has no creep just above tan a, and Coulomb's way below it",
-          "[accuracy]") {
+          "[release]") {
   Result r = run_scene("incline_holds");
   for (std::vector<Vec3>* points : {&r.before, &r.after})
     for (Vec3& x : *points) x = on_slab(x);
@@ -76,7 +76,7 @@ TEST_CASE("validation scenes: incline has no creep just above tan a, and Coulomb
 }
 
 TEST_CASE("validation scenes: turntable takes cloth along below w^2 r = mu g and loses it above",
-          "[accuracy]") {
+          "[release]") {
   const auto rotated = [](double rate) {
     physics::RigidMotion motion;
     motion.spin = physics::Spin{{0.2, 0, 0}, {0, 1, 0}, rate, 0, 0.5};
@@ -93,7 +93,7 @@ TEST_CASE("validation scenes: turntable takes cloth along below w^2 r = mu g and
   CHECK(farthest(r, rotated(5.5)) > 0.1);
 }
 
-TEST_CASE("validation scenes: drop_on_ball ends at rest on top, nothing inside", "[accuracy]") {
+TEST_CASE("validation scenes: drop_on_ball ends at rest on top, nothing inside", "[release]") {
   const Result r = run_scene("drop_on_ball");
   CHECK(r.report["vertices_inside"] == 0);
   CHECK(r.report["kinetic_energy"].get<double>() < 1e-7);

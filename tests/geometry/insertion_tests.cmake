@@ -13,8 +13,8 @@ furrow_add_tests(insertion geometry LIBRARIES furrow::io SOURCES
   insert/insertion_table_test.cpp
   insert/irregular_sheet.cpp
   insert/random_strokes_test.cpp
-  insert/real_garments_test.cpp
   insert/seams_test.cpp
 RELEASE_SOURCES
   fold/random_folds_test.cpp
+  insert/real_garments_test.cpp
 )

@@ -49,5 +49,6 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   fold/taubin_smooth_test.cpp
   fold/wrinkle_test.cpp
   quality/fold_quality_test.cpp
+RELEASE_SOURCES
   quality/fold_targets_test.cpp
 )

@@ -73,7 +73,7 @@ class EndsDraping : public tests::Recorder {
 
 }  // namespace
 
-TEST_CASE("drape: a garment and a body in memory come to the bits of their files") {
+TEST_CASE("drape: a garment and a body in memory come to the bits of their files", "[release]") {
   const fs::path folder = tests::empty_folder("drape_memory");
   tests::Recorder recorder;
   const jobs::DrapeJob in_memory = across_ball();
@@ -90,7 +90,7 @@ TEST_CASE("drape: a garment and a body in memory come to the bits of their files
   CHECK_FALSE(a.fails());
 }
 
-TEST_CASE("drape: fabrics are draped one after the other, each to the bits of its own job", "[accuracy]") {
+TEST_CASE("drape: fabrics are draped one after the other, each to the bits of its own job", "[release]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   job.scene.settings.root.at("material").erase("preset");
@@ -203,7 +203,7 @@ TEST_CASE("drape: a job that cannot be is refused before anything is written") {
   CHECK(tests::bytes_of(folder / "sheet.ply") == sheet);
 }
 
-TEST_CASE("drape: two jobs at once in one process give the bits of single runs") {
+TEST_CASE("drape: two jobs at once in one process give the bits of single runs", "[release]") {
   tests::Recorder recorder;
   const jobs::DrapeJob one = across_ball("silk"), two = across_ball("denim");
   const jobs::DrapeJobReport single_one = jobs::drape(one, recorder), single_two = jobs::drape(two, recorder);
@@ -280,7 +280,7 @@ TEST_CASE("drape: crossings that were drawn are told from new ones, on a refined
   CHECK(c.pairs == c.from_start);
 }
 
-TEST_CASE("drape: a garment far too small for its body is torn, whatever balances") {
+TEST_CASE("drape: a garment far too small for its body is torn, whatever balances", "[release]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   geometry::Mesh tube = tests::cylinder(0.025, 0.5, 24, 40);  // through the ball's centre, out on both sides
@@ -341,7 +341,7 @@ TEST_CASE("drape: a part that nothing holds is named and stays where it lay, and
   CHECK_FALSE(jobs::drape(job, recorder).fails());
 }
 
-TEST_CASE("drape: a gap that edges raise is refined away, and said where it is not") {
+TEST_CASE("drape: a gap that edges raise is refined away, and said where it is not", "[release]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   set(job, "body.tolerance", 0.0005);

@@ -76,7 +76,8 @@ TEST_CASE("keep: a sheet above a ball comes to rest on it before its lines are d
   CHECK_FALSE(falls.lines.rest.imbalance.empty());
 }
 
-TEST_CASE("keep: a wrinkled file above a ball comes to rest on it with its lines before it is kept") {
+TEST_CASE("keep: a wrinkled file above a ball comes to rest on it with its lines before it is kept",
+          "[release]") {
   jobs::KeepJob job;
   io::MeshFile& file = job.scene.memory.meshes["sheet"];
   {

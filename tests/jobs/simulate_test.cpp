@@ -343,7 +343,7 @@ TEST_CASE("simulate: cloth that falls through other cloth is counted, new or fro
   CHECK_FALSE(jobs::simulate(job, recorder).fails());
 }
 
-TEST_CASE("simulate: a gap that edges raise is told, and the advice lowers it") {
+TEST_CASE("simulate: a gap that edges raise is told, and the advice lowers it", "[release]") {
   tests::Recorder recorder;
   jobs::SimulateJob job = sheet_on_ball(0.005);
   job.scene.settings.root.erase("lines");

@@ -192,7 +192,8 @@ TEST_CASE("wrinkle: with settle the drawn sheet comes to rest in cotton, as drap
 
 TEST_CASE(
     "wrinkle: with settle a garment of long edges is refined before its lines are drawn, unless told not "
-    "to") {
+    "to",
+    "[release]") {
   tests::Recorder refining, leaving;
   jobs::WrinkleJob job = ridged_sheet();
   job.settle.emplace();

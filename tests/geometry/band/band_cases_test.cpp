@@ -198,7 +198,7 @@ TEST_CASE("refine_band: attributes are those of the place that a new vertex came
 }
 
 TEST_CASE("refine_band: random smooth lines on random sheets have complete chains and good angles",
-          "[accuracy]") {
+          "[release]") {
   CHECK(rc::check([] {
     const auto seed = *rc::gen::resize(100, rc::gen::inRange(0, 1 << 30));
     std::mt19937 random(static_cast<unsigned>(seed));

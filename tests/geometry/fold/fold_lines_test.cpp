@@ -142,7 +142,7 @@ TEST_CASE("fold_lines: on a sphere the fold stands out by its height") {
   CHECK(highest == Approx(height).epsilon(0.08));
 }
 
-TEST_CASE("fold_lines: meshes of 20, 10 and 5 mm give one fold") {
+TEST_CASE("fold_lines: meshes of 20, 10 and 5 mm give one fold", "[release]") {
   const auto folded = [](double edge) {
     Mesh mesh = equilateral_sheet(0.5, 0.3, edge);
     fold(mesh, {line({{-0.17, 0.1, 0}, {-0.05, 0.13, 0}, {0.06, 0.19, 0}, {0.18, 0.2, 0}})});

@@ -103,7 +103,7 @@ Stroke random_fold(const Mesh& mesh, std::mt19937& random, int number) {
 
 }  // namespace
 
-TEST_CASE("wrinkle: twenty random folds on each garment are sound, or refused by name", "[accuracy]") {
+TEST_CASE("wrinkle: twenty random folds on each garment are sound, or refused by name", "[release]") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;
@@ -128,7 +128,7 @@ TEST_CASE("wrinkle: twenty random folds on each garment are sound, or refused by
 }
 
 TEST_CASE("wrinkle: a thousand random sets of folds on random sheets are sound, or refused by name",
-          "[accuracy]") {
+          "[release]") {
   Tally all;
   for (int seed = 0; seed < 1000; ++seed) {
     std::mt19937 random(seed);

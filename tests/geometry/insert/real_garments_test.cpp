@@ -47,7 +47,7 @@ void draw(Mesh mesh, const std::vector<Stroke>& strokes) {
 
 }  // namespace
 
-TEST_CASE("wrinkle: six lines on a T-shirt lie where they were drawn and stand out as asked") {
+TEST_CASE("wrinkle: six lines on a T-shirt lie where they were drawn and stand out as asked", "[release]") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;
@@ -63,7 +63,7 @@ TEST_CASE("wrinkle: six lines on a T-shirt lie where they were drawn and stand o
   }
 }
 
-TEST_CASE("wrinkle: eight lines over the hem of a skirt lengthen it by more than 15 percent") {
+TEST_CASE("wrinkle: eight lines over the hem of a skirt lengthen it by more than 15 percent", "[release]") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

@@ -100,7 +100,8 @@ std::vector<Point> arc_points(double radius, double y, double from, double to) {
 
 }  // namespace
 
-TEST_CASE("fold_quality: an ideal fold on a fine sheet has its height and width, and no faults") {
+TEST_CASE("fold_quality: an ideal fold on a fine sheet has its height and width, and no faults",
+          "[release]") {
   for (const double height : {k, -k, 0.4 * w}) {
     Sheet sheet;
     for (double& h : sheet.curve.height) h = height;
@@ -112,7 +113,8 @@ TEST_CASE("fold_quality: an ideal fold on a fine sheet has its height and width,
   }
 }
 
-TEST_CASE("fold_quality: a line that runs across the mesh, and a base of another mesh, change little") {
+TEST_CASE("fold_quality: a line that runs across the mesh, and a base of another mesh, change little",
+          "[release]") {
   Mesh mesh = grid(300, 300, 0.3, 0.3);
   const double angle = 0.3, c = std::cos(angle), s = std::sin(angle);
   lift(mesh, [&](double x, double y) { return k * phi(2 * (c * (x - 0.15) + s * (y - 0.15)) / w); });
@@ -124,7 +126,7 @@ TEST_CASE("fold_quality: a line that runs across the mesh, and a base of another
   CHECK(q.lateral.value() < 0.01);  // the mesh's own edges are w / 80
 }
 
-TEST_CASE("fold_quality: ideal folds along a tube, around it and over a sphere", "[accuracy]") {
+TEST_CASE("fold_quality: ideal folds along a tube, around it and over a sphere", "[release]") {
   constexpr double radius = 0.1;
   const auto outward = [](const Point& p) { return normalized(Vector(p.x(), 0, p.z())); };
   const Mesh tube = cylinder(radius, 0.3, 500, 200);
@@ -155,7 +157,7 @@ TEST_CASE("fold_quality: ideal folds along a tube, around it and over a sphere",
               k, 5e-3);
 }
 
-TEST_CASE("fold_quality: ripples of known size are measured as such", "[accuracy]") {
+TEST_CASE("fold_quality: ripples of known size are measured as such", "[release]") {
   for (const double length : {w / 6, w / 4})
     for (const double amplitude : {0.002, 0.01, 0.05}) {
       CAPTURE(length, amplitude);
@@ -177,7 +179,7 @@ TEST_CASE("fold_quality: a height that rises and sinks over widths is no ripple"
   CHECK(q.sweep.value() < 1e-3);
 }
 
-TEST_CASE("fold_quality: a crest that snakes beside its stroke is measured as such", "[accuracy]") {
+TEST_CASE("fold_quality: a crest that snakes beside its stroke is measured as such", "[release]") {
   for (const double amplitude : {0.002, 0.01, 0.05}) {
     Sheet sheet;
     const auto shift = [&](double s) { return amplitude * w * std::sin(2 * std::numbers::pi * s / w); };
@@ -196,7 +198,7 @@ TEST_CASE("fold_quality: a crest that snakes beside its stroke is measured as su
   }
 }
 
-TEST_CASE("fold_quality: sections that waver, and normals that turn, are measured as such", "[accuracy]") {
+TEST_CASE("fold_quality: sections that waver, and normals that turn, are measured as such", "[release]") {
   const double length = w / 4;
   for (const double amplitude : {0.005, 0.02}) {
     Sheet sheet;
@@ -217,7 +219,7 @@ TEST_CASE("fold_quality: sections that waver, and normals that turn, are measure
   }
 }
 
-TEST_CASE("fold_quality: the fit finds other heights and widths, and tells tents from folds") {
+TEST_CASE("fold_quality: the fit finds other heights and widths, and tells tents from folds", "[release]") {
   Sheet narrow;
   const LineQuality other =
       narrow.measured([&](double d, double) { return 0.7 * k * phi(2 * d / (0.8 * w)); });

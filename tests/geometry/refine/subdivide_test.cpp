@@ -166,7 +166,8 @@ TEST_CASE("loop_subdivide: counts, and known points of the octahedron") {
   CHECK(info.euler_characteristic == 2);
 }
 
-TEST_CASE("loop_subdivide: it agrees with the reference of the real skirt, vertex by nearest vertex") {
+TEST_CASE("loop_subdivide: it agrees with the reference of the real skirt, vertex by nearest vertex",
+          "[release]") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

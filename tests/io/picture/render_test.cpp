@@ -165,7 +165,8 @@ TEST_CASE("render: cloth shows its back darker, a body does not") {
   CHECK(body_back == Approx(body_front).margin(1));
 }
 
-TEST_CASE("render: waves of half a centimetre are seen on a sheet of a metre, a flat sheet is even") {
+TEST_CASE("render: waves of half a centimetre are seen on a sheet of a metre, a flat sheet is even",
+          "[release]") {
   io::RenderOptions options = from_the_front(120, 2.5);
   options.quality = io::Quality::normal;
   const io::Image cloth = io::render({{waves(0.005, 0.1)}, {}}, options);
@@ -221,7 +222,7 @@ TEST_CASE("render: cloth that nothing shades has no grain, at any quality") {
   }
 }
 
-TEST_CASE("render: the key light's shadow has a soft edge from normal quality on") {
+TEST_CASE("render: the key light's shadow has a soft edge from normal quality on", "[release]") {
   io::RenderScene scene{
       {square({0, 0, 0}, 1, io::body_colour), square({-0.15, 0.1, 0.05}, 0.2, io::body_colour)}, {}};
   const auto width_of_edge = [&](io::Quality quality) {  // pixels between dark and light, right of the shadow
@@ -340,7 +341,7 @@ TEST_CASE("render: parallel lines of sight show near and far alike, and as large
   CHECK_THROWS_WITH(io::render(scene, options), Catch::Contains("parallel_height"));
 }
 
-TEST_CASE("render: the line of sight through a pixel leads to what the picture shows there") {
+TEST_CASE("render: the line of sight through a pixel leads to what the picture shows there", "[release]") {
   io::RenderOptions options = from_the_front(100, 4);
   options.width = 140;
   options.camera = io::Camera{{0.3, 1, 4}, {0.1, 0.2, 0}, {0.2, 1, 0.1}, 35};

@@ -61,7 +61,7 @@ Cloth lying_sheet(int n, double edge, double height) {
 
 }  // namespace
 
-TEST_CASE("animated_body: between frames the distance is that of the body in between", "[accuracy]") {
+TEST_CASE("animated_body: between frames the distance is that of the body in between", "[release]") {
   const VertexAt motion = GENERATE(shift, inflate, bend);
   const BodyFrames frames = frames_of(sphere_mesh(0.1), {0, 0.5, 1}, motion);
   AnimatedBody body(frames, fine());
@@ -77,7 +77,7 @@ TEST_CASE("animated_body: between frames the distance is that of the body in bet
   CHECK(body.frames_built() == 3);
 }
 
-TEST_CASE("animated_body: between frames of depth maps, too") {
+TEST_CASE("animated_body: between frames of depth maps, too", "[release]") {
   const VertexAt motion = GENERATE(shift, inflate, bend);
   const BodyFrames frames = frames_of(sphere_mesh(0.1, 64, 32), {0, 0.5, 1, 1.5}, motion);
   DepthMapOptions six;
@@ -97,7 +97,8 @@ TEST_CASE("animated_body: between frames of depth maps, too") {
   CHECK(body.samples_built() == 0);
 }
 
-TEST_CASE("animated_body: a body that shifts by more than its size between frames keeps its shape") {
+TEST_CASE("animated_body: a body that shifts by more than its size between frames keeps its shape",
+          "[release]") {
   const auto far = [](const Vec3& x, double t) { return Vec3(x + t * Vec3(0.3, 0, 0)); };
   AnimatedBody body(frames_of(sphere_mesh(0.1), {0, 1}, far), fine());
   body.prepare(0.5, 0.5);
@@ -144,7 +145,7 @@ TEST_CASE("animated_body: broken frames are refused") {
   CHECK_THROWS_WITH(body.prepare(0, 0.1), Catch::Contains("frame 1 has"));
 }
 
-TEST_CASE("animated_body: a shifting body as frames does to cloth what the rigid one does", "[accuracy]") {
+TEST_CASE("animated_body: a shifting body as frames does to cloth what the rigid one does", "[release]") {
   const TriangleMesh mesh = sphere_mesh(0.2);
   const DistanceField field = DistanceField::build(mesh, fine());
   const Vec3 v(0.3, 0.1, 0);
@@ -173,7 +174,7 @@ TEST_CASE("animated_body: a shifting body as frames does to cloth what the rigid
   CHECK(worst < 1e-3);
 }
 
-TEST_CASE("animated_body: a body that inflates or bends pushes cloth away and takes it along", "[accuracy]") {
+TEST_CASE("animated_body: a body that inflates or bends pushes cloth away and takes it along", "[release]") {
   const VertexAt motion = GENERATE(inflate, bend);
   const bool maps = GENERATE(false, true);
   const BodyFrames frames = frames_of(sphere_mesh(0.1), {0, 0.2, 0.4, 0.6, 0.8, 1}, motion);
@@ -196,7 +197,7 @@ TEST_CASE("animated_body: a body that inflates or bends pushes cloth away and ta
   CHECK(deepest == 0);
 }
 
-TEST_CASE("animated_body: a particle on a conveyor of frames gains mu g", "[accuracy]") {
+TEST_CASE("animated_body: a particle on a conveyor of frames gains mu g", "[release]") {
   // A long box whose vertices shift: the surface next to the particle moves, its distance does not change.
   TriangleMesh box;
   for (int i = 0; i < 8; ++i)
@@ -225,7 +226,7 @@ TEST_CASE("animated_body: a particle on a conveyor of frames gains mu g", "[accu
 }
 
 TEST_CASE("animated_body: a run over an animated body that is stopped and resumed gives the same bits",
-          "[accuracy]") {
+          "[release]") {
   const BodyFrames frames = frames_of(sphere_mesh(0.1), {0, 0.1, 0.2, 0.3}, inflate);
   AnimatedBody body(frames, fine()), second(frames, fine());
   World world;

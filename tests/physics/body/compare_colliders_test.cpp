@@ -80,7 +80,7 @@ TEST_CASE("compare_colliders: the same input gives the same answer, another seed
 }
 
 TEST_CASE("compare_colliders: depth maps of a ball agree, those of a ball behind a plate do not",
-          "[accuracy]") {
+          "[release]") {
   const TriangleMesh ball = furrow::tests::sphere(30, 0.2), hidden = plate_before_ball();
   const ExactDistance exact_ball(ball), exact_hidden(hidden);
   const auto test = [&](DepthMaps which, const TriangleMesh& m, const ExactDistance& exact) {

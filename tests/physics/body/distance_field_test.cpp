@@ -122,7 +122,7 @@ void check_against_samples(const char* mesh, const char* csv) {
 }  // namespace
 
 TEST_CASE("distance_field: the field of a real body that crosses itself keeps its error bounds",
-          "[accuracy]") {
+          "[release]") {
   if (!furrow::tests::have_shared()) {
     WARN("skipped: no shared data");
     return;
@@ -161,7 +161,8 @@ TEST_CASE(
   CHECK(gradient_error < 0.2);
 }
 
-TEST_CASE("distance_field: the field of a box is close to the analytic one and exact on its sides") {
+TEST_CASE("distance_field: the field of a box is close to the analytic one and exact on its sides",
+          "[release]") {
   const Vec3 low(-0.2, -0.1, 0), high(0.2, 0.15, 0.3);
   const DistanceField field = DistanceField::build(furrow::tests::box(low, high), with_tolerance(5e-4));
   CHECK(rc::check([&] {
@@ -175,7 +176,7 @@ TEST_CASE("distance_field: the field of a box is close to the analytic one and e
   CHECK((field.at({0, 0.02, 0.31}).gradient - Vec3(0, 0, 1)).norm() < 1e-5);
 }
 
-TEST_CASE("distance_field: a finer tolerance means a smaller error", "[accuracy]") {
+TEST_CASE("distance_field: a finer tolerance means a smaller error", "[release]") {
   const TriangleMesh m = furrow::tests::box({-0.2, -0.1, 0}, {0.2, 0.15, 0.3});
   const ExactDistance exact(m);
   double before = 1;

@@ -55,7 +55,7 @@ const Reference references[] = {
 
 }  // namespace
 
-TEST_CASE("patch test: triangles of constant strain are an exact membrane on any mesh", "[accuracy]") {
+TEST_CASE("patch test: triangles of constant strain are an exact membrane on any mesh", "[release]") {
   const Cloth sheets[] = {square(0), square(0.2, 2), square(0.3, 3), right_sheet(1, 1, 26, 26),
                           right_sheet(1, 1, 26, 26, 0.1, true)};
   for (const Cloth& sheet : sheets) {
@@ -69,7 +69,7 @@ TEST_CASE("patch test: triangles of constant strain are an exact membrane on any
 }
 
 TEST_CASE("patch test: on regular meshes springs score as an independent program says, to its digits",
-          "[accuracy]") {
+          "[release]") {
   const auto agrees = [](const PatchScore& s, const std::array<double, 5>& r) {
     CHECK(s.dilation.non_affine == Approx(r[0]).epsilon(1e-9).margin(1e-11));
     CHECK(s.dilation.energy == Approx(r[1]).epsilon(1e-9));
@@ -92,7 +92,7 @@ TEST_CASE("patch test: on regular meshes springs score as an independent program
          {0, 1, 4.0 / 3, 2.0 / 3, 0.863654105176});
 }
 
-TEST_CASE("patch test: on jittered meshes each law is as soft as it is known to be", "[accuracy]") {
+TEST_CASE("patch test: on jittered meshes each law is as soft as it is known to be", "[release]") {
   for (const Reference& r : references) {
     const PatchScore score = mean_score(r.jitter, r.law, 10);
     CAPTURE(int(r.law), r.jitter);

@@ -68,14 +68,15 @@ TEST_CASE("contact: friction is right where the field's slope is not 1") {
 }
 
 TEST_CASE("contact: on an incline a cloth lets go at the angle of friction and does not creep below",
-          "[accuracy]") {
+          "[release]") {
   const double friction = GENERATE(0.05, 0.3, 0.75, 1.45), dt = GENERATE(1e-3, 2e-4);
   const double degree = 3.14159265358979323846 / 180, exact = std::atan(friction);
   CHECK(std::abs(incline_threshold(friction, dt) - exact) < 0.02 * degree);
   CHECK(slide_of_sheet(exact - 0.2 * degree, friction, dt) < 1e-9);  // in 2 s
 }
 
-TEST_CASE("contact: a strip over a cylinder slips beyond the heavy capstan's length and holds below it") {
+TEST_CASE("contact: a strip over a cylinder slips beyond the heavy capstan's length and holds below it",
+          "[release]") {
   const double mu = GENERATE(0.2, 0.4), R = 0.1, l1 = 0.2, critical = capstan_length(mu, R, l1);
   const int half_turn = GENERATE(32, 64);
   const Cylinder cylinder(R - 0.003);
@@ -88,7 +89,7 @@ TEST_CASE("contact: a strip over a cylinder slips beyond the heavy capstan's len
   }
 }
 
-TEST_CASE("contact: a tablecloth slips over the rounded edge when enough of it hangs down") {
+TEST_CASE("contact: a tablecloth slips over the rounded edge when enough of it hangs down", "[release]") {
   const double mu = GENERATE(0.2, 0.5), R = 0.02, l1 = 0.2, critical = tablecloth_length(mu, R, l1);
   const RoundedTable table(R - 0.003);
   CHECK(slip(strip_over_edge(R, l1, 0.97 * critical, 16), table, {mu}).moved < 1e-6);

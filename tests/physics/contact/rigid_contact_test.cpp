@@ -112,7 +112,7 @@ TEST_CASE("rigid_contact: a turntable holds a particle while omega^2 r and the r
   }
 }
 
-TEST_CASE("rigid_contact: a spinning ball takes the cloth on it along, by friction alone") {
+TEST_CASE("rigid_contact: a spinning ball takes the cloth on it along, by friction alone", "[release]") {
   const double friction = GENERATE(0.0, 0.5), rate = 3;
   const Sphere ball(Vec3::Zero(), 0.2);
   World world;
@@ -164,7 +164,7 @@ TEST_CASE("rigid_contact: a scene that moves and is turned as a whole is the sam
   CHECK(worst < 1e-7);
 }
 
-TEST_CASE("rigid_contact: a body that runs into cloth does not pass through it", "[accuracy]") {
+TEST_CASE("rigid_contact: a body that runs into cloth does not pass through it", "[release]") {
   const double dt = GENERATE(5e-3, 1e-3);  // 25 mm a step, through a plate of 4 mm
   const Slab slab(0.002);
   World world;

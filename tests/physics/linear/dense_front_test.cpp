@@ -55,7 +55,7 @@ TEST_CASE("dense_front: columns of the factor, and what is left, are right for e
   }
 }
 
-TEST_CASE("dense_front: a large one has the same bits on any number of threads") {
+TEST_CASE("dense_front: a large one has the same bits on any number of threads", "[release]") {
   std::vector<double> first, first_update;
   for (int threads = 1; threads <= 3; ++threads) {
     Problem p(420, 150);

@@ -21,7 +21,8 @@ Eigen::MatrixXd shifted(Eigen::MatrixXd a, double shift) {
 
 }  // namespace
 
-TEST_CASE("negative_pivots: as many as the dense matrix has negative eigenvalues, at every shift") {
+TEST_CASE("negative_pivots: as many as the dense matrix has negative eigenvalues, at every shift",
+          "[release]") {
   for (const auto& [columns, rows, links] :
        {std::array{12, 11, 0}, {12, 11, 40}, {40, 1, 0}, {1, 1, 0}, {5, 1, 10}}) {
     const Eigen::MatrixXd a = symmetric(columns, rows, links);

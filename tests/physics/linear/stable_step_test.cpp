@@ -51,7 +51,7 @@ TEST_CASE("stable_step: the limit of a chain between walls is that of its highes
 }
 
 TEST_CASE("stable_step: the limit is never above the exact one and within 2 % of it on irregular meshes",
-          "[accuracy]") {
+          "[release]") {
   const double jitter = GENERATE(0.0, 0.2, 0.3, 0.45), stretch = GENERATE(1.0, 1.1, 0.95);
   for (int seed = 1; seed <= 6; ++seed) {
     Cloth cloth = sheet(9, 8, 0.05, jitter, seed, 1000, seed % 2 ? 10 : 300);

@@ -10,7 +10,7 @@ using physics::Integrator;
 TEST_CASE(
     "drop_on_ball: a sheet that drapes over a ball never gains energy, never sinks in, and stays on the "
     "axis",
-    "[accuracy]") {
+    "[release]") {
   const Drop drop = drop_on_ball({.rings = 6});
   const double limit = step_limit(drop.fall);
   for (const double ratio : {0.25, 0.5}) {
@@ -24,7 +24,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("drop_on_ball: contact leaves the stability limit where it is", "[accuracy]") {
+TEST_CASE("drop_on_ball: contact leaves the stability limit where it is", "[release]") {
   const Drop drop = drop_on_ball({.rings = 5, .stiffness = 1000});
   const double limit = step_limit(drop.fall);
   CHECK(run(drop, {Integrator::leapfrog, {}, {}}, 0.95 * limit).gain < 0.01);

@@ -60,7 +60,7 @@ Invariants measure(const Cloth& cloth) {
 
 TEST_CASE(
     "invariants: a free spinning sheet keeps momentum and angular momentum, and its energy stays in a band",
-    "[accuracy]") {
+    "[release]") {
   const bool springs = GENERATE(true, false);
   Cloth cloth = spinning_sheet(springs);
   const Invariants start = measure(cloth);
@@ -87,7 +87,7 @@ TEST_CASE(
 }
 
 TEST_CASE("invariants: a twisted ribbon of fibres pulls and turns as the integral over its width says",
-          "[accuracy]") {
+          "[release]") {
   const RibbonLoad known = fibre_ribbon({0.2, 0.02});
   CHECK(known.force == Approx(0.0262994029273).epsilon(1e-10));
   CHECK(known.torque == Approx(0.00204589716483).epsilon(1e-10));
@@ -103,7 +103,7 @@ TEST_CASE("invariants: a twisted ribbon of fibres pulls and turns as the integra
 }
 
 TEST_CASE("invariants: a twisted ribbon of membrane triangles comes near the fibres' force and torque",
-          "[accuracy]") {
+          "[release]") {
   for (const Twist& twist : {Twist{0.1, 0.01}, Twist{0.1, 0.05}}) {
     const RibbonLoad exact = fibre_ribbon(twist, FibreStrain::green),
                      coarse = membrane_ribbon(twist, 0.1, 4, 40), fine = membrane_ribbon(twist, 0.1, 8, 80);

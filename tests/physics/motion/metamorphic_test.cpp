@@ -73,7 +73,7 @@ void check_changes(const RestCase& c) {
 }  // namespace
 
 TEST_CASE("metamorphic: a chain hangs where it hangs, whatever the frame, order, unit, step and damping",
-          "[accuracy]") {
+          "[release]") {
   for (const Integrator i :
        {Integrator::leapfrog, Integrator::rk4, Integrator::backward_euler, Integrator::xpbd}) {
     check_changes(chain(i));
@@ -81,13 +81,13 @@ TEST_CASE("metamorphic: a chain hangs where it hangs, whatever the frame, order,
 }
 
 TEST_CASE("metamorphic: a cantilever bends as it bends, whatever the frame, order, unit, step and damping",
-          "[accuracy]") {
+          "[release]") {
   for (const Integrator i : {Integrator::leapfrog, Integrator::rk4, Integrator::backward_euler}) {
     check_changes(strip(i));
   }
 }
 
-TEST_CASE("metamorphic: with one sweep XPBD's chain hangs lower, and the step decides where", "[accuracy]") {
+TEST_CASE("metamorphic: with one sweep XPBD's chain hangs lower, and the step decides where", "[release]") {
   RestCase c = chain(Integrator::xpbd);
   c.options.xpbd.iterations = 1;
   const Rest rest = come_to_rest(c), half = come_to_rest(with_half_step(c));
@@ -97,7 +97,7 @@ TEST_CASE("metamorphic: with one sweep XPBD's chain hangs lower, and the step de
   CHECK(moved(rotated(c), rest) < 1e-9);
 }
 
-TEST_CASE("metamorphic: cases with a body are refused, for only their caller can change it", "[accuracy]") {
+TEST_CASE("metamorphic: cases with a body are refused, for only their caller can change it", "[release]") {
   struct Nothing : physics::Collider {
     physics::SignedDistance at(const Vec3&) const override { return {1, {0, 1, 0}}; }
   } body;

@@ -17,7 +17,7 @@ double error(double computed, double exact) { return computed / exact - 1; }
 
 }  // namespace
 
-TEST_CASE("oscillations: frequencies of a chain between walls", "[accuracy]") {
+TEST_CASE("oscillations: frequencies of a chain between walls", "[release]") {
   const std::vector<double> f = computed_frequencies(walled_chain(20, 0.01, 100), 0, 20),
                             exact = walled_chain_frequencies(20, 0.01, 100);
   CHECK(exact[0] == Approx(2.3787327584).epsilon(1e-10));
@@ -25,7 +25,7 @@ TEST_CASE("oscillations: frequencies of a chain between walls", "[accuracy]") {
   for (int j = 0; j < 20; ++j) CHECK(std::abs(error(f[j], exact[j])) < 1e-10);
 }
 
-TEST_CASE("oscillations: frequencies of a hanging chain at its exact static state", "[accuracy]") {
+TEST_CASE("oscillations: frequencies of a hanging chain at its exact static state", "[release]") {
   // An independent program's zeros of Laguerre polynomials.
   const std::array<double, 3> coarse{1.13243059537, 2.63455356434, 4.24698612757},
       fine{1.19413233325, 2.74120146486, 4.29781094467};
@@ -48,7 +48,7 @@ TEST_CASE("oscillations: frequencies of a hanging chain at its exact static stat
 TEST_CASE(
     "oscillations: leapfrog's frequency is 2 asin(z/2) / z of the true one and its energy stays in its "
     "band",
-    "[accuracy]") {
+    "[release]") {
   for (const double z : {0.01, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 1.9}) {
     const LeapfrogRun run = run_oscillator(z, 20000);
     CAPTURE(z);
@@ -59,7 +59,7 @@ TEST_CASE(
 }
 
 TEST_CASE("oscillations: the step limit located by running is 2 / omega_max within a thousandth",
-          "[accuracy]") {
+          "[release]") {
   Cloth oscillator = walled_chain(1, 0.1, 20);
   CHECK(located_limit(oscillator, std::sqrt(2 * 20 / 0.1), 20000, {true, false, false}) ==
         Approx(1).margin(1e-3));
@@ -70,7 +70,7 @@ TEST_CASE("oscillations: the step limit located by running is 2 / omega_max with
 }
 
 TEST_CASE("oscillations: the step limit of hinges located by running is that of their stiffness",
-          "[accuracy]") {
+          "[release]") {
   Cloth plate = triangular_sheet(0.1, 0.1, 10, equilateral_rows(0.1, 0.1, 10), 0.15);
   plate.structural.clear();
   add_flat_hinges(plate, 1e-5);
@@ -80,7 +80,7 @@ TEST_CASE("oscillations: the step limit of hinges located by running is that of 
   CHECK(located_limit(plate, omega, 4000, {false, false, true}) == Approx(1).margin(2e-3));
 }
 
-TEST_CASE("oscillations: frequencies of a stretched membrane converge with order two", "[accuracy]") {
+TEST_CASE("oscillations: frequencies of a stretched membrane converge with order two", "[release]") {
   const double exact[] = {drum_frequency(50, 0.2, 0.4, 0.3, 1, 1), drum_frequency(50, 0.2, 0.4, 0.3, 2, 1),
                           drum_frequency(50, 0.2, 0.4, 0.3, 1, 2)};
   CHECK(exact[0] == Approx(32.9403922934).epsilon(1e-10));
@@ -95,7 +95,7 @@ TEST_CASE("oscillations: frequencies of a stretched membrane converge with order
   }
 }
 
-TEST_CASE("oscillations: frequencies of plates of hinges", "[accuracy]") {
+TEST_CASE("oscillations: frequencies of plates of hinges", "[release]") {
   const double supported = supported_plate_frequency(1e-5, 0.15, 0.05),
                clamped = cantilever_frequency(1e-5, 0.15, 0.05);
   CHECK(supported == Approx(10.2603986413).epsilon(1e-10));

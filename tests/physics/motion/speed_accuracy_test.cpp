@@ -36,7 +36,7 @@ struct Bench {
 
 TEST_CASE(
     "speed and accuracy: leapfrog is better than what costs the same forces, RK4 better once they are many",
-    "[accuracy]") {
+    "[release]") {
   const Bench bench({.columns = 6, .jitter = 0.2, .seconds = 0.2});
   const Result leapfrog = bench(Integrator::leapfrog, 0.5), finer = bench(Integrator::leapfrog, 0.25);
   const Result semi = bench(semi_implicit, 0.5), finer_semi = bench(semi_implicit, 0.25);
@@ -59,7 +59,7 @@ TEST_CASE(
 }
 
 TEST_CASE("stability map: 2/omega_max parts stable from diverged for each law, mesh and stiffness",
-          "[accuracy]") {
+          "[release]") {
   for (const MembraneLaw law :
        {MembraneLaw::paper, MembraneLaw::uniform, MembraneLaw::inverse, MembraneLaw::van_gelder}) {
     for (const double jitter : {0.0, 0.3}) {

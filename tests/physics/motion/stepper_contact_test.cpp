@@ -63,7 +63,8 @@ TEST_CASE("stepper: a sheet sticks on an incline of 30 degrees with friction 0.6
   CHECK(rest.height < 1e-9);
 }
 
-TEST_CASE("stepper: a sheet slides down an incline with friction 0.3 as theory says, with each integrator") {
+TEST_CASE("stepper: a sheet slides down an incline with friction 0.3 as theory says, with each integrator",
+          "[release]") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const double dt = step_of(integrator), t = 0.5, a = g * (std::sin(incline) - 0.3 * std::cos(incline));
   const Slide down = slide(integrator, 0.3, incline, dt, t);

@@ -24,7 +24,7 @@ Cloth swinging_shell(double young = 20, double rigidity = 1e-3) {
 
 }  // namespace
 
-TEST_CASE("stepper: RK4 and backward Euler keep their orders on a shell, with damping, too", "[accuracy]") {
+TEST_CASE("stepper: RK4 and backward Euler keep their orders on a shell, with damping, too", "[release]") {
   const Integrator integrator = GENERATE(Integrator::rk4, Integrator::backward_euler);
   const bool rk4 = integrator == Integrator::rk4;
   const Loads loads{.air_drag = 1, .spring_damping = 0.1};

@@ -72,7 +72,7 @@ TEST_CASE("stepper: each integrator turns and scales an oscillator as its theory
   CHECK(is.angle / z == Approx(should.angle / z).epsilon(1e-10));
 }
 
-TEST_CASE("stepper: each integrator has its order on the elastic pendulum") {
+TEST_CASE("stepper: each integrator has its order on the elastic pendulum", "[release]") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const Order order = pendulum_order(integrator);
   const Vec3 exact(0.389103045248, -0.920914325687, 0);
@@ -87,7 +87,7 @@ TEST_CASE("stepper: each integrator has its order on the elastic pendulum") {
   CHECK(std::log2(errors[1] / errors[2]) == Approx(order.value).margin(order.margin));
 }
 
-TEST_CASE("stepper: drag and spring damping keep each integrator's order", "[accuracy]") {
+TEST_CASE("stepper: drag and spring damping keep each integrator's order", "[release]") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
   const Loads loads =
       GENERATE(Loads{.air_drag = 5, .spring_damping = 0}, Loads{.air_drag = 0, .spring_damping = 0.3},

@@ -36,8 +36,7 @@ SettleReport hang(Cusick& specimen, double tolerance = 1e-3) {
 
 }  // namespace
 
-TEST_CASE("cusick: a ring lies on the discs' edge and is held there, hinges on it count twice",
-          "[accuracy]") {
+TEST_CASE("cusick: a ring lies on the discs' edge and is held there, hinges on it count twice", "[release]") {
   CusickOptions options;
   const Cusick whole = cusick_specimen(options);
   const Particles& p = whole.cloth.particles;
@@ -64,7 +63,7 @@ TEST_CASE("cusick: a ring lies on the discs' edge and is held there, hinges on i
 }
 
 TEST_CASE("cusick: the coefficient is 1 for a flat specimen, 0 for one that hangs straight, a cone's between",
-          "[accuracy]") {
+          "[release]") {
   Cusick specimen = cusick_specimen({});
   const auto shape = [&](auto&& outside) {  // the distance from the axis that a point outside comes to
     Cusick shaped = specimen;
@@ -87,7 +86,7 @@ TEST_CASE("cusick: the coefficient is 1 for a flat specimen, 0 for one that hang
   }
 }
 
-TEST_CASE("cusick: a coarse specimen is near the elastic curve and stable, softer is limper", "[accuracy]") {
+TEST_CASE("cusick: a coarse specimen is near the elastic curve and stable, softer is limper", "[release]") {
   double last = 1;
   for (const Point& p : {elastic_curve[0], elastic_curve[2]}) {
     CusickOptions options;
@@ -109,7 +108,7 @@ TEST_CASE("cusick: a coarse specimen is near the elastic curve and stable, softe
   }
 }
 
-TEST_CASE("cusick: settle meets the elastic curve within 0.05 from starts with folds", "[accuracy]") {
+TEST_CASE("cusick: settle meets the elastic curve within 0.05 from starts with folds", "[release]") {
   for (const Point& p : elastic_curve) {
     for (const int folds : {6, 8}) {
       CusickOptions options;
@@ -126,7 +125,7 @@ TEST_CASE("cusick: settle meets the elastic curve within 0.05 from starts with f
   }
 }
 
-TEST_CASE("cusick: where leapfrog comes to rest, settle stays", "[accuracy]") {
+TEST_CASE("cusick: where leapfrog comes to rest, settle stays", "[release]") {
   CusickOptions options;
   options.rings = 10;
   Cusick moved = cusick_specimen(options);

@@ -45,7 +45,7 @@ double least_distance(const Cloth& cloth, const Collider& body) {
 }  // namespace
 
 TEST_CASE("displace_by_force: without the cap a stretched sheet breaks down, with it it drapes",
-          "[displace][accuracy]") {
+          "[displace][release]") {
   const Sphere ball(Vec3(0, -0.12, 0), 0.1);
   Cloth rest = with_tension(lying(sheet(9, 11, 0.03, 0, 1, 1000, 0), 0), 1, 0.3);
   weigh_evenly(rest.particles);
@@ -69,7 +69,8 @@ TEST_CASE("displace_by_force: without the cap a stretched sheet breaks down, wit
   CHECK(displace_by_force(cloth, &ball, options).outcome == DisplaceOutcome::diverged);
 }
 
-TEST_CASE("displace_by_force: the cap keeps a membrane bounded at a rate that is not stable", "[displace]") {
+TEST_CASE("displace_by_force: the cap keeps a membrane bounded at a rate that is not stable",
+          "[displace][release]") {
   const Sphere ball(Vec3(0, -0.11, 0), 0.1);
   Cloth cloth = without_springs(lying(sheet(13, 15, 0.02, 0.1), 0));
   add_membrane(cloth, 100);

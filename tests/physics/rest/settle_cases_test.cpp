@@ -54,7 +54,7 @@ int check_equal_rests(const Cloth& start, double size, const Vec3& gravity, cons
 
 }  // namespace
 
-TEST_CASE("settle: a chain of uneven springs meets the exact discrete solution", "[accuracy]") {
+TEST_CASE("settle: a chain of uneven springs meets the exact discrete solution", "[release]") {
   Cloth chain = hanging_chain();
   const auto exact = exact_chain(chain);
   const Settled report = find_rest(chain, down_to(1e-9));
@@ -68,7 +68,7 @@ TEST_CASE("settle: a chain of uneven springs meets the exact discrete solution",
 
 TEST_CASE(
     "settle: a vertical chain of tension hangs by e = sqrt(T / c) from its rest, where nothing is stiff",
-    "[accuracy]") {
+    "[release]") {
   for (const Hanging& chain : hanging_chains) {
     CAPTURE(chain.springs, chain.c);
     Cloth cloth = hanging_at_rest(chain);
@@ -85,7 +85,7 @@ TEST_CASE(
 
 TEST_CASE(
     "settle: level chains of tension have the exact sags, from a flat start, a deep one, pushing or not",
-    "[accuracy]") {
+    "[release]") {
   for (const Level& chain : level_chains) {
     for (const double depth : {0.0, 0.7}) {
       for (const double compress : {0.0, 0.3}) {
@@ -102,7 +102,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("settle: a cantilever of equilateral triangles meets the heavy elastica", "[accuracy]") {
+TEST_CASE("settle: a cantilever of equilateral triangles meets the heavy elastica", "[release]") {
   for (const auto& [gamma, bound] : {std::pair{1.0, 0.04}, {10.0, 0.01}, {25.0, 0.01}}) {
     Strip strip = equilateral_strip({});
     const Vec3 gravity(0, 0, -gravity_for(gamma, 0.1, strip.length, strip.rigidity));
@@ -116,14 +116,14 @@ TEST_CASE("settle: a cantilever of equilateral triangles meets the heavy elastic
   }
 }
 
-TEST_CASE("settle: a hanging chain comes to the rest that leapfrog finds", "[accuracy]") {
+TEST_CASE("settle: a hanging chain comes to the rest that leapfrog finds", "[release]") {
   SimulateOptions motion;
   motion.seconds = 6;
   motion.air_drag = 6;
   check_equal_rests(hanging_chain(), chain_length, {0, -9.81, 0}, nullptr, motion);
 }
 
-TEST_CASE("settle: a chain on a floor without friction comes to the rest that leapfrog finds", "[accuracy]") {
+TEST_CASE("settle: a chain on a floor without friction comes to the rest that leapfrog finds", "[release]") {
   SimulateOptions motion;
   motion.seconds = 8;
   motion.air_drag = 6;
@@ -135,7 +135,7 @@ TEST_CASE("settle: a chain on a floor without friction comes to the rest that le
 }
 
 TEST_CASE("settle: a cantilever, free or on a ball without friction, comes to the rest that leapfrog finds",
-          "[accuracy]") {
+          "[release]") {
   for (const HingeLaw law : {HingeLaw::linear, HingeLaw::cosine}) {
     StripOptions options;
     options.rows = 8;
@@ -156,7 +156,7 @@ TEST_CASE("settle: a cantilever, free or on a ball without friction, comes to th
 }
 
 TEST_CASE("settle: a strip that stands keeps upright below Greenhill's load and falls beyond it",
-          "[accuracy]") {
+          "[release]") {
   const auto stand = [](double gamma, double disturbance) {
     StripOptions options;
     options.rows = 8;

@@ -33,7 +33,7 @@ double chart_error(const StripOptions& options, double gamma) {
 
 }  // namespace
 
-TEST_CASE("cantilever: shooting for the heavy elastica meets the table", "[accuracy]") {
+TEST_CASE("cantilever: shooting for the heavy elastica meets the table", "[release]") {
   const Elastica a = heavy_elastica(10), b = heavy_elastica(1, 3);
   CHECK(a.width == Approx(0.6563537612).epsilon(1e-9));
   CHECK(a.height == Approx(0.7001997155).epsilon(1e-9));
@@ -43,7 +43,7 @@ TEST_CASE("cantilever: shooting for the heavy elastica meets the table", "[accur
 }
 
 TEST_CASE("cantilever: a ladder of 40 hinges meets the elastica, and halving its links quarters the error",
-          "[accuracy]") {
+          "[release]") {
   for (const auto& [gamma, bound] : {std::pair{1.0, 1e-4}, {10.0, 1e-3}, {100.0, 1e-3}}) {
     const Elastica exact = heavy_elastica(gamma);
     double error[2];
@@ -59,7 +59,7 @@ TEST_CASE("cantilever: a ladder of 40 hinges meets the elastica, and halving its
 }
 
 TEST_CASE("cantilever: equilateral triangles meet the elastica but for the softening of free edges",
-          "[accuracy]") {
+          "[release]") {
   for (const auto& [gamma, bound] : {std::pair{1.0, 0.04}, {5.0, 0.02}, {10.0, 0.01}, {25.0, 0.01}}) {
     const double error = chart_error({}, gamma);
     CAPTURE(gamma);
@@ -72,7 +72,7 @@ TEST_CASE("cantilever: equilateral triangles meet the elastica but for the softe
   CHECK(std::abs(chart_error(fine, 100)) < 0.01);
 }
 
-TEST_CASE("cantilever: irregular triangles are a little too stiff", "[accuracy]") {
+TEST_CASE("cantilever: irregular triangles are a little too stiff", "[release]") {
   for (const auto& [gamma, bound] : {std::pair{1.0, 0.10}, {10.0, 0.05}}) {
     StripOptions o;
     o.jitter = 0.2 * std::sqrt(0.75);  // 0.2 of the cell's length along; 0.2 edges give 1.4 % more
@@ -84,7 +84,7 @@ TEST_CASE("cantilever: irregular triangles are a little too stiff", "[accuracy]"
   }
 }
 
-TEST_CASE("cantilever: springs across edges follow the third root of the load", "[accuracy]") {
+TEST_CASE("cantilever: springs across edges follow the third root of the load", "[release]") {
   double drop[2];
   for (const int k : {0, 1}) {
     const double gamma = k ? 0.1 : 0.001;
@@ -110,7 +110,7 @@ TEST_CASE("cantilever: springs across edges follow the third root of the load", 
 }
 
 TEST_CASE("buckling: a standing strip and a strip on edge lose their stability where theory says",
-          "[accuracy]") {
+          "[release]") {
   StripOptions o;
   o.rows = 46;  // width / length = 0.1
   const Strip strip = equilateral_strip(o);
@@ -119,7 +119,7 @@ TEST_CASE("buckling: a standing strip and a strip on edge lose their stability w
   CHECK(critical_gamma(strip, {0, -1, 0}, 18, 24) == Approx(20.9901076079).epsilon(0.05));
 }
 
-TEST_CASE("buckling: a strip between two clamps rises as the elastica does", "[accuracy]") {
+TEST_CASE("buckling: a strip between two clamps rises as the elastica does", "[release]") {
   for (const auto& [shortening, height] : {std::pair{0.1, 0.194924311376}, {0.3, 0.314312612956}}) {
     StripOptions o;
     o.rows = 32;
