@@ -46,12 +46,21 @@ ExactDistance::Sample ExactDistance::sample(const Vec3& x) const {
 }
 
 ExactDistance::Sample ExactDistance::sample(const Vec3& x, const Vec3& y, const Sample& at_y) const {
+  return sample(x, y, at_y, [](double) { return std::nullopt; });
+}
+
+ExactDistance::Sample ExactDistance::sample(const Vec3& x, const Vec3& y, const Sample& at_y,
+                                            const std::function<std::optional<bool>(double)>& beside) const {
   const ClosestPoint q = parts_->bvh.closest(x, at_y.triangle);
   const double d = std::sqrt(q.squared_distance);
-  const bool same_side =
-      !parts_->sides.is_cheap(q.triangle) && (x - y).norm() < std::max(d, std::abs(at_y.value)) * (1 - 1e-9);
-  const bool inside = same_side ? at_y.value < 0 : parts_->sides.inside(x, q);
-  return {inside ? -d : d, q.triangle};
+  const auto inside = [&] {
+    if (parts_->sides.is_cheap(q.triangle)) return parts_->sides.inside(x, q);
+    if ((x - y).norm() < std::max(d, std::abs(at_y.value)) * (1 - 1e-9)) return at_y.value < 0;
+    // Near holes the side changes away from the surface, too: there, the others are not asked.
+    const std::optional<bool> told = parts_->sides.report().closed ? beside(d) : std::nullopt;
+    return told ? *told : parts_->sides.inside(x, q);
+  };
+  return {inside() ? -d : d, q.triangle};
 }
 
 ClosestPoint ExactDistance::closest(const Vec3& x) const { return parts_->bvh.closest(x); }

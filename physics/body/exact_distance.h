@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "physics/base/arrays.h"
@@ -59,6 +61,11 @@ class ExactDistance : public Collider {
   /// The same value as sample(x), faster: from a point y nearby and its sample. Where |x - y| is less than
   /// either distance the two lie on the same side.
   Sample sample(const Vec3& x, const Vec3& y, const Sample& at_y) const;
+  /// The same. Where the side would be summed up, `beside` is asked first, with the distance of x [m]:
+  /// whether another point tells that x is inside; it says nothing where no ball around x or that point
+  /// reaches both.
+  Sample sample(const Vec3& x, const Vec3& y, const Sample& at_y,
+                const std::function<std::optional<bool>(double)>& beside) const;
 
   ClosestPoint closest(const Vec3& x) const;
   ClosestPoint closest(const Vec3& x, int guess) const;  ///< faster if the triangle `guess` is near x

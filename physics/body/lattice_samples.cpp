@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 namespace furrow::physics {
 namespace {
@@ -56,12 +57,42 @@ int LatticeSamples::add(const LatticePoint& p, int guess) {
   return size() - 1;
 }
 
+/// The points a step up the lattice around p, at +-half its own step in each odd coordinate, are the corners
+/// of the cells that p was added for. Where the balls that the surface leaves free around p and around one of
+/// them meet, nothing lies between the two.
+std::optional<bool> LatticeSamples::inside_by_corners(const LatticePoint& p, double distance) const {
+  const int all = p[0] | p[1] | p[2], step = all & -all;
+  double far2 = 0;
+  for (int k = 0; k < 3; ++k) far2 += p[k] & step ? 1 : 0;
+  const double away = unit_ * step * std::sqrt(far2);
+  for (int corner = 0; corner < 8; ++corner) {
+    LatticePoint c = p;
+    bool twice = false;  // in an even coordinate there is no other side
+    for (int k = 0; k < 3; ++k) {
+      const bool up = corner >> k & 1;
+      if (p[k] & step)
+        c[k] += up ? step : -step;
+      else
+        twice = twice || up;
+    }
+    if (twice) continue;
+    const int index = slots_[slot_of(key_of(c))].next_index - 1;
+    if (index < 0 || index >= evaluated_) continue;
+    const double value = samples_[index].value;
+    if (away < (distance + std::abs(value)) * (1 - 1e-9)) return value < 0;
+  }
+  return std::nullopt;
+}
+
 void LatticeSamples::evaluate_range(int begin, int end) {
+  LatticePoint p;
+  const std::function<std::optional<bool>(double)> beside = [&](double d) { return inside_by_corners(p, d); };
   for (int i = begin; i < end; ++i) {
-    const Vec3 x = position(points_[i]);
+    p = points_[i];
     const int guess = guesses_[i];
-    samples_[i] =
-        guess < evaluated_ ? exact_.sample(x, position(points_[guess]), samples_[guess]) : exact_.sample(x);
+    samples_[i] = guess < evaluated_
+                      ? exact_.sample(position(p), position(points_[guess]), samples_[guess], beside)
+                      : exact_.sample(position(p));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "physics/base/thread_pool.h"
@@ -42,6 +43,7 @@ class LatticeSamples {
   };
   std::size_t slot_of(std::uint64_t key) const;
   void evaluate_range(int begin, int end);
+  std::optional<bool> inside_by_corners(const LatticePoint& p, double distance) const;
   void grow();
 
   const ExactDistance& exact_;

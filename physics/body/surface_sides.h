@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "physics/body/exact_distance.h"
@@ -37,7 +38,12 @@ class SurfaceSides {
   void number_parts(const std::vector<char>& crossed);
   void leave_out_unsound(const std::vector<char>& crossed);
   void find_inner_walls(const std::vector<char>& crossed);
-  void compare_signs(const TriangleMesh& mesh, const TriangleBvh& bvh);
+  struct Comparison {
+    int differing = 0, known = 0, differing_known = 0;
+    std::int64_t summed = 0;
+  };
+  void compare_signs(const TriangleMesh& mesh);
+  void compare_signs_at(int i, double reach, Comparison& sum);
   double beside(int triangle, double side) const;
 
   const TriangleBvh& bvh_;

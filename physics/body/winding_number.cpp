@@ -119,8 +119,9 @@ WindingNumber::Dipole WindingNumber::of_node(int node) const {
   return sum;
 }
 
-double WindingNumber::at(const Vec3& x) const {
+double WindingNumber::at(const Vec3& x, std::int64_t* summed) const {
   double w = 0;
+  std::int64_t leaves = 0;
   AngleSum near;
   int stack[96], size = 0;
   stack[size++] = 0;
@@ -138,9 +139,11 @@ double WindingNumber::at(const Vec3& x) const {
         stack[size++] = child;
       } else {
         w += add_leaf(bvh_, x, ~child, near);
+        ++leaves;
       }
     }
   }
+  if (summed != nullptr) *summed += leaves * TriangleBvh::leaf_size;
   return w + near.turns();
 }
 

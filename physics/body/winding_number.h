@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "physics/body/triangle_bvh.h"
@@ -15,8 +16,8 @@ class WindingNumber {
   /// Takes the tree before drop(): all triangles count. Keeps a reference to it. Cost O(T).
   explicit WindingNumber(const TriangleBvh& bvh);
 
-  /// About 5 us for 100,000 triangles.
-  double at(const Vec3& x) const;
+  /// About 5 us for 100,000 triangles. Adds to `summed`, if it is there, how many triangles counted exactly.
+  double at(const Vec3& x, std::int64_t* summed = nullptr) const;
 
  private:
   struct Dipole {

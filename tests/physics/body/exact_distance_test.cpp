@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <numbers>
 
 #include "tests/physics/body/field_inputs.h"
 #include "tests/test_paths.h"
@@ -155,6 +156,26 @@ TEST_CASE("exact_distance: a sample with the help of a neighbour is the sample w
       at_y = exact.sample(y);
     }
   }
+}
+
+TEST_CASE("exact_distance: signs are compared at fewer places where each sums over thousands of triangles") {
+  constexpr int rim = 4000;
+  TriangleMesh cone;
+  cone.vertices = {{0, 1, 0}, {0, -0.2, 0}};
+  for (int i = 0; i < rim; ++i) {
+    const double angle = 2 * std::numbers::pi * i / rim;
+    cone.vertices.push_back({0.3 * std::cos(angle), 0, 0.3 * std::sin(angle)});
+  }
+  for (int i = 0; i < rim; ++i) {
+    cone.triangles.push_back({0, 2 + (i + 1) % rim, 2 + i});
+    cone.triangles.push_back({1, 2 + i, 2 + (i + 1) % rim});
+  }
+  const ExactDistance exact(cone);
+  CHECK(exact.report().samples == 400);
+  CHECK(exact.report().rule == SignRule::pseudonormal);
+  CHECK(exact.at({0.1, 0.3, 0.05}).value < 0);
+  CHECK(exact.at({0.1, 0.8, 0.05}).value > 0);
+  CHECK(ExactDistance(furrow::tests::sphere(24, 1)).report().samples == 2000);
 }
 
 TEST_CASE("exact_distance: penetration counts and measures points inside") {
