@@ -4,6 +4,7 @@ furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   base/bytes_file_test.cpp
   base/child_process_test.cpp
   base/error_types_test.cpp
+  base/fuzz_corpus_test.cpp
   base/nesting_test.cpp
   base/text_scanner_test.cpp
   mesh/assimp_reader_test.cpp
