@@ -8,14 +8,21 @@
 namespace furrow::geometry {
 namespace {
 
-BandChain chain_of(const BandMesh& band, int index, const FoldCurve& given) {
-  const BandCurve& curve = band.curves[index];
-  BandChain chain{given.line, {}, {}, curve.closed(), 0};
-  for (const auto& [along, v] : curve.vertices) {
+BandChain chain_of(const BandMesh& band, const CurveArcs& arcs, std::size_t index) {
+  BandChain chain{-1, {}, {}, arcs.closed[index], 0};
+  std::vector<const std::map<double, Vertex>*> on;
+  for (std::size_t i = 0; i < arcs.arcs.size(); ++i) {
+    const BandCurve& curve = band.curves[i];
+    on.push_back(&curve.vertices);
+    if (arcs.curve[i] != index) continue;
+    chain.line = arcs.arcs[i].line;
+    for (const auto& [along, v] : curve.vertices)
+      chain.lateral =
+          std::max(chain.lateral, curve.nearest(band.mesh.point(v), along, curve.h_at(along)).distance);
+  }
+  for (const auto& [along, v] : arcs.joined(index, on)) {
     chain.vertices.push_back(v);
     chain.along.push_back(along);
-    chain.lateral =
-        std::max(chain.lateral, curve.nearest(band.mesh.point(v), along, curve.h_at(along)).distance);
   }
   return chain;
 }
@@ -30,10 +37,9 @@ double smallest_angle_of(const BandMesh& band) {
   return least * 180 / std::numbers::pi;
 }
 
-BandReport report_on(const BandMesh& band, std::span<const FoldCurve> curves) {
+BandReport report_on(const BandMesh& band, const CurveArcs& arcs) {
   BandReport report;
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    report.chains.push_back(chain_of(band, static_cast<int>(i), curves[i]));
+  for (std::size_t i = 0; i < arcs.length.size(); ++i) report.chains.push_back(chain_of(band, arcs, i));
   report.places = band.place;
   report.in_band = band.in_band;
   report.split_edges = band.cut_lines;

@@ -21,6 +21,7 @@ constexpr double snap_apart = 0.35;  ///< in h, along the curve
 constexpr double end_within = 0.75;  ///< in h, of an end
 constexpr double same_place = 1e-6;  ///< in h: such a vertex lies on the curve
 constexpr double as_it_is = 0.04;    ///< in h: so does one that may not move
+constexpr double shared = 0.25;      ///< in h: so does one of another line, or face between them were thin
 constexpr double thin = 0.3;         ///< quality that a snap may come down to
 constexpr double flat = 0.05;        ///< angle defect of a star that counts as flat [rad]
 constexpr double unstrained = 0.02;  ///< edges that are longer or shorter than at rest by no more
@@ -47,11 +48,17 @@ class Embedding {
   Embedding(BandMesh& band, int index)
       : band_(band), mesh_(band.mesh), index_(index), curve_(band.curves[index]) {}
 
-  void run(const FoldCurve& given) {
+  void run(const FoldCurve& given, const ArcEnds& known) {
     const std::vector<Face> faces = trace(given.places.front().face);
     if (!curve_.closed()) {
-      place_end(0, faces.front(), given.begins_at_border);
-      place_end(curve_.length(), faces.back(), given.ends_at_border);
+      for (const bool at_end : {false, true}) {
+        const double along = at_end ? curve_.length() : 0;
+        if (const auto& end = at_end ? known.last : known.first)
+          band_.put_on(*end, index_, along);
+        else
+          place_end(along, at_end ? faces.back() : faces.front(),
+                    at_end ? given.ends_at_border : given.begins_at_border);
+      }
     }
     snap(candidates(trace(given.places.front().face)));
     if (curve_.vertices.empty()) place_end(0, trace(given.places.front().face).front(), false);
@@ -119,6 +126,12 @@ class Embedding {
     return band_.hold[v.idx()] != Hold::free || band_.on[v.idx()].size() > 1 || mesh_.is_border(v);
   }
 
+  /// On the border, another line or another curve, where this one may pass through it without being exactly
+  /// there, so that no thin face lies between the two.
+  bool is_shared(Vertex v) const {
+    return mesh_.is_border(v) || !band_.on[v.idx()].empty() || band_.editor.line()[v] >= 0;
+  }
+
   /// Moves a vertex to a point of the curve.
   bool slide(Vertex v, double along, double least) {
     const Star star = lay_flat(mesh_, band_.rest, v);
@@ -172,9 +185,13 @@ class Embedding {
   }
 
   void snap(const Candidate& c, const Snap& rule) {
-    if (c.near.distance > rule.within * c.h || band_.along(c.vertex, index_) >= 0 || stays(c.vertex)) return;
-    if (!band_.on[c.vertex.idx()].empty()) {
-      slide_to_crossing(c);
+    if (c.near.distance > rule.within * c.h || band_.along(c.vertex, index_) >= 0) return;
+    if (!stays(c.vertex) && !band_.on[c.vertex.idx()].empty() && slide_to_crossing(c)) return;
+    if (is_shared(c.vertex)) {
+      if (c.near.distance <= shared * c.h && !taken(c.near.along, snap_apart * c.h))
+        band_.put_on(c.vertex, index_, c.near.along);
+    } else if (stays(c.vertex)) {
+      return;
     } else if (!taken(c.near.along, rule.apart * c.h) && slide(c.vertex, c.near.along, rule.least_quality)) {
       band_.put_on(c.vertex, index_, c.near.along);
     }
@@ -191,7 +208,8 @@ class Embedding {
     for (const auto& [distance, v] : list) {
       if (end) break;
       const double h = local_h(v, along);
-      if (distance <= (stays(v) ? as_it_is : same_place) * h) end = v;
+      const double within = is_shared(v) && !mesh_.is_border(v) ? shared : stays(v) ? as_it_is : same_place;
+      if (distance <= within * h) end = v;
       if (!end && !stays(v) && band_.on[v.idx()].empty() && distance <= end_within * h &&
           slide(v, along, thin))
         end = v;
@@ -238,7 +256,7 @@ class Embedding {
     const Vertex near = t < 0.5 ? mesh_.source(best) : mesh_.target(best);
     const double off = std::min(t, 1 - t);
     if (off < 1e-6 || (off < 0.5 && slide_on_border(near, best, off))) return near;
-    if (off < as_it_is) return near;
+    if (off < shared) return near;  // a corner of the border, or where another line ends
     return band_.split(mesh_.edge(best), t);
   }
 
@@ -354,7 +372,8 @@ class Embedding {
     if (band_.along(near, index_) < 0 && off < snap_within * local_h(near, along)) {
       const BandCurve::Near at = curve_.nearest(mesh_.point(near), along, length);
       const bool enough = !taken(at.along, 1e-3 * length);
-      const bool is_near = stays(near) && at.distance < as_it_is * length;
+      const bool is_near = (stays(near) && at.distance < as_it_is * length) ||
+                           (is_shared(near) && at.distance < shared * length);
       const bool may = !stays(near) && band_.on[near.idx()].empty();
       if (enough && (is_near || (may && slide(near, at.along, 0.2)))) {
         band_.put_on(near, index_, at.along);
@@ -430,6 +449,8 @@ class Embedding {
 
 }  // namespace
 
-void embed_curve(BandMesh& band, int index, const FoldCurve& given) { Embedding(band, index).run(given); }
+void embed_curve(BandMesh& band, int index, const FoldCurve& given, const ArcEnds& known) {
+  Embedding(band, index).run(given, known);
+}
 
 }  // namespace furrow::geometry

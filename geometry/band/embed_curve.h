@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <optional>
+
 #include "geometry/band/band_mesh.h"
 
 namespace furrow::geometry {
+
+/// Ends of an arc that arcs of the same curve have already.
+struct ArcEnds {
+  std::optional<Vertex> first, last;
+};
 
 /// Makes a chain of edges out of a curve: vertices near it slide onto it, edges that it crosses are split at
 /// the crossing. `given` is curve `index` of band.curves.
@@ -16,6 +23,6 @@ namespace furrow::geometry {
 /// to vertex along the curve: the edge opposite the last vertex that the curve leaves its star through is
 /// split where it does. Where no way leads on, the chain goes along the shortest path of edges
 /// (BandMesh::detours). O(length of the curve over h) steps.
-void embed_curve(BandMesh& band, int index, const FoldCurve& given);
+void embed_curve(BandMesh& band, int index, const FoldCurve& given, const ArcEnds& known = {});
 
 }  // namespace furrow::geometry

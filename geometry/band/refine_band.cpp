@@ -5,6 +5,7 @@
 
 #include "geometry/band/band_mesh.h"
 #include "geometry/band/band_report.h"
+#include "geometry/band/curve_arcs.h"
 #include "geometry/band/embed_curve.h"
 #include "geometry/band/relax_band.h"
 #include "geometry/band/split_band.h"
@@ -45,6 +46,16 @@ void refine(BandMesh& band, const BandSizing& sizing, int rounds) {
   }
 }
 
+void embed(BandMesh& band, const CurveArcs& arcs) {
+  for (std::size_t i = 0; i < arcs.arcs.size(); ++i) {
+    const int index = static_cast<int>(i), before = arcs.before(i), after = arcs.after(i);
+    ArcEnds known;
+    if (before >= 0 && before < index) known.first = band.curves[before].vertices.rbegin()->second;
+    if (after >= 0 && after < index) known.last = band.curves[after].vertices.begin()->second;
+    embed_curve(band, index, arcs.arcs[i], known);
+  }
+}
+
 }  // namespace
 
 BandReport refine_band(Mesh& mesh, std::span<const FoldCurve> curves, const BandOptions& options) {
@@ -53,18 +64,20 @@ BandReport refine_band(Mesh& mesh, std::span<const FoldCurve> curves, const Band
   BandMesh band(work);
   band.flip_options.may_flip = options.may_flip;
   for (Vertex v : options.held) band.hold[v.idx()] = Hold::fixed;
-  const BandSizing sizing(curves, options.detail, options.least_edge);
-  band.in_band = band_faces(work, band.rest, curves, sizing);
-  for (std::size_t i = 0; i < curves.size(); ++i) band.curves.emplace_back(curves[i], sizing.on_curves()[i]);
+  const CurveArcs arcs(curves);
+  const BandSizing sizing(arcs.arcs, options.detail, options.least_edge);
+  band.in_band = band_faces(work, band.rest, arcs.arcs, sizing);
+  for (std::size_t i = 0; i < arcs.arcs.size(); ++i)
+    band.curves.emplace_back(arcs.arcs[i], sizing.on_curves()[i]);
   const double before = smallest_angle_of(band);
   band.flip_to_delaunay();
   refine(band, sizing, most_rounds);
-  for (std::size_t i = 0; i < curves.size(); ++i) embed_curve(band, static_cast<int>(i), curves[i]);
+  embed(band, arcs);
   band.flip_to_delaunay();
   for (int i = 0; i < relaxations; ++i) relax_band(band, sizing);
   refine(band, sizing, late_rounds);
   band.finish();
-  BandReport report = report_on(band, curves);
+  BandReport report = report_on(band, arcs);
   report.min_angle_before_deg = before;
   mesh = std::move(work);
   return report;

@@ -23,7 +23,7 @@ struct BandOptions {
 /// The chain of a curve: an edge joins each vertex to the next, and the last to the first if it is closed.
 struct BandChain {
   int line = -1;                 ///< FoldCurve::line
-  std::vector<Vertex> vertices;  ///< in the direction of the curve, each once
+  std::vector<Vertex> vertices;  ///< in the direction of the curve, each once for every pass
   std::vector<double> along;     ///< arc length of each from the curve's first point [m]; ascending
   bool closed = false;
   double lateral = 0;  ///< largest distance of a vertex from the curve [m]

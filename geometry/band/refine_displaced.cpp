@@ -9,6 +9,7 @@
 
 #include "geometry/band/band_mesh.h"
 #include "geometry/band/band_report.h"
+#include "geometry/band/curve_arcs.h"
 #include "geometry/band/relax_displaced.h"
 #include "geometry/band/split_longest.h"
 #include "geometry/mesh/errors.h"
@@ -138,15 +139,14 @@ class SecondPass {
 };
 
 /// Takes over what the first pass knows.
-void resume(BandMesh& band, const BandReport& report, std::span<const FoldCurve> curves,
-            const BandSizing& sizing) {
+void resume(BandMesh& band, const BandReport& report, const CurveArcs& arcs, const BandSizing& sizing) {
   band.place = report.places;
   band.in_band = report.in_band;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    band.curves.emplace_back(curves[i], sizing.on_curves()[i]);
-    const BandChain& chain = report.chains[i];
-    for (std::size_t k = 0; k < chain.vertices.size(); ++k)
-      band.put_on(chain.vertices[k], static_cast<int>(i), chain.along[k]);
+  for (std::size_t i = 0; i < arcs.arcs.size(); ++i) {
+    band.curves.emplace_back(arcs.arcs[i], sizing.on_curves()[i]);
+    const BandChain& chain = report.chains[arcs.curve[i]];
+    for (const auto& [along, v] : arcs.part(i, chain.along, chain.vertices))
+      band.put_on(v, static_cast<int>(i), along);
   }
 }
 
@@ -187,12 +187,13 @@ DisplacedReport refine_displaced(Mesh& mesh, const Mesh& given, std::span<const 
   Mesh work = mesh;
   BandMesh band(work, given);
   band.flip_options.may_flip = options.may_flip;
-  const BandSizing sizing(curves, options.detail, options.least_edge);
-  resume(band, report, curves, sizing);
+  const CurveArcs arcs(curves);
+  const BandSizing sizing(arcs.arcs, options.detail, options.least_edge);
+  resume(band, report, arcs, sizing);
   std::vector<Point> places = displaced;
   SecondPass(band, sizing, places, displacing).run();
   band.finish();
-  report = joined(std::move(report), report_on(band, curves));
+  report = joined(std::move(report), report_on(band, arcs));
   const DisplacedReport result{band.splits, band.flips, smallest_angle_in(band, places)};
   displaced = std::move(places);
   mesh = std::move(work);

@@ -10,10 +10,13 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 constexpr std::size_t block_size = 16;
-constexpr double narrowest = 0.6;      ///< width at a free end, in that of the fold
-constexpr double beyond_border = 0.6;  ///< in widths
-constexpr double detour = 1.25;        ///< way over distance that a curved surface explains
-constexpr double fading = 0.5;         ///< in half widths: way beyond that in which a fold fades out
+constexpr double narrowest = 0.6;                      ///< width at a free end, in that of the fold
+constexpr double beyond_border = 0.6;                  ///< in widths
+constexpr double detour = 1.25;                        ///< way over distance that a curved surface explains
+constexpr double whole_pass = 1.25, pass_ends = 1.75;  ///< in half widths along the curve
+constexpr double next_pass = 2.75, clear_pass = 3.75;  ///< the same: from there on it is another one
+constexpr double highest_of_passes = 8;                ///< (a^p + b^p)^(1/p)
+constexpr double fading = 0.5;  ///< in half widths: way beyond that in which a fold fades out
 
 /// 0 up to t = 0, 1 from t = 1 on, with two derivatives.
 double smoothstep(double t) {
@@ -41,10 +44,12 @@ FoldHeight::FoldHeight(const FoldCurve& curve)
       length_(curve.length),
       sharpness_(curve.sharpness),
       rise_(curve.rise),
-      closed_(curve.closed) {
+      closed_(curve.closed),
+      meets_itself_(!curve.cuts.empty()) {
   greatest_width_ = *std::max_element(curve.width.begin(), curve.width.end());
   const std::size_t n = curve.points.size();
   const double ds = length_ / static_cast<double>(closed_ ? n : n - 1);
+  step_ = ds;
   if (curve.begins_at_border) extend(curve, false, ds);
   before_ = places_.size();
   own_ = n;
@@ -66,7 +71,7 @@ void FoldHeight::reach_height() {
   for (const Place& place : places_) {
     if (place.height == 0) continue;
     const double asked = place.height / std::max(place.taper, 1e-300);
-    most = std::max(most, sum_at(place.point) / asked);
+    most = std::max(most, (meets_itself_ ? passes_at(place.point) : sum_at(place.point)) / asked);
   }
   if (!(most > 0) || most >= 1) return;
   for (Place& place : places_) place.weight /= most;
@@ -127,8 +132,11 @@ void FoldHeight::divide_by_crest(const FoldCurve& curve) {
   }
   std::vector<double> crest(places_.size(), 0);
   for (std::size_t i = 0; i < places_.size(); ++i)
-    for (const Weight& w : all)
-      crest[i] += w.weight * bump((w.point - places_[i].point).squaredNorm(), w.radius);
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      const double share = meets_itself_ && j < places_.size() ? share_of_pass(i, j) : 1;
+      crest[i] +=
+          share * all[j].weight * bump((all[j].point - places_[i].point).squaredNorm(), all[j].radius);
+    }
   // Beyond a border the extension ends, too: it takes the integral at the border.
   const std::size_t first = before_, last = before_ + n - 1;
   for (std::size_t i = 0; i < places_.size(); ++i)
@@ -200,8 +208,50 @@ double FoldHeight::sum_at(const Vec3& x) const {
   return sum;
 }
 
+/// How much place `of` belongs to the pass of place i: 1 near it along the curve, 0 far from it.
+double FoldHeight::share_of_pass(std::size_t i, std::size_t of) const {
+  double way = step_ * std::abs(static_cast<double>(i) - static_cast<double>(of));
+  if (closed_) way = std::min(way, length_ - way);
+  const double radius = std::max(places_[i].radius, places_[of].radius);
+  return 1 - smoothstep((way / radius - whole_pass) / (pass_ends - whole_pass));
+}
+
+/// Of a curve that meets itself: the integral over the highest pass, joined with that over the highest of the
+/// others. Passes come and go smoothly with x, as all places have shares in all passes.
+double FoldHeight::passes_at(const Vec3& x) const {
+  std::vector<std::pair<std::size_t, double>> terms;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if ((x - blocks_[b].centre).squaredNorm() >= blocks_[b].reach * blocks_[b].reach) continue;
+    const std::size_t last = std::min((b + 1) * block_size, places_.size());
+    for (std::size_t i = b * block_size; i < last; ++i) {
+      const double term = places_[i].weight * bump((x - places_[i].point).squaredNorm(), places_[i].radius);
+      if (term != 0) terms.push_back({i, term});
+    }
+  }
+  std::vector<double> passes;
+  for (const auto& [i, own] : terms) {
+    double sum = 0;
+    for (const auto& [j, term] : terms) sum += share_of_pass(i, j) * term;
+    passes.push_back(sum);
+  }
+  if (passes.empty()) return 0;
+  const auto higher = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto top =
+      static_cast<std::size_t>(std::max_element(passes.begin(), passes.end(), higher) - passes.begin());
+  double second = 0;
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    double way =
+        step_ * std::abs(static_cast<double>(terms[k].first) - static_cast<double>(terms[top].first));
+    if (closed_) way = std::min(way, length_ - way);
+    const double radius = places_[terms[top].first].radius;
+    const double apart = smoothstep((way / radius - next_pass) / (clear_pass - next_pass));
+    second = std::max(second, apart * passes[k] / passes[top]);
+  }
+  return passes[top] * std::pow(1 + std::pow(second, highest_of_passes), 1 / highest_of_passes);
+}
+
 double FoldHeight::at(const Vec3& x) const {
-  const double sum = sum_at(x);
+  const double sum = meets_itself_ ? passes_at(x) : sum_at(x);
   return sharpness_ > 0 ? (1 - sharpness_) * sum + sharpness_ * tent(x) : sum;
 }
 

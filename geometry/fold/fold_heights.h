@@ -15,7 +15,8 @@ namespace furrow::geometry {
 /// jumps, and ends are round by themselves. T rises as a quintic smoothstep over FoldCurve::rise, and w from
 /// 0.6 of itself over the same way. N is the integral at the crest itself for k = T = 1, which differs from 1
 /// where the curve is bent; of a line so short that u stays below k everywhere, it is what takes its highest
-/// place to k. FoldCurve::sharpness blends towards the tent k T (1 - t) of the nearest point.
+/// place to k. Where a curve meets itself its passes do not add: one counts, smoothly the higher (2^(1/8) of
+/// two equal ones). FoldCurve::sharpness blends towards the tent k T (1 - t) of the nearest point.
 class FoldHeight {
  public:
   explicit FoldHeight(const FoldCurve& curve);
@@ -54,12 +55,15 @@ class FoldHeight {
   void make_blocks();
   void reach_height();
   double sum_at(const Eigen::Vector3d& x) const;
+  double passes_at(const Eigen::Vector3d& x) const;
+  double share_of_pass(std::size_t i, std::size_t of) const;
   double tent(const Eigen::Vector3d& x) const;
 
   const std::vector<double> arc_, heights_;
   const double length_, sharpness_;
   const std::array<double, 2> rise_;
-  const bool closed_;
+  const bool closed_, meets_itself_;
+  double step_ = 0;  ///< between two places [m]
   double greatest_width_ = 0;
   std::size_t before_ = 0;  ///< places beyond the border at the beginning
   std::size_t own_ = 0;     ///< places of the curve itself, which follow those

@@ -25,7 +25,10 @@ struct FoldCurve {
   double length = 0;     ///< of the whole curve, of a closed one with the way back to the first point [m]
   double sharpness = 0;  ///< of the section [-]; [0, 1]: 0 round, 1 a tent
   std::array<double, 2> rise{0, 0};  ///< taper and flare: it rises over so much at beginning and end [m]
-  double set = 0.5;                  ///< how much of the fold's angles becomes rest angle [-]; [0, 1]
+  /// Indices of points, in the curve's direction, at which it is cut into arcs that do not meet themselves;
+  /// of a closed curve the first one opens it. Empty: it does not meet itself.
+  std::vector<std::size_t> cuts = {};
+  double set = 0.5;  ///< how much of the fold's angles becomes rest angle [-]; [0, 1]
 };
 
 }  // namespace furrow::geometry

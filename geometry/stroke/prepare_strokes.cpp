@@ -9,6 +9,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/stroke/curve_cuts.h"
 #include "geometry/stroke/placed_stroke.h"
 #include "geometry/stroke/project_onto_surface.h"
 #include "geometry/stroke/trace_stroke.h"
@@ -344,6 +345,8 @@ class Preparing {
                              ", more than a tenth of its width of " + length_text(piece.width) +
                              "; \"smooth\": 0 takes it as it is drawn");
     measure(curve);
+    if (drop_small_loops(mesh_, curve) > 0) measure(curve);
+    cut_where_it_meets_itself(mesh_, curve);
     find_ends(curve);
     curve.rise = rise_of(curve, stroke, piece.width);
     return curve;

@@ -150,10 +150,10 @@ TEST_CASE("wrinkle: a thousand random sets of folds on random sheets are sound, 
   }
   CAPTURE(all.drawn, all.refused, all.reasons_text(), all.share_below(3), all.share_below(10));
   CHECK(all.faults == std::vector<std::string>{});
-  // Half of these sets hold a stroke that crosses itself, which the rule refuses.
-  CHECK(all.reasons.size() <= 2);
-  CHECK(all.refused <= 510);
-  CHECK(all.share_below(3) <= 0.1);
+  // Half of these sets hold a stroke that crosses itself, and many graze each other or the border.
+  CHECK(all.refused <= 2);
+  CHECK(all.share_below(3) <= 0.02);
+  CHECK(all.share_below(10) <= 0.12);
 }
 
 }  // namespace furrow::tests
