@@ -211,7 +211,7 @@ class Gatherer {
     const auto angle = find_map(mesh_, attribute::rest_angle),
                own = find_map(mesh_, attribute::hinge_stiffness);
     const std::vector<double> presses = hinge_presses(mesh_, o_.line_presses, o_.line_widths);
-    cloth_.hinge_law = o_.bending == Bending::hinge ? physics::HingeLaw::linear : physics::HingeLaw::cosine;
+    cloth_.hinge_law = o_.bending == Bending::cosine ? physics::HingeLaw::cosine : physics::HingeLaw::linear;
     for (Edge e : mesh_.edges()) {
       if (mesh_.is_border(e)) continue;
       const double areas = areas_beside(e);

@@ -40,9 +40,10 @@ bool visit_triangles(Membrane membrane, physics::Cloth& cloth, Visit&& visit) {
 
 /// What resists bending.
 enum class Bending {
-  cross,  ///< springs across the edges (method S1.1): a look, without a rigidity about flat
-  hinge,  ///< signed hinges with a rest angle, k = B l^2 / (A1 + A2): a plate of rigidity B
-  cosine  ///< the same k in the law of method S2.3: none of first order about rest
+  cross,   ///< springs across the edges (method S1.1): a look, without a rigidity about flat
+  hinge,   ///< signed hinges with a rest angle, k = B l^2 / (A1 + A2): a plate of rigidity B
+  cosine,  ///< the same k in the law of method S2.3: none of first order about rest
+  plate    ///< hinges that couple_bending() makes one plate of: the same bending on every mesh
 };
 
 /// How a garment's mass lies on its vertices.
@@ -61,7 +62,7 @@ struct GatherOptions {
   Bending bending = Bending::cross;
   double stretch = 1000;     ///< Y, Young's modulus times thickness [N/m], of van_gelder and triangles; > 0
   double poisson = 0.3;      ///< of triangles [-]; in (-1, 1)
-  double rigidity = 1e-5;    ///< B of hinge and cosine [N m]; >= 0
+  double rigidity = 1e-5;    ///< B of hinge, cosine and plate [N m]; >= 0
   double tension = 50000;    ///< c of tension, see tension_constants() [N/m]; > 0
   double compression = 0.2;  ///< push over pull of tension at the same |e| [-]; in [0, 1]
   double shear = 0.2;        ///< of diagonals over that of threads in tension [-]; in [0, 1]

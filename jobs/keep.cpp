@@ -60,6 +60,10 @@ OpenScene open_scene(const KeepJob& job, Listener& listener) {
   check_inputs(open.scene, open.document, job.state ? job.state->lines_drawn : -1, job.scene.memory);
   if (!job.state) take_noted_frame(open.scene, open.document, job.scene.memory);
   check_outputs(job, open, listener);
+  if (open.scene.material.bending_law == bridge::Bending::plate)
+    throw std::invalid_argument(
+        "--bending-law plate: keep cannot share out a plate's moments to hinges yet; take --bending-law "
+        "hinge");
   open.frame.unit = open.scene.unit;
   open.frame.up = open.scene.up;
   return open;

@@ -241,6 +241,7 @@ Stretch simulate_to(double stop, const Run& run, Reached& reached, AnimationSeri
     return bridge::gather(now.file.mesh, spring_options(now.file, scene.material));
   });
   pin_cloth(cloth, now.pins, reached.starts ? run.body.get() : nullptr, now.simulation.time, run.context);
+  couple_cloth(now.file, scene, cloth, run.context);
   reached.starts = false;
   physics::SimulateOptions options = options_of(run, now, stop, cloth.particles.size());
   const Observation observation = observation_of(options, cloth, run.body != nullptr, animations.is_on());

@@ -7,7 +7,8 @@ namespace furrow::bench {
 enum class Effort { quick, full };
 
 /// Each writes CSV files into the folder.
-void chart_laws(const std::string& folder, Effort effort);  ///< laws.csv
+void chart_laws(const std::string& folder, Effort effort);     ///< laws.csv
+void chart_bending(const std::string& folder, Effort effort);  ///< bending.csv
 void chart_work_precision(const std::string& folder,
                           Effort effort);                          ///< work*.csv: points, references, fronts
 void chart_stability(const std::string& folder, Effort effort);    ///< stability.csv

@@ -90,6 +90,11 @@ void check_keep(const Scene& scene, const TomlDocument& document) {
     fail(document, path,
          "needs hinges, for springs cannot tell a ridge from a valley: name a fabric (--fabric, "
          "material.preset), or bending_law = \"hinge\" and a rigidity");
+  if (!path.empty() && scene.material.bending_law == bridge::Bending::plate)
+    fail(document, path,
+         "cannot share out a plate's moments to hinges yet: bending_law = \"hinge\" (--bending-law hinge) "
+         "can be "
+         "kept");
 }
 
 void check_keep_stands_still(const Scene& scene, const TomlDocument& document, int lines_drawn) {

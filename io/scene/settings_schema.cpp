@@ -173,13 +173,18 @@ const Row<Scene> rows[] = {
                       {std::begin(bridge::membrane_words), std::end(bridge::membrane_words)})},
     {{.path = "material.bending_law",
       .flag = "--bending-law",
-      .help = "what resists bending: cross (springs, default), hinge (of a rigidity), or cosine",
-      .help_at_rest =
-          "in place of a fabric: hinge (of a rigidity, as fabrics are), cosine, or cross (springs)",
-      .what = "what resists bending: springs across the edges, a plate's hinges, or the cosine law (paper 2)",
+      .help = "what resists bending: cross (springs, default), hinge (of a rigidity), cosine, or plate (of a "
+              "rigidity, the same on every mesh)",
+      .help_at_rest = "in place of a fabric: hinge (of a rigidity, as fabrics are), plate (the same on "
+                      "every mesh), cosine, or cross (springs)",
+      .what = "what resists bending: springs across the edges, a plate's hinges, the cosine law (paper 2), "
+              "or hinges coupled to one plate ([bending.md](bending.md))",
       .flag_in = used_by::all},
      choice<Bending>([](auto& s) -> auto& { return s.material.bending_law; },
-                     {{"cross", Bending::cross}, {"hinge", Bending::hinge}, {"cosine", Bending::cosine}})},
+                     {{"cross", Bending::cross},
+                      {"hinge", Bending::hinge},
+                      {"cosine", Bending::cosine},
+                      {"plate", Bending::plate}})},
     {{.path = "material.stretch",
       .flag = "--stretch",
       .help = "Young's modulus times thickness [N/m], in place of --stiffness",

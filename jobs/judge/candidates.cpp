@@ -9,6 +9,7 @@
 #include "io/base/number_text.h"
 #include "jobs/judge/cost_table.h"
 #include "jobs/read_inputs.h"
+#include "physics/cloth/plate_bending.h"
 
 namespace furrow::jobs {
 namespace {
@@ -122,7 +123,8 @@ std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit) 
     all.push_back(explicit_at(Integrator::rk4, cheapest, dt_limit));
   }
   for (int rate : {60, 240, 960}) all.push_back(implicit_at(Integrator::backward_euler, rate, scene));
-  if (scene.cloth.membrane.empty() && scene.cloth.tension.empty() && scene.cloth.hinges.empty())
+  if (scene.cloth.membrane.empty() && scene.cloth.tension.empty() && scene.cloth.hinges.empty() &&
+      scene.cloth.energies.empty())
     for (int rate : {240, 1200}) all.push_back(implicit_at(Integrator::xpbd, rate, scene));
   if (auto own = scenes_own(scene, dt_limit)) all.push_back(*own);
   return all;
@@ -173,7 +175,7 @@ double predicted_cost(const Candidate& c, const SceneCloth& scene, double second
   } else {
     w.springs = forces * springs_of(cloth);
     w.triangles = forces * static_cast<double>(cloth.membrane.size());
-    w.hinges = forces * static_cast<double>(cloth.hinges.size());
+    w.hinges = forces * (static_cast<double>(cloth.hinges.size()) + physics::count_coupled(cloth));
   }
   add_body(w, scene, w.steps * std::max(scene.near_body / 2.0, w.vertices / 10), seconds);
   w.factorisations = w.steps * solves;

@@ -144,6 +144,7 @@ class Maker {
     for (const std::vector<int>& held : pins)
       for (const int i : held) held_[std::size_t(i)] = 1;
     if (!loose.empty()) hold_loose(mesh, cloth);
+    couple_cloth(made, scene_, cloth, context_);
     int moved = 0;
     if (body_)
       for (const std::vector<int>& held : pins)

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "jobs/judge/cost_table.h"
+#include "physics/cloth/plate_bending.h"
 
 namespace furrow::jobs {
 namespace {
@@ -21,7 +22,7 @@ double cost_of_step(const physics::SimulateOptions& o, const physics::Cloth& clo
   work.steps = 1;
   work.springs = forces * springs;
   work.triangles = forces * double(cloth.membrane.size());
-  work.hinges = forces * double(cloth.hinges.size());
+  work.hinges = forces * double(int(cloth.hinges.size()) + physics::count_coupled(cloth));
   if (has_body) work.queries = forces * work.vertices / 10;
   if (o.integrator == physics::Integrator::xpbd) work.sweeps = o.xpbd.iterations * springs;
   if (o.integrator == physics::Integrator::backward_euler) work.factorisations = 1;

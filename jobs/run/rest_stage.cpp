@@ -52,6 +52,7 @@ RestStage rest_stage(io::MeshFile& garment, const io::Scene& scene, const std::v
       return bridge::gather(mesh, spring_options(garment, scene.material));
     });
     pin_cloth(cloth, pins, body, 0, context);
+    couple_cloth(garment, scene, cloth, context);
     return cloth;
   };
   geometry::Mesh mesh = garment.mesh;

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "bridge/convert.h"
+#include "bridge/couple_bending.h"
 #include "geometry/refine/subdivide.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/check/gate.h"
@@ -114,6 +115,19 @@ void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& all, 
   physics::stiffen_clamps(cloth);
 }
 
+void couple_cloth(const io::MeshFile& file, const io::Scene& scene, physics::Cloth& cloth,
+                  const Context& context) {
+  if (scene.material.bending_law != bridge::Bending::plate) return;
+  const int thin = bridge::couple_bending(file.mesh, spring_options(file, scene.material), cloth).slivers;
+  if (thin > 0)
+    context.warn(
+        "thin_faces",
+        scene.garment.string() + ": " + std::to_string(thin) +
+            " faces are lower than a ten-thousandth of their longest edge; they bend as plain hinges "
+            "do, too stiffly",
+        scene.garment.string(), "material.bending_law");
+}
+
 physics::World world_of(const io::Scene& scene, const WorldBody* body,
                         const std::vector<std::vector<int>>& pins) {
   physics::World world;
@@ -144,6 +158,7 @@ SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::sh
     return bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
   });
   pin_cloth(result.cloth, result.pins, result.body.get(), 0, context);
+  couple_cloth(result.file, scene, result.cloth, context);
   result.options = scene.simulation;
   if (result.body) {
     result.options.contact_gap =

@@ -22,6 +22,11 @@ void warn_of_start(const io::Scene& scene, const WorldBody& body, const geometry
 void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& pins, const WorldBody* body,
                double time, const Context& context);
 
+/// With the bending law `plate`, once the cloth is pinned: makes its hinges one plate; warns of triangles
+/// that are too thin to bend exactly.
+void couple_cloth(const io::MeshFile& file, const io::Scene& scene, physics::Cloth& cloth,
+                  const Context& context);
+
 /// Body (null: none), wind and led pins; the body must outlive the world.
 physics::World world_of(const io::Scene& scene, const WorldBody* body,
                         const std::vector<std::vector<int>>& pins);

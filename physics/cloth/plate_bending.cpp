@@ -10,8 +10,7 @@
 
 namespace furrow::physics {
 
-PlateBending::PlateBending(Plate plate, std::size_t particles)
-    : plate_(std::move(plate)), particles_(particles) {
+PlateBending::PlateBending(Plate plate, std::size_t particles) : plate_(std::move(plate)), layout_(plate_) {
   for (const Hinge& h : plate_.hinges) check(h, particles);
   gather_begin_.assign(plate_.hinges.size() + 1, 0);
   for (const int h : plate_.hinge) ++gather_begin_[std::size_t(h) + 1];
@@ -95,17 +94,7 @@ std::vector<double> PlateBending::moments_of(const std::vector<double>& bend, do
   return moment;
 }
 
-double PlateBending::energy(std::span<const Vec3> x) const {
-  std::vector<double> bend;
-  bend.reserve(plate_.hinges.size());
-  for (const Hinge& h : plate_.hinges) {
-    const auto& v = h.vertices;
-    bend.push_back(physics::bend(dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]), h.rest_angle));
-  }
-  double energy = 0;
-  moments_of(bend, energy);
-  return energy;
-}
+double PlateBending::energy(std::span<const Vec3> x) const { return layout_.add_forces(x, {}); }
 
 std::vector<double> PlateBending::moments(std::span<const Vec3> x) const {
   double energy = 0;
@@ -113,11 +102,7 @@ std::vector<double> PlateBending::moments(std::span<const Vec3> x) const {
 }
 
 void PlateBending::add_forces(std::span<const Vec3> x, std::span<Vec3> force) const {
-  const Bends b(plate_.hinges, x);
-  double energy = 0;
-  const std::vector<double> moment = moments_of(b.bend, energy);
-  for (std::size_t h = 0; h < moment.size(); ++h)
-    for (std::size_t k = 0; k < 4; ++k) force[plate_.hinges[h].vertices[k]] -= moment[h] * b.gradient[h][k];
+  layout_.add_forces(x, force);
 }
 
 /// J^T A D J of each triangle, J = dk/dx.
@@ -166,6 +151,14 @@ bool PlateBending::add_stiffness(std::span<const Vec3> x, Stiffness stiffness, c
     if (i != j) sink(j, i, blocks[p].transpose());
   }
   return true;
+}
+
+int count_coupled(const Cloth& cloth) {
+  int n = 0;
+  for (const auto& own : cloth.energies)
+    if (const auto* plate = dynamic_cast<const PlateBending*>(own.get()))
+      n += int(plate->plate().hinges.size());
+  return n;
 }
 
 CoupledHinges couple_hinges(Cloth& cloth, std::span<const std::array<double, 3>> rest_lengths,

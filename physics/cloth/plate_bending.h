@@ -5,6 +5,7 @@
 
 #include "physics/cloth/cloth.h"
 #include "physics/cloth/plate.h"
+#include "physics/cloth/plate_forces.h"
 
 namespace furrow::physics {
 
@@ -34,7 +35,7 @@ class PlateBending : public Energy {
                             std::vector<Mat3>& blocks) const;
 
   Plate plate_;
-  std::size_t particles_;
+  PlateLayout layout_;
   std::vector<int> gather_begin_, gather_;  ///< of each hinge its entries in the plate's rows
   // Which blocks of K there are, on and below the diagonal, and which of them a triangle and a hinge fill.
   std::vector<std::array<int, 2>> pairs_;
@@ -48,6 +49,8 @@ class PlateBending : public Energy {
 struct CoupledHinges {
   int coupled = 0, plain = 0, slivers = 0;
 };
+/// Hinges of the plates among a cloth's energies.
+int count_coupled(const Cloth& cloth);
 /// Takes the hinges of a cloth that a plate can have out of it and puts a PlateBending of them behind its
 /// energies; the others stay, with the stiffness that they have. rest_lengths: of cloth.triangles. Pins must
 /// be set, and stiffen_clamps() not called: a plate knows its clamps. Nothing happens if none can be coupled.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "physics/base/lanes_geometry.h"
+#include "physics/cloth/dihedral_lanes.h"
 #include "physics/packed/packed_elements.h"
 
 namespace furrow::physics {
@@ -58,35 +58,17 @@ void draw(const FourTensions* tensions, const Vec4* x, Vec4* slot, int begin, in
   }
 }
 
-struct Bend {
-  Vectors gradient[4];
-  Lanes angle;
-};
-
-/// See dihedral.cpp: the same formulas.
-FURROW_INLINE void bend_of(const FourHinges& h, const Vec4* x, Bend& b) {
-  const Vectors x0 = gathered(x, h.vertex[0]), x1 = gathered(x, h.vertex[1]);
-  const Vectors e = x1 - x0, f = gathered(x, h.vertex[2]) - x0, g = gathered(x, h.vertex[3]) - x1;
-  const Vectors na = cross(e, f), nb = cross(g, e);
-  Lanes l2, a2, b2, fe, ge, l, sine, cosine;
-  dot(e, e, l2), dot(na, na, a2), dot(nb, nb, b2), dot(f, e, fe), dot(g, e, ge);
-  square_root(l2, l);
-  dot(cross(na, nb), e, sine), dot(na, nb, cosine);
+/// The gradients at the edge's ends balance those at the tips.
+FURROW_INLINE void end_gradients(const FourBends& b, Vectors& first, Vectors& second) {
   const Lanes zero{}, one = zero + 1;
-  const auto exists = (l2 * a2 > zero + 1e-280) & (l2 * b2 > zero + 1e-280);
-  const Lanes inv = one / (exists ? l2 : one), foot_a = fe * inv, foot_b = -(ge * inv);
-  const Vectors tip_a = scaled(exists ? -l / (exists ? a2 : one) : zero, na),
-                tip_b = scaled(exists ? -l / (exists ? b2 : one) : zero, nb);
-  arc_tangent(exists ? sine * (l * inv) : zero, exists ? cosine : zero, b.angle);
-  b.gradient[0] = scaled(foot_a - one, tip_a) - scaled(foot_b, tip_b);
-  b.gradient[1] = scaled(foot_b - one, tip_b) - scaled(foot_a, tip_a);
-  b.gradient[2] = tip_a, b.gradient[3] = tip_b;
+  first = scaled(b.foot_a - one, b.tip_a) - scaled(b.foot_b, b.tip_b);
+  second = scaled(b.foot_b - one, b.tip_b) - scaled(b.foot_a, b.tip_a);
 }
 
 FURROW_INLINE void moment_of(const FourHinges& h, bool cosine, const Lanes& angle, Lanes& moment) {
-  constexpr double pi = std::numbers::pi;
-  const Lanes zero{}, raw = angle - at(h.rest_angle);
-  const Lanes phi = raw > zero + pi ? raw - 2 * pi : (raw <= zero - pi ? raw + 2 * pi : raw);
+  const Lanes zero{};
+  Lanes phi;
+  bend_of(angle, at(h.rest_angle), phi);
   moment = at(h.stiffness) * phi;
   if (!cosine) return;
   Lanes s;
@@ -98,11 +80,16 @@ FURROW_INLINE void moment_of(const FourHinges& h, bool cosine, const Lanes& angl
 FURROW_VECTOR_CLONES
 void fold(const FourHinges* hinges, bool cosine, const Vec4* x, Vec4* slot, int begin, int end) {
   for (int i = begin; i < end; ++i) {
-    Bend b;
-    bend_of(hinges[i], x, b);
+    FourBends b;
+    bends_of(hinges[i].vertex, x, b);
     Lanes moment;
     moment_of(hinges[i], cosine, b.angle, moment);
-    for (int k = 0; k < 4; ++k) scattered(scaled(-moment, b.gradient[k]), slot + 16 * i + k, 4);
+    Vectors first, second;
+    end_gradients(b, first, second);
+    scattered(scaled(-moment, first), slot + 16 * i, 4);
+    scattered(scaled(-moment, second), slot + 16 * i + 1, 4);
+    scattered(scaled(-moment, b.tip_a), slot + 16 * i + 2, 4);
+    scattered(scaled(-moment, b.tip_b), slot + 16 * i + 3, 4);
   }
 }
 

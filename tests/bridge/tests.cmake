@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(bridge bridge LIBRARIES furrow::bridge garment_cases SOURCES
+  couple_bending_test.cpp
   drape_test.cpp
   draw_more_test.cpp
   fit_ease_test.cpp

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "physics/cloth/plate_bending.h"
-#include "tests/cases/flat_meshes.h"
 
 namespace furrow::cases {
 
@@ -67,6 +66,32 @@ std::vector<char> core_of(const Cloth& cloth, int rings) {
   for (const auto& t : cloth.triangles)
     core.push_back(std::all_of(t.begin(), t.end(), [&](int v) { return ring[std::size_t(v)] >= rings; }));
   return core;
+}
+
+ClampedStrip clamped_strip(SheetKind kind, double length, double width, int columns, double young,
+                           double density) {
+  ClampedStrip strip{sheet_of(kind, length, width, columns, density), {}, length, width, density};
+  Cloth& cloth = strip.cloth;
+  cloth.structural.clear();
+  Particles& p = cloth.particles;
+  const double end = 1e-9 * length, h = length / columns;
+  for (int i = 0; i < int(p.size()); ++i)
+    if (p.x[std::size_t(i)].x() > length - end) strip.tip.push_back(i);
+  std::sort(strip.tip.begin(), strip.tip.end(),
+            [&](int a, int b) { return p.x[std::size_t(a)].y() < p.x[std::size_t(b)].y(); });
+  for (const EdgeApexes& e : edges_of(cloth.triangles)) {
+    const Vec3 a = p.x[std::size_t(e.a)], b = p.x[std::size_t(e.b)];
+    if (a.x() > end || b.x() > end) continue;
+    const bool up = e.left >= 0;  // the triangle that there is lies left of a -> b
+    cloth.triangles.push_back({up ? e.b : e.a, up ? e.a : e.b, int(p.size())});
+    p.inv_mass[std::size_t(e.a)] = p.inv_mass[std::size_t(e.b)] = 0;
+    p.x.push_back(0.5 * (a + b) - Vec3(h, 0, 0));
+    p.v.push_back(Vec3::Zero());
+    p.mass.push_back(1e-3 * density * h * h);
+    p.inv_mass.push_back(0);
+  }
+  add_flat_membrane(cloth, young, 0);
+  return strip;
 }
 
 }  // namespace furrow::cases

@@ -5,6 +5,7 @@
 
 #include "physics/cloth/cloth.h"
 #include "physics/cloth/plate.h"
+#include "tests/cases/flat_meshes.h"
 
 namespace furrow::cases {
 
@@ -24,5 +25,16 @@ void add_plate(physics::Cloth& cloth, const physics::PlateRigidity& rigidity, do
 std::vector<char> core_of(const physics::Cloth& cloth, int rings);
 /// Of each particle, how many edges from the border.
 std::vector<int> rings_from_border(const physics::Cloth& cloth);
+
+/// A strip along +x, clamped at x = 0: the particles there are pinned, and behind each edge of theirs the tip
+/// of one triangle. Membrane of Poisson's ratio 0; no hinges yet.
+struct ClampedStrip {
+  physics::Cloth cloth;
+  std::vector<int> tip;  ///< particles at x = length, by y
+  double length, width;  ///< [m]
+  double density;        ///< [kg/m^2]
+};
+ClampedStrip clamped_strip(SheetKind kind, double length, double width, int columns, double young,
+                           double density = 0.1);
 
 }  // namespace furrow::cases

@@ -414,3 +414,23 @@ TEST_CASE("drape: without a body a part that no pin holds is named, and nothing 
   job.scene.settings.root.erase("pins");
   CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--pin-loop") && Catch::Contains("--body"));
 }
+
+TEST_CASE(
+    "drape: a plate comes to rest on a ball, near to where hinges do, and refuses friction hinge by hinge") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = across_ball();
+  const jobs::DrapeJobReport hinges = jobs::drape(job, recorder);
+  set(job, "material.bending_law", "plate");
+  const jobs::DrapeJobReport plate = jobs::drape(job, recorder), again = jobs::drape(job, recorder);
+  const jobs::Draped a = only(hinges), b = only(plate);
+  CHECK(b.outcome().rfind("at rest", 0) == 0);  // as far off the coarse ball as hinges are
+  double apart = 0;
+  for (const geometry::Vertex v : a.file.mesh.vertices())
+    apart = std::max(apart, std::sqrt(CGAL::squared_distance(a.file.mesh.point(v), b.file.mesh.point(v))));
+  CAPTURE(apart);
+  CHECK(apart > 1e-6);  // another law
+  CHECK(apart < 0.05);
+  CHECK(without_clock(plate) == without_clock(again));
+  job.settings.bending_friction = 0.001;
+  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--bending-law hinge"));
+}

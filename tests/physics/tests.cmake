@@ -76,6 +76,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   motion/oscillations_test.cpp
   motion/speed_accuracy_test.cpp
   rest/cusick_test.cpp
+  rest/plate_strips_test.cpp
   rest/settle_cases_test.cpp
   rest/settle_strips_test.cpp
 )

@@ -19,7 +19,7 @@ using namespace furrow::cases;
 namespace {
 
 /// A sheet with hinges of random rest angles as a plate, some of it pinned, crumpled.
-Cloth crumpled(SheetKind kind, int seed, bool pinned = true, double size = 0.06) {
+Cloth crumpled_plate(SheetKind kind, int seed, bool pinned = true, double size = 0.06) {
   Cloth cloth = sheet_of(kind, 1, 1, 4);
   cloth.structural.clear();
   add_flat_hinges(cloth, 1);
@@ -40,7 +40,7 @@ const PlateBending& plate_in(const Cloth& cloth) {
 
 TEST_CASE("plate_bending: derivatives agree with finite differences at random configurations") {
   for (const SheetKind kind : {SheetKind::one_diagonal, SheetKind::jittered, SheetKind::lined}) {
-    const Cloth cloth = crumpled(kind, 3);
+    const Cloth cloth = crumpled_plate(kind, 3);
     REQUIRE(cloth.energies.size() == 1);
     const DerivativeErrors errors = derivative_errors(cloth, cloth.particles.x, 1e-5);
     CAPTURE(name_of(kind), errors.force, errors.stiffness, errors.symmetry);
@@ -53,7 +53,7 @@ TEST_CASE("plate_bending: derivatives agree with finite differences at random co
 }
 
 TEST_CASE("plate_bending: no total force or moment, and rigid motions change nothing") {
-  const Cloth cloth = crumpled(SheetKind::blue_noise, 5);
+  const Cloth cloth = crumpled_plate(SheetKind::blue_noise, 5);
   const Positions& x = cloth.particles.x;
   const Eigen::VectorXd force = forces(cloth, x);
   Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
@@ -86,7 +86,7 @@ TEST_CASE("plate_bending: a cloth at rest angles of its own is at rest") {
 }
 
 TEST_CASE("plate_bending: moments are the energy's derivatives by the angles") {
-  const Cloth cloth = crumpled(SheetKind::jittered, 4, false);
+  const Cloth cloth = crumpled_plate(SheetKind::jittered, 4, false);
   const PlateBending& bending = plate_in(cloth);
   const std::vector<double> moments = bending.moments(cloth.particles.x);
   for (const std::size_t h : {std::size_t(0), moments.size() / 2, moments.size() - 1}) {

@@ -10,7 +10,7 @@ using namespace furrow::physics;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double half_turn = std::numbers::pi;
 
 /// Of a narrow strip at an angle to the warp: its border is free, so it is 1 / (D^-1)_11 in its own axes.
 double strip_by_inverse(const PlateRigidity& p, double angle) {
@@ -23,8 +23,8 @@ TEST_CASE("plate_rigidity: strips have the rigidity that their formula says") {
   const PlateRigidity cloth{46.2e-6, 32.2e-6, twist_of_bias(46.2e-6, 32.2e-6, 30.0e-6), 0};
   CHECK(cloth.twist == Approx(12.4e-6).epsilon(5e-3));  // ivory rib knit, ../shared/bending.md
   CHECK(strip_rigidity(cloth, 0) == Approx(46.2e-6));
-  CHECK(strip_rigidity(cloth, pi / 2) == Approx(32.2e-6));
-  CHECK(strip_rigidity(cloth, pi / 4) == Approx(30.0e-6));
+  CHECK(strip_rigidity(cloth, half_turn / 2) == Approx(32.2e-6));
+  CHECK(strip_rigidity(cloth, half_turn / 4) == Approx(30.0e-6));
   for (const PlateRigidity& p : {cloth, PlateRigidity{2, 1, 0.3, 0.4}, isotropic_plate(1.7, 0.3)})
     for (double angle = -1; angle < 4; angle += 0.37)
       CHECK(strip_rigidity(p, angle) == Approx(strip_by_inverse(p, angle)).epsilon(1e-12));
@@ -41,7 +41,7 @@ TEST_CASE("plate_rigidity: a plate that is the same in all directions has one ma
 }
 
 TEST_CASE("plate_rigidity: a turn by a right angle changes warp and weft") {
-  const Eigen::Matrix3d d = plate_matrix({3, 1, 0.5, 0}, pi / 2);
+  const Eigen::Matrix3d d = plate_matrix({3, 1, 0.5, 0}, half_turn / 2);
   CHECK(d(0, 0) == Approx(1));
   CHECK(d(1, 1) == Approx(3));
   CHECK(d(2, 2) == Approx(0.5));

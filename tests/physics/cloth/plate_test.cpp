@@ -27,7 +27,7 @@ std::vector<Vector3d> curvatures() {
 }
 
 /// How the hinges' angles begin to change where a flat sheet is raised to w = -x^T K x / 2.
-VectorXd bends(const Cloth& cloth, const std::vector<Hinge>& hinges, const Vector3d& k) {
+VectorXd hinge_bends(const Cloth& cloth, const std::vector<Hinge>& hinges, const Vector3d& k) {
   VectorXd q(Eigen::Index(hinges.size()));
   const auto& x = cloth.particles.x;
   for (std::size_t h = 0; h < hinges.size(); ++h) {
@@ -44,7 +44,7 @@ VectorXd bends(const Cloth& cloth, const std::vector<Hinge>& hinges, const Vecto
   return q;
 }
 
-double energy_of(const Plate& plate, int t, const VectorXd& q) {
+double row_energy(const Plate& plate, int t, const VectorXd& q) {
   Vector3d k = Vector3d::Zero();
   for (int e = plate.begin[t]; e < plate.begin[t + 1]; ++e) k += q[plate.hinge[e]] * plate.share[e];
   return 0.5 * k.dot(plate.stiffness[t] * k);
@@ -68,12 +68,12 @@ Range plate_energies(const Cloth& cloth, const PlateRigidity& rigidity) {
   const Eigen::Matrix3d d = plate_matrix(rigidity, 0);
   Range range;
   for (const Vector3d& k : curvatures()) {
-    const VectorXd q = bends(cloth, parts.plate.hinges, k);
+    const VectorXd q = hinge_bends(cloth, parts.plate.hinges, k);
     double sum = 0, right = 0;
     for (int t = 0; t < parts.plate.triangles(); ++t) {
       const int triangle = parts.triangles[t];
       if (!core[triangle]) continue;
-      sum += energy_of(parts.plate, t, q);
+      sum += row_energy(parts.plate, t, q);
       right += 0.5 * area_of(cloth, triangle) * k.dot(d * k);
     }
     REQUIRE(right > 0);
@@ -88,7 +88,7 @@ Range hinge_energies(const Cloth& cloth) {
   const PlateParts parts = plate_of(cloth, isotropic_plate(1));
   Range range;
   for (const Vector3d& k : curvatures()) {
-    const VectorXd q = bends(cloth, parts.plate.hinges, k);
+    const VectorXd q = hinge_bends(cloth, parts.plate.hinges, k);
     double sum = 0, right = 0;
     for (int t = 0; t < parts.plate.triangles(); ++t) {
       if (!core[parts.triangles[t]]) continue;
@@ -117,7 +117,7 @@ MatrixXd matrix_of(const Plate& plate) {
 }
 
 /// Eigenvalues of Q in units of the plain hinges' stiffness, least and largest.
-Range spectrum(const Plate& plate) {
+Range plate_spectrum(const Plate& plate) {
   const MatrixXd q = matrix_of(plate);
   VectorXd scale(q.rows());
   for (Eigen::Index h = 0; h < q.rows(); ++h) scale[h] = 1 / std::sqrt(plate.hinges[h].stiffness);
@@ -166,7 +166,7 @@ TEST_CASE("plate: plain hinges have not, which tests the test") {
 
 TEST_CASE("plate: the operator is definite, and about as stiff as the hinges") {
   for (const SheetKind kind : sheet_kinds) {
-    const Range range = spectrum(plate_of(sheet_of(kind, 1, 1, 8), isotropic_plate(1)).plate);
+    const Range range = plate_spectrum(plate_of(sheet_of(kind, 1, 1, 8), isotropic_plate(1)).plate);
     CAPTURE(name_of(kind), range.least, range.most);
     CHECK(range.least > 0.02);
     CHECK(range.most < (kind == SheetKind::lined ? 40 : 8));
@@ -182,11 +182,12 @@ TEST_CASE("plate: a cloth that is turned with its warp has the same energy") {
       const PlateParts parts = plate_of(cloth, rigidity, angle);
       const Eigen::Matrix3d d = plate_matrix(rigidity, angle);
       const Vector3d k(0.3, -1, 0.8);
-      const VectorXd q = bends(cloth, parts.plate.hinges, k);
+      const VectorXd q = hinge_bends(cloth, parts.plate.hinges, k);
       double sum = 0, right = 0;
       for (int t = 0; t < parts.plate.triangles(); ++t) {
         if (!core[parts.triangles[t]]) continue;
-        sum += energy_of(parts.plate, t, q), right += 0.5 * area_of(cloth, parts.triangles[t]) * k.dot(d * k);
+        sum += row_energy(parts.plate, t, q),
+            right += 0.5 * area_of(cloth, parts.triangles[t]) * k.dot(d * k);
       }
       CHECK(sum == Approx(right).epsilon(1e-4));
     }
@@ -201,7 +202,7 @@ TEST_CASE("plate: one vertex pushed against an edge spoils neither exactness nor
     const Vec3 way = cloth.particles.x[middle] - foot;
     cloth.particles.x[middle] = foot + gap * 0.1 / way.norm() * way;
     const Range energies = plate_energies(cloth, isotropic_plate(1)),
-                stiff = spectrum(plate_of(cloth, isotropic_plate(1)).plate);
+                stiff = plate_spectrum(plate_of(cloth, isotropic_plate(1)).plate);
     CAPTURE(gap, energies.least - 1, energies.most - 1, stiff.least, stiff.most);
     CHECK(std::abs(energies.least - 1) < 1e-3);
     CHECK(std::abs(energies.most - 1) < 1e-3);
@@ -218,11 +219,11 @@ TEST_CASE("plate: slivers, lonely triangles and cloth that is held stay finite")
   const PlateParts sliver = plate_of(cloth, isotropic_plate(1));
   CHECK(sliver.slivers == 1);
   CHECK(sliver.plain.empty());
-  CHECK(spectrum(sliver.plate).most < 600);
+  CHECK(plate_spectrum(sliver.plate).most < 600);
   cloth.particles.x[middle] = foot;  // without area
   const PlateParts collapsed = plate_of(cloth, isotropic_plate(1));
   CHECK(collapsed.plain.size() == 3);
-  CHECK(spectrum(collapsed.plate).most < 600);
+  CHECK(plate_spectrum(collapsed.plate).most < 600);
 
   CHECK(
       plate_of(cloth_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}), isotropic_plate(1)).coupled.empty());
