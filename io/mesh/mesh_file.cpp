@@ -11,6 +11,7 @@
 #include "io/base/bytes_file.h"
 #include "io/base/lower_case.h"
 #include "io/mesh/file_frame.h"
+#include "io/mesh/material_libraries.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
 #include "io/mesh/soup_to_mesh.h"
@@ -59,7 +60,9 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options
   const MeshFormat format = mesh_format(path);
   if (path == "-") return read_mesh(std::cin, format, "standard input", options);
   if (format == MeshFormat::gltf) return read_gltf(path, options);
-  return parse(read_text(path), format, path.string(), options);
+  MeshFile file = parse(read_text(path), format, path.string(), options);
+  file.folder = folder_of(path);
+  return file;
 }
 
 MeshFile read_mesh(std::istream& in, MeshFormat format, const std::string& name, const ReadOptions& options) {
@@ -79,7 +82,12 @@ void write_mesh(const std::filesystem::path& path, const MeshFile& file, const W
   if (format == MeshFormat::gltf)
     throw std::invalid_argument(path.string() + ": glTF is not written; choose obj, ply, off or stl");
   check_positions(file.mesh, options);
-  write_atomically(path, [&](std::ostream& out) { write_mesh(out, format, file, options); });
+  write_atomically(path, [&](std::ostream& out) {
+    if (format == MeshFormat::obj)
+      write_obj(out, file, options, folder_of(path));
+    else
+      write_mesh(out, format, file, options);
+  });
 }
 
 void write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file, const WriteOptions& options) {

@@ -41,6 +41,7 @@ struct MeshFile {
   std::vector<std::string> comments;            ///< without the comment mark; PLY and OBJ
   std::vector<std::string> warnings;            ///< e.g. "single precision, vertex order not kept"
   RepairReport repairs;
+  std::filesystem::path folder;  ///< that material_libraries are relative to; empty: not known
 };
 
 /// The axis of a file that points up; we work with y up.
@@ -70,7 +71,8 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options
 MeshFile read_mesh(std::istream& in, MeshFormat format, const std::string& name,
                    const ReadOptions& options = {});
 
-/// Writes by the file name's ending: obj, ply, off, stl; to a temporary beside it, then renames.
+/// Writes by the file name's ending: obj, ply, off, stl; to a temporary beside it, then renames. An OBJ in
+/// another folder than the mesh was read from names the material libraries there from here.
 /// Throws std::invalid_argument for "-" and for an ending that we do not write, nothing written;
 /// std::runtime_error if the file cannot be written, the old one left as it was.
 void write_mesh(const std::filesystem::path& path, const MeshFile& file, const WriteOptions& options = {});

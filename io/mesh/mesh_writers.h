@@ -16,7 +16,9 @@ namespace furrow::io {
 /// shared; a face with a corner that has none gets none), g, usemtl, f; and as `l` elements the chains of
 /// line edges (e:line_edge) or, where the mesh has none, `polylines` (those without vertices of the mesh get
 /// vertices of their own at the end).
-void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& options);
+/// In `folder`, if it is known, material libraries are named from there.
+void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& options,
+               const std::filesystem::path& folder = {});
 /// PLY, binary little-endian, double: every map of geometry/mesh/property_names.h that the mesh has, and its
 /// vertex attributes (decision 0005). Throws geometry::ContentError for an attribute that is named like
 /// another column of the vertices.

@@ -8,6 +8,7 @@
 #include "geometry/mesh/property_names.h"
 #include "io/base/number_text.h"
 #include "io/mesh/chain_segments.h"
+#include "io/mesh/material_libraries.h"
 #include "io/mesh/mesh_writers.h"
 
 namespace furrow::io {
@@ -17,12 +18,13 @@ using namespace geometry;
 
 class ObjWriter {
  public:
-  ObjWriter(const MeshFile& file, const WriteOptions& options)
-      : file_(file), mesh_(file.mesh), options_(options), numbers_(vertex_numbers(mesh_)) {}
+  ObjWriter(const MeshFile& file, const WriteOptions& options, const std::filesystem::path& folder)
+      : file_(file), mesh_(file.mesh), options_(options), folder_(folder), numbers_(vertex_numbers(mesh_)) {}
 
   std::string text() {
     for (const std::string& comment : file_.comments) out_ += "# " + one_line(comment) + "\n";
-    for (const std::string& library : file_.material_libraries) out_ += "mtllib " + one_line(library) + "\n";
+    for (const std::string& library : file_.material_libraries)
+      out_ += "mtllib " + one_line(library_from(library, file_.folder, folder_)) + "\n";
     write_vertices();
     write_textures();
     write_faces();
@@ -146,6 +148,7 @@ class ObjWriter {
   const MeshFile& file_;
   const Mesh& mesh_;
   const WriteOptions& options_;
+  const std::filesystem::path& folder_;
   std::vector<std::size_t> numbers_;
   std::vector<std::size_t> texture_numbers_;  ///< by half-edge, from 1; 0 = none
   std::string out_;
@@ -153,9 +156,10 @@ class ObjWriter {
 
 }  // namespace
 
-void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& options) {
+void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& options,
+               const std::filesystem::path& folder) {
   check_positions(file.mesh, options);
-  out << ObjWriter(file, options).text();
+  out << ObjWriter(file, options, folder).text();
 }
 
 }  // namespace furrow::io

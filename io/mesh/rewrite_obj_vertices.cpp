@@ -6,6 +6,7 @@
 #include "geometry/mesh/errors.h"
 #include "io/base/number_text.h"
 #include "io/mesh/file_frame.h"
+#include "io/mesh/material_libraries.h"
 
 namespace furrow::io {
 namespace {
@@ -30,6 +31,14 @@ class Words {
     const std::size_t start = position_;
     while (!at_end() && !is_space(text_[position_]) && !joint_length()) ++position_;
     return text_.substr(start, position_ - start);
+  }
+
+  /// All words that are left of this line, with the blanks between them.
+  std::string_view words() {
+    const std::size_t first = word().size(), start = position_ - first;
+    std::size_t end = position_;
+    while (!word().empty()) end = position_;
+    return text_.substr(start, end - start);
   }
 
   /// To behind the end of this line.
@@ -66,7 +75,8 @@ bool has_value(std::string_view word, double value) {
 }  // namespace
 
 std::string rewrite_obj_vertices(std::string_view text, const std::string& name,
-                                 std::span<const geometry::Point> positions, const WriteOptions& options) {
+                                 std::span<const geometry::Point> positions, const WriteOptions& options,
+                                 const std::filesystem::path& there, const std::filesystem::path& here) {
   std::string result;
   result.reserve(text.size() + text.size() / 4);
   constexpr std::string_view mark = "\xEF\xBB\xBF";  // of UTF-8; it stands before the first word
@@ -75,8 +85,18 @@ std::string rewrite_obj_vertices(std::string_view text, const std::string& name,
     text.remove_prefix(mark.size());
   }
   std::size_t copied = 0, vertex = 0;
+  const auto copy_until = [&](std::string_view word) {
+    const std::size_t start = static_cast<std::size_t>(word.data() - text.data());
+    result += text.substr(copied, start - copied);
+    copied = start + word.size();
+  };
   for (Words words(text); !words.at_end(); words.skip_line()) {
-    if (words.word() != "v") continue;
+    const std::string_view keyword = words.word();
+    if (keyword == "mtllib") {
+      const std::string_view library = words.words();
+      if (!library.empty()) copy_until(library), result += library_from(std::string(library), there, here);
+    }
+    if (keyword != "v") continue;
     if (vertex == positions.size())
       throw geometry::ContentError(name + ": has more vertices than the mesh that was read from it");
     const geometry::Vector p = to_file(positions[vertex++], options);
@@ -84,13 +104,11 @@ std::string rewrite_obj_vertices(std::string_view text, const std::string& name,
       const std::string_view word = words.word();
       if (word.empty())
         throw geometry::ContentError(name + ": vertex " + std::to_string(vertex) + " has no three numbers");
-      const std::size_t end = words.position(), start = end - word.size();
-      result += text.substr(copied, start - copied);
+      copy_until(word);
       if (has_value(word, p[k]))
         result += word;
       else
         append_number(result, p[k]);
-      copied = end;
     }
   }
   return result += text.substr(copied);

@@ -8,6 +8,7 @@
 #include "geometry/mesh/sheet.h"
 #include "io/mesh/mesh_file.h"
 #include "jobs/drape.h"
+#include "jobs/transfer.h"
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
@@ -57,6 +58,33 @@ TEST_CASE("wrinkle: a garment and strokes in memory come to the bits of their fi
   CHECK(to_json(a) == to_json(b));
   CHECK(tests::positions(io::read_mesh(folder / "ridged.ply")) == tests::positions(b.garment));
   CHECK(recorder.warnings.empty());
+}
+
+TEST_CASE("wrinkle: an OBJ in another folder names the material library from there, that of transfer, too") {
+  const fs::path folder = tests::empty_folder("wrinkle_library");
+  tests::Recorder recorder;
+  for (const char* name : {"in", "out"}) fs::create_directory(folder / name);
+  std::ofstream(folder / "in/cloth.mtl") << "newmtl silk\n";
+  jobs::WrinkleJob job = ridged_sheet();
+  io::MeshFile sheet = std::get<io::MeshFile>(job.garment);
+  sheet.material_libraries = {"cloth.mtl"};
+  io::write_mesh(folder / "in/sheet.obj", sheet);
+  job.garment = folder / "in/sheet.obj";
+  const auto written_to = [&](const char* name) {
+    job.output = folder / name;
+    jobs::wrinkle(job, recorder);
+    return io::read_mesh(job.output).material_libraries;
+  };
+  using Names = std::vector<std::string>;
+  CHECK(written_to("in/ridged.obj") == Names{"cloth.mtl"});
+  CHECK(written_to("out/ridged.obj") == Names{"../in/cloth.mtl"});
+  CHECK(written_to("out/ridged.ply").empty());
+  jobs::TransferJob transfer;
+  transfer.original = folder / "in/sheet.obj";
+  transfer.wrinkled = folder / "out/ridged.ply";
+  transfer.output = folder / "out/moved.obj";
+  jobs::transfer(transfer, recorder);
+  CHECK(io::read_mesh(transfer.output).material_libraries == Names{"../in/cloth.mtl"});
 }
 
 TEST_CASE("wrinkle: a ridge and a valley side by side within their widths are told, others are not") {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 
 #include "tests/io/base/io_test_helpers.h"
 
@@ -195,6 +197,35 @@ TEST_CASE("OBJ: drawn lines of a mesh and free polylines are written as l elemen
   if (vertices.front() == 3) std::reverse(vertices.begin(), vertices.end());
   CHECK(vertices == std::vector<std::size_t>{0, 1, 2, 3});
   CHECK(back.mesh.number_of_vertices() == 8);
+}
+
+TEST_CASE("OBJ: a material library is named from the folder that the mesh is written to") {
+  const TemporaryFolder folder;
+  const auto put = [&](const std::string& name, const std::string& text) {
+    std::filesystem::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name) << text;
+  };
+  put("in/cloth.mtl", "newmtl silk\nmap_Kd silk.png\n");
+  put("in/two words.mtl", "newmtl wool\n");
+  put("in/shirt.obj", "mtllib cloth.mtl gone.mtl\nmtllib two words.mtl\nmtllib /gone/away.mtl\n" + three +
+                          "usemtl silk\nf 1 2 3\n");
+  std::filesystem::create_directories(folder / "out/deep");
+  const io::MeshFile file = io::read_mesh(folder / "in/shirt.obj");
+  REQUIRE(file.material_libraries.size() == 3);
+  const auto libraries_at = [&](const char* name, const io::MeshFile& written) {
+    io::write_mesh(folder / name, written);
+    return io::read_mesh(folder / name).material_libraries;
+  };
+  using Names = std::vector<std::string>;
+  CHECK(libraries_at("in/same.obj", file) == file.material_libraries);
+  CHECK(libraries_at("out/deep/shirt.obj", file) ==
+        Names{"../../in/cloth.mtl gone.mtl", "../../in/two words.mtl", "/gone/away.mtl"});
+  const io::MeshFile again = io::read_mesh(folder / "out/deep/shirt.obj");
+  CHECK(libraries_at("out/back.obj", again)[1] == "../in/two words.mtl");
+  CHECK(libraries_at("in/home.obj", again) == file.material_libraries);
+  io::MeshFile homeless = file;
+  homeless.folder.clear();
+  CHECK(libraries_at("out/homeless.obj", homeless) == file.material_libraries);
 }
 
 TEST_CASE("OBJ: positions that are not finite are not written") {

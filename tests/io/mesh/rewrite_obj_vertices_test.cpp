@@ -2,6 +2,8 @@
 #include "io/mesh/rewrite_obj_vertices.h"
 
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 
 #include "tests/io/base/io_test_helpers.h"
 
@@ -17,6 +19,25 @@ TEST_CASE("rewrite_obj_vertices: only coordinates change, every other byte stays
   CHECK(io::rewrite_obj_vertices(text, "a.obj", positions) ==
         "# v 9 9 9\r\nmtllib a.mtl\r\n  v\t1.50  0.25 -3e0 1 0 0\r\nvn 0 0 1\r\nv 0 \\\r\n 1 -0.5 # note\r\n"
         "v 7 8 9 1.0\ng skirt\nusemtl silk\nf 1//1 2//1 3//1\nl 1 2");
+}
+
+TEST_CASE("rewrite_obj_vertices: a material library is named from the folder that the text is for") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "in");
+  std::filesystem::create_directories(folder / "out");
+  std::ofstream(folder / "in/a b.mtl") << "newmtl silk\n";
+  std::ofstream(folder / "in/c.mtl") << "newmtl wool\n";
+  const std::string text =
+      "mtllib  a b.mtl \r\nmtllib gone.mtl c.mtl\nmtllib\nmtllib c.mtl \\\nd.mtl\nv 0 0 0\n";
+  const auto moved = [&](const char* to) {
+    return io::rewrite_obj_vertices(text, "a.obj", std::vector<Point>{{1, 0, 0}}, {}, folder / "in",
+                                    folder / to);
+  };
+  CHECK(moved("out") ==
+        "mtllib  ../in/a b.mtl \r\nmtllib gone.mtl ../in/c.mtl\nmtllib\nmtllib c.mtl \\\nd.mtl\nv 1 0 0\n");
+  std::string at_home = text;
+  at_home.replace(at_home.find("v 0"), 3, "v 1");
+  CHECK(moved("in") == at_home);
 }
 
 TEST_CASE("rewrite_obj_vertices: unit and axes of the file, and what does not fit is refused") {
