@@ -170,8 +170,7 @@ TEST_CASE("plate_bending: sheets on cylinders have the energy of their curvature
   }
 }
 
-TEST_CASE("plate_bending: free and supported squares sing as Kirchhoff's, to the second order",
-          "[release]") {
+TEST_CASE("plate_bending: free and supported squares sing as Kirchhoff's, to the second order", "[release]") {
   // Leissa 1973, free square, nu = 0.3: 13.468; supported: 2 pi^2; both in units of sqrt(D), D =
   // B / (1 - nu^2).
   const std::array<std::pair<bool, double>, 2> cases{
