@@ -79,8 +79,8 @@ void check_call(const DrapeArguments& a) {
   if (a.compare && a.picture.empty()) throw UsageError("--fabrics is a picture: name it with --picture");
   if (a.compare && (!a.out.empty() || !a.animation.empty()))
     throw UsageError("--fabrics writes a picture only; drape each by itself for its mesh");
-  if (a.picture.empty() && (a.view_chosen || !a.camera.save_camera.empty()))
-    throw UsageError("a view and --save-camera are of use with --picture only");
+  if (a.picture.empty() && (a.view_chosen || a.no_legend || !a.camera.save_camera.empty()))
+    throw UsageError("a view, --no-legend and --save-camera are of use with --picture only");
   check_picture(a.picture, "--picture");
   check_folder(a.camera.save_camera);
 }
@@ -186,10 +186,9 @@ int drape(const DrapeArguments& a) {
   if (animated) json["animation"] = a.animation;
   const bool many = report.garments.size() > 1;
   const std::string next = a.out.empty() || a.out == "-" || many ? ""
-                           : report.scene.body
-                               ? "furrow fit " + a.out + " --body " + report.scene.body->mesh.string() +
-                                     " --picture fit.png"
-                               : "furrow render " + a.out + " -o rests.png";
+                           : report.scene.body                   ? "furrow fit " + a.out + " --body " +
+                                                     report.scene.body->mesh.string() + " --picture fit.png"
+                                               : "furrow render " + a.out + " -o rests.png";
   print_report(json, common,
                {drape_lines(json), {a.out, draws ? a.picture : "", animated ? a.animation : ""}, next});
   const int code = tell_remarks(report, terminal);

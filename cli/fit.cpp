@@ -40,8 +40,9 @@ void take_sections(FitArguments& a) {
 void check_call(const FitArguments& a) {
   if (a.worn.size() > 1 && !a.compare)
     throw UsageError(std::to_string(a.worn.size()) + " garments: say --compare to lay them side by side");
-  if (a.picture.empty() && (a.view_chosen || !a.captions.empty() || !a.camera.save_camera.empty()))
-    throw UsageError("a view, --captions and --save-camera are of use with --picture only");
+  if (a.picture.empty() &&
+      (a.view_chosen || a.no_legend || !a.captions.empty() || !a.camera.save_camera.empty()))
+    throw UsageError("a view, --captions, --no-legend and --save-camera are of use with --picture only");
   if (split_at_commas(a.captions).size() > a.worn.size())
     throw UsageError("--captions: " + std::to_string(split_at_commas(a.captions).size()) + " for " +
                      std::to_string(a.worn.size()) + " garments");

@@ -27,6 +27,8 @@ using geometry::Vertex;
 
 constexpr double moved_share = 0.05;   ///< of the highest fold: cloth away from lines that far off has moved
 constexpr double away_from_lines = 1;  ///< in widths
+constexpr double beside_share =
+    0.75;  ///< of the cloth: so much of it is nearer to its place than what is told
 constexpr std::size_t most_knobs = 10;
 constexpr double knobs_apart = 0.02;  ///< [m]
 
@@ -160,11 +162,29 @@ double moved_by(const FoldSurface& surface, const std::vector<FoldCurve>& curves
   return off[off.size() / 2];
 }
 
+/// How far the feet of the vertices are from where these lay before the lines, for most of the cloth [m]: a
+/// fold that was only drawn stands straight above that place, along lines, too. 0 where the mesh does not
+/// know it.
+double beside_place(const FoldSurface& surface) {
+  const auto rest = geometry::find_map(*surface.mesh, geometry::attribute::rest_position);
+  std::vector<double> off;
+  for (Vertex v : surface.mesh->vertices()) {
+    if (!rest || !surface.has_foot(v)) continue;
+    const auto& p = (*rest)[v];
+    const double distance = (surface.feet[v.idx()] - Eigen::Vector3d(p[0], p[1], p[2])).norm();
+    if (std::isfinite(distance)) off.push_back(distance);
+  }
+  if (off.size() < 10) return 0;
+  const auto at = off.begin() + static_cast<std::ptrdiff_t>(beside_share * static_cast<double>(off.size()));
+  std::nth_element(off.begin(), at, off.end());
+  return *at;
+}
+
 bool has_moved(const FoldSurface& surface, const std::vector<FoldCurve>& curves) {
   double highest = 0;
   for (const FoldCurve& curve : curves)
     for (double k : curve.height) highest = std::max(highest, std::abs(k));
-  return moved_by(surface, curves) > moved_share * highest;
+  return moved_by(surface, curves) > moved_share * highest || beside_place(surface) > moved_share * highest;
 }
 
 /// "": the lines were measured.

@@ -86,7 +86,8 @@ class WorldBody {
 Eigen::AlignedBox3d box_of(const std::vector<physics::Vec3>& points);
 
 /// How far a garment's long edges (95th percentile at rest) cut into a limb of 5 cm radius when their ends
-/// lie on it [m].
+/// lie on it [m]. Where lines have refined the cloth in places, their many short edges would hide the long
+/// ones elsewhere: there edges count by the area that they stand for.
 double edge_sag(const geometry::Mesh& garment);
 /// The gap that a garment keeps: at least `wanted`, and never less than edge_sag() plus 1.5 field tolerances,
 /// so that faces and edges stay outside when vertices do [m]. One whose file notes the gap that it kept keeps

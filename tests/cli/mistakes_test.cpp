@@ -130,7 +130,9 @@ const Mistake mistakes[] = {
      "error: --band top: there is no length; write a border loop and the band's length as a share of the "
      "loop's: --band top=0.95 is a band 5 % shorter than the garment's upper border"},
     {"a view without a picture", "drape {m}/skirt.obj --body {m}/mannequin.obj --view front -o {d}/o.ply", 2,
-     "error: a view and --save-camera are of use with --picture only"},
+     "error: a view, --no-legend and --save-camera are of use with --picture only"},
+    {"a legend left out of no picture", "fit {m}/skirt.obj --body {m}/mannequin.obj --no-legend", 2,
+     "error: a view, --captions, --no-legend and --save-camera are of use with --picture only"},
     {"garments to compare without saying so", "fit {d}/sheet.obj {m}/skirt.obj --body {m}/mannequin.obj", 2,
      "error: 2 garments: say --compare to lay them side by side"},
     {"a section that there is not", "fit {m}/skirt.obj --body {m}/mannequin.obj --section knee=0.5", 2,

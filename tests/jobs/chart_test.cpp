@@ -13,11 +13,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-jobs::ChartJob chart_of_hung_sheet() {
+jobs::ChartJob chart_of_hung_sheet(const std::string& simulation = "") {
   jobs::ChartJob job;
   job.scene.memory.meshes["sheet"].mesh = geometry::equilateral_sheet(0.4, 0.4, 0.05);
   job.scene.settings = io::parse_toml(
-      "[garment]\nmesh = \"sheet\"\n[[pins]]\nbox = [-1, 0.399, -1, 1, 1, 1]\n[simulation]\nseconds = 0.2\n",
+      "[garment]\nmesh = \"sheet\"\n[[pins]]\nbox = [-1, 0.399, -1, 1, 1, 1]\n[simulation]\nseconds = 0.2\n" +
+          simulation,
       "test");
   job.name = "hung sheet";
   return job;
@@ -59,4 +60,11 @@ TEST_CASE("chart: options out of their range and pictures of other kinds are ref
   job = chart_of_hung_sheet();
   job.picture = "chart.jpg";
   CHECK_THROWS_AS(jobs::chart(job, recorder), std::invalid_argument);
+}
+
+TEST_CASE("chart: a scene that would settle first is refused with what helps, and charted without") {
+  tests::Recorder recorder;
+  REQUIRE_THROWS_WITH(jobs::chart(chart_of_hung_sheet("settle = true\n"), recorder),
+                      Catch::Contains("simulation.settle=false"));
+  CHECK(jobs::chart(chart_of_hung_sheet("settle = false\n"), recorder).judgement.has_answer());
 }

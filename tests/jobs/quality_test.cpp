@@ -119,6 +119,29 @@ TEST_CASE("quality: a wrinkled PLY tells its strokes and its garment, or where i
   CHECK(measure_of(hung, "B6").value.value() == Approx(with_garment.whole.angle_defect));
 }
 
+TEST_CASE("quality: cloth that moved is known by its places, though lines run all over it") {
+  jobs::WrinkleJob wide;
+  wide.garment = plain_sheet();
+  std::vector<io::DrawnStroke> ridge = one_ridge();
+  ridge[0].stroke.width = 0.5;  // no cloth is a width away from it
+  wide.strokes = ridge;
+  wide.options.insertion.rule = geometry::InsertionRule::fold;
+  tests::Recorder recorder;
+  const io::MeshFile drawn = jobs::wrinkle(wide, recorder).garment;
+  jobs::QualityJob job;
+  job.mesh = drawn;
+  CHECK(quality_of(job).lines.size() == 1);
+  io::MeshFile moved = drawn;
+  for (geometry::Vertex v : moved.mesh.vertices()) {  // it sags along itself, and out of its plane at the hem
+    const auto& p = moved.mesh.point(v);
+    moved.mesh.point(v) = {p.x(), 0.97 * p.y(), p.z() + 0.05 * p.y() * p.y()};
+  }
+  job.mesh = moved;
+  const jobs::QualityReport hung = quality_of(job);
+  CHECK(hung.lines.empty());
+  CHECK(measure_of(hung, "B1").why.find("has moved") != std::string::npos);
+}
+
 TEST_CASE("quality: a mesh without a record is measured along the lines that it carries, or as a whole") {
   io::MeshFile file = sheet_wrinkled(geometry::InsertionRule::fold, plain_sheet()).garment;
   io::MeshFile bare;

@@ -4,6 +4,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   recorder.h
   bake_test.cpp
   chart_test.cpp
+  contact_gap_test.cpp
   doctor_test.cpp
   drape_test.cpp
   field_test.cpp
