@@ -110,6 +110,7 @@ physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collid
   physics::SettleOptions rough = o.settle;
   rough.tolerance = std::max(rough.tolerance, o.coarse_tolerance);
   rough.contact_depth = std::numeric_limits<double>::infinity();
+  rough.faces = {};
   rough.max_iterations = std::min(rough.max_iterations, most_soft_iterations);
   const std::vector<physics::MembraneTriangle> own = cloth.membrane;
   for (physics::MembraneTriangle& t : cloth.membrane) {
@@ -135,6 +136,7 @@ physics::SettleOptions options_of(const DrapeOptions& o, bool last, bool stopped
   if (!last) {
     settle.tolerance = std::max(settle.tolerance, o.coarse_tolerance);
     settle.contact_depth = std::numeric_limits<double>::infinity();
+    settle.faces = {};
   }
   if (stopped) settle.max_iterations = 0;
   return settle;

@@ -17,7 +17,8 @@ namespace {
 using geometry::SectionLoop;
 using geometry::SectionPoint;
 
-constexpr double trunk_step = 0.005, trunk_reach = 0.25;  // [m]
+constexpr double trunk_step = 0.005, trunk_reach = 0.25, armhole_error = 1e-4;  // [m]
+constexpr double below_armholes = 0.025;                                        // [m], where tailors measure
 
 /// The half of the plane that is kept: normal . (p - middle) <= 0.
 struct Cut {
@@ -184,31 +185,49 @@ std::optional<Girth> find_girth(const Cloth& cloth, const std::vector<SectionLoo
   return girth;
 }
 
-/// The garment around the trunk alone: the highest section from `height` on down whose closed curve runs
-/// around the torso and no other curve of the body.
+/// The garment around the trunk alone.
 struct Trunk {
-  double below = 0;  ///< the height asked for [m]
-  double girth = 0;  ///< [m]
+  double height = 0;  ///< [m]
+  Girth girth;
 };
 
+/// At a height; nothing where no closed curve runs around the torso and no other curve of the body.
+std::optional<Trunk> trunk_at(const Cloth& cloth, const FitBody& body, double height) {
+  const auto section = geometry::torso_section(body.points, body.triangles, body.levels, height);
+  if (!section) return std::nullopt;
+  const auto loops = geometry::horizontal_section(cloth.points, cloth.triangles, height);
+  const std::array<double, 2> middle = geometry::centre_of(section->torso);
+  const SectionLoop* around = curve_around(loops, middle);
+  if (!around || !cuts_of(*section, around).empty()) return std::nullopt;
+  return Trunk{height, girth_of(cloth, {around}, {}, middle)};
+}
+
+/// Below the armholes, the first of them below `height`: at the same ring of cloth wherever it hangs.
 std::optional<Trunk> find_trunk(const Cloth& cloth, const FitBody& body, double height) {
   for (double below = trunk_step; below <= trunk_reach; below += trunk_step) {
-    const auto section = geometry::torso_section(body.points, body.triangles, body.levels, height - below);
-    if (!section) continue;
-    const auto loops = geometry::horizontal_section(cloth.points, cloth.triangles, height - below);
-    const SectionLoop* around = curve_around(loops, geometry::centre_of(section->torso));
-    if (around && cuts_of(*section, around).empty()) return Trunk{below, around->length};
+    std::optional<Trunk> trunk = trunk_at(cloth, body, height - below);
+    if (!trunk) continue;
+    double above = trunk->height + trunk_step;  // where sleeves and trunk are one
+    while (above - trunk->height > armhole_error) {
+      const double middle = (above + trunk->height) / 2;
+      if (auto higher = trunk_at(cloth, body, middle))
+        trunk = std::move(higher);
+      else
+        above = middle;
+    }
+    const auto lower = trunk_at(cloth, body, trunk->height - below_armholes);
+    return lower ? lower : trunk;
   }
   return std::nullopt;
 }
 
-/// What a section through sleeves does not tell: how wide the garment is below them.
-std::string note_on_trunk(const Trunk& trunk, double body_girth) {
+/// Where the garment was measured, and what a section through its sleeves would have told.
+std::string note_on_trunk(const Trunk& trunk, double height, double between_sleeves) {
   char text[160];
   std::snprintf(text, sizeof text,
-                "measured between the sleeves, which part from the trunk %.1f cm lower; there the garment is "
-                "%.1f cm around, %.1f cm more than the body here",
-                100 * trunk.below, 100 * trunk.girth, 100 * (trunk.girth - body_girth));
+                "the garment is measured around the trunk below its armholes, %.1f cm lower, as the sleeves "
+                "join it here; between them it is %.1f cm around",
+                100 * (height - trunk.height), 100 * between_sleeves);
   return text;
 }
 
@@ -229,13 +248,14 @@ FitEase ease_at(const std::string& name, double height, const Cloth& cloth, cons
                               : "the garment does not close around the torso at this height";
     return ease;
   }
-  ease.garment_girth = girth->length;
-  ease.ease = girth->length - *ease.body_girth;
-  if (girth->is_cut)
-    if (const auto trunk = find_trunk(cloth, body, height))
-      ease.note = note_on_trunk(*trunk, *ease.body_girth);
+  const std::optional<Trunk> trunk = girth->is_cut ? find_trunk(cloth, body, height) : std::nullopt;
+  if (trunk) ease.note = note_on_trunk(*trunk, height, girth->length);
+  const Girth& measured = trunk ? trunk->girth : *girth;
+  ease.garment_height = trunk ? trunk->height : height;
+  ease.garment_girth = measured.length;
+  ease.ease = measured.length - *ease.body_girth;
   if (cloth.rest.empty()) return ease;
-  ease.rest_girth = girth->length * girth->share;  // the closing lines as the cloth between them
+  ease.rest_girth = measured.length * measured.share;  // the closing lines as the cloth between them
   ease.rest_ease = *ease.rest_girth - *ease.body_girth;
   return ease;
 }

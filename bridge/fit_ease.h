@@ -21,10 +21,12 @@ struct FitBody {
 /// horizontal_section() and rest_lengths() do.
 ///
 /// \details The curve may run around another curve of the body, too, such as an arm in a sleeve that has
-/// grown together with the chest. Then it is cut halfway between torso and arm, at right angles to the
-/// shortest way between them, and closed by a straight line. Where no curve is closed, because a sleeve ends
-/// at this height, what is left between such cuts counts if no border ends in it and it covers more than half
-/// of the torso.
+/// grown together with the chest. Then the garment is measured around the trunk, 2.5 cm below its armholes
+/// (which are found to 0.1 mm), as tailors do: so sizes that hang higher or lower are measured at the same
+/// ring of cloth. Where its trunk does not close within 25 cm, the curve is cut halfway between torso and
+/// arm, at right angles to the shortest way between them, and closed by a straight line. Where no curve is
+/// closed, because a sleeve ends at this height, what is left between such cuts counts if no border ends in
+/// it and it covers more than half of the torso.
 std::vector<FitEase> measure_ease(const geometry::Mesh& garment, const FitBody& body,
                                   const SectionHeights& heights);
 

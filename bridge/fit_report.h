@@ -65,15 +65,17 @@ struct FitPiercing {
 
 /// Room between garment and body at one height. What cannot be measured is missing, and `note` says why.
 struct FitEase {
-  std::string name;                     ///< chest, waist or hip
-  double height = 0;                    ///< y [m]
-  std::optional<double> body_girth;     ///< by the tape measure (geometry/figure/horizontal_section.h) [m]
-  std::optional<double> garment_girth;  ///< the garment's curve around the body, all its folds followed [m]
-  std::optional<double> ease;           ///< garment_girth - body_girth [m]
-  std::optional<double> rest_girth;     ///< the same curve with the cloth unstrained [m]; none without rest
+  std::string name;                      ///< chest, waist or hip
+  double height = 0;                     ///< y, where the body is measured [m]
+  std::optional<double> garment_height;  ///< y, where the garment is measured [m]: below its armholes where
+                                         ///< the section at `height` runs through its sleeves
+  std::optional<double> body_girth;      ///< by the tape measure (geometry/figure/horizontal_section.h) [m]
+  std::optional<double> garment_girth;   ///< the garment's curve around the body, all its folds followed [m]
+  std::optional<double> ease;            ///< garment_girth - body_girth [m]
+  std::optional<double> rest_girth;      ///< the same curve with the cloth unstrained [m]; none without rest
   std::optional<double>
       rest_ease;  ///< rest_girth - body_girth [m]: < 0, the garment is smaller than the body
-  /// "", why something is missing, or of a section through sleeves how wide the garment is below them.
+  /// "", why something is missing, or that the garment is measured below its armholes.
   std::string note;
 };
 

@@ -125,7 +125,8 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   const std::vector<io::Scene> scenes = scenes_of(job, open);
   const Context context{open.frame, listener, &job.scene.memory};
   std::optional<BodyCollider> body;
-  if (open.scene.body) body.emplace(load_body(*open.scene.body, context));
+  if (open.scene.body)
+    body.emplace(load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap)));
   const bool choose =
       !job.subdivide && !open.document.root.value("garment", Json::object()).contains("subdivide");
   DrapeJobReport report{{}, {}, scenes[0], open.frame};

@@ -127,6 +127,7 @@ Json to_json(const std::vector<bridge::FitEase>& list) {
   for (const bridge::FitEase& e : list) {
     rows.push_back({{"section", e.name},
                     {"height", e.height},
+                    {"garment_height", to_json(e.garment_height)},
                     {"body_girth", to_json(e.body_girth)},
                     {"garment_girth", to_json(e.garment_girth)},
                     {"ease", to_json(e.ease)},

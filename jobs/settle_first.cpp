@@ -96,7 +96,7 @@ std::optional<MemoryFiles> settle_first(const io::Scene& scene, const Context& c
   alone.lines.clear();
   alone.output = {};
   const ProgressScope progress(context.listener, "settling");
-  const BodyCollider body = load_body(*scene.body, quiet);
+  const BodyCollider body = load_body(*scene.body, quiet, tolerance_for(scene.simulation.contact_gap));
   const Draped draped = drape_garment(alone, &body, {}, false, quiet);
   if (draped.falls || draped.broken || draped.report.stopped) return std::nullopt;
   io::MeshFile rests = before;

@@ -81,7 +81,8 @@ void change_plan(const Run& run, io::SavedState& now) {
 
 /// The state with pins, on the run's body; strokes are read.
 Reached take_up(Run& run, io::SavedState now) {
-  if (run.scene.body && !run.body) run.body = std::make_shared<WorldBody>(*run.scene.body, run.context);
+  if (run.scene.body && !run.body)
+    run.body = std::make_shared<WorldBody>(*run.scene.body, run.context, tolerance_for(now.file));
   if (run.resumed && now.pins.size() != run.scene.pins.size())
     throw std::invalid_argument("the state has " + std::to_string(now.pins.size()) +
                                 " sets of pins, the scene " + std::to_string(run.scene.pins.size()) +
@@ -344,8 +345,12 @@ Judgement choose_setting(const SimulateJob& job, OpenScene& scene, const Context
                          std::shared_ptr<WorldBody>& body) {
   const JudgeOptions options{*job.tolerance, job.budget};
   check(options);
-  if (scene.scene.body) body = std::make_shared<WorldBody>(*scene.scene.body, context);
   SilentListener silent(context.listener);  // the run itself warns
+  if (scene.scene.body) {
+    const io::MeshFile garment =
+        read_garment(scene.scene.garment, {context.frame, silent, context.memory}, "garment");
+    body = std::make_shared<WorldBody>(*scene.scene.body, context, tolerance_for(garment));
+  }
   const SceneCloth cloth = prepare_scene(scene.scene, {context.frame, silent, context.memory}, body);
   Judgement judgement = judge(cloth, cloth.world(scene.scene), options, context);
   if (!judgement.has_answer()) return judgement;

@@ -222,7 +222,8 @@ struct RestPlan {
 RestPlan plan_rest(const WrinkleJob& job, geometry::Mesh& garment, const Context& context) {
   RestPlan plan{rest_scene(job, context.frame), {}, job.subdivide.value_or(0)};
   if (plan.scene.body) {
-    plan.body.emplace(load_body(*plan.scene.body, {context.frame, context.listener, &job.settle->memory}));
+    plan.body.emplace(load_body(*plan.scene.body, {context.frame, context.listener, &job.settle->memory},
+                                tolerance_for(plan.scene.simulation.contact_gap)));
     if (!job.subdivide)
       plan.refinements = refinements_for_gap(garment, plan.scene.simulation.contact_gap,
                                              plan.body->field.report().tolerance);

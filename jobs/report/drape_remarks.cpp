@@ -50,8 +50,9 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
     remarks.push_back(
         {false,
          {"gap_not_kept",
-          d.name + ": " + std::to_string(d.too_near) + " vertices are nearer to the body than the gap of " +
-              geometry::length_text(d.gap) + ", down to " + geometry::length_text(fit.distance.min) +
+          d.name + ": " + std::to_string(d.too_near) + (d.too_near == 1 ? " vertex is" : " vertices are") +
+              " nearer to the body than the gap of " + geometry::length_text(d.gap) + ", down to " +
+              geometry::length_text(fit.distance.min) +
               "; the cloth is too tight for it there, or the body leaves no room",
           d.name, ""}});
 }
@@ -203,6 +204,7 @@ Json to_json(const Draped& d) {
             {"residual_force", last.settle.residual},
             {"touching", last.settle.touching},
             {"contact_depth", last.settle.deepest},
+            {"face_contacts", last.settle.face_contacts},
             {"angle_defect", d.angle_defect},
             {"lines", jobs::to_json(d.lines)},
             {"gap", d.fit.on_body ? Json(d.gap) : Json(nullptr)},

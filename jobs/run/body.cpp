@@ -86,6 +86,16 @@ void require_area(const std::vector<physics::Vec3>& x, const std::vector<std::ar
                                  ": none of the body's faces has an area; a body is a closed surface");
 }
 
+/// 1/1000 of the body's diagonal, 2 mm at most.
+double usual_tolerance(const physics::ExactDistance& body) { return std::min(1e-3 * body.diagonal(), 0.002); }
+
+physics::DistanceFieldOptions with_finer_field(physics::DistanceFieldOptions options, double at_most,
+                                               const physics::ExactDistance& body) {
+  const double usual = usual_tolerance(body);
+  if (!options.tolerance && at_most < usual) options.tolerance = std::max(at_most, usual / 4);
+  return options;
+}
+
 std::string fingerprint_of(const std::vector<physics::Vec3>& vertices, double tolerance) {
   std::string bytes(reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof(physics::Vec3));
   bytes.append(reinterpret_cast<const char*>(&tolerance), sizeof tolerance);
@@ -117,24 +127,36 @@ physics::TriangleMesh read_body(const MeshInput& input, const Context& context, 
   return triangles;
 }
 
-BodyCollider load_body(const io::SceneBody& body, const Context& context) {
+double tolerance_for(double gap) {
+  return gap < physics::SimulateOptions{}.contact_gap ? gap / 2 : std::numeric_limits<double>::infinity();
+}
+
+double tolerance_for(const io::MeshFile& worn) {
+  const auto record = io::find_wrinkle_record(worn);
+  const bool small = record && record->contact_gap > 0 && std::isfinite(tolerance_for(record->contact_gap)) &&
+                     geometry::find_map(worn.mesh, geometry::attribute::rest_length);
+  return small ? record->contact_gap - edge_sag(worn.mesh) : std::numeric_limits<double>::infinity();
+}
+
+BodyCollider load_body(const io::SceneBody& body, const Context& context, double at_most) {
   stop_if_cancelled(context);
   BodyOutline outline;
   physics::TriangleMesh triangles =
       read_body(body.mesh, {with_unit(context.frame, body.unit), context.listener, context.memory}, &outline);
   physics::ExactDistance exact(triangles);
-  physics::DistanceField field = body.field.empty()
-                                     ? field_of(exact, threaded(body.options), body.mesh.string(), context)
-                                     : io::read_field(body.field, triangles);
+  physics::DistanceField field =
+      body.field.empty() ? field_of(exact, with_finer_field(threaded(body.options), at_most, exact),
+                                    body.mesh.string(), context)
+                         : io::read_field(body.field, triangles);
   return {std::move(triangles), std::move(exact), std::move(field), outline};
 }
 
-WorldBody::WorldBody(const io::SceneBody& body, const Context& context)
+WorldBody::WorldBody(const io::SceneBody& body, const Context& context, double at_most)
     : path_(body.mesh.string()), unit_(body.unit), motion_(body.motion) {
   if (!body.frames.empty()) {
     read_frames(body, {with_unit(context.frame, body.unit), context.listener, context.memory});
   } else {
-    rigid_ = std::make_unique<BodyCollider>(load_body(body, context));
+    rigid_ = std::make_unique<BodyCollider>(load_body(body, context, at_most));
     tolerance_ = rigid_->field.report().tolerance;
     fingerprint_ = fingerprint_of(rigid_->triangles.vertices, tolerance_);
   }
@@ -203,6 +225,11 @@ std::unique_ptr<physics::Collider> WorldBody::at_start() const {
   const physics::Collider& shape =
       animated_ ? static_cast<const physics::Collider&>(*animated_) : rigid_->field;
   return std::make_unique<physics::PosedCollider>(shape, here);
+}
+
+std::unique_ptr<physics::Collider> WorldBody::precise_at_start() const {
+  if (!rigid_) return nullptr;
+  return std::make_unique<physics::PosedCollider>(rigid_->exact, physics::pose(motion_, 0));
 }
 
 int WorldBody::fields_until(double seconds) const {
@@ -347,8 +374,7 @@ double contact_distance(const io::MeshFile& garment, const physics::ExactDistanc
     return contact_distance(record->contact_gap);
   io::MeshFile file = garment;
   geometry::ensure_rest_lengths(file.mesh);
-  const double field_tolerance = std::min(1e-3 * body.diagonal(), 0.002);  // by default
-  return contact_distance(contact_gap(physics::SimulateOptions{}.contact_gap, field_tolerance, file));
+  return contact_distance(contact_gap(physics::SimulateOptions{}.contact_gap, usual_tolerance(body), file));
 }
 
 }  // namespace furrow::jobs

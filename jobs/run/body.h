@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Geometry>
+#include <limits>
 #include <memory>
 
 #include "io/animation/animation_file.h"
@@ -30,20 +31,32 @@ Frame with_unit(Frame frame, const std::optional<std::string>& unit);
 physics::TriangleMesh read_body(const MeshInput& input, const Context& context,
                                 BodyOutline* outline = nullptr);
 
+/// The error of a field that leaves a gap [m] below the usual one: half of it; else infinite, the default
+/// does.
+double tolerance_for(double gap);
+/// That lets a garment go on with the gap that its file notes, where that is below the usual one.
+double tolerance_for(const io::MeshFile& worn);
+
 /// Reads and repairs a body, and builds its field or loads the saved one; shows progress. Warns of what was
-/// repaired.
-BodyCollider load_body(const io::SceneBody& body, const Context& context);
+/// repaired. Unless the body has a tolerance of its own, it is `at_most` [m], but no less than a quarter of
+/// the default, which would take very long.
+BodyCollider load_body(const io::SceneBody& body, const Context& context,
+                       double at_most = std::numeric_limits<double>::infinity());
 
 /// A body as a scene has it: rigid, perhaps moved, or changing its shape.
 class WorldBody {
  public:
-  /// Throws geometry::ContentError for frames that are not those of the mesh, or a mesh of frames that is not
-  /// closed (it cannot be repaired without losing the order of its vertices).
-  WorldBody(const io::SceneBody& body, const Context& context);
+  /// at_most: of a rigid body, as load_body(). Throws geometry::ContentError for frames that are not those of
+  /// the mesh, or a mesh of frames that is not closed (it cannot be repaired without losing the order of its
+  /// vertices).
+  WorldBody(const io::SceneBody& body, const Context& context,
+            double at_most = std::numeric_limits<double>::infinity());
 
   void add_to(physics::World& world) const;
   /// As it lies at time 0. It must not outlive this body.
   std::unique_ptr<physics::Collider> at_start() const;
+  /// The same, precisely; null: it changes its shape.
+  std::unique_ptr<physics::Collider> precise_at_start() const;
   double tolerance() const { return tolerance_; }  ///< of the field [m]
   /// Fields that a run from time 0 to `seconds` builds on its way; 0: rigid.
   int fields_until(double seconds) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/run/drape_garment.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -218,7 +220,8 @@ double gap_with(double wanted, double sag, double tolerance) { return std::max(w
 /// What lowers a gap that the edges' sag and the field's tolerance raised.
 std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels, double wanted,
                           double tolerance) {
-  if (sag <= tolerance) return "--tolerance asks for a finer field of the body";
+  if (sag <= tolerance)
+    return fmt::format("--set body.tolerance={:.2g} asks for a finer field of the body", tolerance / 2);
   const double vertices = double(garment.number_of_vertices()) * std::pow(4, levels + 1);
   const bool drawn = geometry::find_map(garment, geometry::attribute::line).has_value();
   return std::string("its edges are long: ") +
@@ -394,6 +397,7 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   const double gap = gap_of(scene, body, given.file.mesh, context);
   DrapePlan plan{scene, body, s, given.file, options_of(scene, s, gap)};
   plan.options.soft_start = soft_start_of(given.file);
+  if (body) plan.options.settle.faces = {&body->exact, body->field.report().tolerance};
   const CrossedStart crossed = crossed_start(given.file.mesh, scene.subdivide);
   const FallWatch watch(given.file.mesh, body, gap);
   const double start = now();

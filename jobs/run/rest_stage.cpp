@@ -38,6 +38,9 @@ RestStage rest_stage(io::MeshFile& garment, const io::Scene& scene, const std::v
   RestStage stage;
   stage.angle_defect_before = geometry::angle_defect(garment.mesh);
   const std::unique_ptr<physics::Collider> collider = body ? body->at_start() : nullptr;
+  const std::unique_ptr<physics::Collider> precise = body ? body->precise_at_start() : nullptr;
+  bridge::DrapeOptions options = rest_options(scene, gap, garment);
+  if (precise) options.settle.faces = {precise.get(), body->tolerance()};
   const ProgressScope progress(context.listener, "settling");
   double first = 0;
   const auto observe = [&](int, const physics::SettleProgress& p, const physics::Cloth&) {
@@ -57,8 +60,7 @@ RestStage rest_stage(io::MeshFile& garment, const io::Scene& scene, const std::v
   };
   geometry::Mesh mesh = garment.mesh;
   physics::Cloth cloth;
-  const bridge::DrapeReport report =
-      bridge::drape(mesh, cloth, collider.get(), rest_options(scene, gap, garment), make, observe);
+  const bridge::DrapeReport report = bridge::drape(mesh, cloth, collider.get(), options, make, observe);
   stop_if_cancelled(context);
   for (const geometry::Vertex v : mesh.vertices()) garment.mesh.point(v) = mesh.point(v);
   stage.settle = report.levels.back().settle;

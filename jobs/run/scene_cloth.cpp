@@ -145,7 +145,8 @@ int threads_of(const io::Scene& scene, std::size_t vertices) {
 SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::shared_ptr<WorldBody> body) {
   SceneCloth result;
   result.file = begin_garment(scene, context);
-  if (scene.body && !body) body = std::make_shared<WorldBody>(*scene.body, context);
+  if (scene.body && !body)
+    body = std::make_shared<WorldBody>(*scene.body, context, tolerance_for(result.file));
   result.body = std::move(body);
   result.pins = find_pins(result.file, scene.pins);
   if (result.body) warn_if_apart(scene, *result.body, result.file.mesh, context);

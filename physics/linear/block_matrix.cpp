@@ -40,12 +40,9 @@ BlockMatrix::BlockMatrix(std::span<const double> inv_mass, std::span<const std::
                                     zeros.data());
 }
 
-BlockMatrix::Place BlockMatrix::place(int i, int j) const {
-  const int column = std::min(row(i), row(j)), r = std::max(row(i), row(j));
-  if (column < 0) return {};
+int BlockMatrix::find_below(int column, int r) const {
   const int begin = lower_.outerIndexPtr()[3 * column];
   const int length = lower_.outerIndexPtr()[3 * column + 1] - begin;
-  if (r == column) return {begin, length, Place::diagonal};
   const int* rows = lower_.innerIndexPtr() + begin;  // by threes, the diagonal block first
   int low = 1, high = length / 3;
   while (low < high) {
@@ -55,9 +52,23 @@ BlockMatrix::Place BlockMatrix::place(int i, int j) const {
     else
       high = middle;
   }
-  if (low >= length / 3 || rows[3 * low] != 3 * r)
-    throw std::invalid_argument("BlockMatrix: there is no " + name(i, j));
-  return {begin + 3 * low, length, row(i) > row(j) ? Place::below : Place::above};
+  return low >= length / 3 || rows[3 * low] != 3 * r ? -1 : begin + 3 * low;
+}
+
+bool BlockMatrix::has(int i, int j) const {
+  const int column = std::min(row(i), row(j)), r = std::max(row(i), row(j));
+  return column < 0 || r == column || find_below(column, r) >= 0;
+}
+
+BlockMatrix::Place BlockMatrix::place(int i, int j) const {
+  const int column = std::min(row(i), row(j)), r = std::max(row(i), row(j));
+  if (column < 0) return {};
+  const int begin = lower_.outerIndexPtr()[3 * column];
+  const int length = lower_.outerIndexPtr()[3 * column + 1] - begin;
+  if (r == column) return {begin, length, Place::diagonal};
+  const int value = find_below(column, r);
+  if (value < 0) throw std::invalid_argument("BlockMatrix: there is no " + name(i, j));
+  return {value, length, row(i) > row(j) ? Place::below : Place::above};
 }
 
 Eigen::VectorXd BlockMatrix::gather(std::span<const Vec3> v) const {

@@ -35,6 +35,8 @@ class BlockMatrix {
   /// Of the block (i, j) of particles, nowhere if one has no row. Throws std::invalid_argument for a pair
   /// that was not announced.
   Place place(int i, int j) const;
+  /// Whether place(i, j) is somewhere or nowhere, and does not throw.
+  bool has(int i, int j) const;
 
   void set_zero() { std::fill_n(lower_.valuePtr(), lower_.nonZeros(), 0.0); }
   /// Adds the block (i, j) of that place(i, j) to the matrix, which is that and its mirror image at once. Of
@@ -48,6 +50,9 @@ class BlockMatrix {
   void scatter(const Eigen::VectorXd& rows, std::span<Vec3> v) const;
 
  private:
+  /// Where the block (r, column) of rows begins, r > column; -1: there is none.
+  int find_below(int column, int r) const;
+
   int rows_ = 0;
   std::vector<int> row_;  ///< of each particle
   Sparse lower_;

@@ -90,6 +90,8 @@ void FreeStiffness::add(int particle, const Mat3& block) {
   matrix_.add(matrix_.place(particle, particle), block);
 }
 
+void FreeStiffness::add(int i, int j, const Mat3& block) { matrix_.add(matrix_.place(i, j), block); }
+
 int FreeStiffness::negative_eigenvalues() const {
   return matrix_.rows() == 0 ? 0 : negative_pivots(matrix_.lower());
 }

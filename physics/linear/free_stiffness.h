@@ -27,6 +27,10 @@ class FreeStiffness {
   /// Adds a symmetric block [N/m] to K's diagonal block of a particle, until the next assemble(); a held
   /// particle's is left out.
   void add(int particle, const Mat3& block);
+  /// The same of the block (i, j) and its mirror image; elements couple the two.
+  void add(int i, int j, const Mat3& block);
+  /// Whether elements couple two particles, or one is held.
+  bool couples(int i, int j) const { return matrix_.has(i, j); }
 
   /// Negative eigenvalues of K, -1 if that cannot be told (negative_pivots()).
   int negative_eigenvalues() const;

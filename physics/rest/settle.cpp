@@ -13,6 +13,7 @@
 #include "physics/base/vector_sums.h"
 #include "physics/cloth/element_forces.h"
 #include "physics/contact/anchored_contact.h"
+#include "physics/contact/face_contact.h"
 #include "physics/contact/residual_force.h"
 #include "physics/linear/free_stiffness.h"
 #include "physics/rest/limited_memory.h"
@@ -33,6 +34,9 @@ constexpr double far_from_rest = 1e4;     // residual above which one step is al
 constexpr double stiffer = 10;            // a contact's next depth, that many times less
 constexpr int most_followers = 15;        // steps with one factorisation, after the first
 constexpr double follow_until = 1e-2;     // share of the first one's expected fall of energy
+constexpr int most_face_rounds = 8;       // rests after which contacts of faces are set or raised
+constexpr int most_face_steps = 40;       // iterations of such a round
+constexpr double face_stiffness = 4;      // that many times the vertices'
 
 void check(const Cloth& cloth, const SettleOptions& o) {
   constexpr const char* me = "settle";
@@ -44,6 +48,7 @@ void check(const Cloth& cloth, const SettleOptions& o) {
   require(me, "max_iterations", o.max_iterations, o.max_iterations >= 0, ">= 0");
   require(me, "longest_move", o.longest_move, o.longest_move > 0, "> 0");
   require(me, "threads", o.threads, o.threads >= 1, ">= 1");
+  require(me, "faces.error", o.faces.error, o.faces.error >= 0, ">= 0");
   check_particles(cloth.particles, me);
 }
 
@@ -78,6 +83,13 @@ struct Step {
   int factorisations, followers;
 };
 
+/// A rest that was found.
+struct Rest {
+  Vectors x;
+  double residual;  ///< [-]
+  int through;      ///< faces that the body comes through
+};
+
 /// Pseudo-transient continuation: the longer a step reaches, the less time holds it back; and where the
 /// Hessian alone will not do, more of its clamped part is added.
 Pace next_pace(Pace pace, const Factors& factors, const Move& move, double share) {
@@ -110,6 +122,10 @@ class Settler {
     if (!collider) return;
     const double k = contact_share * stiffness_.mean_diagonal();
     contact_.emplace(*collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
+    if (!o_.faces.body) return;
+    const double clearance = std::min(o_.gap / 6, 5e-4);
+    faces_.emplace(*collider, *o_.faces.body, cloth.triangles,
+                   FaceContactOptions{clearance, o_.faces.error, face_stiffness * (k > 0 ? k : 1)});
   }
 
   SettleReport run(const SettleObserver& observer) {
@@ -118,11 +134,16 @@ class Settler {
     Answer here = look(p_.x);
     if (contact_) contact_->move_anchors();
     for (;; ++report.iterations) {
-      report.residual = residual_of(here.force, p_, o_.gravity, collider_, o_.friction, o_.gap);
-      const bool rests = report.residual <= o_.tolerance;
+      report.residual = residual(here);
+      bool rests = report.residual <= o_.tolerance;
       report.converged = rests && !(contact_ && contact_->deepest() > o_.contact_depth);
+      if (report.converged && faces_ && keep_faces_out(report)) {
+        here = look(p_.x);
+        pace.tau = first_time;
+        rests = report.converged = false;
+      }
       report.stopped = (observer && !observer({report.iterations, report.residual})) || is_cancelled();
-      if (report.converged || report.stopped || report.iterations == o_.max_iterations) break;
+      if (report.converged || report.stopped || report.iterations == last_iteration()) break;
       if (rests) {
         here = stiffen();
         pace.tau = first_time;
@@ -135,31 +156,70 @@ class Settler {
         report.followers += done->followers;
       }
     }
+    if (best_ && !report.stopped) take_best(report);
     if (contact_) {
       report.touching = contact_->touching();
       report.deepest = contact_->deepest();
     }
+    if (faces_) report.face_contacts = faces_->touching();
     return report;
   }
 
  private:
+  /// Rest is found: sets contacts in faces that the body comes through. Whether it has to go on.
+  bool keep_faces_out(const SettleReport& report) {
+    const FaceContact::Found found = faces_->find(p_.x, p_.inv_mass, &pool_);
+    if (!best_ || found.through <= best_->through) best_ = Rest{p_.x, report.residual, found.through};
+    if (found.changed == 0 || face_rounds_ == most_face_rounds) return false;
+    ++face_rounds_;
+    round_ends_ = report.iterations + most_face_steps;
+    return true;
+  }
+
+  int last_iteration() const { return std::min(o_.max_iterations, round_ends_); }
+
+  /// Of the rests that were found, the last with the fewest faces that the body comes through.
+  void take_best(SettleReport& report) {
+    report.residual = best_->residual;
+    report.converged = true;
+    p_.x = std::move(best_->x);
+    ask_body(p_.x);
+  }
+
+  void ask_body(const Vectors& x) {
+    if (contact_) contact_->look(x, p_.inv_mass, &pool_);
+    if (faces_) faces_->look(x);
+  }
+
+  double residual(const Answer& at) const {
+    if (!faces_ || faces_->points() == 0)
+      return residual_of(at.force, p_, o_.gravity, collider_, o_.friction, o_.gap);
+    Vectors force = at.force;
+    faces_->add_forces(force);
+    return residual_of(force, p_, o_.gravity, collider_, o_.friction, o_.gap);
+  }
+
   /// Asks elements, weight and body at x; contact_ answers for x until it is asked elsewhere.
   Answer look(const Vectors& x) {
     Answer answer{Vectors(x.size())};
     answer.energy = elements_(x, answer.force, pool_);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (p_.inv_mass[i] > 0) answer.energy -= p_.mass[i] * o_.gravity.dot(x[i]);
-    if (contact_) contact_->look(x, p_.inv_mass, &pool_);
+    ask_body(x);
     return answer;
   }
 
   /// [J], with the contact's, which must have been asked there last.
-  double energy(const Answer& at) const { return contact_ ? at.energy + contact_->energy() : at.energy; }
+  double energy(const Answer& at) const {
+    const double cloth = contact_ ? at.energy + contact_->energy() : at.energy;
+    return faces_ && faces_->points() ? cloth + faces_->energy() : cloth;
+  }
 
   /// Of elements, weight and contact [N]; 0 on what is held. As energy().
   Vectors net_force(const Answer& at) const {
     Vectors net = at.force;
     if (contact_) contact_->add_forces(net);
+    if (faces_) faces_->add_forces(net);
     for (std::size_t i = 0; i < net.size(); ++i) {
       if (p_.inv_mass[i] > 0)
         net[i] += p_.mass[i] * o_.gravity;
@@ -184,6 +244,7 @@ class Settler {
       throw_if_cancelled("settle");
       stiffness_.assemble(cloth_, p_.x, {clamp}, &pool_);
       if (contact_) contact_->add_stiffness(stiffness_);
+      if (faces_) faces_->add_stiffness(stiffness_);
       for (std::size_t i = 0; i < p_.size(); ++i)
         if (p_.inv_mass[i] > 0) stiffness_.add(int(i), p_.mass[i] / (pace.tau * pace.tau) * Mat3::Identity());
       if (stiffness_.factorise_definite(0, &pool_)) return {true, clamp, tries};
@@ -211,7 +272,7 @@ class Settler {
       trial.answer = look(trial.x);
       if (energy(trial.answer) <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return trial;
     }
-    if (contact_) contact_->look(p_.x, p_.inv_mass, &pool_);
+    ask_body(p_.x);
     return {};
   }
 
@@ -245,7 +306,7 @@ class Settler {
     const bool refused = contact_ && share < move.share;
     if (refused) contact_->make_room(p_.x, moved(p_.x, move.share, move.way), p_.inv_mass);
     if (share > 0) accept(std::move(trial), here);
-    if (refused) contact_->look(p_.x, p_.inv_mass, &pool_);  // as there is room now
+    if (refused) ask_body(p_.x);  // as there is room now
     const int followers = share > 0 && near ? follow(inverse, here) : 0;
     if (contact_ && share > 0) contact_->move_anchors();
     if (contact_ && share == 0)
@@ -283,6 +344,9 @@ class Settler {
   FreeStiffness stiffness_;
   ThreadPool pool_;
   std::optional<AnchoredContact> contact_;
+  std::optional<FaceContact> faces_;
+  std::optional<Rest> best_;  ///< with faces_
+  int face_rounds_ = 0, round_ends_ = std::numeric_limits<int>::max();
 };
 
 }  // namespace

@@ -27,5 +27,7 @@ furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURC
   strokes_test.cpp
   outputs_test.cpp
   hostile_files_test.cpp
+  RELEASE_SOURCES
+  sizes_test.cpp
 )
 add_dependencies(test_cli furrow)

@@ -37,6 +37,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   linear/nested_dissection_test.cpp
   linear/stable_step_test.cpp
   contact/anchored_contact_test.cpp
+  contact/face_contact_test.cpp
   contact/contact_test.cpp
   contact/depth_map_contact_test.cpp
   body/push_out_test.cpp
@@ -67,6 +68,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   rest/rigid_imbalance_test.cpp
   rest/settle_alone_test.cpp
   rest/settle_test.cpp
+  rest/settle_faces_test.cpp
   RELEASE_SOURCES
   cloth/patch_test.cpp
   cloth/plate_patch_test.cpp
