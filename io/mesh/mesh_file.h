@@ -91,6 +91,7 @@ struct WrinkleRecord {
     double base_height = 0;      ///< of the line before it was displaced; the two above are without it [m]
     std::optional<double> width = {};  ///< as asked for [m], as the next two [-]
     double sharpness = 0.5, press = 1;
+    std::optional<double> crest_height = {};  ///< of a fold: of its crest as drawn, away from its ends [m]
   };
   double mean_structural_length = 0;  ///< r_avg of the mesh before any line [m]
   double mean_bending_length = 0;     ///< [m]

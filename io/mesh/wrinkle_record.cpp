@@ -29,6 +29,7 @@ nlohmann::ordered_json to_json(const WrinkleRecord::Line& line) {
     json["sharpness"] = line.sharpness;
   }
   if (line.press != 1) json["press"] = line.press;
+  if (line.crest_height) json["crest_height"] = *line.crest_height;
   return json;
 }
 
@@ -39,6 +40,7 @@ WrinkleRecord::Line line_from(const nlohmann::ordered_json& json) {
   if (json.contains("width")) line.width = json["width"].get<double>();
   line.sharpness = json.value("sharpness", line.sharpness);
   line.press = json.value("press", line.press);
+  if (json.contains("crest_height")) line.crest_height = height_of(json["crest_height"]);
   geometry::Stroke shape;
   shape.width = line.width;
   shape.sharpness = line.sharpness;

@@ -39,14 +39,23 @@ std::string help_of(const KeptLine& line) {
   return text;
 }
 
-Json to_json(const KeptLine& line, const io::WrinkleRecord& record) {
+/// A fold's height is measured as the mean along its line, faded ends and all, and is told as that of its
+/// crest, which is what was asked: the factor from the one to the other; 1 for what is no fold.
+double crest_share(const io::WrinkleRecord::Line& drawn) {
+  const double share = drawn.crest_height.value_or(drawn.drawn_height) / drawn.drawn_height;
+  return std::isfinite(share) && share > 0 ? share : 1;
+}
+
+Json to_json(KeptLine line, const io::WrinkleRecord& record) {
   Json json{{"id", line.line}};
   if (std::size_t(line.line) < record.lines.size()) {
     const io::WrinkleRecord::Line& drawn = record.lines[line.line];
+    const double crest = crest_share(drawn);
     json.update({{"name", drawn.name},
                  {"asked", share(drawn.height)},
-                 {"drawn", share(drawn.drawn_height)},
-                 {"smoothed", share(drawn.smoothed_height)}});
+                 {"drawn", share(crest * drawn.drawn_height)},
+                 {"smoothed", share(crest * drawn.smoothed_height)}});
+    line.height *= crest;
   }
   json.update({{"verdict", name_of(line.verdict)},
                {"height", share(line.height)},

@@ -38,6 +38,26 @@ jobs::KeepJob hung_ridge(double height = 0.004) {
   return job;
 }
 
+/// One line of what lies above a ball: the job settles it first unless told not to, and then it is out of
+/// balance.
+jobs::KeepReport settles_first(jobs::KeepJob& job) {
+  job.seconds = 0.02;
+  job.gust = 0;
+  job.help = false;
+  tests::Recorder settling, falling;
+  jobs::KeepReport rests = jobs::keep(job, settling);
+  CHECK(rests.settled);
+  CHECK(settling.warned_of("settled_first"));
+  CHECK(rests.lines.rest.imbalance.empty());
+  REQUIRE(rests.lines.lines.size() == 1);
+  CHECK(rests.lines.lines[0].reason.find("nothing holds the garment") == std::string::npos);
+  job.settle = false;
+  const jobs::KeepReport falls = jobs::keep(job, falling);
+  CHECK_FALSE(falls.settled);
+  CHECK_FALSE(falls.lines.rest.imbalance.empty());
+  return rests;
+}
+
 }  // namespace
 
 TEST_CASE("keep: a sheet above a ball comes to rest on it before its lines are drawn, unless told not to") {
@@ -57,23 +77,10 @@ TEST_CASE("keep: a sheet above a ball comes to rest on it before its lines are d
       "[garment]\nmesh = \"sheet\"\n[[lines]]\nstrokes = \"ridge\"\n[body]\nmesh = \"ball\"\n"
       "tolerance = 0.001\n[material]\npreset = \"cotton\"\nfriction = 0.6\n",
       "test");
-  job.seconds = 0.02;
-  job.gust = 0;
-  job.help = false;
-  tests::Recorder settling, falling;
-  const jobs::KeepReport rests = jobs::keep(job, settling);
-  CHECK(rests.settled);
-  CHECK(settling.warned_of("settled_first"));
-  CHECK(rests.lines.rest.imbalance.empty());
-  REQUIRE(rests.lines.lines.size() == 1);
-  CHECK(rests.lines.lines[0].reason.find("nothing holds the garment") == std::string::npos);
+  const jobs::KeepReport rests = settles_first(job);
   double lowest = 1;
   for (const geometry::Point& p : tests::positions(rests.garment)) lowest = std::min(lowest, p.y());
   CHECK(lowest < 0.1);
-  job.settle = false;
-  const jobs::KeepReport falls = jobs::keep(job, falling);
-  CHECK_FALSE(falls.settled);
-  CHECK_FALSE(falls.lines.rest.imbalance.empty());
 }
 
 TEST_CASE("keep: a wrinkled file above a ball comes to rest on it with its lines before it is kept",
@@ -101,20 +108,10 @@ TEST_CASE("keep: a wrinkled file above a ball comes to rest on it with its lines
       "[garment]\nmesh = \"sheet\"\n[body]\nmesh = \"ball\"\ntolerance = 0.001\n[material]\n"
       "preset = \"cotton\"\nfriction = 0.6\n",
       "test");
-  job.seconds = 0.02;
-  job.gust = 0;
-  job.help = false;
-  tests::Recorder settling, falling;
-  const jobs::KeepReport rests = jobs::keep(job, settling);
-  CHECK(rests.settled);
-  CHECK(settling.warned_of("settled_first"));
-  CHECK(rests.lines.rest.imbalance.empty());
-  REQUIRE(rests.lines.lines.size() == 1);
-  CHECK(rests.lines.lines[0].reason.find("nothing holds the garment") == std::string::npos);
-  job.settle = false;
-  const jobs::KeepReport falls = jobs::keep(job, falling);
-  CHECK_FALSE(falls.settled);
-  CHECK_FALSE(falls.lines.rest.imbalance.empty());
+  const jobs::Json line = to_json(settles_first(job)).at("lines").at(0);
+  CHECK(line.at("asked").get<double>() == 0.004);
+  CHECK(line.at("drawn").get<double>() == Approx(0.004).epsilon(0.03));
+  CHECK(line.at("smoothed").get<double>() == Approx(0.004).epsilon(0.05));
 }
 
 TEST_CASE("keep: two jobs at once in one process give the bits and the words of single runs") {

@@ -10,7 +10,7 @@ using namespace furrow::io;
 TEST_CASE("wrinkle_record: a wrinkle record reads back as written, heights that were not measured included") {
   MeshFile file;
   file.comments = {"made by hand"};
-  const WrinkleRecord record{
+  WrinkleRecord record{
       0.02,
       0.035,
       0.3,
@@ -23,6 +23,7 @@ TEST_CASE("wrinkle_record: a wrinkle record reads back as written, heights that 
       R"({"strokes":[{"name":"é","height":0.01,"points":[[0.1,2.0,3.0]]}]})",
       {},
       {}};
+  record.lines[1].crest_height = 0.02;
   set_wrinkle_record(file, {});
   set_wrinkle_record(file, record);
   REQUIRE(file.comments.size() == 2);
@@ -38,6 +39,8 @@ TEST_CASE("wrinkle_record: a wrinkle record reads back as written, heights that 
   CHECK_FALSE(back->lines[0].width);
   CHECK(*back->lines[1].width == 0.06);
   CHECK(back->lines[1].sharpness == 0.25);
+  CHECK_FALSE(back->lines[0].crest_height);
+  CHECK(*back->lines[1].crest_height == 0.02);
   CHECK(std::isnan(line_widths(*back)[0]));
   CHECK(line_widths(*back)[1] == 0.06);
   CHECK(line_presses(*back) == std::vector<double>{1, 30});
