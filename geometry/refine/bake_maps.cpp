@@ -8,7 +8,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/tangent_frames.h"
-#include "geometry/mesh/texture_raster.h"
+#include "geometry/refine/texture_raster.h"
 
 namespace furrow::geometry {
 namespace {

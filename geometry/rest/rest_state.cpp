@@ -9,9 +9,9 @@
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
-#include "geometry/mesh/tie_length.h"
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/rest_angles.h"
+#include "geometry/rest/tie_length.h"
 
 namespace furrow::geometry {
 namespace {

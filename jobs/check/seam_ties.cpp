@@ -8,7 +8,7 @@
 
 #include "bridge/gather.h"
 #include "geometry/mesh/struts.h"
-#include "geometry/mesh/tie_length.h"
+#include "geometry/rest/tie_length.h"
 #include "io/base/lower_case.h"
 #include "io/mesh/merge_points.h"
 

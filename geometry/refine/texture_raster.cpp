@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/mesh/texture_raster.h"
+#include "geometry/refine/texture_raster.h"
 
 #include <algorithm>
 #include <cmath>
