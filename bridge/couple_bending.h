@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "bridge/gather.h"
-#include "physics/cloth/plate_bending.h"
+#include "physics/plate/plate_bending.h"
 
 namespace furrow::bridge {
 

@@ -9,7 +9,7 @@
 #include "io/base/number_text.h"
 #include "jobs/judge/cost_table.h"
 #include "jobs/read_inputs.h"
-#include "physics/cloth/plate_bending.h"
+#include "physics/plate/plate_bending.h"
 
 namespace furrow::jobs {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/cloth/plate_bending.h"
+#include "physics/plate/plate_bending.h"
 
 namespace furrow::cases {
 

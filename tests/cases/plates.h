@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "physics/cloth/cloth.h"
-#include "physics/cloth/plate.h"
+#include "physics/plate/plate.h"
 #include "tests/cases/flat_meshes.h"
 
 namespace furrow::cases {

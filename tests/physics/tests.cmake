@@ -10,9 +10,9 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   cloth/membrane_laws_test.cpp
   cloth/membrane_test.cpp
   cloth/pins_test.cpp
-  cloth/plate_bending_test.cpp
-  cloth/plate_rigidity_test.cpp
-  cloth/plate_test.cpp
+  plate/plate_bending_test.cpp
+  plate/plate_rigidity_test.cpp
+  plate/plate_test.cpp
   cloth/press_test.cpp
   cloth/spring_forces_test.cpp
   cloth/strain_test.cpp
@@ -71,7 +71,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   rest/settle_faces_test.cpp
   RELEASE_SOURCES
   cloth/patch_test.cpp
-  cloth/plate_patch_test.cpp
+  plate/plate_patch_test.cpp
   motion/drop_on_ball_test.cpp
   motion/invariants_test.cpp
   motion/metamorphic_test.cpp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "physics/cloth/plate_bending.h"
+#include "physics/plate/plate_bending.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/cloth/plate.h"
+#include "physics/plate/plate.h"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>

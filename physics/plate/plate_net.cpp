@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "physics/cloth/plate_net.h"
+#include "physics/plate/plate_net.h"
 
 #include <algorithm>
 #include <cmath>

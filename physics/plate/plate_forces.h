@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "physics/base/vec4.h"
-#include "physics/cloth/plate.h"
+#include "physics/plate/plate.h"
 
 namespace furrow::physics {
 

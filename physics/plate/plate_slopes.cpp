@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "physics/cloth/plate_slopes.h"
+#include "physics/plate/plate_slopes.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

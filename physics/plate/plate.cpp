@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "physics/cloth/plate.h"
+#include "physics/plate/plate.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "physics/base/require.h"
-#include "physics/cloth/plate_slopes.h"
+#include "physics/plate/plate_slopes.h"
 
 namespace furrow::physics {
 namespace {

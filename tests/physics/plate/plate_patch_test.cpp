@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "physics/cloth/plate_bending.h"
+#include "physics/plate/plate_bending.h"
 #include "tests/cases/flat_meshes.h"
 #include "tests/cases/modes.h"
 #include "tests/cases/plates.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/cloth/plate_rigidity.h"
+#include "physics/plate/plate_rigidity.h"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "physics/cloth/plate_net.h"
-#include "physics/cloth/plate_rigidity.h"
+#include "physics/plate/plate_net.h"
+#include "physics/plate/plate_rigidity.h"
 
 namespace furrow::physics {
 

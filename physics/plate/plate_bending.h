@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "physics/cloth/cloth.h"
-#include "physics/cloth/plate.h"
-#include "physics/cloth/plate_forces.h"
+#include "physics/plate/plate.h"
+#include "physics/plate/plate_forces.h"
 
 namespace furrow::physics {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/cloth/plate_bending.h"
+#include "physics/plate/plate_bending.h"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "physics/cloth/plate_rigidity.h"
+#include "physics/plate/plate_rigidity.h"
 
 #include <cmath>
 

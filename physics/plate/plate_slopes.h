@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "physics/cloth/plate_net.h"
+#include "physics/plate/plate_net.h"
 
 namespace furrow::physics {
 

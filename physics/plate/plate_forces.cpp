@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "physics/cloth/plate_forces.h"
+#include "physics/plate/plate_forces.h"
 
 #include <algorithm>
 
