@@ -142,6 +142,29 @@ physics::SettleOptions options_of(const DrapeOptions& o, bool last, bool stopped
   return settle;
 }
 
+constexpr double far = 0.25;  // [m] from the body, where cloth that nothing holds has fallen past it
+
+/// Whether cloth that touches nothing on a coarse level falls past the body, which no finer level would mend.
+/// As a rough rest may lie above what the cloth comes to lie on, a copy looks for rest to the end; it takes
+/// the cloth's place if it falls.
+bool falls_past(physics::Cloth& cloth, const physics::Collider* body, const DrapeOptions& o,
+                const physics::SettleObserver& observer, physics::SettleReport& rest) {
+  const std::vector<double>& inv_mass = cloth.particles.inv_mass;
+  const bool held = std::find(inv_mass.begin(), inv_mass.end(), 0) != inv_mass.end();
+  if (!body || o.plain || held || o.settle.gravity.isZero() || rest.stopped || rest.touching > 0)
+    return false;
+  physics::SettleOptions fine = options_of(o, false, false);
+  fine.tolerance = o.settle.tolerance;
+  physics::Cloth copy = cloth;
+  const physics::SettleReport end = physics::settle(copy, body, fine, observer);
+  const bool falls = end.touching == 0 && !end.stopped &&
+                     std::all_of(copy.particles.x.begin(), copy.particles.x.end(),
+                                 [&](const Vec3& x) { return body->at(x).value > far; });
+  rest.stopped = end.stopped;
+  if (falls) cloth = std::move(copy), rest = end;
+  return falls;
+}
+
 }  // namespace
 
 DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
@@ -177,10 +200,12 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     } else {
       now.settle = find_rest(cloth, body, o.plain, settle, observer);
     }
+    report.falls = !last && falls_past(cloth, body, o, observer, now.settle);
     report.stopped = report.stopped || now.settle.stopped;
-    if (!last) continue;
+    if (!last && !report.falls) continue;
     garment = std::move(made);
     scatter(cloth.particles, garment);
+    break;
   }
   return report;
 }

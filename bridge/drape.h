@@ -41,6 +41,7 @@ struct DrapeReport {
   int friction_rounds = 0;         ///< rests after each of which hinges that bend too far gave way
   double slip = 0;                 ///< of a hinge in the last of them [rad]
   bool stopped = false;            ///< by go_on
+  bool falls = false;              ///< a coarse level came to lie on nothing: there are no finer ones
 };
 
 /// Makes a garment cloth: fills its maps, gathers and pins. Called once for each level, with the mesh as it
@@ -51,8 +52,8 @@ using DrapeObserver = std::function<bool(int level, const physics::SettleProgres
 
 /// Fits a garment on a body (null: it only hangs), from the coarse mesh to the finest. On return the mesh is
 /// refined, has the maps of make_cloth, and its vertices lie where they rest. `cloth` belongs to it, with the
-/// hinges of friction at its end. If stopped on a coarse level, the rest of the way is only carried. Same
-/// input, same bits. Cost: most of it is the last level's. Throws std::invalid_argument for an option out of
+/// hinges of friction at its end. If stopped on a coarse level, the rest of the way is only carried; a garment
+/// that falls past the body on a coarse level is not refined further. Same input, same bits. Cost: most of it is the last level's. Throws std::invalid_argument for an option out of
 /// its range, the mesh unchanged; and as loop_subdivide(), make_cloth and settle() do.
 ///
 /// \details Each level first brings out what lies nearer than the gap (a finer one only what lies deeper than

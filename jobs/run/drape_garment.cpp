@@ -310,6 +310,7 @@ bool is_broken(const physics::SettleReport& last) {
 
 void take_result(Gone gone, Maker& maker, const DrapePlan& plan, const FallWatch& watch, Draped& draped) {
   draped.report = std::move(gone.report);
+  draped.refinements = int(draped.report.levels.size()) - 1;
   draped.file = std::move(maker.made);
   draped.file.mesh = std::move(gone.mesh);
   close_seam_ties(draped.file.mesh);
@@ -323,8 +324,8 @@ void take_result(Gone gone, Maker& maker, const DrapePlan& plan, const FallWatch
         name_of_part(plan.as_read, watch.parts(), watch.parts().of_vertex[std::size_t(seed)]));
 }
 
-void measure(const DrapePlan& plan, const CrossedStart& crossed, Draped& draped) {
-  draped.refinements = plan.scene.subdivide;
+void measure(const DrapePlan& plan, Draped& draped) {
+  const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
   draped.crossings = measure_crossings(draped.file, &crossed);
   draped.angle_defect = geometry::angle_defect(draped.file.mesh);
   draped.lines = measure_lines(draped.file, line_heights_by_id(plan.as_read));
@@ -398,7 +399,6 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   DrapePlan plan{scene, body, s, given.file, options_of(scene, s, gap)};
   plan.options.soft_start = soft_start_of(given.file);
   if (body) plan.options.settle.faces = {&body->exact, body->field.report().tolerance};
-  const CrossedStart crossed = crossed_start(given.file.mesh, scene.subdivide);
   const FallWatch watch(given.file.mesh, body, gap);
   const double start = now();
   Maker maker(scene, body, s, given.file, context);
@@ -415,7 +415,7 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
     draped.seconds = now() - start;
     draped.animated = way->close();
   }
-  measure(plan, crossed, draped);
+  measure(plan, draped);
   return draped;
 }
 

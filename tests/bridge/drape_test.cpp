@@ -82,6 +82,30 @@ TEST_CASE("drape: coarse to fine to rest on a ball, out of which it is brought f
   CHECK(lowest < 0.06);  // it hangs down at the sides
 }
 
+TEST_CASE("drape: what falls past the body is not refined, what falls on it is") {
+  const Sphere ball(Vec3::Zero(), 0.1);
+  bridge::DrapeOptions options;
+  options.refinements = 2;
+  geometry::Mesh mesh = across();
+  const std::size_t coarse = mesh.number_of_vertices();
+  for (geometry::Point& p : mesh.points()) p = geometry::Point(p.x() + 1, p.y(), p.z());
+  physics::Cloth cloth;
+  const bridge::DrapeReport beside = bridge::drape(mesh, cloth, &ball, options, make);
+  CHECK(beside.falls);
+  CHECK_FALSE(beside.stopped);
+  CHECK(beside.levels.size() == 1);
+  CHECK(mesh.number_of_vertices() == coarse);
+  CHECK(cloth.particles.size() == coarse);
+  CHECK(mesh.point(*mesh.vertices().begin()).y() < 0);
+  options.refinements = 1;
+  geometry::Mesh other = across();
+  for (geometry::Point& p : other.points()) p = geometry::Point(p.x(), p.y() + 0.05, p.z());
+  const bridge::DrapeReport above = bridge::drape(other, cloth, &ball, options, make);
+  CHECK_FALSE(above.falls);
+  CHECK(above.levels.size() == 2);
+  CHECK(above.levels[1].settle.converged);
+}
+
 TEST_CASE("drape: the plain scheme comes to a like rest, an observer stops it, bad options change nothing") {
   const Sphere ball(Vec3::Zero(), 0.1);
   geometry::Mesh mesh = across();
