@@ -11,6 +11,8 @@
 #include "bridge/gather.h"
 #include "geometry/refine/subdivide.h"
 #include "physics/base/require.h"
+#include "physics/base/thread_pool.h"
+#include "physics/pairs/cloth_contact.h"
 #include "physics/rest/hinge_friction.h"
 #include "physics/rest/settle.h"
 
@@ -29,6 +31,8 @@ void check(const DrapeOptions& o) {
   require(me, "soft_start", o.soft_start, o.soft_start >= 1, ">= 1");
   require(me, "contact_depth", std::min(depth, 1e300), !o.plain || std::isinf(depth),
           "left out, as the plain scheme needs it");
+  require(me, "self.on", o.settle.self.on, !(o.settle.self.on && o.plain),
+          "false, as the plain scheme needs it");
   require(me, "bending_friction", o.bending_friction,
           o.bending_friction >= 0 && !(o.bending_friction > 0 && o.plain),
           o.plain ? "0, as the plain scheme needs it" : ">= 0");
@@ -131,6 +135,64 @@ std::vector<Vec3> refine(const physics::Particles& found, geometry::Mesh& garmen
   return positions_of(shape);
 }
 
+/// The coarse surface on the mesh that refined it: new vertices lie in the middles of old edges, so that what
+/// did not cross does not cross. Held particles stay.
+void lay_on_coarse(const std::vector<Vec3>& coarse, physics::Cloth& cloth) {
+  std::vector<Vec3> sum(cloth.particles.size(), Vec3::Zero());
+  std::vector<double> count(sum.size(), 0);
+  for (const auto& t : cloth.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const int other : {t[(i + 1) % 3], t[(i + 2) % 3]}) {
+        if (std::size_t(other) >= coarse.size()) continue;
+        sum[std::size_t(t[i])] += coarse[std::size_t(other)];
+        ++count[std::size_t(t[i])];
+      }
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    if (!(cloth.particles.inv_mass[i] > 0)) continue;
+    if (i < coarse.size())
+      cloth.particles.x[i] = coarse[i];
+    else if (count[i] > 0)
+      cloth.particles.x[i] = sum[i] / count[i];
+  }
+}
+
+/// A level's start, brought to where it is to begin without passing through cloth on the way. Returns how
+/// many vertices did not arrive.
+int keep_apart(physics::Cloth& cloth, std::vector<Vec3> from, const physics::SettleOptions& o) {
+  physics::ThreadPool pool(o.threads);
+  physics::ClothContact contact(cloth, {o.self.thickness, 1}, from, {}, &pool);
+  const int left = contact.approach(from, cloth.particles.x, &pool);
+  cloth.particles.x = std::move(from);
+  return left;
+}
+
+/// Where the level before ended.
+struct Carried {
+  std::vector<Vec3> coarse;  ///< its positions; empty on the first level
+  std::vector<Vec3> fine;    ///< refined
+};
+
+/// Puts a level's cloth where it begins: where it was carried, disturbed, and out of the body. Returns by how
+/// much it was disturbed [m].
+double begin_level(physics::Cloth& cloth, const Carried& carried, const physics::Collider* body,
+                   const DrapeOptions& o, bool stopped, DrapeLevel& level) {
+  physics::Particles& p = cloth.particles;
+  std::vector<Vec3> from;
+  if (o.settle.self.on) {
+    const std::vector<Vec3> made = p.x;
+    if (!carried.coarse.empty()) lay_on_coarse(carried.coarse, cloth);
+    from = std::move(p.x);
+    p.x = made;
+  }
+  for (std::size_t i = 0; i < carried.fine.size(); ++i)
+    if (p.inv_mass[i] > 0) p.x[i] = carried.fine[i];
+  const double disturbance = disturb(cloth, stopped ? 0 : o.disturbance);
+  const double gap = o.settle.gap - (carried.fine.empty() ? 0 : rest_depth(o.settle.gap));
+  if (body) level.pushed = physics::bring_out(p, *body, gap);
+  if (o.settle.self.on) level.stopped = keep_apart(cloth, std::move(from), o.settle);
+  return disturbance;
+}
+
 physics::SettleOptions options_of(const DrapeOptions& o, bool last, bool stopped) {
   physics::SettleOptions settle = o.settle;
   if (!last) {
@@ -168,22 +230,21 @@ bool falls_past(physics::Cloth& cloth, const physics::Collider* body, const Drap
 }  // namespace
 
 DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
-                  const DrapeOptions& o, const MakeCloth& make_cloth, const DrapeObserver& go_on) {
-  check(o);
+                  const DrapeOptions& asked, const MakeCloth& make_cloth, const DrapeObserver& go_on) {
+  check(asked);
+  DrapeOptions o = asked;
   DrapeReport report;
-  std::vector<Vec3> carried;  // positions that the level before ended at, refined
+  Carried carried;
   for (int level = 0; level <= o.refinements; ++level) {
-    if (level > 0) carried = refine(cloth.particles, garment);
+    if (level > 0) carried = {cloth.particles.x, refine(cloth.particles, garment)};
     const bool last = level == o.refinements;
     geometry::Mesh made = garment;
     cloth = make_cloth(made);
-    for (std::size_t i = 0; i < carried.size(); ++i)
-      if (cloth.particles.inv_mass[i] > 0) cloth.particles.x[i] = carried[i];
-    report.disturbance = disturb(cloth, report.stopped ? 0 : o.disturbance);
+    const std::vector<Vec3> drawn = cloth.particles.x;
+    o.settle.self.drawn = drawn;
     DrapeLevel& now = report.levels.emplace_back();
     now.vertices = cloth.particles.size();
-    const double gap = o.settle.gap - (carried.empty() ? 0 : rest_depth(o.settle.gap));
-    if (body) now.pushed = physics::bring_out(cloth.particles, *body, gap);
+    report.disturbance = begin_level(cloth, carried, body, o, report.stopped, now);
     const auto observer = [&](const physics::SettleProgress& progress) {
       return !go_on || report.stopped || go_on(level, progress, cloth);
     };

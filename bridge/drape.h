@@ -10,8 +10,10 @@
 namespace furrow::bridge {
 
 struct DrapeOptions {
-  int refinements = 0;            ///< Loop subdivisions between the given mesh and the fitted one; in [0, 6]
-  physics::SettleOptions settle;  ///< of the last level; others end at coarse_tolerance, at any depth
+  int refinements = 0;  ///< Loop subdivisions between the given mesh and the fitted one; in [0, 6]
+  /// Of the last level; others end at coarse_tolerance, at any depth. self.drawn: the garment as it was made.
+  /// With self.on, starts are guarded, too; not with plain.
+  physics::SettleOptions settle;
   /// Paper 2's plain scheme (displace_by_force()), to compare with: it takes a hundred times as
   /// long. It has the same friction, gap and tolerance; max_iterations bounds its passes.
   bool plain = false;
@@ -32,6 +34,7 @@ struct DrapeOptions {
 struct DrapeLevel {
   std::size_t vertices = 0;
   physics::PushOutReport pushed;  ///< out of the body before it began
+  int stopped = 0;                ///< vertices that cloth kept from where they were to begin
   physics::SettleReport settle;   ///< iterations of the plain scheme: its passes
   physics::SettleReport soft;     ///< of the search before, with a soft_start
 };

@@ -245,6 +245,14 @@ void add_drape(CLI::App& app, int& exit_code) {
                   "1e-6 gives tight cloth its full strain, in about twice the time (default: usually some "
                   "0.1 mm)")
       ->check(CLI::Range(1e-7, 1.0));
+  sub->add_option(
+         "--self-contact", a->settings.self_contact,
+         "whether cloth keeps off cloth (on or off; default off): layers and folds lie on each other, "
+         "and nothing passes through that did not at the start; takes 1.3 to 3 times as long")
+      ->option_text("on|off");
+  sub->add_option("--cloth-thickness", a->settings.thickness,
+                  "of the cloth, with --self-contact: layers are so far apart [m] (default 0.001)")
+      ->check(CLI::Range(1e-5, 0.05));
   sub->add_option("--penetration", a->settings.penetration,
                   "depth to which the body may come through the cloth, between vertices, too [m] (default "
                   "0.005); beyond it the exit code is 4")

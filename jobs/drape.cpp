@@ -39,6 +39,7 @@ void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
   require("drape", "band_stiffness", s.band_stiffness, s.band_stiffness >= 0, ">= 0");
   require("drape", "subdivide", scene.subdivide, scene.subdivide >= 0 && scene.subdivide <= 6, "in [0, 6]");
   if (s.iterations) require("drape", "iterations", *s.iterations, *s.iterations >= 0, ">= 0");
+  require("drape", "thickness", s.thickness, s.thickness > 0, "> 0");
   if (s.contact_depth) require("drape", "contact_depth", *s.contact_depth, *s.contact_depth > 0, "> 0");
   if (job.fabrics.size() > 1 && (!job.output.empty() || !s.animation.empty()))
     throw std::invalid_argument("--fabrics writes a picture only; drape each by itself for its mesh");
@@ -49,6 +50,9 @@ void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
   if (s.plain && s.contact_depth)
     throw std::invalid_argument(
         "--contact-depth: --plain moves cloth out to the gap at once; leave out one of them");
+  if (s.plain && s.self_contact)
+    throw std::invalid_argument(
+        "--self-contact: --plain lets cloth pass through cloth; leave out one of them");
   const std::string output = job.output.string(), animation = s.animation.string();
   if (!output.empty()) check_output(output);
   if (!animation.empty() && !io::animation_format(s.animation))

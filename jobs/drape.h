@@ -23,6 +23,8 @@ struct DrapeSettings {
   bool plain = false;                                    ///< paper 2's own scheme
   double residual = physics::SettleOptions{}.tolerance;  ///< at which it rests [-]; > 0
   std::optional<double> contact_depth;  ///< that cloth may lie inside the gap [m]; none: no limit
+  bool self_contact = false;            ///< whether cloth keeps off cloth
+  double thickness = 0.001;             ///< of the cloth, with self_contact [m]; > 0
   double penetration = 0.005;           ///< depth to which the body may come through the cloth [m]; >= 0
   std::optional<int> iterations;        ///< on each level, >= 0; none: those of the method
   std::vector<Band> bands;
@@ -67,6 +69,8 @@ struct Draped {
   double penetration = 0;               ///< depth to which the body may come through the cloth [m]
   ClothCrossings crossings;             ///< of the cloth with itself, as it was given and now
   std::size_t allowed_crossings = 0;    ///< pairs that may be left
+  bool self_contact = false;            ///< cloth kept off cloth
+  double thickness = 0;                 ///< of the cloth then [m]
 
   bool rests() const { return report.levels.back().settle.converged && !falls && !broken; }
   /// Whether more than a hundredth of the cloth is strained to over twice its length, or by no number.

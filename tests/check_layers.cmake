@@ -9,7 +9,7 @@ set(may_include_jobs jobs io bridge geometry physics)
 set(may_include_cli cli jobs io bridge geometry physics)
 # The order of rooms: a room may include itself and those of lines above it. Rooms of one line do not know each other.
 set(rooms_geometry mesh "stroke rest" "insert refine figure" band fold quality)
-set(rooms_physics base "cloth body" "plate packed" linear contact "motion rest")
+set(rooms_physics base "cloth body" "plate packed" linear "contact pairs" "motion rest")
 set(rooms_io base mesh "stroke scene" "animation picture")
 # The doors of a room that has them: the only headers of it that other rooms and layers include.
 set(doors_physics_linear block_cholesky free_stiffness lanczos stable_step)

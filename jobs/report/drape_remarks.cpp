@@ -164,6 +164,21 @@ Json level_json(const bridge::DrapeLevel& level) {
           {"residual", level.settle.residual}};
 }
 
+Json self_contact_json(const Draped& d) {
+  const physics::SelfContactReport& last = d.report.levels.back().settle.self;
+  int cut = 0, builds = 0, stopped = 0;
+  for (const bridge::DrapeLevel& level : d.report.levels) {
+    cut += level.soft.self.cut_searches + level.settle.self.cut_searches;
+    builds += level.soft.self.list_builds + level.settle.self.list_builds;
+    stopped += level.stopped;
+  }
+  Json json{{"thickness", d.thickness}, {"pairs", last.pairs},   {"nearest", last.nearest},
+            {"cut_searches", cut},      {"list_builds", builds}, {"crossed_at_start", last.crossed_at_start},
+            {"exempt", last.exempt},    {"stopped", stopped}};
+  if (last.blocked) json["blocked_at"] = {last.blocked_at.x(), last.blocked_at.y(), last.blocked_at.z()};
+  return json;
+}
+
 }  // namespace
 
 std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
@@ -217,6 +232,7 @@ Json to_json(const Draped& d) {
             {"friction_rounds", d.report.friction_rounds},
             {"slip", d.report.slip},
             {"crossings", jobs::to_json(d.crossings)}};
+  if (d.self_contact) json["self_contact"] = self_contact_json(d);
   json["fit"] = jobs::to_json(d.fit, d.fit_options);
   return json;
 }

@@ -263,6 +263,8 @@ bridge::DrapeOptions options_of(const io::Scene& scene, const DrapeSettings& s, 
   options.settle.friction = scene.simulation.friction;
   options.settle.tolerance = s.residual;
   if (s.contact_depth) options.settle.contact_depth = *s.contact_depth;
+  options.settle.self.on = s.self_contact;
+  options.settle.self.thickness = s.thickness;
   options.plain = s.plain;
   options.bending_friction = s.bending_friction;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
@@ -326,6 +328,8 @@ void take_result(Gone gone, Maker& maker, const DrapePlan& plan, const FallWatch
 
 void measure(const DrapePlan& plan, Draped& draped) {
   const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
+  draped.self_contact = plan.settings.self_contact;
+  draped.thickness = plan.settings.thickness;
   draped.crossings = measure_crossings(draped.file, &crossed);
   draped.angle_defect = geometry::angle_defect(draped.file.mesh);
   draped.lines = measure_lines(draped.file, line_heights_by_id(plan.as_read));

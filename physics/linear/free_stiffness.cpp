@@ -31,6 +31,16 @@ FreeStiffness::FreeStiffness(const Cloth& cloth) {
   place_blocks(pairs);
 }
 
+void FreeStiffness::couple(const Cloth& cloth, std::span<const std::array<int, 2>> more) {
+  const Pairs pairs = block_pairs(cloth);
+  Pairs all = pairs;
+  all.insert(all.end(), more.begin(), more.end());
+  matrix_ = BlockMatrix(cloth.particles.inv_mass, all);
+  addends_.clear();
+  place_blocks(pairs);
+  analysed_ = false;
+}
+
 /// Where each block goes; in each chunk those of a bucket of columns follow each other in the elements'
 /// order.
 void FreeStiffness::place_blocks(const Pairs& pairs) {

@@ -27,9 +27,12 @@ class FreeStiffness {
   /// Adds a symmetric block [N/m] to K's diagonal block of a particle, until the next assemble(); a held
   /// particle's is left out.
   void add(int particle, const Mat3& block);
-  /// The same of the block (i, j) and its mirror image; elements couple the two.
+  /// The same of the block (i, j) and its mirror image; elements, or couple(), couple the two.
   void add(int i, int j, const Mat3& block);
-  /// Whether elements couple two particles, or one is held.
+  /// Gives K's pattern the blocks of these pairs of particles beside those of the elements, in place of those
+  /// of an earlier call. Call assemble() next. Cost: as the constructor, with a new order of elimination.
+  void couple(const Cloth& cloth, std::span<const std::array<int, 2>> pairs);
+  /// Whether K's pattern couples two particles, or one is held.
   bool couples(int i, int j) const { return matrix_.has(i, j); }
 
   /// Negative eigenvalues of K, -1 if that cannot be told (negative_pivots()).

@@ -16,6 +16,7 @@
 #include "physics/contact/face_contact.h"
 #include "physics/contact/residual_force.h"
 #include "physics/linear/free_stiffness.h"
+#include "physics/pairs/cloth_contact.h"
 #include "physics/rest/limited_memory.h"
 
 namespace furrow::physics {
@@ -37,6 +38,7 @@ constexpr double follow_until = 1e-2;     // share of the first one's expected f
 constexpr int most_face_rounds = 8;       // rests after which contacts of faces are set or raised
 constexpr int most_face_steps = 40;       // iterations of such a round
 constexpr double face_stiffness = 4;      // that many times the vertices'
+constexpr int most_blocked = 8;           // steps running that cloth cuts short, before it ends
 
 void check(const Cloth& cloth, const SettleOptions& o) {
   constexpr const char* me = "settle";
@@ -49,6 +51,9 @@ void check(const Cloth& cloth, const SettleOptions& o) {
   require(me, "longest_move", o.longest_move, o.longest_move > 0, "> 0");
   require(me, "threads", o.threads, o.threads >= 1, ">= 1");
   require(me, "faces.error", o.faces.error, o.faces.error >= 0, ">= 0");
+  require(me, "self.thickness", o.self.thickness, o.self.thickness > 0, "> 0");
+  const std::size_t drawn = o.self.drawn.size(), n = cloth.particles.size();
+  if (drawn != 0 && drawn != n) refuse(me, "self.drawn has ", drawn, " positions of ", n, " particles");
   check_particles(cloth.particles, me);
 }
 
@@ -119,8 +124,11 @@ class Settler {
         stiffness_(cloth),
         pool_(options.threads) {
     stiffness_.assemble(cloth, p_.x, Stiffness::positive_part);
-    if (!collider) return;
     const double k = contact_share * stiffness_.mean_diagonal();
+    if (o_.self.on)
+      pairs_.emplace(cloth, ClothContactOptions{o_.self.thickness, k > 0 ? k : 1}, p_.x, o_.self.drawn,
+                     &pool_);
+    if (!collider) return;
     contact_.emplace(*collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
     if (!o_.faces.body) return;
     const double clearance = std::min(o_.gap / 6, 5e-4);
@@ -134,8 +142,7 @@ class Settler {
     Answer here = look(p_.x);
     if (contact_) contact_->move_anchors();
     for (;; ++report.iterations) {
-      report.residual = residual(here);
-      bool rests = report.residual <= o_.tolerance;
+      bool rests = look_for_rest(here, report);
       report.converged = rests && !(contact_ && contact_->deepest() > o_.contact_depth);
       if (report.converged && faces_ && keep_faces_out(report)) {
         here = look(p_.x);
@@ -143,7 +150,7 @@ class Settler {
         rests = report.converged = false;
       }
       report.stopped = (observer && !observer({report.iterations, report.residual})) || is_cancelled();
-      if (report.converged || report.stopped || report.iterations == last_iteration()) break;
+      if (report.converged || report.stopped || report.iterations == last_iteration() || is_blocked()) break;
       if (rests) {
         here = stiffen();
         pace.tau = first_time;
@@ -162,10 +169,19 @@ class Settler {
       report.deepest = contact_->deepest();
     }
     if (faces_) report.face_contacts = faces_->touching();
+    if (pairs_) report.self = self_report(report);
     return report;
   }
 
  private:
+  /// Whether forces balance; not while ranges of pairs still grow.
+  bool look_for_rest(const Answer& here, SettleReport& report) {
+    const bool grows = pairs_ && pairs_->widen(p_.x);
+    if (grows) pairs_->look(p_.x, &pool_);
+    report.residual = residual(here);
+    return report.residual <= o_.tolerance && !grows;
+  }
+
   /// Rest is found: sets contacts in faces that the body comes through. Whether it has to go on.
   bool keep_faces_out(const SettleReport& report) {
     const FaceContact::Found found = faces_->find(p_.x, p_.inv_mass, &pool_);
@@ -176,6 +192,21 @@ class Settler {
     return true;
   }
 
+  bool is_blocked() const { return pairs_ && pairs_->blocked() >= most_blocked; }
+
+  SelfContactReport self_report(const SettleReport& report) const {
+    SelfContactReport self;
+    self.pairs = pairs_->touching();
+    if (self.pairs > 0) self.nearest = pairs_->nearest();
+    self.cut_searches = pairs_->cut_searches();
+    self.list_builds = pairs_->list_builds();
+    self.crossed_at_start = pairs_->crossed_at_start();
+    self.exempt = pairs_->exempt();
+    self.blocked = !report.converged && !report.stopped && is_blocked();
+    if (self.blocked) self.blocked_at = *pairs_->blocked_at();
+    return self;
+  }
+
   int last_iteration() const { return std::min(o_.max_iterations, round_ends_); }
 
   /// Of the rests that were found, the last with the fewest faces that the body comes through.
@@ -183,19 +214,21 @@ class Settler {
     report.residual = best_->residual;
     report.converged = true;
     p_.x = std::move(best_->x);
-    ask_body(p_.x);
+    ask_contacts(p_.x);
   }
 
-  void ask_body(const Vectors& x) {
+  void ask_contacts(const Vectors& x) {
     if (contact_) contact_->look(x, p_.inv_mass, &pool_);
     if (faces_) faces_->look(x);
+    if (pairs_) pairs_->look(x, &pool_);
   }
 
   double residual(const Answer& at) const {
-    if (!faces_ || faces_->points() == 0)
-      return residual_of(at.force, p_, o_.gravity, collider_, o_.friction, o_.gap);
+    const bool faces = faces_ && faces_->points() > 0, pairs = pairs_ && pairs_->touching() > 0;
+    if (!faces && !pairs) return residual_of(at.force, p_, o_.gravity, collider_, o_.friction, o_.gap);
     Vectors force = at.force;
-    faces_->add_forces(force);
+    if (faces) faces_->add_forces(force);
+    if (pairs) pairs_->add_forces(force);
     return residual_of(force, p_, o_.gravity, collider_, o_.friction, o_.gap);
   }
 
@@ -205,14 +238,16 @@ class Settler {
     answer.energy = elements_(x, answer.force, pool_);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (p_.inv_mass[i] > 0) answer.energy -= p_.mass[i] * o_.gravity.dot(x[i]);
-    ask_body(x);
+    ask_contacts(x);
     return answer;
   }
 
   /// [J], with the contact's, which must have been asked there last.
   double energy(const Answer& at) const {
-    const double cloth = contact_ ? at.energy + contact_->energy() : at.energy;
-    return faces_ && faces_->points() ? cloth + faces_->energy() : cloth;
+    double sum = contact_ ? at.energy + contact_->energy() : at.energy;
+    if (faces_ && faces_->points()) sum += faces_->energy();
+    if (pairs_ && pairs_->touching()) sum += pairs_->energy();
+    return sum;
   }
 
   /// Of elements, weight and contact [N]; 0 on what is held. As energy().
@@ -220,6 +255,7 @@ class Settler {
     Vectors net = at.force;
     if (contact_) contact_->add_forces(net);
     if (faces_) faces_->add_forces(net);
+    if (pairs_) pairs_->add_forces(net);
     for (std::size_t i = 0; i < net.size(); ++i) {
       if (p_.inv_mass[i] > 0)
         net[i] += p_.mass[i] * o_.gravity;
@@ -231,20 +267,32 @@ class Settler {
 
   /// Rest is found, but too deep in the gap: the contact becomes stiffer.
   Answer stiffen() {
+    const Vectors before = p_.x;
     contact_->stiffen(stiffer, p_.x);
+    if (pairs_) keep_apart(before, p_.x);
     Answer answer = look(p_.x);
     contact_->move_anchors();
     return answer;
   }
 
+  /// Positions that were reached from others, without what would pass through cloth on the way.
+  void keep_apart(const Vectors& from, Vectors& to) {
+    Vectors way = to;
+    add_multiple(way, -1, from);
+    const double share = pairs_->safe_share(from, way, 1, &pool_);
+    if (share < 1) to = moved(from, share, way);
+  }
+
   /// Clamps the Hessian until it is positive definite.
   Factors factorise(const Pace& pace) {
     double clamp = pace.clamp;
+    if (pairs_) pairs_->couple(stiffness_, cloth_);
     for (int tries = 1;; ++tries) {
       throw_if_cancelled("settle");
       stiffness_.assemble(cloth_, p_.x, {clamp}, &pool_);
       if (contact_) contact_->add_stiffness(stiffness_);
       if (faces_) faces_->add_stiffness(stiffness_);
+      if (pairs_) pairs_->add_stiffness(stiffness_);
       for (std::size_t i = 0; i < p_.size(); ++i)
         if (p_.inv_mass[i] > 0) stiffness_.add(int(i), p_.mass[i] / (pace.tau * pace.tau) * Mat3::Identity());
       if (stiffness_.factorise_definite(0, &pool_)) return {true, clamp, tries};
@@ -272,7 +320,7 @@ class Settler {
       trial.answer = look(trial.x);
       if (energy(trial.answer) <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return trial;
     }
-    ask_body(p_.x);
+    ask_contacts(p_.x);
     return {};
   }
 
@@ -301,12 +349,13 @@ class Settler {
       net = net_force(here);
       move = find_move(inverse, net);
     }
+    if (pairs_) move.share = pairs_->safe_share(p_.x, move.way, move.share, &pool_);
     Trial trial = search(here, net, move);
     const double share = trial.share;
     const bool refused = contact_ && share < move.share;
     if (refused) contact_->make_room(p_.x, moved(p_.x, move.share, move.way), p_.inv_mass);
     if (share > 0) accept(std::move(trial), here);
-    if (refused) ask_body(p_.x);  // as there is room now
+    if (refused) ask_contacts(p_.x);  // as there is room now
     const int followers = share > 0 && near ? follow(inverse, here) : 0;
     if (contact_ && share > 0) contact_->move_anchors();
     if (contact_ && share == 0)
@@ -324,6 +373,7 @@ class Settler {
       const double fall = dot(net, move.way);
       most = std::max(most, fall);
       if (fall < follow_until * most || is_cancelled()) return k;
+      if (pairs_) move.share = pairs_->safe_share(p_.x, move.way, move.share, &pool_);
       Trial trial = search(here, net, move);
       if (trial.share == 0) return k;
       for (Vec3& m : move.way) m *= trial.share;
@@ -345,6 +395,7 @@ class Settler {
   ThreadPool pool_;
   std::optional<AnchoredContact> contact_;
   std::optional<FaceContact> faces_;
+  std::optional<ClothContact> pairs_;
   std::optional<Rest> best_;  ///< with faces_
   int face_rounds_ = 0, round_ends_ = std::numeric_limits<int>::max();
 };

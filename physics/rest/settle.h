@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <limits>
+#include <span>
 
 #include "physics/body/collider.h"
 #include "physics/cloth/cloth.h"
@@ -15,6 +16,14 @@ namespace furrow::physics {
 struct FaceGuard {
   const Collider* body = nullptr;  ///< the collider's body, precisely (it may be the collider); null: none
   double error = 0;                ///< by which the collider may differ from it [m]; >= 0
+};
+
+/// Contact of the cloth with itself, without friction: nothing passes through anything (ClothContact). Where
+/// nothing is near, nothing changes, bit by bit.
+struct SelfContact {
+  bool on = false;
+  double thickness = 1e-3;           ///< of the cloth [m]; > 0; where edges are short, it counts as thinner
+  std::span<const Vec3> drawn = {};  ///< positions in which nothing is to be pushed; empty: none
 };
 
 struct SettleOptions {
@@ -31,6 +40,7 @@ struct SettleOptions {
   double longest_move = 0.02;
   int threads = 1;  ///< that share the work; >= 1; the result is the same for any number
   FaceGuard faces = {};
+  SelfContact self = {};
 };
 
 struct SettleProgress {
@@ -41,6 +51,18 @@ struct SettleProgress {
 /// false: stop here.
 using SettleObserver = std::function<bool(const SettleProgress&)>;
 
+/// What contact of the cloth with itself came to.
+struct SelfContactReport {
+  int pairs = 0;             ///< that push each other: vertex and triangle, or two edges
+  double nearest = 0;        ///< of them [m]; 0: none
+  int cut_searches = 0;      ///< steps that were shortened so that nothing passes through
+  int list_builds = 0;       ///< detections of what is near
+  int crossed_at_start = 0;  ///< edges through faces, which may go on crossing
+  int exempt = 0;            ///< pairs of those that did not come apart
+  bool blocked = false;      ///< it ended as no step was left: eight running were cut to less than 1/32
+  Vec3 blocked_at{0, 0, 0};  ///< where [m]
+};
+
 struct SettleReport {
   int iterations = 0, factorisations = 0;
   int followers = 0;       ///< steps with the factors of the step before
@@ -50,6 +72,7 @@ struct SettleReport {
   int touching = 0;        ///< particles that the body carries
   double deepest = 0;      ///< of them, inside the gap [m]
   int face_contacts = 0;   ///< points within faces that the body pushes (FaceGuard)
+  SelfContactReport self = {};
 };
 
 /// Moves the free particles to rest on a body (null: none), from cloth.particles.x: to a state in which

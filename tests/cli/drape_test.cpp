@@ -205,6 +205,24 @@ TEST_CASE("drape: cloth lies no deeper in the gap than it may", "[release]") {
   CHECK(exact["contact_depth"].get<double>() <= 1e-6);
 }
 
+TEST_CASE("drape: where no cloth is near, self-contact changes nothing but the report", "[release]") {
+  ScratchDirectory scratch;
+  const std::string call = "drape " + skirt() + " --subdivide 0 --band top=0.95 --json -o ";
+  const Run off = run_furrow(call + (scratch / "off.obj"));
+  const Run on = run_furrow(call + (scratch / "on.obj") + " --self-contact on --cloth-thickness 0.0004");
+  INFO(on.err);
+  REQUIRE(off.exit_code == 0);
+  REQUIRE(on.exit_code == 0);
+  CHECK(read_text(scratch / "off.obj") == read_text(scratch / "on.obj"));
+  const json r = json::parse(on.out);
+  CHECK(r["levels"] == json::parse(off.out)["levels"]);
+  CHECK_FALSE(json::parse(off.out).contains("self_contact"));
+  CHECK(r["self_contact"]["thickness"] == 0.0004);
+  CHECK(r["self_contact"]["pairs"] == 0);
+  CHECK(r["self_contact"]["crossed_at_start"] == 0);
+  CHECK(r["self_contact"]["list_builds"].get<int>() > 0);
+}
+
 TEST_CASE("drape: what cannot be done is told before the work") {
   ScratchDirectory scratch;
   const auto refused = [&](const std::string& arguments, const std::string& word) {
@@ -227,6 +245,9 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   refused(skirt() + out + " --penetration -1", "--penetration");
   refused(skirt() + out + " --contact-depth 1e-9", "--contact-depth");
   refused(skirt() + out + " --contact-depth 1e-5 --plain", "--contact-depth");
+  refused(skirt() + out + " --self-contact on --plain", "--self-contact");
+  refused(skirt() + out + " --self-contact maybe", "--self-contact");
+  refused(skirt() + out + " --cloth-thickness 0", "--cloth-thickness");
   refused(skirt() + out + " --set body.motion.spin={axis=[0,1,0],rate=1}", "body.motion");
   refused(skirt() + " --picture " + (scratch / "p.png") + " --fabrics cotton,slik", "slik");
   refused(skirt() + " --picture " + (scratch / "p.png") + " --fabrics cotton,,silk", "missing");

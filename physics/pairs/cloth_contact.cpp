@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#include "physics/pairs/cloth_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/base/require.h"
+#include "physics/pairs/barrier.h"
+#include "physics/pairs/pair_distance.h"
+#include "physics/pairs/time_of_impact.h"
+
+namespace furrow::physics {
+namespace {
+
+constexpr double margin_of_edge = 0.1;          // of the mean edge
+constexpr double least_margin_of_edge = 0.025;  // where the list is long
+constexpr double long_list = 5;                 // pairs a vertex
+constexpr double start_share = 0.9;             // of a distance, that a range begins with
+constexpr double growth = 1.2;                  // of such a range
+constexpr double as_touching = 1e-7;            // m: nearer at the start, a pair counts as crossing
+constexpr double cut_short = 1.0 / 32;          // share of a move
+constexpr int pair_chunk = 512;
+constexpr int most_rounds_of_approach = 40;
+
+std::array<Vec3, 4> corners_of(const std::array<int, 4>& v, std::span<const Vec3> x) {
+  return {x[std::size_t(v[0])], x[std::size_t(v[1])], x[std::size_t(v[2])], x[std::size_t(v[3])]};
+}
+
+PairDistance distance_of(bool edges, const std::array<Vec3, 4>& x) {
+  return edges ? edge_edge_distance(x[0], x[1], x[2], x[3])
+               : vertex_triangle_distance(x[0], x[1], x[2], x[3]);
+}
+
+/// Runs work(chunk, begin, end) over [0, n) by chunks of a fixed size.
+template <class Work>
+void by_chunks(std::size_t n, ThreadPool* pool, const Work& work) {
+  const int chunks = int((n + pair_chunk - 1) / pair_chunk);
+  const auto one = [&](int c, int) {
+    work(std::size_t(c), std::size_t(c) * pair_chunk, std::min(n, std::size_t(c + 1) * pair_chunk));
+  };
+  if (pool && chunks > 1) return pool->share(chunks, one);
+  for (int c = 0; c < chunks; ++c) one(c, 0);
+}
+
+}  // namespace
+
+bool ClothContact::active_before(const ActivePair& a, const ActivePair& b) { return a.key < b.key; }
+
+ClothContact::ClothContact(const Cloth& cloth, const ClothContactOptions& options,
+                           std::span<const Vec3> start, std::span<const Vec3> drawn, ThreadPool* pool)
+    : options_(options), margin_share_(margin_of_edge) {
+  const char* const operation = "ClothContact";
+  require(operation, "thickness", options.thickness, options.thickness > 0, "> 0");
+  require(operation, "stiffness", options.stiffness, options.stiffness > 0, "> 0");
+  if (start.size() != cloth.particles.size() || (!drawn.empty() && drawn.size() != start.size()))
+    refuse(operation, start.size(), " positions and ", drawn.size(), " drawn of ", cloth.particles.size());
+  mesh_ = pair_mesh(cloth, options.thickness);
+  find_special(start, drawn, pool);
+}
+
+/// Pairs that are nearer than their range at x.
+void ClothContact::note_near(std::span<const Vec3> x, bool at_start, ThreadPool* pool) {
+  const PairList near(mesh_, x, {}, 0, pool);
+  for (const ListedPair& p : near.pairs()) {
+    const double distance = p.bound + p.range;
+    const bool touches = distance < as_touching;
+    const double range = touches ? 0 : start_share * distance;
+    special_.push_back({p.key, range, at_start || touches ? p.range : range});
+  }
+}
+
+void ClothContact::find_special(std::span<const Vec3> x, std::span<const Vec3> drawn, ThreadPool* pool) {
+  const std::vector<EdgeFaceCrossing> crossings = edge_face_crossings(mesh_, x);
+  crossed_at_start_ = int(crossings.size());
+  std::vector<PairKey> crossed;
+  for (const EdgeFaceCrossing& c : crossings) add_pairs_of(c, mesh_, crossed);
+  for (const PairKey& key : crossed) special_.push_back({key, 0, range_of(mesh_, key)});
+  loose_.assign(x.size(), 0);
+  for (const EdgeFaceCrossing& c : crossings) {
+    for (const int v : mesh_.edges[std::size_t(c.edge)]) loose_[std::size_t(v)] = 1;
+    for (const int v : mesh_.triangles[std::size_t(c.triangle)]) loose_[std::size_t(v)] = 1;
+  }
+  const std::vector<char> core = loose_;
+  for (const auto& [a, b] : mesh_.edges) {
+    if (core[std::size_t(a)]) loose_[std::size_t(b)] = 1;
+    if (core[std::size_t(b)]) loose_[std::size_t(a)] = 1;
+  }
+  note_near(x, true, pool);
+  if (!drawn.empty()) note_near(drawn, false, pool);
+  const auto by_key = [](const SpecialPair& a, const SpecialPair& b) { return a.key < b.key; };
+  std::stable_sort(special_.begin(), special_.end(), by_key);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < special_.size(); ++i) {
+    if (kept > 0 && special_[kept - 1].key == special_[i].key) {
+      SpecialPair& p = special_[kept - 1];
+      p.range = std::min(p.range, special_[i].range);
+      p.target = std::min(p.target, special_[i].target);
+    } else {
+      special_[kept++] = special_[i];
+    }
+  }
+  special_.resize(kept);
+}
+
+const ClothContact::SpecialPair* ClothContact::special_of(const PairKey& key) const {
+  const auto at = std::lower_bound(special_.begin(), special_.end(), key,
+                                   [](const SpecialPair& p, const PairKey& k) { return p.key < k; });
+  return at != special_.end() && at->key == key ? &*at : nullptr;
+}
+
+double ClothContact::range_now(const ListedPair& pair) const {
+  if (special_.empty()) return pair.range;
+  const SpecialPair* special = special_of(pair.key);
+  return special ? special->range : pair.range;
+}
+
+bool ClothContact::is_loose(const EdgeFaceCrossing& crossing) const {
+  const auto& e = mesh_.edges[std::size_t(crossing.edge)];
+  const auto& t = mesh_.triangles[std::size_t(crossing.triangle)];
+  const auto loose = [this](int v) { return loose_[std::size_t(v)] != 0; };
+  return std::all_of(e.begin(), e.end(), loose) && std::all_of(t.begin(), t.end(), loose);
+}
+
+/// Sorted; of crossings next to those of the start.
+std::vector<PairKey> ClothContact::crossed_now(std::span<const Vec3> x) const {
+  std::vector<PairKey> crossed;
+  for (const EdgeFaceCrossing& c : edge_face_crossings(mesh_, x))
+    if (is_loose(c)) add_pairs_of(c, mesh_, crossed);
+  std::sort(crossed.begin(), crossed.end());
+  crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
+  return crossed;
+}
+
+bool ClothContact::widen(std::span<const Vec3> x) {
+  if (special_.empty()) return false;
+  const std::vector<PairKey> crossed = exempt() > 0 ? crossed_now(x) : std::vector<PairKey>{};
+  std::vector<SpecialPair> more;
+  for (const PairKey& key : crossed)
+    if (!special_of(key)) more.push_back({key, 0, range_of(mesh_, key)});
+  const std::size_t known = special_.size();
+  special_.insert(special_.end(), more.begin(), more.end());
+  std::inplace_merge(special_.begin(), special_.begin() + std::ptrdiff_t(known), special_.end(),
+                     [](const SpecialPair& a, const SpecialPair& b) { return a.key < b.key; });
+  bool changed = false;
+  for (SpecialPair& p : special_) {
+    if (std::binary_search(crossed.begin(), crossed.end(), p.key)) {
+      p.range = 0;
+    } else if (p.range == 0) {
+      const auto corners = corners_of(vertices_of(mesh_, p.key), x);
+      const double distance = std::sqrt(distance_of(p.key.edges, corners).squared());
+      if (distance < as_touching) continue;
+      p.range = std::min(p.target, start_share * distance);
+      changed = true;
+    } else if (p.range < p.target) {
+      p.range = std::min(p.target, growth * p.range);
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+void ClothContact::renew_list(std::span<const Vec3> x, std::span<const Vec3> plan, ThreadPool* pool) {
+  list_ = PairList(mesh_, x, plan, margin_share_ * mesh_.mean_edge, pool);
+  ++list_builds_;
+  const double per_vertex = double(list_.pairs().size()) / double(std::max<std::size_t>(1, x.size()));
+  if (per_vertex > long_list) margin_share_ = std::max(least_margin_of_edge, 0.5 * margin_share_);
+}
+
+/// Of the list, made anew where it does not know the way from x by `most` of the move.
+std::span<const ListedPair> ClothContact::pairs_on_way(std::span<const Vec3> x, std::span<const Vec3> move,
+                                                       double most, ThreadPool* pool) {
+  double longest = 0;
+  for (const Vec3& m : move) longest = std::max(longest, m.squaredNorm());
+  double reach = list_.excess(x) + most * std::sqrt(longest);
+  if (!(reach <= list_.margin())) {
+    std::vector<Vec3> plan(move.begin(), move.end());
+    for (Vec3& m : plan) m *= most;
+    renew_list(x, plan, pool);
+    reach = 0;
+  }
+  return list_.within(reach + 1e-12);
+}
+
+/// Of `most` of the move, by each pair.
+std::vector<double> ClothContact::shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
+                                         std::span<const Vec3> move, double most, ThreadPool* pool) const {
+  std::vector<double> result(pairs.size(), 1.0);
+  by_chunks(pairs.size(), pool, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double range = range_now(pairs[i]);
+      if (!(range > 0)) continue;
+      MovingPair moving{pairs[i].key.edges == 1, corners_of(pairs[i].vertices, x),
+                        corners_of(pairs[i].vertices, move)};
+      for (Vec3& m : moving.move) m *= most;
+      result[i] = time_of_impact(moving, range);
+    }
+  });
+  return result;
+}
+
+double ClothContact::safe_share(std::span<const Vec3> x, std::span<const Vec3> move, double most,
+                                ThreadPool* pool) {
+  const std::span<const ListedPair> pairs = pairs_on_way(x, move, most, pool);
+  const std::vector<double> share = shares(pairs, x, move, most, pool);
+  braced_.clear();
+  double least = 1;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (share[i] < cut_short) braced_.push_back(brace(pairs[i], x));
+    if (!(share[i] < least)) continue;
+    least = share[i];
+    blocked_at_ = x[std::size_t(pairs[i].vertices[0])];
+  }
+  std::sort(braced_.begin(), braced_.end(), active_before);
+  cut_searches_ += least < 1;
+  blocked_ = least < cut_short ? blocked_ + 1 : 0;
+  return least * most;
+}
+
+int ClothContact::approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPool* pool) {
+  std::vector<char> stopped(x.size(), 0);
+  std::vector<Vec3> way(x.size());
+  for (int round = 0; round < most_rounds_of_approach; ++round) {
+    for (std::size_t i = 0; i < x.size(); ++i) way[i] = stopped[i] ? Vec3::Zero() : Vec3(to[i] - x[i]);
+    const std::span<const ListedPair> pairs = pairs_on_way(x, way, 1, pool);
+    const std::vector<double> share = shares(pairs, x, way, 1, pool);
+    const double least = share.empty() ? 1 : std::min(1.0, *std::min_element(share.begin(), share.end()));
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (!stopped[i]) x[i] = least == 1 ? to[i] : Vec3(x[i] + least * way[i]);
+    if (least == 1) break;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (share[i] < least + 0.1)
+        for (const int v : pairs[i].vertices) stopped[std::size_t(v)] = 1;
+  }
+  int left = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) left += x[i] != to[i];
+  return left;
+}
+
+ClothContact::ActivePair ClothContact::brace(const ListedPair& pair, std::span<const Vec3> x) const {
+  const PairDistance d = distance_of(pair.key.edges, corners_of(pair.vertices, x));
+  const double range = range_now(pair), distance = std::sqrt(d.squared());
+  const Vec3 normal = distance > 0 ? Vec3(d.across / distance) : Vec3::Zero();
+  const double stiffness = barrier(0.5 * range, range, options_.stiffness).stiffness;
+  return {pair.key, pair.vertices, d.weights, {}, normal, distance, 0, stiffness};
+}
+
+std::optional<ClothContact::ActivePair> ClothContact::touch(const ListedPair& pair,
+                                                            std::span<const Vec3> x) const {
+  const std::array<Vec3, 4> at = corners_of(pair.vertices, x);
+  const PairDistance d = distance_of(pair.key.edges, at);
+  const double squared = d.squared();
+  if (!(squared < pair.range * pair.range)) return {};
+  const double range = range_now(pair), distance = std::sqrt(squared);
+  if (!(distance < range)) return {};
+  const Barrier b = barrier(distance, range, options_.stiffness);
+  ActivePair found{pair.key, pair.vertices, d.weights, {}, Vec3::Zero(), distance, b.energy, b.stiffness};
+  if (!(distance > 0)) return found;
+  found.normal = d.across / distance;
+  ParallelShare share;
+  if (pair.key.edges) {
+    const Vec3 e1 = at[1] - at[0], e2 = at[3] - at[2];
+    share = parallel_share(
+        e1, e2,
+        mesh_.rest_lengths[std::size_t(pair.key.first)] * mesh_.rest_lengths[std::size_t(pair.key.second)]);
+    found.energy *= share.factor;
+    found.stiffness *= share.factor;
+  }
+  for (std::size_t i = 0; i < 4; ++i) found.force[i] = share.factor * b.force * d.weights[i] * found.normal;
+  const Vec3 first = b.energy * share.first, second = b.energy * share.second;
+  if (share.factor < 1) {
+    found.force[0] += first, found.force[1] -= first;
+    found.force[2] += second, found.force[3] -= second;
+  }
+  return found;
+}
+
+void ClothContact::look(std::span<const Vec3> x, ThreadPool* pool) {
+  double excess = list_.excess(x);
+  if (!(excess <= list_.margin())) {
+    renew_list(x, {}, pool);
+    excess = 0;
+  }
+  const std::span<const ListedPair> pairs = list_.within(excess + 1e-12);
+  std::vector<std::vector<ActivePair>> found(pairs.size() / pair_chunk + 1);
+  by_chunks(pairs.size(), pool, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (const auto pair = touch(pairs[i], x)) found[chunk].push_back(*pair);
+  });
+  active_.clear();
+  for (const auto& part : found) active_.insert(active_.end(), part.begin(), part.end());
+  std::sort(active_.begin(), active_.end(), active_before);
+  energy_ = 0;
+  for (const ActivePair& p : active_) energy_ += p.energy;
+}
+
+void ClothContact::add_forces(std::span<Vec3> force) const {
+  for (const ActivePair& p : active_)
+    for (std::size_t i = 0; i < 4; ++i) force[std::size_t(p.vertices[i])] += p.force[i];
+}
+
+void ClothContact::couple(FreeStiffness& stiffness, const Cloth& cloth) const {
+  std::vector<std::array<int, 2>> couples;
+  bool missing = false;
+  for (const auto* pairs : {&active_, &braced_})
+    for (const ActivePair& p : *pairs)
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+          if (p.weights[i] == 0 || p.weights[j] == 0) continue;
+          couples.push_back({p.vertices[i], p.vertices[j]});
+          missing = missing || !stiffness.couples(p.vertices[i], p.vertices[j]);
+        }
+  if (missing) stiffness.couple(cloth, couples);
+}
+
+void ClothContact::add_stiffness(FreeStiffness& stiffness) const {
+  for (const auto* pairs : {&active_, &braced_})
+    for (const ActivePair& p : *pairs) {
+      const Mat3 block = p.stiffness * p.normal * p.normal.transpose();
+      for (std::size_t i = 0; i < 4; ++i) {
+        stiffness.add(p.vertices[i], p.weights[i] * p.weights[i] * block);
+        for (std::size_t j = 0; j < i; ++j)
+          if (p.weights[i] * p.weights[j] != 0)
+            stiffness.add(p.vertices[i], p.vertices[j], p.weights[i] * p.weights[j] * block);
+      }
+    }
+}
+
+double ClothContact::nearest() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ActivePair& p : active_) least = std::min(least, p.distance);
+  return least;
+}
+
+int ClothContact::exempt() const {
+  return int(
+      std::count_if(special_.begin(), special_.end(), [](const SpecialPair& p) { return p.range == 0; }));
+}
+
+}  // namespace furrow::physics

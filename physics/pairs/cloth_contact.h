@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "physics/base/thread_pool.h"
+#include "physics/linear/free_stiffness.h"
+#include "physics/pairs/edge_face_crossings.h"
+#include "physics/pairs/pair_list.h"
+
+namespace furrow::physics {
+
+struct ClothContactOptions {
+  double thickness = 0.001;  ///< of the cloth: layers are that far apart, a little less under load [m]; > 0
+  double stiffness = 500;    ///< k of barrier() [N/m]; > 0
+};
+
+/// Contact of a cloth with itself as a potential, for callers that look for rest, without friction: pairs of
+/// vertex and triangle, and of edges, repel each other nearer than their range (pair_mesh.h) by barrier().
+/// A cloth that does not cross itself never will if each position it takes is reached by a straight way
+/// within what safe_share() allows. Nothing changes where nothing is near, bit by bit.
+/// \details Pairs that start, or were drawn, nearer than their range have a range of 0.9 of that distance:
+/// nothing that was drawn is pushed. Those that were not drawn so grow by a fifth with each call of widen().
+/// Pairs of an edge and a face that cross at the start, and those nearer than 1e-7 m, do not count until
+/// widen() finds them apart; within a ring around them, neither do pairs that cross in their place, so that
+/// crossings can leave as they came. Results depend neither on the number of threads nor on the list's
+/// margin.
+class ClothContact {
+ public:
+  /// start: positions at the start. drawn: in which nothing is to be pushed; may be empty. Throws
+  /// std::invalid_argument if an option is out of its range or lengths differ.
+  ClothContact(const Cloth& cloth, const ClothContactOptions& options, std::span<const Vec3> start,
+               std::span<const Vec3> drawn, ThreadPool* pool = nullptr);
+
+  /// The largest share, at most `most`, of a move [m] from x at which nothing has passed through anything:
+  /// less than `most` only where the way is cut.
+  double safe_share(std::span<const Vec3> x, std::span<const Vec3> move, double most, ThreadPool* pool);
+  /// Moves x towards other positions [m], each vertex until something is in its way. Returns how many did not
+  /// arrive. For starts: a vertex that was stopped stays, however far the others go.
+  int approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPool* pool);
+  /// Finds the pairs that touch at x. The answers below are for these positions.
+  void look(std::span<const Vec3> x, ThreadPool* pool);
+  double energy() const { return energy_; }      ///< [J]; infinite where something touches
+  void add_forces(std::span<Vec3> force) const;  ///< [N]
+  /// Gives the matrix the blocks that pairs need and that are not there yet; before it is assembled.
+  void couple(FreeStiffness& stiffness, const Cloth& cloth) const;
+  /// Positive semidefinite; after couple(). Where the way was cut to less than 1/32, the pairs that did so
+  /// count as if they were half their range apart.
+  void add_stiffness(FreeStiffness& stiffness) const;
+  /// Once an iteration: ranges grow, and pairs that were exempt take part once they are apart. Whether
+  /// something changed or will go on changing; then look() again.
+  bool widen(std::span<const Vec3> x);
+
+  int touching() const { return int(active_.size()); }  ///< pairs nearer than their range
+  double nearest() const;                               ///< of them [m]; infinite: none
+  int list_builds() const { return list_builds_; }
+  int cut_searches() const { return cut_searches_; }
+  int blocked() const { return blocked_; }                        ///< ways cut to less than 1/32, running
+  std::optional<Vec3> blocked_at() const { return blocked_at_; }  ///< the pair that cut the last one [m]
+  int crossed_at_start() const { return crossed_at_start_; }      ///< edges through faces
+  int exempt() const;                                             ///< pairs that do not count yet
+  const PairMesh& mesh() const { return mesh_; }
+
+ private:
+  struct ActivePair {
+    PairKey key;
+    std::array<int, 4> vertices;
+    std::array<double, 4> weights;
+    std::array<Vec3, 4> force;
+    Vec3 normal;
+    double distance, energy, stiffness;
+  };
+  static bool active_before(const ActivePair& a, const ActivePair& b);
+  /// A pair whose range is not that of its primitives; 0: it is exempt.
+  struct SpecialPair {
+    PairKey key;
+    double range, target;
+  };
+  void find_special(std::span<const Vec3> x, std::span<const Vec3> drawn, ThreadPool* pool);
+  void note_near(std::span<const Vec3> x, bool at_start, ThreadPool* pool);
+  const SpecialPair* special_of(const PairKey& key) const;
+  bool is_loose(const EdgeFaceCrossing& crossing) const;
+  std::vector<PairKey> crossed_now(std::span<const Vec3> x) const;
+  double range_now(const ListedPair& pair) const;
+  ActivePair brace(const ListedPair& pair, std::span<const Vec3> x) const;
+  std::optional<ActivePair> touch(const ListedPair& pair, std::span<const Vec3> x) const;
+  std::vector<double> shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
+                             std::span<const Vec3> move, double most, ThreadPool* pool) const;
+  std::span<const ListedPair> pairs_on_way(std::span<const Vec3> x, std::span<const Vec3> move, double most,
+                                           ThreadPool* pool);
+  void renew_list(std::span<const Vec3> x, std::span<const Vec3> plan, ThreadPool* pool);
+
+  ClothContactOptions options_;
+  PairMesh mesh_;
+  PairList list_;
+  std::vector<SpecialPair> special_;  ///< sorted by key
+  std::vector<char> loose_;           ///< by vertex: something crossed there at the start, or next to it
+  std::vector<ActivePair> active_;    ///< sorted by key
+  std::vector<ActivePair> braced_;    ///< that cut the last way short
+  double energy_ = 0, margin_share_;
+  int list_builds_ = 0, cut_searches_ = 0, blocked_ = 0, crossed_at_start_ = 0;
+  std::optional<Vec3> blocked_at_;
+};
+
+}  // namespace furrow::physics

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "physics/pairs/edge_face_crossings.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "physics/pairs/box_grid.h"
+#include "physics/pairs/pair_distance.h"
+
+namespace furrow::physics {
+namespace {
+
+constexpr double sign_in_doubt = 1e-13;  // of a volume, over the product of its sides
+
+/// Sign of the volume of the tetrahedron that v makes with three sides; 0: rounding may have made it.
+int side_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double volume = a.dot(b.cross(c));
+  const double doubt = sign_in_doubt * std::sqrt(a.squaredNorm() * b.squaredNorm() * c.squaredNorm());
+  return volume > doubt ? 1 : volume < -doubt ? -1 : 0;
+}
+
+/// Of an edge in the triangle's plane, to rounding.
+bool touches_in_plane(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  double least = std::min(vertex_triangle_distance(p, a, b, c).squared(),
+                          vertex_triangle_distance(q, a, b, c).squared());
+  least = std::min({least, edge_edge_distance(p, q, a, b).squared(), edge_edge_distance(p, q, b, c).squared(),
+                    edge_edge_distance(p, q, c, a).squared()});
+  return least <= sign_in_doubt * ((q - p).squaredNorm() + (b - a).squaredNorm() + (c - a).squaredNorm());
+}
+
+bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const int start = side_of(a - p, b - p, c - p), end = side_of(a - q, b - q, c - q);
+  if (start * end > 0) return false;
+  const Vec3 pq = q - p;
+  const int ab = side_of(pq, a - p, b - p), bc = side_of(pq, b - p, c - p), ca = side_of(pq, c - p, a - p);
+  if (ab == 0 && bc == 0 && ca == 0) return touches_in_plane(p, q, a, b, c);
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+}  // namespace
+
+std::vector<EdgeFaceCrossing> edge_face_crossings(const PairMesh& mesh, std::span<const Vec3> x) {
+  std::vector<EdgeFaceCrossing> found;
+  if (mesh.edges.empty()) return found;
+  const auto at = [&x](int v) -> const Vec3& { return x[std::size_t(v)]; };
+  const Vec3 origin = at(mesh.edges[0][0]);
+  std::vector<FloatBox> boxes;
+  boxes.reserve(mesh.edges.size());
+  double sides = 0;
+  for (const auto& e : mesh.edges) {
+    boxes.push_back(box_around(std::array{at(e[0]), at(e[1])}, origin, 0));
+    sides += (at(e[1]) - at(e[0])).lpNorm<Eigen::Infinity>();
+  }
+  const double mean = sides / double(mesh.edges.size());
+  const BoxGrid grid(boxes, mean > 0 ? mean : 1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& f = mesh.triangles[t];
+    grid.each_meeting(box_around(std::array{at(f[0]), at(f[1]), at(f[2])}, origin, 0), [&](int number) {
+      const auto& e = mesh.edges[std::size_t(number)];
+      for (const int v : f)
+        if (v == e[0] || v == e[1]) return;
+      if (crosses(at(e[0]), at(e[1]), at(f[0]), at(f[1]), at(f[2]))) found.push_back({number, int(t)});
+    });
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+void add_pairs_of(const EdgeFaceCrossing& crossing, const PairMesh& mesh, std::vector<PairKey>& keys) {
+  const auto& e = mesh.edges[std::size_t(crossing.edge)];
+  const auto& t = mesh.triangles[std::size_t(crossing.triangle)];
+  for (const int v : e) keys.push_back({0, v, crossing.triangle});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::array<int, 2> side{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])};
+    const auto at = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), side);
+    const int other = int(at - mesh.edges.begin());
+    keys.push_back({1, std::min(other, crossing.edge), std::max(other, crossing.edge)});
+  }
+}
+
+}  // namespace furrow::physics

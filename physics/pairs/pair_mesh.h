@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/cloth/cloth.h"
+
+namespace furrow::physics {
+
+/// What of a cloth can touch: its triangles, their edges and vertices, and how thick it is there.
+struct PairMesh {
+  std::vector<std::array<int, 3>> triangles;  ///< as the cloth's
+  std::vector<std::array<int, 2>> edges;      ///< of the triangles, (a, b) with a < b, sorted, each once
+  std::vector<double> rest_lengths;           ///< of the edges [m]; > 0 unless two vertices coincide
+  /// Half of the cloth's thickness, of each vertex: a quarter of the least rest altitude of its triangles at
+  /// most, so that flat cloth at rest does not touch itself; of edges and triangles the least of their
+  /// vertices [m].
+  std::vector<double> radius, edge_radius, triangle_radius;
+  std::vector<char> held;     ///< by vertex: it does not move
+  std::vector<char> used;     ///< by vertex: a triangle has it
+  double mean_edge = 0;       ///< h [m]
+  double largest_radius = 0;  ///< [m]
+};
+
+/// Lengths at rest are those of the membrane's triangles, else of structural springs, else of tension, else
+/// as the cloth lies. thickness > 0 [m]; throws std::invalid_argument otherwise, or if a triangle names a
+/// particle that is not there. Cost: O(n log n).
+PairMesh pair_mesh(const Cloth& cloth, double thickness);
+
+/// Vertex against triangle, or edge against edge, by their numbers; in the order of sums: vertices first.
+struct PairKey {
+  std::uint8_t edges;  ///< 1: edge `first` against edge `second`, first < second
+  int first, second;
+  auto operator<=>(const PairKey&) const = default;
+};
+/// Its vertices as PairDistance has them.
+std::array<int, 4> vertices_of(const PairMesh& mesh, const PairKey& key);
+/// The distance from which on the two do not touch [m].
+double range_of(const PairMesh& mesh, const PairKey& key);
+
+}  // namespace furrow::physics

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+furrow_add_tests(pairs physics LIBRARIES furrow::physics cases SOURCES
+  pairs/barrier_test.cpp
+  pairs/box_grid_test.cpp
+  pairs/cloth_contact_test.cpp
+  pairs/edge_face_crossings_test.cpp
+  pairs/pair_distance_test.cpp
+  pairs/pair_list_test.cpp
+  pairs/pair_mesh_test.cpp
+  pairs/time_of_impact_test.cpp
+  rest/settle_pairs_test.cpp
+)
