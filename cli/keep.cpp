@@ -98,8 +98,7 @@ void add_keep(CLI::App& app, int& exit_code) {
       "(by at most 0.2 rad)");
   sub->add_flag("--no-settle", a->no_settle,
                 "on a body, keep a wrinkled garment, or draw the scene's lines, where it lies, even if "
-                "nothing holds it "
-                "there; by default it comes to rest first then");
+                "nothing holds it there, or a few vertices; by default it comes to rest first then");
   sub->add_flag("--no-help", a->no_help,
                 "no press, struts or lower height where the rest state alone does not hold");
   sub->add_flag("--whole", a->whole,

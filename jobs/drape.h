@@ -31,6 +31,7 @@ struct DrapeSettings {
   double band_stiffness = 50;       ///< [N]; >= 0
   double bending_friction = 0;      ///< [N]; >= 0
   std::filesystem::path animation;  ///< of the finest level, a frame an iteration; empty: none
+  std::optional<double> gap;  ///< to the body, whatever edges and field need [m]; > 0; none: they raise it
 };
 
 /// A garment to be put on the scene's body, hung from its pins, or both, under its material and gravity.

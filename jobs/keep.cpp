@@ -85,31 +85,40 @@ SceneCloth drawn_by(const io::Scene& scene, const Context& context) {
   return prepare_scene(drawn, context);
 }
 
-/// Whether nothing holds the garment in balance as it was drawn.
-bool hangs_wrong(const SceneCloth& garment, const io::Scene& scene) {
-  constexpr double out_of_balance = 1e-6;
+/// What is wrong with keeping a garment as it lies on its body; empty: nothing. Friction may balance cloth
+/// that has not come to rest on a few vertices, between which it would sag.
+std::string why_unsettled(const SceneCloth& garment, const io::Scene& scene) {
+  constexpr double out_of_balance = 1e-6, large_share = 0.05;  // of the garment's weight, on one vertex
   physics::Cloth cloth = garment.cloth;
   physics::PrestressOptions options;
   options.gravity = scene.simulation.gravity;
   options.friction = scene.simulation.friction;
   options.gap = garment.options.contact_gap;
   const bridge::KeptShape shape = bridge::keep_shape(cloth, garment.world(scene), options);
-  return shape.rest.residual > out_of_balance && !shape.rest.imbalance.empty();
+  if (shape.rest.residual > out_of_balance && !shape.rest.imbalance.empty())
+    return "nothing held it in balance as it lay";
+  double push = 0, weight = 0;
+  for (const physics::Vec3& force : shape.rest.contact_force) push = std::max(push, force.norm());
+  for (const double inverse : cloth.particles.inv_mass)
+    if (inverse > 0) weight += options.gravity.norm() / inverse;
+  const bool on_few = push > large_share * weight && !shape.certificate.stable();
+  return on_few ? "a few of its vertices would have held it as it lay, and not stably" : "";
 }
 
-/// What drawn_by() gives; on a body that does not hold the garment in balance, once it has come to rest
-/// there.
+/// What drawn_by() gives; on a body that does not hold the garment well as it lies, once it has come to rest
+/// there, at the same gap.
 SceneCloth drawn_at_rest(const KeepJob& job, const io::Scene& scene, const Context& context,
                          KeepReport& report) {
   SceneCloth garment = drawn_by(scene, context);
-  if (!job.settle || !scene.body || !hangs_wrong(garment, scene)) return garment;
-  const std::optional<MemoryFiles> settled = settle_first(scene, context);
+  const std::string why = job.settle && scene.body ? why_unsettled(garment, scene) : "";
+  if (why.empty()) return garment;
+  const std::optional<MemoryFiles> settled = settle_first(scene, garment.options.contact_gap, context);
   stop_if_cancelled(context);
   if (!settled) return garment;
   report.settled = true;
   context.warn(
       "settled_first",
-      scene.garment.string() + ": nothing held it in balance as it lay, so it came to rest on the body " +
+      scene.garment.string() + ": " + why + ", so it came to rest on the body " +
           (scene.lines.empty() ? "with the lines that it has; --no-settle keeps it where it lies"
                                : "before its lines were drawn; --no-settle draws them where it lies"),
       scene.garment.string(), "--no-settle");

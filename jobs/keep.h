@@ -44,7 +44,7 @@ struct KeepJob {
   double gust = 12;                  ///< then an acceleration to one side [m/s^2]; >= 0
   double kept = 0.95;                ///< share of its height with which a line holds [-], in (0, 1)
   bool balance = true;               ///< what hangs on a line of pins is first turned into balance
-  bool settle = true;                ///< on a body: where nothing holds the garment, it comes to rest first
+  bool settle = true;  ///< on a body: a garment that it does not hold as it lies comes to rest first
   bool help = true;    ///< press, struts or a lower height where the rest state alone does not hold
   bool whole = false;  ///< what lies between the lines is pressed, too, where it could give way
   std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another

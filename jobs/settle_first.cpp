@@ -88,7 +88,7 @@ io::MeshFile made(const io::Scene& scene, const Context& context) {
 
 }  // namespace
 
-std::optional<MemoryFiles> settle_first(const io::Scene& scene, const Context& context) {
+std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, const Context& context) {
   SilentListener silent(context.listener);
   const Context quiet{context.frame, silent, context.memory};  // reading has warned before
   const io::MeshFile before = made(scene, quiet);
@@ -97,7 +97,9 @@ std::optional<MemoryFiles> settle_first(const io::Scene& scene, const Context& c
   alone.output = {};
   const ProgressScope progress(context.listener, "settling");
   const BodyCollider body = load_body(*scene.body, quiet, tolerance_for(scene.simulation.contact_gap));
-  const Draped draped = drape_garment(alone, &body, {}, false, quiet);
+  DrapeSettings settings;
+  settings.gap = gap;
+  const Draped draped = drape_garment(alone, &body, settings, false, quiet);
   if (draped.falls || draped.broken || draped.report.stopped) return std::nullopt;
   io::MeshFile rests = before;
   for (const geometry::Vertex v : rests.mesh.vertices()) rests.mesh.point(v) = draped.file.mesh.point(v);

@@ -399,7 +399,7 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
                      const Context& context) {
   const Given given = read_given(asked, body, s, choose, context);
   const io::Scene& scene = given.scene;
-  const double gap = gap_of(scene, body, given.file.mesh, context);
+  const double gap = s.gap.value_or(0) > 0 ? *s.gap : gap_of(scene, body, given.file.mesh, context);
   DrapePlan plan{scene, body, s, given.file, options_of(scene, s, gap)};
   plan.options.soft_start = soft_start_of(given.file);
   if (body) plan.options.settle.faces = {&body->exact, body->field.report().tolerance};

@@ -51,7 +51,7 @@ std::vector<ContactPoint> contacts_of(const Particles& p, const Collider* collid
   std::vector<ContactPoint> contacts;
   for (std::size_t i = 0; collider && i < p.size(); ++i) {
     if (!(p.inv_mass[i] > 0)) continue;
-    const SignedDistance field = collider->at(p.x[i]);
+    const SignedDistance field = collider->smooth_at(p.x[i]);
     if (field.value <= gap + contact_tolerance && field.gradient.norm() > 0)
       contacts.push_back({int(i), field.gradient.normalized()});
   }

@@ -214,6 +214,24 @@ TEST_CASE("prestress: a bump on the floor, with friction and without") {
   }
 }
 
+TEST_CASE(
+    "prestress: where a sampled body's gradient jumps the forces of contact are those that are judged") {
+  struct Sampled : Floor {  // its gradient leans to and fro by more than the angle of friction
+    SignedDistance at(const Vec3& x) const override {
+      const double lean = std::fmod(std::abs(x.x()), 0.1) < 0.05 ? 0.5 : -0.5;
+      return {x.y(), Vec3(lean, 1, 0).normalized()};
+    }
+    SignedDistance smooth_at(const Vec3& x) const override { return Floor::at(x); }
+  } body;
+  Cloth cloth = lying(0.02);
+  const PrestressReport report = prestress(cloth, {}, &body);
+  CHECK(report.imbalance.empty());
+  CHECK(report.residual <= 1e-8);
+  CHECK(report.touching.size() > 20);
+  for (const Vec3& f : report.contact_force)
+    CHECK(std::hypot(f.x(), f.z()) <= 0.3 * f.y() * (1 + 1e-12) + 1e-15);
+}
+
 TEST_CASE("prestress: what lies beyond the edge of a body tips over") {
   struct Table : Collider {  // the quarter space x < 0.02, y < 0
     SignedDistance at(const Vec3& x) const override {
