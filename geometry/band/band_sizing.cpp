@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/band/band_sizing.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,8 +11,14 @@ namespace {
 
 constexpr double growth = 0.35;                         ///< of the edge with the distance from the band [-]
 constexpr double half_band = 0.55;                      ///< of the width
+constexpr double border_growth = 1;                     ///< the same with the distance from a border
 constexpr double crest_ends = 0.1, flank_begins = 0.3;  ///< distances from the curve, in widths
 constexpr double turn = 0.35;  ///< largest angle between two faces at the crest [rad]
+constexpr double inner_share = 1.0 / 14, border_share = 1.0 / 28;  ///< least edge at a crest, in widths
+/// Between folds of the same sign this far apart, in widths, lies a valley as round as their crests. Nearer
+/// ones join to one fold.
+constexpr double nearest_neighbour = 0.6, farthest_neighbour = 1.2;
+constexpr double half_valley = 0.1, valley_rises = 0.1;  ///< of the width
 constexpr int leaf_size = 4;
 
 Point point_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -25,24 +32,76 @@ double distance_to(const std::array<double, 3>& low, const std::array<double, 3>
   return std::sqrt(squared);
 }
 
-}  // namespace
-
-double crest_edge(double width, double height, Detail detail, double least_edge) {
+/// With at least a share of the width, however round the crest.
+double edge_at_crest(double width, double height, double share, Detail detail, double least_edge) {
   const double factor = detail == Detail::coarse ? 1.4 : detail == Detail::fine ? 0.7 : 1;
   const double radius =
       height == 0 ? std::numeric_limits<double>::infinity() : width * width / (20 * std::abs(height));
-  return std::max(least_edge, factor * std::max(width / 14, std::min(width / 8, turn * radius)));
+  return std::max(least_edge, factor * std::max(share * width, std::min(width / 8, turn * radius)));
+}
+
+using Boxes = std::vector<Eigen::AlignedBox3d>;
+
+Boxes boxes_of(std::span<const FoldCurve> curves) {
+  Boxes boxes(curves.size());
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    for (const Eigen::Vector3d& p : curves[c].points) boxes[c].extend(p);
+  return boxes;
+}
+
+/// Distance from a point of a curve to the nearest fold of the same sign of another line, if that is so near
+/// that there is a valley between them as round as the crest; else infinity [m].
+double way_to_neighbour(std::span<const FoldCurve> curves, const Boxes& boxes, const FoldCurve& curve,
+                        std::size_t i) {
+  const double least = nearest_neighbour * curve.width[i], most = farthest_neighbour * curve.width[i];
+  double nearest = most;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    if (curves[c].line == curve.line || boxes[c].exteriorDistance(curve.points[i]) >= nearest) continue;
+    for (std::size_t j = 0; j < curves[c].points.size(); ++j)
+      if (curves[c].height[j] * curve.height[i] > 0)
+        nearest = std::min(nearest, (curves[c].points[j] - curve.points[i]).norm());
+  }
+  return nearest >= least && nearest < most ? nearest : std::numeric_limits<double>::infinity();
+}
+
+/// From each point along the curve to the border, infinite if no end lies on it [m].
+std::vector<double> ways_to_border(const FoldCurve& curve) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  std::vector<double> ways(curve.points.size(), far), arc{0};
+  for (std::size_t i = 1; i < curve.points.size(); ++i)
+    arc.push_back(arc.back() + (curve.points[i] - curve.points[i - 1]).norm());
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (curve.begins_at_border) ways[i] = arc[i];
+    if (curve.ends_at_border) ways[i] = std::min(ways[i], arc.back() - arc[i]);
+  }
+  return ways;
+}
+
+}  // namespace
+
+double crest_edge(double width, double height, Detail detail, double least_edge) {
+  return edge_at_crest(width, height, inner_share, detail, least_edge);
 }
 
 BandSizing::BandSizing(std::span<const FoldCurve> curves, Detail detail, double least_edge) {
+  const Boxes boxes = boxes_of(curves);
   for (const FoldCurve& curve : curves) {
-    std::vector<double> h, flank;
+    const std::vector<double> to_border = ways_to_border(curve);
+    std::vector<Edges> edges;
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
-      h.push_back(crest_edge(curve.width[i], curve.height[i], detail, least_edge));
-      flank.push_back(crest_edge(curve.width[i], 0, detail, least_edge));  // not as round as the crest
+      const double w = curve.width[i];
+      const double at_border =
+          edge_at_crest(w, curve.height[i], border_share, detail, least_edge) + border_growth * to_border[i];
+      const double h = std::min(crest_edge(w, curve.height[i], detail, least_edge), at_border);
+      const double flank = crest_edge(w, 0, detail, least_edge);  // not as round as the crest
+      const double valley = at_border < flank
+                                ? way_to_neighbour(curves, boxes, curve, i) / 2 - half_valley * w
+                                : std::numeric_limits<double>::infinity();
+      edges.push_back({h, flank, std::min(flank, at_border), half_band * w, valley});
     }
-    add_segments(curve, h, flank);
-    on_curves_.push_back(std::move(h));
+    add_segments(curve, edges);
+    on_curves_.emplace_back();
+    for (const Edges& e : edges) on_curves_.back().push_back(e.crest);
   }
   if (segments_.empty()) return;
   boxes_.reserve(segments_.size());
@@ -50,13 +109,11 @@ BandSizing::BandSizing(std::span<const FoldCurve> curves, Detail detail, double 
   build(0, 0, static_cast<int>(segments_.size()));
 }
 
-void BandSizing::add_segments(const FoldCurve& curve, const std::vector<double>& h,
-                              const std::vector<double>& flank) {
+void BandSizing::add_segments(const FoldCurve& curve, const std::vector<Edges>& edges) {
   const std::size_t n = curve.points.size();
   for (std::size_t i = 0; i + (curve.closed ? 0 : 1) < n; ++i) {
     const std::size_t j = (i + 1) % n;
-    segments_.push_back({point_of(curve.points[i]), point_of(curve.points[j]), h[i], h[j],
-                         half_band * curve.width[i], half_band * curve.width[j], flank[i], flank[j]});
+    segments_.push_back({point_of(curve.points[i]), point_of(curve.points[j]), edges[i], edges[j]});
   }
 }
 
@@ -69,9 +126,9 @@ BandSizing::Box BandSizing::bounds(int first, int count) const {
       box.low[k] = std::min({box.low[k], s.a[k], s.b[k]});
       box.high[k] = std::max({box.high[k], s.a[k], s.b[k]});
     }
-    box.least_h = std::min({box.least_h, s.h_a, s.h_b});
-    box.most_h = std::max({box.most_h, s.h_a, s.h_b});
-    box.most_reach = std::max({box.most_reach, s.reach_a, s.reach_b});
+    box.least_h = std::min({box.least_h, s.at_a.crest, s.at_b.crest});
+    box.most_h = std::max({box.most_h, s.at_a.crest, s.at_b.crest});
+    box.most_reach = std::max({box.most_reach, s.at_a.reach, s.at_b.reach});
   }
   return box;
 }
@@ -102,15 +159,22 @@ BandSizing::Nearest BandSizing::nearest_of(const Segment& s, const Point& p) {
   const double squared = along.squared_length();
   const double t = squared > 0 ? std::clamp(((p - s.a) * along) / squared, 0.0, 1.0) : 0;
   const double d = std::sqrt((p - (s.a + t * along)).squared_length());
-  const auto at = [t](double a, double b) { return a + t * (b - a); };
-  return {at(s.h_a, s.h_b), at(s.flank_a, s.flank_b), d, d - at(s.reach_a, s.reach_b)};
+  const auto at = [&](double Edges::*of) { return s.at_a.*of + t * (s.at_b.*of - s.at_a.*of); };
+  // One end may know of no neighbour.
+  const bool beside = std::isfinite(s.at_a.valley) && std::isfinite(s.at_b.valley);
+  return {{at(&Edges::crest), at(&Edges::flank), at(&Edges::valley_edge), at(&Edges::reach),
+           beside ? at(&Edges::valley) : std::numeric_limits<double>::infinity()},
+          d};
 }
 
 double BandSizing::wanted(const Segment& segment, const Point& p) {
-  const Nearest at = nearest_of(segment, p);
-  const double width = (at.distance - at.beyond) / half_band;
-  const double off = (at.distance / width - crest_ends) / (flank_begins - crest_ends);
-  return at.h + std::clamp(off, 0.0, 1.0) * (at.flank - at.h) + growth * std::max(0.0, at.beyond);
+  const auto [at, distance] = nearest_of(segment, p);
+  const double beyond = distance - at.reach, width = (distance - beyond) / half_band;
+  const double off = (distance / width - crest_ends) / (flank_begins - crest_ends);
+  const double before = (at.valley - distance) / (valley_rises * width);
+  double edge = at.crest + std::clamp(off, 0.0, 1.0) * (at.flank - at.crest);
+  if (before < 1) edge = std::min(edge, at.valley_edge + std::max(before, 0.0) * (at.flank - at.valley_edge));
+  return edge + growth * std::max(0.0, beyond);
 }
 
 bool BandSizing::in_band(const Point& p) const {
@@ -121,8 +185,8 @@ bool BandSizing::in_band(const Point& p) const {
     stack.pop_back();
     if (distance_to(box.low, box.high, p) > box.most_reach + box.most_h) continue;
     for (int i = box.first; i < box.first + box.count; ++i) {
-      const Nearest at = nearest_of(segments_[i], p);
-      if (at.beyond <= at.h) return true;
+      const Nearest near = nearest_of(segments_[i], p);
+      if (near.distance - near.at.reach <= near.at.crest) return true;
     }
     if (box.count == 0) stack.insert(stack.end(), {box.first, box.first + 1});
   }

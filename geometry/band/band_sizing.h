@@ -16,8 +16,10 @@ namespace furrow::geometry {
 double crest_edge(double width, double height, Detail detail, double least_edge);
 
 /// The edge length wanted at a point of space: h within 0.1 width of a curve, that of a fold without height
-/// (width / 8) from 0.3 width on, and beyond 0.55 width 0.35 of the distance more; the least of all curves. A
-/// tree of boxes over the segments of the curves: O(n log n) to build, about O(log n) to ask.
+/// (width / 8) from 0.3 width on, h again in the valley towards a fold of the same sign beside it, and beyond
+/// 0.55 width 0.35 of the distance more; the least of all curves. Where a curve ends at a border, h is as
+/// small as width / 22 there, since a hem shows a steep section's turns. A tree of boxes over the segments of
+/// the curves: O(n log n) to build, but for n^2 of folds side by side, and about O(log n) to ask.
 class BandSizing {
  public:
   BandSizing(std::span<const FoldCurve> curves, Detail detail, double least_edge);
@@ -30,22 +32,26 @@ class BandSizing {
   const std::vector<std::vector<double>>& on_curves() const { return on_curves_; }
 
  private:
+  struct Edges {
+    double crest, flank, valley_edge;  ///< edge lengths wanted at the crest, on flanks, in a valley [m]
+    double reach;                      ///< distance from the curve up to which they are [m]
+    double valley;  ///< that from which the crest's is wanted again; infinite: no fold beside it [m]
+  };
   struct Segment {
     Point a, b;
-    double h_a, h_b, reach_a, reach_b;  ///< h, and the distance up to which it is wanted [m]
-    double flank_a, flank_b;            ///< h away from the crest [m]
+    Edges at_a, at_b;
   };
   struct Box {
     std::array<double, 3> low, high;
     double least_h, most_h, most_reach;
     int first, count;  ///< count > 0: segments of a leaf; else children `first` and `first` + 1
   };
-  void add_segments(const FoldCurve& curve, const std::vector<double>& h, const std::vector<double>& flank);
+  void add_segments(const FoldCurve& curve, const std::vector<Edges>& edges);
   void build(int box, int first, int count);
   Box bounds(int first, int count) const;
   struct Nearest {
-    double h, flank;          ///< at the nearest point of a segment, and away from the crest [m]
-    double distance, beyond;  ///< from it, and beyond its reach [m]
+    Edges at;  ///< the nearest point of a segment
+    double distance;
   };
   static Nearest nearest_of(const Segment& segment, const Point& p);
   static double wanted(const Segment& segment, const Point& p);

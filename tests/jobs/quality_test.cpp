@@ -11,6 +11,7 @@
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
+#include "tests/test_paths.h"
 
 using namespace furrow;
 namespace fs = std::filesystem;
@@ -220,4 +221,19 @@ TEST_CASE("quality: the report of wrinkle tells it before the lines, drawn and s
     CHECK(q.after.angle_defect <= 40);
     CHECK(q.after.min_angle_deg >= 15);
   }
+}
+
+TEST_CASE(
+    "quality: the hem of the demo's skirt is as smooth as its target where ten steep folds run over it") {
+  jobs::WrinkleJob job;
+  job.garment = tests::source_dir() / "meshes/skirt.obj";
+  job.strokes = tests::source_dir() / "meshes/strokes/figure_skirt.json";
+  tests::Recorder recorder;
+  jobs::QualityJob judged;
+  judged.mesh = jobs::wrinkle(job, recorder).garment;
+  const jobs::QualityReport report = quality_of(judged);
+  const jobs::QualityMeasure& hem = measure_of(report, "B8");
+  CHECK(*hem.value <= 10);
+  CHECK(hem.met());
+  CHECK(measure_of(report, "B7").met());
 }

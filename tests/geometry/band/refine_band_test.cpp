@@ -59,6 +59,30 @@ TEST_CASE("BandSizing: fine in the band, growing by 0.35 beyond it") {
   CHECK_FALSE(sizing.in_band({0.07, 0.4, 0}));
 }
 
+TEST_CASE("BandSizing: finer where steep folds and the valley between them run over a border") {
+  const Mesh sheet = equilateral_sheet(0.6, 0.8, 0.05);
+  const double w = 0.12, steep = 0.08;
+  std::vector<FoldCurve> curves{curve_on(sheet, {{0, 0.2, 0}, {0, 0.8, 0}}, w, steep),
+                                curve_on(sheet, {{w, 0.2, 0}, {w, 0.8, 0}}, w, steep)};
+  for (int i = 0; i < 2; ++i) curves[i].line = i, curves[i].ends_at_border = true;
+  const double end = curves[0].points.back().y(), crest = w / 14, flank = w / 8;
+  const auto at = [&](double x, double y) {
+    return BandSizing(curves, Detail::normal, 0.003).at({x, y, 0}, 1);
+  };
+  CHECK(at(0, end) == Approx(w / 28));
+  CHECK(at(w / 2, end) == Approx(w / 28));
+  CHECK(at(0, end - 0.003) > w / 28 + 0.0015);
+  CHECK(at(0, end - 0.003) < w / 28 + 0.003);
+  CHECK(at(w / 4, end) > w / 14);
+  CHECK(at(0, 0.5) == Approx(crest));
+  CHECK(at(w / 2, 0.5) == Approx(flank));
+  CHECK(at(w / 2, 0.2) == Approx(flank));
+  curves[1].height.assign(curves[1].height.size(), -steep);  // no valley between them
+  CHECK(at(w / 2, end) == Approx(flank));
+  curves[0].height.assign(curves[0].height.size(), 0.1 * w);  // no steep fold
+  CHECK(at(0, end) == Approx(flank));
+}
+
 TEST_CASE("refine_band: a line on a flat sheet, from coarse to fine") {
   for (double edge : {width / 3, width / 5, width / 10, width / 20}) {
     CAPTURE(edge);
