@@ -29,11 +29,11 @@ Point curved_place(const Mesh& mesh, const std::vector<Vector>& normals, const F
   return flat + share * off;
 }
 
-std::vector<Vector> averaged_normals(const Mesh& mesh) {
-  std::vector<Vector> normals = vertex_normals(mesh), next = normals;
+void average_normals(const Mesh& mesh, const std::vector<bool>& of, std::vector<Vector>& normals) {
+  std::vector<Vector> next = normals;
   for (int round = 0; round < rounds; ++round) {
     for (Vertex v : mesh.vertices()) {
-      if (mesh.is_isolated(v)) continue;
+      if (!of[v.idx()] || mesh.is_isolated(v)) continue;
       Vector sum = normals[v.idx()];
       for (Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))
         sum = sum + normals[mesh.source(h).idx()];
@@ -42,6 +42,11 @@ std::vector<Vector> averaged_normals(const Mesh& mesh) {
     }
     normals.swap(next);
   }
+}
+
+std::vector<Vector> averaged_normals(const Mesh& mesh) {
+  std::vector<Vector> normals = vertex_normals(mesh);
+  average_normals(mesh, std::vector<bool>(mesh.num_vertices(), true), normals);
   return normals;
 }
 

@@ -15,6 +15,9 @@ Point curved_place(const Mesh& mesh, const std::vector<Vector>& normals, const F
 /// of a coarse garment do not print into a fold; by vertex index, 0 for vertices without faces.
 std::vector<Vector> averaged_normals(const Mesh& mesh);
 
+/// Six means more of the normals of the vertices `of`, by vertex index.
+void average_normals(const Mesh& mesh, const std::vector<bool>& of, std::vector<Vector>& normals);
+
 /// By vertex index: 2 pi less the angles around an inner vertex [rad]; 0 for all others. O(faces).
 std::vector<double> angle_defects(const Mesh& mesh);
 

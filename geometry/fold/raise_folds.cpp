@@ -12,6 +12,9 @@
 namespace furrow::geometry {
 namespace {
 
+constexpr double pinched = 0.5;  ///< of an edge's length
+constexpr int rings_spread = 4, most_spreads = 10;
+
 Eigen::Vector3d coordinates(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 /// Ways of all vertices from the chains of the curves.
@@ -123,6 +126,37 @@ std::vector<Point> base_of(const Mesh& mesh, const BandReport& band, const Raisi
   return base;
 }
 
+/// Ends of edges that raising makes shorter than `pinched`, with some rings around them: there a fold rises
+/// into a hollow, whose normals meet.
+std::vector<bool> pinched_region(const Mesh& mesh, const Raised& raised) {
+  std::vector<bool> marked(mesh.num_vertices(), false);
+  for (Edge e : mesh.edges()) {
+    const Vertex a = mesh.vertex(e, 0), b = mesh.vertex(e, 1);
+    const double before = CGAL::squared_distance(raised.base[a.idx()], raised.base[b.idx()]);
+    if (CGAL::squared_distance(raised.displaced(a), raised.displaced(b)) < pinched * pinched * before)
+      marked[a.idx()] = marked[b.idx()] = true;
+  }
+  for (int ring = 0; ring < rings_spread && std::find(marked.begin(), marked.end(), true) != marked.end();
+       ++ring) {
+    std::vector<bool> wider = marked;
+    for (Edge e : mesh.edges()) {
+      const Vertex a = mesh.vertex(e, 0), b = mesh.vertex(e, 1);
+      if (marked[a.idx()] || marked[b.idx()]) wider[a.idx()] = wider[b.idx()] = true;
+    }
+    marked.swap(wider);
+  }
+  return marked;
+}
+
+/// Averages the normals further where they meet below the heights, until they do not.
+void spread_normals(const Mesh& mesh, Raised& raised) {
+  for (int spread = 0; spread < most_spreads; ++spread) {
+    const std::vector<bool> marked = pinched_region(mesh, raised);
+    if (std::find(marked.begin(), marked.end(), true) == marked.end()) return;
+    average_normals(mesh, marked, raised.normals);
+  }
+}
+
 }  // namespace
 
 Folds::Folds(std::vector<FoldCurve> list) : curves(std::move(list)) {
@@ -166,6 +200,7 @@ Raised raise_folds(const Mesh& given, Mesh& mesh, BandReport& band, const Folds&
     raising.raise(one);
     raising.put(i, one);
   }
+  spread_normals(mesh, raised);
   std::vector<Point> displaced;
   for (Vertex v : mesh.vertices()) displaced.push_back(raised.displaced(v));
   const Displacing displacing{

@@ -46,9 +46,10 @@ struct RaiseOptions {
 };
 
 /// Base, normals and heights of a mesh that refine_band() made of `given`. Then its steep flanks are refined
-/// (refine_displaced.h), and new vertices have all that the others have. A height counts in full where the
-/// way along the cloth is about the distance, and fades where layers lie close (FoldHeight::share_at), so
-/// that it is continuous over the mesh. Throws as refine_displaced().
+/// (refine_displaced.h), and new vertices have all that the others have. Where a fold rises into a hollow, so
+/// that its normals would meet (edges become half as long), they are averaged further. A height counts in
+/// full where the way along the cloth is about the distance, and fades where layers lie close
+/// (FoldHeight::share_at), so that it is continuous over the mesh. Throws as refine_displaced().
 Raised raise_folds(const Mesh& given, Mesh& mesh, BandReport& band, const Folds& folds,
                    const RaiseOptions& options);
 

@@ -285,6 +285,24 @@ TEST_CASE("fold_lines: folds are drawn over earlier ones, and thin faces that th
   }
 }
 
+TEST_CASE("fold_lines: a ridge over a valley does not pinch the cloth in the hollow") {
+  for (const double k : {0.015, 0.02})
+    for (const double slope : {0.0, 0.3, 1.0}) {
+      CAPTURE(k, slope);
+      Mesh mesh = equilateral_sheet(0.5, 0.5, 0.02);
+      fold(mesh, {over_both_hems(-0.02)});
+      WrinkleOptions options = fold_options();
+      options.first_line = 1;
+      options.insertion.max_distance = 0.1;
+      options.insertion.mean_edge = 0.02;
+      const WrinkleReport report =
+          fold(mesh, {line({{-0.2, 0.25 - 0.2 * slope, 0}, {0.2, 0.25 + 0.2 * slope, 0}}, k)}, options);
+      CHECK(report.fold->invalid_faces == 0);
+      CHECK(report.lines.at(0).crest_height.value() == Approx(k).epsilon(0.08));
+      CHECK(report.fold->min_angle_deg >= 10);
+    }
+}
+
 namespace {
 
 /// A point of a stroke in its own plane: x to the right, y up, about the middle of the cloth [m].
