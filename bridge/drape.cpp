@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "bridge/convert.h"
 #include "bridge/gather.h"
+#include "bridge/place_noise.h"
 #include "geometry/refine/subdivide.h"
 #include "physics/base/require.h"
 #include "physics/base/thread_pool.h"
@@ -38,24 +38,27 @@ void check(const DrapeOptions& o) {
           o.plain ? "0, as the plain scheme needs it" : ">= 0");
 }
 
-/// Moves each free particle along its normal, in or out, by up to so much of the mean edge, the same way in
-/// every run. Creases begin so, and the cloth is hardly strained.
-double disturb(physics::Cloth& cloth, double share) {
+/// Noise at places of the garment as it was given.
+struct Disturbance {
+  const std::vector<Vec3>& places;  ///< one a particle [m]
+  const PlaceNoise& noise;
+  double by;  ///< [m]
+};
+
+/// Moves each free particle along its normal by the noise at its place. Creases begin so, and the cloth is
+/// hardly strained.
+void disturb(physics::Cloth& cloth, const Disturbance& d) {
   std::vector<Vec3>& x = cloth.particles.x;
   std::vector<Vec3> normal(x.size(), Vec3::Zero());
-  double sum = 0;
   for (const auto& [a, b, c] : cloth.triangles) {
-    sum += (x[b] - x[a]).norm() + (x[c] - x[b]).norm() + (x[a] - x[c]).norm();
     const Vec3 n = (x[b] - x[a]).eval().cross((x[c] - x[a]).eval());
     for (const int corner : {a, b, c}) normal[std::size_t(corner)] += n;
   }
-  const double by = cloth.triangles.empty() ? 0 : share * sum / (3 * double(cloth.triangles.size()));
-  std::mt19937_64 engine(1);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double random = double(engine() >> 11) * 0x1p-52 - 1, length = normal[i].norm();
-    if (cloth.particles.inv_mass[i] > 0 && length > 0) x[i] += by * random / length * normal[i];
+    const double length = normal[i].norm();
+    if (cloth.particles.inv_mass[i] > 0 && length > 0)
+      x[i] += d.by * d.noise(d.places[i]) / length * normal[i];
   }
-  return by;
 }
 
 /// How deep cloth at rest may lie inside the gap: moving it out would only strain it.
@@ -115,6 +118,7 @@ physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collid
   rough.tolerance = std::max(rough.tolerance, o.coarse_tolerance);
   rough.contact_depth = std::numeric_limits<double>::infinity();
   rough.faces = {};
+  rough.work = o.work ? &o.work->levels[0] : nullptr;
   rough.max_iterations = std::min(rough.max_iterations, most_soft_iterations);
   const std::vector<physics::MembraneTriangle> own = cloth.membrane;
   for (physics::MembraneTriangle& t : cloth.membrane) {
@@ -172,10 +176,9 @@ struct Carried {
   std::vector<Vec3> fine;    ///< refined
 };
 
-/// Puts a level's cloth where it begins: where it was carried, disturbed, and out of the body. Returns by how
-/// much it was disturbed [m].
-double begin_level(physics::Cloth& cloth, const Carried& carried, const physics::Collider* body,
-                   const DrapeOptions& o, bool stopped, DrapeLevel& level) {
+/// Puts a level's cloth where it begins: where it was carried, disturbed, and out of the body.
+void begin_level(physics::Cloth& cloth, const Carried& carried, const Disturbance& disturbance,
+                 const physics::Collider* body, const DrapeOptions& o, DrapeLevel& level) {
   physics::Particles& p = cloth.particles;
   std::vector<Vec3> from;
   if (o.settle.self.on) {
@@ -186,11 +189,10 @@ double begin_level(physics::Cloth& cloth, const Carried& carried, const physics:
   }
   for (std::size_t i = 0; i < carried.fine.size(); ++i)
     if (p.inv_mass[i] > 0) p.x[i] = carried.fine[i];
-  const double disturbance = disturb(cloth, stopped ? 0 : o.disturbance);
+  if (disturbance.by > 0) disturb(cloth, disturbance);
   const double gap = o.settle.gap - (carried.fine.empty() ? 0 : rest_depth(o.settle.gap));
   if (body) level.pushed = physics::bring_out(p, *body, gap);
   if (o.settle.self.on) level.stopped = keep_apart(cloth, std::move(from), o.settle);
-  return disturbance;
 }
 
 physics::SettleOptions options_of(const DrapeOptions& o, bool last, bool stopped) {
@@ -235,16 +237,21 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
   DrapeOptions o = asked;
   DrapeReport report;
   Carried carried;
+  const PlaceNoise noise(positions_of(garment), o.seed);
+  DrapeWork* const work = o.work;
+  if (work) work->levels.resize(std::size_t(o.refinements) + 1);
   for (int level = 0; level <= o.refinements; ++level) {
     if (level > 0) carried = {cloth.particles.x, refine(cloth.particles, garment)};
     const bool last = level == o.refinements;
+    const std::vector<Vec3> places = positions_of(garment);
     geometry::Mesh made = garment;
     cloth = make_cloth(made);
     const std::vector<Vec3> drawn = cloth.particles.x;
     o.settle.self.drawn = drawn;
+    report.disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);
     DrapeLevel& now = report.levels.emplace_back();
     now.vertices = cloth.particles.size();
-    report.disturbance = begin_level(cloth, carried, body, o, report.stopped, now);
+    begin_level(cloth, carried, {places, noise, report.disturbance}, body, o, now);
     const auto observer = [&](const physics::SettleProgress& progress) {
       return !go_on || report.stopped || go_on(level, progress, cloth);
     };
@@ -252,7 +259,8 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
       now.soft = settle_softly(cloth, body, o, observer);
       report.stopped = now.soft.stopped;
     }
-    const physics::SettleOptions settle = options_of(o, last, report.stopped);
+    physics::SettleOptions settle = options_of(o, last, report.stopped);
+    settle.work = work ? &work->levels[std::size_t(level)] : nullptr;
     if (last && o.bending_friction > 0 && !report.stopped) {
       const WornRest rest = give_way(cloth, body, o.bending_friction, settle, observer);
       now.settle = rest.settle;
@@ -264,6 +272,8 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     report.falls = !last && falls_past(cloth, body, o, observer, now.settle);
     report.stopped = report.stopped || now.settle.stopped;
     if (!last && !report.falls) continue;
+    report.energy = energy_parts(cloth, o.settle.gravity, places);
+    report.energy.contact = now.settle.contact_energy;
     garment = std::move(made);
     scatter(cloth.particles, garment);
     break;

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "bridge/energy_parts.h"
 #include "geometry/mesh/mesh.h"
 #include "physics/body/collider.h"
 #include "physics/rest/settle.h"
 
 namespace furrow::bridge {
+
+/// What drapes of one garment share, one after the other: the patterns of each level (physics::SettleWork).
+struct DrapeWork {
+  std::vector<physics::SettleWork> levels;
+};
 
 struct DrapeOptions {
   int refinements = 0;  ///< Loop subdivisions between the given mesh and the fitted one; in [0, 6]
@@ -18,9 +25,12 @@ struct DrapeOptions {
   /// long. It has the same friction, gap and tolerance; max_iterations bounds its passes.
   bool plain = false;
   double coarse_tolerance = 100;  ///< residual force at which the next level takes over [-]; > 0
-  /// How far a level's start is disturbed along its normals, as a share of its mean edge [-]; >= 0. Without
-  /// it cloth that must buckle balances on the way to it.
-  double disturbance = 0.003;
+  /// How far the start is disturbed along its normals, as a share of the diagonal of the garment's box (root
+  /// mean square) [-]; >= 0; half as far on each finer level. Without it cloth that must buckle balances on
+  /// the way to it. It belongs to places of the garment as it was given, not to vertices (place_noise.h).
+  double disturbance = 1e-4;
+  std::uint64_t seed = 0;     ///< of the disturbance: another one may lead to another rest
+  DrapeWork* work = nullptr;  ///< shared with drapes of the same garment; null: none
   /// How many times softer the triangles of the first level are in a search that comes before its own and
   /// ends at coarse_tolerance [-]; >= 1; 1: none. Stiff cloth with many folds is slow to find its way, as
   /// every step that turns a fold stretches it; it finds it in a third of the iterations from where soft
@@ -43,6 +53,7 @@ struct DrapeReport {
   double disturbance = 0;          ///< of the last level [m]
   int friction_rounds = 0;         ///< rests after each of which hinges that bend too far gave way
   double slip = 0;                 ///< of a hinge in the last of them [rad]
+  EnergyParts energy;              ///< of the last level; weight against the garment as it was given
   bool stopped = false;            ///< by go_on
   bool falls = false;              ///< a coarse level came to lie on nothing: there are no finer ones
 };
@@ -55,9 +66,10 @@ using DrapeObserver = std::function<bool(int level, const physics::SettleProgres
 
 /// Fits a garment on a body (null: it only hangs), from the coarse mesh to the finest. On return the mesh is
 /// refined, has the maps of make_cloth, and its vertices lie where they rest. `cloth` belongs to it, with the
-/// hinges of friction at its end. If stopped on a coarse level, the rest of the way is only carried; a garment
-/// that falls past the body on a coarse level is not refined further. Same input, same bits. Cost: most of it is the last level's. Throws std::invalid_argument for an option out of
-/// its range, the mesh unchanged; and as loop_subdivide(), make_cloth and settle() do.
+/// hinges of friction at its end. If stopped on a coarse level, the rest of the way is only carried; a
+/// garment that falls past the body on a coarse level is not refined further. Same input, same bits. Cost:
+/// most of it is the last level's. Throws std::invalid_argument for an option out of its range, the mesh
+/// unchanged; and as loop_subdivide(), make_cloth and settle() do.
 ///
 /// \details Each level first brings out what lies nearer than the gap (a finer one only what lies deeper than
 /// cloth does at rest), then finds rest, and carries that shape to the next finer level: Loop's masks take

@@ -149,6 +149,33 @@ std::string refined(long long times) {
                       : "refined " + std::to_string(times) + " times";
 }
 
+/// "waist +4.1 +- 0.2 cm", and so on, over all starts.
+void add_starts(Lines& lines, const Json& report) {
+  const Json& starts = table_of(report, "starts");
+  if (starts.empty()) return;
+  std::string text = std::to_string(count_of(starts, "resting")) + " of " +
+                     std::to_string(count_of(starts, "asked")) + " starts at rest, that of start " +
+                     std::to_string(count_of(starts, "chosen")) + " taken";
+  for (const Json& s : list_of(starts, "spread")) {
+    const std::string name = text_of(s, "name");
+    const bool ease = name.rfind("ease_", 0) == 0;
+    char part[96];
+    if (ease)
+      std::snprintf(part, sizeof part, "; %s %+.1f +- %.2f cm", name.c_str() + 5, 100 * value_of(s, "mean"),
+                    100 * value_of(s, "deviation"));
+    else if (name == "hem_height")
+      std::snprintf(part, sizeof part, "; hem at %.1f +- %.2f cm", 100 * value_of(s, "mean"),
+                    100 * value_of(s, "deviation"));
+    else if (name == "energy")
+      std::snprintf(part, sizeof part, "; energy %.4g +- %.2g J", value_of(s, "mean"),
+                    value_of(s, "deviation"));
+    else
+      continue;
+    text += part;
+  }
+  lines.push_back(text);
+}
+
 /// Of one garment on a body.
 void add_draped(Lines& lines, const Json& report) {
   const Json& levels = list_of(report, "levels");
@@ -163,6 +190,7 @@ void add_draped(Lines& lines, const Json& report) {
     lines.push_back("gap: " + asked + " asked, " + (taken == asked ? "" : taken + " aimed at, ") +
                     length(table_of(table_of(report, "fit"), "distance"), "min") + " at the nearest place; " +
                     std::to_string(count_of(report, "touching")) + " vertices touch the body");
+  add_starts(lines, report);
   add_fit(lines, table_of(report, "fit"));
   add_crossings(lines, report);
 }

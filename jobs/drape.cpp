@@ -41,6 +41,8 @@ void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
   if (s.iterations) require("drape", "iterations", *s.iterations, *s.iterations >= 0, ">= 0");
   require("drape", "thickness", s.thickness, s.thickness > 0, "> 0");
   if (s.contact_depth) require("drape", "contact_depth", *s.contact_depth, *s.contact_depth > 0, "> 0");
+  if (scene.starts > 1 && !s.animation.empty())
+    throw std::invalid_argument("--animation shows one way to rest; leave it out, or --starts");
   if (job.fabrics.size() > 1 && (!job.output.empty() || !s.animation.empty()))
     throw std::invalid_argument("--fabrics writes a picture only; drape each by itself for its mesh");
   if (!(s.residual > 0)) throw std::invalid_argument("--residual takes a number > 0");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -47,13 +48,52 @@ struct DrapeJob {
   std::vector<std::string> more_inputs = {};   ///< files that the caller reads: none may be replaced
 };
 
+/// A number of a garment at rest, by the name that it has in reports; SI units.
+struct RestNumber {
+  std::string name;
+  double value;
+};
+
+/// One of several rests that were looked for, each from a start of its own.
+struct DrapeStart {
+  std::uint64_t seed = 0;                  ///< bridge::DrapeOptions::seed
+  std::string outcome;                     ///< as Draped::outcome()
+  bool rests = false;                      ///< without, it counts in no spread
+  double residual = 0;                     ///< [-]
+  int iterations = 0, factorisations = 0;  ///< of all levels
+  double seconds = 0;                      ///< [s]
+  bridge::EnergyParts energy;
+  std::vector<RestNumber> numbers;
+};
+
+/// A number over the starts that came to rest.
+struct NumberSpread {
+  std::string name;
+  int count = 0;  ///< starts that know it
+  double mean = 0;
+  double deviation = 0;  ///< standard deviation (n - 1); 0 for one
+  double least = 0, most = 0;
+};
+
+/// Several rests of one garment, and what they tell of its numbers.
+struct DrapeStarts {
+  int asked = 0;
+  std::size_t chosen = 0;  ///< in `runs`: the rest with the lowest energy (within 1e-6 of it, the first)
+  std::vector<DrapeStart> runs;
+  std::vector<NumberSpread> spread;
+  /// Starts that came to rest.
+  int resting() const;
+};
+
 /// A garment that was draped.
 struct Draped {
   io::MeshFile file;  ///< [m], y up, with the columns of its fit
   bridge::DrapeReport report;
   bridge::FitReport fit;
   bridge::FitOptions fit_options;
-  int refinements = 0;      ///< Loop subdivisions of the garment as it was given
+  int refinements = 0;                ///< Loop subdivisions of the garment as it was given
+  std::optional<double> hem_height;   ///< mean y of the lowest border [m]; none: there is no border
+  std::optional<DrapeStarts> starts;  ///< none: there was one
   double angle_defect = 0;  ///< how knobbly it rests: sum over inner vertices over the area [rad/m^2]
   std::vector<LineReport> lines = {};  ///< heights against what they were, or the file's at its start
   double gap = 0;                      ///< that was to be kept from the body [m]; 0: there is none

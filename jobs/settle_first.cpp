@@ -94,6 +94,7 @@ std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, cons
   const io::MeshFile before = made(scene, quiet);
   io::Scene alone = scene;
   alone.lines.clear();
+  alone.starts = 1;
   alone.output = {};
   const ProgressScope progress(context.listener, "settling");
   const BodyCollider body = load_body(*scene.body, quiet, tolerance_for(scene.simulation.contact_gap));

@@ -115,6 +115,7 @@ struct Scene {
   physics::Wind wind;
   bool settle = false;                  ///< what is drawn at time 0 comes to rest before it moves
   physics::SimulateOptions simulation;  ///< with gravity, friction, damping
+  int starts = 1;                       ///< of furrow drape, each with noise of its own; >= 1
   int threads = 0;                      ///< 0: as many as the garment's size is worth
   std::optional<double> stop_at;  ///< [s]; the state then is kept, the plan goes on to simulation.seconds
   SceneOutput output;

@@ -136,6 +136,18 @@ const Row<Scene> rows[] = {
       .flag_in = used_by::simulate},
      yes_no(
          false, true, [](auto& s) -> auto& { return s.settle; })},
+    {{.path = "simulation.starts",
+      .flag = "--starts",
+      .help =
+          "look for rest from so many starts (default 1), write the rest with the lowest energy, and tell "
+          "each number as mean and spread",
+      .what =
+          "starts of `furrow drape`, each with noise of its own: the rest with the lowest energy is taken, "
+          "and numbers are told as mean and spread",
+      .used = used_by::drape,
+      .flag_in = used_by::drape},
+     whole(
+         1, 1000, [](auto& s) -> auto& { return s.starts; })},
     {{.path = "simulation.stop_at",
       .flag = "--stop-at",
       .help = "stop earlier, at this time [s], and keep the plan in the state",

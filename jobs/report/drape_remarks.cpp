@@ -8,6 +8,7 @@
 
 #include "jobs/fit.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/drape_starts.h"
 #include "jobs/run/run_warnings.h"
 
 namespace furrow::jobs {
@@ -190,6 +191,7 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
     remark_on_loose_parts(d, remarks);
     remark_on_crossings(d, remarks);
     if (!d.rests()) remark_on_unrest(d, remarks);
+    for (const Warning& doubt : doubts_of(d)) remarks.push_back({false, doubt});
     if (d.rests() && !d.is_torn())
       for (const Warning& lost : lost_lines({}, d.lines)) remarks.push_back({false, lost});
   }
@@ -233,6 +235,9 @@ Json to_json(const Draped& d) {
             {"slip", d.report.slip},
             {"crossings", jobs::to_json(d.crossings)}};
   if (d.self_contact) json["self_contact"] = self_contact_json(d);
+  json["hem_height"] = d.hem_height ? Json(*d.hem_height) : Json();
+  json["energy"] = to_json(d.report.energy);
+  if (d.starts) json["starts"] = to_json(*d.starts);
   json["fit"] = jobs::to_json(d.fit, d.fit_options);
   return json;
 }

@@ -23,12 +23,14 @@
 #include "jobs/check/gate.h"
 #include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/drape_starts.h"
 #include "jobs/run/fall_watch.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/measure_shape.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
+#include "physics/base/progress.h"
 #include "physics/body/collider.h"
 #include "physics/cloth/elastic_band.h"
 #include "physics/cloth/pins.h"
@@ -282,9 +284,11 @@ struct Gone {
   std::vector<int> falling;  ///< a vertex of each part that fell, which ended it
 };
 
+/// Told how far one way is, in [0, 1]; returns whether to go on.
+using Progress = std::function<bool(double)>;
+
 Gone go(const DrapePlan& plan, Maker& maker, WayRecorder& way, const FallWatch& watch,
-        const Context& context) {
-  const ProgressScope progress(context.listener, "draping");
+        const Progress& progress) {
   Gone gone;
   double first = 0;
   const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
@@ -332,6 +336,8 @@ void measure(const DrapePlan& plan, Draped& draped) {
   draped.thickness = plan.settings.thickness;
   draped.crossings = measure_crossings(draped.file, &crossed);
   draped.angle_defect = geometry::angle_defect(draped.file.mesh);
+  for (const geometry::BorderLoop& loop : geometry::border_loops(draped.file.mesh))
+    draped.hem_height = std::min(draped.hem_height.value_or(loop.mean_height), loop.mean_height);
   draped.lines = measure_lines(draped.file, line_heights_by_id(plan.as_read));
   if (!plan.body) {
     draped.fit = bridge::strain_report(draped.file.mesh, draped.fit_options);
@@ -344,6 +350,59 @@ void measure(const DrapePlan& plan, Draped& draped) {
       bridge::fit_report(draped.file.mesh, plan.body->triangles, plan.body->exact, draped.fit_options);
   if (draped.gap == draped.wanted_gap)
     draped.too_near = count_nearer(draped.file.mesh, 0.9 * draped.gap - plan.body->field.report().tolerance);
+}
+
+/// One way to rest. loose: a vertex of each part that nothing holds, where that is known; else it is found.
+Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int>& loose,
+                  const Progress& progress, const Context& context) {
+  const double start = now();
+  Maker maker(plan.scene, plan.body, plan.settings, plan.as_read, context);
+  maker.loose = loose;
+  Draped draped;
+  const auto recorder = [&](std::optional<WayRecorder>& way) {
+    way.emplace(plan.settings.animation, plan.scene.subdivide, context);
+  };
+  std::optional<WayRecorder> way;
+  recorder(way);
+  Gone gone = go(plan, maker, *way, watch, progress);
+  if (!gone.falling.empty()) {
+    loose = maker.loose = gone.falling;
+    recorder(way);
+    gone = go(plan, maker, *way, watch, progress);
+  }
+  take_result(std::move(gone), maker, plan, watch, draped);
+  draped.seconds = now() - start;
+  draped.animated = way->close();
+  way.reset();
+  measure(plan, draped);
+  return draped;
+}
+
+/// Goes on from the first start to all of them, and returns the one with the lowest energy, with what all
+/// tell. start(i, context) is the i-th. What is cancelled ends with the starts that there are.
+template <class Start>
+Draped choose_start(Draped best, int count, const Start& start, const Context& context) {
+  SilentListener silent(context.listener);
+  const Context quiet{context.frame, silent, context.memory};  // the first one warned
+  DrapeStarts all{count, 0, {start_of(best, 0)}, {}};
+  bool stopped = best.report.stopped;
+  for (int i = 1; i < count && !stopped; ++i) try {
+      Draped next = start(i, quiet);
+      stopped = next.report.stopped;
+      if (stopped) break;
+      all.runs.push_back(start_of(next, std::uint64_t(i)));
+      if (!is_better(all.runs.back(), all.runs[all.chosen])) continue;
+      all.chosen = all.runs.size() - 1;
+      best = std::move(next);
+    } catch (const physics::Cancelled&) {
+      stopped = true;
+    }
+  best.report.stopped = stopped;
+  all.spread = spread_of(all.runs);
+  best.seconds = 0;
+  for (const DrapeStart& run : all.runs) best.seconds += run.seconds;
+  best.starts = std::move(all);
+  return best;
 }
 
 /// The garment as it was given, and the scene with as many refinements as it is draped with.
@@ -404,22 +463,18 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   plan.options.soft_start = soft_start_of(given.file);
   if (body) plan.options.settle.faces = {&body->exact, body->field.report().tolerance};
   const FallWatch watch(given.file.mesh, body, gap);
-  const double start = now();
-  Maker maker(scene, body, s, given.file, context);
-  Draped draped;
-  {
-    std::optional<WayRecorder> way(std::in_place, s.animation, scene.subdivide, context);
-    Gone gone = go(plan, maker, *way, watch, context);
-    if (!gone.falling.empty()) {
-      maker.loose = gone.falling;
-      way.emplace(s.animation, scene.subdivide, context);
-      gone = go(plan, maker, *way, watch, context);
-    }
-    take_result(std::move(gone), maker, plan, watch, draped);
-    draped.seconds = now() - start;
-    draped.animated = way->close();
-  }
-  measure(plan, draped);
+  const ProgressScope progress(context.listener, "draping");
+  const int count = scene.starts;
+  bridge::DrapeWork work;
+  if (count > 1) plan.options.work = &work;
+  std::vector<int> loose;  // as the first start found
+  const auto start = [&](int i, const Context& told) {
+    plan.options.seed = std::uint64_t(i);
+    return drape_once(
+        plan, watch, loose, [&](double share) { return progress((i + share) / count); }, told);
+  };
+  Draped draped = start(0, context);
+  if (count > 1) draped = choose_start(std::move(draped), count, start, context);
   return draped;
 }
 

@@ -42,6 +42,14 @@ std::vector<Warning> oddities_of(const io::Scene& scene, const physics::Simulate
          "the cloth is strained by " + std::to_string(int(100 * report.strain.max)) +
              " % somewhere; look for lines that are far too high, or pins that do not go with the body",
          "", ""});
+  // RK4 blows up so slowly there that it may come to its end.
+  if (scene.simulation.step_rule == physics::StepRule::forced && report.steps > 0 &&
+      report.outcome != physics::Outcome::diverged && report.dt > report.dt_limit_smallest)
+    found.push_back({"step_above_limit",
+                     fmt::format("steps of {:.3g} s are above the limit of {:.3g} s, beyond which numbers "
+                                 "grow and no motion is to be trusted; leave out --force-dt",
+                                 report.dt, report.dt_limit_smallest),
+                     "", "simulation.force_dt"});
   const bool body_moves = scene.body && !physics::at_rest(scene.body->motion);
   for (const io::ScenePins& pins : scene.pins)
     if (body_moves && physics::at_rest(pins.motion)) {

@@ -16,6 +16,13 @@ constexpr int chunk = 4096;  // elements whose blocks stay in the caches
 constexpr int piece = 128;   // elements that a thread does at once
 constexpr int buckets = 32;  // of columns
 
+std::uint64_t hash_of(const std::vector<std::array<int, 2>>& pairs) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const auto& pair : pairs)
+    for (const int i : pair) hash = (hash ^ std::uint64_t(i)) * 0x100000001b3;
+  return hash;
+}
+
 }  // namespace
 
 FreeStiffness::FreeStiffness(const Cloth& cloth) {
@@ -27,6 +34,7 @@ FreeStiffness::FreeStiffness(const Cloth& cloth) {
   particles_ = cloth.particles.size();
   counts_ = count_elements(cloth);
   const Pairs pairs = block_pairs(cloth);
+  pattern_ = hash_of(pairs);
   matrix_ = BlockMatrix(cloth.particles.inv_mass, pairs);
   place_blocks(pairs);
 }
@@ -39,6 +47,13 @@ void FreeStiffness::couple(const Cloth& cloth, std::span<const std::array<int, 2
   addends_.clear();
   place_blocks(pairs);
   analysed_ = false;
+}
+
+bool FreeStiffness::belongs_to(const Cloth& cloth) const {
+  if (cloth.particles.size() != particles_ || !fits(counts_, cloth)) return false;
+  for (std::size_t i = 0; i < particles_; ++i)
+    if ((cloth.particles.inv_mass[i] > 0) != (matrix_.row(int(i)) >= 0)) return false;
+  return hash_of(block_pairs(cloth)) == pattern_;
 }
 
 /// Where each block goes; in each chunk those of a bucket of columns follow each other in the elements'

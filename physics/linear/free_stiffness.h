@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,10 @@ class FreeStiffness {
   /// Cost: O(blocks log blocks) and later the symbolic factorisation. Throws std::invalid_argument if the
   /// particles' arrays differ in length, and as add_stiffness().
   explicit FreeStiffness(const Cloth& cloth);
+
+  /// Whether a cloth has the same elements between the same particles, and the same held ones: then
+  /// assemble() serves it, too. Cost: as the constructor's first half.
+  bool belongs_to(const Cloth& cloth) const;
 
   /// K at positions x [m]. The cloth has the elements and held particles of the constructor's; other
   /// stiffnesses and rest states are welcome. pool: threads that share the work (null: the caller alone);
@@ -58,6 +63,7 @@ class FreeStiffness {
   void sum(int chunk, int bucket);
 
   std::size_t particles_ = 0;
+  std::uint64_t pattern_ = 0;         ///< a hash of the pairs that elements couple
   ElementCounts counts_;              ///< of elements of each kind
   std::vector<Addend> addends_;       ///< chunk by chunk of elements; in a chunk by buckets of columns
   std::vector<std::size_t> buckets_;  ///< where each begins, and the end

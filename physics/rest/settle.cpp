@@ -106,6 +106,14 @@ Pace next_pace(Pace pace, const Factors& factors, const Move& move, double share
   return pace;
 }
 
+/// That of the searches before, if there is one and it fits.
+std::shared_ptr<FreeStiffness> stiffness_for(const Cloth& cloth, SettleWork* work) {
+  if (work && work->stiffness && work->stiffness->belongs_to(cloth)) return work->stiffness;
+  auto made = std::make_shared<FreeStiffness>(cloth);
+  if (work) work->stiffness = made;
+  return made;
+}
+
 Vectors moved(Vectors x, double share, const Vectors& way) {
   add_multiple(x, share, way);
   return x;
@@ -121,7 +129,8 @@ class Settler {
         collider_(collider),
         o_(options),
         elements_(cloth),
-        stiffness_(cloth),
+        shared_(stiffness_for(cloth, options.self.on ? nullptr : options.work)),
+        stiffness_(*shared_),
         pool_(options.threads) {
     stiffness_.assemble(cloth, p_.x, Stiffness::positive_part);
     const double k = contact_share * stiffness_.mean_diagonal();
@@ -170,6 +179,8 @@ class Settler {
     }
     if (faces_) report.face_contacts = faces_->touching();
     if (pairs_) report.self = self_report(report);
+    report.contact_energy = (contact_ ? contact_->energy() : 0) + (faces_ ? faces_->energy() : 0) +
+                            (pairs_ ? pairs_->energy() : 0);
     return report;
   }
 
@@ -391,7 +402,8 @@ class Settler {
   const Collider* collider_;
   const SettleOptions& o_;
   ElementForces elements_;
-  FreeStiffness stiffness_;
+  std::shared_ptr<FreeStiffness> shared_;
+  FreeStiffness& stiffness_;
   ThreadPool pool_;
   std::optional<AnchoredContact> contact_;
   std::optional<FaceContact> faces_;

@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 
 #include "physics/body/collider.h"
@@ -26,6 +27,14 @@ struct SelfContact {
   std::span<const Vec3> drawn = {};  ///< positions in which nothing is to be pushed; empty: none
 };
 
+class FreeStiffness;
+
+/// What one search may leave to the next on a cloth with the same elements and held particles: where blocks
+/// of the matrix lie and the order of elimination. It changes no bit. For one search at a time.
+struct SettleWork {
+  std::shared_ptr<FreeStiffness> stiffness;  ///< filled by the first; anew where it does not fit
+};
+
 struct SettleOptions {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]; finite
   double friction = 0.3;      ///< Coulomb coefficient with the body [-]; >= 0
@@ -41,6 +50,7 @@ struct SettleOptions {
   int threads = 1;  ///< that share the work; >= 1; the result is the same for any number
   FaceGuard faces = {};
   SelfContact self = {};
+  SettleWork* work = nullptr;  ///< shared with searches before and after, unless self.on; null: none
 };
 
 struct SettleProgress {
@@ -73,6 +83,7 @@ struct SettleReport {
   double deepest = 0;      ///< of them, inside the gap [m]
   int face_contacts = 0;   ///< points within faces that the body pushes (FaceGuard)
   SelfContactReport self = {};
+  double contact_energy = 0;  ///< stored in contact, its friction, and contact of the cloth with itself [J]
 };
 
 /// Moves the free particles to rest on a body (null: none), from cloth.particles.x: to a state in which

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bridge/drape.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "bridge/gather.h"
@@ -43,7 +44,94 @@ physics::Cloth make(geometry::Mesh& mesh) {
   return bridge::gather(mesh, options);
 }
 
+/// The same mesh from another exporter: other numbers of vertices, faces in another order that begin at other
+/// corners.
+geometry::Mesh renumbered(const geometry::Mesh& mesh, const Vec3& away = Vec3::Zero()) {
+  const std::size_t n = mesh.number_of_vertices(), m = mesh.number_of_faces();
+  std::vector<geometry::Vertex> now(n);
+  geometry::Mesh other;
+  for (std::size_t i = 0; i < n; ++i) {
+    const geometry::Vertex old(geometry::Vertex::size_type((7 * i + 3) % n));
+    const geometry::Point p = mesh.point(old);
+    now[std::size_t(old)] = other.add_vertex({p.x() + away.x(), p.y() + away.y(), p.z() + away.z()});
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    const geometry::Face f(geometry::Face::size_type((11 * i + 5) % m));
+    std::vector<geometry::Vertex> corners;
+    for (const geometry::Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
+      corners.push_back(now[std::size_t(v)]);
+    std::rotate(corners.begin(), corners.begin() + std::ptrdiff_t(i % 3), corners.end());
+    REQUIRE(other.add_face(corners) != geometry::Mesh::null_face());
+  }
+  return other;
+}
+
+/// Where a garment starts, and where its own vertices rest.
+struct Draped {
+  std::vector<Vec3> start, rest;
+};
+Draped draped_with(geometry::Mesh mesh, const Sphere* ball, const bridge::MakeCloth& make_cloth,
+                   std::uint64_t seed = 0) {
+  bridge::DrapeOptions options;
+  options.refinements = 1;
+  options.settle.tolerance = 1e-6;
+  options.seed = seed;
+  Draped result;
+  const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
+    if (level == 0 && p.iteration == 0) result.start = cloth.particles.x;
+    return true;
+  };
+  physics::Cloth cloth;
+  CHECK(bridge::drape(mesh, cloth, ball, options, make_cloth, observe).levels[1].settle.converged);
+  result.rest.assign(cloth.particles.x.begin(),
+                     cloth.particles.x.begin() + std::ptrdiff_t(result.start.size()));
+  return result;
+}
+
+/// Held at the border's vertices beside two corners.
+bridge::MakeCloth hung_at(const Vec3& away) {
+  return [away](geometry::Mesh& mesh) {
+    physics::Cloth cloth = make(mesh);
+    for (std::size_t i = 0; i < cloth.particles.size(); ++i) {
+      const Vec3 x = cloth.particles.x[i] - away;
+      if (std::abs(x.z() + 0.15) < 1e-6 && std::abs(std::abs(x.x() - 0.16) - 0.16) < 0.03)
+        physics::pin(cloth.particles, std::vector<int>{int(i)});
+    }
+    return cloth;
+  };
+}
+
+/// The farthest that a vertex of the renumbered mesh lies from its own.
+double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& renumbered, const Vec3& away) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    most = std::max(most, (renumbered[i] - away - a[(7 * i + 3) % a.size()]).norm());
+  return most;
+}
+
 }  // namespace
+
+TEST_CASE("drape: numbers of vertices and places do not change a start, nor where held cloth rests") {
+  const geometry::Mesh mesh = across();
+  REQUIRE(mesh.number_of_vertices() % 7 != 0);
+  REQUIRE(mesh.number_of_faces() % 11 != 0);
+  const Sphere ball(Vec3::Zero(), 0.1);
+  const Draped given = draped_with(mesh, &ball, make),
+               hung = draped_with(mesh, nullptr, hung_at(Vec3::Zero()));
+  for (const Vec3& away : {Vec3(0, 0, 0), Vec3(0.5, -2, 1.25)}) {
+    const geometry::Mesh other = renumbered(mesh, away);
+    const Sphere there(away, 0.1);
+    CHECK(farthest(given.start, draped_with(other, &there, make).start, away) < 1e-12);
+    const Draped hung_there = draped_with(other, nullptr, hung_at(away));
+    CHECK(farthest(hung.start, hung_there.start, away) < 1e-12);
+    CHECK(farthest(hung.rest, hung_there.rest, away) < 1e-6);
+  }
+  const Draped seeded = draped_with(mesh, &ball, make, 1);
+  double most = 0;
+  for (std::size_t i = 0; i < given.rest.size(); ++i)
+    most = std::max(most, (seeded.rest[i] - given.rest[i]).norm());
+  CHECK(most > 1e-4);  // cloth on a ball has many rests
+}
 
 TEST_CASE("drape: coarse to fine to rest on a ball, out of which it is brought first") {
   const Sphere ball(Vec3::Zero(), 0.1);
@@ -203,4 +291,36 @@ TEST_CASE("drape: with a soft start cloth comes to the same rest where there is 
     CHECK((soft.particles.x[i] - stiff.particles.x[i]).norm() < 1e-6);
   options.soft_start = 0.5;
   CHECK_THROWS_WITH(bridge::drape(other, soft, nullptr, options, pinned), Catch::Contains("soft_start"));
+}
+
+TEST_CASE("drape: what drapes share changes no bit, and a pattern of other pins is not taken") {
+  const Sphere ball(Vec3::Zero(), 0.1);
+  bridge::DrapeWork work;
+  const auto run = [&](std::uint64_t seed, bridge::DrapeWork* shared, bool held) {
+    bridge::DrapeOptions options;
+    options.refinements = 1;
+    options.seed = seed;
+    options.work = shared;
+    const bridge::MakeCloth make_cloth = [&](geometry::Mesh& mesh) {
+      physics::Cloth cloth = make(mesh);
+      if (held) physics::pin(cloth.particles, std::vector<int>{0});
+      return cloth;
+    };
+    geometry::Mesh mesh = across();
+    physics::Cloth cloth;
+    const bridge::DrapeReport report = bridge::drape(mesh, cloth, &ball, options, make_cloth);
+    CHECK(report.energy.weight < 0);
+    CHECK(report.energy.stretch > 0);
+    CHECK(report.energy.bending > 0);
+    CHECK(report.energy.contact > 0);
+    return cloth.particles.x;
+  };
+  run(0, &work, false);
+  REQUIRE(work.levels.size() == 2);
+  const auto kept = work.levels[1].stiffness;
+  REQUIRE(kept);
+  CHECK(run(1, &work, false) == run(1, nullptr, false));
+  CHECK(work.levels[1].stiffness == kept);
+  CHECK(run(1, &work, true) == run(1, nullptr, true));
+  CHECK(work.levels[1].stiffness != kept);
 }

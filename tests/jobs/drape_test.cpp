@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/drape.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
 #include <thread>
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
+#include "jobs/run/drape_starts.h"
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
@@ -161,6 +165,96 @@ TEST_CASE("drape: what a cancelled job reached is reported, and written whole") 
     if (report.garments[0].animated) files.insert("way.pc2");
     CHECK(tests::names_in(folder) == files);
   }
+}
+
+TEST_CASE("drape: of several starts the rest with the lowest energy is taken, and numbers have a spread",
+          "[release]") {
+  const fs::path folder = tests::empty_folder("drape_starts");
+  jobs::DrapeJob job = across_ball();
+  tests::Recorder recorder;
+  const jobs::Draped single = jobs::drape(job, recorder).garments.at(0);
+  CHECK_FALSE(single.starts);
+  CHECK(single.report.energy.weight < 0);
+  set(job, "simulation.starts", 3);
+  job.output = folder / "worn.ply";
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  const jobs::Draped& d = report.garments.at(0);
+  REQUIRE(d.starts);
+  const std::vector<jobs::DrapeStart>& runs = d.starts->runs;
+  REQUIRE(runs.size() == 3);
+  CHECK(d.starts->resting() == 3);
+  CHECK(runs[0].energy.total() == single.report.energy.total());  // the first is that of one start
+  CHECK(runs[1].energy.total() != runs[0].energy.total());
+  for (const jobs::DrapeStart& run : runs) CHECK(run.energy.total() >= d.report.energy.total() * (1 + 1e-6));
+  CHECK(runs[d.starts->chosen].energy.total() == d.report.energy.total());
+  CHECK(tests::positions(io::read_mesh(job.output)) == tests::positions(d.file));
+  const auto hem = std::find_if(d.starts->spread.begin(), d.starts->spread.end(),
+                                [](const jobs::NumberSpread& s) { return s.name == "hem_height"; });
+  REQUIRE(hem != d.starts->spread.end());
+  CHECK(hem->count == 3);
+  CHECK(hem->least <= hem->mean);
+  CHECK(hem->mean <= hem->most);
+  CHECK(hem->deviation > 0);
+  CHECK(hem->deviation <= hem->most - hem->least);
+  const io::Json json = to_json(report);
+  CHECK(json.at("starts").at("runs").size() == 3);
+  CHECK(json.at("energy").at("total").get<double>() == d.report.energy.total());
+  job.settings.animation = folder / "way.pc2";
+  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--starts"));
+}
+
+TEST_CASE(
+    "drape: cancelled after the first of several starts, what rests is written and told as interrupted") {
+  const fs::path folder = tests::empty_folder("drape_starts_cancelled");
+  jobs::DrapeJob job = across_ball();
+  tests::Recorder all;
+  const jobs::Draped single = jobs::drape(job, all).garments.at(0);
+  const auto told =
+      std::count_if(all.told.begin(), all.told.end(), [](const auto& t) { return t.first == "draping"; });
+  set(job, "simulation.starts", 4);
+  job.output = folder / "worn.ply";
+  EndsDraping listener(int(told) + 3);
+  const jobs::DrapeJobReport report = jobs::drape(job, listener);
+  CHECK(report.cancelled());
+  REQUIRE(report.garments.at(0).starts);
+  CHECK(report.garments[0].starts->runs.size() == 1);
+  CHECK(report.garments[0].outcome() == "interrupted");
+  CHECK(tests::positions(io::read_mesh(job.output)) == tests::positions(single.file));
+}
+
+TEST_CASE("drape: a spread that is wider than what its number decides is told, and outcomes that differ") {
+  jobs::Draped d;
+  d.name = "shirt";
+  jobs::DrapeStarts starts;
+  const auto add = [&](double ease, double hem, const std::string& outcome) {
+    jobs::DrapeStart start;
+    start.rests = true;
+    start.outcome = outcome;
+    start.numbers = {{"ease_waist", ease}, {"hem_height", hem}};
+    starts.runs.push_back(start);
+  };
+  const auto codes = [&] {
+    starts.spread = jobs::spread_of(starts.runs);
+    d.starts = starts;
+    std::set<std::string> found;
+    for (const jobs::Warning& w : jobs::doubts_of(d))
+      found.insert(w.code + (w.text.find("ease") < 30 ? " ease" : ""));
+    return found;
+  };
+  add(0.050, 0.700, "at rest"), add(0.052, 0.704, "at rest");
+  CHECK(codes().empty());
+  CHECK(starts.spread.at(1).name == "ease_waist");
+  CHECK(starts.spread[1].mean == Approx(0.051));
+  CHECK(starts.spread[1].deviation == Approx(0.002 / std::sqrt(2.0)));
+  add(0.075, 0.702, "at rest");
+  CHECK(codes() == std::set<std::string>{"spread_wide ease"});
+  add(0.051, 0.702, "at rest, pierced by the body");
+  CHECK(codes() == std::set<std::string>{"spread_wide ease", "starts_disagree"});
+  starts.runs.erase(starts.runs.begin() + 2, starts.runs.end());
+  add(0.051, 0.740, "at rest");
+  CHECK(codes() == std::set<std::string>{"spread_wide"});
+  starts.runs.back().rests = false;  // what does not rest is no number
+  CHECK(codes().empty());
 }
 
 TEST_CASE("drape: a job that cannot be is refused before anything is written") {

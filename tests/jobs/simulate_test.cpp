@@ -77,6 +77,25 @@ io::Json without_clock(const jobs::SimulateReport& report) {
 
 }  // namespace
 
+TEST_CASE("simulate: RK4 with steps above its limit that comes to its end is no silent success") {
+  jobs::SimulateJob job = hung_sheet(0.01);
+  io::set_value(job.scene.settings, "simulation.integrator", "rk4", "test");
+  tests::Recorder recorder;
+  const auto warns = [](const jobs::SimulateReport& report) {
+    return std::any_of(report.warnings.begin(), report.warnings.end(),
+                       [](const jobs::Warning& w) { return w.code == "step_above_limit"; });
+  };
+  const jobs::SimulateReport within = jobs::simulate(job, recorder);
+  CHECK_FALSE(warns(within));
+  const double dt = 1.05 * within.run.dt_limit_smallest;
+  io::set_value(job.scene.settings, "simulation.dt", dt, "test");
+  io::set_value(job.scene.settings, "simulation.seconds", 20 * dt, "test");
+  io::set_value(job.scene.settings, "simulation.force_dt", true, "test");
+  const jobs::SimulateReport above = jobs::simulate(job, recorder);
+  CHECK(above.run.outcome == physics::Outcome::finished);
+  CHECK(warns(above));
+}
+
 TEST_CASE("simulate: a garment and strokes in memory come to the bits of their files") {
   const fs::path folder = empty_folder("memory");
   tests::Recorder recorder;
