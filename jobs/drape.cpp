@@ -20,8 +20,7 @@ void check_scene(const io::Scene& scene) {
   if (!scene.body && scene.pins.empty())
     throw std::invalid_argument(
         "a garment rests on a body or hangs from what holds it: name a body with --body, or what is held "
-        "with "
-        "--pin-loop, --pin-group, --pin-box or --pin-vertices");
+        "with --pin-loop, --pin-group, --pin-box or --pin-vertices");
   if (scene.body && !scene.body->frames.empty())
     throw std::invalid_argument("--body-frames: drape fits a garment to one pose; simulate moves it");
   if (scene.body && !physics::at_rest(scene.body->motion))

@@ -137,7 +137,7 @@ SceneCloth drawn_in(io::SavedState& state, const io::Scene& scene, const Context
   SceneCloth result;
   result.file = state.file;
   result.pins = state.pins;
-  if (scene.body) result.body = std::make_shared<WorldBody>(*scene.body, context, tolerance_for(result.file));
+  if (scene.body) result.body = std::make_shared<WorldBody>(*scene.body, context, tolerance_for(state));
   complete_garment(result.file, scene.material);
   result.cloth = naming(scene.garment.string(), [&] {
     return bridge::gather(result.file.mesh, spring_options(result.file, scene.material));

@@ -81,8 +81,10 @@ void change_plan(const Run& run, io::SavedState& now) {
 
 /// The state with pins, on the run's body; strokes are read.
 Reached take_up(Run& run, io::SavedState now) {
+  const double at_most = tolerance_for(now);
   if (run.scene.body && !run.body)
-    run.body = std::make_shared<WorldBody>(*run.scene.body, run.context, tolerance_for(now.file));
+    run.body = std::make_shared<WorldBody>(*run.scene.body, run.context, at_most);
+  now.field_tolerance = run.body && std::isfinite(at_most) ? run.body->tolerance() : 0;
   if (run.resumed && now.pins.size() != run.scene.pins.size())
     throw std::invalid_argument("the state has " + std::to_string(now.pins.size()) +
                                 " sets of pins, the scene " + std::to_string(run.scene.pins.size()) +

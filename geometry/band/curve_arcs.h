@@ -20,7 +20,7 @@ struct CurveArcs {
   std::vector<double> length;      ///< of each curve [m]
   std::vector<bool> closed;        ///< of each curve
 
-  /// The arcs before and after one on its curve; the same for a closed curve cut once. -1: none.
+  /// The arcs before and after one on its curve; -1: none.
   int before(std::size_t arc) const { return neighbour(arc, false); }
   int after(std::size_t arc) const { return neighbour(arc, true); }
   /// The vertices of a curve, in its direction, out of those of all arcs. One that the curve passes twice

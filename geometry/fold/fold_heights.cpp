@@ -208,12 +208,16 @@ double FoldHeight::sum_at(const Vec3& x) const {
   return sum;
 }
 
+/// The way along the curve between two places.
+double FoldHeight::way_between(std::size_t i, std::size_t j) const {
+  const double way = step_ * std::abs(static_cast<double>(i) - static_cast<double>(j));
+  return closed_ ? std::min(way, length_ - way) : way;
+}
+
 /// How much place `of` belongs to the pass of place i: 1 near it along the curve, 0 far from it.
 double FoldHeight::share_of_pass(std::size_t i, std::size_t of) const {
-  double way = step_ * std::abs(static_cast<double>(i) - static_cast<double>(of));
-  if (closed_) way = std::min(way, length_ - way);
   const double radius = std::max(places_[i].radius, places_[of].radius);
-  return 1 - smoothstep((way / radius - whole_pass) / (pass_ends - whole_pass));
+  return 1 - smoothstep((way_between(i, of) / radius - whole_pass) / (pass_ends - whole_pass));
 }
 
 /// Of a curve that meets itself: the integral over the highest pass, joined with that over the highest of the
@@ -240,9 +244,7 @@ double FoldHeight::passes_at(const Vec3& x) const {
       static_cast<std::size_t>(std::max_element(passes.begin(), passes.end(), higher) - passes.begin());
   double second = 0;
   for (std::size_t k = 0; k < passes.size(); ++k) {
-    double way =
-        step_ * std::abs(static_cast<double>(terms[k].first) - static_cast<double>(terms[top].first));
-    if (closed_) way = std::min(way, length_ - way);
+    const double way = way_between(terms[k].first, terms[top].first);
     const double radius = places_[terms[top].first].radius;
     const double apart = smoothstep((way / radius - next_pass) / (clear_pass - next_pass));
     second = std::max(second, apart * passes[k] / passes[top]);

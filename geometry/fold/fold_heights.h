@@ -56,6 +56,7 @@ class FoldHeight {
   void reach_height();
   double sum_at(const Eigen::Vector3d& x) const;
   double passes_at(const Eigen::Vector3d& x) const;
+  double way_between(std::size_t i, std::size_t j) const;
   double share_of_pass(std::size_t i, std::size_t of) const;
   double tent(const Eigen::Vector3d& x) const;
 

@@ -25,7 +25,7 @@ struct Meeting {
   bool crossing;  ///< or nearly touching
 };
 
-/// Nearest points of two segments.
+/// The distance of two segments.
 double segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
   const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), uw = u.dot(w), vw = v.dot(w);

@@ -91,6 +91,7 @@ Json to_json(const SavedState& saved) {
             {"lines_drawn", saved.lines_drawn},
             {"contact_gap", saved.contact_gap},
             {"scene", saved.scene}};
+  if (saved.field_tolerance > 0) json["field_tolerance"] = saved.field_tolerance;
   for (const Vec3& home : s.homes)
     for (int k = 0; k < 3; ++k) json["homes"].push_back(home[k]);
   return json;
@@ -152,6 +153,9 @@ SavedState from_json(const Json& json, std::size_t vertices) {
   saved.contact_gap = json.value("contact_gap", 0.0);  // absent in older files
   if (!(saved.contact_gap >= 0 && saved.contact_gap < 1))
     throw std::invalid_argument("contact_gap is not in [0, 1) m");
+  saved.field_tolerance = json.value("field_tolerance", 0.0);
+  if (!(saved.field_tolerance >= 0 && saved.field_tolerance < 1))
+    throw std::invalid_argument("field_tolerance is not in [0, 1) m");
   saved.scene = json.at("scene");
   if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
   if (version == 1) name_rule(saved.scene);

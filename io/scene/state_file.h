@@ -20,6 +20,7 @@ struct SavedState {
   /// At which the cloth has rested on the body so far [m]; 0: on none yet. A line's short edges do not lower
   /// it: what lies on the body stays there.
   double contact_gap = 0;
+  double field_tolerance = 0;  ///< of the body's field, where a small gap asked for a finer one [m]; else 0
 };
 
 /// The file is a binary PLY that other programs open as a mesh: velocities, contact memory and compensating

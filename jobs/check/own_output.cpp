@@ -100,8 +100,8 @@ bool is_own_ply(const Beginning& file) {
          properties.find(";list uchar int vertex_indices;") != properties.npos;
 }
 
-/// Numbers of the shortest form in the order in which furrow writes an OBJ; or in the text of another
-/// program, which `transfer` keeps but for the positions that it moved: these have all their digits.
+/// Numbers of the shortest form, some with all the digits of a double, in the order in which furrow writes an
+/// OBJ; or in the text of another program, which `transfer` keeps but for the positions that it moved.
 bool is_own_obj(const Beginning& file) {
   constexpr std::string_view words[] = {"#", "mtllib", "v", "vt", "g", "usemtl", "f", "l"};
   Numbers numbers;
@@ -112,7 +112,7 @@ bool is_own_obj(const Beginning& file) {
     own_order = own_order && std::ranges::find(words, word) != std::end(words);
     if (word == "v" && line.size() > 2) numbers.take(line.substr(2), 3);
   }
-  if (own_order && numbers.count > 0 && numbers.shortest) return true;
+  if (own_order && numbers.doubles > 0 && numbers.shortest) return true;
   return numbers.doubles > 0 && numbers.doubles_shortest;
 }
 

@@ -16,6 +16,7 @@
 #include "io/base/bytes_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/field_file.h"
+#include "io/scene/state_file.h"
 #include "jobs/check/gate.h"
 #include "jobs/read_inputs.h"
 #include "physics/body/compare_colliders.h"
@@ -136,6 +137,10 @@ double tolerance_for(const io::MeshFile& worn) {
   const bool small = record && record->contact_gap > 0 && std::isfinite(tolerance_for(record->contact_gap)) &&
                      geometry::find_map(worn.mesh, geometry::attribute::rest_length);
   return small ? record->contact_gap - edge_sag(worn.mesh) : std::numeric_limits<double>::infinity();
+}
+
+double tolerance_for(const io::SavedState& state) {
+  return state.field_tolerance > 0 ? state.field_tolerance : tolerance_for(state.file);
 }
 
 BodyCollider load_body(const io::SceneBody& body, const Context& context, double at_most) {

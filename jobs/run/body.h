@@ -13,6 +13,9 @@
 #include "physics/body/exact_distance.h"
 #include "physics/body/moving_body.h"
 
+namespace furrow::io {
+struct SavedState;
+}
 namespace furrow::jobs {
 
 /// A rigid body in its own frame.
@@ -36,6 +39,8 @@ physics::TriangleMesh read_body(const MeshInput& input, const Context& context,
 double tolerance_for(double gap);
 /// That lets a garment go on with the gap that its file notes, where that is below the usual one.
 double tolerance_for(const io::MeshFile& worn);
+/// That of the run that the state was saved by: lines drawn since then do not change it.
+double tolerance_for(const io::SavedState& state);
 
 /// Reads and repairs a body, and builds its field or loads the saved one; shows progress. Warns of what was
 /// repaired. Unless the body has a tolerance of its own, it is `at_most` [m], but no less than a quarter of

@@ -123,8 +123,8 @@ void couple_cloth(const io::MeshFile& file, const io::Scene& scene, physics::Clo
     context.warn(
         "thin_faces",
         scene.garment.string() + ": " + std::to_string(thin) +
-            " faces are lower than a ten-thousandth of their longest edge; they bend as plain hinges "
-            "do, too stiffly",
+            " faces are lower than a ten-thousandth of their longest edge: their angles are shared by "
+            "area, and may bend too stiffly",
         scene.garment.string(), "material.bending_law");
 }
 

@@ -62,8 +62,8 @@ class ExactDistance : public Collider {
   /// either distance the two lie on the same side.
   Sample sample(const Vec3& x, const Vec3& y, const Sample& at_y) const;
   /// The same. Where the side would be summed up, `beside` is asked first, with the distance of x [m]:
-  /// whether another point tells that x is inside; it says nothing where no ball around x or that point
-  /// reaches both.
+  /// whether a point whose side is known tells that x is inside. It answers nothing where the two points
+  /// are farther apart than either is from the surface.
   Sample sample(const Vec3& x, const Vec3& y, const Sample& at_y,
                 const std::function<std::optional<bool>(double)>& beside) const;
 

@@ -12,9 +12,9 @@ namespace furrow::physics {
 namespace {
 
 constexpr int comparisons = 2000;
-/// So many of them come first, spread over the body, both sides alike; they are all where each sums over more
+/// Every fifth comes first, spread over the body. They are all that is compared where each sums over more
 /// triangles than `dear`, as beside a fan, whose triangles all have their middle far from their ends.
-constexpr int every = 5;  ///< odd, for both sides of the surface
+constexpr int every = 5;  ///< odd, so that both sides of the surface have as many
 constexpr std::int64_t dear = 5000;
 constexpr double most_disagreement = 0.005;
 

@@ -16,7 +16,8 @@ class WindingNumber {
   /// Takes the tree before drop(): all triangles count. Keeps a reference to it. Cost O(T).
   explicit WindingNumber(const TriangleBvh& bvh);
 
-  /// About 5 us for 100,000 triangles. Adds to `summed`, if it is there, how many triangles counted exactly.
+  /// About 5 us for 100,000 triangles. Adds to `summed`, if it is there, how many places for triangles the
+  /// leaves that were summed exactly have.
   double at(const Vec3& x, std::int64_t* summed = nullptr) const;
 
  private:

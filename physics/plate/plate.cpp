@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "physics/plate/plate.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>

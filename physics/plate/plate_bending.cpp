@@ -12,13 +12,6 @@ namespace furrow::physics {
 
 PlateBending::PlateBending(Plate plate, std::size_t particles) : plate_(std::move(plate)), layout_(plate_) {
   for (const Hinge& h : plate_.hinges) check(h, particles);
-  gather_begin_.assign(plate_.hinges.size() + 1, 0);
-  for (const int h : plate_.hinge) ++gather_begin_[std::size_t(h) + 1];
-  for (std::size_t h = 0; h < plate_.hinges.size(); ++h) gather_begin_[h + 1] += gather_begin_[h];
-  std::vector<int> next(gather_begin_.begin(), gather_begin_.end() - 1);
-  gather_.resize(plate_.hinge.size());
-  for (std::size_t e = 0; e < plate_.hinge.size(); ++e)
-    gather_[std::size_t(next[std::size_t(plate_.hinge[e])]++)] = int(e);
   find_pattern();
 }
 
@@ -78,7 +71,7 @@ struct PlateBending::Bends {
 
 /// dE/dbend, each triangle's curvature answered by its stiffness.
 std::vector<double> PlateBending::moments_of(const std::vector<double>& bend, double& energy) const {
-  std::vector<double> of_entry(plate_.hinge.size()), moment(bend.size());
+  std::vector<double> moment(bend.size());
   for (std::size_t t = 0; t < plate_.stiffness.size(); ++t) {
     const int begin = plate_.begin[t], end = plate_.begin[t + 1];
     Vec3 k = Vec3::Zero();
@@ -86,11 +79,9 @@ std::vector<double> PlateBending::moments_of(const std::vector<double>& bend, do
       k += bend[std::size_t(plate_.hinge[std::size_t(e)])] * plate_.share[std::size_t(e)];
     const Vec3 answer = plate_.stiffness[t] * k;
     energy += 0.5 * k.dot(answer);
-    for (int e = begin; e < end; ++e) of_entry[std::size_t(e)] = plate_.share[std::size_t(e)].dot(answer);
+    for (int e = begin; e < end; ++e)
+      moment[std::size_t(plate_.hinge[std::size_t(e)])] += plate_.share[std::size_t(e)].dot(answer);
   }
-  for (std::size_t h = 0; h < moment.size(); ++h)
-    for (int i = gather_begin_[h]; i < gather_begin_[h + 1]; ++i)
-      moment[h] += of_entry[std::size_t(gather_[std::size_t(i)])];
   return moment;
 }
 

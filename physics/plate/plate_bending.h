@@ -36,7 +36,6 @@ class PlateBending : public Energy {
 
   Plate plate_;
   PlateLayout layout_;
-  std::vector<int> gather_begin_, gather_;  ///< of each hinge its entries in the plate's rows
   // Which blocks of K there are, on and below the diagonal, and which of them a triangle and a hinge fill.
   std::vector<std::array<int, 2>> pairs_;
   std::vector<int> corner_begin_, corner_;  ///< of each triangle the particles that move its curvature
@@ -53,7 +52,8 @@ struct CoupledHinges {
 int count_coupled(const Cloth& cloth);
 /// Takes the hinges of a cloth that a plate can have out of it and puts a PlateBending of them behind its
 /// energies; the others stay, with the stiffness that they have. rest_lengths: of cloth.triangles. Pins must
-/// be set, and stiffen_clamps() not called: a plate knows its clamps. Nothing happens if none can be coupled.
+/// be set, and stiffen_clamps() called if plain hinges are to be clamped: a plate knows its clamps by itself.
+/// Nothing happens if none can be coupled.
 /// Throws std::invalid_argument, nothing changed, as make_plate(), and if the hinges' law is not linear.
 CoupledHinges couple_hinges(Cloth& cloth, std::span<const std::array<double, 3>> rest_lengths,
                             const PlateOptions& options, std::span<const char> apart = {},

@@ -34,6 +34,14 @@ geometry::Mesh moved(geometry::Mesh mesh, double x, double y) {
   return mesh;
 }
 
+/// A torso of radius 0.15 with arms of radius 0.05 at 0.35.
+geometry::Mesh torso_with_arms() {
+  geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
+  append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
+  append(figure, moved(cylinder(0.05, 1.7, 32, 17), -0.35, 0));
+  return figure;
+}
+
 }  // namespace
 
 TEST_CASE("fit_ease: around a tube in a tube it is the difference of two polygons") {
@@ -92,11 +100,8 @@ TEST_CASE("fit_ease: the girth at rest is that of the cloth unstrained, here sma
 }
 
 TEST_CASE("fit_ease: sleeves that have grown together with the chest are cut halfway to the arms") {
-  // A torso of radius 0.15 with arms of radius 0.05 at 0.35: gaps from 0.15 to 0.30, cut at 0.225.
-  geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
-  append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
-  append(figure, moved(cylinder(0.05, 1.7, 32, 17), -0.35, 0));
-  const MeasuredBody body(figure);
+  // Gaps between torso and arms from 0.15 to 0.30, cut at 0.225.
+  const MeasuredBody body(torso_with_arms());
   // A box-like garment around all: x from -0.5 to 0.5, z from -0.2 to 0.2, by a square tube.
   geometry::Mesh garment = cylinder(1, 1.7, 4, 17);
   for (auto v : garment.vertices()) {
@@ -112,10 +117,7 @@ TEST_CASE("fit_ease: sleeves that have grown together with the chest are cut hal
 
 TEST_CASE("fit_ease: where a sleeve ends at the section's height the chest is measured between the cuts") {
   // As above, but the square tube lacks the faces beyond x = 0.3: two open curves, front and back.
-  geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
-  append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
-  append(figure, moved(cylinder(0.05, 1.7, 32, 17), -0.35, 0));
-  const MeasuredBody body(figure);
+  const MeasuredBody body(torso_with_arms());
   geometry::Mesh sheets = grid(20, 4, 0.6, 1.7);
   for (auto v : sheets.vertices()) sheets.point(v) = sheets.point(v) + geometry::Vector(-0.3, 0, 0.2);
   const auto front_alone = bridge::measure_ease(sheets, body.view(), {1.0, {}, {}});
@@ -132,10 +134,7 @@ TEST_CASE("fit_ease: where a sleeve ends at the section's height the chest is me
 }
 
 TEST_CASE("fit_ease: where a section runs through sleeves the garment is measured below its armholes") {
-  geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
-  append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
-  append(figure, moved(cylinder(0.05, 1.7, 32, 17), -0.35, 0));
-  const MeasuredBody body(figure);
+  const MeasuredBody body(torso_with_arms());
   geometry::Mesh garment = cylinder(0.2, 0.898, 64, 9);       // the trunk, up to 0.898
   append(garment, moved(cylinder(0.5, 0.7, 64, 9), 0, 0.9));  // around the arms, too, from there on
   const auto ease = bridge::measure_ease(garment, body.view(), {1.0, 0.5, {}});
@@ -149,10 +148,7 @@ TEST_CASE("fit_ease: where a section runs through sleeves the garment is measure
 }
 
 TEST_CASE("fit_ease: a garment that flares is measured at the same ring of its cloth, however it hangs") {
-  geometry::Mesh figure = cylinder(0.15, 1.7, 64, 17);
-  append(figure, moved(cylinder(0.05, 1.7, 32, 17), 0.35, 0));
-  append(figure, moved(cylinder(0.05, 1.7, 32, 17), -0.35, 0));
-  const MeasuredBody body(figure);
+  const MeasuredBody body(torso_with_arms());
   // A trunk that widens by 4 mm a centimetre to its hem, joined to what runs around the arms at its top.
   geometry::Mesh garment = cylinder(0.2, 0.6, 64, 60);
   for (auto v : garment.vertices()) {

@@ -8,6 +8,8 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/sheet.h"
 #include "geometry/rest/rest_metric.h"
+#include "io/mesh/mesh_file.h"
+#include "io/scene/state_file.h"
 #include "jobs/run/body.h"
 
 using namespace furrow;
@@ -46,6 +48,23 @@ TEST_CASE("edge_sag: the fine cloth of folds does not hide the long edges beside
                        folded = sheet_with_lines(geometry::InsertionRule::fold, 5);
   REQUIRE(sag_by_count(folded) < 0.7 * jobs::edge_sag(plain));  // so it was
   CHECK(jobs::edge_sag(folded) == Approx(jobs::edge_sag(plain)).epsilon(0.1));
+}
+
+TEST_CASE("tolerance_for: lines that are drawn into a state leave the field as it was") {
+  const auto with_gap = [](int lines) {
+    io::SavedState state;
+    state.file.mesh = sheet_with_lines(geometry::InsertionRule::safe, lines);
+    io::WrinkleRecord record;
+    record.contact_gap = 0.002;
+    io::set_wrinkle_record(state.file, record);
+    return state;
+  };
+  const io::SavedState before = with_gap(0);
+  io::SavedState after = with_gap(4);
+  REQUIRE(jobs::tolerance_for(after.file) != jobs::tolerance_for(before.file));
+  after.field_tolerance = jobs::tolerance_for(before);
+  const io::SavedState read = io::parse_state(io::state_bytes(after), "state.ply");
+  CHECK(jobs::tolerance_for(read) == jobs::tolerance_for(before));
 }
 
 TEST_CASE("edge_sag: cloth without folds, and with lines of the rule safe, keeps its bits") {
