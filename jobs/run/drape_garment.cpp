@@ -434,10 +434,10 @@ Given read_given(const io::Scene& scene, const BodyCollider* body, const DrapeSe
 
 }  // namespace
 
-double soft_start_of(const io::MeshFile& garment) {
+double soft_start_of(const io::MeshFile& garment, bool pinned) {
   constexpr double times_softer = 30;  // 10 and 100 do as well
   const auto record = io::find_wrinkle_record(garment);
-  return record && record->options.find("--rule fold") != std::string::npos ? times_softer : 1;
+  return pinned && record && record->options.find("--rule fold") != std::string::npos ? times_softer : 1;
 }
 
 int refinements_for_gap(const geometry::Mesh& garment, double wanted, double tolerance) {
@@ -460,7 +460,7 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   const io::Scene& scene = given.scene;
   const double gap = s.gap.value_or(0) > 0 ? *s.gap : gap_of(scene, body, given.file.mesh, context);
   DrapePlan plan{scene, body, s, given.file, options_of(scene, s, gap)};
-  plan.options.soft_start = soft_start_of(given.file);
+  plan.options.soft_start = soft_start_of(given.file, !scene.pins.empty());
   if (body) plan.options.settle.faces = {&body->exact, body->field.report().tolerance};
   const FallWatch watch(given.file.mesh, body, gap);
   const ProgressScope progress(context.listener, "draping");

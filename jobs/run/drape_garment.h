@@ -12,8 +12,9 @@ namespace furrow::jobs {
 Draped drape_garment(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& settings,
                      bool choose, const Context& context);
 
-/// DrapeOptions::soft_start of a garment: 30 where its file notes lines of the rule `fold`, else 1.
-double soft_start_of(const io::MeshFile& garment);
+/// DrapeOptions::soft_start of a garment: 30 where its file notes lines of the rule `fold` and pins hold it,
+/// else 1. What friction alone holds would be held where soft cloth came to lie, stretched and crumpled.
+double soft_start_of(const io::MeshFile& garment, bool pinned);
 
 /// The least number of Loop refinements with which a garment's edges let it keep the gap that is wanted from
 /// a body whose field has this tolerance [m]; of 0 to 4, as many as leave it below 60,000 vertices (some 20

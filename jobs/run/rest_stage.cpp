@@ -21,7 +21,7 @@ namespace {
 
 bridge::DrapeOptions rest_options(const io::Scene& scene, double gap, const io::MeshFile& garment) {
   bridge::DrapeOptions options;
-  options.soft_start = soft_start_of(garment);
+  options.soft_start = soft_start_of(garment, !scene.pins.empty());
   options.settle.gravity = scene.simulation.gravity;
   options.settle.friction = scene.simulation.friction;
   options.settle.gap = gap;
