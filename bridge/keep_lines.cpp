@@ -262,7 +262,7 @@ std::string why_not(bool interrupted, const Found& found, std::size_t line) {
     return "the bounds on strain and angle leave no balance";
   if (loose_lines(found)[line])
     return "the fold can give way without effort: the cloth bends too easily for it";
-  return "the fold goes over into another shape";
+  return "the fold turns into another shape";
 }
 
 std::vector<KeptLine> verdicts(const Found& found, const KeepOptions& o, bool interrupted) {

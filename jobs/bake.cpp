@@ -43,8 +43,9 @@ void check(const BakeJob& job, Listener& listener) {
 io::MeshFile read_textured(const MeshInput& input, const char* what, const Context& context) {
   io::MeshFile file = read_mesh(input, context);
   if (!geometry::find_map(file.mesh, geometry::attribute::texture))
-    throw geometry::ContentError(name_of(input, what) +
-                                 ": has no texture coordinates; export them, maps lie in their space");
+    throw geometry::ContentError(
+        name_of(input, what) +
+        ": has no texture coordinates, in which maps lie; unwrap and export it with them");
   return file;
 }
 

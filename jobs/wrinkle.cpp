@@ -273,8 +273,13 @@ RecordedDrawing recorded_drawing(const fs::path& wrinkled, const Context& contex
   const io::MeshFile file = read_mesh(wrinkled, context);
   const auto record = io::find_wrinkle_record(file);
   const std::string name = wrinkled.string();
-  if (!record || record->strokes.empty() || record->garment.empty())
+  if (!record || record->strokes.empty())
     throw std::invalid_argument(name + " holds no strokes to draw again: name a file of strokes");
+  if (record->garment.empty())
+    throw std::invalid_argument(
+        name +
+        " was drawn on a garment that was refined first, which no file holds: name the "
+        "garment and a file of strokes");
   const bool was_kept = geometry::find_map(file.mesh, geometry::attribute::hinge_stiffness).has_value();
   return {find_garment(*record, wrinkled), io::drawn_strokes_from(record->strokes, name), record->options,
           was_kept};

@@ -283,16 +283,20 @@ std::string_view without_copy_number(std::string_view name) {
   return number ? name : name.substr(0, n - 4);
 }
 
-/// Takes what an object's name says of the line: "belly h=15mm w=60mm", or with '_' for ' ' as exporters have
-/// it. The other words are its name.
+/// Takes what an object's name says of the line: "belly h=15mm w=60mm" (or height=, width=), or with '_' for
+/// ' ' as exporters have it. The other words are its name.
 void take_name(std::string_view object, const std::string& file, Stroke& stroke) {
   object = without_copy_number(object);
   while (!object.empty()) {
     const std::size_t end = std::min(object.find_first_of(" _"), object.size());
     const std::string_view word = object.substr(0, end);
     object.remove_prefix(std::min(end + 1, object.size()));
-    if (word.starts_with("h=") || word.starts_with("w=")) {
-      const auto value = length_from(word.substr(2));
+    if (const std::size_t sign = word.find('='); sign != word.npos) {
+      const std::string_view key = word.substr(0, sign);
+      if (key != "h" && key != "w" && key != "height" && key != "width")
+        throw ContentError(file + ": object '" + std::string(word) +
+                           "': only h= (height) and w= (width) may stand in a line's name");
+      const auto value = length_from(word.substr(sign + 1));
       if (!value || (word[0] == 'w' && !(*value > 0)))
         throw ContentError(file + ": object '" + std::string(word) +
                            (word[0] == 'h' ? "': h= takes a height as 15mm, -12mm or 0.015"

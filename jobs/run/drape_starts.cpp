@@ -90,7 +90,9 @@ int DrapeStarts::resting() const {
 }
 
 DrapeStart start_of(const Draped& d, std::uint64_t seed) {
-  DrapeStart start{seed, d.outcome(), d.rests(), d.report.levels.back().settle.residual};
+  DrapeStart start;
+  start.seed = seed, start.outcome = d.outcome(), start.rests = d.rests();
+  start.residual = d.report.levels.back().settle.residual;
   for (const bridge::DrapeLevel& level : d.report.levels) {
     start.iterations += level.soft.iterations + level.settle.iterations;
     start.factorisations += level.soft.factorisations + level.settle.factorisations;

@@ -26,8 +26,11 @@ LineReport measure_line(std::size_t id, double now, double before, const io::Wri
   const bool known = id < record.lines.size() && std::isfinite(record.lines[id].smoothed_height);
   line.smoothed_height = known ? record.lines[id].smoothed_height : before;
   line.height = known ? now - record.lines[id].base_height : now;
-  // Lines so close together that smoothing made one shape of them have no height of their own to keep.
-  if (std::abs(line.smoothed_height) > 0.1 * std::abs(line.drawn_height.value_or(line.smoothed_height)))
+  // Lines so close together that they made one shape have no height of their own to keep.
+  const auto crest = id < record.lines.size() ? record.lines[id].crest_height : std::nullopt;
+  const bool alone = !crest || std::abs(line.smoothed_height) > 0.35 * std::abs(*crest);
+  if (alone &&
+      std::abs(line.smoothed_height) > 0.1 * std::abs(line.drawn_height.value_or(line.smoothed_height)))
     line.kept = line.height / line.smoothed_height;
   return line;
 }

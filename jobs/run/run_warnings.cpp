@@ -143,8 +143,7 @@ std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineRe
                "; " +
                (keeps_first_shape(scene)
                     ? "furrow keep finds out which lines hold, and helps those that do not"
-                    : "furrow keep makes the drawn shape the rest and helps lines that do not hold; so does "
-                      "--rest keep, without help"),
+                    : "furrow keep makes the drawn shape the rest and helps lines that do not hold"),
            first, "furrow keep"}};
 }
 

@@ -12,7 +12,7 @@ using physics::Vec3;
 namespace {
 
 /// Four particles, a unit square cut along 1-2, with all kinds of elements, pushed out of shape.
-physics::Cloth square() {
+physics::Cloth square_of_cloth() {
   physics::Cloth cloth;
   physics::Particles& p = cloth.particles;
   p.x = {Vec3(0, 0, 0), Vec3(1.1, 0, 0), Vec3(0, 1, 0.1), Vec3(1, 1, 0.3)};
@@ -30,7 +30,7 @@ physics::Cloth square() {
 }  // namespace
 
 TEST_CASE("energy_parts: elements by kind sum up to their energy, and weight to the way down") {
-  const physics::Cloth cloth = square();
+  const physics::Cloth cloth = square_of_cloth();
   std::vector<Vec3> places = cloth.particles.x;
   for (Vec3& x : places) x.y() += 0.25;  // it fell by so much
   const bridge::EnergyParts parts = bridge::energy_parts(cloth, Vec3(0, -10, 0), places);

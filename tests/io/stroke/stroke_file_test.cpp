@@ -198,6 +198,14 @@ TEST_CASE("strokes: lines of an OBJ file have the names of their objects, which 
   spit(folder / "wrong.obj", "o belly_h=high\nv 0 0 0\nv 1 0 0\nl 1 2\n");
   CHECK(content_error([&] { io::read_strokes(folder / "wrong.obj"); }).find("h= takes a height") !=
         std::string::npos);
+  spit(folder / "long.obj", "o belly_height=15mm width=6cm\nv 0 0 0\nv 1 0 0\nl 1 2\n");
+  const auto spelt = io::read_strokes(folder / "long.obj", 0.03);
+  CHECK(spelt.at(0).name == "belly");
+  CHECK(spelt.at(0).height == Approx(0.015));
+  CHECK(spelt.at(0).width.value() == Approx(0.06));
+  spit(folder / "other.obj", "o belly_hight=15mm\nv 0 0 0\nv 1 0 0\nl 1 2\n");
+  CHECK(content_error([&] { io::read_strokes(folder / "other.obj"); }).find("only h= (height) and w= (width)") !=
+        std::string::npos);
   spit(folder / "flat.obj", "o belly_w=-3mm\nv 0 0 0\nv 1 0 0\nl 1 2\n");
   CHECK(content_error([&] { io::read_strokes(folder / "flat.obj"); }).find("w= takes a width") !=
         std::string::npos);
