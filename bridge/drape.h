@@ -4,7 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "bridge/energy_parts.h"
 #include "geometry/mesh/mesh.h"
 #include "physics/body/collider.h"
 #include "physics/rest/settle.h"
@@ -39,6 +38,16 @@ struct DrapeOptions {
   /// Internal friction of bending on the last level, as a moment a metre of hinge [N]; >= 0, 0: none. It
   /// needs linear hinges, and not plain. See physics/rest/hinge_friction.h.
   double bending_friction = 0;
+};
+
+/// The energy of a cloth by what stores it [J].
+struct EnergyParts {
+  double stretch = 0;  ///< structural springs, tension and triangles
+  double bending = 0;  ///< hinges, plates and other energies; without any, the springs across edges
+  double ties = 0;     ///< struts: bands, joined seams
+  double weight = 0;   ///< against where it lay before
+  double contact = 0;  ///< with the body, its friction, and of the cloth with itself
+  double total() const { return stretch + bending + ties + weight + contact; }
 };
 
 struct DrapeLevel {

@@ -336,6 +336,7 @@ void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std
     report.warnings = remarks_on_run(run, report.run, now.file, now.contact_gap, steps_before);
     const std::vector<Warning> lost = lost_lines(run.scene, report.shape->lines);
     report.warnings.insert(report.warnings.end(), lost.begin(), lost.end());
+    if (const auto falls = falls_freely(run.scene, now.pins)) report.warnings.push_back(*falls);
     report.garment = std::move(now.file);
   }
   report.animations = animations.reports();

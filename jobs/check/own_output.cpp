@@ -100,19 +100,22 @@ bool is_own_ply(const Beginning& file) {
          properties.find(";list uchar int vertex_indices;") != properties.npos;
 }
 
-/// Numbers of the shortest form, some with all the digits of a double, in the order in which furrow writes an
-/// OBJ; or in the text of another program, which `transfer` keeps but for the positions that it moved.
+/// Numbers of the shortest form, some with all the digits of a double or without a comment in the file, in
+/// the order in which furrow writes an OBJ; or in the text of another program, which `transfer` keeps but for
+/// the positions that it moved.
 bool is_own_obj(const Beginning& file) {
   constexpr std::string_view words[] = {"#", "mtllib", "v", "vt", "g", "usemtl", "f", "l"};
   Numbers numbers;
-  bool own_order = true;
+  bool own_order = true, commented = false;
   for (std::string_view line : lines_of(file)) {
     if (line.ends_with('\r')) line.remove_suffix(1), own_order = false;
     const std::string_view word = line.substr(0, line.find(' '));
     own_order = own_order && std::ranges::find(words, word) != std::end(words);
+    commented = commented || word == "#";
     if (word == "v" && line.size() > 2) numbers.take(line.substr(2), 3);
   }
-  if (own_order && numbers.doubles > 0 && numbers.shortest) return true;
+  const bool told = own_order && numbers.count > 0 && numbers.shortest;
+  if (told && (numbers.doubles > 0 || !commented)) return true;
   return numbers.doubles > 0 && numbers.doubles_shortest;
 }
 

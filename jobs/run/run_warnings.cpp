@@ -126,6 +126,16 @@ std::vector<Warning> idle_presses(const io::SceneMaterial& material, const io::W
   return found;
 }
 
+std::optional<Warning> falls_freely(const io::Scene& scene, const std::vector<std::vector<int>>& pins) {
+  if (scene.body || !pins.empty() || scene.simulation.gravity.isZero()) return std::nullopt;
+  return Warning{
+      "nothing_holds",
+      scene.garment.stem().string() +
+          ": falls, as there is neither a body nor a pin: name a body with --body, or what is held "
+          "with --pin-loop, --pin-group, --pin-box or --pin-vertices",
+      scene.garment.string(), "body"};
+}
+
 std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineReport>& lines) {
   std::string told, first;
   std::size_t lost = 0;

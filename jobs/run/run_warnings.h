@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "io/mesh/mesh_file.h"
@@ -20,6 +21,9 @@ Warning raised_gap(const io::Scene& scene, const geometry::Mesh& garment, double
 
 /// Lines with a press where nothing has hinges to be pressed.
 std::vector<Warning> idle_presses(const io::SceneMaterial& material, const io::WrinkleRecord& record);
+
+/// That neither a body nor one of the run's pins holds the garment, which has weight.
+std::optional<Warning> falls_freely(const io::Scene& scene, const std::vector<std::vector<int>>& pins);
 
 /// Lines that lost more than half of their height, or turned over to the other side, with figures and what
 /// helps.

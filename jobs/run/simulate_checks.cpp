@@ -136,14 +136,6 @@ OpenScene open_scene(const SimulateJob& job, Listener& listener) {
   if (is_scene(open.document.name))
     make_folders(open.scene, open.document, job.outputs_below.value_or(open.folder));
   check_outputs(open, job, listener);
-  const io::Scene& scene = open.scene;
-  if (!job.state && !scene.body && scene.pins.empty() && !scene.simulation.gravity.isZero())
-    listener.warn(
-        {"nothing_holds",
-         scene.garment.string() +
-             ": falls, as there is neither a body nor a pin: name a body with --body, or what is held "
-             "with --pin-loop, --pin-group, --pin-box or --pin-vertices",
-         scene.garment.string(), "body"});
   open.frame.unit = open.scene.unit;
   open.frame.up = open.scene.up;
   return open;
