@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bridge/convert.h"
+#include "bridge/energy_parts.h"
 #include "bridge/gather.h"
 #include "bridge/place_noise.h"
 #include "geometry/refine/subdivide.h"
