@@ -16,6 +16,8 @@ constexpr int comparisons = 2000;
 /// triangles than `dear`, as beside a fan, whose triangles all have their middle far from their ends.
 constexpr int every = 5;  ///< odd, so that both sides of the surface have as many
 constexpr std::int64_t dear = 5000;
+/// Of those, every fifth comes first again, and is all where each sums over more than this.
+constexpr std::int64_t very_dear = 50000;
 constexpr double most_disagreement = 0.005;
 
 /// The i-th of a fixed sequence of evenly spread numbers in [0, 1).
@@ -128,7 +130,10 @@ void SurfaceSides::compare_signs(const TriangleMesh& mesh) {
   report_.rule = SignRule::sides;
   const double reach = 1e-3 * bounding_diagonal(mesh);
   Comparison sum;
-  for (int i = 0; i < comparisons; i += every) compare_signs_at(i, reach, sum);
+  for (int i = 0; i < comparisons; i += every * every) compare_signs_at(i, reach, sum);
+  const bool few = sum.summed > very_dear * report_.samples;
+  for (int i = 0; i < comparisons && !few; i += every)
+    if (i % (every * every) != 0) compare_signs_at(i, reach, sum);
   if (sum.summed <= dear * report_.samples)
     for (int i = 0; i < comparisons; ++i)
       if (i % every != 0) compare_signs_at(i, reach, sum);

@@ -86,6 +86,18 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
   refit(std::vector<char>(order.size(), 0));
 }
 
+/// Whether a quarter of the triangles are lower than a fiftieth of their longest side. Boxes along x, y and z
+/// then hold next to nothing: of a fan, each reaches over a quarter of all.
+bool TriangleBvh::has_needles() const {
+  std::size_t needles = 0;
+  for (int slot : slot_of_) {
+    const auto& [a, b, c] = corners_[slot];
+    const double longest2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    needles += (b - a).cross(c - a).norm() < 0.02 * longest2;
+  }
+  return 4 * needles > slot_of_.size();
+}
+
 int TriangleBvh::build(const std::vector<Vec3>& centroids, const TriangleMesh& mesh, std::vector<int>& order,
                        int begin, int end) {
   const int middle = split(centroids, order, begin, end);
@@ -161,6 +173,29 @@ void TriangleBvh::refit(std::span<const char> dropped) {
       }
       node_box[i].extend(box);
     }
+  if (has_needles()) orient(dropped);
+}
+
+/// Needs the nodes' own boxes; sets the others where they are much smaller. O(T log T).
+void TriangleBvh::orient(std::span<const char> dropped) {
+  constexpr double much_smaller = 0.5;  // of the surface
+  oriented_.assign(nodes_.size(), {});
+  std::vector<std::vector<Vec3>> points(nodes_.size());
+  for (std::size_t i = nodes_.size(); i-- > 0;)
+    for (int lane = 0; lane < 4; ++lane) {
+      const int child = nodes_[i].child[lane];
+      std::vector<Vec3> below;
+      if (child >= 0) below.swap(points[child]);
+      for (int j = 0; child < 0 && child != Node::none && j < leaf_size; ++j)
+        if (const int t = leaves_[~child].triangle[j]; t != Node::none && !dropped[t])
+          for (const Vec3& corner : corners_[leaf_size * ~child + j]) below.push_back(corner - centre_);
+      if (below.empty()) continue;
+      const OrientedBox box = fit_oriented_box(below);
+      const auto& half = nodes_[i].half;
+      const Vec3 aligned(half[0][lane], half[1][lane], half[2][lane]);
+      if (half_surface(box.half) < much_smaller * half_surface(aligned)) oriented_[i].set(lane, box);
+      points[i].insert(points[i].end(), below.begin(), below.end());
+    }
 }
 
 void TriangleBvh::drop(std::span<const char> dropped) {
@@ -189,6 +224,7 @@ struct TriangleBvh::Search {
   bool trust_float;  ///< a float distance may lower the limit
   ClosestPoint best;
   int size = 0, waiting_size = 0;
+  std::int64_t searched = 0;  ///< leaves
   Entry stack[96];
   Candidate waiting[64];
 
@@ -213,6 +249,7 @@ void TriangleBvh::settle(Search& s) const {
 }
 
 void TriangleBvh::search_leaf(Search& s, int leaf) const {
+  ++s.searched;
   const Float4 d = triangle_distances(leaves_[leaf], s.p);
   const float nearest = least(d);
   if (!(nearest <= s.limit)) return;
@@ -226,7 +263,10 @@ void TriangleBvh::search_leaf(Search& s, int leaf) const {
 }
 
 void TriangleBvh::push_children(Search& s, const Node& node) const {
-  const Float4 d = box_distances(node, s.p);
+  Float4 d = box_distances(node, s.p);
+  if (!oriented_.empty()) [[unlikely]]
+    d = max(d, oriented_distances(oriented_[static_cast<std::size_t>(&node - nodes_.data())], s.p,
+                                  static_cast<float>(s.slack)));
   const float limit = s.limit;
   const int base = s.size;
   int size = base, nearest = base;
@@ -254,7 +294,7 @@ void TriangleBvh::search(Search& s) const {
   settle(s);
 }
 
-ClosestPoint TriangleBvh::closest(const Vec3& x, int guess) const {
+ClosestPoint TriangleBvh::closest(const Vec3& x, int guess, std::int64_t* searched) const {
   const auto& [a, b, c] = corners(guess);
   const PointOnTriangle q = closest_on_triangle(x, a, b, c);
   const Vec3 local = x - centre_;
@@ -268,6 +308,7 @@ ClosestPoint TriangleBvh::closest(const Vec3& x, int guess) const {
   s.lower_limit(std::sqrt(s.best.squared_distance));
   s.trust_float = true;
   search(s);
+  if (searched) *searched += s.searched;
   if (s.best.squared_distance <= s.limit) return s.best;
   // a needle that float took to be nearer than it is: once more, with limits from double only
   s.limit = 1e37f;

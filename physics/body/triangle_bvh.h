@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "physics/base/float4.h"
 #include "physics/body/closest_on_triangle.h"
 #include "physics/body/exact_distance.h"
+#include "physics/body/oriented_boxes.h"
 
 namespace furrow::physics {
 
@@ -43,8 +45,8 @@ class TriangleBvh {
   /// Exact closest point (up to double rounding) over the triangles that are not dropped.
   ClosestPoint closest(const Vec3& x) const { return closest(x, first_kept_); }
   /// The same; a triangle near x as first guess makes it faster (and is the answer beyond 1e12 m and for
-  /// NaN).
-  ClosestPoint closest(const Vec3& x, int guess) const;
+  /// NaN). Adds the leaves that it looked at to `searched`.
+  ClosestPoint closest(const Vec3& x, int guess, std::int64_t* searched = nullptr) const;
 
   /// Appends the triangles whose leaf's box meets the box [low, high]: unsorted, some farther, no kept one
   /// missing.
@@ -54,6 +56,8 @@ class TriangleBvh {
   std::span<const Leaf> leaves() const { return leaves_; }
   const std::array<Vec3, 3>& corners(int triangle) const { return corners_[slot_of_[triangle]]; }  ///< [m]
   const Vec3& centre() const { return centre_; }
+  /// Whether many triangles are needles, so that nodes have boxes along them besides.
+  bool has_oriented_boxes() const { return !oriented_.empty(); }
 
  private:
   int build(const std::vector<Vec3>& centroids, const TriangleMesh& mesh, std::vector<int>& order, int begin,
@@ -61,6 +65,8 @@ class TriangleBvh {
   int add_leaf(const TriangleMesh& mesh, const std::vector<int>& order, int begin, int end);
   void set_lane(int leaf, int lane, bool used);
   void refit(std::span<const char> dropped);
+  bool has_needles() const;
+  void orient(std::span<const char> dropped);
   struct Search;
   void search(Search& search) const;
   void push_children(Search& search, const Node& node) const;
@@ -71,6 +77,7 @@ class TriangleBvh {
   double radius_;  ///< largest coordinate relative to centre_ [m]
   int first_kept_ = 0;
   std::vector<Node> nodes_;
+  std::vector<OrientedBoxes> oriented_;  ///< of the nodes' children; empty unless there are many needles
   std::vector<Leaf> leaves_;
   std::vector<std::array<Vec3, 3>> corners_;  ///< in the order of the leaves, 4 a leaf
   std::vector<int> slot_of_;

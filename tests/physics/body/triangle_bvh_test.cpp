@@ -7,6 +7,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <rapidcheck.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -80,6 +81,54 @@ TEST_CASE("triangle_bvh: the closest point agrees with CGAL's tree on a dense sp
     REQUIRE(bvh.closest(x).squared_distance ==
             Approx(tree.squared_distance(point(x))).epsilon(1e-11).margin(1e-22));
   }
+}
+
+namespace {
+
+/// A cone of n needles from its rim to its apex, turned out of all axes, and its floor, a fan as well.
+TriangleMesh cone_of_needles(int n) {
+  TriangleMesh m;
+  const Eigen::AngleAxisd turn(0.7, Vec3(1, 2, 3).normalized());
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / n;
+    m.vertices.push_back(turn * Vec3(0.3 * std::cos(angle), 0, 0.3 * std::sin(angle)));
+  }
+  m.vertices.push_back(turn * Vec3(0, 0.2, 0));
+  m.vertices.push_back(turn * Vec3(0, 0, 0));
+  for (int i = 0; i < n; ++i) {
+    m.triangles.push_back({(i + 1) % n, i, n});
+    m.triangles.push_back({i, (i + 1) % n, n + 1});
+  }
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("triangle_bvh: fans of needles have boxes along them, and the search stays exact") {
+  const TriangleMesh m = cone_of_needles(2000);
+  const TriangleBvh bvh(m);
+  REQUIRE(bvh.has_oriented_boxes());
+  REQUIRE_FALSE(TriangleBvh(furrow::tests::sphere(40, 0.8)).has_oriented_boxes());
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 300; ++i) {
+    const double far = std::pow(10.0, uniform(random, -3, 2));
+    const Vec3 x(far * uniform(random, -1, 1), far * uniform(random, -1, 1), far * uniform(random, -1, 1));
+    const double exact = std::sqrt(by_brute_force(m, x));
+    REQUIRE(std::abs(std::sqrt(bvh.closest(x).squared_distance) - exact) <= 1e-12 * (far + exact));
+  }
+}
+
+TEST_CASE("triangle_bvh: beside a fan of needles the search looks at few of them") {
+  constexpr int n = 10000;
+  const TriangleBvh bvh(cone_of_needles(n));
+  std::mt19937_64 random(4);
+  std::int64_t looked_at = 0;
+  constexpr int searches = 1000;
+  for (int i = 0; i < searches; ++i)
+    bvh.closest(0.4 * Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)), 0,
+                &looked_at);
+  CAPTURE(double(looked_at) / searches);
+  CHECK(looked_at < 200 * searches);  // of n / 2 leaves; all of them for a place at the same distance
 }
 
 TEST_CASE("triangle_bvh: dropped triangles are not found, and one must stay") {
