@@ -12,6 +12,7 @@
 #include "geometry/band/curve_arcs.h"
 #include "geometry/band/relax_displaced.h"
 #include "geometry/band/split_longest.h"
+#include "geometry/band/tighten_displaced.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
 
@@ -192,6 +193,7 @@ DisplacedReport refine_displaced(Mesh& mesh, const Mesh& given, std::span<const 
   resume(band, report, arcs, sizing);
   std::vector<Point> places = displaced;
   SecondPass(band, sizing, places, displacing).run();
+  tighten_displaced(band, places);
   band.finish();
   report = joined(std::move(report), report_on(band, arcs));
   const DisplacedReport result{band.splits, band.flips, smallest_angle_in(band, places)};

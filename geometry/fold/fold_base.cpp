@@ -9,7 +9,7 @@
 namespace furrow::geometry {
 namespace {
 
-constexpr double share = 0.75;
+constexpr double share = 0.5;
 constexpr int rounds = 6;
 
 double angle_between(const Vector& a, const Vector& b) {

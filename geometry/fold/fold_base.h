@@ -8,7 +8,9 @@
 namespace furrow::geometry {
 
 /// Where a point of a mesh lies on a curved surface over its facets (Boubekeur and Alexa 2008, "Phong
-/// tessellation", share 3/4): `normals` are those of the mesh's vertices. Corners stay where they are.
+/// tessellation"): `normals` are those of the mesh's vertices. The share is 1/2, not their 3/4, since then
+/// a quadric with its own normals is met to second order: the mean of the ways to the tangent planes of the
+/// corners is twice the way to the surface. Corners stay where they are.
 Point curved_place(const Mesh& mesh, const std::vector<Vector>& normals, const FacePoint& at);
 
 /// Unit normals of the vertices, each six times the mean of its own and its neighbours', so that the facets

@@ -38,6 +38,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   band/band_checks.h
   band/refine_band_test.cpp
   band/refine_displaced_test.cpp
+  band/tighten_displaced_test.cpp
   fold/cloth_ways_test.cpp
   fold/displace_line_test.cpp
   fold/fold_heights_test.cpp

@@ -286,21 +286,26 @@ TEST_CASE("fold_lines: folds are drawn over earlier ones, and thin faces that th
 }
 
 TEST_CASE("fold_lines: a ridge over a valley does not pinch the cloth in the hollow") {
-  for (const double k : {0.015, 0.02})
-    for (const double slope : {0.0, 0.3, 1.0}) {
-      CAPTURE(k, slope);
-      Mesh mesh = equilateral_sheet(0.5, 0.5, 0.02);
-      fold(mesh, {over_both_hems(-0.02)});
-      WrinkleOptions options = fold_options();
-      options.first_line = 1;
-      options.insertion.max_distance = 0.1;
-      options.insertion.mean_edge = 0.02;
-      const WrinkleReport report =
-          fold(mesh, {line({{-0.2, 0.25 - 0.2 * slope, 0}, {0.2, 0.25 + 0.2 * slope, 0}}, k)}, options);
-      CHECK(report.fold->invalid_faces == 0);
-      CHECK(report.lines.at(0).crest_height.value() == Approx(k).epsilon(0.08));
-      CHECK(report.fold->min_angle_deg >= 10);
-    }
+  // Without normals that are averaged further: 4.1, 1.5, 2.4, 0.9, 7.1 and 1.0 degrees.
+  struct Case {
+    double x, k, slope, least_deg;
+  };
+  for (const auto& [x, k, slope, least_deg] :
+       {Case{0, 0.02, 0, 10}, Case{0, 0.02, 1, 10}, Case{0.0053, 0.02, 0.3, 5}, Case{0.0053, 0.02, 1, 10},
+        Case{0.013, 0.015, 1, 10}, Case{0.013, 0.02, 0.3, 10}}) {
+    CAPTURE(x, k, slope);
+    Mesh mesh = equilateral_sheet(0.5, 0.5, 0.02);
+    fold(mesh, {line({{x, -0.03, 0}, {x, 0.25, 0}, {x, 0.53, 0}}, -0.02)});
+    WrinkleOptions options = fold_options();
+    options.first_line = 1;
+    options.insertion.max_distance = 0.1;
+    options.insertion.mean_edge = 0.02;
+    const WrinkleReport report =
+        fold(mesh, {line({{-0.2, 0.25 - 0.2 * slope, 0}, {0.2, 0.25 + 0.2 * slope, 0}}, k)}, options);
+    CHECK(report.fold->invalid_faces == 0);
+    CHECK(report.lines.at(0).crest_height.value() == Approx(k).epsilon(0.08));
+    CHECK(report.fold->min_angle_deg >= least_deg);
+  }
 }
 
 namespace {
@@ -423,7 +428,7 @@ TEST_CASE("fold_base: a curved surface over the facets of a sphere is nearer to 
     const auto off = [](const Point& p) {
       return std::abs(1 - std::sqrt((p - CGAL::ORIGIN).squared_length()));
     };
-    CHECK(off(curved_place(mesh, normals, middle)) < 0.5 * off(position_of(mesh, middle)));
+    CHECK(off(curved_place(mesh, normals, middle)) < 0.1 * off(position_of(mesh, middle)));
     CHECK(std::sqrt(CGAL::squared_distance(curved_place(mesh, normals, corner), position_of(mesh, corner))) <
           1e-12);
   }
