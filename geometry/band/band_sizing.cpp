@@ -119,7 +119,7 @@ void BandSizing::add_segments(const FoldCurve& curve, const std::vector<Edges>& 
 
 BandSizing::Box BandSizing::bounds(int first, int count) const {
   constexpr double far = std::numeric_limits<double>::infinity();
-  Box box{{far, far, far}, {-far, -far, -far}, far, 0, 0, first, 0};
+  Box box{{far, far, far}, {-far, -far, -far}, far, 0, far, 0, false, first, 0};
   for (int i = first; i < first + count; ++i) {
     const Segment& s = segments_[i];
     for (int k = 0; k < 3; ++k) {
@@ -128,7 +128,9 @@ BandSizing::Box BandSizing::bounds(int first, int count) const {
     }
     box.least_h = std::min({box.least_h, s.at_a.crest, s.at_b.crest});
     box.most_h = std::max({box.most_h, s.at_a.crest, s.at_b.crest});
+    box.least_flank = std::min({box.least_flank, s.at_a.flank, s.at_b.flank});
     box.most_reach = std::max({box.most_reach, s.at_a.reach, s.at_b.reach});
+    box.has_valley = box.has_valley || std::isfinite(s.at_a.valley) || std::isfinite(s.at_b.valley);
   }
   return box;
 }
@@ -167,6 +169,16 @@ BandSizing::Nearest BandSizing::nearest_of(const Segment& s, const Point& p) {
           d};
 }
 
+/// As wanted(), of the least edges and the greatest width of the box; less what rounding may be.
+double BandSizing::lower_bound(const Box& box, double distance) {
+  constexpr double rounding = 1 - 1e-12;
+  const double width = box.most_reach / half_band;
+  const double off = (distance / width - crest_ends) / (flank_begins - crest_ends);
+  const double share = box.has_valley ? 0 : std::clamp(off, 0.0, 1.0);
+  return rounding * (box.least_h + share * (box.least_flank - box.least_h) +
+                     growth * std::max(0.0, distance - box.most_reach));
+}
+
 double BandSizing::wanted(const Segment& segment, const Point& p) {
   const auto [at, distance] = nearest_of(segment, p);
   const double beyond = distance - at.reach, width = (distance - beyond) / half_band;
@@ -195,9 +207,7 @@ bool BandSizing::in_band(const Point& p) const {
 
 double BandSizing::at(const Point& p, double most) const {
   if (boxes_.empty()) return most;
-  const auto least = [&](const Box& box) {
-    return box.least_h + growth * std::max(0.0, distance_to(box.low, box.high, p) - box.most_reach);
-  };
+  const auto least = [&](const Box& box) { return lower_bound(box, distance_to(box.low, box.high, p)); };
   double best = most;
   std::array<int, 64> stack;
   int size = 0;

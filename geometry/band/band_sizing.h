@@ -43,12 +43,15 @@ class BandSizing {
   };
   struct Box {
     std::array<double, 3> low, high;
-    double least_h, most_h, most_reach;
+    double least_h, most_h, least_flank, most_reach;
+    bool has_valley;
     int first, count;  ///< count > 0: segments of a leaf; else children `first` and `first` + 1
   };
   void add_segments(const FoldCurve& curve, const std::vector<Edges>& edges);
   void build(int box, int first, int count);
   Box bounds(int first, int count) const;
+  /// Not above the edge that any segment of the box wants at this distance from the box, or farther [m].
+  static double lower_bound(const Box& box, double distance);
   struct Nearest {
     Edges at;  ///< the nearest point of a segment
     double distance;
