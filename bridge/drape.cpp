@@ -125,6 +125,8 @@ physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collid
   for (physics::MembraneTriangle& t : cloth.membrane) {
     t.lambda /= o.soft_start;
     t.mu /= o.soft_start;
+    t.threads.warp /= o.soft_start;
+    t.threads.weft /= o.soft_start;
   }
   const physics::SettleReport report = physics::settle(cloth, body, rough, observer);
   cloth.membrane = own;

@@ -89,7 +89,8 @@ void check_membrane(const Triangles& cloth, const Triangles& expected) {
     const physics::MembraneTriangle &t = cloth.all[i], &wanted = expected.all[i];
     const std::string element = name_of("membrane triangle", i);
     if (t.vertices != wanted.vertices) fail(element + " has other vertices than in the mesh");
-    if (t.lambda != wanted.lambda || t.mu != wanted.mu)
+    if (t.lambda != wanted.lambda || t.mu != wanted.mu || t.threads.warp != wanted.threads.warp ||
+        t.threads.weft != wanted.threads.weft)
       fail(element + " has Lame parameters of its own; these are the material's and cannot be stored");
     const auto& [a, b, c] = t.rest_lengths;
     for (const double l : t.rest_lengths) check_value(element, "rest length", l, l > 0);

@@ -41,11 +41,21 @@ enum class HingeLaw {
   cosine   ///< moment stiffness * (1 - cos phi) against phi: none of first order about rest
 };
 
+/// What the threads of woven cloth add to a sheet that is the same in all directions: the energy of an area
+/// grows by  warp/2 (w^T E w)^2 + weft/2 (f^T E f)^2  with Green's strain E and the unit vectors w along the
+/// warp and f across it. woven_sheet() of membrane.h makes both.
+struct Threads {
+  double angle = 0;  ///< of the warp to the edge from corner 0 to corner 1 at rest, counter-clockwise [rad]
+  double warp = 0, weft = 0;  ///< [N/m]; may be < 0, as long as the whole sheet's stiffness is definite
+  bool any() const { return warp != 0 || weft != 0; }
+};
+
 /// Membrane of constant strain (St. Venant-Kirchhoff). It knows its rest state by lengths alone.
 struct MembraneTriangle {
   std::array<int, 3> vertices;         ///< counter-clockwise from outside
   std::array<double, 3> rest_lengths;  ///< [m] of the edges opposite them; > 0 and a triangle with area
   double lambda, mu;                   ///< Lame parameters of the plane [N/m]; mu >= 0, lambda + mu >= 0
+  Threads threads = {};                ///< none: the same in all directions
 };
 
 /// Which part of the second derivative of an energy counts: the Hessian itself, which is indefinite where

@@ -40,11 +40,34 @@ double rest_area(const MembraneTriangle& t) {
   return area;
 }
 
+/// Of a sheet with threads, too: C11, C22 >= 0 and C11 C22 >= C12^2.
+bool is_semidefinite(const MembraneTriangle& t) {
+  const double plane = t.lambda + 2 * t.mu, c11 = plane + t.threads.warp, c22 = plane + t.threads.weft;
+  return t.mu >= 0 && c11 >= 0 && c22 >= 0 && c11 * c22 >= t.lambda * t.lambda &&
+         std::isfinite(t.threads.angle) && std::isfinite(c11 + c22);
+}
+
 void check_parameters(const MembraneTriangle& t) {
+  if (t.threads.any()) {
+    if (is_semidefinite(t)) return;
+    throw std::invalid_argument("membrane triangle: lambda = " + std::to_string(t.lambda) + ", mu = " +
+                                std::to_string(t.mu) + " with threads of " + std::to_string(t.threads.warp) +
+                                " and " + std::to_string(t.threads.weft) + " are no stable sheet");
+  }
   if (!(t.mu >= 0) || !(t.lambda + t.mu >= 0) || !std::isfinite(t.lambda + t.mu)) {
     throw std::invalid_argument("membrane triangle: lambda = " + std::to_string(t.lambda) +
                                 " and mu = " + std::to_string(t.mu) + " are not mu >= 0, lambda + mu >= 0");
   }
+}
+
+/// p of  n^T E n = sum d_i p_i  for a unit vector n in the triangle laid flat, its edge 0 -> 1 along x.
+Eigen::Vector3d strain_along(const Eigen::Vector3d& l, double area, const Eigen::Vector2d& n) {
+  // Turned edges dotted with n: edges crossed with it.
+  const Eigen::Vector2d b(l[2], 0),
+      c((l[2] * l[2] + l[1] * l[1] - l[0] * l[0]) / (2 * l[2]), 2 * area / l[2]);
+  const auto cross = [&](const Eigen::Vector2d& e) { return e.x() * n.y() - e.y() * n.x(); };
+  const double t0 = cross(c - b), t1 = cross(-c), t2 = cross(b);
+  return Eigen::Vector3d(t1 * t2, t2 * t0, t0 * t1) / (-8 * area * area);
 }
 
 /// The tensions t whose quadratic form  sum 2 t_i |u_{i+2} - u_{i+1}|^2  is the positive part of these'. In
@@ -69,6 +92,21 @@ PlaneLame plane_stress(double young_times_thickness, double poisson) {
   return {y * poisson / (1 - poisson * poisson), y / (2 * (1 + poisson))};
 }
 
+WovenSheet woven_sheet(const WovenModuli& m) {
+  require("woven_sheet", "warp", m.warp, m.warp > 0 && std::isfinite(m.warp), "> 0");
+  require("woven_sheet", "weft", m.weft, m.weft > 0 && std::isfinite(m.weft), "> 0");
+  require("woven_sheet", "shear", m.shear, m.shear > 0 && std::isfinite(m.shear), "> 0");
+  const double q = 1 - m.poisson * m.poisson * m.weft / m.warp;
+  require("woven_sheet", "poisson", m.poisson, q > 0, "such that poisson^2 < warp / weft");
+  const double c12 = m.poisson * m.weft / q;
+  return {{c12, m.shear}, m.warp / q - c12 - 2 * m.shear, m.weft / q - c12 - 2 * m.shear};
+}
+
+double strip_modulus(const WovenModuli& m, double angle) {
+  const double c2 = std::cos(angle) * std::cos(angle), s2 = std::sin(angle) * std::sin(angle);
+  return 1 / (c2 * c2 / m.warp + s2 * s2 / m.weft + (1 / m.shear - 2 * m.poisson / m.warp) * c2 * s2);
+}
+
 MembraneConstants membrane_constants(const MembraneTriangle& t) {
   const double area = rest_area(t);
   check_parameters(t);
@@ -80,6 +118,12 @@ MembraneConstants membrane_constants(const MembraneTriangle& t) {
   determinant.diagonal().setConstant(-2);
   determinant /= 64 * area * area;
   c.quadratic = area * ((t.lambda + 2 * t.mu) * trace * trace.transpose() - 2 * t.mu * determinant);
+  if (t.threads.any()) {
+    const Eigen::Vector2d along(std::cos(t.threads.angle), std::sin(t.threads.angle));
+    const Eigen::Vector3d p = strain_along(l, area, along),
+                          q = strain_along(l, area, {-along.y(), along.x()});
+    c.quadratic += area * (t.threads.warp * p * p.transpose() + t.threads.weft * q * q.transpose());
+  }
   return c;
 }
 

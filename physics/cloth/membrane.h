@@ -18,10 +18,30 @@ struct PlaneLame {
 /// [N/m], >= 0; nu: Poisson's ratio [-], in (-1, 1). Throws std::invalid_argument otherwise.
 PlaneLame plane_stress(double young_times_thickness, double poisson);
 
+/// Woven cloth, as strips of it are measured [N/m]: warp and weft at right angles at rest.
+struct WovenModuli {
+  double warp, weft;   ///< Y1, Y2: Young's moduli times thickness of strips along warp and weft; > 0
+  double shear;        ///< G; > 0
+  double poisson = 0;  ///< nu12: a strip along the warp, stretched by e, narrows by nu12 e; nu12^2 < Y1 / Y2
+};
+/// What makes a triangle of it: C11 = lambda + 2 mu + warp, C22 = lambda + 2 mu + weft, C12 = lambda, C33 =
+/// mu.
+struct WovenSheet {
+  PlaneLame lame;
+  double warp, weft;  ///< of Threads [N/m]
+};
+/// Throws std::invalid_argument if the stiffness is not positive definite.
+WovenSheet woven_sheet(const WovenModuli& moduli);
+/// Young's modulus times thickness of a strip cut at `angle` [rad] to the warp [N/m]:
+/// 1 / Y = c^4 / Y1 + s^4 / Y2 + (1 / G - 2 nu12 / Y1) c^2 s^2.
+double strip_modulus(const WovenModuli& moduli, double angle);
+
 /// What a triangle's rest state comes to. With d_i = l_i^2 - L_i^2 of the edge opposite corner i, rest angles
 /// a_i and rest area A the strain of Green has
 ///   tr E = sum d_i cot a_i / (4 A),   det E = (2 (d0 d1 + d1 d2 + d2 d0) - sum d_i^2) / (64 A^2),
-/// so the energy  W = A ((lambda/2 + mu) (tr E)^2 - 2 mu det E) = 1/2 d^T H d  has a constant H.
+/// so the energy  W = A ((lambda/2 + mu) (tr E)^2 - 2 mu det E) = 1/2 d^T H d  has a constant H. Threads
+/// along a unit vector n add A warp p p^T to it, p_i = -(t_j . n) (t_k . n) / (8 A^2) with the edges t turned
+/// by 90 degrees, for  n^T E n = sum d_i p_i.
 struct MembraneConstants {
   double area;                ///< A [m^2]
   Eigen::Vector3d length2;    ///< L^2 [m^2]

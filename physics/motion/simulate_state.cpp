@@ -43,6 +43,14 @@ template <class Element>
 constexpr bool always_counted =
     std::same_as<Element, Spring> || std::same_as<Element, MembraneTriangle> || std::same_as<Element, Hinge>;
 
+/// Fields that came later count only where they say anything, for the same reason.
+template <class Element>
+void add_later_fields(Hash&, const Element&) {}
+void add_later_fields(Hash& hash, const MembraneTriangle& t) {
+  if (!t.threads.any()) return;
+  for (const double field : {t.threads.angle, t.threads.warp, t.threads.weft}) hash.add(field);
+}
+
 }  // namespace
 
 std::uint64_t fingerprint(const Cloth& cloth) {
@@ -51,7 +59,10 @@ std::uint64_t fingerprint(const Cloth& cloth) {
   for_each_kind(cloth, [&](const auto& kind, auto... law) {
     if (!kind.empty() || always_counted<KindOf<decltype(kind)>>) hash.add(kind.size());
     (hash.add(int(law)), ...);
-    for (const auto& e : kind) std::apply([&](auto... field) { (hash.add(field), ...); }, fields(e));
+    for (const auto& e : kind) {
+      std::apply([&](auto... field) { (hash.add(field), ...); }, fields(e));
+      add_later_fields(hash, e);
+    }
   });
   if (!cloth.energies.empty()) hash.add(cloth.energies.size());  // what they are nobody knows
   return hash.value();

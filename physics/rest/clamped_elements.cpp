@@ -104,6 +104,9 @@ void ClampedElements::add_tension(const Cloth& cloth, const ElementLimits& limit
 
 void ClampedElements::add_plates(const Cloth& cloth, double strain) {
   for (const MembraneTriangle& t : cloth.membrane) {
+    if (t.threads.any())
+      refuse("prestress", "a membrane triangle has threads; it knows cloth alone that is the same in all ",
+             "directions");
     if (!(t.mu > 0) && t.lambda != 0)
       refuse("prestress", "a membrane triangle has lambda = ", std::to_string(t.lambda), " but mu = 0");
     Plate p{t.vertices, {}, {}, 0};

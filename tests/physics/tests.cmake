@@ -9,6 +9,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   cloth/hinge_forces_test.cpp
   cloth/membrane_laws_test.cpp
   cloth/membrane_test.cpp
+  cloth/woven_membrane_test.cpp
   cloth/pins_test.cpp
   plate/plate_bending_test.cpp
   plate/plate_rigidity_test.cpp
