@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/doctor.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/camera_options.h"
@@ -59,6 +60,17 @@ Json sentences(Json report) {
   return report;
 }
 
+/// What to call next: the mend, or the use of what is well.
+std::string next_of(const DoctorReport& report, const DoctorArguments& a) {
+  const auto mendable = [](const Ailment& ailment) { return ailment.mendable; };
+  if (!report.repaired && std::any_of(report.found.begin(), report.found.end(), mendable))
+    return "furrow doctor " + a.mesh + (a.is_body ? " --as-body" : "") + " --repair -o mended.obj";
+  if (!report.well() || a.is_body) return "";
+  const std::string mesh = a.out.empty() || a.out == "-" ? a.mesh : a.out;
+  if (a.body.empty()) return "furrow wrinkle " + mesh + " strokes.json -o wrinkled.ply";
+  return "furrow drape " + mesh + " --body " + a.body + " -o draped.ply";
+}
+
 int doctor(const DoctorArguments& a) {
   check_picture(a.picture, "--picture");
   Terminal terminal(a);
@@ -71,9 +83,10 @@ int doctor(const DoctorArguments& a) {
   }
   if (!a.picture.empty()) write_picture(report, a);
   Json json = a.json ? to_json(report) : sentences(to_json(report));
+  const std::vector<std::string> lines = doctor_lines(json);
   if (!a.picture.empty()) json["picture"] = a.picture;
   if (!a.out.empty()) json["written"] = a.out;
-  print_report(json, a);
+  print_report(json, a, {lines, {a.picture, a.out}, next_of(report, a)});
   return exit_code_of(false, report.well());
 }
 

@@ -15,19 +15,16 @@ struct InfoArguments : CommonArguments {
   std::string mesh;
 };
 
-/// A line needs edges of about a centimetre.
-std::string next_of(const Json& report, const std::string& mesh) {
-  const double edge = report.value("mean_edge_length", 0.0);
-  if (!(edge > 0.015)) return "";
-  return "furrow subdivide " + mesh + " --subdivide " + (edge > 0.03 ? "2" : "1") +
-         " -o fine.ply, as lines need edges of about 10 mm";
-}
-
 void info(const InfoArguments& a) {
   const io::MeshFile file = read_mesh(a.mesh, a);
-  if (const std::string hint = odd_size(file.mesh, "mesh", a); !hint.empty()) warn(a.mesh + ": " + hint, a);
+  const std::string odd = odd_size(file.mesh, "mesh", a);
+  if (!odd.empty()) warn(a.mesh + ": " + odd, a);
   const Json json = jobs::info(file);
-  print_report(json, a, {info_lines(json), {}, next_of(json, a.mesh)});
+  std::vector<std::string> lines = info_lines(json);
+  if (!odd.empty() && lines.back() == "no faults found") lines.back() = "look at: its size";
+  print_report(
+      json, a,
+      {lines, {}, odd.empty() ? "" : "furrow info " + a.mesh + " --unit cm, mm or inch, as its file is"});
 }
 
 }  // namespace

@@ -235,6 +235,28 @@ Lines info_lines(const Json& report) {
   return lines;
 }
 
+Lines doctor_lines(const Json& report) {
+  const bool repaired = report.contains("left");
+  const Json &found = list_of(report, "found"), &left = repaired ? list_of(report, "left") : found;
+  Lines lines;
+  if (repaired && !found.empty())
+    lines.push_back("looked through: " + counted((long long)(found.size()), "fault") + " before, " +
+                    std::to_string(left.size()) + " left");
+  for (const Json& sentence : left)
+    if (sentence.is_string())
+      lines.push_back((repaired ? "left: " : "found: ") + sentence.get<std::string>());
+  if (left.empty()) lines.push_back(repaired && !found.empty() ? "well now" : "well: no faults found");
+  std::string size;
+  for (const Json& edge : list_of(report, "size"))
+    size += (size.empty() ? "" : " x ") + length_text(edge.get<double>());
+  lines.push_back(counted(count_of(report, "faces"), "face") + ", " +
+                  counted(count_of(report, "components"), "part") + ", " +
+                  (report.value("closed", false) ? std::string("closed")
+                                                 : counted(count_of(report, "boundary_loops"), "border")) +
+                  "; " + size + " (width, height, depth)");
+  return lines;
+}
+
 Lines subdivide_lines(const Json& report) {
   Lines lines{"refined to " + std::to_string(count_of(report, "vertices")) + " vertices, " +
               std::to_string(count_of(report, "faces")) + " faces"};
@@ -321,6 +343,7 @@ std::string measured_text(const Json& m) {
   if (share != per_cents.end()) words += share->second;
   if (unit != units.end()) words += unit->second;
   if (!text_of(m, "line").empty()) words += " (" + text_of(m, "line") + ")";
+  if (!text_of(m, "why").empty()) words += ": " + text_of(m, "why");
   return words;
 }
 

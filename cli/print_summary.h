@@ -19,6 +19,7 @@ struct Summary {
 
 /// The lines about a job's report.
 std::vector<std::string> info_lines(const Json& report);
+std::vector<std::string> doctor_lines(const Json& report);  ///< whose ailments are sentences
 std::vector<std::string> subdivide_lines(const Json& report);
 std::vector<std::string> smooth_lines(const Json& report);
 std::vector<std::string> wrinkle_lines(const Json& report);

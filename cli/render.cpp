@@ -16,6 +16,7 @@
 #include "io/picture/strip.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/check/gate.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/measure_crossings.h"
 
@@ -59,10 +60,18 @@ void mark_crossings(io::RenderMesh& shown, const io::MeshFile& file, const std::
   }
 }
 
+/// A camera counts in metres, too: strokes drawn in its picture would miss the garment in another unit.
+void warn_of_unit(const io::MeshFile& file, const std::string& path, const RenderArguments& a) {
+  if (a.camera.save_camera.empty() && a.camera.camera.empty() && a.camera.eye.empty()) return;
+  if (const std::string odd = odd_size(file.mesh, "garment", a); !odd.empty())
+    warn(path + ": " + odd + "; the camera is of that unit, and strokes drawn in its picture with it", a);
+}
+
 void add_garment(io::RenderScene& scene, const std::string& path,
                  const std::shared_ptr<const io::Image>& texture, std::size_t& crossings,
                  const RenderArguments& a) {
   const io::MeshFile file = read_mesh(path, a);
+  warn_of_unit(file, path, a);
   if (texture && !geometry::find_map(file.mesh, geometry::attribute::texture))
     throw geometry::ContentError(path + ": has no texture coordinates to lay --texture on with");
   scene.meshes.push_back(io::render_mesh_from(file.mesh, io::Style::cloth, texture));

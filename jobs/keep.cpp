@@ -204,11 +204,36 @@ bridge::KeepOptions options_of(const KeepJob& job, const SceneCloth& cloth, cons
   return options;
 }
 
+/// A round of trials runs from 0 to 1, and there are several: each is told by its number.
+class Trials {
+ public:
+  explicit Trials(Listener& listener) : listener_(listener) {}
+  ~Trials() { listener_.progress(name(), 1); }
+  Trials(const Trials&) = delete;
+  Trials& operator=(const Trials&) = delete;
+  bool operator()(double share) {
+    if (share < last_) {
+      listener_.progress(name(), 1);
+      ++trial_;
+    }
+    last_ = share;
+    if (share < 1) listener_.progress(name(), share);
+    return !listener_.cancelled();
+  }
+
+ private:
+  std::string name() const { return trial_ == 1 ? "keeping" : "keeping, trial " + std::to_string(trial_); }
+
+  Listener& listener_;
+  int trial_ = 1;
+  double last_ = 0;
+};
+
 bridge::KeepReport find_rest(const KeepJob& job, const io::Scene& scene, SceneCloth& garment,
                              const io::WrinkleRecord& record, const Context& context) {
-  const ProgressScope progress(context.listener, "keeping");
+  Trials trials(context.listener);
   return bridge::keep_lines(garment.file.mesh, garment.cloth, garment.world(scene), base_heights(record),
-                            options_of(job, garment, record), std::cref(progress));
+                            options_of(job, garment, record), std::ref(trials));
 }
 
 void write_outputs(const OpenScene& open, SceneCloth& garment, std::optional<io::SavedState> state,

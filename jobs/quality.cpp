@@ -29,6 +29,8 @@ constexpr double moved_share = 0.05;   ///< of the highest fold: cloth away from
 constexpr double away_from_lines = 1;  ///< in widths
 constexpr double beside_share =
     0.75;  ///< of the cloth: so much of it is nearer to its place than what is told
+constexpr double tilt =
+    0.3;  ///< of its height: so far beside its place a vertex may be raised on a coarse garment
 constexpr std::size_t most_knobs = 10;
 constexpr double knobs_apart = 0.02;  ///< [m]
 
@@ -163,8 +165,8 @@ double moved_by(const FoldSurface& surface, const std::vector<FoldCurve>& curves
 }
 
 /// How far the feet of the vertices are from where these lay before the lines, for most of the cloth [m]: a
-/// fold that was only drawn stands straight above that place, along lines, too. 0 where the mesh does not
-/// know it.
+/// fold that was only drawn stands nearly straight above that place, along lines, too. 0 where the mesh does
+/// not know it.
 double beside_place(const FoldSurface& surface) {
   const auto rest = geometry::find_map(*surface.mesh, geometry::attribute::rest_position);
   std::vector<double> off;
@@ -172,7 +174,8 @@ double beside_place(const FoldSurface& surface) {
     if (!rest || !surface.has_foot(v)) continue;
     const auto& p = (*rest)[v];
     const double distance = (surface.feet[v.idx()] - Eigen::Vector3d(p[0], p[1], p[2])).norm();
-    if (std::isfinite(distance)) off.push_back(distance);
+    const double raised = std::abs(surface.heights[v.idx()]);
+    if (std::isfinite(distance)) off.push_back(std::max(0.0, distance - tilt * raised));
   }
   if (off.size() < 10) return 0;
   const auto at = off.begin() + static_cast<std::ptrdiff_t>(beside_share * static_cast<double>(off.size()));

@@ -31,7 +31,7 @@ struct QualityMeasure {
   std::optional<double> value;  ///< of lines the worst; none: `why`
   std::optional<double> at_most, at_least;
   std::string line;  ///< whose it is; "": of the whole mesh
-  std::string why;   ///< it could not be measured
+  std::string why;   ///< it could not be measured, or not be judged
   bool met() const { return !value || !((at_most && *value > *at_most) || (at_least && *value < *at_least)); }
 };
 

@@ -38,8 +38,10 @@ Mesh at_rest(const Mesh& wrinkled) {
   Mesh mesh = wrinkled;
   for (Vertex v : mesh.vertices()) {
     if (!rest || !std::isfinite((*rest)[v][0] + (*rest)[v][1] + (*rest)[v][2]))
-      throw ContentError("transfer: the wrinkled mesh does not say where its vertices lay before (vertex " +
-                         std::to_string(v.idx()) + "); take the PLY that insertion wrote, or a rest mesh");
+      throw ContentError(
+          "transfer: the wrinkled mesh does not say where its vertices lay before (vertex " +
+          std::to_string(v.idx()) +
+          "); take the PLY that furrow wrinkle wrote, or name the shape before with --rest-shape");
     mesh.point(v) = {(*rest)[v][0], (*rest)[v][1], (*rest)[v][2]};
   }
   return mesh;

@@ -411,8 +411,10 @@ class Preparing {
     if (tightest > 1)
       warn(stroke,
            "bends with a radius below half its width of " + length_text(width) +
-               ", so that the cloth gathers on the inner side; draw the bend rounder, with more points "
-               "along it, or make the line narrower");
+               ", so that the cloth gathers on the inner side; " +
+               (strokes_[stroke].points.size() < 6
+                    ? "its few points make a corner: draw the bend with more points along a round curve"
+                    : "draw the bend rounder, or make the line narrower"));
     if (slope > steepest)
       warn(stroke, "its height is " + std::to_string(slope).substr(0, 4) +
                        " of its width: the fold is steeper than 45 degrees (0.31)");

@@ -58,10 +58,12 @@ void SettingsTable::finish() const {
   for (const auto& [key, item] : node_->items()) {
     if (known_.count(key)) continue;
     const std::string tables = tables_of_key(key);
-    throw geometry::ContentError(place_of(key) + ": there is no setting '" + path_of(key) + "'" +
-                                 (!tables.empty() ? "; '" + key + "' belongs in " + tables
-                                  : words.empty() ? ""
-                                                  : "; did you mean '" + nearest_word(key, words) + "'?"));
+    const bool is_fabric = key == "fabric" && known_.count("preset");  // the flag's name
+    throw geometry::ContentError(
+        place_of(key) + ": there is no setting '" + path_of(key) + "'" +
+        (!tables.empty() ? "; '" + key + "' belongs in " + tables
+         : words.empty() ? ""
+                         : "; did you mean '" + (is_fabric ? "preset" : nearest_word(key, words)) + "'?"));
   }
 }
 

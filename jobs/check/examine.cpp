@@ -304,12 +304,47 @@ void add_apart(const Eigen::AlignedBox3d& garment, const Eigen::AlignedBox3d& bo
   found.push_back(std::move(a));
 }
 
+/// How far a box reaches out of another [m].
+double beyond(const Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& of) {
+  return std::max({0.0, (of.min() - box.min()).maxCoeff(), (box.max() - of.max()).maxCoeff()});
+}
+
+/// A garment that lies where its body stands, as their files have different axes up: its box agrees with the
+/// body's once it is turned about x.
+std::optional<Ailment> lying(const Eigen::AlignedBox3d& garment, const BodyOutline& body) {
+  constexpr double far_out = 0.1, alike = 0.1;  // of the body's height
+  constexpr double agrees = 0.25;               // of how far it reaches out as it is
+  if (garment.isEmpty() || !body.figure) return std::nullopt;
+  const Eigen::Vector3d size = body.box.sizes();
+  const double out = beyond(garment, body.box);
+  if (size.y() < 1.5 * size.z() || out < far_out * size.y()) return std::nullopt;
+  Eigen::AlignedBox3d forwards, backwards;
+  for (const Eigen::Vector3d& p : {garment.min(), garment.max()}) {
+    forwards.extend(Eigen::Vector3d(p.x(), p.z(), -p.y()));
+    backwards.extend(Eigen::Vector3d(p.x(), -p.z(), p.y()));
+  }
+  const double with_z_up = beyond(forwards, body.box), with_y_up = beyond(backwards, body.box);
+  if (std::min(with_z_up, with_y_up) >= agrees * out) return std::nullopt;
+  const bool z_up = with_z_up <= with_y_up + alike * size.y();
+  const std::string its = z_up ? "z" : "y", of_body = z_up ? "y" : "z";
+  Ailment a{"axes_differ", "", "export the garment with " + of_body + " up"};
+  a.text =
+      "the garment lies along z, where the body stands along y, and would be on the body if it stood: "
+      "its file has " +
+      its + " up, the body's has " + of_body + " up, and --up turns both; " + a.help;
+  a.fatal = true;
+  return a;
+}
+
 }  // namespace
 
 std::vector<Ailment> faults_of_pair(const Mesh& garment, const BodyOutline& body, bool unit_said) {
   std::vector<Ailment> found;
   if (const auto a = exchanged(garment, body)) found.push_back(*a);
-  add_apart(box_of(garment), body.box, found);
+  if (const auto a = lying(box_of(garment), body))
+    found.push_back(*a);
+  else
+    add_apart(box_of(garment), body.box, found);
   const double cloth = size_of(box_of(garment)), wearer = size_of(body.box);
   if (unit_said || !(cloth > 0) || !(wearer > 0)) return found;
   const bool large_body = wearer > cloth;

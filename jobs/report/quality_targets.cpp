@@ -38,10 +38,19 @@ QualityMeasure worst_line(const QualityReport& report, const std::string& name, 
   return worst;
 }
 
+/// A target allows for what the garment had before its folds: without it, a miss is no verdict.
+QualityMeasure open_without_base(QualityMeasure m, const QualityReport& report) {
+  if (report.before || m.met()) return m;
+  m.at_most.reset();
+  m.at_least.reset();
+  m.why = "no verdict without the garment before its folds, --base";
+  return m;
+}
+
 QualityMeasure knobs_of(const QualityReport& report) {
   QualityMeasure m{"angle_defect", "B6", report.whole.angle_defect, 40, {}, "", ""};
   if (report.before) m.at_most = std::max(40.0, 2 * report.before->angle_defect + 10);
-  return m;
+  return open_without_base(m, report);
 }
 
 QualityMeasure thin_faces_of(const QualityReport& report) {
@@ -53,7 +62,7 @@ QualityMeasure thin_faces_of(const QualityReport& report) {
     const double own = std::min(report.before->min_angle_deg, report.before->min_rest_angle_deg);
     m.at_least = std::min(*m.at_least, own - 2);
   }
-  return m;
+  return open_without_base(m, report);
 }
 
 Value worst_hem(const geometry::MeshQuality& mesh) {

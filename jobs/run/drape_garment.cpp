@@ -148,7 +148,7 @@ class Maker {
     for (const std::vector<int>& held : pins)
       for (const int i : held) held_[std::size_t(i)] = 1;
     if (!loose.empty()) hold_loose(mesh, cloth);
-    couple_cloth(made, scene_, cloth, context_);
+    told_thin_ |= couple_cloth(made, scene_, cloth, context_, !told_thin_);  // once, not at each level
     int moved = 0;
     if (body_)
       for (const std::vector<int>& held : pins)
@@ -209,6 +209,7 @@ class Maker {
   SeamTies ties_;
   geometry::Mesh tied_;  ///< of the level that has them
   std::vector<char> held_;
+  bool told_thin_ = false;
 };
 
 /// Of the refined garment: its edges are half as long a level, their sag a quarter.

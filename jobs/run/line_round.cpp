@@ -152,6 +152,21 @@ void warn_of_cancelling(const std::vector<geometry::Stroke>& strokes, const geom
     }
 }
 
+/// Folds wider than half of the garment: a height that was meant in other units, as a fold is five times as
+/// wide as high unless its stroke says.
+void warn_of_width(const geometry::Mesh& garment, const geometry::WrinkleReport& report,
+                   std::vector<std::string>& warnings) {
+  const auto box = CGAL::bbox_3(garment.points().begin(), garment.points().end());
+  const double size = std::hypot(box.x_span(), box.y_span(), box.z_span());
+  for (const geometry::WrinkledLine& line : report.lines)
+    if (line.width && *line.width > size / 2)
+      warnings.push_back("'" + line.name + "': its fold, " + geometry::length_text(line.height) +
+                         " high, is " + geometry::length_text(*line.width) + " wide, on a garment of " +
+                         geometry::length_text(size) +
+                         " from corner to corner; heights are in metres (0.015 for 15 mm), and width = sets "
+                         "how wide it is");
+}
+
 }  // namespace
 
 std::string garment_file(const io::Scene& scene, const Context& context) {
@@ -179,6 +194,7 @@ LineRound draw_lines(const LineTarget& target, const std::vector<io::DrawnStroke
     });
   }
   warn_of_cancelling(resolved.strokes, round.report, round.warnings);
+  warn_of_width(target.file.mesh, round.report, round.warnings);
   for (const auto* more : {&round.report.insertion.warnings, &round.report.warnings})
     round.warnings.insert(round.warnings.end(), more->begin(), more->end());
   io::WrinkleRecord record = record_of(options, earlier, round.report);

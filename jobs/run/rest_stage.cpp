@@ -88,6 +88,7 @@ Json to_json(const RestStage& stage) {
           {"iterations", stage.settle.iterations},
           {"factorisations", stage.settle.factorisations},
           {"touching", stage.settle.touching},
+          {"face_contacts", stage.settle.face_contacts},
           {"angle_defect_before", stage.angle_defect_before},
           {"angle_defect", stage.angle_defect},
           {"crossings", jobs::to_json(stage.crossings)},

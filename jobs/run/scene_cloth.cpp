@@ -115,17 +115,18 @@ void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& all, 
   physics::stiffen_clamps(cloth);
 }
 
-void couple_cloth(const io::MeshFile& file, const io::Scene& scene, physics::Cloth& cloth,
-                  const Context& context) {
-  if (scene.material.bending_law != bridge::Bending::plate) return;
+bool couple_cloth(const io::MeshFile& file, const io::Scene& scene, physics::Cloth& cloth,
+                  const Context& context, bool tell) {
+  if (scene.material.bending_law != bridge::Bending::plate) return false;
   const int thin = bridge::couple_bending(file.mesh, spring_options(file, scene.material), cloth).slivers;
-  if (thin > 0)
+  if (thin > 0 && tell)
     context.warn(
         "thin_faces",
         scene.garment.string() + ": " + std::to_string(thin) +
             " faces are lower than a ten-thousandth of their longest edge: their angles are shared by "
             "area, and may bend too stiffly",
         scene.garment.string(), "material.bending_law");
+  return thin > 0;
 }
 
 physics::World world_of(const io::Scene& scene, const WorldBody* body,

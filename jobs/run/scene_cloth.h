@@ -23,9 +23,9 @@ void pin_cloth(physics::Cloth& cloth, const std::vector<std::vector<int>>& pins,
                double time, const Context& context);
 
 /// With the bending law `plate`, once the cloth is pinned: makes its hinges one plate; warns of triangles
-/// that are too thin to bend exactly.
-void couple_cloth(const io::MeshFile& file, const io::Scene& scene, physics::Cloth& cloth,
-                  const Context& context);
+/// that are too thin to bend exactly, if `tell`. Whether there are any.
+bool couple_cloth(const io::MeshFile& file, const io::Scene& scene, physics::Cloth& cloth,
+                  const Context& context, bool tell = true);
 
 /// Body (null: none), wind and led pins; the body must outlive the world.
 physics::World world_of(const io::Scene& scene, const WorldBody* body,

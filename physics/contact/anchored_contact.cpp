@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/base/require.h"
+#include "physics/contact/soft_push.h"
 
 namespace furrow::physics {
 namespace {
@@ -37,13 +38,6 @@ AnchoredContact::AnchoredContact(const Collider& collider, const AnchoredContact
   for (Touch& t : touches_) t.gap = options.gap;
 }
 
-AnchoredContact::Push AnchoredContact::push_at(double d) const {
-  const double k = options_.stiffness, s = soft_;
-  if (!(d > 0)) return {0, 0, 0};
-  if (d < s) return {k * d * d * d / (6 * s), 0.5 * k * d * d / s, k * d / s};
-  return {k * (0.5 * d * d - 0.5 * s * d + s * s / 6), k * (d - 0.5 * s), k};
-}
-
 double AnchoredContact::depth_of(double force) const {
   const double k = options_.stiffness, s = soft_;
   return force < 0.5 * k * s ? std::sqrt(2 * force * s / k) : force / k + 0.5 * s;
@@ -57,7 +51,7 @@ void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_
     if (!(inv_mass[i] > 0)) return;
     const SignedDistance field = collider_.smooth_at(x[i]);
     const double slope = field.gradient.norm();
-    const Push push = push_at(t.gap - field.value);
+    const SoftPush push = soft_push(t.gap - field.value, options_.stiffness, soft_);
     t.energy = push.energy;
     if (!(push.force > 0) || !(slope > 0)) return;
     t.push = push.force * slope;

@@ -63,11 +63,7 @@ class AnchoredContact {
     /// From the anchor, along the surface [m].
     Vec3 way() const { return x - anchor - plane.dot(x - anchor) * plane; }
   };
-  struct Push {
-    double energy, force, stiffness;
-  };
-  Push push_at(double depth) const;
-  double depth_of(double force) const;  ///< where push_at() gives that force
+  double depth_of(double force) const;  ///< where soft_push() gives that force
 
   const Collider& collider_;
   AnchoredContactOptions options_;

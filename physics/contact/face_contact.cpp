@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "physics/base/require.h"
+#include "physics/contact/soft_push.h"
 
 namespace furrow::physics {
 namespace {
@@ -155,8 +156,6 @@ FaceContact::Found FaceContact::find(std::span<const Vec3> x, std::span<const do
   return found;
 }
 
-/// With d = level - distance and s the soft layer: energy k d^3 / (6 s) for d < s, else
-/// k (d^2 / 2 - s d / 2 + s^2 / 6), as AnchoredContact.
 void FaceContact::look(std::span<const Vec3> x) {
   const double k = options_.stiffness, s = 0.5 * options_.clearance;
   for (Point& p : points_) {
@@ -164,10 +163,10 @@ void FaceContact::look(std::span<const Vec3> x) {
     const SignedDistance field = collider_.smooth_at(at(p.face, p.weights, x));
     const double d = p.level - field.value, slope = field.gradient.norm();
     if (!(d > 0) || !(slope > 0)) continue;
-    const bool soft = d < s;
-    p.energy = soft ? k * d * d * d / (6 * s) : k * (0.5 * d * d - 0.5 * s * d + s * s / 6);
-    p.push = slope * (soft ? 0.5 * k * d * d / s : k * (d - 0.5 * s));
-    p.stiffness = slope * slope * (soft ? k * d / s : k);
+    const SoftPush push = soft_push(d, k, s);
+    p.energy = push.energy;
+    p.push = slope * push.force;
+    p.stiffness = slope * slope * push.stiffness;
     p.normal = field.gradient / slope;
   }
 }

@@ -93,6 +93,8 @@ struct Rest {
   Vectors x;
   double residual;  ///< [-]
   int through;      ///< faces that the body comes through
+  int pushed;       ///< points within faces that it pushes, and their energy [J]
+  double energy;
 };
 
 /// Pseudo-transient continuation: the longer a step reaches, the less time holds it back; and where the
@@ -172,15 +174,16 @@ class Settler {
         report.followers += done->followers;
       }
     }
+    if (faces_) report.face_contacts = faces_->touching();
+    report.contact_energy = faces_ ? faces_->energy() : 0;
     if (best_ && !report.stopped) take_best(report);
     if (contact_) {
       report.touching = contact_->touching();
       report.deepest = contact_->deepest();
     }
-    if (faces_) report.face_contacts = faces_->touching();
     if (pairs_) report.self = self_report(report);
-    report.contact_energy = (contact_ ? contact_->energy() : 0) + (faces_ ? faces_->energy() : 0) +
-                            (pairs_ ? pairs_->energy() : 0);
+    report.contact_energy =
+        (contact_ ? contact_->energy() : 0) + report.contact_energy + (pairs_ ? pairs_->energy() : 0);
     return report;
   }
 
@@ -195,8 +198,11 @@ class Settler {
 
   /// Rest is found: sets contacts in faces that the body comes through. Whether it has to go on.
   bool keep_faces_out(const SettleReport& report) {
+    const int pushed = faces_->touching();  // before `find` sets more, whose push is not known yet
+    const double energy = faces_->energy();
     const FaceContact::Found found = faces_->find(p_.x, p_.inv_mass, &pool_);
-    if (!best_ || found.through <= best_->through) best_ = Rest{p_.x, report.residual, found.through};
+    if (!best_ || found.through <= best_->through)
+      best_ = Rest{p_.x, report.residual, found.through, pushed, energy};
     if (found.changed == 0 || face_rounds_ == most_face_rounds) return false;
     ++face_rounds_;
     round_ends_ = report.iterations + most_face_steps;
@@ -224,6 +230,8 @@ class Settler {
   void take_best(SettleReport& report) {
     report.residual = best_->residual;
     report.converged = true;
+    report.face_contacts = best_->pushed;  // later rounds set points that this rest was found without
+    report.contact_energy = best_->energy;
     p_.x = std::move(best_->x);
     ask_contacts(p_.x);
   }

@@ -32,6 +32,8 @@ TEST_CASE("doctor: the program says what is wrong, shows where, mends it and exi
   const Run found = run_furrow("doctor " + mesh + " --picture " + png + " --size 80,80");
   CHECK(found.exit_code == 4);
   CHECK_THAT(found.out, Contains("furrow doctor --repair joins them"));
+  CHECK_THAT(found.out, Contains("\nnext: furrow doctor " + mesh + " --repair -o mended.obj"));
+  CHECK_THAT(found.out, !Contains("well: false"));
   CHECK(std::filesystem::file_size(png) > 100);
   const Run repaired = run_furrow("doctor " + mesh + " --repair -o " + mended);
   CHECK(repaired.exit_code == 0);
@@ -48,6 +50,11 @@ TEST_CASE("doctor: our garments on our bodies are well, and each job says so by 
     CHECK(report["well"] == true);
   }
   CHECK(examined(our_meshes + "mannequin.obj --as-body")["well"] == true);
+  const std::string body = our_meshes + "mannequin.obj";
+  const Run said = run_furrow("doctor " + our_meshes + "skirt.obj --body " + body);
+  CHECK_THAT(said.out, Contains("well: no faults found\n"));
+  CHECK_THAT(said.out, Contains("(width, height, depth)"));
+  CHECK_THAT(said.out, Contains("next: furrow drape " + our_meshes + "skirt.obj --body " + body));
 }
 
 TEST_CASE("doctor: garments and bodies of other makers are given no false alarm", "[release]") {

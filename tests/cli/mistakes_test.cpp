@@ -148,8 +148,7 @@ const Mistake mistakes[] = {
      "on all the same"},
     {"another garment to transfer to", "transfer {m}/skirt.obj {m}/sheet.obj -o {d}/o.obj", 3,
      "error: {m}/sheet.obj: transfer: the wrinkled mesh does not say where its vertices lay before (vertex "
-     "0); take the PLY "
-     "that insertion wrote, or a rest mesh"},
+     "0); take the PLY that furrow wrinkle wrote, or name the shape before with --rest-shape"},
     {"a stroke changed that is not there",
      "strokes {m}/strokes/round_bulge.json --change rnig.height=0.01 -o {d}/l.json", 3,
      "error: there is no stroke 'rnig'; did you mean 'ring 1'?"},

@@ -159,3 +159,19 @@ TEST_CASE("report: a smooth fold tells the height of its crest, and its width", 
   CHECK(text.find(" at the crest, 127 mm wide\n") != std::string::npos);
   CHECK(text.find("smoothed to") == std::string::npos);
 }
+
+TEST_CASE("info: a mesh of an odd size is not called faultless, nor refined; a camera of it is doubted") {
+  ScratchDirectory scratch;
+  const std::string large = scratch / "large.obj";
+  write_text(large, "v 0 0 0\nv 60 0 0\nv 60 83 0\nv 0 83 0\nf 1 2 3\nf 1 3 4\n");
+  const std::string said = told("info " + large);
+  CHECK(said.find("no faults found") == std::string::npos);
+  CHECK(said.find("look at: its size") != std::string::npos);
+  CHECK(said.find("subdivide") == std::string::npos);
+  CHECK(said.find("--unit cm") != std::string::npos);
+  const std::string picture = "render " + large + " --size 40,40 -o " + (scratch / "p.png");
+  CHECK(run_furrow(picture).err.find("camera") == std::string::npos);
+  CHECK(
+      run_furrow(picture + " --save-camera " + (scratch / "c.json")).err.find("the camera is of that unit") !=
+      std::string::npos);
+}

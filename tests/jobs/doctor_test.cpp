@@ -186,6 +186,34 @@ TEST_CASE("doctor: a body that lies along z is asked about, unless somebody says
 }
 
 TEST_CASE(
+    "doctor: a garment whose file has another axis up than its body's is told by the axis, and refused") {
+  const auto moved = [](geometry::Mesh mesh, double down) {
+    for (auto v : mesh.vertices()) mesh.point(v) = mesh.point(v) - geometry::Vector(0, down, 0);
+    return mesh;
+  };
+  for (const char* name : {"shirt.obj", "skirt.obj"})
+    for (const double down : {0.0, 0.875}) {  // feet at 0, or the middle
+      INFO(name << " " << down);
+      const io::MeshFile upright =
+          file_of(moved(tests::read_plain_obj(tests::source_dir() / "meshes" / name), down));
+      const io::MeshFile body = file_of(moved(mannequin(), down));
+      jobs::DoctorJob job;
+      job.mesh = upright;
+      job.body = body;
+      tests::Recorder recorder;
+      CHECK(jobs::doctor(job, recorder).well());
+      job.mesh = file_of(lying(upright.mesh));
+      const jobs::DoctorReport report = jobs::doctor(job, recorder);
+      REQUIRE(report.found.size() == 1);
+      CHECK(report.found[0].code == "axes_differ");
+      CHECK(report.found[0].text.find("its file has z up, the body's has y up") != std::string::npos);
+    }
+  const std::string refused =
+      drape_refused(lying(tests::read_plain_obj(tests::source_dir() / "meshes/shirt.obj")), mannequin());
+  CHECK(refused.find("garment: the garment lies along z") != std::string::npos);
+}
+
+TEST_CASE(
     "doctor: garment and body in two units, or exchanged, are asked about by the option that mends it") {
   const std::string small = drape_refused(scaled(shirt(), 0.01), mannequin());
   CHECK(small.find("--body-unit") != std::string::npos);

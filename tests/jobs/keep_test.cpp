@@ -189,6 +189,28 @@ TEST_CASE("keep: cancelled before its first rest state a job writes nothing, lat
   CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
 }
 
+TEST_CASE("keep: each trial is told by its number, and goes forwards only") {
+  jobs::KeepJob job = sheet_over_ball(0.121, 0.09, "rigidity = 1e-4\n");
+  job.seconds = 0.02;
+  tests::Recorder recorder;
+  jobs::keep(job, recorder);
+  std::vector<std::string> names;
+  double last = 0;
+  for (const auto& [what, share] : recorder.told) {
+    if (what.rfind("keeping", 0) != 0) continue;
+    if (names.empty() || names.back() != what) {
+      CHECK(std::find(names.begin(), names.end(), what) == names.end());
+      names.push_back(what);
+      last = 0;
+    }
+    CHECK(share >= last);
+    last = share;
+  }
+  REQUIRE(names.size() > 1);
+  CHECK(names[0] == "keeping");
+  CHECK(names[1] == "keeping, trial 2");
+}
+
 TEST_CASE("keep: help that excludes help is refused") {
   jobs::KeepJob job = hung_ridge();
   job.whole = true;

@@ -143,6 +143,65 @@ TEST_CASE("quality: cloth that moved is known by its places, though lines run al
   CHECK(measure_of(hung, "B1").why.find("has moved") != std::string::npos);
 }
 
+TEST_CASE("quality: cloth that was only drawn on has not moved, though low folds cover a coarse garment") {
+  io::MeshFile
+      tube;  // its facets lie 2.5 mm off a round one; folds stand beside their place by their normals
+  constexpr int around = 16, rings = 12;
+  for (int j = 0; j < rings; ++j)
+    for (int i = 0; i < around; ++i) {
+      const double a = 2 * 3.14159265358979 * (i + 0.5 * (j % 2)) / around;
+      tube.mesh.add_vertex({(0.12 + 0.02 * (j % 3)) * std::cos(a), 0.04 * j, 0.12 * std::sin(a)});
+    }
+  const auto at = [](int i, int j) {
+    return geometry::Vertex(static_cast<geometry::Vertex::size_type>(j * around + i % around));
+  };
+  for (int j = 0; j + 1 < rings; ++j)
+    for (int i = 0; i < around; ++i) {
+      const int odd = j % 2;
+      tube.mesh.add_face(at(i, j), at(i + odd, j + 1), at(i + 1, j));
+      tube.mesh.add_face(at(i + 1 - odd, j), at(i, j + 1), at(i + 1, j + 1));
+    }
+  REQUIRE(tube.mesh.number_of_faces() == 2 * around * (rings - 1));
+  jobs::WrinkleJob job;
+  job.garment = tube;
+  std::vector<io::DrawnStroke> folds;
+  for (int i = 0; i < 3; ++i) {
+    io::DrawnStroke fold;
+    fold.stroke.name = "fold " + std::to_string(i);
+    fold.stroke.height = 0.005;
+    fold.stroke.width = 0.25;
+    const double y = 0.08 + 0.12 * i;
+    fold.stroke.points = {{-0.1, y, 0.08}, {0, y + 0.01, 0.12}, {0.1, y, 0.08}};
+    folds.push_back(fold);
+  }
+  job.strokes = folds;
+  job.options.insertion.rule = geometry::InsertionRule::fold;
+  tests::Recorder recorder;
+  jobs::QualityJob drawn;
+  drawn.mesh = jobs::wrinkle(job, recorder).garment;
+  const jobs::QualityReport report = quality_of(drawn);
+  INFO(to_json(report)["measures"].dump(1));
+  CHECK(report.lines.size() == 3);
+}
+
+TEST_CASE("quality: knobs and thin faces that a garment may have had before its folds are no verdict") {
+  io::MeshFile spiked = plain_sheet();
+  for (geometry::Vertex v : spiked.mesh.vertices())
+    spiked.mesh.point(v) = spiked.mesh.point(v) + geometry::Vector(0, 0, v.idx() % 3 == 0 ? 0.01 : 0);
+  jobs::QualityJob job;
+  job.mesh = spiked;
+  const jobs::QualityReport unknown = quality_of(job);
+  const jobs::QualityMeasure& knobs = measure_of(unknown, "B6");
+  REQUIRE(knobs.value.value() > 40);
+  CHECK_FALSE(knobs.at_most);
+  CHECK(knobs.met());
+  CHECK(knobs.why.find("--base") != std::string::npos);
+  job.base = plain_sheet();
+  const jobs::QualityReport known = quality_of(job);
+  CHECK_FALSE(measure_of(known, "B6").met());
+  CHECK(measure_of(known, "B6").why.empty());
+}
+
 TEST_CASE("quality: a mesh without a record is measured along the lines that it carries, or as a whole") {
   io::MeshFile file = sheet_wrinkled(geometry::InsertionRule::fold, plain_sheet()).garment;
   io::MeshFile bare;

@@ -268,3 +268,24 @@ TEST_CASE("drape: a line that rest loses is warned of by its name") {
   CHECK_FALSE(lost->fails);
   CHECK(lost->remark.text.find("'ridge'") != std::string::npos);
 }
+
+TEST_CASE("wrinkle: a fold wider than half of its garment is told, as its height was hardly meant") {
+  for (const double height : {0.015, 0.15}) {
+    jobs::WrinkleJob job = ridged_sheet();
+    geometry::Mesh& sheet = std::get<io::MeshFile>(job.garment).mesh;
+    sheet = geometry::equilateral_sheet(0.5, 0.4, 0.02);
+    auto& strokes = std::get<std::vector<io::DrawnStroke>>(job.strokes);
+    strokes[0].stroke.points = {{-0.15, 0.2, 0}, {0.15, 0.2, 0}};
+    strokes[0].stroke.height = height;
+    strokes[0].stroke.width.reset();
+    job.options.insertion.rule = geometry::InsertionRule::fold;
+    tests::Recorder recorder;
+    jobs::wrinkle(job, recorder);
+    const bool told =
+        std::any_of(recorder.warnings.begin(), recorder.warnings.end(), [](const jobs::Warning& w) {
+          return w.text.find("wide, on a garment of") != std::string::npos &&
+                 w.text.find("heights are in metres") != std::string::npos;
+        });
+    CHECK(told == (height > 0.1));
+  }
+}

@@ -221,6 +221,8 @@ TEST_CASE("scene_file: a kept shape needs hinges, and a body and pins that stand
 TEST_CASE("scene_file: a scene's faults are told with file, line, column and the nearest setting") {
   CHECK(fault("[simulation]\nsecnds = 3\n") ==
         "a/s.toml:2:1: there is no setting 'simulation.secnds'; did you mean 'seconds'?");
+  CHECK(fault("[material]\nfabric = \"cotton\"\n") ==
+        "a/s.toml:2:1: there is no setting 'material.fabric'; did you mean 'preset'?");
   CHECK(fault("[simulaton]\n") ==
         "a/s.toml:1:2: there is no setting 'simulaton'; did you mean 'simulation'?");
   CHECK(fault("\n[material]\n  bending = \"soft\"\n") ==

@@ -106,8 +106,27 @@ TEST_CASE("settle: where a body leaves no way out, faces end as near to rest as 
     }
   };
   const Jaws jaws;
-  Cloth cloth = coarse_sheet(Vec3::Zero());
-  const SettleReport report = settled(cloth, jaws, true);
+  Cloth cloth = coarse_sheet(Vec3::Zero()), free = cloth;
+  const SettleReport report = settled(cloth, jaws, true), unguarded = settled(free, jaws, false);
+  REQUIRE(unguarded.converged);
+  REQUIRE(least(free, jaws) < 0);
   CHECK(report.converged);
   CHECK(report.residual <= 1e-3);
+  CHECK(report.iterations > unguarded.iterations);  // it tried
+  CHECK(least(cloth, jaws) >= least(free, jaws) - 1e-4);
+}
+
+TEST_CASE("settle: contacts in faces are counted of the rest that is taken, not of the last that was tried") {
+  const Sphere ball(Vec3(0, -0.006, 0), 0.01);
+  for (const Vec3& shift : {Vec3(0.012, 0, 0.008), Vec3(-0.021, 0, 0.017), Vec3(0.004, 0, -0.02)}) {
+    Cloth first = coarse_sheet(shift), cut_short = first;
+    const SettleReport unguarded = settled(first, ball, false);
+    SettleOptions o;
+    o.max_iterations = unguarded.iterations + 1;  // points are set, but no rest is found with them
+    o.faces.body = &ball;
+    const SettleReport report = settle(cut_short, &ball, o);
+    INFO(shift.transpose());
+    REQUIRE(cut_short.particles.x == first.particles.x);
+    CHECK(report.face_contacts == 0);
+  }
 }
