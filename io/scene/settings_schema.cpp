@@ -302,9 +302,12 @@ const Row<Scene> rows[] = {
     // [simulation]: its steps
     {{.path = "simulation.dt",
       .flag = "--dt",
-      .help = "time step [s]; default 0.9 of the limit, 1/240 with backward-euler, 1/1200 with xpbd",
+      .help = "time step [s]; default 0.9 of the limit, 1/60 with implicit and tr-bdf2, 1/240 with "
+              "backward-euler, 1/1200 with xpbd",
       .what = "time step",
-      .usual = "0.9 of the limit; 1/240 with backward-euler, 1/1200 with xpbd, which have none",
+      .usual =
+          "0.9 of the limit; 1/60 with implicit and tr-bdf2, 1/240 with backward-euler, 1/1200 with xpbd, "
+          "which have none",
       .used = used_by::moving},
      number(
          positive("s"), [](auto& s) -> auto& { return s.simulation.dt; })},
@@ -317,7 +320,8 @@ const Row<Scene> rows[] = {
          StepRule::limited, StepRule::forced, [](auto& s) -> auto& { return s.simulation.step_rule; })},
     {{.path = "simulation.integrator",
       .flag = "--integrator",
-      .help = "leapfrog (default), rk4, backward-euler, xpbd, or euler (the baseline that diverges)",
+      .help = "leapfrog (default), implicit, tr-bdf2, rk4, backward-euler, xpbd, or euler (the baseline that "
+              "diverges)",
       .what = "the scheme of its steps; euler is the baseline that diverges",
       .used = used_by::moving},
      choice<Integrator>([](auto& s) -> auto& { return s.simulation.integrator; },
@@ -325,7 +329,9 @@ const Row<Scene> rows[] = {
                          {"euler", Integrator::explicit_euler},
                          {"rk4", Integrator::rk4},
                          {"backward-euler", Integrator::backward_euler},
-                         {"xpbd", Integrator::xpbd}})},
+                         {"xpbd", Integrator::xpbd},
+                         {"implicit", Integrator::implicit},
+                         {"tr-bdf2", Integrator::tr_bdf2}})},
     {{.path = "simulation.sweeps",
       .flag = "--sweeps",
       .help = "of xpbd over all springs a step (default 10); few make the cloth softer",

@@ -2,13 +2,16 @@
 #include "io/scene/state_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <sstream>
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/mesh/vertex_attributes.h"
 #include "io/base/bytes_file.h"
 #include "io/base/nesting.h"
 #include "io/mesh/mesh_file.h"
@@ -41,6 +44,7 @@ Json to_json(const physics::SimulateTotals& t) {
           {"linear_solves", t.linear_solves},
           {"factorisations", t.factorisations},
           {"iterations", t.iterations},
+          {"open_steps", t.open_steps},
           {"collider_queries", t.collider_queries},
           {"truncated_moves", t.truncated_moves},
           {"limit_estimates", t.limit_estimates},
@@ -58,6 +62,7 @@ physics::SimulateTotals totals_of(const Json& j) {
   t.linear_solves = j.value("linear_solves", std::int64_t{0});  // files of the first version have none
   t.factorisations = j.value("factorisations", std::int64_t{0});
   t.iterations = j.value("iterations", std::int64_t{0});
+  t.open_steps = j.value("open_steps", std::int64_t{0});
   t.collider_queries = j.at("collider_queries");
   t.truncated_moves = j.at("truncated_moves");
   t.limit_estimates = j.at("limit_estimates");
@@ -92,6 +97,7 @@ Json to_json(const SavedState& saved) {
             {"contact_gap", saved.contact_gap},
             {"scene", saved.scene}};
   if (saved.field_tolerance > 0) json["field_tolerance"] = saved.field_tolerance;
+  if (s.steps.contact_stiffness > 0) json["contact_stiffness"] = s.steps.contact_stiffness;
   for (const Vec3& home : s.homes)
     for (int k = 0; k < 3; ++k) json["homes"].push_back(home[k]);
   return json;
@@ -156,6 +162,7 @@ SavedState from_json(const Json& json, std::size_t vertices) {
   saved.field_tolerance = json.value("field_tolerance", 0.0);
   if (!(saved.field_tolerance >= 0 && saved.field_tolerance < 1))
     throw std::invalid_argument("field_tolerance is not in [0, 1) m");
+  s.steps.contact_stiffness = json.value("contact_stiffness", 0.0);
   saved.scene = json.at("scene");
   if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
   if (version == 1) name_rule(saved.scene);
@@ -165,6 +172,60 @@ SavedState from_json(const Json& json, std::size_t vertices) {
 
 Vector to_cgal(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
 Vec3 to_eigen(const Vector& x) { return {x.x(), x.y(), x.z()}; }
+
+/// Columns of what implicit steps remember: numbers at vertices, under names of their own.
+constexpr std::array anchor_names{"step_anchor_x", "step_anchor_y", "step_anchor_z",       "step_plane_x",
+                                  "step_plane_y",  "step_plane_z",  "step_friction_limit", "step_slides"};
+constexpr std::array acceleration_names{"step_acceleration_x", "step_acceleration_y", "step_acceleration_z"};
+
+template <std::size_t n, class Value>
+void fill_columns(Mesh& mesh, const std::array<const char*, n>& names, const Value& value) {
+  for (std::size_t k = 0; k < n; ++k) {
+    auto column = ensure_vertex_attribute(mesh, names[k]);
+    for (Vertex v : mesh.vertices()) column[v] = value(std::size_t(v), k);
+  }
+}
+
+/// Takes the columns out of the mesh; give(vertex, k) is asked where to put a number. false: they are not
+/// there.
+template <std::size_t n, class Give>
+bool take_columns(Mesh& mesh, const std::array<const char*, n>& names, const Give& give) {
+  std::array<std::optional<VertexMap<double>>, n> columns;
+  for (const VertexAttribute& a : vertex_attributes(mesh))
+    for (std::size_t k = 0; k < n; ++k)
+      if (a.name == names[k]) columns[k] = a.values;
+  if (!std::ranges::all_of(columns, [](const auto& column) { return column.has_value(); })) return false;
+  for (std::size_t k = 0; k < n; ++k) {
+    for (Vertex v : mesh.vertices()) give(std::size_t(v), k) = (*columns[k])[v];
+    mesh.remove_property_map(*columns[k]);
+  }
+  return true;
+}
+
+void fill_steps(Mesh& mesh, const physics::StepMemory& steps) {
+  if (!steps.anchors.empty()) {
+    fill_columns(mesh, anchor_names, [&](std::size_t v, std::size_t k) {
+      const physics::ContactAnchor& a = steps.anchors[v];
+      if (k < 6) return k < 3 ? a.anchor[int(k)] : a.plane[int(k) - 3];
+      return k == 6 ? a.limit : double(a.slides);
+    });
+  }
+  if (!steps.acceleration.empty())
+    fill_columns(mesh, acceleration_names,
+                 [&](std::size_t v, std::size_t k) { return steps.acceleration[v][int(k)]; });
+}
+
+void take_steps(Mesh& mesh, physics::StepMemory& steps) {
+  const std::size_t n = mesh.number_of_vertices();
+  std::vector<std::array<double, 8>> anchors(n);
+  std::vector<Vec3> acceleration(n);
+  if (take_columns(mesh, anchor_names,
+                   [&](std::size_t v, std::size_t k) -> double& { return anchors[v][k]; }))
+    for (const auto& a : anchors)
+      steps.anchors.push_back({{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, a[6], a[7] != 0});
+  const auto place = [&](std::size_t v, std::size_t k) -> double& { return acceleration[v][int(k)]; };
+  if (take_columns(mesh, acceleration_names, place)) steps.acceleration = std::move(acceleration);
+}
 
 /// Contact memory and compensating forces into the mesh's maps; velocities are there.
 void fill_maps(SavedState& state) {
@@ -177,6 +238,9 @@ void fill_maps(SavedState& state) {
   };
   check(s.contact.size(), "contact memories");
   check(s.compensation.force.size(), "compensating forces");
+  check(s.steps.anchors.size(), "anchors of friction");
+  check(s.steps.acceleration.size(), "accelerations");
+  fill_steps(mesh, s.steps);
   ensure_map(mesh, attribute::velocity);
   if (!s.contact.empty()) {
     auto point = ensure_map(mesh, attribute::contact_point);
@@ -192,8 +256,9 @@ void fill_maps(SavedState& state) {
 }
 
 void take_maps(SavedState& state) {
-  const Mesh& mesh = state.file.mesh;
+  Mesh& mesh = state.file.mesh;
   SimulateState& s = state.simulation;
+  take_steps(mesh, s.steps);
   const auto point = find_map(mesh, attribute::contact_point);
   const auto level = find_map(mesh, attribute::contact_level);
   if (point && level)
@@ -216,6 +281,8 @@ void drop_motion(MeshFile& file) {
   drop(mesh, attribute::force_jump);
   drop(mesh, attribute::contact_point);
   drop(mesh, attribute::contact_level);
+  physics::StepMemory forgotten;
+  take_steps(mesh, forgotten);
 }
 
 std::string state_bytes(SavedState state) {

@@ -150,7 +150,7 @@ void SimulationGate::check(const physics::SimulateProgress& progress) {
               step_is_set_ ? "take a longer --dt, or leave it out"
                            : "steps are that short where cloth is light for its stiffness (--density), or "
                              "faces are next to nothing (furrow info: min_angle_deg): mend these, or try "
-                             "--integrator backward-euler"),
+                             "--integrator implicit"),
       context_);
   allowed_ = true;
 }

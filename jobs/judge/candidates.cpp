@@ -51,6 +51,7 @@ Candidate explicit_at(Integrator integrator, double factor, double dt_limit) {
 int iterations_of(const physics::SimulateOptions& o, Integrator integrator) {
   return integrator == Integrator::xpbd             ? o.xpbd.iterations
          : integrator == Integrator::backward_euler ? o.backward_euler.newton_iterations
+         : physics::solves_contact(integrator)      ? physics::usual_iterations(integrator)
                                                     : 0;
 }
 
@@ -107,6 +108,10 @@ const char* name_of(Integrator integrator) {
       return "backward-euler";
     case Integrator::xpbd:
       return "xpbd";
+    case Integrator::implicit:
+      return "implicit";
+    case Integrator::tr_bdf2:
+      return "tr-bdf2";
   }
   return "";
 }
@@ -164,11 +169,14 @@ void set_candidate(io::TomlDocument& document, const Candidate& c) {
 double predicted_cost(const Candidate& c, const SceneCloth& scene, double seconds) {
   const physics::Cloth& cloth = scene.cloth;
   // Without dt no step is longer than dt_max; steps of equal length, as many as reach the end.
-  const double dt = c.dt ? *c.dt : std::min(c.expected_dt, scene.options.dt_max);
+  const double usual = physics::solves_contact(c.integrator) ? physics::default_dt(c.integrator)
+                                                             : std::min(c.expected_dt, scene.options.dt_max);
+  const double dt = c.dt.value_or(usual);
   Work w;
   w.vertices = static_cast<double>(cloth.particles.size());
   w.steps = seconds / dt;
-  const int solves = c.integrator == Integrator::backward_euler ? c.iterations : 0;
+  const bool solves_all = c.integrator == Integrator::backward_euler || physics::solves_contact(c.integrator);
+  const int solves = solves_all ? c.iterations : 0;
   const double forces = w.steps * (c.integrator == Integrator::rk4 ? 4 : std::max(solves, 1));
   if (c.integrator == Integrator::xpbd) {
     w.sweeps = w.steps * c.iterations * springs_of(cloth);

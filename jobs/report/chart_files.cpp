@@ -57,6 +57,10 @@ const char* colour_of(physics::Integrator integrator) {
       return "#2e7d32";
     case physics::Integrator::xpbd:
       return "#c77700";
+    case physics::Integrator::implicit:
+      return "#b71c1c";
+    case physics::Integrator::tr_bdf2:
+      return "#ad1457";
     case physics::Integrator::explicit_euler:
       break;
   }

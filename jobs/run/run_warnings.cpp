@@ -50,6 +50,12 @@ std::vector<Warning> oddities_of(const io::Scene& scene, const physics::Simulate
                                  "grow and no motion is to be trusted; leave out --force-dt",
                                  report.dt, report.dt_limit_smallest),
                      "", "simulation.force_dt"});
+  if (report.open_steps > 0)
+    found.push_back({"steps_open",
+                     fmt::format("{} of {} steps were not solved, even in 32 parts: look at the result where "
+                                 "cloth lies between parts of the body; take a shorter --dt, or leapfrog",
+                                 report.open_steps, report.steps),
+                     "", "simulation.dt"});
   const bool body_moves = scene.body && !physics::at_rest(scene.body->motion);
   for (const io::ScenePins& pins : scene.pins)
     if (body_moves && physics::at_rest(pins.motion)) {

@@ -28,6 +28,15 @@ struct ContactMemory {
   double level;  ///< its value there [m]; NaN: never asked
 };
 
+/// What friction remembers of a particle from step to step, in the body's frame.
+struct ContactAnchor {
+  Vec3 anchor = Vec3::Zero();  ///< to where friction pulls back [m]
+  Vec3 plane = Vec3::Zero();   ///< normal that it was set with: friction is across it
+  double limit = -1;           ///< of friction [N]; < 0: no anchor
+  bool slides = false;         ///< dragged its anchor last time
+  bool operator==(const ContactAnchor&) const = default;
+};
+
 struct PushOutReport {
   int moved = 0;         ///< points that lay deeper than the level
   double farthest = 0;   ///< longest way that one was moved [m]

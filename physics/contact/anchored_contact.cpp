@@ -46,10 +46,10 @@ double AnchoredContact::depth_of(double force) const {
 void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool) {
   for_all(pool, x.size(), [&](std::size_t i) {
     Touch& t = touches_[i];
-    t.x = x[i];
+    t.x = place_ ? Vec3(place_->rotation.transpose() * (x[i] - place_->translation)) : x[i];
     t.energy = t.push = t.stiffness = 0;
     if (!(inv_mass[i] > 0)) return;
-    const SignedDistance field = collider_.smooth_at(x[i]);
+    const SignedDistance field = collider_.smooth_at(t.x);
     const double slope = field.gradient.norm();
     const SoftPush push = soft_push(t.gap - field.value, options_.stiffness, soft_);
     t.energy = push.energy;
@@ -73,9 +73,21 @@ double AnchoredContact::energy() const {
   return sum;
 }
 
+Vec3 AnchoredContact::force_of(const Touch& t) const {
+  Vec3 force = Vec3::Zero();
+  if (t.push > 0) force += t.push * t.normal;
+  if (t.limit < 0) return force;
+  const Vec3 u = t.way();
+  return force - t.limit / std::max(slip_, u.norm()) * u;
+}
+
 void AnchoredContact::add_forces(std::span<Vec3> force) const {
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     const Touch& t = touches_[i];
+    if (place_) {
+      force[i] += place_->rotation * force_of(t);
+      continue;
+    }
     if (t.push > 0) force[i] += t.push * t.normal;
     if (t.limit < 0) continue;
     const Vec3 u = t.way();
@@ -96,6 +108,7 @@ void AnchoredContact::add_stiffness(FreeStiffness& stiffness) const {
       if (length > slip_ || (t.slides && length > 0)) along -= u * u.transpose() / (length * length);
       block += t.limit / std::max(slip_, length) * along;
     }
+    if (place_) block = place_->rotation * block * place_->rotation.transpose();
     stiffness.add(int(i), block);
   }
 }
@@ -104,7 +117,8 @@ void AnchoredContact::expect(std::span<const Vec3> move) {
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     Touch& t = touches_[i];
     if (t.limit < 0) continue;
-    t.limit = options_.friction * std::max(0.0, t.push - t.stiffness * t.normal.dot(move[i]));
+    const double outwards = t.normal.dot(place_ ? Vec3(place_->rotation.transpose() * move[i]) : move[i]);
+    t.limit = options_.friction * std::max(0.0, t.push - t.stiffness * outwards);
   }
 }
 
@@ -123,6 +137,30 @@ void AnchoredContact::move_anchors() {
     t.slides = length > slip_;
     t.anchor = t.x - (t.slides ? slip_ / length : 1.0) * u;
   }
+}
+
+void AnchoredContact::carry_anchors(const std::function<Vec3(const Vec3&)>& way) {
+  for (Touch& t : touches_)
+    if (t.limit >= 0) t.anchor += way(t.anchor);
+}
+
+void AnchoredContact::hold_new(std::span<const Vec3> from) {
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    Touch& t = touches_[i];
+    if (!(t.push > 0) || t.limit >= 0) continue;
+    t.anchor = from[i];
+    t.plane = t.normal;
+    t.limit = options_.friction * t.push;
+    t.slides = false;
+  }
+}
+
+std::vector<ContactAnchor> AnchoredContact::anchors() const { return {touches_.begin(), touches_.end()}; }
+
+void AnchoredContact::set_anchors(std::span<const ContactAnchor> anchors) {
+  if (anchors.size() != touches_.size())
+    refuse("AnchoredContact", anchors.size(), " anchors for ", touches_.size(), " particles");
+  for (std::size_t i = 0; i < anchors.size(); ++i) static_cast<ContactAnchor&>(touches_[i]) = anchors[i];
 }
 
 void AnchoredContact::make_room(std::span<const Vec3> from, std::span<const Vec3> to,

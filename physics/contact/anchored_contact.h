@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +15,12 @@ struct AnchoredContactOptions {
   double friction = 0.3;    ///< Coulomb coefficient [-]; >= 0
   double gap = 0.003;       ///< distance at which the body begins to push [m]; > 0
   double stiffness = 1000;  ///< of that push beyond the soft layer [N/m]; > 0
+};
+
+/// Where a rigid body stands: x -> rotation x + translation takes it from its own frame into the world.
+struct BodyPlace {
+  Mat3 rotation = Mat3::Identity();
+  Vec3 translation = Vec3::Zero();  ///< [m]
 };
 
 /// Contact with a body as a potential, for callers that look for rest. A particle nearer than the gap is
@@ -47,15 +55,22 @@ class AnchoredContact {
   /// From here on the soft layer is `factor` times thinner and the push beyond it factor^2 times as stiff. A
   /// pushed particle moves out to where the push is what it was, in x, the positions of the last look().
   void stiffen(double factor, std::span<Vec3> x);
+  /// For a body that moves: from here on it stands at `place`, and all positions are the world's. Anchors
+  /// stay where they are on it. Not together with make_room() and stiffen().
+  void place_body(const BodyPlace& place) { place_ = place; }
+  /// For a body that changes its shape: each anchor goes the way [m] of the surface that it lies on.
+  void carry_anchors(const std::function<Vec3(const Vec3&)>& way);
+  /// What is pushed and has no anchor gets one at `from`, its place before the step that brought it here, in
+  /// the body's frame: so friction in this step is bounded by this step's push.
+  void hold_new(std::span<const Vec3> from);
+  std::vector<ContactAnchor> anchors() const;
+  /// Throws std::invalid_argument for another number of anchors than of particles.
+  void set_anchors(std::span<const ContactAnchor> anchors);
   int touching() const;    ///< particles that are pushed
   double deepest() const;  ///< of them, inside its gap [m]; 0: none
 
  private:
-  struct Touch {
-    Vec3 anchor = Vec3::Zero();
-    double limit = -1;          ///< of friction [N]; < 0: no anchor
-    bool slides = false;        ///< dragged its anchor last time
-    Vec3 plane = Vec3::Zero();  ///< normal that the anchor was set with: friction is across it
+  struct Touch : ContactAnchor {
     Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
     double energy = 0, push = 0, stiffness = 0;  ///< of the push [J], [N], [N/m]; 0: apart
     double depth = 0, slope = 1;                 ///< inside the gap [m]; length of the body's gradient [-]
@@ -63,10 +78,12 @@ class AnchoredContact {
     /// From the anchor, along the surface [m].
     Vec3 way() const { return x - anchor - plane.dot(x - anchor) * plane; }
   };
+  Vec3 force_of(const Touch& t) const;  ///< in the body's frame [N]
   double depth_of(double force) const;  ///< where soft_push() gives that force
 
   const Collider& collider_;
   AnchoredContactOptions options_;
+  std::optional<BodyPlace> place_;  ///< none: positions are the body's
   double soft_, slip_;  ///< depth at which the push becomes linear, way at which friction slides [m]
   std::vector<Touch> touches_;
 };

@@ -140,7 +140,7 @@ void Motion::drift(double seconds) {
       drift_range(cloth_.x.data(), cloth_.v.data(), seconds, begin, end);
     });
   }
-  if (around_.pins) around_.pins->arrive(cloth_);
+  arrive();
 }
 
 void Motion::update_forces(double time) {
@@ -167,6 +167,10 @@ void Motion::compensate(double time) {
     Vec4& force = cloth_.force[i];
     force = {force.x - f.x(), force.y - f.y(), force.z - f.z(), 0};
   }
+}
+
+void Motion::arrive() {
+  if (around_.pins) around_.pins->arrive(cloth_);
 }
 
 void Motion::unpack(Particles& particles) const {

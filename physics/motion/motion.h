@@ -4,6 +4,7 @@
 #include "physics/contact/contact.h"
 #include "physics/motion/compensation.h"
 #include "physics/motion/moved_pins.h"
+#include "physics/motion/step_contact.h"
 #include "physics/motion/wind.h"
 #include "physics/packed/damping_sweep.h"
 #include "physics/packed/packed_cloth.h"
@@ -18,6 +19,7 @@ struct Loads {                ///< what acts on a cloth besides its elements
 
 struct Surroundings {  ///< what else acts; each may be null, and must outlive the motion
   BodyContact* contact = nullptr;
+  const BodyAround* body = nullptr;  ///< for steps that solve contact with the rest, in place of `contact`
   PinLeader* pins = nullptr;
   const Wind* wind = nullptr;
   const Compensation* compensation = nullptr;
@@ -26,6 +28,7 @@ struct Surroundings {  ///< what else acts; each may be null, and must outlive t
 struct WorkCounts {  // iterations: of Newton's method, or sweeps over all springs; tension counts as springs
   std::int64_t steps = 0, force_evaluations = 0, linear_solves = 0, factorisations = 0, iterations = 0;
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
+  std::int64_t open_steps = 0;  // implicit ones whose search did not end
   ContactCounts contact;
 };
 
@@ -59,6 +62,10 @@ class Motion {
   PackedCloth& cloth() { return cloth_; }  ///< this and all below: for steps of more than these phases
   const Loads& loads() const { return loads_; }
   const Wind* wind() const { return around_.wind; }
+  const BodyAround* body() const { return around_.body; }
+  bool compensates() const { return around_.compensation != nullptr; }
+  /// Puts led pins where they are at the step's end.
+  void arrive();
   ThreadPool& pool() { return pool_; }
   double from() const { return from_; }
   double to() const { return to_; }

@@ -24,6 +24,8 @@ class PinLeader {
   void begin_step(PackedCloth& packed, double to, double dt);
   /// Puts the pins there.
   void arrive(PackedCloth& packed) const;
+  /// As if no step had begun: unpack() does nothing.
+  void forget_step() { targets_.clear(); }
   /// Positions and velocities after a step; physics::unpack() leaves pinned particles out.
   void unpack(const PackedCloth& packed, Particles& particles) const;
 

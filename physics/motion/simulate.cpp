@@ -79,11 +79,13 @@ class Simulation {
   int frames_before_ = 0;
   double frame_seconds_before_ = 0;
   std::unique_ptr<BodyContact> contact_;
+  BodyAround body_;  ///< for steps that solve contact; in place of contact_
   std::optional<PinLeader> leader_;
   std::optional<Motion> motion_;
   std::unique_ptr<Stepper> stepper_;
   std::optional<StepLength> length_;
-  double travel_;  // of an animated body until the last whole step [m]
+  bool stepped_ = false;  // in this call
+  double travel_;         // of an animated body until the last whole step [m]
 };
 
 Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& options, SimulateState& state)
@@ -100,14 +102,16 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
   check(state, cloth.particles.size());
   make_contact();
   lead_pins();
-  const Surroundings around{contact_.get(), leader_ ? &*leader_ : nullptr,
+  const Surroundings around{contact_.get(), body_.any() ? &body_ : nullptr, leader_ ? &*leader_ : nullptr,
                             is_still(world.wind) || options.air_drag == 0 ? nullptr : &world.wind,
                             state.compensation.force.empty() ? nullptr : &state.compensation};
   motion_.emplace(cloth, Loads{options.gravity, options.air_drag, options.spring_damping}, pool_, around,
                   state.time);
   if (state.step > 0) motion_->work() = {};  // counted by the call that ended here
   recall();
-  stepper_ = make_stepper(*motion_, {options.integrator, options.backward_euler, options.xpbd});
+  stepper_ =
+      make_stepper(*motion_, {options.integrator, options.backward_euler, options.xpbd, options.implicit});
+  if (solves_contact(options.integrator) && state.planned) stepper_->recall(state.steps);
   length_.emplace(cloth, options, state);
 }
 
@@ -117,6 +121,12 @@ void Simulation::make_contact() {
     frames_before_ = world_.animated->frames_built();
     frame_seconds_before_ = world_.animated->build_seconds();
     world_.animated->prepare(state_.time, state_.time);
+  }
+  if (solves_contact(options_.integrator)) {
+    const bool moves = world_.collider && !is_identity(world_.body_motion);
+    body_ = {world_.collider, moves ? &world_.body_motion : nullptr, world_.animated, options_.friction,
+             options_.contact_gap};
+  } else if (world_.animated) {
     contact_ = std::make_unique<AnimatedContact>(*world_.animated, contact_options_, n, state_.body_travel);
   } else if (world_.collider && !is_identity(world_.body_motion)) {
     contact_ = std::make_unique<RigidContact>(*world_.collider, world_.body_motion, contact_options_, n);
@@ -149,6 +159,7 @@ void Simulation::remember() {
     state_.contact[std::size_t(motion_->cloth().particle[i])] = contact_->memory()[i];
   }
   if (share_left(state_.compensation, state_.time) == 0) state_.compensation.force.clear();
+  state_.steps = stepper_->memory();
   if (world_.animated) {
     state_.body_travel = travel_;
     state_.totals.frames_built += world_.animated->frames_built() - frames_before_;
@@ -162,6 +173,7 @@ void Simulation::remember() {
   state_.totals.linear_solves += work.linear_solves;
   state_.totals.factorisations += work.factorisations;
   state_.totals.iterations += work.iterations;
+  state_.totals.open_steps += work.open_steps;
   state_.totals.collider_queries += work.contact.queries;
   state_.totals.truncated_moves += work.contact.truncations;
 }
@@ -205,18 +217,21 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
 /// false: the step was cancelled, and all is as it was before it.
 bool Simulation::make_step(double to) {
   const WorkCounts work = motion_->work();
-  const bool may_break = leader_ && options_.integrator == Integrator::backward_euler;
+  const bool may_break =
+      leader_ && (options_.integrator == Integrator::backward_euler || solves_contact(options_.integrator));
   const auto v = may_break ? motion_->cloth().v : decltype(motion_->cloth().v){};
   motion_->begin_step(state_.time, to);
   try {
     stepper_->step(state_.dt);
   } catch (const Cancelled&) {
     if (may_break) motion_->cloth().v = v;
+    if (leader_ && !stepped_) leader_->forget_step();
     if (world_.animated) world_.animated->prepare(state_.time, state_.time);
     motion_->work() = state_.step > 0 ? work : WorkCounts{};  // the next call counts the beginning, too
     return false;
   }
-  if (world_.animated) travel_ = static_cast<AnimatedContact&>(*contact_).travel();
+  stepped_ = true;
+  if (world_.animated && contact_) travel_ = static_cast<AnimatedContact&>(*contact_).travel();
   return true;
 }
 

@@ -46,6 +46,7 @@ struct SimulateTotals {
   std::int64_t force_evaluations = 0, collider_queries = 0, truncated_moves = 0;
   std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
+  std::int64_t open_steps = 0;  ///< see WorkCounts
   std::int64_t limit_estimates = 0, frames_built = 0;
   double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
   double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< of leapfrog [s]
@@ -61,6 +62,13 @@ struct Compensation {
   std::vector<Vec3> force;     ///< one a particle [N]; empty: none
   double start = 0;            ///< [s]
   double time_constant = 0.3;  ///< [s]; > 0, may be infinite
+};
+
+/// What a step leaves to the next beside positions and velocities.
+struct StepMemory {
+  std::vector<ContactAnchor> anchors;  ///< of friction, one a particle, or empty
+  std::vector<Vec3> acceleration;      ///< at the step's end, one a particle [m/s^2], or empty
+  double contact_stiffness = 0;        ///< of a body's push [N/m]; 0: not chosen yet
 };
 
 /// All that a simulation knows besides cloth, world and options. A call of simulate() that is stopped at any
@@ -85,6 +93,7 @@ struct SimulateState {
   std::uint64_t cloth = 0;        ///< fingerprint() of the cloth that the plan is for
 
   std::vector<ContactMemory> contact;  ///< one a particle, or empty
+  StepMemory steps;                    ///< of implicit steps
   double body_travel = 0;              ///< of an animated body since the beginning, a bound [m]
   /// Of each of World::pins, one after the other, the particles' positions in the motion's frame [m]. Empty:
   /// taken from where the particles are now.
@@ -106,16 +115,27 @@ enum class Integrator {
   explicit_euler,  ///< order 1; gains energy at any step
   rk4,             ///< order 4, four forces a step; loses energy slowly
   backward_euler,  ///< order 1, stable at any step, damps; a sparse Cholesky solve a step
-  xpbd             ///< backward Euler by sweeps over the springs: stable at any step, stiffness needs sweeps
+  xpbd,            ///< backward Euler by sweeps over the springs: stable at any step, stiffness needs sweeps
+  implicit,        ///< backward Euler with contact in the solve, by minimisation: the choice for stiff cloth
+  tr_bdf2          ///< the same of order 2, at twice the cost a step
 };
+
+/// Whether contact is part of a step's solve (ImplicitStep).
+constexpr bool solves_contact(Integrator i) { return i == Integrator::implicit || i == Integrator::tr_bdf2; }
+
+/// Newton's iterations that their steps take, about: 2 or 3 a stage where cloth moves calmly.
+constexpr int usual_iterations(Integrator i) { return i == Integrator::tr_bdf2 ? 6 : 3; }
 
 /// Whether steps of any length are stable, so that no limit is estimated.
 constexpr bool is_unconditionally_stable(Integrator i) {
-  return i == Integrator::backward_euler || i == Integrator::xpbd;
+  return i == Integrator::backward_euler || i == Integrator::xpbd || solves_contact(i);
 }
 
 /// Their steps if none is asked for [s]: XPBD gains more from short steps than from many sweeps.
-constexpr double default_dt(Integrator i) { return i == Integrator::xpbd ? 1.0 / 1200 : 1.0 / 240; }
+constexpr double default_dt(Integrator i) {
+  if (solves_contact(i)) return 1.0 / 60;
+  return i == Integrator::xpbd ? 1.0 / 1200 : 1.0 / 240;
+}
 
 struct BackwardEulerOptions {
   int newton_iterations = 1;        ///< at most; 1: linearised once (Baraff & Witkin 1998); >= 1
@@ -125,6 +145,13 @@ struct BackwardEulerOptions {
 struct XpbdOptions {
   int iterations = 10;   ///< sweeps over all springs a step, at most; >= 1
   double tolerance = 0;  ///< sooner when a sweep changes no spring's length by more [m]; >= 0
+};
+
+struct ImplicitOptions {
+  /// A search ends when its next move would correct an error in force of this share of the weight (root mean
+  /// square by mass) [-]; > 0.
+  double tolerance = 0.03;
+  int few = 2;  ///< iterations of backward Euler after which 20 times that is good enough; >= 1
 };
 
 /// 2 sqrt(2): RK4 is stable on the imaginary axis up to there. The half-disc of radius 2.785 left of it
@@ -142,7 +169,7 @@ struct SimulateOptions {
   /// Step [s]; > 0; none: dt_factor times the stability limit, or of what is stable at any step the default.
   std::optional<double> dt;
   double dt_factor = 0.9;  ///< [-]; in (0, 1]
-  double dt_max = 0.005;   ///< longest step chosen without `dt` [s]; > 0
+  double dt_max = 0.005;   ///< longest step chosen without `dt`, but for implicit steps [s]; > 0
   StepRule step_rule = StepRule::limited;
   int limit_steps = 2000;        ///< steps after which the limit is estimated anew; >= 1
   double limit_strain = 0.02;    ///< and sooner when the largest strain grew by this [-]; > 0
@@ -155,6 +182,7 @@ struct SimulateOptions {
   Integrator integrator = Integrator::leapfrog;
   BackwardEulerOptions backward_euler;
   XpbdOptions xpbd;
+  ImplicitOptions implicit;
   int threads = 1;            ///< >= 1; the result is the same for any number
   int observe_steps = 100;    ///< steps between two calls of the observer; >= 1
   double speed_limit = 1000;  ///< a faster particle means that the motion diverged [m/s]; > 0
@@ -190,6 +218,7 @@ struct SimulateReport {
   std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
   /// Elements times evaluations; 0 shows that a kind that is absent cost nothing.
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
+  std::int64_t open_steps = 0;             ///< implicit ones whose search did not end, even in 32 parts
   std::int64_t truncated_moves = 0;        ///< cut short against tunnelling
   std::int64_t frames_built = 0;           ///< fields of an animated body
   double frame_seconds = 0;                ///< clock time spent on them [s]

@@ -86,6 +86,14 @@ void check(const SimulateState& s, std::size_t particles) {
   require(s.dt_limit >= 0, "dt_limit = ", s.dt_limit, " is not >= 0");
   require(s.contact.empty() || s.contact.size() == particles, "of a cloth with ", s.contact.size(),
           " particles instead of ", particles);
+  const StepMemory& steps = s.steps;
+  for (const std::size_t n : {steps.anchors.size(), steps.acceleration.size()})
+    require(n == 0 || n == particles, "what steps remember is of ", n, " particles instead of ", particles);
+  require(steps.contact_stiffness >= 0 && std::isfinite(steps.contact_stiffness),
+          "contact_stiffness = ", steps.contact_stiffness, " is not >= 0");
+  for (const ContactAnchor& a : steps.anchors)
+    require(a.anchor.allFinite() && a.plane.allFinite() && std::isfinite(a.limit), "an anchor is not finite");
+  for (const Vec3& a : steps.acceleration) require(a.allFinite(), "an acceleration is not finite");
   for (const ContactMemory& known : s.contact) require(known.x.allFinite(), "a contact is not finite");
 }
 

@@ -76,6 +76,7 @@ void StepLength::estimate() {
 }
 
 double StepLength::longest() const {
+  if (solves_contact(options_.integrator)) return options_.dt.value_or(default_dt(options_.integrator));
   if (is_unconditionally_stable(options_.integrator))
     return options_.dt.value_or(std::min(default_dt(options_.integrator), options_.dt_max));
   const double most = limit(state_.dt_limit);

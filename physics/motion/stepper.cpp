@@ -5,6 +5,7 @@
 
 #include "physics/motion/backward_euler.h"
 #include "physics/motion/euler_step.h"
+#include "physics/motion/implicit_step.h"
 #include "physics/motion/leapfrog_step.h"
 #include "physics/motion/rk4_step.h"
 #include "physics/motion/xpbd.h"
@@ -38,6 +39,9 @@ std::unique_ptr<Stepper> make_stepper(Motion& motion, const StepperOptions& opti
       return std::make_unique<BackwardEuler>(motion, options.backward_euler);
     case Integrator::xpbd:
       return std::make_unique<Xpbd>(motion, options.xpbd);
+    case Integrator::implicit:
+    case Integrator::tr_bdf2:
+      return std::make_unique<ImplicitStep>(motion, options.integrator, options.implicit);
   }
   throw std::invalid_argument("make_stepper: unknown integrator");
 }

@@ -8,19 +8,25 @@
 namespace furrow::physics {
 
 /// An integrator at work on one motion, which must outlive it. It keeps room and symbolic work from step to
-/// step, but nothing that a step's result depends on: a new stepper goes on with the same bits.
+/// step, but nothing that a step's result depends on beside its memory(): a new stepper that recalls it goes
+/// on with the same bits.
 class Stepper {
  public:
   virtual ~Stepper() = default;
   /// One step of dt seconds. Throws std::invalid_argument, nothing changed, if dt is not > 0; Cancelled, with
   /// positions and velocities as they were, if it was cancelled on the way (cancel_scope.h).
   virtual void step(double dt) = 0;
+  /// What a later stepper on the same cloth needs to go on with the same bits, by particle; taken up before
+  /// the first step.
+  virtual StepMemory memory() const { return {}; }
+  virtual void recall(const StepMemory&) {}
 };
 
 struct StepperOptions {
   Integrator integrator = Integrator::leapfrog;
   BackwardEulerOptions backward_euler;
   XpbdOptions xpbd;
+  ImplicitOptions implicit = {};
 };
 
 /// Throws std::invalid_argument if an option of that integrator is out of its range.

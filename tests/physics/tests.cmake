@@ -46,6 +46,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   contact/rigid_contact_test.cpp
   motion/compensation_test.cpp
   motion/euler_step_test.cpp
+  motion/implicit_step_test.cpp
   motion/leapfrog_step_test.cpp
   motion/moved_pins_test.cpp
   motion/shell_motion_test.cpp

@@ -10,6 +10,7 @@
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/mesh/vertex_attributes.h"
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/masses.h"
 #include "io/mesh/mesh_file.h"
@@ -37,6 +38,8 @@ io::SavedState state() {
     velocity[v] = {std::sin(t), -0.0, t};
     sim.contact.push_back({{t, 2 * t, 1e-300}, v % 2 ? t : std::nan("")});
     sim.compensation.force.push_back({t, -t, 1 / t});
+    sim.steps.anchors.push_back({{t, 1 / t, -t}, {0, t, 1e-300}, v % 3 ? t : -1, v % 2 == 0});
+    sim.steps.acceleration.push_back({-t, 3 * t, 1 / t});
   }
   sim.time = 0.1 + 0.2;
   sim.step = 1234567890123;
@@ -54,6 +57,8 @@ io::SavedState state() {
   sim.compensation.start = 0.1;
   sim.compensation.time_constant = std::numeric_limits<double>::infinity();
   sim.totals.force_evaluations = 12;
+  sim.totals.open_steps = 3;
+  sim.steps.contact_stiffness = 1234.5;
   s.pins = {{1, 2}, {}};
   s.lines_drawn = 2;
   s.scene = {{"garment", {{"mesh", "../g.obj"}}}, {"simulation", {{"seconds", 2}}}};
@@ -87,6 +92,11 @@ TEST_CASE("state_file: a state holds everything to the last bit") {
   CHECK(a.compensation.time_constant == b.compensation.time_constant);
   CHECK(a.compensation.force == b.compensation.force);
   CHECK(a.totals.force_evaluations == b.totals.force_evaluations);
+  CHECK(a.totals.open_steps == b.totals.open_steps);
+  CHECK(a.steps.anchors == b.steps.anchors);
+  CHECK(a.steps.acceleration == b.steps.acceleration);
+  CHECK(a.steps.contact_stiffness == b.steps.contact_stiffness);
+  CHECK(geometry::vertex_attributes(is.file.mesh).empty());
   REQUIRE(b.contact.size() == a.contact.size());
   for (std::size_t i = 0; i < a.contact.size(); ++i) {
     CHECK(a.contact[i].x == b.contact[i].x);

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "physics/motion/implicit_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+#include "physics/base/require.h"
+#include "physics/base/vector_sums.h"
+
+namespace furrow::physics {
+namespace {
+
+using Vectors = std::vector<Vec3>;
+
+constexpr double standard_gravity = 9.81;  // m/s^2: the scale of a tolerance, whatever acts
+constexpr double longest_move = 0.02;      // m, beside a body: less than half of any limb
+constexpr int most_iterations = 12;
+constexpr double push_over_inertia = 100;  // of a mean particle in a step
+constexpr int most_halvings = 5;           // of a step
+
+Vec3 vec3(const Vec4& v) { return {v.x, v.y, v.z}; }
+
+/// A packed cloth's springs that pull, sorted; its other elements are there by place.
+Cloth unpacked(const PackedCloth& packed) {
+  Cloth cloth = packed.shell;
+  for (int i = 0; i < packed.springs(); ++i)
+    if (packed.k[i] > 0)
+      cloth.structural.push_back({packed.a[i], packed.b[i], packed.kL[i] / packed.k[i], packed.k[i]});
+  std::stable_sort(cloth.structural.begin(), cloth.structural.end(),
+                   [](const Spring& s, const Spring& t) { return std::tie(s.a, s.b) < std::tie(t.a, t.b); });
+  Particles& p = cloth.particles;
+  p = {};
+  for (std::size_t i = 0; i < packed.x.size(); ++i) {
+    p.x.push_back(vec3(packed.x[i]));
+    p.v.push_back(vec3(packed.v[i]));
+    p.inv_mass.push_back(packed.inv_mass[i]);
+    p.mass.push_back(packed.inv_mass[i] > 0 ? 1 / packed.inv_mass[i] : 0);
+  }
+  return cloth;
+}
+
+Vectors sum(const Vectors& a, double factor, const Vectors& b) {
+  Vectors result = a;
+  add_multiple(result, factor, b);
+  return result;
+}
+
+Vectors scaled(double factor, Vectors v) {
+  for (Vec3& e : v) e *= factor;
+  return v;
+}
+
+}  // namespace
+
+ImplicitStep::ImplicitStep(Motion& motion, Integrator scheme, const ImplicitOptions& options)
+    : motion_(motion), scheme_(scheme), options_(options), cloth_(unpacked(motion.cloth())) {
+  require("implicit step", "tolerance", options.tolerance, options.tolerance > 0, "> 0");
+  require("implicit step", "few", options.few, options.few >= 1, ">= 1");
+}
+
+/// On the first step: recall() may come before it. Push beats inertia by far, so that soft cloth that falls
+/// is stopped, too, and what lies on the body at the start is held from there on.
+void ImplicitStep::prepare(double dt) {
+  if (search_) return;
+  const Particles& p = cloth_.particles;
+  const BodyAround* body = motion_.body();
+  if (body && stiffness_ == 0) {
+    StepSearch scale(cloth_, motion_.loads(), nullptr, motion_.pool(), motion_.work());
+    stiffness_ = std::max(scale.contact_stiffness(p.x), push_over_inertia * scale.mean_mass() / (dt * dt));
+  }
+  if (body) {
+    contact_ = std::make_unique<StepContact>(*body, stiffness_, p.size(), motion_.from());
+    AnchoredContact& anchored = contact_->anchored();
+    if (anchors_.empty()) {
+      anchored.look(p.x, p.inv_mass, &motion_.pool());
+      anchored.move_anchors();
+    } else {
+      anchored.set_anchors(anchors_);
+    }
+  }
+  search_ =
+      std::make_unique<StepSearch>(cloth_, motion_.loads(), contact_.get(), motion_.pool(), motion_.work());
+}
+
+ImplicitStep::State ImplicitStep::read() const {
+  const PackedCloth& cloth = motion_.cloth();
+  State state{{}, {}, a_};
+  for (std::size_t i = 0; i < cloth.x.size(); ++i) {
+    state.x.push_back(vec3(cloth.x[i]));
+    state.v.push_back(vec3(cloth.v[i]));
+  }
+  return state;
+}
+
+void ImplicitStep::write(const State& state) {
+  PackedCloth& cloth = motion_.cloth();
+  for (std::size_t i = 0; i < cloth.x.size(); ++i) {
+    const Vec3 &x = state.x[i], &v = state.v[i];
+    cloth.x[i] = {x.x(), x.y(), x.z(), 0};
+    if (cloth.inv_mass[i] > 0) cloth.v[i] = {v.x(), v.y(), v.z(), 0};
+  }
+  motion_.arrive();
+  a_ = state.a;
+}
+
+/// What compensates, and the air where the cloth is.
+StepLoads ImplicitStep::loads_at(double time) {
+  StepLoads given;
+  PackedCloth& cloth = motion_.cloth();
+  if (motion_.compensates()) {
+    motion_.update_compensation(time);
+    for (const Vec4& f : cloth.force) given.force.push_back(vec3(f));
+  }
+  if (motion_.wind()) {
+    std::vector<Vec4> air;
+    air_at(cloth, *motion_.wind(), time, air, motion_.pool());
+    for (const Vec4& w : air) given.air.push_back(vec3(w));
+  }
+  return given;
+}
+
+/// From the step's guess in x. true: the stage is solved, and friction has followed.
+bool ImplicitStep::solve(const Stage& stage, const State& start, Interval time, int few, Vectors& x) {
+  const Particles& p = cloth_.particles;
+  const double h = time.length();
+  Vectors carried;
+  if (contact_) {
+    carried = contact_->move_body(time.from, time.to, start.x);
+    contact_->keep_out(carried, p.inv_mass, x, motion_.pool());
+  }
+  const double tolerance = options_.tolerance * standard_gravity * h * h;
+  const double longest = contact_ ? longest_move : std::numeric_limits<double>::infinity();
+  const SearchEnd end =
+      search_->find(stage, loads_at(time.to), carried, {tolerance, few, most_iterations, longest}, x);
+  if (contact_) contact_->anchored().move_anchors();
+  return end.converged;
+}
+
+std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Interval time, bool last) {
+  const double h = time.length();
+  Stage stage{1 / (h * h), 1 / h, sum(start.x, h, start.v), scaled(-1 / h, start.x)};
+  State end;
+  end.x = stage.y;
+  const bool solved = solve(stage, start, time, options_.few, end.x);
+  if (!solved && !last) return std::nullopt;
+  if (!solved) ++motion_.work().open_steps;
+  end.v = sum(stage.q, stage.p, end.x);
+  if (scheme_ == Integrator::tr_bdf2) end.a = scaled(1 / h, sum(end.v, -1, start.v));
+  return end;
+}
+
+std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Interval time) {
+  const double h = time.length(), gamma = 2 - std::numbers::sqrt2, b = gamma * h / 2;
+  const Interval first{time.from, time.from + gamma * h}, second{first.to, time.to};
+  Stage trapezoid{1 / (b * b), 1 / b, sum(sum(start.x, 2 * b, start.v), b * b, start.a),
+                  sum(scaled(-1 / b, start.x), -1, start.v)};
+  State middle;
+  middle.x = sum(start.x, gamma * h, start.v);
+  if (!solve(trapezoid, start, first, most_iterations, middle.x)) return std::nullopt;
+  middle.v = sum(trapezoid.q, trapezoid.p, middle.x);
+
+  const double c1 = 1 / (gamma * (2 - gamma)), c0 = c1 - 1;
+  const Vectors place = sum(scaled(c1, middle.x), -c0, start.x);
+  const Vectors speed = sum(scaled(c1, middle.v), -c0, start.v);
+  Stage bdf2{1 / (b * b), 1 / b, sum(place, b, speed), scaled(-1 / b, place)};
+  State end;
+  end.x = sum(middle.x, (1 - gamma) * h, middle.v);
+  if (!solve(bdf2, middle, second, most_iterations, end.x)) return std::nullopt;
+  end.v = sum(bdf2.q, bdf2.p, end.x);
+  end.a = scaled(bdf2.s, sum(end.x, -1, bdf2.y));
+  return end;
+}
+
+/// By the scheme, else by backward Euler, else in halves.
+ImplicitStep::State ImplicitStep::advance(const State& start, Interval time, int depth) {
+  const auto anchors = contact_ ? contact_->anchored().anchors() : std::vector<ContactAnchor>{};
+  const auto go_back = [&] {
+    if (!contact_) return;
+    contact_->anchored().set_anchors(anchors);
+    contact_->move_body(time.from, time.from, {});
+  };
+  try {
+    if (scheme_ == Integrator::tr_bdf2 && !start.a.empty()) {
+      if (auto end = tr_bdf2(start, time)) return *std::move(end);
+      go_back();
+    }
+    if (auto end = euler(start, time, depth == most_halvings)) return *std::move(end);
+    go_back();
+    const double middle = 0.5 * (time.from + time.to);
+    const State half = advance(start, {time.from, middle}, depth + 1);
+    return advance(half, {middle, time.to}, depth + 1);
+  } catch (...) {
+    go_back();
+    throw;
+  }
+}
+
+void ImplicitStep::step(double dt) {
+  require("implicit step", "dt", std::min(dt, 1e300), dt > 0, "> 0");
+  prepare(dt);
+  const State start = read();
+  write(advance(start, {motion_.from(), motion_.from() + dt}, 0));
+  ++motion_.work().steps;
+}
+
+void ImplicitStep::recall(const StepMemory& memory) {
+  const std::vector<int>& particle = motion_.cloth().particle;
+  for (const int i : particle) {
+    if (!memory.acceleration.empty()) a_.push_back(memory.acceleration[std::size_t(i)]);
+    if (!memory.anchors.empty()) anchors_.push_back(memory.anchors[std::size_t(i)]);
+  }
+  stiffness_ = memory.contact_stiffness;
+}
+
+StepMemory ImplicitStep::memory() const {
+  const std::vector<int>& particle = motion_.cloth().particle;
+  StepMemory memory;
+  memory.contact_stiffness = stiffness_;
+  memory.acceleration.resize(a_.size());
+  const auto anchors = contact_ ? contact_->anchored().anchors() : anchors_;
+  memory.anchors.resize(anchors.size());
+  for (std::size_t i = 0; i < particle.size(); ++i) {
+    if (!a_.empty()) memory.acceleration[std::size_t(particle[i])] = a_[i];
+    if (!anchors.empty()) memory.anchors[std::size_t(particle[i])] = anchors[i];
+  }
+  return memory;
+}
+
+}  // namespace furrow::physics

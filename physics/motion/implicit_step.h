@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "physics/motion/step_contact.h"
+#include "physics/motion/step_search.h"
+#include "physics/motion/stepper.h"
+
+namespace furrow::physics {
+
+/// Implicit steps whose stages are minima of an energy (step_search.h): elements, contact and friction of a
+/// body, drag and inertia in one solve, so that stiff cloth on a body takes steps of a sixtieth of a second.
+///  - Integrator::implicit: backward Euler. Order one; takes energy out of what trembles within some steps.
+///  - Integrator::tr_bdf2: a trapezoidal stage to gamma dt, gamma = 2 - sqrt 2, then a BDF2 stage to the end
+///    (Bank et al. 1985). Order two, stable for any dt; a step whose stages do not end in twelve iterations,
+///    and the first one, are those of backward Euler.
+/// A step that does not end in twelve iterations is made in halves, down to 1/32; what is still open then is
+/// counted (WorkCounts::open_steps). Drag is implicit; dashpots of springs do not act: their share is far
+/// below what the steps themselves take out.
+/// Cost of an iteration: assembly and a sparse Cholesky factorisation (O(n^1.5) of n vertices of a sheet);
+/// two to three iterations a stage in calm motion. Same bits for any number of threads. Sources: Gast et al.,
+/// TVCG 21 (2015) 1103-1115; Bank et al., IEEE Trans. Electron Devices 32 (1985) 1992-2007.
+class ImplicitStep : public Stepper {
+ public:
+  /// Throws std::invalid_argument if an option is out of its range.
+  ImplicitStep(Motion& motion, Integrator scheme, const ImplicitOptions& options = {});
+  void step(double dt) override;
+  void recall(const StepMemory& memory) override;
+  StepMemory memory() const override;
+
+ private:
+  /// Where particles are and how they move; what the next step begins with.
+  struct State {
+    std::vector<Vec3> x, v;  ///< [m], [m/s]
+    std::vector<Vec3> a;     ///< of the last stage [m/s^2]; empty: not known
+  };
+  struct Interval {
+    double from, to;  ///< [s]
+    double length() const { return to - from; }
+  };
+  State read() const;
+  void write(const State& state);
+  void prepare(double dt);
+  StepLoads loads_at(double time);
+  State advance(const State& start, Interval time, int depth);
+  std::optional<State> euler(const State& start, Interval time, bool last);
+  std::optional<State> tr_bdf2(const State& start, Interval time);
+  bool solve(const Stage& stage, const State& start, Interval time, int few, std::vector<Vec3>& x);
+
+  Motion& motion_;
+  Integrator scheme_;
+  ImplicitOptions options_;
+  Cloth cloth_;                         ///< the motion's, by place
+  std::vector<Vec3> lead_;              ///< velocity of what is held, in this step [m/s]
+  std::vector<Vec3> a_;                 ///< see State
+  double stiffness_ = 0;                ///< of contact [N/m]; 0: not chosen yet
+  std::vector<ContactAnchor> anchors_;  ///< to begin with; empty: none
+  std::unique_ptr<StepContact> contact_;
+  std::unique_ptr<StepSearch> search_;
+};
+
+}  // namespace furrow::physics

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "physics/motion/step_contact.h"
+
+#include <algorithm>
+
+namespace furrow::physics {
+namespace {
+
+constexpr int most_pieces = 32;  // of a way along the body
+
+const Collider& asked(const BodyAround& body) {
+  return body.animated ? static_cast<const Collider&>(*body.animated) : *body.collider;
+}
+
+}  // namespace
+
+StepContact::StepContact(const BodyAround& body, double stiffness, std::size_t particles, double time)
+    : body_(body),
+      contact_(asked(body), AnchoredContactOptions{body.friction, body.gap, stiffness}, particles),
+      place_(place_at(time)) {
+  if (body_.motion) contact_.place_body(place_);
+}
+
+BodyPlace StepContact::place_at(double time) const {
+  if (!body_.motion) return {};
+  const Pose now = pose(*body_.motion, time);
+  return {now.rotation.toRotationMatrix(), now.translation};
+}
+
+const Collider& StepContact::collider() const { return asked(body_); }
+
+std::vector<Vec3> StepContact::move_body(double from, double to, std::span<const Vec3> x) {
+  std::vector<Vec3> carried(x.begin(), x.end());
+  if (body_.animated) {
+    AnimatedBody& body = *body_.animated;
+    body.prepare(from, to);
+    const auto way = [&](const Vec3& p) -> Vec3 { return body.share() * body.way(p); };
+    contact_.carry_anchors(way);
+    for (Vec3& p : carried)
+      if (body.at(p).value < 2 * body_.gap + body.travel()) p += way(p);
+  } else if (body_.motion) {
+    const BodyPlace before = place_at(from);
+    place_ = place_at(to);
+    contact_.place_body(place_);
+    for (Vec3& p : carried) p = before.rotation.transpose() * (p - before.translation);
+  }
+  return carried;
+}
+
+/// The end of a way in the body's frame, without what leads from within the gap farther in.
+Vec3 StepContact::slid(Vec3 from, const Vec3& to) const {
+  Vec3 rest = to - from;
+  for (int piece = 0; piece < most_pieces; ++piece) {
+    const SignedDistance field = collider().at(from);
+    const double room = field.value - body_.gap, length = rest.norm();
+    if (room >= length) return from + rest;
+    double share = std::max(room, body_.gap / 4) / length;
+    if (room < body_.gap / 4) {
+      const Vec3 n = field.gradient.normalized();
+      rest -= std::min(0.0, n.dot(rest)) * n;
+      share = std::min(1.0, body_.gap / std::max(rest.norm(), 1e-300));
+    }
+    from += share * rest;
+    rest *= 1 - share;
+    if (share == 1) return from;
+  }
+  return from;
+}
+
+void StepContact::keep_out(std::span<const Vec3> start, std::span<const double> inv_mass, std::span<Vec3> x,
+                           ThreadPool& pool) const {
+  pool.run(int(x.size()), [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const auto i = std::size_t(k);
+      if (!(inv_mass[i] > 0)) continue;
+      const Vec3 to = body_.motion ? Vec3(place_.rotation.transpose() * (x[i] - place_.translation)) : x[i];
+      const Vec3 end_of_way = slid(start[i], to);
+      if (end_of_way == to) continue;
+      x[i] = body_.motion ? Vec3(place_.rotation * end_of_way + place_.translation) : end_of_way;
+    }
+  });
+}
+
+}  // namespace furrow::physics

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "physics/body/moving_body.h"
+#include "physics/contact/anchored_contact.h"
+
+namespace furrow::physics {
+
+/// The body around a cloth for steps that solve contact with the rest. Pointers may be null.
+struct BodyAround {
+  const Collider* collider = nullptr;   ///< of a rigid body, in its own frame
+  const RigidMotion* motion = nullptr;  ///< takes it into the world; null: it stands there
+  AnimatedBody* animated = nullptr;     ///< or a body that changes its shape; not both
+  double friction = 0.3;                ///< Coulomb coefficient [-]; >= 0
+  double gap = 0.003;                   ///< distance at which the body begins to push [m]; > 0
+  bool any() const { return collider || animated; }
+};
+
+/// AnchoredContact with a body that may move: anchors go along with its surface.
+class StepContact {
+ public:
+  /// What `body` points to must outlive this object. stiffness: of the push [N/m]; > 0.
+  StepContact(const BodyAround& body, double stiffness, std::size_t particles, double time);
+
+  /// The body moves from one time to another [s]; all later answers are about the latter. Returns where
+  /// particles at x [m] are then if each goes with the point of the body that is next to it: in the body's
+  /// frame.
+  std::vector<Vec3> move_body(double from, double to, std::span<const Vec3> x);
+  /// Shortens the ways of particles that can move (inv_mass > 0) from `start`, as of move_body(), to x, in
+  /// the world, along the normal only, so that none goes deeper into the gap than it is. Cost: a few queries
+  /// a particle near the body, one for each other.
+  void keep_out(std::span<const Vec3> start, std::span<const double> inv_mass, std::span<Vec3> x,
+                ThreadPool& pool) const;
+  AnchoredContact& anchored() { return contact_; }
+  const AnchoredContact& anchored() const { return contact_; }
+
+ private:
+  BodyPlace place_at(double time) const;
+  const Collider& collider() const;
+  Vec3 slid(Vec3 from, const Vec3& to) const;
+
+  BodyAround body_;
+  AnchoredContact contact_;
+  BodyPlace place_;  ///< of a rigid body now
+};
+
+}  // namespace furrow::physics

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "physics/cloth/element_forces.h"
+#include "physics/linear/free_stiffness.h"
+#include "physics/motion/motion.h"
+#include "physics/motion/step_contact.h"
+
+namespace furrow::physics {
+
+/// A stage of an implicit step as a minimum over the free particles' positions x of
+///   s/2 |x - y|^2_M + E(x) - (m g + f) . x + C(x) + c/(2p) |p x + q - w|^2_M,
+/// E of the elements, C of contact, c the air's drag; p x + q is the stage's velocity.
+struct Stage {
+  double s;                ///< [1/s^2]; > 0
+  double p;                ///< [1/s]; > 0
+  std::vector<Vec3> y, q;  ///< one a particle [m], [m/s]
+};
+
+/// What is given in a whole step.
+struct StepLoads {
+  std::vector<Vec3> force;  ///< f, one a particle [N]; empty: none
+  std::vector<Vec3> air;    ///< w [m/s]; empty: at rest
+};
+
+struct SearchOptions {
+  double tolerance;     ///< root mean square of the next move that ends it [m]; > 0
+  int few, most;        ///< Newton's iterations: after `few` a next move 20 times as long is good enough
+  double longest_move;  ///< of a particle in an iteration [m]; > 0
+};
+
+struct SearchEnd {
+  bool converged;  ///< as the options ask
+  int iterations;
+};
+
+/// Looks for the minima of stages, all on one cloth, by Newton's method with the positive part of the
+/// stiffness, a fresh factorisation each iteration, and a line search. A factorisation serves twice where the
+/// move is short. It keeps room and symbolic work, but nothing that a result depends on.
+class StepSearch {
+ public:
+  /// cloth: its particles' masses and elements count, and must stay. contact: null: no body.
+  StepSearch(const Cloth& cloth, const Loads& loads, StepContact* contact, ThreadPool& pool,
+             WorkCounts& work);
+
+  /// From x, which becomes where the search ended; `start`: StepContact::move_body() of the step's start,
+  /// empty without contact. Throws Cancelled.
+  SearchEnd find(const Stage& stage, const StepLoads& given, std::span<const Vec3> start,
+                 const SearchOptions& options, std::vector<Vec3>& x);
+  /// Half of the mean diagonal of the elements' stiffness at x [N/m], 1 without: a scale for contact.
+  double contact_stiffness(std::span<const Vec3> x);
+  double mean_mass() const;  ///< of a free particle [kg]; 0 without
+
+ private:
+  struct Answer {
+    std::vector<Vec3> net;  ///< minus the gradient [N]; 0 on what is held
+    double energy;          ///< [J]
+    double terms;           ///< sum of the sizes of what it is the sum of: rounding's scale [J]
+  };
+  Answer look(const std::vector<Vec3>& x);
+  void add_stage(const std::vector<Vec3>& x, Answer& answer) const;
+  void factorise(const std::vector<Vec3>& x);
+  double advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
+                 const SearchOptions& options);
+  double mean_length(const std::vector<Vec3>& move) const;
+
+  const Cloth& cloth_;
+  const Loads& loads_;
+  StepContact* contact_;
+  ThreadPool& pool_;
+  WorkCounts& work_;
+  ElementForces elements_;
+  FreeStiffness stiffness_;
+  double mass_ = 0;  ///< of all free particles [kg]
+  const Stage* stage_ = nullptr;
+  const StepLoads* given_ = nullptr;
+};
+
+}  // namespace furrow::physics
