@@ -13,13 +13,13 @@ using namespace furrow::tests;
 
 namespace {
 
-constexpr double g = 9.81, gap = 0.003;
+constexpr double earth = 9.81, rest_gap = 0.003;
 
 StepperOptions exactly(Integrator integrator) { return {integrator, {}, {}, {.tolerance = 1e-7, .few = 12}}; }
 
 /// A cloth on a body by simulate().
 SimulateReport run(Cloth& cloth, const World& world, Integrator integrator, double dt, double seconds,
-                   double friction, const Vec3& gravity = {0, -g, 0}, const Observer& observer = {}) {
+                   double friction, const Vec3& gravity = {0, -earth, 0}, const Observer& observer = {}) {
   SimulateOptions o;
   o.integrator = integrator;
   o.dt = dt;
@@ -35,8 +35,8 @@ SimulateReport run(Cloth& cloth, const World& world, Integrator integrator, doub
 /// A sheet as it rests in the gap of a floor under a gravity that leans.
 Cloth sheet_on_floor(const Collider& floor, double angle) {
   Cloth cloth = sheet(6, 6, 0.05, 0.2, 5, 1000, 10);
-  for (Vec3& x : cloth.particles.x) x = Vec3(x.x(), gap, -x.y());
-  settle(cloth, &floor, {.gravity = g * Vec3(std::sin(angle), -std::cos(angle), 0), .friction = 2});
+  for (Vec3& x : cloth.particles.x) x = Vec3(x.x(), rest_gap, -x.y());
+  settle(cloth, &floor, {.gravity = earth * Vec3(std::sin(angle), -std::cos(angle), 0), .friction = 2});
   for (Vec3& v : cloth.particles.v) v.setZero();
   return cloth;
 }
@@ -82,8 +82,8 @@ TEST_CASE("implicit_step: free fall has the right velocity, and the right way bu
   const int steps = 50;
   const Particles end = after(cloth, {}, exactly(integrator), h, steps);
   const double t = h * steps, late = integrator == Integrator::implicit ? h * t : h * h;
-  CHECK(end.v[1].y() == Approx(-g * t).epsilon(1e-8));
-  CHECK(end.x[1].y() == Approx(-0.5 * g * (t * t + late)).epsilon(1e-8));
+  CHECK(end.v[1].y() == Approx(-earth * t).epsilon(1e-8));
+  CHECK(end.x[1].y() == Approx(-0.5 * earth * (t * t + late)).epsilon(1e-8));
 }
 
 TEST_CASE("implicit_step: a free cloth keeps its momentum") {
@@ -106,7 +106,7 @@ TEST_CASE("implicit_step: below the angle of friction a sheet stays, above it sl
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2);
   const Floor floor;
   const double angle = 3.14159265358979323846 / 6, threshold = std::tan(angle);
-  const Vec3 gravity = g * Vec3(std::sin(angle), -std::cos(angle), 0);
+  const Vec3 gravity = earth * Vec3(std::sin(angle), -std::cos(angle), 0);
   World world;
   world.collider = &floor;
   const Cloth start = sheet_on_floor(floor, angle);
@@ -120,7 +120,8 @@ TEST_CASE("implicit_step: below the angle of friction a sheet stays, above it sl
   CHECK(std::abs(way.back() - way[120]) < 8e-6);  // less than a micrometre a second
 
   Cloth sliding = start;
-  const double friction = 0.5 * threshold, t = 0.5, a = g * (std::sin(angle) - friction * std::cos(angle));
+  const double friction = 0.5 * threshold, t = 0.5,
+               a = earth * (std::sin(angle) - friction * std::cos(angle));
   const SimulateReport report = run(sliding, world, integrator, 1.0 / 240, t, friction, gravity);
   CHECK(report.open_steps == 0);
   CHECK(mean_way(sliding, start).x() == Approx(0.5 * a * t * t).epsilon(0.02));
@@ -160,7 +161,7 @@ TEST_CASE(
   o.seconds = 3;
   double deepest = 0;
   const auto watch = [&](const SimulateProgress&) {
-    for (const Vec3& x : cloth.particles.x) deepest = std::max(deepest, gap - ball.at(x).value);
+    for (const Vec3& x : cloth.particles.x) deepest = std::max(deepest, rest_gap - ball.at(x).value);
     return true;
   };
   o.observe_steps = 1;
@@ -168,7 +169,7 @@ TEST_CASE(
   CHECK(report.outcome == Outcome::finished);
   CHECK(report.steps == 180);
   CHECK(report.open_steps == 0);
-  CHECK(deepest < 1.5 * gap);  // where it falls at 2.4 m/s, 40 mm a step
+  CHECK(deepest < 1.5 * rest_gap);  // where it falls at 2.4 m/s, 40 mm a step
   CHECK(report.contacts > 20);
   CHECK(report.kinetic_energy < 1e-5);
   CHECK(report.residual_force < 0.3);  // ten times the tolerance
