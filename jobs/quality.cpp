@@ -25,7 +25,9 @@ using geometry::FoldSurface;
 using geometry::Mesh;
 using geometry::Vertex;
 
-constexpr double moved_share = 0.05;   ///< of the highest fold: cloth away from lines that far off has moved
+constexpr double moved_share = 0.05;  ///< of the highest fold: cloth away from lines that far off has moved
+constexpr double wide_share =
+    0.005;  ///< of the widest fold: bases of wide low folds round coarse facets so much
 constexpr double away_from_lines = 1;  ///< in widths
 constexpr double beside_share =
     0.75;  ///< of the cloth: so much of it is nearer to its place than what is told
@@ -184,10 +186,13 @@ double beside_place(const FoldSurface& surface) {
 }
 
 bool has_moved(const FoldSurface& surface, const std::vector<FoldCurve>& curves) {
-  double highest = 0;
-  for (const FoldCurve& curve : curves)
+  double highest = 0, widest = 0;
+  for (const FoldCurve& curve : curves) {
     for (double k : curve.height) highest = std::max(highest, std::abs(k));
-  return moved_by(surface, curves) > moved_share * highest || beside_place(surface) > moved_share * highest;
+    for (double w : curve.width) widest = std::max(widest, w);
+  }
+  const double far = std::max(moved_share * highest, wide_share * widest);
+  return moved_by(surface, curves) > far || beside_place(surface) > far;
 }
 
 /// "": the lines were measured.

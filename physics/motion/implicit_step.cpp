@@ -19,9 +19,9 @@ constexpr double standard_gravity = 9.81;  // m/s^2: the scale of a tolerance, w
 constexpr double longest_move = 0.02;      // m, beside a body: less than half of any limb
 constexpr int most_iterations = 12;
 constexpr double push_over_inertia = 100;  // of a mean particle in a step
-constexpr int most_halvings = 5;           // of a step
+constexpr int most_step_halvings = 5;      // of a step
 
-Vec3 vec3(const Vec4& v) { return {v.x, v.y, v.z}; }
+Vec3 xyz(const Vec4& v) { return {v.x, v.y, v.z}; }
 
 /// A packed cloth's springs that pull, sorted; its other elements are there by place.
 Cloth unpacked(const PackedCloth& packed) {
@@ -34,8 +34,8 @@ Cloth unpacked(const PackedCloth& packed) {
   Particles& p = cloth.particles;
   p = {};
   for (std::size_t i = 0; i < packed.x.size(); ++i) {
-    p.x.push_back(vec3(packed.x[i]));
-    p.v.push_back(vec3(packed.v[i]));
+    p.x.push_back(xyz(packed.x[i]));
+    p.v.push_back(xyz(packed.v[i]));
     p.inv_mass.push_back(packed.inv_mass[i]);
     p.mass.push_back(packed.inv_mass[i] > 0 ? 1 / packed.inv_mass[i] : 0);
   }
@@ -89,8 +89,8 @@ ImplicitStep::State ImplicitStep::read() const {
   const PackedCloth& cloth = motion_.cloth();
   State state{{}, {}, a_};
   for (std::size_t i = 0; i < cloth.x.size(); ++i) {
-    state.x.push_back(vec3(cloth.x[i]));
-    state.v.push_back(vec3(cloth.v[i]));
+    state.x.push_back(xyz(cloth.x[i]));
+    state.v.push_back(xyz(cloth.v[i]));
   }
   return state;
 }
@@ -112,12 +112,12 @@ StepLoads ImplicitStep::loads_at(double time) {
   PackedCloth& cloth = motion_.cloth();
   if (motion_.compensates()) {
     motion_.update_compensation(time);
-    for (const Vec4& f : cloth.force) given.force.push_back(vec3(f));
+    for (const Vec4& f : cloth.force) given.force.push_back(xyz(f));
   }
   if (motion_.wind()) {
     std::vector<Vec4> air;
     air_at(cloth, *motion_.wind(), time, air, motion_.pool());
-    for (const Vec4& w : air) given.air.push_back(vec3(w));
+    for (const Vec4& w : air) given.air.push_back(xyz(w));
   }
   return given;
 }
@@ -187,7 +187,7 @@ ImplicitStep::State ImplicitStep::advance(const State& start, Interval time, int
       if (auto end = tr_bdf2(start, time)) return *std::move(end);
       go_back();
     }
-    if (auto end = euler(start, time, depth == most_halvings)) return *std::move(end);
+    if (auto end = euler(start, time, depth == most_step_halvings)) return *std::move(end);
     go_back();
     const double middle = 0.5 * (time.from + time.to);
     const State half = advance(start, {time.from, middle}, depth + 1);

@@ -15,8 +15,8 @@ using Vectors = std::vector<Vec3>;
 constexpr double good_enough = 20;  // times the tolerance, after few iterations
 constexpr double short_move = 10;   // times the tolerance: the factors serve the next one
 constexpr double armijo = 1e-4;
-constexpr double least_share = 1e-3;  // of a move
-constexpr double least_fall = 1e-12;  // of the energy, that can be told from rounding
+constexpr double least_move_share = 1e-3;  // of a move
+constexpr double least_fall = 1e-12;       // of the energy, that can be told from rounding
 constexpr double energy_rounding = 1e-13;
 
 /// Where the parabola through the energy, its slope and the energy at `share` is least.
@@ -121,7 +121,7 @@ double StepSearch::advance(const Vectors& move, Vectors& x, Answer& here, const 
   for (const Vec3& m : move) longest = std::max(longest, m.norm());
   double share = longest > options.longest_move ? options.longest_move / longest : 1;
   if (!(slope < 0) || !std::isfinite(longest)) return 0;
-  for (const double least = least_share * share; share > least;) {
+  for (const double least = least_move_share * share; share > least;) {
     Vectors trial = x;
     add_multiple(trial, share, move);
     Answer there = look(trial);

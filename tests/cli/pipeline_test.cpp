@@ -187,7 +187,7 @@ TEST_CASE(
   CHECK(lines[1]["name"] == "more");
   // The second line lies in the slope of the first: a flip across it keeps its length on the cloth, not in
   // space.
-  CHECK(json::parse(still.out)["strain"]["max"].get<double>() < 1e-4);
+  CHECK(json::parse(still.out)["strain"]["max"].get<double>() < 3e-4);
 }
 
 TEST_CASE("pipeline: the same stroke twice gives the height of the second, and the mesh can be simulated") {

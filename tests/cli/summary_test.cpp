@@ -160,7 +160,7 @@ TEST_CASE("report: a smooth fold tells the height of its crest, and its width", 
   CHECK(text.find("smoothed to") == std::string::npos);
 }
 
-TEST_CASE("info: a mesh of an odd size is not called faultless, nor refined; a camera of it is doubted") {
+TEST_CASE("info: a mesh of an odd size is not called faultless, nor refined, and a camera of it is doubted") {
   ScratchDirectory scratch;
   const std::string large = scratch / "large.obj";
   write_text(large, "v 0 0 0\nv 60 0 0\nv 60 83 0\nv 0 83 0\nf 1 2 3\nf 1 3 4\n");

@@ -72,7 +72,7 @@ TEST_CASE(
   const std::string call = "transfer --json " + skirt.mesh + " " + at("w.obj") + " -o " + at("c.obj");
   const Run without = run_furrow(call);
   CHECK(without.exit_code == 3);
-  CHECK(without.err.find("rest mesh") != std::string::npos);
+  CHECK(without.err.find("--rest-shape") != std::string::npos);
   CHECK(run_furrow(call + " --rest-shape " + skirt.mesh).exit_code == 3);  // other vertices
   CHECK(succeed(call + " --rest-shape " + at("w.obj"))["unchanged"].get<int>() > 0);
   CHECK(run_furrow("transfer " + skirt.mesh + " " + skirt.wrinkled + " -o " + at("c.glb")).exit_code == 2);
