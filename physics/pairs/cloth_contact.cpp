@@ -61,8 +61,8 @@ ClothContact::ClothContact(const Cloth& cloth, const ClothContactOptions& option
 
 /// Pairs that are nearer than their range at x.
 void ClothContact::note_near(std::span<const Vec3> x, bool at_start, ThreadPool* pool) {
-  const PairList near(mesh_, x, {}, 0, pool);
-  for (const ListedPair& p : near.pairs()) {
+  PairList list(mesh_);
+  for (const ListedPair& p : list.near(x, {}, 0, pool)) {
     const double distance = p.bound + p.range;
     const bool touches = distance < as_touching;
     const double range = touches ? 0 : start_share * distance;
@@ -160,26 +160,23 @@ bool ClothContact::widen(std::span<const Vec3> x) {
   return changed;
 }
 
-void ClothContact::renew_list(std::span<const Vec3> x, std::span<const Vec3> plan, ThreadPool* pool) {
-  list_ = PairList(mesh_, x, plan, margin_share_ * mesh_.mean_edge, pool);
-  ++list_builds_;
-  const double per_vertex = double(list_.pairs().size()) / double(std::max<std::size_t>(1, x.size()));
-  if (per_vertex > long_list) margin_share_ = std::max(least_margin_of_edge, 0.5 * margin_share_);
+/// As PairList::near(), with a margin that is the smaller the more is near.
+std::span<const ListedPair> ClothContact::near(std::span<const Vec3> x, std::span<const Vec3> way,
+                                               ThreadPool* pool) {
+  const int before = list_.builds();
+  const std::span<const ListedPair> pairs = list_.near(x, way, margin_share_ * mesh_.mean_edge, pool);
+  if (list_.builds() > before && double(list_.size()) > long_list * double(x.size()))
+    margin_share_ = std::max(least_margin_of_edge, 0.5 * margin_share_);
+  return pairs;
 }
 
-/// Of the list, made anew where it does not know the way from x by `most` of the move.
+/// Of what may touch on the way from x by `most` of the move.
 std::span<const ListedPair> ClothContact::pairs_on_way(std::span<const Vec3> x, std::span<const Vec3> move,
                                                        double most, ThreadPool* pool) {
-  double longest = 0;
-  for (const Vec3& m : move) longest = std::max(longest, m.squaredNorm());
-  double reach = list_.excess(x) + most * std::sqrt(longest);
-  if (!(reach <= list_.margin())) {
-    std::vector<Vec3> plan(move.begin(), move.end());
-    for (Vec3& m : plan) m *= most;
-    renew_list(x, plan, pool);
-    reach = 0;
-  }
-  return list_.within(reach + 1e-12);
+  if (most == 1) return near(x, move, pool);
+  std::vector<Vec3> way(move.begin(), move.end());
+  for (Vec3& m : way) m *= most;
+  return near(x, way, pool);
 }
 
 /// Of `most` of the move, by each pair.
@@ -205,10 +202,12 @@ double ClothContact::safe_share(std::span<const Vec3> x, std::span<const Vec3> m
   const std::vector<double> share = shares(pairs, x, move, most, pool);
   braced_.clear();
   double least = 1;
+  PairKey first{};
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (share[i] < cut_short) braced_.push_back(brace(pairs[i], x));
-    if (!(share[i] < least)) continue;
+    if (!(share[i] < least || (share[i] == least && least < 1 && pairs[i].key < first))) continue;
     least = share[i];
+    first = pairs[i].key;
     blocked_at_ = x[std::size_t(pairs[i].vertices[0])];
   }
   std::sort(braced_.begin(), braced_.end(), active_before);
@@ -276,12 +275,7 @@ std::optional<ClothContact::ActivePair> ClothContact::touch(const ListedPair& pa
 }
 
 void ClothContact::look(std::span<const Vec3> x, ThreadPool* pool) {
-  double excess = list_.excess(x);
-  if (!(excess <= list_.margin())) {
-    renew_list(x, {}, pool);
-    excess = 0;
-  }
-  const std::span<const ListedPair> pairs = list_.within(excess + 1e-12);
+  const std::span<const ListedPair> pairs = near(x, {}, pool);
   std::vector<std::vector<ActivePair>> found(pairs.size() / pair_chunk + 1);
   by_chunks(pairs.size(), pool, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

@@ -32,6 +32,8 @@ class ClothContact {
   /// std::invalid_argument if an option is out of its range or lengths differ.
   ClothContact(const Cloth& cloth, const ClothContactOptions& options, std::span<const Vec3> start,
                std::span<const Vec3> drawn, ThreadPool* pool = nullptr);
+  ClothContact(const ClothContact&) = delete;
+  ClothContact& operator=(const ClothContact&) = delete;
 
   /// The largest share, at most `most`, of a move [m] from x at which nothing has passed through anything:
   /// less than `most` only where the way is cut.
@@ -54,7 +56,7 @@ class ClothContact {
 
   int touching() const { return int(active_.size()); }  ///< pairs nearer than their range
   double nearest() const;                               ///< of them [m]; infinite: none
-  int list_builds() const { return list_builds_; }
+  int list_builds() const { return list_.builds(); }    ///< complete detections of what is near
   int cut_searches() const { return cut_searches_; }
   int blocked() const { return blocked_; }                        ///< ways cut to less than 1/32, running
   std::optional<Vec3> blocked_at() const { return blocked_at_; }  ///< the pair that cut the last one [m]
@@ -87,19 +89,19 @@ class ClothContact {
   std::optional<ActivePair> touch(const ListedPair& pair, std::span<const Vec3> x) const;
   std::vector<double> shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
                              std::span<const Vec3> move, double most, ThreadPool* pool) const;
+  std::span<const ListedPair> near(std::span<const Vec3> x, std::span<const Vec3> way, ThreadPool* pool);
   std::span<const ListedPair> pairs_on_way(std::span<const Vec3> x, std::span<const Vec3> move, double most,
                                            ThreadPool* pool);
-  void renew_list(std::span<const Vec3> x, std::span<const Vec3> plan, ThreadPool* pool);
 
   ClothContactOptions options_;
   PairMesh mesh_;
-  PairList list_;
+  PairList list_{mesh_};
   std::vector<SpecialPair> special_;  ///< sorted by key
   std::vector<char> loose_;           ///< by vertex: something crossed there at the start, or next to it
   std::vector<ActivePair> active_;    ///< sorted by key
   std::vector<ActivePair> braced_;    ///< that cut the last way short
   double energy_ = 0, margin_share_;
-  int list_builds_ = 0, cut_searches_ = 0, blocked_ = 0, crossed_at_start_ = 0;
+  int cut_searches_ = 0, blocked_ = 0, crossed_at_start_ = 0;
   std::optional<Vec3> blocked_at_;
 };
 

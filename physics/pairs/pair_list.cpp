@@ -3,23 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "physics/base/require.h"
-#include "physics/base/vector_sums.h"
-#include "physics/pairs/box_grid.h"
 #include "physics/pairs/pair_distance.h"
 
 namespace furrow::physics {
 namespace {
 
-constexpr int list_chunks = 16;  // ranges of primitives, whoever works on them
+constexpr int list_chunks = 16;     // ranges of primitives, whoever works on them
+constexpr double most_movers = 4;   // one of so many vertices: beyond, all is detected anew
+constexpr double most_patched = 1;  // the same of all movers since then
+constexpr double rounding = 1e-12;  // m
 
-/// Where the cloth is and where it goes.
+/// Where the cloth is and where it goes, and up to which bound a pair is listed.
 struct Sweep {
   const PairMesh& mesh;
   std::span<const Vec3> x, plan;
-  double margin;
+  double limit;
 };
 
 template <std::size_t n>
@@ -69,118 +69,240 @@ void add_if_near(const Sweep& s, const PairKey& key, std::vector<ListedPair>& fo
   const Vec3* const x[4] = {&s.x[std::size_t(v[0])], &s.x[std::size_t(v[1])], &s.x[std::size_t(v[2])],
                             &s.x[std::size_t(v[3])]};
   const double range = range_of(s.mesh, key), gone = range + planned_approach(s, v, edges);
-  if (surely_apart(x, edges, gone + 2 * s.margin)) return;
+  if (surely_apart(x, edges, gone + s.limit)) return;
   if (held[std::size_t(v[0])] && held[std::size_t(v[1])] && held[std::size_t(v[2])] &&
       held[std::size_t(v[3])])
     return;
   const PairDistance d = edges ? edge_edge_distance(*x[0], *x[1], *x[2], *x[3])
                                : vertex_triangle_distance(*x[0], *x[1], *x[2], *x[3]);
   const double bound = std::sqrt(d.squared()) - gone;
-  if (bound < 2 * s.margin) found.push_back({bound, range, key, v});
+  if (bound < s.limit) found.push_back({bound, range, key, v});
 }
 
-/// What is near to an asking primitive, by chunks of them: edges ask edges, triangles ask vertices.
-class NearSearch {
- public:
-  explicit NearSearch(const Sweep& sweep) : s_(sweep), origin_(sweep.x[std::size_t(s_.mesh.edges[0][0])]) {
-    const PairMesh& m = s_.mesh;
-    edge_boxes_.reserve(m.edges.size());
-    double sides = 0;
-    for (std::size_t e = 0; e < m.edges.size(); ++e) {
-      edge_boxes_.push_back(swept_box(s_, m.edges[e], origin_, m.edge_radius[e] + s_.margin));
-      const FloatBox& b = edge_boxes_.back();
-      sides += std::max({b.high[0] - b.low[0], b.high[1] - b.low[1], b.high[2] - b.low[2]});
-    }
-    std::vector<FloatBox> vertex_boxes;
-    for (std::size_t v = 0; v < m.used.size(); ++v) {
-      if (!m.used[v]) continue;
-      vertices_.push_back(int(v));
-      vertex_boxes.push_back(swept_box(s_, std::array{int(v)}, origin_, m.radius[v] + s_.margin));
-    }
-    const double cell = std::max(m.mean_edge, sides / double(m.edges.size()));
-    grids_.emplace_back(edge_boxes_, cell);
-    grids_.emplace_back(vertex_boxes, cell);
+PairKey edge_pair(int a, int b) { return {1, std::min(a, b), std::max(a, b)}; }
+
+template <class Work>
+void each_of_chunk(std::size_t n, int chunk, const Work& work) {
+  const auto end = int(std::int64_t(n) * (chunk + 1) / list_chunks);
+  for (int i = int(std::int64_t(n) * chunk / list_chunks); i < end; ++i) work(i);
+}
+
+/// The boxes of some primitives on their way; numbers: theirs, null: all.
+template <std::size_t n>
+std::vector<FloatBox> boxes_of(const Sweep& s, const std::vector<std::array<int, n>>& primitives,
+                               const std::vector<double>& radius, const std::vector<int>* numbers,
+                               const Vec3& origin, double margin) {
+  std::vector<FloatBox> boxes;
+  const std::size_t count = numbers ? numbers->size() : primitives.size();
+  boxes.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = numbers ? std::size_t((*numbers)[i]) : i;
+    boxes.push_back(swept_box(s, primitives[at], origin, radius[at] + margin));
   }
+  return boxes;
+}
 
-  std::vector<ListedPair> chunk(int number) const {
-    std::vector<ListedPair> found;
-    const PairMesh& m = s_.mesh;
-    each_of_chunk(m.edges.size(), number, [&](int e) {
-      grids_[0].each_meeting(edge_boxes_[std::size_t(e)], [&](int other) {
-        if (other > e) add_if_near(s_, {1, e, other}, found);
-      });
-    });
-    each_of_chunk(m.triangles.size(), number, [&](int t) {
-      const FloatBox box =
-          swept_box(s_, m.triangles[std::size_t(t)], origin_, m.triangle_radius[std::size_t(t)] + s_.margin);
-      grids_[1].each_meeting(box, [&](int v) { add_if_near(s_, {0, vertices_[std::size_t(v)], t}, found); });
-    });
-    return found;
+std::vector<FloatBox> vertex_boxes(const Sweep& s, std::span<const int> vertices, const Vec3& origin,
+                                   double margin) {
+  std::vector<FloatBox> boxes;
+  boxes.reserve(vertices.size());
+  for (const int v : vertices)
+    boxes.push_back(swept_box(s, std::array{v}, origin, s.mesh.radius[std::size_t(v)] + margin));
+  return boxes;
+}
+
+double mean_side(std::span<const FloatBox> boxes) {
+  double sum = 0;
+  for (const FloatBox& b : boxes)
+    sum += std::max({b.high[0] - b.low[0], b.high[1] - b.low[1], b.high[2] - b.low[2]});
+  return boxes.empty() ? 0 : sum / double(boxes.size());
+}
+
+/// Of a line, the share at which it is nearest to x, told by the vertices that count.
+double share_on(std::span<const Vec3> x, std::span<const Vec3> from, std::span<const Vec3> plan,
+                std::span<const int> vertices, std::span<const char> left_out) {
+  if (plan.empty()) return 0;
+  double along = 0, length = 0;
+  for (const int number : vertices) {
+    const auto v = std::size_t(number);
+    if (!left_out.empty() && left_out[v]) continue;
+    along += (x[v] - from[v]).dot(plan[v]);
+    length += plan[v].squaredNorm();
   }
+  return length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0;
+}
 
- private:
-  template <class Work>
-  static void each_of_chunk(std::size_t n, int chunk, const Work& work) {
-    const auto end = int(std::int64_t(n) * (chunk + 1) / list_chunks);
-    for (int i = int(std::int64_t(n) * chunk / list_chunks); i < end; ++i) work(i);
-  }
-
-  const Sweep& s_;
-  const Vec3 origin_;
-  std::vector<FloatBox> edge_boxes_;
-  std::vector<int> vertices_;
-  std::vector<BoxGrid> grids_;  ///< of edges, of vertices
-};
-
-bool listed_before(const ListedPair& a, const ListedPair& b) {
-  return a.bound != b.bound ? a.bound < b.bound : a.key < b.key;
+/// Which primitives have a vertex that moves; numbers of those.
+template <std::size_t n>
+std::vector<int> moving(const std::vector<std::array<int, n>>& primitives, const std::vector<char>& moves,
+                        std::vector<char>& moving) {
+  std::vector<int> numbers;
+  moving.assign(primitives.size(), 0);
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    for (const int v : primitives[i])
+      if (!moving[i] && moves[std::size_t(v)]) {
+        moving[i] = 1;
+        numbers.push_back(int(i));
+      }
+  return numbers;
 }
 
 }  // namespace
 
-PairList::PairList(const PairMesh& mesh, std::span<const Vec3> x, std::span<const Vec3> plan, double margin,
-                   ThreadPool* pool)
-    : margin_(margin), x_(x.begin(), x.end()), plan_(plan.begin(), plan.end()) {
+std::span<const ListedPair> PairList::near(std::span<const Vec3> x, std::span<const Vec3> way, double margin,
+                                           ThreadPool* pool) {
   require("PairList", "margin", margin, margin >= 0, ">= 0");
-  if (x.size() != mesh.radius.size() || (!plan.empty() && plan.size() != x.size()))
-    refuse("PairList", x.size(), " positions and ", plan.size(), " moves of ", mesh.radius.size(),
+  if (x.size() != mesh_->radius.size() || (!way.empty() && way.size() != x.size()))
+    refuse("PairList", x.size(), " positions and ", way.size(), " moves of ", mesh_->radius.size(),
            " particles");
-  if (mesh.edges.empty()) return;
-  const Sweep sweep{mesh, x_, plan_, margin};
-  const NearSearch search(sweep);
+  near_.clear();
+  if (mesh_->edges.empty()) return {};
+  if (!holds(x, way)) {
+    const bool anew = margin_ < 0 || most_movers * double(movers_) > double(used_.size()) ||
+                      most_patched * double(patched_ + movers_) > double(used_.size());
+    if (anew)
+      build(x, way, margin, pool);
+    else
+      patch(x, way);
+  }
+  const auto off = [](const std::vector<double>& by_vertex, const ListedPair& p) {
+    const auto at = [&](int i) { return by_vertex[std::size_t(p.vertices[std::size_t(i)])]; };
+    return p.key.edges ? std::max(at(0), at(1)) + std::max(at(2), at(3))
+                       : at(0) + std::max({at(1), at(2), at(3)});
+  };
+  const auto of_base = [this](const ListedPair& p) {
+    return std::none_of(p.vertices.begin(), p.vertices.end(),
+                        [this](int v) { return moves_[std::size_t(v)] != 0; });
+  };
+  for (const ListedPair& p : base_pairs_)
+    if (p.bound < off(base_off_, p) + rounding && of_base(p)) near_.push_back(p);
+  for (const ListedPair& p : patch_pairs_)
+    if (p.bound < off(patch_off_, p) + rounding) near_.push_back(p);
+  return near_;
+}
+
+/// How far vertices are from their lines, and whether the list says all there. If not, the movers are told.
+bool PairList::holds(std::span<const Vec3> x, std::span<const Vec3> way) {
+  if (margin_ < 0) return false;
+  const auto measure = [&](const Line& line, double s, std::size_t v) {
+    Vec3 off = x[v] - line.x[v];
+    if (s > 0) off -= s * line.plan[v];
+    return std::sqrt(off.squaredNorm()) + (way.empty() ? 0 : std::sqrt(way[v].squaredNorm()));
+  };
+  const double base_share = share_on(x, base_.x, base_.plan, used_, moves_);
+  std::size_t beyond = 0;
+  bool whole = true;
+  for (const int number : used_) {
+    const auto v = std::size_t(number);
+    base_off_[v] = measure(base_, base_share, v);
+    beyond += base_off_[v] > margin_;
+    whole = whole && (moves_[v] || base_off_[v] <= margin_);
+  }
+  if (movers_ > 0 && whole) {
+    const double share = share_on(x, patch_.x, patch_.plan, used_, {});
+    for (const int number : used_) {
+      const auto v = std::size_t(number);
+      patch_off_[v] = measure(patch_, share, v);
+      whole = whole && patch_off_[v] <= (moves_[v] ? 1 : 2) * margin_;
+    }
+  }
+  if (!whole) movers_ = beyond;
+  return whole;
+}
+
+void PairList::build(std::span<const Vec3> x, std::span<const Vec3> way, double margin, ThreadPool* pool) {
+  const PairMesh& m = *mesh_;
+  if (used_.empty())
+    for (std::size_t v = 0; v < m.used.size(); ++v)
+      if (m.used[v]) used_.push_back(int(v));
+  base_.x.assign(x.begin(), x.end());
+  base_.plan.assign(way.begin(), way.end());
+  margin_ = margin;
+  origin_ = x[std::size_t(m.edges[0][0])];
+  const Sweep s{m, base_.x, base_.plan, 2 * margin};
+  const std::vector<FloatBox> edges = boxes_of(s, m.edges, m.edge_radius, nullptr, origin_, margin);
+  cell_ = std::max(m.mean_edge, mean_side(edges));
+  edge_grid_ = BoxGrid(edges, cell_);
+  vertex_grid_ = BoxGrid(vertex_boxes(s, used_, origin_, margin), cell_);
   std::array<std::vector<ListedPair>, list_chunks> found;
-  const auto work = [&](int i, int) { found[std::size_t(i)] = search.chunk(i); };
+  const auto work = [&](int chunk, int) {
+    auto& pairs = found[std::size_t(chunk)];
+    each_of_chunk(m.edges.size(), chunk, [&](int e) {
+      edge_grid_.each_meeting(edges[std::size_t(e)], e, [&](int other) {
+        add_if_near(s, {1, e, other}, pairs);
+      });
+    });
+    each_of_chunk(m.triangles.size(), chunk, [&](int t) {
+      const auto at = std::size_t(t);
+      const FloatBox box = swept_box(s, m.triangles[at], origin_, m.triangle_radius[at] + margin);
+      vertex_grid_.each_meeting(box, [&](int v) { add_if_near(s, {0, used_[std::size_t(v)], t}, pairs); });
+    });
+  };
   if (pool)
     pool->share(list_chunks, work);
   else
     for (int i = 0; i < list_chunks; ++i) work(i, 0);
-  for (const auto& part : found) pairs_.insert(pairs_.end(), part.begin(), part.end());
-  std::sort(pairs_.begin(), pairs_.end(), listed_before);
-  const auto same = [](const ListedPair& a, const ListedPair& b) { return a.key == b.key; };
-  pairs_.erase(std::unique(pairs_.begin(), pairs_.end(), same), pairs_.end());
+  base_pairs_.clear();
+  for (const auto& part : found) base_pairs_.insert(base_pairs_.end(), part.begin(), part.end());
+  patch_pairs_.clear();
+  moves_.assign(x.size(), 0);
+  base_off_.assign(x.size(), 0);
+  patch_off_.assign(x.size(), 0);
+  has_triangles_ = false;
+  movers_ = patched_ = 0;
+  ++builds_;
 }
 
-double PairList::excess(std::span<const Vec3> x) const {
-  if (margin_ < 0) return std::numeric_limits<double>::infinity();
-  double s = 0;
-  if (!plan_.empty()) {
-    double along = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) along += (x[i] - x_[i]).dot(plan_[i]);
-    const double length = dot(plan_, plan_);
-    s = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0;
+/// Boxes of movers hold 2 margins, as an end that does not move leaves its place by that much, once this way
+/// and once that. Those of the base hold it wherever it is while it is the base.
+void PairList::patch(std::span<const Vec3> x, std::span<const Vec3> way) {
+  const PairMesh& m = *mesh_;
+  const Sweep base{m, base_.x, base_.plan, 0};
+  if (!has_triangles_)
+    triangle_grid_ =
+        BoxGrid(boxes_of(base, m.triangles, m.triangle_radius, nullptr, origin_, margin_), cell_);
+  has_triangles_ = true;
+  std::vector<int> vertices;
+  for (const int v : used_) {
+    moves_[std::size_t(v)] = base_off_[std::size_t(v)] > margin_;
+    if (moves_[std::size_t(v)]) vertices.push_back(v);
   }
-  double most = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const Vec3 off = s > 0 ? Vec3(x[i] - x_[i] - s * plan_[i]) : Vec3(x[i] - x_[i]);
-    most = std::max(most, off.squaredNorm());
+  patch_.x.assign(x.begin(), x.end());
+  patch_.plan.assign(way.begin(), way.end());
+  patch_off_.assign(x.size(), 0);
+  patch_pairs_.clear();
+  const Sweep s{m, patch_.x, patch_.plan, 4 * margin_};
+  std::vector<char> edge_moves, triangle_moves;
+  const std::vector<int> edges = moving(m.edges, moves_, edge_moves),
+                         triangles = moving(m.triangles, moves_, triangle_moves);
+  const auto edge_boxes = boxes_of(s, m.edges, m.edge_radius, &edges, origin_, 2 * margin_);
+  const auto triangle_boxes = boxes_of(s, m.triangles, m.triangle_radius, &triangles, origin_, 2 * margin_);
+  const auto boxes = vertex_boxes(s, vertices, origin_, 2 * margin_);
+  const BoxGrid moving_edges(edge_boxes, cell_), moving_vertices(boxes, cell_);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    edge_grid_.each_meeting(edge_boxes[i], [&](int other) {
+      if (!edge_moves[std::size_t(other)]) add_if_near(s, edge_pair(edges[i], other), patch_pairs_);
+    });
+    moving_edges.each_meeting(edge_boxes[i], int(i), [&](int other) {
+      add_if_near(s, edge_pair(edges[i], edges[std::size_t(other)]), patch_pairs_);
+    });
   }
-  return std::sqrt(most) * (1 + 1e-12);
-}
-
-std::span<const ListedPair> PairList::within(double excess) const {
-  const auto end = std::partition_point(pairs_.begin(), pairs_.end(),
-                                        [excess](const ListedPair& p) { return p.bound < 2 * excess; });
-  return {pairs_.begin(), end};
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    vertex_grid_.each_meeting(triangle_boxes[i], [&](int v) {
+      const int vertex = used_[std::size_t(v)];
+      if (!moves_[std::size_t(vertex)]) add_if_near(s, {0, vertex, triangles[i]}, patch_pairs_);
+    });
+    moving_vertices.each_meeting(triangle_boxes[i], [&](int v) {
+      add_if_near(s, {0, vertices[std::size_t(v)], triangles[i]}, patch_pairs_);
+    });
+  }
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    triangle_grid_.each_meeting(boxes[i], [&](int t) {
+      if (!triangle_moves[std::size_t(t)]) add_if_near(s, {0, vertices[i], t}, patch_pairs_);
+    });
+  movers_ = vertices.size();
+  patched_ += movers_;
+  ++patches_;
 }
 
 }  // namespace furrow::physics

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "physics/base/thread_pool.h"
+#include "physics/pairs/box_grid.h"
 #include "physics/pairs/pair_mesh.h"
 
 namespace furrow::physics {
@@ -16,32 +17,54 @@ struct ListedPair {
   std::array<int, 4> vertices;
 };
 
-/// The pairs of a cloth that may come nearer than their range while no vertex v is farther than a margin from
-/// the line x_v + s plan_v, with one s in [0, 1] for all; sorted by their bound, then by key, so that near
-/// the line a look reads only the front of the list. Pairs that share a vertex and those with all vertices
-/// held are none. The same pairs in the same order for any number of threads.
+/// The pairs of a cloth that may come nearer than their range, kept from one position to the next. A vertex v
+/// may be as far as a margin from a line x_v + s plan_v that the list was made for, with one s in [0, 1] for
+/// all; where some vertices are farther, only what has one of them is looked for anew. Pairs that share a
+/// vertex and those with all vertices held are none. Which pairs touch, and their order, does not depend on
+/// the number of threads; what else is listed depends on the way there.
+/// \details After a complete detection each later one has a base, the vertices that are still near their
+/// lines, and movers: edges and triangles with a mover ask all others, in boxes that hold their own way,
+/// while a pair of the base alone is nearer than its bound by no more than what its vertices left their
+/// lines. It begins anew when more than a quarter of all vertices move, or these parts have cost as much as
+/// the whole.
 class PairList {
  public:
-  /// An empty list, which holds nowhere.
-  PairList() = default;
-  /// plan: the motion to come, one a particle [m]; empty: none. margin >= 0 [m]. The mesh must outlive the
-  /// list. Throws std::invalid_argument if lengths differ. Cost: about 1 us a triangle where reach (range,
-  /// margin and motion) is small against the edges, more with the cube of it beyond.
-  PairList(const PairMesh& mesh, std::span<const Vec3> x, std::span<const Vec3> plan, double margin,
-           ThreadPool* pool = nullptr);
+  /// An empty list. The mesh must outlive it.
+  explicit PairList(const PairMesh& mesh) : mesh_(&mesh) {}
 
-  std::span<const ListedPair> pairs() const { return pairs_; }
-  double margin() const { return margin_; }
-  /// How far the farthest vertex is from the plan's line, s chosen to fit x [m]; infinite for an empty list.
-  /// The list says all as long as this is at most margin().
-  double excess(std::span<const Vec3> x) const;
-  /// The front of the list: all pairs that may be nearer than their range where excess() is this much.
-  std::span<const ListedPair> within(double excess) const;
+  /// All pairs that may be nearer than their range somewhere on x + s way, s in [0, 1] (an empty way: at x),
+  /// and some that are not; by vertices first, as PairDistance has them. Valid until the next call. x, way:
+  /// one a particle [m]; margin >= 0 [m], of what is detected anew. Throws std::invalid_argument otherwise.
+  /// Cost: some 20 ns a vertex where the list still holds, some 1 us a triangle where it is made anew and
+  /// reach (range, margin and motion) is small against the edges, more with the cube of it beyond.
+  std::span<const ListedPair> near(std::span<const Vec3> x, std::span<const Vec3> way, double margin,
+                                   ThreadPool* pool = nullptr);
+
+  int builds() const { return builds_; }                                         ///< complete detections
+  int patches() const { return patches_; }                                       ///< those of movers alone
+  std::size_t size() const { return base_pairs_.size() + patch_pairs_.size(); }  ///< pairs that are kept
 
  private:
-  double margin_ = -1;
-  std::vector<Vec3> x_, plan_;
-  std::vector<ListedPair> pairs_;
+  /// A place where the cloth was, and where it went.
+  struct Line {
+    std::vector<Vec3> x, plan;  ///< plan: maybe empty
+  };
+  bool holds(std::span<const Vec3> x, std::span<const Vec3> way);
+  void build(std::span<const Vec3> x, std::span<const Vec3> way, double margin, ThreadPool* pool);
+  void patch(std::span<const Vec3> x, std::span<const Vec3> way);
+
+  const PairMesh* mesh_;
+  double margin_ = -1, cell_ = 0;
+  Line base_, patch_;
+  Vec3 origin_ = Vec3::Zero();
+  std::vector<int> used_;  ///< vertices that triangles have
+  BoxGrid edge_grid_, vertex_grid_, triangle_grid_;
+  bool has_triangles_ = false;                ///< triangle_grid_ is made
+  std::vector<char> moves_;                   ///< by vertex: it left its base's line
+  std::vector<double> base_off_, patch_off_;  ///< by vertex: from its line on the way asked for, at most [m]
+  std::vector<ListedPair> base_pairs_, patch_pairs_, near_;
+  std::size_t movers_ = 0, patched_ = 0;  ///< now; in all patches since the base
+  int builds_ = 0, patches_ = 0;
 };
 
 }  // namespace furrow::physics
