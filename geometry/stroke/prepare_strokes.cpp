@@ -110,7 +110,9 @@ class Preparing {
     trace_all();
     choose_widths();
     for (const Piece& piece : pieces_) result_.curves.push_back(curve_of(piece));
-    for (std::size_t i = 0; i < strokes_.size(); ++i) warn_of_shape(i);
+    std::vector<double> slopes;
+    for (std::size_t i = 0; i < strokes_.size(); ++i) slopes.push_back(warn_of_bends(i));
+    warn_of_slopes(slopes);
     warn_of_opposites();
     return std::move(result_);
   }
@@ -396,7 +398,8 @@ class Preparing {
     return 0.5 * curve.width[i] * turn.norm() / (0.5 * (a.norm() + b.norm()));
   }
 
-  void warn_of_shape(std::size_t stroke) {
+  /// Returns the stroke's greatest height over its width.
+  double warn_of_bends(std::size_t stroke) {
     double tightest = 0, slope = 0, width = 0;
     for (const FoldCurve& curve : result_.curves) {
       if (curve.line != options_.first_line + static_cast<int>(stroke)) continue;
@@ -415,9 +418,23 @@ class Preparing {
                (strokes_[stroke].points.size() < 6
                     ? "its few points make a corner: draw the bend with more points along a round curve"
                     : "draw the bend rounder, or make the line narrower"));
-    if (slope > steepest)
-      warn(stroke, "its height is " + std::to_string(slope).substr(0, 4) +
-                       " of its width: the fold is steeper than 45 degrees (0.31)");
+    return slope;
+  }
+
+  /// One warning for all of them: strokes of one garment are alike.
+  void warn_of_slopes(const std::vector<double>& slopes) {
+    std::vector<std::size_t> steep;
+    for (std::size_t i = 0; i < slopes.size(); ++i)
+      if (slopes[i] > steepest) steep.push_back(i);
+    if (steep.empty()) return;
+    std::stable_sort(steep.begin(), steep.end(), [&](auto a, auto b) { return slopes[a] > slopes[b]; });
+    const auto share = [&](std::size_t i) { return std::to_string(slopes[i]).substr(0, 4); };
+    const bool alone = steep.size() == 1;
+    const std::string others =
+        alone ? ""
+              : " (and " + std::to_string(steep.size() - 1) + (steep.size() > 2 ? " others" : " other") + ")";
+    warn(steep.front(), "its height is " + share(steep.front()) + " of its width" + others +
+                            ": steeper than 45 degrees, from 0.31 on; a wider or lower line is smoother");
   }
 
   void warn_of_opposites() {

@@ -98,6 +98,20 @@ TEST_CASE(
               "steeper than 45 degrees"));
 }
 
+TEST_CASE("prepare_strokes: lines that are too steep are told in one warning, the steepest by name") {
+  std::vector<Stroke> strokes;
+  for (int i = 0; i < 3; ++i) {
+    strokes.push_back(line({{-0.1 + 0.1 * i, 0.05, 0}, {-0.1 + 0.1 * i, 0.35, 0}}, 0.03 + 0.01 * i));
+    strokes.back().name = "line " + std::to_string(i);
+    strokes.back().width = 0.08;
+  }
+  const std::vector<std::string> warnings = prepare(sheet(), strokes).warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] ==
+        "stroke \"line 2\": its height is 0.62 of its width (and 2 others): steeper than 45 degrees, "
+        "from 0.31 on; a wider or lower line is smoother");
+}
+
 TEST_CASE("prepare_strokes: ends at a hem are at the border, and one such end makes a flare") {
   const Mesh mesh = sheet();
   const auto curve = [&](Point a, Point b) { return prepare(mesh, {line({a, b})}).curves.at(0); };
