@@ -192,6 +192,9 @@ void add_draped(Lines& lines, const Json& report) {
                     std::to_string(count_of(report, "touching")) + " vertices touch the body");
   add_starts(lines, report);
   add_fit(lines, table_of(report, "fit"));
+  if (const Json& contact = table_of(report, "self_contact"); contact.contains("crossings_without"))
+    lines.push_back("cloth keeps off cloth: without that " +
+                    counted(count_of(contact, "crossings_without"), "pair") + " of faces crossed");
   add_crossings(lines, report);
 }
 

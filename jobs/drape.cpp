@@ -51,7 +51,7 @@ void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
   if (s.plain && s.contact_depth)
     throw std::invalid_argument(
         "--contact-depth: --plain moves cloth out to the gap at once; leave out one of them");
-  if (s.plain && s.self_contact)
+  if (s.plain && s.self_contact == SelfContactUse::on)
     throw std::invalid_argument(
         "--self-contact: --plain lets cloth pass through cloth; leave out one of them");
   const std::string output = job.output.string(), animation = s.animation.string();

@@ -19,15 +19,23 @@ struct Band {
   double length;
 };
 
+/// Whether cloth keeps off cloth while it comes to rest.
+enum class SelfContactUse {
+  off,
+  on,
+  /// Only where cloth has come to cross itself without; that rest is taken where less crosses.
+  automatic
+};
+
 /// What draping knows beyond a scene.
 struct DrapeSettings {
   bool plain = false;                                    ///< paper 2's own scheme
   double residual = physics::SettleOptions{}.tolerance;  ///< at which it rests [-]; > 0
   std::optional<double> contact_depth;  ///< that cloth may lie inside the gap [m]; none: no limit
-  bool self_contact = false;            ///< whether cloth keeps off cloth
-  double thickness = 0.001;             ///< of the cloth, with self_contact [m]; > 0
-  double penetration = 0.005;           ///< depth to which the body may come through the cloth [m]; >= 0
-  std::optional<int> iterations;        ///< on each level, >= 0; none: those of the method
+  SelfContactUse self_contact = SelfContactUse::automatic;
+  double thickness = 0.001;       ///< of the cloth, with self_contact [m]; > 0
+  double penetration = 0.005;     ///< depth to which the body may come through the cloth [m]; >= 0
+  std::optional<int> iterations;  ///< on each level, >= 0; none: those of the method
   std::vector<Band> bands;
   double band_stiffness = 50;       ///< [N]; >= 0
   double bending_friction = 0;      ///< [N]; >= 0
@@ -111,7 +119,10 @@ struct Draped {
   ClothCrossings crossings;             ///< of the cloth with itself, as it was given and now
   std::size_t allowed_crossings = 0;    ///< pairs that may be left
   bool self_contact = false;            ///< cloth kept off cloth
-  double thickness = 0;                 ///< of the cloth then [m]
+  bool contact_tried = false;           ///< it was looked for how it rests with that
+  /// Pairs of faces that crossed without contact of cloth with cloth; none: that was not tried first.
+  std::optional<std::size_t> crossings_without;
+  double thickness = 0;  ///< of the cloth then [m]
 
   bool rests() const { return report.levels.back().settle.converged && !falls && !broken; }
   /// Whether more than a hundredth of the cloth is strained to over twice its length, or by no number.
@@ -126,7 +137,8 @@ struct Draped {
   bool succeeds() const {
     return rests() && !is_torn() && !is_pierced() && !crosses_itself() && loose.empty();
   }
-  /// "at rest", "not at rest", "falls", "torn", "numerical failure" or "interrupted", and what else is wrong.
+  /// "at rest", "not at rest", "blocked", "falls", "torn", "numerical failure" or "interrupted", and what
+  /// else is wrong.
   std::string outcome() const;
 };
 

@@ -58,16 +58,25 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
           d.name, ""}});
 }
 
+/// What a user can do about cloth that crosses itself.
+std::string remedy_of_crossings(const Draped& d) {
+  if (d.crossings.pairs <= d.crossings.from_start)
+    return "it crosses itself as it is given: part its layers before it is draped";
+  if (d.self_contact)
+    return "cloth is not held apart where it crosses itself as it is given: part its layers there";
+  if (d.contact_tried)
+    return "with contact of cloth with cloth no better rest was found: part its layers, or give it room";
+  return "--self-contact on keeps cloth off cloth";
+}
+
 void remark_on_crossings(const Draped& d, std::vector<DrapeRemark>& remarks) {
   if (!d.crossings.pairs) return;
   const std::string accept =
       d.crosses_itself() ? "; accept them with --allow-crossings " + std::to_string(d.crossings.pairs) : "";
   remarks.push_back(
       {d.crosses_itself(),
-       {"cloth_crosses",
-        d.name + ": " + words(d.crossings) +
-            "; cloth has no contact with cloth here, so part its layers before it is draped" + accept,
-        d.name, "garment.allow_crossings"}});
+       {"cloth_crosses", d.name + ": " + words(d.crossings) + "; " + remedy_of_crossings(d) + accept, d.name,
+        "garment.allow_crossings"}});
 }
 
 /// Cloth that no cloth survives: the fabric's law says nothing true of it any more.
@@ -135,6 +144,20 @@ void remark_on_nothing_carried(const Draped& d, const physics::SettleReport& las
                       d.name, "unit"}});
 }
 
+/// Cloth that cloth leaves no step.
+void remark_on_block(const Draped& d, const physics::SettleReport& last, std::vector<DrapeRemark>& remarks) {
+  const physics::Vec3& at = last.self.blocked_at;
+  remarks.push_back(
+      {true,
+       {"blocked",
+        fmt::format(
+            "{}: blocked at ({:.2f}, {:.2f}, {:.2f}) m after {} iterations, residual force {:.2g} of a "
+            "vertex's weight: cloth lies so close to cloth there that no step is left; give it room "
+            "where it begins, hold more of it, or make the cloth thinner with --cloth-thickness",
+            d.name, at.x(), at.y(), at.z(), last.iterations, last.residual),
+        d.name, "self_contact"}});
+}
+
 void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
   const physics::SettleReport& last = d.report.levels.back().settle;
   if (last.touching == 0 && (d.broken || d.fit.on_body)) remark_on_nothing_carried(d, last, remarks);
@@ -147,6 +170,7 @@ void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
           "pins"}});
     return;
   }
+  if (last.self.blocked) return remark_on_block(d, last, remarks);
   std::ostringstream text;
   text << d.name << ": not at rest after " << last.iterations << " iterations, residual force "
        << last.residual << " of a vertex's weight, cloth " << geometry::length_text(last.deepest)
@@ -176,6 +200,7 @@ Json self_contact_json(const Draped& d) {
   Json json{{"thickness", d.thickness}, {"pairs", last.pairs},   {"nearest", last.nearest},
             {"cut_searches", cut},      {"list_builds", builds}, {"crossed_at_start", last.crossed_at_start},
             {"exempt", last.exempt},    {"stopped", stopped}};
+  if (d.crossings_without) json["crossings_without"] = *d.crossings_without;
   if (last.blocked) json["blocked_at"] = {last.blocked_at.x(), last.blocked_at.y(), last.blocked_at.z()};
   return json;
 }
@@ -200,11 +225,12 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
 
 std::string Draped::outcome() const {
   if (report.stopped) return "interrupted";
-  const std::string rest = broken      ? "numerical failure"
-                           : is_torn() ? "torn"
-                           : falls     ? "falls"
-                           : rests()   ? "at rest"
-                                       : "not at rest";
+  const std::string rest = broken                                     ? "numerical failure"
+                           : is_torn()                                ? "torn"
+                           : falls                                    ? "falls"
+                           : rests()                                  ? "at rest"
+                           : report.levels.back().settle.self.blocked ? "blocked"
+                                                                      : "not at rest";
   return rest + (is_pierced() ? ", pierced by the body" : "") +
          (crosses_itself() ? ", cloth crosses itself" : "") +
          (loose.empty() ? "" : fmt::format(", {} of {} parts loose", loose.size(), parts)) +

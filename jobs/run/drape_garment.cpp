@@ -259,6 +259,12 @@ struct DrapePlan {
   bridge::DrapeOptions options;
 };
 
+/// With contact of cloth with cloth, whose piles take many steps to lie still.
+void hold_apart(bridge::DrapeOptions& options, const DrapeSettings& s) {
+  options.settle.self.on = true;
+  options.settle.max_iterations = s.iterations.value_or(1000);
+}
+
 bridge::DrapeOptions options_of(const io::Scene& scene, const DrapeSettings& s, double gap) {
   bridge::DrapeOptions options;
   options.refinements = scene.subdivide;
@@ -266,11 +272,11 @@ bridge::DrapeOptions options_of(const io::Scene& scene, const DrapeSettings& s, 
   options.settle.friction = scene.simulation.friction;
   options.settle.tolerance = s.residual;
   if (s.contact_depth) options.settle.contact_depth = *s.contact_depth;
-  options.settle.self.on = s.self_contact;
   options.settle.self.thickness = s.thickness;
   options.plain = s.plain;
   options.bending_friction = s.bending_friction;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
+  if (s.self_contact == SelfContactUse::on) hold_apart(options, s);
   options.settle.gap = gap;
   options.settle.threads =
       scene.threads ? scene.threads : int(std::max(1u, std::thread::hardware_concurrency()));
@@ -333,7 +339,7 @@ void take_result(Gone gone, Maker& maker, const DrapePlan& plan, const FallWatch
 
 void measure(const DrapePlan& plan, Draped& draped) {
   const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
-  draped.self_contact = plan.settings.self_contact;
+  draped.self_contact = draped.contact_tried = plan.options.settle.self.on;
   draped.thickness = plan.settings.thickness;
   draped.crossings = measure_crossings(draped.file, &crossed);
   draped.angle_defect = geometry::angle_defect(draped.file.mesh);
@@ -377,6 +383,39 @@ Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int
   way.reset();
   measure(plan, draped);
   return draped;
+}
+
+/// Whether contact of cloth with cloth would have kept it from what it came to.
+bool asks_for_contact(const DrapePlan& plan, const Draped& d) {
+  const std::size_t allowed = std::size_t(plan.scene.allow_crossings);
+  return plan.settings.self_contact == SelfContactUse::automatic && !plan.settings.plain &&
+         !d.report.stopped && d.rests() && d.crossings.pairs > std::max(allowed, d.crossings.from_start);
+}
+
+/// The better one of a rest to which cloth passed through cloth, and one with contact of cloth with cloth,
+/// which is looked for now.
+Draped drape_with_contact(Draped without, DrapePlan plan, const FallWatch& watch, std::vector<int>& loose,
+                          const Context& context) {
+  SilentListener silent(context.listener);
+  const Context quiet{context.frame, silent, context.memory};  // what was warned of is so still
+  const ProgressScope progress(context.listener, "keeping cloth off cloth");
+  const bridge::DrapeOptions free = plan.options;
+  hold_apart(plan.options, plan.settings);
+  plan.options.work = nullptr;
+  Draped with = drape_once(plan, watch, loose, std::ref(progress), quiet);
+  const double seconds = without.seconds + with.seconds;
+  if (with.report.stopped) {
+    without.report.stopped = true;
+  } else if (with.rests() && with.crossings.pairs < without.crossings.pairs) {
+    with.crossings_without = without.crossings.pairs;
+    without = std::move(with);
+  } else if (!plan.settings.animation.empty()) {  // it shows the way that is not taken
+    plan.options = free;
+    without = drape_once(plan, watch, loose, std::ref(progress), quiet);
+  }
+  without.contact_tried = true;
+  without.seconds = seconds;
+  return without;
 }
 
 /// Goes on from the first start to all of them, and returns the one with the lowest energy, with what all
@@ -471,8 +510,10 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   std::vector<int> loose;  // as the first start found
   const auto start = [&](int i, const Context& told) {
     plan.options.seed = std::uint64_t(i);
-    return drape_once(
+    Draped draped = drape_once(
         plan, watch, loose, [&](double share) { return progress((i + share) / count); }, told);
+    if (!asks_for_contact(plan, draped)) return draped;
+    return drape_with_contact(std::move(draped), plan, watch, loose, told);
   };
   Draped draped = start(0, context);
   if (count > 1) draped = choose_start(std::move(draped), count, start, context);

@@ -347,6 +347,7 @@ const jobs::Draped& only(const jobs::DrapeJobReport& report) { return report.gar
 TEST_CASE("drape: cloth that comes to cross other cloth is counted, placed and no success") {
   tests::Recorder recorder;
   jobs::DrapeJob job = two_layers();
+  job.settings.self_contact = jobs::SelfContactUse::off;
   const jobs::DrapeJobReport report = jobs::drape(job, recorder);
   const jobs::ClothCrossings& c = only(report).crossings;
   INFO(to_json(report).dump(1));
@@ -360,6 +361,42 @@ TEST_CASE("drape: cloth that comes to cross other cloth is counted, placed and n
   CHECK(to_json(report).at("crossings").at("new") == c.pairs);
   set(job, "garment.allow_crossings", c.pairs);
   CHECK_FALSE(only(jobs::drape(job, recorder)).crosses_itself());
+}
+
+TEST_CASE("drape: where cloth would cross itself it is draped again with contact, and else it is not") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = two_layers();
+  const auto with = [&](jobs::SelfContactUse use) {
+    job.settings.self_contact = use;
+    return jobs::drape(job, recorder);
+  };
+  const jobs::DrapeJobReport off = with(jobs::SelfContactUse::off), on = with(jobs::SelfContactUse::on),
+                             automatic = with(jobs::SelfContactUse::automatic);
+  INFO(to_json(automatic).dump(1));
+  CHECK(only(automatic).crossings.pairs == 0);
+  CHECK(only(automatic).crossings_without == only(off).crossings.pairs);
+  CHECK_FALSE(automatic.fails());
+  CHECK(tests::positions(only(automatic).file) == tests::positions(only(on).file));
+  CHECK(to_json(automatic).at("self_contact").at("crossings_without") == only(off).crossings.pairs);
+  set(job, "garment.allow_crossings", only(off).crossings.pairs);  // accepted: nothing to mend
+  const jobs::DrapeJobReport allowed = with(jobs::SelfContactUse::automatic);
+  CHECK(tests::positions(only(allowed).file) == tests::positions(only(off).file));
+  CHECK_FALSE(only(allowed).contact_tried);
+}
+
+TEST_CASE(
+    "drape: a rest with contact that is none is not taken, and its crossings are told with what helps") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = two_layers();
+  job.settings.iterations = 31;  // without contact 29 are enough, with it 33
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  INFO(to_json(report).dump(1));
+  REQUIRE(only(report).contact_tried);
+  CHECK_FALSE(only(report).self_contact);
+  CHECK(only(report).rests());
+  CHECK(report.fails());
+  REQUIRE(remarks_on(report, "cloth_crosses"));
+  CHECK(report.remarks.at(0).remark.text.find("with contact of cloth with cloth") != std::string::npos);
 }
 
 TEST_CASE("drape: crossings that were drawn are told from new ones, on a refined garment, too") {
