@@ -379,7 +379,9 @@ class Settler {
     if (contact_ && share > 0) contact_->move_anchors();
     if (contact_ && share == 0)
       contact_->expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
-    return {next_pace(pace, factors, move, share), factors.tries, followers};
+    Pace next = next_pace(pace, factors, move, share);
+    if (pairs_ && pairs_->blocked() > 1) next.tau *= 0.25;  // cut short twice running
+    return {next, factors.tries, followers};
   }
 
   /// Goes on with the same factors and what the steps with them show, as long as that pays. Returns how many

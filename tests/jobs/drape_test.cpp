@@ -372,7 +372,7 @@ TEST_CASE("drape: where cloth would cross itself it is draped again with contact
   };
   const jobs::DrapeJobReport off = with(jobs::SelfContactUse::off), on = with(jobs::SelfContactUse::on),
                              automatic = with(jobs::SelfContactUse::automatic);
-  INFO(to_json(automatic).dump(1));
+  INFO(to_json(on).dump(1) << to_json(automatic).dump(1));
   CHECK(only(automatic).crossings.pairs == 0);
   CHECK(only(automatic).crossings_without == only(off).crossings.pairs);
   CHECK_FALSE(automatic.fails());
