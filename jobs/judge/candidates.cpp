@@ -131,6 +131,8 @@ std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit) 
   if (scene.cloth.membrane.empty() && scene.cloth.tension.empty() && scene.cloth.hinges.empty() &&
       scene.cloth.energies.empty())
     for (int rate : {240, 1200}) all.push_back(implicit_at(Integrator::xpbd, rate, scene));
+  for (int rate : {60, 240}) all.push_back(implicit_at(Integrator::implicit, rate, scene));
+  for (int rate : {60, 120}) all.push_back(implicit_at(Integrator::tr_bdf2, rate, scene));
   if (auto own = scenes_own(scene, dt_limit)) all.push_back(*own);
   return all;
 }

@@ -9,8 +9,8 @@ namespace furrow::jobs {
 
 /// What is tried on a scene: leapfrog at 0.9 and 0.45 of the limit, rk4 at 0.9, backward
 /// Euler at 1/60, 1/240, 1/960 s, XPBD at 1/240, 1/1200 s where the cloth is of springs alone (both with the
-/// scene's iterations), and last what the scene itself says if that is none of these. `dt_limit` is
-/// leapfrog's [s].
+/// scene's iterations), implicit at 1/60, 1/240 s, TR-BDF2 at 1/60, 1/120 s, and last what the scene itself
+/// says if that is none of these. `dt_limit` is leapfrog's [s].
 std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit);
 /// Leapfrog at a quarter of the cheapest explicit step, 0.225 of the limit (or of what dt_max leaves of it).
 Candidate reference_candidate(const SceneCloth& scene, double dt_limit);

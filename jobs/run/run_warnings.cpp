@@ -64,6 +64,11 @@ std::vector<Warning> oddities_of(const io::Scene& scene, const physics::Simulate
                        "pins", "pins.motion"});
       break;
     }
+  const physics::SimulateOptions& o = scene.simulation;
+  if (physics::solves_contact(o.integrator) && o.spring_damping != physics::SimulateOptions().spring_damping)
+    found.push_back({"damping_unused",
+                     "implicit and tr-bdf2 have no damping of springs; drag damps (--drag), or take leapfrog",
+                     "", "material.damping"});
   if (!scene.wind.gusts.empty() && scene.wind.velocity.isZero())
     found.push_back({"gusts_without_wind", "gusts do nothing without wind", "forces.gusts", "forces.wind"});
   return found;

@@ -258,6 +258,23 @@ TEST_CASE("chart: simulate with --accuracy reads and builds the body once") {
   CHECK(run.err.find("of the body filled", first + 1) == std::string::npos);
 }
 
+TEST_CASE("chart: implicit steps are tried, and their flags run as they were judged") {
+  const ScratchDirectory scratch;
+  const std::string scene = write_patch_scene(scratch, "0.05");
+  const json report = report_of(run_furrow("chart --json --accuracy 5% " + scene));
+  const auto fine = simulated(scratch, scene, report["reference"]["flags"]);
+  int tried = 0;
+  for (const json& c : report["candidates"]) {
+    const std::string flags = c["flags"];
+    if (flags.find("implicit") == std::string::npos && flags.find("tr-bdf2") == std::string::npos) continue;
+    INFO(c.dump());
+    REQUIRE(c["verdict"] != "too dear");
+    CHECK(apart(simulated(scratch, scene, flags), fine) == Approx(c["rms"].get<double>()).epsilon(0.05));
+    ++tried;
+  }
+  CHECK(tried == 4);
+}
+
 TEST_CASE("chart: where dt_max bounds the cheapest step, the reference is still a quarter of it") {
   const ScratchDirectory scratch;
   const std::string soft = "[material]\nstiffness = 0.02\nbending = 0.002\ndensity = 1\n";

@@ -239,6 +239,23 @@ TEST_CASE("simulate: warnings have codes that say what they are about") {
   CHECK(report.rounds.empty());
 }
 
+TEST_CASE(
+    "simulate: damping of springs that an integrator does not have is warned of where it was asked for") {
+  tests::Recorder recorder;
+  jobs::SimulateJob job = hung_sheet(0.02);
+  const auto codes = [&] {
+    std::vector<std::string> all;
+    for (const jobs::Warning& w : jobs::simulate(job, recorder).warnings) all.push_back(w.code);
+    return all;
+  };
+  io::set_value(job.scene.settings, "simulation.integrator", "implicit", "test");
+  CHECK(codes().empty());
+  io::set_value(job.scene.settings, "material.damping", 0.5, "test");
+  CHECK(codes() == std::vector<std::string>{"damping_unused"});
+  io::set_value(job.scene.settings, "simulation.integrator", "leapfrog", "test");
+  CHECK(codes().empty());
+}
+
 TEST_CASE("simulate: a line that fades or turns over is warned of by name, with figures and what helps") {
   jobs::SimulateJob job = hung_sheet(0.5);
   io::set_value(job.scene.settings, "forces.gravity", 1000, "test");  // draws the sheet taut
