@@ -19,6 +19,7 @@ namespace {
 
 struct DrapeArguments : CommonArguments {
   std::string in, picture, colour = "strain", animation;
+  std::vector<std::string> garments;  ///< `in` is the first
   std::optional<std::string> compare;
   std::string subdivide, self_contact = "auto";
   DrapeSettings settings;
@@ -91,6 +92,11 @@ DrapeJob job_of(const DrapeArguments& a) {
   job.scene.settings = scene_settings(a.in, "", std::nullopt, a.flags, a);
   if (a.colour == "distance" && !job.scene.settings.root.contains("body"))
     throw UsageError("--colour distance is that to a body: name one with --body");
+  for (std::size_t i = 1; i < a.garments.size(); ++i) {
+    if (is_scene(a.garments[i]))
+      throw UsageError(a.garments[i] + ": a scene stands first; then follow meshes, the inner ones first");
+    job.over.push_back(a.garments[i]);
+  }
   if (is_scene(a.in)) job.scene.folder = std::filesystem::path(a.in).parent_path();
   job.settings = a.settings;
   job.settings.self_contact = a.self_contact == "on"    ? SelfContactUse::on
@@ -111,6 +117,23 @@ DrapeJob job_of(const DrapeArguments& a) {
   return job;
 }
 
+/// "shirt over vest: nothing crosses".
+std::string layers_words(const DrapedLayers& layers) {
+  std::string words;
+  for (const LayerPair& p : layers.pairs)
+    words += (words.empty() ? "" : "; ") + p.outer + " over " + p.inner + ": " +
+             (p.crossings ? std::to_string(p.crossings) + " pairs of faces cross" : "nothing crosses");
+  return words;
+}
+
+/// The garments' files.
+std::vector<std::string> written_files(const DrapeJobReport& report, const DrapeArguments& a) {
+  if (!report.layers) return {a.out};
+  std::vector<std::string> files;
+  for (const Draped& d : report.garments) files.push_back(d.written.string());
+  return files;
+}
+
 void write_picture(DrapeJobReport& report, const DrapeArguments& a, const CommonArguments& common) {
   const FitColour colour = a.colour == "distance" ? FitColour::distance : FitColour::strain;
   std::vector<Draped>& all = report.garments;
@@ -123,14 +146,23 @@ void write_picture(DrapeJobReport& report, const DrapeArguments& a, const Common
     body = read_mesh(report.scene.body->mesh.string(), silent);
   }
   std::vector<FitPanel> panels;
+  std::vector<const geometry::Mesh*> over;
   for (Draped& d : all) {
     colour_garment(d.file.mesh, scale);
+    if (report.layers && &d != &all[0]) {
+      over.push_back(&d.file.mesh);
+      continue;
+    }
     const std::string outcome = d.outcome();
     panels.push_back({&d.file.mesh, body ? &body->mesh : nullptr,
                       d.name + (outcome == "at rest" ? "" : " (" + outcome + ")") +
                           (all.size() > 1 ? "\n" : ": ") + fit_words(d.fit, d.fit_options, colour) +
                           crossing_words(d.crossings),
                       d.crossings.faces});
+  }
+  if (report.layers) {
+    panels[0].over = std::move(over);
+    panels[0].caption = layers_words(*report.layers);
   }
   const std::vector<io::RenderScene> scenes = fit_scenes(panels);
   Terminal terminal(common);
@@ -184,7 +216,7 @@ int drape(const DrapeArguments& a) {
   together.commit();
   Json json = to_json(report);
   const bool animated = report.garments[0].animated;
-  if (!a.out.empty()) json["written"] = a.out;
+  if (!a.out.empty() && !report.layers) json["written"] = a.out;
   if (draws) json["picture"] = a.picture;
   if (animated) json["animation"] = a.animation;
   const bool many = report.garments.size() > 1;
@@ -192,8 +224,9 @@ int drape(const DrapeArguments& a) {
                            : report.scene.body                   ? "furrow fit " + a.out + " --body " +
                                                      report.scene.body->mesh.string() + " --picture fit.png"
                                                : "furrow render " + a.out + " -o rests.png";
-  print_report(json, common,
-               {drape_lines(json), {a.out, draws ? a.picture : "", animated ? a.animation : ""}, next});
+  std::vector<std::string> files = written_files(report, a);
+  files.insert(files.end(), {draws ? a.picture : "", animated ? a.animation : ""});
+  print_report(json, common, {drape_lines(json), files, next});
   const int code = tell_remarks(report, terminal);
   if (interrupted()) tell_interruption(a, draws, animated);
   return code == exit_ok && interrupted() ? exit_interrupted : code;
@@ -209,13 +242,16 @@ void add_drape(CLI::App& app, int& exit_code) {
       "Put a finished garment on a body, or hang it from its pins: how it comes to rest, and how it fits\n\n"
       "  furrow drape shirt.obj --body body.obj -o worn.ply --picture fit.png\n"
       "  furrow drape skirt.obj --body body.obj --fabric silk --band top=0.95 -o worn.ply\n"
+      "  furrow drape leggings.obj skirt.obj --body body.obj -o worn.ply\n"
       "  furrow drape shirt.obj --body body.obj --fabrics cotton,silk,denim --picture fabrics.png\n"
       "  furrow drape curtain.obj --pin-loop top -o hangs.ply");
-  sub->add_option("garment", a->in,
-                  "garment to read, where it lies on the body or about it, or a scene: a .toml file")
+  sub->add_option("garment", a->garments,
+                  "garment to read, where it lies on the body or about it, or a scene: a .toml file; several "
+                  "are worn over each other, the first one innermost, and none passes through another")
       ->required();
   sub->add_option("-o,--output", a->out,
-                  "mesh to write: the garment as it is worn; PLY keeps strain and distance");
+                  "mesh to write: the garment as it is worn; PLY keeps strain and distance. Of several, a "
+                  "file each: worn.ply becomes worn-shirt.ply and so on; or put {} for the garment's name");
   sub->add_option(
          "--subdivide", a->subdivide,
          "refine the garment so many times (Loop), 0 to 6; its shape is found coarse to fine. auto (the "
@@ -273,6 +309,7 @@ void add_drape(CLI::App& app, int& exit_code) {
   sub->callback([a, sub, &exit_code] {
     for (const char* option : {"--view", "--camera", "--eye", "--target"})
       a->view_chosen = a->view_chosen || sub->count(option) > 0;
+    a->in = a->garments.front();
     exit_code = drape(*a);
   });
 }

@@ -494,6 +494,16 @@ Lines drape_lines(const Json& report) {
                          ? ""
                          : "; ease " + ease_text(table_of(d, "fit"))));
   }
+  for (const Json& p : list_of(table_of(report, "layers"), "pairs")) {
+    const double compared = value_of(p, "compared");
+    lines.push_back(text_of(p, "outer") + " over " + text_of(p, "inner") + ": " +
+                    counted(count_of(p, "crossings"), "pair") + " of faces cross, " +
+                    std::to_string(count_of(p, "crossings_at_start")) + " as given" +
+                    (compared > 0
+                         ? "; order kept at " + per_cent(value_of(p, "outside") / compared) + " of " +
+                               std::to_string(count_of(p, "compared")) + " vertices that are near"
+                         : ""));
+  }
   return lines;
 }
 

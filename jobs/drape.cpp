@@ -9,6 +9,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/report/drape_remarks.h"
 #include "jobs/run/drape_garment.h"
+#include "jobs/run/drape_layers.h"
 #include "jobs/run/recorded_material.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
@@ -28,6 +29,59 @@ void check_scene(const io::Scene& scene) {
         "body.motion: drape takes the body as it lies in its file; move it there, or simulate");
   if (!scene.lines.empty())
     throw std::invalid_argument("drape draws no lines; draw them on what it writes, with furrow wrinkle");
+}
+
+/// What several garments are not draped with.
+void check_layers(const DrapeJob& job, const io::Scene& scene) {
+  const DrapeSettings& s = job.settings;
+  const auto leave_out = [](const std::string& option) {
+    throw std::invalid_argument(option + ": not with several garments; leave it out, or drape one of them");
+  };
+  if (!scene.pins.empty()) leave_out("pins (--pin-loop, --pin-group, --pin-box, --pin-vertices)");
+  if (!s.bands.empty()) leave_out("--band");
+  if (!job.fabrics.empty()) leave_out("--fabrics");
+  if (s.plain) leave_out("--plain");
+  if (s.bending_friction > 0) leave_out("--bending-friction");
+  if (!s.animation.empty()) leave_out("--animation");
+  if (scene.starts > 1) leave_out("--starts");
+  if (s.self_contact == SelfContactUse::off)
+    throw std::invalid_argument(
+        "--self-contact off: several garments need it to stay apart; leave it out, or drape each by itself");
+  if (!scene.body) throw std::invalid_argument("several garments are draped on a body: name it with --body");
+  if (job.output == "-")
+    throw std::invalid_argument(
+        "--output -: several garments are several files; write -o worn.ply, which becomes "
+        "worn-shirt.ply and so on");
+}
+
+/// The garments' paths, the innermost first. Throws std::invalid_argument if one is there twice.
+std::vector<std::filesystem::path> garments_of(const DrapeJob& job, const io::Scene& scene) {
+  std::vector<std::filesystem::path> paths{scene.garment};
+  for (const std::filesystem::path& path : job.over) {
+    for (const std::filesystem::path& other : paths) {
+      std::error_code none;
+      if (path == other || std::filesystem::equivalent(path, other, none))
+        throw std::invalid_argument(
+            path.string() +
+            " is given twice: no garment is worn over itself; name each once, from the "
+            "inside to the outside");
+    }
+    paths.push_back(path);
+  }
+  return paths;
+}
+
+/// Each garment's file's name without ending; a number tells those apart that have the same.
+std::vector<std::string> names_of(std::span<const std::filesystem::path> paths) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& path : paths) {
+    const std::string stem = path.stem().string();
+    std::string name = stem;
+    for (int i = 2; std::find(names.begin(), names.end(), name) != names.end(); ++i)
+      name = stem + "-" + std::to_string(i);
+    names.push_back(name);
+  }
+  return names;
 }
 
 void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
@@ -64,6 +118,14 @@ void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
     for (const auto& path : {scene.body->mesh, scene.body->field}) inputs.push_back(path.string());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
   std::vector<std::string> outputs{output, animation};
+  if (!job.over.empty()) {
+    check_layers(job, scene);
+    outputs[0].clear();
+    const std::vector<std::filesystem::path> garments = garments_of(job, scene);
+    for (const auto& path : job.over) inputs.push_back(path.string());
+    for (const std::string& name : names_of(garments))
+      if (!output.empty()) outputs.push_back(layer_output(job.output, name).string());
+  }
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
   check_replaced(outputs, inputs, listener);
 }
@@ -117,7 +179,53 @@ std::vector<io::Scene> scenes_of(const DrapeJob& job, const OpenScene& open) {
   return scenes;
 }
 
+/// The scene of a garment that is worn over the first one.
+OpenScene open_layer(const DrapeJob& job, const OpenScene& first, const std::filesystem::path& garment) {
+  DrapeJob own = job;
+  io::set_value(own.scene.settings, "garment.mesh", garment.string(), "the garments");
+  OpenScene open{{}, with_fabric(own), job.scene.folder, first.frame};
+  open.scene = scene_of(open.document, open.folder);
+  check_inputs(open.scene, open.document, -1, job.scene.memory);
+  open.scene.unit = first.scene.unit;
+  open.scene.up = first.scene.up;
+  open.scene.subdivide = first.scene.subdivide;
+  return open;
+}
+
+void drape_all_layers(const DrapeJob& job, const OpenScene& first, const BodyCollider& body, bool choose,
+                      const Context& context, DrapeJobReport& report) {
+  const std::vector<std::filesystem::path> paths = garments_of(job, first.scene);
+  const std::vector<std::string> names = names_of(paths);
+  std::vector<OpenScene> open{first};
+  for (const auto& path : job.over) open.push_back(open_layer(job, first, path));
+  std::vector<io::Scene> scenes;
+  for (const OpenScene& o : open) scenes.push_back(o.scene);
+  WornOver worn = drape_worn_over(scenes, names, &body, job.settings, choose, context);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    Draped& d = worn.garments[i];
+    d.penetration = job.settings.penetration;
+    d.allowed_crossings = std::size_t(first.scene.allow_crossings);
+    note_material(d.file, open[i].document, d.gap);
+    if (job.output.empty()) continue;
+    d.written = layer_output(job.output, names[i]);
+    write_mesh(d.written, d.file, context);
+  }
+  report.garments = std::move(worn.garments);
+  report.layers = std::move(worn.layers);
+  report.remarks = remarks_on(report.garments);
+  if (!report.cancelled())
+    for (DrapeRemark& r : remarks_on(*report.layers, std::size_t(first.scene.allow_crossings)))
+      report.remarks.push_back(std::move(r));
+}
+
 }  // namespace
+
+std::filesystem::path layer_output(const std::filesystem::path& output, const std::string& garment) {
+  const std::string text = output.string(), mark = "{}";
+  if (const std::size_t at = text.find(mark); at != std::string::npos)
+    return text.substr(0, at) + garment + text.substr(at + mark.size());
+  return output.parent_path() / (output.stem().string() + "-" + garment + output.extension().string());
+}
 
 bool DrapeJobReport::fails() const {
   return std::any_of(garments.begin(), garments.end(), [](const Draped& d) { return !d.succeeds(); });
@@ -134,7 +242,11 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
     body.emplace(load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap)));
   const bool choose =
       !job.subdivide && !open.document.root.value("garment", Json::object()).contains("subdivide");
-  DrapeJobReport report{{}, {}, scenes[0], open.frame};
+  DrapeJobReport report{{}, {}, {}, scenes[0], open.frame};
+  if (!job.over.empty()) {
+    drape_all_layers(job, open, *body, choose, context, report);
+    return report;
+  }
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     report.garments.push_back(
         drape_garment(scenes[i], body ? &*body : nullptr, job.settings, choose, context));

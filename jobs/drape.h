@@ -49,9 +49,13 @@ struct DrapeJob {
   DrapeSettings settings = {};
   /// Refinements (Loop), in [0, 6]; none: the scene's, and if it says none, as many as the gap needs.
   std::optional<int> subdivide;
+  /// Garments worn over the scene's, the inner ones first, each a path or one in the scene's memory; all are
+  /// draped together, none passing through another, and need a body. None: the scene's alone.
+  std::vector<std::filesystem::path> over = {};
   std::vector<std::string> fabrics = {};  ///< the same garment in each; none: in the scene's, else what its
                                           ///< file notes, else cotton
-  std::filesystem::path output;           ///< mesh of a single fabric; empty or "-": not written
+  /// Mesh of a single fabric; empty or "-": not written. With garments over it: layer_output() of each.
+  std::filesystem::path output;
   std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another
   std::vector<std::string> more_inputs = {};   ///< files that the caller reads: none may be replaced
 };
@@ -122,7 +126,9 @@ struct Draped {
   bool contact_tried = false;           ///< it was looked for how it rests with that
   /// Pairs of faces that crossed without contact of cloth with cloth; none: that was not tried first.
   std::optional<std::size_t> crossings_without;
-  double thickness = 0;  ///< of the cloth then [m]
+  double thickness = 0;                   ///< of the cloth then [m]
+  std::size_t crossings_with_others = 0;  ///< pairs of its faces and those of other garments that cross
+  std::filesystem::path written;          ///< its file, where there are several garments
 
   bool rests() const { return report.levels.back().settle.converged && !falls && !broken; }
   /// Whether more than a hundredth of the cloth is strained to over twice its length, or by no number.
@@ -133,13 +139,40 @@ struct Draped {
   bool is_pierced() const { return fit.distance.deepest_penetration > penetration; }
   /// Whether the cloth passes through itself more often than was allowed.
   bool crosses_itself() const { return crossings.pairs > allowed_crossings; }
-  /// Whether it is whole and at rest: not torn, not pierced, not crossing itself, no part loose.
+  /// Whether it passes through other garments more often than was allowed.
+  bool crosses_others() const { return crossings_with_others > allowed_crossings; }
+  /// Whether it is whole and at rest: not torn, not pierced, not crossing any cloth, no part loose.
   bool succeeds() const {
-    return rests() && !is_torn() && !is_pierced() && !crosses_itself() && loose.empty();
+    return rests() && !is_torn() && !is_pierced() && !crosses_itself() && !crosses_others() && loose.empty();
   }
   /// "at rest", "not at rest", "blocked", "falls", "torn", "numerical failure" or "interrupted", and what
   /// else is wrong.
   std::string outcome() const;
+};
+
+/// Two garments that are worn over each other.
+struct LayerPair {
+  std::string inner, outer;            ///< names
+  std::size_t crossings_at_start = 0;  ///< pairs of faces, one of each, that crossed as they were given
+  std::size_t crossings = 0;           ///< now
+  std::vector<CrossingPlace> places;   ///< now, most pairs first
+  /// Vertices of the outer one within 2 cm of the inner one, and how many of them lie on its outer side
+  /// (physics/pairs/layer_order.h); as given, and now.
+  int compared_at_start = 0, outside_at_start = 0, compared = 0, outside = 0;
+
+  /// Whether most of the outer garment lay inside the inner one as they were given.
+  bool began_inside() const { return 2 * outside_at_start < compared_at_start; }
+};
+
+/// What is told of garments that were draped over each other.
+struct DrapedLayers {
+  std::vector<LayerPair> pairs;     ///< each two of them
+  int edges_crossed = 0;            ///< edges through faces of another garment, each near rest by itself
+  int edges_left = 0;               ///< of those that were not taken apart, on the last level
+  int untangle_rounds = 0;          ///< of moves that took garments apart, on all levels
+  double moved_most = 0;            ///< way of a vertex in them [m]
+  std::vector<std::string> turned;  ///< names of garments whose faces look into the body
+  double contact_energy = 0;        ///< with the body, and of all cloth with cloth [J]
 };
 
 /// What is to be said of the result; one that fails says why it is no success.
@@ -150,7 +183,8 @@ struct DrapeRemark {
 
 /// What jobs::drape() reached.
 struct DrapeJobReport {
-  std::vector<Draped> garments;  ///< in the order of the fabrics; the last one may have been cancelled
+  std::vector<Draped> garments;        ///< in the order of the fabrics; the last one may have been cancelled
+  std::optional<DrapedLayers> layers;  ///< of garments over each other, the inner ones first; none: no such
   std::vector<DrapeRemark> remarks;
   io::Scene scene;  ///< that was draped, in its first fabric
   Frame frame;      ///< of the file written
@@ -158,6 +192,10 @@ struct DrapeJobReport {
   bool cancelled() const { return garments.back().report.stopped; }
   bool fails() const;  ///< one does not succeed
 };
+
+/// Where one of several garments is written: "{}" in the name stands for the garment's ("worn/{}.ply" becomes
+/// "worn/shirt.ply"); without, "worn.ply" becomes "worn-shirt.ply".
+std::filesystem::path layer_output(const std::filesystem::path& output, const std::string& garment);
 
 /// Finds how the garment comes to rest (bridge/drape.h), measures how it fits, and writes the mesh, whole or
 /// not at all. Where it is cancelled on the way, what was reached is returned and written. Throws

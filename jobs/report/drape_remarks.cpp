@@ -205,7 +205,91 @@ Json self_contact_json(const Draped& d) {
   return json;
 }
 
+void remark_on_crossed_layers(const LayerPair& p, std::size_t allowed, std::vector<DrapeRemark>& remarks) {
+  if (!p.crossings) return;
+  const bool fails = p.crossings > allowed;
+  std::string where;
+  if (!p.places.empty()) {
+    const geometry::Point& at = p.places.front().centre;
+    where = fmt::format(", most ({}) within {:.1f} cm of ({:.2f}, {:.2f}, {:.2f}) m", p.places.front().pairs,
+                        50 * p.places.front().extent, at.x(), at.y(), at.z());
+  }
+  remarks.push_back(
+      {fails,
+       {"layers_cross",
+        fmt::format("{} over {}: {} pair{} of faces cross{}; {}{}", p.outer, p.inner, p.crossings,
+                    p.crossings == 1 ? "" : "s", where,
+                    p.began_inside() ? "the outer one lies inside as it is given: name it before the other"
+                                     : "they were not taken apart there: part them where they are given, or "
+                                       "give the outer one room",
+                    fails ? fmt::format("; accept them with --allow-crossings {}", p.crossings) : ""),
+        p.outer, "garment.allow_crossings"}});
+}
+
+Json layer_pair_json(const LayerPair& p) {
+  Json json{{"inner", p.inner},
+            {"outer", p.outer},
+            {"crossings_at_start", p.crossings_at_start},
+            {"crossings", p.crossings},
+            {"compared_at_start", p.compared_at_start},
+            {"outside_at_start", p.outside_at_start},
+            {"compared", p.compared},
+            {"outside", p.outside}};
+  if (p.places.empty()) return json;
+  json["places"] = Json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(10, p.places.size()); ++i) {
+    const CrossingPlace& at = p.places[i];
+    json["places"].push_back({{"pairs", at.pairs},
+                              {"x", at.centre.x()},
+                              {"y", at.centre.y()},
+                              {"z", at.centre.z()},
+                              {"extent", at.extent}});
+  }
+  return json;
+}
+
+Json to_json(const DrapedLayers& layers) {
+  Json json{{"pairs", Json::array()},
+            {"edges_crossed", layers.edges_crossed},
+            {"edges_left", layers.edges_left},
+            {"untangle_rounds", layers.untangle_rounds},
+            {"moved_most", layers.moved_most},
+            {"turned", layers.turned},
+            {"contact_energy", layers.contact_energy}};
+  for (const LayerPair& p : layers.pairs) json["pairs"].push_back(layer_pair_json(p));
+  return json;
+}
+
 }  // namespace
+
+std::vector<DrapeRemark> remarks_on(const DrapedLayers& layers, std::size_t allowed) {
+  std::vector<DrapeRemark> remarks;
+  for (const LayerPair& p : layers.pairs) {
+    remark_on_crossed_layers(p, allowed, remarks);
+    if (p.crossings == 0 && p.began_inside())
+      remarks.push_back(
+          {false,
+           {"layer_order",
+            fmt::format("{} over {}: {} of {} vertices near it lay inside as they were given; if it is worn "
+                        "under the other, name it first",
+                        p.outer, p.inner, p.compared_at_start - p.outside_at_start, p.compared_at_start),
+            p.outer, ""}});
+    if (2 * p.outside < p.compared)
+      remarks.push_back({true,
+                         {"layer_under",
+                          fmt::format("{} over {}: {} of {} vertices near it lie inside; name the garments "
+                                      "from the inside to the outside",
+                                      p.outer, p.inner, p.compared - p.outside, p.compared),
+                          p.outer, ""}});
+  }
+  for (const std::string& name : layers.turned)
+    remarks.push_back({false,
+                       {"turned",
+                        name + ": its faces look into the body, as if it were turned inside out; the side "
+                               "away from the body counts as its outer one",
+                        name, ""}});
+  return remarks;
+}
 
 std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
   std::vector<DrapeRemark> remarks;
@@ -233,6 +317,7 @@ std::string Draped::outcome() const {
                                                                       : "not at rest";
   return rest + (is_pierced() ? ", pierced by the body" : "") +
          (crosses_itself() ? ", cloth crosses itself" : "") +
+         (crosses_others() ? ", crosses other garments" : "") +
          (loose.empty() ? "" : fmt::format(", {} of {} parts loose", loose.size(), parts)) +
          (floats() && !broken && !falls ? ", " + geometry::length_text(gap) + " off the body" : "");
 }
@@ -261,6 +346,7 @@ Json to_json(const Draped& d) {
             {"slip", d.report.slip},
             {"crossings", jobs::to_json(d.crossings)}};
   if (d.self_contact) json["self_contact"] = self_contact_json(d);
+  if (!d.written.empty()) json["written"] = d.written.string();
   json["hem_height"] = d.hem_height ? Json(*d.hem_height) : Json();
   json["energy"] = to_json(d.report.energy);
   if (d.starts) json["starts"] = to_json(*d.starts);
@@ -272,7 +358,9 @@ Json to_json(const DrapeJobReport& report) {
   if (report.garments.size() == 1) return to_json(report.garments[0]);
   Json garments = Json::array();
   for (const Draped& d : report.garments) garments.push_back(to_json(d));
-  return {{"garments", garments}};
+  Json json{{"garments", garments}};
+  if (report.layers) json["layers"] = to_json(*report.layers);
+  return json;
 }
 
 }  // namespace furrow::jobs

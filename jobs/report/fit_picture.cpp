@@ -25,6 +25,8 @@ io::RenderScene scene_of(const FitPanel& panel) {
   io::RenderScene scene;
   scene.meshes.push_back(io::render_mesh_from(*panel.garment, io::Style::cloth));
   io::mark_faces(scene.meshes.back(), panel.crossed);
+  for (const geometry::Mesh* garment : panel.over)
+    scene.meshes.push_back(io::render_mesh_from(*garment, io::Style::cloth));
   if (!panel.body) return scene;
   io::RenderMesh body = io::render_mesh_from(*panel.body, io::Style::body);
   body.colour = figure_colour;

@@ -35,6 +35,24 @@ std::string skirt() {
 
 }  // namespace
 
+TEST_CASE("drape: a shirt over a skirt, none through the other, each in a file", "[release]") {
+  ScratchDirectory scratch;
+  const std::string meshes = (source_dir() / "meshes").string();
+  const Run run = run_furrow("drape " + meshes + "/skirt.obj " + meshes + "/shirt.obj --body " +
+                             mannequin_path() + " --subdivide 0 --json --picture " + (scratch / "a.png") +
+                             " -o " + (scratch / "worn-{}.ply"));
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  const json r = json::parse(run.out);
+  const json& pair = r["layers"]["pairs"].at(0);
+  CHECK(pair["crossings_at_start"].get<int>() > 50);
+  CHECK(pair["crossings"] == 0);
+  CHECK(pair["outside"] == pair["compared"]);
+  CHECK(r["garments"][1]["written"] == scratch / "worn-shirt.ply");
+  CHECK(io::read_mesh(scratch / "worn-skirt.ply").mesh.number_of_vertices() > 100);
+  CHECK(io::read_png(scratch / "a.png").width > 0);
+}
+
 TEST_CASE("drape: it brings the skirt to rest on the mannequin and tells how it fits", "[release]") {
   ScratchDirectory scratch;
   const std::string call = "drape " + skirt() + " --subdivide 0 --band top=0.95 --json";

@@ -6,6 +6,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   chart_test.cpp
   contact_gap_test.cpp
   doctor_test.cpp
+  drape_layers_test.cpp
   drape_test.cpp
   field_test.cpp
   fit_test.cpp

@@ -7,6 +7,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   cloth/elements_test.cpp
   cloth/energy_test.cpp
   cloth/hinge_forces_test.cpp
+  cloth/join_cloths_test.cpp
   cloth/membrane_laws_test.cpp
   cloth/membrane_test.cpp
   cloth/woven_membrane_test.cpp

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "jobs/drape.h"
+#include "jobs/run/body.h"
+
+/// What a drape of one garment, and one of several, have in common.
+namespace furrow::jobs {
+
+/// How the way to rest is looked for on a garment that was read.
+struct DrapePlan {
+  const io::Scene& scene;
+  const BodyCollider* body;  ///< null: none
+  const DrapeSettings& settings;
+  const io::MeshFile& as_read;
+  bridge::DrapeOptions options;
+};
+
+/// With contact of cloth with cloth, whose piles take many steps to lie still.
+void hold_apart(bridge::DrapeOptions& options, const DrapeSettings& settings);
+
+/// gap: kept from the body [m].
+bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSettings& settings, double gap);
+
+/// What is wanted, or what the sag and the field's tolerance need [m]; warns where that is much more.
+double gap_of(const io::Scene& scene, const BodyCollider* body, const geometry::Mesh& garment,
+              const Context& context);
+
+/// The garment as it was given, and the scene with as many refinements as it is draped with.
+struct GivenGarment {
+  io::Scene scene;
+  io::MeshFile file;
+};
+
+/// `choose`: refined as often as the gap needs. Throws as reading does.
+GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& settings,
+                        bool choose, const Context& context);
+
+/// What a garment that was draped has come to: `draped` has its file and its report.
+void measure_draped(const DrapePlan& plan, Draped& draped);
+
+}  // namespace furrow::jobs

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/run/garment_maker.h"
+
+#include <algorithm>
+
+#include "bridge/convert.h"
+#include "bridge/gather.h"
+#include "geometry/mesh/border_loops.h"
+#include "geometry/mesh/parts.h"
+#include "geometry/mesh/struts.h"
+#include "jobs/read_inputs.h"
+#include "jobs/run/pins.h"
+#include "jobs/run/prepare_garment.h"
+#include "jobs/run/scene_cloth.h"
+#include "physics/body/collider.h"
+#include "physics/cloth/elastic_band.h"
+#include "physics/cloth/pins.h"
+
+namespace furrow::jobs {
+namespace {
+
+/// A vertex of the loop that a name means on the mesh as it was read: refinement keeps its index, but may
+/// change which loop is the longest.
+int vertex_of_loop(const geometry::Mesh& mesh, const std::string& name) {
+  const auto loops = geometry::border_loops(mesh);
+  return int(loops[geometry::find_border_loop(loops, name)].vertices.at(0));
+}
+
+std::vector<int> loop_through(const geometry::Mesh& mesh, int vertex) {
+  for (const geometry::BorderLoop& loop : geometry::border_loops(mesh)) {
+    std::vector<int> vertices;
+    for (const geometry::Vertex v : loop.vertices) vertices.push_back(int(v));
+    if (std::find(vertices.begin(), vertices.end(), vertex) != vertices.end()) return vertices;
+  }
+  return {};
+}
+
+/// As struts, so that the garment's file has them; a band that was there is taken off.
+void sew_band(geometry::Mesh& mesh, const std::vector<int>& loop,
+              const physics::ElasticBandOptions& options) {
+  physics::Cloth band;
+  band.particles.x = bridge::positions_of(mesh);
+  physics::add_elastic_band(band, loop, options);
+  std::vector<geometry::Strut> all = geometry::struts(mesh);
+  std::erase_if(all, [&](const geometry::Strut& s) {
+    return std::any_of(band.bending.begin(), band.bending.end(),
+                       [&](const physics::Spring& b) { return int(s.a) == b.a && int(s.b) == b.b; });
+  });
+  using Index = geometry::Vertex::size_type;
+  for (const physics::Spring& s : band.bending)
+    all.push_back({geometry::Vertex(Index(s.a)), geometry::Vertex(Index(s.b)), s.rest_length, s.stiffness});
+  geometry::set_struts(mesh, all);
+}
+
+}  // namespace
+
+GarmentMaker::GarmentMaker(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& settings,
+                           const io::MeshFile& as_read, const Context& context)
+    : scene_(scene), body_(body), settings_(settings), as_read_(as_read), context_(context) {
+  for (const io::ScenePins& pins : scene.pins)
+    pin_vertices_.push_back(pins.loop.empty() ? -1 : vertex_of_loop(as_read.mesh, pins.loop));
+  for (const Band& band : settings.bands) try {
+      band_vertices_.push_back(vertex_of_loop(as_read.mesh, band.loop));
+    } catch (const std::invalid_argument& e) {
+      throw std::invalid_argument("--band: " + std::string(e.what()));
+    }
+}
+
+physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
+  made = as_read_;
+  made.mesh = mesh;
+  const auto pins = find_pins(made, pins_on(mesh));
+  complete_garment(made, scene_.material);
+  tie_seams(mesh);
+  for (std::size_t i = 0; i < band_vertices_.size(); ++i)
+    sew_band(made.mesh, loop_through(mesh, band_vertices_[i]),
+             {settings_.bands[i].length, settings_.band_stiffness});
+  physics::Cloth cloth = naming(scene_.garment.string(), [&] {
+    return bridge::gather(made.mesh, spring_options(made, scene_.material));
+  });
+  pin_cloth(cloth, pins, nullptr, 0, context_);
+  held_.assign(cloth.particles.size(), 0);
+  for (const std::vector<int>& held : pins)
+    for (const int i : held) held_[std::size_t(i)] = 1;
+  if (!loose.empty()) hold_loose(mesh, cloth);
+  told_thin_ |= couple_cloth(made, scene_, cloth, context_, !told_thin_);  // once, not at each level
+  int moved = 0;
+  if (body_)
+    for (const std::vector<int>& held : pins)
+      moved += physics::push_out(cloth.particles.x, held, body_->exact).moved;
+  if (moved)
+    context_.warn("pins_inside_body",
+                  std::to_string(moved) + " of " + std::to_string(mesh.number_of_vertices()) +
+                      " vertices are pinned inside the body; moved onto it",
+                  "pins");
+  mesh = made.mesh;
+  return cloth;
+}
+
+bool GarmentMaker::any_held() const { return std::find(held_.begin(), held_.end(), 1) != held_.end(); }
+
+/// Those of the level; the finer one's are found by what this one is.
+void GarmentMaker::tie_seams(const geometry::Mesh& mesh) {
+  if (mesh.num_vertices() == as_read_.mesh.num_vertices())
+    ties_ = seam_ties(as_read_.mesh);
+  else
+    ties_ = refined_ties(tied_, ties_);
+  if (ties_.empty()) return;
+  tied_ = mesh;
+  set_seam_ties(made.mesh, ties_, scene_.material);
+}
+
+void GarmentMaker::hold_loose(const geometry::Mesh& mesh, physics::Cloth& cloth) const {
+  const geometry::Parts parts = geometry::find_parts(mesh);
+  for (const int seed : loose)
+    for (std::size_t i = 0; i < parts.of_vertex.size(); ++i)
+      if (parts.of_vertex[i] == parts.of_vertex[std::size_t(seed)])
+        physics::pin(cloth.particles, std::vector<int>{int(i)});
+}
+
+std::vector<io::ScenePins> GarmentMaker::pins_on(const geometry::Mesh& mesh) const {
+  std::vector<io::ScenePins> result = scene_.pins;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (pin_vertices_[i] < 0) continue;
+    const std::vector<int> loop = loop_through(mesh, pin_vertices_[i]);
+    result[i].loop.clear();
+    result[i].vertices.insert(result[i].vertices.end(), loop.begin(), loop.end());
+  }
+  return result;
+}
+
+}  // namespace furrow::jobs

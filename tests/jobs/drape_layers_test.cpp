@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "geometry/mesh/sheet.h"
+#include "io/scene/scene.h"
+#include "jobs/drape.h"
+#include "tests/jobs/job_folders.h"
+#include "tests/jobs/recorder.h"
+#include "tests/test_meshes.h"
+
+using namespace furrow;
+namespace fs = std::filesystem;
+
+namespace {
+
+io::MeshFile sheet_at(double height, double edge, double tilt) {
+  io::MeshFile file;
+  file.mesh = geometry::equilateral_sheet(0.3, 0.3, edge);
+  for (const geometry::Vertex v : file.mesh.vertices()) {
+    const geometry::Point p = file.mesh.point(v);
+    file.mesh.point(v) = {p.x(), height + tilt * p.x(), 0.15 - p.y()};
+  }
+  return file;
+}
+
+/// Two squares of cloth that cross each other above a ball, in memory.
+jobs::DrapeJob two_across_ball(double tilt = 0.03) {
+  jobs::DrapeJob job;
+  job.scene.memory.meshes["under"] = sheet_at(0.108, 0.05, 0);
+  job.scene.memory.meshes["over"] = sheet_at(0.108, 0.043, tilt);
+  job.scene.memory.meshes["ball"].mesh = tests::icosphere(2, 0.1);
+  job.scene.settings = io::parse_toml("[garment]\nmesh = \"under\"\n", "test");
+  const auto set = [&](const char* path, const io::Json& value) {
+    io::set_value(job.scene.settings, path, value, "the test");
+  };
+  set("body.mesh", "ball");
+  set("body.tolerance", 0.005);
+  set("material.preset", "cotton");
+  job.over = {"over"};
+  job.subdivide = 0;
+  return job;
+}
+
+bool tells(const jobs::DrapeJobReport& report, const std::string& code) {
+  return std::any_of(report.remarks.begin(), report.remarks.end(),
+                     [&](const jobs::DrapeRemark& r) { return r.remark.code == code; });
+}
+
+void check_refused(const jobs::DrapeJob& job, const std::string& words) {
+  tests::Recorder recorder;
+  try {
+    jobs::drape(job, recorder);
+    FAIL("nothing was refused; expected: " << words);
+  } catch (const std::invalid_argument& e) {
+    INFO(e.what());
+    CHECK(std::string(e.what()).find(words) != std::string::npos);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("drape: layers that cross come apart in their order, and each is written", "[release]") {
+  const fs::path folder = tests::empty_folder("drape_layers");
+  tests::Recorder recorder;
+  jobs::DrapeJob job = two_across_ball();
+  job.output = folder / "worn.ply";
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  INFO(to_json(report).dump(1));
+  REQUIRE(report.garments.size() == 2);
+  REQUIRE(report.layers);
+  REQUIRE(report.layers->pairs.size() == 1);
+  const jobs::LayerPair& pair = report.layers->pairs[0];
+  CHECK(pair.inner == "under");
+  CHECK(pair.outer == "over");
+  CHECK(pair.crossings_at_start > 0);
+  CHECK(pair.crossings == 0);
+  CHECK(pair.compared > 20);
+  CHECK(pair.outside == pair.compared);
+  CHECK_FALSE(report.fails());
+  CHECK(tests::names_in(folder) == std::set<std::string>{"worn-under.ply", "worn-over.ply"});
+  CHECK(tests::positions(io::read_mesh(folder / "worn-over.ply")) ==
+        tests::positions(report.garments[1].file));
+  job.scene.settings.root["threads"] = 2;
+  job.output.clear();
+  const jobs::DrapeJobReport again = jobs::drape(job, recorder);
+  for (std::size_t i = 0; i < 2; ++i)
+    CHECK(tests::positions(again.garments[i].file) == tests::positions(report.garments[i].file));
+}
+
+TEST_CASE("drape: coincident layers and a garment turned inside out are solved, and told", "[release]") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = two_across_ball();
+  job.scene.memory.meshes["over"] = job.scene.memory.meshes["under"];
+  CHECK_FALSE(jobs::drape(job, recorder).fails());
+  for (geometry::Point& p : job.scene.memory.meshes["under"].mesh.points()) p = {-p.x(), p.y(), p.z()};
+  const jobs::DrapeJobReport turned = jobs::drape(job, recorder);
+  CHECK(tells(turned, "turned"));
+  CHECK(turned.layers->turned == std::vector<std::string>{"under"});
+  CHECK_FALSE(turned.fails());
+}
+
+TEST_CASE("drape: a garment that lay inside the one under it is told", "[release]") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = two_across_ball(0);
+  job.scene.memory.meshes["under"] = sheet_at(0.118, 0.05, 0);
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  INFO(to_json(report).dump(1));
+  CHECK(report.layers->pairs[0].began_inside());
+  CHECK((tells(report, "layer_order") || tells(report, "layers_cross")));
+}
+
+TEST_CASE("drape: what several garments are not draped with is refused") {
+  jobs::DrapeJob job = two_across_ball();
+  job.over = {"under"};
+  check_refused(job, "given twice");
+  job = two_across_ball();
+  job.settings.self_contact = jobs::SelfContactUse::off;
+  check_refused(job, "--self-contact off");
+  job = two_across_ball();
+  job.settings.bands = {{"top", 0.9}};
+  check_refused(job, "--band: not with several garments");
+  job = two_across_ball();
+  job.output = "-";
+  check_refused(job, "several files");
+  job = two_across_ball();
+  job.scene.settings.root.erase("body");
+  io::set_value(job.scene.settings, "pins.0", io::Json{{"vertices", {0}}}, "the test");
+  check_refused(job, "pins");
+}
+
+TEST_CASE("layer_output: a garment's name goes where braces stand, else before the ending") {
+  CHECK(jobs::layer_output("a/{}.ply", "shirt") == "a/shirt.ply");
+  CHECK(jobs::layer_output("a/worn.ply", "shirt") == "a/worn-shirt.ply");
+  CHECK(jobs::layer_output("x-{}-y.obj", "vest") == "x-vest-y.obj");
+}
