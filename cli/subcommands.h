@@ -26,6 +26,8 @@ void add_sdf(CLI::App& app);
 void add_render(CLI::App& app);
 void add_drape(CLI::App& app, int& exit_code);
 void add_fit(CLI::App& app);
+/// Sets exit_code where the studio was not built.
+void add_studio(CLI::App& app, int& exit_code);
 void add_transfer(CLI::App& app);
 /// Sets exit_code where the run was interrupted.
 void add_bake(CLI::App& app, int& exit_code);

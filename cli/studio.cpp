@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "cli/common.h"
+#include "cli/scene_flags.h"
+#include "cli/subcommands.h"
+#include "jobs/read_inputs.h"
+#ifdef FURROW_STUDIO
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "studio/studio.h"
+#endif
+
+namespace furrow::cli {
+namespace {
+
+struct StudioArguments : CommonArguments {
+  std::string in, project;
+  unsigned short port = 0;
+  bool no_browser = false;
+  SceneFlags flags;
+};
+
+#ifdef FURROW_STUDIO
+/// Shows the address in the user's browser, if there is a program that does.
+void open_browser(const std::string& url) {
+  const pid_t child = fork();
+  if (child < 0) return;
+  if (child == 0) {
+    if (fork() == 0) {  // a grandchild, which nobody needs to wait for
+      for (const char* opener : {"xdg-open", "open"})
+        execlp(opener, opener, url.c_str(), static_cast<char*>(nullptr));
+    }
+    _exit(0);
+  }
+  waitpid(child, nullptr, 0);
+}
+
+/// The folder of a new drawing: beside nothing, in the working directory, named after what is drawn on.
+std::filesystem::path project_of(const StudioArguments& a) {
+  if (!a.project.empty()) return a.project;
+  return std::filesystem::path(a.in).stem().string() + "-studio";
+}
+
+std::unique_ptr<studio::Studio> open_studio(const StudioArguments& a) {
+  if (std::filesystem::is_directory(a.in)) {
+    if (!studio::Studio::is_project(a.in))
+      throw UsageError(a.in + ": is a folder, but no project of the studio; name a garment or a scene");
+    if (!a.flags.first().empty())
+      throw UsageError(a.flags.first() + ": the project " + a.in + " has its own; leave it out");
+    return std::make_unique<studio::Studio>(std::filesystem::path(a.in), a.port);
+  }
+  SceneInput scene;
+  scene.settings = scene_settings(a.in, "", std::nullopt, a.flags, a);
+  if (is_scene(a.in)) scene.folder = std::filesystem::path(a.in).parent_path();
+  return std::make_unique<studio::Studio>(scene, project_of(a), a.port);
+}
+
+int serve(const StudioArguments& a) {
+  catch_interrupts();
+  const std::unique_ptr<studio::Studio> studio = open_studio(a);
+  const std::string project =
+      std::filesystem::is_directory(a.in) ? std::string(a.in) : project_of(a).string();
+  if (a.json) {
+    print_report({{"url", studio->url()}, {"project", project}}, a);
+  } else {
+    std::cout << "The studio is open: " << studio->url() << "\n";
+    if (!a.quiet)
+      std::cout << "Every step is kept in " << project << "; go on later with: furrow studio " << project
+                << "\nCtrl-C ends it.\n";
+  }
+  flush_output();
+  if (!a.no_browser) open_browser(studio->url());
+  while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  return exit_ok;  // that is how it is meant to end; nothing is lost
+}
+#else
+int serve(const StudioArguments&) {
+  std::cerr << "error: this furrow was built without the studio; install nodejs, npm and libboost-dev, and "
+               "build it "
+               "again (cmake -DFURROW_STUDIO=ON)\n";
+  return exit_failed;
+}
+#endif
+
+}  // namespace
+
+void add_studio(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<StudioArguments>();
+  CLI::App* sub = app.add_subcommand("studio",
+                                     "Draw on a garment with a pen, in the browser, and watch it wrinkle\n\n"
+                                     "  furrow studio skirt.obj --body body.obj\n"
+                                     "  furrow studio scene.toml --project tuesday\n"
+                                     "  furrow studio skirt-studio");
+  sub->add_option("garment", a->in,
+                  "garment to draw on, a scene (a .toml file), or the folder of a drawing to go on with")
+      ->required();
+  sub->add_option("--project", a->project,
+                  "folder in which every step is kept; made if it is not there (default: the garment's name "
+                  "and -studio)");
+  sub->add_option("--port", a->port, "of 127.0.0.1 to serve on (default: a free one)");
+  sub->add_flag("--no-browser", a->no_browser, "print the address, and open no browser");
+  a->flags.add_to(*sub, io::used_by::wrinkle);
+  add_common_options(*sub, *a);
+  sub->callback([a, &exit_code] { exit_code = serve(*a); });
+}
+
+}  // namespace furrow::cli

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/sketch.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "io/base/atomic_file.h"
+#include "io/scene/fabrics.h"
+#include "io/scene/relocated.h"
+#include "jobs/drape.h"
+#include "jobs/read_inputs.h"
+#include "jobs/run/body.h"
+#include "jobs/run/line_round.h"
+#include "jobs/run/pins.h"
+#include "jobs/run/scene_cloth.h"
+#include "jobs/wrinkle.h"
+#include "physics/base/progress.h"
+
+namespace furrow::jobs {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The scene, in the frame that its garment notes.
+io::Scene scene_in_frame(SceneInput& input) {
+  io::Scene scene = scene_of(input.settings, input.folder);
+  if (scene.garment.empty())
+    throw std::invalid_argument(input.settings.name + ": garment.mesh is missing: name the garment");
+  check_inputs(scene, input.settings, -1);
+  take_noted_frame(scene, input.settings);
+  return scene;
+}
+
+Frame frame_of_scene(const io::Scene& scene) {
+  Frame frame;
+  frame.unit = scene.unit;
+  frame.up = scene.up;
+  return frame;
+}
+
+std::size_t rounds_at_start(const io::Scene& scene) {
+  return std::size_t(std::count_if(scene.lines.begin(), scene.lines.end(),
+                                   [](const io::SceneLines& l) { return l.time == 0; }));
+}
+
+void check_rounds(const io::Scene& scene, const std::string& name, Listener& listener) {
+  if (rounds_at_start(scene) > 1)
+    throw std::invalid_argument(name +
+                                ": lines: the studio draws one round of lines at time 0, and there are " +
+                                std::to_string(rounds_at_start(scene)) +
+                                "; join their strokes in one file, or run it with furrow simulate");
+  if (scene.lines.size() > rounds_at_start(scene))
+    listener.warn({"later_lines",
+                   name + ": lines that are drawn later are not shown; they stay in the saved scene", name,
+                   "lines.time"});
+}
+
+std::vector<io::DrawnStroke> parsed(const Json& strokes) {
+  return io::drawn_strokes_from(Json{{"strokes", strokes}}.dump(), "the drawing");
+}
+
+/// The settings of what comes to rest: those of the scene, without its lines.
+SceneInput at_rest_settings(const Sketch& sketch) {
+  SceneInput input = sketch.scene;
+  input.settings.root.erase("lines");
+  input.settings.root.erase("output");
+  input.settings.root.erase("title");
+  if (input.settings.root.contains("garment")) input.settings.root["garment"].erase("subdivide");
+  return input;
+}
+
+/// Passes all on, and keeps what is warned of.
+class Collecting : public Listener {
+ public:
+  explicit Collecting(Listener& other) : other_(other) {}
+  void progress(const std::string& what, double share) override { other_.progress(what, share); }
+  void warn(const Warning& warning) override { texts.push_back(warning.text); }
+  bool cancelled() override { return other_.cancelled(); }
+  bool allows(const std::string& demand) override { return other_.allows(demand); }
+  bool replaces(const std::string& path) override { return other_.replaces(path); }
+
+  std::vector<std::string> texts;
+
+ private:
+  Listener& other_;
+};
+
+WrinkleJob job_for(const Sketch& sketch, const Json& strokes) {
+  WrinkleJob job;
+  job.garment = sketch.garment;
+  job.strokes = parsed(strokes);
+  job.frame = sketch.frame;
+  job.options = sketch.options;
+  job.density = sketch.density;
+  return job;
+}
+
+/// The garment without strokes comes to rest as furrow drape lets it.
+SketchAtRest drape_plain(const Sketch& sketch, Listener& listener) {
+  DrapeJob job;
+  job.scene = at_rest_settings(sketch);
+  io::set_value(job.scene.settings, "garment.mesh", "the garment", "the studio");
+  job.scene.memory.meshes["the garment"] = sketch.garment;
+  DrapeJobReport report = drape(job, listener);
+  if (report.cancelled()) throw physics::Cancelled("cancelled");
+  SketchAtRest rest{std::move(report.garments[0].file), report.garments[0].outcome(), {}};
+  for (const DrapeRemark& r : report.remarks)
+    if (r.fails) rest.remarks.push_back(r.remark.text);
+  return rest;
+}
+
+/// A table's own values, then the tables inside it, as TOML.
+void write_table(std::ostream& out, const Json& table, const std::string& heading) {
+  if (!heading.empty()) out << "\n" << heading << "\n";
+  for (const auto& [key, value] : table.items()) out << key << " = " << io::value_text(value) << "\n";
+}
+
+std::string toml_of(const Json& settings) {
+  std::ostringstream out;
+  Json root = Json::object();
+  const auto is_list = [](const Json& v) { return v.is_array() && !v.empty() && v[0].is_object(); };
+  for (const auto& [key, value] : settings.items())
+    if (!value.is_object() && !is_list(value) && !value.empty()) root[key] = value;
+  write_table(out, root, "");
+  for (const auto& [key, value] : settings.items()) {
+    if (value.is_object() && !value.empty()) write_table(out, value, "[" + key + "]");
+    if (is_list(value))
+      for (const Json& row : value) write_table(out, row, "[[" + key + "]]");
+  }
+  return out.str();
+}
+
+}  // namespace
+
+Sketch open_sketch(const SceneInput& input, Listener& listener) {
+  Sketch sketch;
+  sketch.scene = input;
+  for (const char* list : {"lines", "pins"}) io::make_list(sketch.scene.settings, list);
+  if (!sketch.scene.settings.root.value("material", Json::object()).contains("preset"))
+    io::set_value(sketch.scene.settings, "material.preset", "cotton", "the studio");
+  const io::Scene scene = scene_in_frame(sketch.scene);
+  check_rounds(scene, sketch.scene.settings.name, listener);
+  sketch.frame = frame_of_scene(scene);
+  const Context context{sketch.frame, listener};
+  sketch.garment = begin_garment(scene, context);
+  sketch.pins = find_pins(sketch.garment, scene.pins);
+  sketch.density = scene.material.density;
+  if (rounds_at_start(scene) == 1) {
+    const auto round = std::find_if(scene.lines.begin(), scene.lines.end(),
+                                    [](const io::SceneLines& l) { return l.time == 0; });
+    sketch.options = round->options;
+  }
+  if (scene.body)
+    sketch.body = read_mesh(scene.body->mesh, {with_unit(sketch.frame, scene.body->unit), listener});
+  return sketch;
+}
+
+Json strokes_of(const Sketch& sketch, Listener& listener) {
+  const io::Scene scene = scene_of(sketch.scene.settings, sketch.scene.folder);
+  for (const io::SceneLines& round : scene.lines) {
+    if (round.time != 0 || round.strokes.empty()) continue;
+    const auto strokes = read_strokes(round, {sketch.frame, listener});
+    std::ostringstream text;
+    io::write_strokes(text, strokes);
+    return Json::parse(text.str())["strokes"];
+  }
+  return Json::array();
+}
+
+Json settings_for(const Sketch& sketch, const fs::path& folder) {
+  Json settings = io::relocated(sketch.scene.settings, sketch.scene.folder, folder);
+  if (sketch.frame.unit) settings["unit"] = *sketch.frame.unit;
+  if (sketch.frame.up) settings["up"] = *sketch.frame.up;
+  settings.erase("output");  // what the scene wrote is not for the studio to replace
+  return settings;
+}
+
+SketchedGarment draw_sketch(const Sketch& sketch, const Json& strokes, Listener& listener) {
+  SketchedGarment drawn;
+  std::vector<std::vector<int>> pins = sketch.pins;
+  if (strokes.empty()) {
+    drawn.file = sketch.garment;
+    drawn.shown = shown_mesh(drawn.file.mesh, {}, 1 << 30);
+  } else {
+    Collecting collecting(listener);
+    WrinkleReport report = wrinkle(job_for(sketch, strokes), collecting);
+    const LineRound& round = report.drawn.round;
+    drawn.file = std::move(report.garment);
+    drawn.shown = shown_mesh(drawn.file.mesh, round.report.undisplaced, round.first_line);
+    drawn.told = std::move(collecting.texts);
+    pin_new_vertices(drawn.file.mesh, sketch.garment.mesh.number_of_vertices(), pins);
+  }
+  for (const std::vector<int>& group : pins)
+    for (const int v : group) drawn.shown.pinned.push_back(std::uint32_t(v));
+  return drawn;
+}
+
+SketchAtRest drape_sketch(const Sketch& sketch, const Json& strokes, Listener& listener) {
+  if (strokes.empty()) return drape_plain(sketch, listener);
+  WrinkleJob job = job_for(sketch, strokes);
+  job.settle = at_rest_settings(sketch);
+  WrinkleReport report = wrinkle(job, listener);
+  if (listener.cancelled() || report.rest->report.stopped) throw physics::Cancelled("cancelled");
+  SketchAtRest rest{std::move(report.garment), report.rest->outcome(), {}};
+  for (const Warning& w : report.failures) rest.remarks.push_back(w.text);
+  return rest;
+}
+
+void write_sketched(const Sketch& sketch, const io::MeshFile& file, const fs::path& path,
+                    Listener& listener) {
+  write_mesh(path, file, {sketch.frame, listener});
+}
+
+std::vector<std::string> save_sketch(const Sketch& sketch, const Json& strokes, const fs::path& folder,
+                                     Listener& listener) {
+  const SketchedGarment drawn = draw_sketch(sketch, strokes, listener);
+  Json settings = io::relocated(sketch.scene.settings, sketch.scene.folder, folder);
+  Json lines = Json::array(), later = settings.value("lines", Json::array());
+  Json first = Json::object();
+  for (const Json& round : later)
+    if (round.value("time", 0.0) == 0) first = round;
+  first["strokes"] = "strokes.json";
+  first.erase("without");
+  if (!strokes.empty()) lines.push_back(first);
+  for (const Json& round : later)
+    if (round.value("time", 0.0) != 0) lines.push_back(round);
+  settings["lines"] = lines;
+  io::OutputGroup together;
+  std::vector<std::string> written{"scene.toml", "shape.ply"};
+  if (!strokes.empty()) {
+    io::write_strokes(folder / "strokes.json", parsed(strokes), write_options(sketch.frame));
+    written.push_back("strokes.json");
+  }
+  write_sketched(sketch, drawn.file, folder / "shape.ply", listener);
+  io::write_atomically(folder / "scene.toml", [&](std::ostream& out) {
+    out << "# Written by furrow studio; furrow simulate runs it.\n" << toml_of(settings);
+  });
+  together.commit();
+  return written;
+}
+
+std::vector<std::string> fabric_names() {
+  std::vector<std::string> names;
+  for (const io::Fabric& fabric : io::fabrics()) names.push_back(fabric.name);
+  return names;
+}
+
+}  // namespace furrow::jobs

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/fold/wrinkle.h"
+#include "jobs/inputs.h"
+#include "jobs/shown_mesh.h"
+
+/// What an interactive program asks for while somebody draws on a garment. Its strokes are JSON, each as one
+/// of a stroke file (io/stroke/stroke_file.h), so that what is not looked at is kept. Metres, y up.
+namespace furrow::jobs {
+
+/// A garment before its lines, what it lies on, and how lines are drawn on it.
+struct Sketch {
+  SceneInput scene;      ///< settings; the first round of lines at time 0 is the one that is drawn
+  Frame frame;           ///< of the files
+  io::MeshFile garment;  ///< before its lines [m]
+  std::optional<io::MeshFile> body;  ///< at time 0 [m]
+  geometry::WrinkleOptions options;  ///< of its lines
+  std::optional<double> density;     ///< of the cloth [kg/m^2]; none: as the garment notes, else the default
+  std::vector<std::vector<int>> pins;
+};
+
+/// Reads garment and body. Throws std::invalid_argument for settings that cannot be, or that no studio draws
+/// by (several rounds at time 0), geometry::ContentError for files that cannot be used.
+Sketch open_sketch(const SceneInput& scene, Listener& listener);
+
+/// The strokes of the first round at time 0 as a list of JSON objects; of a scene without one, an empty list.
+Json strokes_of(const Sketch& sketch, Listener& listener);
+
+/// The settings with all paths relative to a folder, in a frame that says unit and axis.
+Json settings_for(const Sketch& sketch, const std::filesystem::path& folder);
+
+/// A garment with its lines, as it is shown.
+struct SketchedGarment {
+  io::MeshFile file;  ///< [m]
+  ShownMesh shown;
+  std::vector<std::string> told;  ///< warnings
+};
+
+/// Draws the strokes into the garment, as furrow wrinkle does with a file of them; without strokes it is the
+/// garment as it was. Throws as jobs::wrinkle().
+SketchedGarment draw_sketch(const Sketch& sketch, const Json& strokes, Listener& listener);
+
+/// A garment that came to rest with its lines.
+struct SketchAtRest {
+  io::MeshFile file;                 ///< [m]
+  std::string outcome;               ///< "at rest", or what else
+  std::vector<std::string> remarks;  ///< of what is wrong with it; empty: it is whole and at rest
+};
+
+/// Lets it come to rest on the body, hung from the pins, or both, as furrow wrinkle --settle does, and
+/// furrow drape where there are no strokes. Throws as these, and physics::Cancelled, if the listener cancels.
+SketchAtRest drape_sketch(const Sketch& sketch, const Json& strokes, Listener& listener);
+
+/// Writes scene.toml, strokes.json and shape.ply, each whole or not at all, into a folder that is there; the
+/// first is what furrow simulate, the second what furrow wrinkle reads. Names what was written.
+std::vector<std::string> save_sketch(const Sketch& sketch, const Json& strokes,
+                                     const std::filesystem::path& folder, Listener& listener);
+
+/// Writes the mesh as PLY in the sketch's frame.
+void write_sketched(const Sketch& sketch, const io::MeshFile& file, const std::filesystem::path& path,
+                    Listener& listener);
+
+/// The names of the fabrics that there are.
+std::vector<std::string> fabric_names();
+
+}  // namespace furrow::jobs

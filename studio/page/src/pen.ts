@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pen: a line that sticks to the cloth while the button is down.
+import type { Hit, View } from "./view";
+
+export interface Drawn { points: number[][]; closed: boolean }
+export interface PenSettings { on: boolean; colour: number; width: number }
+export interface PenHearer { drawn(line: Drawn): void; tooShort(): void }
+
+/** Distances as shares of the cloth's size. */
+const spacing = 0.004, longestJump = 0.1, shortest = 0.015;
+/** The window's distance between places that are looked at [pixels]. */
+const step = 3;
+
+export class Pen {
+  private hits: Hit[] = [];
+  private last?: [number, number];
+  private first?: [number, number];
+  private down = false;
+
+  constructor(private view: View, private settings: () => PenSettings, private hearer: PenHearer) {
+    const canvas = view.canvas;
+    // In the capturing phase, so that the camera stays where it is while a line is drawn.
+    canvas.addEventListener("pointerdown", (e) => this.begin(e), { capture: true });
+    canvas.addEventListener("pointermove", (e) => this.move(e), { capture: true });
+    canvas.addEventListener("pointerup", (e) => this.end(e), { capture: true });
+    canvas.addEventListener("pointercancel", () => this.drop(), { capture: true });
+  }
+
+  get drawing() { return this.down; }
+
+  private begin(e: PointerEvent) {
+    if (!this.settings().on || e.button !== 0 || this.down) return;
+    const hit = this.view.pick(e.clientX, e.clientY);
+    if (!hit) return;  // beside the cloth the camera turns
+    e.stopImmediatePropagation();
+    this.view.canvas.setPointerCapture(e.pointerId);
+    this.down = true;
+    this.hits = [hit];
+    this.first = this.last = [e.clientX, e.clientY];
+  }
+
+  private add(x: number, y: number) {
+    const hit = this.view.pick(x, y), before = this.hits[this.hits.length - 1];
+    if (!hit) return;
+    const far = hit.shown.distanceTo(before.shown) / this.view.size;
+    if (far >= spacing && far <= longestJump) this.hits.push(hit);
+  }
+
+  private addTo(x: number, y: number, from: [number, number]) {
+    const n = Math.max(1, Math.ceil(Math.hypot(x - from[0], y - from[1]) / step));
+    for (let i = 1; i <= n; ++i) this.add(from[0] + ((x - from[0]) * i) / n, from[1] + ((y - from[1]) * i) / n);
+  }
+
+  private move(e: PointerEvent) {
+    if (!this.down) return;
+    e.stopImmediatePropagation();
+    if (e.shiftKey) {
+      this.hits.length = 1;
+      this.addTo(e.clientX, e.clientY, this.first!);
+    } else {
+      for (const place of e.getCoalescedEvents?.() ?? [e]) {
+        this.addTo(place.clientX, place.clientY, this.last!);
+        this.last = [place.clientX, place.clientY];
+      }
+    }
+    this.last = [e.clientX, e.clientY];
+    const { width, colour } = this.settings();
+    this.view.showBand(this.isClosed() ? [...this.hits, this.hits[0]] : this.hits, width, colour);
+  }
+
+  private length() {
+    return this.hits.reduce((sum, hit, i) => sum + (i ? hit.shown.distanceTo(this.hits[i - 1].shown) : 0), 0);
+  }
+
+  /** A line that ends near its start, and is no short one. */
+  private isClosed() {
+    if (this.hits.length < 8) return false;
+    const gap = this.hits[0].shown.distanceTo(this.hits[this.hits.length - 1].shown);
+    return gap < 0.03 * this.view.size && this.length() > 8 * gap && this.length() > 0.15 * this.view.size;
+  }
+
+  private end(e: PointerEvent) {
+    if (!this.down) return;
+    e.stopImmediatePropagation();
+    this.down = false;
+    this.view.canvas.releasePointerCapture(e.pointerId);
+    if (this.hits.length < 3 || this.length() < shortest * this.view.size) {
+      this.drop();
+      return this.hearer.tooShort();
+    }
+    this.hearer.drawn({ points: this.hits.map((h) => h.undrawn.toArray()), closed: this.isClosed() });
+  }
+
+  /** Lets the line go. */
+  drop() {
+    this.down = false;
+    this.hits = [];
+    this.view.showBand([], 0, 0);
+  }
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How the page talks to the program: it sends what the user means, with an id, and is answered `done` or `refused`.
+
+export interface Line {
+  name: string; on: boolean; varies: boolean; height?: number; width?: number; sharpness?: number; press?: number; closed?: boolean;
+}
+export interface Status {
+  title: string; lines: Line[]; shown: number[]; earlier: string[]; fabric: string; fabrics: string[]; holds_top: boolean; pins: number;
+  has_body: boolean; can_drape: boolean; undo: string; redo: string; step: number; pen: number;
+}
+export interface Done { told?: string[]; outcome?: string; remarks?: string[]; written?: string[]; live?: boolean; passed_over?: boolean }
+export interface Progress { what: string; share: number }
+export interface Hearer {
+  status(status: Status): void; you(client: number): void; progress(progress: Progress): void; frame(bytes: ArrayBuffer): void; gone(): void;
+}
+
+/** What the program would not do, and its sentence why. */
+export class Refused extends Error {}
+
+interface Waiting { resolve(done: Done): void; reject(why: Refused): void }
+
+export class Program {
+  private socket: WebSocket;
+  private waiting = new Map<number, Waiting>();
+  private next = 1;
+
+  constructor(token: string, hearer: Hearer) {
+    this.socket = new WebSocket(`ws://${location.host}/ws?token=${token}`);
+    this.socket.binaryType = "arraybuffer";
+    this.socket.onmessage = (event: MessageEvent) => {
+      if (typeof event.data !== "string") return hearer.frame(event.data as ArrayBuffer);
+      const message = JSON.parse(event.data);
+      if (message.status) hearer.status(message.status);
+      if (message.you) hearer.you(message.you);
+      if (message.progress) hearer.progress(message.progress);
+      const waiting = this.waiting.get(message.id);
+      if (!waiting) return;
+      this.waiting.delete(message.id);
+      if (message.done) waiting.resolve(message.done);
+      else waiting.reject(new Refused(message.refused ?? "refused"));
+    };
+    this.socket.onclose = () => {
+      for (const w of this.waiting.values()) w.reject(new Refused("the program has ended; nothing is lost"));
+      this.waiting.clear();
+      hearer.gone();
+    };
+  }
+
+  ask(what: string, body: object = {}): Promise<Done> {
+    const id = this.next++;
+    return new Promise((resolve, reject) => {
+      if (this.socket.readyState !== WebSocket.OPEN) return reject(new Refused("the program has ended; start furrow studio again"));
+      this.waiting.set(id, { resolve, reject });
+      this.socket.send(JSON.stringify({ id, do: what, ...body }));
+    });
+  }
+}

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is seen: cloth, body, lines and pins, and the camera that looks at them. It draws when something has changed.
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { MeshBVH } from "three-mesh-bvh";
+import { type Frame, Kind } from "./frame";
+
+export interface Hit { shown: THREE.Vector3; normal: THREE.Vector3; undrawn: THREE.Vector3 }
+export interface Seen { body: boolean; wire: boolean; lines: boolean }
+export type Side = "front" | "back" | "right";
+
+interface Colours { ground: number; cloth: number; body: number; ridge: number; valley: number; wire: number }
+const light: Colours = { ground: 0xeceef1, cloth: 0xd9cdb8, body: 0xb9bcc2, ridge: 0xd4610f, valley: 0x2a6fd6, wire: 0x39424e };
+const dark: Colours = { ground: 0x1b1e22, cloth: 0xc9bca5, body: 0x6d737c, ridge: 0xff9a52, valley: 0x7fb0ff, wire: 0x14171b };
+
+/** Where a point of the pen's band lies above the cloth [share of the cloth's size]. */
+const lift = 0.0018;
+
+export class View {
+  readonly camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
+  readonly controls: OrbitControls;
+  readonly renderer: THREE.WebGLRenderer;
+  colours = light;
+  size = 1;  // the cloth's diagonal [m]
+  seen: Seen = { body: true, wire: false, lines: true };
+  private scene = new THREE.Scene();
+  private key = new THREE.DirectionalLight(0xffffff, 2.1);
+  private cloth: THREE.Mesh;
+  private body: THREE.Mesh;
+  private wire: THREE.LineSegments;
+  private band: THREE.Mesh;
+  private pins: THREE.Points;
+  private lines = new THREE.Group();
+  private clothTree?: MeshBVH;
+  private bodyTree?: MeshBVH;
+  private frame?: Frame;
+  private asked = false;
+  private framed = false;
+  private kinds: number[] = [];
+  private chosen = -1;
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.screenSpacePanning = true;
+    this.controls.addEventListener("change", () => this.draw());
+    const mesh = (material: THREE.Material) => new THREE.Mesh(new THREE.BufferGeometry(), material);
+    const side = THREE.DoubleSide;
+    this.cloth = mesh(new THREE.MeshStandardMaterial({ roughness: 0.92, side, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+    this.body = mesh(new THREE.MeshStandardMaterial({ roughness: 0.75, polygonOffset: true, polygonOffsetFactor: 3, polygonOffsetUnits: 3 }));
+    this.wire = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 }));
+    this.band = mesh(new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.55, side, depthWrite: false }));
+    this.pins = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 5, sizeAttenuation: false }));
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8d8478, 1.15), this.key, this.key.target);
+    this.scene.add(this.cloth, this.body, this.wire, this.lines, this.pins, this.band);
+    const scheme = matchMedia("(prefers-color-scheme: dark)");
+    scheme.addEventListener("change", () => this.paint(scheme.matches));
+    this.paint(scheme.matches);
+    new ResizeObserver(() => this.fit()).observe(canvas.parentElement!);
+    this.fit();
+  }
+
+  private paint(isDark: boolean) {
+    this.colours = isDark ? dark : light;
+    this.scene.background = new THREE.Color(this.colours.ground);
+    (this.cloth.material as THREE.MeshStandardMaterial).color.set(this.colours.cloth);
+    (this.body.material as THREE.MeshStandardMaterial).color.set(this.colours.body);
+    (this.wire.material as THREE.LineBasicMaterial).color.set(this.colours.wire);
+    (this.pins.material as THREE.PointsMaterial).color.set(this.colours.valley);
+    this.showLines();
+  }
+
+  private fit() {
+    const { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
+    if (!w || !h) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(w, h, false);
+    this.camera.aspect = w / h;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** Draws soon: once, however often it was asked. */
+  draw() {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.key.position.copy(this.camera.localToWorld(new THREE.Vector3(-0.55, 0.75, 0.35).multiplyScalar(this.size)));
+      this.key.target.position.copy(this.controls.target);
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+
+  private geometryOf(frame: Frame): THREE.BufferGeometry {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(frame.positions, 3));
+    geometry.setIndex(new THREE.BufferAttribute(frame.faces, 1));
+    geometry.computeVertexNormals();
+    return geometry;
+  }
+
+  show(frame: Frame) {
+    if (frame.kind === Kind.body) {
+      this.body.geometry.dispose();
+      this.body.geometry = this.geometryOf(frame);
+      this.bodyTree = new MeshBVH(this.body.geometry);
+      return this.draw();
+    }
+    this.frame = frame;
+    this.cloth.geometry.dispose();
+    this.cloth.geometry = this.geometryOf(frame);
+    this.clothTree = new MeshBVH(this.cloth.geometry);
+    this.cloth.geometry.computeBoundingBox();
+    this.size = this.cloth.geometry.boundingBox!.getSize(new THREE.Vector3()).length();
+    this.showWire();
+    this.showLines();
+    this.showPins();
+    if (!this.framed) this.look("front");
+    this.framed = true;
+    this.draw();
+  }
+
+  see(seen: Seen) {
+    this.seen = seen;
+    this.body.visible = seen.body;
+    this.lines.visible = seen.lines;
+    this.showWire();
+    this.draw();
+  }
+
+  /** Whether each line that is shown is a ridge (1) or a valley (-1), and which one is chosen. */
+  mark(kinds: number[], chosen: number) {
+    this.kinds = kinds;
+    this.chosen = chosen;
+    this.showLines();
+    this.draw();
+  }
+
+  private showWire() {
+    this.wire.visible = this.seen.wire;
+    if (!this.seen.wire || !this.frame) return;
+    this.wire.geometry.dispose();
+    this.wire.geometry = new THREE.WireframeGeometry(this.cloth.geometry);
+  }
+
+  private showPins() {
+    const { positions, pinned } = this.frame!;
+    const points = new Float32Array(3 * pinned.length);
+    pinned.forEach((v, i) => points.set(positions.subarray(3 * v, 3 * v + 3), 3 * i));
+    this.pins.geometry.dispose();
+    this.pins.geometry = new THREE.BufferGeometry();
+    this.pins.geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
+  }
+
+  private showLines() {
+    for (const child of [...this.lines.children] as LineSegments2[]) {
+      child.geometry.dispose();
+      child.material.dispose();
+      this.lines.remove(child);
+    }
+    if (!this.frame || this.frame.edges.length === 0) return;
+    const { positions, edges } = this.frame;
+    const normals = this.cloth.geometry.getAttribute("normal").array;
+    const ends = new Map<number, number[]>();
+    for (let e = 0; e < edges.length; e += 3) {
+      const line = edges[e + 2] < 0 ? -1 : edges[e + 2];
+      if (!ends.has(line)) ends.set(line, []);
+      for (const v of [edges[e], edges[e + 1]])
+        for (let k = 0; k < 3; ++k) ends.get(line)!.push(positions[3 * v + k] + 0.5 * lift * this.size * normals[3 * v + k]);
+    }
+    for (const [line, points] of ends) {
+      const geometry = new LineSegmentsGeometry();
+      geometry.setPositions(points);
+      const colour = line < 0 ? 0x8a8a8a : this.kinds[line] < 0 ? this.colours.valley : this.colours.ridge;
+      const isChosen = line >= 0 && line === this.chosen;
+      this.lines.add(new LineSegments2(geometry, new LineMaterial({ color: colour, linewidth: isChosen ? 5 : 2, transparent: !isChosen, opacity: isChosen ? 1 : 0.75 })));
+    }
+  }
+
+  private rayThrough(x: number, y: number): THREE.Ray {
+    const box = this.canvas.getBoundingClientRect();
+    const at = new THREE.Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
+    const caster = new THREE.Raycaster();
+    caster.setFromCamera(at, this.camera);
+    return caster.ray;
+  }
+
+  /** The cloth under a place of the window, unless the body hides it. */
+  pick(x: number, y: number): Hit | null {
+    if (!this.clothTree || !this.frame) return null;
+    const ray = this.rayThrough(x, y);
+    const hit = this.clothTree.raycastFirst(ray, THREE.DoubleSide);
+    if (!hit?.face) return null;
+    const before = this.seen.body && this.bodyTree?.raycastFirst(ray, THREE.FrontSide);
+    if (before && before.distance < hit.distance - 0.01 * this.size) return null;
+    const { a, b, c } = hit.face;
+    const at = (list: ArrayLike<number>, v: number) => new THREE.Vector3(list[3 * v], list[3 * v + 1], list[3 * v + 2]);
+    const { positions, undrawn } = this.frame;
+    const weights = THREE.Triangle.getBarycoord(hit.point, at(positions, a), at(positions, b), at(positions, c), new THREE.Vector3());
+    if (!weights) return null;
+    const normals = this.cloth.geometry.getAttribute("normal").array;
+    const blend = (list: ArrayLike<number>) =>
+      at(list, a).multiplyScalar(weights.x).addScaledVector(at(list, b), weights.y).addScaledVector(at(list, c), weights.z);
+    return { shown: hit.point.clone(), normal: blend(normals).normalize(), undrawn: blend(undrawn) };
+  }
+
+  /** The band that a line would raise, while it is drawn; of no hits: none. */
+  showBand(hits: Hit[], width: number, colour: number) {
+    this.band.visible = hits.length > 1;
+    if (hits.length > 1) {
+      const points: number[] = [], faces: number[] = [];
+      hits.forEach((hit, i) => {
+        const along = hits[Math.min(i + 1, hits.length - 1)].shown.clone().sub(hits[Math.max(i - 1, 0)].shown);
+        const across = along.cross(hit.normal).normalize();
+        const end = Math.min(i, hits.length - 1 - i) === 0 ? 0.35 : 1;
+        for (const s of [-1, -0.12, 0.12, 1])
+          points.push(...hit.shown.clone().addScaledVector(across, 0.5 * s * width * end).addScaledVector(hit.normal, lift * this.size).toArray());
+        if (i === 0) return;
+        for (let k = 0; k < 3; ++k) {
+          const p = 4 * (i - 1) + k, q = p + 4;
+          faces.push(p, q, p + 1, p + 1, q, q + 1);
+        }
+      });
+      this.band.geometry.dispose();
+      this.band.geometry = new THREE.BufferGeometry();
+      this.band.geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+      this.band.geometry.setIndex(faces);
+      const material = this.band.material as THREE.MeshBasicMaterial;
+      material.color.set(colour);
+      material.polygonOffset = true;
+      material.polygonOffsetFactor = material.polygonOffsetUnits = -4;
+    }
+    this.draw();
+  }
+
+  /** Looks at the whole cloth: from a side, or from where the camera is. */
+  look(side?: Side) {
+    if (!this.frame) return;
+    const sphere = new THREE.Box3().setFromBufferAttribute(this.cloth.geometry.getAttribute("position") as THREE.BufferAttribute)
+      .getBoundingSphere(new THREE.Sphere());
+    const ways = { front: [0, 0.12, 1], back: [0, 0.12, -1], right: [1, 0.12, 0] };
+    const way = side ? new THREE.Vector3(...ways[side]) : this.camera.position.clone().sub(this.controls.target);
+    const half = Math.atan(Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
+    this.controls.target.copy(sphere.center);
+    const distance = (1.05 * sphere.radius) / Math.sin(half);
+    this.camera.position.copy(sphere.center).addScaledVector(way.normalize(), distance);
+    this.camera.near = distance / 100;
+    this.camera.far = distance * 20;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Turns the camera about the cloth [rad], and brings it nearer by a factor. */
+  turn(right: number, up: number, nearer = 1) {
+    const way = new THREE.Spherical().setFromVector3(this.camera.position.clone().sub(this.controls.target));
+    way.theta -= right;
+    way.phi = Math.min(Math.max(way.phi - up, 0.02), Math.PI - 0.02);
+    way.radius /= nearer;
+    this.camera.position.setFromSpherical(way).add(this.controls.target);
+    this.controls.update();
+    this.draw();
+  }
+}

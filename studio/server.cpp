@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studio/server.h"
+
+#include <unistd.h>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <stdexcept>
+#include <thread>
+
+#include "studio/message.h"
+#include "studio/page_files.h"
+#include "studio/worker.h"
+
+namespace furrow::studio {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using tcp = asio::ip::tcp;
+using Request = http::request<http::empty_body>;
+using Response = http::response<http::string_body>;
+
+constexpr std::size_t most_pages = 32, longest_queue = 4096;
+
+std::string random_token() {
+  unsigned char bytes[32];  // 256 bits
+  if (getentropy(bytes, sizeof bytes) != 0) throw std::runtime_error("the system gives no random numbers");
+  std::string token;
+  for (const unsigned char b : bytes)
+    for (const int digit : {b >> 4, b & 15}) token += "0123456789abcdef"[digit];
+  return token;
+}
+
+/// In a time that does not tell how much of it is right.
+bool same_token(std::string_view a, std::string_view b) {
+  unsigned char differs = a.size() != b.size();
+  for (std::size_t i = 0; i < b.size(); ++i)
+    differs |= static_cast<unsigned char>((i < a.size() ? a[i] : 0) ^ b[i]);
+  return differs == 0;
+}
+
+std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+/// A request's target: path, and the token in its query.
+struct Target {
+  std::string_view path, token;
+};
+Target parse_target(std::string_view target) {
+  const std::size_t question = target.find('?');
+  Target parsed{target.substr(0, question), {}};
+  if (question == std::string_view::npos) return parsed;
+  const std::string_view query = target.substr(question + 1);
+  if (query.substr(0, 6) == "token=") parsed.token = query.substr(6, query.find('&') - 6);
+  return parsed;
+}
+
+Response answer_to(const Request& request, http::status status, std::string_view type, std::string body) {
+  Response answer(status, request.version());
+  answer.set(http::field::content_type, beast::string_view(type.data(), type.size()));
+  answer.set(http::field::cache_control, "no-store");
+  answer.set("X-Content-Type-Options", "nosniff");
+  answer.set("Referrer-Policy", "no-referrer");
+  answer.set("Cross-Origin-Resource-Policy", "same-origin");
+  answer.set("Content-Security-Policy",
+             "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' "
+             "data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+  answer.keep_alive(request.keep_alive() && status == http::status::ok);
+  answer.body() = std::move(body);
+  answer.prepare_payload();
+  return answer;
+}
+
+Response plain(const Request& request, http::status status, const std::string& words) {
+  return answer_to(request, status, "text/plain; charset=utf-8", words + "\n");
+}
+
+/// The page without its token: one that was loaded again has it in its session's storage (again.js).
+Response no_token(const Request& request, bool is_page) {
+  if (!is_page) return plain(request, http::status::forbidden, "403: the token is missing or wrong");
+  return answer_to(
+      request, http::status::forbidden, "text/html; charset=utf-8",
+      "<!doctype html><html lang=en><meta charset=utf-8><title>Furrow</title><p>This page opens with "
+      "the whole address that furrow studio printed.<script src=/again.js></script></html>");
+}
+
+}  // namespace
+
+class Page;
+
+struct Server::Parts {
+  explicit Parts(unsigned short wanted) : acceptor(io) {
+    const tcp::endpoint here(asio::ip::address_v4::loopback(), wanted);
+    acceptor.open(here.protocol());
+    acceptor.set_option(asio::socket_base::reuse_address(true));
+    acceptor.bind(here);
+    acceptor.listen();
+    port = acceptor.local_endpoint().port();
+  }
+  bool is_own_host(std::string_view host) const {
+    const std::string end = ":" + std::to_string(port);
+    return host == "127.0.0.1" + end || host == "localhost" + end;
+  }
+  bool is_own_origin(std::string_view origin) const {
+    return origin.substr(0, 7) == "http://" && is_own_host(origin.substr(7));
+  }
+  void accept();
+
+  std::size_t open = 0;  ///< connections; first, as those that end with `io` count down
+  asio::io_context io{1};
+  tcp::acceptor acceptor;
+  unsigned short port = 0;
+  std::string token = random_token();
+  Worker* worker = nullptr;
+  std::map<Client, std::weak_ptr<Page>> pages;
+  Client next = 1;
+  std::thread thread;
+};
+
+/// A page's WebSocket, and what waits to be sent to it.
+class Page : public std::enable_shared_from_this<Page> {
+ public:
+  Page(beast::tcp_stream&& stream, Server::Parts& server)
+      : ws_(std::move(stream)), server_(server), client_(server.next++) {
+    ++server_.open;
+  }
+  ~Page() { --server_.open; }
+
+  void run(const Request& request) {
+    ws_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+    ws_.read_message_max(largest_message + 1024);
+    ws_.async_accept(request, [self = shared_from_this()](beast::error_code failed) {
+      if (failed) return;
+      self->server_.pages[self->client_] = self;
+      self->server_.worker->greet(self->client_);
+      self->read();
+    });
+  }
+
+  /// One that waits of the same kind gives way.
+  void send(Bytes bytes, bool binary) {
+    const auto is_body = [](const Bytes& b) { return b->size() > 4 && (*b)[4] == 1; };
+    if (binary && queue_.size() > 1)
+      std::erase_if(queue_, [&, first = &queue_.front()](const Out& out) {
+        return &out != first && out.binary && is_body(out.bytes) == is_body(bytes);
+      });
+    if (queue_.size() >= longest_queue) return close();
+    queue_.push_back({std::move(bytes), binary});
+    if (queue_.size() == 1) write();
+  }
+  void close() { beast::get_lowest_layer(ws_).close(); }
+
+ private:
+  struct Out {
+    Bytes bytes;
+    bool binary;
+  };
+  void read() {
+    ws_.async_read(buffer_, [self = shared_from_this()](beast::error_code failed, std::size_t) {
+      if (failed) return self->leave();
+      const std::string text = beast::buffers_to_string(self->buffer_.data());
+      self->buffer_.consume(self->buffer_.size());
+      if (self->ws_.got_text())
+        self->server_.worker->post(self->client_, text);
+      else
+        self->send(std::make_shared<const std::string>(
+                       R"({"id":null,"refused":"binary messages are not understood"})"),
+                   false);
+      self->read();
+    });
+  }
+  void write() {
+    ws_.binary(queue_.front().binary);
+    ws_.async_write(asio::buffer(*queue_.front().bytes),
+                    [self = shared_from_this()](beast::error_code failed, std::size_t) {
+                      if (failed) return self->leave();
+                      self->queue_.pop_front();
+                      if (!self->queue_.empty()) self->write();
+                    });
+  }
+  void leave() {
+    if (server_.pages.erase(client_)) server_.worker->leave(client_);
+    close();
+  }
+
+  websocket::stream<beast::tcp_stream> ws_;
+  Server::Parts& server_;
+  Client client_;
+  beast::flat_buffer buffer_;
+  std::deque<Out> queue_;
+};
+
+/// A connection that asks for files, until it asks for the WebSocket.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(tcp::socket&& socket, Server::Parts& server) : stream_(std::move(socket)), server_(server) {
+    ++server_.open;
+  }
+  ~Connection() { --server_.open; }
+
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(16 << 10);
+    stream_.expires_after(std::chrono::seconds(30));
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](beast::error_code failed, std::size_t) {
+                       if (!failed) self->answer(self->parser_->get());
+                     });
+  }
+
+ private:
+  void answer(const Request& request) {
+    const Target target = parse_target(view(request.target()));
+    if (!server_.is_own_host(view(request[http::field::host])))
+      return send(
+          plain(request, http::status::misdirected_request, "421: this is not the host that you asked"));
+    if (request.method() != http::verb::get)
+      return send(plain(request, http::status::method_not_allowed, "405: only GET is answered"));
+    const bool is_helper = target.path == "/again.js";
+    if (!is_helper && !same_token(target.token, server_.token))
+      return send(no_token(request, target.path == "/"));
+    if (target.path == "/ws") return upgrade(request);
+    const PageFile* file = find_page_file(target.path);
+    if (!file) return send(plain(request, http::status::not_found, "404: there is no such file"));
+    std::string body(file->bytes);
+    for (std::size_t at; target.path == "/" && (at = body.find("TOKEN")) != std::string::npos;)
+      body.replace(at, 5, server_.token);
+    Response response = answer_to(request, http::status::ok, file->type, std::move(body));
+    if (file->gzipped) response.set(http::field::content_encoding, "gzip");
+    send(std::move(response));
+  }
+
+  void upgrade(const Request& request) {
+    if (!websocket::is_upgrade(request))
+      return send(plain(request, http::status::bad_request, "400: this address takes a WebSocket"));
+    if (!server_.is_own_origin(view(request[http::field::origin])))
+      return send(plain(request, http::status::forbidden, "403: the page is of another origin"));
+    stream_.expires_never();
+    std::make_shared<Page>(std::move(stream_), server_)->run(request);
+  }
+
+  void send(Response&& response) {
+    response_ = std::move(response);
+    http::async_write(stream_, *response_,
+                      [self = shared_from_this()](beast::error_code failed, std::size_t) {
+                        if (failed || self->response_->need_eof()) {
+                          beast::error_code ignored;
+                          self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+                          return;
+                        }
+                        self->read();
+                      });
+  }
+
+  beast::tcp_stream stream_;
+  Server::Parts& server_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::empty_body>> parser_;
+  std::optional<Response> response_;
+};
+
+void Server::Parts::accept() {
+  acceptor.async_accept([this](beast::error_code failed, tcp::socket socket) {
+    if (failed == asio::error::operation_aborted) return;
+    if (!failed && open < most_pages) std::make_shared<Connection>(std::move(socket), *this)->read();
+    accept();
+  });
+}
+
+Server::Server(unsigned short port) {
+  try {
+    parts_ = std::make_shared<Parts>(port);
+  } catch (const boost::system::system_error& e) {
+    throw std::runtime_error("port " + std::to_string(port) + " of 127.0.0.1 cannot be had: " +
+                             e.code().message() + "; leave out --port for a free one");
+  }
+}
+
+Server::~Server() { stop(); }
+
+void Server::start(Worker& worker) {
+  parts_->worker = &worker;
+  parts_->accept();
+  parts_->thread = std::thread([p = parts_] { p->io.run(); });
+}
+
+void Server::stop() {
+  if (!parts_->thread.joinable()) return;
+  parts_->io.stop();
+  parts_->thread.join();
+}
+
+unsigned short Server::port() const { return parts_->port; }
+const std::string& Server::token() const { return parts_->token; }
+
+void Server::tell(Client client, const jobs::Json& message) {
+  send(
+      client,
+      std::make_shared<const std::string>(message.dump(-1, ' ', false, jobs::Json::error_handler_t::replace)),
+      false);
+}
+
+void Server::show(Client client, Bytes frame) { send(client, std::move(frame), true); }
+
+void Server::send(Client client, Bytes bytes, bool binary) {
+  asio::post(parts_->io, [p = parts_.get(), client, bytes = std::move(bytes), binary] {
+    for (const auto& [id, page] : p->pages)
+      if (client == everybody || client == id)
+        if (const auto here = page.lock()) here->send(bytes, binary);
+  });
+}
+
+}  // namespace furrow::studio

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studio/studio.h"
+
+#include "studio/project.h"
+#include "studio/server.h"
+#include "studio/session.h"
+#include "studio/worker.h"
+
+namespace furrow::studio {
+
+struct Studio::Parts {
+  template <class... What>
+  explicit Parts(unsigned short port, const What&... what)
+      : server(port), session(what..., server), worker(session, server) {
+    worker.start();
+    server.start(worker);
+  }
+  ~Parts() {
+    server.stop();
+    worker.stop();
+  }
+
+  Server server;
+  Session session;
+  Worker worker;
+};
+
+Studio::Studio(const jobs::SceneInput& scene, const std::filesystem::path& folder, unsigned short port)
+    : parts_(std::make_unique<Parts>(port, scene, folder)) {}
+Studio::Studio(const std::filesystem::path& folder, unsigned short port)
+    : parts_(std::make_unique<Parts>(port, folder)) {}
+Studio::~Studio() = default;
+
+bool Studio::is_project(const std::filesystem::path& folder) { return Project::is_there(folder); }
+
+std::string Studio::url() const {
+  return "http://127.0.0.1:" + std::to_string(port()) + "/?token=" + token();
+}
+unsigned short Studio::port() const { return parts_->server.port(); }
+const std::string& Studio::token() const { return parts_->server.token(); }
+
+}  // namespace furrow::studio

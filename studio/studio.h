@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "jobs/inputs.h"
+
+namespace furrow::studio {
+
+/// A studio that serves one project to pages on this machine, in threads of its own, from its making until
+/// its end. All that was done is in the project's folder then.
+class Studio {
+ public:
+  /// Begins a drawing in the folder, or goes on with the one that is there. `port` 0: a free one. Throws
+  /// std::invalid_argument for a folder that cannot be taken and for settings that cannot be,
+  /// geometry::ContentError for files that cannot be used, std::runtime_error if no port can be had.
+  Studio(const jobs::SceneInput& scene, const std::filesystem::path& folder, unsigned short port = 0);
+  /// Goes on with a project.
+  explicit Studio(const std::filesystem::path& folder, unsigned short port = 0);
+  ~Studio();
+  Studio(const Studio&) = delete;
+  Studio& operator=(const Studio&) = delete;
+
+  static bool is_project(const std::filesystem::path& folder);
+  /// The page's address with its token: whoever knows it may draw.
+  std::string url() const;
+  unsigned short port() const;
+  const std::string& token() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace furrow::studio

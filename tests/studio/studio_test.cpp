@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studio/studio.h"
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "geometry/mesh/sheet.h"
+#include "io/scene/scene.h"
+#include "jobs/wrinkle.h"
+#include "tests/jobs/job_folders.h"
+
+namespace furrow {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace fs = std::filesystem;
+using jobs::Json;
+
+/// A level sheet of 0.4 m, hung by its border of largest y, in a folder of its own; beside it the project's.
+struct Desk {
+  explicit Desk(const std::string& name) : folder(tests::empty_folder("studio_" + name)) {
+    io::MeshFile sheet;
+    sheet.mesh = geometry::equilateral_sheet(0.4, 0.4, 0.04);
+    io::write_mesh(folder / "sheet.ply", sheet);
+    scene.settings = io::parse_toml("[garment]\nmesh = \"sheet.ply\"\n", "test");
+    scene.folder = folder;
+    io::set_value(scene.settings, "pins.0", Json{{"box", {-1, 0.35, -1, 1, 1, 1}}}, "test");
+  }
+  fs::path project() const { return folder / "drawing"; }
+  fs::path folder;
+  jobs::SceneInput scene;
+};
+
+/// A page that is no browser.
+class Visitor {
+ public:
+  explicit Visitor(const studio::Studio& studio, const std::string& origin = "") : ws_(io_) {
+    const std::string host = "127.0.0.1:" + std::to_string(studio.port());
+    beast::get_lowest_layer(ws_).connect({asio::ip::address_v4::loopback(), studio.port()});
+    ws_.set_option(beast::websocket::stream_base::decorator([&](auto& request) {
+      request.set(http::field::origin, origin.empty() ? "http://" + host : origin);
+    }));
+    ws_.handshake(host, "/ws?token=" + studio.token());
+  }
+
+  void send(const std::string& text) { ws_.write(asio::buffer(text)); }
+  /// The answer to a message; meshes and states that come before it are kept.
+  Json ask(const std::string& what, Json body = Json::object()) {
+    body["do"] = what;
+    body["id"] = ++id_;
+    send(body.dump());
+    return answer();
+  }
+  Json answer() {
+    for (;;) {
+      beast::flat_buffer buffer;
+      ws_.read(buffer);
+      const std::string text = beast::buffers_to_string(buffer.data());
+      if (ws_.got_binary()) {
+        if (text.at(4) == 0) cloth = text;
+        continue;
+      }
+      Json message = Json::parse(text);
+      if (message.contains("status")) status = message["status"];
+      if (message.contains("id")) return message;
+    }
+  }
+
+  Json status;
+  std::string cloth;  ///< the last mesh of it
+
+ private:
+  asio::io_context io_;
+  beast::websocket::stream<beast::tcp_stream> ws_;
+  int id_ = 0;
+};
+
+Json line_at(double x, double height = 0.02) {
+  return {{"height", height}, {"width", 0.08}, {"points", {{x, 0.1, 0.0}, {x, 0.2, 0.0}, {x, 0.3, 0.0}}}};
+}
+
+/// The status of a request, and its body.
+http::response<http::string_body> get(const studio::Studio& studio, const std::string& target,
+                                      std::string host = "") {
+  if (host.empty()) host = "127.0.0.1:" + std::to_string(studio.port());
+  asio::io_context io;
+  beast::tcp_stream stream(io);
+  stream.connect({asio::ip::address_v4::loopback(), studio.port()});
+  http::request<http::empty_body> request(http::verb::get, target, 11);
+  request.set(http::field::host, host);
+  http::write(stream, request);
+  beast::flat_buffer buffer;
+  http::response<http::string_body> response;
+  http::read(stream, buffer, response);
+  return response;
+}
+
+Json strokes_of(const fs::path& folder) {
+  return Json::parse(tests::bytes_of(folder / "strokes.json")).at("strokes");
+}
+
+}  // namespace
+
+TEST_CASE("studio: a line is drawn, changed, switched off, undone and drawn again, to the same bytes") {
+  const Desk desk("draw");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  REQUIRE(page.ask("take").contains("done"));
+  const std::string bare = page.cloth;
+  REQUIRE(page.ask("draw", line_at(0.2)).contains("done"));
+  page.ask("show");
+  const std::string drawn = page.cloth;
+  CHECK(drawn.size() > bare.size());
+  CHECK(page.status.at("lines").at(0).at("name") == "ridge 1");
+  CHECK(page.status.at("undo") == "draw ridge 1");
+  REQUIRE(page.ask("set", {{"line", 0}, {"height", 0.03}}).contains("done"));
+  page.ask("show");
+  CHECK(page.cloth != drawn);
+  REQUIRE(page.ask("set", {{"line", 0}, {"on", false}}).contains("done"));
+  page.ask("show");
+  CHECK(page.cloth == bare);
+  page.ask("undo");
+  page.ask("undo");
+  page.ask("show");
+  CHECK(page.cloth == drawn);
+  page.ask("undo");
+  page.ask("show");
+  CHECK(page.cloth == bare);
+  CHECK(page.ask("undo").at("refused") == "there is nothing to undo");
+  for (int i = 0; i < 3; ++i) CHECK(page.ask("redo").contains("done"));
+  CHECK(page.ask("redo").at("refused") == "there is nothing to do again");
+}
+
+TEST_CASE("studio: what is saved is what furrow wrinkle draws") {
+  const Desk desk("save");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  for (const Json& line : {line_at(0.05), line_at(0.15, -0.02)}) {
+    const Json answer = page.ask("draw", line);
+    INFO(answer.dump());
+    REQUIRE(answer.contains("done"));
+  }
+  const Json saved = page.ask("save");
+  INFO(saved.dump());
+  REQUIRE(saved.at("done").at("written").size() == 3);
+  REQUIRE(strokes_of(desk.project()).size() == 2);
+  tests::empty_folder("studio_other");
+  jobs::WrinkleJob job;
+  job.garment = (desk.folder / "sheet.ply").string();
+  job.strokes = (desk.project() / "strokes.json").string();
+  struct : jobs::Listener {
+  } nobody;
+  const jobs::WrinkleReport report = jobs::wrinkle(job, nobody);
+  CHECK(tests::positions(report.garment) == tests::positions(io::read_mesh(desk.project() / "shape.ply")));
+}
+
+TEST_CASE("studio: a project is gone on with where it was, and its folder is not taken for another drawing") {
+  const Desk desk("again");
+  std::string drawn;
+  {
+    const studio::Studio studio(desk.scene, desk.project());
+    Visitor page(studio);
+    page.ask("draw", line_at(0.2));
+    page.ask("show");
+    drawn = page.cloth;
+  }
+  REQUIRE(studio::Studio::is_project(desk.project()));
+  {
+    const studio::Studio studio(desk.project());
+    Visitor page(studio);
+    page.ask("show");
+    CHECK(page.cloth == drawn);
+    CHECK(page.ask("undo").contains("done"));
+  }
+  jobs::SceneInput other = desk.scene;
+  io::set_value(other.settings, "material.preset", "denim", "test");
+  CHECK_THROWS_AS(studio::Studio(other, desk.project()), std::invalid_argument);
+  CHECK_THROWS_AS(studio::Studio(desk.scene, desk.folder), std::invalid_argument);  // there, and no project
+}
+
+TEST_CASE("studio: it drapes, and the lines are in the cloth then", "[release]") {
+  const Desk desk("drape");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  page.ask("draw", line_at(0.2));
+  const Json answer = page.ask("drape");
+  INFO(answer.dump());
+  REQUIRE(answer.at("done").at("outcome") == "at rest");
+  CHECK(page.status.at("earlier") == Json::array({"ridge 1"}));
+  CHECK(page.status.at("lines").empty());
+  CHECK(page.ask("undo").contains("done"));
+  page.ask("show");
+  CHECK(page.status.at("lines").size() == 1);
+}
+
+TEST_CASE("studio: without its token, from another host or another page, nothing is told") {
+  const Desk desk("doors");
+  const studio::Studio studio(desk.scene, desk.project());
+  const std::string with = "/?token=" + studio.token();
+  CHECK(get(studio, with).result() == http::status::ok);
+  CHECK(get(studio, "/").result() == http::status::forbidden);
+  CHECK(get(studio, "/app.js").result() == http::status::forbidden);
+  std::string wrong = with;
+  wrong.back() = wrong.back() == '0' ? '1' : '0';
+  CHECK(get(studio, wrong).result() == http::status::forbidden);
+  CHECK(get(studio, with, "furrow.example").result() == http::status::misdirected_request);
+  CHECK(get(studio, "/../project.json?token=" + studio.token()).result() == http::status::not_found);
+  CHECK_THROWS_AS(Visitor(studio, "http://furrow.example"), boost::system::system_error);
+  const auto page = get(studio, with);
+  CHECK(std::string(page["Content-Security-Policy"]).find("default-src 'none'") == 0);
+  CHECK(page["X-Content-Type-Options"] == "nosniff");
+  CHECK(page["Cache-Control"] == "no-store");
+}
+
+TEST_CASE("studio: hostile messages are refused in words, and change nothing") {
+  const Desk desk("hostile");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  page.ask("draw", line_at(0.2));
+  page.ask("show");
+  const std::string before = page.cloth;
+  const Json status = page.status;
+  std::string deep(100, '[');
+  Json many = line_at(0.2), one = line_at(0.2);
+  many["points"] = Json::array();
+  for (int i = 0; i < 20001; ++i) many["points"].push_back({0.1, 0.1, 0.0});
+  one["points"] = {{0.1, 0.1, 0.0}};
+  const std::vector<std::string> texts{"",
+                                       "{",
+                                       "[]",
+                                       "7",
+                                       "null",
+                                       deep,
+                                       R"({"id":1})",
+                                       R"({"do":"undo"})",
+                                       R"({"id":[],"do":"undo"})",
+                                       R"({"id":1,"do":"rm"})",
+                                       R"({"id":1,"do":7})",
+                                       R"({"id":1,"do":"draw"})",
+                                       R"({"id":1,"do":"draw","height":1e999,"points":[[0,0,0],[1,1,1]]})",
+                                       R"({"id":1,"do":"draw","height":null,"points":[[0,0,0],[1,1,1]]})",
+                                       R"({"id":1,"do":"draw","height":0.01,"points":[[0,0],[1,1]]})",
+                                       R"({"id":1,"do":"draw","height":0.01,"points":[[0,0,0],[1e300,1,1]]})",
+                                       R"({"id":1,"do":"draw","height":0.01,"points":[["a",0,0],[1,1,1]]})",
+                                       R"({"id":1,"do":"draw","height":0.01,"points":[[9,9,9],[9.1,9,9]]})",
+                                       R"({"id":1,"do":"set","line":9,"height":0.01})",
+                                       R"({"id":1,"do":"set","line":-1,"height":0.01})",
+                                       R"({"id":1,"do":"set","line":0})",
+                                       R"({"id":1,"do":"set","line":0,"on":3})",
+                                       R"({"id":1,"do":"set","line":0,"width":-1})",
+                                       R"({"id":1,"do":"delete","line":"0"})",
+                                       R"({"id":1,"do":"fabric","name":"../../etc/passwd"})",
+                                       R"({"id":1,"do":"hold"})"};
+  for (const std::string& text : texts) {
+    INFO(text.substr(0, 80));
+    page.send(text);
+    const Json answer = page.answer();
+    CHECK(answer.contains("refused"));
+    CHECK(answer.value("refused", "").size() > 10);
+  }
+  for (const Json& body : {many, one}) CHECK(page.ask("draw", body).contains("refused"));
+  page.ask("show");
+  CHECK(page.cloth == before);
+  CHECK(page.status == status);
+}
+
+TEST_CASE("studio: one page draws, another watches until it takes the pen") {
+  const Desk desk("two");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor first(studio);
+  first.ask("take");
+  Visitor second(studio);
+  CHECK(second.ask("draw", line_at(0.2)).at("refused").get<std::string>().find("another page") == 0);
+  CHECK(second.ask("take").contains("done"));
+  CHECK(second.ask("draw", line_at(0.2)).contains("done"));
+  CHECK(first.ask("draw", line_at(0.1)).contains("refused"));
+}
+
+}  // namespace furrow

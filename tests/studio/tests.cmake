@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+if(furrow_studio)
+  furrow_add_tests(studio studio LIBRARIES furrow::studio Boost::headers SOURCES studio_test.cpp)
+  # In a real browser; 77: there is none.
+  if(NOT FURROW_SANITIZE)
+    add_test(NAME studio_browser COMMAND ${FURROW_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/studio/browser_test.mjs
+      $<TARGET_FILE:furrow> ${PROJECT_SOURCE_DIR}/meshes ${furrow_page} ${PROJECT_BINARY_DIR}/studio-pictures)
+    set_tests_properties(studio_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+  endif()
+endif()
