@@ -106,22 +106,23 @@ physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collid
 
 constexpr double far = 0.25;  // [m] from the body, where cloth that nothing holds has fallen past it
 
-/// Whether cloth that touches nothing on a coarse level falls past the body, which no finer level would mend.
-/// As a rough rest may lie above what the cloth comes to lie on, a copy looks for rest to the end; it takes
-/// the cloth's place if it falls.
+/// Whether cloth that touches nothing on a coarse level falls past the body, which no finer level would mend:
+/// all of it, or all that was not laid aside. As a rough rest may lie above what the cloth comes to lie on, a
+/// copy looks for rest to the end; it takes the cloth's place if it falls.
 bool falls_past(physics::Cloth& cloth, const physics::Collider* body, const DrapeOptions& o,
                 const physics::SettleObserver& observer, physics::SettleReport& rest) {
   const std::vector<double>& inv_mass = cloth.particles.inv_mass;
-  const bool held = std::find(inv_mass.begin(), inv_mass.end(), 0) != inv_mass.end();
-  if (!body || o.plain || held || o.settle.gravity.isZero() || rest.stopped || rest.touching > 0)
+  const auto held = std::count(inv_mass.begin(), inv_mass.end(), 0);
+  const bool carried = held > 0 && (!o.held_aside || held == std::ssize(inv_mass));
+  if (!body || o.plain || carried || o.settle.gravity.isZero() || rest.stopped || rest.touching > 0)
     return false;
   physics::SettleOptions fine = level_options(o, false, false);
   fine.tolerance = o.settle.tolerance;
   physics::Cloth copy = cloth;
   const physics::SettleReport end = physics::settle(copy, body, fine, observer);
-  const bool falls = end.touching == 0 && !end.stopped &&
-                     std::all_of(copy.particles.x.begin(), copy.particles.x.end(),
-                                 [&](const Vec3& x) { return body->at(x).value > far; });
+  bool falls = end.touching == 0 && !end.stopped;
+  for (std::size_t i = 0; falls && i < inv_mass.size(); ++i)
+    falls = !(inv_mass[i] > 0) || body->at(copy.particles.x[i]).value > far;
   rest.stopped = end.stopped;
   if (falls) cloth = std::move(copy), rest = end;
   return falls;

@@ -35,6 +35,9 @@ struct DrapeOptions {
   /// every step that turns a fold stretches it; it finds it in a third of the iterations from where soft
   /// cloth rests.
   double soft_start = 1;
+  /// Whether what is held are parts laid aside, as nothing carries them: they carry nothing either, and where
+  /// all others fall, there are no finer levels.
+  bool held_aside = false;
   /// Internal friction of bending on the last level, as a moment a metre of hinge [N]; >= 0, 0: none. It
   /// needs linear hinges, and not plain. See physics/rest/hinge_friction.h.
   double bending_friction = 0;

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/mesh/add_all_faces.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/self_intersections.h"
@@ -53,6 +54,20 @@ Corners cyclic(Corners c) {
   return c;
 }
 
+/// Of an oriented soup without edges of three faces or vertices of two fans.
+ExactMesh joined_soup(const Soup& soup) {
+  ExactMesh body;
+  std::vector<CornerIndices> corners;
+  for (const auto& f : soup.faces) corners.push_back({f[0], f[1], f[2]});
+  if (has_crowded_point(corners, soup.points.size())) {
+    for (const auto& p : soup.points) body.add_vertex(p);
+    if (add_all_faces(std::span<const CornerIndices>(corners), body)) return body;
+    body.clear();
+  }
+  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.faces, body);
+  return body;
+}
+
 /// The parted, consistently wound and stitched mesh of a soup.
 ExactMesh oriented_mesh(Soup& soup, BodyReport& report) {
   const std::size_t faces = soup.faces.size();
@@ -66,8 +81,7 @@ ExactMesh oriented_mesh(Soup& soup, BodyReport& report) {
   points = soup.points.size();
   pmp::orient_polygon_soup(soup.points, soup.faces);
   report.duplicated_points = soup.points.size() - points;
-  ExactMesh body;
-  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.faces, body);
+  ExactMesh body = joined_soup(soup);
   pmp::stitch_borders(body);
   return body;
 }

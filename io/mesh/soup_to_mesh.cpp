@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <numeric>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <utility>
 
+#include "geometry/mesh/add_all_faces.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/mesh/make_manifold.h"
@@ -96,58 +95,6 @@ bool has_one_fan_per_vertex(const Mesh& mesh) {
   return true;
 }
 
-/// Whether so many faces meet at a point that add_face(), which walks around it, would be slow.
-bool has_crowded_point(const Triangles& triangles, std::size_t points) {
-  constexpr int crowd = 1000;
-  std::vector<int> faces(points, 0);
-  for (const SoupTriangle& t : triangles)
-    for (const std::size_t p : t.points)
-      if (++faces[p] > crowd) return true;
-  return false;
-}
-
-/// The halfedge from a to b; makes the edge where it is missing.
-using Edges = std::unordered_map<std::uint64_t, Halfedge>;
-Halfedge halfedge_between(Mesh& mesh, Edges& edges, Vertex a, Vertex b) {
-  const auto key = [](Vertex from, Vertex to) { return std::uint64_t{from.idx()} << 32 | to.idx(); };
-  if (const auto found = edges.find(key(a, b)); found != edges.end()) return found->second;
-  const Halfedge h = mesh.add_edge(a, b);
-  edges[key(a, b)] = h;
-  edges[key(b, a)] = mesh.opposite(h);
-  return h;
-}
-
-/// As add_face() of each triangle, which it agrees with in all indices, in linear time. False if an edge has
-/// two faces on one side, or a vertex more than one gap.
-bool add_all_faces(const Triangles& triangles, Mesh& mesh) {
-  Edges edges;
-  for (const SoupTriangle& t : triangles) {
-    std::array<Halfedge, 3> sides;
-    for (int k = 0; k < 3; ++k) {
-      const auto vertex = [&](int i) { return Vertex(static_cast<Mesh::size_type>(t.points[i % 3])); };
-      sides[k] = halfedge_between(mesh, edges, vertex(k), vertex(k + 1));
-      if (!mesh.is_border(sides[k])) return false;
-    }
-    const Face face = mesh.add_face();
-    mesh.set_halfedge(face, sides[2]);
-    for (int k = 0; k < 3; ++k) {
-      mesh.set_face(sides[k], face);
-      mesh.set_next(sides[k], sides[(k + 1) % 3]);
-      if (!mesh.halfedge(mesh.target(sides[k])).is_valid())
-        mesh.set_halfedge(mesh.target(sides[k]), sides[k]);
-    }
-  }
-  std::vector<Halfedge> gap(mesh.num_vertices());  // that leaves the vertex
-  for (const Halfedge h : mesh.halfedges())
-    if (mesh.is_border(h) && std::exchange(gap[mesh.source(h)], h).is_valid()) return false;
-  for (const Halfedge h : gap) {
-    if (!h.is_valid()) continue;
-    mesh.set_next(h, gap[mesh.target(h)]);
-    mesh.set_halfedge(mesh.target(h), h);
-  }
-  return true;
-}
-
 /// False if some face does not fit into an oriented manifold.
 bool build(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& out) {
   out.mesh.clear();
@@ -155,8 +102,10 @@ bool build(const PolygonSoup& soup, const Triangles& triangles, SoupMesh& out) {
                    static_cast<Mesh::size_type>(triangles.size() * 3 / 2 + 16),
                    static_cast<Mesh::size_type>(triangles.size()));
   for (const std::size_t point : out.origin) out.mesh.add_vertex(soup.points[point]);
-  if (has_crowded_point(triangles, out.origin.size()))
-    return add_all_faces(triangles, out.mesh) && has_one_fan_per_vertex(out.mesh);
+  std::vector<CornerIndices> corners;
+  for (const SoupTriangle& t : triangles) corners.push_back(t.points);
+  if (has_crowded_point(corners, out.origin.size()))
+    return add_all_faces<Mesh>(corners, out.mesh) && has_one_fan_per_vertex(out.mesh);
   for (const SoupTriangle& t : triangles) {
     const auto vertex = [&](int k) { return Vertex(static_cast<Mesh::size_type>(t.points[k])); };
     if (out.mesh.add_face(vertex(0), vertex(1), vertex(2)) == Mesh::null_face()) return false;

@@ -82,8 +82,10 @@ Gone go(const DrapePlan& plan, GarmentMaker& maker, WayRecorder& way, const Fall
     const int levels = plan.options.refinements + 1;
     return progress((level + std::clamp(way_there, 0.0, 1.0)) / levels) && gone.falling.empty();
   };
+  bridge::DrapeOptions options = plan.options;
+  options.held_aside = !maker.loose.empty() && plan.scene.pins.empty();
   gone.mesh = plan.as_read.mesh;
-  gone.report = bridge::drape(gone.mesh, gone.cloth, plan.body ? &plan.body->field : nullptr, plan.options,
+  gone.report = bridge::drape(gone.mesh, gone.cloth, plan.body ? &plan.body->field : nullptr, options,
                               std::ref(maker), observe);
   return gone;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cmath>
 
 namespace furrow::physics {
 
@@ -15,6 +16,9 @@ inline Float4 absolute(Float4 a) {
   typedef int Int4 __attribute__((vector_size(16)));
   return reinterpret_cast<Float4>(reinterpret_cast<Int4>(a) &
                                   Int4{0x7fffffff, 0x7fffffff, 0x7fffffff, 0x7fffffff});
+}
+inline Float4 square_root(Float4 a) {
+  return Float4{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 }
 inline float least(Float4 a) {
   const float b = a[0] < a[1] ? a[0] : a[1], c = a[2] < a[3] ? a[2] : a[3];

@@ -69,7 +69,7 @@ Float4 triangle_distances(const TriangleBvh::Leaf& leaf, const Float4* p) {
 
 }  // namespace
 
-TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
+TriangleBvh::TriangleBvh(const TriangleMesh& mesh) : crowded_(mesh) {
   Eigen::AlignedBox3d box;
   std::vector<Vec3> centroids;
   centroids.reserve(mesh.triangles.size());
@@ -174,6 +174,7 @@ void TriangleBvh::refit(std::span<const char> dropped) {
       node_box[i].extend(box);
     }
   if (has_needles()) orient(dropped);
+  if (!crowded_.empty()) fit_cones(dropped);
 }
 
 /// Needs the nodes' own boxes; sets the others where they are much smaller. O(T log T).
@@ -195,6 +196,37 @@ void TriangleBvh::orient(std::span<const char> dropped) {
       const Vec3 aligned(half[0][lane], half[1][lane], half[2][lane]);
       if (half_surface(box.half) < much_smaller * half_surface(aligned)) oriented_[i].set(lane, box);
       points[i].insert(points[i].end(), below.begin(), below.end());
+    }
+}
+
+/// A child has a cone where one corner is shared by all that is below it. O(T log T).
+void TriangleBvh::fit_cones(std::span<const char> dropped) {
+  struct Below {
+    std::vector<Vec3> points;
+    std::vector<CrowdedCorner> shared;
+    void add(std::span<const Vec3> more, const std::vector<CrowdedCorner>& corners) {
+      shared = points.empty() ? corners : common_corners(shared, corners);
+      points.insert(points.end(), more.begin(), more.end());
+    }
+  };
+  cones_.assign(nodes_.size(), {});
+  std::vector<Below> nodes(nodes_.size());
+  for (std::size_t i = nodes_.size(); i-- > 0;)
+    for (int lane = 0; lane < 4; ++lane) {
+      const int child = nodes_[i].child[lane];
+      Below below;
+      if (child >= 0) std::swap(below, nodes[child]);
+      for (int j = 0; child < 0 && child != Node::none && j < leaf_size; ++j)
+        if (const int t = leaves_[~child].triangle[j]; t != Node::none && !dropped[t])
+          below.add(corners(t), crowded_.of(t, corners(t)));
+      if (below.points.empty()) continue;
+      if (!below.shared.empty()) {
+        const TriangleCorner at = below.shared[0].at;
+        CornerCone cone = fit_corner_cone(corners(at.triangle)[at.corner], below.points);
+        cone.apex -= centre_;
+        cones_[i].set(lane, cone, at);
+      }
+      nodes[i].add(below.points, below.shared);
     }
 }
 
@@ -262,8 +294,31 @@ void TriangleBvh::search_leaf(Search& s, int leaf) const {
   if (!s.trust_float) settle(s);
 }
 
+/// Lower bounds of the distances, squared. Where a corner is closer than all else of a child it is taken for
+/// the child, which need not be searched.
+Float4 TriangleBvh::apart_by_cones(Search& s, const CornerCones& cones) const {
+  ConeDistances d = cone_distances(cones, s.p, static_cast<float>(s.slack));
+  for (int lane = 0; lane < 4; ++lane) {
+    if (!(d.behind[lane] > 0)) continue;
+    if (d.squared[lane] <= s.limit) {
+      const TriangleCorner at = cones.at[lane];
+      const Vec3& corner = corners(at.triangle)[at.corner];
+      const double squared = (s.x - corner).squaredNorm();
+      const auto feature = static_cast<Feature>(static_cast<int>(Feature::corner0) + at.corner);
+      if (squared < s.best.squared_distance) {
+        s.best = {squared, corner, at.triangle, feature};
+        s.lower_limit(std::sqrt(squared));
+      }
+    }
+    d.squared[lane] = far_away * far_away;
+  }
+  return d.squared;
+}
+
 void TriangleBvh::push_children(Search& s, const Node& node) const {
   Float4 d = box_distances(node, s.p);
+  if (!cones_.empty()) [[unlikely]]
+    d = max(d, apart_by_cones(s, cones_[static_cast<std::size_t>(&node - nodes_.data())]));
   if (!oriented_.empty()) [[unlikely]]
     d = max(d, oriented_distances(oriented_[static_cast<std::size_t>(&node - nodes_.data())], s.p,
                                   static_cast<float>(s.slack)));

@@ -8,6 +8,7 @@
 #include "physics/base/arrays.h"
 #include "physics/base/float4.h"
 #include "physics/body/closest_on_triangle.h"
+#include "physics/body/corner_cones.h"
 #include "physics/body/exact_distance.h"
 #include "physics/body/oriented_boxes.h"
 
@@ -58,6 +59,8 @@ class TriangleBvh {
   const Vec3& centre() const { return centre_; }
   /// Whether many triangles are needles, so that nodes have boxes along them besides.
   bool has_oriented_boxes() const { return !oriented_.empty(); }
+  /// Whether a thousand triangles or more meet at a place, so that nodes have cones from there besides.
+  bool has_corner_cones() const { return !cones_.empty(); }
 
  private:
   int build(const std::vector<Vec3>& centroids, const TriangleMesh& mesh, std::vector<int>& order, int begin,
@@ -67,9 +70,11 @@ class TriangleBvh {
   void refit(std::span<const char> dropped);
   bool has_needles() const;
   void orient(std::span<const char> dropped);
+  void fit_cones(std::span<const char> dropped);
   struct Search;
   void search(Search& search) const;
   void push_children(Search& search, const Node& node) const;
+  Float4 apart_by_cones(Search& search, const CornerCones& cones) const;
   void search_leaf(Search& search, int leaf) const;
   void settle(Search& search) const;
 
@@ -78,6 +83,8 @@ class TriangleBvh {
   int first_kept_ = 0;
   std::vector<Node> nodes_;
   std::vector<OrientedBoxes> oriented_;  ///< of the nodes' children; empty unless there are many needles
+  CrowdedCorners crowded_;
+  std::vector<CornerCones> cones_;  ///< likewise; empty unless a crowd of triangles shares a corner
   std::vector<Leaf> leaves_;
   std::vector<std::array<Vec3, 3>> corners_;  ///< in the order of the leaves, 4 a leaf
   std::vector<int> slot_of_;

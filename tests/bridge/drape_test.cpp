@@ -194,6 +194,36 @@ TEST_CASE("drape: what falls past the body is not refined, what falls on it is")
   CHECK(above.levels[1].settle.converged);
 }
 
+TEST_CASE("drape: what falls past the body beside parts that were laid aside is not refined") {
+  const Sphere ball(Vec3::Zero(), 0.1);
+  geometry::Mesh mesh = across();
+  for (geometry::Point& p : mesh.points()) p = geometry::Point(p.x() + 1, p.y(), p.z());
+  const auto button =
+      mesh.add_face(mesh.add_vertex({2, 1, 0}), mesh.add_vertex({2.02, 1, 0}), mesh.add_vertex({2, 1, 0.02}));
+  REQUIRE(button != geometry::Mesh::null_face());
+  const std::size_t coarse = mesh.number_of_vertices();
+  const auto make_with_button = [](geometry::Mesh& made) {
+    physics::Cloth cloth = make(made);
+    for (std::size_t i = 0; i < cloth.particles.size(); ++i)
+      if (cloth.particles.x[i].x() > 1.9) physics::pin(cloth.particles, std::vector<int>{int(i)});
+    return cloth;
+  };
+  bridge::DrapeOptions options;
+  options.refinements = 2;
+  options.held_aside = true;
+  physics::Cloth cloth;
+  const bridge::DrapeReport aside = bridge::drape(mesh, cloth, &ball, options, make_with_button);
+  CHECK(aside.falls);
+  CHECK(aside.levels.size() == 1);
+  CHECK(mesh.number_of_vertices() == coarse);
+  geometry::Mesh worn = across();  // the rest comes to lie on the body: it is refined as ever
+  worn.add_face(worn.add_vertex({2, 1, 0}), worn.add_vertex({2.02, 1, 0}), worn.add_vertex({2, 1, 0.02}));
+  options.refinements = 1;
+  const bridge::DrapeReport on_ball = bridge::drape(worn, cloth, &ball, options, make_with_button);
+  CHECK_FALSE(on_ball.falls);
+  CHECK(on_ball.levels.size() == 2);
+}
+
 TEST_CASE("drape: the plain scheme comes to a like rest, an observer stops it, bad options change nothing") {
   const Sphere ball(Vec3::Zero(), 0.1);
   geometry::Mesh mesh = across();

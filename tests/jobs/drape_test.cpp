@@ -475,6 +475,27 @@ TEST_CASE("drape: a part that nothing holds is named and stays where it lay, and
   CHECK_FALSE(jobs::drape(job, recorder).fails());
 }
 
+TEST_CASE("drape: parts that fall one after the other are not refined, however coarse they are") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = across_ball();
+  geometry::Mesh& sheet = job.scene.memory.meshes["sheet"].mesh;
+  const geometry::Mesh copy = sheet;
+  for (geometry::Point& p : sheet.points()) p = {p.x() + 2, p.y(), p.z()};
+  geometry::Mesh button;
+  button.add_face(button.add_vertex({0, 0, 0}), button.add_vertex({0.02, 0, 0}),
+                  button.add_vertex({0, 0.02, 0}));
+  add(sheet, button, {1, 0, 0});
+  add(sheet, copy, {4, 0.5, 0});
+  job.subdivide = 2;
+  const std::size_t count = sheet.number_of_vertices();
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  INFO(to_json(report).dump(1));
+  CHECK(only(report).falls);
+  CHECK(remarks_on(report, "falls"));
+  CHECK(only(report).report.levels.size() == 1);
+  CHECK(only(report).file.mesh.number_of_vertices() == count);
+}
+
 TEST_CASE("drape: a gap that edges raise is refined away, and said where it is not", "[release]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();

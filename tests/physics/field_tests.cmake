@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(field physics LIBRARIES furrow::physics CGAL::CGAL SOURCES
   body/compare_colliders_test.cpp
+  body/corner_cones_test.cpp
   body/depth_map_collider_test.cpp
   body/distance_field_bytes_test.cpp
   body/distance_field_progress_test.cpp

@@ -117,6 +117,26 @@ TEST_CASE("repair_body: it merges parted seams and drops faces without three cor
   CHECK(is_sealed(joined));
 }
 
+TEST_CASE("repair_body: two fans of 1,500 faces each, in any order, are a body as it is") {
+  constexpr int n = 1500;
+  std::vector<Point> points{{0, 1, 0}, {0, 0, 0}};
+  std::vector<std::array<int, 3>> faces;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / n;
+    points.push_back({std::cos(angle), 0, std::sin(angle)});
+    const int at = 2 + 7 * i % n, next = 2 + (7 * i + 1) % n;  // each seventh, so that no face joins the last
+    faces.push_back({0, next, at});
+    faces.push_back({1, at, next});
+  }
+  const Body body = repair_body(mesh_of(points, faces));
+  CHECK(is_sealed(body));
+  CHECK(body.report.self_intersections == 0);
+  CHECK(body.report.filled_holes == 0);
+  CHECK(body.points.size() == points.size());
+  CHECK(body.triangles.size() == 2 * n);
+  CHECK(volume(body) == Approx(3.14159265358979 / 3).epsilon(1e-4));
+}
+
 TEST_CASE("repair_body: it refuses what is no body") {
   CHECK_THROWS_AS(repair_body(Mesh()), ContentError);
   Mesh point = single_triangle();

@@ -108,27 +108,81 @@ TEST_CASE("triangle_bvh: fans of needles have boxes along them, and the search s
   const TriangleMesh m = cone_of_needles(2000);
   const TriangleBvh bvh(m);
   REQUIRE(bvh.has_oriented_boxes());
-  REQUIRE_FALSE(TriangleBvh(furrow::tests::sphere(40, 0.8)).has_oriented_boxes());
+  REQUIRE(bvh.has_corner_cones());
+  const TriangleBvh plain(furrow::tests::sphere(40, 0.8));
+  REQUIRE_FALSE(plain.has_oriented_boxes());
+  REQUIRE_FALSE(plain.has_corner_cones());
   std::mt19937_64 random(3);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 600; ++i) {
     const double far = std::pow(10.0, uniform(random, -3, 2));
-    const Vec3 x(far * uniform(random, -1, 1), far * uniform(random, -1, 1), far * uniform(random, -1, 1));
+    const Vec3 from = i % 3 ? m.vertices[2000 + std::size_t(i) % 2] : Vec3::Zero();  // apex, floor's middle
+    const Vec3 x = from + far * Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
     const double exact = std::sqrt(by_brute_force(m, x));
-    REQUIRE(std::abs(std::sqrt(bvh.closest(x).squared_distance) - exact) <= 1e-12 * (far + exact));
+    const ClosestPoint q = bvh.closest(x);
+    REQUIRE(std::abs(std::sqrt(q.squared_distance) - exact) <= 1e-12 * (far + exact));
+    const auto& [a, b, c] = bvh.corners(q.triangle);
+    REQUIRE((closest_on_triangle(x, a, b, c).point - q.point).norm() <= 1e-9 * (far + exact));
   }
 }
 
-TEST_CASE("triangle_bvh: beside a fan of needles the search looks at few of them") {
-  constexpr int n = 10000;
-  const TriangleBvh bvh(cone_of_needles(n));
+TEST_CASE(
+    "triangle_bvh: triangles that meet at a corner and nowhere else are searched exactly, as a soup, too") {
+  std::mt19937_64 random(5);
+  TriangleMesh m;
+  std::vector<char> dropped;
+  for (int t = 0; t < 1500; ++t) {
+    const Vec3 p(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+    m.vertices.push_back({0.25, -0.5, 0.125});
+    m.vertices.push_back(p);
+    m.vertices.push_back(p +
+                         0.3 * Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)));
+    m.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    dropped.push_back(t % 3 == 0);
+  }
+  TriangleBvh bvh(m);
+  REQUIRE(bvh.has_corner_cones());
+  bvh.drop(dropped);
+  TriangleMesh kept{m.vertices, {}};
+  for (std::size_t t = 0; t < dropped.size(); ++t)
+    if (!dropped[t]) kept.triangles.push_back(m.triangles[t]);
+  for (int i = 0; i < 500; ++i) {
+    const double far = std::pow(10.0, uniform(random, -3, 1));
+    const Vec3 x =
+        m.vertices[0] + far * Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+    const double exact = std::sqrt(by_brute_force(kept, x));
+    const ClosestPoint q = bvh.closest(x);
+    REQUIRE(std::abs(std::sqrt(q.squared_distance) - exact) <= 1e-12 * (far + exact));
+    REQUIRE_FALSE(dropped[std::size_t(q.triangle)]);
+  }
+}
+
+namespace {
+
+/// Leaves that a search looks at on average, for places around a point.
+double looked_at(const TriangleBvh& bvh, const Vec3& around, double far) {
   std::mt19937_64 random(4);
-  std::int64_t looked_at = 0;
+  std::int64_t leaves = 0;
   constexpr int searches = 1000;
   for (int i = 0; i < searches; ++i)
-    bvh.closest(0.4 * Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)), 0,
-                &looked_at);
-  CAPTURE(double(looked_at) / searches);
-  CHECK(looked_at < 200 * searches);  // of n / 2 leaves; all of them for a place at the same distance
+    bvh.closest(around + far * Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)),
+                0, &leaves);
+  return double(leaves) / searches;
+}
+
+}  // namespace
+
+TEST_CASE("triangle_bvh: beside a fan of needles the search looks at few of them, however many there are") {
+  const TriangleMesh few = cone_of_needles(5000), many = cone_of_needles(40000);
+  const TriangleBvh a(few), b(many);
+  for (const double far : {0.4, 0.02}) {  // a third of the places around the apex have it as closest point
+    const double floor[] = {looked_at(a, Vec3::Zero(), far), looked_at(b, Vec3::Zero(), far)};
+    const double apex[] = {looked_at(a, few.vertices[5000], far), looked_at(b, many.vertices[40000], far)};
+    CAPTURE(far, floor[0], floor[1], apex[0], apex[1]);
+    CHECK(floor[0] < 60);
+    CHECK(floor[1] < 250);  // of 20,000 leaves: those that are as near but for the rounding of float
+    CHECK(apex[0] < 60);
+    CHECK(apex[1] < 250);
+  }
 }
 
 TEST_CASE("triangle_bvh: dropped triangles are not found, and one must stay") {
