@@ -165,10 +165,24 @@ double tape_measure(const SectionLoop& loop) {
 
 double breadth(const SectionLoop& loop) {
   const auto hull = hull_of(loop);
-  double longest = 0;
-  for (std::size_t i = 0; i < hull.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      longest = std::max(longest, std::hypot(hull[i][0] - hull[j][0], hull[i][1] - hull[j][1]));
+  const std::size_t n = hull.size() < 2 ? hull.size() : hull.size() - 1;
+  const auto apart = [&](std::size_t i, std::size_t j) {
+    return std::hypot(hull[i][0] - hull[j][0], hull[i][1] - hull[j][1]);
+  };
+  const auto above = [&](std::size_t i, std::size_t j) {  // the side from corner i to the next [m^2]
+    const std::array<double, 2>&a = hull[i], &b = hull[i + 1], &q = hull[j];
+    return (b[0] - a[0]) * (q[1] - a[1]) - (b[1] - a[1]) * (q[0] - a[0]);
+  };
+  double longest = n == 2 ? apart(0, 1) : 0;
+  // Farthest corners lie opposite each other: j goes round once while i does (rotating calipers; Shamos
+  // 1978).
+  for (std::size_t i = 0, j = 1; n > 2 && i < n; ++i) {
+    longest = std::max({longest, apart(i, j), apart((i + 1) % n, j)});
+    for (std::size_t turns = 0; turns < n && above(i, (j + 1) % n) > above(i, j); ++turns) {
+      j = (j + 1) % n;
+      longest = std::max({longest, apart(i, j), apart((i + 1) % n, j)});
+    }
+  }
   return longest;
 }
 

@@ -42,7 +42,7 @@ std::vector<SectionLoop> horizontal_section(const Mesh& mesh, double height);
 /// points. O(points log points).
 double tape_measure(const SectionLoop& loop);
 
-/// The largest distance between two of its points [m]. O(points log points + corners of the hull^2).
+/// The largest distance between two of its points [m]. O(points log points).
 double breadth(const SectionLoop& loop);
 
 /// Whether a place in the plane lies inside a closed curve (even-odd rule); false for an open one.

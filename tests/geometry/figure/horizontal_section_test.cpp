@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/figure/horizontal_section.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -106,6 +107,36 @@ TEST_CASE("tape_measure: it goes straight over hollows") {
   const auto middle = centre_of(polygon({{10, 0}, {12, 0}, {12, 1}, {10, 1}}));
   CHECK(middle[0] == Approx(11));
   CHECK(middle[1] == Approx(0.5));
+}
+
+TEST_CASE(
+    "breadth: it is the largest of all distances between two points, of round, straight and lattice loops") {
+  std::mt19937 random(5);
+  for (int round = 0; round < 300; ++round) {
+    const int kind = round % 4, n = 1 + static_cast<int>(random() % 40);
+    std::vector<std::array<double, 2>> points;
+    for (int i = 0; i < n; ++i) {
+      const double t = 2 * std::numbers::pi * i / n, u = static_cast<double>(random() % 1000) / 1000;
+      if (kind == 0) points.push_back({0.3 * std::cos(t), 0.2 * std::sin(t)});
+      if (kind == 1) points.push_back({u, static_cast<double>(random() % 1000) / 1000});
+      if (kind == 2) points.push_back({static_cast<double>(random() % 4), static_cast<double>(random() % 3)});
+      if (kind == 3) points.push_back({u, 0.5});
+    }
+    double longest = 0;
+    for (const auto& a : points)
+      for (const auto& b : points) longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1]));
+    INFO(round << ", " << n << " points");
+    CHECK(breadth(polygon(points)) == Approx(longest).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("breadth: of a circle of 200,000 points it is the diameter") {
+  std::vector<std::array<double, 2>> points;
+  for (int i = 0; i < 200000; ++i) {
+    const double t = std::numbers::pi * i / 100000;
+    points.push_back({0.3 * std::cos(t), 0.3 * std::sin(t)});
+  }
+  CHECK(breadth(polygon(points)) == Approx(0.6).epsilon(1e-12));
 }
 
 TEST_CASE("horizontal_section: it refuses what it cannot follow") {
