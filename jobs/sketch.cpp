@@ -109,7 +109,7 @@ SketchAtRest drape_plain(const Sketch& sketch, Listener& listener) {
   return rest;
 }
 
-/// A table's own values, then the tables inside it, as TOML.
+/// A table as TOML; tables inside it stand in braces.
 void write_table(std::ostream& out, const Json& table, const std::string& heading) {
   if (!heading.empty()) out << "\n" << heading << "\n";
   for (const auto& [key, value] : table.items()) out << key << " = " << io::value_text(value) << "\n";
@@ -237,6 +237,10 @@ std::vector<std::string> save_sketch(const Sketch& sketch, const Json& strokes, 
   });
   together.commit();
   return written;
+}
+
+void write_whole(const fs::path& path, const std::string& bytes) {
+  io::write_atomically(path, [&](std::ostream& out) { out << bytes; });
 }
 
 std::vector<std::string> fabric_names() {

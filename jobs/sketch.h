@@ -65,6 +65,9 @@ std::vector<std::string> save_sketch(const Sketch& sketch, const Json& strokes,
 void write_sketched(const Sketch& sketch, const io::MeshFile& file, const std::filesystem::path& path,
                     Listener& listener);
 
+/// Writes a file whole or not at all, after a loss of power, too (io/base/atomic_file.h).
+void write_whole(const std::filesystem::path& path, const std::string& bytes);
+
 /// The names of the fabrics that there are.
 std::vector<std::string> fabric_names();
 

@@ -5,22 +5,15 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "jobs/sketch.h"
+
 namespace furrow::studio {
 namespace {
 
 namespace fs = std::filesystem;
+using jobs::write_whole;
 
 constexpr std::size_t kept_frames = 60;
-
-void write_whole(const fs::path& path, const std::string& bytes) {
-  const fs::path beside = path.string() + ".new";
-  std::ofstream out(beside, std::ios::binary);
-  out.write(bytes.data(), std::streamsize(bytes.size()));
-  out.close();
-  std::error_code failed;
-  if (out) fs::rename(beside, path, failed);
-  if (!out || failed) throw std::runtime_error(path.string() + ": cannot be written; is the disk full?");
-}
 
 std::optional<std::string> read_whole(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);

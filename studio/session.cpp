@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <new>
+#include <utility>
 
 #include "studio/frame_bytes.h"
 
@@ -304,9 +305,13 @@ Json Session::drape() {
   const std::string file = "rest-" + std::to_string(project_->at() + 1) + ".ply";
   jobs::write_sketched(sketch_, rest.file, project_->folder() / file, *this);
   drawing["settings"]["garment"] = {{"mesh", file}};
-  for (const Json& line : drawing["lines"])
-    if (line.value("on", true)) drawing["earlier"].push_back(name_of_line(line));
-  drawing["lines"] = Json::array();
+  const Json lines = std::exchange(drawing["lines"], Json::array());
+  for (const Json& line : lines) {
+    if (line.value("on", true))
+      drawing["earlier"].push_back(name_of_line(line));
+    else
+      drawing["lines"].push_back(line);
+  }
   change("drape", std::move(drawing));
   return {{"outcome", rest.outcome}, {"remarks", rest.remarks}};
 }

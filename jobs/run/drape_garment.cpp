@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -70,17 +69,12 @@ using Progress = std::function<bool(double)>;
 Gone go(const DrapePlan& plan, GarmentMaker& maker, WayRecorder& way, const FallWatch& watch,
         const Progress& progress) {
   Gone gone;
-  double first = 0;
+  WayToRest to_rest(plan.options.settle.tolerance);
   const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
     way.observe(level, cloth);
     if (level == 0 && maker.loose.empty() && p.iteration > 0 && p.iteration % 5 == 0)
       gone.falling = watch.find(cloth, maker.held());
-    if (p.iteration == 0 || p.residual > first) first = p.residual;
-    const double least = plan.options.settle.tolerance;
-    const bool far = std::isfinite(p.residual) && p.residual > least && first > least;
-    const double way_there = far ? std::log(first / p.residual) / std::log(first / least) : 1;
-    const int levels = plan.options.refinements + 1;
-    return progress((level + std::clamp(way_there, 0.0, 1.0)) / levels) && gone.falling.empty();
+    return progress((level + to_rest.share(p)) / (plan.options.refinements + 1)) && gone.falling.empty();
   };
   bridge::DrapeOptions options = plan.options;
   options.held_aside = !maker.loose.empty() && plan.scene.pins.empty();
@@ -88,12 +82,6 @@ Gone go(const DrapePlan& plan, GarmentMaker& maker, WayRecorder& way, const Fall
   gone.report = bridge::drape(gone.mesh, gone.cloth, plan.body ? &plan.body->field : nullptr, options,
                               std::ref(maker), observe);
   return gone;
-}
-
-/// Whether a garment that nothing carries balances all the same, or is pulled by more than any cloth is.
-/// (What falls lacks one weight.)
-bool is_broken(const physics::SettleReport& last) {
-  return !std::isfinite(last.residual) || last.residual > 1e9 || last.residual < 0.5;
 }
 
 void take_result(Gone gone, GarmentMaker& maker, const DrapePlan& plan, const FallWatch& watch,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 
 #include "bridge/drape_layers.h"
@@ -94,16 +93,11 @@ class LayerSearch {
     garments.clear();
     for (std::size_t i = 0; i < given_.size(); ++i)
       garments.push_back({given_[i].file.mesh, std::ref(*makers[i])});
-    double first = 0;
+    WayToRest to_rest(options_.settle.tolerance);
     const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
       if (level == 0 && none_held && p.iteration > 0 && p.iteration % 5 == 0)
         falling = watch_->find(cloth, held());
-      if (p.iteration == 0 || p.residual > first) first = p.residual;
-      const double least = options_.settle.tolerance;
-      const bool far = std::isfinite(p.residual) && p.residual > least && first > least;
-      const double way = far ? std::log(first / p.residual) / std::log(first / least) : 1;
-      const int levels = options_.refinements + 1;
-      const double share = level < 0 ? 0 : (level + std::clamp(way, 0.0, 1.0)) / levels;
+      const double share = level < 0 ? 0 : (level + to_rest.share(p)) / (options_.refinements + 1);
       return progress(share) && falling.empty();
     };
     report = bridge::drape_layers(garments, body_ ? &body_->field : nullptr, options_, observe);
@@ -134,7 +128,7 @@ Draped draped_of(LayerSearch& search, std::size_t i, const GivenGarment& given, 
   d.parts = parts.list.size();
   const physics::SettleReport& last = d.report.levels.back().settle;
   const bool uncarried = last.touching == 0 && !given.scene.simulation.gravity.isZero();
-  d.broken = uncarried && !(last.residual >= 0.5 && last.residual <= 1e9);
+  d.broken = uncarried && is_broken(last);
   d.falls = (uncarried && !d.broken) || maker.loose.size() == d.parts;
   if (!d.falls)
     for (const int seed : maker.loose)

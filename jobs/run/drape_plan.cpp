@@ -71,6 +71,17 @@ double gap_of(const io::Scene& scene, const BodyCollider* body, const geometry::
   return gap;
 }
 
+double WayToRest::share(const physics::SettleProgress& p) {
+  if (p.residual <= tolerance_) return 1;
+  if (!std::isfinite(p.residual)) return 0;
+  first_ = std::max(first_, p.residual);
+  return std::log(first_ / p.residual) / std::log(first_ / tolerance_);
+}
+
+bool is_broken(const physics::SettleReport& last) {
+  return !std::isfinite(last.residual) || last.residual > 1e9 || last.residual < 0.5;
+}
+
 void hold_apart(bridge::DrapeOptions& options, const DrapeSettings& s) {
   options.settle.self.on = true;
   options.settle.max_iterations = s.iterations.value_or(1000);

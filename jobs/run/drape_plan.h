@@ -15,6 +15,22 @@ struct DrapePlan {
   bridge::DrapeOptions options;
 };
 
+/// How far a search for rest has come: the share of the way that its residual force has to fall, by
+/// logarithm.
+class WayToRest {
+ public:
+  explicit WayToRest(double tolerance) : tolerance_(tolerance) {}
+  /// In [0, 1]; 0 while the force is as large as ever, or not finite.
+  double share(const physics::SettleProgress& progress);
+
+ private:
+  double tolerance_, first_ = 0;
+};
+
+/// Whether a garment that nothing carries balances all the same, or is pulled by more than any cloth is.
+/// (What falls lacks one weight.)
+bool is_broken(const physics::SettleReport& last);
+
 /// With contact of cloth with cloth, whose piles take many steps to lie still.
 void hold_apart(bridge::DrapeOptions& options, const DrapeSettings& settings);
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cmath>
 #include <memory>
 
 #include "bridge/drape.h"
@@ -12,6 +11,7 @@
 #include "geometry/fold/fold_base.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/drape_garment.h"
+#include "jobs/run/drape_plan.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
@@ -42,13 +42,9 @@ RestStage rest_stage(io::MeshFile& garment, const io::Scene& scene, const std::v
   bridge::DrapeOptions options = rest_options(scene, gap, garment);
   if (precise) options.settle.faces = {precise.get(), body->tolerance()};
   const ProgressScope progress(context.listener, "settling");
-  double first = 0;
+  WayToRest to_rest(physics::SettleOptions{}.tolerance);
   const auto observe = [&](int, const physics::SettleProgress& p, const physics::Cloth&) {
-    first = std::max(first, p.residual);
-    const double least = physics::SettleOptions{}.tolerance;
-    const bool far = std::isfinite(p.residual) && p.residual > least && first > p.residual;
-    return progress(p.residual > least ? (far ? std::log(first / p.residual) / std::log(first / least) : 0)
-                                       : 1);
+    return progress(to_rest.share(p));
   };
   const auto make = [&](geometry::Mesh& mesh) {
     physics::Cloth cloth = naming(scene.garment.string(), [&] {

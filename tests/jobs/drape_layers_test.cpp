@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
 #include "jobs/drape.h"
+#include "jobs/run/drape_plan.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_meshes.h"
@@ -134,4 +136,23 @@ TEST_CASE("layer_output: a garment's name goes where braces stand, else before t
   CHECK(jobs::layer_output("a/{}.ply", "shirt") == "a/shirt.ply");
   CHECK(jobs::layer_output("a/worn.ply", "shirt") == "a/worn-shirt.ply");
   CHECK(jobs::layer_output("x-{}-y.obj", "vest") == "x-vest-y.obj");
+}
+
+TEST_CASE(
+    "way_to_rest: it grows from 0 to 1 with the residual's logarithm, and no force without end spoils it") {
+  jobs::WayToRest way(1e-3);
+  physics::SettleProgress p{};
+  const auto at = [&](double residual) {
+    p.residual = residual;
+    return way.share(p);
+  };
+  CHECK(at(std::numeric_limits<double>::infinity()) == 0);
+  CHECK(at(1) == 0);
+  CHECK(at(0.1) == Approx(1.0 / 3));
+  CHECK(at(0.01) == Approx(2.0 / 3));
+  CHECK(at(1e-3) == 1);
+  CHECK(at(0) == 1);
+  CHECK(at(10) == 0);
+  CHECK(at(std::numeric_limits<double>::quiet_NaN()) == 0);
+  CHECK(at(0.1) == Approx(0.5));
 }

@@ -185,19 +185,23 @@ TEST_CASE("studio: a project is gone on with where it was, and its folder is not
   CHECK_THROWS_AS(studio::Studio(desk.scene, desk.folder), std::invalid_argument);  // there, and no project
 }
 
-TEST_CASE("studio: it drapes, and the lines are in the cloth then", "[release]") {
+TEST_CASE("studio: it drapes, and the lines that are on are in the cloth then", "[release]") {
   const Desk desk("drape");
   const studio::Studio studio(desk.scene, desk.project());
   Visitor page(studio);
   page.ask("draw", line_at(0.2));
+  REQUIRE(page.ask("draw", line_at(0.1)).contains("done"));
+  REQUIRE(page.ask("set", {{"line", 1}, {"on", false}}).contains("done"));
   const Json answer = page.ask("drape");
   INFO(answer.dump());
   REQUIRE(answer.at("done").at("outcome") == "at rest");
   CHECK(page.status.at("earlier") == Json::array({"ridge 1"}));
-  CHECK(page.status.at("lines").empty());
+  REQUIRE(page.status.at("lines").size() == 1);
+  CHECK(page.status.at("lines")[0].at("name") == "ridge 2");
+  CHECK(page.status.at("lines")[0].at("on") == false);
   CHECK(page.ask("undo").contains("done"));
   page.ask("show");
-  CHECK(page.status.at("lines").size() == 1);
+  CHECK(page.status.at("lines").size() == 2);
 }
 
 TEST_CASE("studio: without its token, from another host or another page, nothing is told") {
