@@ -97,6 +97,23 @@ struct DrapeStarts {
   int resting() const;
 };
 
+/// The forces on a garment at rest, which add up to none: its weight, what each pin holds, and the contact
+/// with the body and with other garments [N]. Parts that nothing holds, and friction of bending, are left
+/// out.
+struct DrapeForces {
+  struct Pin {
+    std::string name;  ///< of its loop or group, else "box" or "vertices"
+    physics::Vec3 force;
+  };
+  struct Pull {
+    std::string loop;
+    double tension;  ///< a mean over the band
+  };
+  physics::Vec3 weight = physics::Vec3::Zero(), contact = physics::Vec3::Zero();
+  std::vector<Pin> pins = {};
+  std::vector<Pull> bands = {};
+};
+
 /// A garment that was draped.
 struct Draped {
   io::MeshFile file;  ///< [m], y up, with the columns of its fit
@@ -106,6 +123,7 @@ struct Draped {
   int refinements = 0;                ///< Loop subdivisions of the garment as it was given
   std::optional<double> hem_height;   ///< mean y of the lowest border [m]; none: there is no border
   std::optional<DrapeStarts> starts;  ///< none: there was one
+  DrapeForces forces;                 ///< none of a garment that was cancelled
   double angle_defect = 0;  ///< how knobbly it rests: sum over inner vertices over the area [rad/m^2]
   std::vector<LineReport> lines = {};  ///< heights against what they were, or the file's at its start
   double gap = 0;                      ///< that was to be kept from the body [m]; 0: there is none

@@ -322,6 +322,21 @@ std::string Draped::outcome() const {
          (floats() && !broken && !falls ? ", " + geometry::length_text(gap) + " off the body" : "");
 }
 
+namespace {
+
+Json to_json(const physics::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json to_json(const DrapeForces& f) {
+  Json json{{"weight", to_json(f.weight)}, {"contact", to_json(f.contact)}};
+  json["pins"] = json["bands"] = Json::array();
+  for (const auto& [name, force] : f.pins)
+    json["pins"].push_back({{"name", name}, {"force", to_json(force)}});
+  for (const auto& [loop, tension] : f.bands) json["bands"].push_back({{"loop", loop}, {"tension", tension}});
+  return json;
+}
+
+}  // namespace
+
 Json to_json(const Draped& d) {
   const bridge::DrapeLevel& last = d.report.levels.back();
   Json levels = Json::array();
@@ -349,6 +364,7 @@ Json to_json(const Draped& d) {
   if (!d.written.empty()) json["written"] = d.written.string();
   json["hem_height"] = d.hem_height ? Json(*d.hem_height) : Json();
   json["energy"] = to_json(d.report.energy);
+  if (!d.report.stopped) json["forces"] = to_json(d.forces);
   if (d.starts) json["starts"] = to_json(*d.starts);
   json["fit"] = jobs::to_json(d.fit, d.fit_options);
   return json;

@@ -88,6 +88,7 @@ void take_result(Gone gone, GarmentMaker& maker, const DrapePlan& plan, const Fa
                  Draped& draped) {
   draped.report = std::move(gone.report);
   draped.refinements = int(draped.report.levels.size()) - 1;
+  if (!draped.report.stopped) draped.forces = maker.forces_on(gone.cloth);
   draped.file = std::move(maker.made);
   draped.file.mesh = std::move(gone.mesh);
   close_seam_ties(draped.file.mesh);

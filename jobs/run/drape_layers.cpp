@@ -121,6 +121,7 @@ Draped draped_of(LayerSearch& search, std::size_t i, const GivenGarment& given, 
   d.report.energy = search.garments[i].energy;
   d.report.stopped = search.report.stopped;
   d.refinements = int(d.report.levels.size()) - 1;
+  if (!d.report.stopped) d.forces = maker.forces_on(search.garments[i].cloth);
   d.file = std::move(maker.made);
   d.file.mesh = std::move(search.garments[i].mesh);
   close_seam_ties(d.file.mesh);

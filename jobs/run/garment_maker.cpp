@@ -5,6 +5,7 @@
 
 #include "bridge/convert.h"
 #include "bridge/gather.h"
+#include "bridge/reactions.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/parts.h"
 #include "geometry/mesh/struts.h"
@@ -35,9 +36,9 @@ std::vector<int> loop_through(const geometry::Mesh& mesh, int vertex) {
   return {};
 }
 
-/// As struts, so that the garment's file has them; a band that was there is taken off.
-void sew_band(geometry::Mesh& mesh, const std::vector<int>& loop,
-              const physics::ElasticBandOptions& options) {
+/// As struts, so that the garment's file has them; a band that was there is taken off. Returns its springs.
+std::vector<physics::Spring> sew_band(geometry::Mesh& mesh, const std::vector<int>& loop,
+                                      const physics::ElasticBandOptions& options) {
   physics::Cloth band;
   band.particles.x = bridge::positions_of(mesh);
   physics::add_elastic_band(band, loop, options);
@@ -50,6 +51,13 @@ void sew_band(geometry::Mesh& mesh, const std::vector<int>& loop,
   for (const physics::Spring& s : band.bending)
     all.push_back({geometry::Vertex(Index(s.a)), geometry::Vertex(Index(s.b)), s.rest_length, s.stiffness});
   geometry::set_struts(mesh, all);
+  return band.bending;
+}
+
+std::string name_of(const io::ScenePins& pins) {
+  if (!pins.loop.empty()) return pins.loop;
+  if (!pins.group.empty()) return pins.group;
+  return pins.box.empty() ? "vertices" : "box";
 }
 
 }  // namespace
@@ -69,24 +77,25 @@ GarmentMaker::GarmentMaker(const io::Scene& scene, const BodyCollider* body, con
 physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
   made = as_read_;
   made.mesh = mesh;
-  const auto pins = find_pins(made, pins_on(mesh));
+  pins_ = find_pins(made, pins_on(mesh));
   complete_garment(made, scene_.material);
   tie_seams(mesh);
+  bands_.clear();
   for (std::size_t i = 0; i < band_vertices_.size(); ++i)
-    sew_band(made.mesh, loop_through(mesh, band_vertices_[i]),
-             {settings_.bands[i].length, settings_.band_stiffness});
+    bands_.push_back(sew_band(made.mesh, loop_through(mesh, band_vertices_[i]),
+                              {settings_.bands[i].length, settings_.band_stiffness}));
   physics::Cloth cloth = naming(scene_.garment.string(), [&] {
     return bridge::gather(made.mesh, spring_options(made, scene_.material));
   });
-  pin_cloth(cloth, pins, nullptr, 0, context_);
+  pin_cloth(cloth, pins_, nullptr, 0, context_);
   held_.assign(cloth.particles.size(), 0);
-  for (const std::vector<int>& held : pins)
+  for (const std::vector<int>& held : pins_)
     for (const int i : held) held_[std::size_t(i)] = 1;
   if (!loose.empty()) hold_loose(mesh, cloth);
   told_thin_ |= couple_cloth(made, scene_, cloth, context_, !told_thin_);  // once, not at each level
   int moved = 0;
   if (body_)
-    for (const std::vector<int>& held : pins)
+    for (const std::vector<int>& held : pins_)
       moved += physics::push_out(cloth.particles.x, held, body_->exact).moved;
   if (moved)
     context_.warn("pins_inside_body",
@@ -95,6 +104,16 @@ physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
                   "pins");
   mesh = made.mesh;
   return cloth;
+}
+
+DrapeForces GarmentMaker::forces_on(const physics::Cloth& cloth) const {
+  const bridge::Reactions found = bridge::reactions(cloth, scene_.simulation.gravity, pins_);
+  DrapeForces forces{found.weight, found.contact};
+  for (std::size_t i = 0; i < pins_.size(); ++i)
+    forces.pins.push_back({name_of(scene_.pins[i]), found.held[i]});
+  for (std::size_t i = 0; i < bands_.size(); ++i)
+    forces.bands.push_back({settings_.bands[i].loop, bridge::mean_tension(bands_[i], cloth.particles.x)});
+  return forces;
 }
 
 bool GarmentMaker::any_held() const { return std::find(held_.begin(), held_.end(), 1) != held_.end(); }

@@ -23,6 +23,8 @@ class GarmentMaker {
   /// Whether a pin holds one of the last level's particles.
   bool any_held() const;
   const std::vector<char>& held() const { return held_; }
+  /// On the cloth of the last level, as it lies.
+  DrapeForces forces_on(const physics::Cloth& cloth) const;
 
   io::MeshFile made;       ///< of the last level
   std::vector<int> loose;  ///< a vertex of each part that nothing holds: those parts are held as they lie
@@ -38,6 +40,8 @@ class GarmentMaker {
   const io::MeshFile& as_read_;
   const Context& context_;
   std::vector<int> pin_vertices_, band_vertices_;
+  std::vector<std::vector<int>> pins_;               ///< of the level
+  std::vector<std::vector<physics::Spring>> bands_;  ///< of the level
   SeamTies ties_;
   geometry::Mesh tied_;  ///< of the level that has them
   std::vector<char> held_;

@@ -587,6 +587,31 @@ TEST_CASE("drape: without a body a sheet hangs from its edge and stretches by it
   CHECK_FALSE(remarks_on(report, "touches_nothing"));
 }
 
+TEST_CASE("drape: what holds a garment carries its weight: a pin, a body, or both, and a band pulls") {
+  jobs::DrapeJob hung = across_ball();
+  hung.scene.settings.root.erase("body");
+  set(hung, "pins.0.vertices", io::Json::array({0, 1, 2, 3, 4, 5, 6}));
+  set(hung, "garment.subdivide", 0);
+  tests::Recorder recorder;
+  const jobs::DrapeForces by_pin = jobs::drape(hung, recorder).garments.at(0).forces;
+  REQUIRE(by_pin.pins.size() == 1);
+  CHECK(by_pin.pins[0].name == "vertices");
+  CHECK(by_pin.pins[0].force.y() == Approx(-by_pin.weight.y()).epsilon(1e-3));
+  jobs::DrapeJob worn = across_ball();
+  worn.settings.bands = {{"0", 0.8}};
+  const jobs::DrapeJobReport report = jobs::drape(worn, recorder);
+  const jobs::Draped& d = report.garments.at(0);
+  double mass = 0;
+  const auto map = *geometry::find_map(d.file.mesh, geometry::attribute::mass);
+  for (const geometry::Vertex v : d.file.mesh.vertices()) mass += map[v];
+  CHECK(d.forces.weight.y() == Approx(-9.81 * mass));
+  CHECK((d.forces.weight + d.forces.contact).norm() < 1e-9 * mass);
+  REQUIRE(d.forces.bands.size() == 1);
+  CHECK(d.forces.bands[0].loop == "0");
+  CHECK(std::abs(d.forces.bands[0].tension) < 0.3 * worn.settings.band_stiffness);
+  CHECK(to_json(report)["forces"]["bands"][0]["tension"] == d.forces.bands[0].tension);
+}
+
 TEST_CASE("drape: without a body a part that no pin holds is named, and nothing at all is refused") {
   tests::Recorder recorder;
   jobs::DrapeJob job = from_its_edge();
