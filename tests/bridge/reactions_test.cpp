@@ -48,7 +48,7 @@ TEST_CASE("reactions: a chain between two pins hangs half on each, and pulls the
   CHECK((r.weight + r.contact + r.held[0] + r.held[1]).norm() < 1e-12);
 }
 
-TEST_CASE("reactions: all forces add up to none, at rest or not; what is held in no group is left out") {
+TEST_CASE("reactions: all forces add up to none, at rest or not, and what is held in no group is left out") {
   physics::Cloth cloth = chain(4, 100);
   cloth.particles.x[2] += Vec3(0.03, 0.05, -0.02);
   physics::pin(cloth.particles, std::vector<int>{0, 4});
