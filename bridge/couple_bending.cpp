@@ -9,6 +9,7 @@
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/rest/warp_directions.h"
 #include "physics/cloth/pins.h"
 
 namespace furrow::bridge {
@@ -37,6 +38,16 @@ std::vector<std::array<double, 3>> opposite_lengths(const Mesh& mesh) {
   return result;
 }
 
+/// Of each face, to the edge from its corner 0 to its corner 1 (triangles_of()).
+std::vector<double> warp_angles(const Mesh& mesh) {
+  const std::vector<double> rest = rest_lengths(mesh);
+  std::vector<double> angles;
+  for (Face f : mesh.faces()) angles.push_back(known_warp_angle(mesh, mesh.halfedge(f), rest));
+  return angles;
+}
+
+physics::PlateRigidity rigidity_of(const Weave& w) { return {w.bend_warp, w.bend_weft, w.twist, 0}; }
+
 Edge edge_of(const Mesh& mesh, const physics::Hinge& hinge) {
   using Index = Vertex::size_type;
   const Halfedge h = mesh.halfedge(Vertex(Index(hinge.vertices[0])), Vertex(Index(hinge.vertices[1])));
@@ -60,9 +71,11 @@ physics::CoupledHinges couple_bending(const Mesh& mesh, const GatherOptions& opt
     press.push_back(presses.empty() ? 1 : presses[e.idx()]);
   }
   const auto lengths = opposite_lengths(mesh);
+  const std::vector<double> warp = options.weave ? warp_angles(mesh) : std::vector<double>{};
+  const physics::PlateRigidity rigidity =
+      options.weave ? rigidity_of(*options.weave) : physics::isotropic_plate(options.rigidity);
   // Clamps stay doubled where hinges stay plain; the plate's count as they were.
-  return physics::couple_hinges(cloth, lengths, {physics::isotropic_plate(options.rigidity), {}}, apart,
-                                press);
+  return physics::couple_hinges(cloth, lengths, {rigidity, warp}, apart, press);
 }
 
 }  // namespace furrow::bridge

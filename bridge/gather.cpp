@@ -20,6 +20,7 @@
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/rest_metric.h"
 #include "geometry/rest/stiffness.h"
+#include "geometry/rest/warp_directions.h"
 #include "physics/cloth/membrane.h"
 
 namespace furrow::bridge {
@@ -167,11 +168,14 @@ class Gatherer {
 
   template <class Triangle>
   void add_triangles(std::vector<Triangle>& elements) {
-    const physics::PlaneLame lame = physics::plane_stress(o_.stretch, o_.poisson);
+    physics::WovenSheet sheet{physics::plane_stress(o_.stretch, o_.poisson), 0, 0};
+    if (const auto& w = o_.weave) sheet = physics::woven_sheet({w->warp, w->weft, w->shear, w->poisson});
     const auto own = find_map(mesh_, attribute::triangle_rest_length);
     for (Face f : mesh_.faces()) {
       Triangle t;
-      t.lambda = lame.lambda, t.mu = lame.mu;
+      t.lambda = sheet.lame.lambda, t.mu = sheet.lame.mu;
+      if (o_.weave)  // corner 0 is the target of first_of(f)
+        t.threads = {known_warp_angle(mesh_, mesh_.next(first_of(f)), rest_of_), sheet.warp, sheet.weft};
       int i = 0;
       for (Halfedge h : mesh_.halfedges_around_face(first_of(f))) {
         const Halfedge opposite = mesh_.prev(h);  // joins the other two corners

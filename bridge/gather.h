@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,13 @@ enum class MassRule {
   equal  ///< the garment's mass divided by the number of its vertices (method S2.5)
 };
 
+/// Woven cloth: what strips along warp and weft resist with. Its directions are the mesh's (f:warp).
+struct Weave {
+  double warp, weft, shear;            ///< Y1, Y2, G of triangles [N/m]; > 0
+  double poisson;                      ///< nu12 of triangles [-]; nu12^2 < Y1 / Y2
+  double bend_warp, bend_weft, twist;  ///< B1, B2, B_t of Bending::plate [N m]; > 0
+};
+
 /// How a mesh's maps become masses, springs, triangles and hinges.
 struct GatherOptions {
   double structural_stiffness = 1000;  ///< k_std of the structural springs [N/m]; > 0
@@ -67,6 +75,8 @@ struct GatherOptions {
   double compression = 0.2;  ///< push over pull of tension at the same |e| [-]; in [0, 1]
   double shear = 0.2;        ///< of diagonals over that of threads in tension [-]; in [0, 1]
   MassRule mass_rule = MassRule::area;
+  /// In place of stretch and poisson of triangles, and of rigidity of a plate.
+  std::optional<Weave> weave = {};
   /// By line id: factors on the hinges in a line's region [-], >= 1, and the lines' widths [m], NaN: none
   /// (geometry/fold/line_press.h). What is missing at the end counts as 1, and as none.
   std::vector<double> line_presses = {}, line_widths = {};
@@ -76,7 +86,7 @@ struct GatherOptions {
 /// Only what the options choose is filled. O(edges log edges). Throws std::invalid_argument if an option is
 /// out of its range, a map is missing, or the mesh has removed elements (collect its garbage first);
 /// ContentError for a rest length or a mass that is not > 0, a stiffness that is set and not >= 0 and finite,
-/// a triangle without area at rest.
+/// a triangle without area at rest, a face of woven cloth without a direction of the warp.
 ///
 /// \details Rest lengths come from e:rest_length (of a triangle h:rest_length where it is set) and
 /// e:bending_rest_length, rest angles from e:rest_angle (0 where it is unset). Stiffnesses come from

@@ -129,6 +129,7 @@ int run(int argc, char** argv) {
   cli::add_sdf(app);
   cli::add_render(app);
   cli::add_drape(app, exit_code);
+  cli::add_fabric(app, exit_code);
   cli::add_fit(app);
   cli::add_transfer(app);
   cli::add_bake(app, exit_code);

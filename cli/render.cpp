@@ -13,11 +13,13 @@
 #include "io/mesh/mesh_file.h"
 #include "io/picture/checker_texture.h"
 #include "io/picture/render_scene.h"
+#include "io/picture/render_weave.h"
 #include "io/picture/strip.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/check/gate.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/lay_warp.h"
 #include "jobs/run/measure_crossings.h"
 
 namespace furrow::cli {
@@ -26,9 +28,9 @@ namespace {
 struct RenderArguments : CommonArguments {
   std::vector<std::string> meshes;
   std::vector<std::string> bodies, strokes;
-  std::string texture, captions, colour;
+  std::string texture, captions, colour, warp = "auto";
   CameraArguments camera;
-  bool strip = false, no_lines = false, figure = false;
+  bool strip = false, no_lines = false, figure = false, weave = false;
 };
 
 std::shared_ptr<const io::Image> read_texture(const std::string& name) {
@@ -67,6 +69,15 @@ void warn_of_unit(const io::MeshFile& file, const std::string& path, const Rende
     warn(path + ": " + odd + "; the camera is of that unit, and strokes drawn in its picture with it", a);
 }
 
+/// Where the threads run, as a job would take it.
+void add_weave(io::RenderScene& scene, const std::string& path, const RenderArguments& a) {
+  io::MeshFile file = read_mesh(path, a);
+  Terminal terminal(a);
+  jobs::lay_warp(file, a.warp, true, path, {a, terminal});
+  for (io::RenderLine& line : io::weave_lines_from(file.mesh, io::weave_spacing(file.mesh)))
+    scene.lines.push_back(std::move(line));
+}
+
 void add_garment(io::RenderScene& scene, const std::string& path,
                  const std::shared_ptr<const io::Image>& texture, std::size_t& crossings,
                  const RenderArguments& a) {
@@ -80,6 +91,7 @@ void add_garment(io::RenderScene& scene, const std::string& path,
     scene.meshes.back().vertex_colours.clear();
   }
   mark_crossings(scene.meshes.back(), file, path, crossings, a);
+  if (a.weave) add_weave(scene, path, a);
   if (a.no_lines) return;
   std::vector<double> heights;
   if (const auto record = io::find_wrinkle_record(file))
@@ -148,6 +160,7 @@ void check_call(const RenderArguments& a) {
   check_replaced({a.out, a.camera.save_camera}, inputs, terminal);
   if (!a.colour.empty()) parse_colour(a.colour);
   if (a.figure && a.bodies.empty()) throw UsageError("--figure shows the whole of a --body: name one");
+  if (a.warp != "auto" && !a.weave) throw UsageError("--warp is shown with --weave: add it");
   if (!a.captions.empty() && !a.strip) throw UsageError("--captions stand under the pictures of a --strip");
 }
 
@@ -204,6 +217,12 @@ void add_render(CLI::App& app) {
   sub->add_flag("--figure", a->figure, "the whole body is in the picture, not the garment alone");
   sub->add_option("--strokes", a->strokes, "strokes to draw on the first garment; may be given again")
       ->allow_extra_args(false);
+  sub->add_flag(
+      "--weave", a->weave,
+      "the threads of the garments: a long red stroke along the warp, a short blue one along the weft");
+  sub->add_option("--warp", a->warp,
+                  "with --weave, where the warp runs: file, texture, texture-u, x, y, z or a stroke file "
+                  "(default: the map in its PLY, else texture, else upwards)");
   sub->add_flag("--no-lines", a->no_lines, "leave out the lines that the garments carry");
   sub->add_flag("--strip", a->strip, "one picture a garment, side by side from the same camera");
   sub->add_option("--captions", a->captions, "words under the pictures of a strip, separated by commas");

@@ -25,6 +25,8 @@ void add_keep(CLI::App& app, int& exit_code);
 void add_sdf(CLI::App& app);
 void add_render(CLI::App& app);
 void add_drape(CLI::App& app, int& exit_code);
+/// Sets exit_code where no start of a disc comes to rest.
+void add_fabric(CLI::App& app, int& exit_code);
 void add_fit(CLI::App& app);
 /// Sets exit_code where the studio was not built.
 void add_studio(CLI::App& app, int& exit_code);

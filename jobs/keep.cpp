@@ -60,6 +60,9 @@ OpenScene open_scene(const KeepJob& job, Listener& listener) {
   check_inputs(open.scene, open.document, job.state ? job.state->lines_drawn : -1, job.scene.memory);
   if (!job.state) take_noted_frame(open.scene, open.document, job.scene.memory);
   check_outputs(job, open, listener);
+  if (open.scene.material.is_woven())
+    throw std::invalid_argument(
+        "--fabric: keep cannot hold cloth with threads yet; take --warp none, the same fabric without");
   if (open.scene.material.bending_law == bridge::Bending::plate)
     throw std::invalid_argument(
         "--bending-law plate: keep cannot share out a plate's moments to hinges yet; take --bending-law "

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "geometry/mesh/property_names.h"
+#include "geometry/mesh/warp_map.h"
 
 /// What insertion, subdivision and PLY files do with each attribute of a mesh.
 namespace furrow::geometry {
@@ -34,6 +35,7 @@ enum class PlyValue {
   flag,       ///< byte, 0 or 1
   length,     ///< double in the file's unit, > 0 or NaN
   position,   ///< three doubles in the file's unit and axes, all NaN or all finite
+  direction,  ///< three doubles in the file's axes, all NaN or all finite
   texture,    ///< a list of two doubles for each corner of a face
   mass,       ///< double [kg], >= 0 or NaN
   stiffness,  ///< double, >= 0 or NaN
@@ -97,6 +99,7 @@ inline const std::tuple attribute_register{
     Attribute{attribute::texture, "", {computed, blend, "MeshEditor"}, {PlyValue::texture, {"texcoord"}}},
     Attribute{attribute::group, "", {copy, copy}, {PlyValue::index, {"group"}}},
     Attribute{attribute::material, "", {copy, copy}, {PlyValue::index, {"material"}}},
+    Attribute{attribute::warp, "", {copy, copy}, {PlyValue::direction, {"warp_x", "warp_y", "warp_z"}}},
     Attribute{attribute::generation,
               "",
               {computed, computed, "MeshEditor; a subdivision leaves what CGAL's step leaves"},

@@ -202,9 +202,15 @@ class PlyReader {
       if (!std::isfinite(row_.numbers[c[k]])) fail_state(ply.names[k]);
     return {row_.numbers[c[0]], row_.numbers[c[1]], row_.numbers[c[2]]};
   }
-  RestPosition value_of(const PlyColumns&, const Columns& c, const RestPosition& unset) const {
+  RestPosition value_of(const PlyColumns& ply, const Columns& c, const RestPosition& unset) const {
     const double x = row_.numbers[c[0]], y = row_.numbers[c[1]], z = row_.numbers[c[2]];
     if (std::isnan(x) && std::isnan(y) && std::isnan(z)) return unset;
+    if (ply.value == PlyValue::direction) {
+      if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
+        rows_.fail("a direction of the warp is not finite; write three numbers, or three nan for none");
+      const Vector v = turned_from_file({x, y, z}, options_.up);
+      return {v.x(), v.y(), v.z()};
+    }
     const auto point = from_file(x, y, z, options_);
     if (!point) rows_.fail(std::string("a rest position: ") + bad_coordinate);
     return {point->x(), point->y(), point->z()};

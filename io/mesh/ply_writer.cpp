@@ -94,7 +94,9 @@ class PlyWriter {
     for (int k = 0; k < 3; ++k) put(value[k]);
   }
   void put_value(PlyValue kind, const RestPosition& p) {
-    put_value(kind, to_file({p[0], p[1], p[2]}, options_));
+    WriteOptions frame = options_;
+    if (kind == PlyValue::direction) frame.metres_per_unit = 1;
+    put_value(kind, to_file({p[0], p[1], p[2]}, frame));
   }
   void put_value(PlyValue, const Color& color) {
     for (const double c : color) byte_colors_ ? put(static_cast<std::uint8_t>(std::lround(c * 255))) : put(c);

@@ -5,7 +5,16 @@
 
 namespace furrow::io {
 
-/// What was measured of a fabric, as far as an isotropic sheet has a place for it. SI units.
+/// What was measured of a fabric along its threads. All 0: it is taken as the same in all directions.
+struct FabricThreads {
+  double warp = 0, weft = 0, shear = 0;  ///< Y1, Y2, G: moduli times thickness at small strain [N/m]
+  double poisson = 0;                    ///< nu12 [-]
+  double bend_warp = 0, bend_bias = 0, bend_weft = 0;  ///< B of strips at 0, 45 and 90 degrees [N m]
+  double drape = 0;  ///< measured coefficient of a 30 cm disc on 18 cm [-]; 0: not measured
+  bool any() const { return warp > 0; }
+};
+
+/// What was measured of a fabric; the means are for laws that are the same in all directions. SI units.
 struct Fabric {
   const char* name;
   double density;    ///< [kg/m^2]
@@ -17,6 +26,7 @@ struct Fabric {
   double friction;   ///< Coulomb's with skin [-]
   const char* source;   ///< of what was measured
   const char* assumed;  ///< which of the numbers are ours
+  FabricThreads threads = {};
 };
 
 std::span<const Fabric> fabrics();

@@ -83,6 +83,15 @@ struct SceneMaterial {
   std::optional<double> tension;          ///< c of tension [N/m]; none: tension_constant() of the stretch
   double compression = 0.2, shear = 0.2;  ///< of tension [-]
   bridge::MassRule mass_rule = bridge::MassRule::area;
+  /// Where the warp of woven cloth runs: auto, none (the same in all directions), file, texture, texture-u,
+  /// x, y, z, or a stroke file.
+  std::string warp = "auto";
+  /// Of woven cloth: Y1, Y2, G [N/m], B1, B2 and B of strips cut at 45 degrees [N m]. All or none.
+  std::optional<double> warp_stretch, weft_stretch, thread_shear, warp_rigidity, weft_rigidity, bias_rigidity;
+  double thread_poisson = 0;  ///< nu12 [-]
+
+  /// Whether it has threads; stretch and rigidity are then for laws that know none.
+  bool is_woven() const { return warp_stretch && warp != "none"; }
 };
 
 /// Vertices that are held, or moved. Several kinds may be named in one.

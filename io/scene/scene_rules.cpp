@@ -17,6 +17,27 @@ std::string path_of_keep(const Scene& scene, bool garment, std::size_t first) {
   return "";
 }
 
+/// All of a fabric's threads, and nothing that is said of cloth without.
+void check_threads(SettingsTable& table, const SceneMaterial& m) {
+  const std::pair<const char*, bool> needed[] = {
+      {"warp_stretch", m.warp_stretch.has_value()},   {"weft_stretch", m.weft_stretch.has_value()},
+      {"thread_shear", m.thread_shear.has_value()},   {"warp_rigidity", m.warp_rigidity.has_value()},
+      {"weft_rigidity", m.weft_rigidity.has_value()}, {"bias_rigidity", m.bias_rigidity.has_value()}};
+  const auto has = [](const auto& setting) { return setting.second; };
+  if (!std::any_of(std::begin(needed), std::end(needed), has)) return;
+  for (const auto& [key, known] : needed)
+    if (!known)
+      table.fail(key,
+                 "is missing: cloth with threads has all of warp_stretch, weft_stretch, "
+                 "thread_shear, warp_rigidity, weft_rigidity and bias_rigidity");
+  if (!m.is_woven()) return;
+  for (const char* key : {"stretch", "stiffness", "rigidity"})
+    if (table.has(key))
+      table.fail(key,
+                 "is of cloth that is the same in all directions, and this has threads: leave it out, or "
+                 "say warp = \"none\" (--warp none)");
+}
+
 [[noreturn]] void fail(const TomlDocument& document, const std::string& path, const std::string& what) {
   throw geometry::ContentError(document.place(path) + ": " + path + " = \"keep\" " + what);
 }
@@ -60,6 +81,7 @@ void check_material(SettingsTable& table, const Scene& scene) {
   if (scene.material.poisson == 1) table.fail("poisson", "must be below 1");
   if (table.has("stretch") && table.has("stiffness"))
     table.fail("stretch", "stands in place of stiffness; leave out one");
+  check_threads(table, scene.material);
 }
 
 void check_pins(SettingsTable& table, const Scene& scene) {
@@ -90,6 +112,11 @@ void check_keep(const Scene& scene, const TomlDocument& document) {
     fail(document, path,
          "needs hinges, for springs cannot tell a ridge from a valley: name a fabric (--fabric, "
          "material.preset), or bending_law = \"hinge\" and a rigidity");
+  if (!path.empty() && scene.material.is_woven())
+    fail(document, path,
+         "cannot keep cloth with threads yet: say warp = \"none\" (--warp none), which takes the fabric as "
+         "the "
+         "same in all directions");
   if (!path.empty() && scene.material.bending_law == bridge::Bending::plate)
     fail(document, path,
          "cannot share out a plate's moments to hinges yet: bending_law = \"hinge\" (--bending-law hinge) "

@@ -53,6 +53,21 @@ void read_rest(SettingsTable& table, const char* key, Scene& scene) {
   std::tie(lines.options.rest, lines.keep) = rest;
 }
 
+/// A word of what gives the directions, or a path.
+void read_warp(SettingsTable& table, const char* key, Scene& scene) {
+  std::string word;
+  table.read(key, word);
+  if (word.empty()) return;
+  for (const char* known : {"auto", "none", "file", "texture", "texture-u", "x", "y", "z"})
+    if (word == known) return void(scene.material.warp = word);
+  if (word.find('.') == std::string::npos && word.find('/') == std::string::npos)
+    table.fail(key,
+               "is none of auto, none, file, texture, texture-u, x, y, z, nor a stroke file (.json, .obj)");
+  std::filesystem::path strokes;
+  table.read(key, strokes);
+  scene.material.warp = strokes.string();
+}
+
 constexpr const char* as_wrinkle = "as the flag of `furrow wrinkle`";
 
 /// One row a setting: its words, and the field that it sets with what it may be. A new setting is a row here
@@ -173,6 +188,41 @@ const Row<Scene> rows[] = {
       .flag_in = used_by::all},
      choice<std::string>(
          [](auto& s) -> auto& { return s.material.preset; }, fabric_names())},
+    {{.path = "material.warp",
+      .flag = "--warp",
+      .help = "where the warp of cloth with threads runs: file (the map in its PLY), texture (as v grows), "
+              "texture-u, x, y or z (that axis on each face), a stroke file (the warp runs so), or none (the "
+              "same in all directions); default the map, else texture, else y",
+      .what =
+          "where the warp of cloth with threads runs: `auto`, `file`, `texture`, `texture-u`, `x`, `y`, `z`, "
+          "`none` or a stroke file ([threads.md](threads.md))",
+      .usual = "auto: the map in the garment's PLY, else the texture, else y",
+      .flag_in = used_by::moving | used_by::drape},
+     own(Kind::text, "text", read_warp)},
+    {{.path = "material.warp_stretch",
+      .what = "Young's modulus times thickness of strips along the warp; makes cloth with threads, with the "
+              "five below, of a `preset` or of all six"},
+     number(
+         positive("N/m"), [](auto& s) -> auto& { return s.material.warp_stretch; })},
+    {{.path = "material.weft_stretch", .what = "the same along the weft"},
+     number(
+         positive("N/m"), [](auto& s) -> auto& { return s.material.weft_stretch; })},
+    {{.path = "material.thread_shear", .what = "shear modulus times thickness of cloth with threads"},
+     number(
+         positive("N/m"), [](auto& s) -> auto& { return s.material.thread_shear; })},
+    {{.path = "material.thread_poisson",
+      .what = "ν₁₂: how much a strip along the warp narrows as it stretches"},
+     number(
+         any(), [](auto& s) -> auto& { return s.material.thread_poisson; })},
+    {{.path = "material.warp_rigidity", .what = "B of strips along the warp"},
+     number(
+         positive("N m"), [](auto& s) -> auto& { return s.material.warp_rigidity; })},
+    {{.path = "material.weft_rigidity", .what = "B of strips along the weft"},
+     number(
+         positive("N m"), [](auto& s) -> auto& { return s.material.weft_rigidity; })},
+    {{.path = "material.bias_rigidity", .what = "B of strips cut at 45°"},
+     number(
+         positive("N m"), [](auto& s) -> auto& { return s.material.bias_rigidity; })},
     {{.path = "material.membrane",
       .flag = "--membrane",
       .help = "what resists stretching: paper (springs of the paper's law, default), uniform, inverse, "

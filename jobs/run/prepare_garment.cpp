@@ -13,6 +13,7 @@
 #include "geometry/rest/rest_metric.h"
 #include "geometry/rest/stiffness.h"
 #include "io/scene/fabrics.h"
+#include "physics/plate/plate_rigidity.h"
 
 namespace furrow::jobs {
 namespace {
@@ -21,6 +22,17 @@ bool has_masses(const geometry::Mesh& mesh) {
   const auto mass = geometry::find_map(mesh, geometry::attribute::mass);
   const auto known = [&](geometry::Vertex v) { return mesh.is_isolated(v) || std::isfinite((*mass)[v]); };
   return mass && std::all_of(mesh.vertices().begin(), mesh.vertices().end(), known);
+}
+
+bridge::Weave weave_of(const io::SceneMaterial& m) {
+  const double warp = *m.warp_rigidity, weft = *m.weft_rigidity;
+  return {*m.warp_stretch,
+          *m.weft_stretch,
+          *m.thread_shear,
+          m.thread_poisson,
+          warp,
+          weft,
+          physics::twist_of_bias(warp, weft, *m.bias_rigidity)};
 }
 
 }  // namespace
@@ -61,6 +73,7 @@ bridge::GatherOptions spring_options(const io::MeshFile& file, const io::SceneMa
   o.compression = material.compression;
   o.shear = material.shear;
   o.mass_rule = material.mass_rule;
+  if (material.is_woven()) o.weave = weave_of(material);
   o.line_presses = io::line_presses(record);
   o.line_widths = io::line_widths(record);
   return o;

@@ -77,6 +77,7 @@ void note_material(io::MeshFile& file, const io::TomlDocument& document, double 
   io::WrinkleRecord record = io::find_wrinkle_record(file).value();
   nlohmann::json material = material_of(document);  // sorted by keys, in whatever order they were said
   material.erase("density");                        // noted by itself
+  if (material.value("warp", "") != "none") material.erase("warp");  // the faces have it (f:warp)
   record.material = material.empty() ? "" : material.dump(-1, ' ', false, Json::error_handler_t::replace);
   record.contact_gap = contact_gap;
   io::set_wrinkle_record(file, record);

@@ -12,6 +12,7 @@
 #include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/keep_at_rest.h"
+#include "jobs/run/lay_warp.h"
 #include "jobs/run/line_round.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
@@ -71,6 +72,8 @@ io::MeshFile begin_garment(const io::Scene& scene, const Context& context) {
   heed(faults_of_mesh(file), scene.garment.string(), context);
   heed(faults_of_garment(file.mesh), scene.garment.string(), context);
   require_refinement(file.mesh.number_of_faces(), 4, scene.subdivide, "--subdivide", context);
+  if (scene.material.warp != "auto" || scene.material.is_woven())
+    lay_warp(file, scene.material.warp, scene.material.is_woven(), scene.garment.string(), context);
   subdivide_tied(file, scene, context);
   return file;
 }

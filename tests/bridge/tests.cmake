@@ -9,6 +9,7 @@ furrow_add_tests(bridge bridge LIBRARIES furrow::bridge garment_cases SOURCES
   fit_report_test.cpp
   fit_zones_test.cpp
   gather_test.cpp
+  woven_gather_test.cpp
   keep_lines_test.cpp
   place_noise_test.cpp
   reactions_test.cpp

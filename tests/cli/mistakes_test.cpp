@@ -100,7 +100,9 @@ const Mistake mistakes[] = {
      "error: nothing to write: name --output, --picture or --animation"},
     {"a fabric misspelt", "simulate {m}/sheet.obj --fabric cottn -o {d}/o.ply", 2,
      "error: --fabric: material.preset = \"cottn\" is none of cotton, wool, silk, denim, interlock, jersey, "
-     "rib-knit, jet-set, dots, target; did you mean cotton?"},
+     "rib-knit, jet-set, dots, target, black-denim, ivory-rib, brown-ribbon, white-dots, camel-ponte, "
+     "gray-interlock, red-jet-set, polyester-twill, polyester-plain, wool-twill, viscose-twill, elastane-plain, "
+     "cotton-twill; did you mean cotton?"},
     {"an integrator misspelt", "simulate {m}/sheet.obj --integrator leapfrogg -o {d}/o.ply", 2,
      "error: --integrator: simulation.integrator = \"leapfrogg\" is none of leapfrog, euler, rk4, "
      "backward-euler, xpbd, implicit, tr-bdf2; did you mean leapfrog?"},

@@ -23,6 +23,7 @@ furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURC
   rest_keep_test.cpp
   transfer_test.cpp
   drape_test.cpp
+  fabric_test.cpp
   fit_test.cpp
   strokes_test.cpp
   outputs_test.cpp

@@ -23,6 +23,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   rest/rest_angles_test.cpp
   rest/rest_state_test.cpp
   rest/stiffness_test.cpp
+  rest/warp_directions_test.cpp
   insert/mesh_editor_test.cpp
   refine/bake_maps_test.cpp
   refine/subdivide_test.cpp

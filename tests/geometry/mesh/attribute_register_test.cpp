@@ -279,9 +279,9 @@ void check_subdivision(bool cuts_edges, std::size_t parts, const Subdivide& subd
 }  // namespace
 
 TEST_CASE("attributes: the register names every attribute once, with rules that fit its elements") {
-  std::ifstream in(FURROW_SOURCE_DIR "/geometry/mesh/property_names.h");
   std::stringstream text;
-  text << in.rdbuf();
+  for (const char* name : {"property_names.h", "warp_map.h"})
+    text << std::ifstream(std::string(FURROW_SOURCE_DIR "/geometry/mesh/") + name).rdbuf();
   const std::string header = text.str();
   std::set<std::string> defined;  // {"v:line", …
   const std::regex definition("\\{\"([vehf]:[a-z_]+)\"");
