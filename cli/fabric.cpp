@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <ostream>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
 #include "io/base/atomic_file.h"
+#include "io/base/number_text.h"
 #include "io/picture/png_file.h"
 #include "io/picture/render_scene.h"
 #include "io/picture/render_weave.h"
@@ -20,7 +22,7 @@ namespace furrow::cli {
 namespace {
 
 struct FabricArguments : CommonArguments {
-  std::string action, name, picture;
+  std::string action = "list", name, picture;
   int rings = 20;
   std::optional<double> drape;
 };
@@ -44,6 +46,42 @@ Json details_of(const io::Fabric& f) {
   return json;
 }
 
+std::string row_of(const io::Fabric& f) {
+  const io::FabricThreads& t = f.threads;
+  const auto bend = [](double b) { return fmt::format("{:.3g}", 1e6 * b); };
+  const std::string stretch =
+      t.any() ? fmt::format("{:.0f} / {:.0f}", t.warp, t.weft) : fmt::format("{:.0f}", f.stretch);
+  const std::string bending =
+      t.any() ? bend(t.bend_warp) + " / " + bend(t.bend_bias) + " / " + bend(t.bend_weft) : bend(f.rigidity);
+  return fmt::format("{:<16} {:>5.0f}   {:<12}  {:<22}  {}", f.name, 1000 * f.density, stretch, bending,
+                     t.drape > 0 ? fmt::format("{:.3f}", t.drape) : "");
+}
+
+std::string header_of_rows() {
+  return fmt::format("{:<16} {:>5}   {:<12}  {:<22}  {}\n{:<16} {:>5}   {:<12}  {}", "fabric", "g/m^2",
+                     "stretch N/m", "bending 1e-6 N m", "measured drape", "", "", "warp / weft",
+                     "warp / bias / weft");
+}
+
+std::vector<std::string> lines_of(const io::Fabric& f) {
+  const io::FabricThreads& t = f.threads;
+  std::vector<std::string> lines{fmt::format("{}: {:.0f} g/m^2, {:.2g} mm thick, {}", f.name,
+                                             1000 * f.density, 1000 * f.thickness,
+                                             t.any() ? "with threads" : "the same in all directions")};
+  if (t.any()) {
+    lines.push_back(fmt::format("stretch: {:.0f} N/m along the warp, {:.0f} along the weft; shear {:.0f}",
+                                t.warp, t.weft, t.shear));
+    lines.push_back(
+        fmt::format("bending: {:.3g} N m along the warp, {:.3g} on the bias, {:.3g} along the weft",
+                    t.bend_warp, t.bend_bias, t.bend_weft));
+  } else {
+    lines.push_back(fmt::format("stretch: {:.0f} N/m; bending: {:.3g} N m", f.stretch, f.rigidity));
+  }
+  lines.push_back(fmt::format("measured: {}", f.source));
+  lines.push_back(fmt::format("ours: {}", f.assumed));
+  return lines;
+}
+
 std::string known_fabrics() {
   std::string names;
   for (const io::Fabric& f : io::fabrics()) names += (names.empty() ? "" : ", ") + std::string(f.name);
@@ -61,33 +99,15 @@ io::SceneMaterial material_of_fabric(const std::string& name) {
   return jobs::material_of_settings(Json{{"preset", name}});
 }
 
-io::Panel panel_of(const geometry::Mesh& mesh, const std::string& words, double elevation) {
+io::Panel panel_of(const geometry::Mesh& mesh, const std::string& words, double azimuth, double elevation) {
   io::RenderScene scene;
   scene.meshes.push_back(io::render_mesh_from(mesh));
   scene.lines = io::weave_lines_from(mesh, io::weave_spacing(mesh) * 1.6);
   io::RenderOptions options;
   options.width = options.height = 480;
+  options.view.azimuth_deg = azimuth;
   options.view.elevation_deg = elevation;
   return {io::render(scene, options), words};
-}
-
-/// The draped disc, and swatches pulled by 10 % at 0, 45 and 90 degrees.
-void draw_fabric(const FabricArguments& a, const io::SceneMaterial& material, const DiscReport& disc,
-                 Json& json) {
-  std::vector<io::Panel> panels{
-      panel_of(disc.mesh, fmt::format("drape coefficient {:.2f}", disc.coefficient), 35)};
-  for (const double angle : {0., 45., 90.}) {
-    const SwatchReport s = jobs::pull_swatch(material, angle, 0.1);
-    json["swatches"].push_back({{"angle", angle},
-                                {"strain", 0.1},
-                                {"force", s.force},
-                                {"modulus", s.modulus},
-                                {"modulus_of_long_strip", s.wanted},
-                                {"rested", s.rested}});
-    panels.push_back(panel_of(s.mesh, fmt::format("{:.0f} degrees: {:.3g} N/m", angle, s.force), 85));
-  }
-  io::write_png(a.picture, io::strip(panels));
-  json["picture"] = a.picture;
 }
 
 Json json_of(const DiscReport& r) {
@@ -103,39 +123,69 @@ DiscJob disc_job(const FabricArguments& a, const io::SceneMaterial& material) {
   return job;
 }
 
+DiscReport drape(const FabricArguments& a, const std::string& name, Listener& listener) {
+  DiscReport disc = jobs::drape_disc(disc_job(a, material_of_fabric(name)), listener);
+  if (disc.rested < disc.starts)
+    listener.warn({"unrested",
+                   fmt::format("{}: {} of {} starts did not come to rest; they do not count", name,
+                               disc.starts - disc.rested, disc.starts),
+                   name, ""});
+  return disc;
+}
+
+std::string words_of_disc(const DiscReport& disc) {
+  return fmt::format("drape coefficient {:.3f} ({} folds; {:.3f} to {:.3f} over {} starts)", disc.coefficient,
+                     disc.nodes, disc.least, disc.most, disc.starts);
+}
+
+/// Swatches pulled by 10 % at 0, 45 and 90 degrees to the warp, each beside those before it.
+Json pull_swatches(const io::SceneMaterial& material, std::vector<io::Panel>& panels) {
+  Json swatches = Json::array();
+  for (const double angle : {0., 45., 90.}) {
+    const SwatchReport s = jobs::pull_swatch(material, angle, 0.1);
+    swatches.push_back({{"angle", angle},
+                        {"strain", 0.1},
+                        {"force", s.force},
+                        {"modulus", s.modulus},
+                        {"modulus_of_long_strip", s.wanted},
+                        {"rested", s.rested}});
+    panels.push_back(panel_of(s.mesh, fmt::format("{:.0f} degrees: {:.3g} N/m", angle, s.force), 0, 85));
+  }
+  return swatches;
+}
+
 int show(const FabricArguments& a, Listener& listener) {
   const io::Fabric& fabric = find_fabric(a);
   Json json = details_of(fabric);
-  int code = exit_ok;
+  std::vector<std::string> lines = lines_of(fabric);
+  bool rested = true;
   if (!a.picture.empty()) {
-    const io::SceneMaterial material = material_of_fabric(fabric.name);
-    const DiscReport disc = jobs::drape_disc(disc_job(a, material), listener);
+    const DiscReport disc = drape(a, fabric.name, listener);
+    std::vector<io::Panel> panels{
+        panel_of(disc.mesh, fmt::format("drape coefficient {:.2f}", disc.coefficient), 30, 35)};
     json["disc"] = json_of(disc);
-    draw_fabric(a, material, disc, json);
-    code = exit_code_of(false, disc.rested > 0);
+    json["swatches"] = pull_swatches(material_of_fabric(fabric.name), panels);
+    io::write_png(a.picture, io::strip(panels));
+    rested = disc.rested > 0;
+    lines.push_back(words_of_disc(disc));
   }
-  print_report(json, a);
-  return code;
+  json["written"] = names_of_files({a.picture});
+  print_report(
+      json, a,
+      {lines, {a.picture}, fmt::format("furrow drape GARMENT --body BODY --fabric {} -o worn.ply", a.name)});
+  return exit_code_of(false, rested);
 }
 
 int drape_fabric(const FabricArguments& a, Listener& listener) {
   const io::Fabric& fabric = find_fabric(a);
-  const DiscReport disc = jobs::drape_disc(disc_job(a, material_of_fabric(fabric.name)), listener);
-  if (disc.rested < disc.starts)
-    listener.warn(
-        {"unrested",
-         fmt::format("{} of {} starts did not come to rest", disc.starts - disc.rested, disc.starts),
-         fabric.name, ""});
-  Json json{{"fabric", fabric.name}, {"disc", json_of(disc)}};
+  const DiscReport disc = drape(a, fabric.name, listener);
   const double measured = fabric.threads.drape;
-  json["measured"] = measured > 0 ? Json(measured) : Json(nullptr);
-  if (!a.picture.empty()) {
-    io::write_png(a.picture, panel_of(disc.mesh, "", 35).image);
-    json["picture"] = a.picture;
-  }
-  std::vector<std::string> lines{
-      fmt::format("{}: drape coefficient {:.3f} ({} folds; {:.3f} to {:.3f} over {} starts)", fabric.name,
-                  disc.coefficient, disc.nodes, disc.least, disc.most, disc.starts)};
+  const Json json{{"fabric", fabric.name},
+                  {"disc", json_of(disc)},
+                  {"measured", measured > 0 ? Json(measured) : Json(nullptr)},
+                  {"written", names_of_files({a.picture})}};
+  if (!a.picture.empty()) io::write_png(a.picture, panel_of(disc.mesh, "", 30, 35).image);
+  std::vector<std::string> lines{a.name + ": " + words_of_disc(disc)};
   if (measured > 0)
     lines.push_back(fmt::format("measured {:.3f}, off by {:+.3f}", measured, disc.coefficient - measured));
   print_report(json, a, {lines, {a.picture}});
@@ -152,9 +202,9 @@ std::string toml_of(const Json& material) {
 }
 
 Json settings_of_material(const io::SceneMaterial& m) {
-  Json json{{"density", m.density.value_or(0.15)}};
+  Json json{{"density", m.density.value()}};
   if (!m.is_woven()) {
-    json["stretch"] = m.stretch.value_or(1000), json["rigidity"] = m.rigidity;
+    json["stretch"] = m.stretch.value(), json["rigidity"] = m.rigidity;
     json["membrane"] = "triangles", json["bending_law"] = "hinge";
     return json;
   }
@@ -166,28 +216,65 @@ Json settings_of_material(const io::SceneMaterial& m) {
   return json;
 }
 
-int fit_fabric(const FabricArguments& a, Listener& listener) {
-  const bool is_table = a.name.find('.') != std::string::npos;
-  if (!is_table && !a.drape)
+bool is_table(const std::string& name) { return name.find('.') != std::string::npos; }
+
+/// Of a table, of a fabric and a measured drape coefficient, or of a table and such.
+Json fitted(const FabricArguments& a, Listener& listener) {
+  if (!is_table(a.name) && !a.drape)
     throw UsageError(
         "fabric fit: name a table of KES or FAST figures (.toml), or a fabric and its measured "
         "drape coefficient: furrow fabric fit cotton --drape 0.55");
-  Json settings = is_table ? jobs::fabric_from_table(io::read_toml(a.name))
-                           : settings_of_material(material_of_fabric(find_fabric(a).name));
-  Json json;
-  if (a.drape) {
-    const RigidityFit fit =
-        jobs::fit_rigidity(disc_job(a, jobs::material_of_settings(settings)), *a.drape, listener);
-    settings = settings_of_material(fit.material);
-    json["factor"] = fit.factor, json["coefficient"] = fit.coefficient, json["measured"] = *a.drape;
+  Json json{{"material", is_table(a.name) ? jobs::fabric_from_table(io::read_toml(a.name))
+                                          : settings_of_material(material_of_fabric(find_fabric(a).name))}};
+  if (!a.drape) return json;
+  const RigidityFit fit =
+      jobs::fit_rigidity(disc_job(a, jobs::material_of_settings(json["material"])), *a.drape, listener);
+  if (std::abs(fit.coefficient - *a.drape) > 0.01)
+    listener.warn(
+        {"drape_missed",
+         fmt::format("the disc drapes {:.3f} at the best factor, not {:.3f}: it takes another number of "
+                     "folds there",
+                     fit.coefficient, *a.drape),
+         a.name, ""});
+  json["material"] = settings_of_material(fit.material);
+  json["factor"] = fit.factor, json["coefficient"] = fit.coefficient, json["measured"] = *a.drape;
+  return json;
+}
+
+/// A scene's [material], and how it was found.
+std::string file_of(const FabricArguments& a, const Json& fitted) {
+  const std::string how =
+      a.drape
+          ? fmt::format("# {}, its rigidities times {:.3g}: a disc drapes {:.3f}, measured {:.3f}\n", a.name,
+                        fitted["factor"].get<double>(), fitted["coefficient"].get<double>(), *a.drape)
+          : fmt::format("# {}\n", a.name);
+  return io::one_line(how.substr(0, how.size() - 1)) + "\n" + toml_of(fitted["material"]);
+}
+
+/// Without a file to write, the settings themselves are what is printed.
+int fit_fabric(const FabricArguments& a, Listener& listener) {
+  Json json = fitted(a, listener);
+  const std::string text = file_of(a, json);
+  if (a.out == "-" || a.out.empty()) {
+    json["written"] = Json::array();
+    print_report(json, a, {{text.substr(0, text.size() - 1)}});
+    return exit_ok;
   }
-  json["material"] = settings;
-  const std::string text = toml_of(settings);
-  if (!a.out.empty() && a.out != "-") {
-    io::write_atomically(a.out, [&](std::ostream& file) { file << text; });
-    json["written"] = a.out;
-  }
-  print_report(json, a);
+  io::write_atomically(a.out, [&](std::ostream& file) { file << text; });
+  json["written"] = names_of_files({a.out});
+  print_report(json, a,
+               {{text.substr(2, text.find('\n') - 2)},
+                {a.out},
+                "furrow drape GARMENT --body BODY --fabric " + a.out + " -o worn.ply"});
+  return exit_ok;
+}
+
+int list(const FabricArguments& a) {
+  Json json{{"fabrics", Json::array()}};
+  std::string rows = header_of_rows();
+  for (const io::Fabric& f : io::fabrics())
+    json["fabrics"].push_back(figures_of(f)), rows += "\n" + row_of(f);
+  print_report(json, a, {{rows}, {}, "furrow fabric show NAME --picture fabric.png"});
   return exit_ok;
 }
 
@@ -199,10 +286,7 @@ int fabric(const FabricArguments& a) {
   if (a.action == "show") return show(a, terminal);
   if (a.action == "drape") return drape_fabric(a, terminal);
   if (a.action == "fit") return fit_fabric(a, terminal);
-  Json json{{"fabrics", Json::array()}};
-  for (const io::Fabric& f : io::fabrics()) json["fabrics"].push_back(figures_of(f));
-  print_report(json, a);
-  return exit_ok;
+  return list(a);
 }
 
 }  // namespace
@@ -216,9 +300,9 @@ void add_fabric(CLI::App& app, int& exit_code) {
                          "  furrow fabric show black-denim --picture denim.png\n"
                          "  furrow fabric drape cotton-twill\n"
                          "  furrow fabric fit kes.toml -o mine.toml\n"
-                         "  furrow fabric fit cotton --drape 0.55 -o mine.toml");
-  sub->add_option("action", a->action, "list, show, drape or fit")
-      ->required()
+                         "  furrow fabric fit cotton --drape 0.55 -o mine.toml\n"
+                         "  furrow drape shirt.obj --body body.obj --fabric mine.toml -o worn.ply");
+  sub->add_option("action", a->action, "list (the default), show, drape or fit")
       ->check(CLI::IsMember({"list", "show", "drape", "fit"}));
   sub->add_option("name", a->name, "a fabric; fit: or a table of KES or FAST figures (.toml)");
   sub->add_option(
@@ -230,9 +314,12 @@ void add_fabric(CLI::App& app, int& exit_code) {
                   "fit: the measured drape coefficient of a 30 cm disc on 18 cm, in (0, 1): all rigidities "
                   "are scaled to it")
       ->check(CLI::Range(0.0, 1.0));
-  sub->add_option("-o,--output", a->out, "fit: scene file to write, the settings of [material]");
+  sub->add_option("-o,--output", a->out, "fit: file to write, for --fabric; default: it is printed");
   add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = fabric(*a); });
+  sub->callback([a, &exit_code] {
+    if (a->out == "-") a->out.clear();  // which is standard output, too
+    exit_code = fabric(*a);
+  });
 }
 
 }  // namespace furrow::cli

@@ -11,6 +11,7 @@
 #include "io/scene/relocated.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
+#include "jobs/run/fabric_file.h"
 #include "jobs/run/recorded_material.h"
 
 namespace furrow::cli {
@@ -94,6 +95,7 @@ SceneInput surroundings(const WrinkleArguments& a, const WrinkleJob& job) {
   if (job.state) document = io::document_of(job.state->scene, a.state);
   for (const char* list : {"lines", "pins"}) io::make_list(document, list);
   a.flags.apply(document);
+  jobs::take_fabric_file(document, job.state_path.parent_path());
   if (!job.state) jobs::take_recorded_material(document, a.in);
   // Of a mesh drawn again, a.density is that of its record: the fabric's goes before it.
   const bool has_fabric = document.root.value("material", Json::object()).contains("preset");

@@ -8,6 +8,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/report/chart_files.h"
 #include "jobs/report/judge_report.h"
+#include "jobs/run/fabric_file.h"
 #include "jobs/run/recorded_material.h"
 
 namespace furrow::jobs {
@@ -31,6 +32,7 @@ void check_outputs(const ChartJob& job, Listener& listener) {
 
 OpenScene open_scene(const ChartJob& job) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
+  take_fabric_file(open.document, open.folder);
   take_recorded_material(open.document, garment_of(open.document, open.folder), job.scene.memory);
   open.scene = scene_of(open.document, open.folder);
   if (open.scene.garment.empty())

@@ -10,6 +10,7 @@
 #include "jobs/report/drape_remarks.h"
 #include "jobs/run/drape_garment.h"
 #include "jobs/run/drape_layers.h"
+#include "jobs/run/fabric_file.h"
 #include "jobs/run/recorded_material.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
@@ -144,6 +145,7 @@ void warn_of_unused_settings(const io::TomlDocument& document, Listener& listene
 io::TomlDocument with_fabric(const DrapeJob& job) {
   io::TomlDocument document = job.scene.settings;
   if (!job.fabrics.empty()) return document;
+  take_fabric_file(document, job.scene.folder);
   take_recorded_material(document, garment_of(document, job.scene.folder), job.scene.memory);
   if (!names_cloth(document)) io::set_value(document, "material.preset", "cotton", "furrow drape");
   return document;
@@ -173,6 +175,7 @@ std::vector<io::Scene> scenes_of(const DrapeJob& job, const OpenScene& open) {
   for (const std::string& fabric : job.fabrics) {
     io::TomlDocument other = document;
     io::set_value(other, "material.preset", fabric, "--fabrics");
+    take_fabric_file(other, open.folder);
     scenes.push_back(scene_of(other, open.folder));
     scenes.back().subdivide = open.scene.subdivide;
   }

@@ -14,6 +14,7 @@
 #include "io/scene/scene_file.h"
 #include "jobs/run/prepare_garment.h"
 #include "physics/base/cancel_scope.h"
+#include "physics/base/progress.h"
 #include "physics/cloth/elements.h"
 #include "physics/cloth/membrane.h"
 #include "physics/cloth/pins.h"
@@ -203,7 +204,9 @@ DiscReport drape_disc(const DiscJob& job, Listener& listener) {
     physics::SettleOptions settling;
     settling.gravity = {0, -gravity, 0};
     settling.max_iterations = 2000;
-    const bool rested = physics::settle(cloth, nullptr, settling).converged;
+    const physics::SettleReport settled = physics::settle(cloth, nullptr, settling);
+    if (settled.stopped) throw physics::Cancelled("drape_disc: cancelled");
+    const bool rested = settled.converged;
     ++report.starts, report.rested += rested;
     const double energy = energy_of(cloth), coefficient = coefficient_of(cloth);
     if (rested)
@@ -257,10 +260,14 @@ io::SceneMaterial stiffer(io::SceneMaterial m, double factor) {
 }  // namespace
 
 RigidityFit fit_rigidity(const DiscJob& job, double measured, Listener& listener) {
+  RigidityFit best{1, std::numeric_limits<double>::infinity(), job.material};
   const auto at = [&](double factor) {
     DiscJob trial = job;
     trial.material = stiffer(job.material, factor);
-    return drape_disc(trial, listener).coefficient;
+    const double found = drape_disc(trial, listener).coefficient;
+    if (std::abs(found - measured) < std::abs(best.coefficient - measured))
+      best = {factor, found, trial.material};
+    return found;
   };
   double low = 1. / 32, high = 32;
   const double least = at(low), most = at(high);
@@ -271,8 +278,7 @@ RigidityFit fit_rigidity(const DiscJob& job, double measured, Listener& listener
     const double middle = std::sqrt(low * high);
     (at(middle) < measured ? low : high) = middle;
   }
-  const double factor = std::sqrt(low * high);
-  return {factor, at(factor), stiffer(job.material, factor)};
+  return best;
 }
 
 io::SceneMaterial material_of_settings(const Json& settings) {

@@ -25,7 +25,8 @@ struct DiscReport {
   std::size_t vertices = 0;
   geometry::Mesh mesh;  ///< y up [m]; with f:warp
 };
-/// Throws std::invalid_argument for rings that do not fit, or a material without a density or rigidity.
+/// Throws std::invalid_argument for rings that do not fit, or a material without a density; physics::Cancelled
+/// if the listener cancels.
 DiscReport drape_disc(const DiscJob& job, Listener& listener);
 
 /// A strip 6 cm wide and 20 cm long, cut at an angle to the warp, its ends clamped and pulled apart.
@@ -39,9 +40,10 @@ struct SwatchReport {
 /// angle [degrees]; strain of the pull [-].
 SwatchReport pull_swatch(const io::SceneMaterial& material, double angle, double strain);
 
-/// The material with all rigidities times the factor at which its disc drapes as it was measured, found by
-/// bisection in [1/32, 32] to 2 %; `coefficient` is what it then has. Throws std::invalid_argument for a
-/// measured coefficient that no factor reaches.
+/// The material with all rigidities times the factor at which its disc drapes most nearly as it was measured,
+/// of a bisection in [1/32, 32] to 2 %; `coefficient` is what it then has. That may be off by some 0.02, as
+/// it jumps where the disc takes another number of folds. Throws std::invalid_argument for a measured
+/// coefficient that no factor reaches.
 struct RigidityFit {
   double factor = 1, coefficient = 0;
   io::SceneMaterial material;

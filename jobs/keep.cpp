@@ -8,6 +8,7 @@
 #include "io/scene/relocated.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/fabric_file.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/measure_shape.h"
@@ -52,6 +53,7 @@ void check_outputs(const KeepJob& job, const OpenScene& open, Listener& listener
 
 OpenScene open_scene(const KeepJob& job, Listener& listener) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
+  take_fabric_file(open.document, open.folder);
   if (!job.state)
     take_recorded_material(open.document, garment_of(open.document, open.folder), job.scene.memory);
   open.scene = scene_of(open.document, open.folder);

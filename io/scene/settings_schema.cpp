@@ -181,10 +181,12 @@ const Row<Scene> rows[] = {
          positive("kg/m^2"), [](auto& s) -> auto& { return s.material.density; })},
     {{.path = "material.preset",
       .flag = "--fabric",
-      .help = "a measured fabric: denim, interlock, rib-knit, … (docs/scenes.md)",
-      .help_at_rest = "a measured fabric: cotton, silk, denim, … (docs/scenes.md); default what the "
-                      "garment's PLY notes, else cotton",
-      .what = "a measured fabric, see below; the keys beside it go before it",
+      .help = "a measured fabric: denim, interlock, rib-knit, … (furrow fabric list), or a file of furrow "
+              "fabric fit (.toml)",
+      .help_at_rest = "a measured fabric: cotton, silk, denim, … (furrow fabric list), or a file of furrow "
+                      "fabric fit (.toml); default what the garment's PLY notes, else cotton",
+      .what = "a measured fabric, see below, or a file (.toml) with a `[material]`; the keys beside it go "
+              "before it",
       .flag_in = used_by::all},
      choice<std::string>(
          [](auto& s) -> auto& { return s.material.preset; }, fabric_names())},

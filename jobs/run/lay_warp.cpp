@@ -15,6 +15,8 @@ namespace {
 
 using geometry::Vector, geometry::WarpCount;
 
+bool is_stroke_file(const std::string& source) { return source.find('.') != std::string::npos; }
+
 /// What is known of a garment's warp before anybody says anything.
 std::string usual_source(const geometry::Mesh& mesh) {
   if (geometry::count_warp(mesh).known > 0) return "file";
@@ -83,6 +85,22 @@ std::string words_of(const std::string& source) {
   return "along the axis " + source + " (up)";
 }
 
+/// What was taken though nobody said so, and what a texture has that threads have not.
+void warn_of_source(const std::string& source, bool assumed, const WarpCount& given,
+                    const std::string& garment, const Context& context) {
+  if (assumed && source != "file")
+    context.warn("warp_assumed",
+                 garment + ": nothing says where its threads run; the warp runs " + words_of(source) +
+                     " (--warp says otherwise)",
+                 garment, "material.warp");
+  if (given.skewed * 20 > given.faces)
+    context.warn("warp_skewed",
+                 garment + ": the texture of " + std::to_string(given.skewed) + " of " +
+                     std::to_string(given.faces) +
+                     " faces is not at right angles; their weft is taken across the warp",
+                 garment, "material.warp");
+}
+
 }  // namespace
 
 void lay_warp(io::MeshFile& file, const std::string& said, bool woven, const std::string& garment,
@@ -97,20 +115,9 @@ void lay_warp(io::MeshFile& file, const std::string& said, bool woven, const std
                  "(furrow fabric list)",
                  garment, "material.preset");
   const WarpCount given = naming(garment, [&] { return warp_by(source, file, context); });
-  if (said == "auto" && source != "file")
-    context.warn("warp_assumed",
-                 garment + ": nothing says where its threads run; the warp runs " + words_of(source) +
-                     " (--warp says otherwise)",
-                 garment, "material.warp");
-  if (given.skewed * 20 > given.faces)
-    context.warn("warp_skewed",
-                 garment + ": " + std::to_string(given.skewed) + " of " + std::to_string(given.faces) +
-                     " faces have a texture that is not at right angles, so warp and "
-                     "weft of it are not, either; the weft is taken across the warp",
-                 garment, "material.warp");
-  WarpCount all = geometry::spread_warp(file.mesh);
-  const bool strokes = source.find('.') != std::string::npos;
-  if (given.known < given.faces && !strokes)
+  warn_of_source(source, said == "auto", given, garment, context);
+  const WarpCount all = geometry::spread_warp(file.mesh);
+  if (given.known < given.faces && !is_stroke_file(source))
     context.warn("warp_spread",
                  garment + ": " + std::to_string(given.faces - given.known) + " of " +
                      std::to_string(given.faces) + " faces have no warp by --warp " + source +
@@ -119,8 +126,8 @@ void lay_warp(io::MeshFile& file, const std::string& said, bool woven, const std
   if (all.known == all.faces) return;
   throw geometry::ContentError(
       garment + ": " + std::to_string(all.faces - all.known) + " of " + std::to_string(all.faces) +
-      " faces have no direction of the warp, nor a "
-      "neighbour that has; draw one on each part (--warp strokes.json), or take an axis");
+      " faces have no direction of the warp, nor a neighbour that has; draw one on each "
+      "part (--warp strokes.json), or take an axis");
 }
 
 }  // namespace furrow::jobs

@@ -6,6 +6,7 @@
 #include "io/animation/animation_file.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/fabric_file.h"
 #include "jobs/run/recorded_material.h"
 
 namespace furrow::jobs {
@@ -124,6 +125,7 @@ void take_material(OpenScene& open, const MemoryFiles& memory, Listener& listene
 
 OpenScene open_scene(const SimulateJob& job, Listener& listener) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
+  take_fabric_file(open.document, open.folder);
   if (!job.state) take_material(open, job.scene.memory, listener);
   open.scene = scene_of(open.document, open.folder);
   if (job.state && job.tolerance)

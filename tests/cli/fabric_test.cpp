@@ -89,7 +89,8 @@ TEST_CASE("drape: cloth with threads writes where its warp runs, and says what i
   CHECK(faces_with_warp(scratch / "a.ply") == worn.mesh.number_of_faces());
   const Run again = run_furrow("drape " + (scratch / "a.ply") + " --pin-loop top -o " + (scratch / "b.ply"));
   CHECK(again.err.find("nothing says") == std::string::npos);
-  CHECK(run_furrow("subdivide " + (scratch / "a.ply") + " --subdivide 1 -o " + (scratch / "fine.ply")).exit_code == 0);
+  CHECK(run_furrow("subdivide " + (scratch / "a.ply") + " --subdivide 1 -o " + (scratch / "fine.ply"))
+            .exit_code == 0);
   CHECK(faces_with_warp(scratch / "fine.ply") == 4 * worn.mesh.number_of_faces());
   REQUIRE(run_furrow("render " + (scratch / "a.ply") + " --weave --size 200,200 -o " + (scratch / "w.png"))
               .exit_code == 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every report is JSON that a strict reader takes, and is as its schema says, jobs/report/report.schema.json.
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -77,6 +78,12 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   report_of("transfer " + sheet + " " + (scratch / "w.ply") + out("back.obj"));
   const std::string textured = source_file("meshes/panelled.obj");
   report_of("bake " + textured + " " + textured + out("baked") + " --texels 64 --check 1");
+  report_of("fabric list");
+  report_of("fabric show cotton-twill --rings 10 --picture " + (scratch / "f.png"));
+  report_of("fabric drape silk --rings 10");
+  std::ofstream(scratch / "fast.toml") << "[fast]\nW = 180\nC_warp = 20\nC_weft = 16\nE100_warp = 3\n"
+                                          "E100_weft = 5\nEB5 = 4\n";
+  report_of("fabric fit " + (scratch / "fast.toml") + " --rings 10 --drape 0.6" + out("mine.toml"));
   report_of("render " + sheet + " --size 200,200 --quality draft" + out("p.png"));
   report_of("strokes " + strokes + " --garment " + sheet);
   report_of("strokes " + (scratch / "w.ply") + out("s.json"));

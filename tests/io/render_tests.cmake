@@ -10,6 +10,7 @@ furrow_add_tests(render io LIBRARIES furrow::io SOURCES
   picture/render_errors_test.cpp
   picture/render_scene_test.cpp
   picture/render_test.cpp
+  picture/render_weave_test.cpp
   picture/strip_test.cpp
   picture/stroke_font_test.cpp
   picture/thicken_test.cpp

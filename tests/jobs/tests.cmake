@@ -8,10 +8,13 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   doctor_test.cpp
   drape_layers_test.cpp
   drape_test.cpp
+  fabric_file_test.cpp
+  fabric_test.cpp
   field_test.cpp
   fit_test.cpp
   gate_test.cpp
   keep_test.cpp
+  lay_warp_test.cpp
   listener_test.cpp
   mesh_input_test.cpp
   own_output_test.cpp

@@ -97,7 +97,9 @@ TEST_CASE("PLY: every attribute of the register has its columns and comes back w
       "property double contact_level\nproperty double rest_x\nproperty double rest_y\nproperty double "
       "rest_z\n"
       "element face 12\nproperty list uchar int vertex_indices\nproperty list uchar double texcoord\n"
-      "property int group\nproperty int material\nproperty int generation\nproperty double rest_length_01\n"
+      "property int group\nproperty int material\nproperty double warp_x\n"
+      "property double warp_y\nproperty double warp_z\nproperty int generation\nproperty double "
+      "rest_length_01\n"
       "property double rest_length_12\nproperty double rest_length_20\n"
       "element edge 18\nproperty int vertex1\nproperty int vertex2\nproperty double rest_length\n"
       "property double bending_rest_length\nproperty double rest_angle\nproperty double stiffness\n"
@@ -205,6 +207,26 @@ TEST_CASE("PLY: lengths are written in the file's unit, masses stay kilograms") 
   CHECK(same_positions(back.mesh, file.mesh));
   check_same_map(file.mesh, back.mesh, attribute::rest_length);
   check_same_map(file.mesh, raw.mesh, attribute::mass);
+}
+
+TEST_CASE("PLY: directions of the warp follow the file's axes, not its unit; half a direction is refused") {
+  io::MeshFile file;
+  file.mesh = grid(1, 1);
+  auto warp = ensure_map(file.mesh, attribute::warp);
+  warp[Face(0)] = {0.1, 0.2, 0.3};
+  const std::string bytes = written(file, MeshFormat::ply, {.metres_per_unit = 0.01, .up = io::Axis::z});
+  const io::MeshFile raw = read_from(bytes, MeshFormat::ply);
+  CHECK(same((*find_map(raw.mesh, attribute::warp))[Face(0)], RestPosition{0.1, -0.3, 0.2}));
+  const io::MeshFile back = read_from(bytes, MeshFormat::ply, {.metres_per_unit = 0.01, .up = io::Axis::z});
+  check_same_map(file.mesh, back.mesh, attribute::warp);
+  const std::string faces = std::string(file_head) +
+                            "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                            "element face 1\nproperty list uchar int vertex_indices\nproperty double warp_x\n"
+                            "property double warp_y\nproperty double warp_z\nend_header\n"
+                            "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 ";
+  CHECK_NOTHROW(read_from(faces + "nan nan nan\n", MeshFormat::ply));
+  CHECK_THROWS_WITH(read_from(faces + "nan 1 0\n", MeshFormat::ply),
+                    Catch::Contains("direction of the warp"));
 }
 
 TEST_CASE("PLY: text and big-endian bytes of other programs are read") {

@@ -173,6 +173,28 @@ TEST_CASE("scene_file: the cloth of fast fitting has quadratic tension, and the 
   CHECK(io::shear_ratio(io::fabric_named("jersey")) == 1);
 }
 
+TEST_CASE("scene_file: cloth with threads has all six figures, and none of cloth without") {
+  const std::string begin = "[garment]\nmesh = \"g.obj\"\n[material]\n",
+                    denim = begin + "preset = \"black-denim\"\n",
+                    six =
+                        "warp_stretch = 400\nweft_stretch = 300\nthread_shear = 50\nwarp_rigidity = 2e-5\n"
+                        "weft_rigidity = 1e-5\nbias_rigidity = 1.2e-5\n";
+  const io::SceneMaterial m = scene(denim).material;
+  CHECK(m.is_woven());
+  CHECK(m.bending_law == bridge::Bending::plate);
+  CHECK(m.warp == "auto");
+  CHECK(scene(begin + six).material.is_woven());
+  CHECK(scene(denim + "warp_stretch = 500\n").material.warp_stretch == 500.);
+  const io::SceneMaterial plain = scene(denim + "warp = \"none\"\nstretch = 300\n").material;
+  CHECK_FALSE(plain.is_woven());
+  CHECK(plain.bending_law == bridge::Bending::hinge);
+  CHECK(scene(denim + "warp = \"lines.json\"\n").material.warp == "a/lines.json");
+  CHECK(has(fault(begin + six.substr(0, six.find("bias"))), "material.bias_rigidity is missing"));
+  CHECK(has(fault(denim + "rigidity = 1e-5\n"), "say warp = \"none\""));
+  CHECK(has(fault(denim + "warp = \"sideways\"\n"), "is none of auto, none, file"));
+  CHECK(has(fault(begin + six + "weft_rigidity = 0\n"), "weft_rigidity"));
+}
+
 TEST_CASE("scene_file: what comes to rest first needs a body or pins, and the stage at rest needs settle") {
   const std::string settle = "[simulation]\nsettle = true\n[output]\nsettled = \"r.ply\"\n",
                     pins = "[[pins]]\nloop = \"top\"\n";
