@@ -209,7 +209,8 @@ TEST_CASE("PLY: lengths are written in the file's unit, masses stay kilograms") 
   check_same_map(file.mesh, raw.mesh, attribute::mass);
 }
 
-TEST_CASE("PLY: directions of the warp follow the file's axes, not its unit; half a direction is refused") {
+TEST_CASE(
+    "PLY: directions of the warp follow the file's axes, not its unit, and half a direction is refused") {
   io::MeshFile file;
   file.mesh = grid(1, 1);
   auto warp = ensure_map(file.mesh, attribute::warp);
