@@ -10,6 +10,7 @@
 #include "bridge/convert.h"
 #include "bridge/fit_zones.h"
 #include "geometry/stroke/pierced_faces.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::bridge {
 namespace {
@@ -50,6 +51,7 @@ FitPiercing measure_piercing(const geometry::Mesh& garment, const physics::Trian
   std::vector<double> depths(garment.num_faces(), 0);
   const auto triangles = triangles_of(garment);
   for (geometry::Face f : garment.faces()) {
+    physics::throw_if_cancelled("measure_piercing");
     const std::size_t i = f.idx();
     const std::array<int, 3>& t = triangles[i];
     const auto [least, most] = std::minmax({distances[t[0]], distances[t[1]], distances[t[2]]});

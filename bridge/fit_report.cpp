@@ -18,6 +18,7 @@
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/vertex_attributes.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::bridge {
 namespace {
@@ -250,11 +251,16 @@ FitReport fit_report(Mesh& garment, const physics::TriangleMesh& body, const phy
   const std::vector<double> areas = checked_areas(garment, options, report);
   report.body_low = distance.low().y();
   report.body_high = distance.high().y();
+  physics::throw_if_cancelled("fit_report");
   const Measured measured = measure_body(body, distance, options.sections);
+  physics::throw_if_cancelled("fit_report");
   report.ease = measure_ease(garment, {measured.points, body.triangles, measured.levels}, measured.heights);
 
   std::vector<double> distances(garment.num_vertices(), 0);
-  for (Vertex v : garment.vertices()) distances[v.idx()] = distance.sample(to_eigen(garment.point(v))).value;
+  for (Vertex v : garment.vertices()) {
+    physics::throw_if_cancelled("fit_report");
+    distances[v.idx()] = distance.sample(to_eigen(garment.point(v))).value;
+  }
   report.distance = summary_of(garment, distances, areas, options.contact_distance);
   const physics::Vec3 middle = (distance.low() + distance.high()) / 2;
   const ZoneFinder zones(garment, options, measured.levels, {middle.x(), middle.z()}, report);

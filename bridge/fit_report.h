@@ -96,7 +96,8 @@ struct FitReport {
 /// fit_distance and, where any e:rest_length is set, fit_strain; changes nothing else. Cost: a distance query
 /// a vertex (1 us), what measure_piercing() costs, and about 100 plane sections of the body. Throws
 /// std::invalid_argument for an option out of its range, geometry::ContentError for a mesh without area, a
-/// position that is not finite, a face that is no triangle or a broken rest length, the mesh untouched.
+/// position that is not finite, a face that is no triangle or a broken rest length; physics::Cancelled
+/// (physics/base/cancel_scope.h); the mesh untouched.
 ///
 /// \details fit_strain is at a vertex the mean of its faces by area, and 0 at a vertex of no face. Zones join
 /// faces through edges, by the mean of their corners.

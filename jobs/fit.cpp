@@ -13,6 +13,7 @@
 #include "jobs/report/fit_picture.h"
 #include "jobs/run/body.h"
 #include "jobs/run/measure_crossings.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -142,6 +143,7 @@ Json to_json(const std::vector<bridge::FitEase>& list) {
 
 FitJobReport fit(const FitJob& job, Listener& listener) {
   check(job, listener);
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   FitJobReport report;
   report.frame = job.frame;
   std::vector<std::string> names;

@@ -92,10 +92,10 @@ void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
       {true,
        {"torn",
         d.name +
-            fmt::format(": torn: half of the cloth is strained by {:.0f} % and more, up to {:.0f} %{}; the "
-                        "garment is too small for this body, or lies inside it: look at --unit, and at "
+            fmt::format(": torn: {:.0f} % of the cloth is strained by more than {:.0f} %, up to {:.0f} %{}; "
+                        "the garment is too small for this body, or lies inside it: look at --unit, and at "
                         "where it lies",
-                        100 * strain.p50, 100 * strain.max, where),
+                        100 * strain.share_over, 100 * d.fit_options.tight_strain, 100 * strain.max, where),
         d.name, "unit"}});
 }
 

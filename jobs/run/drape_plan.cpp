@@ -19,6 +19,7 @@
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/measure_shape.h"
 #include "jobs/run/scene_cloth.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -121,6 +122,7 @@ void measure_draped(const DrapePlan& plan, Draped& draped) {
   draped.gap = plan.options.settle.gap;
   draped.wanted_gap = plan.scene.simulation.contact_gap;
   draped.fit_options.contact_distance = contact_distance(draped.gap);
+  const physics::CancelScope whole([] { return false; });  // one that was stopped is measured, too
   draped.fit =
       bridge::fit_report(draped.file.mesh, plan.body->triangles, plan.body->exact, draped.fit_options);
   if (draped.gap == draped.wanted_gap)

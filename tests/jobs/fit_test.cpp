@@ -133,6 +133,22 @@ TEST_CASE("fit: a job that cannot be is refused before anything is written") {
   CHECK(tests::bytes_of(folder / "sleeve.ply") == sleeve);
 }
 
+TEST_CASE("fit: is cancelled within its measuring, too, and writes nothing then") {
+  const fs::path folder = tests::empty_folder("fit_cancel");
+  jobs::FitJob job = worn_sleeve();
+  job.output = folder / "fitted.ply";
+  tests::Recorder patient;
+  jobs::fit(job, patient);
+  REQUIRE(patient.asked > int(tests::mesh_of(job.worn[0]).mesh.number_of_vertices()));
+  fs::remove(job.output);
+  for (int at = 1; at <= patient.asked; at += std::max(1, patient.asked / 20)) {
+    INFO("cancelled at question " << at << " of " << patient.asked);
+    tests::Recorder recorder(at);
+    CHECK_THROWS_AS(jobs::fit(job, recorder), physics::Cancelled);
+    CHECK(tests::names_in(folder).empty());
+  }
+}
+
 TEST_CASE("fit: two jobs at once in one process give the bits of single runs") {
   tests::Recorder recorder;
   const jobs::FitJob one = worn_sleeve(0.12), two = worn_sleeve(0.15);
