@@ -41,6 +41,7 @@ struct Run {
   const Context& context;
   std::shared_ptr<WorldBody> body;  ///< null: none
   bool resumed;
+  Watch watch = {};
   std::vector<std::vector<io::DrawnStroke>> strokes = {};  ///< of each round
 };
 
@@ -258,6 +259,7 @@ Stretch simulate_to(double stop, const Run& run, Reached& reached, AnimationSeri
       simulate_with_checkpoints(run, reached, cloth, options, [&](const physics::SimulateProgress& p) {
         gate.check(p);
         if (observation.shows(p, stop)) animations.observe(p.time, cloth.particles.x);
+        if (run.watch) run.watch(p.time, cloth.particles.x);
         return progress(p.time / scene.simulation.seconds);
       });
   const physics::Outcome outcome = stretch.report.outcome;
@@ -390,7 +392,7 @@ SimulateReport simulate(const SimulateJob& job, Listener& listener) {
     report.settings_before =
         io::relocated(io::document_of(job.state->scene, report.state), job.state_path.parent_path(), "");
   report.frame = scene.frame;
-  Run run{scene, scene.scene, context, std::move(body), job.state.has_value()};
+  Run run{scene, scene.scene, context, std::move(body), job.state.has_value(), job.watch};
   AnimationSeries animations(scene.scene.output, context.frame);
   const std::int64_t steps_before = job.state ? job.state->simulation.step : 0;
   Reached reached = take_up(run, job.state ? *job.state : begin(scene.scene, context));

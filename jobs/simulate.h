@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -106,6 +108,9 @@ Json to_json(const SimulateReport& report);
 Json to_json(const std::vector<BorderReport>& borders);
 Json to_json(const std::vector<LineReport>& lines);
 
+/// Sees a run go on: the time [s], and where the vertices are by their index [m].
+using Watch = std::function<void(double time, std::span<const physics::Vec3> x)>;
+
 /// A scene to be run from its beginning, or from a saved state on.
 struct SimulateJob {
   SceneInput scene;
@@ -120,6 +125,9 @@ struct SimulateJob {
   /// Below which the outputs that a scene file names must lie; none: the scene's folder. Empty: the folder
   /// that the program runs in.
   std::optional<std::filesystem::path> outputs_below = {};
+  /// Called in the run's thread at each step of an integrator that factorises, else about every 0.2 s; must
+  /// not throw.
+  Watch watch = {};
 };
 
 /// The job that goes on from a state's file, under the settings that it holds. Throws as io::read_state().

@@ -138,6 +138,9 @@ Sketch open_sketch(const SceneInput& input, Listener& listener) {
   for (const char* list : {"lines", "pins"}) io::make_list(sketch.scene.settings, list);
   if (!sketch.scene.settings.root.value("material", Json::object()).contains("preset"))
     io::set_value(sketch.scene.settings, "material.preset", "cotton", "the studio");
+  const Json simulation = sketch.scene.settings.root.value("simulation", Json::object());
+  if (!simulation.contains("integrator") && !simulation.contains("dt"))  // at a step that can be watched
+    io::set_value(sketch.scene.settings, "simulation.integrator", "implicit", "the studio");
   const io::Scene scene = scene_in_frame(sketch.scene);
   check_rounds(scene, sketch.scene.settings.name, listener);
   sketch.frame = frame_of_scene(scene);

@@ -2,6 +2,7 @@
 #include "studio/frame_bytes.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace furrow::studio {
@@ -29,6 +30,15 @@ std::string frame_bytes(ShownAs kind, const jobs::ShownMesh& mesh) {
   add_list(bytes, mesh.faces);
   add_list(bytes, mesh.edges);
   add_list(bytes, mesh.pinned);
+  return bytes;
+}
+
+std::string moving_bytes(double time, const std::vector<float>& positions) {
+  const std::uint32_t head[] = {0x57525546, static_cast<std::uint32_t>(ShownAs::moving),
+                                static_cast<std::uint32_t>(positions.size() / 3),
+                                static_cast<std::uint32_t>(std::lround(1000 * time))};
+  std::string bytes(reinterpret_cast<const char*>(head), sizeof head);
+  add_list(bytes, positions);
   return bytes;
 }
 

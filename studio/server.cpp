@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "studio/frame_bytes.h"
 #include "studio/message.h"
 #include "studio/page_files.h"
 #include "studio/worker.h"
@@ -145,12 +146,15 @@ class Page : public std::enable_shared_from_this<Page> {
     });
   }
 
-  /// One that waits of the same kind gives way.
+  /// One that waits of the same kind gives way; to the cloth itself, what it did on the way there, too.
   void send(Bytes bytes, bool binary) {
-    const auto is_body = [](const Bytes& b) { return b->size() > 4 && (*b)[4] == 1; };
+    const auto kind = [](const Bytes& b) { return b->size() > 4 ? ShownAs((*b)[4]) : ShownAs::cloth; };
+    const ShownAs newer = kind(bytes);
     if (binary && queue_.size() > 1)
       std::erase_if(queue_, [&, first = &queue_.front()](const Out& out) {
-        return &out != first && out.binary && is_body(out.bytes) == is_body(bytes);
+        if (&out == first || !out.binary) return false;
+        const ShownAs older = kind(out.bytes);
+        return older == newer || (newer == ShownAs::cloth && older != ShownAs::body);
       });
     if (queue_.size() >= longest_queue) return close();
     queue_.push_back({std::move(bytes), binary});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <new>
 #include <utility>
@@ -58,6 +59,24 @@ const std::map<std::string, Range>& number_keys() {
   return keys;
 }
 
+/// The mesh of a file in the project's folder takes the garment's place, and the lines that are on are in it.
+void take_as_garment(const std::string& file, Json& drawing) {
+  drawing["settings"]["garment"] = {{"mesh", file}};
+  const Json lines = std::exchange(drawing["lines"], Json::array());
+  for (const Json& line : lines) {
+    if (line.value("on", true))
+      drawing["earlier"].push_back(name_of_line(line));
+    else
+      drawing["lines"].push_back(line);
+  }
+}
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f s", seconds);
+  return text;
+}
+
 }  // namespace
 
 Session::Session(const jobs::SceneInput& scene, const std::filesystem::path& folder, Outbox& out)
@@ -77,6 +96,7 @@ Session::Session(const std::filesystem::path& folder, Outbox& out) : out_(out) {
 }
 
 void Session::progress(const std::string& what, double share) {
+  if (playing_) return;
   const auto now = std::chrono::steady_clock::now();
   if (share < 1 && now - progress_told_ < std::chrono::milliseconds(100)) return;
   progress_told_ = now;
@@ -135,6 +155,7 @@ Json Session::status() const {
           {"holds_top", holds_top(settings)},
           {"pins", settings.value("pins", Json::array()).size()},
           {"has_body", body_ != nullptr},
+          {"time", drawing.value("motion", Json::object()).value("time", 0.0)},
           {"can_drape", body_ != nullptr || !sketch_.pins.empty()},
           {"undo", project_->next_undo()},
           {"redo", project_->next_redo()},
@@ -176,6 +197,8 @@ Json Session::done(const Message& message) {
     hold(body);
   else if (what == "drape")
     answer = drape();
+  else if (what == "play")
+    answer = play(body);
   else if (what == "undo" || what == "redo")
     undo(what == "redo");
   else if (what == "save")
@@ -218,6 +241,13 @@ std::string Session::free_name(const std::string& word) const {
     if (std::none_of(lines.begin(), lines.end(), is_it) &&
         std::find(earlier.begin(), earlier.end(), Json(name)) == earlier.end())
       return name;
+  }
+}
+
+std::string Session::free_name_of_file(const std::string& word) const {
+  for (int n = 1;; ++n) {
+    std::string name = word + "-" + std::to_string(n);
+    if (!std::filesystem::exists(project_->folder() / (name + ".ply"))) return name;
   }
 }
 
@@ -296,24 +326,50 @@ void Session::hold(const Json& body) {
     throw Refused("the scene has pins of its own, which stay as they are");
   settings["pins"] = Json::array();
   if (on == true) settings["pins"].push_back({{"loop", "top"}});
+  drawing.erase("motion");  // whose pins are others
   change(on == true ? "hold the upper border" : "let the upper border go", std::move(drawing));
 }
 
 Json Session::drape() {
   Json drawing = project_->now().drawing;
   const jobs::SketchAtRest rest = jobs::drape_sketch(sketch_, strokes_on(drawing), *this);
-  const std::string file = "rest-" + std::to_string(project_->at() + 1) + ".ply";
+  const std::string file = free_name_of_file("rest") + ".ply";
   jobs::write_sketched(sketch_, rest.file, project_->folder() / file, *this);
-  drawing["settings"]["garment"] = {{"mesh", file}};
-  const Json lines = std::exchange(drawing["lines"], Json::array());
-  for (const Json& line : lines) {
-    if (line.value("on", true))
-      drawing["earlier"].push_back(name_of_line(line));
-    else
-      drawing["lines"].push_back(line);
-  }
+  take_as_garment(file, drawing);
+  drawing.erase("motion");
   change("drape", std::move(drawing));
   return {{"outcome", rest.outcome}, {"remarks", rest.remarks}};
+}
+
+Json Session::play(const Json& body) {
+  Json drawing = project_->now().drawing;
+  jobs::PlayRequest request;
+  request.seconds =
+      body.contains("seconds") ? number_of(body, "seconds", 1e-4, jobs::longest_play) : jobs::longest_play;
+  const std::string name = free_name_of_file("run"), file = name + ".ply", state = name + "-state.ply";
+  request.new_state = project_->folder() / state;
+  const Json before = drawing.value("motion", Json::object());
+  if (before.contains("state")) request.state = project_->folder() / before["state"].get<std::string>();
+  request.watch = [this](double time, const std::vector<float>& positions) { show_moving(time, positions); };
+  struct Playing {
+    explicit Playing(bool& is_on) : is_on_(is_on) { is_on_ = true; }
+    ~Playing() { is_on_ = false; }
+    bool& is_on_;
+  } playing(playing_);
+  const jobs::PlayedSketch played = jobs::play_sketch(sketch_, strokes_on(drawing), request, *this);
+  cancelled_ = false;  // it was paused: what was reached is kept
+  jobs::write_sketched(sketch_, played.file, project_->folder() / file, *this);
+  take_as_garment(file, drawing);
+  drawing["motion"] = {{"state", state}, {"time", played.time}};
+  change("move to " + seconds_text(played.time), std::move(drawing));
+  return {{"time", played.time}, {"remarks", played.remarks}};
+}
+
+void Session::show_moving(double time, const std::vector<float>& positions) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - moving_shown_ < std::chrono::milliseconds(15)) return;  // no display shows more
+  moving_shown_ = now;
+  out_.show(everybody, std::make_shared<const std::string>(moving_bytes(time, positions)));
 }
 
 void Session::undo(bool again) {

@@ -35,7 +35,7 @@ void Worker::post(Client client, const std::string& text) {
   } catch (const Refused& e) {
     return refuse(client, nullptr, e.what());
   }
-  if (message.what == "cancel") {
+  if (message.what == "cancel" || message.what == "pause") {
     session_.cancel();
     return out_.tell(client, {{"id", message.id}, {"done", Json::object()}});
   }

@@ -152,12 +152,43 @@ async function drape(seen) {
   await seen.at(3);
 }
 
+/** Play, pause, play on, and a pen that is picked up while the cloth moves makes it hold still. */
+async function play(seen) {
+  const { tab } = seen;
+  const time = async () => Number(await tab.locator("[data-time]").getAttribute("data-time"));
+  const before = await seen.pixels();
+  await tab.locator("canvas").focus();
+  await tab.keyboard.press("Space");
+  await until("the cloth moves", async () => (await tab.locator("[data-time]").count()) > 0 && (await time()) > 0.2);
+  const moving = await seen.pixels();
+  assert.notEqual(moving, before, "the cloth is seen to move");
+  await tab.keyboard.press("Space");
+  await seen.at(4);
+  assert.match(await seen.words(), /has moved for/);
+  const paused = await time();
+  await tab.keyboard.press("Space");
+  await until("it goes on", async () => (await time()) > paused + 0.1);
+  await tab.keyboard.press("r");
+  await seen.at(5);
+  await tab.waitForTimeout(600);
+  await (await stroke(tab, [[0.53, 0.35], [0.53, 0.6], [0.54, 0.8]]))();
+  await seen.at(6);
+  await tab.waitForTimeout(600);
+  await tab.keyboard.press("Escape");
+  await seen.shot("6-played");
+  for (let step = 5; step >= 3; --step) {
+    await tab.keyboard.press("Control+z");
+    await seen.at(step);
+  }
+}
+
 try {
   const first = await studio(join(meshes, "skirt.obj"), "--body", join(meshes, "mannequin.obj"), "--pin-loop", "top");
   const seen = await open(first.url);
   await drawAndUndo(seen);
   await refuse(seen);
   await drape(seen);
+  await play(seen);
   assert.ok(!seen.tab.url().includes("token"), "the token leaves the address");
   const strokes = strokesIn("skirt-studio");
   assert.equal(strokes.length, 2);
@@ -171,7 +202,7 @@ try {
   const again = await open((await studio("skirt-studio")).url);
   assert.equal(await again.step(), 3);
   assert.equal(await again.lines(), 2);
-  await again.shot("6-again");
+  await again.shot("7-again");
   assert.deepEqual(again.faults, []);
   console.log("1 passed, 0 failed");
 } finally {

@@ -11,6 +11,8 @@
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
+#include "jobs/play_sketch.h"
+#include "jobs/simulate.h"
 #include "jobs/wrinkle.h"
 #include "tests/jobs/job_folders.h"
 
@@ -65,6 +67,7 @@ class Visitor {
       const std::string text = beast::buffers_to_string(buffer.data());
       if (ws_.got_binary()) {
         if (text.at(4) == 0) cloth = text;
+        if (text.at(4) == 3) ++moved;
         continue;
       }
       Json message = Json::parse(text);
@@ -73,7 +76,20 @@ class Visitor {
     }
   }
 
+  /// Until the cloth is seen to move; false: an answer came first.
+  bool sees_motion() {
+    beast::flat_buffer buffer;
+    for (const int before = moved; moved == before; buffer.clear()) {
+      ws_.read(buffer);
+      const std::string text = beast::buffers_to_string(buffer.data());
+      if (ws_.got_binary() && text.at(4) == 3) ++moved;
+      if (!ws_.got_binary() && Json::parse(text).contains("id")) return false;
+    }
+    return true;
+  }
+
   Json status;
+  int moved = 0;      ///< frames of moving cloth
   std::string cloth;  ///< the last mesh of it
 
  private:
@@ -204,6 +220,86 @@ TEST_CASE("studio: it drapes, and the lines that are on are in the cloth then", 
   CHECK(page.status.at("lines").size() == 2);
 }
 
+TEST_CASE("studio: play moves the cloth as furrow simulate does, goes on to the same bits, and can be undone",
+          "[release]") {
+  const Desk desk("play");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  REQUIRE(page.ask("draw", line_at(0.2)).contains("done"));
+  page.ask("show");
+  const std::string drawn = page.cloth;
+  REQUIRE(page.ask("save").contains("done"));
+  const Json first = page.ask("play", {{"seconds", 6 / 60.0}});
+  INFO(first.dump());
+  REQUIRE(first.at("done").at("time") == Approx(0.1));
+  CHECK(page.moved >= 1);
+  CHECK(page.status.at("earlier") == Json::array({"ridge 1"}));
+  REQUIRE(page.ask("play", {{"seconds", 6 / 60.0}}).at("done").at("time") == Approx(0.2));
+  struct : jobs::Listener {
+  } nobody;
+  jobs::SimulateJob job;
+  job.scene = jobs::scene_from_file(desk.project() / "scene.toml");
+  io::set_value(job.scene.settings, "output.mesh", "-", "test");
+  io::set_value(job.scene.settings, "simulation.seconds", jobs::longest_play, "test");
+  for (const auto& [seconds, file] : {std::pair{6 / 60.0, "run-1.ply"}, {12 / 60.0, "run-2.ply"}}) {
+    io::set_value(job.scene.settings, "simulation.stop_at", seconds - 1e-6, "test");
+    const bool same = tests::positions(jobs::simulate(job, nobody).garment) ==
+                      tests::positions(io::read_mesh(desk.project() / file));
+    CHECK(same);
+  }
+  CHECK(page.ask("undo").contains("done"));
+  CHECK(page.ask("undo").contains("done"));
+  page.ask("show");
+  CHECK(page.cloth == drawn);
+  CHECK(page.status.at("time") == 0);
+}
+
+TEST_CASE("studio: a line that is drawn into moving cloth leaves it its velocities", "[release]") {
+  Desk desk("more");
+  io::set_value(desk.scene.settings, "forces.gravity", {0.0, 0.0, -9.81}, "test");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  REQUIRE(page.ask("play", {{"seconds", 5 / 60.0}}).contains("done"));
+  const auto lowest = [&](const std::string& file) {
+    double z = 1;
+    for (const auto& p : tests::positions(io::read_mesh(desk.project() / file))) z = std::min(z, p.z());
+    return z;
+  };
+  Json line = line_at(0.2);
+  line["points"] = {{-0.1, 0.33, 0.0}, {0.0, 0.33, 0.0}, {0.1, 0.33, 0.0}};
+  const Json drawn = page.ask("draw", line);
+  INFO(drawn.dump());
+  REQUIRE(drawn.contains("done"));
+  const Json more = page.ask("play", {{"seconds", 3 / 60.0}});
+  INFO(more.dump());
+  REQUIRE(more.at("done").at("time") == Approx(8 / 60.0));
+  const double drawn_moving = lowest("run-2.ply");
+  for (int i = 0; i < 2; ++i) REQUIRE(page.ask("undo").contains("done"));
+  REQUIRE(page.ask("play", {{"seconds", 3 / 60.0}}).contains("done"));
+  const double undrawn = lowest("run-3.ply");
+  CHECK(undrawn < lowest("run-1.ply"));
+  CHECK(std::abs(drawn_moving - undrawn) < 0.25 * std::abs(undrawn - lowest("run-1.ply")));
+}
+
+TEST_CASE("studio: a play lasts until it is paused, and what was reached is kept", "[release]") {
+  const Desk desk("pause");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  page.ask("take");
+  page.send(R"({"id":"on","do":"play"})");
+  REQUIRE(page.sees_motion());
+  page.send(R"({"id":"stop","do":"pause"})");
+  Json answer = page.answer();
+  while (answer.at("id") != "on") answer = page.answer();
+  REQUIRE(answer.contains("done"));
+  CHECK(answer.at("done").at("time") > 0);
+  CHECK(page.status.at("time") == answer["done"]["time"]);
+  CHECK(page.status.at("undo").get<std::string>().find("move to ") == 0);
+  REQUIRE(page.ask("hold", {{"on", true}}).contains("refused"));  // the scene has pins of its own
+  REQUIRE(page.ask("drape").contains("done"));
+  CHECK(page.status.at("time") == 0);
+}
+
 TEST_CASE("studio: without its token, from another host or another page, nothing is told") {
   const Desk desk("doors");
   const studio::Studio studio(desk.scene, desk.project());
@@ -261,6 +357,8 @@ TEST_CASE("studio: hostile messages are refused in words, and change nothing") {
                                        R"({"id":1,"do":"set","line":0,"width":-1})",
                                        R"({"id":1,"do":"delete","line":"0"})",
                                        R"({"id":1,"do":"fabric","name":"../../etc/passwd"})",
+                                       R"({"id":1,"do":"play","seconds":-1})",
+                                       R"({"id":1,"do":"play","seconds":1e9})",
                                        R"({"id":1,"do":"hold"})"};
   for (const std::string& text : texts) {
     INFO(text.substr(0, 80));

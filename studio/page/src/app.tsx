@@ -25,17 +25,19 @@ export function App({ token }: { token: string }) {
   const [seen, setSeen] = useState<Seen>({ body: true, wire: false, lines: true });
   const [words, setWords] = useState<Words>({ text: "", bad: false });
   const [progress, setProgress] = useState<Progress>();
-  const [busy, setBusy] = useState("");
+  const [busy, setBusy] = useState<"" | "drape" | "play">("");
+  const [moving, setMoving] = useState(0);
   const [frames, setFrames] = useState(0);
   const [gone, setGone] = useState(false);
   const [help, setHelp] = useState(false);
-  const now = useRef({ tool, draft, chosen, status, seen, me });
-  now.current = { tool, draft, chosen, status, seen, me };
+  const now = useRef({ tool, draft, chosen, status, seen, me, busy });
+  now.current = { tool, draft, chosen, status, seen, me, busy };
   const live = useRef({ running: false, waiting: null as null | (() => void) });
 
   const say = (text: string, bad = false) => setWords({ text, bad });
   /** Asks the program; what it says against it is shown in its words. */
   const ask = async (what: string, body: object = {}, then?: (done: Done) => string) => {
+    if (now.current.busy === "play") void parts.current!.program.ask("pause");  // what is asked then wants it still
     try {
       const done = await parts.current!.program.ask(what, body);
       say([then?.(done) ?? "", ...(done.told ?? []).map((t) => `Note: ${t}`)].filter(Boolean).join("\n"));
@@ -53,14 +55,19 @@ export function App({ token }: { token: string }) {
       progress: (p) => setProgress(p.share < 1 ? p : undefined),
       frame: (bytes) => {
         const frame = readFrame(bytes);
+        if ("time" in frame) {
+          view.move(frame.positions);
+          setMoving(frame.time);
+          return;
+        }
         view.show(frame);
         if (frame.kind !== Kind.body && !pen.drawing) view.showBand([], 0, 0);
         setFrames((n) => n + 1);
       },
     });
     const settings = () => {
-      const { tool, draft } = now.current;
-      return { on: tool !== "look", colour: tool === "valley" ? view.colours.valley : view.colours.ridge, width: draft.width ?? ownWidth(draft.height) };
+      const { tool, draft, busy } = now.current;
+      return { on: tool !== "look" && !busy, colour: tool === "valley" ? view.colours.valley : view.colours.ridge, width: draft.width ?? ownWidth(draft.height) };
     };
     const pen = new Pen(view, settings, {
       drawn: async ({ points, closed }) => {
@@ -112,11 +119,27 @@ export function App({ token }: { token: string }) {
     setBusy("");
     setProgress(undefined);
   };
+  const pause = () => void parts.current!.program.ask("pause");
+  /** Moves the cloth until it is paused, or takes one step. */
+  const play = async (seconds?: number) => {
+    if (busy === "play") return pause();
+    if (busy || !status?.can_drape || !mayDraw) return;
+    setBusy("play");
+    setMoving(status.time);
+    say("");
+    await ask("play", seconds ? { seconds } : {}, (done) => [`It has moved for ${done.time!.toFixed(2)} s. Draw more, go on, or undo.`,
+      ...(done.remarks ?? [])].join("\n"));
+    setBusy("");
+  };
   const undo = () => void ask("undo");
   const redo = () => void ask("redo");
   const save = () => void ask("save", {}, (done) => `Saved in ${status?.title}: ${(done.written ?? []).join(", ")}.`);
   const toggle = (key: keyof Seen) => setSeen((s) => ({ ...s, [key]: !s[key] }));
-  const pick = (t: Tool) => setTool((old) => (old === t ? "look" : t));
+  const pick = (t: Tool) => {
+    if (t !== "look" && busy === "play") pause();  // who picks up a pen wants the cloth to hold still
+    setTool((old) => (old === t ? "look" : t));
+  };
+  const mayDraw = status ? status.pen === me || status.pen === 0 : false;
 
   useEffect(() => {
     const press = (e: KeyboardEvent) => {
@@ -134,7 +157,7 @@ export function App({ token }: { token: string }) {
       const plain: Record<string, () => void> = {
         r: () => pick("ridge"), v: () => pick("valley"), f: () => view.look(), "1": () => view.look("front"), "2": () => view.look("back"),
         "3": () => view.look("right"), b: () => toggle("body"), w: () => toggle("wire"), l: () => toggle("lines"), d: () => void drape(),
-        "?": () => setHelp(true), escape: () => (parts.current!.pen.drawing ? parts.current!.pen.drop() : setTool("look")),
+        "?": () => setHelp(true), " ": () => void play(), escape: () => (parts.current!.pen.drawing ? parts.current!.pen.drop() : setTool("look")),
       };
       if (chosen >= 0) plain.delete = () => actions.remove(chosen);
       if (at === canvas.current)
@@ -142,13 +165,13 @@ export function App({ token }: { token: string }) {
           arrowleft: () => view.turn(-0.12, 0), arrowright: () => view.turn(0.12, 0), arrowup: () => view.turn(0, 0.12),
           arrowdown: () => view.turn(0, -0.12), "+": () => view.turn(0, 0, 1.15), "-": () => view.turn(0, 0, 1 / 1.15),
         });
+      if (key === " " && at.closest("button, input")) return;  // which a space presses
       if (plain[key] && !(at instanceof HTMLSelectElement)) act(plain[key]);
     };
     addEventListener("keydown", press);
     return () => removeEventListener("keydown", press);
   });
 
-  const mayDraw = status ? status.pen === me || status.pen === 0 : false;
   const hint = !status ? "Opening …" : tool !== "look" ? `Draw on the cloth. Drag beside it to turn it. Shift: straight. Esc: lay the pen down.`
     : status.lines.length === 0 && status.step === 0 ? "Pick Ridge or Valley above, then draw on the cloth. Drag to turn it." : "";
 
@@ -158,7 +181,7 @@ export function App({ token }: { token: string }) {
         <h1 title={status?.title}>{status?.title ?? "Furrow studio"}</h1>
         <div class="group" role="group" aria-label="Pen">
           {([["look", "Look", "Esc"], ["ridge", "Ridge", "R"], ["valley", "Valley", "V"]] as const).map(([t, label, key]) => (
-            <button key={t} aria-pressed={tool === t} title={`${label} (${key})`} onClick={() => setTool(t)}>{label}</button>
+            <button key={t} aria-pressed={tool === t} title={`${label} (${key})`} onClick={() => pick(t)}>{label}</button>
           ))}
         </div>
         <div class="group">
@@ -194,7 +217,7 @@ export function App({ token }: { token: string }) {
         <section aria-label="Lines">
           <h2>Lines</h2>
           {status && status.earlier.length > 0 &&
-            <p class="note">In the cloth since it came to rest: {status.earlier.join(", ")}. To change them, undo the drape.</p>}
+            <p class="note">In the cloth since it moved: {status.earlier.join(", ")}. To change them, undo.</p>}
           {status && <Lines lines={status.lines} again={status.earlier.length > 0} chosen={chosen} actions={actions} />}
         </section>
         {status && <section class="cloth" aria-label="Cloth">
@@ -208,8 +231,14 @@ export function App({ token }: { token: string }) {
             <input type="checkbox" checked={status.holds_top} onChange={(e) => void ask("hold", { on: e.currentTarget.checked })} />
             Hold the upper border
           </label>}
-          <button class="main" disabled={!status.can_drape || busy !== "" || !mayDraw} title="Drape (D)" onClick={() => void drape()}>Drape</button>
-          <p class="note">{status.can_drape ? "Drape lets the cloth come to rest under its weight." : "To drape it, hold its upper border, or open it with --body."}</p>
+          <div class="group">
+            <button class="main" disabled={!status.can_drape || busy !== "" || !mayDraw} title="Drape (D)" onClick={() => void drape()}>Drape</button>
+            <button disabled={!status.can_drape || busy === "drape" || !mayDraw} title="Play, pause (Space)" onClick={() => void play()}>
+              {busy === "play" ? "Pause" : "Play"}</button>
+            <button disabled={!status.can_drape || busy !== "" || !mayDraw} title="One step of 1/60 s" onClick={() => void play(1 / 60)}>Step</button>
+          </div>
+          {(busy === "play" || status.time > 0) && <p class="note" data-time={moving}>At {(busy === "play" ? moving : status.time).toFixed(2)} s of its motion.</p>}
+          <p class="note">{status.can_drape ? "Drape lets the cloth come to rest under its weight; Play lets it move." : "To drape it, hold its upper border, or open it with --body."}</p>
         </section>}
       </aside>
       <footer data-step={status?.step} data-frames={frames} data-lines={status?.lines.length}>
@@ -217,7 +246,7 @@ export function App({ token }: { token: string }) {
           {gone ? "The program has ended. Every step is kept: start furrow studio again to go on." : words.text}
         </div>
         {!mayDraw && status && !gone && <button class="main" onClick={() => void ask("take")}>Take the pen</button>}
-        {(busy || progress) && <>
+        {(busy === "drape" || progress) && <>
           <span>{progress?.what}</span>
           <progress max={1} value={progress?.share} aria-label={progress?.what ?? "working"} />
           <button onClick={() => void parts.current!.program.ask("cancel")}>Cancel</button>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh as the program sends it (studio/frame_bytes.h).
 
-export const enum Kind { cloth = 0, body = 1, preview = 2 }
+export const enum Kind { cloth = 0, body = 1, preview = 2, moving = 3 }
 
 export interface Frame {
   kind: Kind;
@@ -12,9 +12,14 @@ export interface Frame {
   pinned: Uint32Array;
 }
 
-export function readFrame(bytes: ArrayBuffer): Frame {
+/** Where the vertices of the cloth are while it moves. */
+export interface Moving { kind: Kind.moving; time: number; positions: Float32Array }
+
+export function readFrame(bytes: ArrayBuffer): Frame | Moving {
+  const start = new Uint32Array(bytes, 0, 4);
+  if (start[0] !== 0x57525546) throw new Error("this is no mesh");
+  if (start[1] === Kind.moving) return { kind: Kind.moving, time: start[3] / 1000, positions: new Float32Array(bytes, 16, 3 * start[2]) };
   const head = new Uint32Array(bytes, 0, 6);
-  if (head[0] !== 0x57525546) throw new Error("this is no mesh");
   const [, kind, vertices, faces, edges, pinned] = head;
   let at = 24;
   const take = <T>(make: new (b: ArrayBuffer, o: number, n: number) => T, n: number): T => {

@@ -124,6 +124,19 @@ export class View {
     this.draw();
   }
 
+  /** The cloth as it moves: strokes are drawn on it only where it has stopped. */
+  move(positions: Float32Array) {
+    if (!this.frame || positions.length !== this.frame.positions.length) return;
+    this.frame.positions.set(positions);
+    this.cloth.geometry.getAttribute("position").needsUpdate = true;
+    this.cloth.geometry.computeVertexNormals();
+    this.cloth.geometry.computeBoundingSphere();
+    this.showWire();
+    this.showLines();
+    this.showPins();
+    this.draw();
+  }
+
   see(seen: Seen) {
     this.seen = seen;
     this.body.visible = seen.body;
