@@ -2,6 +2,7 @@
 #include "jobs/sketch.h"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include "io/base/atomic_file.h"
@@ -176,6 +177,21 @@ Json settings_for(const Sketch& sketch, const fs::path& folder) {
   if (sketch.frame.up) settings["up"] = *sketch.frame.up;
   settings.erase("output");  // what the scene wrote is not for the studio to replace
   return settings;
+}
+
+Json mirrored(const Sketch& sketch, const Json& stroke) {
+  if (!stroke.contains("points"))
+    throw std::invalid_argument(
+        "this line is given by vertices of the garment, not by points: draw it by hand");
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const geometry::Mesh& mesh = sketch.body ? sketch.body->mesh : sketch.garment.mesh;
+  for (const geometry::Vertex v : mesh.vertices()) {
+    low = std::min(low, mesh.point(v).x());
+    high = std::max(high, mesh.point(v).x());
+  }
+  Json other = stroke;
+  for (Json& point : other["points"]) point[0] = low + high - point.at(0).get<double>();
+  return other;
 }
 
 SketchedGarment draw_sketch(const Sketch& sketch, const Json& strokes, Listener& listener) {

@@ -34,6 +34,11 @@ Json strokes_of(const Sketch& sketch, Listener& listener);
 /// The settings with all paths relative to a folder, in a frame that says unit and axis.
 Json settings_for(const Sketch& sketch, const std::filesystem::path& folder);
 
+/// The stroke on the other side of the plane x = the middle of the body, else of the garment: its points
+/// mirrored, without what else is known of where it runs. Throws std::invalid_argument for a stroke that is
+/// not given by points.
+Json mirrored(const Sketch& sketch, const Json& stroke);
+
 /// A garment with its lines, as it is shown.
 struct SketchedGarment {
   io::MeshFile file;  ///< [m]

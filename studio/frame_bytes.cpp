@@ -42,6 +42,14 @@ std::string moving_bytes(double time, const std::vector<float>& positions) {
   return bytes;
 }
 
+std::string colour_bytes(const std::vector<std::uint8_t>& colours) {
+  const std::uint32_t head[] = {0x57525546, static_cast<std::uint32_t>(ShownAs::colours),
+                                static_cast<std::uint32_t>(colours.size() / 3), 0};
+  std::string bytes(reinterpret_cast<const char*>(head), sizeof head);
+  add_list(bytes, colours);
+  return bytes;
+}
+
 std::string as_kind(std::string bytes, ShownAs kind) {
   const auto word = static_cast<std::uint32_t>(kind);
   if (bytes.size() >= 8) std::memcpy(bytes.data() + 4, &word, 4);

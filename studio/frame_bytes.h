@@ -7,7 +7,7 @@
 
 namespace furrow::studio {
 
-enum class ShownAs : std::uint32_t { cloth = 0, body = 1, preview = 2, moving = 3 };
+enum class ShownAs : std::uint32_t { cloth = 0, body = 1, preview = 2, moving = 3, colours = 4 };
 
 /// A mesh as the page reads it (page/src/frame.ts), little-endian: the numbers 0x57525546, what it is, how
 /// many vertices, faces, line edges and pinned vertices; then positions, undrawn positions (float32), faces,
@@ -17,6 +17,10 @@ std::string frame_bytes(ShownAs kind, const jobs::ShownMesh& mesh);
 /// Positions of the cloth that was shown last [m], by its vertices' indices: the number 0x57525546, "moving",
 /// how many vertices, and the time [ms]; then positions (float32).
 std::string moving_bytes(double time, const std::vector<float>& positions);
+
+/// Colours of the cloth that was shown last: the number 0x57525546, "colours", how many vertices, 0; then
+/// red, green and blue of each, a byte each.
+std::string colour_bytes(const std::vector<std::uint8_t>& colours);
 
 /// The same bytes as another kind.
 std::string as_kind(std::string bytes, ShownAs kind);

@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "jobs/fit_sketch.h"
 #include "studio/frame_bytes.h"
 
 namespace furrow::studio {
@@ -191,6 +192,8 @@ Json Session::done(const Message& message) {
     answer = set(body);
   else if (what == "delete")
     remove(body);
+  else if (what == "mirror")
+    mirror(body);
   else if (what == "fabric")
     choose_fabric(body);
   else if (what == "hold")
@@ -199,6 +202,8 @@ Json Session::done(const Message& message) {
     answer = drape();
   else if (what == "play")
     answer = play(body);
+  else if (what == "fit")
+    answer = fit(body);
   else if (what == "undo" || what == "redo")
     undo(what == "redo");
   else if (what == "save")
@@ -208,7 +213,7 @@ Json Session::done(const Message& message) {
     show_now();
   else
     throw Refused("there is nothing called '" + what + "' to do");
-  if (!body.contains("live") && what != "show" && what != "take") {
+  if (!body.contains("live") && what != "show" && what != "take" && what != "fit") {
     Json line = body;
     line.erase("id");
     project_->log(line);
@@ -310,6 +315,17 @@ void Session::remove(const Json& body) {
   change("delete " + name, std::move(drawing));
 }
 
+void Session::mirror(const Json& body) {
+  Json drawing = project_->now().drawing;
+  const Json& line = line_of(drawing, body);
+  const std::string from = name_of_line(line);
+  Json stroke = jobs::mirrored(sketch_, line.at("stroke"));
+  const Json height = stroke.value("height", Json());
+  stroke["name"] = free_name(height.is_number() && height.get<double>() < 0 ? "valley" : "ridge");
+  drawing["lines"].push_back({{"on", true}, {"stroke", std::move(stroke)}});
+  change("mirror " + from, std::move(drawing));
+}
+
 void Session::choose_fabric(const Json& body) {
   Json drawing = project_->now().drawing;
   const std::string name = text_of(body, "name");
@@ -363,6 +379,15 @@ Json Session::play(const Json& body) {
   drawing["motion"] = {{"state", state}, {"time", played.time}};
   change("move to " + seconds_text(played.time), std::move(drawing));
   return {{"time", played.time}, {"remarks", played.remarks}};
+}
+
+Json Session::fit(const Json& body) {
+  const std::string by = text_of(body, "by");
+  if (by != "strain" && by != "distance") throw Refused("by: is neither strain nor distance");
+  const auto colour = by == "strain" ? jobs::FitColour::strain : jobs::FitColour::distance;
+  const jobs::SketchFit found = jobs::fit_sketch(sketch_, strokes_on(project_->now().drawing), colour, *this);
+  out_.show(everybody, std::make_shared<const std::string>(colour_bytes(found.colours)));
+  return {{"words", found.words}, {"legend", found.legend}};
 }
 
 void Session::show_moving(double time, const std::vector<float>& positions) {

@@ -43,10 +43,12 @@ class Session : jobs::Listener {
   void draw(const Json& body);
   Json set(const Json& body);
   void remove(const Json& body);
+  void mirror(const Json& body);
   void choose_fabric(const Json& body);
   void hold(const Json& body);
   Json drape();
   Json play(const Json& body);
+  Json fit(const Json& body);
   void show_moving(double time, const std::vector<float>& positions);
   void undo(bool again);
   void change(const std::string& what, Json drawing);

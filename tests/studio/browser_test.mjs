@@ -152,6 +152,26 @@ async function drape(seen) {
   await seen.at(3);
 }
 
+/** The colours of the fit, and the cloth's own again. */
+async function fit(seen) {
+  const { tab } = seen;
+  const press = async (name) => {
+    await tab.getByRole("button", { name }).click();
+    await until("the words of the fit", async () => /nearer than/.test(await seen.words()));
+    await tab.waitForTimeout(500);
+  };
+  await press("Distance");  // its words take a line more, so the picture is smaller from now on
+  await seen.shot("8-fit");
+  const coloured = await seen.pixels();
+  await press("Distance");
+  const plain = await seen.pixels();
+  assert.ok(plain !== coloured, "the fit is seen");
+  await press("Distance");
+  assert.ok((await seen.pixels()) === coloured, "it is seen again");
+  await press("Distance");
+  assert.ok((await seen.pixels()) === plain, "the cloth's own colour comes back");
+}
+
 /** Play, pause, play on, and a pen that is picked up while the cloth moves makes it hold still. */
 async function play(seen) {
   const { tab } = seen;
@@ -188,6 +208,7 @@ try {
   await drawAndUndo(seen);
   await refuse(seen);
   await drape(seen);
+  await fit(seen);
   await play(seen);
   assert.ok(!seen.tab.url().includes("token"), "the token leaves the address");
   const strokes = strokesIn("skirt-studio");

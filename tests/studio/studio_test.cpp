@@ -6,8 +6,10 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
@@ -15,6 +17,7 @@
 #include "jobs/simulate.h"
 #include "jobs/wrinkle.h"
 #include "tests/jobs/job_folders.h"
+#include "tests/test_meshes.h"
 
 namespace furrow {
 namespace {
@@ -68,6 +71,7 @@ class Visitor {
       if (ws_.got_binary()) {
         if (text.at(4) == 0) cloth = text;
         if (text.at(4) == 3) ++moved;
+        if (text.at(4) == 4) colours = text;
         continue;
       }
       Json message = Json::parse(text);
@@ -91,6 +95,7 @@ class Visitor {
   Json status;
   int moved = 0;      ///< frames of moving cloth
   std::string cloth;  ///< the last mesh of it
+  std::string colours;
 
  private:
   asio::io_context io_;
@@ -298,6 +303,62 @@ TEST_CASE("studio: a play lasts until it is paused, and what was reached is kept
   REQUIRE(page.ask("hold", {{"on", true}}).contains("refused"));  // the scene has pins of its own
   REQUIRE(page.ask("drape").contains("done"));
   CHECK(page.status.at("time") == 0);
+}
+
+TEST_CASE("studio: a line is mirrored, and both lie as far from the middle") {
+  const Desk desk("mirror");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  REQUIRE(page.ask("draw", line_at(0.12, -0.02)).contains("done"));
+  REQUIRE(page.ask("mirror", {{"line", 0}}).contains("done"));
+  CHECK(page.ask("mirror", {{"line", 2}}).contains("refused"));
+  REQUIRE(page.status.at("lines").size() == 2);
+  CHECK(page.status["lines"][1].at("name") == "valley 2");
+  CHECK(page.status.at("undo") == "mirror valley 1");
+  REQUIRE(page.ask("save").contains("done"));
+  const Json strokes = strokes_of(desk.project());
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(strokes.at(1).at("points").at(i).at(0).get<double>() == Approx(-0.12));
+    CHECK(strokes[1]["points"][i].at(1) == strokes.at(0).at("points").at(i).at(1));
+  }
+  CHECK(strokes[1].at("height") == strokes[0].at("height"));
+}
+
+TEST_CASE("studio: it colours the cloth by its fit, in the words of furrow fit, and changes nothing") {
+  const Desk desk("fit");
+  jobs::SceneInput scene = desk.scene;
+  const studio::Studio bare(scene, desk.project());
+  {
+    Visitor page(bare);
+    CHECK(page.ask("fit", {{"by", "strain"}}).at("refused").get<std::string>().find("no body") !=
+          std::string::npos);
+  }
+  io::MeshFile ball;
+  ball.mesh = tests::icosphere(3, 0.15, {0, 0.2, -0.2});
+  io::write_mesh(desk.folder / "ball.ply", ball);
+  io::set_value(scene.settings, "body.mesh", "ball.ply", "test");
+  const studio::Studio studio(scene, desk.folder / "dressed");
+  Visitor page(studio);
+  REQUIRE(page.ask("draw", line_at(0.1)).contains("done"));
+  page.ask("show");
+  const std::string before = page.cloth;
+  const Json status = page.status;
+  for (const std::string by : {"distance", "strain"}) {
+    const Json answer = page.ask("fit", {{"by", by}});
+    INFO(answer.dump());
+    REQUIRE(answer.contains("done"));
+    CHECK(answer["done"].at("words").get<std::string>().find(
+              by == "strain" ? "strained over" : "nearer than") != std::string::npos);
+    REQUIRE(page.colours.size() > 16);
+    std::uint32_t vertices = 0;
+    std::memcpy(&vertices, page.cloth.data() + 8, 4);
+    CHECK(page.colours.size() == 16 + 3 * std::size_t(vertices));
+    CHECK(std::set<char>(page.colours.begin() + 16, page.colours.end()).size() > 2);
+  }
+  CHECK(page.ask("fit", {{"by", "ease"}}).contains("refused"));
+  page.ask("show");
+  CHECK(page.cloth == before);
+  CHECK(page.status == status);
 }
 
 TEST_CASE("studio: without its token, from another host or another page, nothing is told") {

@@ -27,6 +27,7 @@ export function App({ token }: { token: string }) {
   const [progress, setProgress] = useState<Progress>();
   const [busy, setBusy] = useState<"" | "drape" | "play">("");
   const [moving, setMoving] = useState(0);
+  const [fit, setFit] = useState<"" | "strain" | "distance">("");
   const [frames, setFrames] = useState(0);
   const [gone, setGone] = useState(false);
   const [help, setHelp] = useState(false);
@@ -58,9 +59,12 @@ export function App({ token }: { token: string }) {
         if ("time" in frame) {
           view.move(frame.positions);
           setMoving(frame.time);
+          setFit("");
           return;
         }
+        if ("colours" in frame) return view.colour(frame.colours);
         view.show(frame);
+        setFit("");
         if (frame.kind !== Kind.body && !pen.drawing) view.showBand([], 0, 0);
         setFrames((n) => n + 1);
       },
@@ -109,6 +113,9 @@ export function App({ token }: { token: string }) {
       else void send();
     },
     remove: (line) => void ask("delete", { line }),
+    mirror: async (line) => {
+      if (await ask("mirror", { line })) setChosen(now.current.status!.lines.length - 1);
+    },
   };
   const drape = async () => {
     if (busy) return;
@@ -130,6 +137,14 @@ export function App({ token }: { token: string }) {
     await ask("play", seconds ? { seconds } : {}, (done) => [`It has moved for ${done.time!.toFixed(2)} s. Draw more, go on, or undo.`,
       ...(done.remarks ?? [])].join("\n"));
     setBusy("");
+  };
+  /** Shows strain, or the distance to the body, or the cloth's own colour again. */
+  const showFit = async (by: "strain" | "distance") => {
+    if (fit === by) {
+      setFit("");
+      return parts.current!.view.colour(null);
+    }
+    if (await ask("fit", { by }, (done) => `${done.words}\n${done.legend}`)) setFit(by);
   };
   const undo = () => void ask("undo");
   const redo = () => void ask("redo");
@@ -159,7 +174,7 @@ export function App({ token }: { token: string }) {
         "3": () => view.look("right"), b: () => toggle("body"), w: () => toggle("wire"), l: () => toggle("lines"), d: () => void drape(),
         "?": () => setHelp(true), " ": () => void play(), escape: () => (parts.current!.pen.drawing ? parts.current!.pen.drop() : setTool("look")),
       };
-      if (chosen >= 0) plain.delete = () => actions.remove(chosen);
+      if (chosen >= 0) Object.assign(plain, { delete: () => actions.remove(chosen), m: () => actions.mirror(chosen) });
       if (at === canvas.current)
         Object.assign(plain, {
           arrowleft: () => view.turn(-0.12, 0), arrowright: () => view.turn(0.12, 0), arrowup: () => view.turn(0, 0.12),
@@ -238,6 +253,13 @@ export function App({ token }: { token: string }) {
             <button disabled={!status.can_drape || busy !== "" || !mayDraw} title="One step of 1/60 s" onClick={() => void play(1 / 60)}>Step</button>
           </div>
           {(busy === "play" || status.time > 0) && <p class="note" data-time={moving}>At {(busy === "play" ? moving : status.time).toFixed(2)} s of its motion.</p>}
+          {status.has_body && <div class="group" role="group" aria-label="Fit">
+            <span>Fit</span>
+            {(["strain", "distance"] as const).map((by) => (
+              <button key={by} aria-pressed={fit === by} disabled={busy !== "" || !mayDraw} onClick={() => void showFit(by)}>
+                {by === "strain" ? "Strain" : "Distance"}</button>
+            ))}
+          </div>}
           <p class="note">{status.can_drape ? "Drape lets the cloth come to rest under its weight; Play lets it move." : "To drape it, hold its upper border, or open it with --body."}</p>
         </section>}
       </aside>

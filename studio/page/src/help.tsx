@@ -3,7 +3,7 @@ import { useEffect, useRef } from "preact/hooks";
 
 const keys: [string, string][] = [
   ["R", "ridge pen"], ["V", "valley pen"], ["Shift", "while drawing: a straight line"], ["Esc", "drop the line, or lay the pen down"],
-  ["Ctrl Z", "undo"], ["Ctrl Y", "do again"], ["Ctrl S", "save"], ["Delete", "delete the chosen line"],
+  ["Ctrl Z", "undo"], ["Ctrl Y", "do again"], ["Ctrl S", "save"], ["Delete", "delete the chosen line"], ["M", "mirror it"],
   ["F", "frame the cloth"], ["1 2 3", "front, back, side"], ["← → ↑ ↓", "turn (with the picture in focus)"], ["+ −", "nearer, farther"],
   ["B", "body"], ["W", "wireframe"], ["L", "lines"], ["Space", "play, pause"], ["D", "drape: let it come to rest"], ["?", "this page"],
 ];

@@ -7,6 +7,7 @@ export interface LineActions {
   /** `live`: while a slider moves. */
   set(line: number, change: object, live: boolean): void;
   remove(line: number): void;
+  mirror(line: number): void;
 }
 
 export const mm = (metres: number) => `${Math.round(metres * 1000)} mm`;
@@ -44,6 +45,7 @@ function Edit({ line, index, actions }: { line: Line; index: number; actions: Li
       {line.width !== undefined && <span class="wide"><button class="small" onClick={() => set({ width: null })}>Width by itself</button></span>}
       <Slider label="Sharpness" value={line.sharpness ?? 0} min={0} max={1} step={0.05} text={(line.sharpness ?? 0).toFixed(2)}
         change={(v, live) => set({ sharpness: v }, live)} />
+      <span class="wide"><button class="small" title="Draw it on the other side, too (M)" onClick={() => actions.mirror(index)}>Mirror</button></span>
     </div>
   );
 }

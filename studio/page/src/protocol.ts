@@ -8,7 +8,7 @@ export interface Status {
   title: string; lines: Line[]; shown: number[]; earlier: string[]; fabric: string; fabrics: string[]; holds_top: boolean; pins: number;
   has_body: boolean; can_drape: boolean; time: number; undo: string; redo: string; step: number; pen: number;
 }
-export interface Done { told?: string[]; outcome?: string; time?: number; remarks?: string[]; written?: string[]; live?: boolean; passed_over?: boolean }
+export interface Done { told?: string[]; outcome?: string; time?: number; words?: string; legend?: string; remarks?: string[]; written?: string[]; live?: boolean; passed_over?: boolean }
 export interface Progress { what: string; share: number }
 export interface Hearer {
   status(status: Status): void; you(client: number): void; progress(progress: Progress): void; frame(bytes: ArrayBuffer): void; gone(): void;

@@ -66,7 +66,8 @@ export class View {
   private paint(isDark: boolean) {
     this.colours = isDark ? dark : light;
     this.scene.background = new THREE.Color(this.colours.ground);
-    (this.cloth.material as THREE.MeshStandardMaterial).color.set(this.colours.cloth);
+    const cloth = this.cloth.material as THREE.MeshStandardMaterial;
+    if (!cloth.vertexColors) cloth.color.set(this.colours.cloth);
     (this.body.material as THREE.MeshStandardMaterial).color.set(this.colours.body);
     (this.wire.material as THREE.LineBasicMaterial).color.set(this.colours.wire);
     (this.pins.material as THREE.PointsMaterial).color.set(this.colours.valley);
@@ -113,6 +114,7 @@ export class View {
     this.frame = frame;
     this.cloth.geometry.dispose();
     this.cloth.geometry = this.geometryOf(frame);
+    this.colour(null);
     this.clothTree = new MeshBVH(this.cloth.geometry);
     this.cloth.geometry.computeBoundingBox();
     this.size = this.cloth.geometry.boundingBox!.getSize(new THREE.Vector3()).length();
@@ -124,9 +126,24 @@ export class View {
     this.draw();
   }
 
+  /** Paints the cloth; null: its own colour. */
+  colour(colours: Uint8Array | null) {
+    const material = this.cloth.material as THREE.MeshStandardMaterial;
+    const fits = colours !== null && colours.length === this.frame?.positions.length;
+    if (material.vertexColors !== fits) material.needsUpdate = true;
+    material.vertexColors = fits;
+    material.color.set(fits ? 0xffffff : this.colours.cloth);
+    if (fits) {
+      const one = new THREE.Color(), linear = Float32Array.from({ length: 256 }, (_, i) => one.setRGB(i / 255, 0, 0, THREE.SRGBColorSpace).r);
+      this.cloth.geometry.setAttribute("color", new THREE.BufferAttribute(Float32Array.from(colours!, (c) => linear[c]), 3));
+    }
+    this.draw();
+  }
+
   /** The cloth as it moves: strokes are drawn on it only where it has stopped. */
   move(positions: Float32Array) {
     if (!this.frame || positions.length !== this.frame.positions.length) return;
+    this.colour(null);
     this.frame.positions.set(positions);
     this.cloth.geometry.getAttribute("position").needsUpdate = true;
     this.cloth.geometry.computeVertexNormals();
