@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "bridge/energy_parts.h"
 #include "bridge/gather.h"
 #include "io/base/atomic_file.h"
 #include "io/mesh/mesh_file.h"
@@ -56,7 +57,8 @@ struct Reached {
 /// A stretch between two rounds of lines.
 struct Stretch {
   physics::SimulateReport report;
-  bool goes_on = false;  ///< the cloth came to its end, and the run is not to stop there
+  bridge::EnergyParts energy = {};  ///< at its end
+  bool goes_on = false;             ///< the cloth came to its end, and the run is not to stop there
 };
 
 io::SavedState begin(const io::Scene& scene, const Context& context) {
@@ -263,6 +265,9 @@ Stretch simulate_to(double stop, const Run& run, Reached& reached, AnimationSeri
         return progress(p.time / scene.simulation.seconds);
       });
   const physics::Outcome outcome = stretch.report.outcome;
+  if (outcome != physics::Outcome::diverged)
+    stretch.energy = bridge::energy_parts(
+        cloth, options.gravity, std::vector<physics::Vec3>(cloth.particles.size(), physics::Vec3::Zero()));
   const bool stopped =
       outcome == physics::Outcome::stopped_at && scene.stop_at && now.simulation.time >= *scene.stop_at;
   stretch.goes_on = (outcome == physics::Outcome::finished || outcome == physics::Outcome::stopped_at) &&
@@ -290,6 +295,7 @@ physics::SimulateReport run_to_end(const Run& run, Reached& reached, AnimationSe
     }
     throw;
   }
+  if (stretch.report.outcome != physics::Outcome::diverged) report.energy = stretch.energy;
   return stretch.report;
 }
 

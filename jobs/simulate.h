@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bridge/drape.h"
 #include "io/scene/state_file.h"
 #include "jobs/chart.h"
 #include "jobs/crossings.h"
@@ -78,11 +79,13 @@ struct Fault {
 
 /// What jobs::simulate() did.
 struct SimulateReport {
-  std::string title;                      ///< of the scene
-  std::optional<Judgement> choice;        ///< of integrator and step, where a tolerance was asked for
-  bool scene_dt = false;                  ///< the settings named a step before the choice
-  bool ran = false;                       ///< false: nothing meets the tolerance; what follows is empty
-  physics::SimulateReport run;            ///< of the whole run; its outcome
+  std::string title;                ///< of the scene
+  std::optional<Judgement> choice;  ///< of integrator and step, where a tolerance was asked for
+  bool scene_dt = false;            ///< the settings named a step before the choice
+  bool ran = false;                 ///< false: nothing meets the tolerance; what follows is empty
+  physics::SimulateReport run;      ///< of the whole run; its outcome
+  /// At its end, beside `run.kinetic_energy`; weight against the origin, contact left 0; none: it diverged.
+  std::optional<bridge::EnergyParts> energy;
   std::optional<ReachedShape> shape;      ///< none: it diverged
   std::optional<bridge::KeptShape> kept;  ///< at time 0
   std::optional<RestStage> rest;          ///< at time 0, where the settings ask for it

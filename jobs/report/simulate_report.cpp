@@ -114,6 +114,12 @@ Json to_json(const SimulateReport& r) {
   if (!r.title.empty()) json["title"] = r.title;
   json.update(to_json(r.run));
   json["outcome"] = r.outcome();
+  if (r.energy)
+    json["energy"] = {{"kinetic", r.run.kinetic_energy},
+                      {"stretch", r.energy->stretch},
+                      {"bending", r.energy->bending},
+                      {"ties", r.energy->ties},
+                      {"weight", r.energy->weight}};
   if (!std::isfinite(r.run.dt_limit)) json["dt_limit_why"] = "steps of any length are stable";
   if (r.shape) json.update(to_json(*r.shape, r.run));
   if (r.kept) json["kept"] = to_json(*r.kept);

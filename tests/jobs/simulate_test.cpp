@@ -96,6 +96,27 @@ TEST_CASE("simulate: RK4 with steps above its limit that comes to its end is no 
   CHECK(warns(above));
 }
 
+TEST_CASE("simulate: without damping the kinds of energy and motion sum up to the same at any time") {
+  tests::Recorder recorder;
+  const auto run = [&](double seconds) {
+    jobs::SimulateJob job = hung_sheet(seconds);
+    io::set_value(job.scene.settings, "forces.gravity", {0.0, 0.0, -9.81}, "test");
+    io::set_value(job.scene.settings, "material.damping", 0, "test");
+    io::set_value(job.scene.settings, "material.drag", 0, "test");
+    return jobs::simulate(job, recorder);
+  };
+  const auto sum = [](const jobs::SimulateReport& r) { return r.energy->total() + r.run.kinetic_energy; };
+  const jobs::SimulateReport early = run(0.01), late = run(0.2);
+  REQUIRE(late.energy);
+  CHECK(late.run.kinetic_energy > 0.05 * -late.energy->weight);
+  CHECK(late.energy->weight < early.energy->weight - 1e-3);
+  CHECK(late.energy->stretch > 0);
+  CHECK(std::abs(sum(late) - sum(early)) < 0.01 * std::abs(late.energy->weight - early.energy->weight));
+  const jobs::Json json = to_json(late);
+  CHECK(json.at("energy").at("kinetic") == json.at("kinetic_energy"));
+  CHECK(json["energy"].at("weight") == late.energy->weight);
+}
+
 TEST_CASE("simulate: a garment and strokes in memory come to the bits of their files") {
   const fs::path folder = empty_folder("memory");
   tests::Recorder recorder;
