@@ -145,8 +145,8 @@ async function refuse(seen) {
 async function drape(seen) {
   await seen.tab.keyboard.press("d");
   await seen.at(4);
-  await seen.tab.waitForTimeout(800);
-  assert.match(await seen.words(), /at rest/);
+  await until("it tells how the drape ended", async () => /at rest/.test(await seen.words()));
+  await seen.tab.waitForTimeout(500);
   await seen.shot("5-draped");
   await seen.tab.keyboard.press("Control+z");
   await seen.at(3);
@@ -184,7 +184,9 @@ async function play(seen) {
   assert.notEqual(moving, before, "the cloth is seen to move");
   await tab.keyboard.press("Space");
   await seen.at(4);
-  assert.match(await seen.words(), /has moved for/);
+  // The step is told before the answer to the play that made it.
+  await until("it tells how long", async () => /has moved for/.test(await seen.words()));
+  await tab.waitForTimeout(200);
   const paused = await time();
   await tab.keyboard.press("Space");
   await until("it goes on", async () => (await time()) > paused + 0.1);
