@@ -11,7 +11,7 @@
 #include "bridge/level_start.h"
 #include "bridge/place_noise.h"
 #include "physics/base/require.h"
-#include "physics/rest/hinge_friction.h"
+#include "physics/rest/give_way.h"
 #include "physics/rest/settle.h"
 
 namespace furrow::bridge {
@@ -56,33 +56,6 @@ physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* 
 }
 
 constexpr int most_soft_iterations = 50;
-constexpr double least_slip = 2e-3;  // rad
-constexpr int most_rounds = 60;
-
-struct WornRest {
-  physics::SettleReport settle;  ///< of all rounds together
-  int rounds = 0;                ///< after which hinges gave way
-  double slip = 0;               ///< of a hinge in the last of them [rad]
-};
-/// Finds rest on the last level, again while hinges give way; their friction stands at the end of the cloth's
-/// hinges.
-WornRest give_way(physics::Cloth& cloth, const physics::Collider* body, double moment,
-                  const physics::SettleOptions& o, const physics::SettleObserver& observer) {
-  const physics::HingeFriction friction = physics::add_hinge_friction(cloth, {.moment = moment});
-  WornRest rest;
-  do {
-    const physics::SettleReport before = rest.settle;
-    rest.settle = physics::settle(cloth, body, o, observer);
-    const bool converged = rest.settle.converged;
-    rest.settle.iterations += before.iterations;
-    rest.settle.factorisations += before.factorisations;
-    rest.settle.followers += before.followers;
-    if (!converged) break;
-    rest.slip = physics::update_friction(cloth, friction);
-  } while (rest.slip > least_slip && ++rest.rounds < most_rounds);
-  return rest;
-}
-
 /// Where the cloth comes to rest, roughly, with triangles that are softer: a start for its own search.
 physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collider* body,
                                     const DrapeOptions& o, const physics::SettleObserver& observer) {
@@ -162,7 +135,8 @@ DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics:
     physics::SettleOptions settle = level_options(o, last, report.stopped);
     settle.work = work ? &work->levels[std::size_t(level)] : nullptr;
     if (last && o.bending_friction > 0 && !report.stopped) {
-      const WornRest rest = give_way(cloth, body, o.bending_friction, settle, observer);
+      const physics::GivenWay rest =
+          physics::settle_giving_way(cloth, body, o.bending_friction, settle, observer);
       now.settle = rest.settle;
       report.friction_rounds = rest.rounds;
       report.slip = rest.slip;

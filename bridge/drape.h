@@ -38,8 +38,8 @@ struct DrapeOptions {
   /// Whether what is held are parts laid aside, as nothing carries them: they carry nothing either, and where
   /// all others fall, there are no finer levels.
   bool held_aside = false;
-  /// Internal friction of bending on the last level, as a moment a metre of hinge [N]; >= 0, 0: none. It
-  /// needs linear hinges, and not plain. See physics/rest/hinge_friction.h.
+  /// Internal friction of bending on the last level, as a moment a metre of crease [N]; >= 0, 0: none. It
+  /// needs linear hinges or a plate, and not plain. See physics/rest/hinge_friction.h, plate_friction.h.
   double bending_friction = 0;
 };
 
@@ -63,8 +63,8 @@ struct DrapeLevel {
 struct DrapeReport {
   std::vector<DrapeLevel> levels;  ///< coarse to fine
   double disturbance = 0;          ///< of the last level [m]
-  int friction_rounds = 0;         ///< rests after each of which hinges that bend too far gave way
-  double slip = 0;                 ///< of a hinge in the last of them [rad]
+  int friction_rounds = 0;         ///< rests after each of which what bends too far gave way
+  double slip = 0;                 ///< of a hinge or an edge in the last of them [rad]
   EnergyParts energy;              ///< of the last level; weight against the garment as it was given
   bool stopped = false;            ///< by go_on
   bool falls = false;              ///< a coarse level came to lie on nothing: there are no finer ones

@@ -25,6 +25,7 @@ struct FabricArguments : CommonArguments {
   std::string action = "list", name, picture;
   int rings = 20;
   std::optional<double> drape;
+  double bending_friction = 0;
 };
 
 Json figures_of(const io::Fabric& f) {
@@ -42,6 +43,7 @@ Json details_of(const io::Fabric& f) {
   Json json = figures_of(f);
   json["thread_poisson"] = f.threads.any() ? Json(f.threads.poisson) : Json(nullptr);
   json["thickness"] = f.thickness, json["damping"] = f.damping, json["friction"] = f.friction;
+  json["bending_friction"] = f.bending_friction > 0 ? Json(f.bending_friction) : Json(nullptr);
   json["source"] = f.source, json["assumed"] = f.assumed;
   return json;
 }
@@ -77,6 +79,9 @@ std::vector<std::string> lines_of(const io::Fabric& f) {
   } else {
     lines.push_back(fmt::format("stretch: {:.0f} N/m; bending: {:.3g} N m", f.stretch, f.rigidity));
   }
+  if (f.bending_friction > 0)
+    lines.push_back(fmt::format("bending friction: a metre of crease bears {:.3g} N m before it gives way",
+                                f.bending_friction));
   lines.push_back(fmt::format("measured: {}", f.source));
   lines.push_back(fmt::format("ours: {}", f.assumed));
   return lines;
@@ -120,6 +125,7 @@ DiscJob disc_job(const FabricArguments& a, const io::SceneMaterial& material) {
   DiscJob job;
   job.material = material;
   job.rings = a.rings;
+  job.bending_friction = a.bending_friction;
   return job;
 }
 
@@ -314,6 +320,10 @@ void add_fabric(CLI::App& app, int& exit_code) {
                   "fit: the measured drape coefficient of a 30 cm disc on 18 cm, in (0, 1): all rigidities "
                   "are scaled to it")
       ->check(CLI::Range(0.0, 1.0));
+  sub->add_option("--bending-friction", a->bending_friction,
+                  "drape, and the disc of show: the moment that a metre of crease bears before it gives way "
+                  "[N] (default 0; half of Kawabata's 2HB)")
+      ->check(CLI::NonNegativeNumber);
   sub->add_option("-o,--output", a->out, "fit: file to write, for --fabric; default: it is printed");
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] {

@@ -100,9 +100,6 @@ void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
   if (job.fabrics.size() > 1 && (!job.output.empty() || !s.animation.empty()))
     throw std::invalid_argument("--fabrics writes a picture only; drape each by itself for its mesh");
   if (!(s.residual > 0)) throw std::invalid_argument("--residual takes a number > 0");
-  if (s.bending_friction > 0 && scene.material.bending_law == bridge::Bending::plate)
-    throw std::invalid_argument(
-        "--bending-friction: hinges give way one by one, which a plate's do not; take --bending-law hinge");
   if (s.plain && s.contact_depth)
     throw std::invalid_argument(
         "--contact-depth: --plain moves cloth out to the gap at once; leave out one of them");

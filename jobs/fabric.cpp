@@ -18,6 +18,7 @@
 #include "physics/cloth/elements.h"
 #include "physics/cloth/membrane.h"
 #include "physics/cloth/pins.h"
+#include "physics/rest/give_way.h"
 #include "physics/rest/settle.h"
 
 namespace furrow::jobs {
@@ -177,6 +178,8 @@ void check_disc(const DiscJob& job) {
   if (job.rings < 10 || job.rings > 100 || job.rings % 5)
     throw std::invalid_argument("--rings: " + std::to_string(job.rings) +
                                 " does not fit; take a multiple of 5 from 10 to 100");
+  if (!(job.bending_friction >= 0 && std::isfinite(job.bending_friction)))
+    throw std::invalid_argument("--bending-friction takes a number >= 0");
   if (job.folds.empty()) throw std::invalid_argument("drape_disc: no start");
   if (!job.material.density) throw std::invalid_argument("drape_disc: the material has no density");
 }
@@ -204,7 +207,10 @@ DiscReport drape_disc(const DiscJob& job, Listener& listener) {
     physics::SettleOptions settling;
     settling.gravity = {0, -gravity, 0};
     settling.max_iterations = 2000;
-    const physics::SettleReport settled = physics::settle(cloth, nullptr, settling);
+    const physics::SettleReport settled =
+        job.bending_friction > 0
+            ? physics::settle_giving_way(cloth, nullptr, job.bending_friction, settling).settle
+            : physics::settle(cloth, nullptr, settling);
     if (settled.stopped) throw physics::Cancelled("drape_disc: cancelled");
     const bool rested = settled.converged;
     ++report.starts, report.rested += rested;

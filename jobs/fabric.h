@@ -15,6 +15,7 @@ struct DiscJob {
   io::SceneMaterial material;
   int rings = 20;                      ///< of the mesh; a multiple of 5, so that one lies on the disc's edge
   std::vector<int> folds = {6, 7, 8};  ///< of the starts, one each
+  double bending_friction = 0;         ///< moment a metre that a crease bears before it gives way [N]; >= 0
 };
 struct DiscReport {
   double coefficient = 0;      ///< (shadow - disc) / (specimen - disc) of the rest with the lowest energy [-]
@@ -25,7 +26,7 @@ struct DiscReport {
   std::size_t vertices = 0;
   geometry::Mesh mesh;  ///< y up [m]; with f:warp
 };
-/// Throws std::invalid_argument for rings that do not fit, or a material without a density; physics::Cancelled
+/// Throws std::invalid_argument for rings or a friction that do not fit, or a material without a density; physics::Cancelled
 /// if the listener cancels.
 DiscReport drape_disc(const DiscJob& job, Listener& listener);
 

@@ -27,6 +27,7 @@ struct Fabric {
   const char* source;   ///< of what was measured
   const char* assumed;  ///< which of the numbers are ours
   FabricThreads threads = {};
+  double bending_friction = 0;  ///< half of Kawabata's 2HB, measured [N]; 0: not measured
 };
 
 std::span<const Fabric> fabrics();

@@ -584,7 +584,7 @@ const Row<Scene> rows[] = {
      text([](auto& s) -> auto& { return s.pins.back().group; })},
     {{.path = "pins.vertices",
       .flag = "--pin-vertices",
-      .help = "hold vertices, by their indices from 0",
+      .help = "hold vertices, by their indices from 0: 0,12,40; may be given again",
       .what = "vertices, by their indices from 0",
       .flag_in = used_by::all},
      own(Kind::list, "whole numbers",

@@ -125,6 +125,7 @@ PlateParts make_plate(const PlateSheet& sheet, const PlateOptions& options) {
     parts.slivers += net.triangles[t].sliver;
     parts.triangles.push_back(int(t));
     plate.begin.push_back(int(plate.hinge.size()));
+    plate.area.push_back(net.triangles[t].area);
     plate.stiffness.push_back(
         stiffness_of(net.triangles[t], options.rigidity, options.warp.empty() ? 0 : options.warp[t]));
     std::sort(rows[t].begin(), rows[t].end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -10,14 +10,16 @@
 namespace furrow::physics {
 
 /// A plate over hinges: one curvature a triangle, k = sum of share times bend over its hinges (Voigt: K11,
-/// K22, 2 K12; > 0 as a ridge seen from the normals' side), and the energy  E = 1/2 sum of k^T stiffness k.
-/// Constant; a bend is theta - rest_angle. Zero energy only where no hinge is bent.
+/// K22, 2 K12; > 0 as a ridge seen from the normals' side), and the energy  E = 1/2 sum of (k - at_rest)^T
+/// stiffness (k - at_rest). Constant; a bend is theta - rest_angle. Zero energy only where no hinge is bent.
 struct Plate {
   std::vector<Hinge> hinges;  ///< as they were, sides and rest angles; `stiffness` is the plain hinge's
   std::vector<int> begin;     ///< of each triangle that bends its first entry below, and the end
   std::vector<int> hinge;     ///< of each entry
   std::vector<Eigen::Vector3d> share;      ///< of each entry [1/m]
   std::vector<Eigen::Matrix3d> stiffness;  ///< of each triangle: area times D, free borders condensed [N m^3]
+  std::vector<double> area;                ///< of each triangle [m^2]
+  std::vector<Eigen::Vector3d> at_rest;    ///< k of each triangle at rest [1/m]; empty: 0
 
   int triangles() const { return int(stiffness.size()); }
 };

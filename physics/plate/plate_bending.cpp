@@ -74,7 +74,7 @@ std::vector<double> PlateBending::moments_of(const std::vector<double>& bend, do
   std::vector<double> moment(bend.size());
   for (std::size_t t = 0; t < plate_.stiffness.size(); ++t) {
     const int begin = plate_.begin[t], end = plate_.begin[t + 1];
-    Vec3 k = Vec3::Zero();
+    Vec3 k = plate_.at_rest.empty() ? Vec3::Zero() : Vec3(-plate_.at_rest[t]);
     for (int e = begin; e < end; ++e)
       k += bend[std::size_t(plate_.hinge[std::size_t(e)])] * plate_.share[std::size_t(e)];
     const Vec3 answer = plate_.stiffness[t] * k;
@@ -83,6 +83,22 @@ std::vector<double> PlateBending::moments_of(const std::vector<double>& bend, do
       moment[std::size_t(plate_.hinge[std::size_t(e)])] += plate_.share[std::size_t(e)].dot(answer);
   }
   return moment;
+}
+
+std::vector<Eigen::Vector3d> PlateBending::curvatures(std::span<const Vec3> x) const {
+  const std::vector<double> bend = Bends(plate_.hinges, x).bend;
+  std::vector<Eigen::Vector3d> k(plate_.stiffness.size(), Eigen::Vector3d::Zero());
+  for (std::size_t t = 0; t < k.size(); ++t)
+    for (std::size_t e = std::size_t(plate_.begin[t]); e < std::size_t(plate_.begin[t + 1]); ++e)
+      k[t] += bend[std::size_t(plate_.hinge[e])] * plate_.share[e];
+  return k;
+}
+
+void PlateBending::put_at_rest(std::vector<Eigen::Vector3d> curvature) {
+  if (curvature.size() != plate_.stiffness.size())
+    refuse("plate", curvature.size(), " curvatures for ", plate_.stiffness.size(), " triangles");
+  plate_.at_rest = std::move(curvature);
+  layout_.put_at_rest(plate_);
 }
 
 double PlateBending::energy(std::span<const Vec3> x) const { return layout_.add_forces(x, {}); }

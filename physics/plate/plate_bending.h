@@ -9,10 +9,10 @@
 
 namespace furrow::physics {
 
-/// A plate as an energy of a cloth: E = 1/2 sum k^T A D k, k linear in the hinges' bends. Forces follow from
-/// the hinges' moments m = dE/dtheta; the stiffness is G^T Q G + sum m d2theta/dx2 with the gradients G of
-/// the angles, its positive part the first term (Gauss and Newton's). Energy, total force and moment behave
-/// under rigid motions as those of hinges do; sums have one order.
+/// A plate as an energy of a cloth: E = 1/2 sum k^T A D k (k less what it is at rest), k linear in the
+/// hinges' bends. Forces follow from the hinges' moments m = dE/dtheta; the stiffness is G^T Q G + sum m
+/// d2theta/dx2 with the gradients G of the angles, its positive part the first term (Gauss and Newton's).
+/// Energy, total force and moment behave under rigid motions as those of hinges do; sums have one order.
 class PlateBending : public Energy {
  public:
   /// Throws std::invalid_argument as check(Hinge) if a hinge names a particle out of range. Cost: a sort of
@@ -23,6 +23,11 @@ class PlateBending : public Energy {
   void add_forces(std::span<const Vec3> x, std::span<Vec3> force) const override;
   bool add_stiffness(std::span<const Vec3> x, Stiffness stiffness, const BlockSink& sink) const override;
 
+  /// k of each triangle at x [1/m].
+  std::vector<Eigen::Vector3d> curvatures(std::span<const Vec3> x) const;
+  /// Puts each triangle at rest at this k [1/m], one a triangle. Throws std::invalid_argument
+  /// for another number of them.
+  void put_at_rest(std::vector<Eigen::Vector3d> curvature);
   /// dE/dtheta of each hinge of the plate at x [N m].
   std::vector<double> moments(std::span<const Vec3> x) const;
   const Plate& plate() const { return plate_; }

@@ -35,6 +35,7 @@ double answer_curvatures(const Answer* answers, const int* begin, const int* hin
   for (int t = 0; t < triangles; ++t) {
     Lanes k{};
     for (int e = begin[t]; e < begin[t + 1]; ++e) k += *(const Lanes*)(share + e) * bend[hinge[e]];
+    k -= *(const Lanes*)&answers[t].at_rest;
     const Vec4* const column = answers[t].column;
     const Lanes s = (*(const Lanes*)(column)*k[0] + *(const Lanes*)(column + 1) * k[1]) +
                     *(const Lanes*)(column + 2) * k[2];
@@ -84,6 +85,14 @@ PlateLayout::PlateLayout(const Plate& plate) : begin_(plate.begin), hinge_(plate
   for (const Eigen::Matrix3d& d : plate.stiffness) {
     Answer& answer = answers_.emplace_back();
     for (int c = 0; c < 3; ++c) answer.column[c] = {d(0, c), d(1, c), d(2, c), 0};
+  }
+  put_at_rest(plate);
+}
+
+void PlateLayout::put_at_rest(const Plate& plate) {
+  for (std::size_t t = 0; t < plate.at_rest.size(); ++t) {
+    const Eigen::Vector3d& k = plate.at_rest[t];
+    answers_[t].at_rest = {k.x(), k.y(), k.z(), 0};
   }
 }
 

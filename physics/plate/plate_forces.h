@@ -12,6 +12,8 @@ namespace furrow::physics {
 class PlateLayout {
  public:
   explicit PlateLayout(const Plate& plate);
+  /// Takes over its `at_rest`; the rest must be that of the plate given before.
+  void put_at_rest(const Plate& plate);
 
   /// The plate's energy at x [J]; adds its forces -dE/dx [N] to `force`, unless that is empty. One position a
   /// particle. Cost: five divisions and two square roots a hinge, no allocation after a thread's first call.
@@ -24,6 +26,7 @@ class PlateLayout {
   };
   struct alignas(32) Answer {
     Vec4 column[3];  ///< of area times D
+    Vec4 at_rest{};  ///< [1/m]
   };
 
  private:

@@ -45,6 +45,8 @@ TEST_CASE("fabric: list has every fabric with its threads, show its source") {
   const json denim = told_by("fabric show black-denim");
   CHECK(denim["warp_stretch"].get<double>() == Approx(410.5));
   CHECK(denim["source"].get<std::string>().find("ARCSim") != std::string::npos);
+  CHECK(denim["bending_friction"].is_null());
+  CHECK(told_by("fabric show cotton")["bending_friction"].get<double>() == Approx(1.216e-3 / 2));
   const Run none = run_furrow("fabric show corduroy");
   CHECK(none.exit_code == 2);
   CHECK(none.err.find("furrow fabric list has") != std::string::npos);

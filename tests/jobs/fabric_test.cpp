@@ -43,6 +43,23 @@ TEST_CASE("drape_disc: a finer mesh drapes as much", "[release]") {
   CHECK(std::abs(fine - coarse) < 0.02);
 }
 
+TEST_CASE("drape_disc: friction of bending holds a disc up, by hinges and by a plate", "[release]") {
+  tests::Recorder recorder;
+  for (const char* fabric : {"cotton", "wool-twill"}) {
+    jobs::DiscJob job = disc_of(fabric, 10);
+    const double elastic = jobs::drape_disc(job, recorder).coefficient;
+    job.bending_friction = 30 * job.material.rigidity;
+    const jobs::DiscReport held = jobs::drape_disc(job, recorder);
+    CAPTURE(fabric, elastic, held.coefficient);
+    CHECK(held.rested == held.starts);
+    CHECK(held.coefficient > elastic + 0.01);
+    CHECK(held.coefficient < 1);
+  }
+  jobs::DiscJob job = disc_of("cotton", 10);
+  job.bending_friction = -1;
+  CHECK_THROWS_WITH(jobs::drape_disc(job, recorder), Catch::StartsWith("--bending-friction"));
+}
+
 TEST_CASE("drape_disc: what does not fit is refused, and it can be cancelled") {
   tests::Recorder recorder, impatient(3);
   CHECK_THROWS_WITH(jobs::drape_disc(disc_of("cotton", 12), recorder),

@@ -15,6 +15,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   plate/plate_bending_test.cpp
   plate/plate_rigidity_test.cpp
   plate/plate_test.cpp
+  plate/plate_buckling_test.cpp
   cloth/press_test.cpp
   cloth/spring_forces_test.cpp
   cloth/strain_test.cpp
@@ -65,6 +66,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   rest/displace_on_body_test.cpp
   rest/hanging_chain_test.cpp
   rest/hinge_friction_test.cpp
+  rest/plate_friction_test.cpp
   rest/invert_elements_test.cpp
   rest/limited_memory_test.cpp
   rest/prestress_test.cpp
