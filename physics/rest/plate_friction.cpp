@@ -12,7 +12,7 @@ namespace furrow::physics {
 namespace {
 
 using Eigen::Vector3d;
-constexpr const char* me = "plate friction";
+constexpr const char* plate_friction = "plate friction";
 
 /// Of moments (M11, M22, M12): that of the tensor.
 double size_of(const Vector3d& m) { return std::sqrt(m.x() * m.x() + m.y() * m.y() + 2 * m.z() * m.z()); }
@@ -30,8 +30,8 @@ double give_way(const Eigen::Matrix3d& stiffness, double most, const Vector3d& k
 }  // namespace
 
 PlateFriction add_plate_friction(Cloth& cloth, const HingeFrictionOptions& o) {
-  require(me, "stiffness", o.stiffness, o.stiffness > 0, "> 0");
-  require(me, "moment", o.moment, o.moment >= 0, ">= 0");
+  require(plate_friction, "stiffness", o.stiffness, o.stiffness > 0, "> 0");
+  require(plate_friction, "moment", o.moment, o.moment >= 0, ">= 0");
   PlateFriction friction{{}, o.moment};
   for (std::size_t i = 0, own = cloth.energies.size(); i < own; ++i) {
     const auto* plate = dynamic_cast<const PlateBending*>(cloth.energies[i].get());
@@ -47,7 +47,7 @@ PlateFriction add_plate_friction(Cloth& cloth, const HingeFrictionOptions& o) {
 double update_friction(Cloth& cloth, const PlateFriction& friction) {
   for (const std::size_t i : friction.energies)
     if (i >= cloth.energies.size() || !dynamic_cast<const PlateBending*>(cloth.energies[i].get()))
-      refuse(me, "is that of another cloth");
+      refuse(plate_friction, "is that of another cloth");
   double largest = 0;
   for (const std::size_t i : friction.energies) {
     const auto& old = dynamic_cast<const PlateBending&>(*cloth.energies[i]);
