@@ -172,6 +172,12 @@ RestStage settle_garment(const Run& run, io::SavedState& now) {
   return stage;
 }
 
+void set_velocity(geometry::Mesh& mesh, const Eigen::Vector3d& velocity) {
+  if (velocity.isZero(0)) return;
+  auto of = geometry::ensure_map(mesh, geometry::attribute::velocity);
+  for (const geometry::Vertex v : mesh.vertices()) of[v] = {velocity.x(), velocity.y(), velocity.z()};
+}
+
 /// Draws the rounds whose time has come. After those of time 0 the garment is complete: masses and springs.
 void draw_due_rounds(const Run& run, Reached& reached, AnimationSeries& animations, SimulateReport& report) {
   io::SavedState& now = reached.now;
@@ -186,6 +192,7 @@ void draw_due_rounds(const Run& run, Reached& reached, AnimationSeries& animatio
   reached.heights = line_heights_by_id(now.file);
   reached.starts = true;
   if (run.scene.settle) report.rest = settle_garment(run, now);
+  set_velocity(now.file.mesh, run.scene.velocity);
 }
 
 double next_stop(const io::Scene& scene, int lines_drawn) {

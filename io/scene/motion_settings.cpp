@@ -72,6 +72,10 @@ const Row<RigidMotion> motion_rows[] = {
            read_timed<Keyframe>(table, key, keyframe_rows, "must be later than that of the keyframe before",
                                 m.keyframes);
          })},
+    {{.path = "motion.ends",
+      .what = "speed at the first and the last keyframe: 0, or that of the keyframes beside it"},
+     choice<physics::EndSpeeds>([](auto& m) -> auto& { return m.ends; },
+                                {{"rest", physics::EndSpeeds::rest}, {"free", physics::EndSpeeds::free}})},
     {{.path = "motion.spin", .what = "`{centre, axis, rate, start, ramp}`"},
      own(Kind::table, "table",
          [](SettingsTable& table, const char* key, RigidMotion& m) { m.spin = read_spin(table, key); })},

@@ -116,6 +116,7 @@ struct Scene {
   int subdivide = 0;                    ///< times that Loop subdivision is applied before the first line
   int allow_crossings = 0;              ///< pairs of faces that may cross at the end; >= 0
   bool keep = false;                    ///< the garment's shape at time 0 is made its equilibrium
+  Eigen::Vector3d velocity{0, 0, 0};    ///< of what is not pinned, at time 0 after settling [m/s]
   std::optional<std::string> unit, up;  ///< of the mesh and stroke files
   std::vector<SceneLines> lines;        ///< by time
   std::optional<SceneBody> body;

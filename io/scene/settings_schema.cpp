@@ -434,6 +434,14 @@ const Row<Scene> rows[] = {
               "garment has at time 0 ([keep.md](keep.md))",
       .used = used_by::moving},
      choice<bool>([](auto& s) -> auto& { return s.keep; }, {{"stored", false}, {"keep", true}})},
+    {{.path = "garment.velocity",
+      .flag = "--velocity",
+      .help = "velocity of the garment at time 0, x,y,z [m/s] (default 0,0,0); pinned vertices keep theirs",
+      .what = "velocity at time 0, after `settle`; pinned vertices keep their own",
+      .used = used_by::simulate,
+      .flag_in = used_by::simulate},
+     vector(
+         "m/s", [](auto& s) -> auto& { return s.velocity; })},
 
     // [body]
     {{.path = "body.mesh",

@@ -41,16 +41,24 @@ struct Pose {
   Vec3 to_body(const Vec3& x) const { return rotation.conjugate() * (x - translation); }
 };
 
+/// How keyframes begin and end.
+enum class EndSpeeds {
+  rest,  ///< with speed 0: the velocity has no jumps
+  free   ///< with the slope of the parabola through the three keyframes at that end, cut to stay monotone;
+        ///< with two keyframes at a uniform speed: the velocity jumps there from 0 and to 0
+};
+
 /// The motion of something rigid: the spin turns it in its own frame, then the keyframes turn it about the
 /// pivot and move it, the spin's axis with it.
 ///
 /// Each coordinate of the translation and of the rotation vector runs through the keyframes on a monotone
-/// cubic (slopes after Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304; 0 at both ends): the
-/// velocity has no jumps, dense keyframes are passed without a halt, and no coordinate leaves the range of
-/// two neighbours, as Catmull-Rom does. Before the first keyframe and after the last the pose is held.
+/// cubic (slopes after Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304): dense keyframes are
+/// passed without a halt, and no coordinate leaves the range of two neighbours, as Catmull-Rom does. Before
+/// the first keyframe and after the last the pose is held; `ends` says with which speed they are met.
 struct RigidMotion {
   std::vector<Keyframe> keyframes;  ///< by time, strictly increasing; none: no such motion
-  Vec3 pivot = Vec3::Zero();        ///< of the keyframes' rotations, in the body's frame [m]
+  EndSpeeds ends = EndSpeeds::rest;
+  Vec3 pivot = Vec3::Zero();  ///< of the keyframes' rotations, in the body's frame [m]
   std::optional<Spin> spin;
 };
 

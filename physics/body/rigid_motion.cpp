@@ -23,8 +23,7 @@ Vec6 secant(const std::vector<Keyframe>& keys, std::size_t i) {
 
 /// Of a coordinate with the secants a and b over intervals of lengths h and k: their weighted harmonic mean
 ///   3 (h + k) / ((h + 2 k) / a + (2 h + k) / b),  and 0 at an extremum.
-Vec6 slope(const std::vector<Keyframe>& keys, std::size_t i) {
-  if (i == 0 || i + 1 == keys.size()) return Vec6::Zero();
+Vec6 inner_slope(const std::vector<Keyframe>& keys, std::size_t i) {
   const Vec6 before = secant(keys, i - 1), after = secant(keys, i);
   const double h = keys[i].time - keys[i - 1].time, k = keys[i + 1].time - keys[i].time;
   Vec6 result;
@@ -35,7 +34,32 @@ Vec6 slope(const std::vector<Keyframe>& keys, std::size_t i) {
   return result;
 }
 
-Vec6 interpolated(const std::vector<Keyframe>& keys, double time) {
+/// At an end whose intervals, from it on, have the lengths h and k and the secants a and b: that of the
+/// parabola, 0 where its sign is not a's, and at most 3 a.
+Vec6 end_slope(double h, double k, const Vec6& a, const Vec6& b) {
+  Vec6 result = ((2 * h + k) * a - h * b) / (h + k);
+  for (int c = 0; c < 6; ++c) {
+    if (result[c] * a[c] <= 0)
+      result[c] = 0;
+    else if (std::abs(result[c]) > 3 * std::abs(a[c]))
+      result[c] = 3 * a[c];
+  }
+  return result;
+}
+
+Vec6 slope(const RigidMotion& motion, std::size_t i) {
+  const std::vector<Keyframe>& keys = motion.keyframes;
+  const std::size_t last = keys.size() - 1;
+  if (i > 0 && i < last) return inner_slope(keys, i);
+  if (motion.ends == EndSpeeds::rest) return Vec6::Zero();
+  if (last == 1) return secant(keys, 0);
+  const auto length = [&](std::size_t j) { return keys[j + 1].time - keys[j].time; };
+  if (i == 0) return end_slope(length(0), length(1), secant(keys, 0), secant(keys, 1));
+  return end_slope(length(last - 1), length(last - 2), secant(keys, last - 1), secant(keys, last - 2));
+}
+
+Vec6 interpolated(const RigidMotion& motion, double time) {
+  const std::vector<Keyframe>& keys = motion.keyframes;
   if (time <= keys.front().time) return coordinates(keys.front());
   if (time >= keys.back().time) return coordinates(keys.back());
   const auto next = std::upper_bound(keys.begin(), keys.end(), time,
@@ -44,8 +68,8 @@ Vec6 interpolated(const std::vector<Keyframe>& keys, double time) {
   const double length = keys[i + 1].time - keys[i].time, s = (time - keys[i].time) / length;
   const Vec6 from = coordinates(keys[i]), way = coordinates(keys[i + 1]) - from;
   // Cubic Hermite, written so that two equal keyframes give exactly that pose.
-  return from + (s * s * (3 - 2 * s)) * way + (s * (1 - s) * (1 - s) * length) * slope(keys, i) -
-         (s * s * (1 - s) * length) * slope(keys, i + 1);
+  return from + (s * s * (3 - 2 * s)) * way + (s * (1 - s) * (1 - s) * length) * slope(motion, i) -
+         (s * s * (1 - s) * length) * slope(motion, i + 1);
 }
 
 Eigen::Quaterniond rotation(const Vec3& vector) {
@@ -112,7 +136,7 @@ Pose pose(const RigidMotion& motion, double time) {
     result.translation = spin.centre - result.rotation * spin.centre;
   }
   if (!motion.keyframes.empty()) {
-    const Vec6 key = interpolated(motion.keyframes, time);
+    const Vec6 key = interpolated(motion, time);
     const Eigen::Quaterniond turn = rotation(key.tail<3>());
     result.translation = turn * (result.translation - motion.pivot) + motion.pivot + key.head<3>();
     result.rotation = turn * result.rotation;

@@ -117,6 +117,34 @@ TEST_CASE("simulate: without damping the kinds of energy and motion sum up to th
   CHECK(json["energy"].at("weight") == late.energy->weight);
 }
 
+TEST_CASE("simulate: a garment that starts with a velocity flies as a thrown body, and pins hold theirs") {
+  const auto thrown = [](bool pinned, const char* forces) {
+    jobs::SimulateJob job = hung_sheet(0.2);
+    job.scene.settings = io::parse_toml(
+        std::string("[garment]\nmesh = \"sheet\"\nvelocity = [0.3, 0, -0.5]\n[material]\ndrag = 0\n") +
+            forces + "[simulation]\ndt = 1e-4\nseconds = 0.2\n",
+        "test");
+    if (pinned)
+      io::set_value(job.scene.settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
+    tests::Recorder recorder;
+    const auto before = tests::positions(job.scene.memory.meshes["sheet"]);
+    const auto after = tests::positions(jobs::simulate(job, recorder).garment);
+    REQUIRE(after.size() == before.size());
+    std::vector<Eigen::Vector3d> moved;
+    for (std::size_t i = 0; i < after.size(); ++i)
+      moved.emplace_back(after[i].x() - before[i].x(), after[i].y() - before[i].y(),
+                         after[i].z() - before[i].z());
+    return moved;
+  };
+  for (const auto& way : thrown(false, "[forces]\ngravity = 0\n"))
+    CHECK((way - Eigen::Vector3d(0.06, 0, -0.1)).norm() < 1e-12);
+  for (const auto& way : thrown(false, ""))
+    CHECK((way - Eigen::Vector3d(0.06, -0.5 * 9.81 * 0.04, -0.1)).norm() < 1e-10);
+  const auto held = thrown(true, "[forces]\ngravity = 0\n");
+  CHECK(std::count_if(held.begin(), held.end(), [](const auto& way) { return way.norm() == 0; }) >= 10);
+  CHECK(std::count_if(held.begin(), held.end(), [](const auto& way) { return way.z() < -0.01; }) > 50);
+}
+
 TEST_CASE("simulate: a garment and strokes in memory come to the bits of their files") {
   const fs::path folder = empty_folder("memory");
   tests::Recorder recorder;

@@ -152,24 +152,35 @@ async function drape(seen) {
   await seen.at(3);
 }
 
+/** The picture, once it stays the same for a while: a slow machine draws later. */
+async function still(seen) {
+  let last = await seen.pixels();
+  await until("the picture holds still", async () => {
+    await seen.tab.waitForTimeout(400);
+    const now = await seen.pixels(), same = now === last;
+    last = now;
+    return same;
+  });
+  return last;
+}
+
 /** The colours of the fit, and the cloth's own again. */
 async function fit(seen) {
-  const { tab } = seen;
-  const press = async (name) => {
-    await tab.getByRole("button", { name }).click();
+  const press = async () => {
+    await seen.tab.getByRole("button", { name: "Distance" }).click();
     await until("the words of the fit", async () => /nearer than/.test(await seen.words()));
-    await tab.waitForTimeout(500);
   };
-  await press("Distance");  // its words take a line more, so the picture is smaller from now on
+  const becomes = (what, picture) => until(what, async () => (await seen.pixels()) === picture);
+  await press();  // its words take a line more, so the picture is smaller from now on
   await seen.shot("8-fit");
-  const coloured = await seen.pixels();
-  await press("Distance");
-  const plain = await seen.pixels();
-  assert.ok(plain !== coloured, "the fit is seen");
-  await press("Distance");
-  assert.ok((await seen.pixels()) === coloured, "it is seen again");
-  await press("Distance");
-  assert.ok((await seen.pixels()) === plain, "the cloth's own colour comes back");
+  const coloured = await still(seen);
+  await press();
+  await until("the colours go", async () => (await seen.pixels()) !== coloured);
+  const plain = await still(seen);
+  await press();
+  await becomes("the fit is seen again", coloured);
+  await press();
+  await becomes("the cloth's own colour comes back", plain);
 }
 
 /** Play, pause, play on, and a pen that is picked up while the cloth moves makes it hold still. */

@@ -87,6 +87,45 @@ TEST_CASE("rigid_motion: the velocity has no jumps") {
   }
 }
 
+TEST_CASE("rigid_motion: free ends run uniformly between two keyframes and meet a parabola's speed") {
+  RigidMotion two;
+  two.ends = EndSpeeds::free;
+  two.keyframes = {{1, {1, 0, 0}, {0, 0, 0}}, {3, {2, -1, 4}, {0, 0.5, 0}}};
+  for (const double t : {1.0, 1.3, 2.0, 2.9, 3.0})
+    CHECK((pose(two, t).translation - Vec3(1 + (t - 1) / 2, -(t - 1) / 2, 2 * (t - 1))).norm() < 1e-14);
+  CHECK(pose(two, 0).translation == Vec3(1, 0, 0));
+  CHECK(pose(two, 4).translation == Vec3(2, -1, 4));
+  RigidMotion parabola;  // x = t^2, y = (2 - t)^2, z turns back sharply
+  parabola.ends = EndSpeeds::free;
+  for (const double t : {0.5, 1.0, 1.8}) parabola.keyframes.push_back({t, {t * t, (2 - t) * (2 - t), 0}, {}});
+  parabola.keyframes[1].translation.z() = 1;
+  const double h = 1e-6;
+  const Vec3 first = (pose(parabola, 0.5 + h).translation - pose(parabola, 0.5).translation) / h;
+  const Vec3 last = (pose(parabola, 1.8).translation - pose(parabola, 1.8 - h).translation) / h;
+  CHECK(first.x() == Approx(1).epsilon(1e-4));
+  CHECK(first.y() == Approx(-3).epsilon(1e-4));
+  CHECK(last.x() == Approx(3.6).epsilon(1e-4));
+  CHECK(last.y() == Approx(-0.4).epsilon(1e-4));
+  CHECK(first.z() > 2);  // steeper than the secant, which is 2
+  parabola.ends = EndSpeeds::rest;
+  CHECK((pose(parabola, 0.5 + h).translation - pose(parabola, 0.5).translation).norm() / h < 1e-4);
+}
+
+TEST_CASE("rigid_motion: with free ends no coordinate overshoots either") {
+  RigidMotion keys = tumble();
+  keys.spin.reset();
+  keys.ends = EndSpeeds::free;
+  for (int i = 0; i < 400; ++i) {
+    const double t = i / 200.0;
+    const Vec3 at = pose(keys, t).translation + pose(keys, t).rotation * keys.pivot - keys.pivot;
+    const auto next = std::find_if(keys.keyframes.begin(), keys.keyframes.end() - 1,
+                                   [&](const Keyframe& k) { return k.time > t; });
+    const Vec3 a = (next - 1)->translation, b = next->translation;
+    CHECK(((at.array() >= a.cwiseMin(b).array() - 1e-14) && (at.array() <= a.cwiseMax(b).array() + 1e-14))
+              .all());
+  }
+}
+
 TEST_CASE("rigid_motion: a spin runs up over its ramp, turns about its axis and is carried along") {
   const Spin spin{Vec3(1, 0, 0), Vec3(0, 3, 0), 2, 0.5, 1};
   CHECK(spin_angle(spin, 0.5) == 0);
