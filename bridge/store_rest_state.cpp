@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
+#include "physics/plate/plate_bending.h"
 
 namespace furrow::bridge {
 namespace {
@@ -185,13 +187,38 @@ void write_bending(const BendingParts& bending, Mesh& mesh) {
   }
 }
 
-void write_hinges(const std::vector<physics::Hinge>& hinges, const std::vector<Edge>& origin, Mesh& mesh) {
-  if (hinges.empty()) return;
+/// The cloth's hinges, those of its plates among them, in the mesh's order.
+struct Hinges {
+  std::vector<physics::Hinge> all;
+  std::vector<char> coupled;
+};
+
+Hinges hinges_of(const physics::Cloth& cloth, const std::vector<physics::Hinge>& expected) {
+  Hinges result{cloth.hinges, std::vector<char>(cloth.hinges.size(), 0)};
+  std::map<std::array<int, 4>, physics::Hinge> coupled;
+  for (const auto& energy : cloth.energies)
+    if (const auto* plate = dynamic_cast<const physics::PlateBending*>(energy.get()))
+      for (const physics::Hinge& h : plate->plate().hinges) coupled.emplace(h.vertices, h);
+  if (coupled.empty()) return result;
+  result = {};
+  std::size_t next = 0;
+  for (const physics::Hinge& wanted : expected) {
+    const auto found = coupled.find(wanted.vertices);
+    if (found == coupled.end() && next == cloth.hinges.size()) continue;
+    result.coupled.push_back(found != coupled.end());
+    result.all.push_back(found != coupled.end() ? found->second : cloth.hinges[next++]);
+  }
+  check_count("plain hinge", next, cloth.hinges.size());
+  return result;
+}
+
+void write_hinges(const Hinges& hinges, const std::vector<Edge>& origin, Mesh& mesh) {
+  if (hinges.all.empty()) return;
   auto angle = ensure_map(mesh, attribute::rest_angle),
        stiffness = ensure_map(mesh, attribute::hinge_stiffness);
-  for (std::size_t i = 0; i < hinges.size(); ++i) {
-    angle[origin[i]] = hinges[i].rest_angle;
-    stiffness[origin[i]] = hinges[i].stiffness;
+  for (std::size_t i = 0; i < hinges.all.size(); ++i) {
+    angle[origin[i]] = hinges.all[i].rest_angle;
+    if (!hinges.coupled[i]) stiffness[origin[i]] = hinges.all[i].stiffness;
   }
 }
 
@@ -203,13 +230,14 @@ void store_rest_state(const physics::Cloth& cloth, const GatherOptions& options,
   check_tension(cloth.tension, of_mesh.cloth.tension, options.compression);
   const Triangles triangles = triangles_of(cloth);
   check_membrane(triangles, triangles_of(of_mesh.cloth));
-  check_hinges(cloth.hinges, of_mesh.cloth.hinges);
+  const Hinges hinges = hinges_of(cloth, of_mesh.cloth.hinges);
+  check_hinges(hinges.all, of_mesh.cloth.hinges);
   const BendingParts bending = part(cloth.bending, of_mesh);
   write_springs(cloth.structural, of_mesh.structural, mesh);
   write_tension(cloth.tension, of_mesh.tension, mesh);
   write_membrane(triangles.all, of_mesh.membrane, mesh);
   write_bending(bending, mesh);
-  write_hinges(cloth.hinges, of_mesh.hinges, mesh);
+  write_hinges(hinges, of_mesh.hinges, mesh);
 }
 
 }  // namespace furrow::bridge

@@ -30,11 +30,12 @@ class PlateBending : public Energy {
   void put_at_rest(std::vector<Eigen::Vector3d> curvature);
   /// dE/dtheta of each hinge of the plate at x [N m].
   std::vector<double> moments(std::span<const Vec3> x) const;
+  /// The same that these bends, one a hinge [rad], call forth; adds their energy [J].
+  std::vector<double> moments_of(const std::vector<double>& bend, double& energy) const;
   const Plate& plate() const { return plate_; }
 
  private:
   struct Bends;
-  std::vector<double> moments_of(const std::vector<double>& bend, double& energy) const;
   void find_pattern();
   void add_curvature_blocks(const std::vector<std::array<Vec3, 4>>& gradient,
                             std::vector<Mat3>& blocks) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "physics/base/require.h"
@@ -16,6 +17,21 @@ namespace {
 
 constexpr double body_stiffness = 10;   // over the mean diagonal
 constexpr double largest_shift = 1e20;  // 1/s^2
+
+/// The same plate, at rest as it lies.
+std::shared_ptr<const Energy> flat_to_itself(const Energy* energy, std::span<const Vec3> x) {
+  const auto* own = dynamic_cast<const PlateBending*>(energy);
+  if (!own)
+    refuse("prestress",
+           "energies of a caller's own have no rest state to change; give their forces as loads");
+  Plate plate = own->plate();
+  plate.at_rest.clear();
+  for (Hinge& h : plate.hinges) {
+    const auto& v = h.vertices;
+    h.rest_angle = dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+  }
+  return std::make_shared<PlateBending>(std::move(plate), x.size());
+}
 
 /// The cloth with its rest state as it lies; tension becomes linear.
 Cloth at_rest(Cloth cloth) {
@@ -34,6 +50,7 @@ Cloth at_rest(Cloth cloth) {
     const auto& v = h.vertices;
     h.rest_angle = dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
   }
+  for (auto& energy : cloth.energies) energy = flat_to_itself(energy.get(), x);
   cloth.hinge_law = HingeLaw::linear;
   return cloth;
 }
@@ -75,6 +92,7 @@ ClampedElements::ClampedElements(const Cloth& cloth, const ElementLimits& limits
   add_tension(cloth, limits);
   add_plates(rest_, limits.strain);
   add_bends(cloth, limits.angle);
+  add_coupled();
   if (contacts_.empty()) return;
   stiffness_.assemble(rest_, rest_.particles.x, Stiffness::positive_part);
   contact_stiffness_ = body_stiffness * stiffness_.mean_diagonal();
@@ -130,6 +148,18 @@ void ClampedElements::add_bends(const Cloth& cloth, double angle) {
   }
 }
 
+void ClampedElements::add_coupled() {
+  const auto& x = rest_.particles.x;
+  for (const auto& energy : rest_.energies) {
+    Coupled coupled{static_cast<const PlateBending*>(energy.get()), {}};
+    for (const Hinge& h : coupled.plate->plate().hinges) {
+      const auto& v = h.vertices;
+      coupled.gradient.push_back(dihedral(x[v[0]], x[v[1]], x[v[2]], x[v[3]]).gradient);
+    }
+    coupled_.push_back(std::move(coupled));
+  }
+}
+
 void ClampedElements::respond_bars(std::span<const Vec3> w, std::span<Vec3> force, ClampedForces& f) const {
   for (std::size_t i = 0; i < bars_.size(); ++i) {
     const Bar& b = bars_[i];
@@ -177,6 +207,20 @@ void ClampedElements::respond_bends(std::span<const Vec3> w, std::span<Vec3> for
   }
 }
 
+void ClampedElements::respond_coupled(std::span<const Vec3> w, std::span<Vec3> force,
+                                      ClampedForces& f) const {
+  for (const Coupled& c : coupled_) {
+    const std::vector<Hinge>& hinges = c.plate->plate().hinges;
+    std::vector<double> bends(hinges.size());
+    for (std::size_t h = 0; h < hinges.size(); ++h)
+      for (std::size_t i = 0; i < 4; ++i) bends[h] += c.gradient[h][i].dot(w[hinges[h].vertices[i]]);
+    const std::vector<double> moment = c.plate->moments_of(bends, f.potential);
+    for (std::size_t h = 0; h < hinges.size(); ++h)
+      for (std::size_t i = 0; i < 4; ++i) force[hinges[h].vertices[i]] -= moment[h] * c.gradient[h][i];
+    f.coupled.push_back(std::move(bends));
+  }
+}
+
 void ClampedElements::respond_contacts(std::span<const Vec3> w, std::span<Vec3> force,
                                        ClampedForces& f) const {
   for (const ContactPoint& c : contacts_) {
@@ -194,6 +238,7 @@ ClampedForces ClampedElements::respond(std::span<const Vec3> w, std::span<Vec3> 
   respond_bars(w, force, f);
   respond_plates(w, force, f);
   respond_bends(w, force, f);
+  respond_coupled(w, force, f);
   respond_contacts(w, force, f);
   return f;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "physics/linear/free_stiffness.h"
+#include "physics/plate/plate_bending.h"
 
 namespace furrow::physics {
 
@@ -25,6 +26,7 @@ struct ClampedForces {
   std::vector<double> structural, bending, tension;  ///< pull [N]
   std::vector<Eigen::Vector3d> membrane;             ///< dW/d(l^2) of the edges [N/m]
   std::vector<double> hinges;                        ///< moment dE/dtheta [N m]
+  std::vector<std::vector<double>> coupled;          ///< of each plate's hinges, how far they bend [rad]
   std::vector<Vec3> contact;                         ///< the body's on the cloth [N]
   std::vector<double> scale;  ///< of each spring, bending spring, tension, triangle, hinge, then contact: 1
                               ///< free, less on its limit
@@ -41,11 +43,12 @@ struct ClampedForces {
 /// (tension_forces.h), within what its own law bears. A triangle's stress is at most that of the energy of
 /// the strain limit along one axis, 1/2 A Y strain^2: then no principal strain is beyond the limit, to first
 /// order. A contact's force lies in Coulomb's cone; its stiffness is high (10 times K's mean diagonal), so
-/// that the body carries what it can and the cloth the rest.
+/// that the body carries what it can and the cloth the rest. Plates have no limit: a plate that answers with
+/// other moments than its own bends call forth has no rest angles.
 class ClampedElements {
  public:
   /// Cost: one pass, and the symbolic factorisation. Throws std::invalid_argument as elements do, and if a
-  /// triangle has lambda but no mu.
+  /// triangle has lambda but no mu, or an energy is no PlateBending.
   ClampedElements(const Cloth& cloth, const ElementLimits& limits, std::span<const ContactPoint> contacts);
 
   /// Answers to w [m], one a particle; 0 on pins. Adds what elements and contacts exert at first order, to
@@ -75,12 +78,18 @@ class ClampedElements {
     double reach;  // sqrt of twice the largest energy
   };
   void add_bars(std::span<const Spring> springs, const ElementLimits& limits);
+  struct Coupled {
+    const PlateBending* plate;  // one of the energies of rest_
+    std::vector<std::array<Vec3, 4>> gradient;
+  };
   void add_tension(const Cloth& cloth, const ElementLimits& limits);
+  void add_coupled();
   void add_bends(const Cloth& cloth, double angle);
   void add_plates(const Cloth& cloth, double strain);
   void respond_bars(std::span<const Vec3> w, std::span<Vec3> force, ClampedForces& f) const;
   void respond_plates(std::span<const Vec3> w, std::span<Vec3> force, ClampedForces& f) const;
   void respond_bends(std::span<const Vec3> w, std::span<Vec3> force, ClampedForces& f) const;
+  void respond_coupled(std::span<const Vec3> w, std::span<Vec3> force, ClampedForces& f) const;
   void respond_contacts(std::span<const Vec3> w, std::span<Vec3> force, ClampedForces& f) const;
   Mat3 contact_stiffness(const ContactPoint& contact, const Vec3& w) const;
 
@@ -90,6 +99,7 @@ class ClampedElements {
   std::size_t tension_begin_;  // first of the bars that are tension
   std::vector<Plate> plates_;
   std::vector<Bend> bends_;
+  std::vector<Coupled> coupled_;
   std::vector<ContactPoint> contacts_;
   double friction_, contact_stiffness_ = 0;
   FreeStiffness stiffness_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <memory>
 
 #include "physics/base/check_particles.h"
 #include "physics/base/require.h"
@@ -11,6 +12,7 @@
 #include "physics/cloth/hinge_forces.h"
 #include "physics/cloth/kinds.h"
 #include "physics/contact/residual_force.h"
+#include "physics/plate/plate_bending.h"
 #include "physics/rest/balance_forces.h"
 #include "physics/rest/invert_elements.h"
 #include "physics/rest/rigid_imbalance.h"
@@ -43,8 +45,9 @@ void check(const Cloth& cloth, const PrestressOptions& o, std::span<const Vec3> 
     if (!is_inverted<KindOf<decltype(kind)>> && !kind.empty())
       refuse(me, "the cloth has elements of a kind whose rest state cannot be solved for");
   });
-  if (!cloth.energies.empty())
-    refuse(me, "energies of a caller's own have no rest state to change; give their forces as loads");
+  for (const auto& energy : cloth.energies)
+    if (!dynamic_cast<const PlateBending*>(energy.get()))
+      refuse(me, "energies of a caller's own have no rest state to change; give their forces as loads");
 }
 
 std::vector<ContactPoint> contacts_of(const Particles& p, const Collider* collider, double gap) {
@@ -119,6 +122,25 @@ void invert_hinges(const ClampedForces& f, Cloth& cloth, PrestressReport& report
   }
 }
 
+/// Plates are solved for without a bound: one that bends farther is cut, and what is then out of balance is
+/// the residual.
+void invert_plates(const ClampedForces& f, double most, Cloth& cloth, PrestressReport& report) {
+  const std::vector<Vec3>& x = cloth.particles.x;
+  int place = 0;
+  for (std::size_t i = 0; i < cloth.energies.size(); ++i) {
+    Plate plate = dynamic_cast<const PlateBending&>(*cloth.energies[i]).plate();
+    plate.at_rest.clear();
+    for (std::size_t h = 0; h < plate.hinges.size(); ++h, ++place) {
+      const auto& v = plate.hinges[h].vertices;
+      const double by = std::clamp(f.coupled[i][h], -most, most);
+      if (by != f.coupled[i][h]) report.coupled.push_back(place);
+      plate.hinges[h].rest_angle = bend(dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]), by);
+      report.max_angle = std::max(report.max_angle, std::abs(by));
+    }
+    cloth.energies[i] = std::make_shared<PlateBending>(std::move(plate), x.size());
+  }
+}
+
 void invert(const ClampedForces& f, Cloth& cloth, PrestressReport& report) {
   invert_springs(cloth.particles, f.structural, cloth.structural, report);
   invert_springs(cloth.particles, f.bending, cloth.bending, report);
@@ -165,6 +187,7 @@ PrestressReport prestress(Cloth& cloth, const PrestressOptions& o, const Collide
       report.imbalance.push_back(std::move(r));
   }
   invert(balance.forces, cloth, report);
+  invert_plates(balance.forces, o.max_angle, cloth, report);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     report.touching.push_back(contacts[i].particle);
     report.contact_force.push_back(balance.forces.contact[i]);

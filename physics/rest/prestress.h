@@ -36,19 +36,21 @@ struct RigidImbalance {
 };
 
 struct PrestressReport {
-  double residual = 0;                    ///< residual_force() of the result [-]
-  double max_strain = 0;                  ///< |l - L| / L of springs, tension, triangles' edges [-]
-  double max_angle = 0;                   ///< |theta - theta0| of hinges [rad]
-  std::vector<int> structural, bending;   ///< springs on a bound
-  std::vector<int> tension;               ///< tension on a bound
-  std::vector<int> membrane, hinges;      ///< triangles, hinges on a bound
-  std::vector<int> touching;              ///< particles that the body may carry
-  std::vector<Vec3> contact_force;        ///< on each of these [N]; in the friction cone
+  double residual = 0;                   ///< residual_force() of the result [-]
+  double max_strain = 0;                 ///< |l - L| / L of springs, tension, triangles' edges [-]
+  double max_angle = 0;                  ///< |theta - theta0| of hinges [rad]
+  std::vector<int> structural, bending;  ///< springs on a bound
+  std::vector<int> tension;              ///< tension on a bound
+  std::vector<int> membrane, hinges;     ///< triangles, hinges on a bound
+  std::vector<int> coupled;         ///< hinges of plates that would have turned beyond it, plate by plate
+  std::vector<int> touching;        ///< particles that the body may carry
+  std::vector<Vec3> contact_force;  ///< on each of these [N]; in the friction cone
   std::vector<RigidImbalance> imbalance;  ///< what no bound and no stiffness can help: see below
   int iterations = 0, factorisations = 0;
 
   std::size_t active_bounds() const {
-    return structural.size() + bending.size() + tension.size() + membrane.size() + hinges.size();
+    return structural.size() + bending.size() + tension.size() + membrane.size() + hinges.size() +
+           coupled.size();
   }
 };
 
@@ -64,10 +66,11 @@ struct PrestressReport {
 /// \details With each element's own stiffness,
 ///   min 1/2 z^T C z  subject to  A z + f = 0  and the bounds,  z = -C^-1 A^T u,  (A C^-1 A^T) u = f,
 /// where A C^-1 A^T is the stiffness matrix of a cloth at rest as it lies; then each element's law is
-/// inverted (invert_elements.h). Bounds and the cone make it a convex problem without equations
-/// (balance_forces()): where they leave no equilibrium it comes as near as they allow, and `residual` and the
-/// lists tell. The rest state that the cloth had does not count; one that is relaxed and bears no load is at
-/// rest as it lies. Whether the equilibrium is stable is not asked here: certificate.h.
+/// inverted (invert_elements.h); a plate's bends at z are what its rest angles change by. Bounds and the cone
+/// make it a convex problem without equations (balance_forces()): where they leave no equilibrium it comes as
+/// near as they allow, and `residual` and the lists tell. The rest state that the cloth had does not count;
+/// one that is relaxed and bears no load is at rest as it lies. Whether the equilibrium is stable is not
+/// asked here: certificate.h.
 ///
 /// `imbalance`: pieces that pins leave free to move as rigid bodies while the load moves them by more than
 /// 1e-9 g (balance_rigidly() helps if they hang), and pieces for which also the body's contact cannot prevent

@@ -9,6 +9,7 @@
 #include "physics/motion/simulate.h"
 #include "physics/rest/certificate.h"
 #include "physics/rest/rigid_imbalance.h"
+#include "tests/cases/plates.h"
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/shell_cloths.h"
 
@@ -69,6 +70,41 @@ TEST_CASE("prestress: a drawn bump is in balance, with springs, triangles and ei
       CHECK(cloth.particles.x == drawn);
     }
   }
+}
+
+TEST_CASE("prestress: a drawn bump whose bending is a plate is in balance, and stays in a simulation") {
+  Cloth cloth = bumpy(0.01);
+  pin_row(cloth);
+  balance_rigidly(cloth, gravity);
+  furrow::cases::add_plate(cloth, isotropic_plate(1e-4, 0.3));
+  REQUIRE(count_coupled(cloth) > 100);
+  const std::vector<Vec3> drawn = cloth.particles.x;
+  CHECK(residual_force(cloth, gravity, nullptr, 0, 0.003) > 1);
+  const PrestressReport report = prestress(cloth);
+  CAPTURE(report.max_angle, report.max_strain);
+  CHECK(report.residual <= 1e-8);
+  CHECK(report.residual == residual_force(cloth, gravity, nullptr, 0, 0.003));
+  CHECK(report.active_bounds() == 0);
+  CHECK(report.max_angle > 1e-3);
+  CHECK(cloth.particles.x == drawn);
+  CHECK(certify(cloth, {gravity, 0.3, 0.003}).stable());
+  SimulateOptions options;
+  options.seconds = 0.3;
+  simulate(cloth, nullptr, options);
+  for (std::size_t i = 0; i < drawn.size(); ++i) CHECK((cloth.particles.x[i] - drawn[i]).norm() < 1e-8);
+}
+
+TEST_CASE("prestress: a plate that would turn too far is cut, named, and out of balance") {
+  Cloth cloth = bumpy(0.01);
+  pin_row(cloth);
+  balance_rigidly(cloth, gravity);
+  furrow::cases::add_plate(cloth, isotropic_plate(1e-4));
+  PrestressOptions options;
+  options.max_angle = 0.01;
+  const PrestressReport report = prestress(cloth, options);
+  CHECK(report.coupled.size() > 0);
+  CHECK(report.max_angle == 0.01);
+  CHECK(report.residual > 1e-3);
 }
 
 TEST_CASE("prestress: what is relaxed and bears no load keeps its rest state") {
