@@ -67,8 +67,8 @@ OpenScene open_scene(const KeepJob& job, Listener& listener) {
         "--fabric: keep cannot hold cloth with threads yet; take --warp none, the same fabric without");
   if (open.scene.material.bending_law == bridge::Bending::plate)
     throw std::invalid_argument(
-        "--bending-law plate: keep cannot share out a plate's moments to hinges yet; take --bending-law "
-        "hinge");
+        "--bending-law plate: keep helps lines by hinges of their own, which a plate has not yet; take "
+        "--bending-law hinge, or hold the shape without help by --rest keep of furrow simulate");
   open.frame.unit = open.scene.unit;
   open.frame.up = open.scene.up;
   return open;

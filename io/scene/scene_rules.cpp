@@ -117,10 +117,6 @@ void check_keep(const Scene& scene, const TomlDocument& document) {
          "cannot keep cloth with threads yet: say warp = \"none\" (--warp none), which takes the fabric as "
          "the "
          "same in all directions");
-  if (!path.empty() && scene.material.bending_law == bridge::Bending::plate)
-    fail(document, path,
-         "cannot share out a plate's moments to hinges yet: bending_law = \"hinge\" (--bending-law hinge) "
-         "can be kept");
 }
 
 void check_keep_stands_still(const Scene& scene, const TomlDocument& document, int lines_drawn) {

@@ -16,6 +16,7 @@ namespace {
 
 const std::string patch = FURROW_SOURCE_DIR "/meshes/validation/patch.obj";  // 0.1 m wide, in the x-z plane
 const std::string material = " --membrane triangles --stretch 100 --bending-law hinge --rigidity 1e-4";
+const std::string plate = " --membrane triangles --stretch 100 --bending-law plate --rigidity 1e-4";
 const std::string down = " --gravity 0,0,-9.81";
 const std::string pins = " --pin-box -1,-1,0.0499,1,1,1";
 const std::string moving =
@@ -76,7 +77,10 @@ double farthest(const std::string& a, const std::string& b) {
 
 TEST_CASE("rest keep: lines of a scene stay as drawn, at time 0 and later, and tell how they stand") {
   const ScratchDirectory scratch;
-  const json report = run_json("simulate " + write_kept_scene(scratch) + " -o " + (scratch / "end.ply"));
+  const std::string law = GENERATE("", " --bending-law plate");
+  CAPTURE(law);
+  const json report =
+      run_json("simulate " + write_kept_scene(scratch) + law + " -o " + (scratch / "end.ply"));
   CHECK(report["kept"]["residual"] < 1e-8);
   CHECK(report["kept"]["stable"] == true);
   CHECK(report["kept"]["negative_eigenvalues"] == 0);
@@ -89,21 +93,23 @@ TEST_CASE("rest keep: lines of a scene stay as drawn, at time 0 and later, and t
   CHECK(report["rounds"][1]["moving"]["largest_force_jump"] > 0);
   REQUIRE(report["lines"].size() == 2);
   for (const json& line : report["lines"]) CHECK(line["kept"].get<double>() == Approx(1).margin(1e-3));
-  const json drawn = run_json("simulate " + (scratch / "kept.toml") +
-                              " --set lines.0.rest=drawn --set lines.1.rest=drawn -o " + (scratch / "d.ply"));
+  const json drawn =
+      run_json("simulate " + (scratch / "kept.toml") + " --set lines.0.rest=drawn --set lines.1.rest=drawn" +
+               law + " -o " + (scratch / "d.ply"));
   CHECK_FALSE(drawn.contains("kept"));
   CHECK(std::abs(drawn["lines"][0]["kept"].get<double>() - 1) > 5e-3);
 }
 
 TEST_CASE("rest keep: a run that was stopped before and after the drawing gives the same bits") {
   const ScratchDirectory scratch;
+  const std::string law = GENERATE("", " --bending-law plate");
   const std::string scene = write_kept_scene(scratch), whole = scratch / "whole.ply",
                     end = scratch / "end.ply";
-  run_json("simulate " + scene + " -o " + whole);
+  run_json("simulate " + scene + law + " -o " + whole);
   std::string state = scene;
   for (const char* time : {"0.03", "0.05", "0.07"}) {
     const std::string next = scratch / (std::string(time) + ".ply");
-    run_json("simulate " + (state == scene ? scene : "--state " + state) + " --stop-at " + time +
+    run_json("simulate " + (state == scene ? scene + law : "--state " + state) + " --stop-at " + time +
              " --save-state " + next);
     state = next;
   }
@@ -113,29 +119,31 @@ TEST_CASE("rest keep: a run that was stopped before and after the drawing gives 
 
 TEST_CASE("rest keep: wrinkle makes what simulate then leaves as it is", "[release]") {
   const ScratchDirectory scratch;
+  const std::string cloth = GENERATE(material, plate);
   const std::string a = write_strokes(scratch, "a", 0.02), kept = scratch / "kept.ply",
                     end = scratch / "end.ply";
   const json report =
-      run_json("wrinkle " + patch + " " + a + " --rest keep" + material + down + pins + " -o " + kept);
+      run_json("wrinkle " + patch + " " + a + " --rest keep" + cloth + down + pins + " -o " + kept);
   CHECK(report["kept"]["residual"] < 1e-8);
   CHECK(report["kept"]["stable"] == true);
-  run_json("simulate " + kept + material + down + pins + " --seconds 0.2 -o " + end);
+  run_json("simulate " + kept + cloth + down + pins + " --seconds 0.2 -o " + end);
   CHECK(farthest(kept, end) < 1e-6);
   const std::string drawn = scratch / "drawn.ply", moved = scratch / "moved.ply";
   run_json("wrinkle " + patch + " " + a + " -o " + drawn);
-  run_json("simulate " + drawn + material + down + pins + " --seconds 0.2 -o " + moved);
+  run_json("simulate " + drawn + cloth + down + pins + " --seconds 0.2 -o " + moved);
   CHECK(farthest(drawn, moved) > 1e-5);
   const json again =
-      run_json("simulate " + drawn + " --rest keep" + material + down + pins + " --seconds 0.2 -o " + moved);
+      run_json("simulate " + drawn + " --rest keep" + cloth + down + pins + " --seconds 0.2 -o " + moved);
   CHECK(again["lines"][0]["kept"].get<double>() == Approx(1).margin(1e-6));
   CHECK(farthest(moved, kept) < 1e-6);
 }
 
 TEST_CASE("rest keep: lines drawn into a state take material and pins from it, and nothing fades in") {
   const ScratchDirectory scratch;
+  const std::string cloth = GENERATE(material, plate);
   const std::string b = write_strokes(scratch, "b", -0.02), state = scratch / "state.ply",
                     more = scratch / "more.ply";
-  run_json("simulate " + patch + " --rest keep" + material + down + pins +
+  run_json("simulate " + patch + " --rest keep" + cloth + down + pins +
            " --seconds 1 --stop-at 0.02 --save-state " + state);
   const json report = run_json("wrinkle --state " + state + " " + b + " --rest keep -o " + more);
   CHECK(report["kept"]["residual"] < 0.01);

@@ -216,8 +216,7 @@ TEST_CASE("scene_file: a kept shape needs hinges, and a body and pins that stand
   CHECK(s.lines.at(0).options.rest == geometry::RestRule::drawn);
   CHECK(has(fault(keep), "a/s.toml:3:1: lines.0.rest = \"keep\" needs hinges"));
   const std::string plate = "[material]\npreset = \"denim\"\nbending_law = \"plate\"\n";
-  CHECK(has(fault(keep + plate), "a/s.toml:3:1: lines.0.rest = \"keep\" cannot share out a plate's moments"));
-  CHECK(scene("[garment]\nmesh = \"g.obj\"\n" + plate).material.bending_law == bridge::Bending::plate);
+  CHECK(scene("[garment]\nmesh = \"g.obj\"\n" + keep + plate).lines.at(0).keep);
   CHECK(
       has(fault("[garment]\nmesh = \"g.obj\"\nrest = \"keep\"\n"), "a/s.toml:3:1: garment.rest = \"keep\""));
   const auto moved = [&](const std::string& what, int lines_drawn) -> std::string {
