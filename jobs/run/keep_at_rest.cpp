@@ -110,12 +110,15 @@ bridge::KeptShape keep_once(const Keeping& k, const physics::World& world) {
 bridge::KeptShape keep_plate(const Keeping& k, const physics::World& world) {
   bridge::KeptShape first = keep_once(k, world);
   bridge::KeptShape shape = first;
-  for (int round = 1; round < most_rounds; ++round) {
+  for (int round = 1;; ++round) {
     const physics::Cloth stored = cloth_of(k);
     const std::optional<physics::PosedCollider> standing = bridge::standing_body(world);
     const double left = physics::residual_force(stored, k.options.gravity, standing ? &*standing : nullptr,
                                                 k.options.friction, k.options.gap);
-    if (left <= std::max(balanced, shape.rest.residual)) break;
+    if (left <= std::max(balanced, shape.rest.residual) || round == most_rounds) {
+      shape.rest.residual = std::max(left, shape.rest.residual);
+      break;
+    }
     shape = keep_once(k, world);
   }
   shape.turned = first.turned;
