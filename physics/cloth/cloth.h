@@ -63,6 +63,9 @@ struct MembraneTriangle {
 /// compressed ones; see each element); or what lies between.
 struct Stiffness {
   double clamped;  ///< share of the way from the Hessian to the semidefinite part [-]; in [0, 1]
+  /// An energy may couple fewer particles than its Hessian does, and answer with something spectrally near: for
+  /// searches, whose end does not depend on it. As many blocks, and where, each time.
+  bool narrow = false;
   static const Stiffness exact, positive_part;
   bool operator==(const Stiffness&) const = default;
 };
@@ -71,6 +74,8 @@ inline constexpr Stiffness Stiffness::exact{0}, Stiffness::positive_part{1};
 /// Takes what one element adds to the block of the stiffness matrix K [N/m] in the rows of particle i and the
 /// columns of particle j. K is the second derivative of the energy, so forces change by -K u.
 using BlockSink = std::function<void(int i, int j, const Mat3& block)>;
+
+class PackedEnergy;  // packed_energy.h
 
 /// A caller's own energy or force on a cloth: put into Cloth::energies it counts wherever elements do. Each
 /// function is called once a pass, with one position a particle [m] in the order of Cloth::particles; it must
@@ -95,6 +100,16 @@ class Energy {
   /// Adds the forces -dE/dx [N]. A force that has no energy may do so, too, in simulate(); settle() compares
   /// energies and stops where they do not fit.
   virtual void add_forces(std::span<const Vec3> x, std::span<Vec3> force) const = 0;
+
+  /// Both in one pass, for callers that need both: adds the forces and returns E.
+  virtual double add_energy_and_forces(std::span<const Vec3> x, std::span<Vec3> force) const {
+    add_forces(x, force);
+    return energy(x);
+  }
+
+  /// The same energy for callers that keep particles at places of their own, place[i] of particle i, in vectors
+  /// of four; null: there is none, and they ask add_forces().
+  virtual std::shared_ptr<const PackedEnergy> packed(std::span<const int> /*place*/) const { return nullptr; }
 
   /// Hands out the blocks of K = d2E/dx2 [N/m] as add_stiffness() of elements.h does: both (i, j) and (j, i),
   /// in a sequence of (i, j) that never changes; semidefinite with Stiffness::positive_part. Returns false,

@@ -39,7 +39,7 @@ void lower_blocks_of(const Energy& own, std::span<const Vec3> x, Stiffness stiff
 
 int ElementCounts::total() const { return std::accumulate(elements.begin(), elements.end(), 0); }
 
-ElementCounts count_elements(const Cloth& cloth) {
+ElementCounts count_elements(const Cloth& cloth, Stiffness stiffness) {
   check_elements(cloth, cloth.particles.size());
   ElementCounts counts;
   for_each_kind(cloth, [&](const auto& kind, auto...) {
@@ -49,7 +49,7 @@ ElementCounts count_elements(const Cloth& cloth) {
   for (const auto& own : cloth.energies) {
     counts.elements.push_back(1);
     int& blocks = counts.blocks.emplace_back(0);
-    lower_blocks_of(*own, cloth.particles.x, Stiffness::exact, [&](int, int, const Mat3&) { ++blocks; });
+    lower_blocks_of(*own, cloth.particles.x, stiffness, [&](int, int, const Mat3&) { ++blocks; });
   }
   return counts;
 }
@@ -73,7 +73,7 @@ int first_block(const ElementCounts& counts, int element) {
   return blocks;
 }
 
-std::vector<std::array<int, 2>> block_pairs(const Cloth& cloth) {
+std::vector<std::array<int, 2>> block_pairs(const Cloth& cloth, Stiffness stiffness) {
   check_elements(cloth, cloth.particles.size());
   std::vector<std::array<int, 2>> pairs;
   for_elements(
@@ -84,7 +84,7 @@ std::vector<std::array<int, 2>> block_pairs(const Cloth& cloth) {
           for (std::size_t c = 0; c <= r; ++c) pairs.push_back({particles[r], particles[c]});
       },
       [&](const Energy& own, int) {
-        lower_blocks_of(own, cloth.particles.x, Stiffness::exact, [&](int i, int j, const Mat3&) {
+        lower_blocks_of(own, cloth.particles.x, stiffness, [&](int i, int j, const Mat3&) {
           pairs.push_back({i, j});
         });
       });

@@ -19,13 +19,13 @@ struct ElementCounts {
   int total() const;
 };
 /// Throws std::invalid_argument as add_stiffness(). Cost: a pass of the energies' stiffness.
-ElementCounts count_elements(const Cloth& cloth);
+ElementCounts count_elements(const Cloth& cloth, Stiffness kind = Stiffness::exact);
 /// Whether a cloth has as many elements of each kind, and as many energies.
 bool fits(const ElementCounts& counts, const Cloth& cloth);
 /// How many blocks the elements before one have; element in [0, total()].
 int first_block(const ElementCounts& counts, int element);
 /// Of each block the particles (i, j) of its row and column. Throws std::invalid_argument as add_stiffness().
-std::vector<std::array<int, 2>> block_pairs(const Cloth& cloth);
+std::vector<std::array<int, 2>> block_pairs(const Cloth& cloth, Stiffness kind = Stiffness::exact);
 /// The blocks of the elements [begin, end) at x. Throws std::invalid_argument if one names a particle out of
 /// range, as membrane_constants() does, or if an energy hands out more or fewer blocks than were counted.
 void stiffness_blocks(const Cloth& cloth, const ElementCounts& counts, std::span<const Vec3> x,

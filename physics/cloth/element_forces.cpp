@@ -38,10 +38,7 @@ double ElementForces::add_half(std::span<const Vec3> x, int which, std::span<Vec
     });
   });
   if (which == 0) return e;
-  for (const auto& own : cloth_.energies) {
-    e += own->energy(x);
-    own->add_forces(x, force);
-  }
+  for (const auto& own : cloth_.energies) e += own->add_energy_and_forces(x, force);
   return e;
 }
 

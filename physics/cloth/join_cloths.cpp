@@ -17,6 +17,9 @@ class ShiftedEnergy : public Energy {
   void add_forces(std::span<const Vec3> x, std::span<Vec3> force) const override {
     own_->add_forces(x.subspan(first_, count_), force.subspan(first_, count_));
   }
+  double add_energy_and_forces(std::span<const Vec3> x, std::span<Vec3> force) const override {
+    return own_->add_energy_and_forces(x.subspan(first_, count_), force.subspan(first_, count_));
+  }
   bool add_stiffness(std::span<const Vec3> x, Stiffness stiffness, const BlockSink& sink) const override {
     const int first = int(first_);
     return own_->add_stiffness(

@@ -25,22 +25,22 @@ std::uint64_t hash_of(const std::vector<std::array<int, 2>>& pairs) {
 
 }  // namespace
 
-FreeStiffness::FreeStiffness(const Cloth& cloth) {
+FreeStiffness::FreeStiffness(const Cloth& cloth, bool narrow) : narrow_(narrow) {
   if (cloth.particles.inv_mass.size() != cloth.particles.size()) {
     throw std::invalid_argument("FreeStiffness: " + std::to_string(cloth.particles.size()) +
                                 " positions, but " + std::to_string(cloth.particles.inv_mass.size()) +
                                 " inverse masses");
   }
   particles_ = cloth.particles.size();
-  counts_ = count_elements(cloth);
-  const Pairs pairs = block_pairs(cloth);
+  counts_ = count_elements(cloth, {0, narrow_});
+  const Pairs pairs = block_pairs(cloth, {0, narrow_});
   pattern_ = hash_of(pairs);
   matrix_ = BlockMatrix(cloth.particles.inv_mass, pairs);
   place_blocks(pairs);
 }
 
 void FreeStiffness::couple(const Cloth& cloth, std::span<const std::array<int, 2>> more) {
-  const Pairs pairs = block_pairs(cloth);
+  const Pairs pairs = block_pairs(cloth, {0, narrow_});
   Pairs all = pairs;
   all.insert(all.end(), more.begin(), more.end());
   matrix_ = BlockMatrix(cloth.particles.inv_mass, all);
@@ -53,7 +53,7 @@ bool FreeStiffness::belongs_to(const Cloth& cloth) const {
   if (cloth.particles.size() != particles_ || !fits(counts_, cloth)) return false;
   for (std::size_t i = 0; i < particles_; ++i)
     if ((cloth.particles.inv_mass[i] > 0) != (matrix_.row(int(i)) >= 0)) return false;
-  return hash_of(block_pairs(cloth)) == pattern_;
+  return hash_of(block_pairs(cloth, {0, narrow_})) == pattern_;
 }
 
 /// Where each block goes; in each chunk those of a bucket of columns follow each other in the elements'
@@ -98,6 +98,7 @@ void FreeStiffness::assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffn
     if (pool) return pool->share(n, [&](int i, int) { work(i); });
     for (int i = 0; i < n; ++i) work(i);
   };
+  stiffness.narrow = narrow_;
   matrix_.set_zero();
   const int elements = counts_.total();
   for (int begin = 0; begin < elements; begin += chunk) {

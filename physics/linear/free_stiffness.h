@@ -17,7 +17,8 @@ class FreeStiffness {
  public:
   /// Cost: O(blocks log blocks) and later the symbolic factorisation. Throws std::invalid_argument if the
   /// particles' arrays differ in length, and as add_stiffness().
-  explicit FreeStiffness(const Cloth& cloth);
+  /// narrow: the Stiffness that assemble() takes, whatever it is told.
+  explicit FreeStiffness(const Cloth& cloth, bool narrow = false);
 
   /// Whether a cloth has the same elements between the same particles, and the same held ones: then
   /// assemble() serves it, too. Cost: as the constructor's first half.
@@ -62,6 +63,7 @@ class FreeStiffness {
   void place_blocks(const Pairs& pairs);
   void sum(int chunk, int bucket);
 
+  bool narrow_ = false;
   std::size_t particles_ = 0;
   std::uint64_t pattern_ = 0;         ///< a hash of the pairs that elements couple
   ElementCounts counts_;              ///< of elements of each kind

@@ -199,12 +199,15 @@ PackedCloth pack(const Cloth& cloth, bool dashpots) {
   pack_springs(renumbered_springs(cloth, place, edges), packed);
   packed.elements = pack_elements(cloth, place);
   packed.shell = renumbered_shell(cloth, packed.particle, place);
+  for (const auto& own : cloth.energies) packed.energies.push_back(own->packed(place));
   return packed;
 }
 
 void add_other_forces(PackedCloth& packed) {
+  for (const auto& own : packed.energies)
+    if (own) own->add_forces(packed.x.data(), packed.force.data());
   const Cloth& shell = packed.shell;
-  bool any = !shell.energies.empty();
+  bool any = std::ranges::any_of(packed.energies, [](const auto& own) { return !own; });
   for_each_kind(shell, [&](const auto& kind, auto...) {
     if constexpr (!is_laid_out<KindOf<decltype(kind)>>) any = any || !kind.empty();
   });
@@ -215,7 +218,8 @@ void add_other_forces(PackedCloth& packed) {
     if constexpr (!is_laid_out<KindOf<decltype(kind)>>)
       for (const auto& e : kind) add_forces(x, e, law..., force);
   });
-  for (const auto& own : shell.energies) own->add_forces(x, force);
+  for (std::size_t i = 0; i < shell.energies.size(); ++i)
+    if (!packed.energies[i]) shell.energies[i]->add_forces(x, force);
   for (std::size_t i = 0; i < force.size(); ++i) {
     Vec4& sum = packed.force[i];
     sum = {sum.x + force[i].x(), sum.y + force[i].y(), sum.z + force[i].z(), 0};

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "physics/base/vec4.h"
 #include "physics/cloth/cloth.h"
+#include "physics/cloth/packed_energy.h"
 #include "physics/packed/packed_elements.h"
 #include "physics/packed/sweep_order.h"
 
@@ -28,6 +30,7 @@ struct PackedCloth {
   /// All but springs and particles, with places for vertices, for the functions of elements.h; its energies
   /// take positions by place, too.
   Cloth shell;
+  std::vector<std::shared_ptr<const PackedEnergy>> energies;  ///< of shell.energies; null: has no such form
 
   int particles() const { return int(x.size()); }
   int springs() const { return int(a.size()); }  ///< with dashpots
@@ -38,8 +41,9 @@ struct PackedCloth {
 /// dashpots: whether the membrane's edges and tension get one each.
 PackedCloth pack(const Cloth& cloth, bool dashpots = true);
 
-/// Adds the forces at x of what is not laid out for speed: kinds without a layout, and Cloth::energies. Cost:
-/// nothing where there are none; else their own, by one thread, and a copy of positions and forces.
+/// Adds the forces at x of what PackedElements does not hold: kinds without a layout, and Cloth::energies, by
+/// one thread. Cost: nothing where there are none; else their own, and a copy of positions and forces if one
+/// of them takes no vectors of four.
 void add_other_forces(PackedCloth& packed);
 
 /// Writes positions and velocities back; pinned particles keep theirs bit by bit.

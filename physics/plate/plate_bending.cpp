@@ -13,6 +13,10 @@ namespace furrow::physics {
 PlateBending::PlateBending(Plate plate, std::size_t particles) : plate_(std::move(plate)), layout_(plate_) {
   for (const Hinge& h : plate_.hinges) check(h, particles);
   find_pattern();
+  alone_.assign(plate_.hinges.size(), 0);
+  for (std::size_t t = 0; t < plate_.stiffness.size(); ++t)
+    for (std::size_t e = std::size_t(plate_.begin[t]); e < std::size_t(plate_.begin[t + 1]); ++e)
+      alone_[std::size_t(plate_.hinge[e])] += plate_.share[e].dot(plate_.stiffness[t] * plate_.share[e]);
 }
 
 void PlateBending::find_pattern() {
@@ -103,6 +107,14 @@ void PlateBending::put_at_rest(std::vector<Eigen::Vector3d> curvature) {
 
 double PlateBending::energy(std::span<const Vec3> x) const { return layout_.add_forces(x, {}); }
 
+double PlateBending::add_energy_and_forces(std::span<const Vec3> x, std::span<Vec3> force) const {
+  return layout_.add_forces(x, force);
+}
+
+std::shared_ptr<const PackedEnergy> PlateBending::packed(std::span<const int> place) const {
+  return std::make_shared<PlateLayout>(plate_, place);
+}
+
 std::vector<double> PlateBending::moments(std::span<const Vec3> x) const {
   double energy = 0;
   return moments_of(Bends(plate_.hinges, x).bend, energy);
@@ -131,7 +143,33 @@ void PlateBending::add_curvature_blocks(const std::vector<std::array<Vec3, 4>>& 
   }
 }
 
+/// Each hinge by itself: diag Q in place of Q.
+void PlateBending::hand_out_hinges(std::span<const Vec3> x, Stiffness stiffness,
+                                   const BlockSink& sink) const {
+  const Bends b(plate_.hinges, x);
+  double energy = 0;
+  const std::vector<double> moment = moments_of(b.bend, energy);
+  for (std::size_t h = 0; h < moment.size(); ++h) {
+    const auto& v = plate_.hinges[h].vertices;
+    std::array<Mat3, 10> blocks;
+    const double m = (1 - stiffness.clamped) * moment[h];
+    if (m != 0)
+      blocks = dihedral_hessian(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+    for (int r = 0; r < 4; ++r)
+      for (int c = 0; c <= r; ++c) {
+        const std::size_t i = std::size_t(lower_block(r, c));
+        const Mat3 curl = alone_[h] * b.gradient[h][std::size_t(r)] * b.gradient[h][std::size_t(c)].transpose();
+        blocks[i] = m != 0 ? Mat3(m * blocks[i] + curl) : curl;
+      }
+    hand_out(v, blocks.data(), sink);
+  }
+}
+
 bool PlateBending::add_stiffness(std::span<const Vec3> x, Stiffness stiffness, const BlockSink& sink) const {
+  if (stiffness.narrow) {
+    hand_out_hinges(x, stiffness, sink);
+    return true;
+  }
   const Bends b(plate_.hinges, x);
   std::vector<Mat3> blocks(pairs_.size(), Mat3::Zero());
   add_curvature_blocks(b.gradient, blocks);

@@ -111,7 +111,7 @@ Pace next_pace(Pace pace, const Factors& factors, const Move& move, double share
 /// That of the searches before, if there is one and it fits.
 std::shared_ptr<FreeStiffness> stiffness_for(const Cloth& cloth, SettleWork* work) {
   if (work && work->stiffness && work->stiffness->belongs_to(cloth)) return work->stiffness;
-  auto made = std::make_shared<FreeStiffness>(cloth);
+  auto made = std::make_shared<FreeStiffness>(cloth, true);
   if (work) work->stiffness = made;
   return made;
 }

@@ -7,6 +7,7 @@
 
 #include "physics/cloth/element_blocks.h"
 #include "physics/cloth/elements.h"
+#include "physics/cloth/packed_energy.h"
 #include "tests/cases/flat_meshes.h"
 #include "tests/cases/plates.h"
 #include "tests/physics/cloth/finite_differences.h"
@@ -138,4 +139,62 @@ TEST_CASE("plate_bending: other orders of triangles and hinges give the same ene
   for (Vec3& p : x) p += 0.05 * noise.vector();
   CHECK(potential_energy(other, x) == Approx(potential_energy(cloth, x)).epsilon(1e-12));
   CHECK((forces(other, x) - forces(cloth, x)).norm() < 1e-11 * forces(cloth, x).norm());
+}
+
+TEST_CASE("plate_bending: its narrow stiffness couples what hinges couple, and is near the true one") {
+  for (const SheetKind kind : sheet_kinds) {
+    Cloth cloth = sheet_of(kind, 1, 1, 5);
+    cloth.structural.clear();
+    add_flat_hinges(cloth, 1);
+    const auto hinges = block_pairs(cloth);
+    couple_hinges(cloth, lengths_of(cloth), {isotropic_plate(1)});
+    const auto narrow = block_pairs(cloth, {0, true}), wide = block_pairs(cloth);
+    const auto distinct = [](std::vector<std::array<int, 2>> pairs) {
+      for (auto& [i, j] : pairs)
+        if (i < j) std::swap(i, j);
+      std::sort(pairs.begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+      return pairs;
+    };
+    CHECK(distinct(narrow) == distinct(hinges));
+    CHECK(distinct(wide).size() > distinct(narrow).size());
+    const Positions& x = cloth.particles.x;
+    Noise noise(6);
+    const Eigen::MatrixXd near = stiffness_matrix(cloth, x, {1, true}),
+                          exact = stiffness_matrix(cloth, x, Stiffness::positive_part);
+    double least = 1e9, most = 0;
+    for (int i = 0; i < 200; ++i) {
+      Eigen::VectorXd u(near.rows());
+      for (Eigen::Index k = 0; k < u.size(); ++k) u[k] = noise();
+      const double ratio = u.dot(exact * u) / u.dot(near * u);
+      least = std::min(least, ratio), most = std::max(most, ratio);
+    }
+    CAPTURE(name_of(kind), least, most);
+    CHECK(least > 0.1);
+    CHECK(most < 3);
+  }
+}
+
+TEST_CASE("plate_bending: in vectors of four, at other places, its energy and forces are the same") {
+  const Cloth cloth = crumpled_plate(SheetKind::blue_noise, 7);
+  const Positions& x = cloth.particles.x;
+  std::vector<int> place(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) place[i] = int(i * 7 % x.size());
+  REQUIRE(x.size() % 7 != 0);
+  const auto packed = plate_in(cloth).packed(place);
+  REQUIRE(packed);
+  std::vector<Vec4> at(x.size()), force(x.size(), Vec4{0, 0, 1, 0});
+  for (std::size_t i = 0; i < x.size(); ++i) at[std::size_t(place[i])] = {x[i].x(), x[i].y(), x[i].z(), 0};
+  const double energy = packed->add_forces(at.data(), force.data());
+  CHECK(energy == Approx(plate_in(cloth).energy(x)).epsilon(1e-12));
+  CHECK(packed->add_forces(at.data(), nullptr) == energy);
+  Positions one(x.size(), Vec3::Zero());
+  CHECK(plate_in(cloth).add_energy_and_forces(x, one) == plate_in(cloth).energy(x));
+  double size = 0;
+  for (const Vec3& f : one) size = std::max(size, f.norm());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec4& f = force[std::size_t(place[i])];
+    CHECK((Vec3(f.x, f.y, f.z - 1) - one[i]).norm() < 1e-12 * size);
+    CHECK(f.w == 0);
+  }
 }
