@@ -49,13 +49,14 @@ bool ClothContact::active_before(const ActivePair& a, const ActivePair& b) { ret
 
 ClothContact::ClothContact(const Cloth& cloth, const ClothContactOptions& options,
                            std::span<const Vec3> start, std::span<const Vec3> drawn, ThreadPool* pool)
-    : options_(options), margin_share_(margin_of_edge) {
+    : options_(options), friction_(options.friction), margin_share_(margin_of_edge) {
   const char* const operation = "ClothContact";
   require(operation, "thickness", options.thickness, options.thickness > 0, "> 0");
   require(operation, "stiffness", options.stiffness, options.stiffness > 0, "> 0");
   if (start.size() != cloth.particles.size() || (!drawn.empty() && drawn.size() != start.size()))
     refuse(operation, start.size(), " positions and ", drawn.size(), " drawn of ", cloth.particles.size());
-  mesh_ = pair_mesh(cloth, options.thickness);
+  mesh_ = pair_mesh(cloth, options.thickness, options.thicknesses);
+  options_.thicknesses = {};  // they may go
   find_special(start, drawn, pool);
 }
 
@@ -236,7 +237,7 @@ int ClothContact::approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPo
   return left;
 }
 
-ClothContact::ActivePair ClothContact::brace(const ListedPair& pair, std::span<const Vec3> x) const {
+ActivePair ClothContact::brace(const ListedPair& pair, std::span<const Vec3> x) const {
   const PairDistance d = distance_of(pair.key.edges, corners_of(pair.vertices, x));
   const double range = range_now(pair), distance = std::sqrt(d.squared());
   const Vec3 normal = distance > 0 ? Vec3(d.across / distance) : Vec3::Zero();
@@ -244,8 +245,7 @@ ClothContact::ActivePair ClothContact::brace(const ListedPair& pair, std::span<c
   return {pair.key, pair.vertices, d.weights, {}, normal, distance, 0, stiffness};
 }
 
-std::optional<ClothContact::ActivePair> ClothContact::touch(const ListedPair& pair,
-                                                            std::span<const Vec3> x) const {
+std::optional<ActivePair> ClothContact::touch(const ListedPair& pair, std::span<const Vec3> x) const {
   const std::array<Vec3, 4> at = corners_of(pair.vertices, x);
   const PairDistance d = distance_of(pair.key.edges, at);
   const double squared = d.squared();
@@ -265,6 +265,8 @@ std::optional<ClothContact::ActivePair> ClothContact::touch(const ListedPair& pa
     found.energy *= share.factor;
     found.stiffness *= share.factor;
   }
+  found.push = share.factor * b.force;
+  found.range = pair.range;
   for (std::size_t i = 0; i < 4; ++i) found.force[i] = share.factor * b.force * d.weights[i] * found.normal;
   const Vec3 first = b.energy * share.first, second = b.energy * share.second;
   if (share.factor < 1) {
@@ -286,24 +288,25 @@ void ClothContact::look(std::span<const Vec3> x, ThreadPool* pool) {
   std::sort(active_.begin(), active_.end(), active_before);
   energy_ = 0;
   for (const ActivePair& p : active_) energy_ += p.energy;
+  friction_.look(x);
 }
 
 void ClothContact::add_forces(std::span<Vec3> force) const {
   for (const ActivePair& p : active_)
     for (std::size_t i = 0; i < 4; ++i) force[std::size_t(p.vertices[i])] += p.force[i];
+  friction_.add_forces(force);
 }
 
 void ClothContact::couple(FreeStiffness& stiffness, const Cloth& cloth) const {
   std::vector<std::array<int, 2>> couples;
-  bool missing = false;
   for (const auto* pairs : {&active_, &braced_})
     for (const ActivePair& p : *pairs)
       for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < i; ++j) {
-          if (p.weights[i] == 0 || p.weights[j] == 0) continue;
-          couples.push_back({p.vertices[i], p.vertices[j]});
-          missing = missing || !stiffness.couples(p.vertices[i], p.vertices[j]);
-        }
+        for (std::size_t j = 0; j < i; ++j)
+          if (p.weights[i] != 0 && p.weights[j] != 0) couples.push_back({p.vertices[i], p.vertices[j]});
+  friction_.list_couples(couples);
+  const bool missing = std::any_of(couples.begin(), couples.end(),
+                                   [&](const auto& c) { return !stiffness.couples(c[0], c[1]); });
   if (missing) stiffness.couple(cloth, couples);
 }
 
@@ -318,6 +321,7 @@ void ClothContact::add_stiffness(FreeStiffness& stiffness) const {
             stiffness.add(p.vertices[i], p.vertices[j], p.weights[i] * p.weights[j] * block);
       }
     }
+  friction_.add_stiffness(stiffness);
 }
 
 double ClothContact::nearest() const {

@@ -7,6 +7,7 @@
 #include "physics/base/thread_pool.h"
 #include "physics/linear/free_stiffness.h"
 #include "physics/pairs/edge_face_crossings.h"
+#include "physics/pairs/pair_friction.h"
 #include "physics/pairs/pair_list.h"
 
 namespace furrow::physics {
@@ -14,18 +15,19 @@ namespace furrow::physics {
 struct ClothContactOptions {
   double thickness = 0.001;  ///< of the cloth: layers are that far apart, a little less under load [m]; > 0
   double stiffness = 500;    ///< k of barrier() [N/m]; > 0
+  double friction = 0;       ///< Coulomb coefficient of cloth on cloth [-]; >= 0
+  std::span<const double> thicknesses = {};  ///< of each particle, in place of `thickness` [m]; empty: none
 };
 
-/// Contact of a cloth with itself as a potential, for callers that look for rest, without friction: pairs of
-/// vertex and triangle, and of edges, repel each other nearer than their range (pair_mesh.h) by barrier().
-/// A cloth that does not cross itself never will if each position it takes is reached by a straight way
-/// within what safe_share() allows. Nothing changes where nothing is near, bit by bit.
-/// \details Pairs that start, or were drawn, nearer than their range have a range of 0.9 of that distance:
-/// nothing that was drawn is pushed. Those that were not drawn so grow by a fifth with each call of widen().
-/// Pairs of an edge and a face that cross at the start, and those nearer than 1e-7 m, do not count until
-/// widen() finds them apart; within a ring around them, neither do pairs that cross in their place, so that
-/// crossings can leave as they came. Results depend neither on the number of threads nor on the list's
-/// margin.
+/// Contact of a cloth with itself as a potential, for callers that look for rest: pairs of vertex and
+/// triangle, and of edges, repel each other nearer than their range (pair_mesh.h) by barrier(), and have
+/// PairFriction. A cloth that does not cross itself never will if each position it takes is reached by a
+/// straight way within what safe_share() allows. Nothing changes where nothing is near, bit by bit. \details
+/// Pairs that start, or were drawn, nearer than their range have a range of 0.9 of that distance: nothing
+/// that was drawn is pushed. Those that were not drawn so grow by a fifth with each call of widen(). Pairs of
+/// an edge and a face that cross at the start, and those nearer than 1e-7 m, do not count until widen() finds
+/// them apart; within a ring around them, neither do pairs that cross in their place, so that crossings can
+/// leave as they came. Results depend neither on the number of threads nor on the list's margin.
 class ClothContact {
  public:
   /// start: positions at the start. drawn: in which nothing is to be pushed; may be empty. Throws
@@ -43,20 +45,25 @@ class ClothContact {
   int approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPool* pool);
   /// Finds the pairs that touch at x. The answers below are for these positions.
   void look(std::span<const Vec3> x, ThreadPool* pool);
-  double energy() const { return energy_; }      ///< [J]; infinite where something touches
-  void add_forces(std::span<Vec3> force) const;  ///< [N]
+  double energy() const { return energy_ + friction_.energy(); }  ///< [J]; infinite where something touches
+  void add_forces(std::span<Vec3> force) const;                   ///< [N]
   /// Gives the matrix the blocks that pairs need and that are not there yet; before it is assembled.
   void couple(FreeStiffness& stiffness, const Cloth& cloth) const;
   /// Positive semidefinite; after couple(). Where the way was cut to less than 1/32, the pairs that did so
   /// count as if they were half their range apart.
   void add_stiffness(FreeStiffness& stiffness) const;
+  /// As those of AnchoredContact, of the friction between layers, x being where it was looked last.
+  void move_anchors(std::span<const Vec3> x) { friction_.move_anchors(active_, x); }
+  void expect(std::span<const Vec3> move) { friction_.expect(active_, move); }
   /// Once an iteration: ranges grow, and pairs that were exempt take part once they are apart. Whether
   /// something changed or will go on changing; then look() again.
   bool widen(std::span<const Vec3> x);
 
-  int touching() const { return int(active_.size()); }  ///< pairs nearer than their range
-  double nearest() const;                               ///< of them [m]; infinite: none
-  int list_builds() const { return list_.builds(); }    ///< complete detections of what is near
+  bool acts() const { return !active_.empty() || !friction_.empty(); }  ///< it has forces
+  int touching() const { return int(active_.size()); }                  ///< pairs nearer than their range
+  int sliding() const { return friction_.sliding(); }  ///< of them, at the limit of their friction
+  double nearest() const;                              ///< of them [m]; infinite: none
+  int list_builds() const { return list_.builds(); }   ///< complete detections of what is near
   int cut_searches() const { return cut_searches_; }
   int blocked() const { return blocked_; }                        ///< ways cut to less than 1/32, running
   std::optional<Vec3> blocked_at() const { return blocked_at_; }  ///< the pair that cut the last one [m]
@@ -65,14 +72,6 @@ class ClothContact {
   const PairMesh& mesh() const { return mesh_; }
 
  private:
-  struct ActivePair {
-    PairKey key;
-    std::array<int, 4> vertices;
-    std::array<double, 4> weights;
-    std::array<Vec3, 4> force;
-    Vec3 normal;
-    double distance, energy, stiffness;
-  };
   static bool active_before(const ActivePair& a, const ActivePair& b);
   /// A pair whose range is not that of its primitives; 0: it is exempt.
   struct SpecialPair {
@@ -100,6 +99,7 @@ class ClothContact {
   std::vector<char> loose_;           ///< by vertex: something crossed there at the start, or next to it
   std::vector<ActivePair> active_;    ///< sorted by key
   std::vector<ActivePair> braced_;    ///< that cut the last way short
+  PairFriction friction_;
   double energy_ = 0, margin_share_;
   int cut_searches_ = 0, blocked_ = 0, crossed_at_start_ = 0;
   std::optional<Vec3> blocked_at_;

@@ -93,15 +93,18 @@ void find_radii(PairMesh& mesh) {
 
 }  // namespace
 
-PairMesh pair_mesh(const Cloth& cloth, double thickness) {
+PairMesh pair_mesh(const Cloth& cloth, double thickness, std::span<const double> thicknesses) {
   require("pair_mesh", "thickness", thickness, thickness > 0, "> 0");
-  const std::size_t n = cloth.particles.size();
+  const std::size_t n = cloth.particles.size(), own = thicknesses.size();
+  if (own != 0 && own != n) refuse("pair_mesh", own, " thicknesses of ", n, " particles");
+  for (const double t : thicknesses) require("pair_mesh", "thicknesses", t, t > 0, "> 0");
   for (const auto& t : cloth.triangles)
     for (const int v : t)
       if (v < 0 || std::size_t(v) >= n) refuse("pair_mesh", "a triangle names particle ", v, " of ", n);
   PairMesh mesh;
   mesh.triangles = cloth.triangles;
   mesh.radius.assign(n, 0.5 * thickness);
+  for (std::size_t v = 0; v < own; ++v) mesh.radius[v] = 0.5 * thicknesses[v];
   mesh.used.assign(n, 0);
   for (const double w : cloth.particles.inv_mass) mesh.held.push_back(!(w > 0));
   find_edges(mesh, cloth);

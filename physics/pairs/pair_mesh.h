@@ -25,9 +25,9 @@ struct PairMesh {
 };
 
 /// Lengths at rest are those of the membrane's triangles, else of structural springs, else of tension, else
-/// as the cloth lies. thickness > 0 [m]; throws std::invalid_argument otherwise, or if a triangle names a
-/// particle that is not there. Cost: O(n log n).
-PairMesh pair_mesh(const Cloth& cloth, double thickness);
+/// as the cloth lies. thickness > 0 [m]; thicknesses: of each particle, in its place, or empty. Throws
+/// std::invalid_argument otherwise, or if a triangle names a particle that is not there. Cost: O(n log n).
+PairMesh pair_mesh(const Cloth& cloth, double thickness, std::span<const double> thicknesses = {});
 
 /// Vertex against triangle, or edge against edge, by their numbers; in the order of sums: vertices first.
 struct PairKey {

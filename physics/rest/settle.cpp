@@ -52,8 +52,12 @@ void check(const Cloth& cloth, const SettleOptions& o) {
   require(me, "threads", o.threads, o.threads >= 1, ">= 1");
   require(me, "faces.error", o.faces.error, o.faces.error >= 0, ">= 0");
   require(me, "self.thickness", o.self.thickness, o.self.thickness > 0, "> 0");
+  require(me, "self.friction", o.self.friction, o.self.friction >= 0, ">= 0");
   const std::size_t drawn = o.self.drawn.size(), n = cloth.particles.size();
   if (drawn != 0 && drawn != n) refuse(me, "self.drawn has ", drawn, " positions of ", n, " particles");
+  const std::size_t thick = o.self.thicknesses.size();
+  if (thick != 0 && thick != n) refuse(me, "self.thicknesses has ", thick, " numbers for ", n, " particles");
+  for (const double t : o.self.thicknesses) require(me, "self.thicknesses", t, t > 0, "> 0");
   check_particles(cloth.particles, me);
 }
 
@@ -137,8 +141,9 @@ class Settler {
     stiffness_.assemble(cloth, p_.x, Stiffness::positive_part);
     const double k = contact_share * stiffness_.mean_diagonal();
     if (o_.self.on)
-      pairs_.emplace(cloth, ClothContactOptions{o_.self.thickness, k > 0 ? k : 1}, p_.x, o_.self.drawn,
-                     &pool_);
+      pairs_.emplace(
+          cloth, ClothContactOptions{o_.self.thickness, k > 0 ? k : 1, o_.self.friction, o_.self.thicknesses},
+          p_.x, o_.self.drawn, &pool_);
     if (!collider) return;
     contact_.emplace(*collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
     if (!o_.faces.body) return;
@@ -151,7 +156,7 @@ class Settler {
     SettleReport report;
     Pace pace;
     Answer here = look(p_.x);
-    if (contact_) contact_->move_anchors();
+    move_anchors();
     for (;; ++report.iterations) {
       bool rests = look_for_rest(here, report);
       report.converged = rests && !(contact_ && contact_->deepest() > o_.contact_depth);
@@ -214,6 +219,7 @@ class Settler {
   SelfContactReport self_report(const SettleReport& report) const {
     SelfContactReport self;
     self.pairs = pairs_->touching();
+    self.sliding = pairs_->sliding();
     if (self.pairs > 0) self.nearest = pairs_->nearest();
     self.cut_searches = pairs_->cut_searches();
     self.list_builds = pairs_->list_builds();
@@ -243,7 +249,7 @@ class Settler {
   }
 
   double residual(const Answer& at) const {
-    const bool faces = faces_ && faces_->points() > 0, pairs = pairs_ && pairs_->touching() > 0;
+    const bool faces = faces_ && faces_->points() > 0, pairs = pairs_ && pairs_->acts();
     if (!faces && !pairs) return residual_of(at.force, p_, o_.gravity, collider_, o_.friction, o_.gap);
     Vectors force = at.force;
     if (faces) faces_->add_forces(force);
@@ -265,7 +271,7 @@ class Settler {
   double energy(const Answer& at) const {
     double sum = contact_ ? at.energy + contact_->energy() : at.energy;
     if (faces_ && faces_->points()) sum += faces_->energy();
-    if (pairs_ && pairs_->touching()) sum += pairs_->energy();
+    if (pairs_ && pairs_->acts()) sum += pairs_->energy();
     return sum;
   }
 
@@ -290,8 +296,20 @@ class Settler {
     contact_->stiffen(stiffer, p_.x);
     if (pairs_) keep_apart(before, p_.x);
     Answer answer = look(p_.x);
-    contact_->move_anchors();
+    move_anchors();
     return answer;
+  }
+
+  /// Friction takes hold where the particles are; contacts were asked there last.
+  void move_anchors() {
+    if (contact_) contact_->move_anchors();
+    if (pairs_) pairs_->move_anchors(p_.x);
+  }
+
+  /// Limits of friction become those of after a move.
+  void expect(const Vectors& way) {
+    if (contact_) contact_->expect(way);
+    if (pairs_) pairs_->expect(way);
   }
 
   /// Positions that were reached from others, without what would pass through cloth on the way.
@@ -363,8 +381,8 @@ class Settler {
     LimitedMemory inverse([this](std::span<Vec3> f) { stiffness_.solve(f, &pool_); }, most_followers);
     Vectors net = net_force(here);
     Move move = find_move(inverse, net);
-    if (contact_ && near) {
-      contact_->expect(move.way);
+    if ((contact_ || pairs_) && near) {
+      expect(move.way);
       net = net_force(here);
       move = find_move(inverse, net);
     }
@@ -376,9 +394,10 @@ class Settler {
     if (share > 0) accept(std::move(trial), here);
     if (refused) ask_contacts(p_.x);  // as there is room now
     const int followers = share > 0 && near ? follow(inverse, here) : 0;
-    if (contact_ && share > 0) contact_->move_anchors();
-    if (contact_ && share == 0)
-      contact_->expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
+    if (share > 0)
+      move_anchors();
+    else
+      expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
     Pace next = next_pace(pace, factors, move, share);
     if (pairs_ && pairs_->blocked() > 1) next.tau *= 0.25;  // cut short twice running
     return {next, factors.tries, followers};

@@ -19,12 +19,14 @@ struct FaceGuard {
   double error = 0;                ///< by which the collider may differ from it [m]; >= 0
 };
 
-/// Contact of the cloth with itself, without friction: nothing passes through anything (ClothContact). Where
+/// Contact of the cloth with itself: nothing passes through anything (ClothContact). Where
 /// nothing is near, nothing changes, bit by bit.
 struct SelfContact {
   bool on = false;
-  double thickness = 1e-3;           ///< of the cloth [m]; > 0; where edges are short, it counts as thinner
-  std::span<const Vec3> drawn = {};  ///< positions in which nothing is to be pushed; empty: none
+  double thickness = 1e-3;  ///< of the cloth [m]; > 0; where edges are short, it counts as thinner
+  double friction = 0.3;    ///< Coulomb coefficient of cloth on cloth [-]; >= 0
+  std::span<const double> thicknesses = {};  ///< of each particle, in place of `thickness` [m]; empty: none
+  std::span<const Vec3> drawn = {};          ///< positions in which nothing is to be pushed; empty: none
 };
 
 class FreeStiffness;
@@ -65,6 +67,7 @@ using SettleObserver = std::function<bool(const SettleProgress&)>;
 struct SelfContactReport {
   int pairs = 0;             ///< that push each other: vertex and triangle, or two edges
   double nearest = 0;        ///< of them [m]; 0: none
+  int sliding = 0;           ///< of them, held by all the friction that they can have
   int cut_searches = 0;      ///< steps that were shortened so that nothing passes through
   int list_builds = 0;       ///< detections of what is near
   int crossed_at_start = 0;  ///< edges through faces, which may go on crossing

@@ -21,6 +21,15 @@ TEST_CASE("pair_mesh: cloth is as thick as was asked, less where a triangle is t
   cloth.membrane.clear();
   CHECK(pair_mesh(cloth, 0.3).radius[0] == Approx(0.01 * thick.radius[0]));
   CHECK_THROWS_AS(pair_mesh(cloth, 0), std::invalid_argument);
+  std::vector<double> own(cloth.particles.size(), 1e-4);
+  own[2] = 2e-4;
+  const PairMesh mixed = pair_mesh(cloth, 0.3, own);
+  CHECK(mixed.radius[1] == 0.5e-4);
+  CHECK(mixed.radius[2] == 1e-4);
+  own[2] = 0;
+  CHECK_THROWS_AS(pair_mesh(cloth, 0.3, own), std::invalid_argument);
+  own.pop_back();
+  CHECK_THROWS_AS(pair_mesh(cloth, 0.3, own), std::invalid_argument);
   cloth.triangles[0][1] = 500;
   CHECK_THROWS_AS(pair_mesh(cloth, 0.1), std::invalid_argument);
 }

@@ -6,6 +6,7 @@
 #include "physics/cloth/join_cloths.h"
 #include "physics/pairs/edge_face_crossings.h"
 #include "physics/pairs/layer_order.h"
+#include "tests/cases/layered.h"
 #include "tests/physics/pairs/random_pairs.h"
 
 using namespace furrow::physics;
@@ -58,6 +59,19 @@ TEST_CASE("untangle_layers: sheets that noise interlaces come apart in their ord
     const LayerOrder order = two.order();
     CHECK(order.compared > 300);
     CHECK(order.outside == order.compared);
+  }
+}
+
+TEST_CASE("untangle_layers: sheets come apart that cross by a bulge, a corner, along a line or everywhere") {
+  for (const furrow::cases::CrossingStart start : furrow::cases::crossing_starts) {
+    const furrow::cases::LayeredCase c = furrow::cases::untangled(start, 20);
+    INFO(furrow::cases::name_of(start));
+    CHECK(c.crossings == 0);
+    CHECK(c.iterations > 0);
+    for (const furrow::cases::LayeredNumber& n : c.numbers) {
+      INFO(n.what << ": " << n.found);
+      CHECK(n.holds());
+    }
   }
 }
 
