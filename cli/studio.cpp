@@ -22,7 +22,7 @@ namespace {
 struct StudioArguments : CommonArguments {
   std::string in, project;
   unsigned short port = 0;
-  bool no_browser = false;
+  bool no_browser = false, replay = false, headless = false;
   SceneFlags flags;
 };
 
@@ -61,8 +61,42 @@ std::unique_ptr<studio::Studio> open_studio(const StudioArguments& a) {
   return std::make_unique<studio::Studio>(scene, project_of(a), a.port);
 }
 
+/// Does all that a project's log says once more, and compares.
+int replay(const StudioArguments& a) {
+  if (!a.headless) throw UsageError("--replay: is done without a page; add --headless");
+  if (!studio::Studio::is_project(a.in))
+    throw UsageError(a.in + ": is no project of the studio; name the folder of one to --replay");
+  const std::filesystem::path into = std::filesystem::path(a.in) / "replay";
+  std::filesystem::remove_all(into);
+  Terminal terminal(a);
+  const studio::ReplayReport report =
+      studio::replay(std::filesystem::path(a.in), into, [&](std::size_t done, std::size_t of) {
+        terminal.progress("replaying", double(done) / double(of));
+        return !interrupted();
+      });
+  terminal.progress("replaying", 1);
+  const bool same = report.difference.empty() && !report.cancelled;
+  if (same) std::filesystem::remove_all(into);
+  const std::string outcome = report.cancelled ? "interrupted" : same ? "same bits" : "differs";
+  if (a.json) {
+    Json json{{"outcome", outcome}, {"intentions", report.intentions}, {"steps", report.steps}};
+    if (!report.difference.empty()) json["difference"] = report.difference;
+    print_report(json, a);
+  } else if (!a.quiet) {
+    std::cout << a.in << ": " << outcome << " (" << report.intentions << " intentions, step " << report.steps
+              << ")\n";
+  }
+  if (!report.difference.empty())
+    std::cerr << "error: " << a.in << ": replayed, " << report.difference << "; what was made is in "
+              << into.string() << "\n";
+  return exit_code_of(report.cancelled, same);
+}
+
 int serve(const StudioArguments& a) {
   catch_interrupts();
+  if (a.replay) return replay(a);
+  if (a.headless)
+    throw UsageError("--headless: belongs to --replay; --no-browser serves without opening one");
   const std::unique_ptr<studio::Studio> studio = open_studio(a);
   const std::string project =
       std::filesystem::is_directory(a.in) ? std::string(a.in) : project_of(a).string();
@@ -96,7 +130,8 @@ void add_studio(CLI::App& app, int& exit_code) {
                                      "Draw on a garment with a pen, in the browser, and watch it wrinkle\n\n"
                                      "  furrow studio skirt.obj --body body.obj\n"
                                      "  furrow studio scene.toml --project tuesday\n"
-                                     "  furrow studio skirt-studio");
+                                     "  furrow studio skirt-studio\n"
+                                     "  furrow studio --replay skirt-studio --headless");
   sub->add_option("garment", a->in,
                   "garment to draw on, a scene (a .toml file), or the folder of a drawing to go on with")
       ->required();
@@ -105,6 +140,9 @@ void add_studio(CLI::App& app, int& exit_code) {
                   "and -studio)");
   sub->add_option("--port", a->port, "of 127.0.0.1 to serve on (default: a free one)");
   sub->add_flag("--no-browser", a->no_browser, "print the address, and open no browser");
+  sub->add_flag("--replay", a->replay,
+                "do all that the log of a project says once more, and tell whether it ends in the same bits");
+  sub->add_flag("--headless", a->headless, "with --replay: without a page");
   a->flags.add_to(*sub, io::used_by::wrinkle);
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] { exit_code = serve(*a); });

@@ -8,24 +8,19 @@
 
 #include "geometry/mesh/property_names.h"
 #include "jobs/report/fit_picture.h"
+#include "jobs/sketch_tangles.h"
 
 namespace furrow::jobs {
 namespace {
 
-constexpr std::uint8_t magenta[] = {214, 0, 147};
-
 std::vector<std::uint8_t> colours_of(const FittedGarment& fitted) {
   const geometry::Mesh& mesh = fitted.garment.mesh;
   const auto colour = geometry::find_map(mesh, geometry::attribute::color).value();
-  std::vector<char> crosses(mesh.num_vertices(), 0);
-  for (const geometry::Face f : fitted.crossings.faces)
-    for (const geometry::Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) crosses[v.idx()] = 1;
   std::vector<std::uint8_t> bytes;
   for (const geometry::Vertex v : mesh.vertices())
     for (std::size_t k = 0; k < 3; ++k)
-      bytes.push_back(crosses[v.idx()] ? magenta[k]
-                                       : static_cast<std::uint8_t>(std::lround(255 * colour[v][k])));
-  return bytes;
+      bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * colour[v][k])));
+  return marked_crossings(mesh, fitted.crossings.faces, std::move(bytes));
 }
 
 std::string legend_of(const io::FitScale& scale) {

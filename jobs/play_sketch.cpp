@@ -5,34 +5,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "io/scene/relocated.h"
+#include "bridge/convert.h"
+#include "jobs/run/body_places.h"
+#include "jobs/sketch_rounds.h"
 
 namespace furrow::jobs {
 namespace {
 
-constexpr double rounding = 1e-6;                    // of a sum of steps [s]
-constexpr const char* strokes_name = "the drawing";  // in memory, in place of a file
-
-/// A round of these strokes, under the options of the sketch's own round.
-Json round_of(const Sketch& sketch, double time) {
-  Json round = Json::object();
-  for (const Json& other : sketch.scene.settings.root.value("lines", Json::array()))
-    if (other.value("time", 0.0) == 0) round = other;
-  round.erase("without");
-  round["time"] = time;
-  round["strokes"] = strokes_name;
-  return round;
-}
-
-/// Adds the strokes to the rounds that are in the garment already.
-void add_strokes(const Sketch& sketch, const Json& strokes, double time, Json rounds, SceneInput& scene) {
-  if (!strokes.empty()) {
-    rounds.push_back(round_of(sketch, time));
-    scene.memory.strokes[(scene.folder / strokes_name).string()] =
-        io::drawn_strokes_from(Json{{"strokes", strokes}}.dump(), strokes_name);
-  }
-  scene.settings.root["lines"] = std::move(rounds);
-}
+constexpr double rounding = 1e-6;  // of a sum of steps [s]
 
 Json rounds_drawn(const io::SavedState& state) {
   Json rounds = state.scene.value("lines", Json::array());
@@ -48,7 +28,22 @@ std::vector<float> floats(std::span<const physics::Vec3> x) {
   return list;
 }
 
+/// None: there is no body, or it does not move.
+std::optional<BodyPlaces> places_of(const Sketch& sketch) {
+  const io::Scene scene = scene_of(sketch.scene.settings, sketch.scene.folder);
+  if (!scene.body || !sketch.body) return std::nullopt;
+  std::optional<BodyPlaces> places;
+  places.emplace(*scene.body, bridge::positions_of(sketch.body->mesh), sketch.frame);
+  if (!places->moves()) places.reset();
+  return places;
+}
+
 }  // namespace
+
+std::vector<float> body_at(const Sketch& sketch, double time) {
+  const std::optional<BodyPlaces> places = places_of(sketch);
+  return places ? places->at(time) : std::vector<float>{};
+}
 
 PlayedSketch play_sketch(const Sketch& sketch, const Json& strokes, const PlayRequest& request,
                          Listener& listener) {
@@ -65,7 +60,7 @@ PlayedSketch play_sketch(const Sketch& sketch, const Json& strokes, const PlayRe
     rounds = rounds_drawn(*job.state);
     if (job.scene.settings.root.contains("garment")) job.scene.settings.root["garment"].erase("subdivide");
   }
-  add_strokes(sketch, strokes, time, std::move(rounds), job.scene);
+  add_round(sketch, strokes, time, std::move(rounds), job.scene);
   if (time >= longest_play)
     throw std::invalid_argument("the cloth has moved for 600 s, which is all it can; drape it to begin anew");
   io::set_value(job.scene.settings, "simulation.seconds", longest_play, "the studio");  // so that all plays
@@ -74,8 +69,12 @@ PlayedSketch play_sketch(const Sketch& sketch, const Json& strokes, const PlayRe
   io::set_value(job.scene.settings, "output.state", std::filesystem::absolute(request.new_state).string(),
                 "the studio");
   job.outputs_below = request.new_state.parent_path();
-  if (request.watch)
-    job.watch = [&](double now, std::span<const physics::Vec3> x) { request.watch(now, floats(x)); };
+  const std::optional<BodyPlaces> body = request.watch_body ? places_of(sketch) : std::nullopt;
+  job.hand = request.hand;
+  job.watch = [&](double now, std::span<const physics::Vec3> x) {
+    if (body) request.watch_body(body->at(now));
+    if (request.watch) request.watch(now, floats(x));
+  };
   SimulateReport report = simulate(job, listener);
   if (!report.failure.empty()) throw std::runtime_error(report.failure);
   PlayedSketch played{std::move(report.garment), report.run.time, {}};

@@ -20,6 +20,9 @@ struct PlayRequest {
   std::filesystem::path new_state;             ///< where the state reached is written; its folder is there
   /// Called on the way in the job's thread: time [s], and three numbers a vertex by its index [m].
   std::function<void(double time, const std::vector<float>& positions)> watch = {};
+  /// The same of a body that moves, before the cloth's; in the order of the sketch's body.
+  std::function<void(const std::vector<float>& positions)> watch_body = {};
+  Hand hand = {};  ///< that may pull at the cloth
 };
 
 /// A sketch that has moved.
@@ -36,5 +39,9 @@ struct PlayedSketch {
 /// Throws as simulate(), and std::runtime_error where the cloth diverges.
 PlayedSketch play_sketch(const Sketch& sketch, const Json& strokes, const PlayRequest& request,
                          Listener& listener);
+
+/// Where the vertices of the sketch's body are at a time [s], three numbers each [m]; of no body, or one that
+/// does not move, nothing.
+std::vector<float> body_at(const Sketch& sketch, double time);
 
 }  // namespace furrow::jobs

@@ -16,6 +16,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
 #include "jobs/run/animation_series.h"
+#include "jobs/run/hand_on_cloth.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
 #include "jobs/run/measure_crossings.h"
@@ -43,6 +44,7 @@ struct Run {
   std::shared_ptr<WorldBody> body;  ///< null: none
   bool resumed;
   Watch watch = {};
+  Hand hand = {};  ///< empty: there is none, or the integrator knows no energies
   std::vector<std::vector<io::DrawnStroke>> strokes = {};  ///< of each round
 };
 
@@ -223,7 +225,8 @@ void write_state(const Run& run, const io::SavedState& now) {
 }
 
 /// Simulates until the observer stops it or the end is reached. Whenever a checkpoint is due, the state is
-/// written, and the run goes on from it: by the same bits, though it evaluates the forces once more.
+/// written, and the run goes on from it: by the same bits, though it evaluates the forces once more. So it
+/// does where a hand takes hold of the cloth or lets it go, with another cloth then.
 physics::SimulateReport simulate_with_checkpoints(const Run& run, Reached& reached, physics::Cloth& cloth,
                                                   const physics::SimulateOptions& options,
                                                   const physics::Observer& observe) {
@@ -231,17 +234,22 @@ physics::SimulateReport simulate_with_checkpoints(const Run& run, Reached& reach
   io::SavedState& now = reached.now;
   const physics::World world = world_of(run.scene, run.body.get(), now.pins);
   const std::optional<double> every = run.scene.output.checkpoint;
+  HandOnCloth hand(run.hand, cloth);
+  hand.asks_for_renewal(now.simulation.time);
   for (auto written = Clock::now();;) {
-    bool due = false;
+    bool due = false, grips = false;
+    if (hand.renew()) now.simulation.planned = false;
     const physics::SimulateReport report =
         physics::simulate(cloth, world, options, &now.simulation, [&](const physics::SimulateProgress& p) {
           if (!observe(p)) return false;
           due = every && std::chrono::duration<double>(Clock::now() - written).count() >= *every;
-          return !due;
+          grips = hand.asks_for_renewal(p.time);
+          return !due && !grips;
         });
     bridge::scatter(cloth.particles, now.file.mesh);
     bridge::scatter_velocities(cloth.particles, now.file.mesh);
-    if (!due || report.outcome != physics::Outcome::stopped_by_observer) return report;
+    if (!(due || grips) || report.outcome != physics::Outcome::stopped_by_observer) return report;
+    if (!due) continue;
     write_state(run, now);
     written = Clock::now();
   }
@@ -406,6 +414,7 @@ SimulateReport simulate(const SimulateJob& job, Listener& listener) {
         io::relocated(io::document_of(job.state->scene, report.state), job.state_path.parent_path(), "");
   report.frame = scene.frame;
   Run run{scene, scene.scene, context, std::move(body), job.state.has_value(), job.watch};
+  if (scene.scene.simulation.integrator != physics::Integrator::xpbd) run.hand = job.hand;
   AnimationSeries animations(scene.scene.output, context.frame);
   const std::int64_t steps_before = job.state ? job.state->simulation.step : 0;
   Reached reached = take_up(run, job.state ? *job.state : begin(scene.scene, context));

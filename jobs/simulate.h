@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -114,6 +115,17 @@ Json to_json(const std::vector<LineReport>& lines);
 /// Sees a run go on: the time [s], and where the vertices are by their index [m].
 using Watch = std::function<void(double time, std::span<const physics::Vec3> x)>;
 
+/// A vertex that a hand has taken hold of, and the place that it pulls it to.
+struct Grip {
+  int vertex = 0;              ///< its index
+  std::array<double, 3> to{};  ///< [m]
+  bool operator==(const Grip&) const = default;
+};
+
+/// Where the hand is at a time [s]; none: it has let go. Asked before each step that is observed, so equal
+/// answers at equal times give equal bits; must not throw. What it does, jobs/run/hand_on_cloth.h tells.
+using Hand = std::function<std::optional<Grip>(double time)>;
+
 /// A scene to be run from its beginning, or from a saved state on.
 struct SimulateJob {
   SceneInput scene;
@@ -131,6 +143,7 @@ struct SimulateJob {
   /// Called in the run's thread at each step of an integrator that factorises, else about every 0.2 s; must
   /// not throw.
   Watch watch = {};
+  Hand hand = {};  ///< that may pull at the cloth; empty: there is none
 };
 
 /// The job that goes on from a state's file, under the settings that it holds. Throws as io::read_state().

@@ -2,7 +2,6 @@
 #include "jobs/sketch.h"
 
 #include <algorithm>
-#include <limits>
 #include <sstream>
 
 #include "io/base/atomic_file.h"
@@ -179,21 +178,6 @@ Json settings_for(const Sketch& sketch, const fs::path& folder) {
   return settings;
 }
 
-Json mirrored(const Sketch& sketch, const Json& stroke) {
-  if (!stroke.contains("points"))
-    throw std::invalid_argument(
-        "this line is given by vertices of the garment, not by points: draw it by hand");
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  const geometry::Mesh& mesh = sketch.body ? sketch.body->mesh : sketch.garment.mesh;
-  for (const geometry::Vertex v : mesh.vertices()) {
-    low = std::min(low, mesh.point(v).x());
-    high = std::max(high, mesh.point(v).x());
-  }
-  Json other = stroke;
-  for (Json& point : other["points"]) point[0] = low + high - point.at(0).get<double>();
-  return other;
-}
-
 SketchedGarment draw_sketch(const Sketch& sketch, const Json& strokes, Listener& listener) {
   SketchedGarment drawn;
   std::vector<std::vector<int>> pins = sketch.pins;
@@ -256,6 +240,44 @@ std::vector<std::string> save_sketch(const Sketch& sketch, const Json& strokes, 
   });
   together.commit();
   return written;
+}
+
+std::vector<std::string> save_motion(const SketchMotion& motion, const Frame& frame, const fs::path& folder) {
+  Json settings = motion.settings, first = Json::object(), lines = Json::array();
+  for (const Json& round : settings.value("lines", Json::array()))
+    if (round.value("time", 0.0) == 0) first = round;
+  first.erase("without");
+  io::OutputGroup together;
+  std::vector<std::string> written{"motion.toml"};
+  for (const auto& [time, strokes] : motion.rounds) {
+    first["time"] = time;
+    first["strokes"] = "motion-strokes-" + std::to_string(lines.size() + 1) + ".json";
+    io::write_strokes(folder / first["strokes"].get<std::string>(), parsed(strokes), write_options(frame));
+    written.push_back(first["strokes"]);
+    lines.push_back(first);
+  }
+  settings["lines"] = lines;
+  settings["simulation"]["seconds"] = motion.longest;
+  settings["simulation"]["stop_at"] = motion.time - 1e-6;  // the rounding of a sum of steps
+  io::write_atomically(folder / "motion.toml", [&](std::ostream& out) {
+    out << "# Written by furrow studio: what was played, and drawn meanwhile; furrow simulate does it "
+           "again.\n"
+        << toml_of(settings);
+  });
+  together.commit();
+  return written;
+}
+
+std::string shape_bits(const io::MeshFile& file) {
+  std::string bits;
+  const auto add = [&bits](const auto& number) {
+    bits.append(reinterpret_cast<const char*>(&number), sizeof number);
+  };
+  for (const geometry::Vertex v : file.mesh.vertices())
+    for (int k = 0; k < 3; ++k) add(double(file.mesh.point(v)[k]));
+  for (const geometry::Face f : file.mesh.faces())
+    for (const geometry::Vertex v : file.mesh.vertices_around_face(file.mesh.halfedge(f))) add(v.idx());
+  return bits;
 }
 
 void write_whole(const fs::path& path, const std::string& bytes) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/fold/wrinkle.h"
@@ -34,11 +35,6 @@ Json strokes_of(const Sketch& sketch, Listener& listener);
 /// The settings with all paths relative to a folder, in a frame that says unit and axis.
 Json settings_for(const Sketch& sketch, const std::filesystem::path& folder);
 
-/// The stroke on the other side of the plane x = the middle of the body, else of the garment: its points
-/// mirrored, without what else is known of where it runs. Throws std::invalid_argument for a stroke that is
-/// not given by points.
-Json mirrored(const Sketch& sketch, const Json& stroke);
-
 /// A garment with its lines, as it is shown.
 struct SketchedGarment {
   io::MeshFile file;  ///< [m]
@@ -66,9 +62,26 @@ SketchAtRest drape_sketch(const Sketch& sketch, const Json& strokes, Listener& l
 std::vector<std::string> save_sketch(const Sketch& sketch, const Json& strokes,
                                      const std::filesystem::path& folder, Listener& listener);
 
+/// How a sketch has moved since it began to.
+struct SketchMotion {
+  Json settings;                                ///< as it began, paths relative to the folder
+  std::vector<std::pair<double, Json>> rounds;  ///< strokes, and when they were drawn [s]
+  double time = 0;                              ///< until when it moved [s]
+  double longest = 600;                         ///< of all plays, of which the step is a share [s]
+};
+
+/// Writes motion.toml, by which furrow simulate moves it again, and a stroke file for each of its rounds,
+/// into a folder that is there. Where the files are in metres, y up, it comes to the same bits; elsewhere
+/// strokes are rounded on their way through the file. Names what was written.
+std::vector<std::string> save_motion(const SketchMotion& motion, const Frame& frame,
+                                     const std::filesystem::path& folder);
+
 /// Writes the mesh as PLY in the sketch's frame.
 void write_sketched(const Sketch& sketch, const io::MeshFile& file, const std::filesystem::path& path,
                     Listener& listener);
+
+/// Positions and faces, to the last bit: equal for equal shapes alone.
+std::string shape_bits(const io::MeshFile& file);
 
 /// Writes a file whole or not at all, after a loss of power, too (io/base/atomic_file.h).
 void write_whole(const std::filesystem::path& path, const std::string& bytes);

@@ -33,8 +33,8 @@ std::string frame_bytes(ShownAs kind, const jobs::ShownMesh& mesh) {
   return bytes;
 }
 
-std::string moving_bytes(double time, const std::vector<float>& positions) {
-  const std::uint32_t head[] = {0x57525546, static_cast<std::uint32_t>(ShownAs::moving),
+std::string moving_bytes(double time, const std::vector<float>& positions, ShownAs kind) {
+  const std::uint32_t head[] = {0x57525546, static_cast<std::uint32_t>(kind),
                                 static_cast<std::uint32_t>(positions.size() / 3),
                                 static_cast<std::uint32_t>(std::lround(1000 * time))};
   std::string bytes(reinterpret_cast<const char*>(head), sizeof head);

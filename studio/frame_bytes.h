@@ -7,16 +7,23 @@
 
 namespace furrow::studio {
 
-enum class ShownAs : std::uint32_t { cloth = 0, body = 1, preview = 2, moving = 3, colours = 4 };
+enum class ShownAs : std::uint32_t {
+  cloth = 0,
+  body = 1,
+  preview = 2,
+  moving = 3,
+  colours = 4,
+  moving_body = 5
+};
 
 /// A mesh as the page reads it (page/src/frame.ts), little-endian: the numbers 0x57525546, what it is, how
 /// many vertices, faces, line edges and pinned vertices; then positions, undrawn positions (float32), faces,
 /// edges (from, to, line) and pinned vertices (32 bits each).
 std::string frame_bytes(ShownAs kind, const jobs::ShownMesh& mesh);
 
-/// Positions of the cloth that was shown last [m], by its vertices' indices: the number 0x57525546, "moving",
-/// how many vertices, and the time [ms]; then positions (float32).
-std::string moving_bytes(double time, const std::vector<float>& positions);
+/// Positions of the cloth or body that was shown last [m], by its vertices' indices: the number 0x57525546,
+/// the kind, how many vertices, and the time [ms]; then positions (float32).
+std::string moving_bytes(double time, const std::vector<float>& positions, ShownAs kind = ShownAs::moving);
 
 /// Colours of the cloth that was shown last: the number 0x57525546, "colours", how many vertices, 0; then
 /// red, green and blue of each, a byte each.

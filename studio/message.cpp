@@ -50,7 +50,7 @@ double number_of(const Json& body, const char* key, double least, double most) {
 std::size_t index_of(const Json& body, const char* key, std::size_t count) {
   const Json& value = value_of(body, key);
   if (!value.is_number_unsigned() || value.get<std::size_t>() >= count)
-    throw Refused(std::string(key) + ": there is no line of that number");
+    throw Refused(std::string(key) + ": there is none of that number");
   return value.get<std::size_t>();
 }
 

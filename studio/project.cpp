@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "jobs/sketch.h"
 
@@ -65,6 +66,9 @@ Project::Project(fs::path folder) : folder_(std::move(folder)) {
     throw std::invalid_argument(folder_.string() + ": was made by another version of the studio");
   opened_with_ = state.value("opened_with", Json());
   count_ = state.value("count", std::size_t{1});
+  std::error_code none;
+  const std::uintmax_t size = fs::file_size(folder_ / "log.jsonl", none);
+  logged_ = state.value("logged", none ? std::uintmax_t{0} : size);
   go_to(state.value("at", std::size_t{0}));
 }
 
@@ -81,9 +85,12 @@ Step Project::read_step(std::size_t step) const {
 }
 
 void Project::write_state() const {
-  write_whole(
-      folder_ / "project.json",
-      Json{{"furrow_studio", 1}, {"at", at_}, {"count", count_}, {"opened_with", opened_with_}}.dump(1));
+  write_whole(folder_ / "project.json", Json{{"furrow_studio", 1},
+                                             {"at", at_},
+                                             {"count", count_},
+                                             {"logged", logged_},
+                                             {"opened_with", opened_with_}}
+                                            .dump(1));
 }
 
 void Project::go_to(std::size_t step) {
@@ -92,28 +99,40 @@ void Project::go_to(std::size_t step) {
   redo_what_ = at_ + 1 < count_ ? read_step(at_ + 1).what : "";
 }
 
-void Project::add(const Step& step) {
+void Project::add(const Step& step, const Json& did) {
+  drop_undone();
   write_whole(step_file(at_ + 1), Json{{"what", step.what}, {"drawing", step.drawing}}.dump());
-  std::error_code ignored;
-  for (std::size_t i = at_ + 1; i < count_; ++i) {  // they were undone, and there is no way to them any more
-    fs::remove(frame_file(i), ignored);
-    if (i > at_ + 1) fs::remove(step_file(i), ignored);
-  }
+  write_log(did);
   now_ = step;
-  redo_what_.clear();
   count_ = ++at_ + 1;
   write_state();
+}
+
+/// There is no way to what was undone any more. Said first, so that a program that is killed does not come
+/// back with steps of two branches.
+void Project::drop_undone() {
+  const std::size_t before = std::exchange(count_, at_ + 1);
+  if (before == count_) return;
+  redo_what_.clear();
+  write_state();
+  std::error_code ignored;
+  for (std::size_t i = at_ + 1; i < before; ++i) {
+    fs::remove(frame_file(i), ignored);
+    fs::remove(step_file(i), ignored);
+  }
 }
 
 std::string Project::undo() {
   const std::string what = now_.what;
   go_to(at_ - 1);
+  write_log({{"do", "undo"}});
   write_state();
   return what;
 }
 
 std::string Project::redo() {
   go_to(at_ + 1);
+  write_log({{"do", "redo"}});
   write_state();
   return now_.what;
 }
@@ -126,9 +145,24 @@ void Project::keep_frame(const std::string& bytes) {
   if (at_ >= kept_frames) fs::remove(frame_file(at_ - kept_frames), ignored);
 }
 
-void Project::log(const Json& line) {
-  std::ofstream out(folder_ / "log.jsonl", std::ios::app);
-  out << line.dump() << '\n';
+void Project::write_log(const Json& line) {
+  const fs::path path = folder_ / "log.jsonl";
+  const std::string text = line.dump() + '\n';
+  std::error_code none;
+  if (fs::file_size(path, none) > logged_ && !none)
+    fs::resize_file(path, logged_);  // of a step that was lost
+  std::ofstream out(path, std::ios::app | std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(path.string() + ": cannot be written");
+  logged_ += text.size();
+}
+
+std::vector<Json> Project::log() const {
+  std::vector<Json> lines;
+  std::istringstream in(read_whole(folder_ / "log.jsonl").value_or("").substr(0, logged_));
+  for (std::string line; std::getline(in, line);) lines.push_back(Json::parse(line));
+  return lines;
 }
 
 }  // namespace furrow::studio

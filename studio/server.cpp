@@ -154,7 +154,8 @@ class Page : public std::enable_shared_from_this<Page> {
       std::erase_if(queue_, [&, first = &queue_.front()](const Out& out) {
         if (&out == first || !out.binary) return false;
         const ShownAs older = kind(out.bytes);
-        return older == newer || (newer == ShownAs::cloth && older != ShownAs::body);
+        const bool of_body = older == ShownAs::body || older == ShownAs::moving_body;
+        return older == newer || (newer == ShownAs::cloth && !of_body) || (newer == ShownAs::body && of_body);
       });
     if (queue_.size() >= longest_queue) return close();
     queue_.push_back({std::move(bytes), binary});

@@ -2,6 +2,8 @@
 #pragma once
 #include <atomic>
 #include <chrono>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -32,43 +34,81 @@ class Session : jobs::Listener {
   void cancel() { cancelled_ = true; }
   /// Before each message. From any thread.
   void allow() { cancelled_ = false; }
+  /// Who plays pulls at the cloth from now on, or lets it go; at another time nothing happens. From any
+  /// thread; answers as handle() does.
+  void pull(Client client, const Message& message);
+  /// The shape that is shown, to the last bit.
+  std::string shape_bits();
+  const Project& project() const { return *project_; }
 
  private:
+  using Does = Json (Session::*)(const Json& body);
+  static const std::map<std::string, Does>& intentions();
+
   void progress(const std::string& what, double share) override;
   void warn(const jobs::Warning& warning) override { told_.push_back(warning.text); }
   bool cancelled() override { return cancelled_; }
   bool allows(const std::string&) override { return playing_; }
 
   Json done(const Message& message);
-  void draw(const Json& body);
+  // Lines (line_intentions.cpp)
+  Json draw(const Json& body);
   Json set(const Json& body);
-  void remove(const Json& body);
-  void mirror(const Json& body);
-  void choose_fabric(const Json& body);
-  void hold(const Json& body);
-  Json drape();
+  Json remove(const Json& body);
+  Json duplicate(const Json& body);
+  Json mirror(const Json& body);
+  Json move(const Json& body);
+  Json set_middle(const Json& body);
+  Json tell_points(const Json& body);
+  // The cloth (cloth_intentions.cpp)
+  Json choose_fabric(const Json& body);
+  Json blow(const Json& body);
+  Json hold(const Json& body);
+  Json pin(const Json& body);
+  Json drape(const Json& body);
+  Json keep(const Json& body);
   Json play(const Json& body);
   Json fit(const Json& body);
-  void show_moving(double time, const std::vector<float>& positions);
-  void undo(bool again);
+  Json find_tangles(const Json& body);
+  // All of it
+  Json undo(const Json& body);
+  Json redo(const Json& body);
+  Json save(const Json& body);
+  Json give(const Json& body);
+  Json show(const Json& body);
+
   void change(const std::string& what, Json drawing);
+  void change_pins(const std::string& what, Json pins);
+  /// The mesh that a job made takes the garment's place, under such a file name.
+  void take_result(const std::string& word, const std::string& what, const io::MeshFile& file, Json motion);
+  void go(bool again);
   void take_up(const Json& drawing);
   void show_now();
+  void show_body_then(Client client = everybody);
+  void show_preview(const Json& drawing);
+  void show_moving(double time, const std::vector<float>& positions);
+  void show_moving_body(const std::vector<float>& positions);
+  void begin_play(bool on);
+  std::optional<jobs::Grip> present_grip();
   Json status() const;
   Json& line_of(Json& drawing, const Json& body) const;
-  std::string free_name(const std::string& word) const;
+  double middle() const;
   /// "word-3": no mesh in the project's folder is called so.
   std::string free_name_of_file(const std::string& word) const;
 
   Outbox& out_;
-  Client pen_ = everybody;  ///< the page that draws; everybody: the next one that asks
+  std::atomic<Client> pen_ = everybody;  ///< the page that draws; everybody: the next one that asks
   std::optional<Project> project_;
   jobs::Sketch sketch_;
+  double middle_of_sketch_ = 0;  ///< jobs::middle_of() it [m]
   std::atomic<bool> cancelled_ = false;
   bool playing_ = false;           ///< until somebody stops it: it may take as long as it likes
+  Json did_;                       ///< the intention that is being done, as the log will have it
   std::vector<std::string> told_;  ///< by the job that runs
   Bytes cloth_, body_;             ///< as they are shown
-  std::chrono::steady_clock::time_point progress_told_ = {}, moving_shown_ = {};
+  std::mutex grip_mutex_;
+  std::optional<jobs::Grip> grip_;  ///< that a page asks for
+  std::chrono::steady_clock::time_point progress_told_ = {}, moving_shown_ = {}, body_shown_ = {};
 };
 
 }  // namespace furrow::studio

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "jobs/inputs.h"
+#include "studio/replay.h"
 
 namespace furrow::studio {
 

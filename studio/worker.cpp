@@ -39,6 +39,7 @@ void Worker::post(Client client, const std::string& text) {
     session_.cancel();
     return out_.tell(client, {{"id", message.id}, {"done", Json::object()}});
   }
+  if (message.what == "pull") return session_.pull(client, message);
   const std::lock_guard lock(mutex_);
   if (tasks_.size() >= longest_queue)
     return refuse(client, message.id, "too much is waiting to be done; wait a moment");

@@ -20,8 +20,8 @@ class Worker {
   void start();
   /// Cancels what runs, does no more, and waits for the thread.
   void stop();
-  /// Puts what a page sent at the queue's end; "cancel" and "pause" act at once. A live message that waits
-  /// for the same page gives way to a later one. A full queue refuses.
+  /// Puts what a page sent at the queue's end; "cancel", "pause" and "pull" act at once. A live message that
+  /// waits for the same page gives way to a later one. A full queue refuses.
   void post(Client client, const std::string& text);
   void greet(Client client);
   void leave(Client client);

@@ -4,19 +4,16 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
-#include "geometry/mesh/sheet.h"
-#include "io/scene/scene.h"
 #include "jobs/play_sketch.h"
 #include "jobs/simulate.h"
 #include "jobs/wrinkle.h"
-#include "tests/jobs/job_folders.h"
+#include "tests/studio/visitor.h"
 #include "tests/test_meshes.h"
 
 namespace furrow {
@@ -27,85 +24,9 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 namespace fs = std::filesystem;
 using jobs::Json;
-
-/// A level sheet of 0.4 m, hung by its border of largest y, in a folder of its own; beside it the project's.
-struct Desk {
-  explicit Desk(const std::string& name) : folder(tests::empty_folder("studio_" + name)) {
-    io::MeshFile sheet;
-    sheet.mesh = geometry::equilateral_sheet(0.4, 0.4, 0.04);
-    io::write_mesh(folder / "sheet.ply", sheet);
-    scene.settings = io::parse_toml("[garment]\nmesh = \"sheet.ply\"\n", "test");
-    scene.folder = folder;
-    io::set_value(scene.settings, "pins.0", Json{{"box", {-1, 0.35, -1, 1, 1, 1}}}, "test");
-  }
-  fs::path project() const { return folder / "drawing"; }
-  fs::path folder;
-  jobs::SceneInput scene;
-};
-
-/// A page that is no browser.
-class Visitor {
- public:
-  explicit Visitor(const studio::Studio& studio, const std::string& origin = "") : ws_(io_) {
-    const std::string host = "127.0.0.1:" + std::to_string(studio.port());
-    beast::get_lowest_layer(ws_).connect({asio::ip::address_v4::loopback(), studio.port()});
-    ws_.set_option(beast::websocket::stream_base::decorator([&](auto& request) {
-      request.set(http::field::origin, origin.empty() ? "http://" + host : origin);
-    }));
-    ws_.handshake(host, "/ws?token=" + studio.token());
-  }
-
-  void send(const std::string& text) { ws_.write(asio::buffer(text)); }
-  /// The answer to a message; meshes and states that come before it are kept.
-  Json ask(const std::string& what, Json body = Json::object()) {
-    body["do"] = what;
-    body["id"] = ++id_;
-    send(body.dump());
-    return answer();
-  }
-  Json answer() {
-    for (;;) {
-      beast::flat_buffer buffer;
-      ws_.read(buffer);
-      const std::string text = beast::buffers_to_string(buffer.data());
-      if (ws_.got_binary()) {
-        if (text.at(4) == 0) cloth = text;
-        if (text.at(4) == 3) ++moved;
-        if (text.at(4) == 4) colours = text;
-        continue;
-      }
-      Json message = Json::parse(text);
-      if (message.contains("status")) status = message["status"];
-      if (message.contains("id")) return message;
-    }
-  }
-
-  /// Until the cloth is seen to move; false: an answer came first.
-  bool sees_motion() {
-    beast::flat_buffer buffer;
-    for (const int before = moved; moved == before; buffer.clear()) {
-      ws_.read(buffer);
-      const std::string text = beast::buffers_to_string(buffer.data());
-      if (ws_.got_binary() && text.at(4) == 3) ++moved;
-      if (!ws_.got_binary() && Json::parse(text).contains("id")) return false;
-    }
-    return true;
-  }
-
-  Json status;
-  int moved = 0;      ///< frames of moving cloth
-  std::string cloth;  ///< the last mesh of it
-  std::string colours;
-
- private:
-  asio::io_context io_;
-  beast::websocket::stream<beast::tcp_stream> ws_;
-  int id_ = 0;
-};
-
-Json line_at(double x, double height = 0.02) {
-  return {{"height", height}, {"width", 0.08}, {"points", {{x, 0.1, 0.0}, {x, 0.2, 0.0}, {x, 0.3, 0.0}}}};
-}
+using tests::Desk;
+using tests::line_at;
+using tests::Visitor;
 
 /// The status of a request, and its body.
 http::response<http::string_body> get(const studio::Studio& studio, const std::string& target,
@@ -121,10 +42,6 @@ http::response<http::string_body> get(const studio::Studio& studio, const std::s
   http::response<http::string_body> response;
   http::read(stream, buffer, response);
   return response;
-}
-
-Json strokes_of(const fs::path& folder) {
-  return Json::parse(tests::bytes_of(folder / "strokes.json")).at("strokes");
 }
 
 }  // namespace
@@ -171,7 +88,7 @@ TEST_CASE("studio: what is saved is what furrow wrinkle draws") {
   const Json saved = page.ask("save");
   INFO(saved.dump());
   REQUIRE(saved.at("done").at("written").size() == 3);
-  REQUIRE(strokes_of(desk.project()).size() == 2);
+  REQUIRE(tests::saved_strokes(desk.project()).size() == 2);
   tests::empty_folder("studio_other");
   jobs::WrinkleJob job;
   job.garment = (desk.folder / "sheet.ply").string();
@@ -300,7 +217,6 @@ TEST_CASE("studio: a play lasts until it is paused, and what was reached is kept
   CHECK(answer.at("done").at("time") > 0);
   CHECK(page.status.at("time") == answer["done"]["time"]);
   CHECK(page.status.at("undo").get<std::string>().find("move to ") == 0);
-  REQUIRE(page.ask("hold", {{"on", true}}).contains("refused"));  // the scene has pins of its own
   REQUIRE(page.ask("drape").contains("done"));
   CHECK(page.status.at("time") == 0);
 }
@@ -316,7 +232,7 @@ TEST_CASE("studio: a line is mirrored, and both lie as far from the middle") {
   CHECK(page.status["lines"][1].at("name") == "valley 2");
   CHECK(page.status.at("undo") == "mirror valley 1");
   REQUIRE(page.ask("save").contains("done"));
-  const Json strokes = strokes_of(desk.project());
+  const Json strokes = tests::saved_strokes(desk.project());
   for (std::size_t i = 0; i < 3; ++i) {
     CHECK(strokes.at(1).at("points").at(i).at(0).get<double>() == Approx(-0.12));
     CHECK(strokes[1]["points"][i].at(1) == strokes.at(0).at("points").at(i).at(1));

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 import { useEffect, useRef, useState } from "preact/hooks";
+import { Vector3 } from "three";
+import { Cloth, type ClothActions } from "./cloth";
 import { readFrame, Kind } from "./frame";
+import { Hand } from "./hand";
+import { Handles } from "./handles";
 import { Help } from "./help";
 import { type LineActions, Lines, mm, ownWidth, Slider } from "./lines";
 import { Pen } from "./pen";
-import { type Done, Program, type Progress, type Status } from "./protocol";
+import { type Done, Program, type Progress, type Status, type Vector } from "./protocol";
 import { type Seen, View } from "./view";
 
-type Tool = "look" | "ridge" | "valley";
+type Tool = "look" | "ridge" | "valley" | "pin";
 interface Words { text: string; bad: boolean }
 interface Draft { height: number; width: number | null }
 
 /** What lives as long as the page and is no state of a panel. */
-interface Parts { program: Program; view: View; pen: Pen }
+interface Parts { program: Program; view: View; pen: Pen; handles: Handles; hand: Hand }
+type Busy = "" | "drape" | "keep" | "play";
+const isPen = (tool: Tool) => tool === "ridge" || tool === "valley";
 
 export function App({ token }: { token: string }) {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -25,14 +31,19 @@ export function App({ token }: { token: string }) {
   const [seen, setSeen] = useState<Seen>({ body: true, wire: false, lines: true });
   const [words, setWords] = useState<Words>({ text: "", bad: false });
   const [progress, setProgress] = useState<Progress>();
-  const [busy, setBusy] = useState<"" | "drape" | "play">("");
+  const [busy, setBusy] = useState<Busy>("");
+  const [both, setBoth] = useState(false);  // what is drawn is mirrored
+  const [middle, setMiddle] = useState<number | null>(null);  // while it is dragged
+  const [verdict, setVerdict] = useState<{ step: number; done: Done }>();  // of the shape that the step made
+  const [tangles, setTangles] = useState(false);
+  const [dragging, setDragging] = useState(false);  // a line, by its dots
   const [moving, setMoving] = useState(0);
   const [fit, setFit] = useState<"" | "strain" | "distance">("");
   const [frames, setFrames] = useState(0);
   const [gone, setGone] = useState(false);
   const [help, setHelp] = useState(false);
-  const now = useRef({ tool, draft, chosen, status, seen, me, busy });
-  now.current = { tool, draft, chosen, status, seen, me, busy };
+  const now = useRef({ tool, draft, chosen, status, seen, me, busy, both });
+  now.current = { tool, draft, chosen, status, seen, me, busy, both };
   const live = useRef({ running: false, waiting: null as null | (() => void) });
 
   const say = (text: string, bad = false) => setWords({ text, bad });
@@ -57,34 +68,73 @@ export function App({ token }: { token: string }) {
       frame: (bytes) => {
         const frame = readFrame(bytes);
         if ("time" in frame) {
+          if (frame.kind === Kind.movingBody) return view.moveBody(frame.positions);
           view.move(frame.positions);
+          hand.follow();
           setMoving(frame.time);
           setFit("");
           return;
         }
         if ("colours" in frame) return view.colour(frame.colours);
         view.show(frame);
-        setFit("");
+        if (frame.kind !== Kind.body) handles.show();
+        if (frame.kind === Kind.cloth) {
+          setFit("");
+          setTangles(false);
+        }
         if (frame.kind !== Kind.body && !pen.drawing) view.showBand([], 0, 0);
         setFrames((n) => n + 1);
       },
     });
     const settings = () => {
       const { tool, draft, busy } = now.current;
-      return { on: tool !== "look" && !busy, colour: tool === "valley" ? view.colours.valley : view.colours.ridge, width: draft.width ?? ownWidth(draft.height) };
+      return { on: isPen(tool) && !busy, colour: tool === "valley" ? view.colours.valley : view.colours.ridge, width: draft.width ?? ownWidth(draft.height) };
     };
     const pen = new Pen(view, settings, {
       drawn: async ({ points, closed }) => {
-        const { tool, draft } = now.current;
+        const { tool, draft, both, status } = now.current, place = status!.lines.length;
         const height = tool === "valley" ? -draft.height : draft.height;
-        const line = { height, points, closed, ...(draft.width === null ? {} : { width: draft.width }) };
-        if (await ask("draw", line)) setChosen(now.current.status!.lines.length - 1);  // its sliders are open
+        const line = { height, points, closed, ...(draft.width === null ? {} : { width: draft.width }), ...(both ? { mirror: true } : {}) };
+        if (await ask("draw", line)) setChosen(place);  // its sliders are open
         else pen.drop();
       },
       tooShort: () => say("That was too short for a line: hold the button down and draw over the cloth."),
     });
-    parts.current = { program, view, pen };
+    const canDrag = () => {
+      const { tool, busy, chosen, status } = now.current;
+      return tool === "look" && !busy && chosen >= 0 && !!status?.lines[chosen]?.on && mayDrawNow();
+    };
+    const handles = new Handles(view, canDrag, {
+      moved: (points, isLive) => {
+        setDragging(isLive);
+        actions.set(now.current.chosen, { points }, isLive);
+      },
+      dropped: () => {
+        setDragging(false);
+        live.current.waiting = null;
+        void program.ask("show");
+      },
+    });
+    const hand = new Hand(view, () => (!mayDrawNow() ? "" : now.current.busy === "play" ? "pull" : now.current.tool === "pin" && !now.current.busy ? "pin" : ""), {
+      // What the program does not want to hear any more, as the cloth has just been paused, is no fault.
+      pulls: (grip) => void program.ask("pull", grip ?? {}).catch(() => undefined),
+      pins: (at, border) => void (border ? ask("hold", { at }) : ask("pin", { at })),
+    });
+    parts.current = { program, view, pen, handles, hand };
   }, []);
+  const mayDrawNow = () => {
+    const { status, me } = now.current;
+    return !!status && (status.pen === me || status.pen === 0);
+  };
+
+  // The dots of the chosen line.
+  useEffect(() => {
+    const { program, handles } = parts.current!, line = status?.lines[chosen];
+    if (!line || !line.on) return handles.take([], false);
+    program.ask("points", { line: chosen }).then((done) => handles.take(done.points ?? [], !!line.closed), () => handles.take([], false));
+  }, [status?.step, chosen, status?.lines[chosen]?.on]);
+  useEffect(() => parts.current!.handles.show(), [tool, busy]);
+  useEffect(() => parts.current!.view.showPlane(both && status ? (middle ?? status.middle) : null), [both, middle, status?.middle, frames]);
 
   // The list of lines that the picture shows is not the whole list: some may be switched off.
   useEffect(() => {
@@ -99,7 +149,8 @@ export function App({ token }: { token: string }) {
     set: (line, change, isLive) => {
       if (!isLive) {
         live.current.waiting = null;
-        void ask("set", { line, ...change });
+        // What is refused leaves no preview behind.
+        void ask("set", { line, ...change }).then((is) => void (is || parts.current!.program.ask("show")));
         return;
       }
       const send = async () => {
@@ -116,6 +167,12 @@ export function App({ token }: { token: string }) {
     mirror: async (line) => {
       if (await ask("mirror", { line })) setChosen(now.current.status!.lines.length - 1);
     },
+    duplicate: async (line) => {
+      if (await ask("duplicate", { line })) setChosen(now.current.status!.lines.length - 1);
+    },
+    move: async (line, to) => {
+      if (to >= 0 && to < now.current.status!.lines.length && (await ask("move", { line, to }))) setChosen(to);
+    },
   };
   const drape = async () => {
     if (busy) return;
@@ -125,6 +182,29 @@ export function App({ token }: { token: string }) {
       ...(done.remarks ?? [])].join("\n"));
     setBusy("");
     setProgress(undefined);
+  };
+  const keep = async () => {
+    if (busy) return;
+    setBusy("keep");
+    say("The lines are tried: each has to hold, at rest and in a gust …");
+    await ask("keep", {}, (done) => {
+      setVerdict({ step: now.current.status!.step, done });
+      return [done.all_hold ? "Every line holds." : "Not every line can hold; the list says why.", ...(done.remarks ?? [])].join("\n");
+    });
+    setBusy("");
+    setProgress(undefined);
+  };
+  const showTangles = async () => {
+    if (tangles) {
+      setTangles(false);
+      return parts.current!.view.colour(null);
+    }
+    await ask("tangles", {}, (done) => {
+      setTangles(done.pairs! > 0);
+      setFit("");
+      if (done.at) parts.current!.view.lookAt(new Vector3(...done.at));
+      return done.words!;
+    });
   };
   const pause = () => void parts.current!.program.ask("pause");
   /** Moves the cloth until it is paused, or takes one step. */
@@ -146,9 +226,21 @@ export function App({ token }: { token: string }) {
     }
     if (await ask("fit", { by }, (done) => `${done.words}\n${done.legend}`)) setFit(by);
   };
+  /** In a wind that changes while the cloth moves, it moves on. */
+  const blow = async (velocity: Vector) => {
+    const goesOn = now.current.busy === "play";
+    if ((await ask("wind", { velocity })) && goesOn) again.current = true;
+  };
+  const again = useRef(false);
+  useEffect(() => {
+    if (busy || !again.current) return;
+    again.current = false;
+    void play();
+  });
   const undo = () => void ask("undo");
   const redo = () => void ask("redo");
   const save = () => void ask("save", {}, (done) => `Saved in ${status?.title}: ${(done.written ?? []).join(", ")}.`);
+  const give = (as: string) => void ask("give", { as }, (done) => `Written: ${done.file}`);
   const toggle = (key: keyof Seen) => setSeen((s) => ({ ...s, [key]: !s[key] }));
   const pick = (t: Tool) => {
     if (t !== "look" && busy === "play") pause();  // who picks up a pen wants the cloth to hold still
@@ -166,15 +258,25 @@ export function App({ token }: { token: string }) {
         if (key === "z") act(e.shiftKey ? redo : undo);
         else if (key === "y") act(redo);
         else if (key === "s") act(save);
+        else if (key === "d" && chosen >= 0) act(() => actions.duplicate(chosen));
         return;
       }
+      if (e.altKey && chosen >= 0 && (key === "arrowup" || key === "arrowdown")) act(() => actions.move(chosen, chosen + (key === "arrowup" ? -1 : 1)));
       if (e.altKey) return;
       const plain: Record<string, () => void> = {
         r: () => pick("ridge"), v: () => pick("valley"), f: () => view.look(), "1": () => view.look("front"), "2": () => view.look("back"),
         "3": () => view.look("right"), b: () => toggle("body"), w: () => toggle("wire"), l: () => toggle("lines"), d: () => void drape(),
-        "?": () => setHelp(true), " ": () => void play(), escape: () => (parts.current!.pen.drawing ? parts.current!.pen.drop() : setTool("look")),
+        "?": () => setHelp(true), " ": () => void play(), escape: () => {
+          const { pen, handles } = parts.current!;
+          if (pen.drawing) return pen.drop();
+          if (!handles.dragging) return setTool("look");
+          handles.drop();
+        },
       };
-      if (chosen >= 0) Object.assign(plain, { delete: () => actions.remove(chosen), m: () => actions.mirror(chosen) });
+      Object.assign(plain, { p: () => pick("pin"), k: () => void keep(), t: () => void showTangles() });
+      if (isPen(now.current.tool)) plain.m = () => setBoth((b) => !b);
+      else if (chosen >= 0) plain.m = () => actions.mirror(chosen);
+      if (chosen >= 0) plain.delete = () => actions.remove(chosen);
       if (at === canvas.current)
         Object.assign(plain, {
           arrowleft: () => view.turn(-0.12, 0), arrowright: () => view.turn(0.12, 0), arrowup: () => view.turn(0, 0.12),
@@ -187,7 +289,16 @@ export function App({ token }: { token: string }) {
     return () => removeEventListener("keydown", press);
   });
 
-  const hint = !status ? "Opening …" : tool !== "look" ? `Draw on the cloth. Drag beside it to turn it. Shift: straight. Esc: lay the pen down.`
+  const clothActions: ClothActions = {
+    fabric: (name) => void ask("fabric", { name }), hold: (border, on) => void ask("hold", { border, on }), wind: (v) => void blow(v),
+    drape: () => void drape(), keep: () => void keep(), play: (seconds) => void play(seconds), fit: (by) => void showFit(by),
+    accept: () => {
+      setVerdict(undefined);
+      parts.current!.view.colour(null);
+    },
+    takeBack: undo,
+  };
+  const hint = !status ? "Opening …" : tool === "pin" ? "Click the cloth to hold it there, or to let it go. Shift: the whole border. Esc: enough." : tool !== "look" ? `Draw on the cloth. Drag beside it to turn it. Shift: straight. Esc: lay the pen down.`
     : status.lines.length === 0 && status.step === 0 ? "Pick Ridge or Valley above, then draw on the cloth. Drag to turn it." : "";
 
   return (
@@ -195,18 +306,26 @@ export function App({ token }: { token: string }) {
       <header>
         <h1 title={status?.title}>{status?.title ?? "Furrow studio"}</h1>
         <div class="group" role="group" aria-label="Pen">
-          {([["look", "Look", "Esc"], ["ridge", "Ridge", "R"], ["valley", "Valley", "V"]] as const).map(([t, label, key]) => (
+          {([["look", "Look", "Esc"], ["ridge", "Ridge", "R"], ["valley", "Valley", "V"], ["pin", "Pin", "P"]] as const).map(([t, label, key]) => (
             <button key={t} aria-pressed={tool === t} title={`${label} (${key})`} onClick={() => pick(t)}>{label}</button>
           ))}
         </div>
         <div class="group">
-          <Slider label="Height" value={draft.height * 1000} min={2} max={100} step={1} text={mm(draft.height)}
+          <Slider label="Height" value={draft.height * 1000} min={2} max={100} step={1} text={(v) => mm(v / 1000)}
             change={(v) => setDraft((d) => ({ ...d, height: v / 1000 }))} />
         </div>
         <div class="group">
           <Slider label="Width" value={(draft.width ?? ownWidth(draft.height)) * 1000} min={10} max={300} step={5}
-            text={draft.width === null ? "auto" : mm(draft.width)} change={(v) => setDraft((d) => ({ ...d, width: v / 1000 }))} />
+            text={(v, dragged) => (draft.width === null && !dragged ? "auto" : mm(v / 1000))} change={(v) => setDraft((d) => ({ ...d, width: v / 1000 }))} />
           {draft.width !== null && <button class="small" onClick={() => setDraft((d) => ({ ...d, width: null }))}>auto</button>}
+        </div>
+        <div class="group">
+          <button aria-pressed={both} title="Draw each line on the other side, too (M while a pen is up)" onClick={() => setBoth(!both)}>Both sides</button>
+          {both && status && <Slider label="Middle" value={status.middle * 1000} min={Math.round(status.middle * 1000) - 300} max={Math.round(status.middle * 1000) + 300} step={1}
+            text={(v) => mm(v / 1000)} change={(v, isLive) => {
+              setMiddle(isLive ? v / 1000 : null);
+              if (!isLive) void ask("middle", { x: v / 1000 });
+            }} />}
         </div>
         <div class="group">
           <button disabled={!status?.undo} title={status?.undo ? `Undo: ${status.undo} (Ctrl Z)` : "Nothing to undo"} onClick={undo}>Undo</button>
@@ -215,7 +334,7 @@ export function App({ token }: { token: string }) {
           <button title="Keys (?)" aria-label="Help" onClick={() => setHelp(true)}>?</button>
         </div>
       </header>
-      <main class={tool === "look" ? "" : "pen"}>
+      <main class={tool !== "look" ? "pen" : busy === "play" ? "hand" : ""}>
         <canvas ref={canvas} tabIndex={0} aria-label="The cloth. Arrow keys turn it, plus and minus bring it nearer." />
         {hint && <div class="hint" role="status">{hint}</div>}
         <div class="views" role="group" aria-label="View">
@@ -225,6 +344,7 @@ export function App({ token }: { token: string }) {
           <button class="small" title="Side (3)" onClick={() => parts.current!.view.look("right")}>Side</button>
           {status?.has_body && <button class="small" aria-pressed={seen.body} title="Body (B)" onClick={() => toggle("body")}>Body</button>}
           <button class="small" aria-pressed={seen.lines} title="Lines (L)" onClick={() => toggle("lines")}>Lines</button>
+          <button class="small" aria-pressed={tangles} disabled={busy !== "" || !mayDraw} title="Where cloth crosses cloth (T)" onClick={() => void showTangles()}>Tangles</button>
           <button class="small" aria-pressed={seen.wire} title="Wireframe (W)" onClick={() => toggle("wire")}>Wire</button>
         </div>
       </main>
@@ -235,40 +355,24 @@ export function App({ token }: { token: string }) {
             <p class="note">In the cloth since it moved: {status.earlier.join(", ")}. To change them, undo.</p>}
           {status && <Lines lines={status.lines} again={status.earlier.length > 0} chosen={chosen} actions={actions} />}
         </section>
-        {status && <section class="cloth" aria-label="Cloth">
-          <h2>Cloth</h2>
-          <label>Fabric
-            <select value={status.fabric} onChange={(e) => void ask("fabric", { name: e.currentTarget.value })}>
-              {status.fabrics.map((f) => <option key={f}>{f}</option>)}
-            </select>
-          </label>
-          {(status.holds_top || status.pins === 0) && <label class="check">
-            <input type="checkbox" checked={status.holds_top} onChange={(e) => void ask("hold", { on: e.currentTarget.checked })} />
-            Hold the upper border
-          </label>}
-          <div class="group">
-            <button class="main" disabled={!status.can_drape || busy !== "" || !mayDraw} title="Drape (D)" onClick={() => void drape()}>Drape</button>
-            <button disabled={!status.can_drape || busy === "drape" || !mayDraw} title="Play, pause (Space)" onClick={() => void play()}>
-              {busy === "play" ? "Pause" : "Play"}</button>
-            <button disabled={!status.can_drape || busy !== "" || !mayDraw} title="One step of 1/60 s" onClick={() => void play(1 / 60)}>Step</button>
-          </div>
-          {(busy === "play" || status.time > 0) && <p class="note" data-time={moving}>At {(busy === "play" ? moving : status.time).toFixed(2)} s of its motion.</p>}
-          {status.has_body && <div class="group" role="group" aria-label="Fit">
-            <span>Fit</span>
-            {(["strain", "distance"] as const).map((by) => (
-              <button key={by} aria-pressed={fit === by} disabled={busy !== "" || !mayDraw} onClick={() => void showFit(by)}>
-                {by === "strain" ? "Strain" : "Distance"}</button>
+        {status && <Cloth status={status} busy={busy} mayDraw={mayDraw} fit={fit} moving={moving} kept={verdict?.step === status.step ? verdict.done : undefined} actions={clothActions} />}
+        {status && <section aria-label="Give away">
+          <h2>Give away</h2>
+          <div class="group wrap">
+            {([["ply", "PLY", "The mesh, with all that is known of it"], ["obj", "OBJ", "The mesh"], ["glb", "GLB", "The mesh, for viewers and games"],
+              ["original", "Original", "This shape on the vertices and faces of the garment's own file"]] as const).map(([as, label, title]) => (
+              <button key={as} class="small" title={title} disabled={busy !== "" || !mayDraw} onClick={() => give(as)}>{label}</button>
             ))}
-          </div>}
-          <p class="note">{status.can_drape ? "Drape lets the cloth come to rest under its weight; Play lets it move." : "To drape it, hold its upper border, or open it with --body."}</p>
+            <button class="small" title="What is seen, as PNG" onClick={() => parts.current!.view.savePicture(`${status.title}.png`)}>Picture</button>
+          </div>
         </section>}
       </aside>
-      <footer data-step={status?.step} data-frames={frames} data-lines={status?.lines.length}>
+      <footer data-dragging={dragging} data-step={status?.step} data-frames={frames} data-lines={status?.lines.length}>
         <div class={words.bad ? "say bad" : "say"} role={words.bad ? "alert" : "status"}>
           {gone ? "The program has ended. Every step is kept: start furrow studio again to go on." : words.text}
         </div>
         {!mayDraw && status && !gone && <button class="main" onClick={() => void ask("take")}>Take the pen</button>}
-        {(busy === "drape" || progress) && <>
+        {(busy === "drape" || busy === "keep" || progress) && <>
           <span>{progress?.what}</span>
           <progress max={1} value={progress?.share} aria-label={progress?.what ?? "working"} />
           <button onClick={() => void parts.current!.program.ask("cancel")}>Cancel</button>

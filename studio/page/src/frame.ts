@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh as the program sends it (studio/frame_bytes.h).
 
-export const enum Kind { cloth = 0, body = 1, preview = 2, moving = 3, colours = 4 }
+export const enum Kind { cloth = 0, body = 1, preview = 2, moving = 3, colours = 4, movingBody = 5 }
 
 export interface Frame {
   kind: Kind;
@@ -12,8 +12,8 @@ export interface Frame {
   pinned: Uint32Array;
 }
 
-/** Where the vertices of the cloth are while it moves. */
-export interface Moving { kind: Kind.moving; time: number; positions: Float32Array }
+/** Where the vertices of the cloth, or of the body, are while they move. */
+export interface Moving { kind: Kind.moving | Kind.movingBody; time: number; positions: Float32Array }
 
 /** Red, green and blue of each vertex, in [0, 255]. */
 export interface Colours { kind: Kind.colours; colours: Uint8Array }
@@ -21,7 +21,7 @@ export interface Colours { kind: Kind.colours; colours: Uint8Array }
 export function readFrame(bytes: ArrayBuffer): Frame | Moving | Colours {
   const start = new Uint32Array(bytes, 0, 4);
   if (start[0] !== 0x57525546) throw new Error("this is no mesh");
-  if (start[1] === Kind.moving) return { kind: Kind.moving, time: start[3] / 1000, positions: new Float32Array(bytes, 16, 3 * start[2]) };
+  if (start[1] === Kind.moving || start[1] === Kind.movingBody) return { kind: start[1], time: start[3] / 1000, positions: new Float32Array(bytes, 16, 3 * start[2]) };
   if (start[1] === Kind.colours) return { kind: Kind.colours, colours: new Uint8Array(bytes, 16, 3 * start[2]) };
   const head = new Uint32Array(bytes, 0, 6);
   const [, kind, vertices, faces, edges, pinned] = head;

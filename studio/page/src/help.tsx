@@ -3,9 +3,11 @@ import { useEffect, useRef } from "preact/hooks";
 
 const keys: [string, string][] = [
   ["R", "ridge pen"], ["V", "valley pen"], ["Shift", "while drawing: a straight line"], ["Esc", "drop the line, or lay the pen down"],
-  ["Ctrl Z", "undo"], ["Ctrl Y", "do again"], ["Ctrl S", "save"], ["Delete", "delete the chosen line"], ["M", "mirror it"],
+  ["Ctrl Z", "undo"], ["Ctrl Y", "do again"], ["Ctrl S", "save"], ["Delete", "delete the chosen line"],
+  ["M", "mirror it; while a pen is up: draw on both sides"], ["Ctrl D", "duplicate it"], ["Alt ↑ ↓", "move it in the order of lines"],
   ["F", "frame the cloth"], ["1 2 3", "front, back, side"], ["← → ↑ ↓", "turn (with the picture in focus)"], ["+ −", "nearer, farther"],
-  ["B", "body"], ["W", "wireframe"], ["L", "lines"], ["Space", "play, pause"], ["D", "drape: let it come to rest"], ["?", "this page"],
+  ["B", "body"], ["W", "wireframe"], ["L", "lines"], ["Space", "play, pause"], ["D", "drape: let it come to rest"], ["K", "keep: make the lines last"],
+  ["P", "pin by clicks; with Shift a whole border"], ["T", "tangles: where cloth crosses cloth"], ["?", "this page"],
 ];
 
 export function Help({ close }: { close: () => void }) {
@@ -15,8 +17,8 @@ export function Help({ close }: { close: () => void }) {
     <dialog ref={dialog} onClose={close} aria-labelledby="help-title">
       <h2 id="help-title">How it works</h2>
       <p>Pick the ridge or the valley pen and draw on the cloth: it wrinkles there when you lift the pen. Drag beside the cloth to turn it,
-        with the right button to move it; the wheel brings it nearer. Every line stays in the list and can be changed. <b>Play</b> lets the
-        cloth move until you pause it, <b>Drape</b> lets it come to rest under its weight; then you can draw more. Each step can be undone, and is kept on disk.</p>
+        with the right button to move it; the wheel brings it nearer. Every line stays in the list and can be changed; a chosen one is dragged by
+        its dots. <b>Play</b> lets the cloth move until you pause it (pull at it meanwhile), <b>Keep</b> makes its lines last, <b>Drape</b> lets it come to rest under its weight; then you can draw more. Each step can be undone, and is kept on disk.</p>
       <table>
         <tbody>{keys.map(([key, what]) => <tr key={key}><td><kbd>{key}</kbd></td><td>{what}</td></tr>)}</tbody>
       </table>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list of lines, and the one that is being changed.
+import { useRef, useState } from "preact/hooks";
 import type { Line } from "./protocol";
 
 export interface LineActions {
@@ -8,25 +9,40 @@ export interface LineActions {
   set(line: number, change: object, live: boolean): void;
   remove(line: number): void;
   mirror(line: number): void;
+  duplicate(line: number): void;
+  move(line: number, to: number): void;
 }
 
 export const mm = (metres: number) => `${Math.round(metres * 1000)} mm`;
 /** The width of a fold that names none, as the program chooses it. */
 export const ownWidth = (height: number) => 5 * Math.abs(height);
 
-interface SliderProps { label: string; value: number; min: number; max: number; step: number; text: string; change(value: number, live: boolean): void }
+/** The sharpness of a fold that names none. */
+const usualSharpness = 0.5;
+
+interface SliderProps { label: string; value: number; min: number; max: number; step: number; text(value: number, dragged: boolean): string; change(value: number, live: boolean): void }
+/** `text`: of a value, as it is said. While it is dragged it shows where it is, whatever comes from the program meanwhile. */
 export function Slider({ label, value, min, max, step, text, change }: SliderProps) {
+  const [dragged, setDragged] = useState<number | null>(null);
+  const at = dragged ?? value, said = text(at, dragged !== null);
   return (
     <>
       <span aria-hidden="true">{label}</span>
-      <input type="range" aria-label={label} aria-valuetext={text} {...{ min, max, step, value }}
-        onInput={(e) => change(e.currentTarget.valueAsNumber, true)} onChange={(e) => change(e.currentTarget.valueAsNumber, false)} />
-      <output class="much">{text}</output>
+      <input type="range" aria-label={label} aria-valuetext={said} {...{ min, max, step }} value={at}
+        onInput={(e) => {
+          setDragged(e.currentTarget.valueAsNumber);
+          change(e.currentTarget.valueAsNumber, true);
+        }}
+        onChange={(e) => {
+          setDragged(null);
+          change(e.currentTarget.valueAsNumber, false);
+        }} />
+      <output class="much">{said}</output>
     </>
   );
 }
 
-function Edit({ line, index, actions }: { line: Line; index: number; actions: LineActions }) {
+function Edit({ line, index, count, actions }: { line: Line; index: number; count: number; actions: LineActions }) {
   const height = line.height ?? 0.01, sign = height < 0 ? -1 : 1;
   const set = (change: object, live = false) => actions.set(index, change, live);
   return (
@@ -39,31 +55,59 @@ function Edit({ line, index, actions }: { line: Line; index: number; actions: Li
         <button class="small" aria-pressed={sign < 0} onClick={() => set({ height: -Math.abs(height) })}>Valley</button>
       </span>
       <Slider label="Height" value={Math.abs(height) * 1000} min={0} max={Math.max(100, Math.abs(height) * 1000)} step={1}
-        text={line.varies ? "varies" : mm(Math.abs(height))} change={(v, live) => set({ height: (sign * v) / 1000 }, live)} />
+        text={(v, dragged) => (line.varies && !dragged ? "varies" : mm(v / 1000))} change={(v, live) => set({ height: (sign * v) / 1000 }, live)} />
       <Slider label="Width" value={(line.width ?? ownWidth(height)) * 1000} min={5} max={Math.max(300, (line.width ?? 0) * 1000)} step={1}
-        text={line.width === undefined ? "auto" : mm(line.width)} change={(v, live) => set({ width: v / 1000 }, live)} />
+        text={(v, dragged) => (line.width === undefined && !dragged ? "auto" : mm(v / 1000))} change={(v, live) => set({ width: v / 1000 }, live)} />
       {line.width !== undefined && <span class="wide"><button class="small" onClick={() => set({ width: null })}>Width by itself</button></span>}
-      <Slider label="Sharpness" value={line.sharpness ?? 0} min={0} max={1} step={0.05} text={(line.sharpness ?? 0).toFixed(2)}
+      <Slider label="Sharpness" value={line.sharpness ?? usualSharpness} min={0} max={1} step={0.05} text={(v) => v.toFixed(2)}
         change={(v, live) => set({ sharpness: v }, live)} />
-      <span class="wide"><button class="small" title="Draw it on the other side, too (M)" onClick={() => actions.mirror(index)}>Mirror</button></span>
+      <Slider label="Press" value={Math.log10(line.press ?? 1)} min={0} max={2} step={0.1} text={(v) => `× ${(10 ** v).toFixed(10 ** v < 10 ? 1 : 0)}`}
+        change={(v, live) => !live && set({ press: Number((10 ** v).toPrecision(3)) })} />
+      <span class="wide">
+        <button class="small" title="Draw it on the other side, too (M)" onClick={() => actions.mirror(index)}>Mirror</button>
+        <button class="small" title="Once more, beside it (Ctrl D)" onClick={() => actions.duplicate(index)}>Duplicate</button>
+        <button class="small" aria-label="Move up" title="Earlier in the order (Alt ↑)" disabled={index === 0} onClick={() => actions.move(index, index - 1)}>↑</button>
+        <button class="small" aria-label="Move down" title="Later in the order (Alt ↓)" disabled={index === count - 1} onClick={() => actions.move(index, index + 1)}>↓</button>
+      </span>
     </div>
   );
 }
 
 export function Lines({ lines, again, chosen, actions }: { lines: Line[]; again: boolean; chosen: number; actions: LineActions }) {
+  const list = useRef<HTMLUListElement>(null);
+  const [held, setHeld] = useState(-1);  // the line that is dragged to another place
+  const [over, setOver] = useState(-1);
+  const begin = (e: PointerEvent, i: number) => {
+    (e.currentTarget as HTMLElement).setPointerCapture(e.pointerId);
+    setHeld(i);
+    setOver(i);
+  };
+  const move = (e: PointerEvent) => {
+    if (held < 0) return;
+    const rows = [...list.current!.children].map((row) => row.getBoundingClientRect());
+    const above = rows.filter((row, i) => i !== held && e.clientY > row.top + Math.min(row.height, 40) / 2).length;
+    setOver(above);
+  };
+  const drop = () => {
+    if (held >= 0 && over >= 0 && over !== held) actions.move(held, over);
+    setHeld(-1);
+    setOver(-1);
+  };
   if (lines.length === 0) return <p class="note">{again ? "No line since then." : "No line yet."} Pick a pen and draw on the cloth.</p>;
   return (
-    <ul class="lines">
+    <ul class="lines" ref={list}>
       {lines.map((line, i) => (
-        <li key={i} class={i === chosen ? "chosen" : ""}>
+        <li key={i} class={[i === chosen ? "chosen" : "", i === held ? "held" : "", i === over && over !== held ? (over > held ? "below" : "above") : ""].join(" ")}>
           <div class={line.on ? "row" : "row off"}>
+            {lines.length > 1 && <span class="grip" aria-hidden="true" title="Drag to change the order" onPointerDown={(e) => begin(e, i)}
+              onPointerMove={move} onPointerUp={drop} onPointerCancel={() => setHeld(-1)}>⠿</span>}
             <input type="checkbox" checked={line.on} aria-label={`${line.name}: on`} onChange={(e) => actions.set(i, { on: e.currentTarget.checked }, false)} />
             <span class={(line.height ?? 1) < 0 ? "dot valley" : "dot"} aria-hidden="true" />
             <button class="name" aria-expanded={i === chosen} onClick={() => actions.choose(i === chosen ? -1 : i)}>{line.name}</button>
             <span class="much">{line.varies ? "varies" : mm(Math.abs(line.height ?? 0.01))}</span>
             <button class="small" aria-label={`Delete ${line.name}`} title="Delete" onClick={() => actions.remove(i)}>✕</button>
           </div>
-          {i === chosen && <Edit line={line} index={i} actions={actions} />}
+          {i === chosen && <Edit key={i} line={line} index={i} count={lines.length} actions={actions} />}
         </li>
       ))}
     </ul>

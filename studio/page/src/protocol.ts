@@ -4,11 +4,18 @@
 export interface Line {
   name: string; on: boolean; varies: boolean; height?: number; width?: number; sharpness?: number; press?: number; closed?: boolean;
 }
+/** A closed border of the cloth: a hem, a neck, an arm hole; "top", "bottom", or a number. */
+export interface Border { name: string; length: number; held: boolean }
+export type Vector = [number, number, number];
 export interface Status {
-  title: string; lines: Line[]; shown: number[]; earlier: string[]; fabric: string; fabrics: string[]; holds_top: boolean; pins: number;
+  title: string; lines: Line[]; shown: number[]; earlier: string[]; fabric: string; fabrics: string[]; borders: Border[]; wind: Vector; middle: number;
   has_body: boolean; can_drape: boolean; time: number; undo: string; redo: string; step: number; pen: number;
 }
-export interface Done { told?: string[]; outcome?: string; time?: number; words?: string; legend?: string; remarks?: string[]; written?: string[]; live?: boolean; passed_over?: boolean }
+export interface Verdict { name: string; verdict: "held" | "pressed" | "strutted" | "lowered" | "cannot_hold"; words: string }
+export interface Done {
+  told?: string[]; outcome?: string; time?: number; words?: string; legend?: string; remarks?: string[]; written?: string[]; live?: boolean; passed_over?: boolean;
+  points?: Vector[]; verdicts?: Verdict[]; all_hold?: boolean; pairs?: number; at?: Vector; file?: string;
+}
 export interface Progress { what: string; share: number }
 export interface Hearer {
   status(status: Status): void; you(client: number): void; progress(progress: Progress): void; frame(bytes: ArrayBuffer): void; gone(): void;

@@ -8,7 +8,7 @@ import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeome
 import { MeshBVH } from "three-mesh-bvh";
 import { type Frame, Kind } from "./frame";
 
-export interface Hit { shown: THREE.Vector3; normal: THREE.Vector3; undrawn: THREE.Vector3 }
+export interface Hit { shown: THREE.Vector3; normal: THREE.Vector3; undrawn: THREE.Vector3; vertex: number }
 export interface Seen { body: boolean; wire: boolean; lines: boolean }
 export type Side = "front" | "back" | "right";
 
@@ -36,6 +36,11 @@ export class View {
   private lines = new THREE.Group();
   private clothTree?: MeshBVH;
   private bodyTree?: MeshBVH;
+  private undrawnTree?: MeshBVH;  // of the present frame, where it was asked for
+  private treesAreOld = false;    // things have moved since the trees were fitted
+  private handles: THREE.Points;
+  private plane: THREE.Mesh;
+  private rope: THREE.Line;
   private frame?: Frame;
   private asked = false;
   private framed = false;
@@ -54,6 +59,12 @@ export class View {
     this.wire = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 }));
     this.band = mesh(new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.55, side, depthWrite: false }));
     this.pins = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 5, sizeAttenuation: false }));
+    this.handles = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 13, sizeAttenuation: false, depthTest: false, transparent: true }));
+    this.plane = mesh(new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.14, side, depthWrite: false }));
+    this.rope = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ depthTest: false }));
+    this.plane.visible = this.rope.visible = this.handles.visible = false;
+    this.handles.renderOrder = this.rope.renderOrder = 3;
+    this.scene.add(this.handles, this.plane, this.rope);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8d8478, 1.15), this.key, this.key.target);
     this.scene.add(this.cloth, this.body, this.wire, this.lines, this.pins, this.band);
     const scheme = matchMedia("(prefers-color-scheme: dark)");
@@ -70,7 +81,9 @@ export class View {
     if (!cloth.vertexColors) cloth.color.set(this.colours.cloth);
     (this.body.material as THREE.MeshStandardMaterial).color.set(this.colours.body);
     (this.wire.material as THREE.LineBasicMaterial).color.set(this.colours.wire);
-    (this.pins.material as THREE.PointsMaterial).color.set(this.colours.valley);
+    for (const dots of [this.pins, this.handles]) (dots.material as THREE.PointsMaterial).color.set(this.colours.valley);
+    (this.plane.material as THREE.MeshBasicMaterial).color.set(this.colours.valley);
+    (this.rope.material as THREE.LineBasicMaterial).color.set(this.colours.ridge);
     this.showLines();
   }
 
@@ -112,6 +125,7 @@ export class View {
       return this.draw();
     }
     this.frame = frame;
+    this.undrawnTree = undefined;
     this.cloth.geometry.dispose();
     this.cloth.geometry = this.geometryOf(frame);
     this.colour(null);
@@ -145,12 +159,25 @@ export class View {
     if (!this.frame || positions.length !== this.frame.positions.length) return;
     this.colour(null);
     this.frame.positions.set(positions);
+    this.treesAreOld = true;
     this.cloth.geometry.getAttribute("position").needsUpdate = true;
     this.cloth.geometry.computeVertexNormals();
     this.cloth.geometry.computeBoundingSphere();
     this.showWire();
     this.showLines();
     this.showPins();
+    this.draw();
+  }
+
+  /** The body as it moves. */
+  moveBody(positions: Float32Array) {
+    const at = this.body.geometry.getAttribute("position") as THREE.BufferAttribute | undefined;
+    if (!at || at.array.length !== positions.length) return;
+    (at.array as Float32Array).set(positions);
+    at.needsUpdate = true;
+    this.body.geometry.computeVertexNormals();
+    this.body.geometry.computeBoundingSphere();
+    this.treesAreOld = true;
     this.draw();
   }
 
@@ -222,6 +249,11 @@ export class View {
   /** The cloth under a place of the window, unless the body hides it. */
   pick(x: number, y: number): Hit | null {
     if (!this.clothTree || !this.frame) return null;
+    if (this.treesAreOld) {
+      this.clothTree.refit();
+      this.bodyTree?.refit();
+      this.treesAreOld = false;
+    }
     const ray = this.rayThrough(x, y);
     const hit = this.clothTree.raycastFirst(ray, THREE.DoubleSide);
     if (!hit?.face) return null;
@@ -235,7 +267,98 @@ export class View {
     const normals = this.cloth.geometry.getAttribute("normal").array;
     const blend = (list: ArrayLike<number>) =>
       at(list, a).multiplyScalar(weights.x).addScaledVector(at(list, b), weights.y).addScaledVector(at(list, c), weights.z);
-    return { shown: hit.point.clone(), normal: blend(normals).normalize(), undrawn: blend(undrawn) };
+    const corner = weights.x >= weights.y && weights.x >= weights.z ? a : weights.y >= weights.z ? b : c;
+    return { shown: hit.point.clone(), normal: blend(normals).normalize(), undrawn: blend(undrawn), vertex: corner };
+  }
+
+  /** Where the ray through a place of the window meets the plane through a point that faces the camera. */
+  dragTo(x: number, y: number, through: THREE.Vector3): THREE.Vector3 | null {
+    const facing = new THREE.Plane().setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new THREE.Vector3()), through);
+    return this.rayThrough(x, y).intersectPlane(facing, new THREE.Vector3());
+  }
+
+  placeOf(vertex: number): THREE.Vector3 {
+    return new THREE.Vector3().fromArray(this.frame!.positions, 3 * vertex);
+  }
+
+  /** The place of the window under which a point lies [pixels]. */
+  windowPlace(point: THREE.Vector3): [number, number] {
+    const box = this.canvas.getBoundingClientRect(), at = point.clone().project(this.camera);
+    return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
+  }
+
+  /** The nearest point of the cloth without its lines, and the same point with them. */
+  nearest(point: THREE.Vector3): { undrawn: THREE.Vector3; shown: THREE.Vector3 } | null {
+    if (!this.frame) return null;
+    const { positions, undrawn, faces } = this.frame;
+    if (!this.undrawnTree) {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", new THREE.BufferAttribute(undrawn, 3));
+      geometry.setIndex(new THREE.BufferAttribute(faces.slice(), 1));
+      this.undrawnTree = new MeshBVH(geometry);
+    }
+    const hit = this.undrawnTree.closestPointToPoint(point);
+    if (!hit) return null;
+    const index = this.undrawnTree.geometry.index!.array, corners = [0, 1, 2].map((k) => index[3 * hit.faceIndex + k]);
+    const at = (list: Float32Array, v: number) => new THREE.Vector3().fromArray(list, 3 * v);
+    const [a, b, c] = corners.map((v) => at(undrawn, v));
+    const w = THREE.Triangle.getBarycoord(hit.point, a, b, c, new THREE.Vector3());
+    if (!w) return { undrawn: hit.point.clone(), shown: at(positions, corners[0]) };
+    const shown = at(positions, corners[0]).multiplyScalar(w.x).addScaledVector(at(positions, corners[1]), w.y).addScaledVector(at(positions, corners[2]), w.z);
+    return { undrawn: hit.point.clone(), shown };
+  }
+
+  /** Dots by which the chosen line is dragged. */
+  showHandles(points: THREE.Vector3[]) {
+    this.handles.visible = points.length > 0;
+    this.handles.geometry.dispose();
+    this.handles.geometry = new THREE.BufferGeometry().setFromPoints(points);
+    this.draw();
+  }
+
+  /** The plane x = middle at which lines are mirrored; null: hidden. */
+  showPlane(middle: number | null) {
+    this.plane.visible = middle !== null && !!this.frame;
+    if (middle !== null && this.frame) {
+      const box = new THREE.Box3().setFromBufferAttribute(this.cloth.geometry.getAttribute("position") as THREE.BufferAttribute);
+      const size = box.getSize(new THREE.Vector3()), centre = box.getCenter(new THREE.Vector3());
+      this.plane.geometry.dispose();
+      this.plane.geometry = new THREE.PlaneGeometry(1.4 * size.z + 0.1 * this.size, 1.1 * size.y).rotateY(Math.PI / 2);
+      this.plane.position.set(middle, centre.y, centre.z);
+    }
+    this.draw();
+  }
+
+  /** From the cloth that is pulled to the pointer; null: none. */
+  showRope(ends: [THREE.Vector3, THREE.Vector3] | null) {
+    this.rope.visible = ends !== null;
+    if (ends) {
+      this.rope.geometry.dispose();
+      this.rope.geometry = new THREE.BufferGeometry().setFromPoints(ends);
+    }
+    this.draw();
+  }
+
+  /** What is seen goes to the browser's downloads. */
+  savePicture(name: string) {
+    this.renderer.render(this.scene, this.camera);  // what was drawn before is gone from the canvas
+    this.canvas.toBlob((picture) => {
+      if (!picture) return;
+      const link = document.createElement("a");
+      link.href = URL.createObjectURL(picture);
+      link.download = name;
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    });
+  }
+
+  /** Brings a point into the middle of the picture, and nearer. */
+  lookAt(point: THREE.Vector3) {
+    const way = this.camera.position.clone().sub(this.controls.target);
+    this.controls.target.copy(point);
+    this.camera.position.copy(point).addScaledVector(way.normalize(), 0.9 * this.size);
+    this.controls.update();
+    this.draw();
   }
 
   /** The band that a line would raise, while it is drawn; of no hits: none. */

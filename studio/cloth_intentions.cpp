@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a page asks of the cloth: how it is held, what it is made of, and that it come to rest or move.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "jobs/fit_sketch.h"
+#include "jobs/keep_sketch.h"
+#include "jobs/sketch_pins.h"
+#include "jobs/sketch_tangles.h"
+#include "studio/drawing.h"
+#include "studio/frame_bytes.h"
+#include "studio/session.h"
+
+namespace furrow::studio {
+namespace {
+
+constexpr std::size_t most_pulls = 200000;  // of one play
+constexpr double nearest_pin = 0.05;        // [m]
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f s", seconds);
+  return text;
+}
+
+bool wanted(const Json& body) {
+  const Json on = body.value("on", Json());
+  if (!on.is_boolean()) throw Refused("on: is neither true nor false");
+  return on == true;
+}
+
+std::array<double, 3> point_of(const Json& body, const char* key) {
+  const auto found = body.find(key);
+  if (found == body.end() || !found->is_array() || found->size() != 3)
+    throw Refused(std::string(key) + ": is three numbers");
+  std::array<double, 3> point{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Json& x = (*found)[k];
+    if (!x.is_number() || !(std::abs(x.get<double>()) < 1e6))
+      throw Refused(std::string(key) + ": is three numbers");
+    point[k] = x.get<double>();
+  }
+  return point;
+}
+
+/// A grip as it stands in a message, and in the log of a play; none: the hand lets go.
+std::optional<jobs::Grip> grip_of(const Json& body) {
+  if (!body.contains("vertex")) return std::nullopt;
+  return jobs::Grip{int(index_of(body, "vertex", std::size_t{1} << 30)), point_of(body, "to")};
+}
+
+/// The hand of a play that is done again: the pulls of the first time, at the same times.
+struct RecordedHand {
+  std::vector<std::pair<double, std::optional<jobs::Grip>>> pulls;
+  std::size_t next = 0;
+  std::optional<jobs::Grip> now = std::nullopt;
+
+  std::optional<jobs::Grip> at(double time) {
+    while (next < pulls.size() && pulls[next].first <= time) now = pulls[next++].second;
+    return now;
+  }
+};
+
+RecordedHand recorded_hand(const Json& body) {
+  RecordedHand hand;
+  const Json& pulls = body.at("pulls");
+  if (!pulls.is_array() || pulls.size() > most_pulls) throw Refused("pulls: is no list of pulls");
+  for (const Json& pull : pulls) {
+    if (!pull.is_object()) throw Refused("pulls: is no list of pulls");
+    hand.pulls.emplace_back(number_of(pull, "time", 0, 1e6), grip_of(pull));
+  }
+  return hand;
+}
+
+Json row_of_pull(double time, const std::optional<jobs::Grip>& grip) {
+  Json row{{"time", time}};
+  if (grip) row.update({{"vertex", grip->vertex}, {"to", grip->to}});
+  return row;
+}
+
+}  // namespace
+
+Json Session::choose_fabric(const Json& body) {
+  Json drawing = project_->now().drawing;
+  const std::string name = text_of(body, "name");
+  drawing["settings"]["material"]["preset"] = name;
+  change("choose " + name, std::move(drawing));
+  return Json::object();
+}
+
+Json Session::blow(const Json& body) {
+  Json drawing = project_->now().drawing;
+  const std::array<double, 3> wind = point_of(body, "velocity");
+  for (const double v : wind)
+    if (std::abs(v) > 50) throw Refused("velocity: air moves by at most 50 m/s here");
+  const bool calm = wind == std::array<double, 3>{};
+  drawing["settings"]["forces"]["wind"] = wind;
+  change(calm ? "calm the wind" : "change the wind", std::move(drawing));
+  return Json::object();
+}
+
+void Session::change_pins(const std::string& what, Json pins) {
+  Json drawing = project_->now().drawing;
+  drawing["settings"]["pins"] = std::move(pins);
+  drawing.erase("motion");  // whose pins are others
+  change(what, std::move(drawing));
+}
+
+Json Session::hold(const Json& body) {
+  const std::vector<jobs::SketchBorder> borders = jobs::borders_of(sketch_);
+  std::size_t border = 0;
+  if (body.contains("border"))
+    border = index_of(body, "border", borders.size());
+  else if (body.contains("at"))
+    border = jobs::nearest_border(sketch_, point_of(body, "at"));
+  else
+    while (border + 1 < borders.size() && borders[border].name != "top") ++border;
+  if (borders.empty()) throw Refused("the cloth is closed: it has no border to hold");
+  const bool held = borders[border].held,
+             on = body.contains("at") && !body.contains("on") ? !held : wanted(body);
+  if (held == on) throw Refused(on ? "that border is held already" : "nothing holds that border");
+  Json pins = jobs::with_border(sketch_, border, on);
+  change_pins((on ? "hold border " : "let go of border ") + borders[border].name, std::move(pins));
+  return Json::object();
+}
+
+Json Session::pin(const Json& body) {
+  Json pins = jobs::with_vertex_toggled(sketch_, point_of(body, "at"), nearest_pin);
+  change_pins("change a pin", std::move(pins));
+  return Json::object();
+}
+
+void Session::take_result(const std::string& word, const std::string& what, const io::MeshFile& file,
+                          Json motion) {
+  Json drawing = project_->now().drawing;
+  const std::string name = free_name_of_file(word) + ".ply";
+  jobs::write_sketched(sketch_, file, project_->folder() / name, *this);
+  take_as_garment(name, jobs::pins_after(sketch_, file), drawing);
+  drawing.erase("motion");
+  if (!motion.is_null()) drawing["motion"] = std::move(motion);
+  change(what, std::move(drawing));
+}
+
+Json Session::drape(const Json&) {
+  const jobs::SketchAtRest rest = jobs::drape_sketch(sketch_, strokes_on(project_->now().drawing), *this);
+  take_result("rest", "drape", rest.file, nullptr);
+  return {{"outcome", rest.outcome}, {"remarks", rest.remarks}};
+}
+
+Json Session::keep(const Json&) {
+  const jobs::KeptSketch kept = jobs::keep_sketch(sketch_, strokes_on(project_->now().drawing), *this);
+  take_result("kept", "keep", kept.file, nullptr);
+  out_.show(everybody, std::make_shared<const std::string>(colour_bytes(kept.colours)));
+  Json lines = Json::array();
+  for (const jobs::KeptSketchLine& line : kept.lines)
+    lines.push_back({{"name", line.name}, {"verdict", line.verdict}, {"words", line.words}});
+  return {
+      {"verdicts", lines}, {"all_hold", kept.all_hold}, {"legend", kept.legend}, {"remarks", kept.remarks}};
+}
+
+Json Session::play(const Json& body) {
+  const Json drawing = project_->now().drawing;
+  const Json before = drawing.value("motion", Json::object());
+  jobs::PlayRequest request;
+  request.seconds =
+      body.contains("seconds") ? number_of(body, "seconds", 1e-4, jobs::longest_play) : jobs::longest_play;
+  const std::string state = free_name_of_file("run") + "-state.ply";
+  request.new_state = project_->folder() / state;
+  if (before.contains("state")) request.state = project_->folder() / before["state"].get<std::string>();
+  request.watch = [this](double time, const std::vector<float>& positions) { show_moving(time, positions); };
+  request.watch_body = [this](const std::vector<float>& positions) { show_moving_body(positions); };
+  Json pulls = Json::array();
+  std::optional<RecordedHand> again;
+  if (body.contains("pulls")) again = recorded_hand(body);
+  request.hand = [&, last = std::optional<jobs::Grip>()](double time) mutable {
+    const std::optional<jobs::Grip> grip = again ? again->at(time) : present_grip();
+    if (grip != last) pulls.push_back(row_of_pull(time, grip));
+    return last = grip;
+  };
+  struct Playing {
+    explicit Playing(Session& of) : session(of) { session.begin_play(true); }
+    ~Playing() { session.begin_play(false); }
+    Session& session;
+  } playing(*this);
+  const jobs::PlayedSketch played = jobs::play_sketch(sketch_, strokes_on(drawing), request, *this);
+  cancelled_ = false;  // it was paused: what was reached is kept
+  did_ = {{"do", "play"}, {"seconds", played.time - before.value("time", 0.0)}};
+  if (!pulls.empty()) did_["pulls"] = pulls;
+  take_result("run", "move to " + seconds_text(played.time), played.file,
+              motion_after(drawing, state, played.time, !pulls.empty()));
+  return {{"time", played.time}, {"remarks", played.remarks}};
+}
+
+void Session::begin_play(bool on) {
+  const std::lock_guard lock(grip_mutex_);
+  playing_ = on;
+  grip_.reset();
+}
+
+std::optional<jobs::Grip> Session::present_grip() {
+  const std::lock_guard lock(grip_mutex_);
+  return grip_;
+}
+
+void Session::pull(Client client, const Message& message) {
+  try {
+    if (pen_ != client) throw Refused("another page is drawing");
+    const std::optional<jobs::Grip> grip = grip_of(message.body);
+    const std::lock_guard lock(grip_mutex_);
+    if (!playing_) throw Refused("the cloth does not move; press Play, and pull then");
+    grip_ = grip;
+  } catch (const Refused& e) {
+    return out_.tell(client, {{"id", message.id}, {"refused", e.what()}});
+  }
+  out_.tell(client, {{"id", message.id}, {"done", Json::object()}});
+}
+
+Json Session::fit(const Json& body) {
+  const std::string by = text_of(body, "by");
+  if (by != "strain" && by != "distance") throw Refused("by: is neither strain nor distance");
+  const auto colour = by == "strain" ? jobs::FitColour::strain : jobs::FitColour::distance;
+  const jobs::SketchFit found = jobs::fit_sketch(sketch_, strokes_on(project_->now().drawing), colour, *this);
+  out_.show(everybody, std::make_shared<const std::string>(colour_bytes(found.colours)));
+  return {{"words", found.words}, {"legend", found.legend}};
+}
+
+Json Session::find_tangles(const Json&) {
+  const jobs::SketchTangles found = jobs::find_tangles(sketch_, strokes_on(project_->now().drawing), *this);
+  if (found.pairs > 0) out_.show(everybody, std::make_shared<const std::string>(colour_bytes(found.colours)));
+  Json answer{{"words", found.words}, {"pairs", found.pairs}};
+  if (found.worst) answer["at"] = *found.worst;
+  return answer;
+}
+
+void Session::show_moving(double time, const std::vector<float>& positions) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - moving_shown_ < std::chrono::milliseconds(15)) return;  // no display shows more
+  moving_shown_ = now;
+  out_.show(everybody, std::make_shared<const std::string>(moving_bytes(time, positions)));
+}
+
+void Session::show_moving_body(const std::vector<float>& positions) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - body_shown_ < std::chrono::milliseconds(30)) return;
+  body_shown_ = now;
+  out_.show(everybody, std::make_shared<const std::string>(moving_bytes(0, positions, ShownAs::moving_body)));
+}
+
+}  // namespace furrow::studio

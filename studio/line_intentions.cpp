@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a page asks of lines.
+#include "jobs/sketch_lines.h"
+#include "studio/drawing.h"
+#include "studio/session.h"
+
+namespace furrow::studio {
+namespace {
+
+struct Range {
+  double least, most;
+  const char* words;
+};
+const std::map<std::string, Range>& number_keys() {
+  static const std::map<std::string, Range> keys{{"height", {-1, 1, "the height"}},
+                                                 {"width", {0.001, 10, "the width"}},
+                                                 {"sharpness", {0, 1, "the sharpness"}},
+                                                 {"press", {1, 1e6, "the press"}}};
+  return keys;
+}
+
+bool flag_of(const Json& body, const char* key) {
+  if (!body.contains(key)) return false;
+  if (!body[key].is_boolean()) throw Refused(std::string(key) + ": is neither true nor false");
+  return body[key] == true;
+}
+
+/// Changes what the message names of a line; returns what the step is called.
+std::string change_line(const Json& body, Json& line) {
+  std::string what;
+  for (const auto& [key, range] : number_keys()) {
+    if (!body.contains(key)) continue;
+    what = "change " + std::string(range.words) + " of " + name_of_line(line);
+    if (key == "width" && body[key].is_null())
+      line["stroke"].erase(key);
+    else
+      line["stroke"][key] = number_of(body, key.c_str(), range.least, range.most);
+  }
+  if (body.contains("points")) {
+    if (!line["stroke"].contains("points"))
+      throw Refused("this line is given by vertices of the garment, not by points: draw it anew");
+    what = "drag " + name_of_line(line);
+    line["stroke"]["points"] = points_of(body);
+  }
+  if (body.contains("on")) {
+    const bool on = flag_of(body, "on");
+    what = (on ? "switch on " : "switch off ") + name_of_line(line);
+    line["on"] = on;
+  }
+  if (body.contains("name")) {
+    what = "rename " + name_of_line(line);
+    line["stroke"]["name"] = text_of(body, "name");
+  }
+  if (what.empty()) throw Refused("set: there is nothing to set");
+  return what;
+}
+
+void add_line(Json& drawing, Json stroke) {
+  drawing["lines"].push_back({{"on", true}, {"stroke", std::move(stroke)}});
+}
+
+}  // namespace
+
+Json& Session::line_of(Json& drawing, const Json& body) const {
+  Json& lines = drawing.at("lines");
+  return lines[index_of(body, "line", lines.size())];
+}
+
+Json Session::draw(const Json& body) {
+  Json drawing = project_->now().drawing;
+  const double height = number_of(body, "height", -1, 1);
+  Json stroke{{"name", body.contains("name") ? text_of(body, "name")
+                                             : free_name(drawing, height < 0 ? "valley" : "ridge")},
+              {"height", height}};
+  if (body.contains("width")) stroke["width"] = number_of(body, "width", 0.001, 10);
+  if (body.contains("sharpness")) stroke["sharpness"] = number_of(body, "sharpness", 0, 1);
+  if (flag_of(body, "closed")) stroke["closed"] = true;
+  stroke["points"] = points_of(body);
+  const std::string name = stroke["name"];
+  const bool both = flag_of(body, "mirror") && !jobs::lies_in_middle(stroke, middle());
+  add_line(drawing, stroke);
+  if (both) {
+    Json other = jobs::mirrored(stroke, middle());
+    other["name"] = free_name_for(drawing, other);
+    add_line(drawing, std::move(other));
+  }
+  change((both ? "draw and mirror " : "draw ") + name, std::move(drawing));
+  return Json::object();
+}
+
+Json Session::set(const Json& body) {
+  Json drawing = project_->now().drawing;
+  const std::string what = change_line(body, line_of(drawing, body));
+  if (flag_of(body, "live")) {
+    show_preview(drawing);
+    return {{"live", true}};
+  }
+  change(what, std::move(drawing));
+  return Json::object();
+}
+
+Json Session::remove(const Json& body) {
+  Json drawing = project_->now().drawing;
+  const std::string name = name_of_line(line_of(drawing, body));
+  drawing["lines"].erase(index_of(body, "line", drawing["lines"].size()));
+  change("delete " + name, std::move(drawing));
+  return Json::object();
+}
+
+Json Session::duplicate(const Json& body) {
+  Json drawing = project_->now().drawing;
+  const Json& line = line_of(drawing, body);
+  const std::string from = name_of_line(line);
+  Json stroke = jobs::beside(sketch_, line.at("stroke"));
+  stroke["name"] = free_name_for(drawing, stroke);
+  add_line(drawing, std::move(stroke));
+  change("duplicate " + from, std::move(drawing));
+  return Json::object();
+}
+
+Json Session::mirror(const Json& body) {
+  Json drawing = project_->now().drawing;
+  const Json& line = line_of(drawing, body);
+  const std::string from = name_of_line(line);
+  if (jobs::lies_in_middle(line.at("stroke"), middle()))
+    throw Refused("this line lies in the middle already, and would be drawn over itself");
+  Json stroke = jobs::mirrored(line.at("stroke"), middle());
+  stroke["name"] = free_name_for(drawing, stroke);
+  add_line(drawing, std::move(stroke));
+  change("mirror " + from, std::move(drawing));
+  return Json::object();
+}
+
+Json Session::move(const Json& body) {
+  Json drawing = project_->now().drawing;
+  Json& lines = drawing["lines"];
+  const std::size_t from = index_of(body, "line", lines.size()), to = index_of(body, "to", lines.size());
+  if (from == to) throw Refused("the line is there already");
+  Json line = lines[from];
+  const std::string name = name_of_line(line);
+  lines.erase(from);
+  lines.insert(lines.begin() + std::ptrdiff_t(to), std::move(line));
+  change("move " + name + (to < from ? " up" : " down"), std::move(drawing));
+  return Json::object();
+}
+
+Json Session::set_middle(const Json& body) {
+  Json drawing = project_->now().drawing;
+  drawing["middle"] = number_of(body, "x", -1000, 1000);
+  change("move the middle", std::move(drawing));
+  return Json::object();
+}
+
+Json Session::tell_points(const Json& body) {
+  Json drawing = project_->now().drawing;
+  const Json& stroke = line_of(drawing, body).at("stroke");
+  return {{"points", stroke.value("points", Json::array())}};
+}
+
+}  // namespace furrow::studio

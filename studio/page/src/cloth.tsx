@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The cloth: what it is made of, what holds it, and what it is asked to do.
+import { Slider } from "./lines";
+import type { Border, Done, Status, Vector } from "./protocol";
+
+export interface ClothActions {
+  fabric(name: string): void;
+  hold(border: number, on: boolean): void;
+  wind(velocity: Vector): void;
+  drape(): void;
+  keep(): void;
+  play(seconds?: number): void;
+  fit(by: "strain" | "distance"): void;
+  accept(): void;
+  takeBack(): void;
+}
+
+interface Props { status: Status; busy: string; mayDraw: boolean; fit: string; moving: number; kept?: Done; actions: ClothActions }
+
+/** Borders that are told apart in a list; more of them are pinned by clicks. */
+const mostBorders = 6;
+const nameOf = (border: Border) =>
+  `${border.name === "top" ? "Upper" : border.name === "bottom" ? "Lower" : `${Number(border.name) + 1}.`} border, ${Math.round(border.length * 100)} cm`;
+
+function Borders({ status, actions }: { status: Status; actions: ClothActions }) {
+  if (status.borders.length === 0) return null;
+  return (
+    <fieldset>
+      <legend>Held</legend>
+      {status.borders.slice(0, mostBorders).map((border, i) => (
+        <label class="check" key={i}>
+          <input type="checkbox" checked={border.held} onChange={(e) => actions.hold(i, e.currentTarget.checked)} />
+          {nameOf(border)}
+        </label>
+      ))}
+    </fieldset>
+  );
+}
+
+/** Where the air goes, as seen from above: 0 to the front, 90 to the right of the picture. */
+function Wind({ wind, blow }: { wind: Vector; blow(velocity: Vector): void }) {
+  const speed = Math.hypot(wind[0], wind[2]), way = speed > 0 ? (Math.round((Math.atan2(wind[0], wind[2]) * 180) / Math.PI) + 360) % 360 : 90;
+  const change = (speed: number, way: number) => {
+    const a = (way * Math.PI) / 180;
+    blow([Number((speed * Math.sin(a)).toFixed(4)), wind[1], Number((speed * Math.cos(a)).toFixed(4))]);
+  };
+  return (
+    <div class="edit wind" role="group" aria-label="Wind">
+      <Slider label="Wind" value={speed} min={0} max={10} step={0.5} text={(v) => (v === 0 ? "calm" : `${v.toFixed(1)} m/s`)} change={(v, live) => !live && change(v, way)} />
+      {speed > 0 && <Slider label="Towards" value={way} min={0} max={355} step={5} text={(v) => `${v}°`} change={(v, live) => !live && change(speed, v)} />}
+    </div>
+  );
+}
+
+function Verdicts({ kept, actions }: { kept: Done; actions: ClothActions }) {
+  return (
+    <section class="verdicts" aria-label="Verdict">
+      <h3>{kept.all_hold ? "Every line holds" : "Not every line can hold"}</h3>
+      <ul>
+        {kept.verdicts!.map((v, i) => <li key={i}><span class={`dot ${v.verdict}`} aria-hidden="true" /><span><b>{v.name}</b>: {v.words}</span></li>)}
+      </ul>
+      <p class="note">{kept.legend}</p>
+      <div class="group">
+        <button class="main" onClick={actions.accept}>Accept</button>
+        <button onClick={actions.takeBack}>Take back</button>
+      </div>
+    </section>
+  );
+}
+
+export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Props) {
+  const idle = busy === "" && mayDraw, held = status.can_drape;
+  return (
+    <section class="cloth" aria-label="Cloth">
+      <h2>Cloth</h2>
+      <label>Fabric
+        <select value={status.fabric} onChange={(e) => actions.fabric(e.currentTarget.value)}>
+          {status.fabrics.map((f) => <option key={f}>{f}</option>)}
+        </select>
+      </label>
+      <Borders status={status} actions={actions} />
+      <Wind wind={status.wind} blow={actions.wind} />
+      <div class="group">
+        <button class="main" disabled={!held || !idle} title="Let it come to rest (D)" onClick={actions.drape}>Drape</button>
+        <button disabled={!held || busy === "drape" || busy === "keep" || !mayDraw} title="Play, pause (Space)" onClick={() => actions.play()}>
+          {busy === "play" ? "Pause" : "Play"}</button>
+        <button disabled={!held || !idle} title="One step of 1/60 s" onClick={() => actions.play(1 / 60)}>Step</button>
+        <button disabled={!held || !idle} title="Make the lines last, and tell of each whether it will hold (K)" onClick={actions.keep}>Keep</button>
+      </div>
+      {kept && <Verdicts kept={kept} actions={actions} />}
+      {(busy === "play" || status.time > 0) && <p class="note" data-time={moving}>At {(busy === "play" ? moving : status.time).toFixed(2)} s of its motion.{busy === "play" && " Pull it with the pointer."}</p>}
+      {status.has_body && <div class="group" role="group" aria-label="Fit">
+        <span>Fit</span>
+        {(["strain", "distance"] as const).map((by) => (
+          <button key={by} aria-pressed={fit === by} disabled={!idle} onClick={() => actions.fit(by)}>
+            {by === "strain" ? "Strain" : "Distance"}</button>
+        ))}
+      </div>}
+      <p class="note">{held ? "Drape lets the cloth come to rest under its weight, Play lets it move, Keep makes its lines last."
+        : "To let it move, hold a border, pin it by clicks (P), or open it with --body."}</p>
+    </section>
+  );
+}
