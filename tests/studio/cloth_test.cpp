@@ -61,7 +61,8 @@ TEST_CASE("studio cloth: a click pins a vertex, another lets it go, and borders 
 }
 
 TEST_CASE("studio cloth: pins stay where they are after the cloth has moved, with lines in it", "[release]") {
-  const Desk desk("pins_after");
+  Desk desk("pins_after");
+  io::set_value(desk.scene.settings, "pins", Json::array(), "test");
   const studio::Studio studio(desk.scene, desk.project());
   Visitor page(studio);
   REQUIRE(page.ask("hold", {{"border", 0}, {"on", true}}).contains("done"));

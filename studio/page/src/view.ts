@@ -85,6 +85,7 @@ export class View {
     (this.plane.material as THREE.MeshBasicMaterial).color.set(this.colours.valley);
     (this.rope.material as THREE.LineBasicMaterial).color.set(this.colours.ridge);
     this.showLines();
+    this.draw();
   }
 
   private fit() {
