@@ -13,6 +13,7 @@
 
 #include "cli/print_text.h"
 #include "jobs/read_inputs.h"
+#include "jobs/report/finite_report.h"
 
 namespace furrow::cli {
 namespace {
@@ -104,28 +105,10 @@ void flush_output() {
     throw std::runtime_error("standard output: cannot be written; is its disk full or its reader gone?");
 }
 
-namespace {
-
-/// Numbers that JSON has no word for become null; returns where they stood and what they were.
-void make_finite(Json& value, const std::string& path, Json& found) {
-  if (value.is_number_float() && !std::isfinite(value.get<double>())) {
-    found.push_back(path + ": " + (std::isnan(value.get<double>()) ? "not a number" : "infinite"));
-    value = nullptr;
-  } else if (value.is_structured()) {
-    for (auto& [key, item] : value.items()) make_finite(item, path.empty() ? key : path + "." + key, found);
-  }
-}
-
-}  // namespace
-
 void print_report(const Json& report, const CommonArguments& common, const Summary& summary) {
   std::ostream& out = common.out == "-" ? std::cerr : std::cout;
   if (common.json) {
-    Json versioned{{"schema", 1}}, found = Json::array();
-    versioned.update(report);
-    make_finite(versioned, "", found);
-    if (!found.empty()) versioned["not_finite"] = found;
-    out << versioned.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+    out << finite_report(report).dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
   } else if (!common.quiet) {
     print_summary(out, summary);
     if (common.verbose || summary.lines.empty()) print_text(out, report);

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The parts of Furrow that can be built and installed alone, from the ground up, and which others each one stands on.
 # furrow-config.cmake knows the same table.
-set(furrow_components physics geometry bridge io jobs program)
+set(furrow_components physics geometry bridge io jobs program python)
 set(furrow_libraries ${furrow_components})
-list(REMOVE_ITEM furrow_libraries program)
+list(REMOVE_ITEM furrow_libraries program python)
 set(furrow_needs_physics "")
 set(furrow_needs_geometry "")
 set(furrow_needs_bridge physics geometry)
 set(furrow_needs_io physics geometry bridge)
 set(furrow_needs_jobs physics geometry bridge io)
 set(furrow_needs_program ${furrow_libraries})
+set(furrow_needs_python ${furrow_libraries})
 
 # furrow_with_needs(OUT COMPONENTS…): these and what they stand on, in the order of the table.
 function(furrow_with_needs out)

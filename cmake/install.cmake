@@ -22,6 +22,11 @@ foreach(component IN LISTS furrow_built)
       install(FILES ${words}/_furrow DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
       install(FILES ${words}/furrow.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
     endif()
+  elseif(component STREQUAL python)
+    set(python_folder ${FURROW_PYTHON_FOLDER}/furrow)
+    install(TARGETS python LIBRARY DESTINATION ${python_folder} COMPONENT python)
+    list(TRANSFORM furrow_python_files PREPEND python/furrow/)
+    install(FILES ${furrow_python_files} DESTINATION ${python_folder} COMPONENT python)
   else()
     install(TARGETS ${component} EXPORT furrow_${component}
             ARCHIVE COMPONENT ${component}

@@ -2,7 +2,7 @@
 # Every path of ours that a page names exists, and every link between pages leads somewhere. CHANGELOG.md may name
 # what is gone. A path may stand without its ending (`bench/keep_bench` is a program, `geometry/fold/line_region` a header).
 cmake_minimum_required(VERSION 3.25)
-set(folders "geometry|physics|bridge|io|jobs|cli|tests|bench|meshes|scenes|scripts|cmake|examples|decisions|docs")
+set(folders "geometry|physics|bridge|io|jobs|cli|python|tests|bench|meshes|scenes|scripts|cmake|examples|decisions|docs")
 file(GLOB pages ${ROOT}/README.md ${ROOT}/CONTRIBUTING.md ${ROOT}/*/*.md)
 list(FILTER pages EXCLUDE REGEX "/build/|/demo/")
 set(faults "")
