@@ -25,7 +25,7 @@ foreach(component IN LISTS furrow_built)
   elseif(component STREQUAL python)
     set(python_folder ${FURROW_PYTHON_FOLDER}/furrow)
     install(TARGETS python LIBRARY DESTINATION ${python_folder} COMPONENT python)
-    list(TRANSFORM furrow_python_files PREPEND python/furrow/)
+    list(TRANSFORM furrow_python_files PREPEND python/src/furrow/)
     install(FILES ${furrow_python_files} DESTINATION ${python_folder} COMPONENT python)
   else()
     install(TARGETS ${component} EXPORT furrow_${component}

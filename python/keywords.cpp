@@ -211,7 +211,8 @@ std::vector<KeywordWords> setting_keywords(unsigned subcommand) {
   return words;
 }
 
-CalledScene called_scene(py::handle garment, unsigned subcommand, const std::string& state, Call& call) {
+CalledScene called_scene(py::handle garment, unsigned subcommand, const std::filesystem::path& state,
+                         Call& call) {
   CalledScene scene;
   Memory memory(scene.input.memory);
   if (!state.empty()) {

@@ -126,7 +126,8 @@ struct CalledScene {
   std::filesystem::path state_path;
   bool is_file = false;  ///< a .toml file
 };
-CalledScene called_scene(py::handle garment, unsigned subcommand, const std::string& state, Call& call);
+CalledScene called_scene(py::handle garment, unsigned subcommand, const std::filesystem::path& state,
+                         Call& call);
 
 /// The garment's file's name, without folder and ending.
 std::string garment_name(const jobs::SceneInput& scene);
@@ -152,6 +153,7 @@ struct Runner {
 void add_scene_jobs(std::vector<Runner>& runners);
 void add_rest_jobs(std::vector<Runner>& runners);
 void add_mesh_jobs(std::vector<Runner>& runners);
+void add_measure_jobs(std::vector<Runner>& runners);
 void add_wrinkle(std::vector<Runner>& runners);
 
 /// Runs the job without the interpreter's lock. Throws what a callable or Ctrl-C raised on the way.

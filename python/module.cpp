@@ -10,7 +10,7 @@
 #include "python/keywords.h"
 #include "python/mesh_arrays.h"
 
-/// furrow._furrow: what the package `furrow` (python/furrow) is made of.
+/// furrow._furrow: what the package `furrow` (python/src/furrow) is made of.
 namespace furrow::python {
 namespace {
 
@@ -21,6 +21,7 @@ const std::vector<Runner>& runners() {
     add_scene_jobs(runners);
     add_rest_jobs(runners);
     add_mesh_jobs(runners);
+    add_measure_jobs(runners);
     return runners;
   }();
   return list;

@@ -115,7 +115,7 @@ Outcome drape(const py::list& inputs, Call& call) {
 
 struct KeepCall {
   jobs::KeepJob job;
-  std::string state;
+  std::filesystem::path state;
 };
 
 /// A flag that turns a field off.

@@ -17,7 +17,7 @@ namespace {
 
 struct SimulateCall {
   jobs::SimulateJob job;
-  std::string state;
+  std::filesystem::path state;
 };
 
 const Keywords<SimulateCall>& simulate_rows() {

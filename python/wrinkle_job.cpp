@@ -14,7 +14,7 @@ namespace {
 
 struct WrinkleCall {
   jobs::WrinkleJob job;
-  std::string state;
+  std::filesystem::path state;
   bool keep = false, settle = false;
 };
 
@@ -136,7 +136,7 @@ void check_call(const WrinkleCall& c, const Call& call) {
 jobs::SceneInput surroundings(const WrinkleCall& c, py::handle garment, Call& call) {
   jobs::SceneInput scene;
   Memory memory(scene.memory);
-  if (c.job.state) scene.settings = io::document_of(c.job.state->scene, c.state);
+  if (c.job.state) scene.settings = io::document_of(c.job.state->scene, c.state.string());
   scene.folder = c.job.state_path.parent_path();
   const jobs::Frame frame = std::exchange(call.frame, {});  // that of the job, not of the settings
   call.apply_settings(io::used_by::wrinkle, scene.settings, memory);

@@ -304,7 +304,7 @@ class Keywords(unittest.TestCase):
             flags = {f.replace("-", "_") for f in re.findall(r"^ +(?:-\w,)?(?:\w+,)?--([a-z][a-z0-9-]+)", text, re.M)}
             self.assertGreater(len(flags), 5, text)
             known = {name.rstrip("_") for name in inspect.signature(getattr(furrow, job)).parameters}
-            picture = {"colour"} if job == "drape" else set()
+            picture = {"drape": {"colour"}, "quality": {"check"}}.get(job, set())
             self.assertEqual(flags - OF_PROGRAM - picture - known, set(), job)
 
     def test_signatures_and_docstrings_tell_them(self):
