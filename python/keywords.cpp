@@ -37,7 +37,7 @@ std::string type_of(const io::Setting& s) {
   if (s.path == "pins.vertices") return "int | Sequence[int]";
   if (s.path == "garment.mesh" || s.path == "body.mesh") return "Mesh | Path";
   if (s.path == "forces.gravity") return "float | Sequence[float]";
-  if (s.path == "material.preset") return "str";  // a fabric's name, or a file
+  if (s.path == "material.preset" || s.path == "material.warp") return "Path";  // a word, or a file
   switch (s.kind) {
     case io::Kind::number:
       return "float";

@@ -46,8 +46,8 @@ Outcome transfer(const py::list& inputs, Call& call) {
 const Keywords<jobs::BakeJob>& bake_rows() {
   using Job = jobs::BakeJob;
   static const Keywords<Job> rows = {
-      row<Job>(
-          "output", "what the names of the files begin with", [](auto& j) -> auto& { return j.prefix; }),
+      own<Job>("output", "Path", "what the names of the files begin with",
+               [](const Value& v, Job& j) { take(v, j.prefix); }),
       row<Job>(
           "texels", "width and height of the maps, in [1, 8192]; default 2048",
           [](auto& j) -> auto& { return j.options.size; }),
