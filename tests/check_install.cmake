@@ -47,6 +47,13 @@ set(share ${prefix}/share)
 must_be_there(${share}/bash-completion/completions/furrow ${share}/zsh/site-functions/_furrow
               ${share}/fish/vendor_completions.d/furrow.fish ${share}/man/man1/furrow.1 ${share}/man/man1/furrow-drape.1
               ${share}/furrow/report.schema.json)
+if(EXISTS ${BINARY}/python)  # where it is built
+  file(GLOB python ${prefix}/lib/python*/dist-packages/furrow/_furrow*)
+  file(GLOB stubs ${prefix}/lib/python*/dist-packages/furrow/__init__.pyi)
+  if(NOT python OR NOT stubs)
+    message(FATAL_ERROR "the Python package is built and not installed")
+  endif()
+endif()
 set(documents ${prefix}/share/doc/furrow)
 must_be_there(${documents}/LICENSE ${documents}/physics/LICENSE ${documents}/README.md ${documents}/docs/library.md
               ${documents}/examples/CMakeLists.txt)

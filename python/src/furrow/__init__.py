@@ -150,7 +150,11 @@ def _function(job):
         bound = first.bind(*args, **{name: given.pop(name) for name in inputs if name in given})
         bound.apply_defaults()
         values = list(bound.arguments.values())
-        return _run(job, _listed(values[0]) if job in ("drape", "fit") else values, given)
+        if job in ("drape", "fit"):
+            values = _listed(values[0])
+        if not values:
+            raise ValueError(f"{inputs[0]}: an empty list; name one at least")
+        return _run(job, values, given)
 
     function.__name__ = function.__qualname__ = job
     function.__signature__ = first.replace(
