@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "io/mesh/soup_to_mesh.h"
 #include "python/columns.h"
@@ -142,6 +143,17 @@ py::dict repairs_of(const HeldMesh& held) {
   return dict;
 }
 
+/// A mesh for another process: its PLY, which keeps all columns, and its name.
+py::tuple pickled(const HeldMesh& held) {
+  std::ostringstream out;
+  io::write_mesh(out, io::MeshFormat::ply, held.file);
+  return py::make_tuple(py::bytes(out.str()), held.name);
+}
+HeldMesh unpickled(const py::tuple& state) {
+  std::istringstream in(py::cast<std::string>(state[0]));
+  return {io::read_mesh(in, io::MeshFormat::ply, "mesh"), py::cast<std::string>(state[1])};
+}
+
 std::string repr(const HeldMesh& held) {
   const Mesh& mesh = held.file.mesh;
   return "<furrow.Mesh" + (held.name.empty() ? "" : " '" + held.name + "'") + ": " +
@@ -182,6 +194,8 @@ void bind_mesh(py::module_& module) {
       .def("copy", [](const HeldMesh& h) { return h; })
       .def("__copy__", [](const HeldMesh& h) { return h; })
       .def("__deepcopy__", [](const HeldMesh& h, const py::dict&) { return h; })
+      .def(py::pickle([](const HeldMesh& h) { return pickled(h); },
+                      [](const py::tuple& state) { return unpickled(state); }))
       .def("__repr__", repr);
 }
 

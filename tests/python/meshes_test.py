@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes as arrays: what crosses the boundary, and how."""
 import os
+import pickle
 import tempfile
 import unittest
 import warnings
@@ -154,6 +155,16 @@ class Files(unittest.TestCase):
         lengths = {tuple(sorted(e)): l for e, l in zip(mesh.E.tolist(), mesh.edge["rest_length"])}
         back = {tuple(sorted(e)): l for e, l in zip(again.E.tolist(), again.edge["rest_length"])}
         self.assertEqual(back, lengths)
+
+    def test_a_mesh_goes_to_another_process(self):
+        mesh = furrow.read_mesh(MESHES / "panelled.obj")
+        mesh.vertex["weight_arm"] = np.linspace(0, 1, len(mesh.V))
+        again = pickle.loads(pickle.dumps(mesh))
+        np.testing.assert_array_equal(again.V, mesh.V)
+        np.testing.assert_array_equal(again.F, mesh.F)
+        np.testing.assert_array_equal(again.vertex["weight_arm"], mesh.vertex["weight_arm"])
+        np.testing.assert_array_equal(again.corner["texture"], mesh.corner["texture"])
+        self.assertEqual((again.name, again.group_names), ("panelled", mesh.group_names))
 
     def test_meshio_takes_and_gives_meshes(self):
         try:
