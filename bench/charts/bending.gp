@@ -6,7 +6,7 @@ set output name.".".ending
 meshes = "'one diagonal' 'by row' 'union jack' 'equilateral' 'jittered' 'cut and jittered' 'blue noise' 'inserted line'"
 array c[2] = ["#D55E00", "#0072B2"]
 laws = "hinge plate"
-set multiplot layout 2,4 title "Error against cost: a cantilever (Γ 25) with 8, 16, 32 cells along it; for numbers choose plate" \
+set multiplot layout 2,4 title "Error against cost: a cantilever (w L^3 / B = 25) with 8, 16, 32 cells along it" \
   font font.",13" margins 0.06,0.985,0.16,0.88 spacing 0.03,0.12
 set logscale xy
 unset key

@@ -10,9 +10,11 @@
 int main(int argc, char** argv) {
   using namespace furrow::bench;
   const std::pair<std::string, void (*)(const std::string&, Effort)> charts[] = {
+      {"machine", chart_machine},
       {"laws", chart_laws},
       {"bending", chart_bending},
       {"work", chart_work_precision},
+      {"implicit", chart_implicit},
       {"stability", chart_stability},
       {"damping", chart_damping},
       {"contact", chart_contact},

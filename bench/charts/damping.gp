@@ -13,7 +13,7 @@ set xlabel "damping, share of critical [-]"
 set key at screen 0.75,0.8 left top reverse Left samplen 2.5 spacing 1.5
 do for [jitter in "0 0.3"] {
   set title "jitter ".jitter offset 0,-0.6
-  if (jitter eq "0") { set ylabel "dt / (2/ω_{max})" } else { unset ylabel; unset key }
+  if (jitter eq "0") { set ylabel "longest dt / (2/ω_{max}) [-]" } else { unset ylabel; unset key }
   plot "damping.csv" using (strcol(2) eq jitter ? $1 : NaN):3 skip 1 with linespoints lw 1.6 pt 7 lc rgb "#0072B2" \
       title "leapfrog", \
     "" using (strcol(2) eq jitter ? $1 : NaN):4 skip 1 with points pt 4 ps 1.5 lc rgb "#D55E00" title "semi-implicit Euler", \

@@ -77,7 +77,9 @@ constexpr Method methods[] = {{"semi-implicit Euler 0.9", {semi_implicit, {}, {}
                               {"XPBD 10 sweeps 1/240 s", {Integrator::xpbd, {}, {10, 0}}, 1.0 / 240},
                               {"backward Euler 1/240 s", {Integrator::backward_euler, {1, 0}, {}}, 1.0 / 240},
                               {"backward Euler 1/60 s", {Integrator::backward_euler, {1, 0}, {}}, 1.0 / 60},
-                              {"backward Euler 1/15 s", {Integrator::backward_euler, {1, 0}, {}}, 1.0 / 15}};
+                              {"backward Euler 1/15 s", {Integrator::backward_euler, {1, 0}, {}}, 1.0 / 15},
+                              {"implicit 1/60 s", {Integrator::implicit, {}, {}}, 1.0 / 60},
+                              {"implicit 1/15 s", {Integrator::implicit, {}, {}}, 1.0 / 15}};
 
 struct Rest {
   double cpu = 0, residual = 0, error = 0, simulated = 0;

@@ -14,7 +14,7 @@ place(change, m) = -index_of(changes, change) - 0.12 * (m - 4)
 least = 1e-10
 shown(x) = abs(x) > least ? abs(x) : least
 set multiplot layout 2,2 title "How far an equilibrium moves that should not, in its target (1: just met)" font font.",13" \
-  margins 0.13,0.985,0.15,0.91 spacing 0.025,0.1
+  margins 0.13,0.985,0.16,0.91 spacing 0.025,0.1
 set logscale x
 set format x "10^{%T}"
 set xrange [0.5*least:1e4]
@@ -41,7 +41,10 @@ set origin 0, 0
 set size 1, 0.09
 set xrange [0:1]
 set yrange [0:1]
-set key at screen 0.53,0.05 center center horizontal maxrows 3 reverse Left width 2 samplen 1 font font.",11"
+set key at screen 0.53,0.05 center center horizontal maxrows 4 reverse Left width 2 samplen 1 font font.",11"
 plot for [m=1:6] NaN with points pt full[m] ps 1.1 lc rgb c[m] title word(methods, m), \
-  NaN with boxes fs solid noborder fc rgb "#f6dcd0" title "target missed; left border: less than 10^{-10}"
+  NaN with points pt 7 ps 1.1 lc rgb "#555555" title "filled: place (above), energy (below)", \
+  NaN with points pt 6 ps 1.1 lc rgb "#555555" title "open: median distance (below)", \
+  NaN with boxes fs solid noborder fc rgb "#f6dcd0" title "target missed", \
+  NaN with lines lw 0 lc rgb "#ffffff" title "at the left border: less than 10^{-10}"
 unset multiplot

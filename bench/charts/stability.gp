@@ -18,7 +18,7 @@ RK4|paper|0 RK4|paper|0.3 backward_Euler|paper|0 backward_Euler|paper|0.3"
 part(s, n) = system(sprintf("echo '%s' | cut -d'|' -f%d | tr -d '\n'", s, n))
 spaced(s) = system(sprintf("echo '%s' | sed 's/_/ /; s/van gelder/Van Gelder/'", s))
 set multiplot layout 3,4 title "What becomes of a swinging sheet (95 vertices, 0.2 s): step × stiffness × law × jitter of the mesh" \
-  font font.",13" margins 0.06,0.99,0.115,0.93 spacing 0.02,0.085
+  font font.",13" margins 0.06,0.99,0.125,0.93 spacing 0.02,0.085
 unset key
 set tics out
 set yrange [1-half:5+half]
@@ -56,11 +56,12 @@ set origin 0, 0
 set size 1, 0.06
 set xrange [0:1]
 set yrange [0:1]
-set key at screen 0.5,0.035 center center horizontal reverse Left width 1.5 samplen 1.5 font font.",11"
+set key at screen 0.5,0.035 center center horizontal maxrows 2 reverse Left width 1.5 samplen 1.5 font font.",11"
 plot NaN with boxes fs solid noborder fc rgb fill[1] title "stable, error < 1 %", \
   NaN with boxes fs solid noborder fc rgb fill[2] title "1 to 10 %", \
   NaN with boxes fs solid noborder fc rgb fill[3] title "wrong, > 10 %", \
   NaN with boxes fs solid noborder fc rgb fill[4] title "diverged", \
   NaN with lines lw 2.5 lc rgb "#000000" title "predicted limit", \
-  NaN with lines lw 2 dt 3 lc rgb "#000000" title "Gershgorin's safe step"
+  NaN with lines lw 2 dt 3 lc rgb "#000000" title "Gershgorin's safe step", \
+  NaN with boxes lc rgb "#bbbbbb" fs empty border title "not run: under 2 steps"
 unset multiplot

@@ -27,7 +27,7 @@ do for [scene in order] {
     set title " "
     set key at graph 0.02,0.97 left top reverse Left spacing 1.25 samplen 2.5 font font.",11"
     plot for [i=1:8] NaN with linespoints lw 1.6 pt closed[i] lc rgb colour[i] title word(methods, i), \
-      NaN with points pt 6 lc rgb "#555555" title "open: wrong, error above 10 %", \
+      NaN with points pt 6 lc rgb "#555555" title "open: wrong, error above 10 %; filled: below", \
       NaN with points pt 2 lc rgb "#555555" title "cross at the top: diverged", \
       NaN with lines dt 2 lw 1.5 lc rgb "#0072B2" title "leapfrog at its limit, dt = 2/ω_{max}", \
       NaN with lines lw 6 lc rgb "#e4e4e4" title "below the check of the reference"
