@@ -81,10 +81,10 @@ Scene cotton(const std::string& name, const std::string& title, SheetKind kind) 
 }
 
 Scene springs() {
-  const Swing swing = sheet_swing(
-      {.columns = 16, .stiffness = 2e3, .jitter = 0.2, .spring_damping = 0, .seconds = seconds});
-  return {"springs",
-          "springs of 2,000 N/m, " + std::to_string(swing.cloth.particles.size()) + " vertices", swing, true};
+  const Swing swing =
+      sheet_swing({.columns = 16, .stiffness = 2e3, .jitter = 0.2, .spring_damping = 0, .seconds = seconds});
+  return {"springs", "springs of 2,000 N/m, " + std::to_string(swing.cloth.particles.size()) + " vertices",
+          swing, true};
 }
 
 /// The median time of three runs; long ones run once.
@@ -113,7 +113,8 @@ struct Dressed {
   double gap;           ///< [m]
 };
 
-/// A garment of cut quads, where the shared meshes lie beside the project (see CONTRIBUTING.md); else our own.
+/// A garment of cut quads, where the shared meshes lie beside the project (see CONTRIBUTING.md); else our
+/// own.
 GarmentPair skirt_and_body() {
   const char* set = std::getenv("FURROW_SHARED");
   const std::filesystem::path shared = set ? set : FURROW_SOURCE_DIR "/../shared";
@@ -174,8 +175,8 @@ void write_gust(Table& table) {
   const Cloth& worn = gust.d.worn;
   const Gust::Run exact = gust.run(worn, Integrator::leapfrog, {});
   char title[100];
-  std::snprintf(title, sizeof title, "skirt of %d vertices in a gust, moves by %.0f mm", int(worn.particles.size()),
-                1e3 * way(worn, exact.x));
+  std::snprintf(title, sizeof title, "skirt of %d vertices in a gust, moves by %.0f mm",
+                int(worn.particles.size()), 1e3 * way(worn, exact.x));
   const auto write = [&](const char* name, const Gust::Run& r) {
     const bool whole = r.report.outcome == physics::Outcome::finished;
     const double error = whole ? relative_error({worn, {}, 0}, r.x, exact.x) : INFINITY;
@@ -198,12 +199,13 @@ void write_gust(Table& table) {
 }
 
 void write_rests(const std::string& folder) {
-  Table table(folder + "/rests.csv",
-              "meshes/skirt.obj in cotton (triangles, hinges), held at its top, on the mannequin, friction 0, "
-              "from where it lies. settle: until the residual force is 1e-3 of a vertex's weight; in time: "
-              "drag 4 1/s, until no vertex moves by more than 1e-5 of the size in 1/4 s. One thread, processor "
-              "time. Distance: median between the surfaces, to settle's.",
-              "method,dt[s],cpu[s],simulated[s],residual[-],at rest,energy[J],distance[mm]");
+  Table table(
+      folder + "/rests.csv",
+      "meshes/skirt.obj in cotton (triangles, hinges), held at its top, on the mannequin, friction 0, "
+      "from where it lies. settle: until the residual force is 1e-3 of a vertex's weight; in time: "
+      "drag 4 1/s, until no vertex moves by more than 1e-5 of the size in 1/4 s. One thread, processor "
+      "time. Distance: median between the surfaces, to settle's.",
+      "method,dt[s],cpu[s],simulated[s],residual[-],at rest,energy[J],distance[mm]");
   const GarmentPair pair = read_pair(FURROW_MESHES "/skirt.obj", FURROW_MESHES "/mannequin.obj");
   geometry::Mesh mesh = pair.garment;
   const Cloth start = make_cotton(pair, vertex_at_top(mesh))(mesh);
@@ -241,16 +243,16 @@ void write_rests(const std::string& folder) {
 }  // namespace
 
 void chart_implicit(const std::string& folder, Effort) {
-  Table table(folder + "/implicit.csv",
-              "Sheets of 0.4 m that lie level, hang by two corners and swing for 0.3 s (cotton: triangles, "
-              "hinges), and a skirt in cotton on a body, held at its top, from rest, in air of 12 m/s for 0.4 s. "
-              "No dashpots. Error: RMS distance from RK4 at 0.4 of leapfrog's limit, of the skirt "
-              "from leapfrog, over that of the way; median: between the surfaces. One thread, processor time. "
-              "open: steps that were not solved.",
-              "scene,title,method,dt[s],dt/limit[-],cpu[s/s],error[-],median[mm],open");
-  for (const Scene& scene :
-       {springs(), cotton("even", "cotton, even mesh", SheetKind::equilateral),
-        cotton("lined", "cotton with an inserted line", SheetKind::lined)})
+  Table table(
+      folder + "/implicit.csv",
+      "Sheets of 0.4 m that lie level, hang by two corners and swing for 0.3 s (cotton: triangles, "
+      "hinges), and a skirt in cotton on a body, held at its top, from rest, in air of 12 m/s for 0.4 s. "
+      "No dashpots. Error: RMS distance from RK4 at 0.4 of leapfrog's limit, of the skirt "
+      "from leapfrog, over that of the way; median: between the surfaces. One thread, processor time. "
+      "open: steps that were not solved.",
+      "scene,title,method,dt[s],dt/limit[-],cpu[s/s],error[-],median[mm],open");
+  for (const Scene& scene : {springs(), cotton("even", "cotton, even mesh", SheetKind::equilateral),
+                             cotton("lined", "cotton with an inserted line", SheetKind::lined)})
     write_swing(scene, table);
   write_gust(table);
   write_rests(folder);
