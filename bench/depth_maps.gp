@@ -11,7 +11,7 @@ set rmargin 5
 set bmargin 5
 set logscale xy
 set xrange [2:2000]
-set yrange [8:3000]
+set yrange [8:9000]
 set xlabel "to make it anew for the next frame [ms]"
 set ylabel "a question [ns]"
 set key top right Left reverse samplen 1.5
