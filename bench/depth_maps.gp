@@ -5,6 +5,8 @@ load style
 set output name.".".ending
 ours(name) = strcol(1) eq name
 maps(name) = strstrt(strcol(2), "maps") && ours(name)
+# Labels stand above six maps, below two and three, but for one.
+beside(name) = word(name, 1) eq "6" ? 1.45 : name eq "3 maps of 1024" ? 0.95 : 0.66
 set multiplot layout 1,2 title "Colliders of a body of 14,286 triangles: what they cost, and where they are wrong" font font.",13"
 set lmargin 10
 set rmargin 5
@@ -20,7 +22,7 @@ plot "depth_maps.csv" using (maps("A") ? $5 : NaN):6 with points pt 7 ps 1.1 lc 
   "" using (!maps("A") && ours("A") ? $5 : NaN):6 with points pt 9 ps 1.2 lc rgb "#D55E00" title "distance field, arms out", \
   "" using (!maps("arms in front") && ours("arms in front") ? $5 : NaN):6 with points pt 8 ps 1.6 lw 1.5 lc rgb "#D55E00" \
     title "distance field, arms bent in front", \
-  "" using (maps("A") ? $5 : NaN):($6*(strstrt(strcol(2), "of 1024") ? 1.42 : 0.68)):(word(strcol(2), 1)." × ".word(strcol(2), 4)) \
+  "" using (maps("A") ? $5*(strcol(2) eq "3 maps of 1024" ? 2 : 1) : NaN):($6*beside(strcol(2))):(word(strcol(2), 1)." × ".word(strcol(2), 4)) \
     with labels font font.",8" tc rgb "#555555" title "labels: maps × pixels across"
 unset logscale
 set xrange [-0.6:6.6]

@@ -30,7 +30,7 @@ do for [scene in order] {
   limit = field(by_cpu ? 11 : 12)
   heading = system(sprintf("sed -n 's/^%s,\"\\([^\"]*\\)\".*/\\1/p' work_references.csv", scene))
   set title heading offset 0,-0.6
-  if (by_cpu) { set xrange [(scene eq "pendulum" ? 1e-6 : scene eq "chain" ? 3e-5 : 6e-4):(scene eq "pendulum" ? 1e-2 : scene eq "chain" ? 10 : 1e2)] } \
+  if (by_cpu) { set xrange [(scene eq "pendulum" ? 1e-6 : scene eq "chain" ? 3e-5 : 4e-4):(scene eq "pendulum" ? 1e-2 : scene eq "chain" ? 10 : 1e2)] } \
   else { set xrange [10:(scene eq "pendulum" ? 1e5 : scene eq "chain" ? 1e6 : 3e6)] }
   set object 1 rectangle from graph 0, first 1e-10 to graph 1, first (check > 1e-10 ? check : 1e-10) \
     fc rgb "#e4e4e4" fs solid noborder behind
