@@ -2,6 +2,7 @@
 #include "bridge/couple_bending.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -18,9 +19,10 @@ namespace {
 using namespace geometry;
 
 /// Of the edges opposite the corners of each triangle, in the order of triangles_of().
-std::vector<std::array<double, 3>> opposite_lengths(const Mesh& mesh) {
+std::vector<std::array<double, 3>> opposite_lengths(const Mesh& mesh, Membrane membrane) {
   const std::vector<double> rest = rest_lengths(mesh);
-  const auto own = find_map(mesh, attribute::triangle_rest_length);
+  std::optional<HalfedgeMap<double>> own;
+  if (membrane == Membrane::triangles) own = find_map(mesh, attribute::triangle_rest_length);
   const auto length = [&](Halfedge h) {
     const double l = own && !std::isnan((*own)[h]) ? (*own)[h] : rest[mesh.edge(h).idx()];
     if (!(l > 0) || !std::isfinite(l))
@@ -70,7 +72,7 @@ physics::CoupledHinges couple_bending(const Mesh& mesh, const GatherOptions& opt
     apart.push_back(own && !std::isnan((*own)[e]));
     press.push_back(presses.empty() ? 1 : presses[e.idx()]);
   }
-  const auto lengths = opposite_lengths(mesh);
+  const auto lengths = opposite_lengths(mesh, options.membrane);
   const std::vector<double> warp = options.weave ? warp_angles(mesh) : std::vector<double>{};
   const physics::PlateRigidity rigidity =
       options.weave ? rigidity_of(*options.weave) : physics::isotropic_plate(options.rigidity);

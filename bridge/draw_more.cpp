@@ -5,11 +5,14 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "bridge/convert.h"
+#include "bridge/couple_bending.h"
 #include "bridge/gather.h"
 #include "geometry/mesh/property_names.h"
 #include "physics/cloth/cloth.h"
+#include "physics/cloth/pins.h"
 #include "physics/motion/compensation.h"
 
 namespace furrow::bridge {
@@ -57,6 +60,18 @@ GatherOptions with_lines(GatherOptions springs, std::span<const WrinkledLine> li
   return springs;
 }
 
+/// The cloth as it will pull: with its plate, held where it is held.
+physics::Cloth coupled(physics::Cloth cloth, const Mesh& mesh, const GatherOptions& springs,
+                       const std::vector<Vertex>& held) {
+  if (springs.bending != Bending::plate) return cloth;
+  std::vector<int> pins;
+  for (Vertex v : held) pins.push_back(static_cast<int>(v));
+  physics::pin(cloth.particles, pins);
+  physics::stiffen_clamps(cloth);
+  couple_bending(mesh, springs, cloth);
+  return cloth;
+}
+
 }  // namespace
 
 DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<const Stroke> strokes,
@@ -68,15 +83,17 @@ DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<co
   ensure_map(work, attribute::velocity);
   DrawMoreReport report;
   report.wrinkle = wrinkle(work, strokes, options.wrinkle, observer);
-  physics::Cloth after =
-      gather(work, with_lines(options.springs, report.wrinkle.lines, options.wrinkle.first_line));
+  const GatherOptions springs = with_lines(options.springs, report.wrinkle.lines, options.wrinkle.first_line);
+  physics::Cloth after = gather(work, springs);
   const std::set<Vertex> held(options.wrinkle.held.begin(), options.wrinkle.held.end());
   report.momentum_before = momentum(before.particles, held);
   keep_momentum(work, after.particles, report.momentum_before, report.wrinkle.insertion.changed_faces, held);
   report.momentum_after = momentum(after.particles, held);
   report.mean_strain = physics::strain_statistics(before).mean;
 
-  const std::vector<Vec3> jump = physics::force_jump(before, after);
+  const std::vector<Vec3> jump =
+      physics::force_jump(coupled(before, mesh, options.springs, options.wrinkle.held),
+                          coupled(std::move(after), work, springs, options.wrinkle.held));
   for (const Vec3& f : jump) report.largest_jump = std::max(report.largest_jump, f.norm());
   physics::add(state.compensation, jump, state.time);
   state.compensation.time_constant = options.fade;  // of what is left of earlier jumps, too

@@ -4,8 +4,9 @@
 #include <algorithm>
 
 #include "geometry/mesh/property_names.h"
-#include "physics/cloth/press.h"
 #include "physics/cloth/struts.h"
+#include "physics/plate/plate_bending.h"
+#include "physics/plate/press.h"
 
 namespace furrow::bridge {
 
@@ -21,6 +22,19 @@ double struts_of(const HelpedLine& line, const KeepOptions& o) {
   return n > 0 ? o.struts[n - 1] : 0;
 }
 
+namespace {
+
+/// Of all plates, one plate after the other.
+std::vector<physics::Hinge> coupled_hinges(const physics::Cloth& cloth) {
+  std::vector<physics::Hinge> all;
+  for (const auto& energy : cloth.energies)
+    if (const auto* plate = dynamic_cast<const physics::PlateBending*>(energy.get()))
+      all.insert(all.end(), plate->plate().hinges.begin(), plate->plate().hinges.end());
+  return all;
+}
+
+}  // namespace
+
 bool on_bounds(const HelpedLine& line, const physics::PrestressReport& rest, const physics::Cloth& cloth) {
   const auto on = [&](int v) { return std::binary_search(line.patch.begin(), line.patch.end(), v); };
   const auto any_spring = [&](const std::vector<int>& list, const auto& springs) {
@@ -33,7 +47,7 @@ bool on_bounds(const HelpedLine& line, const physics::PrestressReport& rest, con
   };
   return any_spring(rest.structural, cloth.structural) || any_spring(rest.bending, cloth.bending) ||
          any_spring(rest.tension, cloth.tension) || any(rest.membrane, cloth.membrane) ||
-         any(rest.hinges, cloth.hinges);
+         any(rest.hinges, cloth.hinges) || any(rest.coupled, coupled_hinges(cloth));
 }
 
 void place_lines(const std::vector<HelpedLine>& lines, const geometry::Mesh& mesh,
@@ -64,8 +78,10 @@ std::vector<char> in_any(const std::vector<HelpedLine>& lines, std::size_t verti
 void stiffen_lines(const std::vector<HelpedLine>& lines, const KeepOptions& o, double rest_press,
                    physics::Cloth& cloth) {
   const std::vector<char> inside = in_any(lines, cloth.particles.size());
-  for (physics::Hinge& h : cloth.hinges)
-    if (!inside[h.vertices[0]] || !inside[h.vertices[1]]) h.stiffness *= rest_press;
+  if (rest_press != 1)
+    physics::press_hinges(
+        cloth, [&](const physics::Hinge& h) { return !inside[h.vertices[0]] || !inside[h.vertices[1]]; },
+        rest_press);
   double last = 1;
   for (std::size_t k = 0; k < o.presses.size(); ++k) {
     std::vector<int>

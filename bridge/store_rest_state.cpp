@@ -10,7 +10,9 @@
 #include <string>
 #include <tuple>
 
+#include "geometry/fold/line_press.h"
 #include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/press_map.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
 #include "physics/plate/plate_bending.h"
@@ -191,14 +193,21 @@ void write_bending(const BendingParts& bending, Mesh& mesh) {
 struct Hinges {
   std::vector<physics::Hinge> all;
   std::vector<char> coupled;
+  std::vector<double> press;  ///< of each; 1 where it is not known
 };
 
 Hinges hinges_of(const physics::Cloth& cloth, const std::vector<physics::Hinge>& expected) {
-  Hinges result{cloth.hinges, std::vector<char>(cloth.hinges.size(), 0)};
-  std::map<std::array<int, 4>, physics::Hinge> coupled;
+  Hinges result{cloth.hinges, std::vector<char>(cloth.hinges.size(), 0), {}};
+  result.press.resize(result.all.size(), 1);
+  std::map<std::array<int, 4>, std::pair<physics::Hinge, double>> coupled;
   for (const auto& energy : cloth.energies)
     if (const auto* plate = dynamic_cast<const physics::PlateBending*>(energy.get()))
-      for (const physics::Hinge& h : plate->plate().hinges) coupled.emplace(h.vertices, h);
+      for (std::size_t i = 0; i < plate->plate().hinges.size(); ++i) {
+        const physics::Hinge& h = plate->plate().hinges[i];
+        const auto& origin = plate->origin();
+        coupled.emplace(h.vertices,
+                        std::pair(h, origin ? origin->press[std::size_t(origin->coupled[i])] : 1));
+      }
   if (coupled.empty()) return result;
   result = {};
   std::size_t next = 0;
@@ -206,7 +215,8 @@ Hinges hinges_of(const physics::Cloth& cloth, const std::vector<physics::Hinge>&
     const auto found = coupled.find(wanted.vertices);
     if (found == coupled.end() && next == cloth.hinges.size()) continue;
     result.coupled.push_back(found != coupled.end());
-    result.all.push_back(found != coupled.end() ? found->second : cloth.hinges[next++]);
+    result.press.push_back(found != coupled.end() ? found->second.second : 1);
+    result.all.push_back(found != coupled.end() ? found->second.first : cloth.hinges[next++]);
   }
   check_count("plain hinge", next, cloth.hinges.size());
   return result;
@@ -220,6 +230,21 @@ void write_hinges(const Hinges& hinges, const std::vector<Edge>& origin, Mesh& m
     angle[origin[i]] = hinges.all[i].rest_angle;
     if (!hinges.coupled[i]) stiffness[origin[i]] = hinges.all[i].stiffness;
   }
+}
+
+/// Presses of a plate's hinges, unless those of the lines are the same: these follow what is drawn later.
+void write_presses(const Hinges& hinges, const std::vector<Edge>& origin, const GatherOptions& options,
+                   Mesh& mesh) {
+  if (options.bending != Bending::plate) return;
+  const std::vector<double> by_lines = hinge_presses(mesh, options.line_presses, options.line_widths);
+  bool same = !find_map(mesh, attribute::press);
+  for (std::size_t i = 0; i < hinges.all.size(); ++i)
+    same =
+        same && (!hinges.coupled[i] || hinges.press[i] == (by_lines.empty() ? 1 : by_lines[origin[i].idx()]));
+  if (same) return;
+  auto press = ensure_map(mesh, attribute::press);
+  for (std::size_t i = 0; i < hinges.all.size(); ++i)
+    if (hinges.coupled[i]) press[origin[i]] = hinges.press[i];
 }
 
 }  // namespace
@@ -238,6 +263,7 @@ void store_rest_state(const physics::Cloth& cloth, const GatherOptions& options,
   write_membrane(triangles.all, of_mesh.membrane, mesh);
   write_bending(bending, mesh);
   write_hinges(hinges, of_mesh.hinges, mesh);
+  write_presses(hinges, of_mesh.hinges, options, mesh);
 }
 
 }  // namespace furrow::bridge

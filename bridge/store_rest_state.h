@@ -14,9 +14,10 @@ namespace furrow::bridge {
 /// \details Springs of the membrane go to e:rest_length and e:stiffness, tension to e:rest_length and
 /// e:tension, triangles to h:rest_length (e:rest_length keeps the metric that masses and areas are made of),
 /// cross springs to e:bending_rest_length and e:bending_stiffness, hinges to e:rest_angle and
-/// e:hinge_stiffness; hinges of a plate to e:rest_angle alone, for with a stiffness of their own they would
-/// leave it. Bending springs that the mesh does not have are struts, in any order, behind the cross
-/// spring of their pair if there is one; they replace the mesh's (geometry/mesh/struts.h).
+/// e:hinge_stiffness; hinges of a plate to e:rest_angle and, where their presses are not those of the lines,
+/// e:press, for with a stiffness of their own they would leave it. Bending springs that the mesh does not
+/// have are struts, in any order, behind the cross spring of their pair if there is one; they replace the
+/// mesh's (geometry/mesh/struts.h).
 ///
 /// What is stored goes before the material: options of another stiffness act only where a map is unset. After
 /// physics::stiffen_clamps call soften_clamps first, or clamps count twice the next time.

@@ -62,13 +62,6 @@ OpenScene open_scene(const KeepJob& job, Listener& listener) {
   check_inputs(open.scene, open.document, job.state ? job.state->lines_drawn : -1, job.scene.memory);
   if (!job.state) take_noted_frame(open.scene, open.document, job.scene.memory);
   check_outputs(job, open, listener);
-  if (open.scene.material.is_woven())
-    throw std::invalid_argument(
-        "--fabric: keep cannot hold cloth with threads yet; take --warp none, the same fabric without");
-  if (open.scene.material.bending_law == bridge::Bending::plate)
-    throw std::invalid_argument(
-        "--bending-law plate: keep helps lines by hinges of their own, which a plate has not yet; take "
-        "--bending-law hinge, or hold the shape without help by --rest keep of furrow simulate");
   open.frame.unit = open.scene.unit;
   open.frame.up = open.scene.up;
   return open;
@@ -148,6 +141,7 @@ SceneCloth drawn_in(io::SavedState& state, const io::Scene& scene, const Context
     return bridge::gather(result.file.mesh, spring_options(result.file, scene.material));
   });
   pin_cloth(result.cloth, result.pins, result.body.get(), state.simulation.time, context);
+  couple_cloth(result.file, scene, result.cloth, context);
   result.options = scene.simulation;
   double& gap = result.options.contact_gap;
   state.contact_gap = settled_gap(state, result.body.get(), gap);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far the verdicts of bridge::keep_lines can be trusted: 200 lines at random on 80 coarse garments. A
 // line that is called held must keep 95 to 105 % of the told height in another run than the verdict's own;
-// for one that cannot hold all help is tried that there is. random_lines [CSV [threads [first [end]]]]
+// for one that cannot hold all help is tried that there is. random_lines [CSV [threads [first [end
+// [plate]]]]]: with `plate` their bending is one.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "bridge/gather.h"
@@ -16,8 +18,8 @@
 #include "bridge/line_help.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/two_ring.h"
-#include "physics/cloth/press.h"
 #include "physics/cloth/struts.h"
+#include "physics/plate/press.h"
 #include "physics/rest/rigid_imbalance.h"
 #include "tests/cases/random_garments.h"
 
@@ -149,9 +151,10 @@ class TryHarder {
   std::vector<Row*> open_;
 };
 
-Judged judge(int number) {
+Judged judge(int number, bridge::Bending bending) {
   Judged j;
   j.garment = cases::random_garment(20261121 + number, 1 + number % 4);
+  j.garment.springs.bending = bending;
   bridge::KeepOptions o;
   o.seconds = 2;
   RandomGarment kept = j.garment;
@@ -225,6 +228,8 @@ int main(int argc, char** argv) {
   const char* path = argc > 1 ? argv[1] : "keep-random.csv";
   const auto number = [&](int i, int usual) { return argc > i ? std::atoi(argv[i]) : usual; };
   const int threads = number(2, 2), first = number(3, 0), end = number(4, 80);
+  const auto bending = argc > 5 && std::string(argv[5]) == "plate" ? furrow::bridge::Bending::plate
+                                                                   : furrow::bridge::Bending::hinge;
   std::vector<std::optional<Judged>> all(end);
   std::FILE* file = std::fopen(path, "w");
   if (!file) return std::fprintf(stderr, "error: cannot write %s\n", path), 1;
@@ -236,7 +241,7 @@ int main(int argc, char** argv) {
   for (int t = 0; t < threads; ++t)
     pool.emplace_back([&] {
       for (int i = next++; i < end; i = next++) {
-        Judged judged = judge(i);
+        Judged judged = judge(i, bending);
         const std::lock_guard lock(writing);
         all[i] = std::move(judged);
         for (; written < end && all[written]; ++written) write(file, written, *all[written]);

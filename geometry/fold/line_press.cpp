@@ -6,16 +6,18 @@
 #include <string>
 
 #include "geometry/fold/line_region.h"
+#include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
+#include "geometry/mesh/press_map.h"
 #include "geometry/mesh/property_names.h"
 
 namespace furrow::geometry {
 
-std::vector<double> hinge_presses(const Mesh& mesh, const std::vector<double>& presses,
-                                  const std::vector<double>& widths) {
+std::vector<double> presses_of_lines(const Mesh& mesh, const std::vector<double>& presses,
+                                     const std::vector<double>& widths) {
   for (std::size_t i = 0; i < presses.size(); ++i)
     if (!(presses[i] >= 1) || !std::isfinite(presses[i]))
-      refuse("hinge_presses",
+      refuse("presses_of_lines",
              "press of line " + std::to_string(i) + " is " + std::to_string(presses[i]) + ", not >= 1");
   const auto id = find_map(mesh, attribute::line);
   std::vector<std::vector<Vertex>> lines(presses.size());
@@ -34,6 +36,24 @@ std::vector<double> hinge_presses(const Mesh& mesh, const std::vector<double>& p
     for (Edge e : mesh.edges())
       if (inside[mesh.vertex(e, 0).idx()] && inside[mesh.vertex(e, 1).idx()])
         factors[e.idx()] = std::max(factors[e.idx()], presses[i]);
+  }
+  return factors;
+}
+
+std::vector<double> hinge_presses(const Mesh& mesh, const std::vector<double>& presses,
+                                  const std::vector<double>& widths) {
+  std::vector<double> factors = presses_of_lines(mesh, presses, widths);
+  const auto own = find_map(mesh, attribute::press);
+  if (!own) return factors;
+  factors.resize(mesh.num_edges(), 1);
+  for (Edge e : mesh.edges()) {
+    const double press = (*own)[e];
+    if (std::isnan(press)) continue;
+    if (!(press >= 0) || !std::isfinite(press))
+      throw ContentError("edge " + std::to_string(mesh.vertex(e, 0).idx()) + "-" +
+                         std::to_string(mesh.vertex(e, 1).idx()) + " has the press " + std::to_string(press) +
+                         "; it must be >= 0 and finite, or unset (nan)");
+    factors[e.idx()] = press;
   }
   return factors;
 }

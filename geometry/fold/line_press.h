@@ -11,6 +11,11 @@ namespace furrow::geometry {
 /// NaN: none) go by line id; what is missing at their ends is 1, and none. Empty where nothing is pressed. So
 /// a press stays right when edges are flipped, split and drawn on. Throws std::invalid_argument if a press is
 /// not >= 1 and finite, ContentError as rest_lengths(). Cost: that of the pressed regions, O(edges) once.
+std::vector<double> presses_of_lines(const Mesh& mesh, const std::vector<double>& presses,
+                                     const std::vector<double>& widths);
+
+/// The same, but where e:press is set (press_map.h) it counts alone. Throws also ContentError for one that is
+/// not >= 0 and finite.
 std::vector<double> hinge_presses(const Mesh& mesh, const std::vector<double>& presses,
                                   const std::vector<double>& widths);
 

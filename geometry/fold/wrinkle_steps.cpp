@@ -3,6 +3,7 @@
 
 #include "geometry/fold/line_height.h"
 #include "geometry/fold/line_press.h"
+#include "geometry/mesh/press_map.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/masses.h"
@@ -33,11 +34,13 @@ std::vector<double> heights_from(const Mesh& mesh, int first, std::size_t count,
 }
 
 void press_stored_hinges(Mesh& mesh, const LineShapes& shapes) {
-  const auto stiffness = find_map(mesh, attribute::hinge_stiffness);
-  if (!stiffness) return;
-  const std::vector<double> factors = hinge_presses(mesh, shapes.presses, shapes.widths);
+  const auto stiffness = find_map(mesh, attribute::hinge_stiffness), press = find_map(mesh, attribute::press);
+  if (!stiffness && !press) return;
+  const std::vector<double> factors = presses_of_lines(mesh, shapes.presses, shapes.widths);
   if (factors.empty()) return;
-  for (Edge e : mesh.edges()) (*stiffness)[e] *= factors[e.idx()];  // unset: NaN stays
+  for (const auto& map : {stiffness, press})
+    if (map)
+      for (Edge e : mesh.edges()) (*map)[e] *= factors[e.idx()];  // unset: NaN stays
 }
 
 void note_heights(std::vector<WrinkledLine>& lines, const std::vector<double>& base,

@@ -3,6 +3,7 @@
 #include <array>
 #include <tuple>
 
+#include "geometry/mesh/press_map.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/warp_map.h"
 
@@ -137,6 +138,7 @@ inline const std::tuple attribute_register{
               "",
               {fresh, computed, "carry_diagonals of subdivide"},
               {PlyValue::flag, {"diagonal"}}},
+    Attribute{attribute::press, "", {unset, unset}, {PlyValue::stiffness, {"press"}}},
 };
 
 }  // namespace rules

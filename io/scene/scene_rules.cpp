@@ -112,11 +112,6 @@ void check_keep(const Scene& scene, const TomlDocument& document) {
     fail(document, path,
          "needs hinges, for springs cannot tell a ridge from a valley: name a fabric (--fabric, "
          "material.preset), or bending_law = \"hinge\" and a rigidity");
-  if (!path.empty() && scene.material.is_woven())
-    fail(document, path,
-         "cannot keep cloth with threads yet: say warp = \"none\" (--warp none), which takes the fabric as "
-         "the "
-         "same in all directions");
 }
 
 void check_keep_stands_still(const Scene& scene, const TomlDocument& document, int lines_drawn) {

@@ -7,13 +7,11 @@
 
 #include "bridge/gather.h"
 #include "bridge/keep.h"
-#include "bridge/standing_body.h"
 #include "bridge/store_rest_state.h"
 #include "io/base/lower_case.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
 #include "physics/cloth/pins.h"
-#include "physics/contact/residual_force.h"
 
 namespace furrow::jobs {
 namespace {
@@ -70,64 +68,6 @@ bool keeps_first_shape(const io::Scene& scene) {
                                    [](const io::SceneLines& lines) { return lines.time == 0 && lines.keep; });
 }
 
-namespace {
-
-constexpr int most_rounds = 6;     // of a plate, which is made of the rest lengths that are solved for
-constexpr double balanced = 1e-9;  // of the weight
-
-/// What all rounds have in common.
-struct Keeping {
-  io::MeshFile& file;
-  const io::Scene& scene;
-  const std::vector<std::vector<int>>& pins;
-  const WorldBody* body;
-  double time;
-  bool moving;
-  bridge::GatherOptions springs;
-  physics::PrestressOptions options;
-  const Context& context;
-};
-
-physics::Cloth cloth_of(const Keeping& k) {
-  physics::Cloth cloth = bridge::gather(k.file.mesh, k.springs);
-  SilentListener silent(k.context.listener);  // the run itself warns of pins
-  pin_cloth(cloth, k.pins, k.moving ? nullptr : k.body, k.time,
-            {k.context.frame, silent});  // in motion, pins were put on it before
-  couple_cloth(k.file, k.scene, cloth, k.context, false);
-  return cloth;
-}
-
-bridge::KeptShape keep_once(const Keeping& k, const physics::World& world) {
-  physics::Cloth cloth = cloth_of(k);
-  const bridge::KeptShape shape = bridge::keep_shape(cloth, world, k.options, k.moving ? 0 : largest_turn);
-  if (shape.turned > 0 || shape.pushed.moved > 0) bridge::scatter(cloth.particles, k.file.mesh);
-  physics::soften_clamps(cloth);
-  bridge::store_rest_state(cloth, k.springs, k.file.mesh);
-  return shape;
-}
-
-/// A plate follows the rest lengths of its triangles: it is balanced anew until they hardly change.
-bridge::KeptShape keep_plate(const Keeping& k, const physics::World& world) {
-  bridge::KeptShape first = keep_once(k, world);
-  bridge::KeptShape shape = first;
-  for (int round = 1;; ++round) {
-    const physics::Cloth stored = cloth_of(k);
-    const std::optional<physics::PosedCollider> standing = bridge::standing_body(world);
-    const double left = physics::residual_force(stored, k.options.gravity, standing ? &*standing : nullptr,
-                                                k.options.friction, k.options.gap);
-    if (left <= std::max(balanced, shape.rest.residual) || round == most_rounds) {
-      shape.rest.residual = std::max(left, shape.rest.residual);
-      break;
-    }
-    shape = keep_once(k, world);
-  }
-  shape.turned = first.turned;
-  shape.pushed = first.pushed;
-  return shape;
-}
-
-}  // namespace
-
 bridge::KeptShape keep_at_rest(io::MeshFile& file, const io::Scene& scene,
                                const std::vector<std::vector<int>>& pins, const WorldBody* body, double time,
                                double settled_gap, physics::SimulateState* moving, const Context& context) {
@@ -137,12 +77,17 @@ bridge::KeptShape keep_at_rest(io::MeshFile& file, const io::Scene& scene,
   options.friction = scene.simulation.friction;
   options.gap = scene.simulation.contact_gap;
   if (body) options.gap = std::max(settled_gap, contact_gap(options.gap, body->tolerance(), file));
-  const Keeping keeping{
-      file,    scene,  pins, body, time, moving != nullptr, spring_options(file, scene.material),
-      options, context};
-  const physics::World world = world_of(scene, body, pins);
-  const bool plate = scene.material.bending_law == bridge::Bending::plate;
-  const bridge::KeptShape shape = plate ? keep_plate(keeping, world) : keep_once(keeping, world);
+  const bridge::GatherOptions springs = spring_options(file, scene.material);
+  physics::Cloth cloth = bridge::gather(file.mesh, springs);
+  SilentListener silent(context.listener);  // the run itself warns of pins
+  const Context quiet{context.frame, silent};
+  pin_cloth(cloth, pins, moving ? nullptr : body, time, quiet);  // in motion, pins were put on it before
+  couple_cloth(file, scene, cloth, quiet, false);
+  const bridge::KeptShape shape =
+      bridge::keep_shape(cloth, world_of(scene, body, pins), options, moving ? 0 : largest_turn);
+  if (shape.turned > 0 || shape.pushed.moved > 0) bridge::scatter(cloth.particles, file.mesh);
+  physics::soften_clamps(cloth);
+  bridge::store_rest_state(cloth, springs, file.mesh);
   if (moving) {
     moving->compensation.force.clear();
     moving->planned = false;

@@ -10,7 +10,8 @@
 
 namespace furrow::physics {
 
-PlateBending::PlateBending(Plate plate, std::size_t particles) : plate_(std::move(plate)), layout_(plate_) {
+PlateBending::PlateBending(Plate plate, std::size_t particles, std::shared_ptr<const PlateOrigin> origin)
+    : plate_(std::move(plate)), layout_(plate_), origin_(std::move(origin)) {
   for (const Hinge& h : plate_.hinges) check(h, particles);
   find_pattern();
   alone_.assign(plate_.hinges.size(), 0);
@@ -214,7 +215,16 @@ CoupledHinges couple_hinges(Cloth& cloth, std::span<const std::array<double, 3>>
       {cloth.triangles, rest_lengths, cloth.hinges, cloth.particles.inv_mass, apart, press}, options);
   CoupledHinges result{int(parts.coupled.size()), int(parts.plain.size()), parts.slivers};
   if (parts.coupled.empty()) return result;
-  cloth.energies.push_back(std::make_shared<PlateBending>(std::move(parts.plate), cloth.particles.size()));
+  PlateOrigin origin{options.rigidity,
+                     {options.warp.begin(), options.warp.end()},
+                     {rest_lengths.begin(), rest_lengths.end()},
+                     {apart.begin(), apart.end()},
+                     {press.begin(), press.end()},
+                     parts.coupled,
+                     parts.plain};
+  origin.press.resize(cloth.hinges.size(), 1);
+  cloth.energies.push_back(std::make_shared<PlateBending>(std::move(parts.plate), cloth.particles.size(),
+                                                          std::make_shared<PlateOrigin>(std::move(origin))));
   std::vector<Hinge> plain;
   for (const int h : parts.plain) plain.push_back(cloth.hinges[std::size_t(h)]);
   cloth.hinges = std::move(plain);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "physics/cloth/cloth.h"
@@ -8,6 +9,16 @@
 #include "physics/plate/plate_forces.h"
 
 namespace furrow::physics {
+
+/// What couple_hinges() made a plate of, so that it can be made anew (physics/plate/recouple.h).
+struct PlateOrigin {
+  PlateRigidity rigidity;
+  std::vector<double> warp;                         ///< as PlateOptions
+  std::vector<std::array<double, 3>> rest_lengths;  ///< of the cloth's triangles [m]
+  std::vector<char> apart;                          ///< of each hinge of the sheet; empty: none
+  std::vector<double> press;                        ///< of each hinge of the sheet [-]
+  std::vector<int> coupled, plain;                  ///< those of the plate, in its order, and of the cloth
+};
 
 /// A plate as an energy of a cloth: E = 1/2 sum k^T A D k (k less what it is at rest), k linear in the
 /// hinges' bends. Forces follow from the hinges' moments m = dE/dtheta; the stiffness is G^T Q G + sum m
@@ -18,7 +29,7 @@ class PlateBending : public Energy {
  public:
   /// Throws std::invalid_argument as check(Hinge) if a hinge names a particle out of range. Cost: a sort of
   /// some 60 pairs of particles a triangle.
-  PlateBending(Plate plate, std::size_t particles);
+  PlateBending(Plate plate, std::size_t particles, std::shared_ptr<const PlateOrigin> origin = nullptr);
 
   double energy(std::span<const Vec3> x) const override;
   void add_forces(std::span<const Vec3> x, std::span<Vec3> force) const override;
@@ -36,6 +47,8 @@ class PlateBending : public Energy {
   /// The same that these bends, one a hinge [rad], call forth; adds their energy [J].
   std::vector<double> moments_of(const std::vector<double>& bend, double& energy) const;
   const Plate& plate() const { return plate_; }
+  /// Null: it was not made by couple_hinges().
+  const std::shared_ptr<const PlateOrigin>& origin() const { return origin_; }
 
  private:
   struct Bends;
@@ -46,6 +59,7 @@ class PlateBending : public Energy {
 
   Plate plate_;
   PlateLayout layout_;
+  std::shared_ptr<const PlateOrigin> origin_;
   // Which blocks of K there are, on and below the diagonal, and which of them a triangle and a hinge fill.
   std::vector<std::array<int, 2>> pairs_;
   std::vector<int> corner_begin_, corner_;  ///< of each triangle the particles that move its curvature

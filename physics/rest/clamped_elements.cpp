@@ -7,6 +7,7 @@
 #include <string>
 
 #include "physics/base/require.h"
+#include "physics/cloth/carried_angle.h"
 #include "physics/cloth/dihedral.h"
 #include "physics/cloth/hinge_forces.h"
 #include "physics/cloth/membrane.h"
@@ -30,7 +31,7 @@ std::shared_ptr<const Energy> flat_to_itself(const Energy* energy, std::span<con
     const auto& v = h.vertices;
     h.rest_angle = dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
   }
-  return std::make_shared<PlateBending>(std::move(plate), x.size());
+  return std::make_shared<PlateBending>(std::move(plate), x.size(), own->origin());
 }
 
 /// The cloth with its rest state as it lies; tension becomes linear.
@@ -43,9 +44,12 @@ Cloth at_rest(Cloth cloth) {
   cloth.tension.clear();
   for (auto* springs : {&cloth.structural, &cloth.bending})
     for (Spring& s : *springs) s.rest_length = (x[s.b] - x[s.a]).norm();
-  for (MembraneTriangle& t : cloth.membrane)
+  for (MembraneTriangle& t : cloth.membrane) {
+    const std::array<double, 3> before = t.rest_lengths;
     for (int i = 0; i < 3; ++i)
       t.rest_lengths[i] = (x[t.vertices[(i + 2) % 3]] - x[t.vertices[(i + 1) % 3]]).norm();
+    if (t.threads.any()) t.threads.angle = carried_angle(t.threads.angle, before, t.rest_lengths);
+  }
   for (Hinge& h : cloth.hinges) {
     const auto& v = h.vertices;
     h.rest_angle = dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
@@ -53,6 +57,23 @@ Cloth at_rest(Cloth cloth) {
   for (auto& energy : cloth.energies) energy = flat_to_itself(energy.get(), x);
   cloth.hinge_law = HingeLaw::linear;
   return cloth;
+}
+
+/// Young's modulus times thickness of the softest strip that can be cut from the triangle's cloth [N/m].
+double least_modulus(const MembraneTriangle& t) {
+  if (!(t.mu > 0)) return 0;
+  const double plane = t.lambda + 2 * t.mu;
+  if (!t.threads.any()) return 4 * t.mu * (t.lambda + t.mu) / plane;
+  // 1 / Y = (1 - s)^2 a + s^2 b + s (1 - s) c,  s = sin^2 of the angle to the warp: greatest at an end or
+  // where its derivative is 0.
+  const double c11 = plane + t.threads.warp, c22 = plane + t.threads.weft,
+               q = c11 * c22 - t.lambda * t.lambda;
+  if (!(q > 0)) return 0;
+  const double a = c22 / q, b = c11 / q, c = 1 / t.mu - 2 * t.lambda / q, bend = a + b - c;
+  double compliance = std::max(a, b);
+  if (const double s = (2 * a - c) / (2 * bend); bend < 0 && s > 0 && s < 1)
+    compliance = std::max(compliance, (1 - s) * (1 - s) * a + s * s * b + s * (1 - s) * c);
+  return 1 / compliance;
 }
 
 struct Clamped {
@@ -122,16 +143,12 @@ void ClampedElements::add_tension(const Cloth& cloth, const ElementLimits& limit
 
 void ClampedElements::add_plates(const Cloth& cloth, double strain) {
   for (const MembraneTriangle& t : cloth.membrane) {
-    if (t.threads.any())
-      refuse("prestress", "a membrane triangle has threads; it knows cloth alone that is the same in all ",
-             "directions");
-    if (!(t.mu > 0) && t.lambda != 0)
+    if (!(t.mu > 0) && (t.lambda != 0 || t.threads.any()))
       refuse("prestress", "a membrane triangle has lambda = ", std::to_string(t.lambda), " but mu = 0");
     Plate p{t.vertices, {}, {}, 0};
     const MembraneConstants constants = membrane_constants(t);
     p.quadratic = constants.quadratic;
-    const double young = t.mu > 0 ? 4 * t.mu * (t.lambda + t.mu) / (t.lambda + 2 * t.mu) : 0;
-    p.reach = strain * std::sqrt(constants.area * young);
+    p.reach = strain * std::sqrt(constants.area * least_modulus(t));
     for (int i = 0; i < 3; ++i)
       p.edge[i] = cloth.particles.x[t.vertices[(i + 2) % 3]] - cloth.particles.x[t.vertices[(i + 1) % 3]];
     plates_.push_back(p);
@@ -263,8 +280,11 @@ void ClampedElements::factorise(const ClampedForces& at, std::span<const Vec3> w
   for (auto [now, rest] : {std::pair{&now_.structural, &rest_.structural}, {&now_.bending, &rest_.bending}})
     for (std::size_t s = 0; s < now->size(); ++s) (*now)[s].stiffness = at.scale[i++] * (*rest)[s].stiffness;
   for (std::size_t t = 0; t < now_.membrane.size(); ++t, ++i) {
-    now_.membrane[t].lambda = at.scale[i] * rest_.membrane[t].lambda;
-    now_.membrane[t].mu = at.scale[i] * rest_.membrane[t].mu;
+    const MembraneTriangle& rest = rest_.membrane[t];
+    now_.membrane[t].lambda = at.scale[i] * rest.lambda;
+    now_.membrane[t].mu = at.scale[i] * rest.mu;
+    now_.membrane[t].threads.warp = at.scale[i] * rest.threads.warp;
+    now_.membrane[t].threads.weft = at.scale[i] * rest.threads.weft;
   }
   for (std::size_t h = 0; h < now_.hinges.size(); ++h)
     now_.hinges[h].stiffness = at.scale[i++] * rest_.hinges[h].stiffness;

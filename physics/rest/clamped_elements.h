@@ -41,10 +41,11 @@ struct ClampedForces {
 /// \details Hinges count by their stiffness k, whatever their law; a cosine hinge's moment is at most
 /// k (1 - cos angle). Tension, without stiffness at rest, counts with that at the working strain
 /// (tension_forces.h), within what its own law bears. A triangle's stress is at most that of the energy of
-/// the strain limit along one axis, 1/2 A Y strain^2: then no principal strain is beyond the limit, to first
-/// order. A contact's force lies in Coulomb's cone; its stiffness is high (10 times K's mean diagonal), so
-/// that the body carries what it can and the cloth the rest. Plates have no limit: a plate that answers with
-/// other moments than its own bends call forth has no rest angles.
+/// the strain limit along one axis, 1/2 A Y strain^2 (with threads, Y of the softest direction): then no
+/// principal strain is beyond the limit, to first order. A contact's force lies in Coulomb's cone; its
+/// stiffness is high (10 times K's mean diagonal), so that the body carries what it can and the cloth the
+/// rest. Plates have no limit: a plate that answers with other moments than its own bends call forth has no
+/// rest angles.
 class ClampedElements {
  public:
   /// Cost: one pass, and the symbolic factorisation. Throws std::invalid_argument as elements do, and if a

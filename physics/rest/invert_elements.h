@@ -39,4 +39,17 @@ std::optional<double> rest_angle_for(HingeLaw law, double stiffness, double thet
 std::optional<std::array<double, 3>> rest_lengths_for(const std::array<Vec3, 3>& corners, double lambda,
                                                       double mu, const Eigen::Vector3d& tension);
 
+/// Rest lengths, and the angle of the warp in them.
+struct WovenRest {
+  std::array<double, 3> lengths;  ///< [m]
+  double angle;                   ///< to the edge from corner 0 to corner 1 at rest [rad]
+};
+/// The same of a triangle with threads. `along`: the angle of the warp to the edge from corner 0 to corner 1
+/// as the triangle lies [rad]: the thread stays there, its angle at rest follows. With warp and weft as axes
+/// of rest and the warp as first axis now the deformation is triangular, F = (a, b; 0, c), and
+///   sigma = F S F^T / (a c),  S = C E,  2 E = F^T F - 1,  L_i = |F^-1 e_i|.
+/// None if Newton's method finds no (a, b, c) from (1, 0, 1) on at which either thread bears more for more.
+std::optional<WovenRest> rest_of_woven(const std::array<Vec3, 3>& corners, const MembraneTriangle& law,
+                                       double along, const Eigen::Vector3d& tension);
+
 }  // namespace furrow::physics

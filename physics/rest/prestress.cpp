@@ -8,11 +8,13 @@
 
 #include "physics/base/check_particles.h"
 #include "physics/base/require.h"
+#include "physics/cloth/carried_angle.h"
 #include "physics/cloth/dihedral.h"
 #include "physics/cloth/hinge_forces.h"
 #include "physics/cloth/kinds.h"
 #include "physics/contact/residual_force.h"
 #include "physics/plate/plate_bending.h"
+#include "physics/plate/recouple.h"
 #include "physics/rest/balance_forces.h"
 #include "physics/rest/invert_elements.h"
 #include "physics/rest/rigid_imbalance.h"
@@ -21,6 +23,7 @@ namespace furrow::physics {
 namespace {
 
 constexpr double least_imbalance = 1e-9;  // of gravity
+constexpr int most_rounds = 6;            // of a cloth with plates
 
 using Forces = std::vector<Vec3>;
 
@@ -94,16 +97,26 @@ void invert_tension(const Particles& p, std::span<const double> pull, std::vecto
   }
 }
 
+/// Whether the law has an answer.
+bool invert_triangle(const std::array<Vec3, 3>& x, const Eigen::Vector3d& tension, MembraneTriangle& t) {
+  if (!t.threads.any()) {
+    const auto lengths = rest_lengths_for(x, t.lambda, t.mu, tension);
+    if (lengths) t.rest_lengths = *lengths;
+    return lengths.has_value();
+  }
+  const std::array<double, 3> lying{(x[2] - x[1]).norm(), (x[0] - x[2]).norm(), (x[1] - x[0]).norm()};
+  const auto rest = rest_of_woven(x, t, carried_angle(t.threads.angle, t.rest_lengths, lying), tension);
+  if (rest) t.rest_lengths = rest->lengths, t.threads.angle = rest->angle;
+  return rest.has_value();
+}
+
 void invert_triangles(const Particles& p, const ClampedForces& f, std::vector<MembraneTriangle>& triangles,
                       PrestressReport& report) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     MembraneTriangle& t = triangles[i];
     const std::array<Vec3, 3> x{p.x[t.vertices[0]], p.x[t.vertices[1]], p.x[t.vertices[2]]};
     // The law has an answer to all that the bounds allow, unless Poisson's ratio is near 1; then to less.
-    Eigen::Vector3d tension = f.membrane[i];
-    auto rest_lengths = rest_lengths_for(x, t.lambda, t.mu, tension);
-    for (; !rest_lengths; rest_lengths = rest_lengths_for(x, t.lambda, t.mu, tension)) tension *= 0.8;
-    t.rest_lengths = *rest_lengths;
+    for (Eigen::Vector3d tension = f.membrane[i]; !invert_triangle(x, tension, t);) tension *= 0.8;
     for (int e = 0; e < 3; ++e) {
       const double l = (x[(e + 2) % 3] - x[(e + 1) % 3]).norm(), rest = t.rest_lengths[e];
       report.max_strain = std::max(report.max_strain, std::abs(l - rest) / rest);
@@ -128,7 +141,8 @@ void invert_plates(const ClampedForces& f, double most, Cloth& cloth, PrestressR
   const std::vector<Vec3>& x = cloth.particles.x;
   int place = 0;
   for (std::size_t i = 0; i < cloth.energies.size(); ++i) {
-    Plate plate = dynamic_cast<const PlateBending&>(*cloth.energies[i]).plate();
+    const auto& own = dynamic_cast<const PlateBending&>(*cloth.energies[i]);
+    Plate plate = own.plate();
     plate.at_rest.clear();
     for (std::size_t h = 0; h < plate.hinges.size(); ++h, ++place) {
       const auto& v = plate.hinges[h].vertices;
@@ -137,7 +151,7 @@ void invert_plates(const ClampedForces& f, double most, Cloth& cloth, PrestressR
       plate.hinges[h].rest_angle = bend(dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]), by);
       report.max_angle = std::max(report.max_angle, std::abs(by));
     }
-    cloth.energies[i] = std::make_shared<PlateBending>(std::move(plate), x.size());
+    cloth.energies[i] = std::make_shared<PlateBending>(std::move(plate), x.size(), own.origin());
   }
 }
 
@@ -160,11 +174,9 @@ void invert(const ClampedForces& f, Cloth& cloth, PrestressReport& report) {
   list(cloth.hinges.size(), report.hinges);
 }
 
-}  // namespace
-
-PrestressReport prestress(Cloth& cloth, const PrestressOptions& o, const Collider* collider,
-                          std::span<const Vec3> loads) {
-  check(cloth, o, loads);
+/// One solve, with the plates as they are.
+PrestressReport balance_once(Cloth& cloth, const PrestressOptions& o, const Collider* collider,
+                             std::span<const Vec3> loads) {
   const Particles& p = cloth.particles;
   const double g = o.gravity.norm() > 0 ? o.gravity.norm() : standard_gravity;
   const std::vector<ContactPoint> contacts = contacts_of(p, collider, o.gap);
@@ -193,6 +205,28 @@ PrestressReport prestress(Cloth& cloth, const PrestressOptions& o, const Collide
     report.contact_force.push_back(balance.forces.contact[i]);
   }
   report.residual = residual_force(cloth, o.gravity, collider, o.friction, o.gap, loads);
+  return report;
+}
+
+}  // namespace
+
+PrestressReport prestress(Cloth& cloth, const PrestressOptions& o, const Collider* collider,
+                          std::span<const Vec3> loads) {
+  check(cloth, o, loads);
+  Cloth work = cloth;
+  PrestressReport report = balance_once(work, o, collider, loads);
+  for (int round = 1; recouple(work); ++round) {  // a plate is made of the rest lengths that were solved for
+    const double left = residual_force(work, o.gravity, collider, o.friction, o.gap, loads);
+    if (left <= std::max(o.tolerance, 1.1 * report.residual) || round == most_rounds) {
+      report.residual = left;
+      break;
+    }
+    PrestressReport next = balance_once(work, o, collider, loads);
+    next.iterations += report.iterations;
+    next.factorisations += report.factorisations;
+    report = std::move(next);
+  }
+  cloth = std::move(work);
   return report;
 }
 

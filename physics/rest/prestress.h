@@ -66,11 +66,12 @@ struct PrestressReport {
 /// \details With each element's own stiffness,
 ///   min 1/2 z^T C z  subject to  A z + f = 0  and the bounds,  z = -C^-1 A^T u,  (A C^-1 A^T) u = f,
 /// where A C^-1 A^T is the stiffness matrix of a cloth at rest as it lies; then each element's law is
-/// inverted (invert_elements.h); a plate's bends at z are what its rest angles change by. Bounds and the cone
-/// make it a convex problem without equations (balance_forces()): where they leave no equilibrium it comes as
-/// near as they allow, and `residual` and the lists tell. The rest state that the cloth had does not count;
-/// one that is relaxed and bears no load is at rest as it lies. Whether the equilibrium is stable is not
-/// asked here: certificate.h.
+/// inverted (invert_elements.h); a plate's bends at z are what its rest angles change by. As a plate is made
+/// of rest lengths, it is made anew (plate/recouple.h) and balanced again until it fits them. Threads stay
+/// where they lie in the cloth. Bounds and the cone make it a convex problem without equations
+/// (balance_forces()): where they leave no equilibrium it comes as near as they allow, and `residual` and the
+/// lists tell. The rest state that the cloth had does not count; one that is relaxed and bears no load is at
+/// rest as it lies. Whether the equilibrium is stable is not asked here: certificate.h.
 ///
 /// `imbalance`: pieces that pins leave free to move as rigid bodies while the load moves them by more than
 /// 1e-9 g (balance_rigidly() helps if they hang), and pieces for which also the body's contact cannot prevent

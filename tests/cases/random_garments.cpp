@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "bridge/couple_bending.h"
 #include "bridge/gather.h"
 #include "bridge/store_rest_state.h"
 #include "geometry/fold/line_height.h"
@@ -105,6 +106,7 @@ physics::Cloth RandomGarment::cloth() const {
   physics::Cloth cloth = bridge::gather(mesh, springs);
   physics::pin(cloth.particles, pins);
   physics::stiffen_clamps(cloth);
+  bridge::couple_bending(mesh, springs, cloth);
   return cloth;
 }
 

@@ -25,7 +25,7 @@ struct RandomGarment {
   std::vector<int> pins;
   std::vector<RandomLine> lines;  ///< by id
 
-  physics::Cloth cloth() const;      ///< gathered and pinned, clamps stiffened
+  physics::Cloth cloth() const;      ///< gathered and pinned, clamps stiffened; a plate if springs say so
   std::vector<double> base() const;  ///< of keep_lines()
 };
 

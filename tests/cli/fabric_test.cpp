@@ -113,7 +113,5 @@ TEST_CASE("warp: what cannot be is refused, with what to do") {
   fails("drape " + base + " --warp file", "warp_x");
   fails("drape " + base + " --warp texture", "texture");
   fails("drape " + base + " --stretch 300", "warp = \"none\"");
-  fails("keep " + skirt_mesh() + " --pin-loop top --fabric black-denim -o " + (scratch / "k.ply"),
-        "--warp none");
   fails("render " + skirt_mesh() + " --warp y -o " + (scratch / "r.png"), "--weave");
 }

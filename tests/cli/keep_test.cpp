@@ -39,7 +39,8 @@ height = 0.004
 TEST_CASE("keep: the state goes on with the lines as drawn, all rounds of time 0 in it, at rest") {
   const ScratchDirectory scratch;
   const std::string scene = write_hung_scene(scratch), state = scratch / "kept.ply";
-  const Run run = run_furrow("keep --json --run 1 " + scene + " --save-state " + state);
+  const std::string law = GENERATE("", " --bending-law plate");
+  const Run run = run_furrow("keep --json --run 1 " + scene + law + " --save-state " + state);
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
   const json report = json::parse(run.out);
@@ -65,8 +66,9 @@ TEST_CASE("keep: no output replaces what is read") {
 TEST_CASE("keep: with --whole what gives way between the lines is pressed, and reported", "[release]") {
   const ScratchDirectory scratch;
   const std::string scene = write_hung_scene(scratch);
+  const std::string law = GENERATE("", " --bending-law plate");
   const auto keep = [&](const std::string& flags) {
-    const Run run = run_furrow("keep --json --run 0.05 --gust 0 " + scene + flags);
+    const Run run = run_furrow("keep --json --run 0.05 --gust 0 " + scene + law + flags);
     INFO(run.err);
     REQUIRE((run.exit_code == 0 || run.exit_code == 4));
     return json::parse(run.out);

@@ -20,6 +20,7 @@ furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURC
   validation_scenes_test.cpp
   chart_test.cpp
   keep_test.cpp
+  plate_test.cpp
   rest_keep_test.cpp
   transfer_test.cpp
   drape_test.cpp

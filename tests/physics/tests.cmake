@@ -17,7 +17,8 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   plate/plate_test.cpp
   plate/plate_buckling_test.cpp
   plate/wrinkle_count_test.cpp
-  cloth/press_test.cpp
+  plate/press_test.cpp
+  plate/recouple_test.cpp
   cloth/spring_forces_test.cpp
   cloth/strain_test.cpp
   cloth/strips.cpp

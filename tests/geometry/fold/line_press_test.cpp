@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/mesh/press_map.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/sheet.h"
 #include "tests/test_meshes.h"
@@ -41,6 +42,22 @@ TEST_CASE("hinge_presses: of each line within its width, the greater where two m
     if (reach(0.4) < 0.05) CHECK((apart[e.idx()] == 3 && meeting[e.idx()] == 3));
     if (reach(0.2) > 0.08 && reach(0.4) > 0.1) CHECK(apart[e.idx()] == 1);
   }
+}
+
+TEST_CASE("hinge_presses: what an edge has of its own goes before that of lines") {
+  Mesh mesh = two_lines();
+  const std::vector<double> lines = hinge_presses(mesh, {10, 3}, {0.06, 0.1});
+  auto own = ensure_map(mesh, attribute::press);
+  CHECK(hinge_presses(mesh, {10, 3}, {0.06, 0.1}) == lines);  // unset
+  const Edge first(5), second(6);
+  own[first] = 7, own[second] = 1;
+  std::vector<double> wanted = lines;
+  wanted[first.idx()] = 7, wanted[second.idx()] = 1;
+  CHECK(hinge_presses(mesh, {10, 3}, {0.06, 0.1}) == wanted);
+  CHECK(hinge_presses(mesh, {}, {})[first.idx()] == 7);
+  CHECK(presses_of_lines(mesh, {10, 3}, {0.06, 0.1}) == lines);
+  own[second] = -1;
+  CHECK_THROWS_WITH(hinge_presses(mesh, {}, {}), Catch::Contains("press -1"));
 }
 
 TEST_CASE("hinge_presses: it refuses what is less than 1") {

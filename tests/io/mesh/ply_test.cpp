@@ -104,7 +104,8 @@ TEST_CASE("PLY: every attribute of the register has its columns and comes back w
       "element edge 18\nproperty int vertex1\nproperty int vertex2\nproperty double rest_length\n"
       "property double bending_rest_length\nproperty double rest_angle\nproperty double stiffness\n"
       "property double bending_stiffness\nproperty double hinge_stiffness\nproperty double tension\n"
-      "property int bending_count\nproperty uchar line_edge\nproperty uchar diagonal\n";
+      "property int bending_count\nproperty uchar line_edge\nproperty uchar diagonal\nproperty double "
+      "press\n";
   CHECK(first.substr(first.find("element vertex")) == wanted);
   const io::MeshFile back = read_from(bytes, MeshFormat::ply);
   for_each_attribute([&](const auto& attribute) { CHECK(find_map(back.mesh, attribute).has_value()); });

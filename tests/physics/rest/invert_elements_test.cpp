@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "physics/rest/invert_elements.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "physics/cloth/carried_angle.h"
 #include "physics/cloth/hinge_forces.h"
 #include "physics/cloth/membrane.h"
 #include "tests/physics/cloth/test_cloths.h"
@@ -107,4 +109,70 @@ TEST_CASE("invert_elements: the law has an answer to all stresses that prestress
       CHECK(rest_lengths_for(x, lame.lambda, lame.mu, scale * c.quadratic * d));
     }
   }
+}
+
+TEST_CASE("invert_elements: a triangle with threads gets the lengths and the angle that make its tensions") {
+  Noise noise(11);
+  for (const WovenModuli moduli :
+       {WovenModuli{450, 450, 50, 0}, WovenModuli{1000, 500, 30, 0.2}, WovenModuli{300, 600, 40, 0.1}}) {
+    const WovenSheet sheet = woven_sheet(moduli);
+    for (int i = 0; i < 200; ++i) {
+      const std::array<Vec3, 3> x{Vec3(0, 0, 0), Vec3(0.01, 0, 0) + 0.003 * noise.vector(),
+                                  Vec3(0.004, 0.008, 0) + 0.003 * noise.vector()};
+      const std::array<double, 3> lying{(x[2] - x[1]).norm(), (x[0] - x[2]).norm(), (x[1] - x[0]).norm()};
+      MembraneTriangle start{{0, 1, 2}, {}, sheet.lame.lambda, sheet.lame.mu};
+      start.threads = {3 * noise(), sheet.warp, sheet.weft};
+      for (std::size_t e = 0; e < 3; ++e) start.rest_lengths[e] = lying[e] * (1 + 0.01 * noise());
+      const Eigen::Vector3d wanted = tensions(start, x);
+      const double along = carried_angle(start.threads.angle, start.rest_lengths, lying);
+      const auto rest = rest_of_woven(x, start, along, wanted);
+      REQUIRE(rest);
+      MembraneTriangle found = start;
+      found.rest_lengths = rest->lengths, found.threads.angle = rest->angle;
+      CHECK((tensions(found, x) - wanted).norm() <= 1e-12 * std::max(moduli.warp, wanted.norm()));
+      // The metric is given back, and the thread runs where it ran.
+      for (std::size_t e = 0; e < 3; ++e)
+        CHECK(rest->lengths[e] == Approx(start.rest_lengths[e]).epsilon(1e-9));
+      CHECK(std::abs(std::sin(rest->angle - start.threads.angle)) < 1e-9);
+      CHECK(carried_angle(rest->angle, rest->lengths, lying) == Approx(along).epsilon(1e-9));
+      // Another first corner tells the same cloth.
+      const std::array<Vec3, 3> turned{x[1], x[2], x[0]};
+      const Vec3 first = (x[1] - x[0]).normalized(), second = (x[2] - x[1]).normalized();
+      const double between = std::acos(std::clamp(first.dot(second), -1.0, 1.0));
+      const auto same = rest_of_woven(turned, start, along - between, {wanted[1], wanted[2], wanted[0]});
+      REQUIRE(same);
+      for (std::size_t e = 0; e < 3; ++e)
+        CHECK(same->lengths[e] == Approx(rest->lengths[(e + 1) % 3]).epsilon(1e-11));
+    }
+  }
+}
+
+TEST_CASE("invert_elements: threads under a known pull, and no threads as the law without them") {
+  const std::array<Vec3, 3> x{Vec3(0, 0, 0), Vec3(0.01, 0, 0), Vec3(0.003, 0.01, 0)};
+  const WovenSheet sheet = woven_sheet({1000, 500, 30, 0});
+  MembraneTriangle t{{0, 1, 2}, {}, sheet.lame.lambda, sheet.lame.mu};
+  t.threads = {0, sheet.warp, sheet.weft};
+  // Pulled along x alone, which is the warp: sigma A = 2 s e e^T, and a (a^2 - 1) Y1 / 2 = sigma with c = 1.
+  const double area = 5e-5, sigma = 40;
+  const auto warp = rest_of_woven(x, t, 0, Eigen::Vector3d(0, 0, sigma * area / (2 * 1e-4)));
+  REQUIRE(warp);
+  const double a = 0.01 / warp->lengths[2];
+  CHECK(1000 * a * (a * a - 1) / 2 == Approx(sigma).epsilon(1e-12));
+  CHECK(warp->angle == Approx(0).margin(1e-15));
+  CHECK(warp->lengths[0] == Approx(std::hypot(0.007 / a, 0.01)).epsilon(1e-12));
+  // No tension: it lies at rest.
+  const auto none = rest_of_woven(x, t, 0.7, Eigen::Vector3d::Zero());
+  CHECK(none->angle == Approx(0.7).epsilon(1e-14));
+  for (std::size_t e = 0; e < 3; ++e)
+    CHECK(none->lengths[e] == Approx((x[(e + 2) % 3] - x[(e + 1) % 3]).norm()).epsilon(1e-14));
+  // The same in all directions.
+  const PlaneLame lame = plane_stress(300, 0.3);
+  const MembraneTriangle plain{{0, 1, 2}, {}, lame.lambda, lame.mu};
+  const Eigen::Vector3d tension(3, -2, 7);
+  const auto straight = rest_lengths_for(x, lame.lambda, lame.mu, tension);
+  const auto turned = rest_of_woven(x, plain, 1.1, tension);
+  REQUIRE((straight && turned));
+  for (std::size_t e = 0; e < 3; ++e) CHECK(turned->lengths[e] == Approx((*straight)[e]).epsilon(1e-12));
+  // It bears no more compression than the law does.
+  CHECK_FALSE(rest_of_woven(x, t, 0, Eigen::Vector3d(0, 0, -0.2 * 1000 * area / (2 * 1e-4))));
 }

@@ -4,9 +4,13 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "physics/cloth/carried_angle.h"
 #include "physics/cloth/pins.h"
 #include "physics/contact/residual_force.h"
 #include "physics/motion/simulate.h"
+#include "physics/plate/plate_bending.h"
+#include "physics/plate/press.h"
+#include "physics/plate/recouple.h"
 #include "physics/rest/certificate.h"
 #include "physics/rest/rigid_imbalance.h"
 #include "tests/cases/plates.h"
@@ -92,6 +96,61 @@ TEST_CASE("prestress: a drawn bump whose bending is a plate is in balance, and s
   options.seconds = 0.3;
   simulate(cloth, nullptr, options);
   for (std::size_t i = 0; i < drawn.size(); ++i) CHECK((cloth.particles.x[i] - drawn[i]).norm() < 1e-8);
+}
+
+TEST_CASE("prestress: a plate is the one that its cloth's rest lengths make, pressed or not") {
+  Cloth cloth = with_triangles(bumpy(0.005));
+  pin_row(cloth);
+  balance_rigidly(cloth, gravity);
+  furrow::cases::add_plate(cloth, isotropic_plate(1e-4));
+  press(cloth, std::vector<int>{30, 31, 32, 39, 40, 41, 48, 49}, 10);
+  const PrestressReport report = prestress(cloth);
+  CHECK(report.residual <= 1e-8);
+  CHECK(report.max_strain > 1e-4);
+  const std::vector<Vec3>& x = cloth.particles.x;
+  const double energy = cloth.energies[0]->energy(x);
+  CHECK(energy > 0);
+  CHECK(recouple(cloth));
+  CHECK(cloth.energies[0]->energy(x) == energy);  // to the last bit
+  CHECK(residual_force(cloth, gravity, nullptr, 0, 0.003) == report.residual);
+  CHECK(certify(cloth, {gravity, 0.3, 0.003}).stable());
+}
+
+TEST_CASE("prestress: cloth with threads is in balance by them, and the threads stay where they lie") {
+  for (const WovenModuli moduli : {WovenModuli{450, 450, 50, 0}, WovenModuli{1000, 500, 20, 0.2}}) {
+    Cloth cloth = without_springs(bumpy(0.005));
+    pin_row(cloth);
+    balance_rigidly(cloth, gravity);
+    const WovenSheet sheet = woven_sheet(moduli);
+    const std::vector<double> warp = furrow::cases::warp_along(cloth, 0.5);
+    const auto lengths = furrow::cases::lengths_of(cloth);
+    for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
+      MembraneTriangle m{cloth.triangles[t], lengths[t], sheet.lame.lambda, sheet.lame.mu};
+      m.threads = {warp[t], sheet.warp, sheet.weft};
+      for (double& l : m.rest_lengths) l *= 1.003;  // what it was made of does not count
+      cloth.membrane.push_back(m);
+    }
+    const auto lying = [&](const MembraneTriangle& t, std::size_t i) {
+      return carried_angle(t.threads.angle, t.rest_lengths, lengths[i]);
+    };
+    std::vector<double> before;
+    for (std::size_t t = 0; t < lengths.size(); ++t) before.push_back(lying(cloth.membrane[t], t));
+    furrow::cases::add_plate(cloth, {2e-4, 1e-4, 5e-5}, 0.5);
+    const PrestressReport report = prestress(cloth);
+    CAPTURE(report.max_angle, report.max_strain);
+    CHECK(report.residual <= 1e-8);
+    CHECK(report.residual == residual_force(cloth, gravity, nullptr, 0, 0.003));
+    CHECK(report.active_bounds() == 0);
+    CHECK(report.max_strain > 1e-4);
+    for (std::size_t t = 0; t < lengths.size(); ++t)
+      CHECK(std::abs(std::sin(lying(cloth.membrane[t], t) - before[t])) < 1e-12);
+    CHECK(certify(cloth, {gravity, 0.3, 0.003}).stable());
+    const std::vector<Vec3> drawn = cloth.particles.x;
+    SimulateOptions options;
+    options.seconds = 0.3;
+    simulate(cloth, nullptr, options);
+    for (std::size_t i = 0; i < drawn.size(); ++i) CHECK((cloth.particles.x[i] - drawn[i]).norm() < 1e-8);
+  }
 }
 
 TEST_CASE("prestress: a plate that would turn too far is cut, named, and out of balance") {
