@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bridge/convert.h"
+#include "bridge/couple_bending.h"
 #include "bridge/gather.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/bending_springs.h"
@@ -13,6 +14,7 @@
 #include "geometry/rest/rest_metric.h"
 #include "geometry/rest/stiffness.h"
 #include "physics/cloth/cloth.h"
+#include "physics/cloth/elements.h"
 #include "physics/cloth/pins.h"
 #include "physics/motion/compensation.h"
 #include "physics/motion/simulate.h"
@@ -187,6 +189,40 @@ TEST_CASE("draw_more: what drawing changes in the forces is taken off at first a
     CHECK(worst < 1e-12 * 1000 * edge);
   }
   CHECK(physics::net_force(state.compensation, 2).norm() < 1e-10);
+}
+
+TEST_CASE("draw_more: of bent cloth the forces of its plate are taken off, as those of its hinges are") {
+  for (const bridge::Bending bending : {bridge::Bending::hinge, bridge::Bending::plate}) {
+    CAPTURE(int(bending));
+    Mesh mesh = jittered_sheet();
+    bridge::DrawMoreOptions o = options_for(mesh);
+    o.springs.membrane = bridge::Membrane::triangles;
+    o.springs.bending = bending;
+    o.springs.rigidity = 1e-2;
+    tests::lift(mesh, [](double x, double y) { return 0.05 * std::sin(4 * x) * y; });
+    const auto all_forces = [&] {
+      physics::Cloth cloth = bridge::gather(mesh, o.springs);
+      bridge::couple_bending(mesh, o.springs, cloth);
+      std::vector<Vec3> f(cloth.particles.size(), Vec3::Zero());
+      physics::add_forces(cloth, cloth.particles.x, f);
+      return f;
+    };
+    const std::vector<Vec3> before = all_forces();
+    physics::SimulateState state;
+    auto list = strokes(0.01);
+    for (geometry::Stroke& s : list)
+      for (geometry::Point& p : s.points) p = {p.x(), p.y(), 0.05 * std::sin(4 * p.x()) * p.y()};
+    draw_more(mesh, state, list, o);
+    const std::vector<Vec3> after = all_forces();
+    REQUIRE(state.compensation.force.size() == after.size());
+    double worst = 0, most = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      worst = std::max(worst, (after[i] - state.compensation.force[i] - before[i]).norm());
+      most = std::max(most, (after[i] - before[i]).norm());
+    }
+    CHECK(most > 0.01);
+    CHECK(worst < 1e-11 * largest(after));
+  }
 }
 
 TEST_CASE("draw_more: a second round of lines carries on what is left of the first one's forces") {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "bridge/couple_bending.h"
 #include "bridge/gather.h"
 #include "bridge/keep.h"
 #include "bridge/keep_trial.h"
@@ -11,6 +12,7 @@
 #include "geometry/mesh/sheet.h"
 #include "physics/cloth/pins.h"
 #include "physics/contact/residual_force.h"
+#include "physics/plate/plate_bending.h"
 #include "physics/rest/rigid_imbalance.h"
 #include "tests/cases/random_garments.h"
 #include "tests/cases/safe_rule.h"
@@ -30,7 +32,8 @@ struct Hung {
   physics::Cloth cloth;
   KeepOptions options;
 
-  explicit Hung(double rigidity, std::optional<double> width = {}, double press = 1, double edge = 0.02)
+  explicit Hung(double rigidity, std::optional<double> width = {}, double press = 1, double edge = 0.02,
+                bridge::Bending bending = bridge::Bending::hinge)
       : mesh(geometry::equilateral_sheet(0.3, 0.3, edge)) {
     geometry::Stroke ridge;
     ridge.height = 0.012;
@@ -44,7 +47,7 @@ struct Hung {
     material.mean_structural_length = report.mean_structural_length;
     material.mean_bending_length = report.mean_bending_length;
     material.membrane = bridge::Membrane::triangles;
-    material.bending = bridge::Bending::hinge;
+    material.bending = bending;
     material.stretch = 300;
     material.rigidity = rigidity;
     cloth = gathered();
@@ -58,6 +61,7 @@ struct Hung {
     for (const geometry::Vertex v : mesh.vertices())
       if (mesh.point(v).y() > 0.2999) top.push_back(int(v));
     physics::pin(c.particles, top);
+    bridge::couple_bending(mesh, material, c);
     return c;
   }
   bridge::KeepReport keep() { return bridge::keep_lines(mesh, cloth, {}, {}, options); }
@@ -66,10 +70,12 @@ struct Hung {
   }
 };
 
+constexpr bridge::Bending hinge = bridge::Bending::hinge, plate = bridge::Bending::plate;
+
 }  // namespace
 
 TEST_CASE("keep_lines: a ridge in cloth that can bear it stays as drawn, and after a gust", "[release]") {
-  Hung hung(1e-4);
+  Hung hung(1e-4, {}, 1, 0.02, GENERATE(hinge, plate));
   const bridge::KeepReport report = hung.keep();
   REQUIRE(report.lines.size() == 1);
   CHECK(report.lines[0].verdict == Verdict::held);
@@ -83,7 +89,8 @@ TEST_CASE("keep_lines: a ridge in cloth that can bear it stays as drawn, and aft
 }
 
 TEST_CASE("keep_lines: a line starts from its own width and press, and help multiplies it", "[release]") {
-  Hung stiff(1e-4, 0.08, 3), soft(1e-6, 0.08, 5);
+  const bridge::Bending bending = GENERATE(hinge, plate);
+  Hung stiff(1e-4, 0.08, 3, 0.02, bending), soft(1e-6, 0.08, 5, 0.02, bending);
   const bridge::KeepReport held = stiff.keep();
   CHECK(held.lines[0].verdict == Verdict::held);
   CHECK(held.lines[0].press == 3);
@@ -113,7 +120,8 @@ TEST_CASE(
 
 TEST_CASE("keep_lines: with whole what lies between the lines is pressed until nothing in it gives way",
           "[release]") {
-  Hung lines(3e-8), whole(3e-8);
+  const bridge::Bending bending = GENERATE(hinge, plate);
+  Hung lines(3e-8, {}, 1, 0.02, bending), whole(3e-8, {}, 1, 0.02, bending);
   for (Hung* hung : {&lines, &whole}) {
     hung->options.seconds = hung->options.calm_seconds = 0.05;
     hung->options.height_trials = 0;
@@ -126,14 +134,46 @@ TEST_CASE("keep_lines: with whole what lies between the lines is pressed until n
 }
 
 TEST_CASE("keep_lines: what is stored on the mesh is gathered again as the same cloth at rest") {
-  Hung hung(1e-4);
+  Hung hung(1e-4, {}, 1, 0.02, GENERATE(hinge, plate));
   hung.keep();
   bridge::store_rest_state(hung.cloth, hung.material, hung.mesh);
   CHECK(hung.residual(hung.gathered()) < 1e-8);
 }
 
+TEST_CASE("keep_lines: a pressed plate is gathered again to the last bit, and holds in another run",
+          "[release]") {
+  Hung hung(3e-6, {}, 1, 0.02, plate);
+  hung.options.whole = true;
+  const bridge::KeepReport report = hung.keep();
+  const bridge::KeptLine& line = report.lines[0];
+  CAPTURE(line.press, line.struts, report.rest_press, line.reason);
+  REQUIRE(line.verdict != Verdict::cannot_hold);
+  CHECK(line.press > 1);
+  CHECK(report.rest.residual < 1e-8);
+  bridge::store_rest_state(hung.cloth, hung.material, hung.mesh);
+  physics::Cloth again = hung.gathered();
+  REQUIRE(again.energies.size() == 1);
+  const auto plate_in = [](const physics::Cloth& c) -> const physics::Plate& {
+    return dynamic_cast<const physics::PlateBending&>(*c.energies[0]).plate();
+  };
+  CHECK(plate_in(again).share == plate_in(hung.cloth).share);
+  CHECK(plate_in(again).stiffness == plate_in(hung.cloth).stiffness);
+  CHECK(hung.residual(again) == report.rest.residual);
+  bridge::LineMeter meter(hung.mesh, {}, hung.options.line_widths);
+  const double told = meter.heights(again.particles)[0];
+  for (std::size_t i = 0; i < again.particles.size(); ++i)  // another push than the verdict's
+    if (again.particles.inv_mass[i] > 0) again.particles.x[i].z() += 1e-4 * std::sin(7.0 * double(i));
+  physics::SimulateOptions run = hung.options.run;
+  run.seconds = 2;
+  run.dt_factor /= 2;
+  run.air_drag /= 2;
+  physics::simulate(again, physics::World{}, run);
+  CHECK(meter.heights(again.particles)[0] / told == Approx(1).margin(0.05));
+}
+
 TEST_CASE("keep_lines: soft cloth needs help, and without it no line is called held", "[release]") {
-  Hung alone(1e-6), helped(1e-6);
+  const bridge::Bending bending = GENERATE(hinge, plate);
+  Hung alone(1e-6, {}, 1, 0.02, bending), helped(1e-6, {}, 1, 0.02, bending);
   alone.options.presses.clear();
   alone.options.struts.clear();
   alone.options.height_trials = 0;

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 
+#include "bridge/couple_bending.h"
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/press_map.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/rest/bending_springs.h"
@@ -13,6 +15,9 @@
 #include "geometry/rest/rest_angles.h"
 #include "geometry/rest/rest_metric.h"
 #include "geometry/rest/stiffness.h"
+#include "physics/plate/plate_bending.h"
+#include "physics/plate/press.h"
+#include "physics/plate/recouple.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow;
@@ -107,6 +112,40 @@ TEST_CASE("store_rest_state: what is stored is gathered again with the same bits
       stiffer.tension *= 3;
       CHECK(same(bridge::gather(mesh, stiffer), cloth));
     }
+}
+
+TEST_CASE("store_rest_state: presses of a plate are stored where they are not those of the lines") {
+  Mesh mesh = wavy_sheet();
+  const GatherOptions o = options_for(mesh, Membrane::triangles, Bending::plate);
+  const auto gathered = [&] {
+    physics::Cloth cloth = bridge::gather(mesh, o);
+    bridge::couple_bending(mesh, o, cloth);
+    return cloth;
+  };
+  const auto share = [](const physics::Cloth& cloth) {
+    return dynamic_cast<const physics::PlateBending&>(*cloth.energies.at(0)).plate().share;
+  };
+  physics::Cloth cloth = gathered();
+  bridge::store_rest_state(cloth, o, mesh);
+  CHECK_FALSE(geometry::find_map(mesh, geometry::attribute::press));
+  CHECK(share(gathered()) == share(cloth));
+  CHECK(physics::press(cloth, std::vector<int>{7, 8, 13, 14, 19}, 10) > 3);
+  CHECK(physics::recouple(cloth));
+  bridge::store_rest_state(cloth, o, mesh);
+  REQUIRE(geometry::find_map(mesh, geometry::attribute::press));
+  CHECK(share(gathered()) == share(cloth));
+  // A press of the file counts for plain hinges, too, and goes before that of lines.
+  GatherOptions plain = o;
+  plain.bending = Bending::hinge;
+  const physics::Cloth pressed = bridge::gather(mesh, plain);
+  auto stored = *geometry::find_map(mesh, geometry::attribute::press);
+  mesh.remove_property_map(stored);
+  const physics::Cloth bare = bridge::gather(mesh, plain);
+  int stiffer = 0;
+  for (std::size_t h = 0; h < bare.hinges.size(); ++h)
+    stiffer += pressed.hinges[h].stiffness == Approx(10 * bare.hinges[h].stiffness).epsilon(1e-12);
+  CHECK(stiffer > 3);
+  CHECK(stiffer < int(bare.hinges.size()));
 }
 
 TEST_CASE(
