@@ -211,7 +211,7 @@ Json settings_of_material(const io::SceneMaterial& m) {
   Json json{{"density", m.density.value()}};
   if (!m.is_woven()) {
     json["stretch"] = m.stretch.value(), json["rigidity"] = m.rigidity;
-    json["membrane"] = "triangles", json["bending_law"] = "hinge";
+    json["membrane"] = "triangles", json["bending_law"] = "plate";
     return json;
   }
   json["warp_stretch"] = *m.warp_stretch, json["weft_stretch"] = *m.weft_stretch;

@@ -8,7 +8,7 @@
 namespace furrow::io {
 namespace {
 
-/// Of a fabric that has them; bends then as a plate, whose rigidity may depend on the direction.
+/// Of a fabric that has them.
 void take_threads(SettingsTable& table, const Fabric& fabric, Scene& scene) {
   SceneMaterial& m = scene.material;
   read_setting(table, "material.warp", scene);
@@ -16,7 +16,6 @@ void take_threads(SettingsTable& table, const Fabric& fabric, Scene& scene) {
   const FabricThreads& t = fabric.threads;
   m.warp_stretch = t.warp, m.weft_stretch = t.weft, m.thread_shear = t.shear, m.thread_poisson = t.poisson;
   m.warp_rigidity = t.bend_warp, m.weft_rigidity = t.bend_weft, m.bias_rigidity = t.bend_bias;
-  if (m.is_woven()) m.bending_law = bridge::Bending::plate;
 }
 
 /// A fabric is a plate in SI units: what the file says beside it is read later, and goes before it.
@@ -27,7 +26,7 @@ void take_fabric(SettingsTable& table, Scene& scene) {
   const Fabric& fabric = fabric_named(m.preset);
   m.density = fabric.density;
   m.membrane = bridge::Membrane::triangles;
-  m.bending_law = bridge::Bending::hinge;
+  m.bending_law = bridge::Bending::plate;
   take_threads(table, fabric, scene);
   if (!table.has("stiffness")) m.stretch = fabric.stretch;
   m.rigidity = fabric.rigidity;

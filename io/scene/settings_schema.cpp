@@ -239,8 +239,8 @@ const Row<Scene> rows[] = {
       .flag = "--bending-law",
       .help = "what resists bending: cross (springs, default), hinge (of a rigidity), cosine, or plate (of a "
               "rigidity, the same on every mesh)",
-      .help_at_rest = "in place of a fabric: hinge (of a rigidity, as fabrics are), plate (the same on "
-                      "every mesh), cosine, or cross (springs)",
+      .help_at_rest = "in place of a fabric: plate (of a rigidity, as fabrics are), hinge (each edge by "
+                      "itself), cosine, or cross (springs)",
       .what = "what resists bending: springs across the edges, a plate's hinges, the cosine law (paper 2), "
               "or hinges coupled to one plate ([bending.md](bending.md))",
       .flag_in = used_by::all},

@@ -175,7 +175,10 @@ void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
   text << d.name << ": not at rest after " << last.iterations << " iterations, residual force "
        << last.residual << " of a vertex's weight, cloth " << geometry::length_text(last.deepest)
        << " deep in the gap";
-  if (!d.is_torn()) text << "; give more with --max-iterations, or accept it with --residual";
+  if (last.stuck)
+    text << ", and no step leads on: draw or lay it otherwise, or try --starts 4";
+  else if (!d.is_torn())
+    text << "; give more with --max-iterations, or accept it with --residual";
   remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
 }
 

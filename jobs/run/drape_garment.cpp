@@ -128,14 +128,15 @@ Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int
   return draped;
 }
 
-/// Whether contact of cloth with cloth would have kept it from what it came to.
+/// Whether contact of cloth with cloth would have kept it from what it came to; cloth that has gone through
+/// itself may find no rest.
 bool asks_for_contact(const DrapePlan& plan, const Draped& d) {
   const std::size_t allowed = std::size_t(plan.scene.allow_crossings);
   return plan.settings.self_contact == SelfContactUse::automatic && !plan.settings.plain &&
-         !d.report.stopped && d.rests() && d.crossings.pairs > std::max(allowed, d.crossings.from_start);
+         !d.report.stopped && !d.falls && !d.broken && d.crossings.pairs > std::max(allowed, d.crossings.from_start);
 }
 
-/// The better one of a rest to which cloth passed through cloth, and one with contact of cloth with cloth,
+/// The better one of an end to which cloth passed through cloth, and one with contact of cloth with cloth,
 /// which is looked for now.
 Draped drape_with_contact(Draped without, DrapePlan plan, const FallWatch& watch, std::vector<int>& loose,
                           const Context& context) {
@@ -149,7 +150,7 @@ Draped drape_with_contact(Draped without, DrapePlan plan, const FallWatch& watch
   const double seconds = without.seconds + with.seconds;
   if (with.report.stopped) {
     without.report.stopped = true;
-  } else if (with.rests() && with.crossings.pairs < without.crossings.pairs) {
+  } else if (with.rests() && (with.crossings.pairs < without.crossings.pairs || !without.rests())) {
     with.crossings_without = without.crossings.pairs;
     without = std::move(with);
   } else if (!plan.settings.animation.empty()) {  // it shows the way that is not taken

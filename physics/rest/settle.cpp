@@ -39,6 +39,8 @@ constexpr int most_face_rounds = 8;       // rests after which contacts of faces
 constexpr int most_face_steps = 40;       // iterations of such a round
 constexpr double face_stiffness = 4;      // that many times the vertices'
 constexpr int most_blocked = 8;           // steps running that cloth cuts short, before it ends
+constexpr int most_refused = 30;          // steps running that lead nowhere, before it ends
+constexpr double nowhere = 1e-9;          // m
 
 void check(const Cloth& cloth, const SettleOptions& o) {
   constexpr const char* me = "settle";
@@ -67,8 +69,9 @@ struct Answer {
   double energy = 0;  ///< of elements and weight [J]
 };
 struct Move {
-  Vectors way;   ///< of each particle [m]
-  double share;  ///< the largest that the options allow [-]; in (0, 1]
+  Vectors way;     ///< of each particle [m]
+  double share;    ///< the largest that the options allow [-]; in (0, 1]
+  double longest;  ///< of the ways [m]
 };
 /// Where a move led.
 struct Trial {
@@ -90,6 +93,7 @@ struct Factors {
 struct Step {
   Pace next;
   int factorisations, followers;
+  bool moved;
 };
 
 /// A rest that was found.
@@ -166,7 +170,9 @@ class Settler {
         rests = report.converged = false;
       }
       report.stopped = (observer && !observer({report.iterations, report.residual})) || is_cancelled();
-      if (report.converged || report.stopped || report.iterations == last_iteration() || is_blocked()) break;
+      if (report.converged || report.stopped || report.iterations == last_iteration() || is_blocked() ||
+          refused_ == most_refused)
+        break;
       if (rests) {
         here = stiffen();
         pace.tau = first_time;
@@ -175,6 +181,7 @@ class Settler {
         report.stopped = !done;
         if (!done) break;
         pace = done->next;
+        refused_ = done->moved ? 0 : refused_ + 1;
         report.factorisations += done->factorisations;
         report.followers += done->followers;
       }
@@ -182,6 +189,7 @@ class Settler {
     if (faces_) report.face_contacts = faces_->touching();
     report.contact_energy = faces_ ? faces_->energy() : 0;
     if (best_ && !report.stopped) take_best(report);
+    report.stuck = !report.converged && refused_ == most_refused;
     if (contact_) {
       report.touching = contact_->touching();
       report.deepest = contact_->deepest();
@@ -339,11 +347,10 @@ class Settler {
   }
 
   Move find_move(const LimitedMemory& inverse, const Vectors& net) const {
-    Move move{net, 1};
+    Move move{net, 1, 0};
     inverse.apply(move.way);
-    double longest = 0;
-    for (const Vec3& m : move.way) longest = std::max(longest, m.norm());
-    if (longest > o_.longest_move) move.share = o_.longest_move / longest;
+    for (const Vec3& m : move.way) move.longest = std::max(move.longest, m.norm());
+    if (move.longest > o_.longest_move) move.share = o_.longest_move / move.longest;
     return move;
   }
 
@@ -377,7 +384,7 @@ class Settler {
   /// becomes what is answered there.
   Step step(const Pace& pace, Answer& here, bool near) {
     const Factors factors = factorise(pace);
-    if (!factors.definite) return {{0.25 * pace.tau, factors.clamp}, factors.tries, 0};
+    if (!factors.definite) return {{0.25 * pace.tau, factors.clamp}, factors.tries, 0, false};
     LimitedMemory inverse([this](std::span<Vec3> f) { stiffness_.solve(f, &pool_); }, most_followers);
     Vectors net = net_force(here);
     Move move = find_move(inverse, net);
@@ -400,7 +407,7 @@ class Settler {
       expect(Vectors(p_.size(), Vec3::Zero()));  // limits of where it stayed
     Pace next = next_pace(pace, factors, move, share);
     if (pairs_ && pairs_->blocked() > 1) next.tau *= 0.25;  // cut short twice running
-    return {next, factors.tries, followers};
+    return {next, factors.tries, followers, share * move.longest > nowhere};
   }
 
   /// Goes on with the same factors and what the steps with them show, as long as that pays. Returns how many
@@ -439,6 +446,7 @@ class Settler {
   std::optional<ClothContact> pairs_;
   std::optional<Rest> best_;  ///< with faces_
   int face_rounds_ = 0, round_ends_ = std::numeric_limits<int>::max();
+  int refused_ = 0;  ///< steps running
 };
 
 }  // namespace

@@ -46,7 +46,8 @@ TEST_CASE("drape_disc: a finer mesh drapes as much", "[release]") {
 TEST_CASE("drape_disc: friction of bending holds a disc up, by hinges and by a plate", "[release]") {
   tests::Recorder recorder;
   for (const char* fabric : {"cotton", "wool-twill"}) {
-    jobs::DiscJob job = disc_of(fabric, 10);
+    jobs::DiscJob job = disc_of(fabric, 15);
+    if (std::string(fabric) == "cotton") job.material.bending_law = bridge::Bending::hinge;
     const double elastic = jobs::drape_disc(job, recorder).coefficient;
     job.bending_friction = 30 * job.material.rigidity;
     const jobs::DiscReport held = jobs::drape_disc(job, recorder);

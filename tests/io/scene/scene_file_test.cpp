@@ -187,7 +187,9 @@ TEST_CASE("scene_file: cloth with threads has all six figures, and none of cloth
   CHECK(scene(denim + "warp_stretch = 500\n").material.warp_stretch == 500.);
   const io::SceneMaterial plain = scene(denim + "warp = \"none\"\nstretch = 300\n").material;
   CHECK_FALSE(plain.is_woven());
-  CHECK(plain.bending_law == bridge::Bending::hinge);
+  CHECK(plain.bending_law == bridge::Bending::plate);
+  CHECK(scene(denim + "warp = \"none\"\nbending_law = \"hinge\"\n").material.bending_law ==
+        bridge::Bending::hinge);
   CHECK(scene(denim + "warp = \"lines.json\"\n").material.warp == "a/lines.json");
   CHECK(has(fault(begin + six.substr(0, six.find("bias"))), "material.bias_rigidity is missing"));
   CHECK(has(fault(denim + "rigidity = 1e-5\n"), "say warp = \"none\""));

@@ -76,7 +76,9 @@ TEST_CASE("settle: iterations end where they are told to, and round-off does no 
   options.max_iterations = 200;
   options.tolerance = 1e-300;
   report = find_rest(strip.cloth, options);
-  CHECK(report.iterations == 200);
+  CHECK(report.stuck);
+  CHECK(report.iterations > 30);
+  CHECK(report.iterations < 200);  // as thirty steps led nowhere
   CHECK(report.residual < 1e-5);
   CHECK(report.stable);
   CHECK_FALSE(report.converged);
