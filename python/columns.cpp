@@ -3,7 +3,9 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/mesh/attribute_register.h"
 #include "geometry/mesh/vertex_attributes.h"

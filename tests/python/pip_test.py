@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`pip install` without a network, into an environment of its own; of the module that is built already."""
+import importlib.util
 import os
 import subprocess
 import sys
@@ -23,6 +24,9 @@ class Pip(unittest.TestCase):
     def test_it_installs_what_runs(self):
         if not os.environ.get("FURROW_BUILD"):
             self.skipTest("FURROW_BUILD names no build folder")
+        for needed in ("setuptools", "wheel", "pip"):
+            if importlib.util.find_spec(needed) is None:
+                self.skipTest(needed + " is not installed")
         with tempfile.TemporaryDirectory() as folder:
             environment = os.path.join(folder, "venv")
             try:
