@@ -198,6 +198,20 @@ void add_draped(Lines& lines, const Json& report) {
   add_crossings(lines, report);
 }
 
+/// Of parts of the processor time, the largest first, without what rounds to nothing.
+std::string shares_of(const Json& times) {
+  std::vector<std::pair<double, std::string>> parts;
+  for (const auto& [name, part] : times.items())
+    if (value_of(part, "share") >= 0.005) parts.emplace_back(-value_of(part, "share"), name);
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::string text;
+  for (const auto& [share, name] : parts)
+    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(std::lround(-100 * share)) + " %";
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
 }  // namespace
 
 Lines info_lines(const Json& report) {
@@ -411,6 +425,7 @@ Lines simulate_lines(const Json& report) {
   if (!kept.empty()) lines.push_back("lines keep of their height: " + kept);
   if (const Json& choice = table_of(report, "choice"); !choice.empty())
     lines.push_back(text_of(choice, "says"));
+  if (report.contains("times")) lines.push_back("processor time: " + shares_of(report["times"]));
   add_crossings(lines, report);
   return lines;
 }

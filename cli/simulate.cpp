@@ -18,6 +18,7 @@ struct SimulateArguments : CommonArguments {
   std::string in, state;
   double budget = 60;
   std::string accuracy;
+  bool times = false;
   CLI::Option* budget_option = nullptr;
   std::optional<std::string> outputs_below;
   SceneFlags flags;
@@ -50,6 +51,7 @@ SimulateJob job_of(const SimulateArguments& a) {
   check_accuracy(a, job);
   if (!a.accuracy.empty()) job.tolerance = parse_share(a.accuracy, "--accuracy");
   job.budget = a.budget;
+  job.times = a.times;
   if (a.outputs_below) job.outputs_below = *a.outputs_below;
   return job;
 }
@@ -118,6 +120,9 @@ void add_simulate(CLI::App& app, int& exit_code) {
   sub->add_option(
       "--outputs-below", a->outputs_below,
       "folder that the outputs named by a scene file must lie in (default: the scene's own folder)");
+  sub->add_flag(
+      "--times", a->times,
+      "report what processor time went to: assembly, factorisation, solve, elements, contact, output");
   add_common_options(*sub, *a);
   sub->callback([a, &exit_code] { exit_code = simulate(*a); });
 }

@@ -32,6 +32,7 @@
 #include "jobs/run_until_drawn.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/base/progress.h"
+#include "physics/motion/work_clock.h"
 
 namespace furrow::jobs {
 namespace {
@@ -45,6 +46,7 @@ struct Run {
   bool resumed;
   Watch watch = {};
   Hand hand = {};  ///< empty: there is none, or the integrator knows no energies
+  bool times = false;
   std::vector<std::vector<io::DrawnStroke>> strokes = {};  ///< of each round
 };
 
@@ -212,6 +214,7 @@ physics::SimulateOptions options_of(const Run& run, io::SavedState& now, double 
         std::max(now.contact_gap, contact_gap(options.contact_gap, run.body->tolerance(), now.file));
   if (stop < options.seconds) options.stop_at = stop;
   options.threads = threads_of(run.scene, vertices);
+  options.times = run.times;
   return options;
 }
 
@@ -354,6 +357,8 @@ void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std
     report.shape = measure_shape(now.file, reached.heights, run.body.get(), now.contact_gap, report.run.time);
     report.shape->crossings = measure_crossings(now.file, &reached.crossed);
     report.faults = faults_of(run.scene, *report.shape, report.run.strain);
+    if (report.run.outcome == physics::Outcome::blocked)
+      report.faults.push_back(words_of_block(run.scene, report.run));
     if (report.rest && !report.rest->settle.converged)
       report.faults.push_back(words_of_unrest(run.scene, *report.rest, report.run.steps > 0));
     report.warnings = remarks_on_run(run, report.run, now.file, now.contact_gap, steps_before);
@@ -385,6 +390,13 @@ Judgement choose_setting(const SimulateJob& job, OpenScene& scene, const Context
   return judgement;
 }
 
+/// With what no part took, and `written` seconds more of output.
+physics::WorkTimes times_of(const physics::SimulateReport& run, double written) {
+  physics::WorkTimes times = run.times;
+  times[std::size_t(physics::WorkPart::output)] += written;
+  return times;
+}
+
 }  // namespace
 
 SimulateJob resume_from(const std::filesystem::path& path) {
@@ -413,13 +425,16 @@ SimulateReport simulate(const SimulateJob& job, Listener& listener) {
     report.settings_before =
         io::relocated(io::document_of(job.state->scene, report.state), job.state_path.parent_path(), "");
   report.frame = scene.frame;
-  Run run{scene, scene.scene, context, std::move(body), job.state.has_value(), job.watch};
+  Run run{scene,     scene.scene, context, std::move(body), job.state.has_value(),
+          job.watch, {},          job.times};
   if (scene.scene.simulation.integrator != physics::Integrator::xpbd) run.hand = job.hand;
   AnimationSeries animations(scene.scene.output, context.frame);
   const std::int64_t steps_before = job.state ? job.state->simulation.step : 0;
   Reached reached = take_up(run, job.state ? *job.state : begin(scene.scene, context));
   report.run = run_to_end(run, reached, animations, report);
+  const double written_from = physics::processor_seconds();
   conclude(run, reached, animations, steps_before, report);
+  if (job.times) report.times = times_of(report.run, physics::processor_seconds() - written_from);
   report.settings = io::relocated(scene.document, scene.folder, "");
   return report;
 }

@@ -85,6 +85,8 @@ struct SimulateReport {
   bool scene_dt = false;            ///< the settings named a step before the choice
   bool ran = false;                 ///< false: nothing meets the tolerance; what follows is empty
   physics::SimulateReport run;      ///< of the whole run; its outcome
+  /// Processor time by part [s], of steps and of what was written; none: it was not asked for.
+  std::optional<physics::WorkTimes> times;
   /// At its end, beside `run.kinetic_energy`; weight against the origin, contact left 0; none: it diverged.
   std::optional<bridge::EnergyParts> energy;
   std::optional<ReachedShape> shape;      ///< none: it diverged
@@ -136,6 +138,7 @@ struct SimulateJob {
   /// first, from the beginning only; none: those of the settings.
   std::optional<double> tolerance;
   double budget = 60;         ///< predicted seconds of one thread that choosing may take [s]; > 0
+  bool times = false;         ///< whether processor time is divided among parts; no result depends on it
   bool needs_output = false;  ///< settings that name no output are refused
   /// Below which the outputs that a scene file names must lie; none: the scene's folder. Empty: the folder
   /// that the program runs in.

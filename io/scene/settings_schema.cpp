@@ -398,6 +398,21 @@ const Row<Scene> rows[] = {
       .used = used_by::moving},
      whole(
          1, 100000, [](auto& s) -> auto& { return s.simulation.backward_euler.newton_iterations; })},
+    {{.path = "simulation.self_contact",
+      .flag = "--self-contact",
+      .help =
+          "on: cloth keeps off cloth, and no step passes through it; with implicit and tr-bdf2 (default off)",
+      .what = "`on`: cloth keeps off cloth, and no step passes through it; with `implicit` and `tr-bdf2`",
+      .used = used_by::simulate,
+      .flag_in = used_by::simulate},
+     choice<bool>([](auto& s) -> auto& { return s.simulation.self.on; }, {{"off", false}, {"on", true}})},
+    {{.path = "simulation.thickness",
+      .flag = "--cloth-thickness",
+      .what = "of the cloth, with `self_contact`: layers are so far apart",
+      .used = used_by::simulate,
+      .flag_in = used_by::simulate},
+     number(
+         positive("m"), [](auto& s) -> auto& { return s.simulation.self.thickness; })},
     {{.path = "simulation.threads",
       .flag = "--threads",
       .help = "threads (default: one for each 10,000 vertices, at most all cores); the result does not "

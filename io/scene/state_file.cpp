@@ -72,6 +72,28 @@ physics::SimulateTotals totals_of(const Json& j) {
   return t;
 }
 
+Json to_json(const physics::SelfContactMemory& self) {
+  Json json{{"stiffness", self.stiffness},
+            {"crossed_at_start", self.crossed_at_start},
+            {"loose", self.loose},
+            {"coupled", self.coupled},
+            {"pairs", Json::array()}};
+  for (const physics::PairMemory& p : self.pairs)
+    json["pairs"].push_back({int(p.edges), p.first, p.second, p.range, p.target});
+  return json;
+}
+
+physics::SelfContactMemory self_contact_of(const Json& json) {
+  physics::SelfContactMemory self;
+  self.stiffness = json.at("stiffness");
+  self.crossed_at_start = json.at("crossed_at_start");
+  self.loose = json.at("loose").get<std::vector<int>>();
+  self.coupled = json.at("coupled").get<std::vector<std::array<int, 2>>>();
+  for (const Json& p : json.at("pairs"))
+    self.pairs.push_back({p.at(0).get<int>() != 0, p.at(1), p.at(2), p.at(3), p.at(4)});
+  return self;
+}
+
 Json to_json(const SavedState& saved) {
   const SimulateState& s = saved.simulation;
   Json json{{"version", 2},
@@ -98,6 +120,7 @@ Json to_json(const SavedState& saved) {
             {"scene", saved.scene}};
   if (saved.field_tolerance > 0) json["field_tolerance"] = saved.field_tolerance;
   if (s.steps.contact_stiffness > 0) json["contact_stiffness"] = s.steps.contact_stiffness;
+  if (s.steps.self.stiffness > 0) json["self_contact"] = to_json(s.steps.self);
   for (const Vec3& home : s.homes)
     for (int k = 0; k < 3; ++k) json["homes"].push_back(home[k]);
   return json;
@@ -163,6 +186,7 @@ SavedState from_json(const Json& json, std::size_t vertices) {
   if (!(saved.field_tolerance >= 0 && saved.field_tolerance < 1))
     throw std::invalid_argument("field_tolerance is not in [0, 1) m");
   s.steps.contact_stiffness = json.value("contact_stiffness", 0.0);
+  if (json.contains("self_contact")) s.steps.self = self_contact_of(json.at("self_contact"));
   saved.scene = json.at("scene");
   if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
   if (version == 1) name_rule(saved.scene);

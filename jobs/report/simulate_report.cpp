@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <numeric>
 
 #include "jobs/keep.h"
 #include "jobs/read_inputs.h"
@@ -23,6 +24,8 @@ const char* name_of(physics::Outcome outcome) {
       return "stopped";
     case physics::Outcome::stopped_by_observer:
       return "interrupted";
+    case physics::Outcome::blocked:
+      return "blocked";
   }
   return "";
 }
@@ -69,6 +72,11 @@ Json to_json(const ReachedShape& shape, const physics::SimulateReport& run) {
     json["truncated_moves"] = run.truncated_moves;
     if (run.frames_built) json["body_frames"] = {{"built", run.frames_built}, {"seconds", run.frame_seconds}};
   }
+  if (run.self.on)
+    json["self_contact"] = {{"pairs", run.self.pairs},
+                            {"nearest", run.self.pairs > 0 ? Json(run.self.nearest) : Json()},
+                            {"crossed_at_start", run.self.crossed_at_start},
+                            {"exempt", run.self.exempt}};
   json["self_intersections"] = shape.crossings.pairs;
   json["crossings"] = jobs::to_json(shape.crossings);
   json["borders"] = to_json(shape.borders);
@@ -78,6 +86,15 @@ Json to_json(const ReachedShape& shape, const physics::SimulateReport& run) {
 
 Json to_json(const AnimationReport& r) {
   return {{"file", r.file.string()}, {"start", r.start}, {"fps", r.fps}, {"frames", r.frames}};
+}
+
+Json times_json(const physics::WorkTimes& times) {
+  Json json = Json::object();
+  const double total = std::accumulate(times.begin(), times.end(), 0.0);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    json[name_of(physics::WorkPart(i))] = {{"seconds", times[i]},
+                                           {"share", total > 0 ? times[i] / total : 0.0}};
+  return json;
 }
 
 }  // namespace
@@ -127,6 +144,9 @@ Json to_json(const SimulateReport& r) {
   for (const DrawnRound& round : r.rounds) json["rounds"].push_back(to_json(round));
   for (const AnimationReport& animation : r.animations) json["animations"].push_back(to_json(animation));
   if (r.choice) json["choice"] = to_json(*r.choice, r.scene_dt);
+  if (r.run.outcome == physics::Outcome::blocked)
+    json["blocked_at"] = {r.run.blocked_at.x(), r.run.blocked_at.y(), r.run.blocked_at.z()};
+  if (r.times) json["times"] = times_json(*r.times);
   return json;
 }
 

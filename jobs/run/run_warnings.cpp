@@ -103,9 +103,11 @@ std::vector<Fault> faults_of(const io::Scene& scene, const ReachedShape& shape,
         {"cloth crosses itself",
          {"cloth_crosses",
           words(shape.crossings) +
-              "; cloth has no contact with cloth here, so part its layers at the start, or accept "
-              "them with --allow-crossings " +
-              std::to_string(shape.crossings.pairs),
+              (scene.simulation.self.on
+                   ? "; they were there at the start: draw or drape it without, or accept them with "
+                   : "; cloth has no contact with cloth here: --self-contact on, with --integrator implicit, "
+                     "keeps it apart, or accept them with ") +
+              "--allow-crossings " + std::to_string(shape.crossings.pairs),
           garment, "garment.allow_crossings"}});
   return faults;
 }
@@ -174,6 +176,17 @@ Warning interruption_of(const io::Scene& scene, const physics::SimulateReport& r
               (scene.output.state.empty() ? "the shape reached was written; with --save-state it could go on"
                                           : "the state reached was written"),
           "", "output.state"};
+}
+
+Fault words_of_block(const io::Scene& scene, const physics::SimulateReport& report) {
+  return {
+      "blocked",
+      {"blocked",
+       fmt::format("blocked at {:.4g} s, at {}: pins pull the cloth into itself there, and no step is left "
+                   "that passes through nothing; lead them otherwise, or let cloth pass through cloth "
+                   "(--self-contact off)",
+                   report.time, place(report.blocked_at)),
+       scene.garment.string(), "simulation.self_contact"}};
 }
 
 std::string words_of_divergence(const io::Scene& scene, const physics::SimulateReport& report) {

@@ -33,6 +33,8 @@ std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineRe
 Warning interruption_of(const io::Scene& scene, const physics::SimulateReport& report);
 
 /// That the run diverged, and what helps: a sentence.
+/// Of a run that is blocked.
+Fault words_of_block(const io::Scene& scene, const physics::SimulateReport& report);
 std::string words_of_divergence(const io::Scene& scene, const physics::SimulateReport& report);
 
 }  // namespace furrow::jobs

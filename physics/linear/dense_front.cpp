@@ -13,16 +13,17 @@ namespace {
 constexpr int block = 64;                      // columns that are eliminated between two products
 constexpr double least_shared_products = 1e6;  // multiplications that are worth waking threads
 
-/// Calls work(from, to) on pieces of the rows [from, to), multiples of 8, of like work: where `triangle`, row
-/// r costs r. Each row is computed alike whatever the pieces are.
-template <class Work>
+/// Calls work(from, to) on pieces of the rows [from, to), multiples of a line, of like work: where
+/// `triangle`, row r costs r. Each row is computed alike whatever the pieces are.
+template <int line, class Work>
 void share_rows(int from, int to, bool triangle, double multiplications, ThreadPool* pool, Work work) {
   if (from >= to) return;
   if (!pool || pool->threads() == 1 || multiplications < least_shared_products) return work(from, to);
   const int pieces = 3 * pool->threads();
   const auto row = [&](int piece) {
     const double share = double(piece) / pieces;
-    return piece == pieces ? to : from + int((to - from) * (triangle ? std::sqrt(share) : share)) / 8 * 8;
+    return piece == pieces ? to
+                           : from + int((to - from) * (triangle ? std::sqrt(share) : share)) / line * line;
   };
   pool->share(pieces, [&](int piece, int) {
     if (row(piece) < row(piece + 1)) work(row(piece), row(piece + 1));
@@ -31,17 +32,18 @@ void share_rows(int from, int to, bool triangle, double multiplications, ThreadP
 
 }  // namespace
 
-bool eliminate(const DenseFront& f, ThreadPool* pool) {
-  const DenseKernels& kernels = dense_kernels();
+template <class Real>
+bool eliminate(const FrontOf<Real>& f, ThreadPool* pool) {
+  const KernelsOf<Real>& kernels = dense_kernels<Real>();
   for (int o = 0; o < f.width; o += block) {
-    const int columns = std::min(block, f.width - o), square = padded(columns), rows = f.stride - o;
-    double* own = f.panel + std::ptrdiff_t(o) * f.stride + o;
-    DenseProduct product{own, f.stride, f.panel + o, f.stride, 0, square, columns, o};
+    const int columns = std::min(block, f.width - o), square = padded<Real>(columns), rows = f.stride - o;
+    Real* own = f.panel + std::ptrdiff_t(o) * f.stride + o;
+    ProductOf<Real> product{own, f.stride, f.panel + o, f.stride, 0, square, columns, o};
     if (o > 0) kernels.product(product);
     if (!kernels.factorise(own, f.stride, columns, square)) return false;
     const double work = double(rows - square) * columns * (o + columns / 2);
-    share_rows(square, rows, false, work, pool, [&](int from, int to) {
-      DenseProduct part = product;
+    share_rows<line_of<Real>>(square, rows, false, work, pool, [&](int from, int to) {
+      ProductOf<Real> part = product;
       part.from = from, part.to = to;
       if (o > 0) kernels.product(part);
       kernels.solve_rows(own, f.stride, columns, from, to);
@@ -50,21 +52,33 @@ bool eliminate(const DenseFront& f, ThreadPool* pool) {
   return true;
 }
 
-void negative_square(const DenseFront& f, double* update, int update_stride, ThreadPool* pool) {
+template <class Real>
+void negative_square(const FrontOf<Real>& f, Real* update, int update_stride, ThreadPool* pool) {
   const int rest = f.height - f.width;
   const double work = 0.5 * rest * rest * f.width;
-  share_rows(0, update_stride, true, work, pool, [&](int from, int to) {
-    dense_kernels().product(
+  share_rows<line_of<Real>>(0, update_stride, true, work, pool, [&](int from, int to) {
+    dense_kernels<Real>().product(
         {update, update_stride, f.panel + f.width, f.stride, from, to, rest, f.width, true});
   });
 }
 
-void substitute_forward(const DenseFront& f, double* x) {
-  dense_kernels().forward(f.panel, f.stride, f.width, x);
+template <class Real>
+void substitute_forward(const FrontOf<Real>& f, Real* x) {
+  dense_kernels<Real>().forward(f.panel, f.stride, f.width, x);
 }
 
-void substitute_backward(const DenseFront& f, double* x) {
-  dense_kernels().backward(f.panel, f.stride, f.width, x);
+template <class Real>
+void substitute_backward(const FrontOf<Real>& f, Real* x) {
+  dense_kernels<Real>().backward(f.panel, f.stride, f.width, x);
 }
+
+template bool eliminate(const FrontOf<float>&, ThreadPool*);
+template bool eliminate(const FrontOf<double>&, ThreadPool*);
+template void negative_square(const FrontOf<float>&, float*, int, ThreadPool*);
+template void negative_square(const FrontOf<double>&, double*, int, ThreadPool*);
+template void substitute_forward(const FrontOf<float>&, float*);
+template void substitute_forward(const FrontOf<double>&, double*);
+template void substitute_backward(const FrontOf<float>&, float*);
+template void substitute_backward(const FrontOf<double>&, double*);
 
 }  // namespace furrow::physics

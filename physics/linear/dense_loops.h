@@ -12,23 +12,27 @@
 /// the same sequence of operations for each V.
 namespace furrow::physics::dense {
 
-constexpr int group = 8;  // columns that are eliminated at once, their coefficients in registers
+/// Columns that are eliminated at once, their coefficients in registers.
+template <class Real>
+constexpr int group_of = line_of<Real>;
 
 /// Columns [0, count) of the rows r of `a` over the factor's square: X = A L^-T.
 template <class V>
-FURROW_INLINE void solve_group(double* a, int stride, int count, int from, int to) {
-  double factor[group][group] = {}, inverse[group] = {};
+FURROW_INLINE void solve_group(RealOf<V>* a, int stride, int count, int from, int to) {
+  using Real = RealOf<V>;
+  constexpr int group = group_of<Real>;
+  Real factor[group][group] = {}, inverse[group] = {};
   for (int c = 0; c < count; ++c) {
     inverse[c] = 1 / a[c + std::ptrdiff_t(c) * stride];
     for (int i = 0; i < c; ++i) factor[c][i] = a[c + std::ptrdiff_t(i) * stride];
   }
   for (int r = from; r < to; r += lanes<V>) {
     V x[group];
-#pragma GCC unroll 8
+#pragma GCC unroll 16
     for (int c = 0; c < group; ++c) {
       x[c] = V{};
       if (c < count) load(x[c], a + r + std::ptrdiff_t(c) * stride);
-#pragma GCC unroll 8
+#pragma GCC unroll 16
       for (int i = 0; i < c; ++i) x[c] -= x[i] * (factor[c][i] - V{});
       x[c] = x[c] * (inverse[c] - V{});
       if (c < count) store(a + r + std::ptrdiff_t(c) * stride, x[c]);
@@ -36,27 +40,30 @@ FURROW_INLINE void solve_group(double* a, int stride, int count, int from, int t
   }
 }
 
-/// The group's own rows, 8 of them.
-FURROW_INLINE bool factorise_group(double* a, int stride, int count) {
+/// The group's own rows, a line of them.
+template <class Real>
+FURROW_INLINE bool factorise_group(Real* a, int stride, int count) {
+  constexpr int group = group_of<Real>;
   for (int j = 0; j < count; ++j) {
-    double* column = a + std::ptrdiff_t(j) * stride;
+    Real* column = a + std::ptrdiff_t(j) * stride;
     for (int i = 0; i < j; ++i) {
-      const double* done = a + std::ptrdiff_t(i) * stride;
+      const Real* done = a + std::ptrdiff_t(i) * stride;
       for (int r = j; r < group; ++r) column[r] -= done[r] * done[j];
     }
     if (!(column[j] > 0) || !std::isfinite(column[j])) return false;
     column[j] = std::sqrt(column[j]);
-    const double inverse = 1 / column[j];
+    const Real inverse = 1 / column[j];
     for (int r = j + 1; r < group; ++r) column[r] *= inverse;
   }
   return true;
 }
 
 template <class V>
-FURROW_INLINE bool factorise(double* a, int stride, int columns, int rows) {
+FURROW_INLINE bool factorise(RealOf<V>* a, int stride, int columns, int rows) {
+  constexpr int group = group_of<RealOf<V>>;
   for (int k = 0; k < columns; k += group) {
     const int count = std::min(group, columns - k);
-    double* own = a + std::ptrdiff_t(k) * stride + k;
+    RealOf<V>* own = a + std::ptrdiff_t(k) * stride + k;
     if (k > 0) shallow<V>({own, stride, a + k, stride, 0, rows - k, count, k});
     if (!factorise_group(own, stride, count)) return false;
     solve_group<V>(own, stride, count, group, rows - k);
@@ -65,13 +72,14 @@ FURROW_INLINE bool factorise(double* a, int stride, int columns, int rows) {
 }
 
 template <class V>
-FURROW_INLINE void solve_rows(double* a, int stride, int columns, int from, int to) {
+FURROW_INLINE void solve_rows(RealOf<V>* a, int stride, int columns, int from, int to) {
+  constexpr int group = group_of<RealOf<V>>;
   constexpr int piece = 96;  // rows that stay in the cache
   for (int r = from; r < to; r += piece) {
     const int end = std::min(r + piece, to);
     for (int k = 0; k < columns; k += group) {
       const int count = std::min(group, columns - k);
-      double* own = a + std::ptrdiff_t(k) * stride + k;
+      RealOf<V>* own = a + std::ptrdiff_t(k) * stride + k;
       if (k > 0) shallow<V>({own, stride, a + k, stride, r - k, end - k, count, k});
       solve_group<V>(own, stride, count, r - k, end - k);
     }
@@ -79,17 +87,19 @@ FURROW_INLINE void solve_rows(double* a, int stride, int columns, int from, int 
 }
 
 /// Columns and factors of a group; what it lacks is a column once more, times 0.
+template <class Real>
 struct Group {
-  const double* column[group];
-  double factor[group];
+  const Real* column[group_of<Real>];
+  Real factor[group_of<Real>];
 };
 
 template <class V>
-FURROW_INLINE void forward(const double* a, int stride, int columns, double* x) {
+FURROW_INLINE void forward(const RealOf<V>* a, int stride, int columns, RealOf<V>* x) {
+  constexpr int group = group_of<RealOf<V>>;
   for (int k = 0; k < columns; k += group) {
     const int count = std::min(group, columns - k);
-    Group g;
-#pragma GCC unroll 8
+    Group<RealOf<V>> g;
+#pragma GCC unroll 16
     for (int j = 0; j < group; ++j) {
       g.column[j] = a + std::ptrdiff_t(j < count ? k + j : k) * stride;
       g.factor[j] = 0;
@@ -100,7 +110,7 @@ FURROW_INLINE void forward(const double* a, int stride, int columns, double* x) 
     for (int r = k + group; r < stride; r += lanes<V>) {
       V left;
       load(left, x + r);
-#pragma GCC unroll 8
+#pragma GCC unroll 16
       for (int j = 0; j < group; ++j) {
         V v;
         load(v, g.column[j] + r);
@@ -111,15 +121,16 @@ FURROW_INLINE void forward(const double* a, int stride, int columns, double* x) 
   }
 }
 
-/// One column's sum over rows [from, to), multiples of 8, in 8 parts whatever V is.
+/// One column's sum over whole lines of rows, in as many parts as a line has, whatever V is.
 template <class V>
-FURROW_INLINE void backward(const double* a, int stride, int columns, double* x) {
-  constexpr int parts = group / lanes<V>, together = 4;
+FURROW_INLINE void backward(const RealOf<V>* a, int stride, int columns, RealOf<V>* x) {
+  using Real = RealOf<V>;
+  constexpr int group = group_of<Real>, parts = group / lanes<V>, together = 4;
   for (int k = (columns - 1) / group * group; k >= 0; k -= group) {
     const int count = std::min(group, columns - k);
-    double sum[group] = {};
+    Real sum[group] = {};
     for (int half = 0; half < count; half += together) {
-      const double* column[together];
+      const Real* column[together];
       V sums[together][parts] = {};
       for (int j = 0; j < together; ++j)
         column[j] = a + std::ptrdiff_t(std::min(k + half + j, columns - 1)) * stride;
@@ -137,14 +148,15 @@ FURROW_INLINE void backward(const double* a, int stride, int columns, double* x)
         }
       }
       for (int j = 0; j < together; ++j) {
-        double eight[group];
-        std::memcpy(eight, sums[j], sizeof eight);
-        sum[half + j] =
-            ((eight[0] + eight[1]) + (eight[2] + eight[3])) + ((eight[4] + eight[5]) + (eight[6] + eight[7]));
+        Real part[group];
+        std::memcpy(part, sums[j], sizeof part);
+        for (int n = 1; n < group; n *= 2)
+          for (int i = 0; i < group; i += 2 * n) part[i] += part[i + n];
+        sum[half + j] = part[0];
       }
     }
     for (int j = count; j-- > 0;) {
-      const double* column = a + std::ptrdiff_t(k + j) * stride + k;
+      const Real* column = a + std::ptrdiff_t(k + j) * stride + k;
       for (int r = j + 1; r < group; ++r) sum[j] += column[r] * x[k + r];
       x[k + j] = (x[k + j] - sum[j]) / column[j];
     }

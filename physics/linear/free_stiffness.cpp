@@ -12,7 +12,7 @@
 namespace furrow::physics {
 namespace {
 
-constexpr int chunk = 4096;  // elements whose blocks stay in the caches
+constexpr int chunk = 1024;  // elements whose blocks stay in the caches
 constexpr int piece = 128;   // elements that a thread does at once
 constexpr int buckets = 32;  // of columns
 
@@ -94,6 +94,12 @@ void FreeStiffness::assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffn
   if (x.size() != particles_)
     throw std::invalid_argument("FreeStiffness: " + std::to_string(x.size()) + " positions of " +
                                 std::to_string(particles_) + " particles");
+  assemble([&](int begin, int end,
+               Mat3* blocks) { stiffness_blocks(cloth, counts_, x, stiffness, begin, end, blocks); },
+           pool);
+}
+
+void FreeStiffness::assemble(const MakeBlocks& make, ThreadPool* pool) {
   const auto each = [pool](int n, const auto& work) {
     if (pool) return pool->share(n, [&](int i, int) { work(i); });
     for (int i = 0; i < n; ++i) work(i);
@@ -105,8 +111,7 @@ void FreeStiffness::assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffn
     const int end = std::min(begin + chunk, elements), first = first_block(counts_, begin);
     each((end - begin + piece - 1) / piece, [&](int i) {
       const int from = begin + i * piece;
-      stiffness_blocks(cloth, counts_, x, stiffness, from, std::min(from + piece, end),
-                       blocks_.data() + (first_block(counts_, from) - first));
+      make(from, std::min(from + piece, end), blocks_.data() + (first_block(counts_, from) - first));
     });
     each(buckets, [&](int bucket) { sum(begin / chunk, bucket); });
   }
@@ -122,11 +127,28 @@ int FreeStiffness::negative_eigenvalues() const {
   return matrix_.rows() == 0 ? 0 : negative_pivots(matrix_.lower());
 }
 
-bool FreeStiffness::factorise_definite(double shift, ThreadPool* pool) {
-  if (matrix_.rows() == 0) return true;
+void FreeStiffness::analyse() {
   if (!analysed_) definite_.analyse(matrix_.lower());
   analysed_ = true;
+}
+
+bool FreeStiffness::factorise_definite(double shift, ThreadPool* pool) {
+  if (matrix_.rows() == 0) return true;
+  analyse();
   return definite_.factorise(matrix_.lower(), shift, pool);
+}
+
+bool FreeStiffness::factorise_single(ThreadPool* pool) {
+  if (matrix_.rows() == 0) return true;
+  analyse();
+  return definite_.factorise_single(matrix_.lower(), pool);
+}
+
+std::vector<Vec3> FreeStiffness::times(std::span<const Vec3> v) const {
+  const Eigen::VectorXd product = matrix_.lower().selfadjointView<Eigen::Lower>() * matrix_.gather(v);
+  std::vector<Vec3> result(v.size());
+  matrix_.scatter(product, result);
+  return result;
 }
 
 void FreeStiffness::solve(std::span<Vec3> b, ThreadPool* pool) const {

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,11 @@ class FreeStiffness {
   /// add_stiffness().
   void assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffness stiffness, ThreadPool* pool = nullptr);
 
+  /// The same from blocks that `make` writes: those of the elements [begin, end), as stiffness_blocks().
+  using MakeBlocks = std::function<void(int begin, int end, Mat3* blocks)>;
+  void assemble(const MakeBlocks& make, ThreadPool* pool = nullptr);
+  const ElementCounts& counts() const { return counts_; }
+
   /// Adds a symmetric block [N/m] to K's diagonal block of a particle, until the next assemble(); a held
   /// particle's is left out.
   void add(int particle, const Mat3& block);
@@ -46,11 +52,15 @@ class FreeStiffness {
   /// K + shift I = L L^T, shift [N/m], by dense fronts (BlockCholesky); false if it is not positive definite.
   /// pool: threads that share the work (null: the caller alone).
   bool factorise_definite(double shift = 0, ThreadPool* pool = nullptr);
+  /// The same of K in single precision (BlockCholesky::factorise_single()), for directions of a search.
+  bool factorise_single(ThreadPool* pool = nullptr);
   /// b becomes the solution in rows of free particles, 0 in the others. Needs factorise_definite() true.
   void solve(std::span<Vec3> b, ThreadPool* pool = nullptr) const;
 
   /// Mean of the diagonal of K [N/m], 0 if nothing is free: a scale for shifts.
   double mean_diagonal() const;
+  /// K v, 0 in rows of held particles, whose entries count as 0.
+  std::vector<Vec3> times(std::span<const Vec3> v) const;
   int free_particles() const { return matrix_.rows(); }
 
  private:
@@ -61,6 +71,7 @@ class FreeStiffness {
   };
   using Pairs = std::vector<std::array<int, 2>>;
   void place_blocks(const Pairs& pairs);
+  void analyse();
   void sum(int chunk, int bucket);
 
   bool narrow_ = false;

@@ -114,6 +114,7 @@ void BackwardEuler::add_shell(double dt, bool first) {
 
 /// M (1 + c dt) + dt D + dt^2 K  and  -(M (v - v_0) + dt D v - dt (f + M g + c M (air - v))).
 void BackwardEuler::assemble(double dt, bool first) {
+  const WorkClock::Within assembly(motion_.clock(), WorkPart::assembly);
   const PackedCloth& cloth = motion_.cloth();
   const Loads& loads = motion_.loads();
   system_.set_zero();
@@ -131,6 +132,7 @@ void BackwardEuler::assemble(double dt, bool first) {
 }
 
 bool BackwardEuler::solve() {
+  const WorkClock::Within factorisation(motion_.clock(), WorkPart::factorisation);
   if (!analysed_) factors_.analyse(system_.lower());
   analysed_ = true;
   throw_if_cancelled("backward Euler");
@@ -138,6 +140,7 @@ bool BackwardEuler::solve() {
   ++work.factorisations;
   if (!factors_.factorise(system_.lower(), 0, &motion_.pool())) return false;
   ++work.linear_solves;
+  const WorkClock::Within solve(motion_.clock(), WorkPart::solve);
   Eigen::VectorXd solution = system_.gather(change_);
   factors_.solve(solution, &motion_.pool());
   system_.scatter(solution, change_);
@@ -160,6 +163,7 @@ double BackwardEuler::advance(double share, double dt) {
 
 /// What backward Euler's v1 minimises, as far as it depends on v [J].
 double BackwardEuler::energy(double dt) const {
+  const WorkClock::Within elements(motion_.clock(), WorkPart::elements);
   const Motion& motion = motion_;
   const PackedCloth& cloth = motion.cloth();
   const Loads& loads = motion.loads();

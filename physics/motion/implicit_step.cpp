@@ -31,6 +31,7 @@ Cloth unpacked(const PackedCloth& packed) {
       cloth.structural.push_back({packed.a[i], packed.b[i], packed.kL[i] / packed.k[i], packed.k[i]});
   std::stable_sort(cloth.structural.begin(), cloth.structural.end(),
                    [](const Spring& s, const Spring& t) { return std::tie(s.a, s.b) < std::tie(t.a, t.b); });
+  sort_elements(cloth);
   Particles& p = cloth.particles;
   p = {};
   for (std::size_t i = 0; i < packed.x.size(); ++i) {
@@ -55,10 +56,15 @@ Vectors scaled(double factor, Vectors v) {
 
 }  // namespace
 
-ImplicitStep::ImplicitStep(Motion& motion, Integrator scheme, const ImplicitOptions& options)
-    : motion_(motion), scheme_(scheme), options_(options), cloth_(unpacked(motion.cloth())) {
+ImplicitStep::ImplicitStep(Motion& motion, Integrator scheme, const ImplicitOptions& options,
+                           const SelfContactOptions& self)
+    : motion_(motion), scheme_(scheme), options_(options), self_(self), cloth_(unpacked(motion.cloth())) {
   require("implicit step", "tolerance", options.tolerance, options.tolerance > 0, "> 0");
   require("implicit step", "few", options.few, options.few >= 1, ">= 1");
+  if (!self.on) return;
+  require("implicit step", "thickness", self.thickness, self.thickness > 0, "> 0");
+  if (cloth_.triangles.empty())
+    refuse("implicit step", "contact of the cloth with itself needs its triangles (Cloth::triangles)");
 }
 
 /// On the first step: recall() may come before it. Push beats inertia by far, so that soft cloth that falls
@@ -67,8 +73,8 @@ void ImplicitStep::prepare(double dt) {
   if (search_) return;
   const Particles& p = cloth_.particles;
   const BodyAround* body = motion_.body();
-  if (body && stiffness_ == 0) {
-    StepSearch scale(cloth_, motion_.loads(), nullptr, motion_.pool(), motion_.work());
+  if ((body || self_.on) && stiffness_ == 0) {
+    StepSearch scale(cloth_, motion_, nullptr, nullptr);
     stiffness_ = std::max(scale.contact_stiffness(p.x), push_over_inertia * scale.mean_mass() / (dt * dt));
   }
   if (body) {
@@ -81,8 +87,52 @@ void ImplicitStep::prepare(double dt) {
       anchored.set_anchors(anchors_);
     }
   }
-  search_ =
-      std::make_unique<StepSearch>(cloth_, motion_.loads(), contact_.get(), motion_.pool(), motion_.work());
+  if (self_.on) make_pairs();
+  search_ = std::make_unique<StepSearch>(cloth_, motion_, contact_.get(), pairs_.get());
+  search_->couple(known_.coupled);
+}
+
+void ImplicitStep::make_pairs() {
+  const WorkClock::Within pair_part(motion_.clock(), WorkPart::self_contact);
+  pairs_ = std::make_unique<ClothContact>(cloth_, ClothContactOptions{self_.thickness, stiffness_},
+                                          cloth_.particles.x, std::span<const Vec3>{}, &motion_.pool());
+  if (known_.stiffness == 0) return;
+  ClothContact::Memory memory{{}, known_.loose, known_.crossed_at_start};
+  for (const PairMemory& p : known_.pairs)
+    memory.special.push_back({{std::uint8_t(p.edges), p.first, p.second}, p.range, p.target});
+  pairs_->recall(memory);
+}
+
+SelfContactMemory ImplicitStep::pair_memory() const {
+  if (!pairs_) return known_;
+  const ClothContact::Memory memory = pairs_->memory();
+  SelfContactMemory result{stiffness_, {}, memory.loose, memory.crossed_at_start, search_->coupled()};
+  for (const ClothContact::SpecialPair& p : memory.special)
+    result.pairs.push_back({p.key.edges == 1, p.key.first, p.key.second, p.range, p.target});
+  return result;
+}
+
+SelfContactState ImplicitStep::self_contact() const {
+  SelfContactState state;
+  state.on = self_.on;
+  if (!pairs_) return state;
+  state.pairs = pairs_->touching();
+  if (state.pairs > 0) state.nearest = pairs_->nearest();
+  state.crossed_at_start = pairs_->crossed_at_start();
+  state.exempt = pairs_->exempt();
+  return state;
+}
+
+/// Brings a guess to where the cloth can go from a place. false: what is held does not arrive.
+bool ImplicitStep::approach(const Vectors& from, Vectors& x) {
+  const WorkClock::Within pair_part(motion_.clock(), WorkPart::self_contact);
+  Vectors reached = from;
+  no_room_.reset();
+  if (pairs_->approach(reached, x, &motion_.pool()) > 0)
+    for (std::size_t i = 0; i < x.size() && !no_room_; ++i)
+      if (!(cloth_.particles.inv_mass[i] > 0) && reached[i] != x[i]) no_room_ = reached[i];
+  x = std::move(reached);
+  return !no_room_;
 }
 
 ImplicitStep::State ImplicitStep::read() const {
@@ -128,9 +178,11 @@ bool ImplicitStep::solve(const Stage& stage, const State& start, Interval time, 
   const double h = time.length();
   Vectors carried;
   if (contact_) {
+    const WorkClock::Within contact(motion_.clock(), WorkPart::contact);
     carried = contact_->move_body(time.from, time.to, start.x);
     contact_->keep_out(carried, p.inv_mass, x, motion_.pool());
   }
+  if (pairs_ && !approach(start.x, x)) return false;
   const double tolerance = options_.tolerance * standard_gravity * h * h;
   const double longest = contact_ ? longest_move : std::numeric_limits<double>::infinity();
   const SearchEnd end =
@@ -146,6 +198,7 @@ std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Inter
   end.x = stage.y;
   const bool solved = solve(stage, start, time, options_.few, end.x);
   if (!solved && !last) return std::nullopt;
+  if (!solved && no_room_) throw StepBlocked{*no_room_};
   if (!solved) ++motion_.work().open_steps;
   end.v = sum(stage.q, stage.p, end.x);
   if (scheme_ == Integrator::tr_bdf2) end.a = scaled(1 / h, sum(end.v, -1, start.v));
@@ -202,8 +255,23 @@ void ImplicitStep::step(double dt) {
   require("implicit step", "dt", std::min(dt, 1e300), dt > 0, "> 0");
   prepare(dt);
   const State start = read();
-  write(advance(start, {motion_.from(), motion_.from() + dt}, 0));
+  const SelfContactMemory known = pair_memory();
+  try {
+    if (pairs_) pairs_->widen(start.x);
+    write(advance(start, {motion_.from(), motion_.from() + dt}, 0));
+  } catch (...) {
+    if (pairs_) forget_step(known);
+    throw;
+  }
   ++motion_.work().steps;
+}
+
+/// Contact of the cloth with itself as before the step.
+void ImplicitStep::forget_step(const SelfContactMemory& before) {
+  known_ = before;
+  make_pairs();
+  search_ = std::make_unique<StepSearch>(cloth_, motion_, contact_.get(), pairs_.get());
+  search_->couple(known_.coupled);
 }
 
 void ImplicitStep::recall(const StepMemory& memory) {
@@ -213,12 +281,14 @@ void ImplicitStep::recall(const StepMemory& memory) {
     if (!memory.anchors.empty()) anchors_.push_back(memory.anchors[std::size_t(i)]);
   }
   stiffness_ = memory.contact_stiffness;
+  known_ = memory.self;
 }
 
 StepMemory ImplicitStep::memory() const {
   const std::vector<int>& particle = motion_.cloth().particle;
   StepMemory memory;
   memory.contact_stiffness = stiffness_;
+  memory.self = pair_memory();
   memory.acceleration.resize(a_.size());
   const auto anchors = contact_ ? contact_->anchored().anchors() : anchors_;
   memory.anchors.resize(anchors.size());

@@ -16,18 +16,22 @@ namespace furrow::physics {
 ///    (Bank et al. 1985). Order two, stable for any dt; a step whose stages do not end in twelve iterations,
 ///    and the first one, are those of backward Euler.
 /// A step that does not end in twelve iterations is made in halves, down to 1/32; what is still open then is
-/// counted (WorkCounts::open_steps). Drag is implicit; dashpots of springs do not act: their share is far
-/// below what the steps themselves take out.
-/// Cost of an iteration: assembly and a sparse Cholesky factorisation (O(n^1.5) of n vertices of a sheet);
-/// two to three iterations a stage in calm motion. Same bits for any number of threads. Sources: Gast et al.,
-/// TVCG 21 (2015) 1103-1115; Bank et al., IEEE Trans. Electron Devices 32 (1985) 1992-2007.
+/// counted (WorkCounts::open_steps). With contact of the cloth with itself, pairs that touch are a part of
+/// the energy, and neither a guess nor a move passes through cloth; where what is led has no room in 1/32 of
+/// a step, it throws StepBlocked. Drag is implicit; dashpots of springs do not act: their share is far below
+/// what the steps themselves take out. Cost of an iteration: assembly and a sparse Cholesky factorisation
+/// (O(n^1.5) of n vertices of a sheet); two to three iterations a stage in calm motion. Same bits for any
+/// number of threads. Sources: Gast et al., TVCG 21 (2015) 1103-1115; Bank et al., IEEE Trans. Electron
+/// Devices 32 (1985) 1992-2007.
 class ImplicitStep : public Stepper {
  public:
   /// Throws std::invalid_argument if an option is out of its range.
-  ImplicitStep(Motion& motion, Integrator scheme, const ImplicitOptions& options = {});
+  ImplicitStep(Motion& motion, Integrator scheme, const ImplicitOptions& options = {},
+               const SelfContactOptions& self = {});
   void step(double dt) override;
   void recall(const StepMemory& memory) override;
   StepMemory memory() const override;
+  SelfContactState self_contact() const override;
 
  private:
   /// Where particles are and how they move; what the next step begins with.
@@ -42,6 +46,10 @@ class ImplicitStep : public Stepper {
   State read() const;
   void write(const State& state);
   void prepare(double dt);
+  void make_pairs();
+  void forget_step(const SelfContactMemory& before);
+  bool approach(const std::vector<Vec3>& from, std::vector<Vec3>& x);
+  SelfContactMemory pair_memory() const;
   StepLoads loads_at(double time);
   State advance(const State& start, Interval time, int depth);
   std::optional<State> euler(const State& start, Interval time, bool last);
@@ -51,12 +59,15 @@ class ImplicitStep : public Stepper {
   Motion& motion_;
   Integrator scheme_;
   ImplicitOptions options_;
+  SelfContactOptions self_;
   Cloth cloth_;                         ///< the motion's, by place
-  std::vector<Vec3> lead_;              ///< velocity of what is held, in this step [m/s]
   std::vector<Vec3> a_;                 ///< see State
   double stiffness_ = 0;                ///< of contact [N/m]; 0: not chosen yet
   std::vector<ContactAnchor> anchors_;  ///< to begin with; empty: none
   std::unique_ptr<StepContact> contact_;
+  SelfContactMemory known_;  ///< of contact of the cloth with itself, to begin with
+  std::unique_ptr<ClothContact> pairs_;
+  std::optional<Vec3> no_room_;  ///< where the last guess could not lead what is held [m]
   std::unique_ptr<StepSearch> search_;
 };
 

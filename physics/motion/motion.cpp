@@ -112,7 +112,9 @@ void Motion::damp_reverse(double seconds) { damping(seconds).reverse(cloth_, poo
 void Motion::begin_step(double from, double to) {
   from_ = from, to_ = to;
   if (around_.pins) around_.pins->begin_step(cloth_, to, to - from);
-  if (around_.contact) around_.contact->begin_step(from, to);
+  if (!around_.contact) return;
+  const WorkClock::Within contact(clock(), WorkPart::contact);
+  around_.contact->begin_step(from, to);
 }
 
 void Motion::drag_and_kick(double seconds) {
@@ -129,6 +131,7 @@ void Motion::kick_and_drag(double seconds) {
 
 void Motion::drift(double seconds) {
   if (around_.contact) {
+    const WorkClock::Within contact(clock(), WorkPart::contact);
     std::mutex mutex;
     pool_.run(cloth_.particles(), [&](int begin, int end) {
       const ContactCounts counts = drift_with_contact(cloth_, *around_.contact, seconds, begin, end);
@@ -144,6 +147,7 @@ void Motion::drift(double seconds) {
 }
 
 void Motion::update_forces(double time) {
+  const WorkClock::Within elements(clock(), WorkPart::elements);
   update_spring_forces(cloth_, pool_);
   add_element_forces(cloth_.elements, cloth_.x, cloth_.force, pool_);
   add_other_forces(cloth_);

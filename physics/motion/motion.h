@@ -6,6 +6,7 @@
 #include "physics/motion/moved_pins.h"
 #include "physics/motion/step_contact.h"
 #include "physics/motion/wind.h"
+#include "physics/motion/work_clock.h"
 #include "physics/packed/damping_sweep.h"
 #include "physics/packed/packed_cloth.h"
 
@@ -23,6 +24,7 @@ struct Surroundings {  ///< what else acts; each may be null, and must outlive t
   PinLeader* pins = nullptr;
   const Wind* wind = nullptr;
   const Compensation* compensation = nullptr;
+  WorkClock* clock = nullptr;
 };
 
 struct WorkCounts {  // iterations: of Newton's method, or sweeps over all springs; tension counts as springs
@@ -67,6 +69,7 @@ class Motion {
   /// Puts led pins where they are at the step's end.
   void arrive();
   ThreadPool& pool() { return pool_; }
+  WorkClock& clock() { return around_.clock ? *around_.clock : no_clock_; }
   double from() const { return from_; }
   double to() const { return to_; }
 
@@ -82,6 +85,7 @@ class Motion {
   DampingSweep damping_;
   double damping_seconds_ = -1;
   WorkCounts work_;
+  WorkClock no_clock_{false};
 };
 
 }  // namespace furrow::physics

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <memory>
 
 #include "physics/base/progress.h"
@@ -14,6 +13,7 @@
 #include "physics/motion/simulate_report.h"
 #include "physics/motion/step_length.h"
 #include "physics/motion/stepper.h"
+#include "physics/motion/work_clock.h"
 
 namespace furrow::physics {
 namespace {
@@ -25,6 +25,9 @@ void require_positive(double value, const char* name) {
 }
 
 void check(const SimulateOptions& o) {
+  if (o.self.on && !solves_contact(o.integrator))
+    refuse("simulate", "contact of the cloth with itself needs integrator implicit or tr_bdf2");
+  if (o.self.on) require_positive(o.self.thickness, "self.thickness");
   if (!(o.seconds >= 0) || !std::isfinite(o.seconds))
     refuse("simulate", "seconds = ", o.seconds, " is not >= 0");
   if (o.stop_at && std::isnan(*o.stop_at)) refuse("simulate", "stop_at is not a number");
@@ -37,12 +40,6 @@ void check(const SimulateOptions& o) {
   require_positive(o.speed_limit, "speed_limit");
   if (o.limit_steps < 1) refuse("simulate", "limit_steps = ", o.limit_steps, " is not >= 1");
   if (o.observe_steps < 1) refuse("simulate", "observe_steps = ", o.observe_steps, " is not >= 1");
-}
-
-double cpu_time() {
-  std::timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
 bool has_diverged(const PackedCloth& cloth, double speed_limit) {
@@ -69,11 +66,13 @@ class Simulation {
   void remember();
   bool observe(const Observer& observer, const SimulateReport& report);
   bool make_step(double to);
+  void go_back(const std::vector<Vec4>& v, const WorkCounts& work);
 
   Cloth& cloth_;
   const World& world_;
   const SimulateOptions& options_;
   SimulateState& state_;
+  WorkClock clock_;
   ThreadPool pool_;
   ContactOptions contact_options_;
   int frames_before_ = 0;
@@ -85,7 +84,9 @@ class Simulation {
   std::unique_ptr<Stepper> stepper_;
   std::optional<StepLength> length_;
   bool stepped_ = false;  // in this call
-  double travel_;         // of an animated body until the last whole step [m]
+  bool blocked_ = false;
+  Vec3 blocked_at_ = Vec3::Zero();
+  double travel_;  // of an animated body until the last whole step [m]
 };
 
 Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& options, SimulateState& state)
@@ -93,6 +94,7 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
       world_(world),
       options_(options),
       state_(state),
+      clock_(options.times),
       pool_(options.threads),
       contact_options_{options.friction, options.contact_gap, options.recovery_speed},
       travel_(state.body_travel) {
@@ -102,15 +104,18 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
   check(state, cloth.particles.size());
   make_contact();
   lead_pins();
-  const Surroundings around{contact_.get(), body_.any() ? &body_ : nullptr, leader_ ? &*leader_ : nullptr,
+  const Surroundings around{contact_.get(),
+                            body_.any() ? &body_ : nullptr,
+                            leader_ ? &*leader_ : nullptr,
                             is_still(world.wind) || options.air_drag == 0 ? nullptr : &world.wind,
-                            state.compensation.force.empty() ? nullptr : &state.compensation};
+                            state.compensation.force.empty() ? nullptr : &state.compensation,
+                            &clock_};
   motion_.emplace(cloth, Loads{options.gravity, options.air_drag, options.spring_damping}, pool_, around,
                   state.time);
   if (state.step > 0) motion_->work() = {};  // counted by the call that ended here
   recall();
-  stepper_ =
-      make_stepper(*motion_, {options.integrator, options.backward_euler, options.xpbd, options.implicit});
+  stepper_ = make_stepper(
+      *motion_, {options.integrator, options.backward_euler, options.xpbd, options.implicit, options.self});
   if (solves_contact(options.integrator) && state.planned) stepper_->recall(state.steps);
   length_.emplace(cloth, options, state);
 }
@@ -193,7 +198,7 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
     report.dt = s.dt;
     s.totals.dt_smallest = std::min(s.totals.dt_smallest, s.dt);
     if (!make_step(to)) {
-      report.outcome = Outcome::stopped_by_observer;
+      report.outcome = blocked_ ? Outcome::blocked : Outcome::stopped_by_observer;
       return;
     }
     ++s.step;
@@ -214,7 +219,7 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
   }
 }
 
-/// false: the step was cancelled, and all is as it was before it.
+/// false: the step was cancelled, or there is no room for it, and all is as it was before it.
 bool Simulation::make_step(double to) {
   const WorkCounts work = motion_->work();
   const bool may_break =
@@ -224,10 +229,12 @@ bool Simulation::make_step(double to) {
   try {
     stepper_->step(state_.dt);
   } catch (const Cancelled&) {
-    if (may_break) motion_->cloth().v = v;
-    if (leader_ && !stepped_) leader_->forget_step();
-    if (world_.animated) world_.animated->prepare(state_.time, state_.time);
-    motion_->work() = state_.step > 0 ? work : WorkCounts{};  // the next call counts the beginning, too
+    go_back(v, work);
+    return false;
+  } catch (const StepBlocked& here) {
+    blocked_ = true;
+    blocked_at_ = here.at;
+    go_back(v, work);
     return false;
   }
   stepped_ = true;
@@ -235,7 +242,16 @@ bool Simulation::make_step(double to) {
   return true;
 }
 
+/// To before a step. v: velocities of then; empty: they are as they were.
+void Simulation::go_back(const std::vector<Vec4>& v, const WorkCounts& work) {
+  if (!v.empty()) motion_->cloth().v = v;
+  if (leader_ && !stepped_) leader_->forget_step();
+  if (world_.animated) world_.animated->prepare(state_.time, state_.time);
+  motion_->work() = state_.step > 0 ? work : WorkCounts{};  // the next call counts the beginning, too
+}
+
 bool Simulation::observe(const Observer& observer, const SimulateReport& report) {
+  const WorkClock::Within output(clock_, WorkPart::output);
   motion_->unpack(cloth_.particles);
   return observer({state_.time, state_.step, report.dt, kinetic_energy(cloth_.particles)});
 }
@@ -244,6 +260,11 @@ void Simulation::finish(SimulateReport& report) {
   motion_->unpack(cloth_.particles);
   remember();
   measure(cloth_, world_, state_, options_.gravity, contact_options_, report);
+  report.self = stepper_->self_contact();
+  report.blocked_at = blocked_at_;
+  const WorkTimes times = clock_.times();
+  for (std::size_t i = 0; i < work_parts; ++i) state_.totals.times[i] += times[i];
+  report.times = state_.totals.times;
   report.dt_limit = length_->limit(state_.dt_limit);
   report.dt_limit_smallest = length_->limit(state_.totals.dt_limit_smallest);
 }
@@ -253,7 +274,7 @@ void Simulation::finish(SimulateReport& report) {
 SimulateReport simulate(Cloth& cloth, const World& world, const SimulateOptions& options,
                         SimulateState* state, const Observer& observer) {
   const auto started = std::chrono::steady_clock::now();
-  const double cpu_started = cpu_time();
+  const double cpu_started = processor_seconds();
   check(options);
   SimulateState present = state ? *state : SimulateState{};
   SimulateReport report;
@@ -262,7 +283,7 @@ SimulateReport simulate(Cloth& cloth, const World& world, const SimulateOptions&
     simulation.run(observer, report);
     simulation.finish(report);
   }
-  report.cpu_seconds = present.totals.cpu_seconds += cpu_time() - cpu_started;
+  report.cpu_seconds = present.totals.cpu_seconds += processor_seconds() - cpu_started;
   report.seconds = present.totals.seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (state) *state = std::move(present);

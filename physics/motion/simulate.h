@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -41,6 +43,24 @@ struct World {
   Wind wind;
 };
 
+/// What processor time goes to in a motion.
+enum class WorkPart {
+  other,          ///< what no name is for: drag, weight, sums over particles
+  assembly,       ///< of stiffness matrices
+  factorisation,  ///< of these, with the order of elimination
+  solve,          ///< with their factors; sweeps of XPBD
+  elements,       ///< energies and forces
+  contact,        ///< with the body, and its shape at a step's time
+  self_contact,   ///< of the cloth with itself
+  output          ///< the observer: what is shown and written
+};
+constexpr std::size_t work_parts = 8;
+/// "assembly", "self_contact" and so on.
+const char* name_of(WorkPart part);
+
+/// Processor seconds of all threads, by WorkPart.
+using WorkTimes = std::array<double, work_parts>;
+
 /// What a report counts over all calls that shared a state.
 struct SimulateTotals {
   std::int64_t force_evaluations = 0, collider_queries = 0, truncated_moves = 0;
@@ -51,6 +71,7 @@ struct SimulateTotals {
   double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
   double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< of leapfrog [s]
   double seconds = 0, cpu_seconds = 0, frame_seconds = 0;              ///< [s]
+  WorkTimes times{};  ///< processor time by part, of calls that measured it [s]
 };
 
 /// Forces that keep a cloth from jumping when its springs were changed under strain: applied as
@@ -64,11 +85,29 @@ struct Compensation {
   double time_constant = 0.3;  ///< [s]; > 0, may be infinite
 };
 
+/// A pair of the cloth's primitives whose range is not theirs (ClothContact).
+struct PairMemory {
+  bool edges = false;         ///< two edges; else a vertex and a triangle
+  int first = 0, second = 0;  ///< their numbers
+  double range = 0;           ///< at which they push each other now [m]; 0: not yet
+  double target = 0;          ///< and may do later [m]
+};
+
+/// What contact of the cloth with itself remembers, beside positions.
+struct SelfContactMemory {
+  double stiffness = 0;           ///< of its push [N/m]; 0: it was never on
+  std::vector<PairMemory> pairs;  ///< sorted
+  std::vector<int> loose;         ///< particles that crossed something at the start, or are next to such
+  int crossed_at_start = 0;       ///< edges through faces
+  std::vector<std::array<int, 2>> coupled;  ///< what the stiffness has blocks for beside the elements
+};
+
 /// What a step leaves to the next beside positions and velocities.
 struct StepMemory {
   std::vector<ContactAnchor> anchors;  ///< of friction, one a particle, or empty
   std::vector<Vec3> acceleration;      ///< at the step's end, one a particle [m/s^2], or empty
   double contact_stiffness = 0;        ///< of a body's push [N/m]; 0: not chosen yet
+  SelfContactMemory self;
 };
 
 /// All that a simulation knows besides cloth, world and options. A call of simulate() that is stopped at any
@@ -154,6 +193,13 @@ struct ImplicitOptions {
   int few = 2;  ///< iterations of backward Euler after which 20 times that is good enough; >= 1
 };
 
+/// Contact of the cloth with itself in implicit steps, without friction: no step ever passes through cloth
+/// (ClothContact). Where nothing is near, nothing changes, bit by bit.
+struct SelfContactOptions {
+  bool on = false;
+  double thickness = 1e-3;  ///< of the cloth [m]; > 0; where edges are short, it counts as thinner
+};
+
 /// 2 sqrt(2): RK4 is stable on the imaginary axis up to there. The half-disc of radius 2.785 left of it
 /// belongs to its region, too.
 constexpr double rk4_limit = 2.8284271247461903, rk4_damped_limit = 2.785;
@@ -183,7 +229,9 @@ struct SimulateOptions {
   BackwardEulerOptions backward_euler;
   XpbdOptions xpbd;
   ImplicitOptions implicit;
+  SelfContactOptions self;    ///< on: implicit and tr_bdf2 only
   int threads = 1;            ///< >= 1; the result is the same for any number
+  bool times = false;         ///< whether processor time is divided among parts; no result depends on it
   int observe_steps = 100;    ///< steps between two calls of the observer; >= 1
   double speed_limit = 1000;  ///< a faster particle means that the motion diverged [m/s]; > 0
 };
@@ -197,7 +245,22 @@ struct SimulateProgress {
 /// Called every observe_steps steps and at the end; the cloth holds the state of that time. false: stop here.
 using Observer = std::function<bool(const SimulateProgress&)>;
 
-enum class Outcome { finished, stopped_by_observer, diverged, stopped_at };
+enum class Outcome {
+  finished,
+  stopped_by_observer,
+  diverged,
+  stopped_at,
+  blocked  ///< what is led pulls the cloth into itself: no step is left that passes through nothing
+};
+
+/// Contact of the cloth with itself at the end.
+struct SelfContactState {
+  bool on = false;
+  int pairs = 0;             ///< that push each other: vertex and triangle, or two edges
+  double nearest = 0;        ///< of them [m]; 0: none
+  int crossed_at_start = 0;  ///< edges through faces, which may go on crossing
+  int exempt = 0;            ///< pairs of those that did not come apart
+};
 
 /// Counts, times and smallest steps are of all calls that shared a state.
 struct SimulateReport {
@@ -208,6 +271,7 @@ struct SimulateReport {
   double dt_limit = 0;                  ///< of the integrator, as last estimated [s]; infinity: there is none
   double dt_limit_smallest = 0;         ///< [s]
   double seconds = 0, cpu_seconds = 0;  ///< clock and processor time (all threads) [s]
+  WorkTimes times{};                    ///< processor time by part, where that was asked for [s]
   StrainStatistics strain;              ///< structural springs (else edges of the membrane) at the end
   double kinetic_energy = 0;            ///< [J]; what rests on the body keeps the last half-kick, g dt/2
   double residual_force =
@@ -220,6 +284,8 @@ struct SimulateReport {
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   std::int64_t open_steps = 0;             ///< implicit ones whose search did not end, even in 32 parts
   std::int64_t truncated_moves = 0;        ///< cut short against tunnelling
+  SelfContactState self;
+  Vec3 blocked_at = Vec3::Zero();          ///< where, if it was [m]
   std::int64_t frames_built = 0;           ///< fields of an animated body
   double frame_seconds = 0;                ///< clock time spent on them [s]
   double compensation_left = 0;            ///< share of the compensating forces that still acts [-]

@@ -31,6 +31,7 @@ void take_counts(const SimulateState& state, SimulateReport& report) {
   report.frame_seconds = totals.frame_seconds;
   report.seconds = totals.seconds;
   report.cpu_seconds = totals.cpu_seconds;
+  report.times = totals.times;
   report.compensation_left = share_left(state.compensation, state.time);
   report.compensation_force = net_force(state.compensation, state.time);
 }

@@ -91,6 +91,13 @@ void check(const SimulateState& s, std::size_t particles) {
     require(n == 0 || n == particles, "what steps remember is of ", n, " particles instead of ", particles);
   require(steps.contact_stiffness >= 0 && std::isfinite(steps.contact_stiffness),
           "contact_stiffness = ", steps.contact_stiffness, " is not >= 0");
+  require(steps.self.stiffness >= 0 && std::isfinite(steps.self.stiffness),
+          "self.stiffness = ", steps.self.stiffness, " is not >= 0");
+  for (const PairMemory& p : steps.self.pairs)
+    require(p.range >= 0 && p.target >= p.range && std::isfinite(p.target), "a pair's range is not one");
+  for (const auto& pair : steps.self.coupled)
+    for (const int i : pair)
+      require(i >= 0 && std::size_t(i) < particles, "a pair is coupled that is not there");
   for (const ContactAnchor& a : steps.anchors)
     require(a.anchor.allFinite() && a.plane.allFinite() && std::isfinite(a.limit), "an anchor is not finite");
   for (const Vec3& a : steps.acceleration) require(a.allFinite(), "an acceleration is not finite");

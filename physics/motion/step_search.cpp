@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "physics/base/cancel_scope.h"
 #include "physics/base/vector_sums.h"
@@ -10,10 +11,10 @@
 namespace furrow::physics {
 namespace {
 
-using Vectors = std::vector<Vec3>;
-
-constexpr double good_enough = 20;  // times the tolerance, after few iterations
-constexpr double short_move = 10;   // times the tolerance: the factors serve the next one
+constexpr double good_enough = 20;        // times the tolerance, after few iterations
+constexpr double short_move = 10;         // times the tolerance: the factors serve the next one
+constexpr double single_residual = 1e-4;  // of the force, that a solution of single precision may leave
+constexpr std::size_t most_coupled = 4;   // times the pairs of particles that contact couples
 constexpr double armijo = 1e-4;
 constexpr double least_move_share = 1e-3;  // of a move
 constexpr double least_fall = 1e-12;       // of the energy, that can be told from rounding
@@ -28,13 +29,14 @@ double least_of_parabola(double share, double slope, double rise) {
 
 }  // namespace
 
-StepSearch::StepSearch(const Cloth& cloth, const Loads& loads, StepContact* contact, ThreadPool& pool,
-                       WorkCounts& work)
+StepSearch::StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact, ClothContact* pairs)
     : cloth_(cloth),
-      loads_(loads),
+      loads_(motion.loads()),
       contact_(contact),
-      pool_(pool),
-      work_(work),
+      pairs_(pairs),
+      pool_(motion.pool()),
+      work_(motion.work()),
+      clock_(motion.clock()),
       elements_(cloth),
       stiffness_(cloth) {
   const Particles& p = cloth.particles;
@@ -43,7 +45,7 @@ StepSearch::StepSearch(const Cloth& cloth, const Loads& loads, StepContact* cont
 }
 
 double StepSearch::contact_stiffness(std::span<const Vec3> x) {
-  stiffness_.assemble(cloth_, x, Stiffness::positive_part, &pool_);
+  elements_.assemble(stiffness_, x, pool_);
   const double k = 0.5 * stiffness_.mean_diagonal();
   return k > 0 ? k : 1;
 }
@@ -54,7 +56,7 @@ double StepSearch::mean_mass() const {
 }
 
 /// Root of the mean square by mass [m].
-double StepSearch::mean_length(const Vectors& move) const {
+double StepSearch::mean_length(const std::vector<Vec3>& move) const {
   const Particles& p = cloth_.particles;
   double sum = 0;
   for (std::size_t i = 0; i < move.size(); ++i)
@@ -63,7 +65,7 @@ double StepSearch::mean_length(const Vectors& move) const {
 }
 
 /// Inertia, weight, what is given, and the air.
-void StepSearch::add_stage(const Vectors& x, Answer& answer) const {
+void StepSearch::add_stage(const std::vector<Vec3>& x, Answer& answer) const {
   const Stage& stage = *stage_;
   const Particles& particles = cloth_.particles;
   const double c = loads_.air_drag;
@@ -84,87 +86,170 @@ void StepSearch::add_stage(const Vectors& x, Answer& answer) const {
   }
 }
 
-StepSearch::Answer StepSearch::look(const Vectors& x) {
-  Answer answer{Vectors(x.size()), 0, 0};
-  answer.energy = elements_(x, answer.net, pool_);
-  ++work_.force_evaluations;
+void StepSearch::add_contact(const std::vector<Vec3>& x, Answer& answer) {
+  answer.net = answer.pull;
+  answer.energy = answer.elements;
   if (contact_) {
+    const WorkClock::Within contact_part(clock_, WorkPart::contact);
     AnchoredContact& contact = contact_->anchored();
-    contact.look(x, cloth_.particles.inv_mass, &pool_);
     answer.energy += contact.energy();
     contact.add_forces(answer.net);
   }
+  if (pairs_ && pairs_->touching() > 0) {
+    const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
+    answer.energy += pairs_->energy();
+    pairs_->add_forces(answer.net);
+  }
   answer.terms = std::abs(answer.energy);
   add_stage(x, answer);
+}
+
+StepSearch::Answer StepSearch::look(const std::vector<Vec3>& x) {
+  Answer answer;
+  answer.pull.resize(x.size());
+  {
+    const WorkClock::Within elements(clock_, WorkPart::elements);
+    answer.elements = elements_(x, answer.pull, pool_);
+  }
+  ++work_.force_evaluations;
+  if (contact_) {
+    const WorkClock::Within contact_part(clock_, WorkPart::contact);
+    contact_->anchored().look(x, cloth_.particles.inv_mass, &pool_);
+  }
+  if (pairs_) {
+    const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
+    pairs_->look(x, &pool_);
+  }
+  add_contact(x, answer);
   return answer;
 }
 
+void StepSearch::couple(std::vector<std::array<int, 2>> pairs) {
+  if (pairs == coupled_) return;
+  coupled_ = std::move(pairs);
+  stiffness_.couple(cloth_, coupled_);
+}
+
+/// What is coupled stays so until it is several times what must be.
+void StepSearch::couple_pairs() {
+  std::vector<std::array<int, 2>> needed = pairs_->couples();
+  const auto there = [this](const std::array<int, 2>& pair) { return stiffness_.couples(pair[0], pair[1]); };
+  if (std::all_of(needed.begin(), needed.end(), there)) return;
+  if (coupled_.size() < most_coupled * needed.size()) {
+    std::vector<std::array<int, 2>> both;
+    std::set_union(needed.begin(), needed.end(), coupled_.begin(), coupled_.end(), std::back_inserter(both));
+    needed = std::move(both);
+  }
+  couple(std::move(needed));
+}
+
 /// Of the place that was looked at last.
-void StepSearch::factorise(const Vectors& x) {
-  throw_if_cancelled("implicit step");
+void StepSearch::assemble(const std::vector<Vec3>& x) {
+  const WorkClock::Within assembly(clock_, WorkPart::assembly);
   const Particles& p = cloth_.particles;
-  stiffness_.assemble(cloth_, x, Stiffness::positive_part, &pool_);
+  if (pairs_) couple_pairs();
+  elements_.assemble(stiffness_, x, pool_);
+  if (pairs_) pairs_->add_stiffness(stiffness_);
   if (contact_) contact_->anchored().add_stiffness(stiffness_);
   const double factor = stage_->s + loads_.air_drag * stage_->p;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) stiffness_.add(int(i), p.mass[i] * factor * Mat3::Identity());
-  ++work_.factorisations;
-  // What is positive semidefinite and a mass beside it fails where numbers are not finite: the run is seen to
-  // have diverged.
-  stiffness_.factorise_definite(0, &pool_);
 }
 
-/// The share of a move that was made; 0: none lowers the energy, and `here` is as it was.
-double StepSearch::advance(const Vectors& move, Vectors& x, Answer& here, const SearchOptions& options) {
+void StepSearch::factorise(const std::vector<Vec3>& x) {
+  throw_if_cancelled("implicit step");
+  assemble(x);
+  const WorkClock::Within factorisation(clock_, WorkPart::factorisation);
+  ++work_.factorisations;
+  single_ = stiffness_.factorise_single(&pool_);
+  // What is positive semidefinite and a mass beside it fails where numbers are not finite: the run is seen to
+  // have diverged.
+  if (!single_) stiffness_.factorise_definite(0, &pool_);
+}
+
+/// With factors of single precision what is left is looked at, and where it is too much they solve for it,
+/// too, or give way to those of double precision.
+std::vector<Vec3> StepSearch::solve(std::vector<Vec3> net) {
+  const WorkClock::Within solve_part(clock_, WorkPart::solve);
+  ++work_.linear_solves;
+  std::vector<Vec3> move = net;
+  stiffness_.solve(move, &pool_);
+  if (!single_) return move;
+  const double enough = single_residual * std::sqrt(dot(net, net));
+  const auto left = [&] {
+    std::vector<Vec3> residual = net;
+    add_multiple(residual, -1, stiffness_.times(move));
+    return residual;
+  };
+  std::vector<Vec3> residual = left();
+  if (dot(residual, residual) <= enough * enough) return move;
+  stiffness_.solve(residual, &pool_);
+  add_multiple(move, 1, residual);
+  residual = left();
+  if (dot(residual, residual) <= enough * enough) return move;
+  single_ = false;
+  stiffness_.factorise_definite(0, &pool_);
+  stiffness_.solve(net, &pool_);
+  return net;
+}
+
+/// Makes a share of a move; 0: none lowers the energy, and `here` is as it was.
+StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
+                                    const SearchOptions& options) {
   const double slope = -dot(here.net, move);
   double longest = 0;
   for (const Vec3& m : move) longest = std::max(longest, m.norm());
   double share = longest > options.longest_move ? options.longest_move / longest : 1;
-  if (!(slope < 0) || !std::isfinite(longest)) return 0;
+  if (!(slope < 0) || !std::isfinite(longest)) return {0, false};
+  bool cut = false;
+  if (pairs_) {
+    const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
+    const double wanted = share;
+    share = pairs_->safe_share(x, move, wanted, &pool_);
+    cut = share < 0.5 * wanted;
+  }
   for (const double least = least_move_share * share; share > least;) {
-    Vectors trial = x;
+    std::vector<Vec3> trial = x;
     add_multiple(trial, share, move);
     Answer there = look(trial);
     const double rise = there.energy - here.energy;
     if (rise <= armijo * share * slope + energy_rounding * here.terms) {
       x = std::move(trial);
       here = std::move(there);
-      return share;
+      return {share, cut};
     }
     share = least_of_parabola(share, slope, rise);
   }
   look(x);
-  return 0;
+  return {0, cut};
 }
 
 SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, std::span<const Vec3> start,
-                           const SearchOptions& options, Vectors& x) {
+                           const SearchOptions& options, std::vector<Vec3>& x) {
   stage_ = &stage;
   given_ = &given;
+  if (pairs_) pairs_->forget_cuts();
   Answer here = look(x);
   bool keep_factors = false;
   for (int iteration = 1; iteration <= options.most; ++iteration) {
     if (!keep_factors) factorise(x);
-    Vectors move = here.net;
-    stiffness_.solve(move, &pool_);
-    ++work_.linear_solves;
+    std::vector<Vec3> move = solve(here.net);
     ++work_.iterations;
     if (contact_ && iteration == 1) {  // friction as of the push to come: once, as it changes the energy
       contact_->anchored().expect(move);
-      here = look(x);
-      move = here.net;
-      stiffness_.solve(move, &pool_);
+      add_contact(x, here);
+      move = solve(here.net);
     }
     const double length = mean_length(move);
-    const double share = advance(move, x, here, options);
+    const auto [share, cut] = advance(move, x, here, options);
     if (contact_ && iteration == 1) {
       contact_->anchored().hold_new(start);
-      here = look(x);
+      add_contact(x, here);
     }
     const double enough = iteration >= options.few ? good_enough : 1;
-    if (length <= enough * options.tolerance) return {true, iteration};
+    if (length <= enough * options.tolerance && !cut) return {true, iteration};
     const bool at_rounding = std::abs(dot(here.net, move)) <= least_fall * here.terms;
-    if (share == 0 && !keep_factors) return {at_rounding, iteration};
+    if (share == 0 && !keep_factors && !cut) return {at_rounding, iteration};
     keep_factors = share == 1 && length <= short_move * options.tolerance;
   }
   return {false, options.most};

@@ -4,10 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "physics/cloth/element_forces.h"
 #include "physics/linear/free_stiffness.h"
 #include "physics/motion/motion.h"
 #include "physics/motion/step_contact.h"
+#include "physics/motion/step_elements.h"
+#include "physics/pairs/cloth_contact.h"
 
 namespace furrow::physics {
 
@@ -42,9 +43,9 @@ struct SearchEnd {
 /// move is short. It keeps room and symbolic work, but nothing that a result depends on.
 class StepSearch {
  public:
-  /// cloth: its particles' masses and elements count, and must stay. contact: null: no body.
-  StepSearch(const Cloth& cloth, const Loads& loads, StepContact* contact, ThreadPool& pool,
-             WorkCounts& work);
+  /// cloth: that of the motion, by place; its particles' masses and elements count, and must stay. contact:
+  /// null: no body; pairs: null: the cloth passes through itself.
+  StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact, ClothContact* pairs);
 
   /// From x, which becomes where the search ended; `start`: StepContact::move_body() of the step's start,
   /// empty without contact. Throws Cancelled.
@@ -53,27 +54,45 @@ class StepSearch {
   /// Half of the mean diagonal of the elements' stiffness at x [N/m], 1 without: a scale for contact.
   double contact_stiffness(std::span<const Vec3> x);
   double mean_mass() const;  ///< of a free particle [kg]; 0 without
+  /// Pairs of particles that the matrix has blocks for beside those of elements.
+  const std::vector<std::array<int, 2>>& coupled() const { return coupled_; }
+  void couple(std::vector<std::array<int, 2>> pairs);
 
  private:
+  /// What was made of a move.
+  struct Way {
+    double share;  ///< 0: nothing
+    bool cut;      ///< as the cloth is in its own way, to less than half
+  };
   struct Answer {
-    std::vector<Vec3> net;  ///< minus the gradient [N]; 0 on what is held
-    double energy;          ///< [J]
-    double terms;           ///< sum of the sizes of what it is the sum of: rounding's scale [J]
+    std::vector<Vec3> net;   ///< minus the gradient [N]; 0 on what is held
+    std::vector<Vec3> pull;  ///< of the elements alone [N]
+    double energy;           ///< [J]
+    double elements;         ///< of these alone [J]
+    double terms;            ///< sum of the sizes of what it is the sum of: rounding's scale [J]
   };
   Answer look(const std::vector<Vec3>& x);
+  void add_contact(const std::vector<Vec3>& x, Answer& answer);
   void add_stage(const std::vector<Vec3>& x, Answer& answer) const;
+  void assemble(const std::vector<Vec3>& x);
+  void couple_pairs();
   void factorise(const std::vector<Vec3>& x);
-  double advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
-                 const SearchOptions& options);
+  std::vector<Vec3> solve(std::vector<Vec3> net);
+  Way advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
+              const SearchOptions& options);
   double mean_length(const std::vector<Vec3>& move) const;
 
   const Cloth& cloth_;
   const Loads& loads_;
   StepContact* contact_;
+  ClothContact* pairs_;
   ThreadPool& pool_;
   WorkCounts& work_;
-  ElementForces elements_;
+  WorkClock& clock_;
+  StepElements elements_;
   FreeStiffness stiffness_;
+  bool single_ = false;  ///< whether the factors are of single precision
+  std::vector<std::array<int, 2>> coupled_;
   double mass_ = 0;  ///< of all free particles [kg]
   const Stage* stage_ = nullptr;
   const StepLoads* given_ = nullptr;

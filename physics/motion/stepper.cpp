@@ -41,7 +41,7 @@ std::unique_ptr<Stepper> make_stepper(Motion& motion, const StepperOptions& opti
       return std::make_unique<Xpbd>(motion, options.xpbd);
     case Integrator::implicit:
     case Integrator::tr_bdf2:
-      return std::make_unique<ImplicitStep>(motion, options.integrator, options.implicit);
+      return std::make_unique<ImplicitStep>(motion, options.integrator, options.implicit, options.self);
   }
   throw std::invalid_argument("make_stepper: unknown integrator");
 }

@@ -14,12 +14,19 @@ class Stepper {
  public:
   virtual ~Stepper() = default;
   /// One step of dt seconds. Throws std::invalid_argument, nothing changed, if dt is not > 0; Cancelled, with
-  /// positions and velocities as they were, if it was cancelled on the way (cancel_scope.h).
+  /// positions and velocities as they were, if it was cancelled on the way (cancel_scope.h), and StepBlocked.
   virtual void step(double dt) = 0;
   /// What a later stepper on the same cloth needs to go on with the same bits, by particle; taken up before
   /// the first step.
   virtual StepMemory memory() const { return {}; }
   virtual void recall(const StepMemory&) {}
+  /// Contact of the cloth with itself as it is now.
+  virtual SelfContactState self_contact() const { return {}; }
+};
+
+/// Thrown by a step for which there is no room: what is led would pull the cloth through itself.
+struct StepBlocked {
+  Vec3 at;  ///< where [m]
 };
 
 struct StepperOptions {
@@ -27,6 +34,7 @@ struct StepperOptions {
   BackwardEulerOptions backward_euler;
   XpbdOptions xpbd;
   ImplicitOptions implicit = {};
+  SelfContactOptions self = {};
 };
 
 /// Throws std::invalid_argument if an option of that integrator is out of its range.

@@ -129,6 +129,7 @@ Xpbd::Xpbd(Motion& motion, const XpbdOptions& options) : motion_(motion), option
 
 /// The springs of blocks at once, what lies between them after (or, in reverse, before) them.
 double Xpbd::sweep(double dt, bool forward) {
+  const WorkClock::Within solve(motion_.clock(), WorkPart::solve);
   PackedCloth& cloth = motion_.cloth();
   const Sweep sweep{cloth.x.data(),
                     cloth.v.data(),

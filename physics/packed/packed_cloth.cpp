@@ -151,7 +151,8 @@ class PlacedEnergy : public Energy {
 Cloth renumbered_shell(const Cloth& cloth, const std::vector<int>& particle, const std::vector<int>& place) {
   Cloth shell = cloth;
   shell.particles = {};
-  shell.triangles.clear();
+  for (auto& triangle : shell.triangles)
+    for (int& v : triangle) v = place[std::size_t(v)];
   for_each_kind(shell, [&](auto& kind, auto...) {
     if constexpr (std::same_as<KindOf<decltype(kind)>, Spring>)
       kind.clear();

@@ -35,6 +35,7 @@ struct PackedElements {
   std::vector<Vec4> slot;         ///< forces [N]: three a triangle, two a tension, four a hinge
   std::vector<int> gather_begin;  ///< of each place its first entry in `gather`, and the end
   std::vector<int> gather;        ///< slots
+  std::vector<double> energy;     ///< of each element and the copies, where it is asked for [J]
 };
 
 /// Whether a kind is laid out for speed; what is not goes through add_other_forces() (packed_cloth.h).
@@ -52,5 +53,8 @@ PackedElements pack_elements(const Cloth& cloth, const std::vector<int>& place);
 /// nothing without elements.
 void add_element_forces(PackedElements& elements, const std::vector<Vec4>& x, std::vector<Vec4>& force,
                         ThreadPool& pool);
+/// The same, and returns their energy [J].
+double add_element_forces_and_energy(PackedElements& elements, const std::vector<Vec4>& x,
+                                     std::vector<Vec4>& force, ThreadPool& pool);
 
 }  // namespace furrow::physics

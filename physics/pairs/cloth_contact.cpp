@@ -297,6 +297,48 @@ void ClothContact::add_forces(std::span<Vec3> force) const {
   friction_.add_forces(force);
 }
 
+std::vector<std::array<int, 2>> ClothContact::couples() const {
+  std::vector<std::array<int, 2>> found;
+  for (const auto* pairs : {&active_, &braced_})
+    for (const ActivePair& p : *pairs)
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < i; ++j)
+          if (p.weights[i] * p.weights[j] != 0)
+            found.push_back({std::max(p.vertices[i], p.vertices[j]), std::min(p.vertices[i], p.vertices[j])});
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+ClothContact::Memory ClothContact::memory() const {
+  Memory memory{special_, {}, crossed_at_start_};
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    if (loose_[i]) memory.loose.push_back(int(i));
+  return memory;
+}
+
+void ClothContact::recall(const Memory& memory) {
+  const char* const operation = "ClothContact";
+  for (const int v : memory.loose)
+    if (v < 0 || std::size_t(v) >= loose_.size()) refuse(operation, "what it knows is of another cloth");
+  for (const SpecialPair& p : memory.special) {
+    const std::size_t second = p.key.edges ? mesh_.edges.size() : mesh_.triangles.size(),
+                      first = p.key.edges ? second : loose_.size();
+    if (p.key.first < 0 || std::size_t(p.key.first) >= first || p.key.second < 0 ||
+        std::size_t(p.key.second) >= second)
+      refuse(operation, "what it knows is of another cloth");
+  }
+  special_ = memory.special;
+  crossed_at_start_ = memory.crossed_at_start;
+  loose_.assign(loose_.size(), 0);
+  for (const int v : memory.loose) loose_[std::size_t(v)] = 1;
+}
+
+void ClothContact::forget_cuts() {
+  braced_.clear();
+  blocked_ = 0;
+}
+
 void ClothContact::couple(FreeStiffness& stiffness, const Cloth& cloth) const {
   std::vector<std::array<int, 2>> couples;
   for (const auto* pairs : {&active_, &braced_})

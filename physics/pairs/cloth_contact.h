@@ -34,6 +34,23 @@ class ClothContact {
   /// std::invalid_argument if an option is out of its range or lengths differ.
   ClothContact(const Cloth& cloth, const ClothContactOptions& options, std::span<const Vec3> start,
                std::span<const Vec3> drawn, ThreadPool* pool = nullptr);
+  /// A pair whose range is not that of its primitives; 0: it is exempt.
+  struct SpecialPair {
+    PairKey key;
+    double range, target;  ///< [m]
+  };
+  /// All that later results depend on, beside positions.
+  struct Memory {
+    std::vector<SpecialPair> special;  ///< sorted by key
+    std::vector<int> loose;            ///< vertices where something crossed at the start, or next to such
+    int crossed_at_start = 0;
+  };
+  Memory memory() const;
+  /// Goes on as one that had this memory. Throws std::invalid_argument if it is of another cloth.
+  void recall(const Memory& memory);
+  /// A new search begins: no way of it was cut.
+  void forget_cuts();
+
   ClothContact(const ClothContact&) = delete;
   ClothContact& operator=(const ClothContact&) = delete;
 
@@ -47,6 +64,8 @@ class ClothContact {
   void look(std::span<const Vec3> x, ThreadPool* pool);
   double energy() const { return energy_ + friction_.energy(); }  ///< [J]; infinite where something touches
   void add_forces(std::span<Vec3> force) const;                   ///< [N]
+  /// The particles (i, j), i after j, that pairs couple now: sorted, each once.
+  std::vector<std::array<int, 2>> couples() const;
   /// Gives the matrix the blocks that pairs need and that are not there yet; before it is assembled.
   void couple(FreeStiffness& stiffness, const Cloth& cloth) const;
   /// Positive semidefinite; after couple(). Where the way was cut to less than 1/32, the pairs that did so
@@ -73,11 +92,6 @@ class ClothContact {
 
  private:
   static bool active_before(const ActivePair& a, const ActivePair& b);
-  /// A pair whose range is not that of its primitives; 0: it is exempt.
-  struct SpecialPair {
-    PairKey key;
-    double range, target;
-  };
   void find_special(std::span<const Vec3> x, std::span<const Vec3> drawn, ThreadPool* pool);
   void note_near(std::span<const Vec3> x, bool at_start, ThreadPool* pool);
   const SpecialPair* special_of(const PairKey& key) const;

@@ -53,10 +53,12 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   motion/implicit_step_test.cpp
   motion/leapfrog_step_test.cpp
   motion/moved_pins_test.cpp
+  motion/self_contact_test.cpp
   motion/shell_motion_test.cpp
   motion/simulate_integrators_test.cpp
   motion/simulate_state_test.cpp
   motion/simulate_test.cpp
+  motion/step_elements_test.cpp
   motion/stepper_contact_test.cpp
   motion/stepper_shell_test.cpp
   motion/stepper_stability_test.cpp
