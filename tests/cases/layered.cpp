@@ -448,7 +448,6 @@ LayeredCase sleeve_over_sleeve(int around) {
   o.gravity = Vec3::Zero();
   o.friction = 0;
   o.gap = gap;
-  o.self.friction = mu_cloth;  // or the outer one slides off: nothing holds it along the axis
   LayeredCase c;
   find_rest(cloth, &body, o, c);
   const Positions force = pair_forces(cloth, start, thick);

@@ -21,6 +21,11 @@ void check_all(const cases::LayeredCase& c) {
   }
 }
 
+void check_all_but_numbers(const cases::LayeredCase& c) {
+  CHECK(c.rests);
+  CHECK(c.crossings == 0);
+}
+
 }  // namespace
 
 TEST_CASE("settle: sheets in a stack bear the weight of all above, by 1 or 2 threads") {
@@ -39,6 +44,16 @@ TEST_CASE("settle: a sheet on a sheet stays on an incline as steep as friction b
           "[release]") {
   CHECK(cases::on_incline(0.98, 16).rests);
   CHECK_FALSE(cases::on_incline(1.02, 16).rests);
+}
+
+TEST_CASE("settle: a sheet between two is pulled out by what friction bears on both its sides", "[release]") {
+  check_all_but_numbers(cases::pulled_sheet(0.97, 20));
+  CHECK_FALSE(cases::pulled_sheet(1.03, 20).rests);
+}
+
+TEST_CASE("settle: a strip over a sleeve holds the length of the heavy capstan", "[release]") {
+  check_all_but_numbers(cases::capstan_on_sleeve(0.96, 48));
+  CHECK_FALSE(cases::capstan_on_sleeve(1.04, 48).rests);
 }
 
 TEST_CASE("settle: a strip folded over onto itself is as high as the heavy elastica", "[release]") {
