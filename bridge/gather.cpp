@@ -204,11 +204,20 @@ class Gatherer {
   }
 
   void add_struts() {
+    if (is_chain(mesh_)) return add_links();
     for (const Strut& s : struts(mesh_)) {
       cloth_.bending.push_back(spring(s.a, s.b, s.rest_length, s.stiffness));
       result_.bending.push_back(Mesh::null_edge());
     }
     sort_by(ends<physics::Spring>, cloth_.bending, result_.bending);  // of one pair the strut comes last
+  }
+
+  /// What a chain is made of resists stretching, so that its strain is that of structural springs.
+  void add_links() {
+    for (const Strut& s : struts(mesh_)) {
+      cloth_.structural.push_back(spring(s.a, s.b, s.rest_length, s.stiffness));
+      result_.structural.push_back(Mesh::null_edge());
+    }
   }
 
   void add_hinges() {

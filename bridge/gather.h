@@ -99,7 +99,8 @@ physics::Cloth gather(const geometry::Mesh& mesh, const GatherOptions& options);
 /// A cloth, and where its elements come from, in their order.
 struct GatheredCloth {
   physics::Cloth cloth;
-  std::vector<geometry::Edge> structural, tension, bending, hinges;  ///< bending: the null edge for a strut
+  /// The null edge for a strut: among the bending springs or, in a mesh without faces, the structural ones.
+  std::vector<geometry::Edge> structural, tension, bending, hinges;
   std::vector<geometry::Halfedge> membrane;  ///< to vertices[0] of each triangle, in its face
 };
 /// gather(), with the elements' origin.

@@ -7,6 +7,7 @@
 #include "bridge/convert.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/mesh/struts.h"
 
 namespace furrow::bridge {
 namespace {
@@ -29,12 +30,14 @@ physics::Particles gather_particles(const geometry::Mesh& mesh, MassRule rule) {
   const auto mass = find_map(mesh, attribute::mass);
   if (!mass) throw std::invalid_argument(std::string("gather: the mesh has no map ") + attribute::mass.name);
   const auto velocity = find_map(mesh, attribute::velocity);
+  const std::vector<char> loose = loose_vertices(mesh);
   physics::Particles p;
   for (Vertex v : mesh.vertices()) {
-    const double m = mesh.is_isolated(v) ? 0 : (*mass)[v];
-    if (!(m >= 0) || (m == 0 && !mesh.is_isolated(v)))
+    const double m = loose[v] ? 0 : (*mass)[v];
+    if (!(m >= 0) || (m == 0 && !loose[v]))
       throw ContentError("vertex " + std::to_string(v) + " has mass " + std::to_string(m) +
-                         "; remove its faces (furrow info counts degenerate ones)");
+                         (is_chain(mesh) ? "; a vertex with links needs one, or say --line-density"
+                                         : "; remove its faces (furrow info counts degenerate ones)"));
     p.x.push_back(to_eigen(mesh.point(v)));
     p.v.push_back(velocity ? to_eigen(CGAL::ORIGIN + (*velocity)[v]) : physics::Vec3::Zero());
     p.mass.push_back(m);

@@ -16,7 +16,9 @@ struct InfoArguments : CommonArguments {
 };
 
 void info(const InfoArguments& a) {
-  const io::MeshFile file = read_mesh(a.mesh, a);
+  Terminal terminal(a);
+  const io::MeshFile file =
+      jobs::read_mesh(std::filesystem::path(a.mesh), {a, terminal}, jobs::Chains::taken);
   const std::string odd = odd_size(file.mesh, "mesh", a);
   if (!odd.empty()) warn(a.mesh + ": " + odd, a);
   const Json json = jobs::info(file);

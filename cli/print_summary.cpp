@@ -212,23 +212,32 @@ std::string shares_of(const Json& times) {
   return text;
 }
 
+/// "size: 1 m x 2 m x 0 mm (width, height, depth)".
+std::string size_of_box(const Json& report) {
+  const Json& box = table_of(report, "bounding_box");
+  if (!box.contains("min") || !box.contains("max")) return "";
+  std::string size;
+  for (int k = 0; k < 3; ++k)
+    size += (k ? " x " : "") + length_text(box["max"][k].get<double>() - box["min"][k].get<double>());
+  return "size: " + size + " (width, height, depth)";
+}
+
 }  // namespace
 
 Lines info_lines(const Json& report) {
   Lines lines;
+  if (const Json& chain = table_of(report, "chain"); !chain.empty())
+    return {"a chain: " + counted(count_of(chain, "links"), "link") + ", " + length(chain, "length") +
+                " long; " + std::to_string(count_of(report, "vertices")) + " vertices, no faces",
+            size_of_box(report), "furrow simulate moves it, and --settle brings it to rest",
+            "no faults found"};
   lines.push_back(counted(count_of(report, "faces"), "face") + ", " +
                   std::to_string(count_of(report, "vertices")) + " vertices, " +
                   counted(count_of(report, "components"), "part") + ", " +
                   (report.value("closed", false) ? std::string("closed")
                                                  : counted(count_of(report, "boundary_loops"), "border")));
-  const Json& box = table_of(report, "bounding_box");
-  if (box.contains("min") && box.contains("max")) {
-    std::string size;
-    for (int k = 0; k < 3; ++k)
-      size += (k ? " x " : "") + length_text(box["max"][k].get<double>() - box["min"][k].get<double>());
-    lines.push_back("size: " + size + " (width, height, depth), area " + number(value_of(report, "area")) +
-                    " m^2");
-  }
+  if (const std::string size = size_of_box(report); !size.empty())
+    lines.push_back(size + ", area " + number(value_of(report, "area")) + " m^2");
   lines.push_back("edges: " + length(report, "mean_edge_length") + " on average; smallest angle " +
                   number(value_of(report, "min_angle_deg")) + " degrees");
   if (const Json& borders = list_of(report, "borders"); !borders.empty()) {

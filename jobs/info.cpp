@@ -6,6 +6,7 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/self_intersections.h"
 #include "io/mesh/mesh_file.h"
+#include "jobs/run/chain.h"
 #include "jobs/run/measure_shape.h"
 
 namespace furrow::jobs {
@@ -52,6 +53,10 @@ Json info(const io::MeshFile& file) {
   report["groups"] = file.group_names;
   report["materials"] = file.material_names;
   report["texture_coordinates"] = geometry::find_map(file.mesh, geometry::attribute::texture).has_value();
+  if (geometry::is_chain(file.mesh)) {
+    const std::vector<geometry::Strut> links = chain_links(file);
+    report["chain"] = {{"links", links.size()}, {"length", length_of(links)}};
+  }
   if (const auto record = io::find_wrinkle_record(file))
     for (const io::WrinkleRecord::Line& line : record->lines) report["lines"].push_back(line.name);
   report["repairs"] = to_json(file.repairs);

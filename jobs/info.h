@@ -6,7 +6,8 @@
 namespace furrow::jobs {
 
 /// What a mesh is: counts, topology, lengths [m], areas, faults, borders, groups, lines, and what was
-/// repaired when it was read. Cost: that of geometry::count_self_intersections().
+/// repaired when it was read; of a mesh without faces its links (run/chain.h). Cost: that of
+/// geometry::count_self_intersections().
 Json info(const io::MeshFile& file);
 
 }  // namespace furrow::jobs

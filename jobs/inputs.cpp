@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/scene_file.h"
@@ -70,16 +71,20 @@ void tell_repairs(const std::string& path, const io::MeshFile& file, const Conte
        "vertices duplicated where the surface was not manifold");
 }
 
-io::MeshFile read_file(const std::string& path, const Context& context) {
+io::MeshFile read_file(const std::string& path, const Context& context, Chains chains) {
   const Frame& frame = context.frame;
-  io::MeshFile file = io::read_mesh(path, read_options(frame));
+  const auto read = [&](const Frame& in) {
+    io::ReadOptions options = read_options(in);
+    options.chains = chains == Chains::taken;
+    return io::read_mesh(path, options);
+  };
+  io::MeshFile file = read(frame);
   const auto record = io::find_wrinkle_record(file, path);
   const bool noted = record && is_unit(record->unit);
   Frame actual;
   actual.unit = noted && !frame.unit ? record->unit : frame.unit_in_use();
   actual.up = noted && !frame.up ? record->up : frame.up_in_use();
-  if (*actual.unit != frame.unit_in_use() || *actual.up != frame.up_in_use())
-    file = io::read_mesh(path, read_options(actual));
+  if (*actual.unit != frame.unit_in_use() || *actual.up != frame.up_in_use()) file = read(actual);
   if (noted && (record->unit != *actual.unit || record->up != *actual.up))
     context.warn("other_frame", path + ": was written with --unit " + record->unit + " --up " + record->up,
                  path, "unit");
@@ -99,20 +104,22 @@ std::string name_of(const MeshInput& input, const std::string& unnamed) {
   return path ? path->string() : unnamed;
 }
 
-io::MeshFile read_mesh(const MeshInput& input, const Context& context) {
+io::MeshFile read_mesh(const MeshInput& input, const Context& context, Chains chains) {
   const auto* path = std::get_if<std::filesystem::path>(&input);
   const io::MeshFile* known = !path            ? &std::get<io::MeshFile>(input)
                               : context.memory ? context.memory->find_mesh(*path)
                                                : nullptr;
-  if (!known) return read_file(path->string(), context);
+  if (!known) return read_file(path->string(), context, chains);
   io::MeshFile file = *known;
   io::drop_motion(file);
   return file;
 }
 
-io::MeshFile read_garment(const MeshInput& input, const Context& context, const std::string& what) {
-  io::MeshFile file = read_mesh(input, context);
-  require_area(file.mesh, name_of(input, what));
+io::MeshFile read_garment(const MeshInput& input, const Context& context, const std::string& what,
+                          Chains chains) {
+  io::MeshFile file = read_mesh(input, context, chains);
+  if (chains == Chains::refused || !geometry::is_chain(file.mesh))
+    require_area(file.mesh, name_of(input, what));
   require_size(file.mesh, name_of(input, what), what, context);
   return file;
 }

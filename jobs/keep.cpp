@@ -8,6 +8,7 @@
 #include "io/scene/relocated.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/chain.h"
 #include "jobs/run/fabric_file.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/measure_crossings.h"
@@ -256,6 +257,7 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   const bool later =
       std::any_of(scene.lines.begin(), scene.lines.end(), [](const auto& l) { return l.time > 0; });
   if (!state && later && !(state = run_until_drawn(open, context))) return report;
+  if (state) refuse_chain(state->file.mesh, job.state_path.string());
   SceneCloth garment = state ? drawn_in(*state, scene, context) : drawn_at_rest(job, scene, context, report);
   stop_if_cancelled(context);
   report.ran = true;

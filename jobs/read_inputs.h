@@ -22,14 +22,17 @@ void stop_if_cancelled(const Context& context);
 /// The file's path, or `unnamed` for a mesh in memory: for messages.
 std::string name_of(const MeshInput& input, const std::string& unnamed);
 
+/// What becomes of a file with lines and without faces (io::ReadOptions::chains).
+enum class Chains { refused, taken };
+
 /// Reads a mesh, in the unit that it notes if the frame says none, and warns of what was repaired. One in
 /// memory is copied. Throws as io::read_mesh().
-io::MeshFile read_mesh(const MeshInput& input, const Context& context);
+io::MeshFile read_mesh(const MeshInput& input, const Context& context, Chains chains = Chains::refused);
 
 /// As read_mesh(); throws geometry::ContentError for a garment, or what else it is, of an odd size or without
 /// area (check/gate.h).
-io::MeshFile read_garment(const MeshInput& input, const Context& context,
-                          const std::string& what = "garment");
+io::MeshFile read_garment(const MeshInput& input, const Context& context, const std::string& what = "garment",
+                          Chains chains = Chains::refused);
 
 /// Does it; a geometry::ContentError of it then begins with the file's name.
 template <class Work>

@@ -6,6 +6,7 @@
 
 #include "bridge/energy_parts.h"
 #include "bridge/gather.h"
+#include "geometry/mesh/struts.h"
 #include "io/base/atomic_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/ply_motion.h"
@@ -16,6 +17,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
 #include "jobs/run/animation_series.h"
+#include "jobs/run/chain.h"
 #include "jobs/run/hand_on_cloth.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
@@ -67,7 +69,7 @@ struct Stretch {
 
 io::SavedState begin(const io::Scene& scene, const Context& context) {
   io::SavedState state;
-  state.file = begin_garment(scene, context);
+  state.file = begin_garment(scene, context, Chains::taken);
   if (!scene.output.state.empty()) io::check_state_attributes(state.file.mesh);
   return state;
 }
@@ -82,7 +84,8 @@ void change_plan(const Run& run, io::SavedState& now) {
   if (value(value(now.scene, "material"), "gap") != value(value(said, "material"), "gap"))
     now.contact_gap = 0;
   const auto density = run.scene.material.density;
-  if (density && *density != io::find_wrinkle_record(now.file)->density)
+  if (geometry::is_chain(now.file.mesh) ||
+      (density && *density != io::find_wrinkle_record(now.file)->density))
     complete_garment(now.file, run.scene.material);
 }
 
@@ -92,6 +95,7 @@ Reached take_up(Run& run, io::SavedState now) {
   if (run.scene.body && !run.body)
     run.body = std::make_shared<WorldBody>(*run.scene.body, run.context, at_most);
   now.field_tolerance = run.body && std::isfinite(at_most) ? run.body->tolerance() : 0;
+  if (run.resumed) check_chain(run.scene, now.file.mesh, run.context);
   if (run.resumed && now.pins.size() != run.scene.pins.size())
     throw std::invalid_argument("the state has " + std::to_string(now.pins.size()) +
                                 " sets of pins, the scene " + std::to_string(run.scene.pins.size()) +
@@ -191,7 +195,7 @@ void draw_due_rounds(const Run& run, Reached& reached, AnimationSeries& animatio
     report.rounds.push_back(draw_round(run, reached));
   }
   if (now.simulation.step > 0 || run.resumed) return;
-  complete_garment(now.file, run.scene.material);
+  naming(run.scene.garment.string(), [&] { complete_garment(now.file, run.scene.material); });
   if (keeps_first_shape(run.scene)) report.kept = keep_shape(run, now, nullptr);
   reached.heights = line_heights_by_id(now.file);
   reached.starts = true;
@@ -379,10 +383,16 @@ Judgement choose_setting(const SimulateJob& job, OpenScene& scene, const Context
   SilentListener silent(context.listener);  // the run itself warns
   if (scene.scene.body) {
     const io::MeshFile garment =
-        read_garment(scene.scene.garment, {context.frame, silent, context.memory}, "garment");
+        read_garment(scene.scene.garment, {context.frame, silent, context.memory}, "garment", Chains::taken);
     body = std::make_shared<WorldBody>(*scene.scene.body, context, tolerance_for(garment));
   }
-  const SceneCloth cloth = prepare_scene(scene.scene, {context.frame, silent, context.memory}, body);
+  const SceneCloth cloth =
+      prepare_scene(scene.scene, {context.frame, silent, context.memory}, body, Chains::taken);
+  if (geometry::is_chain(cloth.file.mesh))
+    throw std::invalid_argument(
+        "--accuracy: surfaces are compared, and the garment is a chain, without faces; choose --integrator "
+        "and "
+        "--dt");
   Judgement judgement = judge(cloth, cloth.world(scene.scene), options, context);
   if (!judgement.has_answer()) return judgement;
   set_candidate(scene.document, judgement.candidates[std::size_t(judgement.chosen)].candidate);

@@ -16,6 +16,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/report/drape_remarks.h"
 #include "jobs/report/wrinkle_reports.h"
+#include "jobs/run/chain.h"
 #include "jobs/run/drape_garment.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
@@ -101,6 +102,7 @@ Canvas canvas_of(const WrinkleJob& job, const io::Scene* keep, const Context& co
   if (job.state) {
     canvas.state = job.state;
     canvas.file = std::move(canvas.state->file);
+    refuse_chain(canvas.file.mesh, job.state_path.string());
     canvas.pins = canvas.state->pins;
   } else {
     canvas.file = read_garment(job.garment, context);

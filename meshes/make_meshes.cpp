@@ -77,6 +77,24 @@ void make_figure(const std::filesystem::path& folder) {
   save("skirt.obj", furrow::meshes::make_skirt(), "flared skirt for mannequin.obj");
 }
 
+/// Lines without a face.
+void make_chain(const std::filesystem::path& path) {
+  constexpr int links = 32;
+  const double depth = std::sqrt(0.75 * 0.75 - 0.5 * 0.5);
+  const auto to_grid = [](double x) { return std::round(x * 1e5) / 1e5; };
+  std::string vertices, line = "l";
+  for (int i = 0; i <= links; ++i) {
+    const double t = double(i) / links;
+    vertices +=
+        "v " + text(to_grid(t - 0.5)) + " " + text(to_grid(1 - depth * (1 - std::abs(2 * t - 1)))) + " 0\n";
+    line += " " + std::to_string(i + 1);
+  }
+  write(path,
+        "# a chain of 32 links, 1.5 m long, drawn as a V between two points 1 m apart; metres, y up, made by "
+        "make_meshes\n" +
+            vertices + line + "\n");
+}
+
 /// The meshes of the scenes with known answers.
 void make_validation(const std::filesystem::path& folder) {
   const auto save = [&](const char* name, Mesh mesh, const char* comment) {
@@ -173,6 +191,7 @@ int main(int argc, char** argv) {
     make(argv[1]);
     make_figure(argv[1]);
     make_validation(std::filesystem::path(argv[1]) / "validation");
+    make_chain(std::filesystem::path(argv[1]) / "chain.obj");
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());

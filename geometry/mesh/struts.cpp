@@ -56,4 +56,12 @@ void set_struts(Mesh& mesh, std::span<const Strut> list) {
   for (const Strut& s : sorted) map[s.a].push_back(s);
 }
 
+std::vector<char> loose_vertices(const Mesh& mesh) {
+  std::vector<char> loose(mesh.num_vertices(), 0);
+  for (Vertex v : mesh.vertices()) loose[v] = mesh.is_isolated(v);
+  if (!is_chain(mesh)) return loose;
+  for (const Strut& link : struts(mesh)) loose[link.a] = loose[link.b] = 0;
+  return loose;
+}
+
 }  // namespace furrow::geometry

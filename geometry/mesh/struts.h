@@ -26,4 +26,9 @@ std::vector<Strut> struts(const Mesh& mesh);
 /// O(struts log struts).
 void set_struts(Mesh& mesh, std::span<const Strut> list);
 
+/// Whether the mesh is a chain, or a net of threads: vertices without any face. Its struts are its links.
+inline bool is_chain(const Mesh& mesh) { return mesh.number_of_faces() == 0; }
+/// By vertex: 1 where neither a face nor, in a chain, a link holds it, so that it has no mass and no motion.
+std::vector<char> loose_vertices(const Mesh& mesh);
+
 }  // namespace furrow::geometry

@@ -106,8 +106,8 @@ void write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file, cons
   }
 }
 
-void set_mesh(MeshFile& file, const PolygonSoup& soup, const std::string& name) {
-  SoupMesh mesh = soup_to_mesh(soup, name);
+void set_mesh(MeshFile& file, const PolygonSoup& soup, const std::string& name, bool chains) {
+  SoupMesh mesh = soup_to_mesh(soup, name, chains);
   mesh.repairs.merged_vertices = file.repairs.merged_vertices;
   file.mesh = std::move(mesh.mesh);
   file.repairs = mesh.repairs;

@@ -50,6 +50,9 @@ enum class Axis { y, z };
 struct ReadOptions {
   double metres_per_unit = 1;  ///< > 0, finite
   Axis up = Axis::y;           ///< of the file; z is turned to y: (x, y, z) becomes (x, z, -y)
+  /// Whether an OBJ with lines (`l`) or a PLY with struts, and without a face, is read: as a chain, whose
+  /// vertices are those of the file. Such a file is refused otherwise.
+  bool chains = false;
 };
 
 struct WriteOptions {

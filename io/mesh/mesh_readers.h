@@ -18,8 +18,8 @@ MeshFile read_obj(std::string_view text, const std::string& name, const ReadOpti
 struct NamedPolyline : Polyline {
   std::string name;
 };
-/// Only the polylines of an OBJ file, which needs no faces: object by object, two-point elements chained within
-/// each.
+/// Only the polylines of an OBJ file, which needs no faces: object by object, two-point elements chained
+/// within each.
 std::vector<NamedPolyline> read_obj_polylines(std::string_view text, const std::string& name,
                                               const ReadOptions& options);
 /// Stanford PLY, ascii and binary of both byte orders, with our own properties (decision 0005). Other
@@ -30,12 +30,12 @@ MeshFile read_off(std::string_view text, const std::string& name, const ReadOpti
 /// STL, text (solids become groups) and binary. Vertices of exactly equal position are merged.
 MeshFile read_stl(std::string_view text, const std::string& name, const ReadOptions& options);
 /// glTF and GLB by assimp, in a child process with limits: single precision, vertices of equal position in
-/// one node merged; skin weights become vertex attributes. A skinned mesh lies where its skin's bind pose is, its
-/// node's transform does not count. Throws geometry::ContentError too if the child crashes, hangs or sends
-/// nonsense.
+/// one node merged; skin weights become vertex attributes. A skinned mesh lies where its skin's bind pose is,
+/// its node's transform does not count. Throws geometry::ContentError too if the child crashes, hangs or
+/// sends nonsense.
 MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options);
 
-/// The mesh of a soup put into the file's other content.
-void set_mesh(MeshFile& file, const PolygonSoup& soup, const std::string& name);
+/// The mesh of a soup put into the file's other content; `chains` as in soup_to_mesh().
+void set_mesh(MeshFile& file, const PolygonSoup& soup, const std::string& name, bool chains = false);
 
 }  // namespace furrow::io

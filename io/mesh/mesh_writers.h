@@ -15,7 +15,7 @@ namespace furrow::io {
 /// OBJ in double (shortest text that reads back exactly): comments, mtllib, v (with colour), vt (equal ones
 /// shared; a face with a corner that has none gets none), g, usemtl, f; and as `l` elements the chains of
 /// line edges (e:line_edge) or, where the mesh has none, `polylines` (those without vertices of the mesh get
-/// vertices of their own at the end).
+/// vertices of their own at the end). Of a mesh without faces its struts are the lines.
 /// In `folder`, if it is known, material libraries are named from there.
 void write_obj(std::ostream& out, const MeshFile& file, const WriteOptions& options,
                const std::filesystem::path& folder = {});

@@ -262,7 +262,8 @@ MeshFile read_obj(std::string_view text, const std::string& name, const ReadOpti
   PolygonSoup& soup = reader.soup;
   if (reader.file.group_names.empty()) soup.groups.clear();
   if (reader.file.material_names.empty()) soup.materials.clear();
-  set_mesh(reader.file, soup, name);
+  soup.has_lines = !reader.file.polylines.empty();
+  set_mesh(reader.file, soup, name, options.chains);
   return std::move(reader.file);
 }
 

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "geometry/mesh/property_names.h"
+#include "geometry/mesh/struts.h"
 #include "io/base/number_text.h"
 #include "io/mesh/chain_segments.h"
 #include "io/mesh/material_libraries.h"
@@ -118,6 +119,8 @@ class ObjWriter {
       for (const Edge e : mesh_.edges())
         if ((*line_edges)[e])
           segments.push_back({numbers_[mesh_.vertex(e, 0)], numbers_[mesh_.vertex(e, 1)]});
+    if (is_chain(mesh_))
+      for (const Strut& link : struts(mesh_)) segments.push_back({numbers_[link.a], numbers_[link.b]});
     for (const Chain& chain : chain_segments(segments)) write_line(chain.vertices, chain.closed);
     if (segments.empty()) write_polylines();
   }

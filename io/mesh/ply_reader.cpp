@@ -111,7 +111,8 @@ class PlyReader {
     }
     finish_textures();
     take_comments();
-    SoupMesh mesh = soup_to_mesh(soup_, name_);
+    soup_.has_lines = !struts_.empty();
+    SoupMesh mesh = soup_to_mesh(soup_, name_, options_.chains);
     fill_edges(mesh);
     fill_struts(mesh.mesh);
     fill(of_vertices_, mesh.mesh, mesh.mesh.vertices(), mesh.origin);

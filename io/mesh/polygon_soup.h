@@ -29,6 +29,8 @@ struct PolygonSoup {
   std::vector<int> materials;           ///< empty, or one a face
   std::vector<std::size_t> face_lines;  ///< line of the file of each face, for errors; or empty
 
+  bool has_lines = false;  ///< between its points: lines of an OBJ, struts of a PLY
+
   std::size_t faces() const { return first_corner.size() - 1; }
   /// Ends the face whose corners were pushed last.
   void close_face() { first_corner.push_back(corners.size()); }

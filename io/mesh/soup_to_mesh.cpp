@@ -195,17 +195,25 @@ bool drop_backs(const PolygonSoup& soup, Triangles& triangles, RepairReport& rep
   return true;
 }
 
+[[noreturn]] void refuse_without_faces(const PolygonSoup& soup, const std::string& name) {
+  if (soup.faces() == 0 && soup.has_lines)
+    throw ContentError(name +
+                       ": no faces, only lines: a chain, which furrow simulate moves; here a mesh with at "
+                       "least one triangle is needed");
+  throw ContentError(name + ": no faces" + (soup.faces() ? " but degenerate ones" : "") +
+                     "; a mesh with at least one triangle is needed");
+}
+
 }  // namespace
 
-SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name) {
+SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name, bool chains) {
   check_corners(soup, name);
   SoupMesh out;
   Triangles triangles = cut_faces(soup, name, out.repairs);
   drop_degenerate(triangles, out.repairs);
   drop_duplicates(triangles, out.repairs);
-  if (triangles.empty())
-    throw ContentError(name + ": no faces" + (soup.faces() ? " but degenerate ones" : "") +
-                       "; a mesh with at least one triangle is needed");
+  const bool chain = chains && soup.has_lines && soup.faces() == 0;
+  if (triangles.empty() && !chain) refuse_without_faces(soup, name);
   out.origin.resize(soup.points.size());
   std::iota(out.origin.begin(), out.origin.end(), std::size_t{0});
   if (!build(soup, triangles, out) &&
@@ -220,7 +228,8 @@ SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name) {
   }
   for (const SoupTriangle& t : triangles) out.face_origin.push_back(t.face);
   fill_maps(soup, triangles, out);
-  for (const Vertex v : out.mesh.vertices()) out.repairs.isolated_vertices += out.mesh.is_isolated(v);
+  if (!chain)
+    for (const Vertex v : out.mesh.vertices()) out.repairs.isolated_vertices += out.mesh.is_isolated(v);
   return out;
 }
 

@@ -24,6 +24,7 @@ struct SoupMesh {
 /// three vertices of an earlier one (whichever way they wind), are dropped. If the rest is no oriented
 /// manifold already, make_manifold() turns faces and appends copies of vertices. Unused points stay as
 /// isolated vertices.
-SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name);
+/// `chains`: a soup with lines and without a face becomes its points (ReadOptions::chains).
+SoupMesh soup_to_mesh(const PolygonSoup& soup, const std::string& name, bool chains = false);
 
 }  // namespace furrow::io

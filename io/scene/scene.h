@@ -83,6 +83,8 @@ struct SceneMaterial {
   std::optional<double> tension;          ///< c of tension [N/m]; none: tension_constant() of the stretch
   double compression = 0.2, shear = 0.2;  ///< of tension [-]
   bridge::MassRule mass_rule = bridge::MassRule::area;
+  std::optional<double> line_stretch;  ///< EA of a chain's links [N]; none: the file's, else 1000
+  std::optional<double> line_density;  ///< of a chain [kg/m]; none: the file's, else 0.01
   /// Where the warp of woven cloth runs: auto, none (the same in all directions), file, texture, texture-u,
   /// x, y, z, or a stroke file.
   std::string warp = "auto";

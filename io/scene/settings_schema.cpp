@@ -299,6 +299,26 @@ const Row<Scene> rows[] = {
       .what = "mass by area, or the same for each vertex: the garment's over its vertices (paper 2)"},
      choice<MassRule>([](auto& s) -> auto& { return s.material.mass_rule; },
                       {{"area", MassRule::area}, {"equal", MassRule::equal}})},
+    {{.path = "material.line_stretch",
+      .flag = "--line-stretch",
+      .help =
+          "of a chain (a garment of lines without faces): Young's modulus times cross-section [N]; default "
+          "that of the file, else 1000",
+      .what = "of a chain, a garment of lines without faces: Young's modulus times cross-section",
+      .usual = "the file's, else 1000",
+      .used = used_by::simulate,
+      .flag_in = used_by::simulate},
+     number(
+         positive("N"), [](auto& s) -> auto& { return s.material.line_stretch; })},
+    {{.path = "material.line_density",
+      .flag = "--line-density",
+      .help = "mass of a chain [kg/m]; default that of the file, else 0.01",
+      .what = "mass of a chain",
+      .usual = "the file's, else 0.01",
+      .used = used_by::simulate,
+      .flag_in = used_by::simulate},
+     number(
+         positive("kg/m"), [](auto& s) -> auto& { return s.material.line_density; })},
     {{.path = "material.damping",
       .flag = "--damping",
       .what = "damping of each spring, as a share of critical",

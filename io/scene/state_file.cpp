@@ -329,7 +329,9 @@ void write_state(const std::filesystem::path& path, SavedState state) {
 }
 
 SavedState parse_state(const std::string& bytes, const std::string& name) {
-  MeshFile file = read_ply(bytes, name, {});
+  ReadOptions options;
+  options.chains = true;
+  MeshFile file = read_ply(bytes, name, options);
   const auto comment = std::find_if(file.comments.begin(), file.comments.end(), is_state);
   if (comment == file.comments.end() || !find_map(file.mesh, attribute::velocity))
     throw ContentError(name + ": is no saved state; furrow simulate --save-state writes one");

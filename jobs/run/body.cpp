@@ -12,6 +12,7 @@
 #include "bridge/gather.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/mesh/struts.h"
 #include "geometry/rest/rest_metric.h"
 #include "io/base/bytes_file.h"
 #include "io/mesh/mesh_file.h"
@@ -356,6 +357,9 @@ double edge_sag(const geometry::Mesh& garment) {
   std::vector<double> lengths;
   const auto rest = *geometry::find_map(garment, geometry::attribute::rest_length);
   for (geometry::Edge e : garment.edges()) lengths.push_back(rest[e]);
+  if (geometry::is_chain(garment))
+    for (const geometry::Strut& link : geometry::struts(garment)) lengths.push_back(link.rest_length);
+  if (lengths.empty()) return 0;
   const auto at = lengths.begin() + static_cast<std::ptrdiff_t>(edges_below * double(lengths.size() - 1));
   std::nth_element(lengths.begin(), at, lengths.end());
   double length = *at;

@@ -10,6 +10,7 @@
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/mesh/struts.h"
 #include "io/mesh/mesh_file.h"
 
 namespace furrow::jobs {
@@ -39,8 +40,9 @@ physics::Vec3 centre_of_mass(const geometry::Mesh& mesh) {
   const auto mass = *geometry::find_map(mesh, geometry::attribute::mass);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double total = 0;
+  const std::vector<char> loose = geometry::loose_vertices(mesh);
   for (geometry::Vertex v : mesh.vertices()) {
-    if (mesh.is_isolated(v)) continue;
+    if (loose[v]) continue;
     sum += mass[v] * bridge::to_eigen(mesh.point(v));
     total += mass[v];
   }
@@ -48,19 +50,21 @@ physics::Vec3 centre_of_mass(const geometry::Mesh& mesh) {
   return sum;
 }
 
-/// The middle of the edge that is strained most; the mesh has rest lengths.
+/// The middle of the edge, or of a chain's link, that is strained most; the mesh has rest lengths.
 physics::Vec3 strained_most(const geometry::Mesh& mesh) {
   const auto rest = *geometry::find_map(mesh, geometry::attribute::rest_length);
   physics::Vec3 place{0, 0, 0};
   double most = -1;
-  for (geometry::Edge e : mesh.edges()) {
-    const physics::Vec3 a = bridge::to_eigen(mesh.point(mesh.vertex(e, 0))),
-                        b = bridge::to_eigen(mesh.point(mesh.vertex(e, 1)));
-    const double strain = std::abs((b - a).norm() / rest[e] - 1);
-    if (!(strain > most)) continue;
+  const auto look_at = [&](geometry::Vertex v, geometry::Vertex w, double rest_length) {
+    const physics::Vec3 a = bridge::to_eigen(mesh.point(v)), b = bridge::to_eigen(mesh.point(w));
+    const double strain = std::abs((b - a).norm() / rest_length - 1);
+    if (!(strain > most)) return;
     most = strain;
     place = (a + b) / 2;
-  }
+  };
+  for (geometry::Edge e : mesh.edges()) look_at(mesh.vertex(e, 0), mesh.vertex(e, 1), rest[e]);
+  if (geometry::is_chain(mesh))
+    for (const geometry::Strut& link : geometry::struts(mesh)) look_at(link.a, link.b, link.rest_length);
   return place;
 }
 

@@ -6,6 +6,7 @@
 
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/property_names.h"
+#include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/masses.h"
@@ -13,6 +14,7 @@
 #include "geometry/rest/rest_metric.h"
 #include "geometry/rest/stiffness.h"
 #include "io/scene/fabrics.h"
+#include "jobs/run/chain.h"
 #include "physics/plate/plate_rigidity.h"
 
 namespace furrow::jobs {
@@ -48,8 +50,14 @@ void complete_garment(io::MeshFile& file, const io::SceneMaterial& material) {
   const bool denser = material.density && *material.density != record.density;
   if (material.density || !(record.density > 0))
     record.density = material.density.value_or(WrinkleOptions{}.density);
-  if (denser || !has_masses(mesh)) lump_masses(mesh, record.density);
-  if (!(record.mean_structural_length > 0)) record.mean_structural_length = mean_rest_length(mesh);
+  const bool chain = is_chain(mesh);
+  if (chain)
+    complete_chain(file, material);
+  else if (denser || !has_masses(mesh))
+    lump_masses(mesh, record.density);
+  if (!(record.mean_structural_length > 0))
+    record.mean_structural_length =
+        chain ? length_of(struts(mesh)) / double(struts(mesh).size()) : mean_rest_length(mesh);
   if (!(record.mean_bending_length > 0)) record.mean_bending_length = mean_bending_rest_length(mesh);
   record.unit = "m", record.up = "y";  // as the mesh is here; who writes it in another unit notes that one
   io::set_wrinkle_record(file, record);

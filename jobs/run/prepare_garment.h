@@ -8,7 +8,8 @@ namespace furrow::jobs {
 
 /// Masses, rest positions, rest lengths and bending springs where the garment has none (the shape as it is,
 /// at rest), and a wrinkle record with the density and the mean rest lengths. Nothing changes in a garment
-/// that is complete already, unless the material names another density.
+/// that is complete already, unless the material names another density. Of a garment without faces:
+/// complete_chain().
 void complete_garment(io::MeshFile& file, const io::SceneMaterial& material);
 
 /// How a complete garment's maps become springs.

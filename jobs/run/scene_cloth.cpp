@@ -6,11 +6,13 @@
 
 #include "bridge/convert.h"
 #include "bridge/couple_bending.h"
+#include "geometry/mesh/struts.h"
 #include "geometry/refine/subdivide.h"
 #include "io/stroke/stroke_file.h"
 #include "jobs/check/gate.h"
 #include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/chain.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/lay_warp.h"
 #include "jobs/run/line_round.h"
@@ -65,10 +67,12 @@ void subdivide_tied(io::MeshFile& file, const io::Scene& scene, const Context& c
 
 }  // namespace
 
-io::MeshFile begin_garment(const io::Scene& scene, const Context& context) {
+io::MeshFile begin_garment(const io::Scene& scene, const Context& context, Chains chains) {
   stop_if_cancelled(context);
-  io::MeshFile file = read_garment(scene.garment, context);
+  io::MeshFile file = read_garment(scene.garment, context, "garment", chains);
   stop_if_cancelled(context);
+  check_chain(scene, file.mesh, context);
+  if (geometry::is_chain(file.mesh)) return file;
   heed(faults_of_mesh(file), scene.garment.string(), context);
   heed(faults_of_garment(file.mesh), scene.garment.string(), context);
   require_refinement(file.mesh.number_of_faces(), 4, scene.subdivide, "--subdivide", context);
@@ -146,9 +150,10 @@ int threads_of(const io::Scene& scene, std::size_t vertices) {
   return scene.threads ? scene.threads : worthwhile_threads(vertices);
 }
 
-SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::shared_ptr<WorldBody> body) {
+SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::shared_ptr<WorldBody> body,
+                         Chains chains) {
   SceneCloth result;
-  result.file = begin_garment(scene, context);
+  result.file = begin_garment(scene, context, chains);
   if (scene.body && !body)
     body = std::make_shared<WorldBody>(*scene.body, context, tolerance_for(result.file));
   result.body = std::move(body);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "io/scene/scene.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/body.h"
 
 /// The pieces of a scene's run that write nothing.
 namespace furrow::jobs {
 
 /// The scene's garment before the first line, refined as the scene says.
-io::MeshFile begin_garment(const io::Scene& scene, const Context& context);
+io::MeshFile begin_garment(const io::Scene& scene, const Context& context, Chains chains = Chains::refused);
 
 /// Warns of boxes that do not touch: mostly a body in another unit, or with another axis up.
 void warn_if_apart(const io::Scene& scene, const WorldBody& body, const geometry::Mesh& garment,
@@ -52,6 +53,6 @@ struct SceneCloth {
 /// Reads garment, strokes and body, draws the lines of time 0, builds the field. Writes nothing; warns as a
 /// run does. Throws as a run does. `body`: the scene's, if it is built already.
 SceneCloth prepare_scene(const io::Scene& scene, const Context& context,
-                         std::shared_ptr<WorldBody> body = nullptr);
+                         std::shared_ptr<WorldBody> body = nullptr, Chains chains = Chains::refused);
 
 }  // namespace furrow::jobs

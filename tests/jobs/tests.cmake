@@ -3,6 +3,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   job_folders.h
   recorder.h
   bake_test.cpp
+  chain_test.cpp
   chart_test.cpp
   contact_gap_test.cpp
   doctor_test.cpp

@@ -3,6 +3,7 @@
 
 #include <CGAL/boost/graph/Euler_operations.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -88,6 +89,22 @@ TEST_CASE(
           Approx(rule == RestRule::flat ? 0.5 : 0.5 * after / before).epsilon(1e-14));
     CHECK(struts(moved)[1].stiffness == 3);
   }
+}
+
+TEST_CASE("struts: they are the links of a mesh without faces, whose other vertices are loose") {
+  Mesh chain;
+  for (int i = 0; i < 4; ++i) chain.add_vertex({double(i), 0, 0});
+  CHECK(is_chain(chain));
+  CHECK(loose_vertices(chain) == std::vector<char>{1, 1, 1, 1});
+  set_struts(chain, std::vector<Strut>{{Vertex(0), Vertex(2), 1, 5}});
+  CHECK(loose_vertices(chain) == std::vector<char>{0, 1, 0, 1});
+  Mesh cloth = grid(6, 6);
+  const Vertex alone = cloth.add_vertex({9, 9, 9});
+  set_struts(cloth, std::vector<Strut>{{Vertex(0), alone, 1, 5}});
+  CHECK_FALSE(is_chain(cloth));
+  const std::vector<char> loose = loose_vertices(cloth);
+  CHECK(loose[alone] == 1);
+  CHECK(std::count(loose.begin(), loose.end(), 1) == 1);
 }
 
 TEST_CASE("struts: subdivision drops struts, a vertex that is removed takes its own along") {

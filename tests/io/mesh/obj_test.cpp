@@ -127,6 +127,22 @@ TEST_CASE("OBJ: two-point lines that share vertices are chained, loops are close
   CHECK(file.repairs.isolated_vertices == 7);
 }
 
+TEST_CASE("OBJ: lines without a face are a chain for those who ask for one, and an error that says so") {
+  const std::string text = "v 0 0 0\nv 100 0 0\nv 0 0 50\nv 1 1 1\nl 1 2 3\n";
+  CHECK(error_of_obj(text) ==
+        "test: no faces, only lines: a chain, which furrow simulate moves; here a mesh with "
+        "at least one triangle is needed");
+  const io::MeshFile file = obj(text, {.metres_per_unit = 0.01, .up = io::Axis::z, .chains = true});
+  CHECK(file.mesh.number_of_vertices() == 4);
+  CHECK(file.mesh.number_of_faces() == 0);
+  CHECK(file.mesh.point(Vertex(2)) == Point(0, 0.5, 0));
+  REQUIRE(file.polylines.size() == 1);
+  CHECK(file.polylines[0].vertices == std::vector<std::size_t>{0, 1, 2});
+  CHECK_FALSE(file.repairs.any());
+  for (const char* no_chain : {"v 0 0 0\nv 1 0 0\n", "v 0 0 0\nv 1 0 0\nf 1 2 1\nl 1 2\n"})
+    CHECK_THROWS_AS(obj(no_chain, {.chains = true}), ContentError);
+}
+
 TEST_CASE("OBJ: unknown statements give one warning, known ones none") {
   const io::MeshFile file = obj("vn 0 0 1\ns off\nvp 0 1\np 1\nfoo 1 2\nbar\n" + cube_obj);
   REQUIRE(file.warnings.size() == 1);

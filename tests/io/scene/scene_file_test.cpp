@@ -145,6 +145,15 @@ TEST_CASE("scene_file: the rules of the rest state have their names") {
               .options.rest == rule);
 }
 
+TEST_CASE("scene_file: a chain's stiffness and mass are of its length") {
+  const io::SceneMaterial m =
+      scene("[garment]\nmesh = \"c.obj\"\n[material]\nline_stretch = 150\nline_density = 0.07\n").material;
+  CHECK(m.line_stretch == 150);
+  CHECK(m.line_density == 0.07);
+  CHECK(has(fault("[material]\nline_stretch = 0\n"), "must be a number > 0 [N]"));
+  CHECK(has(fault("[material]\nline_density = -1\n"), "must be a number > 0 [kg/m]"));
+}
+
 TEST_CASE("scene_file: the cloth of fast fitting has quadratic tension, and the same mass for each vertex") {
   const io::SceneMaterial m = scene(
                                   "[garment]\nmesh = \"g.obj\"\n[material]\nmembrane = \"tension\"\n"
