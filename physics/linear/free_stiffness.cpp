@@ -94,6 +94,7 @@ void FreeStiffness::assemble(const Cloth& cloth, std::span<const Vec3> x, Stiffn
   if (x.size() != particles_)
     throw std::invalid_argument("FreeStiffness: " + std::to_string(x.size()) + " positions of " +
                                 std::to_string(particles_) + " particles");
+  stiffness.narrow = narrow_;
   assemble([&](int begin, int end,
                Mat3* blocks) { stiffness_blocks(cloth, counts_, x, stiffness, begin, end, blocks); },
            pool);
@@ -104,7 +105,6 @@ void FreeStiffness::assemble(const MakeBlocks& make, ThreadPool* pool) {
     if (pool) return pool->share(n, [&](int i, int) { work(i); });
     for (int i = 0; i < n; ++i) work(i);
   };
-  stiffness.narrow = narrow_;
   matrix_.set_zero();
   const int elements = counts_.total();
   for (int begin = 0; begin < elements; begin += chunk) {

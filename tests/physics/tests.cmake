@@ -65,6 +65,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   motion/stepper_test.cpp
   motion/tension_motion_test.cpp
   motion/wind_test.cpp
+  motion/work_clock_test.cpp
   rest/certificate_test.cpp
   rest/displace_by_force_test.cpp
   rest/displace_on_body_test.cpp
