@@ -42,6 +42,7 @@ VerdictLook look_of(Verdict verdict) {
   return {"cannot_hold", {196, 40, 50}};
 }
 
+constexpr const char* in_memory = "-";
 constexpr Rgb plain{216, 210, 198};
 constexpr const char* legend_of_verdicts =
     "Green: held. Yellow: held, pressed. Orange: held by struts. Blue: held at a lower height. Red: cannot "
@@ -72,12 +73,28 @@ std::vector<std::uint8_t> colours_of_verdicts(const KeepReport& report) {
   return bytes;
 }
 
+/// Passes all on but that a mesh in memory would be written without its rest state: it is written as PLY.
+class OfFilesAlone : public Listener {
+ public:
+  explicit OfFilesAlone(Listener& other) : other_(other) {}
+  void progress(const std::string& what, double share) override { other_.progress(what, share); }
+  void warn(const Warning& warning) override {
+    if (warning.where != in_memory) other_.warn(warning);
+  }
+  bool cancelled() override { return other_.cancelled(); }
+  bool allows(const std::string& demand) override { return other_.allows(demand); }
+  bool replaces(const std::string& path) override { return other_.replaces(path); }
+
+ private:
+  Listener& other_;
+};
+
 KeepJob keep_job(const Sketch& sketch, const Json& strokes) {
   KeepJob job;
   job.scene = sketch.scene;
   job.scene.settings.root.erase("output");
   add_round(sketch, strokes, 0, Json::array(), job.scene);
-  io::set_value(job.scene.settings, "output.mesh", "-", "the studio");
+  io::set_value(job.scene.settings, "output.mesh", in_memory, "the studio");
   return job;
 }
 
@@ -87,7 +104,8 @@ KeptSketch keep_sketch(const Sketch& sketch, const Json& strokes, Listener& list
   const auto record = io::find_wrinkle_record(sketch.garment);
   if (strokes.empty() && (!record || record->lines.empty()))
     throw std::invalid_argument("there is no line to keep; draw one, or switch one on");
-  KeepReport report = keep(keep_job(sketch, strokes), listener);
+  OfFilesAlone of_files(listener);
+  KeepReport report = keep(keep_job(sketch, strokes), of_files);
   if (!report.ran || report.lines.interrupted || listener.cancelled()) throw physics::Cancelled("cancelled");
   KeptSketch kept;
   kept.all_hold = report.all_hold();

@@ -98,6 +98,7 @@ TEST_CASE("studio cloth: keep tells of each line, colours the cloth, and is take
   std::set<std::string> colours;
   for (std::size_t at = 16; at < page.colours.size(); at += 3) colours.insert(page.colours.substr(at, 3));
   CHECK(colours.size() == 2);  // the line's cloth, and the rest
+  CHECK(answer.dump().find("goes into a .ply") == std::string::npos);  // it did
   REQUIRE(page.ask("undo").contains("done"));
   page.ask("show");
   CHECK(page.cloth == before);

@@ -180,8 +180,8 @@ Json any_intention(std::mt19937_64& random, std::size_t lines) {
   return all[one(all.size())]();
 }
 
-/// Asks for so much, undoes it all, does it all again, and replays the log.
-void do_at_random(std::uint64_t seed, int intentions, const std::string& name) {
+/// Asks for so much, undoes it all, does it all again, and, if so wanted, replays the log.
+void do_at_random(std::uint64_t seed, int intentions, const std::string& name, bool replays = true) {
   const Desk desk(name);
   std::mt19937_64 random(seed);
   {
@@ -190,6 +190,7 @@ void do_at_random(std::uint64_t seed, int intentions, const std::string& name) {
     play.undo_all();
     play.redo_all();
   }
+  if (!replays) return;
   const auto report = studio::replay(desk.project(), desk.folder / "again", [](auto, auto) { return true; });
   RC_ASSERT(report.difference == "");
 }
@@ -206,7 +207,7 @@ TEST_CASE("studio protocol: a thousand random intentions are, too", "[release]")
   for (int i = 0; i < 20; ++i) {
     const std::uint64_t seed = seeds();
     INFO(seed);
-    CHECK_NOTHROW(do_at_random(seed, 50, "thousand"));
+    CHECK_NOTHROW(do_at_random(seed, 50, "thousand", i % 5 == 0));
   }
 }
 

@@ -129,16 +129,19 @@ TEST_CASE("studio replay: a killed studio reopens, and has lost at most the step
   for (int round = 0; round < 12; ++round) {
     Child child(desk);
     std::size_t asked = acknowledged;
-    std::thread killer([&, after = 5 + int(random() % 200)] {
+    std::jthread killer;
+    const int first_steps = int(random() % 6);
+    const auto kill_soon = [&, after = int(random() % 60)] {
       std::this_thread::sleep_for(std::chrono::milliseconds(after));
       kill(child.pid, SIGKILL);
-    });
+    };
     try {
       Visitor page(child.port, child.token);
       page.ask("take");
       REQUIRE(page.status.at("step") >= acknowledged);
       acknowledged = asked = page.status.at("step");
-      for (int i = 0; i < 40; ++i) {
+      for (int i = 0;; ++i) {  // until it is killed
+        if (i == first_steps) killer = std::jthread(kill_soon);
         ++asked;
         const double x = 0.004 * double(random() % 80) - 0.16;
         const bool has = !page.status.at("lines").empty();
@@ -150,6 +153,7 @@ TEST_CASE("studio replay: a killed studio reopens, and has lost at most the step
     } catch (const boost::system::system_error&) {
       // it was killed
     }
+    REQUIRE(killer.joinable());
     killer.join();
     child.end();
     const studio::Studio reopened(desk.project());

@@ -19,8 +19,8 @@ interface Props { status: Status; busy: string; mayDraw: boolean; fit: string; m
 
 /** Borders that are told apart in a list; more of them are pinned by clicks. */
 const mostBorders = 6;
-const nameOf = (border: Border) =>
-  `${border.name === "top" ? "Upper" : border.name === "bottom" ? "Lower" : `${Number(border.name) + 1}.`} border, ${Math.round(border.length * 100)} cm`;
+const nameOf = (border: Border, isOnly: boolean) =>
+  `${isOnly ? "Whole" : border.name === "top" ? "Upper" : border.name === "bottom" ? "Lower" : `${Number(border.name) + 1}.`} border, ${Math.round(border.length * 100)} cm`;
 
 function Borders({ status, actions }: { status: Status; actions: ClothActions }) {
   if (status.borders.length === 0) return null;
@@ -30,7 +30,7 @@ function Borders({ status, actions }: { status: Status; actions: ClothActions })
       {status.borders.slice(0, mostBorders).map((border, i) => (
         <label class="check" key={i}>
           <input type="checkbox" checked={border.held} onChange={(e) => actions.hold(i, e.currentTarget.checked)} />
-          {nameOf(border)}
+          {nameOf(border, status.borders.length === 1)}
         </label>
       ))}
     </fieldset>

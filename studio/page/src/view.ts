@@ -62,6 +62,7 @@ export class View {
     this.handles = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 13, sizeAttenuation: false, depthTest: false, transparent: true }));
     this.plane = mesh(new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.14, side, depthWrite: false }));
     this.rope = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ depthTest: false }));
+    this.plane.add(new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial()));  // its edges, which are seen from the front, too
     this.plane.visible = this.rope.visible = this.handles.visible = false;
     this.handles.renderOrder = this.rope.renderOrder = 3;
     this.scene.add(this.handles, this.plane, this.rope);
@@ -83,6 +84,7 @@ export class View {
     (this.wire.material as THREE.LineBasicMaterial).color.set(this.colours.wire);
     for (const dots of [this.pins, this.handles]) (dots.material as THREE.PointsMaterial).color.set(this.colours.valley);
     (this.plane.material as THREE.MeshBasicMaterial).color.set(this.colours.valley);
+    ((this.plane.children[0] as THREE.LineSegments).material as THREE.LineBasicMaterial).color.set(this.colours.valley);
     (this.rope.material as THREE.LineBasicMaterial).color.set(this.colours.ridge);
     this.showLines();
     this.draw();
@@ -325,6 +327,9 @@ export class View {
       const size = box.getSize(new THREE.Vector3()), centre = box.getCenter(new THREE.Vector3());
       this.plane.geometry.dispose();
       this.plane.geometry = new THREE.PlaneGeometry(1.4 * size.z + 0.1 * this.size, 1.1 * size.y).rotateY(Math.PI / 2);
+      const edges = this.plane.children[0] as THREE.LineSegments;
+      edges.geometry.dispose();
+      edges.geometry = new THREE.EdgesGeometry(this.plane.geometry);
       this.plane.position.set(middle, centre.y, centre.z);
     }
     this.draw();

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How long the studio takes from a hand's move until it is seen: times.mjs FURROW PAGE GARMENT [BODY]. PAGE is the folder
+// whose node_modules has playwright-core (build/release/page). Each row is the median of 20 in a real Chromium, and the
+// least, from the event in the page to the second picture after what the program answered; beside it the share of the
+// machine that was idle meanwhile, without which no such time means much.
+import { spawn } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+
+const [furrow, page, garment, body] = process.argv.slice(2);
+const { chromium } = createRequire(join(resolve(page), "package.json"))("playwright-core");
+const executablePath = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
+const scratch = mkdtempSync(join(tmpdir(), "furrow-times-"));
+const repeats = 20;
+
+const program = spawn(resolve(furrow), ["studio", resolve(garment), ...(body ? ["--body", resolve(body)] : []), "--pin-loop", "top", "--no-browser"], { cwd: scratch });
+const url = await new Promise((done, fail) => {
+  let said = "";
+  const hear = (data) => {
+    const found = /http:\/\/\S+/.exec((said += data));
+    if (found) done(found[0]);
+  };
+  program.stdout.on("data", hear);
+  program.stderr.on("data", hear);
+  program.on("exit", () => fail(new Error(said)));
+});
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--headless", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+
+/** Idle and all ticks of the machine so far. */
+const ticks = () => {
+  const [, ...n] = readFileSync("/proc/stat", "utf8").split("\n")[0].split(/\s+/).map(Number);
+  return { idle: n[3] + n[4], all: n.reduce((a, b) => a + (b || 0), 0) };
+};
+const median = (list) => list.sort((a, b) => a - b)[Math.floor(list.length / 2)];
+
+try {
+  const tab = await browser.newPage({ viewport: { width: 1200, height: 800 } });
+  await tab.goto(url);
+  const attribute = (name) => tab.locator("footer").getAttribute(`data-${name}`);
+  const until = async (holds) => {
+    for (const end = Date.now() + 60000; !(await holds()); await new Promise((r) => setTimeout(r, 20)))
+      if (Date.now() > end) throw new Error("waited a minute");
+  };
+  await until(async () => Number(await attribute("frames")) >= (body ? 2 : 1));
+  // From the next event of a kind until a later mesh has been drawn twice.
+  await tab.evaluate(() => {
+    globalThis.timeFrom = (kind) => {
+      globalThis.took = undefined;
+      const foot = document.querySelector("footer");
+      addEventListener(kind, () => {
+        const start = performance.now(), frames = foot.dataset.frames;
+        const look = () => {
+          if (foot.dataset.frames === frames) return requestAnimationFrame(look);
+          requestAnimationFrame(() => requestAnimationFrame(() => (globalThis.took = performance.now() - start)));
+        };
+        look();
+      }, { capture: true, once: true });
+    };
+  });
+  const box = await tab.locator("canvas").boundingBox();
+  const row = async (what, kind, act, after = async () => undefined) => {
+    const list = [], before = ticks();
+    for (let i = 0; i < repeats; ++i) {
+      await tab.evaluate((k) => globalThis.timeFrom(k), kind);
+      await act(i);
+      await until(() => tab.evaluate(() => globalThis.took !== undefined));
+      list.push(await tab.evaluate(() => globalThis.took));
+      await after();
+    }
+    const now = ticks();
+    const idle = Math.round((100 * (now.idle - before.idle)) / (now.all - before.all));
+    console.log(`${what}: ${Math.round(median(list))} ms (least ${Math.round(list[0])}), ${idle} % idle`);
+  };
+  const settled = () => tab.waitForTimeout(150);
+  const undo = async () => {
+    const step = Number(await attribute("step"));
+    await tab.keyboard.press("Control+z");
+    await until(async () => Number(await attribute("step")) === step - 1);
+    await settled();
+  };
+  const line = async (x) => {
+    await tab.mouse.move(box.x + x * box.width, box.y + 0.45 * box.height);
+    await tab.mouse.down();
+    await tab.mouse.move(box.x + x * box.width, box.y + 0.62 * box.height, { steps: 12 });
+    await tab.mouse.up();
+  };
+  await tab.keyboard.press("r");
+  await row("pen up to wrinkle seen", "pointerup", () => line(0.52), undo);
+  await line(0.52);
+  await until(async () => Number(await attribute("lines")) === 1);
+  await tab.keyboard.press("Escape");
+  await settled();
+  const slider = tab.locator("aside input[type=range]").first();
+  await row("slider to seen", "input", (i) => slider.evaluate((input, v) => {
+    input.value = v;
+    input.dispatchEvent(new Event("input", { bubbles: true }));
+  }, 12 + i), settled);
+  await tab.locator("canvas").focus();
+  let redo = false;
+  await row("undo, redo", "keydown", () => tab.keyboard.press((redo = !redo) ? "Control+z" : "Control+y"), settled);
+} finally {
+  program.removeAllListeners("exit");
+  program.kill("SIGINT");
+  await browser.close();
+  rmSync(scratch, { recursive: true, force: true });
+}
