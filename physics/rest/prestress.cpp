@@ -23,7 +23,7 @@ namespace furrow::physics {
 namespace {
 
 constexpr double least_imbalance = 1e-9;  // of gravity
-constexpr int most_rounds = 6;            // of a cloth with plates
+constexpr int most_plate_rounds = 6;      // of a cloth with plates
 
 using Forces = std::vector<Vec3>;
 
@@ -217,7 +217,7 @@ PrestressReport prestress(Cloth& cloth, const PrestressOptions& o, const Collide
   PrestressReport report = balance_once(work, o, collider, loads);
   for (int round = 1; recouple(work); ++round) {  // a plate is made of the rest lengths that were solved for
     const double left = residual_force(work, o.gravity, collider, o.friction, o.gap, loads);
-    if (left <= std::max(o.tolerance, 1.1 * report.residual) || round == most_rounds) {
+    if (left <= std::max(o.tolerance, 1.1 * report.residual) || round == most_plate_rounds) {
       report.residual = left;
       break;
     }

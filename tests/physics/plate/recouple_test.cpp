@@ -31,11 +31,11 @@ bool same_plate(const Cloth& a, const Cloth& b) {
 }
 
 /// Flat hinges and a membrane; some hinges apart, and all pressed otherwise.
-struct Sheet {
+struct PressedSheet {
   Cloth cloth = sheet_of(SheetKind::jittered, 1, 1, 6);
   std::vector<char> apart;
   std::vector<double> press;
-  Sheet() {
+  PressedSheet() {
     cloth.structural.clear();
     add_membrane(cloth, 300);
     tests::add_hinges(cloth, 1e-4);
@@ -56,7 +56,7 @@ struct Sheet {
 }  // namespace
 
 TEST_CASE("recouple: nothing changed gives the same bits, other lengths the plate that they make") {
-  const Sheet sheet;
+  const PressedSheet sheet;
   auto lengths = lengths_of(sheet.cloth);
   Cloth cloth = sheet.coupled(lengths);
   const Cloth before = cloth;
@@ -72,7 +72,7 @@ TEST_CASE("recouple: nothing changed gives the same bits, other lengths the plat
 }
 
 TEST_CASE("recouple: springs and triangles with other first corners tell the same lengths") {
-  const Sheet sheet;
+  const PressedSheet sheet;
   const auto lengths = lengths_of(sheet.cloth);
   auto longer = lengths;
   for (auto& l : longer)
@@ -105,7 +105,7 @@ TEST_CASE("recouple: the warp stays where it lies in the cloth") {
         Approx(to_middle(stretched)).epsilon(1e-14));
   CHECK(carried_angle(0, at_first, stretched) == 0);
   CHECK(carried_angle(-2.5, at_first, at_first) == -2.5);
-  const Sheet sheet;
+  const PressedSheet sheet;
   auto lengths = lengths_of(sheet.cloth);
   std::vector<double> warp(lengths.size());
   for (std::size_t t = 0; t < warp.size(); ++t) warp[t] = to_middle(lengths[t]);
@@ -125,7 +125,7 @@ TEST_CASE("recouple: the warp stays where it lies in the cloth") {
 }
 
 TEST_CASE("recouple: a plate of a caller's own, and one whose hinges are gone, stay as they are") {
-  const Sheet sheet;
+  const PressedSheet sheet;
   Cloth own = sheet.coupled(lengths_of(sheet.cloth));
   Cloth fewer = own;
   fewer.hinges.pop_back();
