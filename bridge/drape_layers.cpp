@@ -20,10 +20,11 @@ namespace {
 using physics::Vec3;
 using Positions = std::vector<Vec3>;
 
-void check_layers(std::size_t count, const DrapeOptions& o) {
+void check_layers(std::span<const LayerGarment> garments, const DrapeOptions& o) {
   using physics::require;
   constexpr const char* me = "drape_layers";
-  require(me, "garments", int(count), count > 0, ">= 1");
+  require(me, "garments", int(garments.size()), !garments.empty(), ">= 1");
+  for (const LayerGarment& g : garments) require(me, "thickness", g.thickness, g.thickness >= 0, ">= 0");
   require(me, "refinements", o.refinements, o.refinements >= 0 && o.refinements <= 6, "in [0, 6]");
   require(me, "coarse_tolerance", o.coarse_tolerance, o.coarse_tolerance > 0, "> 0");
   require(me, "disturbance", o.disturbance, o.disturbance >= 0, ">= 0");
@@ -71,9 +72,14 @@ struct LevelCloth {
   std::vector<geometry::Mesh> made;
   physics::Cloth joined;
   Positions drawn;  ///< as they were made, each far from the others, where only its own may be near
+  std::vector<double> thickness;  ///< by particle [m]
 };
 
-LevelCloth make_level(std::span<LayerGarment> garments) {
+double thickness_of(const LayerGarment& garment, const DrapeOptions& o) {
+  return garment.thickness > 0 ? garment.thickness : o.settle.self.thickness;
+}
+
+LevelCloth make_level(std::span<LayerGarment> garments, const DrapeOptions& o) {
   LevelCloth level;
   std::vector<physics::Cloth> cloths;
   double shift = 0;
@@ -81,6 +87,7 @@ LevelCloth make_level(std::span<LayerGarment> garments) {
     level.made.push_back(g.mesh);
     g.cloth = g.make_cloth(level.made.back());
     cloths.push_back(g.cloth);
+    level.thickness.insert(level.thickness.end(), g.cloth.particles.size(), thickness_of(g, o));
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();
     for (const Vec3& x : g.cloth.particles.x) low = low.cwiseMin(x), high = high.cwiseMax(x);
     shift += 1 - low.x();
@@ -107,6 +114,7 @@ void rest_alone(physics::Cloth& own, const physics::Collider* body, const DrapeO
 void begin_alone(std::span<LayerGarment> garments, const Ended& ended, const physics::Collider* body,
                  const DrapeOptions& asked, const Start& start, DrapeLevel& told) {
   std::ptrdiff_t first = 0;
+  double below = 0;  // what the layers below take [m]
   for (std::size_t rank = 0; rank < garments.size(); ++rank) {
     physics::Cloth& own = garments[rank].cloth;
     const auto count = std::ptrdiff_t(own.particles.size());
@@ -114,7 +122,9 @@ void begin_alone(std::span<LayerGarment> garments, const Ended& ended, const phy
       return Positions(all.begin() + first, all.begin() + first + count);
     };
     DrapeOptions o = asked;
-    o.settle.gap += double(rank) * o.settle.self.thickness;
+    o.settle.self.thickness = thickness_of(garments[rank], asked);
+    if (rank > 0) below += 0.5 * (thickness_of(garments[rank - 1], asked) + o.settle.self.thickness);
+    o.settle.gap += below;
     const Positions drawn = own.particles.x, places = part(start.places);
     o.settle.self.drawn = drawn;
     Carried carried;
@@ -132,7 +142,7 @@ void begin_alone(std::span<LayerGarment> garments, const Ended& ended, const phy
 
 /// Puts the garments together, and takes them apart where they cross.
 physics::UntangleReport part_layers(std::span<const LayerGarment> garments, physics::Cloth& joined,
-                                    double thickness) {
+                                    const physics::SelfContact& self) {
   physics::ClothLayers layers;
   Positions& x = joined.particles.x;
   x.clear();
@@ -142,7 +152,7 @@ physics::UntangleReport part_layers(std::span<const LayerGarment> garments, phys
     layers.of_vertex.insert(layers.of_vertex.end(), g.cloth.particles.size(), int(rank));
     append(x, g.cloth.particles.x);
   }
-  return physics::untangle_layers(x, physics::pair_mesh(joined, thickness), layers);
+  return physics::untangle_layers(x, physics::pair_mesh(joined, self.thickness, self.thicknesses), layers);
 }
 
 /// Of all levels together: what crossed at the first, what is left on the last.
@@ -190,7 +200,7 @@ void finish(std::span<LayerGarment> garments, std::vector<geometry::Mesh>& made,
 
 LayersReport drape_layers(std::span<LayerGarment> garments, const physics::Collider* body,
                           const DrapeOptions& asked, const DrapeObserver& go_on) {
-  check_layers(garments.size(), asked);
+  check_layers(garments, asked);
   DrapeOptions o = asked;
   LayersReport report;
   const PlaceNoise noise(positions_of_all(garments), o.seed);
@@ -201,16 +211,17 @@ LayersReport drape_layers(std::span<LayerGarment> garments, const physics::Colli
     const Ended ended = level > 0 ? refine_all(garments) : Ended{};
     const bool last = level == o.refinements;
     const Positions places = positions_of_all(garments);
-    LevelCloth now = make_level(garments);
+    LevelCloth now = make_level(garments, asked);
     o.settle.self.drawn = now.drawn;
+    o.settle.self.thicknesses = now.thickness;
     DrapeLevel& told = report.levels.emplace_back();
     told.vertices = now.joined.particles.size();
     report.disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);
     if (level == 0 && body)
       for (LayerGarment& g : garments) g.turned = looks_inwards(g.cloth, *body);
-    begin_alone(garments, ended, body, o, {places, noise, report.disturbance, alone}, told);
+    begin_alone(garments, ended, body, asked, {places, noise, report.disturbance, alone}, told);
     report.stopped = report.stopped || told.soft.stopped;
-    add_untangled(part_layers(garments, now.joined, o.settle.self.thickness), report.untangled);
+    add_untangled(part_layers(garments, now.joined, o.settle.self), report.untangled);
     const auto observer = [&](const physics::SettleProgress& progress) {
       return !go_on || report.stopped || go_on(level, progress, now.joined);
     };

@@ -105,7 +105,13 @@ DrapeJob job_of(const DrapeArguments& a) {
   job.settings.bands = parse_bands(a.bands);
   job.settings.animation = a.animation;
   if (a.subdivide == "auto") {
-    if (auto& root = job.scene.settings.root; root.contains("garment")) root["garment"].erase("subdivide");
+    if (auto& root = job.scene.settings.root; root.contains("garment")) {
+      io::Json& garment = root["garment"];
+      if (garment.is_object()) garment.erase("subdivide");
+      if (garment.is_array())
+        for (io::Json& one : garment)
+          if (one.is_object()) one.erase("subdivide");
+    }
   } else if (!a.subdivide.empty()) {
     job.subdivide = std::stoi(a.subdivide);
   }
@@ -291,8 +297,9 @@ void add_drape(CLI::App& app, int& exit_code) {
          "without, it is draped again with it")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "on", "off"}));
-  sub->add_option("--cloth-thickness", a->settings.thickness,
-                  "of the cloth, with --self-contact: layers are so far apart [m] (default 0.001)")
+  sub->add_option(
+         "--cloth-thickness", a->settings.thickness,
+         "of the cloth, with --self-contact: layers are so far apart [m] (default the scene's, else 0.001)")
       ->check(CLI::Range(1e-5, 0.05));
   sub->add_option("--penetration", a->settings.penetration,
                   "depth to which the body may come through the cloth, between vertices, too [m] (default "

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/animation/animation_file.h"
+#include "io/scene/garment_list.h"
 #include "io/scene/settings_schema.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
@@ -55,10 +56,27 @@ void check_layers(const DrapeJob& job, const io::Scene& scene) {
         "worn-shirt.ply and so on");
 }
 
-/// The garments' paths, the innermost first. Throws std::invalid_argument if one is there twice.
-std::vector<std::filesystem::path> garments_of(const DrapeJob& job, const io::Scene& scene) {
-  std::vector<std::filesystem::path> paths{scene.garment};
+/// Scenes with a garment each, the innermost first.
+using GarmentScenes = std::vector<io::TomlDocument>;
+
+/// Those of the scene, and then those over them.
+GarmentScenes garment_scenes(const DrapeJob& job) {
+  GarmentScenes scenes = io::scenes_by_garment(job.scene.settings);
   for (const std::filesystem::path& path : job.over) {
+    io::TomlDocument own = scenes.front();
+    io::set_value(own, "garment.mesh", path.string(), "the garments");
+    for (const char* key : {"layer", "thickness"}) own.root["garment"].erase(key);
+    scenes.push_back(std::move(own));
+  }
+  return scenes;
+}
+
+/// The garments' paths, the innermost first. Throws std::invalid_argument if one is there twice.
+std::vector<std::filesystem::path> garments_of(const GarmentScenes& scenes,
+                                               const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> paths;
+  for (const io::TomlDocument& document : scenes) {
+    const std::filesystem::path path = garment_of(document, folder);
     for (const std::filesystem::path& other : paths) {
       std::error_code none;
       if (path == other || std::filesystem::equivalent(path, other, none))
@@ -85,7 +103,7 @@ std::vector<std::string> names_of(std::span<const std::filesystem::path> paths) 
   return names;
 }
 
-void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
+void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene, Listener& listener) {
   check_scene(scene);
   const DrapeSettings& s = job.settings;
   using physics::require;
@@ -93,7 +111,7 @@ void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
   require("drape", "band_stiffness", s.band_stiffness, s.band_stiffness >= 0, ">= 0");
   require("drape", "subdivide", scene.subdivide, scene.subdivide >= 0 && scene.subdivide <= 6, "in [0, 6]");
   if (s.iterations) require("drape", "iterations", *s.iterations, *s.iterations >= 0, ">= 0");
-  require("drape", "thickness", s.thickness, s.thickness > 0, "> 0");
+  if (s.thickness) require("drape", "thickness", *s.thickness, *s.thickness > 0, "> 0");
   if (s.contact_depth) require("drape", "contact_depth", *s.contact_depth, *s.contact_depth > 0, "> 0");
   if (scene.starts > 1 && !s.animation.empty())
     throw std::invalid_argument("--animation shows one way to rest; leave it out, or --starts");
@@ -116,11 +134,11 @@ void check(const DrapeJob& job, const io::Scene& scene, Listener& listener) {
     for (const auto& path : {scene.body->mesh, scene.body->field}) inputs.push_back(path.string());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
   std::vector<std::string> outputs{output, animation};
-  if (!job.over.empty()) {
+  if (all.size() > 1) {
     check_layers(job, scene);
     outputs[0].clear();
-    const std::vector<std::filesystem::path> garments = garments_of(job, scene);
-    for (const auto& path : job.over) inputs.push_back(path.string());
+    const std::vector<std::filesystem::path> garments = garments_of(all, job.scene.folder);
+    for (const auto& path : garments) inputs.push_back(path.string());
     for (const std::string& name : names_of(garments))
       if (!output.empty()) outputs.push_back(layer_output(job.output, name).string());
   }
@@ -139,8 +157,7 @@ void warn_of_unused_settings(const io::TomlDocument& document, Listener& listene
 }
 
 /// The settings with what the garment's file notes, or cotton, unless something is said of what the cloth is.
-io::TomlDocument with_fabric(const DrapeJob& job) {
-  io::TomlDocument document = job.scene.settings;
+io::TomlDocument with_fabric(const DrapeJob& job, io::TomlDocument document) {
   if (!job.fabrics.empty()) return document;
   take_fabric_file(document, job.scene.folder);
   take_recorded_material(document, garment_of(document, job.scene.folder), job.scene.memory);
@@ -148,8 +165,9 @@ io::TomlDocument with_fabric(const DrapeJob& job) {
   return document;
 }
 
-OpenScene open_scene(const DrapeJob& job, Listener& listener) {
-  OpenScene open{{}, with_fabric(job), job.scene.folder, {}};
+/// That of the innermost garment; the others' are checked with it.
+OpenScene open_scene(const DrapeJob& job, const GarmentScenes& all, Listener& listener) {
+  OpenScene open{{}, with_fabric(job, all.front()), job.scene.folder, {}};
   open.scene = scene_of(open.document, open.folder);
   if (open.scene.garment.empty())
     throw std::invalid_argument(open.document.name + ": garment.mesh is missing");
@@ -158,7 +176,7 @@ OpenScene open_scene(const DrapeJob& job, Listener& listener) {
   if (job.subdivide) open.scene.subdivide = *job.subdivide;
   open.frame.unit = open.scene.unit;
   open.frame.up = open.scene.up;
-  check(job, open.scene, listener);
+  check(job, all, open.scene, listener);
   return open;
 }
 
@@ -180,31 +198,28 @@ std::vector<io::Scene> scenes_of(const DrapeJob& job, const OpenScene& open) {
 }
 
 /// The scene of a garment that is worn over the first one.
-OpenScene open_layer(const DrapeJob& job, const OpenScene& first, const std::filesystem::path& garment) {
-  DrapeJob own = job;
-  io::set_value(own.scene.settings, "garment.mesh", garment.string(), "the garments");
-  OpenScene open{{}, with_fabric(own), job.scene.folder, first.frame};
+OpenScene open_layer(const DrapeJob& job, const OpenScene& first, const io::TomlDocument& document) {
+  OpenScene open{{}, with_fabric(job, document), job.scene.folder, first.frame};
   open.scene = scene_of(open.document, open.folder);
   check_inputs(open.scene, open.document, -1, job.scene.memory);
   open.scene.unit = first.scene.unit;
   open.scene.up = first.scene.up;
-  open.scene.subdivide = first.scene.subdivide;
+  if (job.subdivide) open.scene.subdivide = *job.subdivide;
   return open;
 }
 
-void drape_all_layers(const DrapeJob& job, const OpenScene& first, const BodyCollider& body, bool choose,
-                      const Context& context, DrapeJobReport& report) {
-  const std::vector<std::filesystem::path> paths = garments_of(job, first.scene);
-  const std::vector<std::string> names = names_of(paths);
+void drape_all_layers(const DrapeJob& job, const GarmentScenes& all, const OpenScene& first,
+                      const BodyCollider& body, bool choose, const Context& context, DrapeJobReport& report) {
+  const std::vector<std::string> names = names_of(garments_of(all, job.scene.folder));
   std::vector<OpenScene> open{first};
-  for (const auto& path : job.over) open.push_back(open_layer(job, first, path));
+  for (std::size_t i = 1; i < all.size(); ++i) open.push_back(open_layer(job, first, all[i]));
   std::vector<io::Scene> scenes;
   for (const OpenScene& o : open) scenes.push_back(o.scene);
   WornOver worn = drape_worn_over(scenes, names, &body, job.settings, choose, context);
   for (std::size_t i = 0; i < open.size(); ++i) {
     Draped& d = worn.garments[i];
     d.penetration = job.settings.penetration;
-    d.allowed_crossings = std::size_t(first.scene.allow_crossings);
+    d.allowed_crossings = std::size_t(open[i].scene.allow_crossings);
     note_material(d.file, open[i].document, d.gap);
     if (job.output.empty()) continue;
     d.written = layer_output(job.output, names[i]);
@@ -236,18 +251,20 @@ bool DrapeJobReport::fails() const {
 
 DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
-  warn_of_unused_settings(job.scene.settings, listener);
-  const OpenScene open = open_scene(job, listener);
+  const GarmentScenes all = garment_scenes(job);
+  warn_of_unused_settings(all.front(), listener);
+  const OpenScene open = open_scene(job, all, listener);
   const std::vector<io::Scene> scenes = scenes_of(job, open);
   const Context context{open.frame, listener, &job.scene.memory};
   std::optional<BodyCollider> body;
   if (open.scene.body)
     body.emplace(load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap)));
-  const bool choose =
-      !job.subdivide && !open.document.root.value("garment", Json::object()).contains("subdivide");
+  const bool choose = !job.subdivide && std::none_of(all.begin(), all.end(), [](const io::TomlDocument& d) {
+    return d.root.value("garment", Json::object()).contains("subdivide");
+  });
   DrapeJobReport report{{}, {}, {}, scenes[0], open.frame};
-  if (!job.over.empty()) {
-    drape_all_layers(job, open, *body, choose, context, report);
+  if (all.size() > 1) {
+    drape_all_layers(job, all, open, *body, choose, context, report);
     return report;
   }
   for (std::size_t i = 0; i < scenes.size(); ++i) {

@@ -33,9 +33,9 @@ struct DrapeSettings {
   double residual = physics::SettleOptions{}.tolerance;  ///< at which it rests [-]; > 0
   std::optional<double> contact_depth;  ///< that cloth may lie inside the gap [m]; none: no limit
   SelfContactUse self_contact = SelfContactUse::automatic;
-  double thickness = 0.001;       ///< of the cloth, with self_contact [m]; > 0
-  double penetration = 0.005;     ///< depth to which the body may come through the cloth [m]; >= 0
-  std::optional<int> iterations;  ///< on each level, >= 0; none: those of the method
+  std::optional<double> thickness;  ///< of the cloth, with self_contact [m]; > 0; none: the scene's
+  double penetration = 0.005;       ///< depth to which the body may come through the cloth [m]; >= 0
+  std::optional<int> iterations;    ///< on each level, >= 0; none: those of the method
   std::vector<Band> bands;
   double band_stiffness = 50;       ///< [N]; >= 0
   double bending_friction = 0;      ///< [N]; >= 0
@@ -45,12 +45,12 @@ struct DrapeSettings {
 
 /// A garment to be put on the scene's body, hung from its pins, or both, under its material and gravity.
 struct DrapeJob {
-  SceneInput scene;
+  SceneInput scene;  ///< with one garment, or several as a list (io/scene/garment_list.h)
   DrapeSettings settings = {};
   /// Refinements (Loop), in [0, 6]; none: the scene's, and if it says none, as many as the gap needs.
   std::optional<int> subdivide;
-  /// Garments worn over the scene's, the inner ones first, each a path or one in the scene's memory; all are
-  /// draped together, none passing through another, and need a body. None: the scene's alone.
+  /// Garments worn over those of the scene, the inner ones first, each a path or one in the scene's memory;
+  /// all are draped together, none passing through another, and need a body. None: the scene's alone.
   std::vector<std::filesystem::path> over = {};
   std::vector<std::string> fabrics = {};  ///< the same garment in each; none: in the scene's, else what its
                                           ///< file notes, else cotton
@@ -145,6 +145,7 @@ struct Draped {
   /// Pairs of faces that crossed without contact of cloth with cloth; none: that was not tried first.
   std::optional<std::size_t> crossings_without;
   double thickness = 0;                   ///< of the cloth then [m]
+  double cloth_friction = 0;              ///< Coulomb coefficient of cloth on cloth then [-]
   std::size_t crossings_with_others = 0;  ///< pairs of its faces and those of other garments that cross
   std::filesystem::path written;          ///< its file, where there are several garments
 

@@ -115,16 +115,19 @@ struct SceneOutput {
 struct Scene {
   std::string title;
   std::filesystem::path garment;
-  int subdivide = 0;                    ///< times that Loop subdivision is applied before the first line
-  int allow_crossings = 0;              ///< pairs of faces that may cross at the end; >= 0
-  bool keep = false;                    ///< the garment's shape at time 0 is made its equilibrium
-  Eigen::Vector3d velocity{0, 0, 0};    ///< of what is not pinned, at time 0 after settling [m/s]
+  int layer = -1;  ///< of several garments, from the inside to the outside; -1: by their place
+  std::optional<double> thickness;    ///< of the cloth, where layers and folds are kept apart [m]; none: 1 mm
+  int subdivide = 0;                  ///< times that Loop subdivision is applied before the first line
+  int allow_crossings = 0;            ///< pairs of faces that may cross at the end; >= 0
+  bool keep = false;                  ///< the garment's shape at time 0 is made its equilibrium
+  Eigen::Vector3d velocity{0, 0, 0};  ///< of what is not pinned, at time 0 after settling [m/s]
   std::optional<std::string> unit, up;  ///< of the mesh and stroke files
   std::vector<SceneLines> lines;        ///< by time
   std::optional<SceneBody> body;
   SceneMaterial material;
   std::vector<ScenePins> pins;
   physics::Wind wind;
+  double cloth_friction = 0.3;          ///< Coulomb coefficient of cloth on cloth, at rest [-]; >= 0
   bool settle = false;                  ///< what is drawn at time 0 comes to rest before it moves
   physics::SimulateOptions simulation;  ///< with gravity, friction, damping
   int starts = 1;                       ///< of furrow drape, each with noise of its own; >= 1

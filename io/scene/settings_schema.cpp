@@ -335,6 +335,13 @@ const Row<Scene> rows[] = {
       .flag_in = used_by::all},
      number(
          not_negative(), [](auto& s) -> auto& { return s.simulation.friction; })},
+    {{.path = "material.cloth_friction",
+      .flag = "--cloth-friction",
+      .what = "Coulomb friction of cloth on cloth, where layers and folds are kept apart",
+      .used = used_by::drape,
+      .flag_in = used_by::drape},
+     number(
+         not_negative(), [](auto& s) -> auto& { return s.cloth_friction; })},
     {{.path = "material.gap",
       .flag = "--gap",
       .help = "distance that the cloth keeps from the body [m]; raised to what the mesh and the field need "
@@ -452,6 +459,18 @@ const Row<Scene> rows[] = {
       .what = "Loop steps before the first line"},
      whole(
          0, 4, [](auto& s) -> auto& { return s.subdivide; })},
+    {{.path = "garment.layer",
+      .what = "of several `[[garment]]`, which one is worn over which: the innermost has the lowest number",
+      .usual = "their order in the file",
+      .used = used_by::drape},
+     whole(
+         0, 1000, [](auto& s) -> auto& { return s.layer; })},
+    {{.path = "garment.thickness",
+      .what = "of the cloth, where layers and folds are kept apart; `--cloth-thickness` goes before it",
+      .usual = "0.001",
+      .used = used_by::drape},
+     number(
+         Limits{1e-5, 0.05, false, "m"}, [](auto& s) -> auto& { return s.thickness; })},
     {{.path = "garment.allow_crossings",
       .flag = "--allow-crossings",
       .help = "pairs of faces of the cloth that may cross at the end (default 0); beyond it the exit code "

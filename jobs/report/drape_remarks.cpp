@@ -200,9 +200,16 @@ Json self_contact_json(const Draped& d) {
     builds += level.soft.self.list_builds + level.settle.self.list_builds;
     stopped += level.stopped;
   }
-  Json json{{"thickness", d.thickness}, {"pairs", last.pairs},   {"nearest", last.nearest},
-            {"cut_searches", cut},      {"list_builds", builds}, {"crossed_at_start", last.crossed_at_start},
-            {"exempt", last.exempt},    {"stopped", stopped}};
+  Json json{{"thickness", d.thickness},
+            {"pairs", last.pairs},
+            {"nearest", last.nearest},
+            {"sliding", last.sliding},
+            {"cut_searches", cut},
+            {"list_builds", builds},
+            {"crossed_at_start", last.crossed_at_start},
+            {"exempt", last.exempt},
+            {"stopped", stopped},
+            {"friction", d.cloth_friction}};
   if (d.crossings_without) json["crossings_without"] = *d.crossings_without;
   if (last.blocked) json["blocked_at"] = {last.blocked_at.x(), last.blocked_at.y(), last.blocked_at.z()};
   return json;

@@ -39,7 +39,7 @@ class LayerSearch {
  public:
   LayerSearch(std::span<const GivenGarment> given, const BodyCollider* body, const DrapeSettings& settings,
               const Context& context)
-      : given_(given), body_(body), options_(options(given, body, settings, context)) {
+      : given_(given), body_(body), settings_(settings), options_(options(given, body, settings, context)) {
     for (const GivenGarment& g : given) {
       makers.push_back(std::make_unique<GarmentMaker>(g.scene, body, settings, g.file, context));
       meshes_.push_back(&g.file.mesh);
@@ -92,7 +92,9 @@ class LayerSearch {
     for (const auto& maker : makers) none_held = none_held && maker->loose.empty();
     garments.clear();
     for (std::size_t i = 0; i < given_.size(); ++i)
-      garments.push_back({given_[i].file.mesh, std::ref(*makers[i])});
+      garments.push_back({.mesh = given_[i].file.mesh,
+                          .make_cloth = std::ref(*makers[i]),
+                          .thickness = thickness_of(given_[i].scene, settings_)});
     WayToRest to_rest(options_.settle.tolerance);
     const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
       if (level == 0 && none_held && p.iteration > 0 && p.iteration % 5 == 0)
@@ -106,6 +108,7 @@ class LayerSearch {
 
   std::span<const GivenGarment> given_;
   const BodyCollider* body_;
+  const DrapeSettings& settings_;
   bridge::DrapeOptions options_;
   std::vector<const geometry::Mesh*> meshes_;
   std::unique_ptr<FallWatch> watch_;

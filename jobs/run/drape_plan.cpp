@@ -83,6 +83,10 @@ bool is_broken(const physics::SettleReport& last) {
   return !std::isfinite(last.residual) || last.residual > 1e9 || last.residual < 0.5;
 }
 
+double thickness_of(const io::Scene& scene, const DrapeSettings& s) {
+  return s.thickness.value_or(scene.thickness.value_or(physics::SelfContact{}.thickness));
+}
+
 void hold_apart(bridge::DrapeOptions& options, const DrapeSettings& s) {
   options.settle.self.on = true;
   options.settle.max_iterations = s.iterations.value_or(1000);
@@ -95,7 +99,8 @@ bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSetting
   options.settle.friction = scene.simulation.friction;
   options.settle.tolerance = s.residual;
   if (s.contact_depth) options.settle.contact_depth = *s.contact_depth;
-  options.settle.self.thickness = s.thickness;
+  options.settle.self.thickness = thickness_of(scene, s);
+  options.settle.self.friction = scene.cloth_friction;
   options.plain = s.plain;
   options.bending_friction = s.bending_friction;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
@@ -109,7 +114,8 @@ bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSetting
 void measure_draped(const DrapePlan& plan, Draped& draped) {
   const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
   draped.self_contact = draped.contact_tried = plan.options.settle.self.on;
-  draped.thickness = plan.settings.thickness;
+  draped.thickness = thickness_of(plan.scene, plan.settings);
+  draped.cloth_friction = plan.options.settle.self.friction;
   draped.crossings = measure_crossings(draped.file, &crossed);
   draped.angle_defect = geometry::angle_defect(draped.file.mesh);
   for (const geometry::BorderLoop& loop : geometry::border_loops(draped.file.mesh))

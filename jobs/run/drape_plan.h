@@ -31,6 +31,9 @@ class WayToRest {
 /// (What falls lacks one weight.)
 bool is_broken(const physics::SettleReport& last);
 
+/// Of a garment's cloth [m].
+double thickness_of(const io::Scene& scene, const DrapeSettings& settings);
+
 /// With contact of cloth with cloth, whose piles take many steps to lie still.
 void hold_apart(bridge::DrapeOptions& options, const DrapeSettings& settings);
 
