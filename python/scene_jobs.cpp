@@ -36,6 +36,8 @@ const Keywords<SimulateCall>& simulate_rows() {
       row<SimulateCall>(
           "outputs_below", "folder that outputs named by a scene file must lie in; default the scene's",
           [](auto& c) -> auto& { return c.job.outputs_below; }),
+      row<SimulateCall>(
+          "times", "tell what the processor's time goes to", [](auto& c) -> auto& { return c.job.times; }),
       own<SimulateCall>(
           "watch", "Watch",
           "called with (time [s], positions n x 3 [m], a copy) as the run goes on, at most every "

@@ -2,7 +2,7 @@
 cmake_minimum_required(VERSION 3.25)
 # The libraries throw the few types that docs/library.md lists, and nothing else.
 set(everywhere std::invalid_argument)
-set(may_throw_physics ${everywhere} Cancelled TooMuchWork std::bad_alloc)  # the last one: METIS without memory
+set(may_throw_physics ${everywhere} Cancelled TooMuchWork StepBlocked std::bad_alloc)  # the last one: METIS without memory
 set(may_throw_geometry ${everywhere} ContentError std::logic_error)  # the last one: a fault of ours, never an input's
 set(may_throw_bridge ${everywhere} geometry::ContentError ContentError)
 set(may_throw_io ${everywhere} geometry::ContentError ContentError std::runtime_error std::bad_alloc)

@@ -198,7 +198,7 @@ std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Inter
   end.x = stage.y;
   const bool solved = solve(stage, start, time, options_.few, end.x);
   if (!solved && !last) return std::nullopt;
-  if (!solved && no_room_) throw StepBlocked{*no_room_};
+  if (!solved && no_room_) throw StepBlocked(*no_room_);
   if (!solved) ++motion_.work().open_steps;
   end.v = sum(stage.q, stage.p, end.x);
   if (scheme_ == Integrator::tr_bdf2) end.a = scaled(1 / h, sum(end.v, -1, start.v));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <exception>
 #include <memory>
 
 #include "physics/motion/motion.h"
@@ -25,7 +26,9 @@ class Stepper {
 };
 
 /// Thrown by a step for which there is no room: what is led would pull the cloth through itself.
-struct StepBlocked {
+struct StepBlocked : std::exception {
+  explicit StepBlocked(const Vec3& where) : at(where) {}
+  const char* what() const noexcept override { return "a step has no room between layers of cloth"; }
   Vec3 at;  ///< where [m]
 };
 

@@ -280,7 +280,7 @@ void check_subdivision(bool cuts_edges, std::size_t parts, const Subdivide& subd
 
 TEST_CASE("attributes: the register names every attribute once, with rules that fit its elements") {
   std::stringstream text;
-  for (const char* name : {"property_names.h", "warp_map.h"})
+  for (const char* name : {"property_names.h", "warp_map.h", "press_map.h"})
     text << std::ifstream(std::string(FURROW_SOURCE_DIR "/geometry/mesh/") + name).rdbuf();
   const std::string header = text.str();
   std::set<std::string> defined;  // {"v:line", …
