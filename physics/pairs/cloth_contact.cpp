@@ -229,7 +229,7 @@ int ClothContact::approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPo
       if (!stopped[i]) x[i] = least == 1 ? to[i] : Vec3(x[i] + least * way[i]);
     if (least == 1) break;
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (share[i] < least + 0.1)
+      if (share[i] < std::min(1.0, least + 0.1))  // else what else is listed would count
         for (const int v : pairs[i].vertices) stopped[std::size_t(v)] = 1;
   }
   int left = 0;

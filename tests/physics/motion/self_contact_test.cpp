@@ -112,8 +112,7 @@ TEST_CASE("self_contact: a sheet that falls onto another never passes through it
   CHECK(through.particles.x.back().z() < cloth.particles.x.back().z() - 0.1);
 }
 
-// Under the sanitizers it has other bits: decisions/0026-implicit-steps.md.
-TEST_CASE("self_contact: stopped and resumed, on one thread or two, it has the same bits", "[release]") {
+TEST_CASE("self_contact: stopped and resumed, on one thread or two, it has the same bits") {
   Cloth whole = falling_sheets(), parts = whole;
   SimulateOptions o = falling(Integrator::implicit, true);
   o.seconds = 0.3;
