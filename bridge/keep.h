@@ -57,6 +57,10 @@ struct KeepOptions {
   /// (geometry/fold/line_region.h); and presses [-] that the cloth's hinges have already, for the report.
   /// What is missing at the end counts as none, and as 1.
   std::vector<double> line_widths = {}, line_presses = {};
+  /// Each trial begins with searches for rest, and what fails there is helped before anything runs
+  /// (bridge/try_statics.h). With `prove` what passes is run forward, and that decides; without, lines that
+  /// are called held do so at rest. One of the two at least.
+  bool statics = true, prove = true;
   bool whole = false;  ///< the rest of the garment is pressed, too, until nothing in it is unstable
 };
 
@@ -85,6 +89,7 @@ struct KeepReport {
   int pushed_out = 0;        ///< particles nearer to the body than the gap, brought there first
   double farthest_push = 0;  ///< the longest way of one [m]
   int trials = 0, runs = 0;  ///< rest states that were solved for, and forward runs
+  bool proved = true;        ///< in motion; false: lines hold at rest, as far as is known
   double drift = 0;          ///< of any vertex in the last run, before the gust [m]
   bool interrupted = false;  ///< the last rest state stands; lines say what is known
 };

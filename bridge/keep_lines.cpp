@@ -11,6 +11,7 @@
 #include "bridge/keep_trial.h"
 #include "bridge/line_help.h"
 #include "bridge/standing_body.h"
+#include "bridge/try_statics.h"
 #include "geometry/fold/line_region.h"
 #include "geometry/mesh/property_names.h"
 #include "physics/base/progress.h"
@@ -22,7 +23,8 @@ using physics::Vec3;
 
 constexpr double share_of_mode = 0.1;  // of an unstable motion's energy that makes it a line's
 constexpr double out_of_balance = 1e-6;
-constexpr double reserve = 0.4;  // of what a line may lose or win, where the shape is not stable
+constexpr double share_of_statics = 0.1;  // of a trial, as its progress is told
+constexpr double reserve = 0.4;           // of what a line may lose or win, where the shape is not stable
 
 using Flags = std::vector<char>;  // one a line
 
@@ -140,7 +142,7 @@ class Keeper {
       for (std::size_t i = 0; i < weak.size(); ++i)
         weak[i] = can_be_helped(plan.lines[i]) && (weak[i] || is_bound(plan.lines[i], found.outcome));
       const bool rest = rest_needs_help(found);
-      if (!any(weak) && !rest) weak = run_forward(found, true, tally);
+      if (!any(weak) && !rest) weak = try_out(found, true, tally);
       if ((!any(weak) && !rest) || tally.interrupted || hangs_wrong(found.outcome)) return std::move(found);
       for (std::size_t i = 0; i < weak.size(); ++i) plan.lines[i].step += weak[i] ? 1 : 0;
       plan.rest_step += rest ? 1 : 0;
@@ -160,7 +162,7 @@ class Keeper {
     for (HelpedLine& line : plan.lines) line.step = help_steps(o_);
     std::optional<Found> most = try_solve(plan, tally);
     if (!most) return least;
-    run_forward(*most, false, tally);
+    try_out(*most, false, tally);
     if (tally.interrupted || failing(*most) < before) return std::move(*most);
     tally.drift = drift;
     return least;
@@ -207,6 +209,30 @@ class Keeper {
     return outcome;
   }
 
+  /// Statics first, then motion, unless that is not asked for, or is in vain. As run_forward().
+  Flags try_out(Found& found, bool may_end, Tally& tally) const {
+    if (!o_.statics) return run_forward(found, may_end, tally);
+    const double part = o_.prove ? share_of_statics : 1;
+    const KeepTrial trial = try_statics(found.outcome.cloth, world_, o_, meter_,
+                                        [&](double share) { return !go_on_ || go_on_(part * share); });
+    found.outcome.kept = trial.kept;
+    found.outcome.kept_gust = trial.kept_gust;
+    tally.drift = trial.drift;
+    tally.interrupted = tally.interrupted || trial.stopped;
+    const Flags weak = weak_lines(found);
+    if (!o_.prove || tally.interrupted || (may_end && any(weak))) return weak;
+    return run_forward(found, may_end, tally);
+  }
+
+  /// Those that may be helped and do not hold.
+  Flags weak_lines(const Found& found) const {
+    const std::vector<HelpedLine>& lines = found.plan.lines;
+    Flags weak(lines.size(), 0);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      weak[i] = can_be_helped(lines[i]) && !holds(found.outcome, i, o_.kept);
+    return weak;
+  }
+
   /// Notes what the lines keep. Returns those that may be helped and do not hold; with `may_end` the run ends
   /// early if one is far from it.
   Flags run_forward(Found& found, bool may_end, Tally& tally) const {
@@ -219,20 +245,20 @@ class Keeper {
         weak[i] = can_be_helped(lines[i]) && std::abs(kept[i] - 1) > 2 * (1 - o_.kept);
       return any(weak);
     };
-    KeepTrial trial = try_shape(found.outcome.cloth, stable, world_, o_, meter_, in_vain, go_on_);
+    const double before = o_.statics ? share_of_statics : 0;
+    KeepTrial trial = try_shape(found.outcome.cloth, stable, world_, o_, meter_, in_vain, [&](double share) {
+      return !go_on_ || go_on_(before + (1 - before) * share);
+    });
     found.outcome.kept = std::move(trial.kept);
     found.outcome.kept_gust = std::move(trial.kept_gust);
     tally.drift = trial.drift;
     tally.interrupted = tally.interrupted || trial.stopped;
-    if (any(weak)) return weak;
-    for (std::size_t i = 0; i < lines.size(); ++i)
-      weak[i] = can_be_helped(lines[i]) && !holds(found.outcome, i, o_.kept);
-    return weak;
+    return any(weak) ? weak : weak_lines(found);
   }
 
   std::optional<Found> try_forward(const Plan& plan, Tally& tally) const {
     std::optional<Found> found = try_solve(plan, tally);
-    if (found) run_forward(*found, false, tally);
+    if (found) try_out(*found, false, tally);
     return found;
   }
 
@@ -311,6 +337,7 @@ KeepReport report_of(Found& found, const KeepOptions& o, const LineMeter& meter,
   report.turned = found.outcome.shape.turned;
   report.trials = tally.trials;
   report.runs = tally.runs;
+  report.proved = o.prove;
   report.drift = tally.drift;
   report.interrupted = tally.interrupted;
   return report;

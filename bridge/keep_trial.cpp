@@ -21,7 +21,8 @@ constexpr int look_steps = 100;     // between two moments that are looked at, h
 constexpr double first_look = 0.5, look = 0.1;
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The options' direction of the gust; if they name none, the level direction in which the cloth is thinnest.
+}  // namespace
+
 Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
   if (o.gust_direction.norm() > 0) return o.gust * o.gust_direction.normalized();
   const Vec3 down = o.run.gravity.norm() > 0 ? Vec3(o.run.gravity.normalized()) : Vec3(Vec3::Zero());
@@ -33,9 +34,7 @@ Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
   return o.gust * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
 }
 
-/// Moves each free particle by so much [m], or a tenth of the shortest edge at it, in some direction, which
-/// is the same in every run of this number.
-void push(physics::Cloth& cloth, double by, std::uint64_t number) {
+void push_off(physics::Cloth& cloth, double by, std::uint64_t number) {
   physics::Particles& p = cloth.particles;
   std::vector<double> most(p.size(), by);
   for (const auto& t : cloth.triangles)
@@ -52,8 +51,6 @@ void push(physics::Cloth& cloth, double by, std::uint64_t number) {
     if (p.inv_mass[i] > 0) p.x[i] += most[i] * Vec3(a, b, c).normalized();
   }
 }
-
-}  // namespace
 
 LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths)
     : shape_(mesh), widths_(std::move(widths)) {
@@ -117,9 +114,12 @@ struct Setting {
     physics::SimulateOptions options = o.run;
     options.seconds = seconds;
     options.gravity = gravity;
+    const bool large_steps = physics::solves_contact(options.integrator);
+    if (large_steps) options.observe_steps = 1;
     return physics::simulate(run.cloth, world, options, &run.state,
                              [&](const auto& now) {
-                               const bool looks = now.step % look_steps == 0 || now.time >= seconds;
+                               const bool looks =
+                                   large_steps || now.step % look_steps == 0 || now.time >= seconds;
                                if (looks && now.time >= run.next_look) {
                                  note(shares(run.cloth), worst);
                                  run.next_look += look;
@@ -154,7 +154,7 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   Run run;
   for (int number = 1; number <= runs; ++number) {
     run = {start, {}, (number - 1) * o.seconds, stable ? never : first_look};
-    push(run.cloth, o.push, std::uint64_t(number));
+    push_off(run.cloth, o.push, std::uint64_t(number));
     Outcome end = setting.on_to(first_part * o.seconds, o.run.gravity, run, trial.kept);
     if (end != Outcome::finished) return lost(end);
     if (const std::vector<double> early = setting.shares(run.cloth); in_vain && in_vain(early))

@@ -23,6 +23,14 @@ class LineMeter {
   std::vector<double> base_;  ///< of each [m]
 };
 
+/// The acceleration of the options' gust [m/s^2]: where they name no direction, level, and the one in which
+/// the cloth is thinnest.
+physics::Vec3 gust_of(const KeepOptions& options, const std::vector<physics::Vec3>& x);
+
+/// Moves each free particle by so much [m], or a tenth of the shortest edge at it, in some direction, which
+/// is the same in every run of this number.
+void push_off(physics::Cloth& cloth, double by, std::uint64_t number);
+
 struct KeepTrial {
   std::vector<double> kept,
       kept_gust;         ///< of each line, shares of the height at the start [-]; NaN: not reached

@@ -20,7 +20,7 @@ struct KeepArguments : CommonArguments {
   CameraArguments camera;
   double run = 5, gust = 12;
   std::string kept = "95%";
-  bool no_balance = false, no_settle = false, no_help = false, whole = false;
+  bool no_balance = false, no_settle = false, no_help = false, whole = false, fast = false;
 };
 
 KeepJob job_of(const KeepArguments& a) {
@@ -39,6 +39,7 @@ KeepJob job_of(const KeepArguments& a) {
   job.settle = !a.no_settle;
   job.help = !a.no_help;
   job.whole = a.whole;
+  job.prove = !a.fast;
   job.more_outputs = {a.picture, a.camera.save_camera};
   return job;
 }
@@ -101,6 +102,10 @@ void add_keep(CLI::App& app, int& exit_code) {
                 "nothing holds it there, or a few vertices; by default it comes to rest first then");
   sub->add_flag("--no-help", a->no_help,
                 "no press, struts or lower height where the rest state alone does not hold");
+  sub->add_flag(
+      "--fast", a->fast,
+      "by searches for rest alone, before and after a steady gust: sooner, but a line that is called held "
+      "does so at rest, and may be lost in motion");
   sub->add_flag("--whole", a->whole,
                 "press what lies between the lines, too, where it could give way, so that all of the garment "
                 "stays as drawn");

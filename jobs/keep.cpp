@@ -199,6 +199,7 @@ bridge::KeepOptions options_of(const KeepJob& job, const SceneCloth& cloth, cons
   options.line_widths = io::line_widths(record);
   options.line_presses = io::line_presses(record);
   options.whole = job.whole;
+  options.prove = job.prove;
   if (!job.balance) options.largest_turn = 0;
   if (!job.help) options.presses.clear(), options.struts.clear(), options.height_trials = 0;
   return options;

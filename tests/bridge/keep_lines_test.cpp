@@ -188,6 +188,26 @@ TEST_CASE("keep_lines: soft cloth needs help, and without it no line is called h
   }
 }
 
+TEST_CASE("keep_lines: statics find what gives way before anything runs, and alone they prove nothing") {
+  Hung stiff(1e-4), soft(1e-6);
+  for (Hung* hung : {&stiff, &soft}) {
+    hung->options.prove = false;
+    hung->options.height_trials = 0;
+    hung->options.presses = {10};
+    hung->options.struts.clear();
+  }
+  const bridge::KeepReport held = stiff.keep(), helped = soft.keep();
+  CHECK(held.lines[0].verdict == Verdict::held);
+  CHECK(held.lines[0].kept == Approx(1).margin(5e-3));
+  CHECK_FALSE(held.proved);
+  CHECK(held.runs == 0);
+  CHECK(helped.lines[0].press == 10);
+  CHECK(helped.trials == 2);
+  CHECK(helped.runs == 0);
+  stiff.options.statics = false;
+  CHECK_THROWS_AS(stiff.keep(), std::invalid_argument);
+}
+
 TEST_CASE("keep_lines: a garment that nothing holds is said to be out of balance") {
   Hung hung(1e-4);
   hung.cloth = bridge::gather(hung.mesh, hung.material);

@@ -154,7 +154,8 @@ std::vector<double> heights_of(const RandomGarment& garment) {
 }
 
 std::vector<double> heights_after(const RandomGarment& garment, physics::Cloth cloth,
-                                  const physics::SimulateOptions& run, std::uint64_t seed, double seconds) {
+                                  const physics::SimulateOptions& run, std::uint64_t seed, double seconds,
+                                  double gust) {
   RandomGarment stored = garment;
   physics::soften_clamps(cloth);
   bridge::scatter(cloth.particles, stored.mesh);
@@ -170,6 +171,15 @@ std::vector<double> heights_after(const RandomGarment& garment, physics::Cloth c
   options.dt_factor = run.dt_factor / 2;
   options.air_drag = run.air_drag / 2;
   physics::simulate(cloth, nullptr, options);
+  if (gust > 0)
+    for (const Vec3& side : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(-1, 0, 0)}) {
+      options.gravity = run.gravity + gust * side;
+      options.seconds = 0.4;
+      physics::simulate(cloth, nullptr, options);
+      options.gravity = run.gravity;
+      options.seconds = side.x() < 0 ? 5 : 1;  // what swings has no height of its own
+      physics::simulate(cloth, nullptr, options);
+    }
   bridge::scatter(cloth.particles, stored.mesh);
   return heights_of(stored);
 }
