@@ -108,6 +108,15 @@ void rest_alone(physics::Cloth& own, const physics::Collider* body, const DrapeO
   told.soft.stopped = told.soft.stopped || rest.stopped;
 }
 
+/// Of all garments together.
+void add_taken_apart(const TakenApart& now, TakenApart& all) {
+  all.at_start += now.at_start;
+  all.left += now.left;
+  all.rounds += now.rounds;
+  all.farthest = std::max(all.farthest, now.farthest);
+  all.lines.insert(all.lines.end(), now.lines.begin(), now.lines.end());
+}
+
 /// Puts each garment by itself where the level begins, as far from the body as those below it need. On the
 /// first level it also comes near to where it rests: what is far from rest would have to find its way between
 /// other cloth. Adds to `told`.
@@ -135,6 +144,7 @@ void begin_alone(std::span<LayerGarment> garments, const Ended& ended, const phy
     told.pushed.farthest = std::max(told.pushed.farthest, level.pushed.farthest);
     told.pushed.still_inside += level.pushed.still_inside;
     told.stopped += level.stopped;
+    add_taken_apart(level.untangled, told.untangled);
     if (ended.coarse.empty()) rest_alone(own, body, o, start, told);
     first += count;
   }

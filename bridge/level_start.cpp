@@ -4,11 +4,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "bridge/convert.h"
 #include "geometry/refine/subdivide.h"
 #include "physics/base/thread_pool.h"
 #include "physics/pairs/cloth_contact.h"
+#include "physics/pairs/untangle_contours.h"
 
 namespace furrow::bridge {
 namespace {
@@ -17,6 +19,51 @@ using physics::Vec3;
 
 /// How deep cloth at rest may lie inside the gap: moving it out would only strain it.
 double rest_depth(double gap) { return std::min(gap / 6, 5e-4); }
+
+/// Positions that a cloth leaves on ways which pass through no cloth.
+class GuardedStart {
+ public:
+  GuardedStart(const physics::Cloth& cloth, std::vector<Vec3> at, const physics::SettleOptions& o)
+      : cloth_(cloth), x_(std::move(at)), thickness_(o.self.thickness), pool_(o.threads) {
+    look();
+  }
+
+  /// Where the cloth crosses itself, it is taken apart; `to` goes with it. Adds to what is told.
+  void take_apart(std::vector<Vec3>& to, TakenApart& told) {
+    if (contact_->crossed_at_start() == 0) return;
+    const std::vector<Vec3> before = x_;
+    const physics::ContourReport found =
+        physics::untangle_contours(x_, physics::pair_mesh(cloth_, thickness_));
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += x_[i] - before[i];
+    look();
+    if (told.at_start == 0) told.at_start = found.at_start;
+    told.left = found.left;
+    told.rounds += found.rounds;
+    told.farthest = std::max(told.farthest, found.farthest);
+    told.lines.clear();
+    for (const physics::CrossingLine& l : found.lines)
+      told.lines.push_back({l.middle, l.length, l.crossings});
+  }
+
+  /// `to` becomes what can be reached of it. Returns how many vertices do not arrive.
+  int go_to(std::vector<Vec3>& to) {
+    const int stopped = contact_->approach(x_, to, &pool_);
+    to = x_;
+    return stopped;
+  }
+
+ private:
+  void look() {
+    contact_.emplace(cloth_, physics::ClothContactOptions{thickness_, 1}, x_, std::span<const Vec3>{},
+                     &pool_);
+  }
+
+  const physics::Cloth& cloth_;
+  std::vector<Vec3> x_;
+  double thickness_;
+  physics::ThreadPool pool_;
+  std::optional<physics::ClothContact> contact_;
+};
 
 }  // namespace
 
@@ -54,24 +101,21 @@ std::vector<Vec3> lay_on_coarse(const std::vector<Vec3>& coarse, const physics::
   return laid;
 }
 
-int move_guarded(physics::Cloth& cloth, const std::vector<Vec3>& to, const physics::SettleOptions& o) {
-  physics::ThreadPool pool(o.threads);
-  physics::ClothContact contact(cloth, {o.self.thickness, 1}, cloth.particles.x, {}, &pool);
-  return contact.approach(cloth.particles.x, to, &pool);
-}
-
 void begin_level(physics::Cloth& cloth, const Carried& carried, const Disturbance& disturbance,
                  const physics::Collider* body, const DrapeOptions& o, DrapeLevel& level) {
   physics::Particles& p = cloth.particles;
-  std::vector<Vec3> from = carried.coarse.empty() ? p.x : carried.coarse;
+  std::vector<Vec3> start = carried.coarse.empty() ? p.x : carried.coarse;
   for (std::size_t i = 0; i < carried.fine.size(); ++i)
     if (p.inv_mass[i] > 0) p.x[i] = carried.fine[i];
   if (disturbance.by > 0) disturb(cloth, disturbance);
+  std::optional<GuardedStart> guarded;
+  if (o.settle.self.on) guarded.emplace(cloth, start, o.settle);
+  if (guarded) guarded->take_apart(p.x, level.untangled);
   const double gap = o.settle.gap - (carried.fine.empty() ? 0 : rest_depth(o.settle.gap));
   if (body) level.pushed = physics::bring_out(p, *body, gap);
-  if (!o.settle.self.on) return;
-  p.x.swap(from);
-  level.stopped = move_guarded(cloth, from, o.settle);
+  if (!guarded) return;
+  level.stopped = guarded->go_to(p.x);
+  if (level.untangled.left > 0) guarded->take_apart(p.x, level.untangled);  // the push gave it other places
 }
 
 std::vector<Vec3> refine_level(const std::vector<Vec3>& found, geometry::Mesh& garment) {

@@ -30,12 +30,8 @@ struct Carried {
 std::vector<physics::Vec3> lay_on_coarse(const std::vector<physics::Vec3>& coarse,
                                          const physics::Cloth& cloth);
 
-/// Moves a cloth from where it lies towards other positions without passing through cloth on the way. Returns
-/// how many vertices did not arrive.
-int move_guarded(physics::Cloth& cloth, const std::vector<physics::Vec3>& to,
-                 const physics::SettleOptions& options);
-
-/// Puts a level's cloth where it begins: where it was carried, disturbed, and out of the body.
+/// Puts a level's cloth where it begins: where it was carried, disturbed, and out of the body. With contact
+/// of cloth with cloth on guarded ways; what crosses itself is taken apart there (untangle_contours()).
 void begin_level(physics::Cloth& cloth, const Carried& carried, const Disturbance& disturbance,
                  const physics::Collider* body, const DrapeOptions& options, DrapeLevel& level);
 

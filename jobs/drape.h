@@ -142,6 +142,9 @@ struct Draped {
   std::size_t allowed_crossings = 0;    ///< pairs that may be left
   bool self_contact = false;            ///< cloth kept off cloth
   bool contact_tried = false;           ///< it was looked for how it rests with that
+  /// What that took apart where the garment crossed itself: at the start of the first level that it had to,
+  /// left at the start of the last; rounds of all.
+  bridge::TakenApart untangled;
   /// Pairs of faces that crossed without contact of cloth with cloth; none: that was not tried first.
   std::optional<std::size_t> crossings_without;
   double thickness = 0;                   ///< of the cloth then [m]

@@ -58,15 +58,42 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
           d.name, ""}});
 }
 
+/// What could not be taken apart, and where most of it is.
+std::string words_of_tangle(const bridge::TakenApart& untangled) {
+  double length = 0;
+  for (const bridge::TakenApart::Line& l : untangled.lines) length += l.length;
+  const bridge::TakenApart::Line& most = untangled.lines.front();
+  return fmt::format(
+      "it crosses itself as it is given, along {:.0f} mm that could not be taken apart, most "
+      "({:.0f} mm) at ({:.2f}, {:.2f}, {:.2f}) m",
+      1000 * length, 1000 * most.length, most.middle.x(), most.middle.y(), most.middle.z());
+}
+
+/// Whether most of what crosses is of two parts of a garment.
+bool crosses_between_parts(const ClothCrossings& c) {
+  std::size_t between = 0;
+  for (const CrossingPlace& p : c.places)
+    if (p.parts[0] != p.parts[1]) between += p.pairs;
+  return 2 * between > c.pairs;
+}
+
 /// What a user can do about cloth that crosses itself.
 std::string remedy_of_crossings(const Draped& d) {
+  const std::string apart =
+      crosses_between_parts(d.crossings)
+          ? "; these are separate pieces: give each as a file of its own, the inner one first (furrow drape "
+            "inner.obj outer.obj)"
+          : "";
+  if (!d.untangled.lines.empty()) return words_of_tangle(d.untangled) + ": part its layers there" + apart;
+  if (d.contact_tried && !d.self_contact)
+    return "with contact of cloth with cloth no better rest was found: part its layers, or give it room" +
+           apart;
   if (d.crossings.pairs <= d.crossings.from_start)
-    return "it crosses itself as it is given: part its layers before it is draped";
+    return "it crosses itself as it is given: part its layers before it is draped, or try --self-contact on" +
+           apart;
   if (d.self_contact)
-    return "cloth is not held apart where it crosses itself as it is given: part its layers there";
-  if (d.contact_tried)
-    return "with contact of cloth with cloth no better rest was found: part its layers, or give it room";
-  return "--self-contact on keeps cloth off cloth";
+    return "cloth is not held apart where it crosses itself as it is given: part its layers there" + apart;
+  return "--self-contact on keeps cloth off cloth" + apart;
 }
 
 void remark_on_crossings(const Draped& d, std::vector<DrapeRemark>& remarks) {
@@ -212,6 +239,20 @@ Json self_contact_json(const Draped& d) {
             {"friction", d.cloth_friction}};
   if (d.crossings_without) json["crossings_without"] = *d.crossings_without;
   if (last.blocked) json["blocked_at"] = {last.blocked_at.x(), last.blocked_at.y(), last.blocked_at.z()};
+  return json;
+}
+
+Json untangled_json(const bridge::TakenApart& u) {
+  Json json{{"at_start", u.at_start}, {"left", u.left}, {"rounds", u.rounds}, {"moved_most", u.farthest}};
+  json["lines"] = Json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(10, u.lines.size()); ++i) {
+    const bridge::TakenApart::Line& l = u.lines[i];
+    json["lines"].push_back({{"x", l.middle.x()},
+                             {"y", l.middle.y()},
+                             {"z", l.middle.z()},
+                             {"length", l.length},
+                             {"edges", l.edges}});
+  }
   return json;
 }
 
@@ -371,6 +412,7 @@ Json to_json(const Draped& d) {
             {"slip", d.report.slip},
             {"crossings", jobs::to_json(d.crossings)}};
   if (d.self_contact) json["self_contact"] = self_contact_json(d);
+  if (d.untangled.at_start) json["untangled"] = untangled_json(d.untangled);
   if (!d.written.empty()) json["written"] = d.written.string();
   json["hem_height"] = d.hem_height ? Json(*d.hem_height) : Json();
   json["energy"] = to_json(d.report.energy);

@@ -133,7 +133,7 @@ Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int
 bool asks_for_contact(const DrapePlan& plan, const Draped& d) {
   const std::size_t allowed = std::size_t(plan.scene.allow_crossings);
   return plan.settings.self_contact == SelfContactUse::automatic && !plan.settings.plain &&
-         !d.report.stopped && !d.falls && !d.broken && d.crossings.pairs > std::max(allowed, d.crossings.from_start);
+         !d.report.stopped && !d.falls && !d.broken && d.crossings.pairs > allowed;
 }
 
 /// The better one of an end to which cloth passed through cloth, and one with contact of cloth with cloth,
@@ -148,6 +148,7 @@ Draped drape_with_contact(Draped without, DrapePlan plan, const FallWatch& watch
   plan.options.work = nullptr;
   Draped with = drape_once(plan, watch, loose, std::ref(progress), quiet);
   const double seconds = without.seconds + with.seconds;
+  without.untangled = with.untangled;
   if (with.report.stopped) {
     without.report.stopped = true;
   } else if (with.rests() && (with.crossings.pairs < without.crossings.pairs || !without.rests())) {

@@ -20,8 +20,8 @@ int side_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return volume > doubt ? 1 : volume < -doubt ? -1 : 0;
 }
 
-/// Of an edge in the triangle's plane, to rounding.
-bool touches_in_plane(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+/// Of an edge and a triangle, to rounding.
+bool touches(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   double least = std::min(vertex_triangle_distance(p, a, b, c).squared(),
                           vertex_triangle_distance(q, a, b, c).squared());
   least = std::min({least, edge_edge_distance(p, q, a, b).squared(), edge_edge_distance(p, q, b, c).squared(),
@@ -34,8 +34,9 @@ bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
   if (start * end > 0) return false;
   const Vec3 pq = q - p;
   const int ab = side_of(pq, a - p, b - p), bc = side_of(pq, b - p, c - p), ca = side_of(pq, c - p, a - p);
-  if (ab == 0 && bc == 0 && ca == 0) return touches_in_plane(p, q, a, b, c);
-  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+  if (!(ab >= 0 && bc >= 0 && ca >= 0) && !(ab <= 0 && bc <= 0 && ca <= 0)) return false;
+  const bool in_doubt = start * end == 0 || ab * bc * ca == 0;  // all signs may be rounding where all is flat
+  return !in_doubt || touches(p, q, a, b, c);
 }
 
 }  // namespace

@@ -3,34 +3,27 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 
 #include "physics/base/require.h"
 #include "physics/pairs/edge_face_crossings.h"
 #include "physics/pairs/pair_list.h"
+#include "physics/pairs/tangle_moves.h"
 
 namespace furrow::physics {
 namespace {
 
-constexpr int smoothings = 5;
-constexpr double share_of_shortest = 1.0 / 3;
 constexpr double too_near = 0.5;  // of a range
 
 class Untangler {
  public:
   Untangler(std::span<Vec3> x, const PairMesh& mesh, const ClothLayers& layers, const UntangleOptions& o)
-      : x_(x), mesh_(mesh), layers_(layers), o_(o), start_(x.begin(), x.end()) {
-    shortest_.assign(x.size(), std::numeric_limits<double>::infinity());
-    for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-      for (const int v : mesh.edges[e])
-        shortest_[std::size_t(v)] = std::min(shortest_[std::size_t(v)], mesh.rest_lengths[e]);
-  }
+      : x_(x), mesh_(mesh), layers_(layers), o_(o), moves_(x, mesh, o.farthest * mesh.mean_edge) {}
 
   UntangleReport run() {
     UntangleReport report;
     State now = look();
     State best = now;
-    std::vector<Vec3> best_x = start_;
+    std::vector<Vec3> best_x = moves_.start();
     report.at_start = int(now.crossings.size());
     for (int stale = 0; !now.is_apart() && report.rounds < o_.most_rounds && stale < o_.patience; ++stale) {
       if (now.crossings.empty())
@@ -47,8 +40,7 @@ class Untangler {
     std::copy(best_x.begin(), best_x.end(), x_.begin());
     report.left = int(best.crossings.size());
     report.near = int(best.near.size());
-    for (std::size_t i = 0; i < best_x.size(); ++i)
-      report.farthest = std::max(report.farthest, (best_x[i] - start_[i]).norm());
+    report.farthest = moves_.farthest_of(best_x);
     return report;
   }
 
@@ -98,7 +90,7 @@ class Untangler {
       }
     }
     for (std::size_t i = 0; i < way.size(); ++i)
-      if (farthest[i] > 0) step(i, farthest[i] * way[i].normalized());
+      if (farthest[i] > 0) moves_.step(i, farthest[i] * way[i].normalized());
   }
 
   int layer(int v) const { return layers_.of_vertex[std::size_t(v)]; }
@@ -129,20 +121,6 @@ class Untangler {
     return normal;
   }
 
-  /// A third of what its neighbours go, and its own way.
-  void smooth(std::vector<Vec3>& way) const {
-    std::vector<Vec3> sum(way.size(), Vec3::Zero());
-    std::vector<int> count(way.size(), 0);
-    for (const auto& [a, b] : mesh_.edges) {
-      sum[std::size_t(a)] += way[std::size_t(b)];
-      sum[std::size_t(b)] += way[std::size_t(a)];
-      ++count[std::size_t(a)];
-      ++count[std::size_t(b)];
-    }
-    for (std::size_t i = 0; i < way.size(); ++i)
-      if (count[i] > 0) way[i] = 0.5 * (way[i] + sum[i] / count[i]);
-  }
-
   void move(std::span<const EdgeFaceCrossing> crossings) {
     const std::vector<Vec3> normal = normals();
     std::vector<Vec3> way(x_.size(), Vec3::Zero());
@@ -159,30 +137,15 @@ class Untangler {
     }
     for (Vec3& w : way)
       if (const double length = w.norm(); length > 0) w /= length;
-    for (int i = 0; i < smoothings; ++i) smooth(way);
-    go(way);
-  }
-
-  void go(const std::vector<Vec3>& way) {
-    double longest = 0;
-    for (const Vec3& w : way) longest = std::max(longest, w.norm());
-    if (!(longest > 0)) return;
-    const double scale = o_.longest_move * mesh_.mean_edge / longest;
-    for (std::size_t i = 0; i < way.size(); ++i) step(i, scale * way[i]);
-  }
-
-  void step(std::size_t i, Vec3 by) {
-    const double length = by.norm(), most = share_of_shortest * shortest_[i];
-    if (length > most) by *= most / length;
-    if (!mesh_.held[i] && (x_[i] + by - start_[i]).norm() <= o_.farthest * mesh_.mean_edge) x_[i] += by;
+    moves_.smooth(way);
+    moves_.go(way, o_.longest_move * mesh_.mean_edge);
   }
 
   std::span<Vec3> x_;
   const PairMesh& mesh_;
   const ClothLayers& layers_;
   const UntangleOptions& o_;
-  std::vector<Vec3> start_;
-  std::vector<double> shortest_;
+  TangleMoves moves_;
   PairList list_{mesh_};
 };
 

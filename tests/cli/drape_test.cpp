@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // furrow drape: a garment comes to rest on a body; wrong calls.
 #include <catch2/catch.hpp>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "geometry/mesh/border_loops.h"
@@ -241,6 +242,35 @@ TEST_CASE("drape: where no cloth is near, self-contact changes nothing but the r
   CHECK(r["self_contact"]["list_builds"].get<int>() > 0);
 }
 
+TEST_CASE("drape: a file that crosses itself is taken apart, and its report says so") {
+  ScratchDirectory scratch;
+  std::string obj;  // two strips that are held at z = 0, of which one goes down through the other
+  const auto strip = [&](const std::function<std::string(int, int)>& at, int first) {
+    for (int i = 0; i <= 10; ++i)
+      for (int j = 0; j <= 4; ++j) obj += "v " + at(i, j) + "\n";
+    for (int i = 0; i < 10; ++i)
+      for (int j = 0; j < 4; ++j) {
+        const int a = first + 5 * i + j;
+        obj += "f " + std::to_string(a) + " " + std::to_string(a + 5) + " " + std::to_string(a + 6) + " " +
+               std::to_string(a + 1) + "\n";
+      }
+  };
+  const auto point = [](double x, double y, double z) {
+    return std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z);
+  };
+  strip([&](int i, int j) { return point(0.02 * i, 0, 0.02 * j); }, 1);
+  strip([&](int i, int j) { return point(0.02 * i + 0.003, 0.011 - 0.004 * j, 0.02 * j + 0.002); }, 56);
+  write_text(scratch / "two.obj", obj);
+  const json r = report_of("drape " + (scratch / "two.obj") +
+                           " --pin-box=-1,-1,-1,1,1,0.01 --self-contact on --residual 1e9 -o " +
+                           (scratch / "apart.ply"));
+  INFO(r.dump(1));
+  CHECK(r["crossings"]["at_start"].get<int>() > 5);
+  CHECK(r["crossings"]["pairs"] == 0);
+  CHECK(r["untangled"]["at_start"].get<int>() > 5);
+  CHECK(r["untangled"]["left"] == 0);
+}
+
 TEST_CASE("drape: what cannot be done is told before the work") {
   ScratchDirectory scratch;
   const auto refused = [&](const std::string& arguments, const std::string& word) {
@@ -321,9 +351,9 @@ TEST_CASE("drape: interrupted, it tells which files there are, and draws no pict
   const std::string code = scratch / "code", err = scratch / "err", out = scratch / "a.ply",
                     picture = scratch / "a.png";
   run_furrow("drape " + (scratch / "sheet.obj") + " --body " + (scratch / "body.obj") +
-             " --pin-vertices 0,1 --subdivide 6 --residual 1e-300 --progress 0.05 -o " +
-             out + " --picture " + picture + " 2>" + err + " & p=$!; while kill -0 $p && ! grep -q draping " +
-             err + " 2>/dev/null; do sleep 0.05; done; sleep 0.2; kill -INT $p; wait $p; echo $? >" + code +
+             " --pin-vertices 0,1 --subdivide 6 --residual 1e-300 --progress 0.05 -o " + out + " --picture " +
+             picture + " 2>" + err + " & p=$!; while kill -0 $p && ! grep -q draping " + err +
+             " 2>/dev/null; do sleep 0.05; done; sleep 0.2; kill -INT $p; wait $p; echo $? >" + code +
              "; true");
   CHECK(read_text(code) == "130\n");
   CHECK(read_text(err).find("written: " + out + "; not written: " + picture) != std::string::npos);

@@ -8,6 +8,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   contact_gap_test.cpp
   doctor_test.cpp
   drape_layers_test.cpp
+  drape_tangles_test.cpp
   drape_test.cpp
   fabric_file_test.cpp
   fabric_test.cpp

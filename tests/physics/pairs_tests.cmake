@@ -9,6 +9,7 @@ furrow_add_tests(pairs physics LIBRARIES furrow::physics cases SOURCES
   pairs/pair_list_test.cpp
   pairs/pair_mesh_test.cpp
   pairs/time_of_impact_test.cpp
+  pairs/untangle_contours_test.cpp
   pairs/untangle_layers_test.cpp
   rest/settle_layers_test.cpp
   rest/settle_pairs_test.cpp
