@@ -21,7 +21,7 @@ struct DrapeArguments : CommonArguments {
   std::string in, picture, colour = "strain", animation;
   std::vector<std::string> garments;  ///< `in` is the first
   std::optional<std::string> compare;
-  std::string subdivide, self_contact = "auto";
+  std::string subdivide, self_contact = "auto", loose = "hold";
   DrapeSettings settings;
   std::vector<std::string> bands;
   SceneFlags flags;
@@ -102,6 +102,9 @@ DrapeJob job_of(const DrapeArguments& a) {
   job.settings.self_contact = a.self_contact == "on"    ? SelfContactUse::on
                               : a.self_contact == "off" ? SelfContactUse::off
                                                         : SelfContactUse::automatic;
+  job.settings.loose = a.loose == "drop"   ? LooseUse::drop
+                       : a.loose == "fall" ? LooseUse::fall
+                                           : LooseUse::hold;
   job.settings.bands = parse_bands(a.bands);
   job.settings.animation = a.animation;
   if (a.subdivide == "auto") {
@@ -301,6 +304,12 @@ void add_drape(CLI::App& app, int& exit_code) {
          "--cloth-thickness", a->settings.thickness,
          "of the cloth, with --self-contact: layers are so far apart [m] (default the scene's, else 0.001)")
       ->check(CLI::Range(1e-5, 0.05));
+  sub->add_option(
+         "--loose", a->loose,
+         "parts that neither the body nor a pin holds: hold lets them lie aside, and carries them with the "
+         "nearest cloth; drop takes them out; fall drapes them as the rest")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"hold", "drop", "fall"}));
   sub->add_option("--penetration", a->settings.penetration,
                   "depth to which the body may come through the cloth, between vertices, too [m] (default "
                   "0.005); beyond it the exit code is 4")

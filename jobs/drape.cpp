@@ -43,6 +43,7 @@ void check_layers(const DrapeJob& job, const io::Scene& scene) {
   if (!s.bands.empty()) leave_out("--band");
   if (!job.fabrics.empty()) leave_out("--fabrics");
   if (s.plain) leave_out("--plain");
+  if (s.loose == LooseUse::drop) leave_out("--loose drop");
   if (s.bending_friction > 0) leave_out("--bending-friction");
   if (!s.animation.empty()) leave_out("--animation");
   if (scene.starts > 1) leave_out("--starts");

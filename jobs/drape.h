@@ -27,6 +27,13 @@ enum class SelfContactUse {
   automatic
 };
 
+/// What becomes of parts that neither the body nor a pin holds.
+enum class LooseUse {
+  hold,  ///< they lie aside, and move as rigid bodies with the cloth that lay nearest
+  drop,  ///< they lie aside, and are taken out of what is written
+  fall   ///< they are draped as the rest is: they come to lie on cloth, with contact, or fall
+};
+
 /// What draping knows beyond a scene.
 struct DrapeSettings {
   bool plain = false;                                    ///< paper 2's own scheme
@@ -34,8 +41,9 @@ struct DrapeSettings {
   std::optional<double> contact_depth;  ///< that cloth may lie inside the gap [m]; none: no limit
   SelfContactUse self_contact = SelfContactUse::automatic;
   std::optional<double> thickness;  ///< of the cloth, with self_contact [m]; > 0; none: the scene's
-  double penetration = 0.005;       ///< depth to which the body may come through the cloth [m]; >= 0
-  std::optional<int> iterations;    ///< on each level, >= 0; none: those of the method
+  LooseUse loose = LooseUse::hold;
+  double penetration = 0.005;     ///< depth to which the body may come through the cloth [m]; >= 0
+  std::optional<int> iterations;  ///< on each level, >= 0; none: those of the method
   std::vector<Band> bands;
   double band_stiffness = 50;       ///< [N]; >= 0
   double bending_friction = 0;      ///< [N]; >= 0
@@ -114,6 +122,13 @@ struct DrapeForces {
   std::vector<Pull> bands = {};
 };
 
+/// What is told of parts that nothing holds.
+struct LooseParts {
+  LooseUse use = LooseUse::hold;
+  std::size_t vertices = 0;  ///< as they were given
+  double area_share = 0;     ///< of the garment's area
+};
+
 /// A garment that was draped.
 struct Draped {
   io::MeshFile file;  ///< [m], y up, with the columns of its fit
@@ -133,7 +148,8 @@ struct Draped {
   bool falls = false;       ///< nothing carries it: its forces balance at no time
   bool broken = false;      ///< its numbers are beyond what can be computed with
   std::size_t parts = 1;    ///< pieces that it consists of
-  std::vector<std::string> loose = {};  ///< names of those that nothing holds; they stay where they lay
+  std::vector<std::string> loose = {};  ///< names of those that nothing holds
+  LooseParts loose_parts = {};          ///< what was done with them
   bool animated = false;                ///< the animation was written
   double seconds = 0;                   ///< that the fit took, without reading and the body's field [s]
   std::string name;                     ///< of the garment, or of the fabric
@@ -163,9 +179,11 @@ struct Draped {
   bool crosses_itself() const { return crossings.pairs > allowed_crossings; }
   /// Whether it passes through other garments more often than was allowed.
   bool crosses_others() const { return crossings_with_others > allowed_crossings; }
-  /// Whether it is whole and at rest: not torn, not pierced, not crossing any cloth, no part loose.
+  /// Whether more is loose than a button or a scrap: over a twentieth of its area, unless that was dropped.
+  bool falls_apart() const { return loose_parts.use == LooseUse::hold && loose_parts.area_share > 0.05; }
+  /// Whether it is whole and at rest: not torn, not pierced, not crossing any cloth, not falling apart.
   bool succeeds() const {
-    return rests() && !is_torn() && !is_pierced() && !crosses_itself() && !crosses_others() && loose.empty();
+    return rests() && !is_torn() && !is_pierced() && !crosses_itself() && !crosses_others() && !falls_apart();
   }
   /// "at rest", "not at rest", "blocked", "falls", "torn", "numerical failure" or "interrupted", and what
   /// else is wrong.

@@ -61,6 +61,10 @@ const Keywords<jobs::DrapeJob>& drape_rows() {
       row<Job>(
           "cloth_thickness", "of the cloth, with self_contact [m], > 0; default 0.001",
           [](auto& j) -> auto& { return j.settings.thickness; }),
+      choice<Job, jobs::LooseUse>(
+          "loose", "what becomes of parts that neither the body nor a pin holds; default \"hold\"",
+          {{"hold", jobs::LooseUse::hold}, {"drop", jobs::LooseUse::drop}, {"fall", jobs::LooseUse::fall}},
+          [](auto& j) -> auto& { return j.settings.loose; }),
       row<Job>(
           "penetration", "depth to which the body may come through the cloth [m], >= 0; default 0.005",
           [](auto& j) -> auto& { return j.settings.penetration; }),

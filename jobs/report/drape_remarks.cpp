@@ -126,6 +126,16 @@ void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
         d.name, "unit"}});
 }
 
+const char* name_of(LooseUse use) {
+  return use == LooseUse::hold ? "held" : use == LooseUse::drop ? "dropped" : "simulated";
+}
+
+std::string words_of_loose(const LooseParts& loose) {
+  if (loose.use == LooseUse::drop) return fmt::format("dropped, {} vertices", loose.vertices);
+  return fmt::format("they ({} vertices, {:.2g} % of its area) were carried with the nearest cloth",
+                     loose.vertices, 100 * loose.area_share);
+}
+
 void remark_on_loose_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
   if (d.loose.empty()) return;
   std::string names;
@@ -139,12 +149,15 @@ void remark_on_loose_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
                                     d.file.repairs.duplicated_vertices)
                               : "";
   remarks.push_back(
-      {true,
+      {d.falls_apart(),
        {"loose_parts",
         d.name +
-            fmt::format(": nothing holds {} of its {} parts: {}; left where they lay{}; join them to the "
-                        "garment in its file, pin them (--pin-group, --pin-box), or take them out",
-                        d.loose.size(), d.parts, names, cut),
+            fmt::format(": nothing holds {} of its {} parts: {}; {}{}{}", d.loose.size(), d.parts, names,
+                        words_of_loose(d.loose_parts), cut,
+                        d.loose_parts.use == LooseUse::drop
+                            ? ""
+                            : "; join them to the garment in its file, pin them (--pin-group, --pin-box), or "
+                              "take them out (--loose drop)"),
         d.name, "pins"}});
 }
 
@@ -411,6 +424,11 @@ Json to_json(const Draped& d) {
             {"friction_rounds", d.report.friction_rounds},
             {"slip", d.report.slip},
             {"crossings", jobs::to_json(d.crossings)}};
+  if (!d.loose.empty())
+    json["loose"] = {{"pieces", d.loose.size()},
+                     {"vertices", d.loose_parts.vertices},
+                     {"area_share", d.loose_parts.area_share},
+                     {"done", name_of(d.loose_parts.use)}};
   if (d.self_contact) json["self_contact"] = self_contact_json(d);
   if (d.untangled.at_start) json["untangled"] = untangled_json(d.untangled);
   if (!d.written.empty()) json["written"] = d.written.string();

@@ -14,6 +14,7 @@
 #include "jobs/run/drape_starts.h"
 #include "jobs/run/fall_watch.h"
 #include "jobs/run/garment_maker.h"
+#include "jobs/run/loose_parts.h"
 #include "jobs/run/measure_crossings.h"
 #include "physics/base/progress.h"
 
@@ -72,7 +73,8 @@ Gone go(const DrapePlan& plan, GarmentMaker& maker, WayRecorder& way, const Fall
   WayToRest to_rest(plan.options.settle.tolerance);
   const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
     way.observe(level, cloth);
-    if (level == 0 && maker.loose.empty() && p.iteration > 0 && p.iteration % 5 == 0)
+    if (level == 0 && maker.loose.empty() && plan.settings.loose != LooseUse::fall && p.iteration > 0 &&
+        p.iteration % 5 == 0)
       gone.falling = watch.find(cloth, maker.held());
     return progress((level + to_rest.share(p)) / (plan.options.refinements + 1)) && gone.falling.empty();
   };
@@ -102,6 +104,21 @@ void take_result(Gone gone, GarmentMaker& maker, const DrapePlan& plan, const Fa
         name_of_part(plan.as_read, watch.parts(), watch.parts().of_vertex[std::size_t(seed)]));
 }
 
+/// What is asked for, and then the measures of what is left.
+void finish_loose_parts(const DrapePlan& plan, const std::vector<int>& loose, Draped& draped) {
+  if (loose.empty()) return measure_draped(plan, draped);
+  draped.loose_parts = loose_parts_of(plan.as_read, loose);
+  draped.loose_parts.use = plan.settings.loose;
+  if (plan.settings.loose == LooseUse::hold) {
+    carry_loose_parts(draped.file.mesh, plan.as_read.mesh, draped.refinements, loose);
+    return measure_draped(plan, draped);
+  }
+  io::MeshFile kept = plan.as_read;
+  drop_parts(kept, loose);
+  drop_parts(draped.file, loose);
+  measure_draped({plan.scene, plan.body, plan.settings, kept, plan.options}, draped);
+}
+
 /// One way to rest. loose: a vertex of each part that nothing holds, where that is known; else it is found.
 Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int>& loose,
                   const Progress& progress, const Context& context) {
@@ -124,7 +141,7 @@ Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int
   draped.seconds = now() - start;
   draped.animated = way->close();
   way.reset();
-  measure_draped(plan, draped);
+  finish_loose_parts(plan, maker.loose, draped);
   return draped;
 }
 

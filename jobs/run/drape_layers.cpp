@@ -12,6 +12,7 @@
 #include "jobs/run/drape_plan.h"
 #include "jobs/run/fall_watch.h"
 #include "jobs/run/garment_maker.h"
+#include "jobs/run/loose_parts.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/measure_layers.h"
 
@@ -97,7 +98,8 @@ class LayerSearch {
                           .thickness = thickness_of(given_[i].scene, settings_)});
     WayToRest to_rest(options_.settle.tolerance);
     const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
-      if (level == 0 && none_held && p.iteration > 0 && p.iteration % 5 == 0)
+      if (level == 0 && none_held && settings_.loose != LooseUse::fall && p.iteration > 0 &&
+          p.iteration % 5 == 0)
         falling = watch_->find(cloth, held());
       const double share = level < 0 ? 0 : (level + to_rest.share(p)) / (options_.refinements + 1);
       return progress(share) && falling.empty();
@@ -137,6 +139,10 @@ Draped draped_of(LayerSearch& search, std::size_t i, const GivenGarment& given, 
   if (!d.falls)
     for (const int seed : maker.loose)
       d.loose.push_back(name_of_part(given.file, parts, parts.of_vertex[std::size_t(seed)]));
+  if (!d.loose.empty()) {
+    d.loose_parts = loose_parts_of(given.file, maker.loose);
+    carry_loose_parts(d.file.mesh, given.file.mesh, d.refinements, maker.loose);
+  }
   measure_draped({given.scene, body, settings, given.file, search.drape_options()}, d);
   return d;
 }

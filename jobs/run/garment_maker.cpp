@@ -93,6 +93,7 @@ physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
     for (const int i : held) held_[std::size_t(i)] = 1;
   if (!loose.empty()) hold_loose(mesh, cloth);
   told_thin_ |= couple_cloth(made, scene_, cloth, context_, !told_thin_);  // once, not at each level
+  if (!loose.empty() && settings_.animation.empty()) leave_out_loose(mesh, cloth);
   int moved = 0;
   if (body_)
     for (const std::vector<int>& held : pins_)
@@ -135,6 +136,15 @@ void GarmentMaker::hold_loose(const geometry::Mesh& mesh, physics::Cloth& cloth)
     for (std::size_t i = 0; i < parts.of_vertex.size(); ++i)
       if (parts.of_vertex[i] == parts.of_vertex[std::size_t(seed)])
         physics::pin(cloth.particles, std::vector<int>{int(i)});
+}
+
+/// No cloth touches them: where they lie aside is no place of theirs.
+void GarmentMaker::leave_out_loose(const geometry::Mesh& mesh, physics::Cloth& cloth) const {
+  const geometry::Parts parts = geometry::find_parts(mesh);
+  std::vector<char> aside(parts.list.size(), 0);
+  for (const int seed : loose) aside[std::size_t(parts.of_vertex[std::size_t(seed)])] = 1;
+  std::erase_if(cloth.triangles,
+                [&](const auto& t) { return aside[std::size_t(parts.of_vertex[std::size_t(t[0])])] != 0; });
 }
 
 std::vector<io::ScenePins> GarmentMaker::pins_on(const geometry::Mesh& mesh) const {

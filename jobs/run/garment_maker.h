@@ -32,6 +32,7 @@ class GarmentMaker {
  private:
   void tie_seams(const geometry::Mesh& mesh);
   void hold_loose(const geometry::Mesh& mesh, physics::Cloth& cloth) const;
+  void leave_out_loose(const geometry::Mesh& mesh, physics::Cloth& cloth) const;
   std::vector<io::ScenePins> pins_on(const geometry::Mesh& mesh) const;
 
   const io::Scene& scene_;

@@ -446,7 +446,7 @@ TEST_CASE("drape: numbers beyond any cloth's are a numerical failure, and do not
   }
 }
 
-TEST_CASE("drape: a part that nothing holds is named and stays where it lay, and the rest comes to rest") {
+TEST_CASE("drape: a part that nothing holds is named and goes with the cloth, and the rest comes to rest") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   job.subdivide = 0;
@@ -469,8 +469,10 @@ TEST_CASE("drape: a part that nothing holds is named and stays where it lay, and
   CHECK(d.outcome().find("1 of 2 parts loose") != std::string::npos);
   CHECK(remarks_on(report, "loose_parts"));
   CHECK_FALSE(remarks_on(report, "not_at_rest"));
+  CHECK_FALSE(report.fails());  // it is small
+  CHECK(to_json(report).at("loose").at("done") == "held");
   const geometry::Vertex first{geometry::Vertex::size_type(count)};
-  CHECK(CGAL::squared_distance(d.file.mesh.point(first), lay) < 1e-6);
+  CHECK(CGAL::squared_distance(d.file.mesh.point(first), lay) > 1e-4);  // the sheet's corner hangs down
   set(job, "pins.0", io::Json{{"box", {0.9, -1, -1, 2, 1, 1}}});  // the advice
   CHECK_FALSE(jobs::drape(job, recorder).fails());
 }

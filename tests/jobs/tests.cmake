@@ -18,6 +18,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   keep_test.cpp
   lay_warp_test.cpp
   listener_test.cpp
+  loose_parts_test.cpp
   mesh_input_test.cpp
   own_output_test.cpp
   quality_test.cpp

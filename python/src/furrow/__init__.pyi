@@ -213,6 +213,7 @@ def drape(
     contact_depth: Optional[float] = None,
     self_contact: Optional[Literal["auto", "on", "off"]] = None,
     cloth_thickness: Optional[float] = None,
+    loose: Optional[Literal["hold", "drop", "fall"]] = None,
     penetration: Optional[float] = None,
     plain: Optional[bool] = None,
     max_iterations: Optional[int] = None,
