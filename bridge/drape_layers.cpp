@@ -73,6 +73,7 @@ struct LevelCloth {
   physics::Cloth joined;
   Positions drawn;  ///< as they were made, each far from the others, where only its own may be near
   std::vector<double> thickness;  ///< by particle [m]
+  std::vector<int> group;         ///< by particle: 0 what touches
 };
 
 double thickness_of(const LayerGarment& garment, const DrapeOptions& o) {
@@ -88,6 +89,7 @@ LevelCloth make_level(std::span<LayerGarment> garments, const DrapeOptions& o) {
     g.cloth = g.make_cloth(level.made.back());
     cloths.push_back(g.cloth);
     level.thickness.insert(level.thickness.end(), g.cloth.particles.size(), thickness_of(g, o));
+    level.group.insert(level.group.end(), g.cloth.particles.size(), g.touches ? 0 : int(cloths.size()));
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();
     for (const Vec3& x : g.cloth.particles.x) low = low.cwiseMin(x), high = high.cwiseMax(x);
     shift += 1 - low.x();
@@ -162,7 +164,9 @@ physics::UntangleReport part_layers(std::span<const LayerGarment> garments, phys
     layers.of_vertex.insert(layers.of_vertex.end(), g.cloth.particles.size(), int(rank));
     append(x, g.cloth.particles.x);
   }
-  return physics::untangle_layers(x, physics::pair_mesh(joined, self.thickness, self.thicknesses), layers);
+  physics::PairMesh mesh = physics::pair_mesh(joined, self.thickness, self.thicknesses);
+  mesh.group.assign(self.groups.begin(), self.groups.end());
+  return physics::untangle_layers(x, mesh, layers);
 }
 
 /// Of all levels together: what crossed at the first, what is left on the last.
@@ -224,6 +228,7 @@ LayersReport drape_layers(std::span<LayerGarment> garments, const physics::Colli
     LevelCloth now = make_level(garments, asked);
     o.settle.self.drawn = now.drawn;
     o.settle.self.thicknesses = now.thickness;
+    o.settle.self.groups = now.group;
     DrapeLevel& told = report.levels.emplace_back();
     told.vertices = now.joined.particles.size();
     report.disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);

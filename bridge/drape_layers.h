@@ -12,6 +12,7 @@ struct LayerGarment {
   geometry::Mesh mesh;        ///< as it was given; draped on return, with the maps of make_cloth
   MakeCloth make_cloth;       ///< as for drape()
   double thickness = 0;       ///< of its cloth [m]; >= 0; 0: that of the options
+  bool touches = true;        ///< false: it and all others pass through each other
   physics::Cloth cloth = {};  ///< out: of the last level
   EnergyParts energy = {};    ///< out: its own; contact is 0
   bool turned = false;        ///< out: its faces look into the body

@@ -66,7 +66,7 @@ GarmentScenes garment_scenes(const DrapeJob& job) {
   for (const std::filesystem::path& path : job.over) {
     io::TomlDocument own = scenes.front();
     io::set_value(own, "garment.mesh", path.string(), "the garments");
-    for (const char* key : {"layer", "thickness"}) own.root["garment"].erase(key);
+    for (const char* key : {"layer", "thickness", "touch"}) own.root["garment"].erase(key);
     scenes.push_back(std::move(own));
   }
   return scenes;
@@ -245,7 +245,7 @@ std::filesystem::path layer_output(const std::filesystem::path& output, const st
 
 bool DrapeJobReport::fails() const {
   const bool under = layers && std::any_of(layers->pairs.begin(), layers->pairs.end(),
-                                           [](const LayerPair& p) { return 2 * p.outside < p.compared; });
+                                           [](const LayerPair& p) { return p.touch && 2 * p.outside < p.compared; });
   return under ||
          std::any_of(garments.begin(), garments.end(), [](const Draped& d) { return !d.succeeds(); });
 }

@@ -193,6 +193,7 @@ struct Draped {
 /// Two garments that are worn over each other.
 struct LayerPair {
   std::string inner, outer;            ///< names
+  bool touch = true;                   ///< false: they pass through each other, and that is no failure
   std::size_t crossings_at_start = 0;  ///< pairs of faces, one of each, that crossed as they were given
   std::size_t crossings = 0;           ///< now
   std::vector<CrossingPlace> places;   ///< now, most pairs first

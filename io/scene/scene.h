@@ -116,6 +116,7 @@ struct Scene {
   std::string title;
   std::filesystem::path garment;
   int layer = -1;  ///< of several garments, from the inside to the outside; -1: by their place
+  bool touch = true;  ///< of several garments, whether it touches the others
   std::optional<double> thickness;    ///< of the cloth, where layers and folds are kept apart [m]; none: 1 mm
   int subdivide = 0;                  ///< times that Loop subdivision is applied before the first line
   int allow_crossings = 0;            ///< pairs of faces that may cross at the end; >= 0

@@ -471,6 +471,11 @@ const Row<Scene> rows[] = {
       .used = used_by::drape},
      number(
          Limits{1e-5, 0.05, false, "m"}, [](auto& s) -> auto& { return s.thickness; })},
+    {{.path = "garment.touch",
+      .what = "of several `[[garment]]`, `false`: the others pass through it, and it through them",
+      .used = used_by::drape},
+     yes_no(
+         false, true, [](auto& s) -> auto& { return s.touch; })},
     {{.path = "garment.allow_crossings",
       .flag = "--allow-crossings",
       .help = "pairs of faces of the cloth that may cross at the end (default 0); beyond it the exit code "

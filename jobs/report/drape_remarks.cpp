@@ -271,6 +271,14 @@ Json untangled_json(const bridge::TakenApart& u) {
 
 void remark_on_crossed_layers(const LayerPair& p, std::size_t allowed, std::vector<DrapeRemark>& remarks) {
   if (!p.crossings) return;
+  if (!p.touch)
+    return remarks.push_back(
+        {false,
+         {"layers_apart",
+          fmt::format("{} over {}: {} pair{} of faces cross, as one of them touches no other garment "
+                      "(touch = false)",
+                      p.outer, p.inner, p.crossings, p.crossings == 1 ? "" : "s"),
+          p.outer, "garment.touch"}});
   const bool fails = p.crossings > allowed;
   std::string where;
   if (!p.places.empty()) {
@@ -293,6 +301,7 @@ void remark_on_crossed_layers(const LayerPair& p, std::size_t allowed, std::vect
 Json layer_pair_json(const LayerPair& p) {
   Json json{{"inner", p.inner},
             {"outer", p.outer},
+            {"touch", p.touch},
             {"crossings_at_start", p.crossings_at_start},
             {"crossings", p.crossings},
             {"compared_at_start", p.compared_at_start},
@@ -330,6 +339,7 @@ std::vector<DrapeRemark> remarks_on(const DrapedLayers& layers, std::size_t allo
   std::vector<DrapeRemark> remarks;
   for (const LayerPair& p : layers.pairs) {
     remark_on_crossed_layers(p, allowed, remarks);
+    if (!p.touch) continue;
     if (p.crossings == 0 && p.began_inside())
       remarks.push_back(
           {false,

@@ -95,7 +95,8 @@ class LayerSearch {
     for (std::size_t i = 0; i < given_.size(); ++i)
       garments.push_back({.mesh = given_[i].file.mesh,
                           .make_cloth = std::ref(*makers[i]),
-                          .thickness = thickness_of(given_[i].scene, settings_)});
+                          .thickness = thickness_of(given_[i].scene, settings_),
+                          .touches = given_[i].scene.touch});
     WayToRest to_rest(options_.settle.tolerance);
     const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
       if (level == 0 && none_held && settings_.loose != LooseUse::fall && p.iteration > 0 &&
@@ -172,7 +173,7 @@ WornOver drape_worn_over(std::span<const io::Scene> scenes, std::span<const std:
     worn.garments.back().seconds = seconds.count();
     worn.garments.back().name = names[i];
     if (turned) worn.layers.turned.push_back(names[i]);
-    layers.push_back({&given[i].file.mesh, nullptr, turned});
+    layers.push_back({&given[i].file.mesh, nullptr, turned, given[i].scene.touch});
   }
   for (std::size_t i = 0; i < layers.size(); ++i) layers[i].now = &worn.garments[i].file.mesh;
   worn.layers.pairs = measure_layers(layers, worn.garments);

@@ -75,6 +75,8 @@ std::vector<LayerPair> measure_layers(std::span<const Layer> layers, std::span<D
   for (std::size_t outer = 1; outer < layers.size(); ++outer)
     for (std::size_t inner = 0; inner < outer; ++inner) {
       pairs.push_back(measure_pair(layers[inner], layers[outer], draped[inner], draped[outer]));
+      pairs.back().touch = layers[inner].touch && layers[outer].touch;
+      if (!pairs.back().touch) continue;
       draped[inner].crossings_with_others += pairs.back().crossings;
       draped[outer].crossings_with_others += pairs.back().crossings;
     }

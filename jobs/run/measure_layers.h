@@ -13,6 +13,7 @@ geometry::Mesh joined_mesh(std::span<const geometry::Mesh* const> meshes);
 struct Layer {
   const geometry::Mesh *given, *now;
   bool turned;  ///< its faces look inwards
+  bool touch = true;
 };
 
 /// How each two garments cross each other, before and now, and whether they lie in their order, the innermost

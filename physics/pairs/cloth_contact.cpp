@@ -56,7 +56,11 @@ ClothContact::ClothContact(const Cloth& cloth, const ClothContactOptions& option
   if (start.size() != cloth.particles.size() || (!drawn.empty() && drawn.size() != start.size()))
     refuse(operation, start.size(), " positions and ", drawn.size(), " drawn of ", cloth.particles.size());
   mesh_ = pair_mesh(cloth, options.thickness, options.thicknesses);
+  if (!options.groups.empty() && options.groups.size() != start.size())
+    refuse(operation, options.groups.size(), " groups of ", start.size(), " particles");
+  mesh_.group.assign(options.groups.begin(), options.groups.end());
   options_.thicknesses = {};  // they may go
+  options_.groups = {};
   find_special(start, drawn, pool);
 }
 

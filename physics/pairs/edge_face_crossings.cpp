@@ -60,7 +60,7 @@ std::vector<EdgeFaceCrossing> edge_face_crossings(const PairMesh& mesh, std::spa
     grid.each_meeting(box_around(std::array{at(f[0]), at(f[1]), at(f[2])}, origin, 0), [&](int number) {
       const auto& e = mesh.edges[std::size_t(number)];
       for (const int v : f)
-        if (v == e[0] || v == e[1]) return;
+        if (v == e[0] || v == e[1] || !may_touch(mesh, v, e[0])) return;
       if (crosses(at(e[0]), at(e[1]), at(f[0]), at(f[1]), at(f[2]))) found.push_back({number, int(t)});
     });
   }

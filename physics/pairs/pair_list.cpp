@@ -66,6 +66,7 @@ void add_if_near(const Sweep& s, const PairKey& key, std::vector<ListedPair>& fo
   if (edges ? v[0] == v[2] || v[0] == v[3] || v[1] == v[2] || v[1] == v[3]
             : v[0] == v[1] || v[0] == v[2] || v[0] == v[3])
     return;
+  if (!may_touch(s.mesh, v[0], v[edges ? 2 : 1])) return;
   const Vec3* const x[4] = {&s.x[std::size_t(v[0])], &s.x[std::size_t(v[1])], &s.x[std::size_t(v[2])],
                             &s.x[std::size_t(v[3])]};
   const double range = range_of(s.mesh, key), gone = range + planned_approach(s, v, edges);

@@ -20,9 +20,15 @@ struct PairMesh {
   std::vector<double> radius, edge_radius, triangle_radius;
   std::vector<char> held;     ///< by vertex: it does not move
   std::vector<char> used;     ///< by vertex: a triangle has it
+  std::vector<int> group;     ///< by vertex: what is of two groups does not touch; empty: all is of one
   double mean_edge = 0;       ///< h [m]
   double largest_radius = 0;  ///< [m]
 };
+
+/// Whether a mesh lets what has one vertex touch what has the other.
+inline bool may_touch(const PairMesh& mesh, int a, int b) {
+  return mesh.group.empty() || mesh.group[std::size_t(a)] == mesh.group[std::size_t(b)];
+}
 
 /// Lengths at rest are those of the membrane's triangles, else of structural springs, else of tension, else
 /// as the cloth lies. thickness > 0 [m]; thicknesses: of each particle, in its place, or empty. Throws

@@ -59,6 +59,8 @@ void check(const Cloth& cloth, const SettleOptions& o) {
   if (drawn != 0 && drawn != n) refuse(me, "self.drawn has ", drawn, " positions of ", n, " particles");
   const std::size_t thick = o.self.thicknesses.size();
   if (thick != 0 && thick != n) refuse(me, "self.thicknesses has ", thick, " numbers for ", n, " particles");
+  const std::size_t groups = o.self.groups.size();
+  if (groups != 0 && groups != n) refuse(me, "self.groups has ", groups, " numbers for ", n, " particles");
   for (const double t : o.self.thicknesses) require(me, "self.thicknesses", t, t > 0, "> 0");
   check_particles(cloth.particles, me);
 }
@@ -146,7 +148,9 @@ class Settler {
     const double k = contact_share * stiffness_.mean_diagonal();
     if (o_.self.on)
       pairs_.emplace(
-          cloth, ClothContactOptions{o_.self.thickness, k > 0 ? k : 1, o_.self.friction, o_.self.thicknesses},
+          cloth,
+          ClothContactOptions{o_.self.thickness, k > 0 ? k : 1, o_.self.friction, o_.self.thicknesses,
+                              o_.self.groups},
           p_.x, o_.self.drawn, &pool_);
     if (!collider) return;
     contact_.emplace(*collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());

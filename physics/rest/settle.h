@@ -26,6 +26,8 @@ struct SelfContact {
   double thickness = 1e-3;  ///< of the cloth [m]; > 0; where edges are short, it counts as thinner
   double friction = 0.3;    ///< Coulomb coefficient of cloth on cloth [-]; >= 0
   std::span<const double> thicknesses = {};  ///< of each particle, in place of `thickness` [m]; empty: none
+  /// Of each particle: cloth of two groups does not touch, and passes through each other; empty: one group.
+  std::span<const int> groups = {};
   std::span<const Vec3> drawn = {};          ///< positions in which nothing is to be pushed; empty: none
 };
 

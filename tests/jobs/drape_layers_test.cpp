@@ -113,6 +113,29 @@ TEST_CASE("drape: a garment that lay inside the one under it is told", "[release
   CHECK((tells(report, "layer_order") || tells(report, "layers_cross")));
 }
 
+TEST_CASE("drape: a garment that touches no other passes through it, which is told and no failure") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = two_across_ball();
+  job.over.clear();
+  io::Json list = io::Json::array({{{"mesh", "under"}}, {{"mesh", "over"}, {"touch", false}}});
+  job.scene.settings.root["garment"] = list;
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  INFO(to_json(report).dump(1));
+  CHECK_FALSE(report.fails());
+  const jobs::LayerPair& pair = report.layers->pairs.at(0);
+  CHECK_FALSE(pair.touch);
+  CHECK(pair.crossings > 0);
+  CHECK(report.layers->edges_crossed == 0);
+  CHECK(tells(report, "layers_apart"));
+  CHECK_FALSE(tells(report, "layers_cross"));
+  CHECK(to_json(report)["layers"]["pairs"][0]["touch"] == false);
+  for (const jobs::Draped& d : report.garments) CHECK(d.crossings_with_others == 0);
+  list[1].erase("touch");
+  job.scene.settings.root["garment"] = list;
+  const jobs::DrapeJobReport touching = jobs::drape(job, recorder);
+  CHECK(touching.layers->pairs[0].crossings == 0);
+}
+
 TEST_CASE("drape: what several garments are not draped with is refused") {
   jobs::DrapeJob job = two_across_ball();
   job.over = {"under"};
@@ -120,6 +143,9 @@ TEST_CASE("drape: what several garments are not draped with is refused") {
   job = two_across_ball();
   job.settings.self_contact = jobs::SelfContactUse::off;
   check_refused(job, "--self-contact off");
+  job = two_across_ball();
+  job.settings.loose = jobs::LooseUse::drop;
+  check_refused(job, "--loose drop: not with several garments");
   job = two_across_ball();
   job.settings.bands = {{"top", 0.9}};
   check_refused(job, "--band: not with several garments");

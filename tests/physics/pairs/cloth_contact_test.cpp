@@ -192,6 +192,33 @@ TEST_CASE("cloth_contact: what crosses at the start is exempt until it is apart,
   CHECK(contact.exempt() == 0);
 }
 
+TEST_CASE("cloth_contact: cloth of two groups passes through each other, cloth of one does not") {
+  const Cloth cloth = two_sheets(0.022, 3);
+  const std::size_t n = cloth.particles.size();
+  std::vector<int> groups(n, 0);
+  std::fill(groups.begin() + 49, groups.end(), 1);
+  ClothContactOptions apart = thick, together = thick;
+  apart.groups = groups;
+  const std::vector<int> one(n, 5);
+  together.groups = one;
+  const std::vector<Vec3> start = two_sheets(0.2, 3).particles.x;
+  ClothContact free(cloth, apart, start, {}), kept(cloth, together, start, {});
+  std::vector<Vec3> move(n, Vec3::Zero());
+  std::fill(move.begin() + 49, move.end(), Vec3(0, 0, -0.4));
+  CHECK(free.safe_share(start, move, 1, nullptr) == 1);
+  CHECK(kept.safe_share(start, move, 1, nullptr) < 0.6);
+  free.look(cloth.particles.x, nullptr);
+  kept.look(cloth.particles.x, nullptr);
+  CHECK(free.touching() == 0);
+  CHECK(kept.touching() > 50);
+  const Cloth crossed = two_sheets(0, 3);
+  CHECK(ClothContact(crossed, apart, crossed.particles.x, {}).crossed_at_start() == 0);
+  CHECK(ClothContact(crossed, together, crossed.particles.x, {}).crossed_at_start() > 20);
+  groups.pop_back();
+  apart.groups = groups;
+  CHECK_THROWS_AS(ClothContact(cloth, apart, start, {}), std::invalid_argument);
+}
+
 TEST_CASE("cloth_contact: its stiffness is semidefinite") {
   Cloth cloth = two_sheets(0.015, 11, 0.3);
   ClothContact contact(cloth, thick, two_sheets(0.2, 11, 0.3).particles.x, {});
