@@ -271,6 +271,25 @@ TEST_CASE("drape: a file that crosses itself is taken apart, and its report says
   CHECK(r["untangled"]["left"] == 0);
 }
 
+TEST_CASE("drape: --loose says what becomes of a scrap that nothing holds") {
+  ScratchDirectory scratch;
+  write_text(scratch / "a.obj",
+             "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nf 1 2 3 4\n"
+             "v 0.05 0.05 0.1\nv 0.07 0.05 0.1\nv 0.05 0.06 0.1\nf 5 6 7\n");
+  const std::string call = "drape " + (scratch / "a.obj") + " --pin-vertices 2,3 -o " + (scratch / "b.obj");
+  for (const auto& [use, done, vertices] :
+       {std::tuple("", "held", 7), {" --loose hold", "held", 7}, {" --loose drop", "dropped", 4}}) {
+    const json r = report_of(call + use);
+    INFO(r.dump(1));
+    CHECK(r["loose"]["done"] == done);
+    CHECK(r["loose"]["pieces"] == 1);
+    CHECK(r["loose"]["vertices"] == 3);
+    CHECK(r["loose_parts"].size() == 1);
+    CHECK(int(io::read_mesh(scratch / "b.obj").mesh.number_of_vertices()) == vertices);
+  }
+  CHECK(run_furrow(call + " --loose lost").exit_code != 0);
+}
+
 TEST_CASE("drape: what cannot be done is told before the work") {
   ScratchDirectory scratch;
   const auto refused = [&](const std::string& arguments, const std::string& word) {
