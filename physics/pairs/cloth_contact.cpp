@@ -64,7 +64,7 @@ ClothContact::ClothContact(const Cloth& cloth, const ClothContactOptions& option
 void ClothContact::note_near(std::span<const Vec3> x, bool at_start, ThreadPool* pool) {
   PairList list(mesh_);
   for (const ListedPair& p : list.near(x, {}, 0, pool)) {
-    const double distance = p.bound + p.range;
+    const double distance = (std::sqrt(distance_of(p, x).squared()) - p.range) + p.range;
     const bool touches = distance < as_touching;
     const double range = touches ? 0 : start_share * distance;
     special_.push_back({p.key, range, at_start || touches ? p.range : range});

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "physics/pairs/pair_search.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace furrow::physics {
+namespace {
+
+constexpr int group_size = 8;       // triangles
+constexpr double come_apart = 1.5;  // spread of groups, over that when they were made
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+LaneBox empty_box() { return {splat(infinite), splat(-infinite)}; }
+
+struct Centre {
+  std::array<float, 3> at;
+  int triangle;
+};
+
+std::vector<Centre> centres_of(const PairMesh& mesh, const FloatSweep& sweep) {
+  std::vector<Centre> centres;
+  centres.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    const Float4 sum =
+        sweep.at[std::size_t(v[0])] + sweep.at[std::size_t(v[1])] + sweep.at[std::size_t(v[2])];
+    centres.push_back({{sum[0], sum[1], sum[2]}, int(t)});
+  }
+  return centres;
+}
+
+/// Puts neighbours next to each other: cuts across the longest side, a power of two groups in the first part.
+void put_in_order(std::span<Centre> centres) {
+  const int n = int(centres.size());
+  if (n <= group_size) return;
+  std::array<float, 3> low = centres[0].at, high = low;
+  for (const Centre& c : centres)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], c.at[k]);
+      high[k] = std::max(high[k], c.at[k]);
+    }
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+  int part = group_size;
+  while (2 * part < n) part *= 2;
+  std::nth_element(centres.begin(), centres.begin() + part, centres.end(),
+                   [axis](const Centre& a, const Centre& b) {
+                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.triangle < b.triangle;
+                   });
+  put_in_order(centres.first(std::size_t(part)));
+  put_in_order(centres.subspan(std::size_t(part)));
+}
+
+/// Takes those of the numbers that nobody took.
+template <std::size_t k>
+void take_new(const std::array<int, k>& numbers, std::vector<char>& taken, std::vector<int>& list) {
+  for (const int i : numbers) {
+    if (taken[std::size_t(i)]) continue;
+    taken[std::size_t(i)] = 1;
+    list.push_back(i);
+  }
+}
+
+/// Four rows of three coordinates become three lanes.
+std::array<Float4, 3> transposed(const Float4& p, const Float4& q, const Float4& r, const Float4& s) {
+  const Float4 pq = __builtin_shufflevector(p, q, 0, 4, 1, 5), rs = __builtin_shufflevector(r, s, 0, 4, 1, 5);
+  const Float4 pq2 = __builtin_shufflevector(p, q, 2, 6, 3, 7),
+               rs2 = __builtin_shufflevector(r, s, 2, 6, 3, 7);
+  return {__builtin_shufflevector(pq, rs, 0, 1, 4, 5), __builtin_shufflevector(pq, rs, 2, 3, 6, 7),
+          __builtin_shufflevector(pq2, rs2, 0, 1, 4, 5)};
+}
+
+LaneBox around(const FourBoxes& b) {
+  LaneBox box = empty_box();
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] = least(b.low[k]);
+    box.high[k] = -least(-b.high[k]);
+  }
+  return box;
+}
+
+/// How many rows of four.
+std::size_t rows_of(std::size_t n) { return (n + 3) / 4; }
+
+}  // namespace
+
+void FloatSweep::assign(std::span<const Vec3> x, std::span<const Vec3> way, const Vec3& origin) {
+  at.resize(x.size());
+  plan.resize(way.size());
+  for (std::size_t i = 0; i < x.size(); ++i) at[i] = float_point(x[i], origin);
+  for (std::size_t i = 0; i < way.size(); ++i) plan[i] = float_point(way[i], Vec3::Zero());
+}
+
+LaneBox FloatSweep::box(std::span<const int> vertices, float reach) const {
+  LaneBox box{splat(infinite), splat(-infinite)};
+  for (const int number : vertices) {
+    const auto v = std::size_t(number);
+    box = {min(box.low, at[v]), max(box.high, at[v])};
+    if (plan.empty()) continue;
+    const Float4 end = at[v] + plan[v];
+    box = {min(box.low, end), max(box.high, end)};
+  }
+  const float far = reach + 4 * std::numeric_limits<float>::epsilon() * (reach + box.high[3]);
+  return {box.low - splat(far), box.high + splat(far)};
+}
+
+FourBoxes FourBoxes::of(const std::array<LaneBox, 4>& b) {
+  return {transposed(b[0].low, b[1].low, b[2].low, b[3].low),
+          transposed(b[0].high, b[1].high, b[2].high, b[3].high)};
+}
+
+void BoxTree::assign(std::vector<FourBoxes> boxes) {
+  levels_.clear();
+  levels_.push_back(std::move(boxes));
+  while (levels_.back().size() > 1) {
+    const std::vector<FourBoxes>& below = levels_.back();
+    std::vector<FourBoxes> level;
+    level.reserve(rows_of(below.size()));
+    for (std::size_t i = 0; i < below.size(); i += 4) {
+      std::array<LaneBox, 4> four;
+      for (std::size_t j = 0; j < 4; ++j) four[j] = i + j < below.size() ? around(below[i + j]) : empty_box();
+      level.push_back(FourBoxes::of(four));
+    }
+    levels_.push_back(std::move(level));
+  }
+}
+
+template <std::size_t k>
+void PairSearch::add_fours(const std::vector<int>& numbers, const std::vector<std::array<int, k>>& primitives,
+                           Fours<k>& fours) const {
+  for (std::size_t i = 0; i < numbers.size(); i += 4) {
+    Int4 number{-1, -1, -1, -1};
+    std::array<Int4, k> vertices;
+    vertices.fill(number);
+    for (std::size_t j = 0; j < 4 && i + j < numbers.size(); ++j) {
+      number[j] = numbers[i + j];
+      for (std::size_t l = 0; l < k; ++l)
+        if constexpr (k == 1)
+          vertices[l][j] = numbers[i + j];
+        else
+          vertices[l][j] = primitives[std::size_t(numbers[i + j])][l];
+    }
+    fours.numbers.push_back(number);
+    fours.vertices.push_back(vertices);
+  }
+}
+
+void PairSearch::make_groups(const FloatSweep& sweep) {
+  const PairMesh& m = *mesh_;
+  std::vector<Centre> order = centres_of(m, sweep);
+  put_in_order(order);
+  edges_ = {};
+  vertices_ = {};
+  triangles_ = {};
+  fours_of_edges_.assign(1, 0);
+  fours_of_vertices_.assign(1, 0);
+  std::vector<char> edge_taken(m.edges.size(), 0), vertex_taken(m.radius.size(), 0);
+  std::vector<int> triangles, edges, vertices;
+  for (std::size_t i = 0; i < order.size(); i += group_size) {
+    triangles.clear();
+    edges.clear();
+    vertices.clear();
+    for (std::size_t j = i; j < std::min(order.size(), i + group_size); ++j) {
+      const int t = order[j].triangle;
+      triangles.push_back(t);
+      take_new(m.triangle_edges[std::size_t(t)], edge_taken, edges);
+      take_new(m.triangles[std::size_t(t)], vertex_taken, vertices);
+    }
+    add_fours(triangles, m.triangles, triangles_);
+    add_fours(edges, m.edges, edges_);
+    add_fours(vertices, std::vector<std::array<int, 1>>{}, vertices_);
+    fours_of_edges_.push_back(int(edges_.numbers.size()));
+    fours_of_vertices_.push_back(int(vertices_.numbers.size()));
+  }
+  if (triangles_.numbers.size() % 2 == 1) {
+    const Int4 none{-1, -1, -1, -1};
+    triangles_.numbers.push_back(none);
+    triangles_.vertices.push_back({none, none, none});
+  }
+}
+
+template <std::size_t k>
+void PairSearch::place_fours(const FloatSweep& sweep, const std::vector<double>& radius, double margin,
+                             Fours<k>& fours) const {
+  fours.boxes.resize(fours.numbers.size());
+  for (std::size_t i = 0; i < fours.numbers.size(); ++i) {
+    std::array<LaneBox, 4> four;
+    for (std::size_t j = 0; j < 4; ++j) {
+      const int number = fours.numbers[i][j];
+      four[j] = number < 0
+                    ? empty_box()
+                    : sweep.box(fours.corners(int(4 * i + j)), float(radius[std::size_t(number)] + margin));
+    }
+    fours.boxes[i] = FourBoxes::of(four);
+  }
+}
+
+std::vector<FourBoxes> PairSearch::group_boxes() const {
+  std::vector<FourBoxes> boxes(rows_of(std::size_t(groups())));
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    std::array<LaneBox, 4> four;
+    for (std::size_t j = 0; j < 4; ++j) {
+      const std::size_t g = 4 * i + j;
+      four[j] = empty_box();
+      if (g >= std::size_t(groups())) continue;
+      FourBoxes all = triangles_.boxes[2 * g];
+      all.add(triangles_.boxes[2 * g + 1]);
+      for (int f = fours_of_edges_[g]; f < fours_of_edges_[g + 1]; ++f) all.add(edges_.boxes[std::size_t(f)]);
+      for (int f = fours_of_vertices_[g]; f < fours_of_vertices_[g + 1]; ++f)
+        all.add(vertices_.boxes[std::size_t(f)]);
+      four[j] = around(all);
+    }
+    boxes[i] = FourBoxes::of(four);
+  }
+  return boxes;
+}
+
+/// The sum of the groups' longest sides, without margins and ways [m].
+double PairSearch::spread(const FloatSweep& sweep) const {
+  double sum = 0;
+  for (std::size_t g = 0; g + 1 < triangles_.vertices.size(); g += 2) {
+    LaneBox box = empty_box();
+    for (std::size_t f = g; f < g + 2; ++f)
+      for (const Int4& v : triangles_.vertices[f])
+        for (std::size_t j = 0; j < 4; ++j)
+          if (v[j] >= 0)
+            box = {min(box.low, sweep.at[std::size_t(v[j])]), max(box.high, sweep.at[std::size_t(v[j])])};
+    const Float4 side = box.high - box.low;
+    sum += double(std::max({side[0], side[1], side[2]}));
+  }
+  return sum;
+}
+
+void PairSearch::place(const FloatSweep& sweep, double margin) {
+  if (spread_ < 0 || !(spread(sweep) <= come_apart * spread_)) {
+    make_groups(sweep);
+    spread_ = spread(sweep);
+  }
+  place_fours(sweep, mesh_->edge_radius, margin, edges_);
+  place_fours(sweep, mesh_->radius, margin, vertices_);
+  place_fours(sweep, mesh_->triangle_radius, margin, triangles_);
+  tree_.assign(group_boxes());
+}
+
+}  // namespace furrow::physics

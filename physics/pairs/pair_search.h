@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/pairs/pair_bounds.h"
+#include "physics/pairs/pair_mesh.h"
+
+namespace furrow::physics {
+
+typedef std::int32_t Int4 __attribute__((vector_size(16)));
+
+/// A bit for each lane that is not 0 (all bits of it are 1 then).
+inline unsigned bits_of(Int4 lanes) {
+#ifdef __SSE2__
+  typedef float Packed __attribute__((vector_size(16)));
+  return unsigned(__builtin_ia32_movmskps(reinterpret_cast<Packed>(lanes)));
+#else
+  return unsigned(lanes[0] & 1) | unsigned(lanes[1] & 2) | unsigned(lanes[2] & 4) | unsigned(lanes[3] & 8);
+#endif
+}
+
+/// An axis-parallel box; the fourth lanes mean nothing.
+struct LaneBox {
+  Float4 low, high;  ///< [m]
+};
+
+/// Where vertices are and where they go, as float_point() has them. plan: empty, nothing moves.
+struct FloatSweep {
+  std::vector<Float4> at, plan;
+
+  void assign(std::span<const Vec3> x, std::span<const Vec3> way, const Vec3& origin);
+  /// Around these vertices, everywhere on their way, by `reach` farther [m]; rounding makes it larger.
+  LaneBox box(std::span<const int> vertices, float reach) const;
+};
+
+/// Four boxes, one a lane. An empty lane meets nothing.
+struct FourBoxes {
+  std::array<Float4, 3> low, high;
+
+  static FourBoxes of(const std::array<LaneBox, 4>& boxes);
+  /// Each lane becomes the box around itself and this one's.
+  void add(const FourBoxes& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = min(low[k], other.low[k]);
+      high[k] = max(high[k], other.high[k]);
+    }
+  }
+  Int4 meet(const LaneBox& box) const {
+    return (low[0] <= splat(box.high[0])) & (splat(box.low[0]) <= high[0]) & (low[1] <= splat(box.high[1])) &
+           (splat(box.low[1]) <= high[1]) & (low[2] <= splat(box.high[2])) & (splat(box.low[2]) <= high[2]);
+  }
+  LaneBox lane(std::size_t i) const {
+    return {Float4{low[0][i], low[1][i], low[2][i], 0}, Float4{high[0][i], high[1][i], high[2][i], 0}};
+  }
+};
+
+/// Boxes in a tree of fours, as they come: neighbours should stand next to each other.
+class BoxTree {
+ public:
+  /// Cost: O(boxes).
+  void assign(std::vector<FourBoxes> boxes);
+  /// visit(i) for each box i >= from that meets this one, in rising order.
+  template <class Visit>
+  void each_meeting(const LaneBox& box, int from, Visit&& visit) const {
+    if (!levels_.empty()) descend(levels_.size() - 1, 0, box, from, visit);
+  }
+  LaneBox box(int i) const { return levels_[0][std::size_t(i) / 4].lane(std::size_t(i) % 4); }
+
+ private:
+  template <class Visit>
+  void descend(std::size_t level, int group, const LaneBox& box, int from, Visit& visit) const {
+    for (unsigned met = bits_of(levels_[level][std::size_t(group)].meet(box)); met != 0; met &= met - 1) {
+      const int child = 4 * group + std::countr_zero(met);
+      if (level == 0 && child >= from) visit(child);
+      if (level > 0 && std::int64_t(child + 1) << 2 * level > from)
+        descend(level - 1, child, box, from, visit);
+    }
+  }
+  std::vector<std::vector<FourBoxes>> levels_;  // of the boxes, of fours of them, …; the last has one
+};
+
+/// Vertex and triangle, or edge and edge.
+struct Candidate {
+  int first, second;
+};
+
+/// Finds which primitives of a cloth have boxes that meet, by groups of eight triangles that are neighbours,
+/// with the edges and vertices that no group before them has: groups are found in a tree of their boxes, then
+/// four boxes are compared at a time. Groups are made anew when they have come apart. Nothing that shares a
+/// vertex is told.
+class PairSearch {
+ public:
+  /// The mesh must outlive it.
+  explicit PairSearch(const PairMesh& mesh) : mesh_(&mesh) {}
+
+  /// The boxes of all primitives on their way, by their radius and `margin` [m] larger. Cost: some 30 ns a
+  /// triangle, five times that where groups are made.
+  void place(const FloatSweep& sweep, double margin);
+  int groups() const { return int(fours_of_edges_.size()) - 1; }
+
+  /// Of groups [begin, end) with those from themselves on: edges(candidate), vertices(candidate); over all
+  /// groups each pair once.
+  template <class Edges, class Vertices>
+  void each_pair(int begin, int end, Edges&& edges, Vertices&& vertices) const;
+  /// visit(number) for each edge, vertex or triangle whose box meets this one and that has none of the given
+  /// vertices.
+  template <std::size_t n, class Visit>
+  void each_edge(const LaneBox& box, const std::array<int, n>& without, Visit&& visit) const {
+    tree_.each_meeting(box, 0, [&](int g) {
+      each_of(edges_, fours_of_edges_[std::size_t(g)], fours_of_edges_[std::size_t(g) + 1], box, without,
+              visit);
+    });
+  }
+  template <std::size_t n, class Visit>
+  void each_vertex(const LaneBox& box, const std::array<int, n>& without, Visit&& visit) const {
+    tree_.each_meeting(box, 0, [&](int g) {
+      each_of(vertices_, fours_of_vertices_[std::size_t(g)], fours_of_vertices_[std::size_t(g) + 1], box,
+              without, visit);
+    });
+  }
+  template <std::size_t n, class Visit>
+  void each_triangle(const LaneBox& box, const std::array<int, n>& without, Visit&& visit) const {
+    tree_.each_meeting(box, 0, [&](int g) { each_of(triangles_, 2 * g, 2 * g + 2, box, without, visit); });
+  }
+
+ private:
+  /// Primitives with k vertices, in fours.
+  template <std::size_t k>
+  struct Fours {
+    std::vector<FourBoxes> boxes;
+    std::vector<Int4> numbers;                  // -1: an empty lane
+    std::vector<std::array<Int4, k>> vertices;  // -1 there, too
+    LaneBox box(int i) const { return boxes[std::size_t(i) / 4].lane(std::size_t(i) % 4); }
+    int number(int i) const { return numbers[std::size_t(i) / 4][std::size_t(i) % 4]; }
+    std::array<int, k> corners(int i) const {
+      std::array<int, k> v;
+      for (std::size_t j = 0; j < k; ++j) v[j] = vertices[std::size_t(i) / 4][j][std::size_t(i) % 4];
+      return v;
+    }
+  };
+  void make_groups(const FloatSweep& sweep);
+  template <std::size_t k>
+  void add_fours(const std::vector<int>& numbers, const std::vector<std::array<int, k>>& primitives,
+                 Fours<k>& fours) const;
+  template <std::size_t k>
+  void place_fours(const FloatSweep& sweep, const std::vector<double>& radius, double margin,
+                   Fours<k>& fours) const;
+  std::vector<FourBoxes> group_boxes() const;
+  double spread(const FloatSweep& sweep) const;
+
+  /// visit(number) of what meets in fours [from, to); `past`: only behind this place of the first four.
+  template <std::size_t k, std::size_t n, class Visit>
+  static void each_of(const Fours<k>& fours, int from, int to, const LaneBox& box,
+                      const std::array<int, n>& without, Visit&& visit, unsigned lanes_of_first = 15) {
+    for (int f = from; f < to; ++f, lanes_of_first = 15) {
+      const auto at = std::size_t(f);
+      const Int4 met = fours.boxes[at].meet(box);
+      unsigned lanes = bits_of(met) & lanes_of_first;
+      if (lanes == 0) continue;
+      Int4 shared{0, 0, 0, 0};
+      for (const Int4& v : fours.vertices[at])
+        for (const int w : without) shared |= v == Int4{w, w, w, w};
+      lanes &= ~bits_of(shared);
+      for (; lanes != 0; lanes &= lanes - 1)
+        visit(int(fours.numbers[at][std::size_t(std::countr_zero(lanes))]));
+    }
+  }
+  /// One group's primitives against another's (or its own, behind each).
+  template <std::size_t k, std::size_t n, class Visit>
+  static void each_of_groups(const Fours<k>& ones, int begin, int end, const Fours<n>& others, int from,
+                             int to, const LaneBox& around, bool same, Visit&& visit) {
+    for (int f = begin; f < end; ++f) {
+      unsigned near = same ? 15u : bits_of(ones.boxes[std::size_t(f)].meet(around));
+      for (; near != 0; near &= near - 1) {
+        const int lane = std::countr_zero(near), i = 4 * f + lane, number = ones.number(i);
+        const auto each = [&](int other) { visit(number, other); };
+        if (same)
+          each_of(others, f, to, ones.box(i), ones.corners(i), each, 15u & (14u << lane));
+        else
+          each_of(others, from, to, ones.box(i), ones.corners(i), each);
+      }
+    }
+  }
+
+  const PairMesh* mesh_;
+  Fours<2> edges_;
+  Fours<1> vertices_;
+  Fours<3> triangles_;                                               // two fours a group
+  std::vector<int> fours_of_edges_ = {0}, fours_of_vertices_ = {0};  // where each group's begin, and the end
+  BoxTree tree_;
+  double spread_ = -1;  // of the groups when they were made [m]
+};
+
+template <class Edges, class Vertices>
+void PairSearch::each_pair(int begin, int end, Edges&& edges, Vertices&& vertices) const {
+  const auto edge_pair = [&](int a, int b) { edges(Candidate{std::min(a, b), std::max(a, b)}); };
+  const auto vertex_pair = [&](int v, int t) { vertices(Candidate{v, t}); };
+  for (int g = begin; g < end; ++g) {
+    const auto at = std::size_t(g);
+    const LaneBox own = tree_.box(g);
+    const int e0 = fours_of_edges_[at], e1 = fours_of_edges_[at + 1], v0 = fours_of_vertices_[at],
+              v1 = fours_of_vertices_[at + 1];
+    tree_.each_meeting(own, g, [&](int other) {
+      const auto to = std::size_t(other);
+      const LaneBox around = tree_.box(other);
+      each_of_groups(edges_, e0, e1, edges_, fours_of_edges_[to], fours_of_edges_[to + 1], around, g == other,
+                     edge_pair);
+      each_of_groups(vertices_, v0, v1, triangles_, 2 * other, 2 * other + 2, around, false, vertex_pair);
+      if (g != other)
+        each_of_groups(vertices_, fours_of_vertices_[to], fours_of_vertices_[to + 1], triangles_, 2 * g,
+                       2 * g + 2, own, false, vertex_pair);
+    });
+  }
+}
+
+}  // namespace furrow::physics
