@@ -87,6 +87,21 @@ inline void take_nearer(Points& way, Float4& squared, const Points& other) {
 
 }  // namespace pair_bounds_detail
 
+/// How much nearer the two of each pair come at most by such moves, without what all four have in common [m].
+inline Float4 relative_approach(const FourPairs& move, bool edges) {
+  using namespace pair_bounds_detail;
+  const Points mean = splat(0.25f) * ((move.at[0] + move.at[1]) + (move.at[2] + move.at[3]));
+  std::array<Float4, 4> way;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Points own = move.at[i] - mean;
+    way[i] = dot(own, own);
+  }
+  const Float4 first = edges ? max(way[0], way[1]) : way[0];
+  const Float4 second = edges ? max(way[2], way[3]) : max(max(way[1], way[2]), way[3]);
+  constexpr float rounds = 32 * std::numeric_limits<float>::epsilon();
+  return splat(1 + rounds) * (square_root(first) + square_root(second)) + splat(rounds) * move.size;
+}
+
 /// Of the edges (0, 1) and (2, 3). The plane is across the line between points that are the nearest but for
 /// rounding, so little is lost unless the edges are nearly parallel, and the bound holds whatever they are.
 inline Separation edge_edge_separation(const FourPairs& pairs) {

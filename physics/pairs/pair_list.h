@@ -18,6 +18,24 @@ struct ListedPair {
 };
 PairDistance distance_of(const ListedPair& pair, std::span<const Vec3> x);
 
+/// One to four pairs of one kind in lanes, the last of them in all that are left; points by vertex.
+inline FourPairs four_of(std::span<const ListedPair> pairs, std::span<const Float4> points) {
+  std::array<const Float4*, 16> at;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      at[4 * i + j] = &points[std::size_t(pairs[std::min(i, pairs.size() - 1)].vertices[j])];
+  return four_pairs(at);
+}
+/// Calls work(pairs, edges) for all pairs, at most four of one kind at a time.
+template <class Work>
+void each_four(std::span<const ListedPair> pairs, const Work& work) {
+  for (std::size_t i = 0, n = 0; i < pairs.size(); i += n) {
+    n = std::min<std::size_t>(4, pairs.size() - i);
+    while (pairs[i + n - 1].key.edges != pairs[i].key.edges) --n;
+    work(pairs.subspan(i, n), pairs[i].key.edges == 1);
+  }
+}
+
 /// The pairs of a cloth that may come nearer than their range, kept from one position to the next. A vertex v
 /// may be as far as a margin from a line x_v + s plan_v that the list was made for, with one s in [0, 1] for
 /// all; where some vertices are farther, only what has one of them is looked for anew. Pairs that share a
