@@ -207,33 +207,55 @@ std::span<const ListedPair> PairList::near(std::span<const Vec3> x, std::span<co
     else
       patch(x, way);
   }
-  for (std::size_t kind = 0; kind < 2; ++kind) offer(kind, base_pairs_[kind], patch_pairs_[kind]);
+  offer<false>();
+  offer<true>();
   return near_;
 }
 
-/// Of the base's pairs those without movers, and all of the patch's, where the way asked for may touch.
-void PairList::offer(std::size_t kind, std::span<const Listed> base, std::span<const Listed> patched) {
-  const bool edges = kind == 1;
-  const auto off = [edges](const std::vector<double>& by_vertex, const std::array<int, 4>& v) {
-    const auto at = [&](std::size_t i) { return by_vertex[std::size_t(v[i])]; };
-    return edges ? std::max(at(0), at(1)) + std::max(at(2), at(3)) : at(0) + std::max({at(1), at(2), at(3)});
-  };
-  const auto moves = [this](int v) { return moves_[std::size_t(v)] != 0; };
-  const auto add = [&](const Listed& p, const std::vector<double>& by_vertex, bool of_base) {
-    const PairKey key{std::uint8_t(kind), p.first, p.second};
-    const std::array<int, 4> v = vertices_of(*mesh_, key);
-    if (!(double(p.bound) < off(by_vertex, v) + rounding)) return;
-    if (of_base && movers_ > 0 && (moves(v[0]) || moves(v[1]) || moves(v[2]) || moves(v[3]))) return;
-    near_.push_back({range_of(*mesh_, key), key, v});
-  };
-  const double most = 2 * base_most_ + rounding;
-  auto next = patched.begin();
-  for (const Listed& p : base) {
-    if (!(double(p.bound) < most)) continue;
-    for (; next != patched.end() && before(*next, p); ++next) add(*next, patch_off_, false);
-    add(p, base_off_, true);
+/// The places of those pairs that may touch where vertices are that far off, and that have no mover. Nothing
+/// is skipped by a branch, as none could be foreseen.
+template <bool edges>
+void PairList::pick(std::span<const Listed> pairs, const std::vector<double>& off, double most_off,
+                    const std::vector<char>* moves, std::vector<int>& picked) const {
+  picked.resize(pairs.size());
+  const float most = rounded_up(2 * most_off + 2 * rounding);
+  std::size_t near = 0, kept = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    picked[near] = int(i);
+    near += pairs[i].bound < most;
   }
-  for (; next != patched.end(); ++next) add(*next, patch_off_, false);
+  for (std::size_t i = 0; i < near; ++i) {
+    const Listed& p = pairs[std::size_t(picked[i])];
+    const std::array<int, 4> v = vertices_of(*mesh_, {edges, p.first, p.second});
+    const auto at = [&](std::size_t k) { return off[std::size_t(v[k])]; };
+    const auto moved = [&](std::size_t k) { return int((*moves)[std::size_t(v[k])]); };
+    const double both =
+        edges ? std::max(at(0), at(1)) + std::max(at(2), at(3)) : at(0) + std::max({at(1), at(2), at(3)});
+    picked[kept] = picked[i];
+    kept += std::size_t(double(p.bound) < both + rounding) &
+            std::size_t(!moves || (moved(0) | moved(1) | moved(2) | moved(3)) == 0);
+  }
+  picked.resize(kept);
+}
+
+/// Of the base's pairs those without movers, and all of the patch's, where the way asked for may touch.
+template <bool edges>
+void PairList::offer() {
+  const std::vector<Listed>&base = base_pairs_[edges], &patched = patch_pairs_[edges];
+  pick<edges>(base, base_off_, base_most_, movers_ > 0 ? &moves_ : nullptr, picked_);
+  pick<edges>(patched, patch_off_, 2 * margin_, nullptr, picked_of_patch_);
+  const auto add = [this](const Listed& p) {
+    const PairKey key{edges, p.first, p.second};
+    near_.push_back({range_of(*mesh_, key), key, vertices_of(*mesh_, key)});
+  };
+  auto next = picked_of_patch_.begin();
+  const auto end = picked_of_patch_.end();
+  for (const int i : picked_) {
+    const Listed& p = base[std::size_t(i)];
+    for (; next != end && before(patched[std::size_t(*next)], p); ++next) add(patched[std::size_t(*next)]);
+    add(p);
+  }
+  for (; next != end; ++next) add(patched[std::size_t(*next)]);
 }
 
 /// How far vertices are from their lines, and whether the list says all there. If not, the movers are told.

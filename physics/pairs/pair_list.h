@@ -79,7 +79,11 @@ class PairList {
   }
   class Lister;
   Lists sorted(std::span<Lists> parts) const;
-  void offer(std::size_t kind, std::span<const Listed> pairs, std::span<const Listed> patched);
+  template <bool edges>
+  void pick(std::span<const Listed> pairs, const std::vector<double>& off, double most_off,
+            const std::vector<char>* moves, std::vector<int>& picked) const;
+  template <bool edges>
+  void offer();
   bool holds(std::span<const Vec3> x, std::span<const Vec3> way);
   void build(std::span<const Vec3> x, std::span<const Vec3> way, double margin, ThreadPool* pool);
   void patch(std::span<const Vec3> x, std::span<const Vec3> way);
@@ -99,7 +103,8 @@ class PairList {
   std::vector<double> base_off_, patch_off_;  ///< by vertex: from its line on the way asked for, at most [m]
   Lists base_pairs_, patch_pairs_;
   std::vector<ListedPair> near_;
-  std::size_t movers_ = 0, patched_ = 0;  ///< now; in all patches since the base
+  std::vector<int> picked_, picked_of_patch_;  ///< kept for their memory
+  std::size_t movers_ = 0, patched_ = 0;       ///< now; in all patches since the base
   int builds_ = 0, patches_ = 0;
 };
 

@@ -152,22 +152,20 @@ class PairSearch {
   std::vector<FourBoxes> group_boxes() const;
   double spread(const FloatSweep& sweep) const;
 
-  /// visit(number) of what meets in fours [from, to); `past`: only behind this place of the first four.
+  /// visit(number) of what meets in at most 16 fours [from, to), without the first lanes of the first of
+  /// them.
   template <std::size_t k, std::size_t n, class Visit>
   static void each_of(const Fours<k>& fours, int from, int to, const LaneBox& box,
-                      const std::array<int, n>& without, Visit&& visit, unsigned lanes_of_first = 15) {
-    for (int f = from; f < to; ++f, lanes_of_first = 15) {
-      const auto at = std::size_t(f);
-      const Int4 met = fours.boxes[at].meet(box);
-      unsigned lanes = bits_of(met) & lanes_of_first;
-      if (lanes == 0) continue;
+                      const std::array<int, n>& without, Visit&& visit, int left_out = 0) {
+    std::uint64_t met = 0;
+    for (int f = from; f < to; ++f) {
       Int4 shared{0, 0, 0, 0};
-      for (const Int4& v : fours.vertices[at])
+      for (const Int4& v : fours.vertices[std::size_t(f)])
         for (const int w : without) shared |= v == Int4{w, w, w, w};
-      lanes &= ~bits_of(shared);
-      for (; lanes != 0; lanes &= lanes - 1)
-        visit(int(fours.numbers[at][std::size_t(std::countr_zero(lanes))]));
+      met |= std::uint64_t(bits_of(fours.boxes[std::size_t(f)].meet(box) & ~shared)) << 4 * (f - from);
     }
+    for (met &= ~std::uint64_t(0) << left_out; met != 0; met &= met - 1)
+      visit(fours.number(4 * from + std::countr_zero(met)));
   }
   /// One group's primitives against another's (or its own, behind each).
   template <std::size_t k, std::size_t n, class Visit>
@@ -177,11 +175,9 @@ class PairSearch {
       unsigned near = same ? 15u : bits_of(ones.boxes[std::size_t(f)].meet(around));
       for (; near != 0; near &= near - 1) {
         const int lane = std::countr_zero(near), i = 4 * f + lane, number = ones.number(i);
-        const auto each = [&](int other) { visit(number, other); };
-        if (same)
-          each_of(others, f, to, ones.box(i), ones.corners(i), each, 15u & (14u << lane));
-        else
-          each_of(others, from, to, ones.box(i), ones.corners(i), each);
+        each_of(
+            others, same ? f : from, to, ones.box(i), ones.corners(i),
+            [&](int other) { visit(number, other); }, same ? lane + 1 : 0);
       }
     }
   }
