@@ -93,8 +93,7 @@ ClothContact::ClothContact(const Cloth& cloth, const ClothContactOptions& option
 }
 
 /// Pairs that are nearer than their range at x.
-void ClothContact::note_near(std::span<const Vec3> x, bool at_start, ThreadPool* pool) {
-  PairList list(mesh_);
+void ClothContact::note_near(std::span<const Vec3> x, bool at_start, PairList& list, ThreadPool* pool) {
   for (const ListedPair& p : list.near(x, {}, 0, pool)) {
     const double distance = (std::sqrt(distance_of(p, x).squared()) - p.range) + p.range;
     const bool touches = distance < as_touching;
@@ -119,8 +118,9 @@ void ClothContact::find_special(std::span<const Vec3> x, std::span<const Vec3> d
     if (core[std::size_t(a)]) loose_[std::size_t(b)] = 1;
     if (core[std::size_t(b)]) loose_[std::size_t(a)] = 1;
   }
-  note_near(x, true, pool);
-  if (!drawn.empty()) note_near(drawn, false, pool);
+  PairList list(mesh_);  // its margin is none, so it is made anew for each
+  note_near(x, true, list, pool);
+  if (!drawn.empty()) note_near(drawn, false, list, pool);
   const auto by_key = [](const SpecialPair& a, const SpecialPair& b) { return a.key < b.key; };
   std::stable_sort(special_.begin(), special_.end(), by_key);
   std::size_t kept = 0;
@@ -212,11 +212,11 @@ std::span<const ListedPair> ClothContact::pairs_on_way(std::span<const Vec3> x, 
   return near(x, way, pool);
 }
 
-/// Of `most` of the move, by each pair.
-std::vector<double> ClothContact::shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
-                                         std::span<const Vec3> move, double most, ThreadPool* pool) {
-  std::vector<double> result(pairs.size(), 1.0);
-  if (pairs.empty()) return result;
+/// Of `most` of the move, by each pair; valid until the next call.
+const std::vector<double>& ClothContact::shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
+                                                std::span<const Vec3> move, double most, ThreadPool* pool) {
+  shares_.assign(pairs.size(), 1.0);
+  if (pairs.empty()) return shares_;
   lanes_.assign(x, move, x[std::size_t(pairs[0].vertices[0])]);
   const auto slow = [&](const ListedPair& pair, double range) {
     MovingPair moving{pair.key.edges == 1, corners_of(pair.vertices, x), corners_of(pair.vertices, move)};
@@ -231,17 +231,17 @@ std::vector<double> ClothContact::shares(std::span<const ListedPair> pairs, std:
       for (std::size_t i = 0; i < four.size(); ++i) {
         if (free >> i & 1u) continue;
         const double range = ranges.now(four[i]);
-        if (range > 0) result[std::size_t(&four[i] - pairs.data())] = slow(four[i], range);
+        if (range > 0) shares_[std::size_t(&four[i] - pairs.data())] = slow(four[i], range);
       }
     });
   });
-  return result;
+  return shares_;
 }
 
 double ClothContact::safe_share(std::span<const Vec3> x, std::span<const Vec3> move, double most,
                                 ThreadPool* pool) {
   const std::span<const ListedPair> pairs = pairs_on_way(x, move, most, pool);
-  const std::vector<double> share = shares(pairs, x, move, most, pool);
+  const std::vector<double>& share = shares(pairs, x, move, most, pool);
   braced_.clear();
   double least = 1;
   PairKey first{};
@@ -264,7 +264,7 @@ int ClothContact::approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPo
   for (int round = 0; round < most_rounds_of_approach; ++round) {
     for (std::size_t i = 0; i < x.size(); ++i) way[i] = stopped[i] ? Vec3::Zero() : Vec3(to[i] - x[i]);
     const std::span<const ListedPair> pairs = pairs_on_way(x, way, 1, pool);
-    const std::vector<double> share = shares(pairs, x, way, 1, pool);
+    const std::vector<double>& share = shares(pairs, x, way, 1, pool);
     const double least = share.empty() ? 1 : std::min(1.0, *std::min_element(share.begin(), share.end()));
     for (std::size_t i = 0; i < x.size(); ++i)
       if (!stopped[i]) x[i] = least == 1 ? to[i] : Vec3(x[i] + least * way[i]);

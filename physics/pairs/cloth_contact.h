@@ -100,7 +100,7 @@ class ClothContact {
   class Ranges;
   static bool active_before(const ActivePair& a, const ActivePair& b);
   void find_special(std::span<const Vec3> x, std::span<const Vec3> drawn, ThreadPool* pool);
-  void note_near(std::span<const Vec3> x, bool at_start, ThreadPool* pool);
+  void note_near(std::span<const Vec3> x, bool at_start, PairList& list, ThreadPool* pool);
   const SpecialPair* special_of(const PairKey& key) const;
   bool is_loose(const EdgeFaceCrossing& crossing) const;
   std::vector<PairKey> crossed_now(std::span<const Vec3> x) const;
@@ -109,8 +109,8 @@ class ClothContact {
   void find_touching(std::span<const ListedPair> pairs, std::span<const Vec3> x, std::size_t begin,
                      std::size_t end, std::vector<Touching>& found) const;
   ActivePair answer(const ListedPair& pair, const Touching& touching, std::span<const Vec3> x) const;
-  std::vector<double> shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
-                             std::span<const Vec3> move, double most, ThreadPool* pool);
+  const std::vector<double>& shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
+                                    std::span<const Vec3> move, double most, ThreadPool* pool);
   std::span<const ListedPair> near(std::span<const Vec3> x, std::span<const Vec3> way, ThreadPool* pool);
   std::span<const ListedPair> pairs_on_way(std::span<const Vec3> x, std::span<const Vec3> move, double most,
                                            ThreadPool* pool);
@@ -122,6 +122,7 @@ class ClothContact {
   std::vector<char> loose_;           ///< by vertex: something crossed there at the start, or next to it
   FloatSweep lanes_;                  ///< where it was looked last, and the move that was asked for
   std::vector<std::vector<Touching>> touching_;  ///< by chunks; kept for its memory
+  std::vector<double> shares_;                   ///< likewise
   std::vector<ActivePair> active_;               ///< sorted by key
   std::vector<ActivePair> braced_;               ///< that cut the last way short
   PairFriction friction_;

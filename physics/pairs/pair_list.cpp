@@ -245,8 +245,13 @@ void PairList::offer() {
   pick<edges>(base, base_off_, base_most_, movers_ > 0 ? &moves_ : nullptr, picked_);
   pick<edges>(patched, patch_off_, 2 * margin_, nullptr, picked_of_patch_);
   const auto add = [this](const Listed& p) {
-    const PairKey key{edges, p.first, p.second};
-    near_.push_back({range_of(*mesh_, key), key, vertices_of(*mesh_, key)});
+    ListedPair& pair = near_.emplace_back();  // field by field: the processor would wait for a copy
+    pair.key.edges = edges;
+    pair.key.first = p.first;
+    pair.key.second = p.second;
+    const std::array<int, 4> v = vertices_of(*mesh_, {edges, p.first, p.second});
+    for (std::size_t i = 0; i < 4; ++i) pair.vertices[i] = v[i];
+    pair.range = range_of(*mesh_, {edges, p.first, p.second});
   };
   auto next = picked_of_patch_.begin();
   const auto end = picked_of_patch_.end();
