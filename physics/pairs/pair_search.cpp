@@ -2,6 +2,7 @@
 #include "physics/pairs/pair_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace furrow::physics {
@@ -25,7 +26,8 @@ std::vector<Centre> centres_of(const PairMesh& mesh, const FloatSweep& sweep) {
     const auto& v = mesh.triangles[t];
     const Float4 sum =
         sweep.at[std::size_t(v[0])] + sweep.at[std::size_t(v[1])] + sweep.at[std::size_t(v[2])];
-    centres.push_back({{sum[0], sum[1], sum[2]}, int(t)});
+    const bool known = std::isfinite(sum[0]) && std::isfinite(sum[1]) && std::isfinite(sum[2]);
+    centres.push_back({known ? std::array{sum[0], sum[1], sum[2]} : std::array{0.0f, 0.0f, 0.0f}, int(t)});
   }
   return centres;
 }
