@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "physics/base/require.h"
-#include "physics/pairs/box_grid.h"
 #include "physics/pairs/pair_distance.h"
 
 namespace furrow::physics {
@@ -45,22 +44,6 @@ Float4 planned_approach(const FourPairs& plan, bool edges) {
 template <class Work>
 void each_of_chunk(std::size_t n, int chunk, const Work& work) {
   work(int(std::int64_t(n) * chunk / list_chunks), int(std::int64_t(n) * (chunk + 1) / list_chunks));
-}
-
-bool share_a_vertex(const std::array<int, 4>& v, bool edges) {
-  return edges ? v[0] == v[2] || v[0] == v[3] || v[1] == v[2] || v[1] == v[3]
-               : v[0] == v[1] || v[0] == v[2] || v[0] == v[3];
-}
-
-FloatBox float_box(const LaneBox& b) {
-  return {{b.low[0], b.low[1], b.low[2]}, {b.high[0], b.high[1], b.high[2]}};
-}
-
-double mean_side(std::span<const FloatBox> boxes) {
-  double sum = 0;
-  for (const FloatBox& b : boxes)
-    sum += std::max({b.high[0] - b.low[0], b.high[1] - b.low[1], b.high[2] - b.low[2]});
-  return boxes.empty() ? 0 : sum / double(boxes.size());
 }
 
 /// Of a line, the share at which it is nearest to x, told by the vertices that count.
@@ -352,54 +335,6 @@ PairList::Lists PairList::sorted(std::span<Lists> parts) const {
   return result;
 }
 
-/// Edges of which one at least moves.
-void PairList::list_movers(std::span<const int> edges, std::span<const char> moves, Lister& lister) const {
-  const PairMesh& m = *mesh_;
-  std::vector<FloatBox> boxes;
-  for (const int e : edges) {
-    const auto& ends = m.edges[std::size_t(e)];
-    const LaneBox box = sweep_.box(ends, float(m.edge_radius[std::size_t(e)] + 2 * margin_));
-    boxes.push_back(float_box(box));
-    search_.each_edge(box, ends, [&](int other) {
-      if (!moves[std::size_t(other)]) lister.add<true>({std::min(e, other), std::max(e, other)});
-    });
-  }
-  const BoxGrid grid(boxes, std::max(m.mean_edge, mean_side(boxes)));
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    grid.each_meeting(boxes[i], int(i), [&](int number) {
-      const int e = edges[i], other = edges[std::size_t(number)];
-      const PairKey key{1, std::min(e, other), std::max(e, other)};
-      if (!share_a_vertex(vertices_of(m, key), true)) lister.add<true>({key.first, key.second});
-    });
-}
-
-/// Vertices and triangles of which one at least moves.
-void PairList::list_movers(std::span<const int> vertices, std::span<const int> triangles,
-                           std::span<const char> triangle_moves, Lister& lister) const {
-  const PairMesh& m = *mesh_;
-  std::vector<FloatBox> boxes;
-  for (const int v : vertices) {
-    const std::array own{v};
-    const LaneBox box = sweep_.box(own, float(m.radius[std::size_t(v)] + 2 * margin_));
-    boxes.push_back(float_box(box));
-    search_.each_triangle(box, own, [&](int t) {
-      if (!triangle_moves[std::size_t(t)]) lister.add<false>({v, t});
-    });
-  }
-  const BoxGrid grid(boxes, std::max(m.mean_edge, mean_side(boxes)));
-  for (const int t : triangles) {
-    const auto& corners = m.triangles[std::size_t(t)];
-    const LaneBox box = sweep_.box(corners, float(m.triangle_radius[std::size_t(t)] + 2 * margin_));
-    search_.each_vertex(box, corners, [&](int v) {
-      if (!moves_[std::size_t(v)]) lister.add<false>({v, t});
-    });
-    grid.each_meeting(float_box(box), [&](int number) {
-      const int v = vertices[std::size_t(number)];
-      if (!share_a_vertex(vertices_of(m, {0, v, t}), false)) lister.add<false>({v, t});
-    });
-  }
-}
-
 /// Boxes of movers hold 2 margins, as an end that does not move leaves its place by that much, once this way
 /// and once that. Those of the base hold it wherever it is while it is the base.
 void PairList::patch(std::span<const Vec3> x, std::span<const Vec3> way) {
@@ -415,8 +350,17 @@ void PairList::patch(std::span<const Vec3> x, std::span<const Vec3> way) {
     if (!moves_[std::size_t(v)]) base_most_ = std::max(base_most_, base_off_[std::size_t(v)]);
   Lists found;
   Lister lister(m, sweep_, patch_.x, 4 * margin_, found);
-  list_movers(movers.edges, movers.edge_moves, lister);
-  list_movers(movers.vertices, movers.triangles, movers.triangle_moves, lister);
+  const auto edges = [&](int e, int f) { lister.add<true>({std::min(e, f), std::max(e, f)}); };
+  const auto vertices = [&](int v, int t) { lister.add<false>({v, t}); };
+  const PairSearch moving =
+      search_.among(movers.edges, movers.vertices, movers.triangles, sweep_, 2 * margin_);
+  moving.each_pair(
+      0, moving.groups(), [&](const Candidate& c) { edges(c.first, c.second); },
+      [&](const Candidate& c) { vertices(c.first, c.second); });
+  moving.each_pair_with(
+      search_, [&](int e, int f) { movers.edge_moves[std::size_t(f)] ? void() : edges(e, f); },
+      [&](int v, int t) { movers.triangle_moves[std::size_t(t)] ? void() : vertices(v, t); },
+      [&](int t, int v) { moves_[std::size_t(v)] ? void() : vertices(v, t); });
   lister.finish();
   patch_pairs_ = sorted(std::span(&found, 1));
   movers_ = movers.vertices.size();

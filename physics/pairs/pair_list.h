@@ -87,9 +87,6 @@ class PairList {
   bool holds(std::span<const Vec3> x, std::span<const Vec3> way);
   void build(std::span<const Vec3> x, std::span<const Vec3> way, double margin, ThreadPool* pool);
   void patch(std::span<const Vec3> x, std::span<const Vec3> way);
-  void list_movers(std::span<const int> edges, std::span<const char> moves, Lister& lister) const;
-  void list_movers(std::span<const int> vertices, std::span<const int> triangles,
-                   std::span<const char> triangle_moves, Lister& lister) const;
 
   const PairMesh* mesh_;
   double margin_ = -1;

@@ -14,6 +14,9 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 
 LaneBox empty_box() { return {splat(infinite), splat(-infinite)}; }
 
+/// How many rows of four.
+std::size_t rows_of(std::size_t n) { return (n + 3) / 4; }
+
 struct Centre {
   std::array<float, 3> at;
   int triangle;
@@ -55,13 +58,53 @@ void put_in_order(std::span<Centre> centres) {
   put_in_order(centres.subspan(std::size_t(part)));
 }
 
-/// Takes those of the numbers that nobody took.
+/// Takes those of the numbers that no group took, for this one.
 template <std::size_t k>
-void take_new(const std::array<int, k>& numbers, std::vector<char>& taken, std::vector<int>& list) {
+void take_new(const std::array<int, k>& numbers, int group, std::vector<int>& group_of,
+              std::vector<int>& list) {
   for (const int i : numbers) {
-    if (taken[std::size_t(i)]) continue;
-    taken[std::size_t(i)] = 1;
+    if (group_of[std::size_t(i)] >= 0) continue;
+    group_of[std::size_t(i)] = group;
     list.push_back(i);
+  }
+}
+
+void sort_by_group(std::vector<int>& numbers, const std::vector<int>& group_of) {
+  std::sort(numbers.begin(), numbers.end(), [&](int a, int b) {
+    const int g = group_of[std::size_t(a)], h = group_of[std::size_t(b)];
+    return g != h ? g < h : a < b;
+  });
+}
+
+/// Of numbers in the order of their groups; none: beyond all groups.
+int first_group(std::span<const int> numbers, const std::vector<int>& group_of) {
+  return numbers.empty() ? std::numeric_limits<int>::max() : group_of[std::size_t(numbers[0])];
+}
+
+/// The first of them, which are of this group.
+std::span<const int> of_group(std::span<const int> numbers, const std::vector<int>& group_of, int group) {
+  std::size_t n = 0;
+  while (n < numbers.size() && group_of[std::size_t(numbers[n])] == group) ++n;
+  return numbers.first(n);
+}
+
+/// A vertex has itself as vertex.
+struct Itself {
+  std::array<int, 1> operator[](std::size_t i) const { return {int(i)}; }
+};
+
+/// Rows of numbers and of the vertices of these, -1 where there are no more.
+template <class Primitives, class Fours>
+void add_fours(std::span<const int> numbers, std::size_t rows, const Primitives& primitives, Fours& fours) {
+  constexpr Int4 none{-1, -1, -1, -1};
+  for (std::size_t row = 0; row < rows; ++row) {
+    fours.numbers.push_back(none);
+    fours.vertices.emplace_back().fill(none);
+    for (std::size_t i = 4 * row; i < std::min(numbers.size(), 4 * row + 4); ++i) {
+      fours.numbers.back()[i % 4] = numbers[i];
+      const auto v = primitives[std::size_t(numbers[i])];
+      for (std::size_t j = 0; j < v.size(); ++j) fours.vertices.back()[j][i % 4] = v[j];
+    }
   }
 }
 
@@ -82,9 +125,6 @@ LaneBox around(const FourBoxes& b) {
   }
   return box;
 }
-
-/// How many rows of four.
-std::size_t rows_of(std::size_t n) { return (n + 3) / 4; }
 
 }  // namespace
 
@@ -129,36 +169,24 @@ void BoxTree::assign(std::vector<FourBoxes> boxes) {
   }
 }
 
-template <std::size_t k>
-void PairSearch::add_fours(const std::vector<int>& numbers, const std::vector<std::array<int, k>>& primitives,
-                           Fours<k>& fours) const {
-  for (std::size_t i = 0; i < numbers.size(); i += 4) {
-    Int4 number{-1, -1, -1, -1};
-    std::array<Int4, k> vertices;
-    vertices.fill(number);
-    for (std::size_t j = 0; j < 4 && i + j < numbers.size(); ++j) {
-      number[j] = numbers[i + j];
-      for (std::size_t l = 0; l < k; ++l)
-        if constexpr (k == 1)
-          vertices[l][j] = numbers[i + j];
-        else
-          vertices[l][j] = primitives[std::size_t(numbers[i + j])][l];
-    }
-    fours.numbers.push_back(number);
-    fours.vertices.push_back(vertices);
-  }
+/// `triangles`: eight at most; they always fill two fours.
+void PairSearch::add_group(std::span<const int> triangles, std::span<const int> edges,
+                           std::span<const int> vertices) {
+  add_fours(edges, rows_of(edges.size()), mesh_->edges, edges_);
+  add_fours(vertices, rows_of(vertices.size()), Itself{}, vertices_);
+  add_fours(triangles, 2, mesh_->triangles, triangles_);
+  fours_of_edges_.push_back(int(edges_.numbers.size()));
+  fours_of_vertices_.push_back(int(vertices_.numbers.size()));
 }
 
 void PairSearch::make_groups(const FloatSweep& sweep) {
   const PairMesh& m = *mesh_;
   std::vector<Centre> order = centres_of(m, sweep);
   put_in_order(order);
-  edges_ = {};
-  vertices_ = {};
-  triangles_ = {};
-  fours_of_edges_.assign(1, 0);
-  fours_of_vertices_.assign(1, 0);
-  std::vector<char> edge_taken(m.edges.size(), 0), vertex_taken(m.radius.size(), 0);
+  *this = PairSearch(m);
+  edge_group_.assign(m.edges.size(), -1);
+  vertex_group_.assign(m.radius.size(), -1);
+  triangle_group_.assign(m.triangles.size(), -1);
   std::vector<int> triangles, edges, vertices;
   for (std::size_t i = 0; i < order.size(); i += group_size) {
     triangles.clear();
@@ -167,20 +195,33 @@ void PairSearch::make_groups(const FloatSweep& sweep) {
     for (std::size_t j = i; j < std::min(order.size(), i + group_size); ++j) {
       const int t = order[j].triangle;
       triangles.push_back(t);
-      take_new(m.triangle_edges[std::size_t(t)], edge_taken, edges);
-      take_new(m.triangles[std::size_t(t)], vertex_taken, vertices);
+      triangle_group_[std::size_t(t)] = groups();
+      take_new(m.triangle_edges[std::size_t(t)], groups(), edge_group_, edges);
+      take_new(m.triangles[std::size_t(t)], groups(), vertex_group_, vertices);
     }
-    add_fours(triangles, m.triangles, triangles_);
-    add_fours(edges, m.edges, edges_);
-    add_fours(vertices, std::vector<std::array<int, 1>>{}, vertices_);
-    fours_of_edges_.push_back(int(edges_.numbers.size()));
-    fours_of_vertices_.push_back(int(vertices_.numbers.size()));
+    add_group(triangles, edges, vertices);
   }
-  if (triangles_.numbers.size() % 2 == 1) {
-    const Int4 none{-1, -1, -1, -1};
-    triangles_.numbers.push_back(none);
-    triangles_.vertices.push_back({none, none, none});
+}
+
+PairSearch PairSearch::among(std::vector<int> edges, std::vector<int> vertices, std::vector<int> triangles,
+                             const FloatSweep& sweep, double margin) const {
+  PairSearch part(*mesh_);
+  sort_by_group(edges, edge_group_);
+  sort_by_group(vertices, vertex_group_);
+  sort_by_group(triangles, triangle_group_);
+  std::span<const int> e = edges, v = vertices, t = triangles;
+  while (!e.empty() || !v.empty() || !t.empty()) {
+    const int g = std::min(
+        {first_group(e, edge_group_), first_group(v, vertex_group_), first_group(t, triangle_group_)});
+    const auto es = of_group(e, edge_group_, g), vs = of_group(v, vertex_group_, g),
+               ts = of_group(t, triangle_group_, g);
+    part.add_group(ts, es, vs);
+    e = e.subspan(es.size());
+    v = v.subspan(vs.size());
+    t = t.subspan(ts.size());
   }
+  part.refit(sweep, margin);
+  return part;
 }
 
 template <std::size_t k>
@@ -240,6 +281,10 @@ void PairSearch::place(const FloatSweep& sweep, double margin) {
     make_groups(sweep);
     spread_ = spread(sweep);
   }
+  refit(sweep, margin);
+}
+
+void PairSearch::refit(const FloatSweep& sweep, double margin) {
   place_fours(sweep, mesh_->edge_radius, margin, edges_);
   place_fours(sweep, mesh_->radius, margin, vertices_);
   place_fours(sweep, mesh_->triangle_radius, margin, triangles_);

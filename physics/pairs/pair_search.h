@@ -100,32 +100,20 @@ class PairSearch {
   /// The boxes of all primitives on their way, by their radius and `margin` [m] larger. Cost: some 30 ns a
   /// triangle, five times that where groups are made.
   void place(const FloatSweep& sweep, double margin);
+  /// A search among some of the primitives alone, in the groups of this one, with boxes on their way.
+  PairSearch among(std::vector<int> edges, std::vector<int> vertices, std::vector<int> triangles,
+                   const FloatSweep& sweep, double margin) const;
   int groups() const { return int(fours_of_edges_.size()) - 1; }
 
   /// Of groups [begin, end) with those from themselves on: edges(candidate), vertices(candidate); over all
   /// groups each pair once.
   template <class Edges, class Vertices>
   void each_pair(int begin, int end, Edges&& edges, Vertices&& vertices) const;
-  /// visit(number) for each edge, vertex or triangle whose box meets this one and that has none of the given
-  /// vertices.
-  template <std::size_t n, class Visit>
-  void each_edge(const LaneBox& box, const std::array<int, n>& without, Visit&& visit) const {
-    tree_.each_meeting(box, 0, [&](int g) {
-      each_of(edges_, fours_of_edges_[std::size_t(g)], fours_of_edges_[std::size_t(g) + 1], box, without,
-              visit);
-    });
-  }
-  template <std::size_t n, class Visit>
-  void each_vertex(const LaneBox& box, const std::array<int, n>& without, Visit&& visit) const {
-    tree_.each_meeting(box, 0, [&](int g) {
-      each_of(vertices_, fours_of_vertices_[std::size_t(g)], fours_of_vertices_[std::size_t(g) + 1], box,
-              without, visit);
-    });
-  }
-  template <std::size_t n, class Visit>
-  void each_triangle(const LaneBox& box, const std::array<int, n>& without, Visit&& visit) const {
-    tree_.each_meeting(box, 0, [&](int g) { each_of(triangles_, 2 * g, 2 * g + 2, box, without, visit); });
-  }
+  /// Of all groups with all of another search: edges(own, other's), vertices(own, its triangle) and
+  /// triangles(own, its vertex).
+  template <class Edges, class Vertices, class Triangles>
+  void each_pair_with(const PairSearch& other, Edges&& edges, Vertices&& vertices,
+                      Triangles&& triangles) const;
 
  private:
   /// Primitives with k vertices, in fours.
@@ -143,9 +131,8 @@ class PairSearch {
     }
   };
   void make_groups(const FloatSweep& sweep);
-  template <std::size_t k>
-  void add_fours(const std::vector<int>& numbers, const std::vector<std::array<int, k>>& primitives,
-                 Fours<k>& fours) const;
+  void add_group(std::span<const int> triangles, std::span<const int> edges, std::span<const int> vertices);
+  void refit(const FloatSweep& sweep, double margin);
   template <std::size_t k>
   void place_fours(const FloatSweep& sweep, const std::vector<double>& radius, double margin,
                    Fours<k>& fours) const;
@@ -187,6 +174,7 @@ class PairSearch {
   Fours<1> vertices_;
   Fours<3> triangles_;                                               // two fours a group
   std::vector<int> fours_of_edges_ = {0}, fours_of_vertices_ = {0};  // where each group's begin, and the end
+  std::vector<int> edge_group_, vertex_group_, triangle_group_;      // of each primitive
   BoxTree tree_;
   double spread_ = -1;  // of the groups when they were made [m]
 };
@@ -209,6 +197,26 @@ void PairSearch::each_pair(int begin, int end, Edges&& edges, Vertices&& vertice
       if (g != other)
         each_of_groups(vertices_, fours_of_vertices_[to], fours_of_vertices_[to + 1], triangles_, 2 * g,
                        2 * g + 2, own, false, vertex_pair);
+    });
+  }
+}
+
+template <class Edges, class Vertices, class Triangles>
+void PairSearch::each_pair_with(const PairSearch& other, Edges&& edges, Vertices&& vertices,
+                                Triangles&& triangles) const {
+  const auto triangle_pair = [&](int its, int own) { triangles(own, its); };
+  for (int g = 0; g < groups(); ++g) {
+    const auto at = std::size_t(g);
+    const LaneBox own = tree_.box(g);
+    other.tree_.each_meeting(own, 0, [&](int h) {
+      const auto to = std::size_t(h);
+      const LaneBox around = other.tree_.box(h);
+      each_of_groups(edges_, fours_of_edges_[at], fours_of_edges_[at + 1], other.edges_,
+                     other.fours_of_edges_[to], other.fours_of_edges_[to + 1], around, false, edges);
+      each_of_groups(vertices_, fours_of_vertices_[at], fours_of_vertices_[at + 1], other.triangles_, 2 * h,
+                     2 * h + 2, around, false, vertices);
+      each_of_groups(other.vertices_, other.fours_of_vertices_[to], other.fours_of_vertices_[to + 1],
+                     triangles_, 2 * g, 2 * g + 2, own, false, triangle_pair);
     });
   }
 }
