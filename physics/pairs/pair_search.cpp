@@ -10,13 +10,6 @@ namespace {
 
 constexpr int group_size = 8;       // triangles
 constexpr double come_apart = 1.5;  // spread of groups, over that when they were made
-constexpr float infinite = std::numeric_limits<float>::infinity();
-
-LaneBox empty_box() { return {splat(infinite), splat(-infinite)}; }
-
-/// How many rows of four.
-std::size_t rows_of(std::size_t n) { return (n + 3) / 4; }
-
 struct Centre {
   std::array<float, 3> at;
   int triangle;
@@ -108,66 +101,7 @@ void add_fours(std::span<const int> numbers, std::size_t rows, const Primitives&
   }
 }
 
-/// Four rows of three coordinates become three lanes.
-std::array<Float4, 3> transposed(const Float4& p, const Float4& q, const Float4& r, const Float4& s) {
-  const Float4 pq = __builtin_shufflevector(p, q, 0, 4, 1, 5), rs = __builtin_shufflevector(r, s, 0, 4, 1, 5);
-  const Float4 pq2 = __builtin_shufflevector(p, q, 2, 6, 3, 7),
-               rs2 = __builtin_shufflevector(r, s, 2, 6, 3, 7);
-  return {__builtin_shufflevector(pq, rs, 0, 1, 4, 5), __builtin_shufflevector(pq, rs, 2, 3, 6, 7),
-          __builtin_shufflevector(pq2, rs2, 0, 1, 4, 5)};
-}
-
-LaneBox around(const FourBoxes& b) {
-  LaneBox box = empty_box();
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.low[k] = least(b.low[k]);
-    box.high[k] = -least(-b.high[k]);
-  }
-  return box;
-}
-
 }  // namespace
-
-void FloatSweep::assign(std::span<const Vec3> x, std::span<const Vec3> way, const Vec3& origin) {
-  at.resize(x.size());
-  plan.resize(way.size());
-  for (std::size_t i = 0; i < x.size(); ++i) at[i] = float_point(x[i], origin);
-  for (std::size_t i = 0; i < way.size(); ++i) plan[i] = float_point(way[i], Vec3::Zero());
-}
-
-LaneBox FloatSweep::box(std::span<const int> vertices, float reach) const {
-  LaneBox box{splat(infinite), splat(-infinite)};
-  for (const int number : vertices) {
-    const auto v = std::size_t(number);
-    box = {min(box.low, at[v]), max(box.high, at[v])};
-    if (plan.empty()) continue;
-    const Float4 end = at[v] + plan[v];
-    box = {min(box.low, end), max(box.high, end)};
-  }
-  const float far = reach + 4 * std::numeric_limits<float>::epsilon() * (reach + box.high[3]);
-  return {box.low - splat(far), box.high + splat(far)};
-}
-
-FourBoxes FourBoxes::of(const std::array<LaneBox, 4>& b) {
-  return {transposed(b[0].low, b[1].low, b[2].low, b[3].low),
-          transposed(b[0].high, b[1].high, b[2].high, b[3].high)};
-}
-
-void BoxTree::assign(std::vector<FourBoxes> boxes) {
-  levels_.clear();
-  levels_.push_back(std::move(boxes));
-  while (levels_.back().size() > 1) {
-    const std::vector<FourBoxes>& below = levels_.back();
-    std::vector<FourBoxes> level;
-    level.reserve(rows_of(below.size()));
-    for (std::size_t i = 0; i < below.size(); i += 4) {
-      std::array<LaneBox, 4> four;
-      for (std::size_t j = 0; j < 4; ++j) four[j] = i + j < below.size() ? around(below[i + j]) : empty_box();
-      level.push_back(FourBoxes::of(four));
-    }
-    levels_.push_back(std::move(level));
-  }
-}
 
 /// `triangles`: eight at most; they always fill two fours.
 void PairSearch::add_group(std::span<const int> triangles, std::span<const int> edges,
@@ -253,7 +187,7 @@ std::vector<FourBoxes> PairSearch::group_boxes() const {
       for (int f = fours_of_edges_[g]; f < fours_of_edges_[g + 1]; ++f) all.add(edges_.boxes[std::size_t(f)]);
       for (int f = fours_of_vertices_[g]; f < fours_of_vertices_[g + 1]; ++f)
         all.add(vertices_.boxes[std::size_t(f)]);
-      four[j] = around(all);
+      four[j] = all.all();
     }
     boxes[i] = FourBoxes::of(four);
   }

@@ -2,6 +2,7 @@
 furrow_add_tests(pairs physics LIBRARIES furrow::physics cases SOURCES
   pairs/barrier_test.cpp
   pairs/box_grid_test.cpp
+  pairs/box_tree_test.cpp
   pairs/cloth_contact_test.cpp
   pairs/edge_face_crossings_test.cpp
   pairs/pair_bounds_test.cpp

@@ -114,25 +114,3 @@ TEST_CASE(
   }
   CHECK(seen > 10000);
 }
-
-TEST_CASE("pair_search: boxes hold their vertices on their way, far from the origin, too") {
-  Noise noise(5);
-  for (int i = 0; i < 1000; ++i) {
-    const double scale = std::pow(10.0, i % 7 - 3);
-    std::vector<Vec3> x(3), way(3);
-    for (Vec3& p : x) p = scale * noise.vector();
-    for (Vec3& w : way) w = 0.3 * scale * noise.vector();
-    FloatSweep sweep;
-    const Vec3 origin(0.1, 0.2, -0.3);
-    sweep.assign(x, way, origin);
-    const double reach = 1e-3;
-    const LaneBox box = sweep.box(std::array{0, 1, 2}, float(reach));
-    for (std::size_t v = 0; v < 3; ++v)
-      for (const double s : {0.0, 0.4, 1.0})
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double p = (x[v] + s * way[v] - origin)[int(k)];
-          CHECK(double(box.low[k]) <= p - reach);
-          CHECK(double(box.high[k]) >= p + reach);
-        }
-  }
-}
