@@ -32,10 +32,12 @@ PairDistance distance_of(bool edges, const std::array<Vec3, 4>& x) {
                : vertex_triangle_distance(x[0], x[1], x[2], x[3]);
 }
 
+std::size_t chunks_of(std::size_t n) { return (n + pair_chunk - 1) / pair_chunk; }
+
 /// Runs work(chunk, begin, end) over [0, n) by chunks of a fixed size.
 template <class Work>
 void by_chunks(std::size_t n, ThreadPool* pool, const Work& work) {
-  const int chunks = int((n + pair_chunk - 1) / pair_chunk);
+  const int chunks = int(chunks_of(n));
   const auto one = [&](int c, int) {
     work(std::size_t(c), std::size_t(c) * pair_chunk, std::min(n, std::size_t(c + 1) * pair_chunk));
   };
@@ -43,7 +45,37 @@ void by_chunks(std::size_t n, ThreadPool* pool, const Work& work) {
   for (int c = 0; c < chunks; ++c) one(c, 0);
 }
 
+/// All four are so far apart that a move of this much of their approach leads to a tenth of the lesser of
+/// their distance and their range at most: time_of_impact() would be 1.
+unsigned surely_free(const FourPairs& x, const FourPairs& move, std::span<const ListedPair> pairs, bool edges,
+                     float most) {
+  const Separation apart = edges ? edge_edge_separation(x) : vertex_triangle_separation(x);
+  const Float4 approach = splat(most) * relative_approach(move, edges);
+  Float4 left = splat(0);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const float distance = apart.bound(i);
+    left[i] = distance - 0.1001f * std::min(distance, float(pairs[i].range));
+  }
+  return bits_of((left > splat(0)) & (approach < left));
+}
+
 }  // namespace
+
+/// Finds special pairs, asked for in the order of keys.
+class ClothContact::Ranges {
+ public:
+  Ranges(std::span<const SpecialPair> special, const PairKey& first)
+      : next_(std::lower_bound(special.begin(), special.end(), first,
+                               [](const SpecialPair& p, const PairKey& k) { return p.key < k; })),
+        end_(special.end()) {}
+  double now(const ListedPair& pair) {
+    while (next_ != end_ && next_->key < pair.key) ++next_;
+    return next_ != end_ && next_->key == pair.key ? next_->range : pair.range;
+  }
+
+ private:
+  std::span<const SpecialPair>::iterator next_, end_;
+};
 
 bool ClothContact::active_before(const ActivePair& a, const ActivePair& b) { return a.key < b.key; }
 
@@ -65,10 +97,9 @@ ClothContact::ClothContact(const Cloth& cloth, const ClothContactOptions& option
 }
 
 /// Pairs that are nearer than their range at x.
-void ClothContact::note_near(std::span<const Vec3> x, bool at_start, ThreadPool* pool) {
-  PairList list(mesh_);
+void ClothContact::note_near(std::span<const Vec3> x, bool at_start, PairList& list, ThreadPool* pool) {
   for (const ListedPair& p : list.near(x, {}, 0, pool)) {
-    const double distance = p.bound + p.range;
+    const double distance = (std::sqrt(distance_of(p, x).squared()) - p.range) + p.range;
     const bool touches = distance < as_touching;
     const double range = touches ? 0 : start_share * distance;
     special_.push_back({p.key, range, at_start || touches ? p.range : range});
@@ -91,8 +122,9 @@ void ClothContact::find_special(std::span<const Vec3> x, std::span<const Vec3> d
     if (core[std::size_t(a)]) loose_[std::size_t(b)] = 1;
     if (core[std::size_t(b)]) loose_[std::size_t(a)] = 1;
   }
-  note_near(x, true, pool);
-  if (!drawn.empty()) note_near(drawn, false, pool);
+  PairList list(mesh_);  // its margin is none, so it is made anew for each
+  note_near(x, true, list, pool);
+  if (!drawn.empty()) note_near(drawn, false, list, pool);
   const auto by_key = [](const SpecialPair& a, const SpecialPair& b) { return a.key < b.key; };
   std::stable_sort(special_.begin(), special_.end(), by_key);
   std::size_t kept = 0;
@@ -184,27 +216,36 @@ std::span<const ListedPair> ClothContact::pairs_on_way(std::span<const Vec3> x, 
   return near(x, way, pool);
 }
 
-/// Of `most` of the move, by each pair.
-std::vector<double> ClothContact::shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
-                                         std::span<const Vec3> move, double most, ThreadPool* pool) const {
-  std::vector<double> result(pairs.size(), 1.0);
+/// Of `most` of the move, by each pair; valid until the next call.
+const std::vector<double>& ClothContact::shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
+                                                std::span<const Vec3> move, double most, ThreadPool* pool) {
+  shares_.assign(pairs.size(), 1.0);
+  if (pairs.empty()) return shares_;
+  lanes_.assign(x, move, x[std::size_t(pairs[0].vertices[0])]);
+  const auto slow = [&](const ListedPair& pair, double range) {
+    MovingPair moving{pair.key.edges == 1, corners_of(pair.vertices, x), corners_of(pair.vertices, move)};
+    for (Vec3& m : moving.move) m *= most;
+    return time_of_impact(moving, range);
+  };
   by_chunks(pairs.size(), pool, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const double range = range_now(pairs[i]);
-      if (!(range > 0)) continue;
-      MovingPair moving{pairs[i].key.edges == 1, corners_of(pairs[i].vertices, x),
-                        corners_of(pairs[i].vertices, move)};
-      for (Vec3& m : moving.move) m *= most;
-      result[i] = time_of_impact(moving, range);
-    }
+    Ranges ranges(special_, pairs[begin].key);
+    each_four(pairs.subspan(begin, end - begin), [&](std::span<const ListedPair> four, bool edges) {
+      const unsigned free =
+          surely_free(four_of(four, lanes_.at), four_of(four, lanes_.plan), four, edges, float(most));
+      for (std::size_t i = 0; i < four.size(); ++i) {
+        if (free >> i & 1u) continue;
+        const double range = ranges.now(four[i]);
+        if (range > 0) shares_[std::size_t(&four[i] - pairs.data())] = slow(four[i], range);
+      }
+    });
   });
-  return result;
+  return shares_;
 }
 
 double ClothContact::safe_share(std::span<const Vec3> x, std::span<const Vec3> move, double most,
                                 ThreadPool* pool) {
   const std::span<const ListedPair> pairs = pairs_on_way(x, move, most, pool);
-  const std::vector<double> share = shares(pairs, x, move, most, pool);
+  const std::vector<double>& share = shares(pairs, x, move, most, pool);
   braced_.clear();
   double least = 1;
   PairKey first{};
@@ -227,7 +268,7 @@ int ClothContact::approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPo
   for (int round = 0; round < most_rounds_of_approach; ++round) {
     for (std::size_t i = 0; i < x.size(); ++i) way[i] = stopped[i] ? Vec3::Zero() : Vec3(to[i] - x[i]);
     const std::span<const ListedPair> pairs = pairs_on_way(x, way, 1, pool);
-    const std::vector<double> share = shares(pairs, x, way, 1, pool);
+    const std::vector<double>& share = shares(pairs, x, way, 1, pool);
     const double least = share.empty() ? 1 : std::min(1.0, *std::min_element(share.begin(), share.end()));
     for (std::size_t i = 0; i < x.size(); ++i)
       if (!stopped[i]) x[i] = least == 1 ? to[i] : Vec3(x[i] + least * way[i]);
@@ -249,19 +290,39 @@ ActivePair ClothContact::brace(const ListedPair& pair, std::span<const Vec3> x) 
   return {pair.key, pair.vertices, d.weights, {}, normal, distance, 0, stiffness};
 }
 
-std::optional<ActivePair> ClothContact::touch(const ListedPair& pair, std::span<const Vec3> x) const {
-  const std::array<Vec3, 4> at = corners_of(pair.vertices, x);
-  const PairDistance d = distance_of(pair.key.edges, at);
-  const double squared = d.squared();
-  if (!(squared < pair.range * pair.range)) return {};
-  const double range = range_now(pair), distance = std::sqrt(squared);
-  if (!(distance < range)) return {};
-  const Barrier b = barrier(distance, range, options_.stiffness);
+/// Of the pairs [begin, end).
+void ClothContact::find_touching(std::span<const ListedPair> pairs, std::span<const Vec3> x,
+                                 std::size_t begin, std::size_t end, std::vector<Touching>& found) const {
+  found.clear();
+  Ranges ranges(special_, pairs[begin].key);
+  each_four(pairs.subspan(begin, end - begin), [&](std::span<const ListedPair> four, bool edges) {
+    const FourPairs at = four_of(four, lanes_.at);
+    Float4 range = splat(0);
+    for (std::size_t i = 0; i < four.size(); ++i) range[i] = float(four[i].range);
+    const Separation apart = edges ? edge_edge_separation(at) : vertex_triangle_separation(at);
+    const unsigned beyond = bits_of(apart.beyond(splat(1.000001f) * range));
+    for (std::size_t i = 0; i < four.size(); ++i) {
+      if (beyond >> i & 1u) continue;
+      const PairDistance d = distance_of(four[i], x);
+      const double squared = d.squared();
+      if (!(squared < four[i].range * four[i].range)) continue;
+      const double now = ranges.now(four[i]);
+      if (std::sqrt(squared) < now) found.push_back({std::size_t(&four[i] - pairs.data()), now, d});
+    }
+  });
+}
+
+ActivePair ClothContact::answer(const ListedPair& pair, const Touching& touching,
+                                std::span<const Vec3> x) const {
+  const PairDistance& d = touching.distance;
+  const double distance = std::sqrt(d.squared());
+  const Barrier b = barrier(distance, touching.range, options_.stiffness);
   ActivePair found{pair.key, pair.vertices, d.weights, {}, Vec3::Zero(), distance, b.energy, b.stiffness};
   if (!(distance > 0)) return found;
   found.normal = d.across / distance;
   ParallelShare share;
   if (pair.key.edges) {
+    const std::array<Vec3, 4> at = corners_of(pair.vertices, x);
     const Vec3 e1 = at[1] - at[0], e2 = at[3] - at[2];
     share = parallel_share(
         e1, e2,
@@ -280,16 +341,23 @@ std::optional<ActivePair> ClothContact::touch(const ListedPair& pair, std::span<
   return found;
 }
 
+/// Pairs are listed in the order of their keys, and so are those that touch.
 void ClothContact::look(std::span<const Vec3> x, ThreadPool* pool) {
   const std::span<const ListedPair> pairs = near(x, {}, pool);
-  std::vector<std::vector<ActivePair>> found(pairs.size() / pair_chunk + 1);
+  if (!pairs.empty()) lanes_.assign(x, {}, x[std::size_t(pairs[0].vertices[0])]);
+  touching_.resize(std::max(touching_.size(), chunks_of(pairs.size())));
   by_chunks(pairs.size(), pool, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (const auto pair = touch(pairs[i], x)) found[chunk].push_back(*pair);
+    find_touching(pairs, x, begin, end, touching_[chunk]);
   });
-  active_.clear();
-  for (const auto& part : found) active_.insert(active_.end(), part.begin(), part.end());
-  std::sort(active_.begin(), active_.end(), active_before);
+  std::vector<std::size_t> first(chunks_of(pairs.size()) + 1, 0);
+  for (std::size_t c = 0; c + 1 < first.size(); ++c) first[c + 1] = first[c] + touching_[c].size();
+  active_.resize(first.back());
+  by_chunks(pairs.size(), pool, [&](std::size_t chunk, std::size_t, std::size_t) {
+    for (std::size_t i = 0; i < touching_[chunk].size(); ++i) {
+      const Touching& t = touching_[chunk][i];
+      active_[first[chunk] + i] = answer(pairs[t.listed], t, x);
+    }
+  });
   energy_ = 0;
   for (const ActivePair& p : active_) energy_ += p.energy;
   friction_.look(x);

@@ -92,17 +92,26 @@ class ClothContact {
   const PairMesh& mesh() const { return mesh_; }
 
  private:
+  /// A listed pair that is nearer than its range now.
+  struct Touching {
+    std::size_t listed;
+    double range;  ///< [m]
+    PairDistance distance;
+  };
+  class Ranges;
   static bool active_before(const ActivePair& a, const ActivePair& b);
   void find_special(std::span<const Vec3> x, std::span<const Vec3> drawn, ThreadPool* pool);
-  void note_near(std::span<const Vec3> x, bool at_start, ThreadPool* pool);
+  void note_near(std::span<const Vec3> x, bool at_start, PairList& list, ThreadPool* pool);
   const SpecialPair* special_of(const PairKey& key) const;
   bool is_loose(const EdgeFaceCrossing& crossing) const;
   std::vector<PairKey> crossed_now(std::span<const Vec3> x) const;
   double range_now(const ListedPair& pair) const;
   ActivePair brace(const ListedPair& pair, std::span<const Vec3> x) const;
-  std::optional<ActivePair> touch(const ListedPair& pair, std::span<const Vec3> x) const;
-  std::vector<double> shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
-                             std::span<const Vec3> move, double most, ThreadPool* pool) const;
+  void find_touching(std::span<const ListedPair> pairs, std::span<const Vec3> x, std::size_t begin,
+                     std::size_t end, std::vector<Touching>& found) const;
+  ActivePair answer(const ListedPair& pair, const Touching& touching, std::span<const Vec3> x) const;
+  const std::vector<double>& shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
+                                    std::span<const Vec3> move, double most, ThreadPool* pool);
   std::span<const ListedPair> near(std::span<const Vec3> x, std::span<const Vec3> way, ThreadPool* pool);
   std::span<const ListedPair> pairs_on_way(std::span<const Vec3> x, std::span<const Vec3> move, double most,
                                            ThreadPool* pool);
@@ -112,8 +121,11 @@ class ClothContact {
   PairList list_{mesh_};
   std::vector<SpecialPair> special_;  ///< sorted by key
   std::vector<char> loose_;           ///< by vertex: something crossed there at the start, or next to it
-  std::vector<ActivePair> active_;    ///< sorted by key
-  std::vector<ActivePair> braced_;    ///< that cut the last way short
+  FloatSweep lanes_;                  ///< where it was looked last, and the move that was asked for
+  std::vector<std::vector<Touching>> touching_;  ///< by chunks; kept for its memory
+  std::vector<double> shares_;                   ///< likewise
+  std::vector<ActivePair> active_;               ///< sorted by key
+  std::vector<ActivePair> braced_;               ///< that cut the last way short
   PairFriction friction_;
   double energy_ = 0, margin_share_;
   int cut_searches_ = 0, blocked_ = 0, crossed_at_start_ = 0;

@@ -42,11 +42,13 @@ PairDistance between(const Vec3& ba, const Vec3& e, const Vec3& f, double s, dou
 /// The nearest pair of points of which one is an end.
 PairDistance at_ends(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1) {
   const Vec3 ba = a0 - b0, e = a1 - a0, f = b1 - b0;
-  const PairDistance a =
-      nearer(between(ba, e, f, 0, along(a0, b0, f)), between(ba, e, f, 1, along(a1, b0, f)));
-  const PairDistance b =
-      nearer(between(ba, e, f, along(b0, a0, e), 0), between(ba, e, f, along(b1, a0, e), 1));
-  return nearer(a, b);
+  const std::array<double, 4> s = {0, 1, along(b0, a0, e), along(b1, a0, e)},
+                              t = {along(a0, b0, f), along(a1, b0, f), 0, 1};
+  std::array<double, 4> squared;
+  for (std::size_t i = 0; i < 4; ++i) squared[i] = Vec3(ba + s[i] * e - t[i] * f).squaredNorm();
+  const std::size_t a = squared[1] < squared[0] ? 1 : 0, b = squared[3] < squared[2] ? 3 : 2;
+  const std::size_t best = squared[b] < squared[a] ? b : a;
+  return between(ba, e, f, s[best], t[best]);
 }
 
 }  // namespace

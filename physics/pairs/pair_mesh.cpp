@@ -68,13 +68,37 @@ double least_altitude(std::array<double, 3> l) {
   return area2 > 0 && l[2] > 0 ? 2 * std::sqrt(area2) / l[2] : 0;
 }
 
-void find_radii(PairMesh& mesh) {
-  const auto length = [&mesh](int a, int b) {
-    const auto at = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), ordered(a, b));
-    return mesh.rest_lengths[std::size_t(at - mesh.edges.begin())];
-  };
+/// Which edges triangles have, and which triangles are around a vertex.
+void find_neighbours(PairMesh& mesh) {
+  const std::size_t n = mesh.radius.size();
+  std::vector<int> first(n + 1, 0);
+  for (const Edge& e : mesh.edges) ++first[std::size_t(e[0]) + 1];
+  for (std::size_t v = 0; v < n; ++v) first[v + 1] += first[v];
+  mesh.around_begin.assign(n + 1, 0);
   for (const auto& t : mesh.triangles) {
-    const double altitude = least_altitude({length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])});
+    std::array<int, 3> edges;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Edge edge = ordered(t[i], t[(i + 1) % 3]);
+      edges[i] = first[std::size_t(edge[0])];
+      while (mesh.edges[std::size_t(edges[i])] != edge) ++edges[i];
+      ++mesh.around_begin[std::size_t(t[i]) + 1];
+    }
+    mesh.triangle_edges.push_back(edges);
+  }
+  for (std::size_t v = 0; v < n; ++v) mesh.around_begin[v + 1] += mesh.around_begin[v];
+  std::vector<int> next(mesh.around_begin.begin(), mesh.around_begin.end() - 1);
+  mesh.around.resize(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int v : mesh.triangles[t]) mesh.around[std::size_t(next[std::size_t(v)]++)] = int(t);
+}
+
+void find_radii(PairMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    const auto length = [&](std::size_t k) {
+      return mesh.rest_lengths[std::size_t(mesh.triangle_edges[i][k])];
+    };
+    const double altitude = least_altitude({length(0), length(1), length(2)});
     for (const int v : t) {
       double& r = mesh.radius[std::size_t(v)];
       r = std::min(r, share_of_altitude * altitude);
@@ -108,22 +132,9 @@ PairMesh pair_mesh(const Cloth& cloth, double thickness, std::span<const double>
   mesh.used.assign(n, 0);
   for (const double w : cloth.particles.inv_mass) mesh.held.push_back(!(w > 0));
   find_edges(mesh, cloth);
+  find_neighbours(mesh);
   find_radii(mesh);
   return mesh;
-}
-
-std::array<int, 4> vertices_of(const PairMesh& mesh, const PairKey& key) {
-  if (key.edges) {
-    const auto &a = mesh.edges[std::size_t(key.first)], &b = mesh.edges[std::size_t(key.second)];
-    return {a[0], a[1], b[0], b[1]};
-  }
-  const auto& t = mesh.triangles[std::size_t(key.second)];
-  return {key.first, t[0], t[1], t[2]};
-}
-
-double range_of(const PairMesh& mesh, const PairKey& key) {
-  return key.edges ? mesh.edge_radius[std::size_t(key.first)] + mesh.edge_radius[std::size_t(key.second)]
-                   : mesh.radius[std::size_t(key.first)] + mesh.triangle_radius[std::size_t(key.second)];
 }
 
 }  // namespace furrow::physics

@@ -11,18 +11,20 @@ namespace furrow::physics {
 
 /// What of a cloth can touch: its triangles, their edges and vertices, and how thick it is there.
 struct PairMesh {
-  std::vector<std::array<int, 3>> triangles;  ///< as the cloth's
-  std::vector<std::array<int, 2>> edges;      ///< of the triangles, (a, b) with a < b, sorted, each once
-  std::vector<double> rest_lengths;           ///< of the edges [m]; > 0 unless two vertices coincide
+  std::vector<std::array<int, 3>> triangles;       ///< as the cloth's
+  std::vector<std::array<int, 2>> edges;           ///< of the triangles, (a, b) with a < b, sorted, each once
+  std::vector<std::array<int, 3>> triangle_edges;  ///< numbers; edge i begins at a triangle's corner i
+  std::vector<double> rest_lengths;                ///< of the edges [m]; > 0 unless two vertices coincide
   /// Half of the cloth's thickness, of each vertex: a quarter of the least rest altitude of its triangles at
   /// most, so that flat cloth at rest does not touch itself; of edges and triangles the least of their
   /// vertices [m].
   std::vector<double> radius, edge_radius, triangle_radius;
-  std::vector<char> held;     ///< by vertex: it does not move
-  std::vector<char> used;     ///< by vertex: a triangle has it
-  std::vector<int> group;     ///< by vertex: what is of two groups does not touch; empty: all is of one
-  double mean_edge = 0;       ///< h [m]
-  double largest_radius = 0;  ///< [m]
+  std::vector<char> held;                 ///< by vertex: it does not move
+  std::vector<char> used;                 ///< by vertex: a triangle has it
+  std::vector<int> around, around_begin;  ///< triangles around vertices, and where each vertex's begin
+  std::vector<int> group;                 ///< by vertex: two groups do not touch; empty: all is one
+  double mean_edge = 0;                   ///< h [m]
+  double largest_radius = 0;              ///< [m]
 };
 
 /// Whether a mesh lets what has one vertex touch what has the other.
@@ -42,8 +44,18 @@ struct PairKey {
   auto operator<=>(const PairKey&) const = default;
 };
 /// Its vertices as PairDistance has them.
-std::array<int, 4> vertices_of(const PairMesh& mesh, const PairKey& key);
+inline std::array<int, 4> vertices_of(const PairMesh& mesh, const PairKey& key) {
+  if (key.edges) {
+    const auto &a = mesh.edges[std::size_t(key.first)], &b = mesh.edges[std::size_t(key.second)];
+    return {a[0], a[1], b[0], b[1]};
+  }
+  const auto& t = mesh.triangles[std::size_t(key.second)];
+  return {key.first, t[0], t[1], t[2]};
+}
 /// The distance from which on the two do not touch [m].
-double range_of(const PairMesh& mesh, const PairKey& key);
+inline double range_of(const PairMesh& mesh, const PairKey& key) {
+  return key.edges ? mesh.edge_radius[std::size_t(key.first)] + mesh.edge_radius[std::size_t(key.second)]
+                   : mesh.radius[std::size_t(key.first)] + mesh.triangle_radius[std::size_t(key.second)];
+}
 
 }  // namespace furrow::physics

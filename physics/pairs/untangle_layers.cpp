@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "physics/base/require.h"
 #include "physics/pairs/edge_face_crossings.h"
@@ -60,9 +62,12 @@ class Untangler {
     State state{between_layers()};
     if (!state.crossings.empty()) return state;
     for (const ListedPair& p : list_.near(x_, {}, 0))
-      if (outer_begins(p) >= 0 && p.bound < (too_near - 1) * p.range) state.near.push_back(p);
+      if (outer_begins(p) >= 0 && bound_of(p) < (too_near - 1) * p.range) state.near.push_back(p);
     return state;
   }
+
+  /// Its distance, less its range [m].
+  double bound_of(const ListedPair& p) const { return std::sqrt(distance_of(p, x_).squared()) - p.range; }
 
   /// Which of a pair's vertices is the first of the outer primitive; -1: both are of one layer.
   int outer_begins(const ListedPair& p) const {
@@ -86,7 +91,7 @@ class Untangler {
         if (!is_outer(i)) continue;
         const std::size_t v = std::size_t(p.vertices[std::size_t(i)]);
         way[v] += out.normalized();
-        farthest[v] = std::max(farthest[v], -p.bound);
+        farthest[v] = std::max(farthest[v], -bound_of(p));
       }
     }
     for (std::size_t i = 0; i < way.size(); ++i)

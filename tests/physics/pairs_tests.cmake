@@ -2,12 +2,15 @@
 furrow_add_tests(pairs physics LIBRARIES furrow::physics cases SOURCES
   pairs/barrier_test.cpp
   pairs/box_grid_test.cpp
+  pairs/box_tree_test.cpp
   pairs/cloth_contact_test.cpp
   pairs/edge_face_crossings_test.cpp
+  pairs/pair_bounds_test.cpp
   pairs/pair_distance_test.cpp
   pairs/pair_friction_test.cpp
   pairs/pair_list_test.cpp
   pairs/pair_mesh_test.cpp
+  pairs/pair_search_test.cpp
   pairs/time_of_impact_test.cpp
   pairs/untangle_contours_test.cpp
   pairs/untangle_layers_test.cpp

@@ -147,7 +147,7 @@ TEST_CASE("pair_list: two threads find the same pairs in the same order, and hel
   REQUIRE(one.size() == other.size());
   CHECK(one.size() > 500);
   for (std::size_t i = 0; i < one.size(); ++i) {
-    CHECK(one[i].bound == other[i].bound);
+    CHECK(one[i].range == other[i].range);
     CHECK(one[i].key == other[i].key);
   }
   for (double& w : cloth.particles.inv_mass) w = 0;
