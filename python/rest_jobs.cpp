@@ -150,6 +150,8 @@ const Keywords<KeepCall>& keep_rows() {
          &jobs::KeepJob::settle),
       no("no_help", "no press, struts or lower height where the rest state does not hold",
          &jobs::KeepJob::help),
+      no("fast", "searches for rest alone: what is called held is so at rest, and may be lost in motion",
+         &jobs::KeepJob::prove),
       row<KeepCall>(
           "whole", "press what lies between the lines, too, where it could give way",
           [](auto& c) -> auto& { return c.job.whole; }),

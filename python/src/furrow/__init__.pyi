@@ -257,6 +257,7 @@ def keep(
     no_balance: Optional[bool] = None,
     no_settle: Optional[bool] = None,
     no_help: Optional[bool] = None,
+    fast: Optional[bool] = None,
     whole: Optional[bool] = None,
     output: Optional[Path] = None,
     save_state: Optional[Path] = None,
