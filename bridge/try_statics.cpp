@@ -14,6 +14,8 @@ using physics::Vec3;
 constexpr double overshoot = 1.15;      // of the gust, by which cloth in motion swings out farther
 constexpr double longest_move = 0.005;  // m: a search shall not step over what holds a fold
 
+constexpr int most_iterations = 60;  // of a search: what moves on then is measured where it is
+
 physics::SettleOptions options_of(const KeepOptions& o, physics::SettleWork& work) {
   physics::SettleOptions settle;
   settle.gravity = o.run.gravity;
@@ -21,6 +23,7 @@ physics::SettleOptions options_of(const KeepOptions& o, physics::SettleWork& wor
   settle.gap = o.run.contact_gap;
   settle.threads = o.run.threads;
   settle.longest_move = longest_move;
+  settle.max_iterations = most_iterations;
   settle.work = &work;
   return settle;
 }

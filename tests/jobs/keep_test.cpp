@@ -189,7 +189,7 @@ TEST_CASE("keep: cancelled before its first rest state a job writes nothing, lat
   CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
 }
 
-TEST_CASE("keep: each trial is told by its number, and goes forwards only") {
+TEST_CASE("keep: each trial is told by its number, and goes forwards only", "[release]") {
   jobs::KeepJob job = sheet_over_ball(0.121, 0.09, "rigidity = 1e-4\n");
   job.seconds = 0.02;
   tests::Recorder recorder;

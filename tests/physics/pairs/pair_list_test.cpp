@@ -103,7 +103,8 @@ TEST_CASE("pair_list: on a way, and where it is kept beside it, no pair that tou
   CHECK(seen > 1000);
 }
 
-TEST_CASE("pair_list: where a few vertices go far, only theirs are looked for anew, and none is missing") {
+TEST_CASE("pair_list: where a few vertices go far, only theirs are looked for anew, and none is missing",
+          "[release]") {
   std::size_t seen = 0;
   int builds = 0, patches = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
