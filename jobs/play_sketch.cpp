@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bridge/convert.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/body_places.h"
 #include "jobs/sketch_rounds.h"
 

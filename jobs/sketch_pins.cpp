@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "geometry/mesh/border_loops.h"
+#include "jobs/read_inputs.h"
 #include "jobs/run/pins.h"
 
 namespace furrow::jobs {

@@ -11,6 +11,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "geometry/refine/subdivide.h"
+#include "geometry/rest/rest_metric.h"
 #include "geometry/rest/rest_state.h"
 #include "geometry/rest/spread_warp.h"
 #include "tests/test_meshes.h"
