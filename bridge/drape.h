@@ -6,6 +6,7 @@
 
 #include "geometry/mesh/mesh.h"
 #include "physics/body/collider.h"
+#include "physics/pairs/untangle_contours.h"
 #include "physics/rest/settle.h"
 
 namespace furrow::bridge {
@@ -53,28 +54,13 @@ struct EnergyParts {
   double total() const { return stretch + bending + ties + weight + contact; }
 };
 
-/// What contact of cloth with cloth took apart before a search, where a garment crossed itself.
-struct TakenApart {
-  /// A line along which it went on crossing itself.
-  struct Line {
-    physics::Vec3 middle;  ///< [m]
-    double length;         ///< [m]
-    int edges;             ///< that pass through faces
-  };
-  int at_start = 0;              ///< edges that passed through faces
-  int left = 0;                  ///< that could not be taken apart
-  int rounds = 0;                ///< of moves
-  double farthest = 0;           ///< way of a vertex in them [m]
-  std::vector<Line> lines = {};  ///< what is left, longest first
-};
-
 struct DrapeLevel {
   std::size_t vertices = 0;
-  physics::PushOutReport pushed;  ///< out of the body before it began
-  int stopped = 0;                ///< vertices that cloth kept from where they were to begin
-  TakenApart untangled;           ///< where it crossed itself then
-  physics::SettleReport settle;   ///< iterations of the plain scheme: its passes
-  physics::SettleReport soft;     ///< of the search before, with a soft_start
+  physics::PushOutReport pushed;     ///< out of the body before it began
+  int stopped = 0;                   ///< vertices that cloth kept from where they were to begin
+  physics::ContourReport untangled;  ///< where it crossed itself then, with contact of cloth with cloth
+  physics::SettleReport settle;      ///< iterations of the plain scheme: its passes
+  physics::SettleReport soft;        ///< of the search before, with a soft_start
 };
 struct DrapeReport {
   std::vector<DrapeLevel> levels;  ///< coarse to fine

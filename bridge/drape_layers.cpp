@@ -111,7 +111,7 @@ void rest_alone(physics::Cloth& own, const physics::Collider* body, const DrapeO
 }
 
 /// Of all garments together.
-void add_taken_apart(const TakenApart& now, TakenApart& all) {
+void add_garment(const physics::ContourReport& now, physics::ContourReport& all) {
   all.at_start += now.at_start;
   all.left += now.left;
   all.rounds += now.rounds;
@@ -146,7 +146,7 @@ void begin_alone(std::span<LayerGarment> garments, const Ended& ended, const phy
     told.pushed.farthest = std::max(told.pushed.farthest, level.pushed.farthest);
     told.pushed.still_inside += level.pushed.still_inside;
     told.stopped += level.stopped;
-    add_taken_apart(level.untangled, told.untangled);
+    add_garment(level.untangled, told.untangled);
     if (ended.coarse.empty()) rest_alone(own, body, o, start, told);
     first += count;
   }

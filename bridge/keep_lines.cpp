@@ -220,7 +220,10 @@ class Keeper {
     tally.drift = trial.drift;
     tally.interrupted = tally.interrupted || trial.stopped;
     const Flags weak = weak_lines(found);
-    if (!o_.prove || tally.interrupted || (may_end && any(weak))) return weak;
+    if (!o_.prove) return weak;
+    found.outcome.kept.assign(weak.size(), NAN);  // until motion says it, whatever ends the search
+    found.outcome.kept_gust.assign(weak.size(), NAN);
+    if (tally.interrupted || (may_end && any(weak))) return weak;
     return run_forward(found, may_end, tally);
   }
 

@@ -20,7 +20,8 @@ void require_legal(const KeepOptions& o) {
   need(o.kept > 0 && o.kept < 1, "kept", o.kept);
   need(o.largest_turn >= 0, "largest_turn", o.largest_turn);
   need(o.height_trials >= 0, "height_trials", o.height_trials);
-  need(o.statics || o.prove, "neither statics nor prove: statics", o.statics);
+  if (!o.statics && !o.prove)
+    physics::refuse("keep_lines", "statics and prove are both false: nothing would be tried");
   double last = 1;
   for (const double factor : o.presses)
     need(factor > last, "presses do not rise above 1", factor), last = factor;

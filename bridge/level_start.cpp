@@ -29,20 +29,14 @@ class GuardedStart {
   }
 
   /// Where the cloth crosses itself, it is taken apart; `to` goes with it. Adds to what is told.
-  void take_apart(std::vector<Vec3>& to, TakenApart& told) {
+  void take_apart(std::vector<Vec3>& to, physics::ContourReport& told) {
     if (contact_->crossed_at_start() == 0) return;
     const std::vector<Vec3> before = x_;
     const physics::ContourReport found =
         physics::untangle_contours(x_, physics::pair_mesh(cloth_, thickness_));
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += x_[i] - before[i];
     look();
-    if (told.at_start == 0) told.at_start = found.at_start;
-    told.left = found.left;
-    told.rounds += found.rounds;
-    told.farthest = std::max(told.farthest, found.farthest);
-    told.lines.clear();
-    for (const physics::CrossingLine& l : found.lines)
-      told.lines.push_back({l.middle, l.length, l.crossings});
+    physics::add_later(found, told);
   }
 
   /// `to` becomes what can be reached of it. Returns how many vertices do not arrive.
@@ -69,11 +63,7 @@ class GuardedStart {
 
 void disturb(physics::Cloth& cloth, const Disturbance& d) {
   std::vector<Vec3>& x = cloth.particles.x;
-  std::vector<Vec3> normal(x.size(), Vec3::Zero());
-  for (const auto& [a, b, c] : cloth.triangles) {
-    const Vec3 n = (x[b] - x[a]).eval().cross((x[c] - x[a]).eval());
-    for (const int corner : {a, b, c}) normal[std::size_t(corner)] += n;
-  }
+  const std::vector<Vec3> normal = physics::vertex_normals(cloth.triangles, x);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double length = normal[i].norm();
     if (cloth.particles.inv_mass[i] > 0 && length > 0)

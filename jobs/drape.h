@@ -160,7 +160,7 @@ struct Draped {
   bool contact_tried = false;           ///< it was looked for how it rests with that
   /// What that took apart where the garment crossed itself: at the start of the first level that it had to,
   /// left at the start of the last; rounds of all.
-  bridge::TakenApart untangled;
+  physics::ContourReport untangled;
   /// Pairs of faces that crossed without contact of cloth with cloth; none: that was not tried first.
   std::optional<std::size_t> crossings_without;
   double thickness = 0;                   ///< of the cloth then [m]

@@ -59,10 +59,10 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
 }
 
 /// What could not be taken apart, and where most of it is.
-std::string words_of_tangle(const bridge::TakenApart& untangled) {
+std::string words_of_tangle(const physics::ContourReport& untangled) {
   double length = 0;
-  for (const bridge::TakenApart::Line& l : untangled.lines) length += l.length;
-  const bridge::TakenApart::Line& most = untangled.lines.front();
+  for (const physics::CrossingLine& l : untangled.lines) length += l.length;
+  const physics::CrossingLine& most = untangled.lines.front();
   return fmt::format(
       "it crosses itself as it is given, along {:.0f} mm that could not be taken apart, most "
       "({:.0f} mm) at ({:.2f}, {:.2f}, {:.2f}) m",
@@ -255,16 +255,16 @@ Json self_contact_json(const Draped& d) {
   return json;
 }
 
-Json untangled_json(const bridge::TakenApart& u) {
+Json untangled_json(const physics::ContourReport& u) {
   Json json{{"at_start", u.at_start}, {"left", u.left}, {"rounds", u.rounds}, {"moved_most", u.farthest}};
   json["lines"] = Json::array();
   for (std::size_t i = 0; i < std::min<std::size_t>(10, u.lines.size()); ++i) {
-    const bridge::TakenApart::Line& l = u.lines[i];
+    const physics::CrossingLine& l = u.lines[i];
     json["lines"].push_back({{"x", l.middle.x()},
                              {"y", l.middle.y()},
                              {"z", l.middle.z()},
                              {"length", l.length},
-                             {"edges", l.edges}});
+                             {"edges", l.crossings}});
   }
   return json;
 }

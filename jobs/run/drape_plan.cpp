@@ -39,16 +39,9 @@ double refined_sag(geometry::Mesh garment, int levels) {
   return edge_sag(garment) / std::pow(4, levels);
 }
 
-bridge::TakenApart taken_apart(const std::vector<bridge::DrapeLevel>& levels) {
-  bridge::TakenApart all;
-  for (const bridge::DrapeLevel& level : levels) {
-    const bridge::TakenApart& now = level.untangled;
-    if (!all.at_start) all.at_start = now.at_start;
-    all.rounds += now.rounds;
-    all.farthest = std::max(all.farthest, now.farthest);
-    all.left = now.left;
-    all.lines = now.lines;
-  }
+physics::ContourReport untangled_of(const std::vector<bridge::DrapeLevel>& levels) {
+  physics::ContourReport all;
+  for (const bridge::DrapeLevel& level : levels) physics::add_later(level.untangled, all);
   return all;
 }
 
@@ -128,7 +121,7 @@ void measure_draped(const DrapePlan& plan, Draped& draped) {
   const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
   draped.self_contact = draped.contact_tried = plan.options.settle.self.on;
   draped.thickness = thickness_of(plan.scene, plan.settings);
-  draped.untangled = taken_apart(draped.report.levels);
+  draped.untangled = untangled_of(draped.report.levels);
   draped.cloth_friction = plan.options.settle.self.friction;
   draped.crossings = measure_crossings(draped.file, &crossed);
   draped.angle_defect = geometry::angle_defect(draped.file.mesh);

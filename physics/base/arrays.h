@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <vector>
 
 namespace furrow::physics {
@@ -32,5 +33,9 @@ void check_body(const TriangleMesh& mesh, const char* who);
 
 /// Length of the diagonal of the bounding box of the used vertices [m].
 double bounding_diagonal(const TriangleMesh& mesh);
+
+/// Of each vertex the sum over its triangles of their normals, twice their areas long [m^2]; 0 where it has
+/// none. Cost O(V + T).
+std::vector<Vec3> vertex_normals(std::span<const std::array<int, 3>> triangles, std::span<const Vec3> x);
 
 }  // namespace furrow::physics

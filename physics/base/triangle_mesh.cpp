@@ -35,4 +35,14 @@ double bounding_diagonal(const TriangleMesh& mesh) {
   return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
+std::vector<Vec3> vertex_normals(std::span<const std::array<int, 3>> triangles, std::span<const Vec3> x) {
+  std::vector<Vec3> normal(x.size(), Vec3::Zero());
+  for (const auto& t : triangles) {
+    const Vec3 &a = x[std::size_t(t[0])], &b = x[std::size_t(t[1])], &c = x[std::size_t(t[2])];
+    const Vec3 n = (b - a).eval().cross((c - a).eval());
+    for (const int v : t) normal[std::size_t(v)] += n;
+  }
+  return normal;
+}
+
 }  // namespace furrow::physics

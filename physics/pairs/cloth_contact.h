@@ -17,7 +17,7 @@ struct ClothContactOptions {
   double stiffness = 500;    ///< k of barrier() [N/m]; > 0
   double friction = 0;       ///< Coulomb coefficient of cloth on cloth [-]; >= 0
   std::span<const double> thicknesses = {};  ///< of each particle, in place of `thickness` [m]; empty: none
-  std::span<const int> groups = {};  ///< PairMesh::group
+  std::span<const int> groups = {};          ///< PairMesh::group
 };
 
 /// Contact of a cloth with itself as a potential, for callers that look for rest: pairs of vertex and

@@ -54,12 +54,9 @@ LayerOrder layer_order(std::span<const Vec3> outer, const TriangleMesh& inner, b
   check_body(inner, "layer_order");
   const TriangleBvh tree(inner);
   const std::vector<char> border = vertices_at_border(inner);
-  std::vector<Vec3> normal(inner.vertices.size(), Vec3::Zero());
-  const auto at = [&inner](int v) -> const Vec3& { return inner.vertices[std::size_t(v)]; };
-  for (const auto& t : inner.triangles) {
-    const Vec3 n = (at(t[1]) - at(t[0])).eval().cross((at(t[2]) - at(t[0])).eval());
-    for (const int v : t) normal[std::size_t(v)] += turned ? Vec3(-n) : n;
-  }
+  std::vector<Vec3> normal = vertex_normals(inner.triangles, inner.vertices);
+  if (turned)
+    for (Vec3& n : normal) n = -n;
   LayerOrder order;
   for (const Vec3& x : outer) {
     const ClosestPoint near = tree.closest(x);

@@ -162,10 +162,7 @@ std::vector<std::array<int, 2>> triangles_of_edges(const PairMesh& mesh) {
   std::vector<std::array<int, 2>> found(mesh.edges.size(), {-1, -1});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
-      const int a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
-      const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
-      const auto at = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
-      auto& of = found[std::size_t(at - mesh.edges.begin())];
+      auto& of = found[std::size_t(mesh.triangle_edges[t][i])];
       (of[0] < 0 ? of[0] : of[1]) = int(t);
     }
   return found;

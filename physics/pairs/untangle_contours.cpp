@@ -90,7 +90,7 @@ class ContourUntangler {
     remember(all);
     edge_crossed_.assign(mesh_.edges.size(), 0);
     for (const EdgeFaceCrossing& c : crossings) edge_crossed_[std::size_t(c.edge)] = 1;
-    vertex_normals();
+    normal_ = vertex_normals(mesh_.triangles, x_);
     way_.assign(x_.size(), Vec3::Zero());
     bool any = false;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -230,15 +230,6 @@ class ContourUntangler {
     return true;
   }
 
-  void vertex_normals() {
-    normal_.assign(x_.size(), Vec3::Zero());
-    for (const auto& t : mesh_.triangles) {
-      const Vec3 &a = x_[std::size_t(t[0])], &b = x_[std::size_t(t[1])], &c = x_[std::size_t(t[2])];
-      const Vec3 area = (b - a).eval().cross((c - a).eval());
-      for (const int v : t) normal_[std::size_t(v)] += area;
-    }
-  }
-
   std::span<Vec3> x_;
   const PairMesh& mesh_;
   const ContourOptions& o_;
@@ -252,6 +243,14 @@ class ContourUntangler {
 };
 
 }  // namespace
+
+void add_later(const ContourReport& now, ContourReport& all) {
+  if (all.at_start == 0) all.at_start = now.at_start;
+  all.left = now.left;
+  all.rounds += now.rounds;
+  all.farthest = std::max(all.farthest, now.farthest);
+  all.lines = now.lines;
+}
 
 ContourReport untangle_contours(std::span<Vec3> x, const PairMesh& mesh, const ContourOptions& options) {
   const char* const operation = "untangle_contours";

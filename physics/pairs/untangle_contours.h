@@ -29,6 +29,10 @@ struct ContourReport {
   std::vector<CrossingLine> lines;  ///< what is left, longest first
 };
 
+/// Of searches one after the other: the first start at which anything crossed, what the last one left, rounds
+/// of all, the farthest way of any.
+void add_later(const ContourReport& now, ContourReport& all);
+
 /// Takes a cloth apart that crosses itself, without knowing which side is which: the lines in which it does
 /// (tangle_contours.h) are made shorter, each by moving both sides as a whole. Where that leads nowhere, the
 /// smaller part that a line cuts off goes back. x: one a particle [m]; ends as the positions with the fewest

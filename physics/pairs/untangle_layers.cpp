@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "physics/base/require.h"
 #include "physics/pairs/edge_face_crossings.h"
@@ -118,11 +117,9 @@ class Untangler {
 
   /// Outwards, of each vertex; weighted by area.
   std::vector<Vec3> normals() const {
-    std::vector<Vec3> normal(x_.size(), Vec3::Zero());
-    for (const auto& t : mesh_.triangles) {
-      const Vec3 n = area(t);
-      for (const int v : t) normal[std::size_t(v)] += n;
-    }
+    std::vector<Vec3> normal = vertex_normals(mesh_.triangles, x_);
+    for (std::size_t i = 0; i < normal.size(); ++i)
+      if (layers_.turned[std::size_t(layer(int(i)))]) normal[i] = -normal[i];
     return normal;
   }
 

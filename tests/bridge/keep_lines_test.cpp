@@ -10,6 +10,8 @@
 #include "bridge/store_rest_state.h"
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/sheet.h"
+#include "physics/base/cancel_scope.h"
+#include "physics/base/progress.h"
 #include "physics/cloth/pins.h"
 #include "physics/contact/residual_force.h"
 #include "physics/plate/plate_bending.h"
@@ -206,6 +208,30 @@ TEST_CASE("keep_lines: statics find what gives way before anything runs, and alo
   CHECK(helped.runs == 0);
   stiff.options.statics = false;
   CHECK_THROWS_AS(stiff.keep(), std::invalid_argument);
+}
+
+TEST_CASE("keep_lines: wherever it is cancelled, no line is called held that motion did not try") {
+  int cancelled = 0, interrupted = 0;
+  for (int last = 0; last < 400; last += 8) {
+    Hung hung(1e-4);
+    hung.options.seconds = hung.options.calm_seconds = 0.02;
+    hung.options.presses = {10};
+    hung.options.struts.clear();
+    hung.options.whole = true;  // what needs help beside the line
+    int asked = 0;
+    const physics::CancelScope cancelling([&] { return ++asked > last; });
+    try {
+      const bridge::KeepReport report = hung.keep();
+      interrupted += report.interrupted;
+      if (!report.interrupted || report.runs > 0) continue;
+      CAPTURE(last, report.lines[0].kept, report.lines[0].kept_gust);
+      CHECK(report.lines[0].verdict == Verdict::cannot_hold);
+    } catch (const physics::Cancelled&) {
+      ++cancelled;
+    }
+  }
+  CHECK(interrupted > 0);
+  CHECK(cancelled + interrupted < 50);
 }
 
 TEST_CASE("keep_lines: a garment that nothing holds is said to be out of balance") {
