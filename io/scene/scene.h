@@ -128,7 +128,7 @@ struct Scene {
   SceneMaterial material;
   std::vector<ScenePins> pins;
   physics::Wind wind;
-  double cloth_friction = 0;            ///< Coulomb coefficient of cloth on cloth, at rest [-]; >= 0
+  double cloth_friction = 0;            ///< Coulomb coefficient of cloth on cloth [-]; >= 0
   bool settle = false;                  ///< what is drawn at time 0 comes to rest before it moves
   physics::SimulateOptions simulation;  ///< with gravity, friction, damping
   int starts = 1;                       ///< of furrow drape, each with noise of its own; >= 1

@@ -337,9 +337,10 @@ const Row<Scene> rows[] = {
          not_negative(), [](auto& s) -> auto& { return s.simulation.friction; })},
     {{.path = "material.cloth_friction",
       .flag = "--cloth-friction",
-      .what = "Coulomb friction of cloth on cloth, where layers and folds are kept apart",
-      .used = used_by::drape,
-      .flag_in = used_by::drape},
+      .what = "Coulomb friction of cloth on cloth, where layers and folds are kept apart; not in steps of "
+              "`implicit` and `tr-bdf2`",
+      .used = used_by::drape | used_by::simulate,
+      .flag_in = used_by::drape | used_by::simulate},
      number(
          not_negative(), [](auto& s) -> auto& { return s.cloth_friction; })},
     {{.path = "material.gap",
@@ -428,8 +429,8 @@ const Row<Scene> rows[] = {
     {{.path = "simulation.self_contact",
       .flag = "--self-contact",
       .help =
-          "on: cloth keeps off cloth, and no step passes through it; with implicit and tr-bdf2 (default off)",
-      .what = "`on`: cloth keeps off cloth, and no step passes through it; with `implicit` and `tr-bdf2`",
+          "on: cloth keeps off cloth, and no step passes through it (default off)",
+      .what = "`on`: cloth keeps off cloth, and no step passes through it",
       .used = used_by::simulate,
       .flag_in = used_by::simulate},
      choice<bool>([](auto& s) -> auto& { return s.simulation.self.on; }, {{"off", false}, {"on", true}})},

@@ -47,6 +47,7 @@ Json to_json(const physics::SimulateTotals& t) {
           {"open_steps", t.open_steps},
           {"collider_queries", t.collider_queries},
           {"truncated_moves", t.truncated_moves},
+          {"cut_moves", t.cut_moves},
           {"limit_estimates", t.limit_estimates},
           {"frames_built", t.frames_built},
           {"dt_smallest", number(t.dt_smallest)},
@@ -65,6 +66,7 @@ physics::SimulateTotals totals_of(const Json& j) {
   t.open_steps = j.value("open_steps", std::int64_t{0});
   t.collider_queries = j.at("collider_queries");
   t.truncated_moves = j.at("truncated_moves");
+  t.cut_moves = j.value("cut_moves", std::int64_t{0});
   t.limit_estimates = j.at("limit_estimates");
   t.frames_built = j.at("frames_built");
   t.dt_smallest = number(j.at("dt_smallest"));

@@ -76,7 +76,8 @@ Json to_json(const ReachedShape& shape, const physics::SimulateReport& run) {
     json["self_contact"] = {{"pairs", run.self.pairs},
                             {"nearest", run.self.pairs > 0 ? Json(run.self.nearest) : Json()},
                             {"crossed_at_start", run.self.crossed_at_start},
-                            {"exempt", run.self.exempt}};
+                            {"exempt", run.self.exempt},
+                            {"cut_moves", run.cut_moves}};
   json["self_intersections"] = shape.crossings.pairs;
   json["crossings"] = jobs::to_json(shape.crossings);
   json["borders"] = to_json(shape.borders);

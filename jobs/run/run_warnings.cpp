@@ -105,8 +105,8 @@ std::vector<Fault> faults_of(const io::Scene& scene, const ReachedShape& shape,
           words(shape.crossings) +
               (scene.simulation.self.on
                    ? "; they were there at the start: draw or drape it without, or accept them with "
-                   : "; cloth has no contact with cloth here: --self-contact on, with --integrator implicit, "
-                     "keeps it apart, or accept them with ") +
+                   : "; cloth has no contact with cloth here: --self-contact on keeps it apart, or accept "
+                     "them with ") +
               "--allow-crossings " + std::to_string(shape.crossings.pairs),
           garment, "garment.allow_crossings"}});
   return faults;

@@ -170,6 +170,7 @@ SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::sh
   pin_cloth(result.cloth, result.pins, result.body.get(), 0, context);
   couple_cloth(result.file, scene, result.cloth, context);
   result.options = scene.simulation;
+  result.options.self.friction = scene.cloth_friction;
   if (result.body) {
     result.options.contact_gap =
         contact_gap(result.options.contact_gap, result.body->tolerance(), result.file);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
 
 #include "physics/base/require.h"
 #include "physics/base/vector_sums.h"
+#include "physics/motion/step_elements.h"
 
 namespace furrow::physics {
 namespace {
@@ -22,26 +22,6 @@ constexpr double push_over_inertia = 100;  // of a mean particle in a step
 constexpr int most_step_halvings = 5;      // of a step
 
 Vec3 xyz(const Vec4& v) { return {v.x, v.y, v.z}; }
-
-/// A packed cloth's springs that pull, sorted; its other elements are there by place.
-Cloth unpacked(const PackedCloth& packed) {
-  Cloth cloth = packed.shell;
-  for (int i = 0; i < packed.springs(); ++i)
-    if (packed.k[i] > 0)
-      cloth.structural.push_back({packed.a[i], packed.b[i], packed.kL[i] / packed.k[i], packed.k[i]});
-  std::stable_sort(cloth.structural.begin(), cloth.structural.end(),
-                   [](const Spring& s, const Spring& t) { return std::tie(s.a, s.b) < std::tie(t.a, t.b); });
-  sort_elements(cloth);
-  Particles& p = cloth.particles;
-  p = {};
-  for (std::size_t i = 0; i < packed.x.size(); ++i) {
-    p.x.push_back(xyz(packed.x[i]));
-    p.v.push_back(xyz(packed.v[i]));
-    p.inv_mass.push_back(packed.inv_mass[i]);
-    p.mass.push_back(packed.inv_mass[i] > 0 ? 1 / packed.inv_mass[i] : 0);
-  }
-  return cloth;
-}
 
 Vectors sum(const Vectors& a, double factor, const Vectors& b) {
   Vectors result = a;
@@ -58,7 +38,7 @@ Vectors scaled(double factor, Vectors v) {
 
 ImplicitStep::ImplicitStep(Motion& motion, Integrator scheme, const ImplicitOptions& options,
                            const SelfContactOptions& self)
-    : motion_(motion), scheme_(scheme), options_(options), self_(self), cloth_(unpacked(motion.cloth())) {
+    : motion_(motion), scheme_(scheme), options_(options), self_(self), cloth_(cloth_by_place(motion.cloth())) {
   require("implicit step", "tolerance", options.tolerance, options.tolerance > 0, "> 0");
   require("implicit step", "few", options.few, options.few >= 1, ">= 1");
   if (!self.on) return;
@@ -94,7 +74,9 @@ void ImplicitStep::prepare(double dt) {
 
 void ImplicitStep::make_pairs() {
   const WorkClock::Within pair_part(motion_.clock(), WorkPart::self_contact);
-  pairs_ = std::make_unique<ClothContact>(cloth_, ClothContactOptions{self_.thickness, stiffness_},
+  Cloth cloth = cloth_;
+  for (const int i : motion_.led()) cloth.particles.inv_mass[std::size_t(i)] = 1;  // it may meet what is held
+  pairs_ = std::make_unique<ClothContact>(cloth, ClothContactOptions{self_.thickness, stiffness_},
                                           cloth_.particles.x, std::span<const Vec3>{}, &motion_.pool());
   if (known_.stiffness == 0) return;
   ClothContact::Memory memory{{}, known_.loose, known_.crossed_at_start};

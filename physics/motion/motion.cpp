@@ -97,6 +97,7 @@ Motion::Motion(const Cloth& cloth, const Loads& loads, ThreadPool& pool, const S
   check_not_negative(loads.spring_damping, "spring damping");
   if (!loads.gravity.allFinite()) throw std::invalid_argument("gravity is not finite");
   if (around_.pins) around_.pins->attach(cloth_);
+  if (around_.pairs) around_.pairs->attach(cloth_, led(), pool_);
   update_forces();
 }
 
@@ -130,6 +131,7 @@ void Motion::kick_and_drag(double seconds) {
 }
 
 void Motion::drift(double seconds) {
+  const std::vector<Vec4> before = around_.pairs ? cloth_.x : std::vector<Vec4>{};
   if (around_.contact) {
     const WorkClock::Within contact(clock(), WorkPart::contact);
     std::mutex mutex;
@@ -144,6 +146,24 @@ void Motion::drift(double seconds) {
     });
   }
   arrive();
+  if (around_.pairs) keep_apart(before, seconds);
+}
+
+/// What cloth pushes may come to be nearer to the body than it was.
+void Motion::keep_apart(const std::vector<Vec4>& before, double seconds) {
+  const WorkClock::Within self(clock(), WorkPart::self_contact);
+  const std::vector<int>& touched = around_.pairs->respond(before, seconds, cloth_, pool_);
+  if (around_.contact)
+    for (const int place : touched) {
+      const auto i = std::size_t(place);
+      if (cloth_.inv_mass[i] == 0) continue;
+      const Vec4 &x0 = before[i], &x1 = cloth_.x[i], &v1 = cloth_.v[i];
+      Vec3 x(x1.x, x1.y, x1.z), v(v1.x, v1.y, v1.z);
+      around_.contact->respond(place, {x0.x, x0.y, x0.z}, seconds, x, v, work_.contact);
+      cloth_.x[i] = {x.x(), x.y(), x.z(), 0};
+      cloth_.v[i] = {v.x(), v.y(), v.z(), 0};
+    }
+  around_.pairs->guard(before, seconds, cloth_, pool_);
 }
 
 void Motion::update_forces(double time) {

@@ -4,6 +4,7 @@
 #include "physics/contact/contact.h"
 #include "physics/motion/compensation.h"
 #include "physics/motion/moved_pins.h"
+#include "physics/motion/pair_response.h"
 #include "physics/motion/step_contact.h"
 #include "physics/motion/wind.h"
 #include "physics/motion/work_clock.h"
@@ -21,6 +22,7 @@ struct Loads {                ///< what acts on a cloth besides its elements
 struct Surroundings {  ///< what else acts; each may be null, and must outlive the motion
   BodyContact* contact = nullptr;
   const BodyAround* body = nullptr;  ///< for steps that solve contact with the rest, in place of `contact`
+  PairResponse* pairs = nullptr;     ///< contact of the cloth with itself
   PinLeader* pins = nullptr;
   const Wind* wind = nullptr;
   const Compensation* compensation = nullptr;
@@ -51,7 +53,7 @@ class Motion {
   /// v += seconds (force / m + gravity).
   void drag_and_kick(double seconds);
   void kick_and_drag(double seconds);
-  /// x += seconds v, then the body's answer to it.
+  /// x += seconds v, then the answers to it of the body and of the cloth itself. Throws StepBlocked.
   void drift(double seconds);
   /// Of all elements, and what compensates at the step's end or another time [s]; or the latter alone.
   void update_forces() { update_forces(to_); }
@@ -64,6 +66,8 @@ class Motion {
   PackedCloth& cloth() { return cloth_; }  ///< this and all below: for steps of more than these phases
   const Loads& loads() const { return loads_; }
   const Wind* wind() const { return around_.wind; }
+  /// Places of particles that are led.
+  std::span<const int> led() const { return around_.pins ? around_.pins->places() : std::span<const int>{}; }
   const BodyAround* body() const { return around_.body; }
   bool compensates() const { return around_.compensation != nullptr; }
   /// Puts led pins where they are at the step's end.
@@ -76,6 +80,7 @@ class Motion {
  private:
   const DampingSweep& damping(double seconds);
   void compensate(double time);
+  void keep_apart(const std::vector<Vec4>& before, double seconds);
 
   PackedCloth cloth_;
   Loads loads_;

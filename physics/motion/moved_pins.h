@@ -20,6 +20,7 @@ class PinLeader {
   PinLeader(std::span<const MovedPins> pins, std::span<const Vec3> homes) : pins_(pins), homes_(homes) {}
   /// Finds the particles in a packed cloth, before all below.
   void attach(const PackedCloth& packed);
+  std::span<const int> places() const { return places_; }
   /// Sets the velocities that lead to the places at the time `to` in dt.
   void begin_step(PackedCloth& packed, double to, double dt);
   /// Puts the pins there.

@@ -18,16 +18,19 @@
 namespace furrow::physics {
 namespace {
 
-constexpr int divergence_steps = 16;  // steps between two looks for divergence
+constexpr int divergence_steps = 16;      // steps between two looks for divergence
+constexpr int widening_steps = 64;        // between two changes of what pairs may do
+constexpr int least_steps_of_cuts = 256;  // of a call, before its cuts are judged
+constexpr double most_cut = 0.01;         // of all moves of particles
 
 void require_positive(double value, const char* name) {
   if (!(value > 0) || !std::isfinite(value)) refuse("simulate", name, " = ", value, " is not > 0");
 }
 
 void check(const SimulateOptions& o) {
-  if (o.self.on && !solves_contact(o.integrator))
-    refuse("simulate", "contact of the cloth with itself needs integrator implicit or tr_bdf2");
   if (o.self.on) require_positive(o.self.thickness, "self.thickness");
+  if (!(o.self.friction >= 0) || !std::isfinite(o.self.friction))
+    refuse("simulate", "self.friction = ", o.self.friction, " is not >= 0");
   if (!(o.seconds >= 0) || !std::isfinite(o.seconds))
     refuse("simulate", "seconds = ", o.seconds, " is not >= 0");
   if (o.stop_at && std::isnan(*o.stop_at)) refuse("simulate", "stop_at is not a number");
@@ -66,6 +69,7 @@ class Simulation {
   void remember();
   bool observe(const Observer& observer, const SimulateReport& report);
   bool make_step(double to);
+  bool is_held_by_cuts();
   void go_back(const std::vector<Vec4>& v, const WorkCounts& work);
 
   Cloth& cloth_;
@@ -79,6 +83,7 @@ class Simulation {
   double frame_seconds_before_ = 0;
   std::unique_ptr<BodyContact> contact_;
   BodyAround body_;  ///< for steps that solve contact; in place of contact_
+  std::optional<PairResponse> pairs_;  ///< where steps do not solve it
   std::optional<PinLeader> leader_;
   std::optional<Motion> motion_;
   std::unique_ptr<Stepper> stepper_;
@@ -104,8 +109,11 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
   check(state, cloth.particles.size());
   make_contact();
   lead_pins();
+  if (options.self.on && !solves_contact(options.integrator))
+    pairs_.emplace(options.self, options.recovery_speed);
   const Surroundings around{contact_.get(),
                             body_.any() ? &body_ : nullptr,
+                            pairs_ ? &*pairs_ : nullptr,
                             leader_ ? &*leader_ : nullptr,
                             is_still(world.wind) || options.air_drag == 0 ? nullptr : &world.wind,
                             state.compensation.force.empty() ? nullptr : &state.compensation,
@@ -152,6 +160,7 @@ void Simulation::lead_pins() {
 
 void Simulation::recall() {
   if (!state_.planned) state_.contact.clear();
+  if (pairs_ && state_.planned) pairs_->recall(state_.steps.self);
   if (state_.contact.empty() || !contact_) return;
   for (std::size_t i = 0; i < state_.contact.size(); ++i) {
     contact_->memory()[i] = state_.contact[std::size_t(motion_->cloth().particle[i])];
@@ -165,6 +174,10 @@ void Simulation::remember() {
   }
   if (share_left(state_.compensation, state_.time) == 0) state_.compensation.force.clear();
   state_.steps = stepper_->memory();
+  if (pairs_) {
+    state_.steps.self = pairs_->memory();
+    state_.totals.cut_moves += pairs_->cut_moves();
+  }
   if (world_.animated) {
     state_.body_travel = travel_;
     state_.totals.frames_built += world_.animated->frames_built() - frames_before_;
@@ -207,7 +220,7 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
     observed = observer && (s.step % options_.observe_steps == 0 || last);
     const bool checked = s.step % divergence_steps == 0 || observed || last;
     if (length_->due()) motion_->unpack(cloth_.particles);
-    if (checked && has_diverged(motion_->cloth(), options_.speed_limit)) {
+    if (checked && (has_diverged(motion_->cloth(), options_.speed_limit) || is_held_by_cuts())) {
       report.outcome = Outcome::diverged;
       return;
     }
@@ -222,9 +235,10 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
 /// false: the step was cancelled, or there is no room for it, and all is as it was before it.
 bool Simulation::make_step(double to) {
   const WorkCounts work = motion_->work();
-  const bool may_break =
-      leader_ && (options_.integrator == Integrator::backward_euler || solves_contact(options_.integrator));
+  const bool may_break = leader_ && (pairs_ || options_.integrator == Integrator::backward_euler ||
+                                     solves_contact(options_.integrator));
   const auto v = may_break ? motion_->cloth().v : decltype(motion_->cloth().v){};
+  if (pairs_ && state_.step % widening_steps == 0) pairs_->widen(motion_->cloth());
   motion_->begin_step(state_.time, to);
   try {
     stepper_->step(state_.dt);
@@ -240,6 +254,13 @@ bool Simulation::make_step(double to) {
   stepped_ = true;
   if (world_.animated && contact_) travel_ = static_cast<AnimatedContact&>(*contact_).travel();
   return true;
+}
+
+/// The guard against cloth through cloth would hide that a step is unstable: it cuts it everywhere.
+bool Simulation::is_held_by_cuts() {
+  if (!pairs_ || motion_->work().steps < least_steps_of_cuts) return false;
+  const double moves = double(motion_->work().steps) * double(cloth_.particles.size());
+  return double(pairs_->cut_moves()) > most_cut * moves;
 }
 
 /// To before a step. v: velocities of then; empty: they are as they were.
@@ -260,7 +281,7 @@ void Simulation::finish(SimulateReport& report) {
   motion_->unpack(cloth_.particles);
   remember();
   measure(cloth_, world_, state_, options_.gravity, contact_options_, report);
-  report.self = stepper_->self_contact();
+  report.self = pairs_ ? pairs_->state(motion_->cloth()) : stepper_->self_contact();
   report.blocked_at = blocked_at_;
   const WorkTimes times = clock_.times();
   for (std::size_t i = 0; i < work_parts; ++i) state_.totals.times[i] += times[i];

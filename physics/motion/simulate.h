@@ -67,6 +67,7 @@ struct SimulateTotals {
   std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   std::int64_t open_steps = 0;  ///< see WorkCounts
+  std::int64_t cut_moves = 0;   ///< see SimulateReport
   std::int64_t limit_estimates = 0, frames_built = 0;
   double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
   double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< of leapfrog [s]
@@ -95,7 +96,7 @@ struct PairMemory {
 
 /// What contact of the cloth with itself remembers, beside positions.
 struct SelfContactMemory {
-  double stiffness = 0;           ///< of its push [N/m]; 0: it was never on
+  double stiffness = 0;           ///< of its push [N/m], 1 where it has none; 0: it was never on
   std::vector<PairMemory> pairs;  ///< sorted
   std::vector<int> loose;         ///< particles that crossed something at the start, or are next to such
   int crossed_at_start = 0;       ///< edges through faces
@@ -193,11 +194,13 @@ struct ImplicitOptions {
   int few = 2;  ///< iterations of backward Euler after which 20 times that is good enough; >= 1
 };
 
-/// Contact of the cloth with itself in implicit steps, without friction: no step ever passes through cloth
-/// (ClothContact). Where nothing is near, nothing changes, bit by bit.
+/// Contact of the cloth with itself: no step ever passes through cloth. Implicit steps solve it with the rest
+/// (ClothContact), without friction; all others respond to it (PairResponse). Where nothing is near, nothing
+/// changes, bit by bit.
 struct SelfContactOptions {
   bool on = false;
   double thickness = 1e-3;  ///< of the cloth [m]; > 0; where edges are short, it counts as thinner
+  double friction = 0;      ///< Coulomb coefficient of cloth on cloth, where steps respond [-]; >= 0
 };
 
 /// 2 sqrt(2): RK4 is stable on the imaginary axis up to there. The half-disc of radius 2.785 left of it
@@ -229,7 +232,7 @@ struct SimulateOptions {
   BackwardEulerOptions backward_euler;
   XpbdOptions xpbd;
   ImplicitOptions implicit;
-  SelfContactOptions self;    ///< on: implicit and tr_bdf2 only
+  SelfContactOptions self;
   int threads = 1;            ///< >= 1; the result is the same for any number
   bool times = false;         ///< whether processor time is divided among parts; no result depends on it
   int observe_steps = 100;    ///< steps between two calls of the observer; >= 1
@@ -284,6 +287,7 @@ struct SimulateReport {
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   std::int64_t open_steps = 0;             ///< implicit ones whose search did not end, even in 32 parts
   std::int64_t truncated_moves = 0;        ///< cut short against tunnelling
+  std::int64_t cut_moves = 0;              ///< of particles, so that cloth does not pass through cloth
   SelfContactState self;
   Vec3 blocked_at = Vec3::Zero();          ///< where, if it was [m]
   std::int64_t frames_built = 0;           ///< fields of an animated body
@@ -294,7 +298,8 @@ struct SimulateReport {
 
 /// Moves the cloth to the time options.seconds under springs, gravity, air, damping and contact. Steps have
 /// equal length between two estimates of the limit, and the end is hit exactly. A state that is not finite or
-/// faster than speed_limit ends the run with Outcome::diverged and is left as it is (checked every 16 steps).
+/// faster than speed_limit ends the run with Outcome::diverged and is left as it is (checked every 16 steps);
+/// so does one in which contact of the cloth with itself cuts more than a hundredth of all moves.
 /// Same input, same bits, for any number of threads.
 ///
 /// Without `state` a call begins at time 0. With it a call continues from the state's time, and does nothing

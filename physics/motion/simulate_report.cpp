@@ -27,6 +27,7 @@ void take_counts(const SimulateState& state, SimulateReport& report) {
   report.hinge_evaluations = totals.hinge_evaluations;
   report.collider_queries = totals.collider_queries;
   report.truncated_moves = totals.truncated_moves;
+  report.cut_moves = totals.cut_moves;
   report.frames_built = totals.frames_built;
   report.frame_seconds = totals.frame_seconds;
   report.seconds = totals.seconds;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "physics/cloth/elements.h"
 #include "physics/cloth/kinds.h"
@@ -17,7 +18,28 @@ std::vector<int> own_places(std::size_t n) {
   return place;
 }
 
+Vec3 xyz(const Vec4& v) { return {v.x, v.y, v.z}; }
+
 }  // namespace
+
+Cloth cloth_by_place(const PackedCloth& packed) {
+  Cloth cloth = packed.shell;
+  for (int i = 0; i < packed.springs(); ++i)
+    if (packed.k[i] > 0)
+      cloth.structural.push_back({packed.a[i], packed.b[i], packed.kL[i] / packed.k[i], packed.k[i]});
+  std::stable_sort(cloth.structural.begin(), cloth.structural.end(),
+                   [](const Spring& s, const Spring& t) { return std::tie(s.a, s.b) < std::tie(t.a, t.b); });
+  sort_elements(cloth);
+  Particles& p = cloth.particles;
+  p = {};
+  for (std::size_t i = 0; i < packed.x.size(); ++i) {
+    p.x.push_back(xyz(packed.x[i]));
+    p.v.push_back(xyz(packed.v[i]));
+    p.inv_mass.push_back(packed.inv_mass[i]);
+    p.mass.push_back(packed.inv_mass[i] > 0 ? 1 / packed.inv_mass[i] : 0);
+  }
+  return cloth;
+}
 
 void sort_elements(Cloth& cloth) {
   for_each_kind(cloth, [](auto& kind, auto...) {

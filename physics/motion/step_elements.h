@@ -6,6 +6,7 @@
 
 #include "physics/cloth/element_forces.h"
 #include "physics/linear/free_stiffness.h"
+#include "physics/packed/packed_cloth.h"
 #include "physics/packed/packed_elements.h"
 
 namespace furrow::physics {
@@ -38,5 +39,9 @@ class StepElements {
 
 /// Sorts what is laid out for speed by the least particle: neighbours in memory are so in the cloth.
 void sort_elements(Cloth& cloth);
+
+/// A packed cloth with places for vertices: its springs that pull, sorted, its other elements, and particles
+/// as they are now.
+Cloth cloth_by_place(const PackedCloth& packed);
 
 }  // namespace furrow::physics

@@ -21,6 +21,7 @@ constexpr double growth = 1.2;                  // of such a range
 constexpr double as_touching = 1e-7;            // m: nearer at the start, a pair counts as crossing
 constexpr double cut_short = 1.0 / 32;          // share of a move
 constexpr int pair_chunk = 512;
+constexpr double ways_ahead = 30;  // of a step among many, for which a list is made
 constexpr int most_rounds_of_approach = 40;
 
 std::array<Vec3, 4> corners_of(const std::array<int, 4>& v, std::span<const Vec3> x) {
@@ -199,9 +200,9 @@ bool ClothContact::widen(std::span<const Vec3> x) {
 
 /// As PairList::near(), with a margin that is the smaller the more is near.
 std::span<const ListedPair> ClothContact::near(std::span<const Vec3> x, std::span<const Vec3> way,
-                                               ThreadPool* pool) {
+                                               ThreadPool* pool, double ahead) {
   const int before = list_.builds();
-  const std::span<const ListedPair> pairs = list_.near(x, way, margin_share_ * mesh_.mean_edge, pool);
+  const std::span<const ListedPair> pairs = list_.near(x, way, margin_share_ * mesh_.mean_edge, pool, ahead);
   if (list_.builds() > before && double(list_.size()) > long_list * double(x.size()))
     margin_share_ = std::max(least_margin_of_edge, 0.5 * margin_share_);
   return pairs;
@@ -280,6 +281,46 @@ int ClothContact::approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPo
   int left = 0;
   for (std::size_t i = 0; i < x.size(); ++i) left += x[i] != to[i];
   return left;
+}
+
+/// Of some pairs, those that are near at the ends of the way or touch on it.
+void ClothContact::find_met(std::span<const ListedPair> pairs, std::span<const Vec3> x,
+                            std::span<const Vec3> move, std::vector<Met>& found) const {
+  found.clear();
+  Ranges ranges(special_, pairs[0].key);
+  each_four(pairs, [&](std::span<const ListedPair> four, bool edges) {
+    const FourPairs at = four_of(four, lanes_.at);
+    const Separation apart = edges ? edge_edge_separation(at) : vertex_triangle_separation(at);
+    const Float4 approach = relative_approach(four_of(four, lanes_.plan), edges);
+    for (std::size_t i = 0; i < four.size(); ++i) {
+      const ListedPair& p = four[i];
+      if (apart.bound(i) - approach[i] > 1.000001f * float(p.range)) continue;
+      const double range = ranges.now(p);
+      if (!(range > 0)) continue;
+      MovingPair moving{edges, corners_of(p.vertices, x), corners_of(p.vertices, move)};
+      std::array<Vec3, 4> end = moving.x;
+      for (std::size_t k = 0; k < 4; ++k) end[k] += moving.move[k];
+      const PairDistance before = distance_of(edges, moving.x);
+      const double share = time_of_impact(moving, range), thick = p.range * p.range;
+      if (share < 1 || before.squared() < thick || distance_of(edges, end).squared() < thick)
+        found.push_back({p.key, p.vertices, range, before, share});
+    }
+  });
+}
+
+const std::vector<ClothContact::Met>& ClothContact::meet(std::span<const Vec3> x, std::span<const Vec3> move,
+                                                         ThreadPool* pool) {
+  const std::span<const ListedPair> pairs = near(x, move, pool, ways_ahead);
+  met_.clear();
+  if (pairs.empty()) return met_;
+  lanes_.assign(x, move, x[std::size_t(pairs[0].vertices[0])]);
+  met_of_.resize(std::max(met_of_.size(), chunks_of(pairs.size())));
+  by_chunks(pairs.size(), pool, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    find_met(pairs.subspan(begin, end - begin), x, move, met_of_[chunk]);
+  });
+  for (std::size_t c = 0; c < chunks_of(pairs.size()); ++c)
+    met_.insert(met_.end(), met_of_[c].begin(), met_of_[c].end());
+  return met_;
 }
 
 ActivePair ClothContact::brace(const ListedPair& pair, std::span<const Vec3> x) const {

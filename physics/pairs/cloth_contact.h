@@ -61,6 +61,17 @@ class ClothContact {
   /// Moves x towards other positions [m], each vertex until something is in its way. Returns how many did not
   /// arrive. For starts: a vertex that was stopped stays, however far the others go.
   int approach(std::span<Vec3> x, std::span<const Vec3> to, ThreadPool* pool);
+  /// A pair that is near on a way.
+  struct Met {
+    PairKey key;
+    std::array<int, 4> vertices;
+    double range;         ///< at which its primitives push each other now [m]; > 0
+    PairDistance before;  ///< where the way begins
+    double share;         ///< of the way that it can go (time_of_impact())
+  };
+  /// The pairs nearer than the thickness at x or at x + move [m], and those that would touch on the way; by
+  /// key, without those that are exempt. The same for any list. Valid until the next call.
+  const std::vector<Met>& meet(std::span<const Vec3> x, std::span<const Vec3> move, ThreadPool* pool);
   /// Finds the pairs that touch at x. The answers below are for these positions.
   void look(std::span<const Vec3> x, ThreadPool* pool);
   double energy() const { return energy_ + friction_.energy(); }  ///< [J]; infinite where something touches
@@ -110,9 +121,12 @@ class ClothContact {
   void find_touching(std::span<const ListedPair> pairs, std::span<const Vec3> x, std::size_t begin,
                      std::size_t end, std::vector<Touching>& found) const;
   ActivePair answer(const ListedPair& pair, const Touching& touching, std::span<const Vec3> x) const;
+  void find_met(std::span<const ListedPair> pairs, std::span<const Vec3> x, std::span<const Vec3> move,
+                std::vector<Met>& found) const;
   const std::vector<double>& shares(std::span<const ListedPair> pairs, std::span<const Vec3> x,
                                     std::span<const Vec3> move, double most, ThreadPool* pool);
-  std::span<const ListedPair> near(std::span<const Vec3> x, std::span<const Vec3> way, ThreadPool* pool);
+  std::span<const ListedPair> near(std::span<const Vec3> x, std::span<const Vec3> way, ThreadPool* pool,
+                                   double ahead = 1);
   std::span<const ListedPair> pairs_on_way(std::span<const Vec3> x, std::span<const Vec3> move, double most,
                                            ThreadPool* pool);
 
@@ -124,6 +138,8 @@ class ClothContact {
   FloatSweep lanes_;                  ///< where it was looked last, and the move that was asked for
   std::vector<std::vector<Touching>> touching_;  ///< by chunks; kept for its memory
   std::vector<double> shares_;                   ///< likewise
+  std::vector<std::vector<Met>> met_of_;         ///< by chunks, likewise
+  std::vector<Met> met_;
   std::vector<ActivePair> active_;               ///< sorted by key
   std::vector<ActivePair> braced_;               ///< that cut the last way short
   PairFriction friction_;

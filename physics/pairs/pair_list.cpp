@@ -176,8 +176,9 @@ std::size_t PairList::size() const {
 }
 
 std::span<const ListedPair> PairList::near(std::span<const Vec3> x, std::span<const Vec3> way, double margin,
-                                           ThreadPool* pool) {
+                                           ThreadPool* pool, double ahead) {
   require("PairList", "margin", margin, margin >= 0, ">= 0");
+  require("PairList", "ahead", ahead, ahead >= 1, ">= 1");
   if (x.size() != mesh_->radius.size() || (!way.empty() && way.size() != x.size()))
     refuse("PairList", x.size(), " positions and ", way.size(), " moves of ", mesh_->radius.size(),
            " particles");
@@ -186,10 +187,12 @@ std::span<const ListedPair> PairList::near(std::span<const Vec3> x, std::span<co
   if (!holds(x, way)) {
     const bool anew = margin_ < 0 || most_movers * double(movers_) > double(used_.size()) ||
                       most_patched * double(patched_ + movers_) > double(used_.size());
+    std::vector<Vec3> plan(way.begin(), way.end());
+    for (Vec3& move : plan) move *= ahead;
     if (anew)
-      build(x, way, margin, pool);
+      build(x, plan, margin, pool);
     else
-      patch(x, way);
+      patch(x, plan);
   }
   offer<false>();
   offer<true>();
@@ -278,13 +281,13 @@ bool PairList::holds(std::span<const Vec3> x, std::span<const Vec3> way) {
   return whole;
 }
 
-void PairList::build(std::span<const Vec3> x, std::span<const Vec3> way, double margin, ThreadPool* pool) {
+void PairList::build(std::span<const Vec3> x, std::span<const Vec3> plan, double margin, ThreadPool* pool) {
   const PairMesh& m = *mesh_;
   if (used_.empty())
     for (std::size_t v = 0; v < m.used.size(); ++v)
       if (m.used[v]) used_.push_back(int(v));
   base_.x.assign(x.begin(), x.end());
-  base_.plan.assign(way.begin(), way.end());
+  base_.plan.assign(plan.begin(), plan.end());
   margin_ = margin;
   base_most_ = 0;
   origin_ = x[std::size_t(m.edges[0][0])];
@@ -338,14 +341,14 @@ PairList::Lists PairList::sorted(std::span<Lists> parts) const {
 
 /// Boxes of movers hold 2 margins, as an end that does not move leaves its place by that much, once this way
 /// and once that. Those of the base hold it wherever it is while it is the base.
-void PairList::patch(std::span<const Vec3> x, std::span<const Vec3> way) {
+void PairList::patch(std::span<const Vec3> x, std::span<const Vec3> plan) {
   const PairMesh& m = *mesh_;
   for (const int v : used_) moves_[std::size_t(v)] = base_off_[std::size_t(v)] > margin_;
   const Movers movers = movers_of(m, used_, moves_);
   patch_.x.assign(x.begin(), x.end());
-  patch_.plan.assign(way.begin(), way.end());
+  patch_.plan.assign(plan.begin(), plan.end());
   patch_off_.assign(x.size(), 0);
-  sweep_.assign(x, way, origin_);
+  sweep_.assign(x, plan, origin_);
   base_most_ = 0;
   for (const int v : used_)
     if (!moves_[std::size_t(v)]) base_most_ = std::max(base_most_, base_off_[std::size_t(v)]);

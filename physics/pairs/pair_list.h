@@ -56,8 +56,9 @@ class PairList {
   /// one a particle [m]; margin >= 0 [m], of what is detected anew. Throws std::invalid_argument otherwise.
   /// Cost: some 20 ns a vertex where the list still holds, some 0.2 us a triangle where it is made anew, and
   /// 0.1 us a pair; where reach (range, margin and motion) is beyond an edge, pairs grow with the cube of it.
+  /// ahead: a list that is made anew is made for so many times the way; >= 1.
   std::span<const ListedPair> near(std::span<const Vec3> x, std::span<const Vec3> way, double margin,
-                                   ThreadPool* pool = nullptr);
+                                   ThreadPool* pool = nullptr, double ahead = 1);
 
   int builds() const { return builds_; }    ///< complete detections
   int patches() const { return patches_; }  ///< those of movers alone
@@ -85,8 +86,8 @@ class PairList {
   template <bool edges>
   void offer();
   bool holds(std::span<const Vec3> x, std::span<const Vec3> way);
-  void build(std::span<const Vec3> x, std::span<const Vec3> way, double margin, ThreadPool* pool);
-  void patch(std::span<const Vec3> x, std::span<const Vec3> way);
+  void build(std::span<const Vec3> x, std::span<const Vec3> plan, double margin, ThreadPool* pool);
+  void patch(std::span<const Vec3> x, std::span<const Vec3> plan);
 
   const PairMesh* mesh_;
   double margin_ = -1;

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "physics/motion/pair_response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/base/require.h"
+#include "physics/motion/step_elements.h"
+#include "physics/motion/stepper.h"
+#include "physics/pairs/pair_distance.h"
+
+namespace furrow::physics {
+namespace {
+
+constexpr double less_than_half = 0.45;  // of a distance, that either side may go
+constexpr double same_side = 0.5;        // cosine: two normals that agree
+constexpr int most_rounds = 20;          // of the guard; then all is cut
+
+Vec3 xyz(const Vec4& v) { return {v.x, v.y, v.z}; }
+void put(const Vec3& v, Vec4& to) { to = {v.x(), v.y(), v.z(), 0}; }
+
+PairDistance distance_at(bool edges, const std::array<int, 4>& v, std::span<const Vec3> x) {
+  const auto at = [&](std::size_t i) -> const Vec3& { return x[std::size_t(v[i])]; };
+  return edges ? edge_edge_distance(at(0), at(1), at(2), at(3))
+               : vertex_triangle_distance(at(0), at(1), at(2), at(3));
+}
+
+/// The sum of what a pair's vertices have, by its weights.
+Vec3 weighted(const std::array<double, 4>& weights, const std::array<int, 4>& v, std::span<const Vec3> of) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < 4; ++i) sum += weights[i] * of[std::size_t(v[i])];
+  return sum;
+}
+
+/// As a pair lies: along which it is pushed apart, and how far it is apart in that direction.
+struct Facing {
+  Vec3 normal;  ///< zero: it touches
+  std::array<double, 4> weights;
+  double gap;  ///< [m]; less than 0: it went through
+};
+
+/// Where it is now, unless the step turned its normal; then as it was before.
+Facing facing(const ClothContact::Met& pair, std::span<const Vec3> x) {
+  const double before = std::sqrt(pair.before.squared());
+  const PairDistance now = distance_at(pair.key.edges == 1, pair.vertices, x);
+  const double distance = std::sqrt(now.squared());
+  const Vec3 n0 = before > 0 ? Vec3(pair.before.across / before) : Vec3::Zero();
+  if (distance > 0 && now.across.dot(n0) > same_side * distance)
+    return {now.across / distance, now.weights, distance};
+  return {n0, pair.before.weights, n0.dot(weighted(pair.before.weights, pair.vertices, x))};
+}
+
+}  // namespace
+
+PairResponse::PairResponse(const SelfContactOptions& options, double recovery_speed)
+    : options_(options), recovery_speed_(recovery_speed) {
+  const char* const me = "contact of the cloth with itself";
+  require(me, "thickness", options.thickness, options.thickness > 0, "> 0");
+  require(me, "friction", options.friction, options.friction >= 0, ">= 0");
+  require(me, "recovery_speed", recovery_speed, recovery_speed > 0, "> 0");
+}
+
+void PairResponse::attach(const PackedCloth& packed, std::span<const int> led, ThreadPool& pool) {
+  Cloth cloth = cloth_by_place(packed);
+  for (const int i : led) cloth.particles.inv_mass[std::size_t(i)] = 1;  // it may meet what is held
+  if (cloth.triangles.empty())
+    refuse("contact of the cloth with itself", "it needs the cloth's triangles (Cloth::triangles)");
+  contact_ = std::make_unique<ClothContact>(cloth, ClothContactOptions{options_.thickness}, cloth.particles.x,
+                                            std::span<const Vec3>{}, &pool);
+  const PairMesh& mesh = contact_->mesh();
+  least_radius_ = mesh.radius;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int v : mesh.triangles[t])
+      least_radius_[std::size_t(v)] = std::min(least_radius_[std::size_t(v)], mesh.triangle_radius[t]);
+  const std::size_t n = packed.x.size();
+  taken_.assign(n, Vec3::Zero());
+  touched_.assign(n, 0);
+  bounded_.assign(n, 0);
+  room_.assign(n, 0);
+}
+
+void PairResponse::note_ways(std::span<const Vec4> x0, const PackedCloth& cloth) {
+  const std::size_t n = x0.size();
+  x0_.resize(n);
+  x_.resize(n);
+  way_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    x0_[i] = xyz(x0[i]);
+    x_[i] = xyz(cloth.x[i]);
+    way_[i] = x_[i] - x0_[i];
+  }
+}
+
+void PairResponse::touch(const std::array<int, 4>& vertices) {
+  for (const int v : vertices) {
+    if (touched_[std::size_t(v)]) continue;
+    touched_[std::size_t(v)] = 1;
+    places_.push_back(v);
+  }
+}
+
+/// Old depth goes without a velocity.
+void PairResponse::take_out(const ClothContact::Met& pair, double depth, const Vec3& along, double dt,
+                            const std::vector<double>& inv_mass) {
+  const double most = std::min(depth, recovery_speed_ * dt);
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    sum += pair.before.weights[i] * pair.before.weights[i] * inv_mass[std::size_t(pair.vertices[i])];
+  if (!(sum > 0)) return;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto v = std::size_t(pair.vertices[i]);
+    taken_[v] += most / sum * pair.before.weights[i] * inv_mass[v] * along;
+  }
+  touch(pair.vertices);
+}
+
+void PairResponse::push_apart(const ClothContact::Met& pair, double dt, const std::vector<double>& inv_mass) {
+  const Facing now = facing(pair, x_);
+  const double before = std::sqrt(pair.before.squared()), target = std::min(pair.range, before);
+  const double push = target - now.gap, depth = pair.range - std::max(before, now.gap);
+  if (depth > 0) take_out(pair, depth, now.normal, dt, inv_mass);
+  if (!(push > 0)) return;
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    sum += now.weights[i] * now.weights[i] * inv_mass[std::size_t(pair.vertices[i])];
+  if (!(sum > 0)) return;
+  const auto move = [&](const Vec3& by) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto v = std::size_t(pair.vertices[i]);
+      x_[v] += now.weights[i] * inv_mass[v] / sum * by;
+    }
+  };
+  move(push * now.normal);
+  const Vec3 relative = weighted(now.weights, pair.vertices, x_) - weighted(now.weights, pair.vertices, x0_);
+  const Vec3 tangential = relative - now.normal.dot(relative) * now.normal;
+  const double slip = tangential.norm(), most = options_.friction * push;
+  if (slip > 0 && most > 0) move(-std::min(1.0, most / slip) * tangential);
+  touch(pair.vertices);
+  pushed_.push_back({pair.key.edges == 1, pair.vertices});
+}
+
+const std::vector<int>& PairResponse::respond(std::span<const Vec4> x0, double dt, PackedCloth& cloth,
+                                              ThreadPool& pool) {
+  for (const int v : places_) touched_[std::size_t(v)] = 0, taken_[std::size_t(v)] = Vec3::Zero();
+  places_.clear();
+  pushed_.clear();
+  note_ways(x0, cloth);
+  clear_ = true;
+  for (const ClothContact::Met& pair : contact_->meet(x0_, way_, &pool)) {
+    push_apart(pair, dt, cloth.inv_mass);
+    clear_ = clear_ && pair.share == 1;
+  }
+  clear_ = clear_ && places_.empty();
+  for (const int v : places_) {
+    const auto i = std::size_t(v);
+    if (cloth.inv_mass[i] == 0) continue;
+    put(xyz(cloth.v[i]) + (x_[i] - xyz(cloth.x[i])) / dt, cloth.v[i]);
+    put(x_[i] + taken_[i], cloth.x[i]);
+  }
+  return places_;
+}
+
+/// Bounds the vertices of pairs whose way is not free; whether there are any that were not. A bounded vertex
+/// may go less than half of its distance to what is near, and of the thickness, in which nothing else is.
+bool PairResponse::bound(const std::vector<ClothContact::Met>& pairs) {
+  bool more = false;
+  for (const ClothContact::Met& pair : pairs) {
+    if (pair.share == 1) continue;
+    for (const int v : pair.vertices) {
+      more = more || !bounded_[std::size_t(v)];
+      bounded_[std::size_t(v)] = 1;
+    }
+  }
+  if (!more) return false;
+  for (std::size_t i = 0; i < room_.size(); ++i) room_[i] = 2 * less_than_half * least_radius_[i];
+  for (const ClothContact::Met& pair : pairs) {
+    const double room = less_than_half * std::sqrt(pair.before.squared());
+    for (const int v : pair.vertices) room_[std::size_t(v)] = std::min(room_[std::size_t(v)], room);
+  }
+  return true;
+}
+
+/// The ways of bounded vertices, beside what all have in common.
+void PairResponse::cut(const PackedCloth& cloth, const Vec3& common) {
+  for (std::size_t i = 0; i < way_.size(); ++i) {
+    if (!bounded_[i]) continue;
+    const Vec3 own = xyz(cloth.x[i]) - x0_[i] - common;
+    const double length = own.norm();
+    way_[i] = common + (length <= room_[i] ? own : Vec3(room_[i] / length * own));
+  }
+}
+
+Vec3 PairResponse::common_way(const PackedCloth& cloth) const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < way_.size(); ++i) {
+    if (cloth.inv_mass[i] == 0) return Vec3::Zero();
+    sum += way_[i];
+  }
+  return sum / double(way_.size());
+}
+
+void PairResponse::guard(std::span<const Vec4> x0, double dt, PackedCloth& cloth, ThreadPool& pool) {
+  if (clear_) return;
+  note_ways(x0, cloth);
+  bool any = false;
+  Vec3 common = Vec3::Zero();
+  for (int round = 0; bound(contact_->meet(x0_, way_, &pool)); ++round) {
+    if (!any) common = common_way(cloth);
+    any = true;
+    if (round == most_rounds) std::fill(bounded_.begin(), bounded_.end(), 1);
+    cut(cloth, common);
+  }
+  if (!any) return;
+  for (std::size_t i = 0; i < way_.size(); ++i) {
+    const Vec3 wanted = xyz(cloth.x[i]), reached = x0_[i] + way_[i];
+    const bool is_cut = bounded_[i] && (reached - wanted).norm() > 1e-12 * (1 + wanted.norm());
+    bounded_[i] = 0;
+    if (!is_cut) continue;
+    ++cut_moves_;
+    if (cloth.inv_mass[i] == 0) {
+      std::copy(x0.begin(), x0.end(), cloth.x.begin());
+      std::fill(bounded_.begin(), bounded_.end(), 0);
+      throw StepBlocked(x0_[i]);
+    }
+    put(xyz(cloth.v[i]) + (reached - wanted) / dt, cloth.v[i]);
+    put(reached, cloth.x[i]);
+  }
+}
+
+void PairResponse::widen(const PackedCloth& cloth) {
+  std::vector<Vec3> x;
+  for (const Vec4& p : cloth.x) x.push_back(xyz(p));
+  contact_->widen(x);
+}
+
+SelfContactMemory PairResponse::memory() const {
+  const ClothContact::Memory memory = contact_->memory();
+  SelfContactMemory result{1, {}, memory.loose, memory.crossed_at_start, {}};
+  for (const ClothContact::SpecialPair& p : memory.special)
+    result.pairs.push_back({p.key.edges == 1, p.key.first, p.key.second, p.range, p.target});
+  return result;
+}
+
+void PairResponse::recall(const SelfContactMemory& known) {
+  if (known.stiffness == 0) return;
+  ClothContact::Memory memory{{}, known.loose, known.crossed_at_start};
+  for (const PairMemory& p : known.pairs)
+    memory.special.push_back({{std::uint8_t(p.edges), p.first, p.second}, p.range, p.target});
+  contact_->recall(memory);
+}
+
+SelfContactState PairResponse::state(const PackedCloth& cloth) const {
+  std::vector<Vec3> x;
+  for (const Vec4& p : cloth.x) x.push_back(xyz(p));
+  SelfContactState state;
+  state.on = true;
+  state.pairs = int(pushed_.size());
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Pushed& p : pushed_)
+    nearest = std::min(nearest, std::sqrt(distance_at(p.edges, p.vertices, x).squared()));
+  if (!pushed_.empty()) state.nearest = nearest;
+  state.crossed_at_start = contact_->crossed_at_start();
+  state.exempt = contact_->exempt();
+  return state;
+}
+
+}  // namespace furrow::physics
