@@ -13,6 +13,8 @@
 namespace furrow::physics {
 namespace {
 
+constexpr int most_pair_sweeps = 16;  // a step
+
 void check_not_negative(double value, const char* name) {
   if (!(value >= 0) || !std::isfinite(value)) {
     throw std::invalid_argument(std::string(name) + " = " + std::to_string(value) + " is not >= 0");
@@ -149,21 +151,29 @@ void Motion::drift(double seconds) {
   if (around_.pairs) keep_apart(before, seconds);
 }
 
-/// What cloth pushes may come to be nearer to the body than it was.
+/// What cloth pushes may come to be nearer to the body than it was, so the two take turns.
 void Motion::keep_apart(const std::vector<Vec4>& before, double seconds) {
   const WorkClock::Within self(clock(), WorkPart::self_contact);
-  const std::vector<int>& touched = around_.pairs->respond(before, seconds, cloth_, pool_);
-  if (around_.contact)
-    for (const int place : touched) {
-      const auto i = std::size_t(place);
-      if (cloth_.inv_mass[i] == 0) continue;
-      const Vec4 &x0 = before[i], &x1 = cloth_.x[i], &v1 = cloth_.v[i];
-      Vec3 x(x1.x, x1.y, x1.z), v(v1.x, v1.y, v1.z);
-      around_.contact->respond(place, {x0.x, x0.y, x0.z}, seconds, x, v, work_.contact);
-      cloth_.x[i] = {x.x(), x.y(), x.z(), 0};
-      cloth_.v[i] = {v.x(), v.y(), v.z(), 0};
-    }
-  around_.pairs->guard(before, seconds, cloth_, pool_);
+  PairResponse& pairs = *around_.pairs;
+  if (!pairs.begin_step(before, cloth_, pool_)) return;
+  for (int sweep = 0; sweep < most_pair_sweeps; ++sweep) {
+    const bool again = pairs.sweep(seconds, cloth_);
+    if (around_.contact) meet_body(pairs.touched(), before, seconds);
+    if (!again) break;
+  }
+  pairs.finish_step(before, seconds, cloth_, pool_);
+}
+
+void Motion::meet_body(const std::vector<int>& places, const std::vector<Vec4>& before, double seconds) {
+  for (const int place : places) {
+    const auto i = std::size_t(place);
+    if (cloth_.inv_mass[i] == 0) continue;
+    const Vec4 &x0 = before[i], &x1 = cloth_.x[i], &v1 = cloth_.v[i];
+    Vec3 x(x1.x, x1.y, x1.z), v(v1.x, v1.y, v1.z);
+    around_.contact->respond(place, {x0.x, x0.y, x0.z}, seconds, x, v, work_.contact);
+    cloth_.x[i] = {x.x(), x.y(), x.z(), 0};
+    cloth_.v[i] = {v.x(), v.y(), v.z(), 0};
+  }
 }
 
 void Motion::update_forces(double time) {

@@ -81,6 +81,7 @@ class Motion {
   const DampingSweep& damping(double seconds);
   void compensate(double time);
   void keep_apart(const std::vector<Vec4>& before, double seconds);
+  void meet_body(const std::vector<int>& places, const std::vector<Vec4>& before, double seconds);
 
   PackedCloth cloth_;
   Loads loads_;

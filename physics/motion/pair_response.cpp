@@ -13,17 +13,34 @@
 namespace furrow::physics {
 namespace {
 
-constexpr double less_than_half = 0.45;  // of a distance, that either side may go
-constexpr double same_side = 0.5;        // cosine: two normals that agree
-constexpr int most_rounds = 20;          // of the guard; then all is cut
+constexpr double less_than_half = 0.45;     // of a distance, that either side may go
+constexpr double same_side = 0.5;           // cosine: two normals that agree
+constexpr int most_rounds = 20;             // of the guard; then all is cut
+constexpr double as_touching = 1.001;       // ranges: who rests on cloth
+constexpr double stiffness_of_depth = 0.3;  // of mass over dt^2
+constexpr double recovery_steps = 4;        // in which depth may go at the soonest
+constexpr double small_push = 0.002;        // of a range: no need of another sweep
+constexpr double last_share = 0.05;         // of a range, in which nothing may close
 
 Vec3 xyz(const Vec4& v) { return {v.x, v.y, v.z}; }
 void put(const Vec3& v, Vec4& to) { to = {v.x(), v.y(), v.z(), 0}; }
 
+PairDistance distance_of(bool edges, const std::array<Vec3, 4>& x) {
+  return edges ? edge_edge_distance(x[0], x[1], x[2], x[3])
+               : vertex_triangle_distance(x[0], x[1], x[2], x[3]);
+}
+
 PairDistance distance_at(bool edges, const std::array<int, 4>& v, std::span<const Vec3> x) {
-  const auto at = [&](std::size_t i) -> const Vec3& { return x[std::size_t(v[i])]; };
-  return edges ? edge_edge_distance(at(0), at(1), at(2), at(3))
-               : vertex_triangle_distance(at(0), at(1), at(2), at(3));
+  return distance_of(
+      edges, {x[std::size_t(v[0])], x[std::size_t(v[1])], x[std::size_t(v[2])], x[std::size_t(v[3])]});
+}
+
+/// Of a pair's distance, for an impulse along it [1/kg].
+double mobility(const std::array<double, 4>& weights, const std::array<int, 4>& v,
+                const std::vector<double>& inv_mass) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) sum += weights[i] * weights[i] * inv_mass[std::size_t(v[i])];
+  return sum;
 }
 
 /// The sum of what a pair's vertices have, by its weights.
@@ -53,12 +70,10 @@ Facing facing(const ClothContact::Met& pair, std::span<const Vec3> x) {
 
 }  // namespace
 
-PairResponse::PairResponse(const SelfContactOptions& options, double recovery_speed)
-    : options_(options), recovery_speed_(recovery_speed) {
+PairResponse::PairResponse(const SelfContactOptions& options) : options_(options) {
   const char* const me = "contact of the cloth with itself";
   require(me, "thickness", options.thickness, options.thickness > 0, "> 0");
   require(me, "friction", options.friction, options.friction >= 0, ">= 0");
-  require(me, "recovery_speed", recovery_speed, recovery_speed > 0, "> 0");
 }
 
 void PairResponse::attach(const PackedCloth& packed, std::span<const int> led, ThreadPool& pool) {
@@ -74,7 +89,6 @@ void PairResponse::attach(const PackedCloth& packed, std::span<const int> led, T
     for (const int v : mesh.triangles[t])
       least_radius_[std::size_t(v)] = std::min(least_radius_[std::size_t(v)], mesh.triangle_radius[t]);
   const std::size_t n = packed.x.size();
-  taken_.assign(n, Vec3::Zero());
   touched_.assign(n, 0);
   bounded_.assign(n, 0);
   room_.assign(n, 0);
@@ -100,65 +114,96 @@ void PairResponse::touch(const std::array<int, 4>& vertices) {
   }
 }
 
-/// Old depth goes without a velocity.
-void PairResponse::take_out(const ClothContact::Met& pair, double depth, const Vec3& along, double dt,
-                            const std::vector<double>& inv_mass) {
-  const double most = std::min(depth, recovery_speed_ * dt);
-  double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    sum += pair.before.weights[i] * pair.before.weights[i] * inv_mass[std::size_t(pair.vertices[i])];
-  if (!(sum > 0)) return;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto v = std::size_t(pair.vertices[i]);
-    taken_[v] += most / sum * pair.before.weights[i] * inv_mass[v] * along;
-  }
-  touch(pair.vertices);
-}
-
-void PairResponse::push_apart(const ClothContact::Met& pair, double dt, const std::vector<double>& inv_mass) {
+/// One step of projected Gauss-Seidel: what all sweeps pushed a pair is no pull, and its friction is within
+/// that times the coefficient. Returns by how much the push changed.
+double PairResponse::push_apart(const ClothContact::Met& pair, Push& push,
+                                const std::vector<double>& inv_mass) {
   const Facing now = facing(pair, x_);
-  const double before = std::sqrt(pair.before.squared()), target = std::min(pair.range, before);
-  const double push = target - now.gap, depth = pair.range - std::max(before, now.gap);
-  if (depth > 0) take_out(pair, depth, now.normal, dt, inv_mass);
-  if (!(push > 0)) return;
-  double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    sum += now.weights[i] * now.weights[i] * inv_mass[std::size_t(pair.vertices[i])];
-  if (!(sum > 0)) return;
+  const double before = push.along;
+  push.along = std::max(0.0, before + std::min(pair.range, std::sqrt(pair.before.squared())) - now.gap);
+  const double change = push.along - before, sum = mobility(now.weights, pair.vertices, inv_mass);
+  if (!(sum > 0) || (change == 0 && push.along == 0)) return 0;
   const auto move = [&](const Vec3& by) {
     for (std::size_t i = 0; i < 4; ++i) {
       const auto v = std::size_t(pair.vertices[i]);
       x_[v] += now.weights[i] * inv_mass[v] / sum * by;
     }
   };
-  move(push * now.normal);
-  const Vec3 relative = weighted(now.weights, pair.vertices, x_) - weighted(now.weights, pair.vertices, x0_);
-  const Vec3 tangential = relative - now.normal.dot(relative) * now.normal;
-  const double slip = tangential.norm(), most = options_.friction * push;
-  if (slip > 0 && most > 0) move(-std::min(1.0, most / slip) * tangential);
+  move(change * now.normal);
   touch(pair.vertices);
-  pushed_.push_back({pair.key.edges == 1, pair.vertices});
+  if (options_.friction > 0) {
+    const Vec3 way = weighted(now.weights, pair.vertices, x_) - weighted(now.weights, pair.vertices, x0_);
+    const Vec3 wanted = push.across - (way - now.normal.dot(way) * now.normal);
+    const double most = options_.friction * push.along, length = wanted.norm();
+    const Vec3 across = length <= most ? wanted : Vec3(most / length * wanted);
+    move(across - push.across);
+    push.across = across;
+  }
+  return std::abs(change);
 }
 
-const std::vector<int>& PairResponse::respond(std::span<const Vec4> x0, double dt, PackedCloth& cloth,
-                                              ThreadPool& pool) {
-  for (const int v : places_) touched_[std::size_t(v)] = 0, taken_[std::size_t(v)] = Vec3::Zero();
+bool PairResponse::begin_step(std::span<const Vec4> x0, const PackedCloth& cloth, ThreadPool& pool) {
+  for (const int v : places_) touched_[std::size_t(v)] = 0;
   places_.clear();
-  pushed_.clear();
   note_ways(x0, cloth);
-  clear_ = true;
-  for (const ClothContact::Met& pair : contact_->meet(x0_, way_, &pool)) {
-    push_apart(pair, dt, cloth.inv_mass);
-    clear_ = clear_ && pair.share == 1;
-  }
-  clear_ = clear_ && places_.empty();
+  met_ = contact_->meet(x0_, way_, &pool);
+  pushes_.assign(met_.size(), {});
+  return !met_.empty();
+}
+
+bool PairResponse::sweep(double dt, PackedCloth& cloth) {
+  for (const int v : places_) x_[std::size_t(v)] = xyz(cloth.x[std::size_t(v)]);
+  bool again = false;
+  for (std::size_t i = 0; i < met_.size(); ++i)
+    again = push_apart(met_[i], pushes_[i], cloth.inv_mass) > small_push * met_[i].range || again;
   for (const int v : places_) {
     const auto i = std::size_t(v);
     if (cloth.inv_mass[i] == 0) continue;
     put(xyz(cloth.v[i]) + (x_[i] - xyz(cloth.x[i])) / dt, cloth.v[i]);
-    put(x_[i] + taken_[i], cloth.x[i]);
+    put(x_[i], cloth.x[i]);
   }
-  return places_;
+  return again;
+}
+
+/// Gives what is nearer than its range a speed apart, by a push that grows with the depth: so pressed layers
+/// bear a load, and cloth that is caught in itself is not stretched without bound.
+void PairResponse::take_out(double dt, PackedCloth& cloth) {
+  for (const ClothContact::Met& pair : met_) {
+    if (!(pair.before.squared() < pair.range * pair.range)) continue;
+    for (const int v : pair.vertices) x_[std::size_t(v)] = xyz(cloth.x[std::size_t(v)]);
+    const Facing now = facing(pair, x_);
+    const double sum = mobility(now.weights, pair.vertices, cloth.inv_mass), depth = pair.range - now.gap;
+    if (!(depth > 0) || !(sum > 0)) continue;
+    double speed = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      speed += now.weights[i] * now.normal.dot(xyz(cloth.v[std::size_t(pair.vertices[i])]));
+    const double wanted = depth / (recovery_steps * dt) - speed;
+    const double change = std::min(wanted, stiffness_of_depth * depth / dt);
+    if (!(change > 0)) continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto v = std::size_t(pair.vertices[i]);
+      put(xyz(cloth.v[v]) + change / sum * now.weights[i] * cloth.inv_mass[v] * now.normal, cloth.v[v]);
+    }
+  }
+}
+
+void PairResponse::finish_step(std::span<const Vec4> x0, double dt, PackedCloth& cloth, ThreadPool& pool) {
+  if (met_.empty()) return;
+  take_out(dt, cloth);
+  const bool clear = places_.empty() && std::all_of(met_.begin(), met_.end(), [](const auto& pair) {
+                       return pair.share == 1 && !(pair.before.squared() < pair.range * pair.range);
+                     });
+  if (!clear) guard(x0, dt, cloth, pool);
+}
+
+bool PairResponse::closes_in(const ClothContact::Met& pair) const {
+  std::array<Vec3, 4> end;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto v = std::size_t(pair.vertices[i]);
+    end[i] = x0_[v] + way_[v];
+  }
+  const double after = distance_of(pair.key.edges == 1, end).squared(), least = last_share * pair.range;
+  return after < least * least && after < pair.before.squared();
 }
 
 /// Bounds the vertices of pairs whose way is not free; whether there are any that were not. A bounded vertex
@@ -166,7 +211,7 @@ const std::vector<int>& PairResponse::respond(std::span<const Vec4> x0, double d
 bool PairResponse::bound(const std::vector<ClothContact::Met>& pairs) {
   bool more = false;
   for (const ClothContact::Met& pair : pairs) {
-    if (pair.share == 1) continue;
+    if (pair.share == 1 && !closes_in(pair)) continue;
     for (const int v : pair.vertices) {
       more = more || !bounded_[std::size_t(v)];
       bounded_[std::size_t(v)] = 1;
@@ -175,7 +220,8 @@ bool PairResponse::bound(const std::vector<ClothContact::Met>& pairs) {
   if (!more) return false;
   for (std::size_t i = 0; i < room_.size(); ++i) room_[i] = 2 * less_than_half * least_radius_[i];
   for (const ClothContact::Met& pair : pairs) {
-    const double room = less_than_half * std::sqrt(pair.before.squared());
+    const double least = 0.5 * last_share * pair.range;
+    const double room = less_than_half * std::max(0.0, std::sqrt(pair.before.squared()) - least);
     for (const int v : pair.vertices) room_[std::size_t(v)] = std::min(room_[std::size_t(v)], room);
   }
   return true;
@@ -201,7 +247,6 @@ Vec3 PairResponse::common_way(const PackedCloth& cloth) const {
 }
 
 void PairResponse::guard(std::span<const Vec4> x0, double dt, PackedCloth& cloth, ThreadPool& pool) {
-  if (clear_) return;
   note_ways(x0, cloth);
   bool any = false;
   Vec3 common = Vec3::Zero();
@@ -255,11 +300,13 @@ SelfContactState PairResponse::state(const PackedCloth& cloth) const {
   for (const Vec4& p : cloth.x) x.push_back(xyz(p));
   SelfContactState state;
   state.on = true;
-  state.pairs = int(pushed_.size());
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Pushed& p : pushed_)
-    nearest = std::min(nearest, std::sqrt(distance_at(p.edges, p.vertices, x).squared()));
-  if (!pushed_.empty()) state.nearest = nearest;
+  for (const ClothContact::Met& p : met_) {
+    const double distance = std::sqrt(distance_at(p.key.edges == 1, p.vertices, x).squared());
+    nearest = std::min(nearest, distance);
+    state.pairs += distance <= as_touching * p.range;
+  }
+  if (state.pairs > 0) state.nearest = nearest;
   state.crossed_at_start = contact_->crossed_at_start();
   state.exempt = contact_->exempt();
   return state;

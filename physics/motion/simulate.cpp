@@ -21,7 +21,7 @@ namespace {
 constexpr int divergence_steps = 16;      // steps between two looks for divergence
 constexpr int widening_steps = 64;        // between two changes of what pairs may do
 constexpr int least_steps_of_cuts = 256;  // of a call, before its cuts are judged
-constexpr double most_cut = 0.01;         // of all moves of particles
+constexpr double most_cut = 0.05;         // of all moves of particles
 
 void require_positive(double value, const char* name) {
   if (!(value > 0) || !std::isfinite(value)) refuse("simulate", name, " = ", value, " is not > 0");
@@ -82,7 +82,7 @@ class Simulation {
   int frames_before_ = 0;
   double frame_seconds_before_ = 0;
   std::unique_ptr<BodyContact> contact_;
-  BodyAround body_;  ///< for steps that solve contact; in place of contact_
+  BodyAround body_;                    ///< for steps that solve contact; in place of contact_
   std::optional<PairResponse> pairs_;  ///< where steps do not solve it
   std::optional<PinLeader> leader_;
   std::optional<Motion> motion_;
@@ -109,8 +109,7 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
   check(state, cloth.particles.size());
   make_contact();
   lead_pins();
-  if (options.self.on && !solves_contact(options.integrator))
-    pairs_.emplace(options.self, options.recovery_speed);
+  if (options.self.on && !solves_contact(options.integrator)) pairs_.emplace(options.self);
   const Surroundings around{contact_.get(),
                             body_.any() ? &body_ : nullptr,
                             pairs_ ? &*pairs_ : nullptr,

@@ -299,7 +299,7 @@ struct SimulateReport {
 /// Moves the cloth to the time options.seconds under springs, gravity, air, damping and contact. Steps have
 /// equal length between two estimates of the limit, and the end is hit exactly. A state that is not finite or
 /// faster than speed_limit ends the run with Outcome::diverged and is left as it is (checked every 16 steps);
-/// so does one in which contact of the cloth with itself cuts more than a hundredth of all moves.
+/// so does one in which contact of the cloth with itself cuts more than a twentieth of all moves.
 /// Same input, same bits, for any number of threads.
 ///
 /// Without `state` a call begins at time 0. With it a call continues from the state's time, and does nothing

@@ -140,8 +140,8 @@ class ClothContact {
   std::vector<double> shares_;                   ///< likewise
   std::vector<std::vector<Met>> met_of_;         ///< by chunks, likewise
   std::vector<Met> met_;
-  std::vector<ActivePair> active_;               ///< sorted by key
-  std::vector<ActivePair> braced_;               ///< that cut the last way short
+  std::vector<ActivePair> active_;  ///< sorted by key
+  std::vector<ActivePair> braced_;  ///< that cut the last way short
   PairFriction friction_;
   double energy_ = 0, margin_share_;
   int cut_searches_ = 0, blocked_ = 0, crossed_at_start_ = 0;

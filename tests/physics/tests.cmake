@@ -53,6 +53,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   motion/implicit_step_test.cpp
   motion/leapfrog_step_test.cpp
   motion/moved_pins_test.cpp
+  motion/pair_response_test.cpp
   motion/self_contact_test.cpp
   motion/shell_motion_test.cpp
   motion/simulate_integrators_test.cpp
