@@ -65,6 +65,7 @@ physics::SettleReport settle_softly(physics::Cloth& cloth, const physics::Collid
   rough.faces = {};
   rough.work = o.work ? &o.work->levels[0] : nullptr;
   rough.max_iterations = std::min(rough.max_iterations, most_soft_iterations);
+  rough.self.max_iterations = 0;
   const std::vector<physics::MembraneTriangle> own = cloth.membrane;
   for (physics::MembraneTriangle& t : cloth.membrane) {
     t.lambda /= o.soft_start;

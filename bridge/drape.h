@@ -61,6 +61,9 @@ struct DrapeLevel {
   physics::ContourReport untangled;  ///< where it crossed itself then, with contact of cloth with cloth
   physics::SettleReport settle;      ///< iterations of the plain scheme: its passes
   physics::SettleReport soft;        ///< of the search before, with a soft_start
+
+  /// Whether contact of cloth with cloth changed anything: else all is as without, bit by bit.
+  bool acted() const { return stopped > 0 || untangled.at_start > 0 || settle.self.acted || soft.self.acted; }
 };
 struct DrapeReport {
   std::vector<DrapeLevel> levels;  ///< coarse to fine

@@ -123,7 +123,7 @@ physics::SettleOptions level_options(const DrapeOptions& o, bool last, bool stop
     settle.contact_depth = std::numeric_limits<double>::infinity();
     settle.faces = {};
   }
-  if (stopped) settle.max_iterations = 0;
+  if (stopped) settle.max_iterations = settle.self.max_iterations = 0;
   return settle;
 }
 

@@ -296,8 +296,8 @@ void add_drape(CLI::App& app, int& exit_code) {
   sub->add_option(
          "--self-contact", a->self_contact,
          "whether cloth keeps off cloth: layers and folds lie on each other, and nothing passes through that "
-         "did not at the start. on takes 1.1 to 3 times as long; auto: where cloth crosses itself at rest "
-         "without, it is draped again with it")
+         "did not at the start. auto: where that ends blocked, torn or not at rest, the garment is draped "
+         "again without, and the better end is taken")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "on", "off"}));
   sub->add_option(

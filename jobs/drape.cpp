@@ -219,8 +219,6 @@ void drape_all_layers(const DrapeJob& job, const GarmentScenes& all, const OpenS
   WornOver worn = drape_worn_over(scenes, names, &body, job.settings, choose, context);
   for (std::size_t i = 0; i < open.size(); ++i) {
     Draped& d = worn.garments[i];
-    d.penetration = job.settings.penetration;
-    d.allowed_crossings = std::size_t(open[i].scene.allow_crossings);
     note_material(d.file, open[i].document, d.gap);
     if (job.output.empty()) continue;
     d.written = layer_output(job.output, names[i]);
@@ -244,8 +242,9 @@ std::filesystem::path layer_output(const std::filesystem::path& output, const st
 }
 
 bool DrapeJobReport::fails() const {
-  const bool under = layers && std::any_of(layers->pairs.begin(), layers->pairs.end(),
-                                           [](const LayerPair& p) { return p.touch && 2 * p.outside < p.compared; });
+  const bool under =
+      layers && std::any_of(layers->pairs.begin(), layers->pairs.end(),
+                            [](const LayerPair& p) { return p.touch && 2 * p.outside < p.compared; });
   return under ||
          std::any_of(garments.begin(), garments.end(), [](const Draped& d) { return !d.succeeds(); });
 }
@@ -273,8 +272,6 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
         drape_garment(scenes[i], body ? &*body : nullptr, job.settings, choose, context));
     Draped& draped = report.garments.back();
     draped.name = job.fabrics.empty() ? open.scene.garment.stem().string() : job.fabrics[i];
-    draped.penetration = job.settings.penetration;
-    draped.allowed_crossings = std::size_t(open.scene.allow_crossings);
     if (draped.report.stopped) break;
   }
   if (job.fabrics.size() < 2) note_material(report.garments[0].file, open.document, report.garments[0].gap);

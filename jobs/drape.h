@@ -23,7 +23,7 @@ struct Band {
 enum class SelfContactUse {
   off,
   on,
-  /// Only where cloth has come to cross itself without; that rest is taken where less crosses.
+  /// On, unless that ends where no cloth rests and without fewer faces cross, or as few.
   automatic
 };
 
@@ -122,6 +122,17 @@ struct DrapeForces {
   std::vector<Pull> bands = {};
 };
 
+/// A search for rest, of two with contact of cloth with cloth and without, whose end was not taken.
+struct DrapeOther {
+  bool self_contact = false;                ///< cloth kept off cloth
+  std::string outcome;                      ///< as Draped::outcome()
+  std::size_t crossings = 0;                ///< pairs of faces of the cloth that cross
+  int iterations = 0;                       ///< of all levels
+  double residual = 0;                      ///< [-]
+  double seconds = 0;                       ///< [s]
+  std::optional<physics::Vec3> blocked_at;  ///< [m]
+};
+
 /// What is told of parts that nothing holds.
 struct LooseParts {
   LooseUse use = LooseUse::hold;
@@ -157,12 +168,10 @@ struct Draped {
   ClothCrossings crossings;             ///< of the cloth with itself, as it was given and now
   std::size_t allowed_crossings = 0;    ///< pairs that may be left
   bool self_contact = false;            ///< cloth kept off cloth
-  bool contact_tried = false;           ///< it was looked for how it rests with that
   /// What that took apart where the garment crossed itself: at the start of the first level that it had to,
   /// left at the start of the last; rounds of all.
   physics::ContourReport untangled;
-  /// Pairs of faces that crossed without contact of cloth with cloth; none: that was not tried first.
-  std::optional<std::size_t> crossings_without;
+  std::optional<DrapeOther> other;        ///< none: one search was enough
   double thickness = 0;                   ///< of the cloth then [m]
   double cloth_friction = 0;              ///< Coulomb coefficient of cloth on cloth then [-]
   std::size_t crossings_with_others = 0;  ///< pairs of its faces and those of other garments that cross

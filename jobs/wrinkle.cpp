@@ -255,8 +255,6 @@ void settle_drawn(const WrinkleJob& job, const RestPlan& plan, WrinkleReport& re
   Draped draped = drape_garment(scene, plan.body ? &*plan.body : nullptr, {}, false, there);
   draped.refinements = plan.refinements;
   draped.name = scene.garment.stem().string();
-  draped.penetration = DrapeSettings{}.penetration;
-  draped.allowed_crossings = std::size_t(scene.allow_crossings);
   for (const DrapeRemark& r : remarks_on({&draped, 1}))
     if (r.fails)
       report.failures.push_back(r.remark);

@@ -85,7 +85,7 @@ std::string remedy_of_crossings(const Draped& d) {
             "inner.obj outer.obj)"
           : "";
   if (!d.untangled.lines.empty()) return words_of_tangle(d.untangled) + ": part its layers there" + apart;
-  if (d.contact_tried && !d.self_contact)
+  if (d.other && d.other->self_contact)
     return "with contact of cloth with cloth no better rest was found: part its layers, or give it room" +
            apart;
   if (d.crossings.pairs <= d.crossings.from_start)
@@ -104,6 +104,25 @@ void remark_on_crossings(const Draped& d, std::vector<DrapeRemark>& remarks) {
       {d.crosses_itself(),
        {"cloth_crosses", d.name + ": " + words(d.crossings) + "; " + remedy_of_crossings(d) + accept, d.name,
         "garment.allow_crossings"}});
+}
+
+/// With contact of cloth with cloth it led to no success, and this is what it came to without.
+void remark_on_way_back(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (!d.other || !d.other->self_contact) return;
+  const DrapeOther& other = *d.other;
+  const std::string where = other.blocked_at
+                                ? fmt::format(" at ({:.2f}, {:.2f}, {:.2f}) m", other.blocked_at->x(),
+                                              other.blocked_at->y(), other.blocked_at->z())
+                                : "";
+  remarks.push_back(
+      {false,
+       {"contact_left_out",
+        fmt::format(
+            "{}: draped without contact of cloth with cloth, as with it the garment ends {}{} after {} "
+            "iterations, residual force {:.2g}, {} pairs of faces crossing; --self-contact on writes "
+            "that, off does not look for it",
+            d.name, other.outcome, where, other.iterations, other.residual, other.crossings),
+        d.name, "self_contact"}});
 }
 
 /// Cloth that no cloth survives: the fabric's law says nothing true of it any more.
@@ -250,8 +269,19 @@ Json self_contact_json(const Draped& d) {
             {"exempt", last.exempt},
             {"stopped", stopped},
             {"friction", d.cloth_friction}};
-  if (d.crossings_without) json["crossings_without"] = *d.crossings_without;
+  if (d.other) json["crossings_without"] = d.other->crossings;
   if (last.blocked) json["blocked_at"] = {last.blocked_at.x(), last.blocked_at.y(), last.blocked_at.z()};
+  return json;
+}
+
+Json to_json(const DrapeOther& other) {
+  Json json{{"self_contact", other.self_contact}, {"outcome", other.outcome},
+            {"crossings", other.crossings},       {"iterations", other.iterations},
+            {"residual_force", other.residual},   {"seconds", other.seconds}};
+  if (other.blocked_at) {
+    const physics::Vec3& at = *other.blocked_at;
+    json["blocked_at"] = {at.x(), at.y(), at.z()};
+  }
   return json;
 }
 
@@ -373,6 +403,7 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
     remark_on_contact(d, remarks);
     remark_on_loose_parts(d, remarks);
     remark_on_crossings(d, remarks);
+    remark_on_way_back(d, remarks);
     if (!d.rests()) remark_on_unrest(d, remarks);
     for (const Warning& doubt : doubts_of(d)) remarks.push_back({false, doubt});
     if (d.rests() && !d.is_torn())
@@ -440,6 +471,7 @@ Json to_json(const Draped& d) {
                      {"area_share", d.loose_parts.area_share},
                      {"done", name_of(d.loose_parts.use)}};
   if (d.self_contact) json["self_contact"] = self_contact_json(d);
+  if (d.other) json["other_search"] = to_json(*d.other);
   if (d.untangled.at_start) json["untangled"] = untangled_json(d.untangled);
   if (!d.written.empty()) json["written"] = d.written.string();
   json["hem_height"] = d.hem_height ? Json(*d.hem_height) : Json();

@@ -145,40 +145,79 @@ Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int
   return draped;
 }
 
-/// Whether contact of cloth with cloth would have kept it from what it came to; cloth that has gone through
-/// itself may find no rest.
-bool asks_for_contact(const DrapePlan& plan, const Draped& d) {
-  const std::size_t allowed = std::size_t(plan.scene.allow_crossings);
-  return plan.settings.self_contact == SelfContactUse::automatic && !plan.settings.plain &&
-         !d.report.stopped && !d.falls && !d.broken && d.crossings.pairs > allowed;
-}
+/// Searches for rest of one garment: with contact of cloth with cloth, without, or the better of both.
+class GarmentSearch {
+ public:
+  GarmentSearch(DrapePlan plan, const FallWatch& watch) : plan_(std::move(plan)), watch_(watch) {}
 
-/// The better one of an end to which cloth passed through cloth, and one with contact of cloth with cloth,
-/// which is looked for now.
-Draped drape_with_contact(Draped without, DrapePlan plan, const FallWatch& watch, std::vector<int>& loose,
-                          const Context& context) {
-  SilentListener silent(context.listener);
-  const Context quiet{context.frame, silent, context.memory};  // what was warned of is so still
-  const ProgressScope progress(context.listener, "keeping cloth off cloth");
-  const bridge::DrapeOptions free = plan.options;
-  hold_apart(plan.options, plan.settings);
-  plan.options.work = nullptr;
-  Draped with = drape_once(plan, watch, loose, std::ref(progress), quiet);
-  const double seconds = without.seconds + with.seconds;
-  without.untangled = with.untangled;
-  if (with.report.stopped) {
-    without.report.stopped = true;
-  } else if (with.rests() && (with.crossings.pairs < without.crossings.pairs || !without.rests())) {
-    with.crossings_without = without.crossings.pairs;
-    without = std::move(with);
-  } else if (!plan.settings.animation.empty()) {  // it shows the way that is not taken
-    plan.options = free;
-    without = drape_once(plan, watch, loose, std::ref(progress), quiet);
+  /// From the i-th start.
+  Draped go(int i, const Progress& progress, const Context& context) {
+    plan_.options.seed = std::uint64_t(i);
+    const bool maybe = plan_.settings.self_contact == SelfContactUse::automatic && !plan_.settings.plain;
+    if (!maybe) return once(plan_.settings.self_contact == SelfContactUse::on, progress, context);
+    Draped with = once(true, progress, context);
+    const auto& levels = with.report.levels;
+    const bool acted = std::any_of(levels.begin(), levels.end(), [](const auto& l) { return l.acted(); });
+    return with.report.stopped || with.succeeds() || !acted ? with : look_without(std::move(with), context);
   }
-  without.contact_tried = true;
-  without.seconds = seconds;
-  return without;
-}
+
+ private:
+  Draped once(bool contact, const Progress& progress, const Context& context) {
+    DrapePlan plan = plan_;
+    if (contact) hold_apart(plan.options, plan.settings);
+    return drape_once(plan, watch_, loose_[contact], progress, context);
+  }
+
+  /// Where contact of cloth with cloth leads to no success: the end without it, unless cloth crosses itself
+  /// there and with contact fewer faces do so at rest.
+  Draped look_without(Draped with, const Context& context) {
+    SilentListener silent(context.listener);
+    const Context quiet{context.frame, silent, context.memory};  // what was warned of is so still
+    const ProgressScope progress(context.listener, "draping without contact of cloth with cloth");
+    Draped without = once(false, std::ref(progress), quiet);
+    const double seconds = with.seconds + without.seconds;
+    if (without.report.stopped) {
+      with.report.stopped = true;
+    } else if (asks_for_contact(without)) {
+      with = with_contact_again(std::move(with), std::ref(progress), quiet);
+      const bool better =
+          with.rests() && (with.crossings.pairs < without.crossings.pairs || !without.rests());
+      with = better ? take(std::move(with), without) : take(std::move(without), with);
+    } else {
+      with = take(std::move(without), with);
+    }
+    with.seconds = seconds;
+    return with;
+  }
+
+  /// Whether contact of cloth with cloth would have kept it from what it came to; cloth that has gone through
+  /// itself may find no rest.
+  static bool asks_for_contact(const Draped& d) { return !d.falls && !d.broken && d.crosses_itself(); }
+
+  /// It goes the way again where the other one found parts that nothing holds, or was written as animation.
+  Draped with_contact_again(Draped with, const Progress& progress, const Context& context) {
+    const bool found = loose_[true].empty() && !loose_[false].empty();
+    if (!found && plan_.settings.animation.empty()) return with;
+    if (found) loose_[true] = loose_[false];
+    return once(true, progress, context);
+  }
+
+  static Draped take(Draped taken, const Draped& left) {
+    const physics::SettleReport& last = left.report.levels.back().settle;
+    DrapeOther other{left.self_contact, left.outcome(), left.crossings.pairs, 0,
+                     last.residual,     left.seconds,   std::nullopt};
+    for (const bridge::DrapeLevel& level : left.report.levels)
+      other.iterations += level.soft.iterations + level.settle.iterations;
+    if (last.self.blocked) other.blocked_at = last.self.blocked_at;
+    if (left.self_contact) taken.untangled = left.untangled;
+    taken.other = std::move(other);
+    return taken;
+  }
+
+  DrapePlan plan_;  ///< without
+  const FallWatch& watch_;
+  std::vector<int> loose_[2];  ///< without and with contact: as the first start found
+};
 
 /// Goes on from the first start to all of them, and returns the one with the lowest energy, with what all
 /// tell. start(i, context) is the i-th. What is cancelled ends with the starts that there are.
@@ -222,13 +261,10 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   const int count = scene.starts;
   bridge::DrapeWork work;
   if (count > 1) plan.options.work = &work;
-  std::vector<int> loose;  // as the first start found
+  GarmentSearch search(plan, watch);
   const auto start = [&](int i, const Context& told) {
-    plan.options.seed = std::uint64_t(i);
-    Draped draped = drape_once(
-        plan, watch, loose, [&](double share) { return progress((i + share) / count); }, told);
-    if (!asks_for_contact(plan, draped)) return draped;
-    return drape_with_contact(std::move(draped), plan, watch, loose, told);
+    return search.go(
+        i, [&](double share) { return progress((i + share) / count); }, told);
   };
   Draped draped = start(0, context);
   if (count > 1) draped = choose_start(std::move(draped), count, start, context);

@@ -95,7 +95,7 @@ double thickness_of(const io::Scene& scene, const DrapeSettings& s) {
 
 void hold_apart(bridge::DrapeOptions& options, const DrapeSettings& s) {
   options.settle.self.on = true;
-  options.settle.max_iterations = s.iterations.value_or(1000);
+  options.settle.self.max_iterations = s.iterations.value_or(1000);
 }
 
 bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSettings& s, double gap) {
@@ -110,7 +110,6 @@ bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSetting
   options.plain = s.plain;
   options.bending_friction = s.bending_friction;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);
-  if (s.self_contact == SelfContactUse::on) hold_apart(options, s);
   options.settle.gap = gap;
   options.settle.threads =
       scene.threads ? scene.threads : int(std::max(1u, std::thread::hardware_concurrency()));
@@ -119,7 +118,9 @@ bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSetting
 
 void measure_draped(const DrapePlan& plan, Draped& draped) {
   const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
-  draped.self_contact = draped.contact_tried = plan.options.settle.self.on;
+  draped.self_contact = plan.options.settle.self.on;
+  draped.penetration = plan.settings.penetration;
+  draped.allowed_crossings = std::size_t(plan.scene.allow_crossings);
   draped.thickness = thickness_of(plan.scene, plan.settings);
   draped.untangled = untangled_of(draped.report.levels);
   draped.cloth_friction = plan.options.settle.self.friction;

@@ -139,6 +139,8 @@ void ClothContact::find_special(std::span<const Vec3> x, std::span<const Vec3> d
     }
   }
   special_.resize(kept);
+  acted_ = std::any_of(special_.begin(), special_.end(),
+                       [](const SpecialPair& p) { return p.range == 0 || p.range < p.target; });
 }
 
 const ClothContact::SpecialPair* ClothContact::special_of(const PairKey& key) const {
@@ -259,6 +261,7 @@ double ClothContact::safe_share(std::span<const Vec3> x, std::span<const Vec3> m
   }
   std::sort(braced_.begin(), braced_.end(), active_before);
   cut_searches_ += least < 1;
+  acted_ = acted_ || least < 1;
   blocked_ = least < cut_short ? blocked_ + 1 : 0;
   return least * most;
 }
@@ -401,6 +404,7 @@ void ClothContact::look(std::span<const Vec3> x, ThreadPool* pool) {
   });
   energy_ = 0;
   for (const ActivePair& p : active_) energy_ += p.energy;
+  acted_ = acted_ || !active_.empty();
   friction_.look(x);
 }
 
@@ -452,7 +456,7 @@ void ClothContact::forget_cuts() {
   blocked_ = 0;
 }
 
-void ClothContact::couple(FreeStiffness& stiffness, const Cloth& cloth) const {
+std::vector<std::array<int, 2>> ClothContact::needed_blocks() const {
   std::vector<std::array<int, 2>> couples;
   for (const auto* pairs : {&active_, &braced_})
     for (const ActivePair& p : *pairs)
@@ -460,9 +464,17 @@ void ClothContact::couple(FreeStiffness& stiffness, const Cloth& cloth) const {
         for (std::size_t j = 0; j < i; ++j)
           if (p.weights[i] != 0 && p.weights[j] != 0) couples.push_back({p.vertices[i], p.vertices[j]});
   friction_.list_couples(couples);
-  const bool missing = std::any_of(couples.begin(), couples.end(),
-                                   [&](const auto& c) { return !stiffness.couples(c[0], c[1]); });
-  if (missing) stiffness.couple(cloth, couples);
+  return couples;
+}
+
+bool ClothContact::misses_blocks(const FreeStiffness& stiffness) const {
+  const std::vector<std::array<int, 2>> needed = needed_blocks();
+  return std::any_of(needed.begin(), needed.end(),
+                     [&](const auto& c) { return !stiffness.couples(c[0], c[1]); });
+}
+
+void ClothContact::couple(FreeStiffness& stiffness, const Cloth& cloth) const {
+  if (misses_blocks(stiffness)) stiffness.couple(cloth, needed_blocks());
 }
 
 void ClothContact::add_stiffness(FreeStiffness& stiffness) const {

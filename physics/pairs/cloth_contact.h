@@ -78,6 +78,8 @@ class ClothContact {
   void add_forces(std::span<Vec3> force) const;                   ///< [N]
   /// The particles (i, j), i after j, that pairs couple now: sorted, each once.
   std::vector<std::array<int, 2>> couples() const;
+  /// Whether the matrix lacks blocks that pairs need.
+  bool misses_blocks(const FreeStiffness& stiffness) const;
   /// Gives the matrix the blocks that pairs need and that are not there yet; before it is assembled.
   void couple(FreeStiffness& stiffness, const Cloth& cloth) const;
   /// Positive semidefinite; after couple(). Where the way was cut to less than 1/32, the pairs that did so
@@ -91,10 +93,13 @@ class ClothContact {
   bool widen(std::span<const Vec3> x);
 
   bool acts() const { return !active_.empty() || !friction_.empty(); }  ///< it has forces
-  int touching() const { return int(active_.size()); }                  ///< pairs nearer than their range
-  int sliding() const { return friction_.sliding(); }  ///< of them, at the limit of their friction
-  double nearest() const;                              ///< of them [m]; infinite: none
-  int list_builds() const { return list_.builds(); }   ///< complete detections of what is near
+  /// Whether it has changed anything so far: something crossed or lay nearer than its range, or a way was
+  /// cut.
+  bool has_acted() const { return acted_; }
+  int touching() const { return int(active_.size()); }  ///< pairs nearer than their range
+  int sliding() const { return friction_.sliding(); }   ///< of them, at the limit of their friction
+  double nearest() const;                               ///< of them [m]; infinite: none
+  int list_builds() const { return list_.builds(); }    ///< complete detections of what is near
   int cut_searches() const { return cut_searches_; }
   int blocked() const { return blocked_; }                        ///< ways cut to less than 1/32, running
   std::optional<Vec3> blocked_at() const { return blocked_at_; }  ///< the pair that cut the last one [m]
@@ -117,6 +122,7 @@ class ClothContact {
   bool is_loose(const EdgeFaceCrossing& crossing) const;
   std::vector<PairKey> crossed_now(std::span<const Vec3> x) const;
   double range_now(const ListedPair& pair) const;
+  std::vector<std::array<int, 2>> needed_blocks() const;
   ActivePair brace(const ListedPair& pair, std::span<const Vec3> x) const;
   void find_touching(std::span<const ListedPair> pairs, std::span<const Vec3> x, std::size_t begin,
                      std::size_t end, std::vector<Touching>& found) const;
@@ -144,6 +150,7 @@ class ClothContact {
   std::vector<ActivePair> braced_;  ///< that cut the last way short
   PairFriction friction_;
   double energy_ = 0, margin_share_;
+  bool acted_ = false;
   int cut_searches_ = 0, blocked_ = 0, crossed_at_start_ = 0;
   std::optional<Vec3> blocked_at_;
 };

@@ -55,6 +55,7 @@ void check(const Cloth& cloth, const SettleOptions& o) {
   require(me, "faces.error", o.faces.error, o.faces.error >= 0, ">= 0");
   require(me, "self.thickness", o.self.thickness, o.self.thickness > 0, "> 0");
   require(me, "self.friction", o.self.friction, o.self.friction >= 0, ">= 0");
+  require(me, "self.max_iterations", o.self.max_iterations, o.self.max_iterations >= 0, ">= 0");
   const std::size_t drawn = o.self.drawn.size(), n = cloth.particles.size();
   if (drawn != 0 && drawn != n) refuse(me, "self.drawn has ", drawn, " positions of ", n, " particles");
   const std::size_t thick = o.self.thicknesses.size();
@@ -141,17 +142,15 @@ class Settler {
         collider_(collider),
         o_(options),
         elements_(cloth),
-        shared_(stiffness_for(cloth, options.self.on ? nullptr : options.work)),
-        stiffness_(*shared_),
+        stiffness_(stiffness_for(cloth, options.work)),
         pool_(options.threads) {
-    stiffness_.assemble(cloth, p_.x, Stiffness::positive_part);
-    const double k = contact_share * stiffness_.mean_diagonal();
+    stiffness_->assemble(cloth, p_.x, Stiffness::positive_part);
+    const double k = contact_share * stiffness_->mean_diagonal();
     if (o_.self.on)
-      pairs_.emplace(
-          cloth,
-          ClothContactOptions{o_.self.thickness, k > 0 ? k : 1, o_.self.friction, o_.self.thicknesses,
-                              o_.self.groups},
-          p_.x, o_.self.drawn, &pool_);
+      pairs_.emplace(cloth,
+                     ClothContactOptions{o_.self.thickness, k > 0 ? k : 1, o_.self.friction,
+                                         o_.self.thicknesses, o_.self.groups},
+                     p_.x, o_.self.drawn, &pool_);
     if (!collider) return;
     contact_.emplace(*collider, AnchoredContactOptions{o_.friction, o_.gap, k > 0 ? k : 1}, p_.size());
     if (!o_.faces.body) return;
@@ -237,12 +236,16 @@ class Settler {
     self.list_builds = pairs_->list_builds();
     self.crossed_at_start = pairs_->crossed_at_start();
     self.exempt = pairs_->exempt();
+    self.acted = pairs_->has_acted();
     self.blocked = !report.converged && !report.stopped && is_blocked();
     if (self.blocked) self.blocked_at = *pairs_->blocked_at();
     return self;
   }
 
-  int last_iteration() const { return std::min(o_.max_iterations, round_ends_); }
+  int last_iteration() const {
+    const bool more = pairs_ && pairs_->has_acted() && o_.self.max_iterations > 0;
+    return std::min(more ? o_.self.max_iterations : o_.max_iterations, round_ends_);
+  }
 
   /// Of the rests that were found, the last with the fewest faces that the body comes through.
   void take_best(SettleReport& report) {
@@ -332,19 +335,28 @@ class Settler {
     if (share < 1) to = moved(from, share, way);
   }
 
+  /// Blocks of pairs go into a matrix of its own: what other searches share has none.
+  void couple_pairs() {
+    if (!pairs_->misses_blocks(*stiffness_)) return;
+    if (o_.work && !own_stiffness_) stiffness_ = std::make_shared<FreeStiffness>(cloth_, true);
+    own_stiffness_ = true;
+    pairs_->couple(*stiffness_, cloth_);
+  }
+
   /// Clamps the Hessian until it is positive definite.
   Factors factorise(const Pace& pace) {
     double clamp = pace.clamp;
-    if (pairs_) pairs_->couple(stiffness_, cloth_);
+    if (pairs_) couple_pairs();
     for (int tries = 1;; ++tries) {
       throw_if_cancelled("settle");
-      stiffness_.assemble(cloth_, p_.x, {clamp}, &pool_);
-      if (contact_) contact_->add_stiffness(stiffness_);
-      if (faces_) faces_->add_stiffness(stiffness_);
-      if (pairs_) pairs_->add_stiffness(stiffness_);
+      stiffness_->assemble(cloth_, p_.x, {clamp}, &pool_);
+      if (contact_) contact_->add_stiffness(*stiffness_);
+      if (faces_) faces_->add_stiffness(*stiffness_);
+      if (pairs_) pairs_->add_stiffness(*stiffness_);
       for (std::size_t i = 0; i < p_.size(); ++i)
-        if (p_.inv_mass[i] > 0) stiffness_.add(int(i), p_.mass[i] / (pace.tau * pace.tau) * Mat3::Identity());
-      if (stiffness_.factorise_definite(0, &pool_)) return {true, clamp, tries};
+        if (p_.inv_mass[i] > 0)
+          stiffness_->add(int(i), p_.mass[i] / (pace.tau * pace.tau) * Mat3::Identity());
+      if (stiffness_->factorise_definite(0, &pool_)) return {true, clamp, tries};
       if (clamp == 1) return {false, clamp, tries};
       clamp = tries == 4 ? 1 : std::min(1.0, std::max(least_clamp, 2 * clamp));
     }
@@ -389,7 +401,7 @@ class Settler {
   Step step(const Pace& pace, Answer& here, bool near) {
     const Factors factors = factorise(pace);
     if (!factors.definite) return {{0.25 * pace.tau, factors.clamp}, factors.tries, 0, false};
-    LimitedMemory inverse([this](std::span<Vec3> f) { stiffness_.solve(f, &pool_); }, most_followers);
+    LimitedMemory inverse([this](std::span<Vec3> f) { stiffness_->solve(f, &pool_); }, most_followers);
     Vectors net = net_force(here);
     Move move = find_move(inverse, net);
     if ((contact_ || pairs_) && near) {
@@ -404,7 +416,8 @@ class Settler {
     if (refused) contact_->make_room(p_.x, moved(p_.x, move.share, move.way), p_.inv_mass);
     if (share > 0) accept(std::move(trial), here);
     if (refused) ask_contacts(p_.x);  // as there is room now
-    const int followers = share > 0 && near ? follow(inverse, here) : 0;
+    const bool blocked = pairs_ && pairs_->blocked() > 0;
+    const int followers = share > 0 && near && !blocked ? follow(inverse, here) : 0;
     if (share > 0)
       move_anchors();
     else
@@ -425,6 +438,7 @@ class Settler {
       most = std::max(most, fall);
       if (fall < follow_until * most || is_cancelled()) return k;
       if (pairs_) move.share = pairs_->safe_share(p_.x, move.way, move.share, &pool_);
+      if (pairs_ && pairs_->blocked() > 0) return k;  // these factors do not know what cuts the way
       Trial trial = search(here, net, move);
       if (trial.share == 0) return k;
       for (Vec3& m : move.way) m *= trial.share;
@@ -442,8 +456,8 @@ class Settler {
   const Collider* collider_;
   const SettleOptions& o_;
   ElementForces elements_;
-  std::shared_ptr<FreeStiffness> shared_;
-  FreeStiffness& stiffness_;
+  std::shared_ptr<FreeStiffness> stiffness_;  ///< shared by o_.work until pairs need more blocks
+  bool own_stiffness_ = false;
   ThreadPool pool_;
   std::optional<AnchoredContact> contact_;
   std::optional<FaceContact> faces_;

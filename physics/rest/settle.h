@@ -25,10 +25,13 @@ struct SelfContact {
   bool on = false;
   double thickness = 1e-3;  ///< of the cloth [m]; > 0; where edges are short, it counts as thinner
   double friction = 0.3;    ///< Coulomb coefficient of cloth on cloth [-]; >= 0
+  /// In place of SettleOptions::max_iterations as soon as it acts: piles take many steps to lie still. >= 0;
+  /// 0: the same.
+  int max_iterations = 0;
   std::span<const double> thicknesses = {};  ///< of each particle, in place of `thickness` [m]; empty: none
   /// Of each particle: cloth of two groups does not touch, and passes through each other; empty: one group.
   std::span<const int> groups = {};
-  std::span<const Vec3> drawn = {};          ///< positions in which nothing is to be pushed; empty: none
+  std::span<const Vec3> drawn = {};  ///< positions in which nothing is to be pushed; empty: none
 };
 
 class FreeStiffness;
@@ -54,7 +57,7 @@ struct SettleOptions {
   int threads = 1;  ///< that share the work; >= 1; the result is the same for any number
   FaceGuard faces = {};
   SelfContact self = {};
-  SettleWork* work = nullptr;  ///< shared with searches before and after, unless self.on; null: none
+  SettleWork* work = nullptr;  ///< shared with searches before and after, until self acts; null: none
 };
 
 struct SettleProgress {
@@ -67,6 +70,7 @@ using SettleObserver = std::function<bool(const SettleProgress&)>;
 
 /// What contact of the cloth with itself came to.
 struct SelfContactReport {
+  bool acted = false;        ///< something was near enough, crossed, or cut a step: else all is as without
   int pairs = 0;             ///< that push each other: vertex and triangle, or two edges
   double nearest = 0;        ///< of them [m]; 0: none
   int sliding = 0;           ///< of them, held by all the friction that they can have
@@ -104,11 +108,11 @@ struct SettleReport {
 /// positive definite, as much of its clamped part (Stiffness) is added as makes it so, and m / tau^2, tau
 /// from 0.03 s up while steps succeed (pseudo-transient continuation). A step is halved until the energy
 /// falls (Armijo, 1e-4). Near rest, up to fifteen quasi-Newton steps (LimitedMemory) follow each Newton step
-/// with its factors. It ends, too, where thirty steps running lead nowhere (1e-9 m): cloth folded onto itself,
-/// whose angles jump. Limits of friction follow the push within a step. One of Cloth::energies without
-/// stiffness counts in forces and energies alone: the same rest by more iterations, or none where it is the
-/// stiffest of all. It looks for balance alone: from a start within a plane of symmetry it may end in a
-/// saddle, which certify() tells. Source: Nocedal and Wright, Numerical Optimization, 2nd ed., 3.1; Kelley
+/// with its factors. It ends, too, where thirty steps running lead nowhere (1e-9 m): cloth folded onto
+/// itself, whose angles jump. Limits of friction follow the push within a step. One of Cloth::energies
+/// without stiffness counts in forces and energies alone: the same rest by more iterations, or none where it
+/// is the stiffest of all. It looks for balance alone: from a start within a plane of symmetry it may end in
+/// a saddle, which certify() tells. Source: Nocedal and Wright, Numerical Optimization, 2nd ed., 3.1; Kelley
 /// and Keyes 1998, Convergence analysis of pseudo-transient continuation, SIAM J. Numer. Anal. 35(2).
 SettleReport settle(Cloth& cloth, const Collider* collider, const SettleOptions& options,
                     const SettleObserver& observer = {});

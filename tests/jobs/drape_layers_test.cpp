@@ -103,6 +103,28 @@ TEST_CASE("drape: coincident layers and a garment turned inside out are solved, 
   CHECK(turned.layers->pairs[0].crossings == 0);
 }
 
+TEST_CASE("drape: a skirt over leggings comes to rest where steps are cut short at first", "[release]") {
+  if (!tests::have_shared()) {
+    WARN("skipped: no shared data");
+    return;
+  }
+  const fs::path pair = tests::shared_dir() / "meshes/pairs/mh_female";
+  tests::Recorder recorder;
+  jobs::DrapeJob job;
+  job.scene.settings = io::parse_toml("[garment]\nmesh = \"x\"\n", "test");
+  io::set_value(job.scene.settings, "garment.mesh", (pair / "leggings.obj").string(), "the test");
+  io::set_value(job.scene.settings, "body.mesh", (pair / "body.obj").string(), "the test");
+  job.over = {pair / "skirt.obj"};
+  job.subdivide = 0;
+  const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+  const physics::SettleReport& rest = report.garments.at(1).report.levels.back().settle;
+  INFO("ended after " << rest.iterations << " iterations, residual " << rest.residual);
+  CHECK_FALSE(rest.self.blocked);  // with factors of before the cuts, after one iteration
+  CHECK(rest.self.cut_searches > 1);
+  CHECK_FALSE(report.fails());
+  CHECK(report.layers->pairs.at(0).crossings == 0);
+}
+
 TEST_CASE("drape: a garment that lay inside the one under it is told", "[release]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = two_across_ball(0);

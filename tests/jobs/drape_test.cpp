@@ -363,25 +363,61 @@ TEST_CASE("drape: cloth that comes to cross other cloth is counted, placed and n
   CHECK_FALSE(only(jobs::drape(job, recorder)).crosses_itself());
 }
 
-TEST_CASE("drape: where cloth would cross itself it is draped again with contact, and else it is not") {
+TEST_CASE("drape: cloth keeps off cloth by default, and one search is enough where that comes to rest") {
   tests::Recorder recorder;
   jobs::DrapeJob job = two_layers();
   const auto with = [&](jobs::SelfContactUse use) {
     job.settings.self_contact = use;
     return jobs::drape(job, recorder);
   };
-  const jobs::DrapeJobReport off = with(jobs::SelfContactUse::off), on = with(jobs::SelfContactUse::on),
+  const jobs::DrapeJobReport on = with(jobs::SelfContactUse::on),
                              automatic = with(jobs::SelfContactUse::automatic);
   INFO(to_json(on).dump(1) << to_json(automatic).dump(1));
   CHECK(only(automatic).crossings.pairs == 0);
-  CHECK(only(automatic).crossings_without == only(off).crossings.pairs);
+  CHECK(only(automatic).self_contact);
   CHECK_FALSE(automatic.fails());
   CHECK(tests::positions(only(automatic).file) == tests::positions(only(on).file));
-  CHECK(to_json(automatic).at("self_contact").at("crossings_without") == only(off).crossings.pairs);
-  set(job, "garment.allow_crossings", only(off).crossings.pairs);  // accepted: nothing to mend
-  const jobs::DrapeJobReport allowed = with(jobs::SelfContactUse::automatic);
-  CHECK(tests::positions(only(allowed).file) == tests::positions(only(off).file));
-  CHECK_FALSE(only(allowed).contact_tried);
+  CHECK_FALSE(only(automatic).other);
+  CHECK_FALSE(to_json(automatic).contains("other_search"));
+}
+
+TEST_CASE("drape: where nothing touches, contact by default has the numbers of none, at rest or not") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = across_ball();
+  for (const std::optional<int> iterations : {std::optional<int>{}, std::optional<int>{3}}) {
+    job.settings.iterations = iterations;
+    job.settings.self_contact = jobs::SelfContactUse::off;
+    const jobs::DrapeJobReport off = jobs::drape(job, recorder);
+    job.settings.self_contact = jobs::SelfContactUse::automatic;
+    const jobs::DrapeJobReport automatic = jobs::drape(job, recorder);
+    CHECK(only(automatic).rests() == !iterations);
+    CHECK(tests::positions(only(automatic).file) == tests::positions(only(off).file));
+    CHECK(only(automatic).outcome() == only(off).outcome());
+    CHECK_FALSE(only(automatic).other);  // the same search again would find nothing else
+    CHECK_FALSE(only(automatic).report.levels.back().acted());
+  }
+}
+
+TEST_CASE("drape: where contact finds no rest and cloth crosses nothing without, that is taken and told") {
+  tests::Recorder recorder;
+  jobs::DrapeJob job = two_layers();
+  job.settings.thickness = 0.02;  // of layers 1 mm apart
+  set(job, "garment.allow_crossings", 100000);
+  job.settings.iterations = 31;  // without contact 29 are enough
+  const jobs::DrapeJobReport automatic = jobs::drape(job, recorder);
+  job.settings.self_contact = jobs::SelfContactUse::off;
+  const jobs::DrapeJobReport off = jobs::drape(job, recorder);
+  INFO(to_json(automatic).dump(1));
+  CHECK_FALSE(automatic.fails());
+  CHECK_FALSE(only(automatic).self_contact);
+  CHECK(tests::positions(only(automatic).file) == tests::positions(only(off).file));
+  REQUIRE(only(automatic).other);
+  CHECK(only(automatic).other->self_contact);
+  CHECK(only(automatic).other->outcome.find("not at rest") == 0);
+  CHECK(remarks_on(automatic, "contact_left_out"));
+  const io::Json told = to_json(automatic);
+  CHECK(told.at("other_search").at("outcome") == only(automatic).other->outcome);
+  CHECK_FALSE(told.contains("self_contact"));
 }
 
 TEST_CASE(
@@ -391,7 +427,8 @@ TEST_CASE(
   job.settings.iterations = 31;  // without contact 29 are enough, with it 33
   const jobs::DrapeJobReport report = jobs::drape(job, recorder);
   INFO(to_json(report).dump(1));
-  REQUIRE(only(report).contact_tried);
+  REQUIRE(only(report).other);
+  CHECK(only(report).other->self_contact);
   CHECK_FALSE(only(report).self_contact);
   CHECK(only(report).rests());
   CHECK(report.fails());
@@ -473,7 +510,7 @@ TEST_CASE("drape: a part that nothing holds is named and goes with the cloth, an
   CHECK(to_json(report).at("loose").at("done") == "held");
   const geometry::Vertex first{geometry::Vertex::size_type(count)};
   CHECK(CGAL::squared_distance(d.file.mesh.point(first), lay) > 1e-4);  // the sheet's corner hangs down
-  set(job, "pins.0", io::Json{{"box", {0.9, -1, -1, 2, 1, 1}}});  // the advice
+  set(job, "pins.0", io::Json{{"box", {0.9, -1, -1, 2, 1, 1}}});        // the advice
   CHECK_FALSE(jobs::drape(job, recorder).fails());
 }
 
@@ -626,8 +663,7 @@ TEST_CASE("drape: without a body a part that no pin holds is named, and nothing 
   CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--pin-loop") && Catch::Contains("--body"));
 }
 
-TEST_CASE(
-    "drape: a plate comes to rest on a ball, near to where hinges do, and with friction, too") {
+TEST_CASE("drape: a plate comes to rest on a ball, near to where hinges do, and with friction, too") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   set(job, "material.bending_law", "hinge");

@@ -131,6 +131,28 @@ TEST_CASE("settle: with self-contact where nothing is near, every number is the 
   CHECK(with.residual == without.residual);
 }
 
+TEST_CASE("settle: self.max_iterations holds as soon as cloth acts on cloth, and not before") {
+  Cloth alone = hanging_strip(6), piling = alone;
+  for (Vec3& x : alone.particles.x) x.z() += 1;
+  const Cloth table = elastic_sheet(0.4, 0.4, 8, 0.2, 1);
+  append(piling, table);
+  for (std::size_t i = alone.particles.size(); i < piling.particles.size(); ++i) {
+    piling.particles.x[i] -= Vec3(0.17, 0.2, 0);
+    piling.particles.inv_mass[i] = 0;
+  }
+  SettleOptions options = on_cloth(1e-9);
+  options.max_iterations = 1;
+  options.self.max_iterations = 4;
+  const SettleReport free = settle(alone, nullptr, options);
+  CHECK_FALSE(free.self.acted);
+  CHECK(free.iterations == 1);
+  for (std::size_t i = alone.particles.size(); i < piling.particles.size(); ++i)
+    piling.particles.x[i].z() = 0.0056;  // under the strip's lower end, nearer than the range
+  const SettleReport touching = settle(piling, nullptr, options);
+  CHECK(touching.self.acted);
+  CHECK(touching.iterations == 4);
+}
+
 // In a sanitized build, whose rounding differs, a step ends blocked, and the held edge is then led through
 // cloth.
 TEST_CASE(
