@@ -3,9 +3,11 @@
 #include <span>
 #include <vector>
 
-#include "physics/pairs/pair_mesh.h"
+#include "physics/base/arrays.h"
 
 namespace furrow::physics {
+
+struct PairMesh;  // pair_mesh.h
 
 struct ContourOptions {
   double longest_move = 0.1;  ///< of a vertex in a round, over the mean edge [-]; > 0
