@@ -49,7 +49,10 @@ struct KeepOptions {
   /// Factors on the hinges of a line, in the order tried [-]; rising, each > 1.
   std::vector<double> presses{10, 30, 100};
   std::vector<double> struts{0.3, 3, 30};  ///< then also struts [N/m]; each > 0
-  int height_trials = 4;                   ///< then bisections of the height; >= 0; 0: none
+  /// A line that is lower than this, or than 1/200 of the mean edge at it, is refused at once: a push is as
+  /// high [m]; >= 0.
+  double least_height = 1e-4;
+  int height_trials = 4;  ///< then bisections of the height; >= 0; 0: none
   /// A garment that hangs on a line of pins, or on one pin, is first turned about it into balance, if by no
   /// more than this [rad]; >= 0; 0: never.
   double largest_turn = 0.2;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -211,6 +212,7 @@ class Keeper {
 
   /// Statics first, then motion, unless that is not asked for, or is in vain. As run_forward().
   Flags try_out(Found& found, bool may_end, Tally& tally) const {
+    if (found.plan.lines.empty()) return {};  // all were refused
     if (!o_.statics) return run_forward(found, may_end, tally);
     const double part = o_.prove ? share_of_statics : 1;
     const KeepTrial trial = try_statics(found.outcome.cloth, world_, o_, meter_,
@@ -328,10 +330,28 @@ KeptLine unmeasured(int id) {
   return line;
 }
 
-KeepReport report_of(Found& found, const KeepOptions& o, const LineMeter& meter, const Tally& tally) {
+std::string millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g mm", 1e3 * metres);
+  return text;
+}
+
+KeptLine too_low(const LineMeter::TooLow& low) {
+  KeptLine line;
+  line.line = low.line;
+  line.height = low.height;
+  line.kept = line.kept_gust = NAN;
+  line.reason = "its height of " + millimetres(std::abs(low.height)) + " is less than " +
+                millimetres(low.least) + ", the least that can be tried on this mesh; draw it higher";
+  return line;
+}
+
+KeepReport report_of(Found& found, const KeepOptions& o, const LineMeter& meter,
+                     const std::vector<LineMeter::TooLow>& low, const Tally& tally) {
   KeepReport report;
   report.lines = verdicts(found, o, tally.interrupted);
   for (const int id : meter.unmeasured()) report.lines.push_back(unmeasured(id));
+  for (const LineMeter::TooLow& line : low) report.lines.push_back(too_low(line));
   std::sort(report.lines.begin(), report.lines.end(),
             [](const KeptLine& a, const KeptLine& b) { return a.line < b.line; });
   report.rest = std::move(found.outcome.shape.rest);
@@ -367,6 +387,8 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
   if (const auto body = standing_body(world))
     pushed = physics::bring_out(start.particles, *body, o.run.contact_gap);
 
+  const std::vector<LineMeter::TooLow> low = meter.leave_out_low(start.particles, o.least_height);
+
   const Keeper keeper(mesh, start, world, o, meter, go_on);
   Tally tally;
   Found found = keeper.help_by_stiffness(keeper.plan(), tally);
@@ -376,7 +398,7 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
     found = keeper.help_by_height(std::move(found), tally);
 
   scatter(found.outcome.cloth.particles, mesh);
-  KeepReport report = report_of(found, o, meter, tally);
+  KeepReport report = report_of(found, o, meter, low, tally);
   report.pushed_out = pushed.moved;
   report.farthest_push = pushed.farthest;
   cloth = std::move(found.outcome.cloth);

@@ -19,6 +19,7 @@ void require_legal(const KeepOptions& o) {
   need(o.push > 0 && std::isfinite(o.push), "push", o.push);
   need(o.kept > 0 && o.kept < 1, "kept", o.kept);
   need(o.largest_turn >= 0, "largest_turn", o.largest_turn);
+  need(o.least_height >= 0 && std::isfinite(o.least_height), "least_height", o.least_height);
   need(o.height_trials >= 0, "height_trials", o.height_trials);
   if (!o.statics && !o.prove)
     physics::refuse("keep_lines", "statics and prove are both false: nothing would be tried");

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "bridge/gather.h"
 #include "geometry/fold/line_height.h"
+#include "geometry/mesh/property_names.h"
 
 namespace furrow::bridge {
 namespace {
@@ -19,6 +21,7 @@ constexpr double first_part = 0.2;  // of the first run, before it is asked whet
 constexpr int look_steps = 100;     // between two moments that are looked at, however often a run is observed
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
+constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -73,6 +76,36 @@ std::vector<double> LineMeter::heights(const physics::Particles& p) {
     result.push_back(at == all.end() ? NAN : at->height - base_[i]);
   }
   return result;
+}
+
+double LineMeter::mean_edge_at(int line) const {
+  const auto id = geometry::find_map(shape_, geometry::attribute::line);
+  double sum = 0;
+  int count = 0;
+  for (const geometry::Edge e : shape_.edges()) {
+    const geometry::Vertex a = shape_.vertex(e, 0), b = shape_.vertex(e, 1);
+    if ((*id)[a] != line && (*id)[b] != line) continue;
+    sum += std::sqrt((shape_.point(a) - shape_.point(b)).squared_length());
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+std::vector<LineMeter::TooLow> LineMeter::leave_out_low(const physics::Particles& p, double least) {
+  const std::vector<double> now = heights(p);  // and shape_ lies there
+  const std::vector<int> lines = std::exchange(lines_, {});
+  const std::vector<double> base = std::exchange(base_, {});
+  std::vector<TooLow> low;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double floor = std::max(least, least_share * mean_edge_at(lines[i]));
+    if (std::abs(now[i]) < floor) {
+      low.push_back({lines[i], now[i], floor});
+      continue;
+    }
+    lines_.push_back(lines[i]);
+    base_.push_back(base[i]);
+  }
+  return low;
 }
 
 namespace {

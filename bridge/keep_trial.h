@@ -15,8 +15,17 @@ class LineMeter {
     return unmeasured_;
   }                                                          ///< ids of those whose height is not known
   std::vector<double> heights(const physics::Particles& p);  ///< of each [m]; NaN: no more known
+  /// A line that is lower than `least` [m] can be told.
+  struct TooLow {
+    int line;
+    double height, least;  ///< [m]
+  };
+  /// Leaves lines out that are lower, where p lies, than `least` [m] or than 1/200 of the mean edge at them.
+  std::vector<TooLow> leave_out_low(const physics::Particles& p, double least);
 
  private:
+  double mean_edge_at(int line) const;  ///< of shape_ [m]
+
   geometry::Mesh shape_;        ///< a copy that is moved about
   std::vector<double> widths_;  ///< by id [m]
   std::vector<int> lines_, unmeasured_;
