@@ -93,8 +93,6 @@ void check_pins(SettingsTable& table, const Scene& scene) {
 void check_simulation(SettingsTable& table, const Scene& scene) {
   if (scene.simulation.step_rule == physics::StepRule::forced && !scene.simulation.dt)
     table.fail("force_dt", "needs dt");
-  if (scene.simulation.self.on && !physics::solves_contact(scene.simulation.integrator))
-    table.fail("self_contact", "needs integrator implicit or tr-bdf2");
 }
 
 void check_settle(const Scene& scene, const TomlDocument& document) {

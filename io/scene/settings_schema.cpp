@@ -428,8 +428,7 @@ const Row<Scene> rows[] = {
          1, 100000, [](auto& s) -> auto& { return s.simulation.backward_euler.newton_iterations; })},
     {{.path = "simulation.self_contact",
       .flag = "--self-contact",
-      .help =
-          "on: cloth keeps off cloth, and no step passes through it (default off)",
+      .help = "on: cloth keeps off cloth, and no step passes through it (default off)",
       .what = "`on`: cloth keeps off cloth, and no step passes through it",
       .used = used_by::simulate,
       .flag_in = used_by::simulate},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "physics/base/arrays.h"
 
 namespace furrow::physics {
 
@@ -7,5 +8,7 @@ namespace furrow::physics {
 struct alignas(32) Vec4 {
   double x = 0, y = 0, z = 0, w = 0;
 };
+
+inline Vec3 xyz(const Vec4& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace furrow::physics

@@ -21,8 +21,6 @@ constexpr int most_iterations = 12;
 constexpr double push_over_inertia = 100;  // of a mean particle in a step
 constexpr int most_step_halvings = 5;      // of a step
 
-Vec3 xyz(const Vec4& v) { return {v.x, v.y, v.z}; }
-
 Vectors sum(const Vectors& a, double factor, const Vectors& b) {
   Vectors result = a;
   add_multiple(result, factor, b);
@@ -38,7 +36,11 @@ Vectors scaled(double factor, Vectors v) {
 
 ImplicitStep::ImplicitStep(Motion& motion, Integrator scheme, const ImplicitOptions& options,
                            const SelfContactOptions& self)
-    : motion_(motion), scheme_(scheme), options_(options), self_(self), cloth_(cloth_by_place(motion.cloth())) {
+    : motion_(motion),
+      scheme_(scheme),
+      options_(options),
+      self_(self),
+      cloth_(cloth_by_place(motion.cloth())) {
   require("implicit step", "tolerance", options.tolerance, options.tolerance > 0, "> 0");
   require("implicit step", "few", options.few, options.few >= 1, ">= 1");
   if (!self.on) return;

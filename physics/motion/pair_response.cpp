@@ -22,7 +22,6 @@ constexpr double recovery_steps = 4;        // in which depth may go at the soon
 constexpr double small_push = 0.002;        // of a range: no need of another sweep
 constexpr double last_share = 0.05;         // of a range, in which nothing may close
 
-Vec3 xyz(const Vec4& v) { return {v.x, v.y, v.z}; }
 void put(const Vec3& v, Vec4& to) { to = {v.x(), v.y(), v.z(), 0}; }
 
 PairDistance distance_of(bool edges, const std::array<Vec3, 4>& x) {

@@ -18,8 +18,6 @@ std::vector<int> own_places(std::size_t n) {
   return place;
 }
 
-Vec3 xyz(const Vec4& v) { return {v.x, v.y, v.z}; }
-
 }  // namespace
 
 Cloth cloth_by_place(const PackedCloth& packed) {

@@ -33,7 +33,7 @@ BodyFrames press(double from, double to, double until) {
   TriangleMesh mesh;
   for (const double low : {-0.1, 0.0})
     for (int i = 0; i < 8; ++i)
-      mesh.vertices.push_back({i & 1 ? 0.5 : -0.5, low + (i & 2 ? 0.1 : 0), i & 4 ? 0.5 : -0.5});
+      mesh.vertices.push_back({i & 1 ? 0.3 : -0.3, low + (i & 2 ? 0.1 : 0), i & 4 ? 0.3 : -0.3});
   constexpr int quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const int first : {0, 8})
@@ -41,7 +41,7 @@ BodyFrames press(double from, double to, double until) {
       mesh.triangles.push_back({first + q[0], first + q[1], first + q[2]});
       mesh.triangles.push_back({first + q[0], first + q[2], first + q[3]});
     }
-  constexpr int steps = 30;
+  constexpr int steps = 20;
   BodyFrames frames{mesh.triangles, {}, {}};
   for (int i = 0; i <= steps; ++i) frames.times.push_back(until * i / steps);
   frames.vertices = [=](int i) {
@@ -86,6 +86,7 @@ Handled crush(std::uint64_t seed, const Handling& how) {
   for (Vec3& v : cloth.particles.v) v.z() = 0.5 * noise(random);
   DistanceFieldOptions coarse;
   coarse.tolerance = 1e-3;
+  coarse.outer_band = coarse.inner_band = 0.01;
   AnimatedBody body(press(0.33, 0.02, 1.0), coarse);
   World world;
   world.animated = &body;

@@ -165,6 +165,7 @@ def simulate(
     damping: Optional[float] = None,
     drag: Optional[float] = None,
     friction: Optional[float] = None,
+    cloth_friction: Optional[float] = None,
     gap: Optional[float] = None,
     gravity: Union[float, Sequence[float], None] = None,
     wind: Optional[Sequence[float]] = None,

@@ -191,8 +191,7 @@ TEST_CASE("settings: what rest has no use for is named, a table as a whole if no
     CHECK((path == "output" || path == "pins.1.motion" || !(setting->used & io::used_by::drape)));
   }
   CHECK(io::settings_without_use(document, io::used_by::simulate) ==
-        std::vector<std::string>{"garment.layer", "garment.thickness", "garment.touch", "material.cloth_friction",
-                                 "simulation.starts"});
+        std::vector<std::string>{"garment.layer", "garment.thickness", "garment.touch", "simulation.starts"});
   document.root["garment"]["rest"] = "stored";  // as rest has it
   document.root.erase("output");
   const auto fewer = io::settings_without_use(document, io::used_by::drape);
