@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -14,6 +13,7 @@
 #include "bridge/standing_body.h"
 #include "bridge/try_statics.h"
 #include "geometry/fold/line_region.h"
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "physics/base/progress.h"
 
@@ -330,19 +330,14 @@ KeptLine unmeasured(int id) {
   return line;
 }
 
-std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g mm", 1e3 * metres);
-  return text;
-}
-
 KeptLine too_low(const LineMeter::TooLow& low) {
   KeptLine line;
   line.line = low.line;
   line.height = low.height;
   line.kept = line.kept_gust = NAN;
-  line.reason = "its height of " + millimetres(std::abs(low.height)) + " is less than " +
-                millimetres(low.least) + ", the least that can be tried on this mesh; draw it higher";
+  line.reason = "its height of " + geometry::length_text(std::abs(low.height)) + " is less than " +
+                geometry::length_text(low.least) +
+                ", the least that can be tried on this mesh; draw it higher";
   return line;
 }
 

@@ -206,10 +206,10 @@ std::optional<jobs::Grip> Session::present_grip() {
 
 void Session::pull(Client client, const Message& message) {
   try {
-    if (pen_ != client) throw Refused("another page is drawing");
     const std::optional<jobs::Grip> grip = grip_of(message.body);
     const std::lock_guard lock(grip_mutex_);
     if (!playing_) throw Refused("the cloth does not move; press Play, and pull then");
+    if (pen_ != client) throw Refused("another page is drawing");  // a page that has just come has no pen yet
     grip_ = grip;
   } catch (const Refused& e) {
     return out_.tell(client, {{"id", message.id}, {"refused", e.what()}});

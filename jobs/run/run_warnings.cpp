@@ -190,6 +190,14 @@ Fault words_of_block(const io::Scene& scene, const physics::SimulateReport& repo
 }
 
 std::string words_of_divergence(const io::Scene& scene, const physics::SimulateReport& report) {
+  if (report.held_by_cuts)
+    return fmt::format(
+        "the simulation is told as diverged at {:.4g} s: {} moves of vertices were cut so that cloth does "
+        "not "
+        "pass through cloth, more than a twentieth of all, so layers are pressed harder than steps of {:.3g} "
+        "s "
+        "can bear; the garment was not written; take shorter steps: --dt {:.1g}",
+        report.time, report.cut_moves, report.dt, report.dt / 3);
   std::ostringstream text;
   text << "the simulation diverged at " << report.time << " s with steps of " << report.dt
        << " s (stable below " << report.dt_limit << " s); the garment was not written; "

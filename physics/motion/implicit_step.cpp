@@ -8,6 +8,7 @@
 
 #include "physics/base/require.h"
 #include "physics/base/vector_sums.h"
+#include "physics/motion/pair_memory.h"
 #include "physics/motion/step_elements.h"
 
 namespace furrow::physics {
@@ -76,23 +77,16 @@ void ImplicitStep::prepare(double dt) {
 
 void ImplicitStep::make_pairs() {
   const WorkClock::Within pair_part(motion_.clock(), WorkPart::self_contact);
-  Cloth cloth = cloth_;
-  for (const int i : motion_.led()) cloth.particles.inv_mass[std::size_t(i)] = 1;  // it may meet what is held
-  pairs_ = std::make_unique<ClothContact>(cloth, ClothContactOptions{self_.thickness, stiffness_},
+  pairs_ = std::make_unique<ClothContact>(with_free_leads(cloth_, motion_.led()),
+                                          ClothContactOptions{self_.thickness, stiffness_},
                                           cloth_.particles.x, std::span<const Vec3>{}, &motion_.pool());
-  if (known_.stiffness == 0) return;
-  ClothContact::Memory memory{{}, known_.loose, known_.crossed_at_start};
-  for (const PairMemory& p : known_.pairs)
-    memory.special.push_back({{std::uint8_t(p.edges), p.first, p.second}, p.range, p.target});
-  pairs_->recall(memory);
+  recall_pairs(known_, *pairs_);
 }
 
 SelfContactMemory ImplicitStep::pair_memory() const {
   if (!pairs_) return known_;
-  const ClothContact::Memory memory = pairs_->memory();
-  SelfContactMemory result{stiffness_, {}, memory.loose, memory.crossed_at_start, search_->coupled()};
-  for (const ClothContact::SpecialPair& p : memory.special)
-    result.pairs.push_back({p.key.edges == 1, p.key.first, p.key.second, p.range, p.target});
+  SelfContactMemory result = memory_of(*pairs_, stiffness_);
+  result.coupled = search_->coupled();
   return result;
 }
 

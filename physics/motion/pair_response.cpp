@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "physics/base/require.h"
+#include "physics/motion/pair_memory.h"
 #include "physics/motion/step_elements.h"
 #include "physics/motion/stepper.h"
 #include "physics/pairs/pair_distance.h"
@@ -23,16 +24,6 @@ constexpr double small_push = 0.002;        // of a range: no need of another sw
 constexpr double last_share = 0.05;         // of a range, in which nothing may close
 
 void put(const Vec3& v, Vec4& to) { to = {v.x(), v.y(), v.z(), 0}; }
-
-PairDistance distance_of(bool edges, const std::array<Vec3, 4>& x) {
-  return edges ? edge_edge_distance(x[0], x[1], x[2], x[3])
-               : vertex_triangle_distance(x[0], x[1], x[2], x[3]);
-}
-
-PairDistance distance_at(bool edges, const std::array<int, 4>& v, std::span<const Vec3> x) {
-  return distance_of(
-      edges, {x[std::size_t(v[0])], x[std::size_t(v[1])], x[std::size_t(v[2])], x[std::size_t(v[3])]});
-}
 
 /// Of a pair's distance, for an impulse along it [1/kg].
 double mobility(const std::array<double, 4>& weights, const std::array<int, 4>& v,
@@ -59,7 +50,7 @@ struct Facing {
 /// Where it is now, unless the step turned its normal; then as it was before.
 Facing facing(const ClothContact::Met& pair, std::span<const Vec3> x) {
   const double before = std::sqrt(pair.before.squared());
-  const PairDistance now = distance_at(pair.key.edges == 1, pair.vertices, x);
+  const PairDistance now = distance_of(pair.key.edges == 1, corners_of(pair.vertices, x));
   const double distance = std::sqrt(now.squared());
   const Vec3 n0 = before > 0 ? Vec3(pair.before.across / before) : Vec3::Zero();
   if (distance > 0 && now.across.dot(n0) > same_side * distance)
@@ -76,8 +67,7 @@ PairResponse::PairResponse(const SelfContactOptions& options) : options_(options
 }
 
 void PairResponse::attach(const PackedCloth& packed, std::span<const int> led, ThreadPool& pool) {
-  Cloth cloth = cloth_by_place(packed);
-  for (const int i : led) cloth.particles.inv_mass[std::size_t(i)] = 1;  // it may meet what is held
+  const Cloth cloth = with_free_leads(cloth_by_place(packed), led);
   if (cloth.triangles.empty())
     refuse("contact of the cloth with itself", "it needs the cloth's triangles (Cloth::triangles)");
   contact_ = std::make_unique<ClothContact>(cloth, ClothContactOptions{options_.thickness}, cloth.particles.x,
@@ -196,11 +186,9 @@ void PairResponse::finish_step(std::span<const Vec4> x0, double dt, PackedCloth&
 }
 
 bool PairResponse::closes_in(const ClothContact::Met& pair) const {
-  std::array<Vec3, 4> end;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto v = std::size_t(pair.vertices[i]);
-    end[i] = x0_[v] + way_[v];
-  }
+  std::array<Vec3, 4> end = corners_of(pair.vertices, x0_);
+  const std::array<Vec3, 4> way = corners_of(pair.vertices, way_);
+  for (std::size_t i = 0; i < 4; ++i) end[i] += way[i];
   const double after = distance_of(pair.key.edges == 1, end).squared(), least = last_share * pair.range;
   return after < least * least && after < pair.before.squared();
 }
@@ -278,21 +266,9 @@ void PairResponse::widen(const PackedCloth& cloth) {
   contact_->widen(x);
 }
 
-SelfContactMemory PairResponse::memory() const {
-  const ClothContact::Memory memory = contact_->memory();
-  SelfContactMemory result{1, {}, memory.loose, memory.crossed_at_start, {}};
-  for (const ClothContact::SpecialPair& p : memory.special)
-    result.pairs.push_back({p.key.edges == 1, p.key.first, p.key.second, p.range, p.target});
-  return result;
-}
+SelfContactMemory PairResponse::memory() const { return memory_of(*contact_, 1); }
 
-void PairResponse::recall(const SelfContactMemory& known) {
-  if (known.stiffness == 0) return;
-  ClothContact::Memory memory{{}, known.loose, known.crossed_at_start};
-  for (const PairMemory& p : known.pairs)
-    memory.special.push_back({{std::uint8_t(p.edges), p.first, p.second}, p.range, p.target});
-  contact_->recall(memory);
-}
+void PairResponse::recall(const SelfContactMemory& known) { recall_pairs(known, *contact_); }
 
 SelfContactState PairResponse::state(const PackedCloth& cloth) const {
   std::vector<Vec3> x;
@@ -301,7 +277,7 @@ SelfContactState PairResponse::state(const PackedCloth& cloth) const {
   state.on = true;
   double nearest = std::numeric_limits<double>::infinity();
   for (const ClothContact::Met& p : met_) {
-    const double distance = std::sqrt(distance_at(p.key.edges == 1, p.vertices, x).squared());
+    const double distance = std::sqrt(distance_of(p.key.edges == 1, corners_of(p.vertices, x)).squared());
     nearest = std::min(nearest, distance);
     state.pairs += distance <= as_touching * p.range;
   }

@@ -219,7 +219,8 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
     observed = observer && (s.step % options_.observe_steps == 0 || last);
     const bool checked = s.step % divergence_steps == 0 || observed || last;
     if (length_->due()) motion_->unpack(cloth_.particles);
-    if (checked && (has_diverged(motion_->cloth(), options_.speed_limit) || is_held_by_cuts())) {
+    report.held_by_cuts = checked && is_held_by_cuts();
+    if (report.held_by_cuts || (checked && has_diverged(motion_->cloth(), options_.speed_limit))) {
       report.outcome = Outcome::diverged;
       return;
     }

@@ -288,6 +288,7 @@ struct SimulateReport {
   std::int64_t open_steps = 0;             ///< implicit ones whose search did not end, even in 32 parts
   std::int64_t truncated_moves = 0;        ///< cut short against tunnelling
   std::int64_t cut_moves = 0;              ///< of particles, so that cloth does not pass through cloth
+  bool held_by_cuts = false;               ///< it diverged as these were too many
   SelfContactState self;
   Vec3 blocked_at = Vec3::Zero();          ///< where, if it was [m]
   std::int64_t frames_built = 0;           ///< fields of an animated body

@@ -24,15 +24,6 @@ constexpr int pair_chunk = 512;
 constexpr double ways_ahead = 30;  // of a step among many, for which a list is made
 constexpr int most_rounds_of_approach = 40;
 
-std::array<Vec3, 4> corners_of(const std::array<int, 4>& v, std::span<const Vec3> x) {
-  return {x[std::size_t(v[0])], x[std::size_t(v[1])], x[std::size_t(v[2])], x[std::size_t(v[3])]};
-}
-
-PairDistance distance_of(bool edges, const std::array<Vec3, 4>& x) {
-  return edges ? edge_edge_distance(x[0], x[1], x[2], x[3])
-               : vertex_triangle_distance(x[0], x[1], x[2], x[3]);
-}
-
 std::size_t chunks_of(std::size_t n) { return (n + pair_chunk - 1) / pair_chunk; }
 
 /// Runs work(chunk, begin, end) over [0, n) by chunks of a fixed size.

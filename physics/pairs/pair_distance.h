@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <span>
 
 #include "physics/base/arrays.h"
 
@@ -23,5 +24,16 @@ PairDistance vertex_triangle_distance(const Vec3& x, const Vec3& a, const Vec3& 
 /// Of the segments (a0, a1) and (b0, b1): weights 1 - s, s, -(1 - t), -t. All nine regions; parallel and
 /// degenerate segments have one of their closest pairs of points. Some 20 ns.
 PairDistance edge_edge_distance(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1);
+
+/// Of two edges, else of a vertex and a triangle, by their corners in this order.
+inline PairDistance distance_of(bool edges, const std::array<Vec3, 4>& x) {
+  return edges ? edge_edge_distance(x[0], x[1], x[2], x[3])
+               : vertex_triangle_distance(x[0], x[1], x[2], x[3]);
+}
+
+/// Where four vertices are.
+inline std::array<Vec3, 4> corners_of(const std::array<int, 4>& v, std::span<const Vec3> x) {
+  return {x[std::size_t(v[0])], x[std::size_t(v[1])], x[std::size_t(v[2])], x[std::size_t(v[3])]};
+}
 
 }  // namespace furrow::physics

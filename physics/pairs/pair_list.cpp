@@ -90,9 +90,7 @@ Movers movers_of(const PairMesh& m, std::span<const int> used, const std::vector
 }  // namespace
 
 PairDistance distance_of(const ListedPair& pair, std::span<const Vec3> x) {
-  const auto at = [&](std::size_t i) -> const Vec3& { return x[std::size_t(pair.vertices[i])]; };
-  return pair.key.edges ? edge_edge_distance(at(0), at(1), at(2), at(3))
-                        : vertex_triangle_distance(at(0), at(1), at(2), at(3));
+  return distance_of(pair.key.edges == 1, corners_of(pair.vertices, x));
 }
 
 /// Lists those of some candidates that may come near, four at a time, by a bound of their distance; where

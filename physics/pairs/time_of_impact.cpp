@@ -17,9 +17,7 @@ constexpr int most_advances = 1000;
 double pair_distance_at(const MovingPair& p, double t) {
   std::array<Vec3, 4> x;
   for (std::size_t i = 0; i < 4; ++i) x[i] = p.x[i] + t * p.move[i];
-  const PairDistance d =
-      p.edges ? edge_edge_distance(x[0], x[1], x[2], x[3]) : vertex_triangle_distance(x[0], x[1], x[2], x[3]);
-  return std::sqrt(d.squared());
+  return std::sqrt(distance_of(p.edges, x).squared());
 }
 
 /// Largest coordinate at the start [m].

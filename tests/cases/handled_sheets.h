@@ -18,9 +18,10 @@ struct Handled {
 struct Handling {
   physics::Integrator integrator = physics::Integrator::leapfrog;
   bool self_contact = true;
-  int columns = 20;      ///< of the sheet's mesh
-  int look = 50;         ///< at every so many steps
-  double seconds = 1.2;  ///< [s]
+  int columns = 20;        ///< of the sheet's mesh
+  int look = 50;           ///< at every so many steps
+  double seconds = 1.2;    ///< [s]
+  double dt_factor = 0.9;  ///< SimulateOptions::dt_factor
 };
 
 /// A sheet of 0.3 m that stands on a floor, crumpled by noise of the seed, and a lid that presses it flat

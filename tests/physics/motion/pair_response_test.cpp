@@ -135,3 +135,13 @@ TEST_CASE("pair_response: an unstable step is told, though nothing may fly apart
   o.step_rule = StepRule::forced;
   CHECK(simulate(cloth, nullptr, o).outcome == Outcome::diverged);
 }
+
+TEST_CASE("pair_response: layers pressed harder than steps can bear are told, and nothing crosses") {
+  cases::Handling how;
+  how.columns = 6;
+  how.look = 1;
+  const cases::Handled wrung = cases::wring(4, how);
+  CHECK(wrung.most_crossings == 0);
+  CHECK(wrung.report.outcome == Outcome::diverged);
+  CHECK(wrung.report.held_by_cuts);
+}

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <utility>
+#include <vector>
+
+#include "physics/cloth/join_cloths.h"
 #include "tests/cases/flat_meshes.h"
 
 namespace furrow::tests {
@@ -18,22 +22,9 @@ inline Cloth level_sheet(double width, int columns, double height, double corner
   return cloth;
 }
 
+/// Its particles come after those of `cloth`.
 inline void put_over(Cloth& cloth, const Cloth& other) {
-  const int n = int(cloth.particles.size());
-  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  add(cloth.particles.x, other.particles.x);
-  add(cloth.particles.v, other.particles.v);
-  add(cloth.particles.mass, other.particles.mass);
-  add(cloth.particles.inv_mass, other.particles.inv_mass);
-  for (auto t : other.triangles) cloth.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
-  for (auto t : other.membrane) {
-    for (int& v : t.vertices) v += n;
-    cloth.membrane.push_back(t);
-  }
-  for (auto h : other.hinges) {
-    for (int& v : h.vertices) v += n;
-    cloth.hinges.push_back(h);
-  }
+  cloth = physics::join_cloths(std::vector{std::move(cloth), other});
 }
 
 }  // namespace furrow::tests

@@ -21,10 +21,7 @@ inline Corners random_corners(std::uint64_t seed) {
   return x;
 }
 
-inline physics::PairDistance distance_of(bool edges, const Corners& x) {
-  return edges ? physics::edge_edge_distance(x[0], x[1], x[2], x[3])
-               : physics::vertex_triangle_distance(x[0], x[1], x[2], x[3]);
-}
+using physics::distance_of;
 
 /// A sheet of random heights over a square of 1 m, with a membrane at rest as it lay flat, folded over where
 /// `crumple` is large.

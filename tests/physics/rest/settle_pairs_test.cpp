@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "physics/cloth/join_cloths.h"
 #include "physics/pairs/cloth_contact.h"
 #include "physics/rest/settle.h"
 #include "tests/cases/flat_meshes.h"
@@ -18,24 +19,6 @@ class Table : public Collider {
  public:
   SignedDistance at(const Vec3& x) const override { return {x.z(), Vec3(0, 0, 1)}; }
 };
-
-void append(Cloth& cloth, const Cloth& other) {
-  const int n = int(cloth.particles.size());
-  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  add(cloth.particles.x, other.particles.x);
-  add(cloth.particles.v, other.particles.v);
-  add(cloth.particles.mass, other.particles.mass);
-  add(cloth.particles.inv_mass, other.particles.inv_mass);
-  for (auto t : other.triangles) cloth.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
-  for (auto t : other.membrane) {
-    for (int& v : t.vertices) v += n;
-    cloth.membrane.push_back(t);
-  }
-  for (auto h : other.hinges) {
-    for (int& v : h.vertices) v += n;
-    cloth.hinges.push_back(h);
-  }
-}
 
 Cloth elastic_sheet(double width, double height, int columns, double jitter, std::uint64_t seed,
                     double rigidity = 1e-5) {
@@ -82,7 +65,7 @@ TEST_CASE("settle: with self-contact a sheet on a held sheet is carried by it, a
     const std::size_t n = cloth.particles.size();
     Cloth above = elastic_sheet(0.2, 0.2, columns + 1, 0.2, 2);
     for (Vec3& x : above.particles.x) x += Vec3(0.05, 0.05, 0.004);
-    append(cloth, above);
+    cloth = join_cloths(std::vector{cloth, above});
     FreeStiffness stiffness(cloth);
     stiffness.assemble(cloth, cloth.particles.x, Stiffness::positive_part);
     const double k = 0.5 * stiffness.mean_diagonal();
@@ -135,7 +118,7 @@ TEST_CASE("settle: self.max_iterations holds as soon as cloth acts on cloth, and
   Cloth alone = hanging_strip(6), piling = alone;
   for (Vec3& x : alone.particles.x) x.z() += 1;
   const Cloth table = elastic_sheet(0.4, 0.4, 8, 0.2, 1);
-  append(piling, table);
+  piling = join_cloths(std::vector{piling, table});
   for (std::size_t i = alone.particles.size(); i < piling.particles.size(); ++i) {
     piling.particles.x[i] -= Vec3(0.17, 0.2, 0);
     piling.particles.inv_mass[i] = 0;
