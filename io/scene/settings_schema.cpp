@@ -337,8 +337,7 @@ const Row<Scene> rows[] = {
          not_negative(), [](auto& s) -> auto& { return s.simulation.friction; })},
     {{.path = "material.cloth_friction",
       .flag = "--cloth-friction",
-      .what = "Coulomb friction of cloth on cloth, where layers and folds are kept apart; not in steps of "
-              "`implicit` and `tr-bdf2`",
+      .what = "Coulomb friction of cloth on cloth, where layers and folds are kept apart",
       .used = used_by::drape | used_by::simulate,
       .flag_in = used_by::drape | used_by::simulate},
      number(

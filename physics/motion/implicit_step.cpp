@@ -21,6 +21,8 @@ constexpr double longest_move = 0.02;      // m, beside a body: less than half o
 constexpr int most_iterations = 12;
 constexpr double push_over_inertia = 100;  // of a mean particle in a step
 constexpr int most_step_halvings = 5;      // of a step
+constexpr int most_rounds_of_leading = 8;  // in which cloth goes out of the way of what is led
+constexpr int iterations_of_round = 4;
 
 Vectors sum(const Vectors& a, double factor, const Vectors& b) {
   Vectors result = a;
@@ -78,9 +80,14 @@ void ImplicitStep::prepare(double dt) {
 void ImplicitStep::make_pairs() {
   const WorkClock::Within pair_part(motion_.clock(), WorkPart::self_contact);
   pairs_ = std::make_unique<ClothContact>(with_free_leads(cloth_, motion_.led()),
-                                          ClothContactOptions{self_.thickness, stiffness_},
+                                          ClothContactOptions{self_.thickness, stiffness_, self_.friction},
                                           cloth_.particles.x, std::span<const Vec3>{}, &motion_.pool());
-  recall_pairs(known_, *pairs_);
+  const Vectors x = read().x;
+  if (known_.stiffness == 0 && self_.friction > 0) {  // what lies on the cloth is held from here on
+    pairs_->look(x, &motion_.pool());
+    pairs_->move_anchors(x);
+  }
+  recall_pairs(known_, x, *pairs_, &motion_.pool());
 }
 
 SelfContactMemory ImplicitStep::pair_memory() const {
@@ -150,6 +157,30 @@ StepLoads ImplicitStep::loads_at(double time) {
   return given;
 }
 
+/// Brings a guess to where cloth lets it. What is led goes as far as it can, and then, round by round, as the
+/// rest goes out of its way. false: it does not arrive.
+bool ImplicitStep::make_way(const Stage& stage, const StepLoads& loads, const StageStart& start,
+                            SearchOptions options, Vectors& x) {
+  const std::vector<double>& inv_mass = cloth_.particles.inv_mass;
+  options.few = options.most = iterations_of_round;
+  const Vectors goal = x;
+  Vectors reached(start.x.begin(), start.x.end());
+  for (int round = 0; !approach(reached, x); ++round) {
+    if (round == most_rounds_of_leading) return false;
+    search_->find(stage, loads, start, options, x);
+    reached = x;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (!(inv_mass[i] > 0)) x[i] = goal[i];
+  }
+  return true;
+}
+
+/// Friction takes hold where the stage ends.
+void ImplicitStep::hold(const Vectors& x) {
+  if (contact_) contact_->anchored().move_anchors();
+  if (pairs_) pairs_->move_anchors(x);
+}
+
 /// From the step's guess in x. true: the stage is solved, and friction has followed.
 bool ImplicitStep::solve(const Stage& stage, const State& start, Interval time, int few, Vectors& x) {
   const Particles& p = cloth_.particles;
@@ -160,12 +191,14 @@ bool ImplicitStep::solve(const Stage& stage, const State& start, Interval time, 
     carried = contact_->move_body(time.from, time.to, start.x);
     contact_->keep_out(carried, p.inv_mass, x, motion_.pool());
   }
-  if (pairs_ && !approach(start.x, x)) return false;
   const double tolerance = options_.tolerance * standard_gravity * h * h;
   const double longest = contact_ ? longest_move : std::numeric_limits<double>::infinity();
-  const SearchEnd end =
-      search_->find(stage, loads_at(time.to), carried, {tolerance, few, most_iterations, longest}, x);
-  if (contact_) contact_->anchored().move_anchors();
+  const SearchOptions options{tolerance, few, most_iterations, longest};
+  const StepLoads loads = loads_at(time.to);
+  const StageStart begin{start.x, carried};
+  if (pairs_ && !make_way(stage, loads, begin, options, x)) return false;
+  const SearchEnd end = search_->find(stage, loads, begin, options, x);
+  hold(x);
   return end.converged;
 }
 
@@ -208,7 +241,9 @@ std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Int
 /// By the scheme, else by backward Euler, else in halves.
 ImplicitStep::State ImplicitStep::advance(const State& start, Interval time, int depth) {
   const auto anchors = contact_ ? contact_->anchored().anchors() : std::vector<ContactAnchor>{};
+  const auto of_pairs = pairs_ ? pairs_->anchors() : std::vector<PairAnchor>{};
   const auto go_back = [&] {
+    if (pairs_) pairs_->set_anchors(of_pairs, start.x, &motion_.pool());
     if (!contact_) return;
     contact_->anchored().set_anchors(anchors);
     contact_->move_body(time.from, time.from, {});

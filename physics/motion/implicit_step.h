@@ -17,8 +17,9 @@ namespace furrow::physics {
 ///    and the first one, are those of backward Euler.
 /// A step that does not end in twelve iterations is made in halves, down to 1/32; what is still open then is
 /// counted (WorkCounts::open_steps). With contact of the cloth with itself, pairs that touch are a part of
-/// the energy, and neither a guess nor a move passes through cloth; where what is led has no room in 1/32 of
-/// a step, it throws StepBlocked. Drag is implicit; dashpots of springs do not act: their share is far below
+/// the energy, with friction, and neither a guess nor a move passes through cloth. What is led goes as far as
+/// cloth lets it, and farther as that goes out of its way, in eight rounds; where it has no room in 1/32 of a
+/// step, it throws StepBlocked. Drag is implicit; dashpots of springs do not act: their share is far below
 /// what the steps themselves take out. Cost of an iteration: assembly and a sparse Cholesky factorisation
 /// (O(n^1.5) of n vertices of a sheet); two to three iterations a stage in calm motion. Same bits for any
 /// number of threads. Sources: Gast et al., TVCG 21 (2015) 1103-1115; Bank et al., IEEE Trans. Electron
@@ -49,6 +50,9 @@ class ImplicitStep : public Stepper {
   void make_pairs();
   void forget_step(const SelfContactMemory& before);
   bool approach(const std::vector<Vec3>& from, std::vector<Vec3>& x);
+  bool make_way(const Stage& stage, const StepLoads& loads, const StageStart& start, SearchOptions options,
+                std::vector<Vec3>& x);
+  void hold(const std::vector<Vec3>& x);
   SelfContactMemory pair_memory() const;
   StepLoads loads_at(double time);
   State advance(const State& start, Interval time, int depth);

@@ -10,9 +10,10 @@ namespace furrow::physics {
 /// What contact of a cloth with itself remembers from step to step, as a state holds it. stiffness: of its
 /// push [N/m]; > 0.
 SelfContactMemory memory_of(const ClothContact& contact, double stiffness);
-/// Goes on as one that had this memory; nothing happens if that is of none. Throws std::invalid_argument if
-/// it is of another cloth.
-void recall_pairs(const SelfContactMemory& known, ClothContact& contact);
+/// Goes on at x as one that had this memory there; nothing happens if that is of none. Throws
+/// std::invalid_argument if it is of another cloth.
+void recall_pairs(const SelfContactMemory& known, std::span<const Vec3> x, ClothContact& contact,
+                  ThreadPool* pool);
 
 /// The cloth for a ClothContact: particles that are led have a mass there, as they may meet what is held.
 Cloth with_free_leads(Cloth cloth, std::span<const int> led);

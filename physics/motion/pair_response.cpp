@@ -268,7 +268,7 @@ void PairResponse::widen(const PackedCloth& cloth) {
 
 SelfContactMemory PairResponse::memory() const { return memory_of(*contact_, 1); }
 
-void PairResponse::recall(const SelfContactMemory& known) { recall_pairs(known, *contact_); }
+void PairResponse::recall(const SelfContactMemory& known) { recall_pairs(known, {}, *contact_, nullptr); }
 
 SelfContactState PairResponse::state(const PackedCloth& cloth) const {
   std::vector<Vec3> x;

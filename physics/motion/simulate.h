@@ -94,13 +94,22 @@ struct PairMemory {
   double target = 0;          ///< and may do later [m]
 };
 
+/// What friction of such a pair remembers (PairAnchor).
+struct PairFrictionMemory {
+  bool edges = false;
+  int first = 0, second = 0;
+  Vec3 tether = Vec3::Zero();  ///< [m]
+  bool slides = false;
+};
+
 /// What contact of the cloth with itself remembers, beside positions.
 struct SelfContactMemory {
   double stiffness = 0;           ///< of its push [N/m], 1 where it has none; 0: it was never on
   std::vector<PairMemory> pairs;  ///< sorted
   std::vector<int> loose;         ///< particles that crossed something at the start, or are next to such
   int crossed_at_start = 0;       ///< edges through faces
-  std::vector<std::array<int, 2>> coupled;  ///< what the stiffness has blocks for beside the elements
+  std::vector<std::array<int, 2>> coupled;   ///< what the stiffness has blocks for beside the elements
+  std::vector<PairFrictionMemory> friction;  ///< sorted
 };
 
 /// What a step leaves to the next beside positions and velocities.
@@ -285,10 +294,10 @@ struct SimulateReport {
   std::int64_t linear_solves = 0, factorisations = 0, iterations = 0;  ///< see WorkCounts
   /// Elements times evaluations; 0 shows that a kind that is absent cost nothing.
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
-  std::int64_t open_steps = 0;             ///< implicit ones whose search did not end, even in 32 parts
-  std::int64_t truncated_moves = 0;        ///< cut short against tunnelling
-  std::int64_t cut_moves = 0;              ///< of particles, so that cloth does not pass through cloth
-  bool held_by_cuts = false;               ///< it diverged as these were too many
+  std::int64_t open_steps = 0;       ///< implicit ones whose search did not end, even in 32 parts
+  std::int64_t truncated_moves = 0;  ///< cut short against tunnelling
+  std::int64_t cut_moves = 0;        ///< of particles, so that cloth does not pass through cloth
+  bool held_by_cuts = false;         ///< it diverged as these were too many
   SelfContactState self;
   Vec3 blocked_at = Vec3::Zero();          ///< where, if it was [m]
   std::int64_t frames_built = 0;           ///< fields of an animated body

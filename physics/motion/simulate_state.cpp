@@ -95,6 +95,8 @@ void check(const SimulateState& s, std::size_t particles) {
           "self.stiffness = ", steps.self.stiffness, " is not >= 0");
   for (const PairMemory& p : steps.self.pairs)
     require(p.range >= 0 && p.target >= p.range && std::isfinite(p.target), "a pair's range is not one");
+  for (const PairFrictionMemory& f : steps.self.friction)
+    require(f.tether.allFinite(), "a pair's friction is not finite");
   for (const auto& pair : steps.self.coupled)
     for (const int i : pair)
       require(i >= 0 && std::size_t(i) < particles, "a pair is coupled that is not there");

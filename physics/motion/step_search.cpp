@@ -15,6 +15,7 @@ constexpr double good_enough = 20;        // times the tolerance, after few iter
 constexpr double short_move = 10;         // times the tolerance: the factors serve the next one
 constexpr double single_residual = 1e-4;  // of the force, that a solution of single precision may leave
 constexpr std::size_t most_coupled = 4;   // times the pairs of particles that contact couples
+constexpr double most_growth = 4;         // of what damps a move, in an iteration
 constexpr double armijo = 1e-4;
 constexpr double least_move_share = 1e-3;  // of a move
 constexpr double least_fall = 1e-12;       // of the energy, that can be told from rounding
@@ -95,7 +96,7 @@ void StepSearch::add_contact(const std::vector<Vec3>& x, Answer& answer) {
     answer.energy += contact.energy();
     contact.add_forces(answer.net);
   }
-  if (pairs_ && pairs_->touching() > 0) {
+  if (pairs_ && pairs_->acts()) {
     const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
     answer.energy += pairs_->energy();
     pairs_->add_forces(answer.net);
@@ -143,22 +144,22 @@ void StepSearch::couple_pairs() {
   couple(std::move(needed));
 }
 
-/// Of the place that was looked at last.
-void StepSearch::assemble(const std::vector<Vec3>& x) {
+/// Of the place that was looked at last; damping: of the inertia, what is added to it.
+void StepSearch::assemble(const std::vector<Vec3>& x, double damping) {
   const WorkClock::Within assembly(clock_, WorkPart::assembly);
   const Particles& p = cloth_.particles;
   if (pairs_) couple_pairs();
   elements_.assemble(stiffness_, x, pool_);
   if (pairs_) pairs_->add_stiffness(stiffness_);
   if (contact_) contact_->anchored().add_stiffness(stiffness_);
-  const double factor = stage_->s + loads_.air_drag * stage_->p;
+  const double factor = (1 + damping) * stage_->s + loads_.air_drag * stage_->p;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) stiffness_.add(int(i), p.mass[i] * factor * Mat3::Identity());
 }
 
-void StepSearch::factorise(const std::vector<Vec3>& x) {
+void StepSearch::factorise(const std::vector<Vec3>& x, double damping) {
   throw_if_cancelled("implicit step");
-  assemble(x);
+  assemble(x, damping);
   const WorkClock::Within factorisation(clock_, WorkPart::factorisation);
   ++work_.factorisations;
   single_ = stiffness_.factorise_single(&pool_);
@@ -200,7 +201,7 @@ StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<V
   double longest = 0;
   for (const Vec3& m : move) longest = std::max(longest, m.norm());
   double share = longest > options.longest_move ? options.longest_move / longest : 1;
-  if (!(slope < 0) || !std::isfinite(longest)) return {0, false};
+  if (!(slope < 0) || !std::isfinite(longest)) return {0, share, false};
   bool cut = false;
   if (pairs_) {
     const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
@@ -208,6 +209,7 @@ StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<V
     share = pairs_->safe_share(x, move, wanted, &pool_);
     cut = share < 0.5 * wanted;
   }
+  const double tried = share;
   for (const double least = least_move_share * share; share > least;) {
     std::vector<Vec3> trial = x;
     add_multiple(trial, share, move);
@@ -216,41 +218,64 @@ StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<V
     if (rise <= armijo * share * slope + energy_rounding * here.terms) {
       x = std::move(trial);
       here = std::move(there);
-      return {share, cut};
+      return {share, tried, cut};
     }
     share = least_of_parabola(share, slope, rise);
   }
   look(x);
-  return {0, cut};
+  return {0, tried, cut};
 }
 
-SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, std::span<const Vec3> start,
+/// Limits of friction become those of the push to come.
+void StepSearch::expect(const std::vector<Vec3>& move) {
+  if (contact_) contact_->anchored().expect(move);
+  if (pairs_) pairs_->expect(move);
+}
+
+/// What has come to touch has friction, too.
+void StepSearch::hold_new(const StageStart& start, const std::vector<Vec3>& x) {
+  if (contact_) contact_->anchored().hold_new(start.on_body);
+  if (pairs_) pairs_->hold_new(start.x, x);
+}
+
+/// Moves that had to be shortened were longer than the energy is a parabola: the next ones get more inertia.
+double StepSearch::next_damping(double damping, const Way& way) {
+  if (way.cut) return damping;
+  if (way.share < 0.5 * way.tried)
+    return std::max(1.0, damping) * std::min(most_growth, 0.7 * way.tried / std::max(way.share, 1e-3));
+  return damping > 0.5 ? damping / most_growth : 0;
+}
+
+SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const StageStart& start,
                            const SearchOptions& options, std::vector<Vec3>& x) {
   stage_ = &stage;
   given_ = &given;
   if (pairs_) pairs_->forget_cuts();
   Answer here = look(x);
   bool keep_factors = false;
+  double damping = 0;
   for (int iteration = 1; iteration <= options.most; ++iteration) {
-    if (!keep_factors) factorise(x);
+    if (!keep_factors) factorise(x, damping);
     std::vector<Vec3> move = solve(here.net);
     ++work_.iterations;
-    if (contact_ && iteration == 1) {  // friction as of the push to come: once, as it changes the energy
-      contact_->anchored().expect(move);
+    const bool rubs = iteration == 1 && (contact_ || (pairs_ && pairs_->rubs()));
+    if (rubs) {  // once, as it changes the energy
+      expect(move);
       add_contact(x, here);
       move = solve(here.net);
     }
-    const double length = mean_length(move);
-    const auto [share, cut] = advance(move, x, here, options);
-    if (contact_ && iteration == 1) {
-      contact_->anchored().hold_new(start);
+    const double length = (1 + damping) * mean_length(move);
+    const Way way = advance(move, x, here, options);
+    if (iteration == 1 && (contact_ || (pairs_ && pairs_->rubs()))) {
+      hold_new(start, x);
       add_contact(x, here);
     }
     const double enough = iteration >= options.few ? good_enough : 1;
-    if (length <= enough * options.tolerance && !cut) return {true, iteration};
+    if (length <= enough * options.tolerance && !way.cut) return {true, iteration};
     const bool at_rounding = std::abs(dot(here.net, move)) <= least_fall * here.terms;
-    if (share == 0 && !keep_factors && !cut) return {at_rounding, iteration};
-    keep_factors = share == 1 && length <= short_move * options.tolerance;
+    if (way.share == 0 && !keep_factors && !way.cut) return {at_rounding, iteration};
+    damping = next_damping(damping, way);
+    keep_factors = way.share == 1 && damping == 0 && length <= short_move * options.tolerance;
   }
   return {false, options.most};
 }

@@ -27,6 +27,12 @@ struct StepLoads {
   std::vector<Vec3> air;    ///< w [m/s]; empty: at rest
 };
 
+/// Where a stage begins, for friction of what comes to touch in it.
+struct StageStart {
+  std::span<const Vec3> x;        ///< [m]
+  std::span<const Vec3> on_body;  ///< StepContact::move_body() of x; empty without a body
+};
+
 struct SearchOptions {
   double tolerance;     ///< root mean square of the next move that ends it [m]; > 0
   int few, most;        ///< Newton's iterations: after `few` a next move 20 times as long is good enough
@@ -39,7 +45,8 @@ struct SearchEnd {
 };
 
 /// Looks for the minima of stages, all on one cloth, by Newton's method with the positive part of the
-/// stiffness, a fresh factorisation each iteration, and a line search. A factorisation serves twice where the
+/// stiffness, a fresh factorisation each iteration, and a line search. Where that shortens moves, the next
+/// ones are damped by more inertia, as Levenberg and Marquardt do. A factorisation serves twice where the
 /// move is short. It keeps room and symbolic work, but nothing that a result depends on.
 class StepSearch {
  public:
@@ -47,9 +54,8 @@ class StepSearch {
   /// null: no body; pairs: null: the cloth passes through itself.
   StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact, ClothContact* pairs);
 
-  /// From x, which becomes where the search ended; `start`: StepContact::move_body() of the step's start,
-  /// empty without contact. Throws Cancelled.
-  SearchEnd find(const Stage& stage, const StepLoads& given, std::span<const Vec3> start,
+  /// From x, which becomes where the search ended. Throws Cancelled.
+  SearchEnd find(const Stage& stage, const StepLoads& given, const StageStart& start,
                  const SearchOptions& options, std::vector<Vec3>& x);
   /// Half of the mean diagonal of the elements' stiffness at x [N/m], 1 without: a scale for contact.
   double contact_stiffness(std::span<const Vec3> x);
@@ -62,6 +68,7 @@ class StepSearch {
   /// What was made of a move.
   struct Way {
     double share;  ///< 0: nothing
+    double tried;  ///< the longest share that the energy was asked at
     bool cut;      ///< as the cloth is in its own way, to less than half
   };
   struct Answer {
@@ -72,11 +79,14 @@ class StepSearch {
     double terms;            ///< sum of the sizes of what it is the sum of: rounding's scale [J]
   };
   Answer look(const std::vector<Vec3>& x);
+  void expect(const std::vector<Vec3>& move);
+  void hold_new(const StageStart& start, const std::vector<Vec3>& x);
   void add_contact(const std::vector<Vec3>& x, Answer& answer);
   void add_stage(const std::vector<Vec3>& x, Answer& answer) const;
-  void assemble(const std::vector<Vec3>& x);
+  void assemble(const std::vector<Vec3>& x, double damping);
   void couple_pairs();
-  void factorise(const std::vector<Vec3>& x);
+  void factorise(const std::vector<Vec3>& x, double damping);
+  static double next_damping(double damping, const Way& way);
   std::vector<Vec3> solve(std::vector<Vec3> net);
   Way advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
               const SearchOptions& options);

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 
+#include "physics/pairs/pair_curvature.h"
 #include "physics/pairs/pair_mesh.h"
 
 namespace furrow::physics {
@@ -17,6 +18,7 @@ struct ActivePair {
   double energy, stiffness;       ///< [J], [N/m]
   double push = 0;                ///< along the normal [N]; >= 0
   double range = 0;               ///< at which its primitives begin to push [m]; > 0
+  PairCurvature curvature;        ///< of its distance
 };
 
 }  // namespace furrow::physics

@@ -355,9 +355,10 @@ ActivePair ClothContact::answer(const ListedPair& pair, const Touching& touching
   ActivePair found{pair.key, pair.vertices, d.weights, {}, Vec3::Zero(), distance, b.energy, b.stiffness};
   if (!(distance > 0)) return found;
   found.normal = d.across / distance;
+  const std::array<Vec3, 4> at = corners_of(pair.vertices, x);
+  found.curvature = pair_curvature(pair.key.edges, at, d.weights);
   ParallelShare share;
   if (pair.key.edges) {
-    const std::array<Vec3, 4> at = corners_of(pair.vertices, x);
     const Vec3 e1 = at[1] - at[0], e2 = at[3] - at[2];
     share = parallel_share(
         e1, e2,
@@ -406,40 +407,50 @@ void ClothContact::add_forces(std::span<Vec3> force) const {
 }
 
 std::vector<std::array<int, 2>> ClothContact::couples() const {
-  std::vector<std::array<int, 2>> found;
-  for (const auto* pairs : {&active_, &braced_})
-    for (const ActivePair& p : *pairs)
-      for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < i; ++j)
-          if (p.weights[i] * p.weights[j] != 0)
-            found.push_back({std::max(p.vertices[i], p.vertices[j]), std::min(p.vertices[i], p.vertices[j])});
+  std::vector<std::array<int, 2>> found = needed_blocks();
+  for (auto& [i, j] : found)
+    if (i < j) std::swap(i, j);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
+void ClothContact::hold_new(std::span<const Vec3> from, std::span<const Vec3> x) {
+  friction_.hold_new(active_, from);
+  friction_.look(x);
+}
+
+void ClothContact::set_anchors(std::span<const PairAnchor> anchors, std::span<const Vec3> x,
+                               ThreadPool* pool) {
+  look(x, pool);
+  friction_.set_anchors(anchors, active_);
+}
+
 ClothContact::Memory ClothContact::memory() const {
-  Memory memory{special_, {}, crossed_at_start_};
+  Memory memory{special_, {}, crossed_at_start_, friction_.anchors()};
   for (std::size_t i = 0; i < loose_.size(); ++i)
     if (loose_[i]) memory.loose.push_back(int(i));
   return memory;
 }
 
-void ClothContact::recall(const Memory& memory) {
+void ClothContact::recall(const Memory& memory, std::span<const Vec3> x, ThreadPool* pool) {
   const char* const operation = "ClothContact";
   for (const int v : memory.loose)
     if (v < 0 || std::size_t(v) >= loose_.size()) refuse(operation, "what it knows is of another cloth");
-  for (const SpecialPair& p : memory.special) {
-    const std::size_t second = p.key.edges ? mesh_.edges.size() : mesh_.triangles.size(),
-                      first = p.key.edges ? second : loose_.size();
-    if (p.key.first < 0 || std::size_t(p.key.first) >= first || p.key.second < 0 ||
-        std::size_t(p.key.second) >= second)
+  const auto check = [&](const PairKey& key) {
+    const std::size_t second = key.edges ? mesh_.edges.size() : mesh_.triangles.size(),
+                      first = key.edges ? second : loose_.size();
+    if (key.first < 0 || std::size_t(key.first) >= first || key.second < 0 ||
+        std::size_t(key.second) >= second)
       refuse(operation, "what it knows is of another cloth");
-  }
+  };
+  for (const SpecialPair& p : memory.special) check(p.key);
+  for (const PairAnchor& a : memory.friction) check(a.key);
   special_ = memory.special;
   crossed_at_start_ = memory.crossed_at_start;
   loose_.assign(loose_.size(), 0);
   for (const int v : memory.loose) loose_[std::size_t(v)] = 1;
+  if (options_.friction > 0) set_anchors(memory.friction, x, pool);
 }
 
 void ClothContact::forget_cuts() {
@@ -471,12 +482,18 @@ void ClothContact::couple(FreeStiffness& stiffness, const Cloth& cloth) const {
 void ClothContact::add_stiffness(FreeStiffness& stiffness) const {
   for (const auto* pairs : {&active_, &braced_})
     for (const ActivePair& p : *pairs) {
-      const Mat3 block = p.stiffness * p.normal * p.normal.transpose();
+      const auto block = [&](std::size_t i, std::size_t j) {
+        Mat3 sum = (p.stiffness * p.weights[i] * p.weights[j]) * p.normal * p.normal.transpose();
+        for (int r = 0; r < p.curvature.rows; ++r)
+          sum += (0.5 * p.push) * p.curvature.row(r, i, p.weights, p.normal) *
+                 p.curvature.row(r, j, p.weights, p.normal).transpose();
+        return sum;
+      };
       for (std::size_t i = 0; i < 4; ++i) {
-        stiffness.add(p.vertices[i], p.weights[i] * p.weights[i] * block);
+        if (p.weights[i] == 0) continue;
+        stiffness.add(p.vertices[i], block(i, i));
         for (std::size_t j = 0; j < i; ++j)
-          if (p.weights[i] * p.weights[j] != 0)
-            stiffness.add(p.vertices[i], p.vertices[j], p.weights[i] * p.weights[j] * block);
+          if (p.weights[j] != 0) stiffness.add(p.vertices[i], p.vertices[j], block(i, j));
       }
     }
   friction_.add_stiffness(stiffness);

@@ -45,10 +45,12 @@ class ClothContact {
     std::vector<SpecialPair> special;  ///< sorted by key
     std::vector<int> loose;            ///< vertices where something crossed at the start, or next to such
     int crossed_at_start = 0;
+    std::vector<PairAnchor> friction;  ///< sorted by key
   };
   Memory memory() const;
-  /// Goes on as one that had this memory. Throws std::invalid_argument if it is of another cloth.
-  void recall(const Memory& memory);
+  /// Goes on at x, which counts with friction only, as one that had this memory there. Throws
+  /// std::invalid_argument if it is of another cloth.
+  void recall(const Memory& memory, std::span<const Vec3> x, ThreadPool* pool);
   /// A new search begins: no way of it was cut.
   void forget_cuts();
 
@@ -88,11 +90,17 @@ class ClothContact {
   /// As those of AnchoredContact, of the friction between layers, x being where it was looked last.
   void move_anchors(std::span<const Vec3> x) { friction_.move_anchors(active_, x); }
   void expect(std::span<const Vec3> move) { friction_.expect(active_, move); }
+  /// Pairs that push each other since the last move_anchors() have friction from positions `from` on.
+  void hold_new(std::span<const Vec3> from, std::span<const Vec3> x);
+  std::vector<PairAnchor> anchors() const { return friction_.anchors(); }
+  /// As before, x being where move_anchors() was called then: looks there.
+  void set_anchors(std::span<const PairAnchor> anchors, std::span<const Vec3> x, ThreadPool* pool);
   /// Once an iteration: ranges grow, and pairs that were exempt take part once they are apart. Whether
   /// something changed or will go on changing; then look() again.
   bool widen(std::span<const Vec3> x);
 
   bool acts() const { return !active_.empty() || !friction_.empty(); }  ///< it has forces
+  bool rubs() const { return options_.friction > 0 && acts(); }         ///< with friction
   /// Whether it has changed anything so far: something crossed or lay nearer than its range, or a way was
   /// cut.
   bool has_acted() const { return acted_; }

@@ -68,6 +68,46 @@ Vec3 PairFriction::inherited(const ActivePair& pair, std::span<const Share> shar
   return known > 0 ? Vec3(sum / known) : Vec3::Zero();
 }
 
+PairFriction::Pair PairFriction::held(const ActivePair& p, const Vec3& tether, bool slides,
+                                      const Vec3& way) const {
+  const double slip = slip_of_range * p.range;
+  return {p.key, p.vertices, p.weights, p.normal, tether, coefficient_ * p.push, slip, slides, way};
+}
+
+void PairFriction::hold_new(std::span<const ActivePair> active, std::span<const Vec3> from) {
+  if (active.empty() || coefficient_ == 0) return;
+  look(from);
+  const std::vector<Share> before = shares();
+  const std::vector<Pair> known = std::move(pairs_);
+  pairs_.clear();
+  auto old = known.begin();
+  for (const ActivePair& p : active) {
+    for (; old != known.end() && old->key < p.key; ++old) pairs_.push_back(*old);
+    if (!(p.push > 0) || (old != known.end() && old->key == p.key)) continue;
+    const Vec3 way = in_plane(inherited(p, before), p.normal);
+    pairs_.push_back(held(p, way - in_plane(across(p.vertices, p.weights, from), p.normal), false, way));
+  }
+  pairs_.insert(pairs_.end(), old, known.end());
+  sum_energy();
+}
+
+std::vector<PairAnchor> PairFriction::anchors() const {
+  std::vector<PairAnchor> found;
+  for (const Pair& p : pairs_) found.push_back({p.key, p.tether, p.slides});
+  return found;
+}
+
+void PairFriction::set_anchors(std::span<const PairAnchor> anchors, std::span<const ActivePair> active) {
+  pairs_.clear();
+  auto p = active.begin();
+  for (const PairAnchor& a : anchors) {
+    while (p != active.end() && p->key < a.key) ++p;
+    if (p != active.end() && p->key == a.key && p->push > 0)
+      pairs_.push_back(held(*p, a.tether, a.slides, a.tether));
+  }
+  sum_energy();
+}
+
 void PairFriction::move_anchors(std::span<const ActivePair> active, std::span<const Vec3> x) {
   if (active.empty() || coefficient_ == 0) {
     pairs_.clear();
@@ -86,8 +126,7 @@ void PairFriction::move_anchors(std::span<const ActivePair> active, std::span<co
     const bool slides = length > slip;
     const Vec3 kept = slides ? Vec3(slip / length * way) : way;
     const Vec3 here = in_plane(across(p.vertices, p.weights, x), p.normal);
-    now.push_back(
-        {p.key, p.vertices, p.weights, p.normal, kept - here, coefficient_ * p.push, slip, slides, kept});
+    now.push_back(held(p, kept - here, slides, kept));
   }
   pairs_ = std::move(now);
   sum_energy();

@@ -8,6 +8,13 @@
 
 namespace furrow::physics {
 
+/// What a pair's friction leaves to the next search.
+struct PairAnchor {
+  PairKey key;
+  Vec3 tether;  ///< what of the way in its plane is from before [m]
+  bool slides;
+};
+
 /// Friction between layers of cloth as a potential, for callers that look for rest: the law of
 /// AnchoredContact, for each pair. It pulls back the way u that the two primitives went against each other
 /// along their plane, linearly over a slip of a thirtieth of the pair's range, and then with its limit,
@@ -25,6 +32,13 @@ class PairFriction {
   /// they went since, at most a slip, and limits of their push. Ways are those of the last look(), which was
   /// at x. Answers are for x then.
   void move_anchors(std::span<const ActivePair> active, std::span<const Vec3> x);
+  /// Pairs that have come to push each other since the last move_anchors() get friction, too, at once: over
+  /// the way since positions `from`, with what their vertices had on it there. Then look() again.
+  void hold_new(std::span<const ActivePair> active, std::span<const Vec3> from);
+  std::vector<PairAnchor> anchors() const;
+  /// As after the move_anchors() that left these, `active` being the pairs of then. Those that do not push
+  /// are forgotten.
+  void set_anchors(std::span<const PairAnchor> anchors, std::span<const ActivePair> active);
   /// Limits become those of the push after a move [m], by the pairs' stiffness where they lie.
   void expect(std::span<const ActivePair> active, std::span<const Vec3> move);
   /// All answers below are for these positions.
@@ -53,6 +67,7 @@ class PairFriction {
     Vec3 normal, way;
     double weight;
   };
+  Pair held(const ActivePair& pair, const Vec3& tether, bool slides, const Vec3& way) const;
   std::vector<Share> shares() const;
   static Vec3 inherited(const ActivePair& pair, std::span<const Share> shares);
   void sum_energy();

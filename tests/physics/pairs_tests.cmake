@@ -6,6 +6,7 @@ furrow_add_tests(pairs physics LIBRARIES furrow::physics cases SOURCES
   pairs/cloth_contact_test.cpp
   pairs/edge_face_crossings_test.cpp
   pairs/pair_bounds_test.cpp
+  pairs/pair_curvature_test.cpp
   pairs/pair_distance_test.cpp
   pairs/pair_friction_test.cpp
   pairs/pair_list_test.cpp

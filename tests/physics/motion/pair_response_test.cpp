@@ -33,7 +33,7 @@ SimulateOptions free_of_air() {
 }
 
 /// How far a sheet slid down another that is held, in 0.4 s; slope: over the friction of 0.3.
-double slide(double slope, int columns) {
+double slide(double slope, int columns, Integrator integrator = Integrator::leapfrog) {
   constexpr double friction = 0.3;
   Cloth cloth = level_sheet(0.4, columns, 0, 0, 5);
   std::vector<int> held(cloth.particles.size());
@@ -44,12 +44,21 @@ double slide(double slope, int columns) {
   const double angle = std::atan(slope * friction);
   SimulateOptions o = free_of_air();
   o.gravity = 9.81 * Vec3(std::sin(angle), 0, -std::cos(angle));
-  o.seconds = 0.4;
   o.self.friction = friction;
+  o.integrator = integrator;
+  o.seconds = 0.4;
+  if (solves_contact(integrator)) {
+    o.dt = 1.0 / 480;
+    SimulateOptions level = o;
+    level.gravity = 9.81 * Vec3(0, 0, -std::cos(angle));
+    simulate(cloth, nullptr, level);  // it comes to lie as deep as its weight presses it
+    std::fill(cloth.particles.v.begin(), cloth.particles.v.end(), Vec3::Zero());
+  }
+  const std::vector<Vec3> before = cloth.particles.x;
   simulate(cloth, nullptr, o);
   double way = 0;
-  for (std::size_t i = 0; i < upper.particles.size(); ++i)
-    way += (cloth.particles.x[held.size() + i] - upper.particles.x[i]).x() / double(upper.particles.size());
+  for (std::size_t i = held.size(); i < before.size(); ++i)
+    way += (cloth.particles.x[i] - before[i]).x() / double(upper.particles.size());
   return way;
 }
 
@@ -87,11 +96,12 @@ TEST_CASE("pair_response: two free sheets that meet keep their momentum, lose en
 
 TEST_CASE("pair_response: a sheet on an incline of cloth sticks or slides as Coulomb says") {
   const int columns = GENERATE(12, 18);
-  CAPTURE(columns);
-  CHECK(std::abs(slide(0.98, columns)) < 1e-4);
+  const Integrator integrator = GENERATE(Integrator::leapfrog, Integrator::implicit, Integrator::tr_bdf2);
+  CAPTURE(columns, int(integrator));
+  CHECK(std::abs(slide(0.98, columns, integrator)) < 1e-4);
   const double angle = std::atan(1.3 * 0.3);
   const double way = 0.5 * 9.81 * (std::sin(angle) - 0.3 * std::cos(angle)) * 0.4 * 0.4;
-  CHECK(slide(1.3, columns) == Approx(way).epsilon(0.02));
+  CHECK(slide(1.3, columns, integrator) == Approx(way).epsilon(0.02));
 }
 
 TEST_CASE("pair_response: a lid crushes a crumpled sheet, and no step crosses", "[release]") {
