@@ -177,6 +177,8 @@ TEST_CASE("displace_by_force: a sheet without room between two held ones is not 
   CHECK(most_crossings(cloth, nullptr, options, report) == 0);
   CHECK(report.outcome != DisplaceOutcome::converged);
   CHECK(report.outcome != DisplaceOutcome::diverged);
+  CHECK(*report.self.cut_moves > 1000);  // sweeps find no place, so that the guard has to act
+  CHECK(report.self.cut_searches > 100);
 }
 
 TEST_CASE("displace_by_force: springs to what is held pull a sheet onto a held one, and not through it",
