@@ -2,7 +2,6 @@
 #include "physics/motion/pair_response.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "physics/base/require.h"
 #include "physics/motion/pair_memory.h"

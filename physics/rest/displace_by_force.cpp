@@ -187,7 +187,7 @@ class Displacer {
     Recurrence recurrence(o_.max_passes);
     bool lost = false;
     for (;; ++report.passes) {
-      report.residual = find_forces(report.passes);
+      report.residual = find_forces(report.passes, lost);
       const bool converged = report.residual <= o_.tolerance && !lost && (!own_ || own_->holds());
       const bool stopped = observer && !observer({report.passes, report.residual});
       const bool last = report.passes == o_.max_passes;
@@ -211,10 +211,10 @@ class Displacer {
 
  private:
   /// Fills force_. Returns the residual [-].
-  double find_forces(int pass) {
+  double find_forces(int pass, bool lost) {
     force_.assign(p_.size(), Vec3::Zero());
     add_forces(cloth_, p_.x, force_);
-    if (own_ && rate_ > 0) own_->begin_pass(pass, p_.x, rate_, force_);
+    if (own_ && rate_ > 0 && !lost) own_->begin_pass(pass, p_.x, rate_, force_);
     return residual_of(force_, p_, o_.gravity, collider_, o_.friction, o_.gap);
   }
 

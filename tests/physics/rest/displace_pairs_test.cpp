@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -204,6 +205,20 @@ TEST_CASE("displace_by_force: springs to what is held pull a sheet onto a held o
   options.self.on = false;
   displace_by_force(without, nullptr, options);
   CHECK(without.particles.x[std::size_t(n)].z() < -thick);
+}
+
+TEST_CASE("displace_by_force: with contact of cloth, what diverges is told", "[displace]") {
+  Cloth cloth = falling_pair();
+  DisplaceOptions options = on_cloth();
+  options.cap = false;
+  options.rate = 100 * displacement_rate(cloth, options.gravity, options.gap);
+  std::vector<Vec3>& x = cloth.particles.x;
+  *std::min_element(x.begin(), x.end(), [](const Vec3& a, const Vec3& b) {
+    return a.head<2>().norm() + a.z() < b.head<2>().norm() + b.z();
+  }) += Vec3(0, 0, 4e-3);  // the middle of the lower sheet goes through the upper one
+  const DisplaceReport report = displace_by_force(cloth, &under_sheets, options);
+  CHECK(report.outcome == DisplaceOutcome::diverged);
+  CHECK(report.self.crossed_at_start > 0);
 }
 
 TEST_CASE("displace_by_force: contact of cloth needs triangles and options within their range",
