@@ -20,15 +20,15 @@ struct PairPushOptions {
   bool lasting = false;
 };
 
-/// Contact of a cloth with itself for steps that do not know of it (methods S2.9, S2.10), without time: where
-/// a step brings the two of a pair nearer than their range, they are pushed apart along the line between
-/// them, then Coulomb friction shortens the relative tangential way, in sweeps over all pairs; the two sides
-/// share by their mobility, so that what they get is opposite. What was nearer before keeps its distance. A
-/// guard cuts the moves of what would still
-/// pass through cloth: of all vertices of a pair whose way is not free (time_of_impact()) or that closes in
-/// the last twentieth of its range, and of what comes to be in their way, each to less than half of its
-/// distance to anything. Where nothing is near, nothing changes, bit by bit. Pairs are handled in the order
-/// of their keys: same bits for any number of threads and any list.
+/// Contact of a cloth with itself for steps that do not solve it (methods S2.9, S2.10), by positions alone.
+/// Where a step brings the two of a pair nearer than their range, sweeps push them apart along the line
+/// between them, and Coulomb friction shortens their relative tangential way. Both sides get the same,
+/// opposite push. What was nearer before the step keeps its distance. A guard comes last, so that nothing
+/// passes through anything. Where nothing is near, nothing changes, bit by bit.
+/// \details The guard cuts the moves of all vertices of a pair whose way is not free (time_of_impact()) or
+/// that closes in the last twentieth of its range, and of what comes to be in their way, each to less than
+/// half of its distance to anything. Pairs are handled in the order of their keys: same bits for any number
+/// of threads and any list.
 class PairPushes {
  public:
   /// To a cloth as it is at x. Throws std::invalid_argument if an option is out of its range, lengths differ,

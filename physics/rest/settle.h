@@ -182,7 +182,7 @@ struct DisplaceReport {
 /// Stable for alpha < 2 / (largest eigenvalue of K). Tension c e^2 on edges of length L has the slope 2 c e /
 /// L: a chain is stable for alpha c e / L < 1/4, by Gershgorin a sheet of valence v for < 1/(2 v), 1/12 on
 /// regular triangles. Balance needs e = sqrt(T / c), so small strains want small rates.
-/// Source: Hanami and Tokoi (method S2.6 to S2.8), whose alpha is 1; the replacement's direction, the
+/// Source: Hanami and Tokoi (method S2.6 to S2.10), whose alpha is 1; the replacement's direction, the
 /// friction and the kinds of end are ours.
 DisplaceReport displace_by_force(Cloth& cloth, const Collider* collider, const DisplaceOptions& options,
                                  const SettleObserver& observer = {});
