@@ -29,8 +29,6 @@ void check(const DrapeOptions& o) {
   require(me, "soft_start", o.soft_start, o.soft_start >= 1, ">= 1");
   require(me, "contact_depth", std::min(depth, 1e300), !o.plain || std::isinf(depth),
           "left out, as the plain scheme needs it");
-  require(me, "self.on", o.settle.self.on, !(o.settle.self.on && o.plain),
-          "false, as the plain scheme needs it");
   require(me, "bending_friction", o.bending_friction,
           o.bending_friction >= 0 && !(o.bending_friction > 0 && o.plain),
           o.plain ? "0, as the plain scheme needs it" : ">= 0");
@@ -45,6 +43,8 @@ physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* 
   options.gap = o.gap;
   options.tolerance = o.tolerance;
   options.max_passes = o.max_iterations;
+  options.self = o.self;
+  options.threads = o.threads;
   const physics::DisplaceReport r = physics::displace_by_force(cloth, body, options, observer);
   physics::SettleReport report;
   report.iterations = r.passes;
@@ -52,6 +52,7 @@ physics::SettleReport find_rest(physics::Cloth& cloth, const physics::Collider* 
   report.converged = r.outcome == physics::DisplaceOutcome::converged;
   report.stopped = r.outcome == physics::DisplaceOutcome::stopped;
   report.touching = r.touching;
+  report.self = r.self;
   return report;
 }
 

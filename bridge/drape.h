@@ -19,10 +19,11 @@ struct DrapeWork {
 struct DrapeOptions {
   int refinements = 0;  ///< Loop subdivisions between the given mesh and the fitted one; in [0, 6]
   /// Of the last level; others end at coarse_tolerance, at any depth. self.drawn: the garment as it was made.
-  /// With self.on, starts are guarded, too; not with plain.
+  /// With self.on, starts are guarded, too.
   physics::SettleOptions settle;
   /// Paper 2's plain scheme (displace_by_force()), to compare with: it takes a hundred times as
-  /// long. It has the same friction, gap and tolerance; max_iterations bounds its passes.
+  /// long. It has the same friction, gap, tolerance and contact of cloth with cloth; max_iterations bounds
+  /// its passes.
   bool plain = false;
   double coarse_tolerance = 100;  ///< residual force at which the next level takes over [-]; > 0
   /// How far the start is disturbed along its normals, as a share of the diagonal of the garment's box (root

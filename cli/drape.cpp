@@ -297,7 +297,7 @@ void add_drape(CLI::App& app, int& exit_code) {
          "--self-contact", a->self_contact,
          "whether cloth keeps off cloth: layers and folds lie on each other, and nothing passes through that "
          "did not at the start. auto: where that ends blocked, torn or not at rest, the garment is draped "
-         "again without, and the better end is taken")
+         "again without, and the better end is taken; with --plain, auto is off")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "on", "off"}));
   sub->add_option(

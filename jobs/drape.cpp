@@ -122,9 +122,6 @@ void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene
   if (s.plain && s.contact_depth)
     throw std::invalid_argument(
         "--contact-depth: --plain moves cloth out to the gap at once; leave out one of them");
-  if (s.plain && s.self_contact == SelfContactUse::on)
-    throw std::invalid_argument(
-        "--self-contact: --plain lets cloth pass through cloth; leave out one of them");
   const std::string output = job.output.string(), animation = s.animation.string();
   if (!output.empty()) check_output(output);
   if (!animation.empty() && !io::animation_format(s.animation))

@@ -53,7 +53,8 @@ const Keywords<jobs::DrapeJob>& drape_rows() {
           "contact_depth", "goes on until nothing lies deeper in the gap than this [m], > 0",
           [](auto& j) -> auto& { return j.settings.contact_depth; }),
       choice<Job, jobs::SelfContactUse>(
-          "self_contact", "whether cloth keeps off cloth; default \"auto\": unless it then finds no rest",
+          "self_contact",
+          "whether cloth keeps off cloth; default \"auto\": unless it then finds no rest, or with plain",
           {{"auto", jobs::SelfContactUse::automatic},
            {"on", jobs::SelfContactUse::on},
            {"off", jobs::SelfContactUse::off}},

@@ -236,8 +236,9 @@ void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
        << " deep in the gap";
   if (last.stuck)
     text << ", and no step leads on: draw or lay it otherwise, or try --starts 4";
-  else if (!d.is_torn())
-    text << "; give more with --max-iterations, or accept it with --residual";
+  else if (last.self.cut_moves.value_or(0) > 0)
+    text << ", " << *last.self.cut_moves << " moves of vertices cut, as cloth was in their way";
+  if (!last.stuck && !d.is_torn()) text << "; give more with --max-iterations, or accept it with --residual";
   remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
 }
 
@@ -254,7 +255,9 @@ Json level_json(const bridge::DrapeLevel& level) {
 Json self_contact_json(const Draped& d) {
   const physics::SelfContactReport& last = d.report.levels.back().settle.self;
   int cut = 0, builds = 0, stopped = 0;
+  long long moves = 0;
   for (const bridge::DrapeLevel& level : d.report.levels) {
+    moves += level.settle.self.cut_moves.value_or(0);
     cut += level.soft.self.cut_searches + level.settle.self.cut_searches;
     builds += level.soft.self.list_builds + level.settle.self.list_builds;
     stopped += level.stopped;
@@ -269,6 +272,7 @@ Json self_contact_json(const Draped& d) {
             {"exempt", last.exempt},
             {"stopped", stopped},
             {"friction", d.cloth_friction}};
+  if (last.cut_moves) json["cut_moves"] = moves;
   if (d.other) json["crossings_without"] = d.other->crossings;
   if (last.blocked) json["blocked_at"] = {last.blocked_at.x(), last.blocked_at.y(), last.blocked_at.z()};
   return json;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "physics/body/collider.h"
@@ -78,6 +79,9 @@ struct SelfContactReport {
   int list_builds = 0;       ///< detections of what is near
   int crossed_at_start = 0;  ///< edges through faces, which may go on crossing
   int exempt = 0;            ///< pairs of those that did not come apart
+  /// Moves of particles that were cut, by displace_by_force(), whose `cut_searches` counts the passes with
+  /// such; none: a step is cut as a whole.
+  std::optional<long long> cut_moves = {};
   bool blocked = false;      ///< it ended as no step was left: eight running were cut to less than 1/32
   Vec3 blocked_at{0, 0, 0};  ///< where [m]
 };
@@ -128,6 +132,8 @@ struct DisplaceOptions {
   /// Largest summed force that stays as it is, in mean weights of a free particle [-]; > 0 if cap.
   double limit = 1.5;
   double replacement = 1.1;  ///< what a larger one becomes, in the same [-]; in (0, limit] if cap
+  SelfContact self = {};     ///< max_iterations does not count
+  int threads = 1;           ///< that look for what is near; >= 1; the result is the same for any number
 };
 
 enum class DisplaceOutcome {
@@ -147,15 +153,17 @@ struct DisplaceReport {
   double rate = 0;       ///< alpha [m/N]
   long long capped = 0;  ///< forces replaced, over all passes
   int touching = 0;      ///< particles within the gap (plus 1e-5 m) of the body at the end
+  SelfContactReport self = {};
 };
 
 /// Fitting without velocities: in each pass every free particle is displaced by its force,
 ///   x += alpha f,   f of elements (elements.h) and weight m g, all taken before any particle moves.
 /// Velocities become 0; the states on the way are no motion. Cost: passes * (elements + a query of the field
 /// a particle); passes grow as the square of the particles across the cloth, where settle() needs fewer than
-/// a hundred iterations. One thread; same input, same bits. What diverged is left as it is, maybe not finite.
+/// a hundred iterations. Same input, same bits. What diverged is left as it is, maybe not finite.
 /// Throws std::invalid_argument, nothing changed, if an option is out of its range, arrays differ in length,
-/// a position is not finite, a free particle has no mass, or as the elements do.
+/// a position is not finite, a free particle has no mass, there is contact of the cloth with itself but no
+/// triangle, or as the elements do.
 ///
 /// \details Where |f| > limit w, w the mean weight of the free particles (9.81 m/s^2 where gravity is 0), f
 /// becomes replacement w f/|f|. This bounds the travel of a pass, so that a start far from rest does not
@@ -165,10 +173,16 @@ struct DisplaceReport {
 /// correction that the way into the body calls for, maybe to nothing (it sticks), and is moved out along the
 /// gradient. Bodies thinner than alpha |f| are passed through.
 ///
+/// With contact of the cloth with itself (methods S2.9, S2.10) what is near is kept apart after each pass, in
+/// turns with the body (PairPushes): all free particles are moved alike, so what pairs do are forces, equal
+/// and opposite, which the next pass adds to f; the residual has them, too. A tenth of what is missing to the
+/// thickness is made up in a pass. Then a guard cuts what would pass through cloth, so no pass crosses. It is
+/// no rest where in the last pass a move was cut, sweeps had not ended, or a fiftieth of a range was missing.
+///
 /// Stable for alpha < 2 / (largest eigenvalue of K). Tension c e^2 on edges of length L has the slope 2 c e /
 /// L: a chain is stable for alpha c e / L < 1/4, by Gershgorin a sheet of valence v for < 1/(2 v), 1/12 on
 /// regular triangles. Balance needs e = sqrt(T / c), so small strains want small rates.
-/// Source: Hanami and Tokoi (method S2.6 to S2.8), whose alpha is 1; the replacement's direction, the
+/// Source: Hanami and Tokoi (method S2.6 to S2.10), whose alpha is 1; the replacement's direction, the
 /// friction and the kinds of end are ours.
 DisplaceReport displace_by_force(Cloth& cloth, const Collider* collider, const DisplaceOptions& options,
                                  const SettleObserver& observer = {});

@@ -271,6 +271,44 @@ TEST_CASE("drape: a file that crosses itself is taken apart, and its report says
   CHECK(r["untangled"]["left"] == 0);
 }
 
+TEST_CASE("drape: --plain keeps cloth off cloth where it is asked to, and else lets it through") {
+  ScratchDirectory scratch;
+  std::string obj;  // a patch that is held, and one over it that is held by an edge
+  for (const double y : {0.0, 0.002})
+    for (int i = 0; i < 45; ++i)
+      obj += "v " + std::to_string(0.01 * (i / 5) + 1.5 * y) + " " + std::to_string(y) + " " +
+             std::to_string(0.01 * (i % 5) + 2 * y) + "\n";
+  for (const int first : {1, 46})
+    for (int i = 0; i < 32; ++i) {
+      const int a = first + 5 * (i / 4) + i % 4;
+      obj += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + 6) + " " +
+             std::to_string(a + 5) + "\n";
+    }
+  write_text(scratch / "two.obj", obj);
+  const auto drape = [&](const std::string& more, const std::string& out) {
+    return run_furrow("drape " + (scratch / "two.obj") +
+                      " --pin-box=-1,-1,-1,1,0.001,1 --pin-vertices 45,46,47,48,49 --plain --stretch 2 "
+                      "--rigidity 1e-7 --bending-law hinge --max-iterations 2000 --residual 0.05 --json" +
+                      more + " -o " + (scratch / out));
+  };
+  const Run with = drape(" --self-contact on --cloth-thickness 0.0008 --cloth-friction 0.3", "with.obj");
+  INFO(with.err);
+  CHECK(with.exit_code == 0);
+  const json r = json::parse(with.out), contact = r["self_contact"];
+  CHECK(r["outcome"] == "at rest");
+  CHECK(r["crossings"]["pairs"] == 0);
+  CHECK(contact["pairs"].get<int>() > 100);
+  CHECK(contact["nearest"].get<double>() == Approx(0.0008).epsilon(0.05));
+  CHECK(contact["friction"] == 0.3);
+  CHECK(contact["cut_moves"] == 0);
+  const Run off = drape(" --self-contact off", "off.obj"), as_ever = drape("", "auto.obj");
+  CHECK(off.exit_code == 4);
+  CHECK(json::parse(off.out)["crossings"]["pairs"].get<int>() > 5);
+  CHECK(as_ever.exit_code == 4);
+  CHECK_FALSE(json::parse(as_ever.out).contains("self_contact"));
+  CHECK(read_text(scratch / "off.obj") == read_text(scratch / "auto.obj"));
+}
+
 TEST_CASE("drape: --loose says what becomes of a scrap that nothing holds") {
   ScratchDirectory scratch;
   write_text(scratch / "a.obj",
@@ -312,7 +350,6 @@ TEST_CASE("drape: what cannot be done is told before the work") {
   refused(skirt() + out + " --penetration -1", "--penetration");
   refused(skirt() + out + " --contact-depth 1e-9", "--contact-depth");
   refused(skirt() + out + " --contact-depth 1e-5 --plain", "--contact-depth");
-  refused(skirt() + out + " --self-contact on --plain", "--self-contact");
   refused(skirt() + out + " --self-contact maybe", "--self-contact");
   refused(skirt() + out + " --cloth-thickness 0", "--cloth-thickness");
   refused(skirt() + out + " --set body.motion.spin={axis=[0,1,0],rate=1}", "body.motion");

@@ -169,6 +169,9 @@ TEST_CASE("drape: what several garments are not draped with is refused") {
   job.settings.loose = jobs::LooseUse::drop;
   check_refused(job, "--loose drop: not with several garments");
   job = two_across_ball();
+  job.settings.plain = true;
+  check_refused(job, "--plain: not with several garments");
+  job = two_across_ball();
   job.settings.bands = {{"top", 0.9}};
   check_refused(job, "--band: not with several garments");
   job = two_across_ball();

@@ -11,10 +11,12 @@ furrow_add_tests(pairs physics LIBRARIES furrow::physics cases SOURCES
   pairs/pair_friction_test.cpp
   pairs/pair_list_test.cpp
   pairs/pair_mesh_test.cpp
+  pairs/pair_pushes_test.cpp
   pairs/pair_search_test.cpp
   pairs/time_of_impact_test.cpp
   pairs/untangle_contours_test.cpp
   pairs/untangle_layers_test.cpp
+  rest/displace_pairs_test.cpp
   rest/settle_layers_test.cpp
   rest/settle_pairs_test.cpp
 )
