@@ -92,6 +92,8 @@ struct PairMemory {
   int first = 0, second = 0;  ///< their numbers
   double range = 0;           ///< at which they push each other now [m]; 0: not yet
   double target = 0;          ///< and may do later [m]
+
+  bool operator==(const PairMemory&) const = default;
 };
 
 /// What friction of such a pair remembers (PairAnchor).
@@ -100,6 +102,8 @@ struct PairFrictionMemory {
   int first = 0, second = 0;
   Vec3 tether = Vec3::Zero();  ///< [m]
   bool slides = false;
+
+  bool operator==(const PairFrictionMemory&) const = default;
 };
 
 /// What contact of the cloth with itself remembers, beside positions.
@@ -110,6 +114,8 @@ struct SelfContactMemory {
   int crossed_at_start = 0;       ///< edges through faces
   std::vector<std::array<int, 2>> coupled;   ///< what the stiffness has blocks for beside the elements
   std::vector<PairFrictionMemory> friction;  ///< sorted
+
+  bool operator==(const SelfContactMemory&) const = default;
 };
 
 /// What a step leaves to the next beside positions and velocities.

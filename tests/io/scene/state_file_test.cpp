@@ -59,6 +59,7 @@ io::SavedState state() {
   sim.totals.force_evaluations = 12;
   sim.totals.open_steps = 3;
   sim.steps.contact_stiffness = 1234.5;
+  sim.steps.self = {1 / 3.0, {{true, 4, 9, 0.1 / 3, 0.2}}, {1, 2}, 5, {{3, 1}}, {{true, 4, 9, {1 / 3.0, -0.0, 1e-300}, true}}};
   s.pins = {{1, 2}, {}};
   s.lines_drawn = 2;
   s.scene = {{"garment", {{"mesh", "../g.obj"}}}, {"simulation", {{"seconds", 2}}}};
@@ -96,6 +97,7 @@ TEST_CASE("state_file: a state holds everything to the last bit") {
   CHECK(a.steps.anchors == b.steps.anchors);
   CHECK(a.steps.acceleration == b.steps.acceleration);
   CHECK(a.steps.contact_stiffness == b.steps.contact_stiffness);
+  CHECK(a.steps.self == b.steps.self);
   CHECK(geometry::vertex_attributes(is.file.mesh).empty());
   REQUIRE(b.contact.size() == a.contact.size());
   for (std::size_t i = 0; i < a.contact.size(); ++i) {

@@ -5,6 +5,7 @@
 #include "physics/cloth/pins.h"
 #include "physics/motion/simulate.h"
 #include "physics/pairs/edge_face_crossings.h"
+#include "tests/cases/handled_sheets.h"
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/test_cloths.h"
 #include "tests/physics/motion/stacked_sheets.h"
@@ -128,6 +129,32 @@ TEST_CASE("self_contact: pins that pull a sheet through a held one end blocked, 
   CHECK((report.blocked_at - cloth.particles.x[std::size_t(led)]).norm() < 0.01);
   CHECK(crossed == 0);
   CHECK(crossings_of(cloth) == 0);
+}
+
+TEST_CASE("self_contact: steps that solve contact wring a towel by equal torques, and none crosses",
+          "[release]") {
+  furrow::cases::Handling how;
+  how.integrator = Integrator::implicit;
+  how.columns = 10;
+  how.look = 1;
+  how.seconds = 3;
+  const furrow::cases::Handled wrung = furrow::cases::wring(1.5, how);
+  CHECK(wrung.report.outcome == Outcome::finished);
+  CHECK(wrung.most_crossings == 0);
+  CHECK(wrung.report.open_steps == 0);
+  CHECK(wrung.report.self.pairs > 50);
+  CHECK(std::abs(wrung.torques[0]) > 1e-3);
+  CHECK(wrung.torques[0] == Approx(-wrung.torques[1]).epsilon(0.05));
+}
+
+TEST_CASE("self_contact: where cloth is in the way of pins it goes out of it", "[release]") {
+  furrow::cases::Handling how;
+  how.integrator = Integrator::implicit;
+  how.columns = 8;
+  how.look = 1;
+  const furrow::cases::Handled wrung = furrow::cases::wring(4, how);  // an end turns through a pleat before it
+  CHECK(wrung.report.outcome == Outcome::finished);
+  CHECK(wrung.most_crossings == 0);
 }
 
 TEST_CASE("self_contact: thickness 0, friction below 0 and a cloth without triangles are refused") {

@@ -115,6 +115,48 @@ TEST_CASE("pair_friction: a pair that takes another's place goes on with its way
   CHECK(p.forces(friction)[0].x() == Approx(-0.5 * 0.5 * mu * 2));
 }
 
+TEST_CASE("pair_friction: a pair that is new on the way has friction from where the way began") {
+  Pressed p;
+  PairFriction friction(mu);
+  const std::vector<Vec3> from = p.x;
+  p.x[0].x() += 0.4 * slip;
+  friction.hold_new(p.active, from);
+  friction.look(p.x);
+  CHECK(p.forces(friction)[0].x() == Approx(-0.4 * mu * 2));
+
+  PairFriction known(mu);  // with what the pair before it had where the way began
+  known.look(from);
+  known.move_anchors(p.active, from);
+  p.x[0].x() = from[0].x() + 0.3 * slip;
+  known.look(p.x);
+  known.move_anchors(p.active, p.x);
+  const std::vector<Vec3> middle = p.x;
+  p.x[0].x() += 0.2 * slip;
+  known.hold_new(std::vector<ActivePair>{Pressed::pair(1)}, middle);
+  known.look(p.x);
+  known.expect(std::vector<ActivePair>{Pressed::pair(1)}, std::vector<Vec3>(p.x.size(), Vec3::Zero()));
+  CHECK(p.forces(known)[0].x() == Approx(-0.5 * mu * 2));  // of the new pair alone
+}
+
+TEST_CASE("pair_friction: what its anchors say brings back the same forces") {
+  Pressed p;
+  PairFriction friction(mu), other(mu);
+  friction.look(p.x);
+  friction.move_anchors(p.active, p.x);
+  p.x[0].x() += 3 * slip;
+  friction.look(p.x);
+  friction.move_anchors(p.active, p.x);
+  other.set_anchors(friction.anchors(), p.active);
+  CHECK(other.sliding() == 1);
+  p.x[0] += Vec3(-0.3 * slip, 0.1 * slip, 0);
+  friction.look(p.x);
+  other.look(p.x);
+  CHECK(p.forces(friction) == p.forces(other));
+  CHECK(p.forces(other)[0].norm() > 0);
+  other.set_anchors(friction.anchors(), {});
+  CHECK(other.empty());
+}
+
 TEST_CASE("pair_friction: with contact its forces are the derivative of the energy, its stiffness theirs") {
   const Cloth base = rough_sheet(6, 0.03, 3);
   Cloth cloth = base;
