@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cases V11 and V12 of docs/contact.md: sheets that a lid crushes, from many seeds, and a towel that is
 // wrung. handled_cases [crush|wring [columns [seeds or turns [word …]]]]. Words: implicit; without, no
-// contact; short, steps of a third.
+// contact; short, steps of a third; smooth, no friction of cloth on cloth.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -41,6 +41,7 @@ int main(int count, char** arguments) {
   for (int i = 4; i < count; ++i) {
     if (word(i, "") == "implicit") how.integrator = Integrator::implicit, how.look = 1;
     if (word(i, "") == "without") how.self_contact = false;
+    if (word(i, "") == "smooth") how.friction = 0;
     if (word(i, "") == "short") how.dt_factor = 0.3;
   }
   std::printf(

@@ -58,7 +58,7 @@ SimulateOptions options_of(const Handling& how) {
   o.seconds = how.seconds;
   o.self.on = how.self_contact;
   o.self.thickness = thickness;
-  o.self.friction = 0.3;
+  o.self.friction = how.friction;
   o.dt_factor = how.dt_factor;
   o.observe_steps = how.look;
   return o;

@@ -22,6 +22,7 @@ struct Handling {
   int look = 50;           ///< at every so many steps
   double seconds = 1.2;    ///< [s]
   double dt_factor = 0.9;  ///< SimulateOptions::dt_factor
+  double friction = 0.3;   ///< of cloth on cloth [-]
 };
 
 /// A sheet of 0.3 m that stands on a floor, crumpled by noise of the seed, and a lid that presses it flat

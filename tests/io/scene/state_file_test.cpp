@@ -59,7 +59,9 @@ io::SavedState state() {
   sim.totals.force_evaluations = 12;
   sim.totals.open_steps = 3;
   sim.steps.contact_stiffness = 1234.5;
-  sim.steps.self = {1 / 3.0, {{true, 4, 9, 0.1 / 3, 0.2}}, {1, 2}, 5, {{3, 1}}, {{true, 4, 9, {1 / 3.0, -0.0, 1e-300}, true}}};
+  sim.steps.self = {1 / 3.0,  {{true, 4, 9, 0.1 / 3, 0.2}},
+                    {1, 2},   5,
+                    {{3, 1}}, {{true, 4, 9, {1 / 3.0, -0.0, 1e-300}, true}}};
   s.pins = {{1, 2}, {}};
   s.lines_drawn = 2;
   s.scene = {{"garment", {{"mesh", "../g.obj"}}}, {"simulation", {{"seconds", 2}}}};
