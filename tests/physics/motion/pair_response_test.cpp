@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "physics/motion/pair_response.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -32,34 +33,55 @@ SimulateOptions free_of_air() {
   return o;
 }
 
-/// How far a sheet slid down another that is held, in 0.4 s; slope: over the friction of 0.3.
-double slide(double slope, int columns, Integrator integrator = Integrator::leapfrog) {
-  constexpr double friction = 0.3;
-  Cloth cloth = level_sheet(0.4, columns, 0, 0, 5);
-  std::vector<int> held(cloth.particles.size());
-  std::iota(held.begin(), held.end(), 0);
-  const Cloth upper = level_sheet(0.15, columns / 2, thickness, 0.1, 6);
-  put_over(cloth, upper);
-  pin(cloth.particles, held);
-  const double angle = std::atan(slope * friction);
-  SimulateOptions o = free_of_air();
-  o.gravity = 9.81 * Vec3(std::sin(angle), 0, -std::cos(angle));
-  o.self.friction = friction;
-  o.integrator = integrator;
-  o.seconds = 0.4;
-  if (solves_contact(integrator)) {
-    o.dt = 1.0 / 480;
-    SimulateOptions level = o;
-    level.gravity = 9.81 * Vec3(0, 0, -std::cos(angle));
-    simulate(cloth, nullptr, level);  // it comes to lie as deep as its weight presses it
-    std::fill(cloth.particles.v.begin(), cloth.particles.v.end(), Vec3::Zero());
+/// A sheet of cloth on another one that is held, on an incline; slope: over the friction of 0.3.
+struct Incline {
+  static constexpr double friction = 0.3;
+  Cloth cloth;
+  std::size_t held;
+  SimulateOptions options;
+
+  Incline(double slope, int columns)
+      : cloth(level_sheet(0.4, columns, 0, 0, 5)), held(cloth.particles.size()) {
+    std::vector<int> lower(held);
+    std::iota(lower.begin(), lower.end(), 0);
+    put_over(cloth, level_sheet(0.15, columns / 2, thickness, 0.1, 6));
+    pin(cloth.particles, lower);
+    const double angle = std::atan(slope * friction);
+    options = free_of_air();
+    options.gravity = 9.81 * Vec3(std::sin(angle), 0, -std::cos(angle));
+    options.seconds = 0.4;
+    options.self.friction = friction;
   }
-  const std::vector<Vec3> before = cloth.particles.x;
-  simulate(cloth, nullptr, o);
-  double way = 0;
-  for (std::size_t i = held.size(); i < before.size(); ++i)
-    way += (cloth.particles.x[i] - before[i]).x() / double(upper.particles.size());
-  return way;
+  /// Where the upper sheet is along the incline.
+  double place() const {
+    double sum = 0;
+    for (std::size_t i = held; i < cloth.particles.size(); ++i) sum += cloth.particles.x[i].x();
+    return sum / double(cloth.particles.size() - held);
+  }
+};
+
+/// How far it slid in 0.4 s.
+double slide(double slope, int columns) {
+  Incline incline(slope, columns);
+  const double before = incline.place();
+  simulate(incline.cloth, nullptr, incline.options);
+  return incline.place() - before;
+}
+
+/// Where it is after 0.2, 0.3 and 0.4 s: it comes down to where it lies within the first tenth of a second,
+/// and friction is less than that of its weight until then.
+std::array<double, 3> places(double slope, int columns, Integrator integrator) {
+  Incline incline(slope, columns);
+  incline.options.integrator = integrator;
+  incline.options.dt = 1.0 / 480;
+  incline.options.observe_steps = 48;
+  std::vector<double> seen;
+  simulate(incline.cloth, nullptr, incline.options, [&](const SimulateProgress&) {
+    seen.push_back(incline.place());
+    return true;
+  });
+  REQUIRE(seen.size() == 4);
+  return {seen[1], seen[2], seen[3]};
 }
 
 }  // namespace
@@ -96,12 +118,23 @@ TEST_CASE("pair_response: two free sheets that meet keep their momentum, lose en
 
 TEST_CASE("pair_response: a sheet on an incline of cloth sticks or slides as Coulomb says") {
   const int columns = GENERATE(12, 18);
-  const Integrator integrator = GENERATE(Integrator::leapfrog, Integrator::implicit, Integrator::tr_bdf2);
-  CAPTURE(columns, int(integrator));
-  CHECK(std::abs(slide(0.98, columns, integrator)) < 1e-4);
+  CAPTURE(columns);
+  CHECK(std::abs(slide(0.98, columns)) < 1e-4);
   const double angle = std::atan(1.3 * 0.3);
   const double way = 0.5 * 9.81 * (std::sin(angle) - 0.3 * std::cos(angle)) * 0.4 * 0.4;
-  CHECK(slide(1.3, columns, integrator) == Approx(way).epsilon(0.02));
+  CHECK(slide(1.3, columns) == Approx(way).epsilon(0.02));
+}
+
+TEST_CASE("self_contact: by steps that solve contact a sheet sticks on an incline of cloth, or slides") {
+  const int columns = GENERATE(12, 18);
+  const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2);
+  CAPTURE(columns, int(integrator));
+  const std::array<double, 3> stuck = places(0.98, columns, integrator);
+  // Creep below 1 um/s; TR-BDF2 keeps what the sheet still rocks by.
+  CHECK(std::abs(stuck[2] - stuck[1]) < (integrator == Integrator::implicit ? 1e-7 : 2e-6));
+  const std::array<double, 3> slid = places(1.3, columns, integrator);
+  const double angle = std::atan(1.3 * 0.3), pull = 9.81 * (std::sin(angle) - 0.3 * std::cos(angle));
+  CHECK((slid[2] - 2 * slid[1] + slid[0]) / 0.01 == Approx(pull).epsilon(0.02));
 }
 
 TEST_CASE("pair_response: a lid crushes a crumpled sheet, and no step crosses", "[release]") {
