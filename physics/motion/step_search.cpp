@@ -15,7 +15,8 @@ constexpr double good_enough = 20;        // times the tolerance, after few iter
 constexpr double short_move = 10;         // times the tolerance: the factors serve the next one
 constexpr double single_residual = 1e-4;  // of the force, that a solution of single precision may leave
 constexpr std::size_t most_coupled = 4;   // times the pairs of particles that contact couples
-constexpr double most_growth = 4;         // of what damps a move, in an iteration
+constexpr double longest_in_cloth =
+    0.02;  // m, where cloth touches cloth: what is near on the way can be listed
 constexpr double armijo = 1e-4;
 constexpr double least_move_share = 1e-3;  // of a move
 constexpr double least_fall = 1e-12;       // of the energy, that can be told from rounding
@@ -144,22 +145,22 @@ void StepSearch::couple_pairs() {
   couple(std::move(needed));
 }
 
-/// Of the place that was looked at last; damping: of the inertia, what is added to it.
-void StepSearch::assemble(const std::vector<Vec3>& x, double damping) {
+/// Of the place that was looked at last.
+void StepSearch::assemble(const std::vector<Vec3>& x) {
   const WorkClock::Within assembly(clock_, WorkPart::assembly);
   const Particles& p = cloth_.particles;
   if (pairs_) couple_pairs();
   elements_.assemble(stiffness_, x, pool_);
   if (pairs_) pairs_->add_stiffness(stiffness_);
   if (contact_) contact_->anchored().add_stiffness(stiffness_);
-  const double factor = (1 + damping) * stage_->s + loads_.air_drag * stage_->p;
+  const double factor = stage_->s + loads_.air_drag * stage_->p;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) stiffness_.add(int(i), p.mass[i] * factor * Mat3::Identity());
 }
 
-void StepSearch::factorise(const std::vector<Vec3>& x, double damping) {
+void StepSearch::factorise(const std::vector<Vec3>& x) {
   throw_if_cancelled("implicit step");
-  assemble(x, damping);
+  assemble(x);
   const WorkClock::Within factorisation(clock_, WorkPart::factorisation);
   ++work_.factorisations;
   single_ = stiffness_.factorise_single(&pool_);
@@ -200,8 +201,10 @@ StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<V
   const double slope = -dot(here.net, move);
   double longest = 0;
   for (const Vec3& m : move) longest = std::max(longest, m.norm());
-  double share = longest > options.longest_move ? options.longest_move / longest : 1;
-  if (!(slope < 0) || !std::isfinite(longest)) return {0, share, false};
+  const bool touches = pairs_ && pairs_->acts();
+  const double most = touches ? std::min(longest_in_cloth, options.longest_move) : options.longest_move;
+  double share = longest > most ? most / longest : 1;
+  if (!(slope < 0) || !std::isfinite(longest)) return {0, false};
   bool cut = false;
   if (pairs_) {
     const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
@@ -209,7 +212,6 @@ StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<V
     share = pairs_->safe_share(x, move, wanted, &pool_);
     cut = share < 0.5 * wanted;
   }
-  const double tried = share;
   for (const double least = least_move_share * share; share > least;) {
     std::vector<Vec3> trial = x;
     add_multiple(trial, share, move);
@@ -218,12 +220,12 @@ StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<V
     if (rise <= armijo * share * slope + energy_rounding * here.terms) {
       x = std::move(trial);
       here = std::move(there);
-      return {share, tried, cut};
+      return {share, cut};
     }
     share = least_of_parabola(share, slope, rise);
   }
   look(x);
-  return {0, tried, cut};
+  return {0, cut};
 }
 
 /// Limits of friction become those of the push to come.
@@ -238,14 +240,6 @@ void StepSearch::hold_new(const StageStart& start, const std::vector<Vec3>& x) {
   if (pairs_) pairs_->hold_new(start.x, x);
 }
 
-/// Moves that had to be shortened were longer than the energy is a parabola: the next ones get more inertia.
-double StepSearch::next_damping(double damping, const Way& way) {
-  if (way.cut) return damping;
-  if (way.share < 0.5 * way.tried)
-    return std::max(1.0, damping) * std::min(most_growth, 0.7 * way.tried / std::max(way.share, 1e-3));
-  return damping > 0.5 ? damping / most_growth : 0;
-}
-
 SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const StageStart& start,
                            const SearchOptions& options, std::vector<Vec3>& x) {
   stage_ = &stage;
@@ -253,9 +247,8 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
   if (pairs_) pairs_->forget_cuts();
   Answer here = look(x);
   bool keep_factors = false;
-  double damping = 0;
   for (int iteration = 1; iteration <= options.most; ++iteration) {
-    if (!keep_factors) factorise(x, damping);
+    if (!keep_factors) factorise(x);
     std::vector<Vec3> move = solve(here.net);
     ++work_.iterations;
     const bool rubs = iteration == 1 && (contact_ || (pairs_ && pairs_->rubs()));
@@ -264,7 +257,7 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
       add_contact(x, here);
       move = solve(here.net);
     }
-    const double length = (1 + damping) * mean_length(move);
+    const double length = mean_length(move);
     const Way way = advance(move, x, here, options);
     if (iteration == 1 && (contact_ || (pairs_ && pairs_->rubs()))) {
       hold_new(start, x);
@@ -274,8 +267,7 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
     if (length <= enough * options.tolerance && !way.cut) return {true, iteration};
     const bool at_rounding = std::abs(dot(here.net, move)) <= least_fall * here.terms;
     if (way.share == 0 && !keep_factors && !way.cut) return {at_rounding, iteration};
-    damping = next_damping(damping, way);
-    keep_factors = way.share == 1 && damping == 0 && length <= short_move * options.tolerance;
+    keep_factors = way.share == 1 && length <= short_move * options.tolerance;
   }
   return {false, options.most};
 }

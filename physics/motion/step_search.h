@@ -45,8 +45,7 @@ struct SearchEnd {
 };
 
 /// Looks for the minima of stages, all on one cloth, by Newton's method with the positive part of the
-/// stiffness, a fresh factorisation each iteration, and a line search. Where that shortens moves, the next
-/// ones are damped by more inertia, as Levenberg and Marquardt do. A factorisation serves twice where the
+/// stiffness, a fresh factorisation each iteration, and a line search. A factorisation serves twice where the
 /// move is short. It keeps room and symbolic work, but nothing that a result depends on.
 class StepSearch {
  public:
@@ -68,7 +67,6 @@ class StepSearch {
   /// What was made of a move.
   struct Way {
     double share;  ///< 0: nothing
-    double tried;  ///< the longest share that the energy was asked at
     bool cut;      ///< as the cloth is in its own way, to less than half
   };
   struct Answer {
@@ -83,10 +81,9 @@ class StepSearch {
   void hold_new(const StageStart& start, const std::vector<Vec3>& x);
   void add_contact(const std::vector<Vec3>& x, Answer& answer);
   void add_stage(const std::vector<Vec3>& x, Answer& answer) const;
-  void assemble(const std::vector<Vec3>& x, double damping);
+  void assemble(const std::vector<Vec3>& x);
   void couple_pairs();
-  void factorise(const std::vector<Vec3>& x, double damping);
-  static double next_damping(double damping, const Way& way);
+  void factorise(const std::vector<Vec3>& x);
   std::vector<Vec3> solve(std::vector<Vec3> net);
   Way advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
               const SearchOptions& options);
