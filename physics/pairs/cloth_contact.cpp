@@ -23,6 +23,17 @@ constexpr double cut_short = 1.0 / 32;          // share of a move
 constexpr int pair_chunk = 512;
 constexpr double ways_ahead = 30;  // of a step among many, for which a list is made
 constexpr int most_rounds_of_approach = 40;
+constexpr double farthest = 1e6;  // m, that a coordinate goes in a move: single precision has to bear it
+
+/// Not finite if one of them is not.
+double largest_coordinate(std::span<const Vec3> move) {
+  double largest = 0, sum = 0;
+  for (const Vec3& m : move) {
+    largest = std::max(largest, m.cwiseAbs().maxCoeff());
+    sum += m.sum();
+  }
+  return std::isnan(sum) ? sum : largest;
+}
 
 std::size_t chunks_of(std::size_t n) { return (n + pair_chunk - 1) / pair_chunk; }
 
@@ -238,6 +249,9 @@ const std::vector<double>& ClothContact::shares(std::span<const ListedPair> pair
 
 double ClothContact::safe_share(std::span<const Vec3> x, std::span<const Vec3> move, double most,
                                 ThreadPool* pool) {
+  const double longest = largest_coordinate(move);
+  if (!std::isfinite(longest)) return 0;
+  most = std::min(most, farthest / std::max(longest, farthest));
   const std::span<const ListedPair> pairs = pairs_on_way(x, move, most, pool);
   const std::vector<double>& share = shares(pairs, x, move, most, pool);
   braced_.clear();

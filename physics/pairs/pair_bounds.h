@@ -11,12 +11,19 @@
 
 namespace furrow::physics {
 
+/// Finite: what is no number, or goes beyond what single precision holds, has failed anyway, and must not lead
+/// a search out of its arrays.
+inline float bounded_float(double coordinate) {
+  constexpr double most = 1e30;
+  return float(coordinate < most ? (coordinate > -most ? coordinate : -most) : most);
+}
+
 /// A point in single precision around an origin, so that little is lost; its fourth lane is the largest size
 /// of a coordinate, of which rounding is a share.
 inline Float4 float_point(const Vec3& x, const Vec3& origin) {
   const Vec3 p = x - origin;
-  return Float4{float(p.x()), float(p.y()), float(p.z()),
-                float(std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())}))};
+  return Float4{bounded_float(p.x()), bounded_float(p.y()), bounded_float(p.z()),
+                bounded_float(std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())}))};
 }
 
 /// The four vertices of four pairs, as PairDistance has them, a pair a lane.

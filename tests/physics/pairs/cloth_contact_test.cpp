@@ -269,3 +269,24 @@ TEST_CASE("cloth_contact: its stiffness is the change of forces of a vertex over
   stiffness.solve(answer);
   for (std::size_t i = 0; i < 6; ++i) CHECK((answer[i] - up[i]).norm() < 1e-4);
 }
+
+TEST_CASE("cloth_contact: a move farther than single precision goes is cut as any other") {
+  const Cloth cloth = two_sheets(0.2, 3);
+  const std::vector<Vec3>& x = cloth.particles.x;
+  ClothContact contact(cloth, thick, x, {});
+  std::vector<Vec3> way(x.size());
+  Noise noise(5);
+  for (Vec3& w : way) w = noise.vector();
+  const auto share = [&](double length) {
+    std::vector<Vec3> move = way;
+    for (Vec3& m : move) m *= length;
+    return contact.safe_share(x, move, 1, nullptr);
+  };
+  const double metre = share(1);
+  CHECK(metre > 0);
+  CHECK(metre < 1);
+  for (const double length : {1e3, 1e12, 1e37, 1e60}) CHECK(share(length) == Approx(metre / length));
+  CHECK(share(1e300) >= 0);
+  CHECK(share(1e300) < 1e-299);
+  CHECK(share(std::nan("")) >= 0);
+}
