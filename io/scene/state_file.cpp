@@ -22,6 +22,7 @@ namespace furrow::io {
 namespace {
 
 using namespace geometry;
+using physics::Integrator;
 using physics::SimulateState;
 using physics::Vec3;
 using Json = nlohmann::ordered_json;
@@ -124,6 +125,8 @@ Json to_json(const SavedState& saved) {
             {"lines_drawn", saved.lines_drawn},
             {"contact_gap", saved.contact_gap},
             {"scene", saved.scene}};
+  if (saved.integrator)
+    json["chosen_steps"] = *saved.integrator == Integrator::implicit ? "implicit" : "leapfrog";
   if (saved.field_tolerance > 0) json["field_tolerance"] = saved.field_tolerance;
   if (s.steps.contact_stiffness > 0) json["contact_stiffness"] = s.steps.contact_stiffness;
   if (s.steps.self.stiffness > 0) json["self_contact"] = to_json(s.steps.self);
@@ -191,6 +194,11 @@ SavedState from_json(const Json& json, std::size_t vertices) {
   saved.field_tolerance = json.value("field_tolerance", 0.0);
   if (!(saved.field_tolerance >= 0 && saved.field_tolerance < 1))
     throw std::invalid_argument("field_tolerance is not in [0, 1) m");
+  if (const std::string steps = json.value("chosen_steps", ""); !steps.empty()) {
+    if (steps != "implicit" && steps != "leapfrog")
+      throw std::invalid_argument("chosen_steps is neither implicit nor leapfrog");
+    saved.integrator = steps == "implicit" ? Integrator::implicit : Integrator::leapfrog;
+  }
   s.steps.contact_stiffness = json.value("contact_stiffness", 0.0);
   if (json.contains("self_contact")) s.steps.self = self_contact_of(json.at("self_contact"));
   saved.scene = json.at("scene");
@@ -206,6 +214,7 @@ Vec3 to_eigen(const Vector& x) { return {x.x(), x.y(), x.z()}; }
 /// Columns of what implicit steps remember: numbers at vertices, under names of their own.
 constexpr std::array anchor_names{"step_anchor_x", "step_anchor_y", "step_anchor_z",       "step_plane_x",
                                   "step_plane_y",  "step_plane_z",  "step_friction_limit", "step_slides"};
+constexpr std::array nearer_names{"step_nearer"};
 constexpr std::array acceleration_names{"step_acceleration_x", "step_acceleration_y", "step_acceleration_z"};
 
 template <std::size_t n, class Value>
@@ -239,6 +248,8 @@ void fill_steps(Mesh& mesh, const physics::StepMemory& steps) {
       if (k < 6) return k < 3 ? a.anchor[int(k)] : a.plane[int(k) - 3];
       return k == 6 ? a.limit : double(a.slides);
     });
+    if (std::ranges::any_of(steps.anchors, [](const auto& a) { return a.nearer > 0; }))
+      fill_columns(mesh, nearer_names, [&](std::size_t v, std::size_t) { return steps.anchors[v].nearer; });
   }
   if (!steps.acceleration.empty())
     fill_columns(mesh, acceleration_names,
@@ -253,6 +264,9 @@ void take_steps(Mesh& mesh, physics::StepMemory& steps) {
                    [&](std::size_t v, std::size_t k) -> double& { return anchors[v][k]; }))
     for (const auto& a : anchors)
       steps.anchors.push_back({{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, a[6], a[7] != 0});
+  std::vector<double> nearer(n);
+  if (take_columns(mesh, nearer_names, [&](std::size_t v, std::size_t) -> double& { return nearer[v]; }))
+    for (std::size_t v = 0; v < steps.anchors.size(); ++v) steps.anchors[v].nearer = nearer[v];
   const auto place = [&](std::size_t v, std::size_t k) -> double& { return acceleration[v][int(k)]; };
   if (take_columns(mesh, acceleration_names, place)) steps.acceleration = std::move(acceleration);
 }

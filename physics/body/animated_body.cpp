@@ -38,6 +38,7 @@ Vec3 weights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
 
 /// A frame with what its distance is asked from, once it is built: either the first two or the others.
 struct AnimatedBody::Frame {
+  int index;
   std::vector<Vec3> vertices;
   std::optional<ExactDistance> exact;
   std::optional<DistanceField> field;
@@ -83,6 +84,7 @@ double AnimatedBody::fraction_at(double time) const {
 
 std::shared_ptr<AnimatedBody::Frame> AnimatedBody::read(int index) {
   auto frame = std::make_shared<Frame>();
+  frame->index = index;
   frame->vertices = frames_.vertices(index);
   if (vertex_count_ == 0) vertex_count_ = frame->vertices.size();
   if (frame->vertices.size() != vertex_count_) {
@@ -94,10 +96,20 @@ std::shared_ptr<AnimatedBody::Frame> AnimatedBody::read(int index) {
   return frame;
 }
 
+/// One of those in memory, else read.
+std::shared_ptr<AnimatedBody::Frame> AnimatedBody::find(int index) {
+  for (const std::shared_ptr<Frame>& known : {first_, second_, left_})
+    if (known && known->index == index) return known;
+  return read(index);
+}
+
 void AnimatedBody::enter(int interval) {
-  std::shared_ptr<Frame> first = interval == interval_ + 1 && second_ ? second_ : read(interval);
-  std::shared_ptr<Frame> second = read(interval + 1);
-  if (first_ && first_->maps) spare_ = std::move(first_->maps);
+  std::shared_ptr<Frame> first = find(interval), second = find(interval + 1);
+  for (std::shared_ptr<Frame>& old : {std::ref(first_), std::ref(second_)}) {
+    if (!old || old == first || old == second) continue;
+    if (left_ && left_ != first && left_ != second && left_->maps) spare_ = std::move(left_->maps);
+    left_ = std::move(old);
+  }
   first_ = std::move(first), second_ = std::move(second);
   interval_ = interval;
   longest_way_ = 0;

@@ -45,7 +45,7 @@ struct Pose {
 enum class EndSpeeds {
   rest,  ///< with speed 0: the velocity has no jumps
   free   ///< with the slope of the parabola through the three keyframes at that end, cut to stay monotone;
-        ///< with two keyframes at a uniform speed: the velocity jumps there from 0 and to 0
+         ///< with two keyframes at a uniform speed: the velocity jumps there from 0 and to 0
 };
 
 /// The motion of something rigid: the spin turns it in its own frame, then the keyframes turn it about the
@@ -104,7 +104,8 @@ using FrameColliderOptions = std::variant<DistanceFieldOptions, DepthMapOptions>
 
 /// A body that changes its shape. Between two frames every vertex moves on a straight line at constant speed;
 /// before the first frame and after the last the body is held. Only the two frames around the present time
-/// are in memory, each with its field or depth maps, which are built when time reaches it.
+/// are in memory, and the one that time left last, as steps that are made in halves go back to it; each with
+/// its field or depth maps, which are built when time reaches it.
 ///
 /// With u the way that the surface next to x goes from the one frame to the other, and s the share of the
 /// time between them, the distance is
@@ -148,6 +149,7 @@ class AnimatedBody : public Collider {
   int interval_at(double time) const;
   double fraction_at(double time) const;
   std::shared_ptr<Frame> read(int index);
+  std::shared_ptr<Frame> find(int index);
   void enter(int interval);
   void advance_to(double from, int last);
   void build(Frame& frame);
@@ -158,6 +160,7 @@ class AnimatedBody : public Collider {
   std::size_t vertex_count_ = 0;
   int interval_ = -1;  ///< from its frame to the next one
   std::shared_ptr<Frame> first_, second_;
+  std::shared_ptr<Frame> left_;                   ///< that time left last
   std::unique_ptr<DepthMapCollider> spare_;       ///< of a frame that is over: its memory serves the next one
   double longest_way_ = 0;                        ///< of a vertex in the interval [m]
   double fraction_ = 0, share_ = 0, travel_ = 0;  ///< fraction_: of the interval, at the prepared time

@@ -51,13 +51,14 @@ void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_
     if (!(inv_mass[i] > 0)) return;
     const SignedDistance field = collider_.smooth_at(t.x);
     const double slope = field.gradient.norm();
-    const SoftPush push = soft_push(t.gap - field.value, options_.stiffness, soft_);
+    const double depth = t.gap - t.nearer - field.value;
+    const SoftPush push = soft_push(depth, options_.stiffness, soft_);
     t.energy = push.energy;
     if (!(push.force > 0) || !(slope > 0)) return;
     t.push = push.force * slope;
     t.stiffness = push.stiffness * slope * slope;
     t.normal = field.gradient / slope;
-    t.depth = t.gap - field.value;
+    t.depth = depth;
     t.slope = slope;
   });
 }
@@ -153,6 +154,17 @@ void AnchoredContact::hold_new(std::span<const Vec3> from) {
     t.limit = options_.friction * t.push;
     t.slides = false;
   }
+}
+
+void AnchoredContact::let_in(std::span<const double> push) {
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    Touch& t = touches_[i];
+    if (t.push > push[i]) t.nearer += t.depth - depth_of(push[i] / t.slope);
+  }
+}
+
+void AnchoredContact::lead_out(double by) {
+  for (Touch& t : touches_) t.nearer = std::max(0.0, t.nearer - by);
 }
 
 std::vector<ContactAnchor> AnchoredContact::anchors() const { return {touches_.begin(), touches_.end()}; }

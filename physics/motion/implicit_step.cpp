@@ -20,6 +20,7 @@ constexpr double standard_gravity = 9.81;  // m/s^2: the scale of a tolerance, w
 constexpr double longest_move = 0.02;      // m, beside a body: less than half of any limb
 constexpr int most_iterations = 12;
 constexpr double push_over_inertia = 100;  // of a mean particle in a step
+constexpr double most_push_at_start = 10;  // weights: more than what cloth at rest bears on a shoulder
 constexpr int most_step_halvings = 5;      // of a step
 constexpr int most_rounds_of_leading = 8;  // in which cloth goes out of the way of what is led
 constexpr int iterations_of_round = 4;
@@ -30,8 +31,9 @@ Vectors sum(const Vectors& a, double factor, const Vectors& b) {
   return result;
 }
 
-Vectors scaled(double factor, Vectors v) {
-  for (Vec3& e : v) e *= factor;
+template <class Numbers>
+Numbers scaled(double factor, Numbers v) {
+  for (auto& e : v) e *= factor;
   return v;
 }
 
@@ -66,6 +68,8 @@ void ImplicitStep::prepare(double dt) {
     contact_ = std::make_unique<StepContact>(*body, stiffness_, p.size(), motion_.from());
     AnchoredContact& anchored = contact_->anchored();
     if (anchors_.empty()) {
+      anchored.look(p.x, p.inv_mass, &motion_.pool());
+      anchored.let_in(scaled(most_push_at_start * standard_gravity, p.mass));
       anchored.look(p.x, p.inv_mass, &motion_.pool());
       anchored.move_anchors();
     } else {
@@ -210,7 +214,7 @@ std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Inter
   const bool solved = solve(stage, start, time, options_.few, end.x);
   if (!solved && !last) return std::nullopt;
   if (!solved && no_room_) throw StepBlocked(*no_room_);
-  if (!solved) ++motion_.work().open_steps;
+  open_ = open_ || !solved;
   end.v = sum(stage.q, stage.p, end.x);
   if (scheme_ == Integrator::tr_bdf2) end.a = scaled(1 / h, sum(end.v, -1, start.v));
   return end;
@@ -269,13 +273,16 @@ void ImplicitStep::step(double dt) {
   prepare(dt);
   const State start = read();
   const SelfContactMemory known = pair_memory();
+  open_ = false;
   try {
     if (pairs_) pairs_->widen(start.x);
     write(advance(start, {motion_.from(), motion_.from() + dt}, 0));
+    if (contact_) contact_->anchored().lead_out(motion_.body()->recovery_speed * dt);
   } catch (...) {
     if (pairs_) forget_step(known);
     throw;
   }
+  motion_.work().open_steps += open_;
   ++motion_.work().steps;
 }
 

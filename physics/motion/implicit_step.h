@@ -72,6 +72,7 @@ class ImplicitStep : public Stepper {
   SelfContactMemory known_;  ///< of contact of the cloth with itself, to begin with
   std::unique_ptr<ClothContact> pairs_;
   std::optional<Vec3> no_room_;  ///< where the last guess could not lead what is held [m]
+  bool open_ = false;            ///< a part of the present step was not solved
   std::unique_ptr<StepSearch> search_;
 };
 

@@ -136,8 +136,9 @@ void Simulation::make_contact() {
   }
   if (solves_contact(options_.integrator)) {
     const bool moves = world_.collider && !is_identity(world_.body_motion);
-    body_ = {world_.collider, moves ? &world_.body_motion : nullptr, world_.animated, options_.friction,
-             options_.contact_gap};
+    body_ = {world_.collider,      moves ? &world_.body_motion : nullptr,
+             world_.animated,      options_.friction,
+             options_.contact_gap, options_.recovery_speed};
   } else if (world_.animated) {
     contact_ = std::make_unique<AnimatedContact>(*world_.animated, contact_options_, n, state_.body_travel);
   } else if (world_.collider && !is_identity(world_.body_motion)) {

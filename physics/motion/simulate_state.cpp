@@ -101,7 +101,9 @@ void check(const SimulateState& s, std::size_t particles) {
     for (const int i : pair)
       require(i >= 0 && std::size_t(i) < particles, "a pair is coupled that is not there");
   for (const ContactAnchor& a : steps.anchors)
-    require(a.anchor.allFinite() && a.plane.allFinite() && std::isfinite(a.limit), "an anchor is not finite");
+    require(a.anchor.allFinite() && a.plane.allFinite() && std::isfinite(a.limit) && a.nearer >= 0 &&
+                std::isfinite(a.nearer),
+            "an anchor is not finite");
   for (const Vec3& a : steps.acceleration) require(a.allFinite(), "an acceleration is not finite");
   for (const ContactMemory& known : s.contact) require(known.x.allFinite(), "a contact is not finite");
 }

@@ -16,6 +16,7 @@ struct BodyAround {
   AnimatedBody* animated = nullptr;     ///< or a body that changes its shape; not both
   double friction = 0.3;                ///< Coulomb coefficient [-]; >= 0
   double gap = 0.003;                   ///< distance at which the body begins to push [m]; > 0
+  double recovery_speed = 0.1;          ///< of what starts nearer than that [m/s]; > 0
   bool any() const { return collider || animated; }
 };
 

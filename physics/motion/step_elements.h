@@ -23,7 +23,7 @@ class StepElements {
 
   /// The energy E [J] at x [m]; force becomes -dE/dx [N]. Cost: one pass. Not for two callers at once.
   double operator()(std::span<const Vec3> x, std::span<Vec3> force, ThreadPool& pool);
-  /// The positive part of the stiffness at x (Stiffness::positive_part), of a matrix made for the cloth.
+  /// The positive part of the stiffness at x, narrow (Stiffness), of a matrix made so for the cloth.
   void assemble(FreeStiffness& matrix, std::span<const Vec3> x, ThreadPool& pool);
 
  private:

@@ -11,16 +11,22 @@
 namespace furrow::physics {
 namespace {
 
-constexpr double good_enough = 20;        // times the tolerance, after few iterations
-constexpr double short_move = 10;         // times the tolerance: the factors serve the next one
-constexpr double single_residual = 1e-4;  // of the force, that a solution of single precision may leave
-constexpr std::size_t most_coupled = 4;   // times the pairs of particles that contact couples
-constexpr double longest_in_cloth =
-    0.02;  // m, where cloth touches cloth: what is near on the way can be listed
+constexpr double good_enough = 20;         // times the tolerance, after few iterations
+constexpr double longest_over_mean = 3;    // of a move, of what is good enough: a few may be far off yet
+constexpr double short_move = 10;          // times the tolerance: the factors serve the next one
+constexpr double single_residual = 1e-4;   // of the force, that a solution of single precision may leave
+constexpr std::size_t most_coupled = 4;    // times the pairs of particles that contact couples
+constexpr double longest_in_cloth = 0.02;  // m, of a move where cloth touches cloth: few pairs are on its way
 constexpr double armijo = 1e-4;
 constexpr double least_move_share = 1e-3;  // of a move
 constexpr double least_fall = 1e-12;       // of the energy, that can be told from rounding
 constexpr double energy_rounding = 1e-13;
+
+double longest_length(const std::vector<Vec3>& move) {
+  double longest = 0;
+  for (const Vec3& m : move) longest = std::max(longest, m.norm());
+  return longest;
+}
 
 /// Where the parabola through the energy, its slope and the energy at `share` is least.
 double least_of_parabola(double share, double slope, double rise) {
@@ -40,7 +46,7 @@ StepSearch::StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact,
       work_(motion.work()),
       clock_(motion.clock()),
       elements_(cloth),
-      stiffness_(cloth) {
+      stiffness_(cloth, true) {
   const Particles& p = cloth.particles;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) mass_ += p.mass[i];
@@ -199,8 +205,7 @@ std::vector<Vec3> StepSearch::solve(std::vector<Vec3> net) {
 StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
                                     const SearchOptions& options) {
   const double slope = -dot(here.net, move);
-  double longest = 0;
-  for (const Vec3& m : move) longest = std::max(longest, m.norm());
+  const double longest = longest_length(move);
   const bool touches = pairs_ && pairs_->acts();
   const double most = touches ? std::min(longest_in_cloth, options.longest_move) : options.longest_move;
   double share = longest > most ? most / longest : 1;
@@ -228,6 +233,8 @@ StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<V
   return {0, cut};
 }
 
+bool StepSearch::rubs() const { return contact_ || (pairs_ && pairs_->rubs()); }
+
 /// Limits of friction become those of the push to come.
 void StepSearch::expect(const std::vector<Vec3>& move) {
   if (contact_) contact_->anchored().expect(move);
@@ -251,20 +258,20 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
     if (!keep_factors) factorise(x);
     std::vector<Vec3> move = solve(here.net);
     ++work_.iterations;
-    const bool rubs = iteration == 1 && (contact_ || (pairs_ && pairs_->rubs()));
-    if (rubs) {  // once, as it changes the energy
+    if (iteration == 1 && rubs()) {  // once, as it changes the energy
       expect(move);
       add_contact(x, here);
       move = solve(here.net);
     }
-    const double length = mean_length(move);
+    const double length = mean_length(move), longest = longest_length(move);
     const Way way = advance(move, x, here, options);
-    if (iteration == 1 && (contact_ || (pairs_ && pairs_->rubs()))) {
+    if (iteration == 1 && rubs()) {  // what came to touch meanwhile, too
       hold_new(start, x);
       add_contact(x, here);
     }
-    const double enough = iteration >= options.few ? good_enough : 1;
-    if (length <= enough * options.tolerance && !way.cut) return {true, iteration};
+    const double enough = (iteration >= options.few ? good_enough : 1) * options.tolerance;
+    const bool small = length <= enough && longest <= longest_over_mean * enough;
+    if (small && !way.cut) return {true, iteration};
     const bool at_rounding = std::abs(dot(here.net, move)) <= least_fall * here.terms;
     if (way.share == 0 && !keep_factors && !way.cut) return {at_rounding, iteration};
     keep_factors = way.share == 1 && length <= short_move * options.tolerance;

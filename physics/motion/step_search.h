@@ -77,6 +77,7 @@ class StepSearch {
     double terms;            ///< sum of the sizes of what it is the sum of: rounding's scale [J]
   };
   Answer look(const std::vector<Vec3>& x);
+  bool rubs() const;
   void expect(const std::vector<Vec3>& move);
   void hold_new(const StageStart& start, const std::vector<Vec3>& x);
   void add_contact(const std::vector<Vec3>& x, Answer& answer);

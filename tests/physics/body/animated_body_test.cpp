@@ -110,7 +110,7 @@ TEST_CASE("animated_body: a body that shifts by more than its size between frame
   }
 }
 
-TEST_CASE("animated_body: frames are read once, in order, and two are in memory") {
+TEST_CASE("animated_body: frames are read once, in order, and the one that was left is not forgotten") {
   std::vector<int> reads;
   AnimatedBody body(frames_of(sphere_mesh(0.1, 8, 6), {0, 0.1, 0.2, 0.3, 0.4, 0.5}, shift, &reads));
   CHECK(reads.empty());
@@ -119,6 +119,9 @@ TEST_CASE("animated_body: frames are read once, in order, and two are in memory"
   CHECK(body.frames_built() == 5);
   CHECK(body.travel() == Approx(0.01 * Vec3(0.5, 0.1, 0).norm()));
   CHECK(body.share() == Approx(0.1));
+  body.prepare(0.25, 0.25);  // back into the interval before, and on again
+  body.prepare(0.25, 0.31);
+  CHECK(body.frames_built() == 5);
   body.prepare(0.3, 0.9);  // the last frame holds
   CHECK(body.travel() == Approx(0.2 * Vec3(0.5, 0.1, 0).norm()));
   CHECK(body.way(Vec3(0.3, 0, 0)).norm() > 0);
