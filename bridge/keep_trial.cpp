@@ -21,6 +21,7 @@ constexpr double first_part = 0.2;  // of the first run, before it is asked whet
 constexpr int look_steps = 100;     // between two moments that are looked at, however often a run is observed
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
+constexpr double swing_back = 0.3;     // after a gust [s]
 constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -143,8 +144,12 @@ struct Setting {
   }
 
   /// Simulates until so many seconds from the run's beginning; from next_look on it notes what lines keep.
-  physics::Outcome on_to(double seconds, const Vec3& gravity, Run& run, std::vector<double>& worst) const {
+  /// swings: implicit steps must not take that energy out.
+  physics::Outcome on_to(double seconds, const Vec3& gravity, Run& run, std::vector<double>& worst,
+                         bool swings = false) const {
     physics::SimulateOptions options = o.run;
+    if (swings && options.integrator == physics::Integrator::implicit)
+      options.integrator = physics::Integrator::tr_bdf2;
     options.seconds = seconds;
     options.gravity = gravity;
     const bool large_steps = physics::solves_contact(options.integrator);
@@ -201,7 +206,10 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   const Vec3 gust = gust_of(o, start.particles.x);
   const double blown = o.seconds + o.gust_seconds;
   Outcome end = Outcome::finished;
-  if (o.gust > 0) end = setting.on_to(blown, o.run.gravity + gust, run, trial.kept);
+  if (o.gust > 0) end = setting.on_to(blown, o.run.gravity + gust, run, trial.kept, true);
+  const double calmer = blown + std::min(swing_back, o.calm_seconds);
+  if (o.gust > 0 && end == Outcome::finished && physics::solves_contact(o.run.integrator))
+    end = setting.on_to(calmer, o.run.gravity, run, trial.kept, true);
   if (o.gust > 0 && end == Outcome::finished)
     end = setting.on_to(blown + o.calm_seconds, o.run.gravity, run, trial.kept);
   if (end == Outcome::finished) note(setting.shares(run.cloth), trial.kept_gust);

@@ -188,9 +188,12 @@ void write_kept_state(const OpenScene& open, const SceneCloth& cloth, std::optio
   io::write_state(path, std::move(kept));
 }
 
-bridge::KeepOptions options_of(const KeepJob& job, const SceneCloth& cloth, const io::WrinkleRecord& record) {
+/// A proof is leapfrog's, unless the settings name other steps: implicit ones calm what trembles.
+bridge::KeepOptions options_of(const KeepJob& job, const io::Scene& scene, const SceneCloth& cloth,
+                               const io::WrinkleRecord& record) {
   bridge::KeepOptions options;
   options.run = cloth.options;
+  if (!scene.integrator) options.run.integrator = physics::Integrator::leapfrog;
   options.run.stop_at.reset();
   options.run.observe_steps = observation_of(options.run, cloth.cloth, cloth.body != nullptr, false).steps;
   options.seconds = job.seconds;
@@ -234,7 +237,7 @@ bridge::KeepReport find_rest(const KeepJob& job, const io::Scene& scene, SceneCl
                              const io::WrinkleRecord& record, const Context& context) {
   Trials trials(context.listener);
   return bridge::keep_lines(garment.file.mesh, garment.cloth, garment.world(scene), base_heights(record),
-                            options_of(job, garment, record), std::ref(trials));
+                            options_of(job, scene, garment, record), std::ref(trials));
 }
 
 void write_outputs(const OpenScene& open, SceneCloth& garment, std::optional<io::SavedState> state,

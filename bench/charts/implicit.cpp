@@ -130,7 +130,8 @@ Dressed dressed() {
   options.settle.friction = 0.4;
   options.settle.gap = d.gap = gap_of(d.pair, options.refinements);
   d.mesh = d.pair.garment;
-  bridge::drape(d.mesh, d.worn, &d.pair.field, options, make_cotton(d.pair, vertex_at_top(d.mesh)));
+  bridge::drape(d.mesh, d.worn, &d.pair.field, options,
+                make_cotton(d.pair, vertex_at_top(d.mesh), bridge::Bending::plate));
   for (Vec3& v : d.worn.particles.v) v.setZero();
   return d;
 }
@@ -201,14 +202,14 @@ void write_gust(Table& table) {
 void write_rests(const std::string& folder) {
   Table table(
       folder + "/rests.csv",
-      "meshes/skirt.obj in cotton (triangles, hinges), held at its top, on the mannequin, friction 0, "
+      "meshes/skirt.obj in cotton (triangles, a plate), held at its top, on the mannequin, friction 0, "
       "from where it lies. settle: until the residual force is 1e-3 of a vertex's weight; in time: "
       "drag 4 1/s, until no vertex moves by more than 1e-5 of the size in 1/4 s. One thread, processor "
       "time. Distance: median between the surfaces, to settle's.",
       "method,dt[s],cpu[s],simulated[s],residual[-],at rest,energy[J],distance[mm]");
   const GarmentPair pair = read_pair(FURROW_MESHES "/skirt.obj", FURROW_MESHES "/mannequin.obj");
   geometry::Mesh mesh = pair.garment;
-  const Cloth start = make_cotton(pair, vertex_at_top(mesh))(mesh);
+  const Cloth start = make_cotton(pair, vertex_at_top(mesh), bridge::Bending::plate)(mesh);
   Cloth worn = start;
   physics::SettleOptions options;
   options.friction = 0;

@@ -7,6 +7,7 @@
 //     --leapfrog 0.6,0.2 of these, that leapfrog runs: where that is all of it, errors are told, too
 //     --schemes implicit,tr-bdf2
 //     --threads 1
+//     --hinges           in place of a plate
 //     --self             contact of the cloth with itself, in a run beside that without
 // A row for each scheme: processor seconds a simulated second, how many times fewer than leapfrog's in the
 // same run, counts a step, distance from leapfrog's end, and shares of the processor time.
@@ -32,6 +33,7 @@ struct Arguments {
   std::vector<double> refinements{1, 2}, seconds{0.6, 0.2}, leapfrog{0.6, 0.2};
   int threads = 1;
   bool self = false;
+  bridge::Bending bending = bridge::Bending::plate;
   std::string schemes = "implicit,tr-bdf2";
   std::vector<std::string> files;
 };
@@ -56,7 +58,8 @@ struct Garment {
   double gap, friction;
 };
 
-Garment at_rest(const cases::GarmentPair& pair, const std::string& name, int refinements, int threads) {
+Garment at_rest(const cases::GarmentPair& pair, const std::string& name, int refinements,
+                bridge::Bending bending, int threads) {
   Garment result{name, {}, cases::gap_of(pair, refinements), io::fabric_named("cotton").friction};
   bridge::DrapeOptions options;
   options.refinements = refinements;
@@ -64,7 +67,7 @@ Garment at_rest(const cases::GarmentPair& pair, const std::string& name, int ref
   options.settle.gap = result.gap;
   options.settle.threads = threads;
   geometry::Mesh mesh = pair.garment;
-  bridge::drape(mesh, result.cloth, &pair.field, options, cases::make_cotton(pair));
+  bridge::drape(mesh, result.cloth, &pair.field, options, cases::make_cotton(pair, {}, bending));
   return result;
 }
 
@@ -134,6 +137,8 @@ Arguments arguments_of(int count, char** words) {
     const std::string word = words[i];
     if (word == "--self") {
       a.self = true;
+    } else if (word == "--hinges") {
+      a.bending = bridge::Bending::hinge;
     } else if (word.rfind("--", 0) != 0) {
       a.files.push_back(word);
     } else if (word == "--schemes" && i + 1 < count) {
@@ -170,7 +175,7 @@ void measure(const Arguments& a) {
     std::printf(",%s", physics::name_of(physics::WorkPart(i)));
   std::printf("\n");
   for (std::size_t i = 0; i < a.refinements.size(); ++i) {
-    const Garment garment = at_rest(pair, name, int(a.refinements[i]), a.threads);
+    const Garment garment = at_rest(pair, name, int(a.refinements[i]), a.bending, a.threads);
     const Scheme reference{"leapfrog", Integrator::leapfrog, 0};
     const Run leapfrog = run(garment, pair.field, reference, a.leapfrog[i], a.threads);
     print(garment, reference, leapfrog, leapfrog);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bridge/gather.h"
+#include "bridge/couple_bending.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/property_names.h"
@@ -29,10 +29,11 @@ std::vector<int> loop_through(const geometry::Mesh& mesh, int vertex) {
   return {};
 }
 
-bridge::GatherOptions cotton_springs(const geometry::Mesh& mesh, const io::Fabric& cotton) {
+bridge::GatherOptions cotton_springs(const geometry::Mesh& mesh, const io::Fabric& cotton,
+                                     bridge::Bending bending) {
   bridge::GatherOptions o;
   o.membrane = bridge::Membrane::triangles;
-  o.bending = bridge::Bending::hinge;
+  o.bending = bending;
   o.stretch = cotton.stretch;
   o.rigidity = cotton.rigidity;
   o.mean_structural_length = geometry::mean_rest_length(mesh);
@@ -68,19 +69,22 @@ int vertex_at_top(const geometry::Mesh& garment) {
   return int(loops[geometry::find_border_loop(loops, "top")].vertices.at(0));
 }
 
-bridge::MakeCloth make_cotton(const GarmentPair& pair, std::optional<int> held) {
-  return [&pair, held](geometry::Mesh& mesh) {
+bridge::MakeCloth make_cotton(const GarmentPair& pair, std::optional<int> held, bridge::Bending bending) {
+  return [&pair, held, bending](geometry::Mesh& mesh) {
     const io::Fabric& cotton = io::fabric_named("cotton");
     geometry::ensure_rest_lengths(mesh);
     geometry::ensure_bending_springs(mesh);
     geometry::ensure_rest_angles(mesh);
     geometry::lump_masses(mesh, cotton.density);
-    physics::Cloth cloth = bridge::gather(mesh, cotton_springs(mesh, cotton));
-    if (!held) return cloth;
-    const std::vector<int> loop = loop_through(mesh, *held);
-    physics::pin(cloth.particles, loop);
-    physics::stiffen_clamps(cloth);
-    physics::push_out(cloth.particles.x, loop, pair.exact);
+    const bridge::GatherOptions springs = cotton_springs(mesh, cotton, bending);
+    physics::Cloth cloth = bridge::gather(mesh, springs);
+    if (held) {
+      const std::vector<int> loop = loop_through(mesh, *held);
+      physics::pin(cloth.particles, loop);
+      physics::stiffen_clamps(cloth);
+      physics::push_out(cloth.particles.x, loop, pair.exact);
+    }
+    bridge::couple_bending(mesh, springs, cloth);
     return cloth;
   };
 }

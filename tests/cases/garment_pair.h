@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bridge/drape.h"
+#include "bridge/gather.h"
 #include "physics/body/distance_field.h"
 #include "physics/body/exact_distance.h"
 
@@ -25,10 +26,11 @@ double gap_of(const GarmentPair& pair, int refinements);
 /// A vertex of the garment's top border loop. It stays on that loop when the garment is refined.
 int vertex_at_top(const geometry::Mesh& garment);
 
-/// Cloth as `furrow drape` makes it: triangles and hinges of cotton (io/scene/fabrics.h). The border loop
-/// through the vertex `held` (none: nothing) is pinned where it lies, or on the body's surface where it lies
-/// inside. The pair must outlive it.
-bridge::MakeCloth make_cotton(const GarmentPair& pair, std::optional<int> held = {});
+/// Cloth as `furrow drape` makes it of cotton (io/scene/fabrics.h): triangles, and hinges or a plate, which
+/// is its default. The border loop through the vertex `held` (none: nothing) is pinned where it lies, or on
+/// the body's surface where it lies inside. The pair must outlive it.
+bridge::MakeCloth make_cotton(const GarmentPair& pair, std::optional<int> held = {},
+                              bridge::Bending bending = bridge::Bending::hinge);
 
 struct Depth {
   int particles = 0;             ///< free ones nearer than the gap and 1e-5 m
