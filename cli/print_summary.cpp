@@ -404,12 +404,16 @@ Lines quality_lines(const Json& report) {
   return lines;
 }
 
+/// "implicit step", "leapfrog step": one of a run's.
+std::string step_of(const Json& report) { return text_of(report, "integrator") + " step"; }
+
 Lines simulate_lines(const Json& report) {
   Lines lines;
   lines.push_back((text_of(report, "title").empty() ? "" : text_of(report, "title") + ": ") +
                   text_of(report, "outcome") + " at " + number(value_of(report, "time")) + " s, " +
-                  counted(count_of(report, "steps"), "step") + " of " + number(value_of(report, "dt")) +
-                  " s (" + number(value_of(report, "seconds")) + " s of work)");
+                  counted(count_of(report, "steps"), step_of(report)) + " of " +
+                  number(value_of(report, "dt")) + " s (" + number(value_of(report, "seconds")) +
+                  " s of work)");
   const Json& strain = table_of(report, "strain");
   lines.push_back("strain: " + per_cent(value_of(strain, "p99")) +
                   " and less in 99 % of the cloth, at most " + per_cent(value_of(strain, "max")));

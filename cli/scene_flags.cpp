@@ -27,9 +27,7 @@ void SceneFlags::add_to(CLI::App& sub, unsigned subcommand) {
   for (const io::Setting& s : io::scene_settings()) {
     if (!has(s) || s.kind == io::Kind::yes_no || s.table() == "pins") continue;
     Given& g = given_.emplace_back(Given{&s, s.long_flag()});
-    const bool says_other = subcommand == io::used_by::drape && !s.help_at_rest.empty();
-    g.option = sub.add_option(s.flag, g.text, says_other ? s.help_at_rest : s.help)
-                   ->type_name(s.is_text() ? "TEXT" : "NUMBER");
+    g.option = sub.add_option(s.flag, g.text, s.help)->type_name(s.is_text() ? "TEXT" : "NUMBER");
   }
   for (const io::Setting& s : io::scene_settings()) {
     if (!has(s) || s.kind != io::Kind::yes_no) continue;

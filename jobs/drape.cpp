@@ -159,7 +159,7 @@ io::TomlDocument with_fabric(const DrapeJob& job, io::TomlDocument document) {
   if (!job.fabrics.empty()) return document;
   take_fabric_file(document, job.scene.folder);
   take_recorded_material(document, garment_of(document, job.scene.folder), job.scene.memory);
-  if (!names_cloth(document)) io::set_value(document, "material.preset", "cotton", "furrow drape");
+  take_default_cloth(document, "furrow drape");
   return document;
 }
 

@@ -18,6 +18,7 @@
 #include "jobs/report/judge_report.h"
 #include "jobs/run/animation_series.h"
 #include "jobs/run/chain.h"
+#include "jobs/run/choose_steps.h"
 #include "jobs/run/hand_on_cloth.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
@@ -42,13 +43,14 @@ namespace {
 /// What a run is made of; it does not change on the way.
 struct Run {
   const OpenScene& of;
-  const io::Scene& scene;
+  io::Scene& scene;  ///< its integrator becomes the one that is chosen
   const Context& context;
   std::shared_ptr<WorldBody> body;  ///< null: none
   bool resumed;
   Watch watch = {};
   Hand hand = {};  ///< empty: there is none, or the integrator knows no energies
   bool times = false;
+  std::optional<ChosenSteps> chosen = {};                  ///< last; none: settings or state say
   std::vector<std::vector<io::DrawnStroke>> strokes = {};  ///< of each round
 };
 
@@ -72,6 +74,15 @@ io::SavedState begin(const io::Scene& scene, const Context& context) {
   state.file = begin_garment(scene, context, Chains::taken);
   if (!scene.output.state.empty()) io::check_state_attributes(state.file.mesh);
   return state;
+}
+
+/// A chain is no cloth: the usual one was taken before its file was read.
+void forget_default_cloth(OpenScene& open) {
+  open.document.root["material"].erase("preset");
+  const io::Scene without = scene_of(open.document, open.folder);
+  open.scene.material = without.material;
+  open.scene.simulation.spring_damping = without.simulation.spring_damping;
+  open.scene.simulation.friction = without.simulation.friction;
 }
 
 /// What is not the state's any more.
@@ -262,7 +273,19 @@ physics::SimulateReport simulate_with_checkpoints(const Run& run, Reached& reach
   }
 }
 
-Stretch simulate_to(double stop, const Run& run, Reached& reached, AnimationSeries& animations) {
+/// Where the settings leave it open: once for each plan of steps, so a run that is stopped and resumed goes
+/// on as one that was not.
+void choose_integrator(Run& run, io::SavedState& now, const physics::Cloth& cloth) {
+  if (run.scene.integrator) return;
+  const bool planned = now.simulation.planned && now.simulation.cloth == physics::fingerprint(cloth);
+  if (!planned || !now.integrator) {
+    run.chosen = choose_steps(run.scene.simulation, cloth, run.body != nullptr);
+    now.integrator = run.chosen->integrator;
+  }
+  run.scene.simulation.integrator = *now.integrator;
+}
+
+Stretch simulate_to(double stop, Run& run, Reached& reached, AnimationSeries& animations) {
   io::SavedState& now = reached.now;
   const io::Scene& scene = run.scene;
   physics::Cloth cloth = naming(scene.garment.string(), [&] {
@@ -271,6 +294,7 @@ Stretch simulate_to(double stop, const Run& run, Reached& reached, AnimationSeri
   pin_cloth(cloth, now.pins, reached.starts ? run.body.get() : nullptr, now.simulation.time, run.context);
   couple_cloth(now.file, scene, cloth, run.context);
   reached.starts = false;
+  choose_integrator(run, now, cloth);
   physics::SimulateOptions options = options_of(run, now, stop, cloth.particles.size());
   const Observation observation = observation_of(options, cloth, run.body != nullptr, animations.is_on());
   options.observe_steps = observation.steps;
@@ -299,7 +323,7 @@ Stretch simulate_to(double stop, const Run& run, Reached& reached, AnimationSeri
 
 /// Draws and simulates by turns. Where a round of lines cannot be drawn, the state reached is written before
 /// that comes out.
-physics::SimulateReport run_to_end(const Run& run, Reached& reached, AnimationSeries& animations,
+physics::SimulateReport run_to_end(Run& run, Reached& reached, AnimationSeries& animations,
                                    SimulateReport& report) {
   Stretch stretch;
   try {
@@ -363,6 +387,7 @@ void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std
     report.faults = faults_of(run.scene, *report.shape, report.run.strain);
     if (report.run.outcome == physics::Outcome::blocked)
       report.faults.push_back(words_of_block(run.scene, report.run));
+    if (const auto unsolved = unsolved_steps(report.run)) report.faults.push_back(*unsolved);
     if (report.rest && !report.rest->settle.converged)
       report.faults.push_back(words_of_unrest(run.scene, *report.rest, report.run.steps > 0));
     report.warnings = remarks_on_run(run, report.run, now.file, now.contact_gap, steps_before);
@@ -435,13 +460,19 @@ SimulateReport simulate(const SimulateJob& job, Listener& listener) {
     report.settings_before =
         io::relocated(io::document_of(job.state->scene, report.state), job.state_path.parent_path(), "");
   report.frame = scene.frame;
-  Run run{scene,     scene.scene, context, std::move(body), job.state.has_value(),
-          job.watch, {},          job.times};
+  Run run{scene, scene.scene, context, std::move(body), job.state.has_value(), job.watch, {}, job.times};
   if (scene.scene.simulation.integrator != physics::Integrator::xpbd) run.hand = job.hand;
   AnimationSeries animations(scene.scene.output, context.frame);
   const std::int64_t steps_before = job.state ? job.state->simulation.step : 0;
-  Reached reached = take_up(run, job.state ? *job.state : begin(scene.scene, context));
+  io::SavedState start = job.state ? *job.state : begin(scene.scene, context);
+  if (scene.scene.material.by_default && geometry::is_chain(start.file.mesh)) {
+    forget_default_cloth(scene);
+    check_chain(scene.scene, start.file.mesh, context);
+  }
+  Reached reached = take_up(run, std::move(start));
   report.run = run_to_end(run, reached, animations, report);
+  report.integrator = scene.scene.simulation.integrator;
+  report.steps = run.chosen;
   const double written_from = physics::processor_seconds();
   conclude(run, reached, animations, steps_before, report);
   if (job.times) report.times = times_of(report.run, physics::processor_seconds() - written_from);

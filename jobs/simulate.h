@@ -13,6 +13,7 @@
 #include "jobs/chart.h"
 #include "jobs/crossings.h"
 #include "jobs/inputs.h"
+#include "jobs/run/choose_steps.h"
 #include "jobs/wrinkle.h"
 #include "physics/body/exact_distance.h"
 #include "physics/motion/simulate.h"
@@ -83,8 +84,11 @@ struct SimulateReport {
   std::string title;                ///< of the scene
   std::optional<Judgement> choice;  ///< of integrator and step, where a tolerance was asked for
   bool scene_dt = false;            ///< the settings named a step before the choice
-  bool ran = false;                 ///< false: nothing meets the tolerance; what follows is empty
-  physics::SimulateReport run;      ///< of the whole run; its outcome
+  physics::Integrator integrator = physics::Integrator::leapfrog;  ///< of its last steps
+  std::optional<ChosenSteps>
+      steps;         ///< why those, where the settings leave it open; none: they, or the state, say
+  bool ran = false;  ///< false: nothing meets the tolerance; what follows is empty
+  physics::SimulateReport run;  ///< of the whole run; its outcome
   /// Processor time by part [s], of steps and of what was written; none: it was not asked for.
   std::optional<physics::WorkTimes> times;
   /// At its end, beside `run.kinetic_energy`; weight against the origin, contact left 0; none: it diverged.

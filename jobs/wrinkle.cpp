@@ -201,7 +201,7 @@ fs::path find_garment(const io::WrinkleRecord& record, const fs::path& wrinkled)
 io::Scene rest_scene(const WrinkleJob& job, const Frame& frame) {
   io::TomlDocument document = job.settle->settings;
   io::set_value(document, "garment.mesh", name_of(job.garment, "garment"), "furrow wrinkle");
-  if (!names_cloth(document)) io::set_value(document, "material.preset", "cotton", "furrow wrinkle");
+  take_default_cloth(document, "furrow wrinkle");
   io::Scene scene = scene_of(document, job.settle->folder);
   scene.unit = frame.unit;
   scene.up = frame.up;
@@ -261,7 +261,7 @@ void settle_drawn(const WrinkleJob& job, const RestPlan& plan, WrinkleReport& re
     else
       context.listener.warn(r.remark);
   io::TomlDocument document = job.settle->settings;
-  if (!names_cloth(document)) io::set_value(document, "material.preset", "cotton", "furrow wrinkle");
+  take_default_cloth(document, "furrow wrinkle");
   note_material(draped.file, document, draped.gap);
   report.garment = draped.file;
   report.rest = std::make_shared<const Draped>(std::move(draped));

@@ -62,8 +62,8 @@ std::string type_of(const io::Setting& s) {
 }
 
 /// "Coulomb friction with the body; default 0.3 [-]".
-std::string help_of(const io::Setting& s, unsigned subcommand) {
-  std::string text = subcommand == io::used_by::drape && !s.help_at_rest.empty() ? s.help_at_rest : s.help;
+std::string help_of(const io::Setting& s) {
+  std::string text = s.help;
   std::erase(text, '`');
   return text;
 }
@@ -206,7 +206,7 @@ std::vector<KeywordWords> common_keywords() {
 std::vector<KeywordWords> setting_keywords(unsigned subcommand) {
   std::vector<KeywordWords> words;
   for (const io::Setting& s : io::scene_settings())
-    if (has_flag(s, subcommand)) words.push_back({keyword_of(s), type_of(s), help_of(s, subcommand)});
+    if (has_flag(s, subcommand)) words.push_back({keyword_of(s), type_of(s), help_of(s)});
   words.push_back({"settings", "Mapping[str, Any]", "any settings of a scene: {\"material.bending\": 1}"});
   return words;
 }

@@ -36,8 +36,7 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
   if (!words.empty()) return words;
   const std::string help = option.get_description();
   for (const io::Setting& s : io::scene_settings())
-    if (s.kind == io::Kind::choice && !s.flag.empty() && option.check_name(s.long_flag()) &&
-        (help == s.help || help == s.help_at_rest))
+    if (s.kind == io::Kind::choice && !s.flag.empty() && option.check_name(s.long_flag()) && help == s.help)
       return quoted_words(s.range);
   return words;
 }

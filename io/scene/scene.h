@@ -72,6 +72,7 @@ struct SceneBody {
 
 struct SceneMaterial {
   std::string preset;             ///< name of a Fabric; what else is said goes before it
+  bool by_default = false;        ///< nobody said what the cloth is, so that is the command's usual one
   std::optional<double> density;  ///< [kg/m^2]; none: that of the file, else 0.15
   double stiffness = 1000;        ///< k_std of the structural springs [N/m]
   double bending = 10;            ///< k_std of the bending springs [N/m]
@@ -115,7 +116,7 @@ struct SceneOutput {
 struct Scene {
   std::string title;
   std::filesystem::path garment;
-  int layer = -1;  ///< of several garments, from the inside to the outside; -1: by their place
+  int layer = -1;     ///< of several garments, from the inside to the outside; -1: by their place
   bool touch = true;  ///< of several garments, whether it touches the others
   std::optional<double> thickness;    ///< of the cloth, where layers and folds are kept apart [m]; none: 1 mm
   int subdivide = 0;                  ///< times that Loop subdivision is applied before the first line
@@ -128,11 +129,12 @@ struct Scene {
   SceneMaterial material;
   std::vector<ScenePins> pins;
   physics::Wind wind;
-  double cloth_friction = 0;            ///< Coulomb coefficient of cloth on cloth [-]; >= 0
   bool settle = false;                  ///< what is drawn at time 0 comes to rest before it moves
   physics::SimulateOptions simulation;  ///< with gravity, friction, damping
-  int starts = 1;                       ///< of furrow drape, each with noise of its own; >= 1
-  int threads = 0;                      ///< 0: as many as the garment's size is worth
+  std::optional<physics::Integrator>
+      integrator;                 ///< none: chosen by what the cloth costs, when that is known
+  int starts = 1;                 ///< of furrow drape, each with noise of its own; >= 1
+  int threads = 0;                ///< 0: as many as the garment's size is worth
   std::optional<double> stop_at;  ///< [s]; the state then is kept, the plan goes on to simulation.seconds
   SceneOutput output;
 };

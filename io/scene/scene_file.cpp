@@ -76,6 +76,7 @@ Scene read_scene(const TomlDocument& document, const std::filesystem::path& fold
       read_part(*table, part, scene);
   }
   root.finish();
+  if (scene.integrator) scene.simulation.integrator = *scene.integrator;
   check_settle(scene, document);
   check_keep(scene, document);
   return scene;

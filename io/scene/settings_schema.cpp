@@ -174,19 +174,19 @@ const Row<Scene> rows[] = {
     // [material]
     {{.path = "material.density",
       .flag = "--density",
-      .help = "mass of the cloth [kg/m^2]; default that of the file, else 0.15",
+      .help = "mass of the cloth [kg/m^2]; default the fabric's, of springs that of the file, else 0.15",
       .what = "mass of the cloth",
-      .usual = "the file's, else 0.15"},
+      .usual = "the fabric's; of springs the file's, else 0.15"},
      number(
          positive("kg/m^2"), [](auto& s) -> auto& { return s.material.density; })},
     {{.path = "material.preset",
       .flag = "--fabric",
-      .help = "a measured fabric: denim, interlock, rib-knit, … (furrow fabric list), or a file of furrow "
-              "fabric fit (.toml)",
-      .help_at_rest = "a measured fabric: cotton, silk, denim, … (furrow fabric list), or a file of furrow "
-                      "fabric fit (.toml); default what the garment's PLY notes, else cotton",
+      .help =
+          "a measured fabric: cotton, silk, denim, … (furrow fabric list), or a file of furrow fabric fit "
+          "(.toml); default what the garment's PLY notes, else cotton",
       .what = "a measured fabric, see below, or a file (.toml) with a `[material]`; the keys beside it go "
               "before it",
+      .usual = "what the garment's PLY notes; else cotton, where no other key says what the cloth is",
       .flag_in = used_by::all},
      choice<std::string>(
          [](auto& s) -> auto& { return s.material.preset; }, fabric_names())},
@@ -227,20 +227,17 @@ const Row<Scene> rows[] = {
          positive("N m"), [](auto& s) -> auto& { return s.material.bias_rigidity; })},
     {{.path = "material.membrane",
       .flag = "--membrane",
-      .help = "what resists stretching: paper (springs of the paper's law, default), uniform, inverse, "
-              "van-gelder, triangles (of constant strain), or tension (quadratic and asymmetric)",
-      .help_at_rest = "in place of a fabric: triangles (of constant strain, as fabrics are), tension "
-                      "(quadratic and asymmetric), or springs: paper, uniform, inverse, van-gelder",
+      .help = "in place of a fabric: triangles (of constant strain, as fabrics are), tension (quadratic and "
+              "asymmetric), or springs: paper (by the paper's law), uniform, inverse, van-gelder",
       .what = "what resists stretching: springs by a law, triangles of constant strain, or tension (paper 2)",
       .flag_in = used_by::all},
      choice<Membrane>([](auto& s) -> auto& { return s.material.membrane; },
                       {std::begin(bridge::membrane_words), std::end(bridge::membrane_words)})},
     {{.path = "material.bending_law",
       .flag = "--bending-law",
-      .help = "what resists bending: cross (springs, default), hinge (of a rigidity), cosine, or plate (of a "
-              "rigidity, the same on every mesh)",
-      .help_at_rest = "in place of a fabric: plate (of a rigidity, as fabrics are), hinge (each edge by "
-                      "itself), cosine, or cross (springs)",
+      .help =
+          "in place of a fabric: plate (of a rigidity, as fabrics are), hinge (each edge by itself), cosine, "
+          "or cross (springs of the paper)",
       .what = "what resists bending: springs across the edges, a plate's hinges, the cosine law (paper 2), "
               "or hinges coupled to one plate ([bending.md](bending.md))",
       .flag_in = used_by::all},
@@ -251,8 +248,7 @@ const Row<Scene> rows[] = {
                       {"plate", Bending::plate}})},
     {{.path = "material.stretch",
       .flag = "--stretch",
-      .help = "Young's modulus times thickness [N/m], in place of --stiffness",
-      .help_at_rest = "Young's modulus times thickness [N/m]; default the fabric's",
+      .help = "Young's modulus times thickness [N/m]; default the fabric's",
       .what = "Young's modulus times thickness, in place of `stiffness`",
       .usual = "√3/2 · `stretch` = `stiffness`",
       .flag_in = used_by::all},
@@ -263,10 +259,9 @@ const Row<Scene> rows[] = {
          Limits{-1, 1, true}, [](auto& s) -> auto& { return s.material.poisson; })},
     {{.path = "material.rigidity",
       .flag = "--rigidity",
-      .help = "bending rigidity of hinges [N m] (default 1e-5)",
-      .help_at_rest = "bending rigidity of hinges [N m]; default the fabric's",
-      .what = "B of hinges",
-      .usual = "1e-5",
+      .help = "bending rigidity [N m]; default the fabric's, without one 1e-5",
+      .what = "B of hinges, or of a plate",
+      .usual = "the fabric's; without one 1e-5",
       .flag_in = used_by::all},
      number(
          not_negative("N m"), [](auto& s) -> auto& { return s.material.rigidity; })},
@@ -287,7 +282,7 @@ const Row<Scene> rows[] = {
          Limits{0, 1}, [](auto& s) -> auto& { return s.material.shear; })},
     {{.path = "material.stiffness",
       .flag = "--stiffness",
-      .help_at_rest = "in place of a fabric: k_std of structural springs [N/m]",
+      .help = "in place of a fabric: k_std of structural springs [N/m]",
       .what = "k_std of the structural springs",
       .flag_in = used_by::all},
      number(
@@ -330,7 +325,7 @@ const Row<Scene> rows[] = {
          not_negative("1/s"), [](auto& s) -> auto& { return s.simulation.air_drag; })},
     {{.path = "material.friction",
       .flag = "--friction",
-      .help_at_rest = "Coulomb friction with the body; default the fabric's, else 0.3",
+      .help = "Coulomb friction with the body; default the fabric's, else 0.3",
       .what = "Coulomb friction with the body",
       .flag_in = used_by::all},
      number(
@@ -341,7 +336,7 @@ const Row<Scene> rows[] = {
       .used = used_by::drape | used_by::simulate,
       .flag_in = used_by::drape | used_by::simulate},
      number(
-         not_negative(), [](auto& s) -> auto& { return s.cloth_friction; })},
+         not_negative(), [](auto& s) -> auto& { return s.simulation.self.friction; })},
     {{.path = "material.gap",
       .flag = "--gap",
       .help = "distance that the cloth keeps from the body [m]; raised to what the mesh and the field need "
@@ -399,18 +394,21 @@ const Row<Scene> rows[] = {
          StepRule::limited, StepRule::forced, [](auto& s) -> auto& { return s.simulation.step_rule; })},
     {{.path = "simulation.integrator",
       .flag = "--integrator",
-      .help = "leapfrog (default), implicit, tr-bdf2, rk4, backward-euler, xpbd, or euler (the baseline that "
-              "diverges)",
-      .what = "the scheme of its steps; euler is the baseline that diverges",
+      .help = "auto (default): leapfrog, or implicit steps where those take less than half of its time; "
+              "leapfrog, "
+              "implicit, tr-bdf2, rk4, backward-euler, xpbd, or euler (the baseline that diverges)",
+      .what = "the scheme of its steps; auto is leapfrog, or implicit where that takes less than half of its "
+              "time; euler is the baseline that diverges",
       .used = used_by::moving},
-     choice<Integrator>([](auto& s) -> auto& { return s.simulation.integrator; },
-                        {{"leapfrog", Integrator::leapfrog},
-                         {"euler", Integrator::explicit_euler},
-                         {"rk4", Integrator::rk4},
-                         {"backward-euler", Integrator::backward_euler},
-                         {"xpbd", Integrator::xpbd},
-                         {"implicit", Integrator::implicit},
-                         {"tr-bdf2", Integrator::tr_bdf2}})},
+     choice<std::optional<Integrator>>([](auto& s) -> auto& { return s.integrator; },
+                                       {{"auto", {}},
+                                        {"leapfrog", Integrator::leapfrog},
+                                        {"euler", Integrator::explicit_euler},
+                                        {"rk4", Integrator::rk4},
+                                        {"backward-euler", Integrator::backward_euler},
+                                        {"xpbd", Integrator::xpbd},
+                                        {"implicit", Integrator::implicit},
+                                        {"tr-bdf2", Integrator::tr_bdf2}})},
     {{.path = "simulation.sweeps",
       .flag = "--sweeps",
       .help = "of xpbd over all springs a step (default 10); few make the cloth softer",

@@ -20,6 +20,8 @@ struct SavedState {
   /// At which the cloth has rested on the body so far [m]; 0: on none yet. A line's short edges do not lower
   /// it: what lies on the body stays there.
   double contact_gap = 0;
+  std::optional<physics::Integrator>
+      integrator;              ///< that was chosen for its plan; none: the settings name one
   double field_tolerance = 0;  ///< of the body's field, where a small gap asked for a finer one [m]; else 0
 };
 

@@ -188,7 +188,7 @@ double predicted_cost(const Candidate& c, const SceneCloth& scene, double second
     w.hinges = forces * (static_cast<double>(cloth.hinges.size()) + physics::count_coupled(cloth));
   }
   add_body(w, scene, w.steps * std::max(scene.near_body / 2.0, w.vertices / 10), seconds);
-  w.factorisations = w.steps * solves;
+  (physics::solves_contact(c.integrator) ? w.searches : w.factorisations) = w.steps * solves;
   return cost_with(w, c.integrator);
 }
 
@@ -200,7 +200,8 @@ double counted_cost(const physics::SimulateReport& r, const Candidate& c, const 
   w.triangles = static_cast<double>(r.triangle_evaluations);
   w.hinges = static_cast<double>(r.hinge_evaluations);
   add_body(w, scene, static_cast<double>(r.collider_queries), r.time);
-  w.factorisations = static_cast<double>(r.factorisations);
+  (physics::solves_contact(c.integrator) ? w.searches : w.factorisations) =
+      static_cast<double>(r.factorisations);
   if (c.integrator == Integrator::xpbd)
     w.sweeps = static_cast<double>(r.iterations) * springs_of(scene.cloth);
   return cost_with(w, c.integrator);

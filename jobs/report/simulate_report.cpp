@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "jobs/judge/candidates.h"
 #include "jobs/keep.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
@@ -46,6 +47,7 @@ Json to_json(const physics::SimulateReport& r) {
           {"linear_solves", r.linear_solves},
           {"factorisations", r.factorisations},
           {"iterations", r.iterations},
+          {"steps_open", r.open_steps},
           {"strain", {{"max", r.strain.max}, {"p99", r.strain.p99}, {"mean", r.strain.mean}}},
           {"kinetic_energy", r.kinetic_energy},
           {"residual_force", r.residual_force}};
@@ -132,6 +134,9 @@ Json to_json(const SimulateReport& r) {
   if (!r.title.empty()) json["title"] = r.title;
   json.update(to_json(r.run));
   json["outcome"] = r.outcome();
+  json["integrator"] = name_of(r.integrator);
+  if (r.steps)
+    json["chosen_steps"] = {{"leapfrog_seconds", r.steps->leapfrog}, {"implicit_seconds", r.steps->implicit}};
   if (r.energy)
     json["energy"] = {{"kinetic", r.run.kinetic_energy},
                       {"stretch", r.energy->stretch},

@@ -113,9 +113,11 @@ void check_chain(const io::Scene& scene, const Mesh& mesh, const Context& contex
   };
   if (!scene.lines.empty()) refuse("lines", "lines are drawn on cloth: leave them out");
   if (scene.subdivide > 0) refuse("--subdivide", "give its file more vertices");
+  if (scene.simulation.self.on)
+    refuse("--self-contact on", "it has no surface that could touch: leave it out");
   if (scene.keep) refuse("--rest keep", "its rest lengths are those of its file: leave it out");
   require_outputs(scene.output);
-  if (m.density || m.stretch || !m.preset.empty())
+  if (!m.by_default && (m.density || m.stretch || !m.preset.empty()))
     context.warn("chain_settings",
                  name +
                      ": is a chain, whose stiffness and mass are line_stretch and line_density; fabric, "

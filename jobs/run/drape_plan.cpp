@@ -106,7 +106,7 @@ bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSetting
   options.settle.tolerance = s.residual;
   if (s.contact_depth) options.settle.contact_depth = *s.contact_depth;
   options.settle.self.thickness = thickness_of(scene, s);
-  options.settle.self.friction = scene.cloth_friction;
+  options.settle.self.friction = scene.simulation.self.friction;
   options.plain = s.plain;
   options.bending_friction = s.bending_friction;
   options.settle.max_iterations = s.iterations.value_or(s.plain ? 20000 : options.settle.max_iterations);

@@ -12,7 +12,7 @@ namespace {
 
 using io::Json;
 
-constexpr const char* cloth[] = {"preset", "membrane", "bending_law", "stiffness"};
+constexpr const char* cloth[] = {"preset", "membrane", "bending_law", "stiffness", "bending"};
 
 Json material_of(const io::TomlDocument& document) { return document.root.value("material", Json::object()); }
 
@@ -35,6 +35,12 @@ bool names_cloth(const io::TomlDocument& document) {
   for (const char* key : cloth)
     if (material.contains(key)) return true;
   return false;
+}
+
+bool take_default_cloth(io::TomlDocument& document, const std::string& who) {
+  if (names_cloth(document)) return false;
+  io::set_value(document, "material.preset", "cotton", who);
+  return true;
 }
 
 std::string words_of_other_cloth(const std::filesystem::path& garment, const io::Json& other_cloth) {

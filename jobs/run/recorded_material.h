@@ -9,8 +9,11 @@
 /// The material that a garment's file notes (io/mesh/mesh_file.h): what it came to rest with.
 namespace furrow::jobs {
 
-/// Whether the settings say what kind of cloth it is: preset, membrane, bending_law or stiffness.
+/// Whether the settings say what kind of cloth it is: preset, membrane, bending_law, stiffness or bending.
 bool names_cloth(const io::TomlDocument& document);
+
+/// Cotton, where they do not; `who` says so. Whether that was done.
+bool take_default_cloth(io::TomlDocument& document, const std::string& who);
 
 struct RecordedMaterial {
   bool taken = false;    ///< a setting was

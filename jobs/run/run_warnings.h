@@ -32,9 +32,12 @@ std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineRe
 /// That the run was broken off, and what was kept.
 Warning interruption_of(const io::Scene& scene, const physics::SimulateReport& report);
 
-/// That the run diverged, and what helps: a sentence.
+/// Of a run with more than a tenth of its steps unsolved: such a motion is not to be trusted.
+std::optional<Fault> unsolved_steps(const physics::SimulateReport& report);
+
 /// Of a run that is blocked.
 Fault words_of_block(const io::Scene& scene, const physics::SimulateReport& report);
+/// That the run diverged, and what helps: a sentence.
 std::string words_of_divergence(const io::Scene& scene, const physics::SimulateReport& report);
 
 }  // namespace furrow::jobs

@@ -13,6 +13,7 @@
 #include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/chain.h"
+#include "jobs/run/choose_steps.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/lay_warp.h"
 #include "jobs/run/line_round.h"
@@ -170,7 +171,6 @@ SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::sh
   pin_cloth(result.cloth, result.pins, result.body.get(), 0, context);
   couple_cloth(result.file, scene, result.cloth, context);
   result.options = scene.simulation;
-  result.options.self.friction = scene.cloth_friction;
   if (result.body) {
     result.options.contact_gap =
         contact_gap(result.options.contact_gap, result.body->tolerance(), result.file);
@@ -178,6 +178,8 @@ SceneCloth prepare_scene(const io::Scene& scene, const Context& context, std::sh
     result.field_samples = result.body->samples_of_field();
   }
   result.options.threads = threads_of(scene, result.cloth.particles.size());
+  if (!scene.integrator)
+    result.options.integrator = choose_steps(result.options, result.cloth, result.body != nullptr).integrator;
   return result;
 }
 

@@ -112,13 +112,17 @@ void check_state(const io::Scene& scene, const io::SavedState& state) {
         "--rest: the garment of a state is in motion; furrow keep --state keeps its shape");
 }
 
-/// What the garment's file notes of its cloth; warns where the settings name another.
-void take_material(OpenScene& open, const MemoryFiles& memory, Listener& listener) {
+/// What the garment's file notes of its cloth, else cotton (true), but not for xpbd; warns where the settings
+/// name another.
+bool take_material(OpenScene& open, const MemoryFiles& memory, Listener& listener) {
   const std::filesystem::path garment = garment_of(open.document, open.folder);
   const RecordedMaterial recorded = take_recorded_material(open.document, garment, memory);
   if (!recorded.other_cloth.is_null())
     listener.warn({"other_cloth", words_of_other_cloth(garment, recorded.other_cloth), garment.string(),
                    "material.preset"});
+  const bool knows_springs_alone =
+      open.document.root.value("simulation", io::Json::object()).value("integrator", io::Json()) == "xpbd";
+  return !knows_springs_alone && take_default_cloth(open.document, "furrow simulate");
 }
 
 }  // namespace
@@ -126,8 +130,9 @@ void take_material(OpenScene& open, const MemoryFiles& memory, Listener& listene
 OpenScene open_scene(const SimulateJob& job, Listener& listener) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
   take_fabric_file(open.document, open.folder);
-  if (!job.state) take_material(open, job.scene.memory, listener);
+  const bool by_default = !job.state && take_material(open, job.scene.memory, listener);
   open.scene = scene_of(open.document, open.folder);
+  open.scene.material.by_default = by_default;
   if (job.state && job.tolerance)
     throw std::invalid_argument("tolerance: judges a scene from its beginning; leave out one of the two");
   if (open.scene.garment.empty() && !job.state)

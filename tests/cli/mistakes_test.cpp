@@ -101,15 +101,16 @@ const Mistake mistakes[] = {
     {"a fabric misspelt", "simulate {m}/sheet.obj --fabric cottn -o {d}/o.ply", 2,
      "error: --fabric: material.preset = \"cottn\" is none of cotton, wool, silk, denim, interlock, jersey, "
      "rib-knit, jet-set, dots, target, black-denim, ivory-rib, brown-ribbon, white-dots, camel-ponte, "
-     "gray-interlock, red-jet-set, polyester-twill, polyester-plain, wool-twill, viscose-twill, elastane-plain, "
+     "gray-interlock, red-jet-set, polyester-twill, polyester-plain, wool-twill, viscose-twill, "
+     "elastane-plain, "
      "cotton-twill; did you mean cotton?"},
     {"an integrator misspelt", "simulate {m}/sheet.obj --integrator leapfrogg -o {d}/o.ply", 2,
-     "error: --integrator: simulation.integrator = \"leapfrogg\" is none of leapfrog, euler, rk4, "
+     "error: --integrator: simulation.integrator = \"leapfrogg\" is none of auto, leapfrog, euler, rk4, "
      "backward-euler, xpbd, implicit, tr-bdf2; did you mean leapfrog?"},
     {"a time below 0", "simulate {m}/sheet.obj --seconds -1 -o {d}/o.ply", 2,
      "error: --seconds: simulation.seconds = -1 must be a number >= 0 [s]"},
     {"a step that is too long", "simulate {m}/sheet.obj --dt 1 --seconds 2 -o {d}/o.ply", 2,
-     "error: simulate: dt = 1 s is above the stability limit of 0.000117414 s; take a shorter step, or leave "
+     "error: simulate: dt = 1 s is above the stability limit of 0.00010409 s; take a shorter step, or leave "
      "dt out"},
     {"a pin of a loop that there is not", "simulate {m}/sheet.obj --pin-loop middle -o {d}/o.ply", 2,
      "error: border loop 'middle': choose top, bottom or an index from 0 to 0"},

@@ -71,8 +71,8 @@ TEST_CASE(
   Sheet sheet;
   sheet.wrinkle();
   const std::string out = sheet.scratch / "still.ply";
-  const Run run =
-      run_furrow("simulate --json " + sheet.wrinkled + " -o " + out + " --gravity 0 --seconds 0.05");
+  const Run run = run_furrow("simulate --json " + sheet.wrinkled + " -o " + out +
+                             " --membrane paper --gravity 0 --seconds 0.05");
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
   const json report = json::parse(run.out);

@@ -184,7 +184,7 @@ TEST_CASE("rest keep: what it needs and what it refuses is told") {
   refuses("wrinkle " + patch + " " + a + " --rest keep" + pins + out, 2, "--fabric");
   refuses("wrinkle " + patch + " " + a + " --fabric denim" + out, 2, "--fabric: goes with --rest keep");
   refuses("wrinkle " + patch + " " + a + pins + out, 2, "--pin-box: goes with --rest keep");
-  refuses("simulate " + patch + " --rest keep" + pins + out, 2, "needs hinges");
+  refuses("simulate " + patch + " --membrane paper --rest keep" + pins + out, 2, "needs hinges");
   refuses("simulate " + patch + " --rest drawn" + material + down + pins + out, 2, "none of stored, keep");
   refuses("simulate " + patch + " --rest keep" + material + down + pins + moving + out, 2, "stand still");
   const std::string scene = write_kept_scene(scratch), state = scratch / "s.ply";

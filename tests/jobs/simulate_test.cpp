@@ -3,12 +3,14 @@
 
 #include <CGAL/squared_distance_3.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <thread>
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
 #include "jobs/drape.h"
+#include "jobs/run/run_warnings.h"
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
@@ -31,7 +33,8 @@ jobs::SimulateJob hung_sheet(double seconds, double time = 0) {
   jobs::SimulateJob job;
   job.scene.memory.meshes["sheet"].mesh = geometry::equilateral_sheet(0.4, 0.4, 0.03);
   job.scene.memory.strokes["ridge"] = {ridge};
-  job.scene.settings = io::parse_toml("[garment]\nmesh = \"sheet\"\n[simulation]\ndt = 1e-4\n", "test");
+  job.scene.settings = io::parse_toml(
+      "[garment]\nmesh = \"sheet\"\n[material]\nmembrane = \"paper\"\n[simulation]\ndt = 1e-4\n", "test");
   io::set_value(job.scene.settings, "pins.0", io::Json{{"box", {-1, 0.399, -1, 1, 1, 1}}}, "test");
   io::set_value(job.scene.settings, "simulation.seconds", seconds, "test");
   io::set_value(job.scene.settings, "lines.0", io::Json{{"strokes", "ridge"}, {"time", time}}, "test");
@@ -61,6 +64,12 @@ jobs::SimulateJob sheet_on_ball(double seconds) {
   io::set_value(job.scene.settings, "body.tolerance", 0.005, "test");
   io::set_value(job.scene.settings, "forces.wind", io::Json{0, 0, -3}, "test");
   return job;
+}
+
+geometry::Point centre_of(const geometry::Mesh& mesh) {
+  geometry::Vector sum(0, 0, 0);
+  for (const geometry::Vertex v : mesh.vertices()) sum += mesh.point(v) - CGAL::ORIGIN;
+  return CGAL::ORIGIN + sum / double(mesh.number_of_vertices());
 }
 
 void set_output(jobs::SimulateJob& job, const std::string& key, const fs::path& path) {
@@ -269,6 +278,7 @@ TEST_CASE("simulate: a job that cannot be is refused, and writes nothing") {
   CHECK_THROWS_AS(jobs::simulate(job, recorder), std::runtime_error);
   set_output(job, "mesh", folder / "mesh.ply");
   io::set_value(job.scene.settings, "simulation.dt", 1.0, "test");
+  io::set_value(job.scene.settings, "simulation.integrator", "leapfrog", "test");
   CHECK_THROWS_AS(jobs::simulate(job, recorder), std::invalid_argument);
   CHECK(names_in(folder).empty());
 }
@@ -428,6 +438,77 @@ TEST_CASE("simulate: cloth that falls through other cloth is counted, new or fro
   CHECK_FALSE(jobs::simulate(job, recorder).fails());
 }
 
+TEST_CASE("simulate: with contact of cloth with itself --cloth-friction holds a sheet on a slope of cloth") {
+  const auto level = [](double size, double y) {
+    geometry::Mesh sheet = geometry::equilateral_sheet(size, size, 0.03);
+    for (const geometry::Vertex v : sheet.vertices()) {
+      const geometry::Point p = sheet.point(v);
+      sheet.point(v) = {p.x(), y, p.y()};
+    }
+    return sheet;
+  };
+  const auto slid_by = [&](double friction) {
+    jobs::SimulateJob job;
+    geometry::Mesh both = level(0.3, 0);
+    tests::append(both, level(0.12, 0.001));
+    const double start = centre_of(both).x();
+    job.scene.memory.meshes["sheets"].mesh = std::move(both);
+    job.scene.settings = io::parse_toml(
+        "[garment]\nmesh = \"sheets\"\n[[pins]]\nbox = [-1, -1, -1, 1, 0.0005, 1]\n"
+        "[forces]\ngravity = [2.5, -9.5, 0]\n"
+        "[simulation]\nintegrator = \"implicit\"\nself_contact = \"on\"\nseconds = 0.2\n",
+        "test");
+    io::set_value(job.scene.settings, "material.cloth_friction", friction, "test");
+    io::set_value(job.scene.settings, "material.drag", 0, "test");
+    tests::Recorder recorder;
+    const jobs::SimulateReport report = jobs::simulate(job, recorder);
+    return (centre_of(report.garment.mesh).x() - start) * double(report.garment.mesh.number_of_vertices());
+  };
+  const double smooth = slid_by(0), rough = slid_by(0.5);
+  CHECK(smooth > 10 * std::abs(rough));
+}
+
+TEST_CASE("simulate: what is led out of the gap goes on after a stop with the bits of one run") {
+  const fs::path folder = empty_folder("led_out");
+  jobs::SimulateJob job = sheet_on_ball(0.1);
+  job.scene.memory.meshes["ball"].mesh =
+      tests::icosphere(2, 0.1, {0, 0.15, -0.1005});  // half a millimetre away
+  job.scene.settings.root.erase("lines");
+  io::set_value(job.scene.settings, "simulation.integrator", "implicit", "test");
+  io::set_value(job.scene.settings, "simulation.dt", 0.002, "test");
+  tests::Recorder recorder;
+  const jobs::SimulateReport whole = jobs::simulate(job, recorder);
+  io::set_value(job.scene.settings, "simulation.stop_at", 0.005, "test");
+  set_output(job, "state", folder / "state.ply");
+  jobs::simulate(job, recorder);
+  const io::SavedState state = io::read_state(folder / "state.ply");
+  CHECK(std::ranges::any_of(state.simulation.steps.anchors, [](const auto& a) { return a.nearer > 0; }));
+  jobs::SimulateJob rest = jobs::resume_from(folder / "state.ply");
+  rest.scene.memory = job.scene.memory;
+  io::set_value(rest.scene.settings, "body.mesh", "ball", "test");
+  CHECK(tests::positions(jobs::simulate(rest, recorder).garment) == tests::positions(whole.garment));
+}
+
+TEST_CASE("simulate: steps that were not solved are told, and more than a tenth of all are no success") {
+  physics::SimulateReport run;
+  run.steps = 30;
+  run.open_steps = 3;
+  const std::vector<jobs::Warning> odd = jobs::oddities_of({}, run);
+  REQUIRE(odd.size() == 1);
+  CHECK(odd[0].code == "steps_open");
+  CHECK_FALSE(jobs::unsolved_steps(run));
+  run.open_steps = 4;
+  CHECK(jobs::oddities_of({}, run).empty());
+  const auto fault = jobs::unsolved_steps(run);
+  REQUIRE(fault);
+  CHECK(fault->word == "steps not solved");
+  CHECK_THAT(fault->told.text, Catch::Contains("4 of 30 steps"));
+  jobs::SimulateReport report;
+  report.faults.push_back(*fault);
+  CHECK(report.fails());
+  CHECK(report.outcome() == "finished, steps not solved");
+}
+
 TEST_CASE("simulate: a gap that edges raise is told, and the advice lowers it", "[release]") {
   tests::Recorder recorder;
   jobs::SimulateJob job = sheet_on_ball(0.005);
@@ -452,6 +533,7 @@ namespace {
 jobs::SimulateJob settled_sheet(double seconds, double time = 0) {
   jobs::SimulateJob job = hung_sheet(seconds, time);
   job.scene.settings.root["simulation"].erase("dt");
+  job.scene.settings.root["material"].erase("membrane");
   io::set_value(job.scene.settings, "simulation.settle", true, "test");
   io::set_value(job.scene.settings, "material.preset", "cotton", "test");
   return job;

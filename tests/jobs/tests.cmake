@@ -5,6 +5,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   bake_test.cpp
   chain_test.cpp
   chart_test.cpp
+  choose_steps_test.cpp
   contact_gap_test.cpp
   doctor_test.cpp
   drape_layers_test.cpp

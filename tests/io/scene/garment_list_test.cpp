@@ -31,7 +31,8 @@ void check_garment_list_fault(const std::string& text, const std::string& words)
 
 TEST_CASE("garment_list: each garment has a scene, the innermost first, with all else in common") {
   const auto scenes = garment_list_scenes(
-      "[[garment]]\nmesh = \"coat.obj\"\nlayer = 7\nthickness = 0.002\ntouch = false\n[[garment]]\nmesh = \"vest.obj\"\n"
+      "[[garment]]\nmesh = \"coat.obj\"\nlayer = 7\nthickness = 0.002\ntouch = false\n[[garment]]\nmesh = "
+      "\"vest.obj\"\n"
       "layer = 1\nsubdivide = 1\n[material]\ncloth_friction = 0.5\n");
   REQUIRE(scenes.size() == 2);
   CHECK(scenes[0].garment == "a/vest.obj");
@@ -43,7 +44,7 @@ TEST_CASE("garment_list: each garment has a scene, the innermost first, with all
   CHECK_FALSE(scenes[1].touch);
   CHECK(scenes[0].touch);
   CHECK(scenes[1].subdivide == 0);
-  for (const io::Scene& s : scenes) CHECK(s.cloth_friction == 0.5);
+  for (const io::Scene& s : scenes) CHECK(s.simulation.self.friction == 0.5);
   const auto unsorted = garment_list_scenes("[[garment]]\nmesh = \"b.obj\"\n[[garment]]\nmesh = \"a.obj\"\n");
   REQUIRE(unsorted.size() == 2);
   CHECK(unsorted[0].garment == "a/b.obj");
