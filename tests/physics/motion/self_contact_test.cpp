@@ -142,7 +142,7 @@ TEST_CASE("self_contact: steps that solve contact wring a towel by equal torques
   const furrow::cases::Handled wrung = furrow::cases::wring(1.5, how);
   CHECK(wrung.report.outcome == Outcome::finished);
   CHECK(wrung.most_crossings == 0);
-  CHECK(wrung.report.open_steps <= 3);  // of 180
+  CHECK(10 * wrung.report.open_steps < wrung.report.steps);  // one, as built here
   CHECK(wrung.report.self.pairs > 50);
   CHECK(std::abs(wrung.torques[0]) > 1e-3);
   CHECK(wrung.torques[0] == Approx(-wrung.torques[1]).epsilon(0.05));
