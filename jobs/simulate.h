@@ -13,7 +13,6 @@
 #include "jobs/chart.h"
 #include "jobs/crossings.h"
 #include "jobs/inputs.h"
-#include "jobs/run/choose_steps.h"
 #include "jobs/wrinkle.h"
 #include "physics/body/exact_distance.h"
 #include "physics/motion/simulate.h"
@@ -77,6 +76,12 @@ struct RestStage {
 struct Fault {
   std::string word;  ///< "cloth crosses itself"
   Warning told;
+};
+
+/// Which steps a cloth is moved by where a scene leaves that open, and why.
+struct ChosenSteps {
+  physics::Integrator integrator = physics::Integrator::leapfrog;
+  double leapfrog = 0, implicit = 0;  ///< predicted seconds of one thread for a second of motion [s]
 };
 
 /// What jobs::simulate() did.

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "io/scene/scene.h"
+#include "jobs/simulate.h"
 
 namespace furrow::jobs {
-
-/// Which steps a cloth is moved by where a scene leaves that open, and why.
-struct ChosenSteps {
-  physics::Integrator integrator = physics::Integrator::leapfrog;
-  double leapfrog = 0, implicit = 0;  ///< predicted seconds of one thread for a second of motion [s]
-};
 
 /// Leapfrog, or implicit steps where those take less than half of its time by jobs/judge/cost_table.h:
 /// leapfrog is the more exact of the two. A `dt` of the options that is above leapfrog's limit, up to
