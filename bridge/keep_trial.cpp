@@ -119,6 +119,24 @@ struct Run {
   double next_look = 0;  ///< at the lines [s]
 };
 
+/// Of a run, up to so many seconds from its beginning.
+struct Part {
+  double until;         ///< [s]
+  Vec3 gravity;         ///< with the gust [m/s^2]
+  bool swings = false;  ///< implicit steps must not take that energy out
+};
+
+/// What follows a run from rest.
+std::vector<Part> gust_and_calm(const KeepOptions& o, const Vec3& gust) {
+  if (!(o.gust > 0)) return {};
+  const double blown = o.seconds + o.gust_seconds, end = blown + o.calm_seconds;
+  std::vector<Part> parts{{blown, o.run.gravity + gust, true}};
+  if (physics::solves_contact(o.run.integrator))
+    parts.push_back({std::min(blown + swing_back, end), o.run.gravity, true});
+  parts.push_back({end, o.run.gravity});
+  return parts;
+}
+
 /// Each line's worst of several runs, or on their way.
 void note(const std::vector<double>& shares, std::vector<double>& worst) {
   for (std::size_t i = 0; i < worst.size(); ++i) {
@@ -143,21 +161,19 @@ struct Setting {
     return now;
   }
 
-  /// Simulates until so many seconds from the run's beginning; from next_look on it notes what lines keep.
-  /// swings: implicit steps must not take that energy out.
-  physics::Outcome on_to(double seconds, const Vec3& gravity, Run& run, std::vector<double>& worst,
-                         bool swings = false) const {
+  /// Simulates a part of the run; from next_look on it notes what lines keep.
+  physics::Outcome on_to(const Part& part, Run& run, std::vector<double>& worst) const {
     physics::SimulateOptions options = o.run;
-    if (swings && options.integrator == physics::Integrator::implicit)
+    if (part.swings && options.integrator == physics::Integrator::implicit)
       options.integrator = physics::Integrator::tr_bdf2;
-    options.seconds = seconds;
-    options.gravity = gravity;
+    options.seconds = part.until;
+    options.gravity = part.gravity;
     const bool large_steps = physics::solves_contact(options.integrator);
     if (large_steps) options.observe_steps = 1;
     return physics::simulate(run.cloth, world, options, &run.state,
                              [&](const auto& now) {
                                const bool looks =
-                                   large_steps || now.step % look_steps == 0 || now.time >= seconds;
+                                   large_steps || now.step % look_steps == 0 || now.time >= part.until;
                                if (looks && now.time >= run.next_look) {
                                  note(shares(run.cloth), worst);
                                  run.next_look += look;
@@ -193,25 +209,19 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   for (int number = 1; number <= runs; ++number) {
     run = {start, {}, (number - 1) * o.seconds, stable ? never : first_look};
     push_off(run.cloth, o.push, std::uint64_t(number));
-    Outcome end = setting.on_to(first_part * o.seconds, o.run.gravity, run, trial.kept);
+    Outcome end = setting.on_to({first_part * o.seconds, o.run.gravity}, run, trial.kept);
     if (end != Outcome::finished) return lost(end);
     if (const std::vector<double> early = setting.shares(run.cloth); in_vain && in_vain(early))
       return {early, unknown};
-    end = setting.on_to(o.seconds, o.run.gravity, run, trial.kept);
+    end = setting.on_to({o.seconds, o.run.gravity}, run, trial.kept);
     if (end != Outcome::finished) return lost(end);
     note(setting.shares(run.cloth), trial.kept);
     trial.drift = std::max(trial.drift, farthest(run.cloth.particles.x, start.particles.x));
   }
   run.next_look = never;  // the gust may bend what comes back
-  const Vec3 gust = gust_of(o, start.particles.x);
-  const double blown = o.seconds + o.gust_seconds;
   Outcome end = Outcome::finished;
-  if (o.gust > 0) end = setting.on_to(blown, o.run.gravity + gust, run, trial.kept, true);
-  const double calmer = blown + std::min(swing_back, o.calm_seconds);
-  if (o.gust > 0 && end == Outcome::finished && physics::solves_contact(o.run.integrator))
-    end = setting.on_to(calmer, o.run.gravity, run, trial.kept, true);
-  if (o.gust > 0 && end == Outcome::finished)
-    end = setting.on_to(blown + o.calm_seconds, o.run.gravity, run, trial.kept);
+  for (const Part& part : gust_and_calm(o, gust_of(o, start.particles.x)))
+    if (end == Outcome::finished) end = setting.on_to(part, run, trial.kept);
   if (end == Outcome::finished) note(setting.shares(run.cloth), trial.kept_gust);
   trial.stopped = end == Outcome::stopped_by_observer;
   return trial;

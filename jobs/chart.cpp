@@ -34,7 +34,7 @@ OpenScene open_scene(const ChartJob& job) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
   take_fabric_file(open.document, open.folder);
   take_recorded_material(open.document, garment_of(open.document, open.folder), job.scene.memory);
-  take_default_cloth(open.document, "furrow chart");
+  take_default_moving_cloth(open.document, "furrow chart");
   open.scene = scene_of(open.document, open.folder);
   if (open.scene.garment.empty())
     throw std::invalid_argument(open.document.name + ": garment.mesh is missing");

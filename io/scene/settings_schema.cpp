@@ -394,9 +394,10 @@ const Row<Scene> rows[] = {
          StepRule::limited, StepRule::forced, [](auto& s) -> auto& { return s.simulation.step_rule; })},
     {{.path = "simulation.integrator",
       .flag = "--integrator",
-      .help = "auto (default): leapfrog, or implicit steps where those take less than half of its time; "
-              "leapfrog, "
-              "implicit, tr-bdf2, rk4, backward-euler, xpbd, or euler (the baseline that diverges)",
+      .help =
+          "auto (default): leapfrog, or implicit steps where those take less than half of its time (keep: "
+          "leapfrog); leapfrog, implicit, tr-bdf2, rk4, backward-euler, xpbd, or euler (the baseline that "
+          "diverges)",
       .what = "the scheme of its steps; auto is leapfrog, or implicit where that takes less than half of its "
               "time; euler is the baseline that diverges",
       .used = used_by::moving},

@@ -126,7 +126,7 @@ Json to_json(const SavedState& saved) {
             {"contact_gap", saved.contact_gap},
             {"scene", saved.scene}};
   if (saved.integrator)
-    json["chosen_steps"] = *saved.integrator == Integrator::implicit ? "implicit" : "leapfrog";
+    json["integrator"] = *saved.integrator == Integrator::implicit ? "implicit" : "leapfrog";
   if (saved.field_tolerance > 0) json["field_tolerance"] = saved.field_tolerance;
   if (s.steps.contact_stiffness > 0) json["contact_stiffness"] = s.steps.contact_stiffness;
   if (s.steps.self.stiffness > 0) json["self_contact"] = to_json(s.steps.self);
@@ -194,10 +194,10 @@ SavedState from_json(const Json& json, std::size_t vertices) {
   saved.field_tolerance = json.value("field_tolerance", 0.0);
   if (!(saved.field_tolerance >= 0 && saved.field_tolerance < 1))
     throw std::invalid_argument("field_tolerance is not in [0, 1) m");
-  if (const std::string steps = json.value("chosen_steps", ""); !steps.empty()) {
-    if (steps != "implicit" && steps != "leapfrog")
-      throw std::invalid_argument("chosen_steps is neither implicit nor leapfrog");
-    saved.integrator = steps == "implicit" ? Integrator::implicit : Integrator::leapfrog;
+  if (const std::string name = json.value("integrator", ""); !name.empty()) {
+    if (name != "implicit" && name != "leapfrog")
+      throw std::invalid_argument("integrator is neither implicit nor leapfrog");
+    saved.integrator = name == "implicit" ? Integrator::implicit : Integrator::leapfrog;
   }
   s.steps.contact_stiffness = json.value("contact_stiffness", 0.0);
   if (json.contains("self_contact")) s.steps.self = self_contact_of(json.at("self_contact"));

@@ -78,6 +78,11 @@ std::optional<Candidate> scenes_own(const SceneCloth& scene, double dt_limit) {
   return c;
 }
 
+/// What counts an integrator's factorisations.
+double& factorised(Work& work, Integrator integrator) {
+  return physics::solves_contact(integrator) ? work.iterations : work.factorisations;
+}
+
 double cost_with(const Work& work, Integrator integrator) {
   return cost_of(work, integrator == Integrator::rk4 ? costs.rk4_vertex_step : costs.vertex_step);
 }
@@ -188,7 +193,7 @@ double predicted_cost(const Candidate& c, const SceneCloth& scene, double second
     w.hinges = forces * (static_cast<double>(cloth.hinges.size()) + physics::count_coupled(cloth));
   }
   add_body(w, scene, w.steps * std::max(scene.near_body / 2.0, w.vertices / 10), seconds);
-  (physics::solves_contact(c.integrator) ? w.searches : w.factorisations) = w.steps * solves;
+  factorised(w, c.integrator) = w.steps * solves;
   return cost_with(w, c.integrator);
 }
 
@@ -200,8 +205,7 @@ double counted_cost(const physics::SimulateReport& r, const Candidate& c, const 
   w.triangles = static_cast<double>(r.triangle_evaluations);
   w.hinges = static_cast<double>(r.hinge_evaluations);
   add_body(w, scene, static_cast<double>(r.collider_queries), r.time);
-  (physics::solves_contact(c.integrator) ? w.searches : w.factorisations) =
-      static_cast<double>(r.factorisations);
+  factorised(w, c.integrator) = static_cast<double>(r.factorisations);
   if (c.integrator == Integrator::xpbd)
     w.sweeps = static_cast<double>(r.iterations) * springs_of(scene.cloth);
   return cost_with(w, c.integrator);

@@ -7,7 +7,7 @@
 /// 0.5 s) with each integrator and each kind of element, divided by what the report counts;
 /// bench/integrator_bench prints the same for a sheet of 2,500. A body that changes its shape:
 /// meshes/shirt.obj for 0.2 s on meshes/mannequin.obj that sways in 25 frames a second, less the same at
-/// rest, with leapfrog's and half its steps. Searches: a T-shirt of MakeHuman in cotton on its body, in a
+/// rest, with leapfrog's and half its steps. Iterations: a T-shirt of MakeHuman in cotton on its body, in a
 /// wind, of 808, 3,150 and 12,414 vertices, beside leapfrog. Only the ratios matter.
 namespace furrow::jobs {
 
@@ -21,7 +21,7 @@ struct Work {                 ///< counts of a run
   double frame_queries = 0;   ///< of the distance of one that changes its shape
   double samples = 0;         ///< exact distances, for the fields of its frames
   double factorisations = 0;  ///< with a solve each
-  double searches = 0;        ///< iterations of steps that solve contact: single precision
+  double iterations = 0;      ///< of Newton's method, in steps that solve contact
   double sweeps = 0;          ///< XPBD's, times springs
 };
 
@@ -34,11 +34,11 @@ struct CostTable {                  ///< [s]
   double query = 45e-9;
   double frame_query = 470e-9;  ///< with its share of the closest points, and two fields
   double sample = 1.2e-6;
-  double sweep = 8.5e-9;           ///< of XPBD, a spring
-  double factorisation = 2.55e-6;  ///< with assembly, a vertex
-  double fill = 4.7e-10;           ///< and times vertices^2: the factor fills in
-  double search = 1.9e-6;          ///< of a search, a vertex: assembly, factorisation, solution
-  double search_fill = 1.3e-10;    ///< and times vertices^2
+  double sweep = 8.5e-9;            ///< of XPBD, a spring
+  double factorisation = 2.55e-6;   ///< with assembly, a vertex
+  double fill = 4.7e-10;            ///< and times vertices^2: the factor fills in
+  double iteration = 1.9e-6;        ///< of such steps, a vertex: assembly, factors of single precision
+  double iteration_fill = 1.3e-10;  ///< and times vertices^2
 };
 constexpr CostTable costs;
 
@@ -48,7 +48,7 @@ constexpr double cost_of(const Work& w, double vertex_step) {
   return w.vertices * w.steps * vertex_step + w.springs * c.spring + w.triangles * c.triangle +
          w.hinges * c.hinge + w.queries * c.query + w.frame_queries * c.frame_query + w.samples * c.sample +
          w.sweeps * c.sweep + w.factorisations * w.vertices * (c.factorisation + c.fill * w.vertices) +
-         w.searches * w.vertices * (c.search + c.search_fill * w.vertices);
+         w.iterations * w.vertices * (c.iteration + c.iteration_fill * w.vertices);
 }
 
 }  // namespace furrow::jobs

@@ -26,7 +26,7 @@ double cost_of_step(const physics::SimulateOptions& o, const physics::Cloth& clo
   if (has_body) work.queries = forces * work.vertices / 10;
   if (o.integrator == physics::Integrator::xpbd) work.sweeps = o.xpbd.iterations * springs;
   if (o.integrator == physics::Integrator::backward_euler) work.factorisations = 1;
-  if (physics::solves_contact(o.integrator)) work.searches = physics::usual_iterations(o.integrator);
+  if (physics::solves_contact(o.integrator)) work.iterations = physics::usual_iterations(o.integrator);
   return cost_of(work, four_times ? costs.rk4_vertex_step : costs.vertex_step);
 }
 

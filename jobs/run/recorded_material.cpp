@@ -43,6 +43,11 @@ bool take_default_cloth(io::TomlDocument& document, const std::string& who) {
   return true;
 }
 
+bool take_default_moving_cloth(io::TomlDocument& document, const std::string& who) {
+  const Json simulation = document.root.value("simulation", Json::object());
+  return simulation.value("integrator", Json()) != "xpbd" && take_default_cloth(document, who);
+}
+
 std::string words_of_other_cloth(const std::filesystem::path& garment, const io::Json& other_cloth) {
   return garment.string() + ": came to rest with " + flags_of(other_cloth) + ", and is other cloth now";
 }

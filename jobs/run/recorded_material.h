@@ -14,6 +14,8 @@ bool names_cloth(const io::TomlDocument& document);
 
 /// Cotton, where they do not; `who` says so. Whether that was done.
 bool take_default_cloth(io::TomlDocument& document, const std::string& who);
+/// The same for cloth that moves: `xpbd` knows springs alone, so that names them.
+bool take_default_moving_cloth(io::TomlDocument& document, const std::string& who);
 
 struct RecordedMaterial {
   bool taken = false;    ///< a setting was

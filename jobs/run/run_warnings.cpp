@@ -41,9 +41,9 @@ bool is_unsolved(const physics::SimulateReport& report) {
 
 Warning told_open_steps(const physics::SimulateReport& report) {
   return {"steps_open",
-          fmt::format("{} of {} steps were not solved, even in 32 parts: look at the result where cloth lies "
+          fmt::format("{} of {} steps {} not solved, even in 32 parts: look at the result where cloth lies "
                       "between parts of the body; take a shorter --dt, or --integrator leapfrog",
-                      report.open_steps, report.steps),
+                      report.open_steps, report.steps, report.open_steps == 1 ? "was" : "were"),
           "", "simulation.dt"};
 }
 

@@ -112,17 +112,15 @@ void check_state(const io::Scene& scene, const io::SavedState& state) {
         "--rest: the garment of a state is in motion; furrow keep --state keeps its shape");
 }
 
-/// What the garment's file notes of its cloth, else cotton (true), but not for xpbd; warns where the settings
-/// name another.
+/// What the garment's file notes of its cloth, else the usual one (true); warns where the settings name
+/// another.
 bool take_material(OpenScene& open, const MemoryFiles& memory, Listener& listener) {
   const std::filesystem::path garment = garment_of(open.document, open.folder);
   const RecordedMaterial recorded = take_recorded_material(open.document, garment, memory);
   if (!recorded.other_cloth.is_null())
     listener.warn({"other_cloth", words_of_other_cloth(garment, recorded.other_cloth), garment.string(),
                    "material.preset"});
-  const bool knows_springs_alone =
-      open.document.root.value("simulation", io::Json::object()).value("integrator", io::Json()) == "xpbd";
-  return !knows_springs_alone && take_default_cloth(open.document, "furrow simulate");
+  return take_default_moving_cloth(open.document, "furrow simulate");
 }
 
 }  // namespace

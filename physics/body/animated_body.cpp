@@ -36,7 +36,7 @@ Vec3 weights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-/// A frame with what its distance is asked from, once it is built: either the first two or the others.
+/// A frame with what its distance is asked from, once it is built: exact and field, or bvh and maps.
 struct AnimatedBody::Frame {
   int index;
   std::vector<Vec3> vertices;
@@ -105,10 +105,10 @@ std::shared_ptr<AnimatedBody::Frame> AnimatedBody::find(int index) {
 
 void AnimatedBody::enter(int interval) {
   std::shared_ptr<Frame> first = find(interval), second = find(interval + 1);
-  for (std::shared_ptr<Frame>& old : {std::ref(first_), std::ref(second_)}) {
+  for (const std::shared_ptr<Frame>& old : {first_, second_}) {
     if (!old || old == first || old == second) continue;
     if (left_ && left_ != first && left_ != second && left_->maps) spare_ = std::move(left_->maps);
-    left_ = std::move(old);
+    left_ = old;
   }
   first_ = std::move(first), second_ = std::move(second);
   interval_ = interval;

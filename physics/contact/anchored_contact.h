@@ -63,10 +63,10 @@ class AnchoredContact {
   /// What is pushed and has no anchor gets one at `from`, its place before the step that brought it here, in
   /// the body's frame: so friction in this step is bounded by this step's push.
   void hold_new(std::span<const Vec3> from);
-  /// For motion: what lies deeper than a push of so much would let it [N, one a particle] may do so for now,
-  /// and is not shot out. x: of the last look(); call that again.
+  /// For motion, so that what begins deep in the gap is not shot out: a particle that is pushed by more than
+  /// this [N, one a particle] may lie as deep as it does for now, and is pushed by this. Call look() again.
   void let_in(std::span<const double> push);
-  /// What was let in has to be out by so much more [m]; the next look() sees it.
+  /// What was let in may lie less deep by so much [m]; the next look() sees it.
   void lead_out(double by);
   std::vector<ContactAnchor> anchors() const;
   /// Throws std::invalid_argument for another number of anchors than of particles.

@@ -204,18 +204,18 @@ struct XpbdOptions {
 
 struct ImplicitOptions {
   /// A search ends when its next move would correct an error in force of this share of the weight (root mean
-  /// square by mass) [-]; > 0.
+  /// square by mass), and nowhere of more than three times that [-]; > 0.
   double tolerance = 0.03;
   int few = 2;  ///< iterations of backward Euler after which 20 times that is good enough; >= 1
 };
 
 /// Contact of the cloth with itself: no step ever passes through cloth. Implicit steps solve it with the rest
-/// (ClothContact), without friction; all others respond to it (PairResponse). Where nothing is near, nothing
+/// (ClothContact); all others respond to it (PairResponse). Where nothing is near, nothing
 /// changes, bit by bit.
 struct SelfContactOptions {
   bool on = false;
   double thickness = 1e-3;  ///< of the cloth [m]; > 0; where edges are short, it counts as thinner
-  double friction = 0;      ///< Coulomb coefficient of cloth on cloth, where steps respond [-]; >= 0
+  double friction = 0;      ///< Coulomb coefficient of cloth on cloth [-]; >= 0
 };
 
 /// 2 sqrt(2): RK4 is stable on the imaginary axis up to there. The half-disc of radius 2.785 left of it

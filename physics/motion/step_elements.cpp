@@ -12,8 +12,6 @@
 namespace furrow::physics {
 namespace {
 
-constexpr Stiffness quick_part{1, true};
-
 std::vector<int> own_places(std::size_t n) {
   std::vector<int> place(n);
   std::iota(place.begin(), place.end(), 0);
@@ -91,7 +89,7 @@ void StepElements::blocks(const ElementCounts& counts, std::span<const Vec3> x, 
                           Mat3* to) const {
   int first = 0;
   std::size_t kind = 0;
-  const auto part = [&](const auto& own) {  // calls own(begin, end, to), numbers within the kind
+  const auto take = [&](const auto& own) {  // calls own(begin, end, to), numbers within the kind
     const int n = counts.elements[kind], from = std::clamp(begin - first, 0, n),
               until = std::clamp(end - first, 0, n);
     if (from < until) own(from, until);
@@ -99,11 +97,11 @@ void StepElements::blocks(const ElementCounts& counts, std::span<const Vec3> x, 
     first += n;
   };
   const auto plainly = [&](int from, int until) {
-    stiffness_blocks(cloth_, counts, x, quick_part, first + from, first + until, to);
+    stiffness_blocks(cloth_, counts, x, part, first + from, first + until, to);
   };
   for_each_kind(cloth_, [&](const auto& elements, auto... law) {
     using Kind = KindOf<decltype(elements)>;
-    part([&](int from, int until) {
+    take([&](int from, int until) {
       if constexpr (std::same_as<Kind, MembraneTriangle>) {
         triangle_blocks(packed_, x_.data(), from, until, to);
       } else if constexpr (std::same_as<Kind, Hinge>) {
@@ -116,7 +114,7 @@ void StepElements::blocks(const ElementCounts& counts, std::span<const Vec3> x, 
       }
     });
   });
-  for (std::size_t i = 0; i < cloth_.energies.size(); ++i) part(plainly);
+  for (std::size_t i = 0; i < cloth_.energies.size(); ++i) take(plainly);
 }
 
 }  // namespace furrow::physics

@@ -23,7 +23,9 @@ class StepElements {
 
   /// The energy E [J] at x [m]; force becomes -dE/dx [N]. Cost: one pass. Not for two callers at once.
   double operator()(std::span<const Vec3> x, std::span<Vec3> force, ThreadPool& pool);
-  /// The positive part of the stiffness at x, narrow (Stiffness), of a matrix made so for the cloth.
+  /// What assemble() gives of the stiffness: where a step's search ends does not depend on it.
+  static constexpr Stiffness part{1, true};
+  /// That part of the stiffness at x. The matrix is made for the cloth, narrow as the part is.
   void assemble(FreeStiffness& matrix, std::span<const Vec3> x, ThreadPool& pool);
 
  private:

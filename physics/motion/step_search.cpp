@@ -12,7 +12,7 @@ namespace furrow::physics {
 namespace {
 
 constexpr double good_enough = 20;         // times the tolerance, after few iterations
-constexpr double longest_over_mean = 3;    // of a move, of what is good enough: a few may be far off yet
+constexpr double longest_enough = 3;       // times what is good enough in the mean: a few may be far off yet
 constexpr double short_move = 10;          // times the tolerance: the factors serve the next one
 constexpr double single_residual = 1e-4;   // of the force, that a solution of single precision may leave
 constexpr std::size_t most_coupled = 4;    // times the pairs of particles that contact couples
@@ -46,7 +46,7 @@ StepSearch::StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact,
       work_(motion.work()),
       clock_(motion.clock()),
       elements_(cloth),
-      stiffness_(cloth, true) {
+      stiffness_(cloth, StepElements::part.narrow) {
   const Particles& p = cloth.particles;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) mass_ += p.mass[i];
@@ -270,7 +270,7 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
       add_contact(x, here);
     }
     const double enough = (iteration >= options.few ? good_enough : 1) * options.tolerance;
-    const bool small = length <= enough && longest <= longest_over_mean * enough;
+    const bool small = length <= enough && longest <= longest_enough * enough;
     if (small && !way.cut) return {true, iteration};
     const bool at_rounding = std::abs(dot(here.net, move)) <= least_fall * here.terms;
     if (way.share == 0 && !keep_factors && !way.cut) return {at_rounding, iteration};

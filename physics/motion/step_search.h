@@ -34,7 +34,7 @@ struct StageStart {
 };
 
 struct SearchOptions {
-  double tolerance;     ///< root mean square of the next move that ends it [m]; > 0
+  double tolerance;     ///< root mean square of the next move that ends it, a third of the longest [m]; > 0
   int few, most;        ///< Newton's iterations: after `few` a next move 20 times as long is good enough
   double longest_move;  ///< of a particle in an iteration [m]; > 0
 };

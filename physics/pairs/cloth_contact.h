@@ -58,7 +58,7 @@ class ClothContact {
   ClothContact& operator=(const ClothContact&) = delete;
 
   /// The largest share, at most `most`, of a move [m] from x at which nothing has passed through anything:
-  /// less than `most` only where the way is cut.
+  /// less than `most` only where the way is cut, or leads a thousand kilometres; 0 if it is not finite.
   double safe_share(std::span<const Vec3> x, std::span<const Vec3> move, double most, ThreadPool* pool);
   /// Moves x towards other positions [m], each vertex until something is in its way. Returns how many did not
   /// arrive. For starts: a vertex that was stopped stays, however far the others go.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/chart.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -50,6 +51,15 @@ TEST_CASE("chart: a judgement that is cancelled says so and chooses nothing") {
   CHECK_FALSE(report.judgement.has_answer());
   CHECK(early.asked == 4);
   CHECK(whole.asked > 4);
+}
+
+TEST_CASE("chart: a scene for xpbd that names no cloth is of springs, as simulate takes it") {
+  tests::Recorder recorder;
+  const jobs::ChartReport report =
+      jobs::chart(chart_of_hung_sheet("integrator = \"xpbd\"\ndt = 0.002\n"), recorder);
+  CHECK(std::ranges::any_of(report.judgement.candidates, [](const jobs::JudgedCandidate& c) {
+    return c.candidate.integrator == physics::Integrator::xpbd;
+  }));
 }
 
 TEST_CASE("chart: options out of their range and pictures of other kinds are refused") {

@@ -5,6 +5,7 @@
 
 #include "physics/cloth/elements.h"
 #include "tests/cases/flat_meshes.h"
+#include "tests/cases/plates.h"
 #include "tests/physics/cloth/test_cloths.h"
 
 using namespace furrow::physics;
@@ -59,6 +60,29 @@ TEST_CASE("step_elements: energy, forces and stiffness are those of the elements
   const std::vector<Vec3> a = lanes.times(v), b = generic.times(v);
   const double most = largest(b);
   for (std::size_t i = 0; i < x.size(); ++i) CHECK((a[i] - b[i]).norm() < 1e-11 * most);
+}
+
+TEST_CASE("step_elements: the stiffness of a plate couples it hinge by hinge") {
+  Cloth cloth = all_kinds(HingeLaw::linear);
+  furrow::cases::add_plate(cloth, isotropic_plate(1e-4));
+  REQUIRE(cloth.energies.size() == 1);
+  const std::vector<Vec3>& x = cloth.particles.x;
+  ThreadPool pool(1);
+  FreeStiffness lanes(cloth, StepElements::part.narrow), narrow(cloth, true), whole(cloth);
+  StepElements(cloth).assemble(lanes, x, pool);
+  narrow.assemble(cloth, x, Stiffness::positive_part);
+  whole.assemble(cloth, x, Stiffness::positive_part);
+  Noise noise(8);
+  std::vector<Vec3> v;
+  for (std::size_t i = 0; i < x.size(); ++i) v.push_back(noise.vector());
+  const std::vector<Vec3> a = lanes.times(v), b = narrow.times(v), c = whole.times(v);
+  const double most = largest(b);
+  double apart = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    CHECK((a[i] - b[i]).norm() < 1e-11 * most);
+    apart = std::max(apart, (a[i] - c[i]).norm());
+  }
+  CHECK(apart > 1e-6 * most);
 }
 
 TEST_CASE("step_elements: factors of single precision solve to a small part of the force") {
