@@ -35,7 +35,7 @@ void check_accuracy(const SimulateArguments& a, const SimulateJob& job) {
                      " judges a scene from its beginning; leave out one of the two");
   const io::TomlDocument& settings = job.scene.settings;
   const Json simulation = settings.root.value("simulation", Json::object());
-  for (const std::string key : {"integrator", "dt", "sweeps", "newton"})
+  for (const std::string key : {"integrator", "dt", "sweeps"})
     if (simulation.contains(key) && settings.place("simulation." + key).rfind("--", 0) == 0)
       throw UsageError("--accuracy " + accuracy + " chooses integrator and step, and " +
                        settings.place("simulation." + key) + " names one; leave out one of them");

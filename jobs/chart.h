@@ -18,8 +18,8 @@ struct Candidate {
   physics::Integrator integrator = physics::Integrator::leapfrog;
   std::optional<double> dt;  ///< [s]; none: 0.9 of the limit, as it is estimated on the way
   bool forced = false;       ///< dt although it is above the limit
-  int iterations = 0;        ///< XPBD's sweeps, backward Euler's of Newton's method; 0: others have none
-  double expected_dt = 0;    ///< the first step, for predictions [s]
+  int iterations = 0;      ///< XPBD's sweeps, implicit steps' of Newton's method, about; 0: others have none
+  double expected_dt = 0;  ///< the first step, for predictions [s]
 };
 
 /// How far two shapes of one garment are apart, each as a share of the garment's size [-].

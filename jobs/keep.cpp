@@ -55,9 +55,13 @@ void check_outputs(const KeepJob& job, const OpenScene& open, Listener& listener
 OpenScene open_scene(const KeepJob& job, Listener& listener) {
   OpenScene open{{}, job.scene.settings, job.scene.folder, {}};
   take_fabric_file(open.document, open.folder);
-  if (!job.state)
+  bool by_default = false;
+  if (!job.state) {
     take_recorded_material(open.document, garment_of(open.document, open.folder), job.scene.memory);
+    by_default = take_default_cloth(open.document, "furrow keep");
+  }
   open.scene = scene_of(open.document, open.folder);
+  open.scene.material.by_default = by_default;
   if (open.scene.garment.empty() && !job.state)
     throw std::invalid_argument(open.document.name + ": garment.mesh is missing");
   check_inputs(open.scene, open.document, job.state ? job.state->lines_drawn : -1, job.scene.memory);

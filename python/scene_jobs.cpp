@@ -57,7 +57,7 @@ void check_accuracy(const SimulateCall& c, const Call& call) {
   if (!c.state.empty())
     throw std::invalid_argument(
         "accuracy: it judges a scene from its beginning; leave out accuracy or state");
-  for (const char* chosen : {"integrator", "dt", "sweeps", "newton"})
+  for (const char* chosen : {"integrator", "dt", "sweeps"})
     if (call.has(chosen))
       throw std::invalid_argument(std::string("accuracy: it chooses integrator and step, and ") + chosen +
                                   " names one; leave out one of them");

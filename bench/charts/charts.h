@@ -12,7 +12,7 @@ void chart_laws(const std::string& folder, Effort effort);     ///< laws.csv
 void chart_bending(const std::string& folder, Effort effort);  ///< bending.csv
 void chart_work_precision(const std::string& folder,
                           Effort effort);                          ///< work*.csv: points, references, fronts
-void chart_implicit(const std::string& folder, Effort effort);     ///< implicit.csv, rests.csv
+void chart_implicit(const std::string& folder, Effort effort);     ///< implicit.csv, energy.csv, rests.csv
 void chart_stability(const std::string& folder, Effort effort);    ///< stability.csv
 void chart_damping(const std::string& folder, Effort effort);      ///< damping.csv
 void chart_contact(const std::string& folder, Effort effort);      ///< contact.csv

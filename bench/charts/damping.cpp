@@ -18,7 +18,7 @@ using physics::Integrator;
 bool grows(const Swing& swing, Integrator integrator, double dt, int steps) {
   physics::ThreadPool pool(1);
   physics::Motion motion(swing.cloth, swing.loads, pool);
-  const auto stepper = cases::make_stepper(motion, {integrator, {}, {}});
+  const auto stepper = cases::make_stepper(motion, {integrator});
   const auto energy = [&] {
     double sum = 0;
     for (const auto& v : motion.cloth().v) sum += v.x * v.x + v.y * v.y + v.z * v.z;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Implicit steps beside the others: error against processor time of sheets that swing and of a skirt in a
-// gust, and what it costs to bring a skirt to rest on a figure.
+// gust, the energy that steps take out, and what it costs to bring a skirt to rest on a figure.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -18,6 +18,7 @@
 #include "tests/cases/draped.h"
 #include "tests/cases/flat_meshes.h"
 #include "tests/cases/garment_pair.h"
+#include "tests/cases/plates.h"
 #include "tests/cases/swing.h"
 
 namespace furrow::bench {
@@ -40,11 +41,10 @@ struct Method {
 std::vector<Method> methods(bool springs) {
   const std::vector<double> frames{1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480};
   const std::vector<double> short_ones{1.0 / 960, 1.0 / 1920, 1.0 / 3840, 1.0 / 7680, 1.0 / 15360};
-  std::vector<Method> list{{"leapfrog", {Integrator::leapfrog, {}, {}}, true, {0.9, 0.45}},
-                           {"implicit", {Integrator::implicit, {}, {}}, false, frames},
-                           {"tr-bdf2", {Integrator::tr_bdf2, {}, {}}, false, frames},
-                           {"backward Euler", {Integrator::backward_euler, {1, 0}, {}}, false, frames}};
-  if (springs) list.push_back({"XPBD 1 sweep", {Integrator::xpbd, {}, {1, 0}}, false, short_ones});
+  std::vector<Method> list{{"leapfrog", {Integrator::leapfrog}, true, {0.9, 0.45}},
+                           {"implicit", {Integrator::implicit}, false, frames},
+                           {"tr-bdf2", {Integrator::tr_bdf2}, false, frames}};
+  if (springs) list.push_back({"XPBD 1 sweep", {Integrator::xpbd, {1, 0}}, false, short_ones});
   return list;
 }
 
@@ -56,14 +56,7 @@ struct Scene {
 
 constexpr double side = 0.4, seconds = 0.3;  // m, s
 
-/// Cotton that lies level and hangs by two corners. Springs have no dashpots here: implicit steps know none.
-Scene cotton(const std::string& name, const std::string& title, SheetKind kind) {
-  const io::Fabric& fabric = io::fabric_named("cotton");
-  Scene scene{name, title, {sheet_of(kind, side, side, 24, fabric.density), {}, seconds}, false};
-  Cloth& cloth = scene.swing.cloth;
-  cloth.structural.clear();
-  add_flat_membrane(cloth, fabric.stretch);
-  add_flat_hinges(cloth, fabric.rigidity);
+std::vector<int> upper_corners(const Cloth& cloth) {
   std::vector<int> corners;
   for (const double x : {0.0, side}) {
     const auto& all = cloth.particles.x;
@@ -72,8 +65,19 @@ Scene cotton(const std::string& name, const std::string& title, SheetKind kind) 
     };
     corners.push_back(int(std::min_element(all.begin(), all.end(), nearer) - all.begin()));
   }
+  return corners;
+}
+
+/// Cotton that lies level and hangs by two corners. Springs have no dashpots here: implicit steps know none.
+Scene cotton(const std::string& name, const std::string& title, SheetKind kind) {
+  const io::Fabric& fabric = io::fabric_named("cotton");
+  Scene scene{name, title, {sheet_of(kind, side, side, 24, fabric.density), {}, seconds}, false};
+  Cloth& cloth = scene.swing.cloth;
+  cloth.structural.clear();
+  add_flat_membrane(cloth, fabric.stretch);
+  pin(cloth.particles, upper_corners(cloth));
+  add_plate(cloth, physics::isotropic_plate(fabric.rigidity));
   for (Vec3& x : cloth.particles.x) x = Vec3(x.x(), 0, x.y());
-  pin(cloth.particles, corners);
   scene.swing.loads.air_drag = 0.2;
   scene.swing.loads.spring_damping = 0;
   scene.title += ", " + std::to_string(cloth.particles.size()) + " vertices";
@@ -90,7 +94,7 @@ Scene springs() {
 /// The median time of three runs; long ones run once.
 void write_swing(const Scene& scene, Table& table) {
   const double limit = step_limit(scene.swing);
-  const Positions exact = run(scene.swing, {Integrator::rk4, {}, {}}, 0.4 * limit).x;
+  const Positions exact = run(scene.swing, {Integrator::rk4}, 0.4 * limit).x;
   for (const Method& m : methods(scene.springs)) {
     for (const double length : m.lengths) {
       const double dt = m.of_limit ? length * limit : length;
@@ -102,6 +106,59 @@ void write_swing(const Scene& scene, Table& table) {
       table.row(scene.name, '"' + scene.title + '"', m.name, end.dt, end.dt / limit,
                 cpu[cpu.size() / 2] / seconds, error, error * NAN, end.work.open_steps);
     }
+  }
+}
+
+struct Energies {
+  double time;            ///< [s]
+  double kinetic, total;  ///< total: with that of elements and of weight; at first 0 [J]
+};
+
+/// At each sixtieth of a second of one, of a cloth that nothing damps.
+std::vector<Energies> energies_of(const Swing& swing, Integrator integrator, double dt) {
+  constexpr int frames = 60;
+  const int steps = int(std::ceil(1 / (frames * dt) * (1 - 1e-12)));  // a frame
+  physics::ThreadPool pool(1);
+  physics::Motion motion(swing.cloth, {.air_drag = 0, .spring_damping = 0}, pool);
+  const auto stepper = make_stepper(motion, {integrator});
+  physics::Particles p = swing.cloth.particles;
+  std::vector<Energies> found;
+  double first = 0;
+  for (int frame = 0; frame <= frames; ++frame) {
+    for (int i = 0; frame > 0 && i < steps; ++i) stepper->step(1.0 / (frames * steps));
+    motion.unpack(p);
+    Energies e{double(frame) / frames, 0, potential_energy(swing.cloth, p.x)};
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (p.inv_mass[i] == 0) continue;
+      e.kinetic += p.mass[i] * p.v[i].squaredNorm() / 2;
+      e.total -= p.mass[i] * motion.loads().gravity.dot(p.x[i]);
+    }
+    e.total += e.kinetic;
+    if (frame == 0) first = e.total;
+    e.total -= first;
+    found.push_back(e);
+  }
+  return found;
+}
+
+void write_energies(const std::string& folder) {
+  Table table(
+      folder + "/energy.csv",
+      "The sheet of cotton with an inserted line, for 1 s without drag and dashpots, so that its energy "
+      "(kinetic, of elements, of weight) should stay. Both over the kinetic energy that leapfrog's run has "
+      "at its most.",
+      "method,dt[s],time[s],kinetic[-],change[-]");
+  const Scene scene = cotton("lined", "", SheetKind::lined);
+  const auto leapfrog = energies_of(scene.swing, Integrator::leapfrog, 0.9 * step_limit(scene.swing));
+  double most = 0;
+  for (const Energies& e : leapfrog) most = std::max(most, e.kinetic);
+  const auto write = [&](const char* name, double dt, const std::vector<Energies>& found) {
+    for (const Energies& e : found) table.row(name, dt, e.time, e.kinetic / most, e.total / most);
+  };
+  write("leapfrog", 0.9 * step_limit(scene.swing), leapfrog);
+  for (const double dt : {1.0 / 60, 1.0 / 120, 1.0 / 240}) {
+    write("implicit", dt, energies_of(scene.swing, Integrator::implicit, dt));
+    write("tr-bdf2", dt, energies_of(scene.swing, Integrator::tr_bdf2, dt));
   }
 }
 
@@ -195,8 +252,6 @@ void write_gust(Table& table) {
   for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 120})
     write("implicit", gust.run(worn, Integrator::implicit, dt));
   for (const double dt : {1.0 / 60, 1.0 / 120}) write("tr-bdf2", gust.run(worn, Integrator::tr_bdf2, dt));
-  for (const double dt : {1.0 / 60, 1.0 / 120, 1.0 / 240})
-    write("backward Euler", gust.run(worn, Integrator::backward_euler, dt));
 }
 
 void write_rests(const std::string& folder) {
@@ -247,7 +302,7 @@ void chart_implicit(const std::string& folder, Effort) {
   Table table(
       folder + "/implicit.csv",
       "Sheets of 0.4 m that lie level, hang by two corners and swing for 0.3 s (cotton: triangles, "
-      "hinges), and a skirt in cotton on a body, held at its top, from rest, in air of 12 m/s for 0.4 s. "
+      "a plate), and a skirt in cotton on a body, held at its top, from rest, in air of 12 m/s for 0.4 s. "
       "No dashpots. Error: RMS distance from RK4 at 0.4 of leapfrog's limit, of the skirt "
       "from leapfrog, over that of the way; median: between the surfaces. One thread, processor time. "
       "open: steps that were not solved.",
@@ -256,6 +311,7 @@ void chart_implicit(const std::string& folder, Effort) {
                              cotton("lined", "cotton with an inserted line", SheetKind::lined)})
     write_swing(scene, table);
   write_gust(table);
+  write_energies(folder);
   write_rests(folder);
 }
 

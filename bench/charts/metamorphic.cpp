@@ -39,12 +39,10 @@ struct Method {
     return c;
   }
 };
-constexpr Method methods[] = {{"leapfrog", Integrator::leapfrog},
-                              {"RK4", Integrator::rk4},
-                              {"backward Euler", Integrator::backward_euler},
-                              {"XPBD 100 sweeps", Integrator::xpbd, 100},
-                              {"XPBD 10 sweeps", Integrator::xpbd, 10},
-                              {"XPBD 1 sweep", Integrator::xpbd, 1}};
+constexpr Method methods[] = {
+    {"leapfrog", Integrator::leapfrog},       {"RK4", Integrator::rk4},
+    {"implicit", Integrator::implicit},       {"XPBD 100 sweeps", Integrator::xpbd, 100},
+    {"XPBD 10 sweeps", Integrator::xpbd, 10}, {"XPBD 1 sweep", Integrator::xpbd, 1}};
 
 enum class Change { rotated, permuted, units, half_step, tenfold_damping };
 constexpr std::pair<const char*, Change> changes[] = {{"rotated", Change::rotated},

@@ -3,7 +3,7 @@
 load style
 @terminal
 set output name.".".ending
-methods = "'leapfrog' 'RK4' 'backward Euler' 'XPBD 100 sweeps' 'XPBD 10 sweeps' 'XPBD 1 sweep'"
+methods = "'leapfrog' 'RK4' 'implicit' 'XPBD 100 sweeps' 'XPBD 10 sweeps' 'XPBD 1 sweep'"
 array c[6] = ["#0072B2", "#CC79A7", "#D55E00", "#E69F00", "#009E73", "#56B4E9"]
 array full[6] = [7, 9, 11, 13, 5, 9]
 array empty[6] = [6, 8, 10, 12, 4, 8]

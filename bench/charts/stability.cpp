@@ -52,16 +52,11 @@ std::vector<Series> all_series(Effort effort) {
     const double k = 10 * std::pow(10.0, double(i) / per_decade);
     for (const double jitter : {0.0, 0.3}) {
       for (const auto& [name, law] : laws) {
-        list.push_back({"leapfrog", {Integrator::leapfrog, {}, {}}, name, law, jitter, k, explicit_ratios});
+        list.push_back({"leapfrog", {Integrator::leapfrog}, name, law, jitter, k, explicit_ratios});
       }
-      list.push_back({"RK4", {Integrator::rk4, {}, {}}, "paper", laws[0].second, jitter, k, explicit_ratios});
-      list.push_back({"backward Euler",
-                      {Integrator::backward_euler, {1, 0}, {}},
-                      "paper",
-                      laws[0].second,
-                      jitter,
-                      k,
-                      spread(2, 256, 15)});
+      list.push_back({"RK4", {Integrator::rk4}, "paper", laws[0].second, jitter, k, explicit_ratios});
+      list.push_back(
+          {"implicit", {Integrator::implicit}, "paper", laws[0].second, jitter, k, spread(2, 256, 15)});
     }
   }
   return list;
@@ -85,7 +80,7 @@ std::vector<Cell> cells(const Series& s) {
                                    .spring_damping = 0,
                                    .seconds = 0.2});
   const double limit = step_limit(swing), safe = gershgorin_limit(swing.cloth);
-  const SwingRun exact = run(swing, {Integrator::rk4, {}, {}}, 0.35 * limit);
+  const SwingRun exact = run(swing, {Integrator::rk4}, 0.35 * limit);
   std::vector<Cell> result;
   for (const double ratio : s.ratios) {
     if (ratio * limit > swing.seconds / 2) break;

@@ -14,7 +14,7 @@ safe(law, jitter) = system(sprintf("awk -F, '$1 == \"leapfrog\" && $2 == \"%s\" 
                                    law, jitter)) + 0.0
 panels = "leapfrog|paper|0 leapfrog|uniform|0 leapfrog|inverse|0 leapfrog|van_gelder|0 \
 leapfrog|paper|0.3 leapfrog|uniform|0.3 leapfrog|inverse|0.3 leapfrog|van_gelder|0.3 \
-RK4|paper|0 RK4|paper|0.3 backward_Euler|paper|0 backward_Euler|paper|0.3"
+RK4|paper|0 RK4|paper|0.3 implicit|paper|0 implicit|paper|0.3"
 part(s, n) = system(sprintf("echo '%s' | cut -d'|' -f%d | tr -d '\n'", s, n))
 spaced(s) = system(sprintf("echo '%s' | sed 's/_/ /; s/van gelder/Van Gelder/'", s))
 set multiplot layout 3,4 title "What becomes of a swinging sheet (95 vertices, 0.2 s): step × stiffness × law × jitter of the mesh" \
@@ -31,7 +31,7 @@ do for [panel in panels] {
   set title sprintf("%s, %s, jitter %s", method, spaced(law), jitter) offset 0,-0.7 font font.",11"
   if (n % 4 == 1) { set ylabel "stiffness [N/m]" offset 0.3,0; set format y "10^{%.0f}" } \
   else { unset ylabel; set format y "" }
-  if (method eq "backward Euler") {
+  if (method eq "implicit") {
     set xrange [0.5:15.5]
     set xtics ("2" 1, "4" 3, "8" 5, "16" 7, "32" 9, "64" 11, "128" 13, "256" 15) font font.",9"
   } else {

@@ -5,12 +5,12 @@ load style
 set output name.".".ending
 by_cpu = name eq "work-cpu"
 column_x = by_cpu ? 5 : 6
-methods = "'explicit Euler' 'semi-implicit Euler' 'leapfrog' 'RK4' 'backward Euler' 'XPBD 1 sweep' 'XPBD 10 sweeps' \
+methods = "'explicit Euler' 'semi-implicit Euler' 'leapfrog' 'RK4' 'implicit' 'XPBD 1 sweep' 'XPBD 10 sweeps' \
   'XPBD 100 sweeps'"
 order = "pendulum chain small-soft large-soft small-medium large-medium small-stiff large-stiff"
 set multiplot layout 4,2 title (by_cpu ? \
   "Error against processor time: one point a step length, one thread" : \
-  "Error against passes over all springs: force evaluations, and sweeps of XPBD (a backward Euler step: one pass\n\
+  "Error against passes over all springs: force evaluations, and sweeps of XPBD (an implicit step: one pass\n\
 and a factorisation that is not counted)") font font.",13" margins 0.075,0.985,0.145,0.945 spacing 0.075,0.055
 set logscale xy
 set format xy "10^{%T}"

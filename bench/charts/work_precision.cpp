@@ -73,18 +73,14 @@ std::vector<Method> methods() {
   const std::vector<double> symplectic{1.05, 0.95, 0.7, 0.4, 0.2, 0.1, 0.05, 0.02};
   std::vector<double> seconds;
   for (int per_second = 15; per_second <= 61440; per_second *= 2) seconds.push_back(1.0 / per_second);
-  return {{"explicit Euler",
-           {Integrator::explicit_euler, {}, {}},
-           1,
-           true,
-           {0.25, 0.06, 0.03, 0.015, 0.0075, 0.004}},
-          {"semi-implicit Euler", {semi_implicit, {}, {}}, 1, true, symplectic},
-          {"leapfrog", {Integrator::leapfrog, {}, {}}, 1, true, symplectic},
-          {"RK4", {Integrator::rk4, {}, {}}, 4, true, {1.55, 1.35, 1.1, 0.8, 0.5, 0.4}},
-          {"backward Euler", {Integrator::backward_euler, {1, 0}, {}}, 300, false, seconds},
-          {"XPBD 1 sweep", {Integrator::xpbd, {}, {1, 0}}, 2, false, seconds},
-          {"XPBD 10 sweeps", {Integrator::xpbd, {}, {10, 0}}, 15, false, seconds},
-          {"XPBD 100 sweeps", {Integrator::xpbd, {}, {100, 0}}, 150, false, seconds}};
+  return {{"explicit Euler", {Integrator::explicit_euler}, 1, true, {0.25, 0.06, 0.03, 0.015, 0.0075, 0.004}},
+          {"semi-implicit Euler", {semi_implicit}, 1, true, symplectic},
+          {"leapfrog", {Integrator::leapfrog}, 1, true, symplectic},
+          {"RK4", {Integrator::rk4}, 4, true, {1.55, 1.35, 1.1, 0.8, 0.5, 0.4}},
+          {"implicit", {Integrator::implicit}, 300, false, seconds},
+          {"XPBD 1 sweep", {Integrator::xpbd, {1, 0}}, 2, false, seconds},
+          {"XPBD 10 sweeps", {Integrator::xpbd, {10, 0}}, 15, false, seconds},
+          {"XPBD 100 sweeps", {Integrator::xpbd, {100, 0}}, 150, false, seconds}};
 }
 
 struct Point {
@@ -109,11 +105,9 @@ Point measured(const Scene& scene, const Method& method, double dt, int repeats,
           first.diverged || !(error < senseless) ? INFINITY : error};
 }
 
-/// Backward Euler's factorisations are no passes, so it has no place on the front of passes.
+/// Implicit steps' factorisations are no passes, so it has no place on the front of passes.
 void mark_fronts(std::vector<Point>& points) {
-  const auto counts = [](const Point& p) {
-    return p.method->options.integrator != Integrator::backward_euler;
-  };
+  const auto counts = [](const Point& p) { return p.method->options.integrator != Integrator::implicit; };
   for (Point& p : points) {
     for (const Point& q : points) {
       if (!(q.error < p.error)) continue;
@@ -141,7 +135,7 @@ struct Tables {
             folder + "/work.csv",
             "Error: RMS distance from the reference, over that of the way from the start (still: 1). "
             "Thread processor time, one thread. Passes over all springs: force evaluations, and sweeps of "
-            "XPBD; backward Euler's factorisations are not counted. wrong: error > 0.1.",
+            "XPBD; factorisations of implicit steps are not counted. wrong: error > 0.1.",
             "scene,method,dt[s],dt/limit[-],cpu[s/s],passes[1/s],error[-],status,on_cpu_front,on_pass_front"),
         checks(folder + "/work_references.csv",
                "References: RK4 at dt; of the pendulum a method of order 8. check: how far RK4 at 2 dt ends "
@@ -163,18 +157,18 @@ double twin_distance(const Swing& swing, double dt, const std::vector<physics::V
     if (twin.cloth.particles.inv_mass[i] == 0) continue;
     twin.cloth.particles.x[i] += 1e-9 * Eigen::Array3d(i + 1, 2 * i + 1, 3 * i + 1).sin().matrix();
   }
-  return relative_error(swing, run(twin, {Integrator::rk4, {}, {}}, dt).x, end);
+  return relative_error(swing, run(twin, {Integrator::rk4}, dt).x, end);
 }
 
 /// Where the scene ends, and the remark about that.
 Positions reference(const Scene& scene, double limit, Table& table) {
   const double share = scene.share;
-  const auto rk4 = [&](double dt) { return run(scene.swing, {Integrator::rk4, {}, {}}, dt * limit); };
+  const auto rk4 = [&](double dt) { return run(scene.swing, {Integrator::rk4}, dt * limit); };
   const SwingRun exact = rk4(share), half = rk4(2 * share), quarter = rk4(4 * share);
   const Positions end = scene.end.empty() ? exact.x : scene.end;
   const double check = relative_error(scene.swing, half.x, end);
   const double order = std::log2(relative_error(scene.swing, quarter.x, half.x) / check);
-  const SwingRun fastest = run(scene.swing, {Integrator::leapfrog, {}, {}}, limit);
+  const SwingRun fastest = run(scene.swing, {Integrator::leapfrog}, limit);
   const double seconds = scene.swing.seconds;
   table.row(scene.name, '"' + scene.title + '"', scene.swing.cloth.particles.size(),
             scene.swing.cloth.structural.size(), seconds, limit, exact.dt, check, order,

@@ -376,12 +376,10 @@ const Row<Scene> rows[] = {
     // [simulation]: its steps
     {{.path = "simulation.dt",
       .flag = "--dt",
-      .help = "time step [s]; default 0.9 of the limit, 1/60 with implicit and tr-bdf2, 1/240 with "
-              "backward-euler, 1/1200 with xpbd",
+      .help = "time step [s]; default 0.9 of the limit, 1/60 with implicit and tr-bdf2, 1/1200 with "
+              "xpbd",
       .what = "time step",
-      .usual =
-          "0.9 of the limit; 1/60 with implicit and tr-bdf2, 1/240 with backward-euler, 1/1200 with xpbd, "
-          "which have none",
+      .usual = "0.9 of the limit; 1/60 with implicit and tr-bdf2, 1/1200 with xpbd, which have none",
       .used = used_by::moving},
      number(
          positive("s"), [](auto& s) -> auto& { return s.simulation.dt; })},
@@ -396,7 +394,7 @@ const Row<Scene> rows[] = {
       .flag = "--integrator",
       .help =
           "auto (default): leapfrog, or implicit steps where those take less than half of its time (keep: "
-          "leapfrog); leapfrog, implicit, tr-bdf2, rk4, backward-euler, xpbd, or euler (the baseline that "
+          "leapfrog); leapfrog, implicit, tr-bdf2, rk4, xpbd, or euler (the baseline that "
           "diverges)",
       .what = "the scheme of its steps; auto is leapfrog, or implicit where that takes less than half of its "
               "time; euler is the baseline that diverges",
@@ -406,7 +404,6 @@ const Row<Scene> rows[] = {
                                         {"leapfrog", Integrator::leapfrog},
                                         {"euler", Integrator::explicit_euler},
                                         {"rk4", Integrator::rk4},
-                                        {"backward-euler", Integrator::backward_euler},
                                         {"xpbd", Integrator::xpbd},
                                         {"implicit", Integrator::implicit},
                                         {"tr-bdf2", Integrator::tr_bdf2}})},
@@ -417,13 +414,6 @@ const Row<Scene> rows[] = {
       .used = used_by::moving},
      whole(
          1, 100000, [](auto& s) -> auto& { return s.simulation.xpbd.iterations; })},
-    {{.path = "simulation.newton",
-      .flag = "--newton",
-      .help = "iterations of backward-euler a step, at most (default 1: linearised once)",
-      .what = "iterations of backward-euler a step, at most; 1: linearised once",
-      .used = used_by::moving},
-     whole(
-         1, 100000, [](auto& s) -> auto& { return s.simulation.backward_euler.newton_iterations; })},
     {{.path = "simulation.self_contact",
       .flag = "--self-contact",
       .help = "on: cloth keeps off cloth, and no step passes through it (default off)",

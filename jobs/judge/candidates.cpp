@@ -49,10 +49,8 @@ Candidate explicit_at(Integrator integrator, double factor, double dt_limit) {
 }
 
 int iterations_of(const physics::SimulateOptions& o, Integrator integrator) {
-  return integrator == Integrator::xpbd             ? o.xpbd.iterations
-         : integrator == Integrator::backward_euler ? o.backward_euler.newton_iterations
-         : physics::solves_contact(integrator)      ? physics::usual_iterations(integrator)
-                                                    : 0;
+  if (integrator == Integrator::xpbd) return o.xpbd.iterations;
+  return physics::solves_contact(integrator) ? physics::usual_iterations(integrator) : 0;
 }
 
 Candidate implicit_at(Integrator integrator, int steps_a_second, const SceneCloth& scene) {
@@ -76,11 +74,6 @@ std::optional<Candidate> scenes_own(const SceneCloth& scene, double dt_limit) {
   c.forced = o.step_rule == physics::StepRule::forced;
   c.expected_dt = o.dt.value_or(cheapest * dt_limit);
   return c;
-}
-
-/// What counts an integrator's factorisations.
-double& factorised(Work& work, Integrator integrator) {
-  return physics::solves_contact(integrator) ? work.iterations : work.factorisations;
 }
 
 double cost_with(const Work& work, Integrator integrator) {
@@ -109,8 +102,6 @@ const char* name_of(Integrator integrator) {
       return "euler";
     case Integrator::rk4:
       return "rk4";
-    case Integrator::backward_euler:
-      return "backward-euler";
     case Integrator::xpbd:
       return "xpbd";
     case Integrator::implicit:
@@ -132,7 +123,6 @@ std::vector<Candidate> candidates_for(const SceneCloth& scene, double dt_limit) 
     all.push_back(explicit_at(Integrator::leapfrog, cheapest / 2, usable(dt_limit, scene)));
     all.push_back(explicit_at(Integrator::rk4, cheapest, dt_limit));
   }
-  for (int rate : {60, 240, 960}) all.push_back(implicit_at(Integrator::backward_euler, rate, scene));
   if (scene.cloth.membrane.empty() && scene.cloth.tension.empty() && scene.cloth.hinges.empty() &&
       scene.cloth.energies.empty())
     for (int rate : {240, 1200}) all.push_back(implicit_at(Integrator::xpbd, rate, scene));
@@ -157,7 +147,6 @@ std::string flags_of(const Candidate& c, bool scene_dt) {
   const bool needs_dt = c.dt || scene_dt;
   if (needs_dt) flags += " --dt " + text_of(c.dt.value_or(rounded_down_step(c.expected_dt)));
   if (c.integrator == Integrator::xpbd) flags += " --sweeps " + std::to_string(c.iterations);
-  if (c.integrator == Integrator::backward_euler) flags += " --newton " + std::to_string(c.iterations);
   return flags + (c.forced ? " --force-dt" : "");
 }
 
@@ -169,8 +158,6 @@ void set_candidate(io::TomlDocument& document, const Candidate& c) {
   if (c.forced) io::set_value(document, "simulation.force_dt", true, "--accuracy");
   if (c.integrator == Integrator::xpbd)
     io::set_value(document, "simulation.sweeps", c.iterations, "--accuracy");
-  if (c.integrator == Integrator::backward_euler)
-    io::set_value(document, "simulation.newton", c.iterations, "--accuracy");
 }
 
 double predicted_cost(const Candidate& c, const SceneCloth& scene, double seconds) {
@@ -182,8 +169,7 @@ double predicted_cost(const Candidate& c, const SceneCloth& scene, double second
   Work w;
   w.vertices = static_cast<double>(cloth.particles.size());
   w.steps = seconds / dt;
-  const bool solves_all = c.integrator == Integrator::backward_euler || physics::solves_contact(c.integrator);
-  const int solves = solves_all ? c.iterations : 0;
+  const int solves = physics::solves_contact(c.integrator) ? c.iterations : 0;
   const double forces = w.steps * (c.integrator == Integrator::rk4 ? 4 : std::max(solves, 1));
   if (c.integrator == Integrator::xpbd) {
     w.sweeps = w.steps * c.iterations * springs_of(cloth);
@@ -193,7 +179,7 @@ double predicted_cost(const Candidate& c, const SceneCloth& scene, double second
     w.hinges = forces * (static_cast<double>(cloth.hinges.size()) + physics::count_coupled(cloth));
   }
   add_body(w, scene, w.steps * std::max(scene.near_body / 2.0, w.vertices / 10), seconds);
-  factorised(w, c.integrator) = w.steps * solves;
+  w.iterations = w.steps * solves;
   return cost_with(w, c.integrator);
 }
 
@@ -205,7 +191,7 @@ double counted_cost(const physics::SimulateReport& r, const Candidate& c, const 
   w.triangles = static_cast<double>(r.triangle_evaluations);
   w.hinges = static_cast<double>(r.hinge_evaluations);
   add_body(w, scene, static_cast<double>(r.collider_queries), r.time);
-  factorised(w, c.integrator) = static_cast<double>(r.factorisations);
+  w.iterations = static_cast<double>(r.factorisations);
   if (c.integrator == Integrator::xpbd)
     w.sweeps = static_cast<double>(r.iterations) * springs_of(scene.cloth);
   return cost_with(w, c.integrator);

@@ -11,18 +11,17 @@
 /// wind, of 808, 3,150 and 12,414 vertices, beside leapfrog. Only the ratios matter.
 namespace furrow::jobs {
 
-struct Work {                 ///< counts of a run
-  double vertices = 0;        ///< of the cloth
-  double steps = 0;           ///< by `vertex_step`
-  double springs = 0;         ///< evaluations of a spring's force
-  double triangles = 0;       ///< of a membrane triangle's
-  double hinges = 0;          ///< of a hinge's
-  double queries = 0;         ///< of a rigid body's distance at a vertex
-  double frame_queries = 0;   ///< of the distance of one that changes its shape
-  double samples = 0;         ///< exact distances, for the fields of its frames
-  double factorisations = 0;  ///< with a solve each
-  double iterations = 0;      ///< of Newton's method, in steps that solve contact
-  double sweeps = 0;          ///< XPBD's, times springs
+struct Work {                ///< counts of a run
+  double vertices = 0;       ///< of the cloth
+  double steps = 0;          ///< by `vertex_step`
+  double springs = 0;        ///< evaluations of a spring's force
+  double triangles = 0;      ///< of a membrane triangle's
+  double hinges = 0;         ///< of a hinge's
+  double queries = 0;        ///< of a rigid body's distance at a vertex
+  double frame_queries = 0;  ///< of the distance of one that changes its shape
+  double samples = 0;        ///< exact distances, for the fields of its frames
+  double iterations = 0;     ///< of Newton's method, in steps that solve contact
+  double sweeps = 0;         ///< XPBD's, times springs
 };
 
 struct CostTable {                  ///< [s]
@@ -35,10 +34,8 @@ struct CostTable {                  ///< [s]
   double frame_query = 470e-9;  ///< with its share of the closest points, and two fields
   double sample = 1.2e-6;
   double sweep = 8.5e-9;            ///< of XPBD, a spring
-  double factorisation = 2.55e-6;   ///< with assembly, a vertex
-  double fill = 4.7e-10;            ///< and times vertices^2: the factor fills in
-  double iteration = 1.9e-6;        ///< of such steps, a vertex: assembly, factors of single precision
-  double iteration_fill = 1.3e-10;  ///< and times vertices^2
+  double iteration = 1.9e-6;        ///< of implicit steps, a vertex: assembly, factors of single precision
+  double iteration_fill = 1.3e-10;  ///< and times vertices^2: the factor fills in
 };
 constexpr CostTable costs;
 
@@ -47,8 +44,7 @@ constexpr double cost_of(const Work& w, double vertex_step) {
   const CostTable& c = costs;
   return w.vertices * w.steps * vertex_step + w.springs * c.spring + w.triangles * c.triangle +
          w.hinges * c.hinge + w.queries * c.query + w.frame_queries * c.frame_query + w.samples * c.sample +
-         w.sweeps * c.sweep + w.factorisations * w.vertices * (c.factorisation + c.fill * w.vertices) +
-         w.iterations * w.vertices * (c.iteration + c.iteration_fill * w.vertices);
+         w.sweeps * c.sweep + w.iterations * w.vertices * (c.iteration + c.iteration_fill * w.vertices);
 }
 
 }  // namespace furrow::jobs

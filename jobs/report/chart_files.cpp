@@ -53,8 +53,6 @@ const char* colour_of(physics::Integrator integrator) {
       return "#1f4e9e";
     case physics::Integrator::rk4:
       return "#7b3fa0";
-    case physics::Integrator::backward_euler:
-      return "#2e7d32";
     case physics::Integrator::xpbd:
       return "#c77700";
     case physics::Integrator::implicit:

@@ -25,7 +25,6 @@ double cost_of_step(const physics::SimulateOptions& o, const physics::Cloth& clo
   work.hinges = forces * double(int(cloth.hinges.size()) + physics::count_coupled(cloth));
   if (has_body) work.queries = forces * work.vertices / 10;
   if (o.integrator == physics::Integrator::xpbd) work.sweeps = o.xpbd.iterations * springs;
-  if (o.integrator == physics::Integrator::backward_euler) work.factorisations = 1;
   if (physics::solves_contact(o.integrator)) work.iterations = physics::usual_iterations(o.integrator);
   return cost_of(work, four_times ? costs.rk4_vertex_step : costs.vertex_step);
 }
@@ -33,8 +32,7 @@ double cost_of_step(const physics::SimulateOptions& o, const physics::Cloth& clo
 Observation observation_of(const physics::SimulateOptions& options, const physics::Cloth& cloth,
                            bool has_body, bool animated) {
   Observation observation;
-  if (options.integrator == physics::Integrator::backward_euler ||
-      physics::solves_contact(options.integrator)) {
+  if (physics::solves_contact(options.integrator)) {
     observation.steps = 1;
     return observation;
   }

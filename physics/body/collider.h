@@ -34,7 +34,7 @@ struct ContactAnchor {
   Vec3 plane = Vec3::Zero();   ///< normal that it was set with: friction is across it
   double limit = -1;           ///< of friction [N]; < 0: no anchor
   bool slides = false;         ///< dragged its anchor last time
-  double nearer = 0;           ///< by which the body lets it in, as it began nearer than the gap [m]; >= 0
+  double nearer = 0;           ///< than the gap, by so much: it began there, or has no more room [m]; >= 0
   bool operator==(const ContactAnchor&) const = default;
 };
 

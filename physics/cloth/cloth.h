@@ -63,8 +63,8 @@ struct MembraneTriangle {
 /// compressed ones; see each element); or what lies between.
 struct Stiffness {
   double clamped;  ///< share of the way from the Hessian to the semidefinite part [-]; in [0, 1]
-  /// An energy may couple fewer particles than its Hessian does, and answer with something spectrally near: for
-  /// searches, whose end does not depend on it. As many blocks, and where, each time.
+  /// An energy may couple fewer particles than its Hessian does, and answer with something spectrally near:
+  /// for searches, whose end does not depend on it. As many blocks, and where, each time.
   bool narrow = false;
   static const Stiffness exact, positive_part;
   bool operator==(const Stiffness&) const = default;
@@ -82,9 +82,8 @@ class PackedEnergy;  // packed_energy.h
 /// not change the object, and may be called by one thread after another.
 /// \details Equal arguments must give equal results, or runs do not repeat. What each part of the library
 /// asks:
-///  - simulate: forces. It gets no dashpots of its own. Backward Euler takes the force as that of the step's
-///    beginning where there is no stiffness, and is stable only as far as it is soft then. XPBD refuses it:
-///    it knows constraints alone.
+///  - simulate: forces. It gets no dashpots of its own. Implicit steps do not see how the force changes
+///    where there is no stiffness, and take more iterations. XPBD refuses it: it knows constraints alone.
 ///  - The limit of a step: the positive part of the stiffness, or, without, differences of forces.
 ///  - settle: energy and forces; without stiffness Newton's method does not see how the force changes: the
 ///    same rest, by more iterations.
@@ -107,8 +106,8 @@ class Energy {
     return energy(x);
   }
 
-  /// The same energy for callers that keep particles at places of their own, place[i] of particle i, in vectors
-  /// of four; null: there is none, and they ask add_forces().
+  /// The same energy for callers that keep particles at places of their own, place[i] of particle i, in
+  /// vectors of four; null: there is none, and they ask add_forces().
   virtual std::shared_ptr<const PackedEnergy> packed(std::span<const int> /*place*/) const { return nullptr; }
 
   /// Hands out the blocks of K = d2E/dx2 [N/m] as add_stiffness() of elements.h does: both (i, j) and (j, i),

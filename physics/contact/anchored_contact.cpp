@@ -35,7 +35,6 @@ AnchoredContact::AnchoredContact(const Collider& collider, const AnchoredContact
   require(operation, "friction", options.friction, options.friction >= 0, ">= 0");
   require(operation, "gap", options.gap, options.gap > 0, "> 0");
   require(operation, "stiffness", options.stiffness, options.stiffness > 0, "> 0");
-  for (Touch& t : touches_) t.gap = options.gap;
 }
 
 double AnchoredContact::depth_of(double force) const {
@@ -43,15 +42,19 @@ double AnchoredContact::depth_of(double force) const {
   return force < 0.5 * k * s ? std::sqrt(2 * force * s / k) : force / k + 0.5 * s;
 }
 
+Vec3 AnchoredContact::in_frame(const Vec3& x) const {
+  return place_ ? Vec3(place_->rotation.transpose() * (x - place_->translation)) : x;
+}
+
 void AnchoredContact::look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool) {
   for_all(pool, x.size(), [&](std::size_t i) {
     Touch& t = touches_[i];
-    t.x = place_ ? Vec3(place_->rotation.transpose() * (x[i] - place_->translation)) : x[i];
+    t.x = in_frame(x[i]);
     t.energy = t.push = t.stiffness = 0;
     if (!(inv_mass[i] > 0)) return;
     const SignedDistance field = collider_.smooth_at(t.x);
     const double slope = field.gradient.norm();
-    const double depth = t.gap - t.nearer - field.value;
+    const double depth = options_.gap - t.nearer - field.value;
     const SoftPush push = soft_push(depth, options_.stiffness, soft_);
     t.energy = push.energy;
     if (!(push.force > 0) || !(slope > 0)) return;
@@ -175,17 +178,23 @@ void AnchoredContact::set_anchors(std::span<const ContactAnchor> anchors) {
   for (std::size_t i = 0; i < anchors.size(); ++i) static_cast<ContactAnchor&>(touches_[i]) = anchors[i];
 }
 
-void AnchoredContact::make_room(std::span<const Vec3> from, std::span<const Vec3> to,
-                                std::span<const double> inv_mass) {
+int AnchoredContact::make_room(std::span<const Vec3> from, std::span<const Vec3> to,
+                               std::span<const double> inv_mass) {
+  int squeezed = 0;
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     Touch& t = touches_[i];
-    if (!(inv_mass[i] > 0) || (to[i] - from[i]).norm() > t.gap) continue;
-    const SignedDistance here = collider_.smooth_at(from[i]), there = collider_.smooth_at(to[i]);
+    const double gap = options_.gap - t.nearer;
+    if (!(inv_mass[i] > 0) || (to[i] - from[i]).norm() > gap) continue;
+    const SignedDistance here = collider_.smooth_at(in_frame(from[i])),
+                         there = collider_.smooth_at(in_frame(to[i]));
     const double most = std::max(here.value, there.value);
-    if (!(most < t.gap)) continue;
+    if (!(most < gap)) continue;
     const double cosine = here.gradient.dot(there.gradient) / (here.gradient.norm() * there.gradient.norm());
-    if (cosine < 0.5) t.gap = most > 0 ? 0.5 * most : 2 * most;
+    if (!(cosine < 0.5)) continue;
+    t.nearer = options_.gap - (most > 0 ? 0.5 : 2) * most;
+    ++squeezed;
   }
+  return squeezed;
 }
 
 void AnchoredContact::stiffen(double factor, std::span<Vec3> x) {

@@ -50,13 +50,13 @@ class AnchoredContact {
   /// Where the body leaves less room than the gap (between two fingers, under an arm), pushes from both sides
   /// meet in a kink at which no step succeeds. A particle may be pushed at `from` and, less than the gap
   /// away, from another side at `to` (normals over 60 degrees apart). From now on it rests within half the
-  /// distance [m] that it has there; the next look() sees it.
-  void make_room(std::span<const Vec3> from, std::span<const Vec3> to, std::span<const double> inv_mass);
+  /// distance [m] that it has there; the next look() sees it. Returns how many that are.
+  int make_room(std::span<const Vec3> from, std::span<const Vec3> to, std::span<const double> inv_mass);
   /// From here on the soft layer is `factor` times thinner and the push beyond it factor^2 times as stiff. A
   /// pushed particle moves out to where the push is what it was, in x, the positions of the last look().
   void stiffen(double factor, std::span<Vec3> x);
   /// For a body that moves: from here on it stands at `place`, and all positions are the world's. Anchors
-  /// stay where they are on it. Not together with make_room() and stiffen().
+  /// stay where they are on it. Not together with stiffen().
   void place_body(const BodyPlace& place) { place_ = place; }
   /// For a body that changes its shape: each anchor goes the way [m] of the surface that it lies on.
   void carry_anchors(const std::function<Vec3(const Vec3&)>& way);
@@ -66,7 +66,7 @@ class AnchoredContact {
   /// For motion, so that what begins deep in the gap is not shot out: a particle that is pushed by more than
   /// this [N, one a particle] may lie as deep as it does for now, and is pushed by this. Call look() again.
   void let_in(std::span<const double> push);
-  /// What was let in may lie less deep by so much [m]; the next look() sees it.
+  /// What was let in, or has less room, may lie less deep by so much [m]; the next look() sees it.
   void lead_out(double by);
   std::vector<ContactAnchor> anchors() const;
   /// Throws std::invalid_argument for another number of anchors than of particles.
@@ -79,10 +79,10 @@ class AnchoredContact {
     Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
     double energy = 0, push = 0, stiffness = 0;  ///< of the push [J], [N], [N/m]; 0: apart
     double depth = 0, slope = 1;                 ///< inside the gap [m]; length of the body's gradient [-]
-    double gap;                                  ///< [m]; the option, unless make_room() lowered it
     /// From the anchor, along the surface [m].
     Vec3 way() const { return x - anchor - plane.dot(x - anchor) * plane; }
   };
+  Vec3 in_frame(const Vec3& x) const;   ///< the body's [m]
   Vec3 force_of(const Touch& t) const;  ///< in the body's frame [N]
   double depth_of(double force) const;  ///< where soft_push() gives that force
 

@@ -121,8 +121,7 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
                   state.time);
   if (state.step > 0) motion_->work() = {};  // counted by the call that ended here
   recall();
-  stepper_ = make_stepper(
-      *motion_, {options.integrator, options.backward_euler, options.xpbd, options.implicit, options.self});
+  stepper_ = make_stepper(*motion_, {options.integrator, options.xpbd, options.implicit, options.self});
   if (solves_contact(options.integrator) && state.planned) stepper_->recall(state.steps);
   length_.emplace(cloth, options, state);
 }
@@ -236,8 +235,7 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
 /// false: the step was cancelled, or there is no room for it, and all is as it was before it.
 bool Simulation::make_step(double to) {
   const WorkCounts work = motion_->work();
-  const bool may_break = leader_ && (pairs_ || options_.integrator == Integrator::backward_euler ||
-                                     solves_contact(options_.integrator));
+  const bool may_break = leader_ && (pairs_ || solves_contact(options_.integrator));
   const auto v = may_break ? motion_->cloth().v : decltype(motion_->cloth().v){};
   if (pairs_ && state_.step % widening_steps == 0) pairs_->widen(motion_->cloth());
   motion_->begin_step(state_.time, to);

@@ -169,7 +169,6 @@ enum class Integrator {
   leapfrog,        ///< order 2, symplectic, one force a step; the choice for cloth that moves
   explicit_euler,  ///< order 1; gains energy at any step
   rk4,             ///< order 4, four forces a step; loses energy slowly
-  backward_euler,  ///< order 1, stable at any step, damps; a sparse Cholesky solve a step
   xpbd,            ///< backward Euler by sweeps over the springs: stable at any step, stiffness needs sweeps
   implicit,        ///< backward Euler with contact in the solve, by minimisation: the choice for stiff cloth
   tr_bdf2          ///< the same of order 2, at twice the cost a step
@@ -182,20 +181,10 @@ constexpr bool solves_contact(Integrator i) { return i == Integrator::implicit |
 constexpr int usual_iterations(Integrator i) { return i == Integrator::tr_bdf2 ? 6 : 3; }
 
 /// Whether steps of any length are stable, so that no limit is estimated.
-constexpr bool is_unconditionally_stable(Integrator i) {
-  return i == Integrator::backward_euler || i == Integrator::xpbd || solves_contact(i);
-}
+constexpr bool is_unconditionally_stable(Integrator i) { return i == Integrator::xpbd || solves_contact(i); }
 
 /// Their steps if none is asked for [s]: XPBD gains more from short steps than from many sweeps.
-constexpr double default_dt(Integrator i) {
-  if (solves_contact(i)) return 1.0 / 60;
-  return i == Integrator::xpbd ? 1.0 / 1200 : 1.0 / 240;
-}
-
-struct BackwardEulerOptions {
-  int newton_iterations = 1;        ///< at most; 1: linearised once (Baraff & Witkin 1998); >= 1
-  double newton_tolerance = 1e-10;  ///< of velocities: sooner when an iteration changes none more [m/s]; >= 0
-};
+constexpr double default_dt(Integrator i) { return i == Integrator::xpbd ? 1.0 / 1200 : 1.0 / 60; }
 
 struct XpbdOptions {
   int iterations = 10;   ///< sweeps over all springs a step, at most; >= 1
@@ -210,8 +199,8 @@ struct ImplicitOptions {
 };
 
 /// Contact of the cloth with itself: no step ever passes through cloth. Implicit steps solve it with the rest
-/// (ClothContact); all others respond to it (PairResponse). Where nothing is near, nothing
-/// changes, bit by bit.
+/// (ClothContact); all others respond to it (PairResponse). Where nothing is near, nothing changes, bit by
+/// bit.
 struct SelfContactOptions {
   bool on = false;
   double thickness = 1e-3;  ///< of the cloth [m]; > 0; where edges are short, it counts as thinner
@@ -244,7 +233,6 @@ struct SimulateOptions {
   double contact_gap = 0.003;    ///< distance at which cloth rests on the body [m]; > 0
   double recovery_speed = 0.1;   ///< how fast vertices that start too deep are taken out [m/s]; > 0
   Integrator integrator = Integrator::leapfrog;
-  BackwardEulerOptions backward_euler;
   XpbdOptions xpbd;
   ImplicitOptions implicit;
   SelfContactOptions self;

@@ -28,6 +28,11 @@ double longest_length(const std::vector<Vec3>& move) {
   return longest;
 }
 
+std::vector<Vec3> moved(std::vector<Vec3> x, double share, const std::vector<Vec3>& way) {
+  add_multiple(x, share, way);
+  return x;
+}
+
 /// Where the parabola through the energy, its slope and the energy at `share` is least.
 double least_of_parabola(double share, double slope, double rise) {
   const double curvature = rise - slope * share;
@@ -209,28 +214,37 @@ StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<V
   const bool touches = pairs_ && pairs_->acts();
   const double most = touches ? std::min(longest_in_cloth, options.longest_move) : options.longest_move;
   double share = longest > most ? most / longest : 1;
-  if (!(slope < 0) || !std::isfinite(longest)) return {0, false};
+  if (!(slope < 0) || !std::isfinite(longest)) return {0, false, false};
   bool cut = false;
   if (pairs_) {
     const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
-    const double wanted = share;
-    share = pairs_->safe_share(x, move, wanted, &pool_);
-    cut = share < 0.5 * wanted;
+    const double open = share;
+    share = pairs_->safe_share(x, move, open, &pool_);
+    cut = share < 0.5 * open;
   }
+  const double wanted = share;
   for (const double least = least_move_share * share; share > least;) {
-    std::vector<Vec3> trial = x;
-    add_multiple(trial, share, move);
+    std::vector<Vec3> trial = moved(x, share, move);
     Answer there = look(trial);
     const double rise = there.energy - here.energy;
     if (rise <= armijo * share * slope + energy_rounding * here.terms) {
+      const bool room = share < wanted && make_room(x, moved(x, wanted, move));
       x = std::move(trial);
-      here = std::move(there);
-      return {share, cut};
+      here = room ? look(x) : std::move(there);
+      return {share, cut, room};
     }
     share = least_of_parabola(share, slope, rise);
   }
-  look(x);
-  return {0, cut};
+  const bool room = make_room(x, moved(x, wanted, move));
+  here = look(x);
+  return {0, cut, room};
+}
+
+/// For what the body pushes from two sides. Whether there is such.
+bool StepSearch::make_room(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+  if (!contact_) return false;
+  const WorkClock::Within contact_part(clock_, WorkPart::contact);
+  return contact_->anchored().make_room(from, to, cloth_.particles.inv_mass) > 0;
 }
 
 bool StepSearch::rubs() const { return contact_ || (pairs_ && pairs_->rubs()); }
@@ -273,7 +287,7 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
     const bool small = length <= enough && longest <= longest_enough * enough;
     if (small && !way.cut) return {true, iteration};
     const bool at_rounding = std::abs(dot(here.net, move)) <= least_fall * here.terms;
-    if (way.share == 0 && !keep_factors && !way.cut) return {at_rounding, iteration};
+    if (way.share == 0 && !keep_factors && !way.cut && !way.room) return {at_rounding, iteration};
     keep_factors = way.share == 1 && length <= short_move * options.tolerance;
   }
   return {false, options.most};

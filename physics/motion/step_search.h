@@ -68,6 +68,7 @@ class StepSearch {
   struct Way {
     double share;  ///< 0: nothing
     bool cut;      ///< as the cloth is in its own way, to less than half
+    bool room;     ///< was made for what the body pushes from two sides: the energy is another one now
   };
   struct Answer {
     std::vector<Vec3> net;   ///< minus the gradient [N]; 0 on what is held
@@ -86,6 +87,7 @@ class StepSearch {
   void couple_pairs();
   void factorise(const std::vector<Vec3>& x);
   std::vector<Vec3> solve(std::vector<Vec3> net);
+  bool make_room(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
   Way advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
               const SearchOptions& options);
   double mean_length(const std::vector<Vec3>& move) const;

@@ -3,7 +3,6 @@
 
 #include <stdexcept>
 
-#include "physics/motion/backward_euler.h"
 #include "physics/motion/euler_step.h"
 #include "physics/motion/implicit_step.h"
 #include "physics/motion/leapfrog_step.h"
@@ -35,8 +34,6 @@ std::unique_ptr<Stepper> make_stepper(Motion& motion, const StepperOptions& opti
       return std::make_unique<PlainStepper>(motion, euler_step);
     case Integrator::rk4:
       return std::make_unique<Rk4>(motion);
-    case Integrator::backward_euler:
-      return std::make_unique<BackwardEuler>(motion, options.backward_euler);
     case Integrator::xpbd:
       return std::make_unique<Xpbd>(motion, options.xpbd);
     case Integrator::implicit:

@@ -34,8 +34,7 @@ struct StepBlocked : std::exception {
 
 struct StepperOptions {
   Integrator integrator = Integrator::leapfrog;
-  BackwardEulerOptions backward_euler;
-  XpbdOptions xpbd;
+  XpbdOptions xpbd = {};
   ImplicitOptions implicit = {};
   SelfContactOptions self = {};
 };

@@ -16,7 +16,7 @@ namespace furrow::physics {
 /// after the sweeps. The impulses act on velocities; positions follow them in the one move at the end, so
 /// that rounding does not reach momentum through differences of positions.
 /// Rather than projective dynamics, whose factor serves only while dt, masses, pins and springs stay: lines
-/// add springs, and backward_euler.h solves globally already. Sweeps need no matrix and run on threads. Cost:
+/// add springs, and implicit_step.h solves globally already. Sweeps need no matrix and run on threads. Cost:
 /// `iterations` passes over the springs, each with a square root and two divisions a spring. Sources:
 /// Macklin, Müller, Chentanez, XPBD, MIG 2016; Macklin et al., Small Steps, SCA 2019.
 class Xpbd : public Stepper {

@@ -121,7 +121,7 @@ RestCase in_small_units(RestCase c) {
   physics::SimulateOptions& o = c.options;
   o.seconds *= time, o.dt_max *= time, o.gravity *= length / (time * time), o.air_drag /= time;
   if (o.dt) *o.dt *= time;
-  o.speed_limit *= length / time, o.backward_euler.newton_tolerance *= length / time;
+  o.speed_limit *= length / time;
   o.xpbd.tolerance *= length;
   c.metre *= length, c.second *= time;
   return c;

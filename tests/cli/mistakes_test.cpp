@@ -106,7 +106,7 @@ const Mistake mistakes[] = {
      "cotton-twill; did you mean cotton?"},
     {"an integrator misspelt", "simulate {m}/sheet.obj --integrator leapfrogg -o {d}/o.ply", 2,
      "error: --integrator: simulation.integrator = \"leapfrogg\" is none of auto, leapfrog, euler, rk4, "
-     "backward-euler, xpbd, implicit, tr-bdf2; did you mean leapfrog?"},
+     "xpbd, implicit, tr-bdf2; did you mean leapfrog?"},
     {"a time below 0", "simulate {m}/sheet.obj --seconds -1 -o {d}/o.ply", 2,
      "error: --seconds: simulation.seconds = -1 must be a number >= 0 [s]"},
     {"a step that is too long", "simulate {m}/sheet.obj --dt 1 --seconds 2 -o {d}/o.ply", 2,

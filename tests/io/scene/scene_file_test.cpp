@@ -91,7 +91,6 @@ seconds = 3
 stop_at = 1
 integrator = "euler"
 sweeps = 4
-newton = 5
 threads = 2
 [output]
 mesh = "o.ply"
@@ -130,7 +129,6 @@ fps = 30
   CHECK(s.stop_at == 1.0);
   CHECK(s.simulation.integrator == physics::Integrator::explicit_euler);
   CHECK(s.simulation.xpbd.iterations == 4);
-  CHECK(s.simulation.backward_euler.newton_iterations == 5);
   CHECK(s.output.animation == "a/o.pc2");
   CHECK(s.output.fps == 30);
 }

@@ -74,15 +74,14 @@ void check_changes(const RestCase& c) {
 
 TEST_CASE("metamorphic: a chain hangs where it hangs, whatever the frame, order, unit, step and damping",
           "[release]") {
-  for (const Integrator i :
-       {Integrator::leapfrog, Integrator::rk4, Integrator::backward_euler, Integrator::xpbd}) {
+  for (const Integrator i : {Integrator::leapfrog, Integrator::rk4, Integrator::implicit, Integrator::xpbd}) {
     check_changes(chain(i));
   }
 }
 
 TEST_CASE("metamorphic: a cantilever bends as it bends, whatever the frame, order, unit, step and damping",
           "[release]") {
-  for (const Integrator i : {Integrator::leapfrog, Integrator::rk4, Integrator::backward_euler}) {
+  for (const Integrator i : {Integrator::leapfrog, Integrator::rk4, Integrator::implicit}) {
     check_changes(strip(i));
   }
 }

@@ -45,8 +45,8 @@ std::size_t crossings_of(const Cloth& cloth) {
 }  // namespace
 
 TEST_CASE("self_contact: where nothing is near a motion has the same bits as without") {
-  const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2, Integrator::leapfrog,
-                                         Integrator::rk4, Integrator::backward_euler);
+  const Integrator integrator =
+      GENERATE(Integrator::implicit, Integrator::tr_bdf2, Integrator::leapfrog, Integrator::rk4);
   Cloth without = level_sheet(0.3, 8, 0, 0, 5);
   pin(without.particles, std::vector<int>{0, 8});
   Cloth with = without;
@@ -63,8 +63,8 @@ TEST_CASE("self_contact: where nothing is near a motion has the same bits as wit
 }
 
 TEST_CASE("self_contact: a sheet that falls onto another never passes through it") {
-  const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2, Integrator::leapfrog,
-                                         Integrator::rk4, Integrator::backward_euler);
+  const Integrator integrator =
+      GENERATE(Integrator::implicit, Integrator::tr_bdf2, Integrator::leapfrog, Integrator::rk4);
   Cloth cloth = falling_sheets();
   std::size_t crossed = 0;
   const SimulateReport report =

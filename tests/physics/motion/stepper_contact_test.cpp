@@ -25,7 +25,7 @@ Slide slide(Integrator integrator, double friction, double angle, double dt, dou
   BodyContact contact(floor, {.friction = friction, .gap = gap}, int(cloth.particles.size()));
   const Loads loads{.gravity = g * Vec3(std::sin(angle), -std::cos(angle), 0), .spring_damping = 0.5};
   const Particles end =
-      after(cloth, loads, {integrator, {}, {}}, dt, int(std::lround(seconds / dt)), 1, {.contact = &contact});
+      after(cloth, loads, {integrator}, dt, int(std::lround(seconds / dt)), 1, {.contact = &contact});
   Slide result{Vec3::Zero(), Vec3::Zero(), 0};
   const double n = double(end.size());
   for (std::size_t i = 0; i < end.size(); ++i) {
@@ -85,7 +85,7 @@ TEST_CASE("stepper: pins are led with each integrator, and what they hold follow
   PinLeader leader(pins, homes);
   const double dt = step_of(integrator), seconds = 1;
   const Particles end = after(cloth, {.gravity = Vec3::Zero(), .air_drag = 3, .spring_damping = 0.3},
-                              {integrator, {}, {}}, dt, int(std::lround(seconds / dt)), 1, {.pins = &leader});
+                              {integrator}, dt, int(std::lround(seconds / dt)), 1, {.pins = &leader});
   CAPTURE(int(integrator));
   const Vec3 way(0.4, 0, 0.1);
   for (const std::size_t i : {0, 4}) {

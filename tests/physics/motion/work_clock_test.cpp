@@ -10,8 +10,7 @@ using namespace furrow::physics;
 using namespace furrow::tests;
 
 TEST_CASE("work_clock: what processor time went to is told where it is asked for, and changes no bit") {
-  const Integrator integrator =
-      GENERATE(Integrator::leapfrog, Integrator::backward_euler, Integrator::implicit);
+  const Integrator integrator = GENERATE(Integrator::leapfrog, Integrator::implicit);
   Cloth plain = sheet(8, 8, 0.05, 0.1, 4);
   SimulateOptions o;
   o.integrator = integrator;
