@@ -41,6 +41,18 @@ void open_browser(const std::string& url) {
   waitpid(child, nullptr, 0);
 }
 
+/// Scenes that come with the program: where it is installed, or built.
+std::filesystem::path gallery_folder() {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  fs::path at = fs::read_symlink("/proc/self/exe", none).parent_path();
+  const fs::path installed = at.parent_path() / "share/furrow/scenes/studio";
+  if (fs::is_directory(installed, none)) return installed;
+  for (int up = 0; up < 3; ++up, at = at.parent_path())
+    if (fs::is_directory(at / "scenes/studio", none)) return at / "scenes/studio";
+  return {};
+}
+
 /// The folder of a new drawing: beside nothing, in the working directory, named after what is drawn on.
 std::filesystem::path project_of(const StudioArguments& a) {
   if (!a.project.empty()) return a.project;
@@ -48,17 +60,24 @@ std::filesystem::path project_of(const StudioArguments& a) {
 }
 
 std::unique_ptr<studio::Studio> open_studio(const StudioArguments& a) {
+  const studio::Places places{gallery_folder()};
+  if (a.in.empty()) {
+    if (!a.flags.first().empty() || !a.project.empty())
+      throw UsageError((a.project.empty() ? a.flags.first() : "--project") +
+                       ": belongs to a garment, which is not named");
+    return std::make_unique<studio::Studio>(places, a.port);
+  }
   if (std::filesystem::is_directory(a.in)) {
     if (!studio::Studio::is_project(a.in))
       throw UsageError(a.in + ": is a folder, but no project of the studio; name a garment or a scene");
     if (!a.flags.first().empty())
       throw UsageError(a.flags.first() + ": the project " + a.in + " has its own; leave it out");
-    return std::make_unique<studio::Studio>(std::filesystem::path(a.in), a.port);
+    return std::make_unique<studio::Studio>(std::filesystem::path(a.in), a.port, places);
   }
   SceneInput scene;
   scene.settings = scene_settings(a.in, "", std::nullopt, a.flags, a);
   if (is_scene(a.in)) scene.folder = std::filesystem::path(a.in).parent_path();
-  return std::make_unique<studio::Studio>(scene, project_of(a), a.port);
+  return std::make_unique<studio::Studio>(scene, project_of(a), a.port, places);
 }
 
 /// Does all that a project's log says once more, and compares.
@@ -98,13 +117,18 @@ int serve(const StudioArguments& a) {
   if (a.headless)
     throw UsageError("--headless: belongs to --replay; --no-browser serves without opening one");
   const std::unique_ptr<studio::Studio> studio = open_studio(a);
-  const std::string project =
-      std::filesystem::is_directory(a.in) ? std::string(a.in) : project_of(a).string();
+  const std::string project = a.in.empty()                          ? std::string()
+                              : std::filesystem::is_directory(a.in) ? std::string(a.in)
+                                                                    : project_of(a).string();
   if (a.json) {
-    print_report({{"url", studio->url()}, {"project", project}}, a);
+    print_report({{"url", studio->url()}, {"project", project.empty() ? Json() : Json(project)}}, a);
   } else {
     std::cout << "The studio is open: " << studio->url() << "\n";
-    if (!a.quiet)
+    if (!a.quiet && project.empty())
+      std::cout
+          << "Choose a garment there, or drop yours on the page; drawings are kept in folders of this one.\n"
+             "Ctrl-C ends it.\n";
+    else if (!a.quiet)
       std::cout << "Every step is kept in " << project << "; go on later with: furrow studio " << project
                 << "\nCtrl-C ends it.\n";
   }
@@ -128,13 +152,15 @@ void add_studio(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<StudioArguments>();
   CLI::App* sub = app.add_subcommand("studio",
                                      "Draw on a garment with a pen, in the browser, and watch it wrinkle\n\n"
+                                     "  furrow studio\n"
                                      "  furrow studio skirt.obj --body body.obj\n"
                                      "  furrow studio scene.toml --project tuesday\n"
                                      "  furrow studio skirt-studio\n"
                                      "  furrow studio --replay skirt-studio --headless");
-  sub->add_option("garment", a->in,
-                  "garment to draw on, a scene (a .toml file), or the folder of a drawing to go on with")
-      ->required();
+  sub->add_option(
+      "garment", a->in,
+      "garment to draw on, a scene (a .toml file), or the folder of a drawing to go on with; none: "
+      "it is chosen in the page");
   sub->add_option("--project", a->project,
                   "folder in which every step is kept; made if it is not there (default: the garment's name "
                   "and -studio)");

@@ -14,6 +14,12 @@ foreach(component IN LISTS furrow_built)
     install(TARGETS furrow RUNTIME COMPONENT program)
     if(furrow_studio)  # of what is in the page
       install(FILES ${furrow_page}/licences.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/studio COMPONENT program)
+      # Its gallery, whose scenes name the meshes by relative paths.
+      install(DIRECTORY scenes/studio DESTINATION ${CMAKE_INSTALL_DATADIR}/furrow/scenes COMPONENT program)
+      install(FILES meshes/skirt.obj meshes/shirt.obj meshes/hung_sheet.obj meshes/mannequin.obj
+              DESTINATION ${CMAKE_INSTALL_DATADIR}/furrow/meshes COMPONENT program)
+      install(FILES meshes/strokes/figure_skirt.json DESTINATION ${CMAKE_INSTALL_DATADIR}/furrow/meshes/strokes
+              COMPONENT program)
     endif()
     if(NOT CMAKE_CROSSCOMPILING)
       set(words ${PROJECT_BINARY_DIR}/words)

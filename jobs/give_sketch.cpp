@@ -5,7 +5,9 @@
 
 #include "bridge/convert.h"
 #include "io/animation/animation_file.h"
+#include "jobs/bake.h"
 #include "jobs/transfer.h"
+#include "physics/base/progress.h"
 
 namespace furrow::jobs {
 namespace {
@@ -37,17 +39,36 @@ void write_on_original(const fs::path& path, const fs::path& original, io::MeshF
   transfer(job, replacing);
 }
 
+/// The original in the sketch's shape, and what that misses of it, as textures.
+fs::path write_maps(const fs::path& folder, const fs::path& original, io::MeshFile drawn, const Frame& frame,
+                    Listener& listener) {
+  Replacing replacing(listener);
+  TransferJob shape;
+  shape.original = original;
+  shape.wrinkled = drawn;
+  shape.frame = frame;
+  BakeJob job;
+  job.low = transfer(shape, replacing).result;
+  job.high = std::move(drawn);
+  job.frame = frame;
+  job.prefix = (folder / original.stem()).string();
+  const BakeReport report = bake(job, replacing);
+  if (!report.ran) throw physics::Cancelled("cancelled");
+  return report.written.front();
+}
+
 }  // namespace
 
 fs::path give_sketch(const Sketch& sketch, const Json& strokes, const std::string& as,
                      const fs::path& original, const fs::path& folder, Listener& listener) {
-  const bool on_original = as == "original";
-  if (!on_original && as != "ply" && as != "obj" && as != "glb")
-    throw std::invalid_argument("as: is none of ply, obj, glb and original");
+  const bool on_original = as == "original", maps = as == "maps";
+  if (!on_original && !maps && as != "ply" && as != "obj" && as != "glb")
+    throw std::invalid_argument("as: is none of ply, obj, glb, original and maps");
   io::MeshFile drawn = draw_sketch(sketch, strokes, listener).file;
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) throw std::runtime_error(folder.string() + ": cannot be made: " + failed.message());
+  if (maps) return write_maps(folder, original, std::move(drawn), sketch.frame, listener);
   const std::string name = original.stem().string();
   const fs::path path =
       folder / (on_original ? name + "-original" + original.extension().string() : name + "." + as);

@@ -144,6 +144,31 @@ Json with_vertex_toggled(const Sketch& sketch, const std::array<double, 3>& poin
   return with_single(std::move(pins), single);
 }
 
+Json with_vertices(const Sketch& sketch, const std::vector<int>& vertices, bool held) {
+  const geometry::Mesh& mesh = sketch.garment.mesh;
+  const std::set<int> before = held_vertices(sketch);
+  Json pins = pins_of(sketch);
+  std::set<int> single = take_single(pins);
+  const std::size_t singles = single.size();
+  bool others = false;  // pins of another kind hold one
+  for (const int v : vertices) {
+    if (v < 0 || std::size_t(v) >= mesh.number_of_vertices() || mesh.is_isolated(geometry::Vertex(v)))
+      continue;
+    const bool is_single = single.count(v) > 0;
+    if (!is_single && before.count(v))
+      others = true;
+    else if (held)
+      single.insert(v);
+    else
+      single.erase(v);
+  }
+  if (single.size() != singles) return with_single(std::move(pins), single);
+  if (others && !held)
+    throw std::invalid_argument("a border or pins of the scene hold these vertices; let that border go");
+  throw std::invalid_argument(held ? "there is no vertex to hold in there that is not held already"
+                                   : "nothing in there is held");
+}
+
 Json pins_after(const Sketch& sketch, const io::MeshFile& made) {
   const std::vector<BorderLoop> before = geometry::border_loops(sketch.garment.mesh);
   const std::vector<BorderLoop> after = geometry::border_loops(made.mesh);

@@ -31,6 +31,10 @@ Json with_border(const Sketch& sketch, std::size_t border, bool held);
 /// std::invalid_argument where pins of another kind hold it, or nothing is as near as `reach` [m].
 Json with_vertex_toggled(const Sketch& sketch, const std::array<double, 3>& point, double reach);
 
+/// The pins with all these vertices held, or let go; those that are drawn lines' alone, which come after the
+/// garment's own, are passed over. Throws std::invalid_argument if nothing would change.
+Json with_vertices(const Sketch& sketch, const std::vector<int>& vertices, bool held);
+
 /// The pins for a mesh that was made of the sketch's, whose vertices come first in it: border loops by the
 /// index that they have there, single vertices with those that split edges between them.
 Json pins_after(const Sketch& sketch, const io::MeshFile& made);

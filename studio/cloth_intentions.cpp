@@ -16,8 +16,9 @@
 namespace furrow::studio {
 namespace {
 
-constexpr std::size_t most_pulls = 200000;  // of one play
-constexpr double nearest_pin = 0.05;        // [m]
+constexpr std::size_t most_pulls = 200000;     // of one play
+constexpr double nearest_pin = 0.05;           // [m]
+constexpr std::size_t most_vertices = 200000;  // of a lasso
 
 std::string seconds_text(double seconds) {
   char text[32];
@@ -43,6 +44,19 @@ std::array<double, 3> point_of(const Json& body, const char* key) {
     point[k] = x.get<double>();
   }
   return point;
+}
+
+std::vector<int> vertices_of(const Json& body) {
+  const Json& list = body.at("vertices");
+  if (!list.is_array() || list.empty() || list.size() > most_vertices)
+    throw Refused("vertices: is no list of 1 to " + std::to_string(most_vertices) + " numbers of vertices");
+  std::vector<int> vertices;
+  for (const Json& v : list) {
+    if (!v.is_number_unsigned() || v.get<std::uint64_t>() >= (std::uint64_t{1} << 30))
+      throw Refused("vertices: is no list of numbers of vertices");
+    vertices.push_back(v.get<int>());
+  }
+  return vertices;
 }
 
 /// A grip as it stands in a message, and in the log of a play; none: the hand lets go.
@@ -127,6 +141,13 @@ Json Session::hold(const Json& body) {
 }
 
 Json Session::pin(const Json& body) {
+  if (body.contains("vertices")) {
+    const std::vector<int> vertices = vertices_of(body);
+    const bool on = wanted(body);
+    Json pins = jobs::with_vertices(sketch_, vertices, on);
+    change_pins(on ? "hold what was encircled" : "let go of what was encircled", std::move(pins));
+    return Json::object();
+  }
   Json pins = jobs::with_vertex_toggled(sketch_, point_of(body, "at"), nearest_pin);
   change_pins("change a pin", std::move(pins));
   return Json::object();

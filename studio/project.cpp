@@ -34,6 +34,15 @@ Json read_json(const fs::path& path) {
   }
 }
 
+/// Nothing is there, or a folder with files to draw on alone.
+bool is_free(const fs::path& folder) {
+  if (!fs::exists(folder)) return true;
+  if (!fs::is_directory(folder)) return false;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != "files") return false;
+  return true;
+}
+
 }  // namespace
 
 bool Project::is_there(const fs::path& folder) { return fs::is_regular_file(folder / "project.json"); }
@@ -49,7 +58,7 @@ Project::Project(fs::path folder, const Json& opened_with, const Step& first)
         "with it by furrow studio " +
         folder_.string() + ", or name another folder with --project");
   }
-  if (fs::exists(folder_) && !(fs::is_directory(folder_) && fs::is_empty(folder_)))
+  if (!is_free(folder_))
     throw std::invalid_argument(
         folder_.string() + ": is there, and is no project of the studio; name another folder with --project");
   std::error_code failed;

@@ -26,8 +26,9 @@ struct Step {
 class Project {
  public:
   /// Opens the folder, or makes it with this first step. `opened_with` tells one start from another; a folder
-  /// that was made with another one is refused. Throws std::invalid_argument for a folder that is there and
-  /// no project, std::runtime_error for one that cannot be written.
+  /// that was made with another one is refused; what pages have sent lies in "files", which may be there.
+  /// Throws std::invalid_argument for a folder that is there and no project, std::runtime_error for one that
+  /// cannot be written.
   Project(std::filesystem::path folder, const Json& opened_with, const Step& first);
   /// Opens one that is there.
   explicit Project(std::filesystem::path folder);

@@ -17,6 +17,7 @@
 #include "studio/frame_bytes.h"
 #include "studio/message.h"
 #include "studio/page_files.h"
+#include "studio/uploads.h"
 #include "studio/worker.h"
 
 namespace furrow::studio {
@@ -51,16 +52,19 @@ bool same_token(std::string_view a, std::string_view b) {
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
-/// A request's target: path, and the token in its query.
+/// A request's target: path, and what its query says.
 struct Target {
-  std::string_view path, token;
+  std::string_view path, token, name;
 };
 Target parse_target(std::string_view target) {
   const std::size_t question = target.find('?');
   Target parsed{target.substr(0, question), {}};
   if (question == std::string_view::npos) return parsed;
   const std::string_view query = target.substr(question + 1);
-  if (query.substr(0, 6) == "token=") parsed.token = query.substr(6, query.find('&') - 6);
+  if (query.substr(0, 6) != "token=") return parsed;
+  const std::size_t next = query.find("&name=");
+  parsed.token = query.substr(6, query.find('&') - 6);
+  if (next != std::string_view::npos) parsed.name = query.substr(next + 6);
   return parsed;
 }
 
@@ -121,6 +125,7 @@ struct Server::Parts {
   unsigned short port = 0;
   std::string token = random_token();
   Worker* worker = nullptr;
+  Uploads* uploads = nullptr;
   std::map<Client, std::weak_ptr<Page>> pages;
   Client next = 1;
   std::thread thread;
@@ -214,24 +219,30 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void read() {
     parser_.emplace();
     parser_->header_limit(16 << 10);
+    parser_->body_limit(largest_upload);
     stream_.expires_after(std::chrono::seconds(30));
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](beast::error_code failed, std::size_t) {
-                       if (!failed) self->answer(self->parser_->get());
-                     });
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = shared_from_this()](beast::error_code failed, std::size_t) {
+                              if (failed == http::error::body_limit) return self->refuse_size();
+                              if (!failed) self->answer(self->parser_->get());
+                            });
   }
 
  private:
   void answer(const Request& request) {
     const Target target = parse_target(view(request.target()));
+    const bool uploads = request.method() == http::verb::put && target.path == "/upload";
     if (!server_.is_own_host(view(request[http::field::host])))
       return send(
           plain(request, http::status::misdirected_request, "421: this is not the host that you asked"));
-    if (request.method() != http::verb::get)
+    if (request.method() != http::verb::get && !uploads)
       return send(plain(request, http::status::method_not_allowed, "405: only GET is answered"));
+    if (!uploads && !parser_->is_done())
+      return send(plain(request, http::status::bad_request, "400: what is asked for has no body"));
     const bool is_helper = target.path == "/again.js";
     if (!is_helper && !same_token(target.token, server_.token))
       return send(no_token(request, target.path == "/"));
+    if (uploads) return take_file(request, std::string(target.name));
     if (target.path == "/ws") return upgrade(request);
     const PageFile* file = find_page_file(target.path);
     if (!file) return send(plain(request, http::status::not_found, "404: there is no such file"));
@@ -241,6 +252,33 @@ class Connection : public std::enable_shared_from_this<Connection> {
     Response response = answer_to(request, http::status::ok, file->type, std::move(body));
     if (file->gzipped) response.set(http::field::content_encoding, "gzip");
     send(std::move(response));
+  }
+
+  void refuse_size() {
+    send(plain(parser_->get(), http::status::payload_too_large, "413: a file may have 64 MiB"));
+  }
+
+  /// Reads a file that a page sends, and answers with what stands for it.
+  void take_file(const Request& request, std::string name) {
+    if (!server_.is_own_origin(view(request[http::field::origin])))
+      return send(plain(request, http::status::forbidden, "403: the page is of another origin"));
+    file_.emplace(std::move(*parser_));
+    file_->body_limit(largest_upload);
+    stream_.expires_after(std::chrono::seconds(120));
+    http::async_read(
+        stream_, buffer_, *file_, [self = shared_from_this(), name](beast::error_code failed, std::size_t) {
+          Request asked;
+          asked.version(11);
+          if (failed == http::error::body_limit)
+            return self->send(plain(asked, http::status::payload_too_large, "413: a file may have 64 MiB"));
+          if (failed) return;
+          const std::string number = self->server_.uploads->put(name, std::move(self->file_->get().body()));
+          self->file_.reset();
+          if (number.empty())
+            return self->send(plain(asked, http::status::unsupported_media_type,
+                                    "415: a mesh is an .obj, .ply, .off, .stl or .glb"));
+          self->send(answer_to(asked, http::status::ok, "text/plain; charset=utf-8", number));
+        });
   }
 
   void upgrade(const Request& request) {
@@ -269,6 +307,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Server::Parts& server_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
+  std::optional<http::request_parser<http::string_body>> file_;
   std::optional<Response> response_;
 };
 
@@ -291,8 +330,9 @@ Server::Server(unsigned short port) {
 
 Server::~Server() { stop(); }
 
-void Server::start(Worker& worker) {
+void Server::start(Worker& worker, Uploads& uploads) {
   parts_->worker = &worker;
+  parts_->uploads = &uploads;
   parts_->accept();
   parts_->thread = std::thread([p = parts_] { p->io.run(); });
 }

@@ -8,11 +8,12 @@
 namespace furrow::studio {
 
 class Worker;
+class Uploads;
 class Page;
 class Connection;
 
 /// HTTP and WebSocket on 127.0.0.1, in one thread. Without the token every request is refused (403), with a
-/// foreign Host, too (421), and a WebSocket of a foreign Origin (403).
+/// foreign Host, too (421), and a WebSocket or a file of a foreign Origin (403).
 class Server : public Outbox {
  public:
   /// Port 0: a free one. Throws std::runtime_error if it cannot be had.
@@ -21,8 +22,8 @@ class Server : public Outbox {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// From now on what pages send goes to the worker.
-  void start(Worker& worker);
+  /// From now on what pages send goes to the worker, and files to the uploads.
+  void start(Worker& worker, Uploads& uploads);
   /// Closes all connections and ends the thread.
   void stop();
   unsigned short port() const;

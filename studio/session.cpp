@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "jobs/give_motion.h"
 #include "jobs/give_sketch.h"
 #include "jobs/sketch_lines.h"
 #include "jobs/sketch_pins.h"
@@ -248,10 +249,31 @@ Json Session::give(const Json& body) {
   const Step first = project_->first();
   const std::filesystem::path garment = first.drawing.at("settings").at("garment").value("mesh", "");
   const std::filesystem::path original = project_->folder() / garment;
-  const std::filesystem::path path =
-      jobs::give_sketch(sketch_, strokes_on(project_->now().drawing), text_of(body, "as"), original,
-                        project_->folder() / "give", *this);
+  const std::string as = text_of(body, "as");
+  if (as == "moving glb" || as == "pc2")
+    return give_animation(original.stem().string() + (as == "pc2" ? ".pc2" : "-moving.glb"));
+  const std::filesystem::path path = jobs::give_sketch(sketch_, strokes_on(project_->now().drawing), as,
+                                                       original, project_->folder() / "give", *this);
   return {{"file", path.string()}};
+}
+
+/// The motion since the last drape, or since the beginning, once more.
+Json Session::give_animation(const std::string& name) {
+  const Json& drawing = project_->now().drawing;
+  const auto motion = motion_of(drawing);
+  if (!motion)
+    throw Refused(
+        drawing.contains("motion")
+            ? "this motion cannot be done again to the same bits, as it was pulled at, or fabric, wind or "
+              "pins changed on the way; drape or undo, and play anew"
+            : "nothing has moved yet; press Play first");
+  jobs::save_motion(*motion, sketch_.frame, project_->folder());
+  const std::filesystem::path file = project_->folder() / "give" / name;
+  std::filesystem::create_directories(file.parent_path());
+  std::string files;
+  for (const auto& part : jobs::give_motion(project_->folder() / "motion.toml", file, *this))
+    files += (files.empty() ? "" : ", ") + part.string();
+  return {{"file", files}};
 }
 
 Json Session::show(const Json&) {

@@ -37,6 +37,8 @@ class Session : jobs::Listener {
   /// Who plays pulls at the cloth from now on, or lets it go; at another time nothing happens. From any
   /// thread; answers as handle() does.
   void pull(Client client, const Message& message);
+  /// Whether the page draws, or nobody does.
+  bool may_command(Client client) const { return pen_ == everybody || pen_ == client; }
   /// The shape that is shown, to the last bit.
   std::string shape_bits();
   const Project& project() const { return *project_; }
@@ -75,6 +77,7 @@ class Session : jobs::Listener {
   Json redo(const Json& body);
   Json save(const Json& body);
   Json give(const Json& body);
+  Json give_animation(const std::string& as);
   Json show(const Json& body);
 
   void change(const std::string& what, Json drawing);

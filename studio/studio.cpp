@@ -2,33 +2,36 @@
 #include "studio/studio.h"
 
 #include "studio/project.h"
+#include "studio/rooms.h"
 #include "studio/server.h"
-#include "studio/session.h"
 #include "studio/worker.h"
 
 namespace furrow::studio {
 
 struct Studio::Parts {
   template <class... What>
-  explicit Parts(unsigned short port, const What&... what)
-      : server(port), session(what..., server), worker(session, server) {
+  explicit Parts(unsigned short port, const Places& places, const What&... what)
+      : server(port), rooms(places, uploads, server, what...), worker(rooms, server) {
     worker.start();
-    server.start(worker);
+    server.start(worker, uploads);
   }
   ~Parts() {
     server.stop();
     worker.stop();
   }
 
+  Uploads uploads;
   Server server;
-  Session session;
+  Rooms rooms;
   Worker worker;
 };
 
-Studio::Studio(const jobs::SceneInput& scene, const std::filesystem::path& folder, unsigned short port)
-    : parts_(std::make_unique<Parts>(port, scene, folder)) {}
-Studio::Studio(const std::filesystem::path& folder, unsigned short port)
-    : parts_(std::make_unique<Parts>(port, folder)) {}
+Studio::Studio(const Places& places, unsigned short port) : parts_(std::make_unique<Parts>(port, places)) {}
+Studio::Studio(const jobs::SceneInput& scene, const std::filesystem::path& folder, unsigned short port,
+               const Places& places)
+    : parts_(std::make_unique<Parts>(port, places, scene, folder)) {}
+Studio::Studio(const std::filesystem::path& folder, unsigned short port, const Places& places)
+    : parts_(std::make_unique<Parts>(port, places, folder)) {}
 Studio::~Studio() = default;
 
 bool Studio::is_project(const std::filesystem::path& folder) { return Project::is_there(folder); }

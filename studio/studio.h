@@ -9,16 +9,25 @@
 
 namespace furrow::studio {
 
-/// A studio that serves one project to pages on this machine, in threads of its own, from its making until
-/// its end. All that was done is in the project's folder then.
+/// Where a studio finds what comes with it, and puts drawings that are begun in the page.
+struct Places {
+  std::filesystem::path gallery;         ///< folder of scenes; empty: there is none
+  std::filesystem::path drawings = ".";  ///< folder in which their projects are made
+};
+
+/// A studio that serves one drawing at a time to pages on this machine, in threads of its own, from its
+/// making until its end. All that was done is in the project's folder then.
 class Studio {
  public:
+  /// Nothing is open: a page chooses from the gallery, or sends files.
+  explicit Studio(const Places& places, unsigned short port = 0);
   /// Begins a drawing in the folder, or goes on with the one that is there. `port` 0: a free one. Throws
   /// std::invalid_argument for a folder that cannot be taken and for settings that cannot be,
   /// geometry::ContentError for files that cannot be used, std::runtime_error if no port can be had.
-  Studio(const jobs::SceneInput& scene, const std::filesystem::path& folder, unsigned short port = 0);
+  Studio(const jobs::SceneInput& scene, const std::filesystem::path& folder, unsigned short port = 0,
+         const Places& places = {});
   /// Goes on with a project.
-  explicit Studio(const std::filesystem::path& folder, unsigned short port = 0);
+  explicit Studio(const std::filesystem::path& folder, unsigned short port = 0, const Places& places = {});
   ~Studio();
   Studio(const Studio&) = delete;
   Studio& operator=(const Studio&) = delete;

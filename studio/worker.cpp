@@ -18,7 +18,7 @@ void Worker::stop() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
-    session_.cancel();
+    rooms_.cancel();
   }
   ready_.notify_one();
   if (thread_.joinable()) thread_.join();
@@ -36,10 +36,10 @@ void Worker::post(Client client, const std::string& text) {
     return refuse(client, nullptr, e.what());
   }
   if (message.what == "cancel" || message.what == "pause") {
-    session_.cancel();
+    rooms_.cancel();
     return out_.tell(client, {{"id", message.id}, {"done", Json::object()}});
   }
-  if (message.what == "pull") return session_.pull(client, message);
+  if (message.what == "pull") return rooms_.pull(client, message);
   const std::lock_guard lock(mutex_);
   if (tasks_.size() >= longest_queue)
     return refuse(client, message.id, "too much is waiting to be done; wait a moment");
@@ -76,14 +76,14 @@ void Worker::run() {
       if (stopping_) return;
       task = std::move(tasks_.front());
       tasks_.pop_front();
-      session_.allow();
+      rooms_.allow();
     }
     if (task.message)
-      session_.handle(task.client, *task.message);
+      rooms_.handle(task.client, *task.message);
     else if (task.gone)
-      session_.leave(task.client);
+      rooms_.leave(task.client);
     else
-      session_.greet(task.client);
+      rooms_.greet(task.client);
   }
 }
 

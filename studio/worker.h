@@ -5,14 +5,14 @@
 #include <mutex>
 #include <thread>
 
-#include "studio/session.h"
+#include "studio/rooms.h"
 
 namespace furrow::studio {
 
-/// The thread in which a session works, and the queue before it.
+/// The thread in which drawings are worked on, and the queue before it.
 class Worker {
  public:
-  explicit Worker(Session& session, Outbox& out) : session_(session), out_(out) {}
+  explicit Worker(Rooms& rooms, Outbox& out) : rooms_(rooms), out_(out) {}
   ~Worker() { stop(); }
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
@@ -35,7 +35,7 @@ class Worker {
   void run();
   void refuse(Client client, const Json& id, const std::string& why);
 
-  Session& session_;
+  Rooms& rooms_;
   Outbox& out_;
   std::mutex mutex_;
   std::condition_variable ready_;

@@ -16,6 +16,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   field_test.cpp
   fit_test.cpp
   gate_test.cpp
+  guess_frame_test.cpp
   keep_test.cpp
   lay_warp_test.cpp
   listener_test.cpp

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The studio in a real browser, by pointer and keys: browser_test.mjs FURROW MESHES PAGE OUT. Opens a skirt on its
 // body, draws, sees it, changes and drags lines, drapes, plays, pulls, undoes all, saves, opens the folder again and
-// replays it. On a small sheet: pins, order of lines, keep. axe-core finds nothing serious, light or dark.
+// replays it. On a small sheet: pins, order of lines, keep. Without a garment: the gallery, a file of one's own, a lasso. axe-core finds nothing serious, light or dark.
 // Pictures of the steps are kept in OUT. PAGE is the folder whose node_modules has playwright-core. Ends with 77,
 // which ctest counts as skipped, where there is no Chromium.
 import assert from "node:assert/strict";
@@ -347,6 +347,37 @@ async function sheet() {
   await tab.close();
 }
 
+/** Without a garment: one from the gallery, then a file in centimetres, of which a part is held by a lasso. */
+async function openings() {
+  writeFileSync(join(scratch, "mine.obj"), sheetText(14, 3));
+  const seen = await open((await studio()).url, 0);
+  const { tab } = seen, dialog = tab.locator("dialog.open");
+  const frames = async () => Number(await tab.locator("footer").getAttribute("data-frames"));
+  await until("the gallery", async () => (await dialog.getByRole("button").count()) > 3);
+  await accessible(seen, "gallery");
+  await seen.shot("13-gallery");
+  await dialog.getByRole("button", { name: "A skirt on a figure", exact: true }).click();
+  await until("the skirt", async () => (await frames()) >= 2 && (await dialog.count()) === 0);
+  assert.match(await tab.locator("h1").innerText(), /skirt-studio/);
+  const before = await frames();
+  await tab.locator("canvas").focus();
+  await tab.keyboard.press("o");
+  await dialog.getByLabel("Garment").setInputFiles(join(scratch, "mine.obj"));
+  await dialog.getByRole("button", { name: "Open", exact: true }).click();
+  await until("the sheet", async () => (await frames()) > before && (await dialog.count()) === 0);
+  assert.match(await seen.words(), /Taken as cm with y upwards, so it is 0\.42 m tall/);
+  await still(seen);
+  await tab.locator("canvas").focus();
+  await tab.keyboard.press("p");
+  const up = await stroke(tab, [[0.42, 0.35], [0.58, 0.35], [0.58, 0.5], [0.42, 0.5]]);
+  await seen.shot("14-lasso");
+  await up();
+  await seen.at(1);
+  assert.match(await tab.getByRole("button", { name: "Undo" }).getAttribute("title"), /hold what was encircled/);
+  assert.deepEqual(seen.faults, []);
+  await tab.close();
+}
+
 /** What the project's log says is done again, and ends in the same bits. */
 function replay(folder) {
   const done = spawnSync(furrow, ["studio", "--replay", folder, "--headless"], { cwd: scratch, encoding: "utf8" });
@@ -381,6 +412,7 @@ try {
   assert.deepEqual(again.faults, []);
   replay("skirt-studio");
   await sheet();
+  await openings();
   console.log("1 passed, 0 failed");
 } finally {
   for (const program of running) program.kill("SIGKILL");

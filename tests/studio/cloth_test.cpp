@@ -60,6 +60,20 @@ TEST_CASE("studio cloth: a click pins a vertex, another lets it go, and borders 
   CHECK(pinned_in(page) == before);
 }
 
+TEST_CASE("studio cloth: what is encircled is held, and let go") {
+  const Desk desk("lasso");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  const std::uint32_t before = pinned_in(page);
+  REQUIRE(page.ask("pin", {{"vertices", {0, 1, 2, 100000}}, {"on", true}}).contains("done"));
+  CHECK(pinned_in(page) == before + 3);
+  CHECK(page.ask("pin", {{"vertices", {0, 1}}, {"on", true}}).contains("refused"));  // held already
+  REQUIRE(page.ask("pin", {{"vertices", {1, 2, 3}}, {"on", false}}).contains("done"));
+  CHECK(pinned_in(page) == before + 1);
+  CHECK(page.ask("pin", {{"vertices", {2, 3}}, {"on", false}}).contains("refused"));
+  CHECK(page.status.at("undo") == "let go of what was encircled");
+}
+
 TEST_CASE("studio cloth: pins stay where they are after the cloth has moved, with lines in it", "[release]") {
   Desk desk("pins_after");
   io::set_value(desk.scene.settings, "pins", Json::array(), "test");
@@ -97,7 +111,7 @@ TEST_CASE("studio cloth: keep tells of each line, colours the cloth, and is take
   REQUIRE(page.colours.size() == 16 + 3 * std::size_t(head_of(page.cloth, 2)));
   std::set<std::string> colours;
   for (std::size_t at = 16; at < page.colours.size(); at += 3) colours.insert(page.colours.substr(at, 3));
-  CHECK(colours.size() == 2);  // the line's cloth, and the rest
+  CHECK(colours.size() == 2);                                          // the line's cloth, and the rest
   CHECK(answer.dump().find("goes into a .ply") == std::string::npos);  // it did
   REQUIRE(page.ask("undo").contains("done"));
   page.ask("show");
@@ -211,6 +225,37 @@ TEST_CASE("studio cloth: it is given away in four formats, also on the vertices 
     CHECK(moved != start);
   }
   CHECK(page.ask("give", {{"as", "../x"}}).contains("refused"));
+}
+
+TEST_CASE("studio cloth: how it moved is given away as an animation, but not what was pulled at",
+          "[release]") {
+  const Desk desk("animation");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  CHECK(page.ask("give", {{"as", "pc2"}}).at("refused").get<std::string>().find("nothing has moved yet") ==
+        0);
+  REQUIRE(page.ask("play", {{"seconds", 0.2}}).contains("done"));
+  for (const std::string as : {"moving glb", "pc2"}) {
+    const Json answer = page.ask("give", {{"as", as}});
+    INFO(answer.dump());
+    REQUIRE(answer.contains("done"));
+    CHECK(std::filesystem::file_size(answer["done"].at("file").get<std::string>()) > 5000);
+  }
+  CHECK(tests::names_in(desk.project() / "give") == std::set<std::string>{"sheet-moving.glb", "sheet.pc2"});
+  REQUIRE(page.ask("play",
+                   {{"seconds", 0.05}, {"pulls", {{{"time", 0.2}, {"vertex", 3}, {"to", {0.0, 0.1, 0.2}}}}}})
+              .contains("done"));
+  CHECK(page.ask("give", {{"as", "pc2"}}).at("refused").get<std::string>().find("cannot be done again") !=
+        std::string::npos);
+}
+
+TEST_CASE("studio cloth: maps need texture coordinates, and say so") {
+  const Desk desk("maps");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  REQUIRE(page.ask("draw", line_at(0.0)).contains("done"));
+  CHECK(page.ask("give", {{"as", "maps"}}).at("refused").get<std::string>().find("texture coordinates") !=
+        std::string::npos);
 }
 
 }  // namespace furrow

@@ -7,8 +7,9 @@ import { Hand } from "./hand";
 import { Handles } from "./handles";
 import { Help } from "./help";
 import { type LineActions, Lines, mm, ownWidth, Slider } from "./lines";
+import { type Files, Open, type OpenWords, sorted } from "./open";
 import { Pen } from "./pen";
-import { type Done, Program, type Progress, type Status, type Vector } from "./protocol";
+import { type Done, type GalleryItem, Program, type Progress, type Status, type Vector } from "./protocol";
 import { type Seen, View } from "./view";
 
 type Tool = "look" | "ridge" | "valley" | "pin";
@@ -17,7 +18,7 @@ interface Draft { height: number; width: number | null }
 
 /** What lives as long as the page and is no state of a panel. */
 interface Parts { program: Program; view: View; pen: Pen; handles: Handles; hand: Hand }
-type Busy = "" | "drape" | "keep" | "play";
+type Busy = "" | "drape" | "keep" | "give" | "play";
 const isPen = (tool: Tool) => tool === "ridge" || tool === "valley";
 
 export function App({ token }: { token: string }) {
@@ -42,6 +43,10 @@ export function App({ token }: { token: string }) {
   const [frames, setFrames] = useState(0);
   const [gone, setGone] = useState(false);
   const [help, setHelp] = useState(false);
+  const [items, setItems] = useState<GalleryItem[]>([]);
+  const [opening, setOpening] = useState<"" | "first" | "again">("");
+  const [files, setFiles] = useState<Files>({ garment: null, body: null });
+  const [badFile, setBadFile] = useState("");
   const now = useRef({ tool, draft, chosen, status, seen, me, busy, both });
   now.current = { tool, draft, chosen, status, seen, me, busy, both };
   const live = useRef({ running: false, waiting: null as null | (() => void) });
@@ -64,6 +69,18 @@ export function App({ token }: { token: string }) {
     const view = new View(canvas.current!);
     const program = new Program(token, {
       status: setStatus, you: setMe, gone: () => setGone(true),
+      gallery: (all, open) => {
+        setItems(all);
+        if (!open) setOpening("first");
+      },
+      opened: () => {
+        view.forget();
+        setChosen(-1);
+        setVerdict(undefined);
+        setTool("look");
+        setWords({ text: "", bad: false });
+        setOpening("");
+      },
       progress: (p) => setProgress(p.share < 1 ? p : undefined),
       frame: (bytes) => {
         const frame = readFrame(bytes);
@@ -119,6 +136,7 @@ export function App({ token }: { token: string }) {
       // What the program does not want to hear any more, as the cloth has just been paused, is no fault.
       pulls: (grip) => void program.ask("pull", grip ?? {}).catch(() => undefined),
       pins: (at, border) => void (border ? ask("hold", { at }) : ask("pin", { at })),
+      encircles: (vertices, on) => (vertices.length ? void ask("pin", { vertices, on }) : say("There is no vertex of the cloth within that loop: draw it larger, or click.")),
     });
     parts.current = { program, view, pen, handles, hand };
   }, []);
@@ -240,7 +258,41 @@ export function App({ token }: { token: string }) {
   const undo = () => void ask("undo");
   const redo = () => void ask("redo");
   const save = () => void ask("save", {}, (done) => `Saved in ${status?.title}: ${(done.written ?? []).join(", ")}.`);
-  const give = (as: string) => void ask("give", { as }, (done) => `Written: ${done.file}`);
+  const give = async (as: string) => {
+    setBusy("give");
+    await ask("give", { as }, (done) => `Written: ${done.file}`);
+    setBusy("");
+    setProgress(undefined);
+  };
+  const open = async ({ item, files, unit, up }: OpenWords) => {
+    const program = parts.current!.program;
+    setBadFile("");
+    try {
+      const garment = files?.garment && (await program.upload(files.garment)), body = files?.body && (await program.upload(files.body));
+      const done = await program.ask("open", item ? { item } : { garment, ...(body ? { body } : {}), ...(unit ? { unit } : {}), ...(up ? { up } : {}) });
+      say([`Every step is kept in ${done.project}.`, ...(done.told ?? [])].join("\n"));
+      setFiles({ garment: null, body: null });
+    } catch (e) {
+      setBadFile((e as Error).message);
+    }
+  };
+  useEffect(() => {
+    const over = (e: DragEvent) => e.preventDefault();
+    const drop = (e: DragEvent) => {
+      e.preventDefault();
+      const dropped = sorted([...(e.dataTransfer?.files ?? [])]);
+      if (!dropped.garment) return setBadFile("Drop a mesh: an .obj, .ply, .off, .stl or .glb.");
+      setBadFile("");
+      setFiles(dropped);
+      setOpening((o) => o || "again");
+    };
+    addEventListener("dragover", over);
+    addEventListener("drop", drop);
+    return () => {
+      removeEventListener("dragover", over);
+      removeEventListener("drop", drop);
+    };
+  }, []);
   const toggle = (key: keyof Seen) => setSeen((s) => ({ ...s, [key]: !s[key] }));
   const pick = (t: Tool) => {
     if (t !== "look" && busy === "play") pause();  // who picks up a pen wants the cloth to hold still
@@ -267,13 +319,14 @@ export function App({ token }: { token: string }) {
         r: () => pick("ridge"), v: () => pick("valley"), f: () => view.look(), "1": () => view.look("front"), "2": () => view.look("back"),
         "3": () => view.look("right"), b: () => toggle("body"), w: () => toggle("wire"), l: () => toggle("lines"), d: () => void drape(),
         "?": () => setHelp(true), " ": () => void play(), escape: () => {
-          const { pen, handles } = parts.current!;
+          const { pen, handles, hand } = parts.current!;
           if (pen.drawing) return pen.drop();
+          if (hand.encircling) return hand.drop();
           if (!handles.dragging) return setTool("look");
           handles.drop();
         },
       };
-      Object.assign(plain, { p: () => pick("pin"), k: () => void keep(), t: () => void showTangles() });
+      Object.assign(plain, { p: () => pick("pin"), k: () => void keep(), t: () => void showTangles(), o: () => status && !busy && mayDraw && setOpening("again") });
       if (isPen(now.current.tool)) plain.m = () => setBoth((b) => !b);
       else if (chosen >= 0) plain.m = () => actions.mirror(chosen);
       if (chosen >= 0) plain.delete = () => actions.remove(chosen);
@@ -298,7 +351,7 @@ export function App({ token }: { token: string }) {
     },
     takeBack: undo,
   };
-  const hint = !status ? "Opening …" : tool === "pin" ? "Click the cloth to hold it there, or to let it go. Shift: the whole border. Esc: enough." : tool !== "look" ? `Draw on the cloth. Drag beside it to turn it. Shift: straight. Esc: lay the pen down.`
+  const hint = !status ? (opening ? "" : "Opening …") : tool === "pin" ? "Click the cloth to hold it there, or to let it go; Shift: the whole border. Draw a loop to hold all within; Shift: to let it go. Esc: enough." : tool !== "look" ? `Draw on the cloth. Drag beside it to turn it. Shift: straight. Esc: lay the pen down.`
     : status.lines.length === 0 && status.step === 0 ? "Pick Ridge or Valley above, then draw on the cloth. Drag to turn it." : "";
 
   return (
@@ -330,7 +383,8 @@ export function App({ token }: { token: string }) {
         <div class="group">
           <button disabled={!status?.undo} title={status?.undo ? `Undo: ${status.undo} (Ctrl Z)` : "Nothing to undo"} onClick={undo}>Undo</button>
           <button disabled={!status?.redo} title={status?.redo ? `Do again: ${status.redo} (Ctrl Y)` : "Nothing to do again"} onClick={redo}>Redo</button>
-          <button title="Save (Ctrl S)" onClick={save}>Save</button>
+          <button title="Save (Ctrl S)" disabled={!status} onClick={save}>Save</button>
+          <button title="Another garment (O)" disabled={busy !== "" || !mayDraw} onClick={() => setOpening("again")}>Open</button>
           <button title="Keys (?)" aria-label="Help" onClick={() => setHelp(true)}>?</button>
         </div>
       </header>
@@ -360,8 +414,10 @@ export function App({ token }: { token: string }) {
           <h2>Give away</h2>
           <div class="group wrap">
             {([["ply", "PLY", "The mesh, with all that is known of it"], ["obj", "OBJ", "The mesh"], ["glb", "GLB", "The mesh, for viewers and games"],
-              ["original", "Original", "This shape on the vertices and faces of the garment's own file"]] as const).map(([as, label, title]) => (
-              <button key={as} class="small" title={title} disabled={busy !== "" || !mayDraw} onClick={() => give(as)}>{label}</button>
+              ["original", "Original", "This shape on the vertices and faces of the garment's own file"],
+              ["maps", "Maps", "Normals and heights as textures of the garment's own file"],
+              ["moving glb", "Moving GLB", "How it moved, as an animation"], ["pc2", "PC2", "How it moved, as a point cache beside OBJ"]] as const).map(([as, label, title]) => (
+              <button key={as} class="small" title={title} disabled={busy !== "" || !mayDraw} onClick={() => void give(as)}>{label}</button>
             ))}
             <button class="small" title="What is seen, as PNG" onClick={() => parts.current!.view.savePicture(`${status.title}.png`)}>Picture</button>
           </div>
@@ -379,6 +435,7 @@ export function App({ token }: { token: string }) {
         </>}
       </footer>
       {help && <Help close={() => setHelp(false)} />}
+      {opening && <Open items={items} first={opening === "first"} files={files} bad={badFile} open={open} close={() => setOpening("")} />}
     </>
   );
 }

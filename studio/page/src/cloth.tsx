@@ -82,7 +82,7 @@ export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Pro
       <Wind wind={status.wind} blow={actions.wind} />
       <div class="group">
         <button class="main" disabled={!held || !idle} title="Let it come to rest (D)" onClick={actions.drape}>Drape</button>
-        <button disabled={!held || busy === "drape" || busy === "keep" || !mayDraw} title="Play, pause (Space)" onClick={() => actions.play()}>
+        <button disabled={!held || !mayDraw || (busy !== "" && busy !== "play")} title="Play, pause (Space)" onClick={() => actions.play()}>
           {busy === "play" ? "Pause" : "Play"}</button>
         <button disabled={!held || !idle} title="One step of 1/60 s" onClick={() => actions.play(1 / 60)}>Step</button>
         <button disabled={!held || !idle} title="Make the lines last, and tell of each whether it will hold (K)" onClick={actions.keep}>Keep</button>

@@ -3,11 +3,11 @@ import { useEffect, useRef } from "preact/hooks";
 
 const keys: [string, string][] = [
   ["R", "ridge pen"], ["V", "valley pen"], ["Shift", "while drawing: a straight line"], ["Esc", "drop the line, or lay the pen down"],
-  ["Ctrl Z", "undo"], ["Ctrl Y", "do again"], ["Ctrl S", "save"], ["Delete", "delete the chosen line"],
+  ["Ctrl Z", "undo"], ["Ctrl Y", "do again"], ["Ctrl S", "save"], ["O", "open another garment"], ["Delete", "delete the chosen line"],
   ["M", "mirror it; while a pen is up: draw on both sides"], ["Ctrl D", "duplicate it"], ["Alt ↑ ↓", "move it in the order of lines"],
   ["F", "frame the cloth"], ["1 2 3", "front, back, side"], ["← → ↑ ↓", "turn (with the picture in focus)"], ["+ −", "nearer, farther"],
   ["B", "body"], ["W", "wireframe"], ["L", "lines"], ["Space", "play, pause"], ["D", "drape: let it come to rest"], ["K", "keep: make the lines last"],
-  ["P", "pin by clicks; with Shift a whole border"], ["T", "tangles: where cloth crosses cloth"], ["?", "this page"],
+  ["P", "pin by clicks, with Shift a whole border; or all within a loop that is drawn, with Shift to let go"], ["T", "tangles: where cloth crosses cloth"], ["?", "this page"],
 ];
 
 export function Help({ close }: { close: () => void }) {

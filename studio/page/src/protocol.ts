@@ -11,14 +11,15 @@ export interface Status {
   title: string; lines: Line[]; shown: number[]; earlier: string[]; fabric: string; fabrics: string[]; borders: Border[]; wind: Vector; middle: number;
   has_body: boolean; can_drape: boolean; time: number; undo: string; redo: string; step: number; pen: number;
 }
+export interface GalleryItem { name: string; title: string }
 export interface Verdict { name: string; verdict: "held" | "pressed" | "strutted" | "lowered" | "cannot_hold"; words: string }
 export interface Done {
   told?: string[]; outcome?: string; time?: number; words?: string; legend?: string; remarks?: string[]; written?: string[]; live?: boolean; passed_over?: boolean;
-  points?: Vector[]; verdicts?: Verdict[]; all_hold?: boolean; pairs?: number; at?: Vector; file?: string;
+  points?: Vector[]; verdicts?: Verdict[]; all_hold?: boolean; pairs?: number; at?: Vector; file?: string; project?: string;
 }
 export interface Progress { what: string; share: number }
 export interface Hearer {
-  status(status: Status): void; you(client: number): void; progress(progress: Progress): void; frame(bytes: ArrayBuffer): void; gone(): void;
+  status(status: Status): void; you(client: number): void; gallery(items: GalleryItem[], open: boolean): void; opened(): void; progress(progress: Progress): void; frame(bytes: ArrayBuffer): void; gone(): void;
 }
 
 /** What the program would not do, and its sentence why. */
@@ -31,7 +32,7 @@ export class Program {
   private waiting = new Map<number, Waiting>();
   private next = 1;
 
-  constructor(token: string, hearer: Hearer) {
+  constructor(private token: string, hearer: Hearer) {
     this.socket = new WebSocket(`ws://${location.host}/ws?token=${token}`);
     this.socket.binaryType = "arraybuffer";
     this.socket.onmessage = (event: MessageEvent) => {
@@ -39,6 +40,8 @@ export class Program {
       const message = JSON.parse(event.data);
       if (message.status) hearer.status(message.status);
       if (message.you) hearer.you(message.you);
+      if (message.gallery) hearer.gallery(message.gallery, message.open);
+      if (message.opened) hearer.opened();
       if (message.progress) hearer.progress(message.progress);
       const waiting = this.waiting.get(message.id);
       if (!waiting) return;
@@ -51,6 +54,15 @@ export class Program {
       this.waiting.clear();
       hearer.gone();
     };
+  }
+
+  /** Sends a file, and resolves to what stands for it in a message. */
+  async upload(file: File): Promise<string> {
+    const name = encodeURIComponent(file.name.replace(/[^A-Za-z0-9_.-]+/g, "-"));
+    const answer = await fetch(`/upload?token=${this.token}&name=${name}`, { method: "PUT", body: file });
+    const text = (await answer.text()).trim();
+    if (!answer.ok) throw new Refused(`${file.name}: ${text}`);
+    return text;
   }
 
   ask(what: string, body: object = {}): Promise<Done> {

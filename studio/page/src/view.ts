@@ -120,6 +120,14 @@ export class View {
     return geometry;
   }
 
+  /** Another garment comes: the body goes, and the camera looks at what comes from the front. */
+  forget() {
+    this.body.geometry.dispose();
+    this.body.geometry = new THREE.BufferGeometry();
+    this.bodyTree = undefined;
+    this.framed = false;
+  }
+
   show(frame: Frame) {
     if (frame.kind === Kind.body) {
       this.body.geometry.dispose();
@@ -249,14 +257,17 @@ export class View {
     return caster.ray;
   }
 
+  private refitTrees() {
+    if (!this.treesAreOld) return;
+    this.clothTree?.refit();
+    this.bodyTree?.refit();
+    this.treesAreOld = false;
+  }
+
   /** The cloth under a place of the window, unless the body hides it. */
   pick(x: number, y: number): Hit | null {
     if (!this.clothTree || !this.frame) return null;
-    if (this.treesAreOld) {
-      this.clothTree.refit();
-      this.bodyTree?.refit();
-      this.treesAreOld = false;
-    }
+    this.refitTrees();
     const ray = this.rayThrough(x, y);
     const hit = this.clothTree.raycastFirst(ray, THREE.DoubleSide);
     if (!hit?.face) return null;
@@ -288,6 +299,25 @@ export class View {
   windowPlace(point: THREE.Vector3): [number, number] {
     const box = this.canvas.getBoundingClientRect(), at = point.clone().project(this.camera);
     return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
+  }
+
+  /** The vertices within a polygon of the window that are seen: nothing lies before them. */
+  verticesIn(polygon: [number, number][]): number[] {
+    if (!this.frame || !this.clothTree || polygon.length < 3) return [];
+    this.refitTrees();
+    const inside = (x: number, y: number) => polygon.reduce((is, [ax, ay], i) => {
+      const [bx, by] = polygon[(i + 1) % polygon.length];
+      return ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax) ? !is : is;
+    }, false);
+    const found: number[] = [], eye = this.camera.position;
+    for (let v = 0; 3 * v < this.frame.positions.length; ++v) {
+      const at = this.placeOf(v), [x, y] = this.windowPlace(at);
+      if (!inside(x, y)) continue;
+      const ray = new THREE.Ray(eye, at.clone().sub(eye).normalize()), way = at.distanceTo(eye) - 0.004 * this.size;
+      const cloth = this.clothTree.raycastFirst(ray, THREE.DoubleSide), body = this.seen.body && this.bodyTree?.raycastFirst(ray, THREE.FrontSide);
+      if ((!cloth || cloth.distance > way) && (!body || body.distance > way - 0.006 * this.size)) found.push(v);
+    }
+    return found;
   }
 
   /** The nearest point of the cloth without its lines, and the same point with them. */

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studio/rooms.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <utility>
+
+#include "io/scene/settings_table.h"
+#include "jobs/guess_frame.h"
+#include "jobs/read_inputs.h"
+
+namespace furrow::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A new project's folder, which goes again if nothing comes of it.
+class Ground {
+ public:
+  explicit Ground(fs::path folder) : folder_(std::move(folder)) {}
+  ~Ground() {
+    std::error_code none;
+    if (!keeps_) fs::remove_all(folder_, none);
+  }
+  Ground(const Ground&) = delete;
+  Ground& operator=(const Ground&) = delete;
+  const fs::path& folder() const { return folder_; }
+  void keep() { keeps_ = true; }
+  /// Writes an upload below the folder, and returns its path from there.
+  std::string take(const Upload& upload, const std::string& beside = "") {
+    const fs::path file = fs::path("files") / ((upload.name == beside ? "body-" : "") + upload.name);
+    std::error_code failed;
+    fs::create_directories(folder_ / "files", failed);
+    if (failed) throw std::runtime_error(folder_.string() + ": cannot be made: " + failed.message());
+    jobs::write_whole(folder_ / file, upload.bytes);
+    return file.generic_string();
+  }
+
+ private:
+  fs::path folder_;
+  bool keeps_ = false;
+};
+
+std::string choice_of(const Json& body, const char* key, std::initializer_list<const char*> all) {
+  if (!body.contains(key)) return "";
+  const std::string word = text_of(body, key, 8);
+  if (std::ranges::find(all, word) == all.end())
+    throw Refused(std::string(key) + ": there is no '" + word + "'");
+  return word;
+}
+
+std::string words_of(const jobs::GuessedFrame& frame) {
+  char text[200];
+  std::snprintf(
+      text, sizeof text, "Taken as %s with %s upwards, so it is %.2f m tall%s", frame.unit.c_str(),
+      frame.up.c_str(), frame.height,
+      frame.sure ? "." : ". That is not certain: if it is wrong, open it again and say unit and axis.");
+  return text;
+}
+
+}  // namespace
+
+Rooms::Rooms(const Places& places, Uploads& uploads, Outbox& out)
+    : places_(places), uploads_(uploads), out_(out), items_(gallery(places.gallery)) {}
+
+Rooms::Rooms(const Places& places, Uploads& uploads, Outbox& out, const jobs::SceneInput& scene,
+             const fs::path& folder)
+    : Rooms(places, uploads, out) {
+  session_ = std::make_shared<Session>(scene, folder, out);
+}
+
+Rooms::Rooms(const Places& places, Uploads& uploads, Outbox& out, const fs::path& folder)
+    : Rooms(places, uploads, out) {
+  session_ = std::make_shared<Session>(folder, out);
+}
+
+std::shared_ptr<Session> Rooms::present() const {
+  const std::lock_guard lock(mutex_);
+  return session_;
+}
+
+void Rooms::cancel() {
+  if (const auto session = present()) session->cancel();
+}
+
+void Rooms::allow() {
+  if (const auto session = present()) session->allow();
+}
+
+Json Rooms::gallery_rows() const {
+  Json rows = Json::array();
+  for (const GalleryItem& item : items_) rows.push_back({{"name", item.name}, {"title", item.title}});
+  return rows;
+}
+
+void Rooms::greet(Client client) {
+  pages_.insert(client);
+  const auto session = present();
+  out_.tell(client, {{"gallery", gallery_rows()}, {"open", session != nullptr}});
+  if (session) return session->greet(client);
+  out_.tell(client, {{"you", client}});
+}
+
+void Rooms::leave(Client client) {
+  pages_.erase(client);
+  if (const auto session = present()) session->leave(client);
+}
+
+void Rooms::pull(Client client, const Message& message) {
+  if (const auto session = present()) return session->pull(client, message);
+  out_.tell(client, {{"id", message.id}, {"refused", "nothing is open yet; choose a garment first"}});
+}
+
+void Rooms::handle(Client client, const Message& message) {
+  const auto session = present();
+  if (session && message.what != "open") return session->handle(client, message);
+  std::string why = "nothing is open yet; choose a garment first";
+  try {
+    if (message.what == "open")
+      return out_.tell(client, {{"id", message.id}, {"done", open(client, message.body)}});
+  } catch (const std::bad_alloc&) {
+    why = "not enough memory for that; nothing was opened";
+  } catch (const std::exception& e) {
+    why = e.what();
+  }
+  out_.tell(client, {{"id", message.id}, {"refused", why}});
+}
+
+Json Rooms::open(Client client, const Json& body) {
+  const auto session = present();
+  if (session && !session->may_command(client))
+    throw Refused("another page is drawing; press \"Take the pen\" here to open another garment");
+  Json answer = body.contains("item") ? open_item(text_of(body, "item")) : open_files(body);
+  out_.tell(everybody, {{"opened", answer.at("project")}});
+  present()->greet(client);  // who opened it draws
+  for (const Client page : pages_)
+    if (page != client) present()->greet(page);
+  return answer;
+}
+
+fs::path Rooms::free_folder(const std::string& name) const {
+  for (int n = 1;; ++n) {
+    const fs::path folder = places_.drawings / (name + "-studio" + (n > 1 ? "-" + std::to_string(n) : ""));
+    if (!fs::exists(folder)) return folder;
+  }
+}
+
+void Rooms::enter(const jobs::SceneInput& scene, const fs::path& folder) {
+  auto session = std::make_shared<Session>(scene, folder, out_);
+  const std::lock_guard lock(mutex_);
+  session_ = std::move(session);
+}
+
+Json Rooms::open_item(const std::string& name) {
+  const auto item = std::ranges::find(items_, name, &GalleryItem::name);
+  if (item == items_.end()) throw Refused("item: the gallery has nothing of that name");
+  Ground ground(free_folder(name));
+  enter({jobs::settings_of(item->scene.string(), "", std::nullopt), item->scene.parent_path()},
+        ground.folder());
+  ground.keep();
+  return {{"project", ground.folder().string()}};
+}
+
+Json Rooms::open_files(const Json& body) {
+  const std::string unit = choice_of(body, "unit", {"m", "cm", "mm", "inch"}),
+                    up = choice_of(body, "up", {"y", "z"});
+  const std::optional<Upload> garment = uploads_.take(text_of(body, "garment", 16));
+  if (!garment) throw Refused("garment: the file has not arrived; choose it again");
+  std::optional<Upload> worn_by;
+  if (body.contains("body")) {
+    worn_by = uploads_.take(text_of(body, "body", 16));
+    if (!worn_by) throw Refused("body: the file has not arrived; choose it again");
+  }
+  Ground ground(free_folder(fs::path(garment->name).stem().string()));
+  jobs::SceneInput scene;
+  scene.settings.name = garment->name;
+  scene.folder = ground.folder();
+  const std::string mesh = ground.take(*garment),
+                    figure = worn_by ? ground.take(*worn_by, garment->name) : "";
+  io::set_value(scene.settings, "garment.mesh", mesh, "the studio");
+  if (worn_by) io::set_value(scene.settings, "body.mesh", figure, "the studio");
+  const jobs::GuessedFrame guess =
+      jobs::guess_frame(ground.folder() / mesh, worn_by ? ground.folder() / figure : fs::path());
+  io::set_value(scene.settings, "unit", unit.empty() ? guess.unit : unit, "the studio");
+  io::set_value(scene.settings, "up", up.empty() ? guess.up : up, "the studio");
+  enter(scene, ground.folder());
+  ground.keep();
+  Json answer{{"project", ground.folder().string()}};
+  if (unit.empty() || up.empty()) answer["told"] = Json::array({words_of(guess)});
+  return answer;
+}
+
+}  // namespace furrow::studio

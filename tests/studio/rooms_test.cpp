@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studio/rooms.h"
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "tests/studio/visitor.h"
+#include "tests/test_meshes.h"
+
+namespace furrow {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace fs = std::filesystem;
+using jobs::Json;
+using tests::line_at;
+using tests::Visitor;
+
+struct Sent {
+  std::string name, bytes;
+  std::string token = {}, origin = {};  ///< "": the right ones
+};
+
+/// Sends a file as the page does; its status and answer.
+http::response<http::string_body> put(const studio::Studio& studio, const Sent& sent) {
+  const std::string host = "127.0.0.1:" + std::to_string(studio.port());
+  asio::io_context io;
+  beast::tcp_stream stream(io);
+  stream.connect({asio::ip::address_v4::loopback(), studio.port()});
+  const std::string token = sent.token.empty() ? studio.token() : sent.token;
+  http::request<http::string_body> request(http::verb::put, "/upload?token=" + token + "&name=" + sent.name,
+                                           11);
+  request.set(http::field::host, host);
+  request.set(http::field::origin, sent.origin.empty() ? "http://" + host : sent.origin);
+  request.body() = sent.bytes;
+  request.prepare_payload();
+  beast::error_code failed;
+  http::write(stream, request, failed);  // it may be refused on the way
+  beast::flat_buffer buffer;
+  http::response<http::string_body> response;
+  http::read(stream, buffer, response, failed);
+  return response;
+}
+
+std::string number_of(const studio::Studio& studio, const std::string& name, const std::string& bytes) {
+  const auto response = put(studio, {name, bytes});
+  REQUIRE(response.result() == http::status::ok);
+  return response.body();
+}
+
+/// A sheet of 0.4 m in the xy plane as OBJ, in another unit, or lying in xz.
+std::string sheet_text(double scale, bool level = false) {
+  std::string text;
+  for (int j = 0; j <= 10; ++j)
+    for (int i = 0; i <= 8; ++i) {
+      const std::string x = std::to_string(0.05 * i * scale), y = std::to_string(0.05 * j * scale);
+      text += level ? "v " + x + " 0 " + y + "\n" : "v " + x + " " + y + " 0\n";
+    }
+  for (int j = 0; j < 10; ++j)
+    for (int i = 1; i <= 8; ++i) {
+      const int a = 9 * j + i;
+      text += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + 10) + " " +
+              std::to_string(a + 9) + "\n";
+    }
+  return text;
+}
+
+/// A folder with a gallery of one scene, and room for drawings.
+struct House {
+  explicit House(const std::string& name) : desk(name) {
+    fs::create_directories(desk.folder / "gallery");
+    fs::create_directories(desk.folder / "drawings");
+    std::ofstream(desk.folder / "gallery/hung.toml")
+        << "title = \"A sheet\"\n[garment]\nmesh = \"../sheet.ply\"\n[[pins]]\nbox = [-1, 0.35, -1, 1, 1, "
+           "1]\n";
+    std::ofstream(desk.folder / "gallery/untitled.toml") << "[garment]\nmesh = \"../sheet.ply\"\n";
+  }
+  studio::Places places() const { return {desk.folder / "gallery", desk.folder / "drawings"}; }
+  std::set<std::string> drawings() const { return tests::names_in(desk.folder / "drawings"); }
+  tests::Desk desk;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "studio rooms: with nothing open a garment of the gallery is chosen, drawn on, and left for another") {
+  const House house("gallery");
+  const studio::Studio studio(house.places());
+  Visitor page(studio);
+  CHECK(page.ask("draw", line_at(0.2)).at("refused").get<std::string>().find("nothing is open yet") == 0);
+  CHECK(page.ask("pull").contains("refused"));
+  CHECK(page.ask("open", {{"item", "untitled"}}).contains("refused"));
+  const Json opened = page.ask("open", {{"item", "hung"}});
+  REQUIRE(opened.contains("done"));
+  CHECK(house.drawings() == std::set<std::string>{"hung-studio"});
+  REQUIRE(page.ask("draw", line_at(0.2)).contains("done"));
+  CHECK(page.status.at("lines").size() == 1);
+
+  Visitor other(studio);
+  CHECK(other.ask("open", {{"item", "hung"}})
+            .at("refused")
+            .get<std::string>()
+            .find("another page is drawing") == 0);
+  REQUIRE(page.ask("open", {{"item", "hung"}}).contains("done"));
+  CHECK(house.drawings() == std::set<std::string>{"hung-studio", "hung-studio-2"});
+  page.ask("show");
+  CHECK(page.status.at("lines").empty());
+  const studio::Studio again(house.desk.folder / "drawings/hung-studio");
+  Visitor back(again);
+  back.ask("show");
+  CHECK(back.status.at("lines").size() == 1);
+}
+
+TEST_CASE(
+    "studio rooms: a file from the page becomes a drawing, in the unit and axis of its size and shape") {
+  const House house("upload");
+  const studio::Studio studio(house.places());
+  Visitor page(studio);
+  const Json metres = page.ask("open", {{"garment", number_of(studio, "my-sheet.obj", sheet_text(1))}});
+  REQUIRE(metres.contains("done"));
+  CHECK(metres["done"].at("told").at(0).get<std::string>().find("Taken as m with y upwards") == 0);
+  CHECK(house.drawings() == std::set<std::string>{"my-sheet-studio"});
+  REQUIRE(page.ask("draw", line_at(0.2)).contains("done"));
+
+  const Json other = page.ask("open", {{"garment", number_of(studio, "level.obj", sheet_text(100, true))}});
+  CHECK(other["done"].at("told").at(0).get<std::string>().find(
+            "Taken as cm with z upwards, so it is 0.50 m") == 0);
+  const Json said = page.ask(
+      "open", {{"garment", number_of(studio, "level.obj", sheet_text(100))}, {"unit", "mm"}, {"up", "z"}});
+  REQUIRE(said.contains("refused"));  // a garment of 5 cm; nothing is left of it
+  CHECK(house.drawings() == std::set<std::string>{"level-studio", "my-sheet-studio"});
+  REQUIRE(page.ask("draw", line_at(0.2)).contains("refused") == false);  // the one before is open still
+
+  const studio::Studio again(house.desk.folder / "drawings/my-sheet-studio");
+  Visitor back(again);
+  back.ask("show");
+  CHECK(back.status.at("lines").size() == 1);
+}
+
+TEST_CASE("studio rooms: a garment comes with its body, also under one name") {
+  const House house("body");
+  const studio::Studio studio(house.places());
+  Visitor page(studio);
+  const std::string box =
+      "v 0 0 -0.3\nv 0.3 0 -0.3\nv 0.3 1.7 -0.3\nv 0 1.7 -0.3\nv 0 0 -0.1\nv 0.3 0 -0.1\nv 0.3 1.7 -0.1\nv 0 "
+      "1.7 "
+      "-0.1\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const std::string garment = number_of(studio, "a.obj", sheet_text(1)),
+                    body = number_of(studio, "a.obj", box);
+  const Json opened = page.ask("open", {{"garment", garment}, {"body", body}});
+  INFO(opened.dump());
+  REQUIRE(opened.contains("done"));
+  page.ask("show");
+  CHECK(page.status.at("has_body") == true);
+  CHECK(tests::names_in(house.desk.folder / "drawings/a-studio/files") ==
+        std::set<std::string>{"a.obj", "body-a.obj"});
+}
+
+TEST_CASE("studio rooms: files that are none, too large, from elsewhere or of a bad name are refused") {
+  const House house("bad");
+  const studio::Studio studio(house.places());
+  Visitor page(studio);
+  const std::string sheet = sheet_text(1);
+  CHECK(put(studio, {"a.obj", sheet, std::string(64, '0')}).result() == http::status::forbidden);
+  CHECK(put(studio, {"a.obj", sheet, "", "http://furrow.example"}).result() == http::status::forbidden);
+  for (const std::string name : {"", "a", "a.exe", ".obj", "a.obj.sh", std::string(300, 'a') + ".obj"})
+    CHECK(put(studio, {name, sheet}).result() == http::status::unsupported_media_type);
+  CHECK(put(studio, {"a.obj", std::string((std::size_t{64} << 20) + 1, ' ')}).result() ==
+        http::status::payload_too_large);
+  const std::string out = number_of(studio, "../../../a%2f..%2fescape.obj", sheet);
+  REQUIRE(page.ask("open", {{"garment", out}}).contains("done"));
+  CHECK(house.drawings() == std::set<std::string>{"a-2f---2fescape-studio"});
+  for (const std::string& rubbish :
+       {std::string(), std::string("v 1 2\nf 7 8 9\n"), std::string(4096, '\0'), std::string("ply\n")})
+    CHECK(page.ask("open", {{"garment", number_of(studio, "rubbish.obj", rubbish)}}).contains("refused"));
+  CHECK(page.ask("open", {{"garment", out}}).contains("refused"));  // it was taken
+  CHECK(house.drawings().size() == 1);
+  CHECK(tests::names_in(house.desk.folder) == std::set<std::string>{"drawings", "gallery", "sheet.ply"});
+}
+
+}  // namespace furrow
