@@ -15,10 +15,10 @@ namespace fs = std::filesystem;
 
 const std::string unfinished = "unfinished-";
 
-/// An animation is made beside its place, and takes it when it is whole.
-class Replacing : public Listener {
+/// The motion was made before, and what it takes was allowed then.
+class SecondRun : public Listener {
  public:
-  explicit Replacing(Listener& other) : other_(other) {}
+  explicit SecondRun(Listener& other) : other_(other) {}
   void progress(const std::string& what, double share) override { other_.progress(what, share); }
   void warn(const Warning& warning) override { other_.warn(warning); }
   bool cancelled() override { return other_.cancelled(); }
@@ -32,14 +32,14 @@ class Replacing : public Listener {
 }  // namespace
 
 std::vector<fs::path> give_motion(const fs::path& scene, const fs::path& to, Listener& listener) {
-  Replacing replacing(listener);
+  SecondRun again(listener);
   const fs::path beside = fs::absolute(to).parent_path() / (unfinished + to.filename().string());
   SimulateJob job;
   job.scene.settings = settings_of(scene.string(), "", std::nullopt);
   job.scene.folder = scene.parent_path();
   io::set_value(job.scene.settings, "output.animation", beside.string(), "the studio");
   job.outputs_below = beside.parent_path();
-  const SimulateReport report = simulate(job, replacing);
+  const SimulateReport report = simulate(job, again);
   const bool whole =
       report.run.outcome == physics::Outcome::finished || report.run.outcome == physics::Outcome::stopped_at;
   std::vector<fs::path> written;

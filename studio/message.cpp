@@ -32,7 +32,8 @@ Message parse_message(const std::string& text) {
   }
   if (!message.body.is_object()) throw Refused("the message is no JSON object");
   message.id = value_of(message.body, "id");
-  if (!message.id.is_number_integer() && !(message.id.is_string() && message.id.size() <= 64))
+  if (!message.id.is_number_integer() &&
+      !(message.id.is_string() && message.id.get_ref<const std::string&>().size() <= 64))
     throw Refused("'id' is neither a whole number nor a text");
   message.what = text_of(message.body, "do", 32);
   return message;

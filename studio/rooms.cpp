@@ -173,17 +173,14 @@ Json Rooms::open_files(const Json& body) {
     if (!worn_by) throw Refused("body: the file has not arrived; choose it again");
   }
   Ground ground(free_folder(fs::path(garment->name).stem().string()));
-  jobs::SceneInput scene;
-  scene.settings.name = garment->name;
-  scene.folder = ground.folder();
   const std::string mesh = ground.take(*garment),
                     figure = worn_by ? ground.take(*worn_by, garment->name) : "";
-  io::set_value(scene.settings, "garment.mesh", mesh, "the studio");
-  if (worn_by) io::set_value(scene.settings, "body.mesh", figure, "the studio");
   const jobs::GuessedFrame guess =
       jobs::guess_frame(ground.folder() / mesh, worn_by ? ground.folder() / figure : fs::path());
-  io::set_value(scene.settings, "unit", unit.empty() ? guess.unit : unit, "the studio");
-  io::set_value(scene.settings, "up", up.empty() ? guess.up : up, "the studio");
+  std::string toml = "unit = \"" + (unit.empty() ? guess.unit : unit) + "\"\nup = \"" +
+                     (up.empty() ? guess.up : up) + "\"\n[garment]\nmesh = \"" + mesh + "\"\n";
+  if (worn_by) toml += "[body]\nmesh = \"" + figure + "\"\n";
+  const jobs::SceneInput scene{io::parse_toml(toml, garment->name), ground.folder()};
   enter(scene, ground.folder());
   ground.keep();
   Json answer{{"project", ground.folder().string()}};

@@ -336,7 +336,7 @@ async function sheet() {
   assert.equal(await seen.lines(), 2);
   await tab.keyboard.press("t");
   await until("tangles are told", async () => /cross/.test(await seen.words()));
-  await tab.getByRole("button", { name: "GLB" }).click();
+  await tab.getByRole("button", { name: "GLB", exact: true }).click();
   await until("it is given away", async () => /sheet\.glb/.test(await seen.words()));
   const download = tab.waitForEvent("download");
   await tab.getByRole("button", { name: "Picture" }).click();

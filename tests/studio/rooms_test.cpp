@@ -131,8 +131,8 @@ TEST_CASE(
   CHECK(other["done"].at("told").at(0).get<std::string>().find(
             "Taken as cm with z upwards, so it is 0.50 m") == 0);
   const Json said = page.ask(
-      "open", {{"garment", number_of(studio, "level.obj", sheet_text(100))}, {"unit", "mm"}, {"up", "z"}});
-  REQUIRE(said.contains("refused"));  // a garment of 5 cm; nothing is left of it
+      "open", {{"garment", number_of(studio, "level.obj", sheet_text(100))}, {"unit", "m"}, {"up", "y"}});
+  REQUIRE(said.contains("refused"));  // of 50 m; nothing is left of it
   CHECK(house.drawings() == std::set<std::string>{"level-studio", "my-sheet-studio"});
   REQUIRE(page.ask("draw", line_at(0.2)).contains("refused") == false);  // the one before is open still
 
@@ -168,7 +168,8 @@ TEST_CASE("studio rooms: files that are none, too large, from elsewhere or of a 
   const std::string sheet = sheet_text(1);
   CHECK(put(studio, {"a.obj", sheet, std::string(64, '0')}).result() == http::status::forbidden);
   CHECK(put(studio, {"a.obj", sheet, "", "http://furrow.example"}).result() == http::status::forbidden);
-  for (const std::string name : {"", "a", "a.exe", ".obj", "a.obj.sh", std::string(300, 'a') + ".obj"})
+  const std::vector<std::string> bad_names{"", "a", "a.exe", ".obj", "a.obj.sh", std::string(300, 'a') + ".obj"};
+  for (const std::string& name : bad_names)
     CHECK(put(studio, {name, sheet}).result() == http::status::unsupported_media_type);
   CHECK(put(studio, {"a.obj", std::string((std::size_t{64} << 20) + 1, ' ')}).result() ==
         http::status::payload_too_large);

@@ -19,6 +19,13 @@ interface Draft { height: number; width: number | null }
 /** What lives as long as the page and is no state of a panel. */
 interface Parts { program: Program; view: View; pen: Pen; handles: Handles; hand: Hand }
 type Busy = "" | "drape" | "keep" | "give" | "play";
+/** What a first start is told, one thing after the other. */
+const hints: [(s: Status) => boolean, string][] = [
+  [(s) => s.lines.length === 0 && s.step === 0, "Pick Ridge or Valley above, then draw on the cloth. Drag to turn it."],
+  [(s) => s.step === 1 && s.lines.length > 0, "Its height, width and sharpness are on the right; choose it, and drag it by its dots. Draw more."],
+  [(s) => (s.step === 2 || s.step === 3) && s.lines.length > 0 && s.can_drape, "Press Drape (D): the cloth comes to rest with its lines. Undo takes anything back."],
+  [(s) => s.undo === "drape" && s.step <= 8, "Draw more, Play moves it, Keep makes its lines last; ? shows all keys."],
+];
 const isPen = (tool: Tool) => tool === "ridge" || tool === "valley";
 
 export function App({ token }: { token: string }) {
@@ -352,7 +359,7 @@ export function App({ token }: { token: string }) {
     takeBack: undo,
   };
   const hint = !status ? (opening ? "" : "Opening …") : tool === "pin" ? "Click the cloth to hold it there, or to let it go; Shift: the whole border. Draw a loop to hold all within; Shift: to let it go. Esc: enough." : tool !== "look" ? `Draw on the cloth. Drag beside it to turn it. Shift: straight. Esc: lay the pen down.`
-    : status.lines.length === 0 && status.step === 0 ? "Pick Ridge or Valley above, then draw on the cloth. Drag to turn it." : "";
+    : hints.find(([fits]) => fits(status))?.[1] ?? "";
 
   return (
     <>

@@ -97,7 +97,7 @@ export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Pro
         ))}
       </div>}
       <p class="note">{held ? "Drape lets the cloth come to rest under its weight, Play lets it move, Keep makes its lines last."
-        : "To let it move, hold a border, pin it by clicks (P), or open it with --body."}</p>
+        : "To let it move, hold a border, pin it (P), or open it with a body (O)."}</p>
     </section>
   );
 }

@@ -28,7 +28,7 @@ function FileField({ label, file, change }: { label: string; file: File | null; 
   return (
     <label class="file">{label}
       <input type="file" accept=".obj,.ply,.off,.stl,.glb" onChange={(e) => change(e.currentTarget.files?.[0] ?? null)} />
-      <span class="note">{file?.name ?? "none"}</span>
+      {file && <span class="note">{file.name}</span>}
     </label>
   );
 }
