@@ -6,7 +6,6 @@
 #include <new>
 #include <utility>
 
-#include "io/scene/settings_table.h"
 #include "jobs/guess_frame.h"
 #include "jobs/read_inputs.h"
 

@@ -100,6 +100,27 @@ try {
   await tab.locator("canvas").focus();
   let redo = false;
   await row("undo, redo", "keydown", () => tab.keyboard.press((redo = !redo) ? "Control+z" : "Control+y"), settled);
+
+  // A frame while it moves: the time of a step of 1/60 s, its picture included, over four seconds.
+  await tab.keyboard.press("Space");
+  const moved = async () => Number((await tab.locator("[data-time]").getAttribute("data-time").catch(() => null)) ?? 0);
+  await until(async () => (await tab.locator("[data-time]").count()) > 0 && (await moved()) > 0.05);
+  const before = ticks(), from = { at: performance.now(), time: await moved() };
+  await tab.waitForTimeout(4000);
+  const steps = 60 * ((await moved()) - from.time), took = performance.now() - from.at, now = ticks();
+  await tab.keyboard.press("Space");
+  await tab.waitForTimeout(500);
+  console.log(`a frame while it moves: ${Math.round(took / steps)} ms, ${Math.round((100 * (now.idle - before.idle)) / (now.all - before.all))} % idle`);
+  await undo();
+  const drapes = [];
+  for (let i = 0; i < 5; ++i) {
+    const step = Number(await attribute("step")), began = performance.now();
+    await tab.keyboard.press("d");
+    for (const end = Date.now() + 200000; Number(await attribute("step")) === step && Date.now() < end;) await new Promise((r) => setTimeout(r, 20));
+    drapes.push(performance.now() - began);
+    await undo();
+  }
+  console.log(`drape: ${(median(drapes) / 1000).toFixed(2)} s (median of 5)`);
 } finally {
   program.removeAllListeners("exit");
   program.kill("SIGINT");

@@ -308,4 +308,15 @@ TEST_CASE("studio: one page draws, another watches until it takes the pen") {
   CHECK(first.ask("draw", line_at(0.1)).contains("refused"));
 }
 
+TEST_CASE("studio: a page that reads nothing holds nobody up") {
+  const Desk desk("deaf");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  page.ask("show");
+  const Visitor deaf(studio);  // what is sent to it waits, and gives way to what is newer
+  for (int i = 0; i < 400; ++i) REQUIRE(page.ask("show").contains("done"));
+  REQUIRE(page.ask("draw", line_at(0.2)).contains("done"));
+  CHECK(page.status.at("lines").size() == 1);
+}
+
 }  // namespace furrow

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""blender -b --factory-startup -P test_addon.py -- FURROW MESHES FOLDER: the add-on, as its zip installs it, on a skirt and
+its body: strokes of the Grease Pencil wrinkle it, it settles, keeps its lines and tells how it fits; edges as lines; what
+the garment has beside its shape stays; a run that is stopped, or refused, leaves the scene as it was."""
+import os
+import sys
+import time
+
+import bpy
+import mathutils
+import numpy
+
+furrow, meshes, folder = sys.argv[sys.argv.index("--") + 1:]
+bpy.ops.preferences.addon_install(filepath=os.path.join(folder, "furrow-blender.zip"), overwrite=True)
+bpy.ops.preferences.addon_enable(module="furrow")
+bpy.context.preferences.addons["furrow"].preferences.program = furrow
+import furrow.files as files
+import furrow.operators as operators
+import furrow.runs as runs
+
+
+def check(what, holds):
+    print(("ok: " if holds else "FAILED: ") + what)
+    if not holds:
+        sys.stdout.flush()
+        os._exit(1)
+
+
+def from_obj(name):
+    """A mesh object of an OBJ in metres, y up: z up here, moved and turned, as objects are."""
+    points, faces = [], []
+    with open(os.path.join(meshes, name)) as text:
+        for line in text:
+            words = line.split()
+            if words and words[0] == "v":
+                x, y, z = map(float, words[1:4])
+                points.append((x, -z, y))
+            elif words and words[0] == "f":
+                faces.append([int(w.split("/")[0]) - 1 for w in words[1:]])
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(points, [], faces)
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.collection.objects.link(obj)
+    return obj
+
+
+def shape_of(obj, key=None):
+    data = obj.data.shape_keys.key_blocks[key].data if key else obj.data.vertices
+    flat = numpy.empty(3 * len(data))
+    data.foreach_get("co", flat)
+    return flat.reshape(-1, 3)
+
+
+def all_beside_shape(obj):
+    """What must stay: UVs, materials, groups and weights, modifiers, faces, basis."""
+    mesh = obj.data
+    uv = [tuple(l.uv) for l in mesh.uv_layers.active.data]
+    weights = [sorted((g.group, round(g.weight, 6)) for g in v.groups) for v in mesh.vertices]
+    return (uv, [s.material.name for s in obj.material_slots], [p.material_index for p in mesh.polygons],
+            [g.name for g in obj.vertex_groups], weights, [(m.name, m.type) for m in obj.modifiers],
+            [tuple(p.vertices) for p in mesh.polygons], shape_of(obj).tolist())
+
+
+for other in list(bpy.data.objects):
+    bpy.data.objects.remove(other)
+skirt, body = from_obj("skirt.obj"), from_obj("mannequin.obj")
+place = mathutils.Matrix.Translation((0.3, -0.2, 0.1)) @ mathutils.Matrix.Rotation(0.4, 4, "Z")
+skirt.matrix_world = body.matrix_world = place
+uv = skirt.data.uv_layers.new(name="UV")
+high = max(v.co.z for v in skirt.data.vertices)
+low = min(v.co.z for v in skirt.data.vertices)
+for face in skirt.data.polygons:
+    angles = [numpy.arctan2(skirt.data.vertices[v].co.y, skirt.data.vertices[v].co.x) for v in face.vertices]
+    turn = 2 * numpy.pi if max(angles) - min(angles) > numpy.pi else 0
+    for angle, loop, v in zip(angles, face.loop_indices, face.vertices):
+        u = (angle + (turn if angle < 0 else 0) + numpy.pi) / (3.5 * numpy.pi)
+        uv.data[loop].uv = (u, 0.02 + 0.9 * (skirt.data.vertices[v].co.z - low) / (high - low))
+top = skirt.vertex_groups.new(name="waist")
+top.add([v.index for v in skirt.data.vertices if v.co.z > high - 0.01], 1.0, "REPLACE")
+skirt.vertex_groups.new(name="bone").add(list(range(len(skirt.data.vertices))), 0.7, "REPLACE")
+for name in ("cloth", "lining"):
+    skirt.data.materials.append(bpy.data.materials.new(name))
+rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))
+bpy.context.collection.objects.link(rig)
+skirt.modifiers.new("Armature", "ARMATURE").object = rig
+before = all_beside_shape(skirt)
+
+pencil = bpy.data.grease_pencils.new("lines")
+drawn = bpy.data.objects.new("lines", pencil)
+bpy.context.collection.objects.link(drawn)
+drawn.matrix_world = place
+for name, angles in (("ridge 20 mm", (-1.57, -1.2)), ("valley", (-1.9,))):
+    layer = pencil.layers.new(name)
+    strokes = layer.frames.new(1).strokes
+    for angle in angles:
+        on = [v.co for v in skirt.data.vertices if abs(numpy.arctan2(v.co.y, v.co.x) - angle) < 0.03 and v.co.z < low + 0.35]
+        on = sorted(on, key=lambda p: p.z)[::3]
+        stroke = strokes.new()
+        stroke.points.add(len(on))
+        for point, at in zip(stroke.points, on):
+            point.co = at
+
+scene = bpy.context.scene
+scene.frame_set(1)
+scene.furrow.pencil, scene.furrow.body, scene.furrow.pins = drawn, body, "waist"
+scene.furrow.height, scene.furrow.maps, scene.furrow.texels = -0.012, True, 256
+bpy.context.view_layer.objects.active = skirt
+skirt.select_set(True)
+
+check("keep is not offered before there are lines", not bpy.ops.furrow.keep.poll())
+check("wrinkle ends", bpy.ops.furrow.wrinkle() == {"FINISHED"})
+far = numpy.linalg.norm(shape_of(skirt, "Furrow wrinkled") - shape_of(skirt), axis=1)
+check("a shape key has the lines (moved by up to %.1f mm)" % (1000 * far.max()), 0.006 < far.max() < 0.05)
+check("and the rest of the skirt is where it was", numpy.median(far) < 1e-3)
+check("what is beside the shape stays", all_beside_shape(skirt) == before)
+shader = next(n for n in bpy.data.materials["cloth"].node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+check("the map is wired to the normal", shader.inputs["Normal"].is_linked)
+check("both materials have it", len([m for m in bpy.data.materials if m.node_tree and any(n.get("furrow") for n in m.node_tree.nodes)]) == 2)
+
+check("settle ends", bpy.ops.furrow.settle() == {"FINISHED"})
+held = [v.index for v in skirt.data.vertices if v.co.z > high - 0.01]
+settled = shape_of(skirt, "Furrow settled")
+check("what is pinned stays", numpy.abs(settled[held] - shape_of(skirt)[held]).max() < 1e-4)
+check("the rest hangs", numpy.linalg.norm(settled - shape_of(skirt), axis=1).max() > 0.004)
+keys = skirt.data.shape_keys.key_blocks
+check("the latest shape is shown alone", [k.value for k in keys] == [0.0, 0.0, 1.0] or keys["Furrow settled"].value == 1 and keys["Furrow wrinkled"].value == 0)
+check("what is beside the shape stays", all_beside_shape(skirt) == before)
+
+check("fit ends", bpy.ops.furrow.fit() == {"FINISHED"})
+colours = skirt.data.color_attributes["Furrow fit"].data
+check("and colours the skirt", len({tuple(round(c, 2) for c in d.color) for d in colours}) > 3)
+
+# A run that is stopped leaves nothing; one that is refused says why.
+shapes = [k.name for k in keys]
+
+
+run = type("Begun", (operators.Job,), {"key": "settled", "prepare": operators.Settle.prepare})().begin(bpy.context)
+run.poll()
+time.sleep(0.3)
+run.stop()
+check("a run that is stopped has ended", run.process.poll() is not None)
+check("and leaves the scene as it was", [k.name for k in keys] == shapes and all_beside_shape(skirt) == before)
+scene.furrow.pins, scene.furrow.body = "", None
+try:
+    bpy.ops.furrow.settle()
+    refused = ""
+except RuntimeError as e:
+    refused = str(e)
+check("without pins and body it says what is missing", "nothing holds the garment" in refused)
+
+# Edges of the mesh as lines, on another object.
+n, size = 14, 0.03
+grid = bpy.data.meshes.new("sheet")
+grid.from_pydata([(size * (i - n / 2), 0, size * j) for j in range(n + 1) for i in range(n + 1)], [],
+                 [(a, a + 1, a + n + 2, a + n + 1) for j in range(n) for a in range(j * (n + 1), j * (n + 1) + n)])
+sheet = bpy.data.objects.new("sheet", grid)
+bpy.context.collection.objects.link(sheet)
+bpy.context.view_layer.objects.active = sheet
+row = {(n + 1) * 7 + i for i in range(2, n - 1)}
+for edge in sheet.data.edges:
+    edge.select = edge.vertices[0] in row and edge.vertices[1] in row
+selected = [tuple(e.vertices) for e in sheet.data.edges if e.select]
+paths = list(files.chains([(0, 1), (1, 2), (5, 6), (6, 7), (7, 5), (2, 3)]))
+check("edges become paths and loops", sorted((sorted(p), c) for p, c in paths) == [([0, 1, 2, 3], False), ([5, 6, 7], True)])
+scene.furrow.lines_from, scene.furrow.height, scene.furrow.maps = "EDGES", 0.015, False
+check("the sheet has a row of edges", len(selected) > 5)
+check("edges as lines end", bpy.ops.furrow.wrinkle() == {"FINISHED"})
+check("and raise the sheet", numpy.abs(shape_of(sheet, "Furrow wrinkled") - shape_of(sheet)).max() > 0.008)
+
+scene.furrow.pins = sheet.vertex_groups.new(name="top").name
+sheet.vertex_groups["top"].add([v.index for v in sheet.data.vertices if v.co.z > max(w.co.z for w in sheet.data.vertices) - 1e-3], 1.0, "REPLACE")
+check("keep ends", bpy.ops.furrow.keep() == {"FINISHED"})
+check("and colours its line by the verdict", len({tuple(round(c, 2) for c in d.color) for d in sheet.data.color_attributes["Furrow verdict"].data}) > 1)
+print("all passed")
