@@ -164,6 +164,7 @@ paths = list(files.chains([(0, 1), (1, 2), (5, 6), (6, 7), (7, 5), (2, 3)]))
 check("edges become paths and loops", sorted((sorted(p), c) for p, c in paths) == [([0, 1, 2, 3], False), ([5, 6, 7], True)])
 scene.furrow.lines_from, scene.furrow.height, scene.furrow.maps = "EDGES", 0.015, False
 check("the sheet has a row of edges", len(selected) > 5)
+bpy.ops.object.mode_set(mode="EDIT")  # as who selects edges is in
 check("edges as lines end", bpy.ops.furrow.wrinkle() == {"FINISHED"})
 check("and raise the sheet", numpy.abs(shape_of(sheet, "Furrow wrinkled") - shape_of(sheet)).max() > 0.008)
 

@@ -53,15 +53,16 @@ class Job:
         program = settings.program(context)
         if not program:
             raise runs.Failed("the program furrow is not found: name its path in the add-on's preferences")
-        if context.mode == "EDIT_MESH":
-            self.obj = context.object
-            self.obj.update_from_editmode()
         self.obj, self.scene = context.object, context.scene.furrow
+        if self.obj.mode == "EDIT":  # what is selected there
+            self.obj.update_from_editmode()
         self.folder, self.scale = folder_of(self.obj), context.scene.unit_settings.scale_length
         self.matrix = self.obj.matrix_world.copy()
         return runs.Run(program, self.folder, self.prepare(context))
 
     def end(self, context, run):
+        if self.obj.mode == "EDIT":  # which would write its own shape over ours
+            bpy.ops.object.mode_set(mode="OBJECT")
         self.take(context, run)
         for line in run.warnings:
             self.report({"WARNING"}, line)

@@ -18,7 +18,7 @@ struct ActivePair {
   double energy, stiffness;       ///< [J], [N/m]
   double push = 0;                ///< along the normal [N]; >= 0
   double range = 0;               ///< at which its primitives begin to push [m]; > 0
-  PairCurvature curvature;        ///< of its distance
+  PairCurvature curvature = {};   ///< of its distance
 };
 
 }  // namespace furrow::physics

@@ -279,6 +279,18 @@ function sheetText(n, edge) {
   return lines.join("\n") + "\n";
 }
 
+/** A ridge by a pen that feels pressure. */
+async function press({ tab }, force) {
+  if ((await tab.getByRole("button", { name: "Both sides" }).getAttribute("aria-pressed")) === "true") await tab.getByRole("button", { name: "Both sides" }).click();
+  await tab.locator("header").getByRole("button", { name: "Ridge", exact: true }).click();
+  const box = await tab.locator("canvas").boundingBox(), hand = await tab.context().newCDPSession(tab);
+  const act = (type, y) => hand.send("Input.dispatchMouseEvent", {
+    type, x: box.x + 0.5 * box.width, y: box.y + y * box.height, button: "left", buttons: 1, clickCount: 1, pointerType: "pen", force });
+  await act("mousePressed", 0.4);
+  for (let y = 0.41; y < 0.6; y += 0.02) await act("mouseMoved", y);
+  await act("mouseReleased", 0.6);
+}
+
 /** On a small sheet: pins by keys and clicks, the order of lines, both sides, keep and its verdict, a picture of it. */
 async function sheet() {
   writeFileSync(join(scratch, "sheet.obj"), sheetText(14, 0.03));
@@ -326,6 +338,12 @@ async function sheet() {
   await seen.at(5);
   assert.deepEqual(await names(), order, "dragged back into the first order");
   await accessible(seen, "lines");
+  await press(seen, 0.25);
+  await seen.at(6);
+  assert.match(await tab.locator("aside .lines > li").last().innerText(), /\b6 mm/, "a pen that is pressed half as hard draws half as high");
+  await tab.keyboard.press("Control+z");
+  await seen.at(5);
+  await tab.keyboard.press("Escape");
   await tab.keyboard.press("k");
   await seen.at(6);
   await until("the verdict", async () => (await tab.locator(".verdicts li").count()) === 2);

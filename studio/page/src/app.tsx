@@ -115,9 +115,9 @@ export function App({ token }: { token: string }) {
       return { on: isPen(tool) && !busy, colour: tool === "valley" ? view.colours.valley : view.colours.ridge, width: draft.width ?? ownWidth(draft.height) };
     };
     const pen = new Pen(view, settings, {
-      drawn: async ({ points, closed }) => {
+      drawn: async ({ points, closed, pressure = 0.5 }) => {
         const { tool, draft, both, status } = now.current, place = status!.lines.length;
-        const height = tool === "valley" ? -draft.height : draft.height;
+        const size = draft.height * Math.min(2, Math.max(0.2, 2 * pressure)), height = tool === "valley" ? -size : size;
         const line = { height, points, closed, ...(draft.width === null ? {} : { width: draft.width }), ...(both ? { mirror: true } : {}) };
         if (await ask("draw", line)) setChosen(place);  // its sliders are open
         else pen.drop();

@@ -2,7 +2,8 @@
 // The pen: a line that sticks to the cloth while the button is down.
 import type { Hit, View } from "./view";
 
-export interface Drawn { points: number[][]; closed: boolean }
+/** `pressure`: the mean of a pen that feels it, 0.5 where it is held as usual. */
+export interface Drawn { points: number[][]; closed: boolean; pressure?: number }
 export interface PenSettings { on: boolean; colour: number; width: number }
 export interface PenHearer { drawn(line: Drawn): void; tooShort(): void }
 
@@ -16,6 +17,7 @@ export class Pen {
   private last?: [number, number];
   private first?: [number, number];
   private down = false;
+  private pressures: number[] = [];
 
   constructor(private view: View, private settings: () => PenSettings, private hearer: PenHearer) {
     const canvas = view.canvas;
@@ -36,6 +38,8 @@ export class Pen {
     this.view.canvas.setPointerCapture(e.pointerId);
     this.down = true;
     this.hits = [hit];
+    this.pressures = [];
+    this.feel(e);
     this.first = this.last = [e.clientX, e.clientY];
   }
 
@@ -51,9 +55,15 @@ export class Pen {
     for (let i = 1; i <= n; ++i) this.add(from[0] + ((x - from[0]) * i) / n, from[1] + ((y - from[1]) * i) / n);
   }
 
+  /** A mouse has no pressure, and a finger none that means anything. */
+  private feel(e: PointerEvent) {
+    if (e.pointerType === "pen" && e.pressure > 0) this.pressures.push(e.pressure);
+  }
+
   private move(e: PointerEvent) {
     if (!this.down) return;
     e.stopImmediatePropagation();
+    this.feel(e);
     if (e.shiftKey) {
       this.hits.length = 1;
       this.addTo(e.clientX, e.clientY, this.first!);
@@ -88,7 +98,8 @@ export class Pen {
       this.drop();
       return this.hearer.tooShort();
     }
-    this.hearer.drawn({ points: this.hits.map((h) => h.undrawn.toArray()), closed: this.isClosed() });
+    const felt = this.pressures, pressure = felt.length > 0 ? felt.reduce((sum, p) => sum + p, 0) / felt.length : undefined;
+    this.hearer.drawn({ points: this.hits.map((h) => h.undrawn.toArray()), closed: this.isClosed(), pressure });
   }
 
   /** Lets the line go. */

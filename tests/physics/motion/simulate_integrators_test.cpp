@@ -26,9 +26,10 @@ TEST_CASE("simulate: each integrator has its own limit, or none, and counts its 
   const SimulateReport implicit = run(Integrator::implicit);
   CHECK(std::isinf(implicit.dt_limit));
   CHECK(implicit.limit_estimates == 0);
-  CHECK(implicit.steps == 12);
-  CHECK(implicit.linear_solves == 12);
-  CHECK(implicit.factorisations == 12);
+  CHECK(implicit.steps == 3);
+  CHECK(implicit.iterations >= implicit.steps);
+  CHECK(implicit.linear_solves >= implicit.iterations);
+  CHECK(implicit.factorisations <= implicit.iterations);
   const SimulateReport xpbd = run(Integrator::xpbd);
   CHECK(std::isinf(xpbd.dt_limit));
   CHECK(xpbd.limit_estimates == 0);
