@@ -55,6 +55,17 @@ std::string change_line(const Json& body, Json& line) {
   return what;
 }
 
+/// A line that still has the name which its kind gave it gets that of its kind now.
+void name_by_kind(const Json& drawing, Json& stroke) {
+  const std::string name = stroke.value("name", "");
+  const Json height = stroke.value("height", Json());
+  if (!height.is_number() || height == 0.0) return;
+  const std::string other = height < 0.0 ? "ridge " : "valley ";
+  const bool given = name.rfind(other, 0) == 0 && name.size() > other.size() &&
+                     name.find_first_not_of("0123456789", other.size()) == name.npos;
+  if (given) stroke["name"] = free_name_for(drawing, stroke);
+}
+
 void add_line(Json& drawing, Json stroke) {
   drawing["lines"].push_back({{"on", true}, {"stroke", std::move(stroke)}});
 }
@@ -91,6 +102,7 @@ Json Session::draw(const Json& body) {
 Json Session::set(const Json& body) {
   Json drawing = project_->now().drawing;
   const std::string what = change_line(body, line_of(drawing, body));
+  name_by_kind(drawing, line_of(drawing, body)["stroke"]);
   if (flag_of(body, "live")) {
     show_preview(drawing);
     return {{"live", true}};

@@ -26,6 +26,8 @@ const hints: [(s: Status) => boolean, string][] = [
   [(s) => (s.step === 2 || s.step === 3) && s.lines.length > 0 && s.can_drape, "Press Drape (D): the cloth comes to rest with its lines. Undo takes anything back."],
   [(s) => s.undo === "drape" && s.step <= 8, "Draw more, Play moves it, Keep makes its lines last; ? shows all keys."],
 ];
+/** What a job says of options of the command line, in words that the page has. */
+const inPage = (text: string) => text.replace(/; --[a-z-]+[^;.\n]*/g, "").replace(/furrow keep/g, "Keep").replace(/furrow drape/g, "Drape");
 const isPen = (tool: Tool) => tool === "ridge" || tool === "valley";
 
 export function App({ token }: { token: string }) {
@@ -34,7 +36,7 @@ export function App({ token }: { token: string }) {
   const [status, setStatus] = useState<Status>();
   const [me, setMe] = useState(0);
   const [tool, setTool] = useState<Tool>("look");
-  const [draft, setDraft] = useState<Draft>({ height: 0.03, width: null });
+  const [draft, setDraft] = useState<Draft>({ height: 0.02, width: null });
   const [chosen, setChosen] = useState(-1);
   const [seen, setSeen] = useState<Seen>({ body: true, wire: false, lines: true });
   const [words, setWords] = useState<Words>({ text: "", bad: false });
@@ -64,10 +66,11 @@ export function App({ token }: { token: string }) {
     if (now.current.busy === "play") void parts.current!.program.ask("pause");  // what is asked then wants it still
     try {
       const done = await parts.current!.program.ask(what, body);
-      say([then?.(done) ?? "", ...(done.told ?? []).map((t) => `Note: ${t}`)].filter(Boolean).join("\n"));
+      say([then?.(done) ?? "", ...(done.told ?? []).map((t) => `Note: ${t}`)].map(inPage).filter(Boolean).join("\n"));
       return true;
     } catch (e) {
-      say((e as Error).message, true);
+      const why = (e as Error).message;
+      say(why, !why.startsWith("stopped;"));  // which was asked for
       return false;
     }
   };
@@ -211,7 +214,7 @@ export function App({ token }: { token: string }) {
   const keep = async () => {
     if (busy) return;
     setBusy("keep");
-    say("The lines are tried: each has to hold, at rest and in a gust …");
+    say("The lines are tried: each has to hold, at rest and in a gust. That takes minutes on a large garment, and can be stopped.");
     await ask("keep", {}, (done) => {
       setVerdict({ step: now.current.status!.step, done });
       return [done.all_hold ? "Every line holds." : "Not every line can hold; the list says why.", ...(done.remarks ?? [])].join("\n");
@@ -371,11 +374,11 @@ export function App({ token }: { token: string }) {
           ))}
         </div>
         <div class="group">
-          <Slider label="Height" value={draft.height * 1000} min={2} max={100} step={1} text={(v) => mm(v / 1000)}
+          <Slider label="New height" value={draft.height * 1000} min={2} max={100} step={1} text={(v) => mm(v / 1000)}
             change={(v) => setDraft((d) => ({ ...d, height: v / 1000 }))} />
         </div>
         <div class="group">
-          <Slider label="Width" value={(draft.width ?? ownWidth(draft.height)) * 1000} min={10} max={300} step={5}
+          <Slider label="New width" value={(draft.width ?? ownWidth(draft.height)) * 1000} min={10} max={300} step={5}
             text={(v, dragged) => (draft.width === null && !dragged ? "auto" : mm(v / 1000))} change={(v) => setDraft((d) => ({ ...d, width: v / 1000 }))} />
           {draft.width !== null && <button class="small" onClick={() => setDraft((d) => ({ ...d, width: null }))}>auto</button>}
         </div>
@@ -426,7 +429,10 @@ export function App({ token }: { token: string }) {
               ["moving glb", "Moving GLB", "How it moved, as an animation"], ["pc2", "PC2", "How it moved, as a point cache beside OBJ"]] as const).map(([as, label, title]) => (
               <button key={as} class="small" title={title} disabled={busy !== "" || !mayDraw} onClick={() => void give(as)}>{label}</button>
             ))}
-            <button class="small" title="What is seen, as PNG" onClick={() => parts.current!.view.savePicture(`${status.title}.png`)}>Picture</button>
+            <button class="small" title="What is seen, as PNG" onClick={() => {
+              parts.current!.view.savePicture(`${status.title}.png`);
+              say(`The picture goes to the browser's downloads: ${status.title}.png.`);
+            }}>Picture</button>
           </div>
         </section>}
       </aside>

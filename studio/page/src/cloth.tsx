@@ -87,6 +87,7 @@ export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Pro
         <button disabled={!held || !idle} title="One step of 1/60 s" onClick={() => actions.play(1 / 60)}>Step</button>
         <button disabled={!held || !idle} title="Make the lines last, and tell of each whether it will hold (K)" onClick={actions.keep}>Keep</button>
       </div>
+      {held && status.borders.some((b) => b.name === "top" && !b.held) && <p class="note">Nothing holds the upper border: it may slip down.</p>}
       {kept && <Verdicts kept={kept} actions={actions} />}
       {(busy === "play" || status.time > 0) && <p class="note" data-time={moving}>At {(busy === "play" ? moving : status.time).toFixed(2)} s of its motion.{busy === "play" && " Pull it with the pointer."}</p>}
       {status.has_body && <div class="group" role="group" aria-label="Fit">

@@ -15,14 +15,14 @@ export function Help({ close }: { close: () => void }) {
   useEffect(() => dialog.current?.showModal(), []);
   return (
     <dialog ref={dialog} onClose={close} aria-labelledby="help-title">
-      <h2 id="help-title">How it works</h2>
+      <h2 id="help-title" tabIndex={-1} autofocus>How it works</h2>
       <p>Pick the ridge or the valley pen and draw on the cloth: it wrinkles there when you lift the pen. Drag beside the cloth to turn it,
         with the right button to move it; the wheel brings it nearer. Every line stays in the list and can be changed; a chosen one is dragged by
         its dots. <b>Play</b> lets the cloth move until you pause it (pull at it meanwhile), <b>Keep</b> makes its lines last, <b>Drape</b> lets it come to rest under its weight; then you can draw more. Each step can be undone, and is kept on disk.</p>
       <table>
         <tbody>{keys.map(([key, what]) => <tr key={key}><td><kbd>{key}</kbd></td><td>{what}</td></tr>)}</tbody>
       </table>
-      <form method="dialog"><button class="main" autofocus>Close</button></form>
+      <form method="dialog"><button class="main">Close</button></form>
     </dialog>
   );
 }

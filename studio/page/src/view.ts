@@ -375,10 +375,19 @@ export class View {
     this.draw();
   }
 
-  /** What is seen goes to the browser's downloads. */
+  /** What is seen, without pins and dots and twice as fine, goes to the browser's downloads. */
   savePicture(name: string) {
+    const tools = [this.pins, this.handles, this.rope, this.plane, this.band], seen = tools.map((t) => t.visible);
+    const ratio = this.renderer.getPixelRatio(), { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
+    for (const tool of tools) tool.visible = false;
+    this.renderer.setPixelRatio(Math.max(2, ratio));
+    this.renderer.setSize(w, h, false);
     this.renderer.render(this.scene, this.camera);  // what was drawn before is gone from the canvas
     this.canvas.toBlob((picture) => {
+      tools.forEach((tool, i) => (tool.visible = seen[i]));
+      this.renderer.setPixelRatio(ratio);
+      this.renderer.setSize(w, h, false);
+      this.draw();
       if (!picture) return;
       const link = document.createElement("a");
       link.href = URL.createObjectURL(picture);
