@@ -48,7 +48,8 @@ TEST_CASE("stepper: implicit steps keep a shell's momentum and are stable at a h
   Particles& p = cloth.particles;
   for (std::size_t i = 0; i < p.size(); ++i) p.inv_mass[i] = 1 / p.mass[i];
   const double dt = 0.1;  // 2 / omega is about 1 ms
-  const Particles end = after(cloth, {.gravity = Vec3::Zero()}, {Integrator::implicit}, dt, 200);
+  const StepperOptions closely{Integrator::implicit, {}, {.tolerance = 1e-5, .few = 12}};
+  const Particles end = after(cloth, {.gravity = Vec3::Zero()}, closely, dt, 200);
   Vec3 change = Vec3::Zero();
   double scale = 0, fastest = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -57,7 +58,8 @@ TEST_CASE("stepper: implicit steps keep a shell's momentum and are stable at a h
     fastest = std::max(fastest, end.v[i].norm());
   }
   CHECK(fastest < 2);
-  CHECK(change.norm() < 1e-4 * scale);  // where searches end; what is solved closely keeps 1e-9
+  CAPTURE(change.norm() / scale);
+  CHECK(change.norm() < 1e-6 * scale);
 }
 
 TEST_CASE("stepper: XPBD refuses a shell") {
