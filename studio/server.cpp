@@ -59,7 +59,7 @@ struct Target {
 };
 Target parse_target(std::string_view target) {
   const std::size_t question = target.find('?');
-  Target parsed{target.substr(0, question), {}};
+  Target parsed{target.substr(0, question), {}, {}};
   if (question == std::string_view::npos) return parsed;
   const std::string_view query = target.substr(question + 1);
   if (query.substr(0, 6) != "token=") return parsed;

@@ -102,6 +102,7 @@ try {
   await row("undo, redo", "keydown", () => tab.keyboard.press((redo = !redo) ? "Control+z" : "Control+y"), settled);
 
   // A frame while it moves: the time of a step of 1/60 s, its picture included, over four seconds.
+  const still = Number(await attribute("step"));
   await tab.keyboard.press("Space");
   const moved = async () => Number((await tab.locator("[data-time]").getAttribute("data-time").catch(() => null)) ?? 0);
   await until(async () => (await tab.locator("[data-time]").count()) > 0 && (await moved()) > 0.05);
@@ -109,7 +110,7 @@ try {
   await tab.waitForTimeout(4000);
   const steps = 60 * ((await moved()) - from.time), took = performance.now() - from.at, now = ticks();
   await tab.keyboard.press("Space");
-  await tab.waitForTimeout(500);
+  await until(async () => Number(await attribute("step")) === still + 1);
   console.log(`a frame while it moves: ${Math.round(took / steps)} ms, ${Math.round((100 * (now.idle - before.idle)) / (now.all - before.all))} % idle`);
   await undo();
   const drapes = [];
