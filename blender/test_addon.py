@@ -157,6 +157,10 @@ sheet = bpy.data.objects.new("sheet", grid)
 bpy.context.collection.objects.link(sheet)
 bpy.context.view_layer.objects.active = sheet
 row = {(n + 1) * 7 + i for i in range(2, n - 1)}
+for part in (sheet.data.vertices, sheet.data.polygons):  # all are selected in a new mesh
+    part.foreach_set("select", [False] * len(part))
+for v in row:
+    sheet.data.vertices[v].select = True
 for edge in sheet.data.edges:
     edge.select = edge.vertices[0] in row and edge.vertices[1] in row
 selected = [tuple(e.vertices) for e in sheet.data.edges if e.select]
