@@ -55,15 +55,20 @@ std::string change_line(const Json& body, Json& line) {
   return what;
 }
 
-/// A line that still has the name which its kind gave it gets that of its kind now.
-void name_by_kind(const Json& drawing, Json& stroke) {
+/// Whether a line is called as the studio calls a new one of that kind: "ridge 3".
+bool has_name_of(const std::string& kind, const Json& stroke) {
   const std::string name = stroke.value("name", "");
-  const Json height = stroke.value("height", Json());
-  if (!height.is_number() || height == 0.0) return;
-  const std::string other = height < 0.0 ? "ridge " : "valley ";
-  const bool given = name.rfind(other, 0) == 0 && name.size() > other.size() &&
-                     name.find_first_not_of("0123456789", other.size()) == name.npos;
-  if (given) stroke["name"] = free_name_for(drawing, stroke);
+  return name.rfind(kind + " ", 0) == 0 && name.size() > kind.size() + 1 &&
+         name.find_first_not_of("0123456789", kind.size() + 1) == name.npos;
+}
+
+/// A ridge that has become a valley, or the other way round, goes on under a name of that kind, unless
+/// somebody named it.
+void rename_turned(const Json& drawing, const Json& before, Json& stroke) {
+  if (!stroke.value("height", Json()).is_number() || !before.value("height", Json()).is_number()) return;
+  const double was = before["height"], is = stroke["height"];
+  if (was * is < 0 && has_name_of(was < 0 ? "valley" : "ridge", before) && stroke["name"] == before["name"])
+    stroke["name"] = free_name_for(drawing, stroke);
 }
 
 void add_line(Json& drawing, Json stroke) {
@@ -101,8 +106,10 @@ Json Session::draw(const Json& body) {
 
 Json Session::set(const Json& body) {
   Json drawing = project_->now().drawing;
-  const std::string what = change_line(body, line_of(drawing, body));
-  name_by_kind(drawing, line_of(drawing, body)["stroke"]);
+  Json& line = line_of(drawing, body);
+  const Json before = line.at("stroke");
+  const std::string what = change_line(body, line);
+  rename_turned(drawing, before, line["stroke"]);
   if (flag_of(body, "live")) {
     show_preview(drawing);
     return {{"live", true}};

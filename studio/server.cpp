@@ -336,7 +336,8 @@ void Server::start(Worker& worker, Uploads& uploads) {
   parts_->uploads = &uploads;
   parts_->accept();
   parts_->thread = std::thread([p = parts_] { p->io.run(); });
-  pthread_setname_np(parts_->thread.native_handle(), "studio-server");  // for who looks at what it costs
+  pthread_setname_np(parts_->thread.native_handle(),
+                     "studio-server");  // so that its cost can be told from the worker's
 }
 
 void Server::stop() {

@@ -4,26 +4,17 @@
 //  - streaming: the server thread's share of a core while a page sees the cloth move for ten seconds;
 //  - a page that stalls: how far the cloth moves in ten seconds with one that reads nothing, over that without.
 // Linux alone: it reads /proc.
-import { spawn } from "node:child_process";
 import { randomBytes } from "node:crypto";
 import { mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { connect } from "node:net";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { start } from "./start.mjs";
 
 const [furrow, garment, body] = process.argv.slice(2);
 const scratch = mkdtempSync(join(tmpdir(), "furrow-load-"));
-const program = spawn(resolve(furrow), ["studio", resolve(garment), ...(body ? ["--body", resolve(body)] : []), "--pin-loop", "top", "--no-browser"], { cwd: scratch });
-const url = new URL(await new Promise((done, fail) => {
-  let said = "";
-  const hear = (data) => {
-    const found = /http:\/\/\S+/.exec((said += data));
-    if (found) done(found[0]);
-  };
-  program.stdout.on("data", hear);
-  program.stderr.on("data", hear);
-  program.on("exit", () => fail(new Error(said)));
-}));
+const { program, url: address } = await start(furrow, garment, body, scratch);
+const url = new URL(address);
 
 /** A page as the program sees it. */
 class Page {

@@ -3,11 +3,11 @@
 // whose node_modules has playwright-core (build/release/page). Each row is the median of 20 in a real Chromium, and the
 // least, from the event in the page to the second picture after what the program answered; beside it the share of the
 // machine that was idle meanwhile, without which no such time means much.
-import { spawn } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { start } from "./start.mjs";
 
 const [furrow, page, garment, body] = process.argv.slice(2);
 const { chromium } = createRequire(join(resolve(page), "package.json"))("playwright-core");
@@ -15,17 +15,7 @@ const executablePath = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/
 const scratch = mkdtempSync(join(tmpdir(), "furrow-times-"));
 const repeats = 20;
 
-const program = spawn(resolve(furrow), ["studio", resolve(garment), ...(body ? ["--body", resolve(body)] : []), "--pin-loop", "top", "--no-browser"], { cwd: scratch });
-const url = await new Promise((done, fail) => {
-  let said = "";
-  const hear = (data) => {
-    const found = /http:\/\/\S+/.exec((said += data));
-    if (found) done(found[0]);
-  };
-  program.stdout.on("data", hear);
-  program.stderr.on("data", hear);
-  program.on("exit", () => fail(new Error(said)));
-});
+const { program, url } = await start(furrow, garment, body, scratch);
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--headless", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
 
 /** Idle and all ticks of the machine so far. */

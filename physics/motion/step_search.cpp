@@ -206,7 +206,7 @@ std::vector<Vec3> StepSearch::solve(std::vector<Vec3> net) {
   return net;
 }
 
-/// Makes a share of a move; 0: none lowers the energy, and `here` is as it was.
+/// Makes a share of a move; 0: none lowers the energy, and x is as it was. `here` is of x at the end.
 StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
                                     const SearchOptions& options) {
   const double slope = -dot(here.net, move);

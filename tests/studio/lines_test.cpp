@@ -37,6 +37,23 @@ TEST_CASE("studio lines: a line is dragged by its points, and seen before it is 
   CHECK(page.cloth == before);
 }
 
+TEST_CASE("studio lines: a ridge that becomes a valley is called one, unless somebody named it") {
+  const Desk desk("kinds");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  const auto name = [&](int line) { return page.status.at("lines").at(line).at("name").get<std::string>(); };
+  REQUIRE(page.ask("draw", line_at(0.1)).contains("done"));
+  REQUIRE(page.ask("draw", line_at(0.2, -0.02)).contains("done"));
+  REQUIRE(page.ask("set", {{"line", 0}, {"height", -0.02}}).contains("done"));
+  CHECK(name(0) == "valley 2");
+  REQUIRE(page.ask("set", {{"line", 0}, {"height", -0.01}}).contains("done"));
+  CHECK(name(0) == "valley 2");
+  REQUIRE(page.ask("set", {{"line", 1}, {"name", "ridge 7"}}).contains("done"));
+  CHECK(name(1) == "ridge 7");
+  REQUIRE(page.ask("set", {{"line", 1}, {"height", 0.02}}).contains("done"));
+  CHECK(name(1) == "ridge 7");
+}
+
 TEST_CASE("studio lines: their order can be changed, and is the one that is saved") {
   const Desk desk("order");
   const studio::Studio studio(desk.scene, desk.project());

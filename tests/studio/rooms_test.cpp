@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studio/rooms.h"
 
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -13,9 +10,7 @@
 namespace furrow {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
+namespace http = boost::beast::http;
 namespace fs = std::filesystem;
 using jobs::Json;
 using tests::line_at;
@@ -29,22 +24,13 @@ struct Sent {
 /// Sends a file as the page does; its status and answer.
 http::response<http::string_body> put(const studio::Studio& studio, const Sent& sent) {
   const std::string host = "127.0.0.1:" + std::to_string(studio.port());
-  asio::io_context io;
-  beast::tcp_stream stream(io);
-  stream.connect({asio::ip::address_v4::loopback(), studio.port()});
   const std::string token = sent.token.empty() ? studio.token() : sent.token;
   http::request<http::string_body> request(http::verb::put, "/upload?token=" + token + "&name=" + sent.name,
                                            11);
   request.set(http::field::host, host);
   request.set(http::field::origin, sent.origin.empty() ? "http://" + host : sent.origin);
   request.body() = sent.bytes;
-  request.prepare_payload();
-  beast::error_code failed;
-  http::write(stream, request, failed);  // it may be refused on the way
-  beast::flat_buffer buffer;
-  http::response<http::string_body> response;
-  http::read(stream, buffer, response, failed);
-  return response;
+  return tests::answer_to(studio, request);
 }
 
 std::string number_of(const studio::Studio& studio, const std::string& name, const std::string& bytes) {
@@ -168,7 +154,8 @@ TEST_CASE("studio rooms: files that are none, too large, from elsewhere or of a 
   const std::string sheet = sheet_text(1);
   CHECK(put(studio, {"a.obj", sheet, std::string(64, '0')}).result() == http::status::forbidden);
   CHECK(put(studio, {"a.obj", sheet, "", "http://furrow.example"}).result() == http::status::forbidden);
-  const std::vector<std::string> bad_names{"", "a", "a.exe", ".obj", "a.obj.sh", std::string(300, 'a') + ".obj"};
+  const std::vector<std::string> bad_names{"",     "a",        "a.exe",
+                                           ".obj", "a.obj.sh", std::string(300, 'a') + ".obj"};
   for (const std::string& name : bad_names)
     CHECK(put(studio, {name, sheet}).result() == http::status::unsupported_media_type);
   CHECK(put(studio, {"a.obj", std::string((std::size_t{64} << 20) + 1, ' ')}).result() ==

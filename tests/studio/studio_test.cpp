@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studio/studio.h"
 
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <filesystem>
@@ -19,9 +16,7 @@
 namespace furrow {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
+namespace http = boost::beast::http;
 namespace fs = std::filesystem;
 using jobs::Json;
 using tests::Desk;
@@ -32,16 +27,9 @@ using tests::Visitor;
 http::response<http::string_body> get(const studio::Studio& studio, const std::string& target,
                                       std::string host = "") {
   if (host.empty()) host = "127.0.0.1:" + std::to_string(studio.port());
-  asio::io_context io;
-  beast::tcp_stream stream(io);
-  stream.connect({asio::ip::address_v4::loopback(), studio.port()});
-  http::request<http::empty_body> request(http::verb::get, target, 11);
+  http::request<http::string_body> request(http::verb::get, target, 11);
   request.set(http::field::host, host);
-  http::write(stream, request);
-  beast::flat_buffer buffer;
-  http::response<http::string_body> response;
-  http::read(stream, buffer, response);
-  return response;
+  return tests::answer_to(studio, request);
 }
 
 }  // namespace

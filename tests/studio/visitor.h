@@ -2,6 +2,7 @@
 #pragma once
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <filesystem>
 #include <string>
@@ -30,6 +31,23 @@ struct Desk {
   std::filesystem::path folder;
   jobs::SceneInput scene;
 };
+
+/// What a studio answers to a request; where it closes the connection while a body is sent, what it said
+/// before.
+inline boost::beast::http::response<boost::beast::http::string_body> answer_to(
+    const studio::Studio& studio, boost::beast::http::request<boost::beast::http::string_body> request) {
+  namespace http = boost::beast::http;
+  boost::asio::io_context io;
+  boost::beast::tcp_stream stream(io);
+  stream.connect({boost::asio::ip::address_v4::loopback(), studio.port()});
+  request.prepare_payload();
+  boost::beast::error_code closed;
+  http::write(stream, request, closed);
+  boost::beast::flat_buffer buffer;
+  http::response<http::string_body> response;
+  http::read(stream, buffer, response, closed);
+  return response;
+}
 
 /// A page that is no browser.
 class Visitor {
