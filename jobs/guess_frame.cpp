@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "io/mesh/mesh_file.h"
-#include "jobs/read_inputs.h"
 
 namespace furrow::jobs {
 namespace {
@@ -39,12 +37,10 @@ GuessedFrame guess_frame(const std::filesystem::path& garment, const std::filesy
   const std::filesystem::path& judged = has_body ? body : garment;
   const Edges edges = edges_of(judged);
   const double longest = *std::max_element(edges.begin(), edges.end());
-  Frame noted;
-  take_noted_frame(noted, {garment.string()});
   GuessedFrame guess;
-  if (noted.noted_unit != "m" || noted.noted_up != "y" || io::mesh_format(garment) == io::MeshFormat::gltf) {
-    guess.unit = noted.noted_unit, guess.up = noted.noted_up;
-  } else {
+  if (const auto record = io::read_wrinkle_record(garment)) {
+    guess.unit = record->unit, guess.up = record->up;
+  } else if (io::mesh_format(garment) != io::MeshFormat::gltf) {  // which is in metres, y up, always
     const double least = has_body ? 0.8 : 0.25, most = 2.3;
     int fitting = 0;
     for (const Unit& unit : units) {

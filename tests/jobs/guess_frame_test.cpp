@@ -43,6 +43,19 @@ TEST_CASE("guess_frame: a body of a person's size tells unit and axis, whatever 
                                                                           : 0.001)));
 }
 
+TEST_CASE("guess_frame: what a file of ours notes goes before any size") {
+  const auto folder = tests::empty_folder("noted");
+  io::MeshFile curtain = io::read_mesh(written(folder, "curtain.obj", box_text(4, 5, 0.1)));
+  io::WrinkleRecord record;
+  record.unit = "m", record.up = "z";
+  io::set_wrinkle_record(curtain, record);
+  io::write_mesh(folder / "curtain.ply", curtain);
+  const auto found = jobs::guess_frame(folder / "curtain.ply");
+  CHECK(found.unit == "m");
+  CHECK(found.up == "z");
+  CHECK(found.sure);
+}
+
 TEST_CASE("guess_frame: it doubts a size that nobody has, and a garment as deep as tall") {
   const auto folder = tests::empty_folder("doubt");
   CHECK_FALSE(jobs::guess_frame(written(folder, "huge.obj", box_text(5, 1e5, 5))).sure);
