@@ -38,9 +38,10 @@ struct KeepOptions {
   physics::SimulateOptions run;
   physics::PrestressOptions bounds;  ///< of the rest state; its gravity, friction and gap are those of `run`
   double seconds = 5;                ///< the first forward run, from rest [s]; > 0
-  double gust = 12;                  ///< then an acceleration to one side [m/s^2]; >= 0; 0: no gust
-  double gust_seconds = 0.4, calm_seconds = 2;  ///< [s]; > 0
-  physics::Vec3 gust_direction{0, 0, 0};        ///< 0: level, the way in which the cloth is thinnest
+  /// An acceleration to one side, then to the other, and the same across, level [m/s^2]; >= 0; 0: no gust.
+  double gust = 12;
+  double gust_seconds = 0.4, calm_seconds = 2;  ///< of each, and after the last [s]; > 0
+  physics::Vec3 gust_direction{0, 0, 0};        ///< of the first; 0: level, as the cloth is thinnest
   /// Each run begins with every vertex pushed off by `push`, or a tenth of its shortest edge, in another
   /// direction each time. A shape that is not stable is run `pushes` times.
   int pushes = 2;      ///< >= 1
@@ -97,17 +98,26 @@ struct KeepReport {
   bool interrupted = false;  ///< the last rest state stands; lines say what is known
 };
 
+/// How far keep_lines() is.
+struct KeepProgress {
+  int trial;     ///< number of the rest state that is tried, from 1
+  int helped;    ///< lines with more help than in the trial before
+  double share;  ///< of this trial [-]
+};
+/// false: stop.
+using KeepObserver = std::function<bool(const KeepProgress&)>;
+
 /// Gives a cloth the rest state that makes its drawn lines an equilibrium (physics/rest/prestress.h), and
 /// tells of each line whether it will hold. mesh: the garment with attribute::line, from which `cloth` was
 /// gathered and pinned. base: height that a line would have without displacement, by id [m]; may be empty.
-/// go_on: asked between and within runs, false stops; may be empty. On return `cloth` has the new rest state,
+/// go_on: asked between and within runs; may be empty. On return `cloth` has the new rest state,
 /// stiffnesses and struts, at the positions of the mesh, at rest. Same input, same bits. Cost: a
 /// factorisation or two each trial; the forward runs are most of it. Throws std::invalid_argument, nothing
 /// changed, if an option is out of its range or cloth and mesh do not fit; and as prestress() and simulate()
 /// do.
 ///
-/// \details A verdict asks the certificate of stability (physics/rest/certificate.h) and a run forward, from
-/// rest and after a gust. What is nearer to the body than the gap is first brought there: a valley on a body
+/// \details A verdict asks the certificate of stability (physics/rest/certificate.h) and runs forward, from
+/// rest and through gusts. What is nearer to the body than the gap is first brought there: a valley on a body
 /// is as deep as there is room. Lines that do not hold are helped, one step more each time and no line more
 /// than it needs: press (their hinges stiffer), then struts on top of the strongest press, then a lower
 /// height. The least that holds stays. With `whole` the hinges between the lines are pressed likewise, where
@@ -117,6 +127,6 @@ struct KeepReport {
 /// attribute::rest_position tells where a line lies without its height; without that map nothing is lowered.
 KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
                       const std::vector<double>& base, const KeepOptions& options,
-                      const std::function<bool(double)>& go_on = {});
+                      const KeepObserver& go_on = {});
 
 }  // namespace furrow::bridge

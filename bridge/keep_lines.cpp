@@ -24,8 +24,9 @@ using physics::Vec3;
 
 constexpr double share_of_mode = 0.1;  // of an unstable motion's energy that makes it a line's
 constexpr double out_of_balance = 1e-6;
-constexpr double share_of_statics = 0.1;  // of a trial, as its progress is told
-constexpr double reserve = 0.4;           // of what a line may lose or win, where the shape is not stable
+constexpr double share_of_statics = 0.05;  // of a trial, as its progress is told
+// Of what a line may lose or win: where the shape is not stable, and after gusts.
+constexpr double reserve = 0.4, reserve_in_gusts = 0.5;
 
 using Flags = std::vector<char>;  // one a line
 
@@ -48,6 +49,7 @@ struct Found {
 /// What it took so far.
 struct Tally {
   int trials = 0, runs = 0;
+  int weak = 0;      ///< lines with more help than in the trial before
   double drift = 0;  ///< of any vertex in the last run [m]
   bool interrupted = false;
 };
@@ -80,10 +82,20 @@ bool is_bound(const HelpedLine& line, const Outcome& outcome) {
   return outcome.shape.rest.residual > out_of_balance && on_bounds(line, outcome.shape.rest, outcome.cloth);
 }
 
+/// Of its height, or win [-]. An unstable shape ends elsewhere each time: a run is a sample, and the next one
+/// may be worse.
+double may_lose(const Outcome& outcome, double least) {
+  return (outcome.shape.certificate.stable() ? 1 : reserve) * (1 - least);
+}
+
+/// Where a gust leaves a line is a sample, too, whether the shape is stable or not.
+double may_lose_in_gusts(const Outcome& outcome, double least) {
+  return std::min(may_lose(outcome, least), reserve_in_gusts * (1 - least));
+}
+
 bool holds(const Outcome& outcome, std::size_t line, double least) {
-  // An unstable shape ends elsewhere each time: a run is a sample, and the next one may be worse.
-  const double most = (outcome.shape.certificate.stable() ? 1 : reserve) * (1 - least);
-  return std::abs(outcome.kept[line] - 1) <= most && std::abs(outcome.kept_gust[line] - 1) <= most;
+  return std::abs(outcome.kept[line] - 1) <= may_lose(outcome, least) &&
+         std::abs(outcome.kept_gust[line] - 1) <= may_lose_in_gusts(outcome, least);
 }
 
 /// Lines that hold, as far as is known; least: share of its height that a line must keep [-].
@@ -100,7 +112,7 @@ Flags good_lines(const Found& found, double least) {
 class Keeper {
  public:
   Keeper(const geometry::Mesh& mesh, const physics::Cloth& start, const physics::World& world,
-         const KeepOptions& options, LineMeter& meter, const std::function<bool(double)>& go_on)
+         const KeepOptions& options, LineMeter& meter, const KeepObserver& go_on)
       : mesh_(mesh), start_(start), world_(world), o_(options), meter_(meter), go_on_(go_on) {}
 
   /// The lines without help.
@@ -146,6 +158,7 @@ class Keeper {
       if (!any(weak) && !rest) weak = try_out(found, true, tally);
       if ((!any(weak) && !rest) || tally.interrupted || hangs_wrong(found.outcome)) return std::move(found);
       for (std::size_t i = 0; i < weak.size(); ++i) plan.lines[i].step += weak[i] ? 1 : 0;
+      tally.weak = int(std::count(weak.begin(), weak.end(), 1));
       plan.rest_step += rest ? 1 : 0;
     }
   }
@@ -161,6 +174,7 @@ class Keeper {
     const double drift = tally.drift;
     Plan plan = least.plan;
     for (HelpedLine& line : plan.lines) line.step = help_steps(o_);
+    tally.weak = int(plan.lines.size());
     std::optional<Found> most = try_solve(plan, tally);
     if (!most) return least;
     try_out(*most, false, tally);
@@ -176,6 +190,7 @@ class Keeper {
     for (std::size_t i = 0; i < good.size(); ++i)
       if (!good[i]) lines.push_back(i);
     if (lines.empty() || hangs_wrong(found.outcome)) return found;
+    tally.weak = int(lines.size());
     Plan plan = found.plan;
     std::vector<double> low(lines.size(), 0), high(lines.size(), 1);  // low: the greatest that held
     for (int trial = 0; trial < o_.height_trials && !tally.interrupted; ++trial) {
@@ -215,8 +230,9 @@ class Keeper {
     if (found.plan.lines.empty()) return {};  // all were refused
     if (!o_.statics) return run_forward(found, may_end, tally);
     const double part = o_.prove ? share_of_statics : 1;
-    const KeepTrial trial = try_statics(found.outcome.cloth, world_, o_, meter_,
-                                        [&](double share) { return !go_on_ || go_on_(part * share); });
+    const bool blow = !o_.prove || !physics::solves_contact(o_.run.integrator);  // else motion is as fast
+    const KeepTrial trial = try_statics(found.outcome.cloth, world_, o_, blow, meter_,
+                                        [&](double share) { return go_on(part * share, tally); });
     found.outcome.kept = trial.kept;
     found.outcome.kept_gust = trial.kept_gust;
     tally.drift = trial.drift;
@@ -245,15 +261,15 @@ class Keeper {
     tally.runs += stable ? 1 : o_.pushes;
     const std::vector<HelpedLine>& lines = found.plan.lines;
     Flags weak(lines.size(), 0);
-    const auto in_vain = [&](const std::vector<double>& kept) {
+    const auto in_vain = [&](const std::vector<double>& kept, bool at_end) {
+      const double most = at_end ? may_lose_in_gusts(found.outcome, o_.kept) : 2 * (1 - o_.kept);
       for (std::size_t i = 0; may_end && i < lines.size(); ++i)
-        weak[i] = can_be_helped(lines[i]) && std::abs(kept[i] - 1) > 2 * (1 - o_.kept);
+        weak[i] = can_be_helped(lines[i]) && std::abs(kept[i] - 1) > most;
       return any(weak);
     };
     const double before = o_.statics ? share_of_statics : 0;
-    KeepTrial trial = try_shape(found.outcome.cloth, stable, world_, o_, meter_, in_vain, [&](double share) {
-      return !go_on_ || go_on_(before + (1 - before) * share);
-    });
+    KeepTrial trial = try_shape(found.outcome.cloth, stable, world_, o_, meter_, in_vain,
+                                [&](double share) { return go_on(before + (1 - before) * share, tally); });
     found.outcome.kept = std::move(trial.kept);
     found.outcome.kept_gust = std::move(trial.kept_gust);
     tally.drift = trial.drift;
@@ -265,6 +281,10 @@ class Keeper {
     std::optional<Found> found = try_solve(plan, tally);
     if (found) try_out(*found, false, tally);
     return found;
+  }
+
+  bool go_on(double share, const Tally& tally) const {
+    return !go_on_ || go_on_({tally.trials, tally.weak, share});
   }
 
   bool can_be_helped(const HelpedLine& line) const { return line.step < help_steps(o_); }
@@ -283,7 +303,7 @@ class Keeper {
   const physics::World& world_;
   const KeepOptions& o_;
   LineMeter& meter_;
-  const std::function<bool(double)>& go_on_;
+  const KeepObserver& go_on_;
 };
 
 std::string why_not(bool interrupted, const Found& found, std::size_t line) {
@@ -365,7 +385,7 @@ KeepReport report_of(Found& found, const KeepOptions& o, const LineMeter& meter,
 
 KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
                       const std::vector<double>& base, const KeepOptions& options,
-                      const std::function<bool(double)>& go_on) {
+                      const KeepObserver& go_on) {
   if (mesh.number_of_vertices() != cloth.particles.size())
     throw std::invalid_argument("keep_lines: particles for another mesh = " +
                                 std::to_string(cloth.particles.size()));

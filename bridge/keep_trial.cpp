@@ -21,7 +21,9 @@ constexpr double first_part = 0.2;  // of the first run, before it is asked whet
 constexpr int look_steps = 100;     // between two moments that are looked at, however often a run is observed
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
-constexpr double swing_back = 0.3;     // after a gust [s]
+// Steps of backward Euler take so much out of a swing that their gusts blow stronger, by this.
+constexpr double gust_of_euler = 1.6;
+constexpr double calm_dt = 1.0 / 30;   // of implicit steps, where nothing blows [s]
 constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -36,6 +38,12 @@ Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
   for (const Vec3& p : x) spread += (p - centre) * (p - centre).transpose();
   spread += 10 * spread.trace() * down * down.transpose();
   return o.gust * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+}
+
+/// As strong, level, to the side.
+Vec3 across(const Vec3& gust, const Vec3& gravity) {
+  const Vec3 side = gust.cross(gravity.norm() > 0 ? gravity : gust.unitOrthogonal());
+  return side.norm() > 0 ? Vec3(gust.norm() * side.normalized()) : Vec3(gust.norm() * gust.unitOrthogonal());
 }
 
 void push_off(physics::Cloth& cloth, double by, std::uint64_t number) {
@@ -121,19 +129,20 @@ struct Run {
 
 /// Of a run, up to so many seconds from its beginning.
 struct Part {
-  double until;         ///< [s]
-  Vec3 gravity;         ///< with the gust [m/s^2]
-  bool swings = false;  ///< implicit steps must not take that energy out
+  double until;  ///< [s]
+  Vec3 gravity;  ///< with the gust [m/s^2]
+  bool calm;     ///< nothing blows
 };
 
-/// What follows a run from rest.
-std::vector<Part> gust_and_calm(const KeepOptions& o, const Vec3& gust) {
+/// What goes on from a run: gusts to both sides along two level axes, and calm.
+std::vector<Part> gusts_and_calm(const KeepOptions& o, const Vec3& gust, double from) {
   if (!(o.gust > 0)) return {};
-  const double blown = o.seconds + o.gust_seconds, end = blown + o.calm_seconds;
-  std::vector<Part> parts{{blown, o.run.gravity + gust, true}};
-  if (physics::solves_contact(o.run.integrator))
-    parts.push_back({std::min(blown + swing_back, end), o.run.gravity, true});
-  parts.push_back({end, o.run.gravity});
+  const double factor = o.run.integrator == physics::Integrator::implicit ? gust_of_euler : 1;
+  const Vec3 a = factor * gust, b = factor * across(gust, o.run.gravity);
+  std::vector<Part> parts;
+  for (const Vec3& side : {a, Vec3(-a), b, Vec3(-b)})
+    parts.push_back({from += o.gust_seconds, o.run.gravity + side, false});
+  parts.push_back({from + o.calm_seconds, o.run.gravity, true});
   return parts;
 }
 
@@ -164,12 +173,12 @@ struct Setting {
   /// Simulates a part of the run; from next_look on it notes what lines keep.
   physics::Outcome on_to(const Part& part, Run& run, std::vector<double>& worst) const {
     physics::SimulateOptions options = o.run;
-    if (part.swings && options.integrator == physics::Integrator::implicit)
-      options.integrator = physics::Integrator::tr_bdf2;
     options.seconds = part.until;
     options.gravity = part.gravity;
+    options.implicit.keep_factors = true;
     const bool large_steps = physics::solves_contact(options.integrator);
     if (large_steps) options.observe_steps = 1;
+    if (large_steps && part.calm && !options.dt) options.dt = calm_dt;
     return physics::simulate(run.cloth, world, options, &run.state,
                              [&](const auto& now) {
                                const bool looks =
@@ -182,6 +191,17 @@ struct Setting {
                              })
         .outcome;
   }
+
+  /// What lines keep of a copy of the run that goes through these parts.
+  physics::Outcome through(const std::vector<Part>& parts, Run run, std::vector<double>& kept) const {
+    run.next_look = never;  // a gust may bend what comes back
+    for (const Part& part : parts) {
+      const physics::Outcome end = on_to(part, run, kept);
+      if (end != physics::Outcome::finished) return end;
+    }
+    note(shares(run.cloth), kept);
+    return physics::Outcome::finished;
+  }
 };
 
 double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
@@ -193,37 +213,38 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 }  // namespace
 
 KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
-                    const KeepOptions& o, LineMeter& meter,
-                    const std::function<bool(const std::vector<double>&)>& in_vain,
+                    const KeepOptions& o, LineMeter& meter, const InVain& in_vain,
                     const std::function<bool(double)>& go_on) {
   using physics::Outcome;
   const int runs = stable ? 1 : o.pushes;
-  const double after = o.gust > 0 ? o.gust_seconds + o.calm_seconds : 0;
-  const Setting setting{world, o, go_on, meter, meter.heights(start.particles), runs * o.seconds + after};
+  const double branch = first_part * o.seconds;
+  const std::vector<Part> gusts = gusts_and_calm(o, gust_of(o, start.particles.x), branch);
+  const double in_gusts = gusts.empty() ? 0 : gusts.back().until - branch;
+  const Setting setting{world, o, go_on, meter, meter.heights(start.particles), runs * o.seconds + in_gusts};
   const std::vector<double> unknown(setting.drawn.size(), NAN);
   KeepTrial trial{unknown, unknown};
   const auto lost = [&](Outcome end) {
     return KeepTrial{unknown, unknown, 0, end == Outcome::stopped_by_observer};
   };
-  Run run;
   for (int number = 1; number <= runs; ++number) {
-    run = {start, {}, (number - 1) * o.seconds, stable ? never : first_look};
+    Run run{start, {}, (number - 1) * o.seconds + (number > 1 ? in_gusts : 0), stable ? never : first_look};
     push_off(run.cloth, o.push, std::uint64_t(number));
-    Outcome end = setting.on_to({first_part * o.seconds, o.run.gravity}, run, trial.kept);
+    Outcome end = setting.on_to({branch, o.run.gravity, true}, run, trial.kept);
     if (end != Outcome::finished) return lost(end);
-    if (const std::vector<double> early = setting.shares(run.cloth); in_vain && in_vain(early))
+    if (const std::vector<double> early = setting.shares(run.cloth); in_vain && in_vain(early, false))
       return {early, unknown};
-    end = setting.on_to({o.seconds, o.run.gravity}, run, trial.kept);
+    if (number == 1 && !gusts.empty()) {
+      end = setting.through(gusts, run, trial.kept_gust);
+      if (end != Outcome::finished) return lost(end);
+      if (in_vain && in_vain(trial.kept_gust, true)) return {unknown, trial.kept_gust};
+      run.before += in_gusts;
+    }
+    end = setting.on_to({o.seconds, o.run.gravity, true}, run, trial.kept);
     if (end != Outcome::finished) return lost(end);
     note(setting.shares(run.cloth), trial.kept);
     trial.drift = std::max(trial.drift, farthest(run.cloth.particles.x, start.particles.x));
   }
-  run.next_look = never;  // the gust may bend what comes back
-  Outcome end = Outcome::finished;
-  for (const Part& part : gust_and_calm(o, gust_of(o, start.particles.x)))
-    if (end == Outcome::finished) end = setting.on_to(part, run, trial.kept);
-  if (end == Outcome::finished) note(setting.shares(run.cloth), trial.kept_gust);
-  trial.stopped = end == Outcome::stopped_by_observer;
+  if (gusts.empty()) trial.kept_gust = trial.kept;
   return trial;
 }
 

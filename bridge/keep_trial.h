@@ -46,17 +46,22 @@ struct KeepTrial {
   double drift = 0;      ///< of any particle from the start to before the gust [m]
   bool stopped = false;  ///< by go_on
 };
-/// Runs a cloth forward from rest, then through a gust and a calm, as the options say; the cloth is not
-/// changed. stable: what its certificate says; if not, there are options.pushes runs, and of `kept` the worst
-/// counts, at any time from 0.5 s on. in_vain: asked at a fifth of each first run with what the lines have
-/// kept until then; if it returns true, the trial ends, and `kept` is what it was asked with. Both functions
+/// Asked with what lines keep: on the way (a fifth of the first run), or at the end of the gusts. true: the
+/// trial ends.
+using InVain = std::function<bool(const std::vector<double>& shares, bool at_end)>;
+
+/// Runs a cloth forward from rest for a fifth of the options' seconds; from there through gusts to both sides
+/// along two level axes, and a calm; and from there, too, without gusts to the end. The cloth is not changed.
+/// stable: what its certificate says; if not, there are options.pushes runs without gusts, and of `kept` the
+/// worst counts, at any time from 0.5 s on. Implicit steps are those of backward Euler, which damp a swing:
+/// their gusts are 1.6 times as strong, and where nothing blows they go on with factors of steps before, 1/30
+/// s long unless the options name a step. What a trial that ends early does not know is NaN. Both functions
 /// may be empty.
 ///
 /// \details Each run begins with a push of every vertex: an unstable shape would stand still like a pencil on
 /// its tip, and a stable one may lie in a shallow hollow.
 KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
-                    const KeepOptions& options, LineMeter& meter,
-                    const std::function<bool(const std::vector<double>&)>& in_vain,
+                    const KeepOptions& options, LineMeter& meter, const InVain& in_vain,
                     const std::function<bool(double)>& go_on);
 
 }  // namespace furrow::bridge

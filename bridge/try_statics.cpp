@@ -31,7 +31,7 @@ physics::SettleOptions options_of(const KeepOptions& o, physics::SettleWork& wor
 }  // namespace
 
 KeepTrial try_statics(const physics::Cloth& start, const physics::World& world, const KeepOptions& o,
-                      LineMeter& meter, const std::function<bool(double)>& go_on) {
+                      bool blow, LineMeter& meter, const std::function<bool(double)>& go_on) {
   const std::optional<physics::PosedCollider> standing = standing_body(world);
   const physics::Collider* const body = standing ? &*standing : nullptr;
   const std::vector<double> drawn = meter.heights(start.particles);
@@ -40,8 +40,9 @@ KeepTrial try_statics(const physics::Cloth& start, const physics::World& world, 
   physics::SettleWork work;
   physics::SettleOptions settle = options_of(o, work);
   int searches = 0;
+  const double all = blow ? 3 : 1;
   const auto rest_under = [&](const Vec3& gravity) {
-    const double done = searches++ / 3.0;
+    const double done = searches++ / all;
     settle.gravity = gravity;
     trial.stopped =
         physics::settle(cloth, body, settle, [&](const auto&) { return !go_on || go_on(done); }).stopped;
@@ -57,6 +58,10 @@ KeepTrial try_statics(const physics::Cloth& start, const physics::World& world, 
   trial.kept = shares();
   for (std::size_t i = 0; i < start.particles.size(); ++i)
     trial.drift = std::max(trial.drift, (cloth.particles.x[i] - start.particles.x[i]).norm());
+  if (!blow) {
+    trial.kept_gust.assign(drawn.size(), 1);  // that is for motion to say
+    return trial;
+  }
   const Vec3 gust = gust_of(o, start.particles.x);
   if (o.gust > 0 && !(rest_under(o.run.gravity + overshoot * gust) && rest_under(o.run.gravity)))
     return trial;

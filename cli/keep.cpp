@@ -90,7 +90,7 @@ void add_keep(CLI::App& app, int& exit_code) {
   sub->add_option("--run", a->run, "how long each trial runs forward from rest [s] (default 5)")
       ->check(CLI::PositiveNumber);
   sub->add_option("--gust", a->gust,
-                  "then an acceleration to one side for 0.4 s, and 2 s of calm [m/s^2] (default 12)")
+                  "and an acceleration to each of four sides for 0.4 s, and 2 s of calm [m/s^2] (default 12)")
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--kept", a->kept, "share of its height with which a line holds (default 95%)");
   sub->add_flag(

@@ -192,12 +192,16 @@ void write_kept_state(const OpenScene& open, const SceneCloth& cloth, std::optio
   io::write_state(path, std::move(kept));
 }
 
-/// A proof is leapfrog's, unless the settings name other steps: implicit ones calm what trembles.
+constexpr double least_implicit_dt = 1e-3;  // [s]
+
+/// A proof is by implicit steps, unless the settings name others or a step that those would not need.
 bridge::KeepOptions options_of(const KeepJob& job, const io::Scene& scene, const SceneCloth& cloth,
                                const io::WrinkleRecord& record) {
   bridge::KeepOptions options;
   options.run = cloth.options;
-  if (!scene.integrator) options.run.integrator = physics::Integrator::leapfrog;
+  const bool short_steps = options.run.dt && *options.run.dt < least_implicit_dt;
+  if (!scene.integrator)
+    options.run.integrator = short_steps ? physics::Integrator::leapfrog : physics::Integrator::implicit;
   options.run.stop_at.reset();
   options.run.observe_steps = observation_of(options.run, cloth.cloth, cloth.body != nullptr, false).steps;
   options.seconds = job.seconds;
@@ -212,29 +216,29 @@ bridge::KeepOptions options_of(const KeepJob& job, const io::Scene& scene, const
   return options;
 }
 
-/// A round of trials runs from 0 to 1, and there are several: each is told by its number.
+/// A trial runs from 0 to 1, and there are several: each is told by its number, and how many lines failed
+/// before.
 class Trials {
  public:
   explicit Trials(Listener& listener) : listener_(listener) {}
-  ~Trials() { listener_.progress(name(), 1); }
+  ~Trials() {
+    if (!name_.empty()) listener_.progress(name_, 1);
+  }
   Trials(const Trials&) = delete;
   Trials& operator=(const Trials&) = delete;
-  bool operator()(double share) {
-    if (share < last_) {
-      listener_.progress(name(), 1);
-      ++trial_;
-    }
-    last_ = share;
-    if (share < 1) listener_.progress(name(), share);
+  bool operator()(const bridge::KeepProgress& now) {
+    std::string name = "keeping, trial " + std::to_string(now.trial);
+    if (now.helped > 0)
+      name += ", more help for " + std::to_string(now.helped) + (now.helped == 1 ? " line" : " lines");
+    if (name != name_ && !name_.empty()) listener_.progress(name_, 1);
+    name_ = name;
+    if (now.share < 1) listener_.progress(name_, now.share);
     return !listener_.cancelled();
   }
 
  private:
-  std::string name() const { return trial_ == 1 ? "keeping" : "keeping, trial " + std::to_string(trial_); }
-
   Listener& listener_;
-  int trial_ = 1;
-  double last_ = 0;
+  std::string name_;
 };
 
 bridge::KeepReport find_rest(const KeepJob& job, const io::Scene& scene, SceneCloth& garment,

@@ -41,7 +41,7 @@ struct KeepJob {
       state;  ///< with lines drawn on the cloth as it hangs or lies; none: the scene draws
   std::filesystem::path state_path;  ///< where it was read from
   double seconds = 5;                ///< how long each trial runs forward from rest [s]; > 0
-  double gust = 12;                  ///< then an acceleration to one side [m/s^2]; >= 0
+  double gust = 12;                  ///< and an acceleration to each of four sides [m/s^2]; >= 0
   double kept = 0.95;                ///< share of its height with which a line holds [-], in (0, 1)
   bool balance = true;               ///< what hangs on a line of pins is first turned into balance
   bool settle = true;  ///< on a body: a garment that it does not hold as it lies comes to rest first

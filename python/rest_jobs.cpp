@@ -141,7 +141,7 @@ const Keywords<KeepCall>& keep_rows() {
           "run", "how long each trial runs forward from rest [s], > 0; default 5",
           [](auto& c) -> auto& { return c.job.seconds; }),
       row<KeepCall>(
-          "gust", "then an acceleration to one side [m/s^2], >= 0; default 12",
+          "gust", "and an acceleration to each of four sides [m/s^2], >= 0; default 12",
           [](auto& c) -> auto& { return c.job.gust; }),
       own<KeepCall>("kept", "float | str",
                     "share of its height with which a line holds, in (0, 1); default 0.95",

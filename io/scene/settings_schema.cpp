@@ -394,7 +394,7 @@ const Row<Scene> rows[] = {
       .flag = "--integrator",
       .help =
           "auto (default): leapfrog, or implicit steps where those take less than half of its time (keep: "
-          "leapfrog); leapfrog, implicit, tr-bdf2, rk4, xpbd, or euler (the baseline that "
+          "implicit); leapfrog, implicit, tr-bdf2, rk4, xpbd, or euler (the baseline that "
           "diverges)",
       .what = "the scheme of its steps; auto is leapfrog, or implicit where that takes less than half of its "
               "time; euler is the baseline that diverges",

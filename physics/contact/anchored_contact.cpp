@@ -217,4 +217,11 @@ int AnchoredContact::touching() const {
   return int(std::count_if(touches_.begin(), touches_.end(), [](const Touch& t) { return t.push > 0; }));
 }
 
+std::vector<int> AnchoredContact::pushed() const {
+  std::vector<int> result;
+  for (std::size_t i = 0; i < touches_.size(); ++i)
+    if (touches_[i].push > 0) result.push_back(int(i));
+  return result;
+}
+
 }  // namespace furrow::physics

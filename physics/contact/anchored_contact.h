@@ -71,8 +71,9 @@ class AnchoredContact {
   std::vector<ContactAnchor> anchors() const;
   /// Throws std::invalid_argument for another number of anchors than of particles.
   void set_anchors(std::span<const ContactAnchor> anchors);
-  int touching() const;    ///< particles that are pushed
-  double deepest() const;  ///< of them, inside its gap [m]; 0: none
+  int touching() const;             ///< particles that are pushed
+  std::vector<int> pushed() const;  ///< which ones, rising
+  double deepest() const;           ///< of them, inside its gap [m]; 0: none
 
  private:
   struct Touch : ContactAnchor {

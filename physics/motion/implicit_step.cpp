@@ -197,7 +197,8 @@ bool ImplicitStep::solve(const Stage& stage, const State& start, Interval time, 
   }
   const double tolerance = options_.tolerance * standard_gravity * h * h;
   const double longest = contact_ ? longest_move : std::numeric_limits<double>::infinity();
-  const SearchOptions options{tolerance, few, most_iterations, longest};
+  const bool may_keep = options_.keep_factors && scheme_ == Integrator::implicit;
+  const SearchOptions options{tolerance, few, most_iterations, longest, may_keep};
   const StepLoads loads = loads_at(time.to);
   const StageStart begin{start.x, carried};
   if (pairs_ && !make_way(stage, loads, begin, options, x)) return false;

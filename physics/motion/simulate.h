@@ -196,6 +196,9 @@ struct ImplicitOptions {
   /// square by mass), and nowhere of more than three times that [-]; > 0.
   double tolerance = 0.03;
   int few = 2;  ///< iterations of backward Euler after which 20 times that is good enough; >= 1
+  /// Calm steps of backward Euler go on with the factors of steps before, in about a third of the time. Then
+  /// a run that was stopped and resumed is the same only up to the tolerance, no more bit by bit.
+  bool keep_factors = false;
 };
 
 /// Contact of the cloth with itself: no step ever passes through cloth. Implicit steps solve it with the rest

@@ -14,6 +14,7 @@ namespace {
 constexpr double good_enough = 20;         // times the tolerance, after few iterations
 constexpr double longest_enough = 3;       // times what is good enough in the mean: a few may be far off yet
 constexpr double short_move = 10;          // times the tolerance: the factors serve the next one
+constexpr int most_with_kept = 4;          // iterations with the factors of a search before
 constexpr double single_residual = 1e-4;   // of the force, that a solution of single precision may leave
 constexpr std::size_t most_coupled = 4;    // times the pairs of particles that contact couples
 constexpr double longest_in_cloth = 0.02;  // m, of a move where cloth touches cloth: few pairs are on its way
@@ -140,6 +141,7 @@ StepSearch::Answer StepSearch::look(const std::vector<Vec3>& x) {
 void StepSearch::couple(std::vector<std::array<int, 2>> pairs) {
   if (pairs == coupled_) return;
   coupled_ = std::move(pairs);
+  factored_ = 0;
   stiffness_.couple(cloth_, coupled_);
 }
 
@@ -164,9 +166,18 @@ void StepSearch::assemble(const std::vector<Vec3>& x) {
   elements_.assemble(stiffness_, x, pool_);
   if (pairs_) pairs_->add_stiffness(stiffness_);
   if (contact_) contact_->anchored().add_stiffness(stiffness_);
-  const double factor = stage_->s + loads_.air_drag * stage_->p;
+  const double factor = inertia_of(*stage_);
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) stiffness_.add(int(i), p.mass[i] * factor * Mat3::Identity());
+}
+
+/// Drag's share is in it [1/s^2].
+double StepSearch::inertia_of(const Stage& stage) const { return stage.s + loads_.air_drag * stage.p; }
+
+/// What is pushed no more would stay where it is, as if it still were.
+bool StepSearch::kept_factors_serve() const {
+  if (factored_ != inertia_of(*stage_) || (pairs_ && pairs_->acts())) return false;
+  return !contact_ || factored_pushed_ == contact_->anchored().pushed();
 }
 
 void StepSearch::factorise(const std::vector<Vec3>& x) {
@@ -178,6 +189,8 @@ void StepSearch::factorise(const std::vector<Vec3>& x) {
   // What is positive semidefinite and a mass beside it fails where numbers are not finite: the run is seen to
   // have diverged.
   if (!single_) stiffness_.factorise_definite(0, &pool_);
+  factored_ = inertia_of(*stage_);
+  if (contact_) factored_pushed_ = contact_->anchored().pushed();
 }
 
 /// With factors of single precision what is left is looked at, and where it is too much they solve for it,
@@ -267,10 +280,15 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
   given_ = &given;
   if (pairs_) pairs_->forget_cuts();
   Answer here = look(x);
-  bool keep_factors = false;
+  bool kept = options.keep_factors && kept_factors_serve();
   for (int iteration = 1; iteration <= options.most; ++iteration) {
-    if (!keep_factors) factorise(x);
+    if (!kept) factorise(x);
     std::vector<Vec3> move = solve(here.net);
+    if (kept && iteration == 1 && mean_length(move) > short_move * options.tolerance) {
+      kept = false;
+      factorise(x);
+      move = solve(here.net);
+    }
     ++work_.iterations;
     if (iteration == 1 && rubs()) {  // once, as it changes the energy
       expect(move);
@@ -287,8 +305,9 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
     const bool small = length <= enough && longest <= longest_enough * enough;
     if (small && !way.cut) return {true, iteration};
     const bool at_rounding = std::abs(dot(here.net, move)) <= least_fall * here.terms;
-    if (way.share == 0 && !keep_factors && !way.cut && !way.room) return {at_rounding, iteration};
-    keep_factors = way.share == 1 && length <= short_move * options.tolerance;
+    if (way.share == 0 && !kept && !way.cut && !way.room) return {at_rounding, iteration};
+    kept = way.share == 1 && length <= short_move * options.tolerance &&
+           !(options.keep_factors && iteration % most_with_kept == 0);
   }
   return {false, options.most};
 }

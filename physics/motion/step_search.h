@@ -37,6 +37,8 @@ struct SearchOptions {
   double tolerance;     ///< root mean square of the next move that ends it, a third of the longest [m]; > 0
   int few, most;        ///< Newton's iterations: after `few` a next move 20 times as long is good enough
   double longest_move;  ///< of a particle in an iteration [m]; > 0
+  /// The factors of searches before serve one whose first move is short and that touches what they did.
+  bool keep_factors = false;
 };
 
 struct SearchEnd {
@@ -46,7 +48,8 @@ struct SearchEnd {
 
 /// Looks for the minima of stages, all on one cloth, by Newton's method with the positive part of the
 /// stiffness, a fresh factorisation each iteration, and a line search. A factorisation serves twice where the
-/// move is short. It keeps room and symbolic work, but nothing that a result depends on.
+/// move is short. It keeps room and symbolic work, but nothing that a result depends on unless
+/// `keep_factors`.
 class StepSearch {
  public:
   /// cloth: that of the motion, by place; its particles' masses and elements count, and must stay. contact:
@@ -86,6 +89,8 @@ class StepSearch {
   void assemble(const std::vector<Vec3>& x);
   void couple_pairs();
   void factorise(const std::vector<Vec3>& x);
+  double inertia_of(const Stage& stage) const;
+  bool kept_factors_serve() const;
   std::vector<Vec3> solve(std::vector<Vec3> net);
   bool make_room(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
   Way advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
@@ -102,6 +107,10 @@ class StepSearch {
   StepElements elements_;
   FreeStiffness stiffness_;
   bool single_ = false;  ///< whether the factors are of single precision
+  /// What the factors were made for, as far as it is compared: a particle's mass counts so many times
+  /// [1/s^2], and these are pushed. 0: there are none.
+  double factored_ = 0;
+  std::vector<int> factored_pushed_;
   std::vector<std::array<int, 2>> coupled_;
   double mass_ = 0;  ///< of all free particles [kg]
   const Stage* stage_ = nullptr;

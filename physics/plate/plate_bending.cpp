@@ -20,6 +20,28 @@ PlateBending::PlateBending(Plate plate, std::size_t particles, std::shared_ptr<c
       alone_[std::size_t(plate_.hinge[e])] += plate_.share[e].dot(plate_.stiffness[t] * plate_.share[e]);
 }
 
+namespace {
+
+/// The distinct ones of pairs i >= j, sorted. Returns where those of each i begin, and last their number.
+std::vector<int> sort_pairs(const std::vector<std::array<int, 2>>& pairs,
+                            std::vector<std::array<int, 2>>& sorted) {
+  int rows = 0;
+  for (const auto& pair : pairs) rows = std::max(rows, pair[0] + 1);
+  std::vector<std::vector<int>> columns(static_cast<std::size_t>(rows));
+  for (const auto& [i, j] : pairs) columns[std::size_t(i)].push_back(j);
+  std::vector<int> begin{0};
+  for (int i = 0; i < rows; ++i) {
+    std::vector<int>& row = columns[std::size_t(i)];
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    for (const int j : row) sorted.push_back({i, j});
+    begin.push_back(int(sorted.size()));
+  }
+  return begin;
+}
+
+}  // namespace
+
 void PlateBending::find_pattern() {
   corner_begin_.push_back(0);
   for (int t = 0; t < plate_.triangles(); ++t) {
@@ -42,12 +64,13 @@ void PlateBending::find_pattern() {
     for (std::size_t r = 0; r < corners.size(); ++r)
       for (std::size_t c = 0; c <= r; ++c) pairs_.push_back({corners[r], corners[c]});
   }
-  std::vector<std::array<int, 2>> all = pairs_;
-  std::sort(pairs_.begin(), pairs_.end());
-  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+  const std::vector<std::array<int, 2>> all = std::exchange(pairs_, {});
+  const std::vector<int> row = sort_pairs(all, pairs_);
   const auto place = [&](int i, int j) {
     const std::array<int, 2> pair{std::max(i, j), std::min(i, j)};
-    return int(std::lower_bound(pairs_.begin(), pairs_.end(), pair) - pairs_.begin());
+    const auto begin = pairs_.begin() + row[std::size_t(pair[0])];
+    return int(std::lower_bound(begin, pairs_.begin() + row[std::size_t(pair[0]) + 1], pair) -
+               pairs_.begin());
   };
   for (const auto& [i, j] : all) place_.push_back(place(i, j));
   for (const Hinge& h : plate_.hinges) {
@@ -154,12 +177,12 @@ void PlateBending::hand_out_hinges(std::span<const Vec3> x, Stiffness stiffness,
     const auto& v = plate_.hinges[h].vertices;
     std::array<Mat3, 10> blocks;
     const double m = (1 - stiffness.clamped) * moment[h];
-    if (m != 0)
-      blocks = dihedral_hessian(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+    if (m != 0) blocks = dihedral_hessian(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c <= r; ++c) {
         const std::size_t i = std::size_t(lower_block(r, c));
-        const Mat3 curl = alone_[h] * b.gradient[h][std::size_t(r)] * b.gradient[h][std::size_t(c)].transpose();
+        const Mat3 curl =
+            alone_[h] * b.gradient[h][std::size_t(r)] * b.gradient[h][std::size_t(c)].transpose();
         blocks[i] = m != 0 ? Mat3(m * blocks[i] + curl) : curl;
       }
     hand_out(v, blocks.data(), sink);

@@ -111,7 +111,8 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& renumbered,
 
 }  // namespace
 
-TEST_CASE("drape: numbers of vertices and places do not change a start, nor where held cloth rests") {
+TEST_CASE("drape: numbers of vertices and places do not change a start, nor where held cloth rests",
+          "[long]") {
   const geometry::Mesh mesh = across();
   REQUIRE(mesh.number_of_vertices() % 7 != 0);
   REQUIRE(mesh.number_of_faces() % 11 != 0);
@@ -133,7 +134,7 @@ TEST_CASE("drape: numbers of vertices and places do not change a start, nor wher
   CHECK(most > 1e-4);  // cloth on a ball has many rests
 }
 
-TEST_CASE("drape: coarse to fine to rest on a ball, out of which it is brought first") {
+TEST_CASE("drape: coarse to fine to rest on a ball, out of which it is brought first", "[long]") {
   const Sphere ball(Vec3::Zero(), 0.1);
   geometry::Mesh mesh = across();
   const std::size_t coarse = mesh.number_of_vertices();
@@ -170,7 +171,7 @@ TEST_CASE("drape: coarse to fine to rest on a ball, out of which it is brought f
   CHECK(lowest < 0.06);  // it hangs down at the sides
 }
 
-TEST_CASE("drape: what falls past the body is not refined, what falls on it is") {
+TEST_CASE("drape: what falls past the body is not refined, what falls on it is", "[long]") {
   const Sphere ball(Vec3::Zero(), 0.1);
   bridge::DrapeOptions options;
   options.refinements = 2;
@@ -194,7 +195,7 @@ TEST_CASE("drape: what falls past the body is not refined, what falls on it is")
   CHECK(above.levels[1].settle.converged);
 }
 
-TEST_CASE("drape: what falls past the body beside parts that were laid aside is not refined") {
+TEST_CASE("drape: what falls past the body beside parts that were laid aside is not refined", "[long]") {
   const Sphere ball(Vec3::Zero(), 0.1);
   geometry::Mesh mesh = across();
   for (geometry::Point& p : mesh.points()) p = geometry::Point(p.x() + 1, p.y(), p.z());
@@ -323,7 +324,7 @@ TEST_CASE("drape: with a soft start cloth comes to the same rest where there is 
   CHECK_THROWS_WITH(bridge::drape(other, soft, nullptr, options, pinned), Catch::Contains("soft_start"));
 }
 
-TEST_CASE("drape: what drapes share changes no bit, and a pattern of other pins is not taken") {
+TEST_CASE("drape: what drapes share changes no bit, and a pattern of other pins is not taken", "[long]") {
   const Sphere ball(Vec3::Zero(), 0.1);
   bridge::DrapeWork work;
   const auto run = [&](std::uint64_t seed, bridge::DrapeWork* shared, bool held) {

@@ -24,7 +24,8 @@ bridge::FitPiercing measure(const geometry::Mesh& garment, const Body& body) {
 
 }  // namespace
 
-TEST_CASE("fit_piercing: two faces that cut a ball without a vertex in it are as deep as their middle") {
+TEST_CASE("fit_piercing: two faces that cut a ball without a vertex in it are as deep as their middle",
+          "[long]") {
   const Body ball(icosphere(5, 0.3));
   geometry::Mesh sheet = grid(1, 1, 2, 2);
   for (const double height : {0.1, 0.25, 0.29}) {

@@ -158,7 +158,8 @@ TEST_CASE("fit_report: bad options and meshes are refused before anything is wri
   CHECK(geometry::vertex_attributes(garment).empty());
 }
 
-TEST_CASE("fit_report: a real skirt on its body has exact distances, room at the hip, none at the chest") {
+TEST_CASE("fit_report: a real skirt on its body has exact distances, room at the hip, none at the chest",
+          "[long]") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

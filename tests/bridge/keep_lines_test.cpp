@@ -135,7 +135,7 @@ TEST_CASE("keep_lines: with whole what lies between the lines is pressed until n
   CHECK(report.certificate.negative_eigenvalues < bare.certificate.negative_eigenvalues);
 }
 
-TEST_CASE("keep_lines: what is stored on the mesh is gathered again as the same cloth at rest") {
+TEST_CASE("keep_lines: what is stored on the mesh is gathered again as the same cloth at rest", "[long]") {
   Hung hung(1e-4, {}, 1, 0.02, GENERATE(hinge, plate));
   hung.keep();
   bridge::store_rest_state(hung.cloth, hung.material, hung.mesh);
@@ -190,7 +190,8 @@ TEST_CASE("keep_lines: soft cloth needs help, and without it no line is called h
   }
 }
 
-TEST_CASE("keep_lines: statics find what gives way before anything runs, and alone they prove nothing") {
+TEST_CASE("keep_lines: statics find what gives way before anything runs, and alone they prove nothing",
+          "[long]") {
   Hung stiff(1e-4), soft(1e-6);
   for (Hung* hung : {&stiff, &soft}) {
     hung->options.prove = false;
@@ -210,7 +211,7 @@ TEST_CASE("keep_lines: statics find what gives way before anything runs, and alo
   CHECK_THROWS_AS(stiff.keep(), std::invalid_argument);
 }
 
-TEST_CASE("keep_lines: wherever it is cancelled, no line is called held that motion did not try") {
+TEST_CASE("keep_lines: wherever it is cancelled, no line is called held that motion did not try", "[long]") {
   int tries = 0, cancelled = 0, interrupted = 0;
   for (int last = 0; last < 20000; last += 8 + last / 4) {
     ++tries;
@@ -235,7 +236,7 @@ TEST_CASE("keep_lines: wherever it is cancelled, no line is called held that mot
   CHECK(cancelled + interrupted < tries);
 }
 
-TEST_CASE("keep_lines: a garment that nothing holds is said to be out of balance") {
+TEST_CASE("keep_lines: a garment that nothing holds is said to be out of balance", "[long]") {
   Hung hung(1e-4);
   hung.cloth = bridge::gather(hung.mesh, hung.material);
   hung.options.seconds = 0.05;

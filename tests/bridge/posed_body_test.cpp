@@ -61,7 +61,8 @@ TEST_CASE("posed_body: the mannequin's arms go where they are told, and through 
 }
 
 TEST_CASE(
-    "posed_body: the depth maps of a figure fail where its arms hide its belly, and the self-test says so") {
+    "posed_body: the depth maps of a figure fail where its arms hide its belly, and the self-test says so",
+    "[long]") {
   const TriangleMesh figure = mannequin(), front = cases::arms_in_front(figure);
   CHECK_FALSE(compare(figure, DepthMaps::front_back_top).disagrees());
   const auto two = compare(front, DepthMaps::front_back), three = compare(front, DepthMaps::front_back_top),

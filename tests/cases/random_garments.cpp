@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/cases/random_garments.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -78,19 +79,31 @@ void make_cloth(RandomGarment& g, const Cut& cut, Random& random) {
   }
 }
 
-/// A line that keeps off the border.
+/// Where a line begins, in the cut [m], and its first direction [rad].
+struct Begin {
+  double x, y, direction;
+};
+
+Begin begin_of(const RandomLine& line, const Cut& cut, Random& random) {
+  if (line.kind == LineKind::hem)
+    return {random(-cut.width / 3, cut.width / 3), 0, std::numbers::pi / 2 + random(-0.3, 0.3)};
+  const double x = random(-cut.width / 2, cut.width / 2), y = random(0, cut.height);
+  return {x, y, random(0, 2 * std::numbers::pi)};
+}
+
+/// A line that keeps off the border, or begins there.
 geometry::Stroke stroke_of(const RandomLine& line, const Cut& cut, Random& random) {
   constexpr double border = 0.03;  // [m]
   const int steps = int(std::ceil(line.length / 0.005));
   for (;;) {
     geometry::Stroke stroke;
     stroke.height = line.height;
-    double x = random(-cut.width / 2, cut.width / 2), y = random(0, cut.height);
-    const double first = random(0, 2 * std::numbers::pi);
+    auto [x, y, first] = begin_of(line, cut, random);
+    const bool over_hem = line.kind == LineKind::hem;
     bool inside = true;
     for (int i = 0; i <= steps && inside; ++i) {
-      inside =
-          y > border && y < cut.height - border && (cut.waist > 0 || std::abs(x) < cut.width / 2 - border);
+      inside = (y > border || over_hem) && y < cut.height - border &&
+               (cut.waist > 0 || std::abs(x) < cut.width / 2 - border);
       stroke.points.push_back(cut.at(x, y));
       const double direction = first + line.turn * i / steps;
       x += line.length / steps * std::cos(direction);
@@ -116,7 +129,29 @@ std::vector<double> RandomGarment::base() const {
   return result;
 }
 
-RandomGarment random_garment(std::uint64_t seed, int lines, double edge) {
+namespace {
+
+RandomLine plain_line(Random& random) {
+  RandomLine line;
+  line.length = random(0.1, 0.5);
+  line.turn = random.chance(0.5) ? random(-1.5, 1.5) : 0;
+  line.height = random(0.003, 0.015) * (random.chance(0.5) ? 1 : -1);
+  return line;
+}
+
+RandomLine ornate_line(int number, Random& random) {
+  RandomLine line;
+  line.kind = std::array{LineKind::hem, LineKind::curve, LineKind::ring}[std::size_t(number) % 3];
+  const bool ring = line.kind == LineKind::ring;
+  line.length = ring ? random(0.3, 0.5) : random(0.15, 0.35);
+  line.turn = ring ? 2 * std::numbers::pi : line.kind == LineKind::hem ? 0 : random.chance(0.5) ? 3 : -3;
+  line.height = random(0.003, 0.012) * (random.chance(0.5) ? 1 : -1);
+  return line;
+}
+
+}  // namespace
+
+RandomGarment random_garment(std::uint64_t seed, int lines, double edge, bool ornate) {
   constexpr const char* kinds[] = {"sheet", "jittered", "skirt", "corners"};
   Random random(seed);
   RandomGarment g;
@@ -132,10 +167,7 @@ RandomGarment random_garment(std::uint64_t seed, int lines, double edge) {
   g.springs.stretch = random.log(100, 1000);
   std::vector<geometry::Stroke> strokes;
   for (int i = 0; i < lines; ++i) {
-    RandomLine line;
-    line.length = random(0.1, 0.5);
-    line.turn = random.chance(0.5) ? random(-1.5, 1.5) : 0;
-    line.height = random(0.003, 0.015) * (random.chance(0.5) ? 1 : -1);
+    const RandomLine line = ornate ? ornate_line(i, random) : plain_line(random);
     strokes.push_back(stroke_of(line, cut, random));
     g.lines.push_back(line);
   }

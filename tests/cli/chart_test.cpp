@@ -91,7 +91,7 @@ TEST_CASE("chart: the recommendation holds against a finer reference, the next c
   CHECK(apart(simulated(scratch, scene, next_cheaper(report)), fine) > 0.01);
 }
 
-TEST_CASE("chart: the same twice, to the byte") {
+TEST_CASE("chart: the same twice, to the byte", "[long]") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch, "0.05");
   const Run first = run_furrow("chart --json " + scene), second = run_furrow("chart --json " + scene);
@@ -198,7 +198,8 @@ TEST_CASE("chart: a budget that is too small shortens, or is refused with what i
   CHECK(refused.err.find("raise it to") != std::string::npos);
 }
 
-TEST_CASE("chart: nothing within the tolerance exits with 4, a missing scene with 3, a bad call with 2") {
+TEST_CASE("chart: nothing within the tolerance exits with 4, a missing scene with 3, a bad call with 2",
+          "[long]") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch, "0.1");
   const Run none = run_furrow("chart --accuracy 0.0000001% " + scene);
@@ -254,7 +255,7 @@ TEST_CASE("chart: simulate with --accuracy reads and builds the body once") {
   CHECK(run.err.find("of the body filled", first + 1) == std::string::npos);
 }
 
-TEST_CASE("chart: implicit steps are tried, and their flags run as they were judged") {
+TEST_CASE("chart: implicit steps are tried, and their flags run as they were judged", "[long]") {
   const ScratchDirectory scratch;
   const std::string scene = write_patch_scene(scratch, "0.05");
   const json report = report_of(run_furrow("chart --json --accuracy 5% " + scene));
@@ -295,7 +296,7 @@ TEST_CASE("chart: it replaces nothing that its scene reads") {
   CHECK(read_text(garment) == text);
 }
 
-TEST_CASE("chart: what diverges everywhere is no matter of the tolerance") {
+TEST_CASE("chart: what diverges everywhere is no matter of the tolerance", "[long]") {
   const ScratchDirectory scratch;
   const std::string scene = scratch / "torn.toml";
   write_text(scene,

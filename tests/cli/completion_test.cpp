@@ -87,7 +87,7 @@ std::string on_terminal(const std::vector<std::string>& arguments, const char* v
 
 }  // namespace
 
-TEST_CASE("completion: every command of --help has its words in all shells") {
+TEST_CASE("completion: every command of --help has its words in all shells", "[long]") {
   const ScratchDirectory scratch;
   std::vector<std::string> scripts;
   for (const char* shell : {"bash", "zsh", "fish"}) {

@@ -43,7 +43,7 @@ TEST_CASE("doctor: the program says what is wrong, shows where, mends it and exi
   CHECK(run_furrow("doctor " + mesh + " --repair -o " + mesh).exit_code == 2);
 }
 
-TEST_CASE("doctor: our garments on our bodies are well, and each job says so by saying nothing") {
+TEST_CASE("doctor: our garments on our bodies are well, and each job says so by saying nothing", "[long]") {
   for (const char* garment : {"skirt.obj", "shirt.obj", "sheet.obj"}) {
     const nlohmann::json report = examined(our_meshes + garment + " --body " + our_meshes + "mannequin.obj");
     INFO(report.dump(1));

@@ -328,7 +328,7 @@ TEST_CASE("drape: --loose says what becomes of a scrap that nothing holds") {
   CHECK(run_furrow(call + " --loose lost").exit_code != 0);
 }
 
-TEST_CASE("drape: what cannot be done is told before the work") {
+TEST_CASE("drape: what cannot be done is told before the work", "[long]") {
   ScratchDirectory scratch;
   const auto refused = [&](const std::string& arguments, const std::string& word) {
     const Run run = run_furrow("drape " + arguments);

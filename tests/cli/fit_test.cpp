@@ -135,7 +135,7 @@ TEST_CASE("fit: pictures of one garment from both sides, and of several with one
   CHECK(reds(io::read_png(f / "back.png")) == 0);
 }
 
-TEST_CASE("fit: wrong calls of fit are told before the work") {
+TEST_CASE("fit: wrong calls of fit are told before the work", "[long]") {
   TubeFiles f;
   const std::string good = "fit " + f.worn + " --body " + f.body + " ";
   for (const std::string& call :

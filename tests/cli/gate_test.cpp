@@ -26,8 +26,8 @@ void check_refused(const std::string& arguments, int exit_code, const std::strin
 
 }  // namespace
 
-TEST_CASE(
-    "gate: steps, frames, tolerances and densities that would run for ever are refused with a way out") {
+TEST_CASE("gate: steps, frames, tolerances and densities that would run for ever are refused with a way out",
+          "[long]") {
   const std::string simulate = "simulate " + sheet + " --pin-loop top ";
   check_refused(simulate + "--dt 1e-9", 2, "take a longer --dt");
   check_refused(simulate + "--dt 1e-9", 2, "--force goes on all the same");
@@ -44,7 +44,7 @@ TEST_CASE("gate: a body in the wrong unit is asked about by the unit's name") {
   check_refused("drape " + sheet + " --body " + mannequin + " --unit mm", 3, "say --unit m");
 }
 
-TEST_CASE("gate: sdf takes the --body-unit that its message advises") {
+TEST_CASE("gate: sdf takes the --body-unit that its message advises", "[long]") {
   const ScratchDirectory scratch;
   const std::string call = "sdf " + mannequin + " --unit mm --tolerance 0.01 -o " + (scratch / "b.field");
   const Run run = run_furrow(call);
@@ -53,7 +53,7 @@ TEST_CASE("gate: sdf takes the --body-unit that its message advises") {
   CHECK(run_furrow(call + " --body-unit m").exit_code == 0);
 }
 
-TEST_CASE("gate: a garment without area is refused by its file's name, with exit 3") {
+TEST_CASE("gate: a garment without area is refused by its file's name, with exit 3", "[long]") {
   const ScratchDirectory scratch;
   const std::string line = scratch / "line.obj", stroke = scratch / "s.json";
   write_text(line, "v 0 0 0\nv 0.5 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 2 4 3\n");
@@ -64,7 +64,8 @@ TEST_CASE("gate: a garment without area is refused by its file's name, with exit
     check_refused(command, 3, "line.obj: none of its faces has an area");
 }
 
-TEST_CASE("gate: collapsed meshes are refused by name by render, transfer and as a frame of a body") {
+TEST_CASE("gate: collapsed meshes are refused by name by render, transfer and as a frame of a body",
+          "[long]") {
   const ScratchDirectory scratch;
   const std::string point = scratch / "point.obj", line = scratch / "line.obj";
   write_text(point, "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
@@ -132,7 +133,7 @@ TEST_CASE("gate: a height larger than the garment is asked about, and drawn with
   CHECK_THAT(run.err, Contains("stroke 'a': its height is 10"));
 }
 
-TEST_CASE("gate: the files that once crashed the program end with an exit code") {
+TEST_CASE("gate: the files that once crashed the program end with an exit code", "[long]") {
   const std::filesystem::path folder = shared_dir() / "defects";
   if (!std::filesystem::exists(folder)) {
     WARN("skipped: no shared data");

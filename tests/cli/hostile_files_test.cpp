@@ -6,7 +6,7 @@
 
 using namespace furrow::tests;
 
-TEST_CASE("hostile files: every hostile file is read or refused, without a signal") {
+TEST_CASE("hostile files: every hostile file is read or refused, without a signal", "[long]") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

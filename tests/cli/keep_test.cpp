@@ -36,7 +36,7 @@ height = 0.004
 
 }  // namespace
 
-TEST_CASE("keep: the state goes on with the lines as drawn, all rounds of time 0 in it, at rest") {
+TEST_CASE("keep: the state goes on with the lines as drawn, all rounds of time 0 in it, at rest", "[long]") {
   const ScratchDirectory scratch;
   const std::string scene = write_hung_scene(scratch), state = scratch / "kept.ply";
   const std::string law = GENERATE("", " --bending-law plate");

@@ -187,7 +187,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 }  // namespace
 
-TEST_CASE("mistakes: each ends with its exit code and a sentence that helps") {
+TEST_CASE("mistakes: each ends with its exit code and a sentence that helps", "[long]") {
   const ScratchDirectory d;
   write_files(d);
   const std::string m = (source_dir() / "meshes").string();

@@ -32,7 +32,7 @@ void same(const std::string& old_call, const std::string& new_call, const std::s
 
 }  // namespace
 
-TEST_CASE("old names: they do what the new ones do, and say so") {
+TEST_CASE("old names: they do what the new ones do, and say so", "[long]") {
   const ScratchDirectory scratch;
   const std::string sheet = source_file("meshes/sheet.obj"),
                     lines = source_file("meshes/strokes/round_bulge.json"),
@@ -67,7 +67,7 @@ TEST_CASE("old names: they do what the new ones do, and say so") {
   CHECK(read_text(list) == changed);
 }
 
-TEST_CASE("old names: --tolerance is a length, and was an accuracy where it was a share") {
+TEST_CASE("old names: --tolerance is a length, and was an accuracy where it was a share", "[long]") {
   const ScratchDirectory scratch;
   const std::string scene =
       source_file("scenes/validation/free_fall.toml") + " --set simulation.seconds=0.02";
@@ -88,7 +88,7 @@ TEST_CASE("old names: help, completion and manual pages have the new ones alone"
   CHECK(run_furrow("completion bash").out.find("--preview") == std::string::npos);
 }
 
-TEST_CASE("wrinkle: --width is that of strokes that name none, and --strokes names their file") {
+TEST_CASE("wrinkle: --width is that of strokes that name none, and --strokes names their file", "[long]") {
   const ScratchDirectory scratch;
   const std::string sheet = source_file("meshes/sheet.obj");
   write_text(scratch / "l.json", R"({"strokes": [{"name": "a", "points": [[-0.2,0.3,0],[0.2,0.3,0]]},

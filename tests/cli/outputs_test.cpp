@@ -126,7 +126,8 @@ TEST_CASE("outputs: no subcommand replaces what it reads, by whatever name") {
   CHECK(read_text(state) == state_before);
 }
 
-TEST_CASE("outputs: a file that furrow did not write is replaced with --replace only, its own without") {
+TEST_CASE("outputs: a file that furrow did not write is replaced with --replace only, its own without",
+          "[long]") {
   Files f;
   f.wrinkle();
   const std::string foreign = "# another program\no shirt\nv 0.000000 0.000000 0.000000\n";
@@ -235,7 +236,7 @@ TEST_CASE("outputs: a state has none, whatever a stranger wrote into it") {
   CHECK_FALSE(std::filesystem::exists(f / "evil.obj"));
 }
 
-TEST_CASE("outputs: a garment that came in centimetres goes on and out in centimetres") {
+TEST_CASE("outputs: a garment that came in centimetres goes on and out in centimetres", "[long]") {
   Files f;
   f.wrinkle();
   const auto height = [&](const std::string& path, const std::string& flags = "") {

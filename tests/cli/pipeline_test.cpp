@@ -95,7 +95,7 @@ TEST_CASE("pipeline: two runs, and runs with one and two threads, write the same
   }
 }
 
-TEST_CASE("pipeline: the sheet comes to rest on a box, no vertex inside it by exact distance") {
+TEST_CASE("pipeline: the sheet comes to rest on a box, no vertex inside it by exact distance", "[long]") {
   Sheet sheet;
   write_text(sheet.scratch / "box.obj",
              "v -0.5 -0.5 -1.5\nv 1.5 -0.5 -1.5\nv 1.5 -0.5 0.5\nv -0.5 -0.5 0.5\n"

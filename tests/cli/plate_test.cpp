@@ -53,7 +53,8 @@ const std::string woven_cloth =
 
 }  // namespace
 
-TEST_CASE("plate: what keep held goes on from its mesh and its state, is drawn on, kept again, transferred") {
+TEST_CASE("plate: what keep held goes on from its mesh and its state, is drawn on, kept again, transferred",
+          "[long]") {
   const ScratchDirectory scratch;
   const std::string material = GENERATE(plate_cloth, woven_cloth);
   CAPTURE(material);

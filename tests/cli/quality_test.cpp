@@ -17,7 +17,8 @@ const std::string our_sheet = source_file("meshes/hung_sheet.obj"),
 
 }  // namespace
 
-TEST_CASE("quality: the program tells each measure beside its target, and what is missed with --check") {
+TEST_CASE("quality: the program tells each measure beside its target, and what is missed with --check",
+          "[long]") {
   const ScratchDirectory scratch;
   const std::string safe = scratch / "safe.ply", png = scratch / "knobs.png";
   REQUIRE(run_furrow("wrinkle " + our_sheet + " " + its_strokes + " --rule safe -o " + safe).exit_code == 0);
@@ -34,7 +35,7 @@ TEST_CASE("quality: the program tells each measure beside its target, and what i
   CHECK(run_furrow("quality " + (scratch / "none.ply")).exit_code == 3);
 }
 
-TEST_CASE("quality: a plain mesh is measured over a garment that is named, with strokes") {
+TEST_CASE("quality: a plain mesh is measured over a garment that is named, with strokes", "[long]") {
   const ScratchDirectory scratch;
   const std::string obj = scratch / "fold.obj";
   REQUIRE(run_furrow("wrinkle " + our_sheet + " " + its_strokes + " --rule fold --max-distance 0.5 -o " + obj)

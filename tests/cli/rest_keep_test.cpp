@@ -100,7 +100,7 @@ TEST_CASE("rest keep: lines of a scene stay as drawn, at time 0 and later, and t
   CHECK(std::abs(drawn["lines"][0]["kept"].get<double>() - 1) > 5e-3);
 }
 
-TEST_CASE("rest keep: a run that was stopped before and after the drawing gives the same bits") {
+TEST_CASE("rest keep: a run that was stopped before and after the drawing gives the same bits", "[long]") {
   const ScratchDirectory scratch;
   const std::string law = GENERATE("", " --bending-law plate");
   const std::string scene = write_kept_scene(scratch), whole = scratch / "whole.ply",
@@ -138,7 +138,8 @@ TEST_CASE("rest keep: wrinkle makes what simulate then leaves as it is", "[relea
   CHECK(farthest(moved, kept) < 1e-6);
 }
 
-TEST_CASE("rest keep: lines drawn into a state take material and pins from it, and nothing fades in") {
+TEST_CASE("rest keep: lines drawn into a state take material and pins from it, and nothing fades in",
+          "[long]") {
   const ScratchDirectory scratch;
   const std::string cloth = GENERATE(material, plate);
   const std::string b = write_strokes(scratch, "b", -0.02), state = scratch / "state.ply",

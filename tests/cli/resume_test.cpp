@@ -111,7 +111,7 @@ TEST_CASE("resume: a simulation stopped twice, and one whose state went to anoth
   CHECK(sheet.run(scene + " --state " + two) == whole);
 }
 
-TEST_CASE("resume: a state that does not fit is refused") {
+TEST_CASE("resume: a state that does not fit is refused", "[long]") {
   FallingSheet sheet;
   const std::string state = sheet.scratch / "state.ply";
   REQUIRE(run_furrow("simulate " + (sheet.scratch / "scene.toml") + " -q --stop-at 0.1 --save-state " + state)
@@ -127,7 +127,7 @@ TEST_CASE("resume: a state that does not fit is refused") {
   CHECK_FALSE(std::filesystem::exists(sheet.scratch / "o.ply"));
 }
 
-TEST_CASE("resume: what changes at a stop is noticed") {
+TEST_CASE("resume: what changes at a stop is noticed", "[long]") {
   FallingSheet sheet;
   const std::string state = sheet.scratch / "state.ply", out = " -q -o " + (sheet.scratch / "o.ply");
   REQUIRE(
@@ -171,7 +171,7 @@ TEST_CASE("resume: what changes at a stop is noticed") {
   }
 }
 
-TEST_CASE("resume: no output replaces an input or another output") {
+TEST_CASE("resume: no output replaces an input or another output", "[long]") {
   FallingSheet sheet;
   const std::string scene = sheet.scratch / "scene.toml", mesh = sheet.scratch / "sheet.ply";
   const std::string field = sheet.scratch / "ball.field", out = sheet.scratch / "o.ply";

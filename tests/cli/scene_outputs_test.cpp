@@ -80,7 +80,8 @@ TEST_CASE("scene outputs: the flags that a scene's report names do the same, byt
 
 TEST_CASE(
     "scene outputs: an animation has the frames of the run, the last of them at its end, and the body is "
-    "where it went") {
+    "where it went",
+    "[long]") {
   Turning t;
   const std::string end = t.scratch / "end.ply", body = t.scratch / "body.ply", pc2 = t.scratch / "run.pc2";
   t.run(t.scene + " -o " + end + " --animation " + pc2 + " --fps 50 --save-body " + body);

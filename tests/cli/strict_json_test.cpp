@@ -38,7 +38,7 @@ json report_of(const std::string& arguments, int exit_code = 0) {
 
 }  // namespace
 
-TEST_CASE("strict JSON: every command's report is read, and is as its schema says") {
+TEST_CASE("strict JSON: every command's report is read, and is as its schema says", "[long]") {
   ScratchDirectory scratch;
   const std::string sheet = source_file("meshes/sheet.obj"),
                     body = " --body " + source_file("meshes/mannequin.obj"),
@@ -104,8 +104,8 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
             " --set simulation.seconds=0.01 --accuracy 5%");
 }
 
-TEST_CASE(
-    "strict JSON: every command that has --json has a schema, and the schema is one file of its words") {
+TEST_CASE("strict JSON: every command that has --json has a schema, and the schema is one file of its words",
+          "[long]") {
   std::istringstream help(run_furrow("--help").out);
   bool listed = false;
   int found = 0;

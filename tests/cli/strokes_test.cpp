@@ -172,7 +172,7 @@ TEST_CASE(
             .err.find("stroke \"out\", point 1: (1.500000, 0.500000) lies outside") != std::string::npos);
 }
 
-TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carries them") {
+TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carries them", "[long]") {
   Wall wall;
   wall.draw();
   const std::string edited = wall.scratch / "edited.json";

@@ -39,7 +39,7 @@ std::string sheets(bool crossing) {
 
 }  // namespace
 
-TEST_CASE("report: ten lines at most for people, with the files written, and all of it with -v") {
+TEST_CASE("report: ten lines at most for people, with the files written, and all of it with -v", "[long]") {
   ScratchDirectory scratch;
   const std::string sheet = source_file("meshes/sheet.obj"), skirt = source_file("meshes/skirt.obj"),
                     body = " --body " + source_file("meshes/mannequin.obj"),

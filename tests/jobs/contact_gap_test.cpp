@@ -43,7 +43,7 @@ double sag_by_count(const geometry::Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("edge_sag: the fine cloth of folds does not hide the long edges beside it") {
+TEST_CASE("edge_sag: the fine cloth of folds does not hide the long edges beside it", "[long]") {
   const geometry::Mesh plain = sheet_with_lines(geometry::InsertionRule::fold, 0),
                        folded = sheet_with_lines(geometry::InsertionRule::fold, 5);
   REQUIRE(sag_by_count(folded) < 0.7 * jobs::edge_sag(plain));  // so it was

@@ -185,8 +185,8 @@ TEST_CASE("doctor: a body that lies along z is asked about, unless somebody says
   CHECK_NOTHROW(jobs::fit(fit, recorder));
 }
 
-TEST_CASE(
-    "doctor: a garment whose file has another axis up than its body's is told by the axis, and refused") {
+TEST_CASE("doctor: a garment whose file has another axis up than its body's is told by the axis, and refused",
+          "[long]") {
   const auto moved = [](geometry::Mesh mesh, double down) {
     for (auto v : mesh.vertices()) mesh.point(v) = mesh.point(v) - geometry::Vector(0, down, 0);
     return mesh;
@@ -213,8 +213,8 @@ TEST_CASE(
   CHECK(refused.find("garment: the garment lies along z") != std::string::npos);
 }
 
-TEST_CASE(
-    "doctor: garment and body in two units, or exchanged, are asked about by the option that mends it") {
+TEST_CASE("doctor: garment and body in two units, or exchanged, are asked about by the option that mends it",
+          "[long]") {
   const std::string small = drape_refused(scaled(shirt(), 0.01), mannequin());
   CHECK(small.find("--body-unit") != std::string::npos);
   const jobs::DoctorReport larger = examine(scaled(shirt(), 10), scaled(mannequin(), 0.06));

@@ -135,7 +135,8 @@ TEST_CASE("drape: a garment that lay inside the one under it is told", "[release
   CHECK((tells(report, "layer_order") || tells(report, "layers_cross")));
 }
 
-TEST_CASE("drape: a garment that touches no other passes through it, which is told and no failure") {
+TEST_CASE("drape: a garment that touches no other passes through it, which is told and no failure",
+          "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = two_across_ball();
   job.over.clear();

@@ -61,7 +61,7 @@ bool says(const jobs::DrapeJobReport& report, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("drape: a file that crosses itself is taken apart before it comes to rest") {
+TEST_CASE("drape: a file that crosses itself is taken apart before it comes to rest", "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = two_in_a_file(0.025, [](double x, double z) {
     return geometry::Point(x, 0.108 - 0.008 * std::exp(-(x * x + z * z) / 0.003), z);
@@ -87,7 +87,8 @@ TEST_CASE("drape: a file that crosses itself is taken apart before it comes to r
   CHECK_FALSE(to_json(off).contains("untangled"));
 }
 
-TEST_CASE("drape: what cannot be taken apart is told, with its place and length, and pieces as files") {
+TEST_CASE("drape: what cannot be taken apart is told, with its place and length, and pieces as files",
+          "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job =
       two_in_a_file(0.015, [](double x, double z) { return geometry::Point(x, 0.105 + z, 0.3 * z); });

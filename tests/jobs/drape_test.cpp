@@ -110,7 +110,7 @@ TEST_CASE("drape: fabrics are draped one after the other, each to the bits of it
   CHECK(to_json(report).at("garments").size() == 2);
 }
 
-TEST_CASE("drape: warnings and remarks have their codes") {
+TEST_CASE("drape: warnings and remarks have their codes", "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   set(job, "material.gap", 0.0005);
@@ -143,7 +143,7 @@ TEST_CASE("drape: a job that is cancelled before anything was found leaves nothi
   CHECK(tests::names_in(folder).empty());
 }
 
-TEST_CASE("drape: what a cancelled job reached is reported, and written whole") {
+TEST_CASE("drape: what a cancelled job reached is reported, and written whole", "[long]") {
   const fs::path folder = tests::empty_folder("drape_cancelled");
   jobs::DrapeJob job = across_ball();
   job.output = folder / "worn.ply";
@@ -206,8 +206,8 @@ TEST_CASE("drape: of several starts the rest with the lowest energy is taken, an
   CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--starts"));
 }
 
-TEST_CASE(
-    "drape: cancelled after the first of several starts, what rests is written and told as interrupted") {
+TEST_CASE("drape: cancelled after the first of several starts, what rests is written and told as interrupted",
+          "[long]") {
   const fs::path folder = tests::empty_folder("drape_starts_cancelled");
   jobs::DrapeJob job = across_ball();
   tests::Recorder all;
@@ -260,7 +260,7 @@ TEST_CASE("drape: a spread that is wider than what its number decides is told, a
   CHECK(codes().empty());
 }
 
-TEST_CASE("drape: a job that cannot be is refused before anything is written") {
+TEST_CASE("drape: a job that cannot be is refused before anything is written", "[long]") {
   const fs::path folder = tests::empty_folder("drape_refused");
   tests::Recorder recorder;
   const jobs::DrapeJob good = of_files(across_ball(), folder);
@@ -344,7 +344,7 @@ const jobs::Draped& only(const jobs::DrapeJobReport& report) { return report.gar
 
 }  // namespace
 
-TEST_CASE("drape: cloth that comes to cross other cloth is counted, placed and no success") {
+TEST_CASE("drape: cloth that comes to cross other cloth is counted, placed and no success", "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = two_layers();
   job.settings.self_contact = jobs::SelfContactUse::off;
@@ -363,7 +363,8 @@ TEST_CASE("drape: cloth that comes to cross other cloth is counted, placed and n
   CHECK_FALSE(only(jobs::drape(job, recorder)).crosses_itself());
 }
 
-TEST_CASE("drape: cloth keeps off cloth by default, and one search is enough where that comes to rest") {
+TEST_CASE("drape: cloth keeps off cloth by default, and one search is enough where that comes to rest",
+          "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = two_layers();
   const auto with = [&](jobs::SelfContactUse use) {
@@ -381,7 +382,8 @@ TEST_CASE("drape: cloth keeps off cloth by default, and one search is enough whe
   CHECK_FALSE(to_json(automatic).contains("other_search"));
 }
 
-TEST_CASE("drape: where nothing touches, contact by default has the numbers of none, at rest or not") {
+TEST_CASE("drape: where nothing touches, contact by default has the numbers of none, at rest or not",
+          "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   for (const std::optional<int> iterations : {std::optional<int>{}, std::optional<int>{3}}) {
@@ -398,7 +400,8 @@ TEST_CASE("drape: where nothing touches, contact by default has the numbers of n
   }
 }
 
-TEST_CASE("drape: where contact finds no rest and cloth crosses nothing without, that is taken and told") {
+TEST_CASE("drape: where contact finds no rest and cloth crosses nothing without, that is taken and told",
+          "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = two_layers();
   job.settings.thickness = 0.02;  // of layers 1 mm apart
@@ -420,8 +423,8 @@ TEST_CASE("drape: where contact finds no rest and cloth crosses nothing without,
   CHECK_FALSE(told.contains("self_contact"));
 }
 
-TEST_CASE(
-    "drape: a rest with contact that is none is not taken, and its crossings are told with what helps") {
+TEST_CASE("drape: a rest with contact that is none is not taken, and its crossings are told with what helps",
+          "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = two_layers();
   job.settings.thickness = 0.02;  // of layers 1 mm apart
@@ -467,7 +470,7 @@ TEST_CASE("drape: a garment far too small for its body is torn, whatever balance
   CHECK(only(report).outcome().rfind("torn", 0) == 0);
 }
 
-TEST_CASE("drape: numbers beyond any cloth's are a numerical failure, and do not fall") {
+TEST_CASE("drape: numbers beyond any cloth's are a numerical failure, and do not fall", "[long]") {
   tests::Recorder recorder;
   for (const auto& [path, value] :
        {std::pair<const char*, io::Json>{"forces.gravity", 1e300}, {"material.stretch", 1e30}}) {
@@ -484,7 +487,8 @@ TEST_CASE("drape: numbers beyond any cloth's are a numerical failure, and do not
   }
 }
 
-TEST_CASE("drape: a part that nothing holds is named and goes with the cloth, and the rest comes to rest") {
+TEST_CASE("drape: a part that nothing holds is named and goes with the cloth, and the rest comes to rest",
+          "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   job.subdivide = 0;
@@ -515,7 +519,7 @@ TEST_CASE("drape: a part that nothing holds is named and goes with the cloth, an
   CHECK_FALSE(jobs::drape(job, recorder).fails());
 }
 
-TEST_CASE("drape: parts that fall one after the other are not refined, however coarse they are") {
+TEST_CASE("drape: parts that fall one after the other are not refined, however coarse they are", "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   geometry::Mesh& sheet = job.scene.memory.meshes["sheet"].mesh;
@@ -627,7 +631,8 @@ TEST_CASE("drape: without a body a sheet hangs from its edge and stretches by it
   CHECK_FALSE(remarks_on(report, "touches_nothing"));
 }
 
-TEST_CASE("drape: what holds a garment carries its weight: a pin, a body, or both, and a band pulls") {
+TEST_CASE("drape: what holds a garment carries its weight: a pin, a body, or both, and a band pulls",
+          "[long]") {
   jobs::DrapeJob hung = across_ball();
   hung.scene.settings.root.erase("body");
   set(hung, "pins.0.vertices", io::Json::array({0, 1, 2, 3, 4, 5, 6}));
@@ -664,7 +669,8 @@ TEST_CASE("drape: without a body a part that no pin holds is named, and nothing 
   CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--pin-loop") && Catch::Contains("--body"));
 }
 
-TEST_CASE("drape: a plate comes to rest on a ball, near to where hinges do, and with friction, too") {
+TEST_CASE("drape: a plate comes to rest on a ball, near to where hinges do, and with friction, too",
+          "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = across_ball();
   set(job, "material.bending_law", "hinge");

@@ -11,7 +11,7 @@
 using namespace furrow;
 namespace fs = std::filesystem;
 
-TEST_CASE("field: it keeps to its tolerance, and a cancelled or refused job leaves nothing") {
+TEST_CASE("field: it keeps to its tolerance, and a cancelled or refused job leaves nothing", "[long]") {
   const fs::path folder = tests::empty_folder("field");
   io::MeshFile ball;
   ball.mesh = tests::icosphere(2, 0.1);

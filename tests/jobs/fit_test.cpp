@@ -82,7 +82,7 @@ TEST_CASE("fit: what is not known is warned of by its code") {
   CHECK(known.garments[0].report.strain->max == Approx(0).margin(1e-12));
 }
 
-TEST_CASE("fit: a cancelled job leaves nothing") {
+TEST_CASE("fit: a cancelled job leaves nothing", "[long]") {
   const fs::path folder = tests::empty_folder("fit_cancelled");
   jobs::FitJob job = worn_sleeve();
   job.output = folder / "fitted.ply";

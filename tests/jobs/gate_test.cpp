@@ -93,7 +93,8 @@ TEST_CASE("gate: a garment without any area is refused by its name") {
                     "line.obj: none of its faces has an area, so it is no cloth; repair it");
 }
 
-TEST_CASE("gate: a field that needs more than the limit is refused with its body's name, or allowed") {
+TEST_CASE("gate: a field that needs more than the limit is refused with its body's name, or allowed",
+          "[long]") {
   const fs::path folder = tests::empty_folder("gate");
   io::MeshFile ball;
   ball.mesh = tests::icosphere(2, 0.1);

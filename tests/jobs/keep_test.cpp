@@ -83,7 +83,8 @@ jobs::KeepReport settles_first(jobs::KeepJob& job) {
 
 }  // namespace
 
-TEST_CASE("keep: a sheet above a ball comes to rest on it before its lines are drawn, unless told not to") {
+TEST_CASE("keep: a sheet above a ball comes to rest on it before its lines are drawn, unless told not to",
+          "[long]") {
   jobs::KeepJob job = sheet_over_ball(0.14);
   const jobs::KeepReport rests = settles_first(job);
   double lowest = 1;
@@ -92,7 +93,8 @@ TEST_CASE("keep: a sheet above a ball comes to rest on it before its lines are d
 }
 
 TEST_CASE(
-    "keep: a sheet that a few of its vertices balance on a ball comes to rest before its lines are drawn") {
+    "keep: a sheet that a few of its vertices balance on a ball comes to rest before its lines are drawn",
+    "[long]") {
   jobs::KeepJob job = sheet_over_ball(0.121, 0.09, "rigidity = 1e-4\n");
   job.seconds = 0.02;
   job.gust = 0;
@@ -145,7 +147,7 @@ TEST_CASE("keep: a wrinkled file above a ball comes to rest on it with its lines
   CHECK(line.at("smoothed").get<double>() == Approx(0.004).epsilon(0.05));
 }
 
-TEST_CASE("keep: two jobs at once in one process give the bits and the words of single runs") {
+TEST_CASE("keep: two jobs at once in one process give the bits and the words of single runs", "[long]") {
   tests::Recorder recorder, first, second;
   const jobs::KeepJob low = hung_ridge(), high = hung_ridge(0.006);
   const jobs::KeepReport single_low = jobs::keep(low, recorder), single_high = jobs::keep(high, recorder);
@@ -162,7 +164,8 @@ TEST_CASE("keep: two jobs at once in one process give the bits and the words of 
   CHECK(tests::positions(report_low.garment) != tests::positions(report_high.garment));
 }
 
-TEST_CASE("keep: cancelled before its first rest state a job writes nothing, later the last one, whole") {
+TEST_CASE("keep: cancelled before its first rest state a job writes nothing, later the last one, whole",
+          "[long]") {
   const fs::path folder = fs::temp_directory_path() / "furrow_jobs_keep_cancelled";
   fs::remove_all(folder);
   fs::create_directories(folder);
@@ -207,8 +210,8 @@ TEST_CASE("keep: each trial is told by its number, and goes forwards only", "[re
     last = share;
   }
   REQUIRE(names.size() > 1);
-  CHECK(names[0] == "keeping");
-  CHECK(names[1] == "keeping, trial 2");
+  CHECK(names[0] == "keeping, trial 1");
+  CHECK(names[1] == "keeping, trial 2, more help for 1 line");
 }
 
 TEST_CASE("keep: help that excludes help is refused") {

@@ -94,7 +94,7 @@ TEST_CASE(
   CHECK(file.mesh.point(vertex(file.polylines[0].vertices[1])).x() >= 2);
 }
 
-TEST_CASE("drape: loose parts are held, dropped or let fall, and the report says so") {
+TEST_CASE("drape: loose parts are held, dropped or let fall, and the report says so", "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = with_scraps();
   const std::size_t count = job.scene.memory.meshes["sheet"].mesh.number_of_vertices();
@@ -122,7 +122,7 @@ TEST_CASE("drape: loose parts are held, dropped or let fall, and the report says
   CHECK(fallen.garments[0].file.mesh.point(vertex(count - 1)).y() < -0.2);
 }
 
-TEST_CASE("drape: a large part that nothing holds is a failure, unless it is dropped") {
+TEST_CASE("drape: a large part that nothing holds is a failure, unless it is dropped", "[long]") {
   tests::Recorder recorder;
   jobs::DrapeJob job = with_scraps(0.1);
   const jobs::DrapeJobReport held = jobs::drape(job, recorder);

@@ -282,8 +282,8 @@ TEST_CASE("quality: the report of wrinkle tells it before the lines, drawn and s
   }
 }
 
-TEST_CASE(
-    "quality: the hem of the demo's skirt is as smooth as its target where ten steep folds run over it") {
+TEST_CASE("quality: the hem of the demo's skirt is as smooth as its target where ten steep folds run over it",
+          "[long]") {
   jobs::WrinkleJob job;
   job.garment = tests::source_dir() / "meshes/skirt.obj";
   job.strokes = tests::source_dir() / "meshes/strokes/figure_skirt.json";

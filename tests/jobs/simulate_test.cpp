@@ -126,7 +126,8 @@ TEST_CASE("simulate: without damping the kinds of energy and motion sum up to th
   CHECK(json["energy"].at("weight") == late.energy->weight);
 }
 
-TEST_CASE("simulate: a garment that starts with a velocity flies as a thrown body, and pins hold theirs") {
+TEST_CASE("simulate: a garment that starts with a velocity flies as a thrown body, and pins hold theirs",
+          "[long]") {
   const auto thrown = [](bool pinned, const char* forces) {
     jobs::SimulateJob job = hung_sheet(0.2);
     job.scene.settings = io::parse_toml(
@@ -175,7 +176,7 @@ TEST_CASE("simulate: a garment and strokes in memory come to the bits of their f
   CHECK(recorder.warnings.empty());
 }
 
-TEST_CASE("simulate: two jobs at once in one process give the bits of single runs") {
+TEST_CASE("simulate: two jobs at once in one process give the bits of single runs", "[long]") {
   tests::Recorder recorder;
   const jobs::SimulateJob one = hung_sheet(0.05, 0.02), two = sheet_on_ball(0.05);
   const jobs::SimulateReport single_one = jobs::simulate(one, recorder),
@@ -191,7 +192,8 @@ TEST_CASE("simulate: two jobs at once in one process give the bits of single run
   CHECK(without_clock(report_two) == without_clock(single_two));
 }
 
-TEST_CASE("simulate: a job that is cancelled ends with the next question and leaves whole files or none") {
+TEST_CASE("simulate: a job that is cancelled ends with the next question and leaves whole files or none",
+          "[long]") {
   const fs::path folder = empty_folder("cancelled");
   jobs::SimulateJob job = hung_sheet(0.1);
   for (const char* key : {"mesh", "state"}) set_output(job, key, folder / (std::string(key) + ".ply"));
@@ -298,8 +300,8 @@ TEST_CASE("simulate: warnings have codes that say what they are about") {
   CHECK(report.rounds.empty());
 }
 
-TEST_CASE(
-    "simulate: damping of springs that an integrator does not have is warned of where it was asked for") {
+TEST_CASE("simulate: damping of springs that an integrator does not have is warned of where it was asked for",
+          "[long]") {
   tests::Recorder recorder;
   jobs::SimulateJob job = hung_sheet(0.02);
   const auto codes = [&] {
@@ -315,7 +317,8 @@ TEST_CASE(
   CHECK(codes().empty());
 }
 
-TEST_CASE("simulate: a line that fades or turns over is warned of by name, with figures and what helps") {
+TEST_CASE("simulate: a line that fades or turns over is warned of by name, with figures and what helps",
+          "[long]") {
   jobs::SimulateJob job = hung_sheet(0.5);
   io::set_value(job.scene.settings, "forces.gravity", 1000, "test");  // draws the sheet taut
   tests::Recorder recorder;
@@ -338,7 +341,7 @@ TEST_CASE("simulate: a line that fades or turns over is warned of by name, with 
   CHECK_FALSE(lost(fresh));
 }
 
-TEST_CASE("simulate: --rest keep takes the fabric that the garment's file notes, as keep does") {
+TEST_CASE("simulate: --rest keep takes the fabric that the garment's file notes, as keep does", "[long]") {
   const fs::path folder = empty_folder("simulate_noted");
   tests::Recorder recorder;
   jobs::SimulateJob first = hung_sheet(0.001);
@@ -355,7 +358,7 @@ TEST_CASE("simulate: --rest keep takes the fabric that the garment's file notes,
   CHECK(kept.settings["material"]["preset"] == "denim");
 }
 
-TEST_CASE("simulate: integrator and step are chosen for a tolerance, and named in the settings") {
+TEST_CASE("simulate: integrator and step are chosen for a tolerance, and named in the settings", "[long]") {
   tests::Recorder recorder;
   jobs::SimulateJob job = hung_sheet(0.05);
   job.tolerance = 0.01;
@@ -389,7 +392,7 @@ bool has_fault(const jobs::SimulateReport& report, const std::string& code) {
 
 }  // namespace
 
-TEST_CASE("simulate: cloth that ends inside the body is no success, and where it lies is said") {
+TEST_CASE("simulate: cloth that ends inside the body is no success, and where it lies is said", "[long]") {
   tests::Recorder recorder;
   const jobs::SimulateReport report = jobs::simulate(tube_in_ball(0.1), recorder);
   INFO(to_json(report).dump(1));
@@ -468,7 +471,7 @@ TEST_CASE("simulate: with contact of cloth with itself --cloth-friction holds a 
   CHECK(smooth > 10 * std::abs(rough));
 }
 
-TEST_CASE("simulate: what is led out of the gap goes on after a stop with the bits of one run") {
+TEST_CASE("simulate: what is led out of the gap goes on after a stop with the bits of one run", "[long]") {
   const fs::path folder = empty_folder("led_out");
   jobs::SimulateJob job = sheet_on_ball(0.1);
   job.scene.memory.meshes["ball"].mesh =
@@ -550,7 +553,8 @@ double farthest_apart(const io::MeshFile& a, const io::MeshFile& b) {
 }  // namespace
 
 TEST_CASE(
-    "simulate: with settle the drawn sheet comes to rest as drape lets it, and with no seconds that is all") {
+    "simulate: with settle the drawn sheet comes to rest as drape lets it, and with no seconds that is all",
+    "[long]") {
   const fs::path folder = empty_folder("simulate_settle");
   tests::Recorder recorder;
   jobs::SimulateJob job = settled_sheet(0);
@@ -574,7 +578,7 @@ TEST_CASE(
   CHECK(farthest_apart(draped.garments.at(0).file, report.garment) < 1e-9);
 }
 
-TEST_CASE("simulate: what came to rest hardly moves, and lines that come later are drawn into it") {
+TEST_CASE("simulate: what came to rest hardly moves, and lines that come later are drawn into it", "[long]") {
   const fs::path folder = empty_folder("simulate_settle_moves");
   tests::Recorder recorder;
   jobs::SimulateJob job = settled_sheet(0.05);
@@ -595,7 +599,8 @@ TEST_CASE("simulate: what came to rest hardly moves, and lines that come later a
 }
 
 TEST_CASE(
-    "simulate: settle without anything that holds the garment is refused, and what falls is not at rest") {
+    "simulate: settle without anything that holds the garment is refused, and what falls is not at rest",
+    "[long]") {
   tests::Recorder recorder;
   jobs::SimulateJob job = settled_sheet(0);
   job.scene.settings.root.erase("pins");

@@ -87,7 +87,8 @@ TEST_CASE("wrinkle: an OBJ in another folder names the material library from the
   CHECK(io::read_mesh(transfer.output).material_libraries == Names{"../in/cloth.mtl"});
 }
 
-TEST_CASE("wrinkle: a ridge and a valley side by side within their widths are told, others are not") {
+TEST_CASE("wrinkle: a ridge and a valley side by side within their widths are told, others are not",
+          "[long]") {
   const auto told = [](double apart, double second) {
     jobs::WrinkleJob job;
     io::MeshFile sheet;

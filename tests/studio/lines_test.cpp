@@ -54,7 +54,7 @@ TEST_CASE("studio lines: a ridge that becomes a valley is called one, unless som
   CHECK(name(1) == "ridge 7");
 }
 
-TEST_CASE("studio lines: their order can be changed, and is the one that is saved") {
+TEST_CASE("studio lines: their order can be changed, and is the one that is saved", "[long]") {
   const Desk desk("order");
   const studio::Studio studio(desk.scene, desk.project());
   Visitor page(studio);

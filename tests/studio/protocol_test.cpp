@@ -198,7 +198,8 @@ void do_at_random(std::uint64_t seed, int intentions, const std::string& name, b
 }  // namespace
 
 TEST_CASE(
-    "studio protocol: random intentions are done or refused, undone to the start, and replayed to its bits") {
+    "studio protocol: random intentions are done or refused, undone to the start, and replayed to its bits",
+    "[long]") {
   int runs = 0;  // each takes half a second: the first twenty of the cases that are asked for
   CHECK(rc::check([&runs] {
     if (runs++ < 20) do_at_random(*rc::gen::arbitrary<std::uint64_t>(), 12, "random");

@@ -59,7 +59,7 @@ double group_area(const Mesh& mesh, int group) {
 
 }  // namespace
 
-TEST_CASE("refine_band: the same line twice embeds onto itself") {
+TEST_CASE("refine_band: the same line twice embeds onto itself", "[long]") {
   const Mesh sheet = equilateral_sheet(0.6, 0.8, 0.025);
   const FoldCurve curve = curve_on(sheet, arc_points(-0.15, 0.1, 0.15, 0.7, 0.1), case_width, case_height);
   Mesh mesh = sheet;
@@ -78,7 +78,7 @@ TEST_CASE("refine_band: the same line twice embeds onto itself") {
   CHECK(second.chains[0].vertices == report.chains[0].vertices);
 }
 
-TEST_CASE("refine_band: permuted faces give the same surface") {
+TEST_CASE("refine_band: permuted faces give the same surface", "[long]") {
   const Mesh sheet = jittered(20, 26, 0.2, 7, 0.6, 0.8);
   Mesh mesh = sheet;
   const auto points = arc_points(0.1, 0.1, 0.45, 0.7, 0.1);

@@ -83,7 +83,7 @@ TEST_CASE("BandSizing: finer where steep folds and the valley between them run o
   CHECK(at(0, end) == Approx(flank));
 }
 
-TEST_CASE("refine_band: a line on a flat sheet, from coarse to fine") {
+TEST_CASE("refine_band: a line on a flat sheet, from coarse to fine", "[long]") {
   for (double edge : {width / 3, width / 5, width / 10, width / 20}) {
     CAPTURE(edge);
     const Mesh sheet = equilateral_sheet(0.6, 0.8, edge);

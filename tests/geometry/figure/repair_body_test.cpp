@@ -117,7 +117,7 @@ TEST_CASE("repair_body: it merges parted seams and drops faces without three cor
   CHECK(is_sealed(joined));
 }
 
-TEST_CASE("repair_body: two fans of 1,500 faces each, in any order, are a body as it is") {
+TEST_CASE("repair_body: two fans of 1,500 faces each, in any order, are a body as it is", "[long]") {
   constexpr int n = 1500;
   std::vector<Point> points{{0, 1, 0}, {0, 0, 0}};
   std::vector<std::array<int, 3>> faces;

@@ -72,7 +72,8 @@ TEST_CASE(
   CHECK_FALSE(torso_heights({}, 0, 1));
 }
 
-TEST_CASE("torso_levels: arms that hang apart are others, and the torso ends where they grow together") {
+TEST_CASE("torso_levels: arms that hang apart are others, and the torso ends where they grow together",
+          "[long]") {
   Mesh figure_mesh = turned([](double) { return 0.15; });
   append(figure_mesh, turned([](double) { return 0.05; }, 0.4));
   append(figure_mesh, turned([](double) { return 0.05; }, -0.4));
@@ -91,7 +92,8 @@ TEST_CASE("torso_levels: arms that hang apart are others, and the torso ends whe
   CHECK(up_to_arms.back().height == Approx(0.75 * 1.7).margin(0.0086));
 }
 
-TEST_CASE("torso_levels: arms that are stretched out sideways are left out, where they begin to grow") {
+TEST_CASE("torso_levels: arms that are stretched out sideways are left out, where they begin to grow",
+          "[long]") {
   for (const double growth : {0.05, 0.08, 0.12}) {  // of the breadth in a step, from 72 % of the height on
     const auto hourglass = [](double share) { return 0.12 + 0.7 * (share - 0.6) * (share - 0.6); };
     Mesh mesh = turned(hourglass);
@@ -107,8 +109,8 @@ TEST_CASE("torso_levels: arms that are stretched out sideways are left out, wher
     CHECK(levels.back().height == Approx(0.72 * 1.7).margin(0.0172));
     const auto heights = torso_heights(levels, body.low, body.high);
     REQUIRE(heights);
-    const double girth = tape_measure(
-        torso_section(body.points, body.triangles, levels, heights->chest)->torso);
+    const double girth =
+        tape_measure(torso_section(body.points, body.triangles, levels, heights->chest)->torso);
     CHECK(girth == Approx(2 * std::numbers::pi * hourglass(0.72)).epsilon(0.03));
   }
 }
@@ -120,7 +122,7 @@ TEST_CASE("torso_levels: what is no standing person has no levels") {
   CHECK(torso_levels(cone.points, cone.triangles).empty());
 }
 
-TEST_CASE("torso_levels: of real bodies chest, waist and hip lie where a tailor would measure") {
+TEST_CASE("torso_levels: of real bodies chest, waist and hip lie where a tailor would measure", "[long]") {
   if (!have_shared()) {
     WARN("skipped: no shared data");
     return;

@@ -98,7 +98,7 @@ TEST_CASE("fold_lines: on a sheet the surface is the closed form, and the crest 
   }
 }
 
-TEST_CASE("fold_lines: along a tube and around it the fold has its height, ridge and valley") {
+TEST_CASE("fold_lines: along a tube and around it the fold has its height, ridge and valley", "[long]") {
   constexpr double radius = 0.1;
   for (const double k : {height, -height}) {
     Mesh mesh = cylinder(radius, 0.5, 32, 25);
@@ -200,7 +200,7 @@ TEST_CASE("fold_lines: of the fold's angles the rest has the share that the stro
   }
 }
 
-TEST_CASE("fold_lines: random lines on a creased mesh leave no invalid triangle at rest") {
+TEST_CASE("fold_lines: random lines on a creased mesh leave no invalid triangle at rest", "[long]") {
   Mesh mesh = jittered(24, 24, 0.2, 5, 0.6, 0.6);
   lift(mesh, [](double x, double y) {
     return 0.12 * std::abs(std::sin(9 * x)) + 0.05 * std::abs(std::sin(13 * y));
@@ -260,7 +260,8 @@ TEST_CASE("fold_lines: a line down both legs of real trousers is drawn, without 
   CHECK(report.fold->invalid_faces == 0);
 }
 
-TEST_CASE("fold_lines: folds are drawn over earlier ones, and thin faces that they leave are told") {
+TEST_CASE("fold_lines: folds are drawn over earlier ones, and thin faces that they leave are told",
+          "[long]") {
   const auto told = [](const WrinkleReport& report) {
     return std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& warning) {
       return warning.find("too thin for cloth") != std::string::npos;
@@ -285,7 +286,7 @@ TEST_CASE("fold_lines: folds are drawn over earlier ones, and thin faces that th
   }
 }
 
-TEST_CASE("fold_lines: a ridge over a valley does not pinch the cloth in the hollow") {
+TEST_CASE("fold_lines: a ridge over a valley does not pinch the cloth in the hollow", "[long]") {
   // Without normals that are averaged further: 4.1, 1.5, 2.4, 0.9, 7.1 and 1.0 degrees.
   struct Case {
     double x, k, slope, least_deg;
@@ -381,7 +382,7 @@ void check_self_crossing(const WrinkleReport& report, const Mesh& mesh, const Dr
 
 }  // namespace
 
-TEST_CASE("fold_lines: a stroke that crosses itself is one line, on a sheet") {
+TEST_CASE("fold_lines: a stroke that crosses itself is one line, on a sheet", "[long]") {
   const auto at = GENERATE(0, 1, 2);
   CAPTURE(at);
   const Drawing drawing = at == 0 ? figure_eight() : at == 1 ? loop() : spiral();
@@ -399,7 +400,7 @@ TEST_CASE("fold_lines: a stroke that crosses itself is one line, on a sheet") {
       0);
 }
 
-TEST_CASE("fold_lines: a stroke that crosses itself is one line, on a tube") {
+TEST_CASE("fold_lines: a stroke that crosses itself is one line, on a tube", "[long]") {
   constexpr double radius = 0.2;
   const auto at = GENERATE(0, 1, 2);
   CAPTURE(at);

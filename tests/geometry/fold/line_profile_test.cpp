@@ -72,7 +72,8 @@ TEST_CASE("line_profile: crest, half way, foot and beyond, round and sharp") {
   CHECK(line_profile(0.25, 1) == 0.75);
 }
 
-TEST_CASE("line_profile: a line with a width has the same heights and cross-section on every mesh") {
+TEST_CASE("line_profile: a line with a width has the same heights and cross-section on every mesh",
+          "[long]") {
   for (double sharpness : {0.0, 0.5, 1.0})
     for (double h : {0.02, 0.01, 0.005}) {
       Mesh mesh = equilateral_sheet(0.4, 0.4, h);
@@ -127,7 +128,8 @@ TEST_CASE("line_profile: a fold moves no other layer, neither a second sheet nor
     if (pin.point(v).z() < -0.005) CHECK(bent_back.point(v) == pin.point(v));
 }
 
-TEST_CASE("line_profile: where folds meet the highest ridge, the deepest valley, and both together count") {
+TEST_CASE("line_profile: where folds meet the highest ridge, the deepest valley, and both together count",
+          "[long]") {
   const Mesh sheet = equilateral_sheet(0.4, 0.4, 0.005);
   const Stroke across = fold({{-0.15, 0.201, 0}, {0.15, 0.201, 0}}, 0.01),
                up = fold({{0.001, 0.05, 0}, {0.001, 0.35, 0}}, 0.02);

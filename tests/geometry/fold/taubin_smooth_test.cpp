@@ -240,7 +240,8 @@ TEST_CASE("taubin_smooth: a kept border smooths as a curve, a free one with its 
 }
 
 TEST_CASE(
-    "taubin_smooth: the spectrum that it relies on ends at 2 for uniform weights and at 3 for cotangents") {
+    "taubin_smooth: the spectrum that it relies on ends at 2 for uniform weights and at 3 for cotangents",
+    "[long]") {
   CHECK(rc::check("spectrum", [] {
     const auto seed = *rc::gen::inRange(0u, 100000u);
     const double squash = *rc::gen::element(1., 3., 20., 300.);

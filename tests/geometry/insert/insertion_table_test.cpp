@@ -39,7 +39,8 @@ void draw_all(const MeshCase& on, const StrokeCase& kind) {
 }  // namespace
 
 TEST_CASE(
-    "insert_along_stroke: every kind of stroke on every kind of mesh becomes a whole line on a sound mesh") {
+    "insert_along_stroke: every kind of stroke on every kind of mesh becomes a whole line on a sound mesh",
+    "[long]") {
   for (const MeshCase& on : mesh_zoo()) {
     for (const StrokeCase& kind : strokes_for(on)) {
       CAPTURE(on.name, kind.name);

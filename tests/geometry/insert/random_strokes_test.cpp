@@ -61,7 +61,8 @@ void draw_random_lines() {
 
 }  // namespace
 
-TEST_CASE("insert_along_stroke: random strokes on random sheets leave a sound mesh and whole lines") {
+TEST_CASE("insert_along_stroke: random strokes on random sheets leave a sound mesh and whole lines",
+          "[long]") {
   CHECK(rc::check(draw_random_lines));
 }
 

@@ -102,7 +102,8 @@ Stroke random_stroke(std::mt19937& random) {
 }  // namespace
 
 TEST_CASE(
-    "insert_along_stroke: over flat panels seams stay, texture is the affine image of the rest position") {
+    "insert_along_stroke: over flat panels seams stay, texture is the affine image of the rest position",
+    "[long]") {
   std::mt19937 random(20261121);
   std::size_t splits = 0;
   for (int round = 0; round < 12; ++round) {

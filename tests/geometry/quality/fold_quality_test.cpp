@@ -171,7 +171,7 @@ TEST_CASE("fold_quality: ripples of known size are measured as such", "[release]
     }
 }
 
-TEST_CASE("fold_quality: a height that rises and sinks over widths is no ripple") {
+TEST_CASE("fold_quality: a height that rises and sinks over widths is no ripple", "[long]") {
   Sheet sheet;
   const LineQuality q =
       sheet.measured([&](double d, double s) { return k * phi(2 * d / w) * (0.6 + s - s * s); });
@@ -234,7 +234,7 @@ TEST_CASE("fold_quality: the fit finds other heights and widths, and tells tents
   CHECK(known.measured(tent).fit.value() < 1e-3);
 }
 
-TEST_CASE("fold_quality: what cannot be measured says why") {
+TEST_CASE("fold_quality: what cannot be measured says why", "[long]") {
   Sheet flared;
   flared.curve.rise = {0.75 * flared.curve.length, 0};
   const LineQuality q = flared.measured([](double d, double) { return k * phi(2 * d / w); });

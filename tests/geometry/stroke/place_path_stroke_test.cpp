@@ -119,7 +119,7 @@ Mesh sheet_with_collapsed_faces(std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("place_path_stroke: 1,000 strokes on sheets with collapsed faces are laid or refused") {
+TEST_CASE("place_path_stroke: 1,000 strokes on sheets with collapsed faces are laid or refused", "[long]") {
   std::mt19937 random(17);
   int laid = 0, refused = 0;
   for (int k = 0; k < 1000; ++k) {

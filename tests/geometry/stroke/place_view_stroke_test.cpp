@@ -46,7 +46,7 @@ TracedStroke trace(const Mesh& mesh, const std::vector<Point>& points,
 
 }  // namespace
 
-TEST_CASE("place_view_stroke: a stroke seen in a picture comes back to where it lies in space") {
+TEST_CASE("place_view_stroke: a stroke seen in a picture comes back to where it lies in space", "[long]") {
   CHECK(rc::check([] {
     const Mesh mesh = bumpy(0.04);
     const SurfaceProjector projector(mesh);

@@ -145,7 +145,7 @@ TEST_CASE("mutated files: PLY and STL as text") {
       MeshFormat::stl);
 }
 
-TEST_CASE("mutated files: GLB") {
+TEST_CASE("mutated files: GLB", "[long]") {
   TemporaryFolder folder;
   const io::MeshFile file = garment();
   io::AnimationWriter writer(folder / "v.glb", file.mesh, {});

@@ -20,7 +20,8 @@ physics::TriangleMesh tetrahedron(double size) {
 }  // namespace
 
 TEST_CASE(
-    "field_file: a field file gives the field back for its body, and refuses another body or a cut file") {
+    "field_file: a field file gives the field back for its body, and refuses another body or a cut file",
+    "[long]") {
   const auto path = std::filesystem::temp_directory_path() / "furrow-field-file-test.field";
   const physics::TriangleMesh body = tetrahedron(0.5);
   const auto field = physics::DistanceField::build(body);

@@ -44,7 +44,7 @@ std::array<double, 2> pixel_of(const io::CameraPicture& picture, const Point& p)
 
 }  // namespace
 
-TEST_CASE("resolve_strokes: a stroke drawn in the pixels of a picture lies where they were seen") {
+TEST_CASE("resolve_strokes: a stroke drawn in the pixels of a picture lies where they were seen", "[long]") {
   CHECK(rc::check([] {
     const io::MeshFile garment = wavy_garment();
     const SurfaceProjector projector(garment.mesh);

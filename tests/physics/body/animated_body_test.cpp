@@ -110,7 +110,8 @@ TEST_CASE("animated_body: a body that shifts by more than its size between frame
   }
 }
 
-TEST_CASE("animated_body: frames are read once, in order, and the one that was left is not forgotten") {
+TEST_CASE("animated_body: frames are read once, in order, and the one that was left is not forgotten",
+          "[long]") {
   std::vector<int> reads;
   AnimatedBody body(frames_of(sphere_mesh(0.1, 8, 6), {0, 0.1, 0.2, 0.3, 0.4, 0.5}, shift, &reads));
   CHECK(reads.empty());

@@ -55,7 +55,7 @@ TEST_CASE("distance_field: a field goes through its bytes unchanged") {
   }
 }
 
-TEST_CASE("distance_field: a field has the same bits for one, two and three threads, and again") {
+TEST_CASE("distance_field: a field has the same bits for one, two and three threads, and again", "[long]") {
   const Bytes one = small_field(GradientRule::exact_derivative, 1).to_bytes();
   CHECK(small_field(GradientRule::exact_derivative, 1).to_bytes() == one);
   CHECK(small_field(GradientRule::exact_derivative, 2).to_bytes() == one);

@@ -9,7 +9,8 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("distance_field: progress never falls, ends at 1, comes from the caller's thread, changes no bit") {
+TEST_CASE("distance_field: progress never falls, ends at 1, comes from the caller's thread, changes no bit",
+          "[long]") {
   const TriangleMesh ball = sphere(12, 0.3);
   const auto silent = DistanceField::build(ball);
   for (const int threads : {1, 3}) {
@@ -56,7 +57,8 @@ TEST_CASE("distance_field: a tolerance that asks for too much is cancelled, not 
                   Cancelled);
 }
 
-TEST_CASE("distance_field: more samples than allowed are refused before they are taken, with what helps") {
+TEST_CASE("distance_field: more samples than allowed are refused before they are taken, with what helps",
+          "[long]") {
   const TriangleMesh ball = sphere(12, 0.3);
   DistanceFieldOptions options;
   options.tolerance = 2e-5;

@@ -140,7 +140,8 @@ TEST_CASE("distance_field: the field of a torus keeps its error bounds") {
 
 TEST_CASE(
     "distance_field: the field of a sphere is continuous, close to the analytic one, and its gradient is its "
-    "slope") {
+    "slope",
+    "[long]") {
   const TriangleMesh m = furrow::tests::sphere(48, 0.5, {1, 2, 3});
   const DistanceField field = DistanceField::build(m, with_tolerance(1e-3));
   CHECK(field.report().sign.rule == SignRule::pseudonormal);
@@ -208,7 +209,8 @@ TEST_CASE("distance_field: outside the cube the value goes on continuously and t
   CHECK(field.at({1e6, 1e6, -1e6}).value == Approx(std::sqrt(3.0) * 1e6).epsilon(1e-3));
 }
 
-TEST_CASE("distance_field: interpolated corner gradients are continuous and near the exact direction") {
+TEST_CASE("distance_field: interpolated corner gradients are continuous and near the exact direction",
+          "[long]") {
   DistanceFieldOptions options = with_tolerance(1e-3);
   options.gradient = GradientRule::interpolated_corners;
   const TriangleMesh m = furrow::tests::sphere(32, 0.4);

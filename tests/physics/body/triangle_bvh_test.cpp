@@ -104,7 +104,7 @@ TriangleMesh cone_of_needles(int n) {
 
 }  // namespace
 
-TEST_CASE("triangle_bvh: fans of needles have boxes along them, and the search stays exact") {
+TEST_CASE("triangle_bvh: fans of needles have boxes along them, and the search stays exact", "[long]") {
   const TriangleMesh m = cone_of_needles(2000);
   const TriangleBvh bvh(m);
   REQUIRE(bvh.has_oriented_boxes());
@@ -171,7 +171,8 @@ double looked_at(const TriangleBvh& bvh, const Vec3& around, double far) {
 
 }  // namespace
 
-TEST_CASE("triangle_bvh: beside a fan of needles the search looks at few of them, however many there are") {
+TEST_CASE("triangle_bvh: beside a fan of needles the search looks at few of them, however many there are",
+          "[long]") {
   const TriangleMesh few = cone_of_needles(5000), many = cone_of_needles(40000);
   const TriangleBvh a(few), b(many);
   for (const double far : {0.4, 0.02}) {  // a third of the places around the apex have it as closest point

@@ -153,7 +153,7 @@ TEST_CASE("membrane: a woven strip pulled at any angle has free sides, on every 
       }
 }
 
-TEST_CASE("membrane: a clamped woven strip pulls as its direction says, on every mesh") {
+TEST_CASE("membrane: a clamped woven strip pulls as its direction says, on every mesh", "[long]") {
   for (const cases::SheetKind kind : cases::sheet_kinds)
     for (const double degrees : {0., 15., 30., 45., 60., 75., 90.})
       for (const WovenModuli& moduli : {limp_bias, uneven}) {

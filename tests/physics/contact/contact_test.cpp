@@ -43,7 +43,8 @@ std::pair<double, double> slide(double tan_angle, const SimulateOptions& options
 
 }  // namespace
 
-TEST_CASE("contact: on an incline friction holds exactly up to its angle and slides as Coulomb says beyond") {
+TEST_CASE("contact: on an incline friction holds exactly up to its angle and slides as Coulomb says beyond",
+          "[long]") {
   const double friction = GENERATE(0.2, 0.3, 0.5, 0.75, 1.0), dt = GENERATE(1.0 / 120, 1e-3, 1e-4);
   CAPTURE(friction, dt);
   const SimulateOptions options = frictional(friction, dt);

@@ -10,7 +10,8 @@
 using namespace furrow::physics;
 using namespace furrow::tests;
 
-TEST_CASE("depth_map_collider: cloth that falls on a ball of depth maps lies at the gap, nothing inside") {
+TEST_CASE("depth_map_collider: cloth that falls on a ball of depth maps lies at the gap, nothing inside",
+          "[long]") {
   const TriangleMesh ball = sphere_mesh(0.1, 64, 32);
   const ExactDistance exact(ball);
   DepthMapOptions maps;

@@ -30,7 +30,7 @@ double exact_limit(const Cloth& cloth, Stiffness stiffness) {
 
 }  // namespace
 
-TEST_CASE("stable_step: the limit of a chain between walls is that of its highest mode") {
+TEST_CASE("stable_step: the limit of a chain between walls is that of its highest mode", "[long]") {
   // Along x with springs at rest only longitudinal modes have stiffness; the top of their spectrum is
   // crowded, so the largest eigenvalue comes slowly and its residual counts.
   const int n = GENERATE(20, 200, 2000);

@@ -61,7 +61,7 @@ TEST_CASE("implicit_step: backward Euler shrinks and turns an oscillator as its 
   CHECK(end.v[1].x() == Approx(-z / (1 + z * z)).epsilon(1e-9));
 }
 
-TEST_CASE("implicit_step: order one of backward Euler and two of TR-BDF2 on the elastic pendulum") {
+TEST_CASE("implicit_step: order one of backward Euler and two of TR-BDF2 on the elastic pendulum", "[long]") {
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2);
   const Vec3 exact(0.389103045248, -0.920914325687, 0);
   const Cloth cloth = pendulum(0.1, 50, 1, {1.1, 0.2, 0});
@@ -104,7 +104,8 @@ TEST_CASE("implicit_step: a free cloth keeps its momentum") {
   CHECK(change.norm() < 1e-9 * scale);
 }
 
-TEST_CASE("implicit_step: below the angle of friction a sheet stays, above it slides as Coulomb says") {
+TEST_CASE("implicit_step: below the angle of friction a sheet stays, above it slides as Coulomb says",
+          "[long]") {
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2);
   const Floor floor;
   const double angle = 3.14159265358979323846 / 6, threshold = std::tan(angle);
@@ -151,8 +152,8 @@ TEST_CASE("implicit_step: friction takes cloth along on a body that moves and tu
   CHECK(farthest < 1e-3);
 }
 
-TEST_CASE(
-    "implicit_step: what falls on a ball stays out of it at a sixtieth of a second, and comes to rest") {
+TEST_CASE("implicit_step: what falls on a ball stays out of it at a sixtieth of a second, and comes to rest",
+          "[long]") {
   const Sphere ball(Vec3::Zero(), 0.2);
   Cloth cloth = sheet(24, 24, 0.025, 0.2, 3, 200, 0.5);
   for (Vec3& x : cloth.particles.x) x = Vec3(x.x() - 0.29, 0.5, -x.y() - 0.29);
@@ -177,7 +178,8 @@ TEST_CASE(
   CHECK(report.residual_force < 0.3);  // ten times the tolerance
 }
 
-TEST_CASE("implicit_step: what begins nearer than the gap is led out, and not shot, however short the step") {
+TEST_CASE("implicit_step: what begins nearer than the gap is led out, and not shot, however short the step",
+          "[long]") {
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2);
   const double dt = GENERATE(1.0 / 60, 1.0 / 240, 1e-3, 1e-4);
   const Floor floor;

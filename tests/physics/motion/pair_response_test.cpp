@@ -116,7 +116,7 @@ TEST_CASE("pair_response: two free sheets that meet keep their momentum, lose en
   CHECK(report.self.pairs > 0);
 }
 
-TEST_CASE("pair_response: a sheet on an incline of cloth sticks or slides as Coulomb says") {
+TEST_CASE("pair_response: a sheet on an incline of cloth sticks or slides as Coulomb says", "[long]") {
   const int columns = GENERATE(12, 18);
   CAPTURE(columns);
   CHECK(std::abs(slide(0.98, columns)) < 1e-4);
@@ -125,7 +125,8 @@ TEST_CASE("pair_response: a sheet on an incline of cloth sticks or slides as Cou
   CHECK(slide(1.3, columns) == Approx(way).epsilon(0.02));
 }
 
-TEST_CASE("self_contact: by steps that solve contact a sheet sticks on an incline of cloth, or slides") {
+TEST_CASE("self_contact: by steps that solve contact a sheet sticks on an incline of cloth, or slides",
+          "[long]") {
   const int columns = GENERATE(12, 18);
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2);
   CAPTURE(columns, int(integrator));
@@ -163,7 +164,7 @@ TEST_CASE("pair_response: a towel is wrung by equal torques, and no step crosses
   CHECK(cases::wring(1.5, how).most_crossings > 20);
 }
 
-TEST_CASE("pair_response: an unstable step is told, though nothing may fly apart") {
+TEST_CASE("pair_response: an unstable step is told, though nothing may fly apart", "[long]") {
   Cloth cloth = level_sheet(0.1, 6, 0, 0, 5);
   put_over(cloth, level_sheet(0.1, 6, thickness, 0, 6));
   SimulateOptions o = free_of_air();
@@ -179,7 +180,8 @@ TEST_CASE("pair_response: an unstable step is told, though nothing may fly apart
   CHECK(simulate(cloth, nullptr, o).outcome == Outcome::diverged);
 }
 
-TEST_CASE("pair_response: layers pressed harder than steps can bear are told, and nothing crosses") {
+TEST_CASE("pair_response: layers pressed harder than steps can bear are told, and nothing crosses",
+          "[long]") {
   cases::Handling how;
   how.columns = 6;
   how.look = 1;

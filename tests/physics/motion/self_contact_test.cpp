@@ -62,7 +62,7 @@ TEST_CASE("self_contact: where nothing is near a motion has the same bits as wit
   CHECK(without.particles.v == with.particles.v);
 }
 
-TEST_CASE("self_contact: a sheet that falls onto another never passes through it") {
+TEST_CASE("self_contact: a sheet that falls onto another never passes through it", "[long]") {
   const Integrator integrator =
       GENERATE(Integrator::implicit, Integrator::tr_bdf2, Integrator::leapfrog, Integrator::rk4);
   Cloth cloth = falling_sheets();
@@ -85,7 +85,7 @@ TEST_CASE("self_contact: a sheet that falls onto another never passes through it
   CHECK(through.particles.x.back().z() < cloth.particles.x.back().z() - 0.1);
 }
 
-TEST_CASE("self_contact: stopped and resumed, on one thread or two, it has the same bits") {
+TEST_CASE("self_contact: stopped and resumed, on one thread or two, it has the same bits", "[long]") {
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::leapfrog);
   Cloth whole = falling_sheets(), parts = whole;
   SimulateOptions o = falling(integrator, true);
@@ -103,7 +103,8 @@ TEST_CASE("self_contact: stopped and resumed, on one thread or two, it has the s
   CHECK(whole.particles.v == parts.particles.v);
 }
 
-TEST_CASE("self_contact: pins that pull a sheet through a held one end blocked, and nothing crosses") {
+TEST_CASE("self_contact: pins that pull a sheet through a held one end blocked, and nothing crosses",
+          "[long]") {
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::leapfrog);
   Cloth cloth = level_sheet(0.3, 6, 0, 0, 3);
   std::vector<int> held;

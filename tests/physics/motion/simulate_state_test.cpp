@@ -66,7 +66,7 @@ void check_same(const Scene& a, const SimulateReport& ra, const Scene& b, const 
 
 }  // namespace
 
-TEST_CASE("simulate: a run that is stopped twenty times gives the bits of one that is not") {
+TEST_CASE("simulate: a run that is stopped twenty times gives the bits of one that is not", "[long]") {
   const Sphere ball(Vec3::Zero(), 0.2);
   const std::uint64_t seed = GENERATE(1, 2, 3);
   Scene whole = busy_scene(ball), parts = whole;
@@ -112,7 +112,8 @@ TEST_CASE("simulate: a run that is stopped twenty times gives the bits of one th
 }
 
 TEST_CASE(
-    "simulate: a run with any integrator that is stopped in the middle gives the bits of one that is not") {
+    "simulate: a run with any integrator that is stopped in the middle gives the bits of one that is not",
+    "[long]") {
   const Sphere ball(Vec3::Zero(), 0.2);
   const Integrator integrator = GENERATE(Integrator::leapfrog, Integrator::explicit_euler, Integrator::rk4,
                                          Integrator::xpbd, Integrator::implicit, Integrator::tr_bdf2);
@@ -135,7 +136,8 @@ TEST_CASE(
   check_same(whole, one, parts, simulate(parts.cloth, parts.world, parts.options, &parts.state));
 }
 
-TEST_CASE("simulate: a step that is cancelled is none, and going on gives the bits of a run that was not") {
+TEST_CASE("simulate: a step that is cancelled is none, and going on gives the bits of a run that was not",
+          "[long]") {
   const Sphere ball(Vec3::Zero(), 0.2);
   Scene whole = busy_scene(ball);
   whole.options.integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2);

@@ -29,7 +29,7 @@ bool same_bits(const Cloth& a, const Cloth& b) {
 
 }  // namespace
 
-TEST_CASE("simulate: two runs, and runs with one and two threads, give the same bits") {
+TEST_CASE("simulate: two runs, and runs with one and two threads, give the same bits", "[long]") {
   Cloth first = sheet(60, 55, 0.02, 0.2, 2);  // several blocks
   pin(first.particles, std::vector<int>{0, 59});
   Cloth second = first, third = first;
@@ -94,7 +94,7 @@ TEST_CASE("simulate: an undamped hung sheet keeps its energy, a damped one comes
   }
 }
 
-TEST_CASE("simulate: a sheet that drops on a ball lies on it, and its energy never rises") {
+TEST_CASE("simulate: a sheet that drops on a ball lies on it, and its energy never rises", "[long]") {
   Cloth cloth = sheet(13, 15, 0.05, 0, 1);
   const double R = 0.2;
   Vec3 centre = Vec3::Zero();

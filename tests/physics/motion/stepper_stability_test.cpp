@@ -34,7 +34,7 @@ TEST_CASE("stepper: damping shortens the limit neither of leapfrog nor of semi-i
   CHECK(std::hypot(end.x[1].x() - 1e6, end.v[1].x()) < 1);
 }
 
-TEST_CASE("stepper: what solves stays stable at a hundred times the limit") {
+TEST_CASE("stepper: what solves stays stable at a hundred times the limit", "[long]") {
   const Integrator integrator = GENERATE(Integrator::xpbd, Integrator::implicit, Integrator::tr_bdf2);
   const bool closely = GENERATE(false, true);
   Cloth cloth = sheet(12, 10, 0.05, 0.2, 2);

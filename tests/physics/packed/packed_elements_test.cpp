@@ -67,7 +67,7 @@ TEST_CASE("packed_elements: packed elements exert the same force as plain ones")
   CHECK(motion.work().spring_evaluations == std::int64_t(cloth.structural.size() + cloth.bending.size()));
 }
 
-TEST_CASE("packed_elements: membrane and hinges move alike with any number of threads") {
+TEST_CASE("packed_elements: membrane and hinges move alike with any number of threads", "[long]") {
   Cloth cloth = shell(61, 53, GENERATE(HingeLaw::linear, HingeLaw::cosine), false);
   pin(cloth.particles, std::vector<int>{0, 60});
   const auto run = [&](int threads) {

@@ -85,7 +85,7 @@ TEST_CASE("cloth_contact: its answers have the same bits for any number of threa
   CHECK(a.safe_share(cloth.particles.x, way, 1, nullptr) == b.safe_share(cloth.particles.x, way, 1, &two));
 }
 
-TEST_CASE("cloth_contact: a safe share of any move leaves no crossing, the whole of it would") {
+TEST_CASE("cloth_contact: a safe share of any move leaves no crossing, the whole of it would", "[long]") {
   int cut = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const std::vector<Vec3> start = two_sheets(0.1, seed).particles.x;
@@ -126,7 +126,7 @@ TEST_CASE("cloth_contact: an approach ends where it was to, but for what somethi
   CHECK(x[49 + 14].z() < to[49 + 14].z() + 0.15);
 }
 
-TEST_CASE("cloth_contact: where an approach ends does not hang on what else is listed") {
+TEST_CASE("cloth_contact: where an approach ends does not hang on what else is listed", "[long]") {
   int stopped = 0;
   for (std::uint64_t seed = 1; seed < 9; ++seed) {
     const Cloth cloth = two_sheets(0.05, seed);
@@ -270,7 +270,7 @@ TEST_CASE("cloth_contact: its stiffness is the change of forces of a vertex over
   for (std::size_t i = 0; i < 6; ++i) CHECK((answer[i] - up[i]).norm() < 1e-4);
 }
 
-TEST_CASE("cloth_contact: a move farther than single precision goes is cut as any other") {
+TEST_CASE("cloth_contact: a move farther than single precision goes is cut as any other", "[long]") {
   const Cloth cloth = two_sheets(0.2, 3);
   const std::vector<Vec3>& x = cloth.particles.x;
   ClothContact contact(cloth, thick, x, {});

@@ -21,7 +21,7 @@ bool passes_through(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, 
 
 }  // namespace
 
-TEST_CASE("edge_face_crossings: they are those that looking at all edges and faces finds") {
+TEST_CASE("edge_face_crossings: they are those that looking at all edges and faces finds", "[long]") {
   std::size_t seen = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Cloth cloth = rough_sheet(8, 1.2, seed);

@@ -27,7 +27,7 @@ double lost(double distance) { return 1e-5 + 1e-7 / distance; }
 
 }  // namespace
 
-TEST_CASE("pair_bounds: never more than the distance, and next to it, on 200,000 random pairs") {
+TEST_CASE("pair_bounds: never more than the distance, and next to it, on 200,000 random pairs", "[long]") {
   int loose = 0, close = 0;
   for (std::uint64_t seed = 1; seed <= 50000; ++seed)
     for (const bool edges : {false, true}) {

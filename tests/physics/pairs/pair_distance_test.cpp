@@ -36,7 +36,8 @@ int region_of(const PairDistance& d) {
 
 }  // namespace
 
-TEST_CASE("pair_distance: in all seven and nine regions it is the least distance of sampled points") {
+TEST_CASE("pair_distance: in all seven and nine regions it is the least distance of sampled points",
+          "[long]") {
   for (const bool edges : {false, true}) {
     std::set<int> regions;
     for (std::uint64_t seed = 1; seed <= 2000; ++seed) {

@@ -77,7 +77,7 @@ TEST_CASE("pair_list: made for one place, it is what looking at all pairs finds,
   CHECK(seen > 3000);
 }
 
-TEST_CASE("pair_list: on a way, and where it is kept beside it, no pair that touches is missing") {
+TEST_CASE("pair_list: on a way, and where it is kept beside it, no pair that touches is missing", "[long]") {
   std::size_t seen = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const Cloth cloth = rough_sheet(6, 0.8, seed);

@@ -91,7 +91,8 @@ void check_parts(const PairMesh& m, const FloatSweep& sweep, const PairSearch& s
 }  // namespace
 
 TEST_CASE(
-    "pair_search: each pair whose boxes meet is told once, wherever the cloth went since groups were made") {
+    "pair_search: each pair whose boxes meet is told once, wherever the cloth went since groups were made",
+    "[long]") {
   std::size_t seen = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const Cloth cloth = rough_sheet(4 + int(seed), 1.2, seed);

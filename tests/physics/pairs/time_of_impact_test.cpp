@@ -27,7 +27,8 @@ MovingPair random_motion(std::uint64_t seed, bool edges) {
 
 }  // namespace
 
-TEST_CASE("time_of_impact: up to it the two are apart, by a tenth of what they were or of the range") {
+TEST_CASE("time_of_impact: up to it the two are apart, by a tenth of what they were or of the range",
+          "[long]") {
   int cut = 0, free = 0;
   for (const bool edges : {false, true})
     for (std::uint64_t seed = 1; seed <= 20000; ++seed) {

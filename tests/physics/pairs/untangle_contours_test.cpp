@@ -110,7 +110,7 @@ TEST_CASE("untangle_contours: a bulge goes back through its own garment") {
   CHECK(report.farthest < mesh.mean_edge);
 }
 
-TEST_CASE("untangle_contours: a sleeve comes apart that noise of 40 mm has crossed") {
+TEST_CASE("untangle_contours: a sleeve comes apart that noise of 40 mm has crossed", "[long]") {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
     Cloth cloth = noisy_sleeve(0.04, seed);
     const PairMesh mesh = pair_mesh(noisy_sleeve(0, seed), 0.001);

@@ -75,7 +75,7 @@ TEST_CASE("untangle_layers: sheets come apart that cross by a bulge, a corner, a
   }
 }
 
-TEST_CASE("untangle_layers: coincident sheets come apart, held ones stay") {
+TEST_CASE("untangle_layers: coincident sheets come apart, held ones stay", "[long]") {
   TwoSheets two(12, 12, 0);
   const PairMesh mesh = two.mesh();
   const UntangleReport report = untangle_layers(two.cloth.particles.x, mesh, two.layers);

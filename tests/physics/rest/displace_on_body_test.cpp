@@ -116,7 +116,7 @@ TEST_CASE("displace_by_force: a particle sticks to an incline below atan(mu), sl
   CHECK(along == Approx(1000 * 1e-4 * (std::sin(angle) - friction * std::cos(angle))).epsilon(1e-5));
 }
 
-TEST_CASE("displace_by_force: a sheet stays on an incline below atan(mu) only", "[displace]") {
+TEST_CASE("displace_by_force: a sheet stays on an incline below atan(mu) only", "[displace][long]") {
   for (const double share : {0.9, 1.1}) {
     const double angle = std::atan(0.4 * share);
     const Ramp incline(angle);

@@ -103,7 +103,7 @@ Slide slide(double slope) {
 }  // namespace
 
 TEST_CASE("displace_by_force: two sheets that fall on a ball rest a thickness apart, and no pass crosses",
-          "[displace]") {
+          "[displace][long]") {
   Cloth cloth = falling_pair(), without = cloth;
   DisplaceOptions options = on_cloth();
   options.tolerance = 0.002;
@@ -129,7 +129,7 @@ TEST_CASE("displace_by_force: two sheets that fall on a ball rest a thickness ap
 }
 
 TEST_CASE("displace_by_force: a sheet on an incline of cloth sticks or slides as Coulomb says",
-          "[displace]") {
+          "[displace][long]") {
   const Slide stuck = slide(0.9), sliding = slide(1.2);
   CHECK(stuck.report.outcome == DisplaceOutcome::converged);
   CHECK(std::abs(stuck.way) < 1e-5);
@@ -157,7 +157,8 @@ TEST_CASE("displace_by_force: with contact of cloth, where nothing is near, ever
   CHECK(with.capped == without.capped);
 }
 
-TEST_CASE("displace_by_force: with contact of cloth, the same bits for any number of threads", "[displace]") {
+TEST_CASE("displace_by_force: with contact of cloth, the same bits for any number of threads",
+          "[displace][long]") {
   Cloth a = falling_pair(), b = a;
   DisplaceOptions options = on_cloth();
   options.max_passes = 1500;
@@ -168,7 +169,8 @@ TEST_CASE("displace_by_force: with contact of cloth, the same bits for any numbe
   CHECK(a.particles.x == b.particles.x);
 }
 
-TEST_CASE("displace_by_force: a sheet without room between two held ones is not said to rest", "[displace]") {
+TEST_CASE("displace_by_force: a sheet without room between two held ones is not said to rest",
+          "[displace][long]") {
   const std::vector<Cloth> layers{held(soft_sheet(0.06, 5, 0, 3)), soft_sheet(0.05, 4, 0.4 * thick, 4),
                                   held(soft_sheet(0.06, 6, 0.8 * thick, 5))};
   Cloth cloth = join_cloths(layers);
@@ -183,7 +185,7 @@ TEST_CASE("displace_by_force: a sheet without room between two held ones is not 
 }
 
 TEST_CASE("displace_by_force: springs to what is held pull a sheet onto a held one, and not through it",
-          "[displace]") {
+          "[displace][long]") {
   Cloth cloth = held(soft_sheet(0.08, 6, 0, 3));
   const int n = int(cloth.particles.size());
   cloth = join_cloths(std::vector{cloth, soft_sheet(0.05, 4, 2 * thick, 4)});

@@ -102,7 +102,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("hinge_friction: a strip that hung from a clamp keeps a curve with friction and none without") {
+TEST_CASE("hinge_friction: a strip that hung from a clamp keeps a curve with friction and none without",
+          "[long]") {
   StripOptions small;
   small.rows = 8;
   small.columns = 2;

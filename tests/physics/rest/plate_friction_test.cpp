@@ -69,7 +69,8 @@ bool settles(Cloth& cloth, const PlateFriction& friction, const SettleOptions& o
 
 }  // namespace
 
-TEST_CASE("plate_friction: a cycle takes 4 limit (K - K_y) an area, on every mesh and along every line") {
+TEST_CASE("plate_friction: a cycle takes 4 limit (K - K_y) an area, on every mesh and along every line",
+          "[long]") {
   for (const SheetKind kind : {SheetKind::one_diagonal, SheetKind::union_jack, SheetKind::jittered}) {
     for (const double angle : {0.0, 0.7}) {
       const Cloth flat = square(kind);
@@ -97,7 +98,8 @@ TEST_CASE("plate_friction: a cycle takes 4 limit (K - K_y) an area, on every mes
   }
 }
 
-TEST_CASE("plate_friction: a strip that hung from a clamp keeps a curve with friction and none without") {
+TEST_CASE("plate_friction: a strip that hung from a clamp keeps a curve with friction and none without",
+          "[long]") {
   ClampedStrip strip = clamped_strip(SheetKind::union_jack, 0.1, 0.025, 16, 2000);
   add_plate(strip.cloth, isotropic_plate(rigidity));
   const double size = gravity_for(5, strip.density, strip.length, rigidity);

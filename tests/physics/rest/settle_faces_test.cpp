@@ -62,7 +62,7 @@ SettleReport settled(Cloth& cloth, const Collider& body, bool faces, int threads
 
 }  // namespace
 
-TEST_CASE("settle: a body smaller than the faces comes through them, unless faces are guarded") {
+TEST_CASE("settle: a body smaller than the faces comes through them, unless faces are guarded", "[long]") {
   const Sphere ball(Vec3(0, -0.006, 0), 0.01);
   const Cone cone(0.004, 0.35);
   for (const Collider* body : std::initializer_list<const Collider*>{&ball, &cone})

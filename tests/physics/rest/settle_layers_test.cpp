@@ -28,7 +28,7 @@ void check_all_but_numbers(const cases::LayeredCase& c) {
 
 }  // namespace
 
-TEST_CASE("settle: sheets in a stack bear the weight of all above, by 1 or 2 threads") {
+TEST_CASE("settle: sheets in a stack bear the weight of all above, by 1 or 2 threads", "[long]") {
   check_all(cases::stacked_sheets(1, 12));
   const cases::LayeredCase one = cases::stacked_sheets(3, 9);
   check_all(one);

@@ -58,7 +58,7 @@ Cloth hanging_strip(int columns) {
 
 }  // namespace
 
-TEST_CASE("settle: with self-contact a sheet on a held sheet is carried by it, a thickness apart") {
+TEST_CASE("settle: with self-contact a sheet on a held sheet is carried by it, a thickness apart", "[long]") {
   for (const int columns : {12, 24}) {
     Cloth cloth = elastic_sheet(0.3, 0.3, columns, 0.2, 1);
     for (double& w : cloth.particles.inv_mass) w = 0;

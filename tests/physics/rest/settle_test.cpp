@@ -58,7 +58,8 @@ TEST_CASE("settle: friction holds a particle on an incline up to its cone, and n
   }
 }
 
-TEST_CASE("settle: a cloth over a ball rests in the friction cone, the same bits on any number of threads") {
+TEST_CASE("settle: a cloth over a ball rests in the friction cone, the same bits on any number of threads",
+          "[long]") {
   const Sphere ball(Vec3(0, -0.101, 0), 0.1);
   const auto run = [&](int threads) {
     Cloth cloth = membrane_sheet(12);
