@@ -338,6 +338,33 @@ TEST_CASE("keep_lines: lines drawn at random on coarse meshes and called held ar
   CHECK(held >= 6);
 }
 
+TEST_CASE("keep_lines: a trial asks on the way and after the gusts, and what one of them ends is not known") {
+  Hung hung(1e-4);
+  hung.options.seconds = hung.options.calm_seconds = 0.1;
+  hung.options.gust_seconds = 0.05;
+  hung.options.run.integrator = physics::Integrator::implicit;
+  bridge::LineMeter meter(hung.mesh, {}, {});
+  const auto trial = [&](int ends, bool stable) {
+    int asked = 0;
+    return bridge::try_shape(hung.cloth, stable, {}, hung.options, meter,
+                             [&](const std::vector<double>&, bool at_end) {
+                               CHECK(at_end == (asked == 1));
+                               return ++asked == ends;
+                             },
+                             {});
+  };
+  const auto is_known = [](const std::vector<double>& shares) { return std::isfinite(shares.at(0)); };
+  const bridge::KeepTrial early = trial(1, true), blown = trial(2, true), whole = trial(9, true);
+  CHECK((is_known(early.kept) && !is_known(early.kept_gust)));
+  CHECK((!is_known(blown.kept) && is_known(blown.kept_gust)));
+  CHECK((is_known(whole.kept) && is_known(whole.kept_gust)));
+  CHECK(blown.kept_gust == whole.kept_gust);
+  hung.options.gust = 0;
+  const bridge::KeepTrial calm = trial(9, true);
+  CHECK(calm.kept == whole.kept);
+  CHECK(calm.kept_gust == calm.kept);
+}
+
 TEST_CASE("keep_lines: a line of 0.01 mm is refused before anything is tried, and told what to do") {
   Hung hung(1e-4, {}, 1, 0.02, bridge::Bending::hinge, 1e-5);
   const bridge::KeepReport report = hung.keep();

@@ -143,8 +143,9 @@ RandomLine ornate_line(int number, Random& random) {
   RandomLine line;
   line.kind = std::array{LineKind::hem, LineKind::curve, LineKind::ring}[std::size_t(number) % 3];
   const bool ring = line.kind == LineKind::ring;
-  line.length = ring ? random(0.3, 0.5) : random(0.15, 0.35);
-  line.turn = ring ? 2 * std::numbers::pi : line.kind == LineKind::hem ? 0 : random.chance(0.5) ? 3 : -3;
+  const bool hem = line.kind == LineKind::hem;
+  line.length = ring ? random(0.3, 0.5) : hem ? random(0.1, 0.2) : random(0.15, 0.35);
+  line.turn = ring ? 2 * std::numbers::pi : hem ? 0 : random.chance(0.5) ? 3 : -3;
   line.height = random(0.003, 0.012) * (random.chance(0.5) ? 1 : -1);
   return line;
 }

@@ -35,7 +35,7 @@ struct RandomGarment {
 /// A garment of so many lines, 0.1 to 0.5 m long and 3 to 15 mm high or deep, straight or bent. Its cloth has
 /// edges of 18 to 30 mm (edge: another length [m]), rigidity 1e-6 to 1e-4 N m, stretch 100 to 1000 N/m. The
 /// same seed gives the same garment. ornate: lines begin at the hem, turn by half a circle, and are rings, in
-/// turn, 0.15 to 0.5 m long and 3 to 12 mm high; where there are several most cross each other.
+/// turn, 0.1 to 0.5 m long and 3 to 12 mm high; where there are several most cross each other.
 RandomGarment random_garment(std::uint64_t seed, int lines, double edge = 0, bool ornate = false);
 
 /// The height of each line as the garment lies [m], by id, less `base`; NaN: it has none.

@@ -20,6 +20,7 @@ TEST_CASE("anchored_contact: forces are derivatives of its energy") {
   contact.look(p.x, p.inv_mass);
   contact.move_anchors();
   CHECK(contact.touching() == 3);
+  CHECK(contact.pushed() == std::vector<int>{0, 1, 2});
   const auto energy = [&](const std::vector<Vec3>& x) {
     contact.look(x, p.inv_mass);
     return contact.energy();

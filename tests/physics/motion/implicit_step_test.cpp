@@ -240,6 +240,41 @@ TEST_CASE("implicit_step: a part that swings is solved beside one that is heavy 
   CHECK((beside.x[3] - alone.x[1]).norm() < 0.05);  // 0.12 by the mean alone
 }
 
+TEST_CASE("implicit_step: calm steps go on with the factors of steps before, and end where others do") {
+  const Floor floor;
+  World world;
+  world.collider = &floor;
+  // It lies still, the floor comes up under it, and then drops away from under it.
+  world.body_motion.keyframes = {{0}, {0.5}, {0.7, Vec3(0, 0.02, 0)}, {1}, {1.05, Vec3(0, -0.5, 0)}};
+  SimulateOptions o;
+  o.integrator = Integrator::implicit;
+  o.air_drag = 0;
+  o.dt = 1.0 / 60;
+  const Cloth start = sheet_on_floor(floor, 0);
+  double fell = 0, apart = 0;
+  for (const double seconds : {0.5, 1.0, 1.2}) {
+    o.seconds = seconds;
+    std::array<Cloth, 2> ends{start, start};
+    std::array<SimulateReport, 2> reports;
+    for (const bool keep : {false, true}) {
+      o.implicit.keep_factors = keep;
+      reports[keep] = simulate(ends[keep], world, o, nullptr);
+    }
+    for (std::size_t i = 0; i < start.particles.size(); ++i) {
+      const Vec3 &a = ends[0].particles.x[i], &b = ends[1].particles.x[i];
+      apart = std::max(apart, (a - b).norm());
+      fell = start.particles.x[i].y() - b.y();
+    }
+    CAPTURE(seconds, reports[0].factorisations, reports[1].factorisations);
+    CHECK(reports[0].factorisations >= 60 * seconds - 1);
+    if (seconds == 0.5) CHECK(reports[1].factorisations <= 10);
+    if (seconds == 1.0) CHECK(reports[1].factorisations < 0.8 * reports[0].factorisations);
+    CHECK(reports[1].open_steps == 0);
+  }
+  CHECK(fell > 0.08);  // what is pushed no more is not held in the air
+  CHECK(apart < 2e-3);
+}
+
 TEST_CASE("implicit_step: options out of their range are refused") {
   const Cloth cloth = pendulum(0.1, 50, 1, {1.1, 0.2, 0});
   ThreadPool pool(1);
