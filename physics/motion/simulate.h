@@ -196,7 +196,7 @@ struct ImplicitOptions {
   /// square by mass), and nowhere of more than three times that [-]; > 0.
   double tolerance = 0.03;
   int few = 2;  ///< iterations of backward Euler after which 20 times that is good enough; >= 1
-  /// Calm steps of backward Euler go on with the factors of steps before, in about a third of the time. Then
+  /// Calm steps of backward Euler go on with the factors of steps before, in under half of the time. Then
   /// a run that was stopped and resumed is the same only up to the tolerance, no more bit by bit.
   bool keep_factors = false;
 };
