@@ -94,7 +94,7 @@ struct KeepReport {
   double farthest_push = 0;  ///< the longest way of one [m]
   int trials = 0, runs = 0;  ///< rest states that were solved for, and forward runs
   bool proved = true;        ///< in motion; false: lines hold at rest, as far as is known
-  double drift = 0;          ///< of any vertex in the last run, before the gust [m]
+  double drift = 0;          ///< of any vertex in the last trial's runs without gusts [m]
   bool interrupted = false;  ///< the last rest state stands; lines say what is known
 };
 

@@ -49,8 +49,8 @@ struct Found {
 /// What it took so far.
 struct Tally {
   int trials = 0, runs = 0;
-  int weak = 0;      ///< lines with more help than in the trial before
-  double drift = 0;  ///< of any vertex in the last run [m]
+  int helped = 0;    ///< lines with more help than in the trial before
+  double drift = 0;  ///< of any vertex in the last trial [m]
   bool interrupted = false;
 };
 
@@ -158,7 +158,7 @@ class Keeper {
       if (!any(weak) && !rest) weak = try_out(found, true, tally);
       if ((!any(weak) && !rest) || tally.interrupted || hangs_wrong(found.outcome)) return std::move(found);
       for (std::size_t i = 0; i < weak.size(); ++i) plan.lines[i].step += weak[i] ? 1 : 0;
-      tally.weak = int(std::count(weak.begin(), weak.end(), 1));
+      tally.helped = int(std::count(weak.begin(), weak.end(), 1));
       plan.rest_step += rest ? 1 : 0;
     }
   }
@@ -174,7 +174,7 @@ class Keeper {
     const double drift = tally.drift;
     Plan plan = least.plan;
     for (HelpedLine& line : plan.lines) line.step = help_steps(o_);
-    tally.weak = int(plan.lines.size());
+    tally.helped = int(plan.lines.size());
     std::optional<Found> most = try_solve(plan, tally);
     if (!most) return least;
     try_out(*most, false, tally);
@@ -190,7 +190,7 @@ class Keeper {
     for (std::size_t i = 0; i < good.size(); ++i)
       if (!good[i]) lines.push_back(i);
     if (lines.empty() || hangs_wrong(found.outcome)) return found;
-    tally.weak = int(lines.size());
+    tally.helped = int(lines.size());
     Plan plan = found.plan;
     std::vector<double> low(lines.size(), 0), high(lines.size(), 1);  // low: the greatest that held
     for (int trial = 0; trial < o_.height_trials && !tally.interrupted; ++trial) {
@@ -284,7 +284,7 @@ class Keeper {
   }
 
   bool go_on(double share, const Tally& tally) const {
-    return !go_on_ || go_on_({tally.trials, tally.weak, share});
+    return !go_on_ || go_on_({tally.trials, tally.helped, share});
   }
 
   bool can_be_helped(const HelpedLine& line) const { return line.step < help_steps(o_); }

@@ -43,7 +43,7 @@ void push_off(physics::Cloth& cloth, double by, std::uint64_t number);
 struct KeepTrial {
   std::vector<double> kept,
       kept_gust;         ///< of each line, shares of the height at the start [-]; NaN: not reached
-  double drift = 0;      ///< of any particle from the start to before the gust [m]
+  double drift = 0;      ///< of any particle in the runs without gusts [m]
   bool stopped = false;  ///< by go_on
 };
 /// Asked with what lines keep: on the way (a fifth of the first run), or at the end of the gusts. true: the

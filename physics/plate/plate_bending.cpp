@@ -9,17 +9,6 @@
 #include "physics/cloth/hinge_forces.h"
 
 namespace furrow::physics {
-
-PlateBending::PlateBending(Plate plate, std::size_t particles, std::shared_ptr<const PlateOrigin> origin)
-    : plate_(std::move(plate)), layout_(plate_), origin_(std::move(origin)) {
-  for (const Hinge& h : plate_.hinges) check(h, particles);
-  find_pattern();
-  alone_.assign(plate_.hinges.size(), 0);
-  for (std::size_t t = 0; t < plate_.stiffness.size(); ++t)
-    for (std::size_t e = std::size_t(plate_.begin[t]); e < std::size_t(plate_.begin[t + 1]); ++e)
-      alone_[std::size_t(plate_.hinge[e])] += plate_.share[e].dot(plate_.stiffness[t] * plate_.share[e]);
-}
-
 namespace {
 
 /// The distinct ones of pairs i >= j, sorted. Returns where those of each i begin, and last their number.
@@ -42,7 +31,18 @@ std::vector<int> sort_pairs(const std::vector<std::array<int, 2>>& pairs,
 
 }  // namespace
 
+PlateBending::PlateBending(Plate plate, std::size_t particles, std::shared_ptr<const PlateOrigin> origin)
+    : plate_(std::move(plate)), layout_(plate_), origin_(std::move(origin)) {
+  for (const Hinge& h : plate_.hinges) check(h, particles);
+  find_pattern();
+  alone_.assign(plate_.hinges.size(), 0);
+  for (std::size_t t = 0; t < plate_.stiffness.size(); ++t)
+    for (std::size_t e = std::size_t(plate_.begin[t]); e < std::size_t(plate_.begin[t + 1]); ++e)
+      alone_[std::size_t(plate_.hinge[e])] += plate_.share[e].dot(plate_.stiffness[t] * plate_.share[e]);
+}
+
 void PlateBending::find_pattern() {
+  std::vector<std::array<int, 2>> all;
   corner_begin_.push_back(0);
   for (int t = 0; t < plate_.triangles(); ++t) {
     std::vector<int> corners;
@@ -62,9 +62,8 @@ void PlateBending::find_pattern() {
     corner_.insert(corner_.end(), corners.begin(), corners.end());
     corner_begin_.push_back(int(corner_.size()));
     for (std::size_t r = 0; r < corners.size(); ++r)
-      for (std::size_t c = 0; c <= r; ++c) pairs_.push_back({corners[r], corners[c]});
+      for (std::size_t c = 0; c <= r; ++c) all.push_back({corners[r], corners[c]});
   }
-  const std::vector<std::array<int, 2>> all = std::exchange(pairs_, {});
   const std::vector<int> row = sort_pairs(all, pairs_);
   const auto place = [&](int i, int j) {
     const std::array<int, 2> pair{std::max(i, j), std::min(i, j)};

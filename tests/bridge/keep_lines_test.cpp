@@ -344,9 +344,9 @@ TEST_CASE("keep_lines: a trial asks on the way and after the gusts, and what one
   hung.options.gust_seconds = 0.05;
   hung.options.run.integrator = physics::Integrator::implicit;
   bridge::LineMeter meter(hung.mesh, {}, {});
-  const auto trial = [&](int ends, bool stable) {
+  const auto trial = [&](int ends) {
     int asked = 0;
-    return bridge::try_shape(hung.cloth, stable, {}, hung.options, meter,
+    return bridge::try_shape(hung.cloth, true, {}, hung.options, meter,
                              [&](const std::vector<double>&, bool at_end) {
                                CHECK(at_end == (asked == 1));
                                return ++asked == ends;
@@ -354,13 +354,13 @@ TEST_CASE("keep_lines: a trial asks on the way and after the gusts, and what one
                              {});
   };
   const auto is_known = [](const std::vector<double>& shares) { return std::isfinite(shares.at(0)); };
-  const bridge::KeepTrial early = trial(1, true), blown = trial(2, true), whole = trial(9, true);
+  const bridge::KeepTrial early = trial(1), blown = trial(2), whole = trial(9);
   CHECK((is_known(early.kept) && !is_known(early.kept_gust)));
   CHECK((!is_known(blown.kept) && is_known(blown.kept_gust)));
   CHECK((is_known(whole.kept) && is_known(whole.kept_gust)));
   CHECK(blown.kept_gust == whole.kept_gust);
   hung.options.gust = 0;
-  const bridge::KeepTrial calm = trial(9, true);
+  const bridge::KeepTrial calm = trial(9);
   CHECK(calm.kept == whole.kept);
   CHECK(calm.kept_gust == calm.kept);
 }
