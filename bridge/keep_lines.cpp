@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -155,8 +156,9 @@ class Keeper {
       for (std::size_t i = 0; i < weak.size(); ++i)
         weak[i] = can_be_helped(plan.lines[i]) && (weak[i] || is_bound(plan.lines[i], found.outcome));
       const bool rest = rest_needs_help(found);
+      if (hangs_wrong(found.outcome)) return std::move(found);
       if (!any(weak) && !rest) weak = try_out(found, true, tally);
-      if ((!any(weak) && !rest) || tally.interrupted || hangs_wrong(found.outcome)) return std::move(found);
+      if ((!any(weak) && !rest) || tally.interrupted) return std::move(found);
       for (std::size_t i = 0; i < weak.size(); ++i) plan.lines[i].step += weak[i] ? 1 : 0;
       tally.helped = int(std::count(weak.begin(), weak.end(), 1));
       plan.rest_step += rest ? 1 : 0;
@@ -306,13 +308,26 @@ class Keeper {
   const KeepObserver& go_on_;
 };
 
-std::string why_not(bool interrupted, const Found& found, std::size_t line) {
+/// "2.5 %".
+std::string share_text(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  return text;
+}
+
+std::string why_not(bool interrupted, const Found& found, std::size_t line, const KeepOptions& o) {
   if (interrupted) return "interrupted";
   if (hangs_wrong(found.outcome)) return "nothing holds the garment in balance as it lies; see imbalance";
   if (is_bound(found.plan.lines[line], found.outcome))
     return "the bounds on strain and angle leave no balance";
   if (loose_lines(found)[line])
     return "the fold can give way without effort: the cloth bends too easily for it";
+  const double off =
+      std::max(std::abs(found.outcome.kept[line] - 1), std::abs(found.outcome.kept_gust[line] - 1));
+  if (off <= 1 - o.kept)
+    return "it came within " + share_text(off) + " of its height here, and may be off by " +
+           share_text(may_lose(found.outcome, o.kept)) + ", after gusts by " +
+           share_text(may_lose_in_gusts(found.outcome, o.kept)) + ", as another run may end farther off";
   return "the fold turns into another shape";
 }
 
@@ -330,7 +345,7 @@ std::vector<KeptLine> verdicts(const Found& found, const KeepOptions& o, bool in
     v.kept = found.outcome.kept[i];
     v.kept_gust = found.outcome.kept_gust[i];
     if (!good[i]) {
-      v.reason = why_not(interrupted, found, i);
+      v.reason = why_not(interrupted, found, i, o);
       continue;
     }
     v.verdict = line.height < 1 ? Verdict::lowered

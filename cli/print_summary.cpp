@@ -58,6 +58,14 @@ std::string per_cent(double share) {
   return number(std::abs(share) < 1e-5 ? 0 : 100 * share) + " %";
 }
 
+/// Whether a rest state holds still: its second derivatives tell nothing where forces do not balance.
+std::string balance_of(const Json& rest, const std::string& good, const std::string& shape) {
+  constexpr double out_of_balance = 1e-6;  // of the weight
+  if (!(value_of(rest, "residual") <= out_of_balance)) return "look at: " + shape + " is not in balance";
+  if (!rest.value("stable", false)) return "look at: " + shape + " is balanced, but not stable";
+  return good + shape + " is at rest, and stable";
+}
+
 /// "1 face", "3 faces".
 std::string counted(long long n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
@@ -321,8 +329,7 @@ Lines wrinkle_lines(const Json& report) {
     lines.push_back("look at: " + counted(static_cast<long long>(n), "edge") +
                     " of the lines could not be made");
   if (const Json& kept = table_of(report, "kept"); !kept.empty())
-    lines.push_back(kept.value("stable", false) ? "kept: the drawn shape is at rest, and stable"
-                                                : "look at: the drawn shape is balanced, but not stable");
+    lines.push_back(balance_of(kept, "kept: ", "the drawn shape"));
   add_crossings(lines, report);
   if (const Json& rest = table_of(report, "at_rest"); !rest.empty())
     lines.push_back("then " + text_of(rest, "outcome") + " (" + number(value_of(rest, "seconds")) +
@@ -462,8 +469,7 @@ Lines keep_lines(const Json& report) {
     lines.resize(5);
     lines.push_back("and " + counted(static_cast<long long>(more), "more line"));
   }
-  lines.push_back(report.value("stable", false) ? "the shape is at rest, and stable"
-                                                : "look at: the shape is balanced, but not stable");
+  lines.push_back(balance_of(report, "", "the shape"));
   add_crossings(lines, report);
   return lines;
 }

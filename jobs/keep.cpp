@@ -287,8 +287,9 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   for (const physics::RigidImbalance& i : report.lines.rest.imbalance)
     report.warnings.push_back({"shape_unbalanced",
                                words(i) +
-                                   "; let the garment come to rest where it lies (furrow drape) before "
-                                   "lines are drawn on it, or pin it",
+                                   (scene.body ? "; " : "; name the body that it lies on (--body), or ") +
+                                   "let the garment come to rest where it lies (furrow drape) before lines "
+                                   "are drawn on it, or pin it",
                                scene.garment.string(), "pins"});
   report.crossings = measure_crossings(garment.file, &crossed);
   if (report.crossings.pairs)

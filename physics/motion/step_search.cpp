@@ -174,7 +174,7 @@ void StepSearch::assemble(const std::vector<Vec3>& x) {
 /// Drag's share is in it [1/s^2].
 double StepSearch::inertia_of(const Stage& stage) const { return stage.s + loads_.air_drag * stage.p; }
 
-/// What is pushed no more would stay where it is, as if it still were.
+/// What is pushed no more, by the body or by cloth, would stay where it is, as if it still were.
 bool StepSearch::kept_factors_serve() const {
   if (factored_ != inertia_of(*stage_) || (pairs_ && pairs_->acts())) return false;
   return !contact_ || factored_pushed_ == contact_->anchored().pushed();
@@ -189,7 +189,7 @@ void StepSearch::factorise(const std::vector<Vec3>& x) {
   // What is positive semidefinite and a mass beside it fails where numbers are not finite: the run is seen to
   // have diverged.
   if (!single_) stiffness_.factorise_definite(0, &pool_);
-  factored_ = inertia_of(*stage_);
+  factored_ = pairs_ && pairs_->acts() ? 0 : inertia_of(*stage_);
   if (contact_) factored_pushed_ = contact_->anchored().pushed();
 }
 

@@ -245,6 +245,8 @@ TEST_CASE("keep_lines: a garment that nothing holds is said to be out of balance
   CHECK_FALSE(report.rest.imbalance.empty());
   CHECK(report.lines[0].verdict == Verdict::cannot_hold);
   CHECK(report.lines[0].reason.find("balance") != std::string::npos);
+  CHECK(report.runs == 0);  // it would fall as it is
+  CHECK(std::isnan(report.lines[0].kept));
 }
 
 TEST_CASE(
