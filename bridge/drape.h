@@ -6,14 +6,16 @@
 
 #include "geometry/mesh/mesh.h"
 #include "physics/body/collider.h"
+#include "physics/linear/stiffness_work.h"
 #include "physics/pairs/untangle_contours.h"
 #include "physics/rest/settle.h"
 
 namespace furrow::bridge {
 
-/// What drapes of one garment share, one after the other: the patterns of each level (physics::SettleWork).
+/// What drapes of one garment share, one after the other: the patterns of each level
+/// (physics::StiffnessWork).
 struct DrapeWork {
-  std::vector<physics::SettleWork> levels;
+  std::vector<physics::StiffnessWork> levels;
 };
 
 struct DrapeOptions {

@@ -28,8 +28,12 @@ constexpr double out_of_balance = 1e-6;
 constexpr double share_of_statics = 0.05;  // of a trial, as its progress is told
 // Of what a line may lose or win: where the shape is not stable, and after gusts.
 constexpr double reserve = 0.4, reserve_in_gusts = 0.5;
+// A line that is off by so much is given two steps of help at once [-]; and where others are helped, one that
+// uses so much of what it may lose goes with them [-].
+constexpr double far_off = 0.2, near_the_edge = 0.6;
 
 using Flags = std::vector<char>;  // one a line
+using Steps = std::vector<char>;  // of help that lines need more, one a line
 
 /// The lines and their help.
 struct Plan {
@@ -54,6 +58,12 @@ struct Tally {
   double drift = 0;  ///< of any vertex in the last trial [m]
   bool interrupted = false;
 };
+
+/// Of one that is off by so much and may be by `most` [-].
+char steps_more(double off, double most) {
+  if (off <= most) return 0;
+  return off > far_off ? 2 : 1;  // not a number: 1
+}
 
 bool any(const Flags& flags) {
   return std::any_of(flags.begin(), flags.end(), [](char flag) { return flag != 0; });
@@ -152,15 +162,17 @@ class Keeper {
       std::optional<Found> solved = last ? try_solve(plan, tally) : found_by(plan, tally);
       if (!solved) return std::move(*last);
       Found& found = last.emplace(std::move(*solved));
-      Flags weak = loose_lines(found);
+      Steps weak = loose_lines(found);
       for (std::size_t i = 0; i < weak.size(); ++i)
         weak[i] = can_be_helped(plan.lines[i]) && (weak[i] || is_bound(plan.lines[i], found.outcome));
       const bool rest = rest_needs_help(found);
       if (hangs_wrong(found.outcome)) return std::move(found);
       if (!any(weak) && !rest) weak = try_out(found, true, tally);
       if ((!any(weak) && !rest) || tally.interrupted) return std::move(found);
-      for (std::size_t i = 0; i < weak.size(); ++i) plan.lines[i].step += weak[i] ? 1 : 0;
-      tally.helped = int(std::count(weak.begin(), weak.end(), 1));
+      if (any(weak)) add_near_the_edge(found, weak);
+      for (std::size_t i = 0; i < weak.size(); ++i)
+        plan.lines[i].step = std::min(plan.lines[i].step + int(weak[i]), help_steps(o_));
+      tally.helped = int(weak.size()) - int(std::count(weak.begin(), weak.end(), 0));
       plan.rest_step += rest ? 1 : 0;
     }
   }
@@ -222,24 +234,26 @@ class Keeper {
     Outcome outcome{start_, {}, plan.rest_step > 0 ? o_.presses[plan.rest_step - 1] : 1, unknown, unknown};
     place_lines(plan.lines, mesh_, start_.particles, outcome.cloth.particles);
     stiffen_lines(plan.lines, o_, outcome.rest_press, outcome.cloth);
-    outcome.shape = keep_shape(outcome.cloth, world_, o_.bounds, o_.largest_turn);
+    physics::PrestressOptions bounds = o_.bounds;
+    bounds.work = &exact_work_;
+    outcome.shape = keep_shape(outcome.cloth, world_, bounds, o_.largest_turn);
     ++tally.trials;
     return outcome;
   }
 
   /// Statics first, then motion, unless that is not asked for, or is in vain. As run_forward().
-  Flags try_out(Found& found, bool may_end, Tally& tally) const {
+  Steps try_out(Found& found, bool may_end, Tally& tally) const {
     if (found.plan.lines.empty()) return {};  // all were refused
     if (!o_.statics) return run_forward(found, may_end, tally);
     const double part = o_.prove ? share_of_statics : 1;
     const bool blow = !o_.prove || !physics::solves_contact(o_.run.integrator);  // else motion is as fast
-    const KeepTrial trial = try_statics(found.outcome.cloth, world_, o_, blow, meter_,
+    const KeepTrial trial = try_statics(found.outcome.cloth, world_, o_, blow, meter_, search_work_,
                                         [&](double share) { return go_on(part * share, tally); });
     found.outcome.kept = trial.kept;
     found.outcome.kept_gust = trial.kept_gust;
     tally.drift = trial.drift;
     tally.interrupted = tally.interrupted || trial.stopped;
-    const Flags weak = weak_lines(found);
+    const Steps weak = weak_lines(found);
     if (!o_.prove) return weak;
     found.outcome.kept.assign(weak.size(), NAN);  // until motion says it, whatever ends the search
     found.outcome.kept_gust.assign(weak.size(), NAN);
@@ -247,26 +261,40 @@ class Keeper {
     return run_forward(found, may_end, tally);
   }
 
-  /// Those that may be helped and do not hold.
-  Flags weak_lines(const Found& found) const {
+  /// For those that may be helped and do not hold.
+  Steps weak_lines(const Found& found) const {
     const std::vector<HelpedLine>& lines = found.plan.lines;
-    Flags weak(lines.size(), 0);
-    for (std::size_t i = 0; i < lines.size(); ++i)
-      weak[i] = can_be_helped(lines[i]) && !holds(found.outcome, i, o_.kept);
+    const Outcome& outcome = found.outcome;
+    Steps weak(lines.size(), 0);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (!can_be_helped(lines[i])) continue;
+      weak[i] = std::max(steps_more(std::abs(outcome.kept[i] - 1), may_lose(outcome, o_.kept)),
+                         steps_more(std::abs(outcome.kept_gust[i] - 1), may_lose_in_gusts(outcome, o_.kept)));
+    }
     return weak;
   }
 
-  /// Notes what the lines keep. Returns those that may be helped and do not hold; with `may_end` the run ends
-  /// early if one is far from it.
-  Flags run_forward(Found& found, bool may_end, Tally& tally) const {
+  /// Where a trial has failed anyway, lines that hardly hold are helped with those that do not.
+  void add_near_the_edge(const Found& found, Steps& weak) const {
+    for (std::size_t i = 0; i < weak.size(); ++i) {
+      const double off = std::abs(found.outcome.kept_gust[i] - 1);
+      if (weak[i] == 0 && can_be_helped(found.plan.lines[i]) &&
+          off > near_the_edge * may_lose_in_gusts(found.outcome, o_.kept))
+        weak[i] = 1;
+    }
+  }
+
+  /// Notes what the lines keep. Returns the steps of help that those need that may be helped and do not hold;
+  /// with `may_end` the run ends early if one is far from it.
+  Steps run_forward(Found& found, bool may_end, Tally& tally) const {
     const bool stable = found.outcome.shape.certificate.stable();
     tally.runs += stable ? 1 : o_.pushes;
     const std::vector<HelpedLine>& lines = found.plan.lines;
-    Flags weak(lines.size(), 0);
+    Steps weak(lines.size(), 0);
     const auto in_vain = [&](const std::vector<double>& kept, bool at_end) {
       const double most = at_end ? may_lose_in_gusts(found.outcome, o_.kept) : 2 * (1 - o_.kept);
       for (std::size_t i = 0; may_end && i < lines.size(); ++i)
-        weak[i] = can_be_helped(lines[i]) && std::abs(kept[i] - 1) > most;
+        weak[i] = can_be_helped(lines[i]) ? steps_more(std::abs(kept[i] - 1), most) : char(0);
       return any(weak);
     };
     const double before = o_.statics ? share_of_statics : 0;
@@ -306,6 +334,7 @@ class Keeper {
   const KeepOptions& o_;
   LineMeter& meter_;
   const KeepObserver& go_on_;
+  mutable physics::StiffnessWork exact_work_, search_work_;  // of all trials; they change no bit
 };
 
 /// "2.5 %".

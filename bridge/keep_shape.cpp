@@ -24,7 +24,10 @@ KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
   const double turn = body ? 0 : physics::balance_rigidly(balanced, options.gravity);
   if (turn > 0 && turn <= largest_turn) kept = std::move(balanced), shape.turned = turn;
   shape.rest = physics::prestress(kept, options, body);
-  shape.certificate = physics::certify(kept, {options.gravity, options.friction, options.gap}, body);
+  shape.certificate = physics::certify(
+      kept,
+      {.gravity = options.gravity, .friction = options.friction, .gap = options.gap, .work = options.work},
+      body);
   cloth = std::move(kept);
   return shape;
 }

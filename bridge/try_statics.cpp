@@ -16,7 +16,7 @@ constexpr double longest_move = 0.005;  // m: a search shall not step over what 
 
 constexpr int most_iterations = 60;  // of a search: what moves on then is measured where it is
 
-physics::SettleOptions options_of(const KeepOptions& o, physics::SettleWork& work) {
+physics::SettleOptions options_of(const KeepOptions& o, physics::StiffnessWork& work) {
   physics::SettleOptions settle;
   settle.gravity = o.run.gravity;
   settle.friction = o.run.friction;
@@ -31,13 +31,13 @@ physics::SettleOptions options_of(const KeepOptions& o, physics::SettleWork& wor
 }  // namespace
 
 KeepTrial try_statics(const physics::Cloth& start, const physics::World& world, const KeepOptions& o,
-                      bool blow, LineMeter& meter, const std::function<bool(double)>& go_on) {
+                      bool blow, LineMeter& meter, physics::StiffnessWork& work,
+                      const std::function<bool(double)>& go_on) {
   const std::optional<physics::PosedCollider> standing = standing_body(world);
   const physics::Collider* const body = standing ? &*standing : nullptr;
   const std::vector<double> drawn = meter.heights(start.particles);
   KeepTrial trial{std::vector<double>(drawn.size(), NAN), std::vector<double>(drawn.size(), NAN)};
   physics::Cloth cloth = start;
-  physics::SettleWork work;
   physics::SettleOptions settle = options_of(o, work);
   int searches = 0;
   const double all = blow ? 3 : 1;

@@ -24,6 +24,7 @@ class FreeStiffness {
   /// Whether a cloth has the same elements between the same particles, and the same held ones: then
   /// assemble() serves it, too. Cost: as the constructor's first half.
   bool belongs_to(const Cloth& cloth) const;
+  bool narrow() const { return narrow_; }
 
   /// K at positions x [m]. The cloth has the elements and held particles of the constructor's; other
   /// stiffnesses and rest states are welcome. pool: threads that share the work (null: the caller alone);

@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <utility>
 
 #include "physics/base/cancel_scope.h"
 #include "physics/base/check_particles.h"
 #include "physics/base/require.h"
 #include "physics/cloth/elements.h"
 #include "physics/contact/residual_force.h"
-#include "physics/linear/free_stiffness.h"
 #include "physics/linear/lanczos.h"
+#include "physics/linear/stiffness_work.h"
 
 namespace furrow::physics {
 namespace {
@@ -57,20 +59,23 @@ class Certifier {
  public:
   Certifier(const Cloth& cloth, const CertificateOptions& o, const Collider* body,
             std::span<const Vec3> loads)
-      : cloth_(cloth), options_(o), stiffness_(cloth) {
-    stiffness_.assemble(cloth, cloth.particles.x, Stiffness::exact);
+      : cloth_(cloth), options_(o), stiffness_(stiffness_for(cloth, false, o.work)) {
+    stiffness_->assemble(cloth, cloth.particles.x, Stiffness::exact);
     if (body) find_supports(*body, loads);
   }
 
   Certificate run() {
     result_.smallest_eigenvalue = std::numeric_limits<double>::infinity();
-    if (stiffness_.free_particles() == 0) return result_;
+    if (stiffness_->free_particles() == 0) return result_;
+    for (const Support& s : supports_) stiffness_->add(s.particle, s.stiffness);
     double shift = neutral;
-    assemble(shift);
-    if (!stiffness_.factorise_definite()) {
-      result_.negative_eigenvalues = stiffness_.negative_eigenvalues();
-      for (assemble(shift = 1); !stiffness_.factorise_definite(); assemble(shift *= 16)) {
+    add_masses(shift);
+    if (!stiffness_->factorise_definite()) {
+      result_.negative_eigenvalues = stiffness_->negative_eigenvalues();
+      double last = std::exchange(shift, 1);
+      for (add_masses(shift - last); !stiffness_->factorise_definite(); add_masses(shift - last)) {
         if (!(shift < 1e20)) refuse("certify", "a stiffness is not finite");
+        last = std::exchange(shift, 16 * shift);
       }
     }
     find_smallest(shift);
@@ -92,7 +97,7 @@ class Certifier {
       const Vec3 n = field.gradient / slope, push = -(force[i] + options_.gravity / p.inv_mass[i]);
       const double normal = push.dot(n);
       if (!(normal > least_push * weight)) continue;
-      const double most = hold * std::max(stiffness_.mean_diagonal(), weight / options_.gap);
+      const double most = hold * std::max(stiffness_->mean_diagonal(), weight / options_.gap);
       if ((push - normal * n).norm() < options_.friction * normal) {
         ++result_.sticking;
         supports_.push_back({int(i), most * Mat3::Identity()});
@@ -104,12 +109,11 @@ class Certifier {
     }
   }
 
-  void assemble(double shift) {
-    stiffness_.assemble(cloth_, cloth_.particles.x, Stiffness::exact);
-    for (const Support& s : supports_) stiffness_.add(s.particle, s.stiffness);
+  /// K becomes K + shift M.
+  void add_masses(double shift) {
     const auto& inverse = cloth_.particles.inv_mass;
     for (std::size_t i = 0; i < inverse.size(); ++i) {
-      if (inverse[i] > 0) stiffness_.add(int(i), shift / inverse[i] * Mat3::Identity());
+      if (inverse[i] > 0) stiffness_->add(int(i), shift / inverse[i] * Mat3::Identity());
     }
   }
 
@@ -141,10 +145,10 @@ class Certifier {
     const LinearOperator inverse = [&](const Eigen::VectorXd& q, Eigen::VectorXd& product) {
       throw_if_cancelled("certify");
       for (std::size_t i = 0; i < u.size(); ++i) u[i] = scaled(q, i);
-      stiffness_.solve(u);
+      stiffness_->solve(u);
       for (std::size_t i = 0; i < u.size(); ++i) product.segment<3>(Eigen::Index(3 * i)) = root[i] * u[i];
     };
-    const int most = std::min(options_.max_steps, 3 * stiffness_.free_particles());
+    const int most = std::min(options_.max_steps, 3 * stiffness_->free_particles());
     const LanczosResult found =
         largest_eigenvalue(inverse, start(root), {.tolerance = enough, .most_steps = most});
     result_.smallest_eigenvalue = 1 / found.value - shift;
@@ -167,7 +171,7 @@ class Certifier {
 
   const Cloth& cloth_;
   const CertificateOptions& options_;
-  FreeStiffness stiffness_;
+  const std::shared_ptr<FreeStiffness> stiffness_;
   std::vector<Support> supports_;
   Certificate result_;
 };

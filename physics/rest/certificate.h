@@ -8,11 +8,14 @@
 
 namespace furrow::physics {
 
+struct StiffnessWork;
+
 struct CertificateOptions {
-  Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]; finite
-  double friction = 0.3;      ///< Coulomb coefficient with the body [-]; >= 0
-  double gap = 0.003;         ///< a body at most this far (and 1e-5 m) carries [m]; > 0
-  int max_steps = 100;        ///< of Lanczos' method; >= 2
+  Vec3 gravity{0, -9.81, 0};      ///< [m/s^2]; finite
+  double friction = 0.3;          ///< Coulomb coefficient with the body [-]; >= 0
+  double gap = 0.003;             ///< a body at most this far (and 1e-5 m) carries [m]; > 0
+  int max_steps = 100;            ///< of Lanczos' method; >= 2
+  StiffnessWork* work = nullptr;  ///< shared with solves before and after; null: none
 };
 
 struct Certificate {

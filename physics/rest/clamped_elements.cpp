@@ -101,12 +101,12 @@ Vec3 onto_cone(const Vec3& p, const Vec3& n, double friction) {
 }  // namespace
 
 ClampedElements::ClampedElements(const Cloth& cloth, const ElementLimits& limits,
-                                 std::span<const ContactPoint> contacts)
+                                 std::span<const ContactPoint> contacts, StiffnessWork* work)
     : rest_(at_rest(cloth)),
       now_(rest_),
       contacts_(contacts.begin(), contacts.end()),
       friction_(limits.friction),
-      stiffness_(rest_) {
+      stiffness_(stiffness_for(rest_, false, work)) {
   add_bars(rest_.structural, limits);
   add_bars(std::span(rest_.bending).first(cloth.bending.size()), limits);
   tension_begin_ = bars_.size();
@@ -115,8 +115,8 @@ ClampedElements::ClampedElements(const Cloth& cloth, const ElementLimits& limits
   add_bends(cloth, limits.angle);
   add_coupled();
   if (contacts_.empty()) return;
-  stiffness_.assemble(rest_, rest_.particles.x, Stiffness::positive_part);
-  contact_stiffness_ = body_stiffness * stiffness_.mean_diagonal();
+  stiffness_->assemble(rest_, rest_.particles.x, Stiffness::positive_part);
+  contact_stiffness_ = body_stiffness * stiffness_->mean_diagonal();
   if (!(contact_stiffness_ > 0)) contact_stiffness_ = 1;  // a cloth without stiffness
 }
 
@@ -288,14 +288,14 @@ void ClampedElements::factorise(const ClampedForces& at, std::span<const Vec3> w
   }
   for (std::size_t h = 0; h < now_.hinges.size(); ++h)
     now_.hinges[h].stiffness = at.scale[i++] * rest_.hinges[h].stiffness;
-  stiffness_.assemble(now_, now_.particles.x, Stiffness::positive_part);
-  for (const ContactPoint& c : contacts_) stiffness_.add(c.particle, contact_stiffness(c, w[c.particle]));
+  stiffness_->assemble(now_, now_.particles.x, Stiffness::positive_part);
+  for (const ContactPoint& c : contacts_) stiffness_->add(c.particle, contact_stiffness(c, w[c.particle]));
   for (double added = shift;; added *= 100) {
     const Particles& p = now_.particles;
     for (std::size_t v = 0; v < p.size(); ++v) {
-      if (p.inv_mass[v] > 0) stiffness_.add(int(v), added / p.inv_mass[v] * Mat3::Identity());
+      if (p.inv_mass[v] > 0) stiffness_->add(int(v), added / p.inv_mass[v] * Mat3::Identity());
     }
-    if (stiffness_.factorise_definite()) return;
+    if (stiffness_->factorise_definite()) return;
     if (!(added < largest_shift)) refuse("prestress", "a stiffness is not finite");
   }
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "physics/linear/free_stiffness.h"
+#include "physics/linear/stiffness_work.h"
 #include "physics/plate/plate_bending.h"
 
 namespace furrow::physics {
@@ -50,7 +51,9 @@ class ClampedElements {
  public:
   /// Cost: one pass, and the symbolic factorisation. Throws std::invalid_argument as elements do, and if a
   /// triangle has lambda but no mu, or an energy is no PlateBending.
-  ClampedElements(const Cloth& cloth, const ElementLimits& limits, std::span<const ContactPoint> contacts);
+  /// work: left by the solve before and to the next (null: none).
+  ClampedElements(const Cloth& cloth, const ElementLimits& limits, std::span<const ContactPoint> contacts,
+                  StiffnessWork* work = nullptr);
 
   /// Answers to w [m], one a particle; 0 on pins. Adds what elements and contacts exert at first order, to
   /// force [N]. Cost: one pass.
@@ -59,7 +62,7 @@ class ClampedElements {
   /// it; a triangle on its limit counts with the secant, which is stiffer. Throws std::invalid_argument if a
   /// stiffness is not finite.
   void factorise(const ClampedForces& at, std::span<const Vec3> w, double shift);
-  void solve(std::span<Vec3> b) const { stiffness_.solve(b); }
+  void solve(std::span<Vec3> b) const { stiffness_->solve(b); }
 
  private:
   struct Bar {
@@ -103,7 +106,7 @@ class ClampedElements {
   std::vector<Coupled> coupled_;
   std::vector<ContactPoint> contacts_;
   double friction_, contact_stiffness_ = 0;
-  FreeStiffness stiffness_;
+  std::shared_ptr<FreeStiffness> stiffness_;
 };
 
 }  // namespace furrow::physics

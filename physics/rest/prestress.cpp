@@ -13,6 +13,7 @@
 #include "physics/cloth/hinge_forces.h"
 #include "physics/cloth/kinds.h"
 #include "physics/contact/residual_force.h"
+#include "physics/linear/stiffness_work.h"
 #include "physics/plate/plate_bending.h"
 #include "physics/plate/recouple.h"
 #include "physics/rest/balance_forces.h"
@@ -180,8 +181,9 @@ PrestressReport balance_once(Cloth& cloth, const PrestressOptions& o, const Coll
   const Particles& p = cloth.particles;
   const double g = o.gravity.norm() > 0 ? o.gravity.norm() : standard_gravity;
   const std::vector<ContactPoint> contacts = contacts_of(p, collider, o.gap);
-  ClampedElements system(
-      cloth, {o.max_strain, std::min(o.max_compression, o.max_strain), o.max_angle, o.friction}, contacts);
+  ClampedElements system(cloth,
+                         {o.max_strain, std::min(o.max_compression, o.max_strain), o.max_angle, o.friction},
+                         contacts, o.work);
   Forces load(p.size(), Vec3::Zero());
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!(p.inv_mass[i] > 0)) continue;
@@ -210,9 +212,12 @@ PrestressReport balance_once(Cloth& cloth, const PrestressOptions& o, const Coll
 
 }  // namespace
 
-PrestressReport prestress(Cloth& cloth, const PrestressOptions& o, const Collider* collider,
+PrestressReport prestress(Cloth& cloth, const PrestressOptions& options, const Collider* collider,
                           std::span<const Vec3> loads) {
-  check(cloth, o, loads);
+  check(cloth, options, loads);
+  StiffnessWork own;
+  PrestressOptions o = options;
+  if (!o.work) o.work = &own;
   Cloth work = cloth;
   PrestressReport report = balance_once(work, o, collider, loads);
   for (int round = 1; recouple(work); ++round) {  // a plate is made of the rest lengths that were solved for

@@ -8,6 +8,8 @@
 
 namespace furrow::physics {
 
+struct StiffnessWork;
+
 struct PrestressOptions {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]; finite
   double friction = 0.3;      ///< Coulomb coefficient with the body [-]; >= 0; 0: without friction
@@ -19,6 +21,7 @@ struct PrestressOptions {
   double max_angle = 1.5707963267948966;  ///< bound of |theta - theta0| of hinges [rad]; in (0, 3]
   double tolerance = 1e-9;                ///< net force relative to weight at which it is done [-]; > 0
   int max_iterations = 200;               ///< Newton steps; >= 1
+  StiffnessWork* work = nullptr;          ///< shared with solves before and after; null: none
 };
 
 /// A piece of cloth (particles that elements join) whose pins leave rigid motions free, and what of a load no

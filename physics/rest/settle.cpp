@@ -15,7 +15,7 @@
 #include "physics/contact/anchored_contact.h"
 #include "physics/contact/face_contact.h"
 #include "physics/contact/residual_force.h"
-#include "physics/linear/free_stiffness.h"
+#include "physics/linear/stiffness_work.h"
 #include "physics/pairs/cloth_contact.h"
 #include "physics/rest/limited_memory.h"
 
@@ -119,14 +119,6 @@ Pace next_pace(Pace pace, const Factors& factors, const Move& move, double share
   return pace;
 }
 
-/// That of the searches before, if there is one and it fits.
-std::shared_ptr<FreeStiffness> stiffness_for(const Cloth& cloth, SettleWork* work) {
-  if (work && work->stiffness && work->stiffness->belongs_to(cloth)) return work->stiffness;
-  auto made = std::make_shared<FreeStiffness>(cloth, true);
-  if (work) work->stiffness = made;
-  return made;
-}
-
 Vectors moved(Vectors x, double share, const Vectors& way) {
   add_multiple(x, share, way);
   return x;
@@ -142,7 +134,7 @@ class Settler {
         collider_(collider),
         o_(options),
         elements_(cloth),
-        stiffness_(stiffness_for(cloth, options.work)),
+        stiffness_(stiffness_for(cloth, true, options.work)),
         pool_(options.threads) {
     stiffness_->assemble(cloth, p_.x, Stiffness::positive_part);
     const double k = contact_share * stiffness_->mean_diagonal();

@@ -35,13 +35,7 @@ struct SelfContact {
   std::span<const Vec3> drawn = {};  ///< positions in which nothing is to be pushed; empty: none
 };
 
-class FreeStiffness;
-
-/// What one search may leave to the next on a cloth with the same elements and held particles: where blocks
-/// of the matrix lie and the order of elimination. It changes no bit. For one search at a time.
-struct SettleWork {
-  std::shared_ptr<FreeStiffness> stiffness;  ///< filled by the first; anew where it does not fit
-};
+struct StiffnessWork;
 
 struct SettleOptions {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]; finite
@@ -58,7 +52,7 @@ struct SettleOptions {
   int threads = 1;  ///< that share the work; >= 1; the result is the same for any number
   FaceGuard faces = {};
   SelfContact self = {};
-  SettleWork* work = nullptr;  ///< shared with searches before and after, until self acts; null: none
+  StiffnessWork* work = nullptr;  ///< shared with searches before and after, until self acts; null: none
 };
 
 struct SettleProgress {

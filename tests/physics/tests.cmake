@@ -36,6 +36,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   linear/dense_front_test.cpp
   linear/dense_kernels_test.cpp
   linear/free_stiffness_test.cpp
+  linear/stiffness_work_test.cpp
   linear/front_tree_test.cpp
   linear/lanczos_test.cpp
   linear/negative_pivots_test.cpp
