@@ -2,6 +2,7 @@
 furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   run_furrow.h
   run_furrow.cpp
+  batch_test.cpp
   doctor_test.cpp
   quality_test.cpp
   gate_test.cpp

@@ -6,6 +6,7 @@ furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   base/error_types_test.cpp
   base/fuzz_corpus_test.cpp
   base/nesting_test.cpp
+  base/run_program_test.cpp
   base/text_scanner_test.cpp
   mesh/assimp_reader_test.cpp
   mesh/chain_segments_test.cpp
@@ -25,6 +26,7 @@ furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   stroke/drawn_stroke_test.cpp
   stroke/resolve_strokes_test.cpp
   stroke/stroke_file_test.cpp
+  scene/batch_plan_test.cpp
   scene/equivalent_flags_test.cpp
   scene/field_file_test.cpp
   scene/garment_list_test.cpp

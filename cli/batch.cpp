@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/batch.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/subcommands.h"
+#include "furrow/version.h"
+#include "io/base/atomic_file.h"
+#include "io/base/run_program.h"
+#include "jobs/batch_slurm.h"
+
+namespace furrow::cli {
+namespace {
+
+struct BatchArguments : CommonArguments {
+  std::string action, plan, field, options;
+  std::vector<std::string> words;  ///< of a case
+  int jobs = 0, chunk = 0;
+  bool all = false, submit = false;
+};
+
+io::BatchPlan read_plan(const BatchArguments& a) {
+  io::BatchPlan plan = io::read_batch_plan(a.plan, FURROW_VERSION);
+  if (plan.repeated > 0)
+    warn(fmt::format("{}: {} cases are the same as others, and are run once", a.plan, plan.repeated), a);
+  return plan;
+}
+
+std::string words_of(const BatchCounts& c) {
+  return fmt::format("{} {}: {} finished, {} failed, {} open", c.cases, c.cases == 1 ? "case" : "cases",
+                     c.finished, c.failed, c.open);
+}
+
+Json json_of(const BatchCounts& c) {
+  return {{"cases", c.cases}, {"finished", c.finished}, {"failed", c.failed}, {"open", c.open}};
+}
+
+int gather_batch(const io::BatchPlan& plan, const BatchArguments& a) {
+  const GatherReport report = gather(plan);
+  Json json = json_of(report.counts);
+  json["written"] = names_of_files({report.rows.string(), report.page.string()});
+  print_report(json, a, {{words_of(report.counts)}, {report.rows.string(), report.page.string()}, ""});
+  return report.counts.finished == report.counts.cases ? exit_ok : exit_not_converged;
+}
+
+int list_batch(const io::BatchPlan& plan, const BatchArguments& a) {
+  std::vector<std::string> lines;
+  if (a.all)
+    for (const io::BatchCase& one : plan.cases) lines.push_back(command_line(plan, one, io::this_program()));
+  else
+    lines = open_lines(plan, io::this_program());
+  if (a.json) {
+    Json json = json_of(count(plan));
+    json["lines"] = lines;
+    print_report(json, a);
+    return exit_ok;
+  }
+  for (const std::string& line : lines) std::cout << line << "\n";
+  flush_output();
+  if (!a.quiet) std::cerr << words_of(count(plan)) << "\n";
+  return exit_ok;
+}
+
+int run_case_of_batch(const BatchArguments& a) {
+  if (a.words.empty())
+    throw UsageError("batch case: there is no command behind --; furrow batch list PLAN writes such lines");
+  const CaseReport report = run_case({io::this_program(), a.plan, a.words, a.field});
+  Json json{{"record", a.plan},
+            {"state", report.state == CaseState::finished ? "finished"
+                      : report.state == CaseState::failed ? "failed"
+                                                          : "open"},
+            {"computed", report.computed},
+            {"exit", report.exit_code},
+            {"error", report.error}};
+  const std::string name = std::filesystem::path(a.plan).stem().string();
+  std::string words = name + (report.computed ? ": computed" : ": was finished before");
+  if (report.state != CaseState::finished)
+    words = fmt::format("{}: {} with exit code {}{}{}", name,
+                        report.state == CaseState::open ? "interrupted" : "failed", report.exit_code,
+                        report.error.empty() ? "" : ": ", report.error);
+  print_report(json, a, {{words}, {}, ""});
+  if (report.state == CaseState::open) return exit_interrupted;
+  return report.state == CaseState::finished ? exit_ok : exit_failed;
+}
+
+/// By GNU parallel, then gathered, whatever came of it.
+int run_in_parallel(const io::BatchPlan& plan, const BatchArguments& a) {
+  const std::vector<std::string> lines = open_lines(plan, io::this_program());
+  const std::filesystem::path todo = plan.output / "todo.txt", log = plan.output / "joblog";
+  if (!lines.empty()) {
+    std::filesystem::create_directories(plan.output);
+    io::write_atomically(todo, [&](std::ostream& out) {
+      for (const std::string& line : lines) out << line << '\n';
+    });
+    std::vector<std::string> words{"--joblog", log.string(), "--arg-file", todo.string()};
+    if (a.jobs > 0) words.insert(words.end(), {"--jobs", std::to_string(a.jobs)});
+    io::ProgramRun run;
+    try {
+      run = io::run_program("parallel", words);
+    } catch (const std::runtime_error& e) {
+      throw std::runtime_error(std::string(e.what()) +
+                               "; install GNU parallel, or run the lines of furrow batch list " + a.plan +
+                               " by another program: furrow batch list " + a.plan + " | sh");
+    }
+    if (run.exit_code < 0 || run.exit_code > 101)  // up to 101: so many cases failed
+      throw std::runtime_error("GNU parallel failed: " + run.err);
+  }
+  return gather_batch(plan, a);
+}
+
+int prepare_slurm(const io::BatchPlan& plan, const BatchArguments& a) {
+  const SlurmScripts s = write_slurm_scripts(
+      plan, {io::this_program(), std::filesystem::absolute(a.plan).lexically_normal(), a.chunk, a.options});
+  Json json{
+      {"tasks", s.tasks},
+      {"chunk", s.chunk},
+      {"written", names_of_files({s.todo.string(), s.array.string(), s.gather.string(), s.submit.string()})}};
+  std::string next = "sh " + s.submit.string();
+  if (a.submit) {
+    const io::ProgramRun run = io::run_program("sh", {s.submit.string()});
+    if (run.exit_code != 0) throw std::runtime_error("sbatch refused the job: " + run.err);
+    json["job"] = run.out.substr(0, run.out.find('\n'));
+    next = "furrow batch gather " + a.plan;
+  }
+  std::string words = fmt::format("{} tasks of up to {} cases", s.tasks, s.chunk);
+  if (a.submit) words += ", submitted as job " + json["job"].get<std::string>();
+  print_report(json, a, {{words}, {s.submit.string()}, next});
+  return exit_ok;
+}
+
+int batch(const BatchArguments& a) {
+  if (a.action == "case") return run_case_of_batch(a);
+  if (!a.words.empty())
+    throw UsageError("batch " + a.action + ": '" + a.words[0] + "' is one argument too many");
+  const io::BatchPlan plan = read_plan(a);
+  if (a.action == "list") return list_batch(plan, a);
+  if (a.action == "parallel") return run_in_parallel(plan, a);
+  if (a.action == "slurm") return prepare_slurm(plan, a);
+  return gather_batch(plan, a);
+}
+
+}  // namespace
+
+void add_batch(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<BatchArguments>();
+  CLI::App* sub = app.add_subcommand("batch",
+                                     "Many garments on many bodies in many fabrics, on one machine or a "
+                                     "cluster; what is finished is not run again\n\n"
+                                     "  furrow batch parallel plan.toml\n"
+                                     "  furrow batch list plan.toml | parallel --joblog log\n"
+                                     "  furrow batch slurm plan.toml --submit\n"
+                                     "  furrow batch gather plan.toml");
+  sub->add_option(
+         "action", a->action,
+         "list: a line for a shell of each case that is not finished; parallel: run them by GNU parallel, "
+         "then "
+         "gather; slurm: write scripts for an array of Slurm; gather: results.jsonl and report.html; case: "
+         "run one (that is what the lines do)")
+      ->required()
+      ->check(CLI::IsMember({"list", "parallel", "slurm", "gather", "case"}));
+  sub->add_option("plan", a->plan, "plan to read (TOML, docs/batches.md); of case: the record to write")
+      ->required();
+  sub->add_option("words", a->words, "of case: what furrow is to do, behind --");
+  sub->add_flag("--all", a->all, "of list: finished cases, too");
+  sub->add_option("--jobs", a->jobs, "of parallel: cases at a time (default: one a core)")
+      ->check(CLI::Range(1, 10000));
+  sub->add_option("--chunk", a->chunk,
+                  "of slurm: cases a task (default: some 30 s of them by what finished ones took, else 4)")
+      ->check(CLI::Range(1, 1000000));
+  sub->add_option("--sbatch", a->options,
+                  "of slurm: options for sbatch: --sbatch '--partition=short --mem=2G'");
+  sub->add_flag("--submit", a->submit, "of slurm: hand the scripts to sbatch, too");
+  sub->add_option("--make-field", a->field,
+                  "of case: the file of the body's field, made where it is not there yet");
+  add_common_options(*sub, *a);
+  sub->callback([a, &exit_code] { exit_code = batch(*a); });
+}
+
+}  // namespace furrow::cli

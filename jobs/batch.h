@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/scene/batch_plan.h"
+#include "jobs/inputs.h"
+
+namespace furrow::jobs {
+
+/// What is on record of a case. A case is finished when the program came to an end of its own with a verdict:
+/// it left with 0 or 4.
+enum class CaseState { open, failed, finished };
+
+/// Where a batch keeps what belongs to a case.
+struct CaseFiles {
+  std::filesystem::path record;   ///< JSON
+  std::filesystem::path mesh;     ///< empty: none
+  std::filesystem::path picture;  ///< empty: none
+};
+CaseFiles case_files(const io::BatchPlan& plan, const io::BatchCase& one);
+
+/// What the file says of a case; open if there is none, or no record is in it.
+CaseState state_of(const std::filesystem::path& record);
+
+/// The case as a line for a shell, by absolute paths: "furrow batch case RECORD -- drape …". Running it twice
+/// computes once. program: furrow itself.
+std::string command_line(const io::BatchPlan& plan, const io::BatchCase& one,
+                         const std::filesystem::path& program);
+
+struct CaseJob {
+  std::filesystem::path program;       ///< furrow itself
+  std::filesystem::path record;        ///< JSON to write; its folder is made
+  std::vector<std::string> arguments;  ///< of the program
+  std::filesystem::path field;         ///< made of the case's body where it is not there yet; empty: none
+};
+struct CaseReport {
+  CaseState state = CaseState::open;  ///< open: it was interrupted, and there is no record
+  bool computed = false;              ///< false: it was finished before
+  int exit_code = 0;                  ///< of the program; 128 + signal if one ended it
+  std::string error;                  ///< its last line of error
+};
+/// Runs a case in a process of its own and writes its record, whole or not at all: arguments, exit code,
+/// times, memory, host, job and the program's report. What is finished is not run again. Throws
+/// std::runtime_error if the program cannot be started or the record not be written.
+CaseReport run_case(const CaseJob& job);
+
+struct BatchCounts {
+  std::size_t cases = 0, finished = 0, failed = 0, open = 0;
+};
+struct GatherReport {
+  BatchCounts counts;
+  std::filesystem::path rows, page;  ///< JSON, one line a case, in the plan's order; HTML
+};
+/// Brings the records of a plan's cases together in its output folder: results.jsonl and report.html.
+GatherReport gather(const io::BatchPlan& plan);
+
+BatchCounts count(const io::BatchPlan& plan);
+
+/// Seconds that a finished case took, in the mean of some [s]; none is finished: none.
+std::optional<double> mean_seconds(const io::BatchPlan& plan);
+
+}  // namespace furrow::jobs

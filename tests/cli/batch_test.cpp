@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// furrow batch: cases of a plan as lines, on one machine and by Slurm's scripts.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/base/run_program.h"
+#include "run_furrow.h"
+
+using namespace furrow::tests;
+using furrow::io::run_program;
+using nlohmann::json;
+
+namespace {
+
+const char* const square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+
+/// A plan of cloths that fall for a moment, one of them from a file that is no mesh.
+struct Batch {
+  ScratchDirectory folder;
+  std::string plan = folder / "plan.toml";
+
+  Batch() {
+    write_text(folder / "a cloth.obj", square);
+    write_text(folder / "b.obj", std::string(square) + "v 2 2 0\nf 2 5 3\n");
+    write_text(folder / "broken.obj", "v 0 0\n");
+    write_text(plan,
+               "title = \"Cloths <fall> & rest\"\ncommand = \"simulate\"\noutput = \"out\"\nreport = "
+               "[\"outcome\", \"steps\"]\n"
+               "[options]\nseconds = 0.02\n[cases]\ngarment = [\"a cloth.obj\", \"b.obj\", \"broken.obj\"]\n"
+               "fabric = [\"cotton\", \"silk\"]\n");
+  }
+  Run furrow(const std::string& words) const { return run_furrow("batch " + words); }
+  std::vector<std::string> lines() const {
+    std::istringstream out(furrow("list " + plan).out);
+    std::vector<std::string> all;
+    for (std::string line; std::getline(out, line);) all.push_back(line);
+    return all;
+  }
+  std::vector<json> rows() const {
+    std::istringstream in(read_text(folder / "out/results.jsonl"));
+    std::vector<json> all;
+    for (std::string line; std::getline(in, line);) all.push_back(json::parse(line));
+    return all;
+  }
+};
+
+int run_line(const std::string& line) { return run_program("sh", {"-c", line}).exit_code; }
+
+/// Rows without what differs from run to run.
+std::vector<json> lasting(std::vector<json> rows) {
+  for (json& row : rows) {
+    for (const char* key : {"seconds", "processor_seconds", "peak_bytes", "host", "job"}) row.erase(key);
+    if (row.contains("report") && row["report"].is_object())
+      for (const char* key : {"seconds", "times"}) row["report"].erase(key);
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "batch: each line runs a case once, what fails is listed again, and all is gathered in the plan's "
+    "order") {
+  const Batch batch;
+  const std::vector<std::string> lines = batch.lines();
+  REQUIRE(lines.size() == 6);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    INFO(lines[i]);
+    CHECK(run_line(lines[i]) == (i < 4 ? 0 : 1));
+  }
+  const Run again = run_furrow(lines[0].substr(lines[0].find("batch ")));
+  CHECK(again.exit_code == 0);
+  CHECK(again.out.find("was finished before") != std::string::npos);
+  CHECK(batch.lines() == std::vector<std::string>(lines.begin() + 4, lines.end()));
+
+  const Run gathered = batch.furrow("gather " + batch.plan + " --json");
+  CHECK(gathered.exit_code == 4);
+  const json counts = json::parse(gathered.out);
+  CHECK(counts["finished"] == 4);
+  CHECK(counts["failed"] == 2);
+  const std::vector<json> rows = batch.rows();
+  REQUIRE(rows.size() == 6);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    CHECK(rows[i]["values"]["fabric"] == (i % 2 ? "silk" : "cotton"));
+    CHECK(rows[i]["state"] == (i < 4 ? "finished" : "failed"));
+    CHECK(rows[i].contains("mesh") == (i < 4));
+  }
+  CHECK(rows[0]["report"]["outcome"] == "finished");
+  CHECK(std::filesystem::exists(batch.folder / "out/" + rows[0]["mesh"].get<std::string>()));
+  CHECK(rows[4]["exit"] == 3);
+  CHECK(rows[4]["error"].get<std::string>().find("broken.obj") != std::string::npos);
+  const std::string page = read_text(batch.folder / "out/report.html");
+  CHECK(page.find("Cloths &lt;fall&gt; &amp; rest") != std::string::npos);
+  CHECK(page.find("class=failed") != std::string::npos);
+}
+
+TEST_CASE("batch: a changed garment is another case, and the old one's result stays") {
+  const Batch batch;
+  const std::vector<std::string> before = batch.lines();
+  REQUIRE(run_line(before[0]) == 0);
+  write_text(batch.folder / "a cloth.obj", std::string(square) + "v 3 3 0\nf 2 5 3\n");
+  const std::vector<std::string> after = batch.lines();
+  CHECK(after.size() == 6);
+  CHECK(after[0] != before[0]);
+  CHECK(after[2] == before[2]);
+}
+
+TEST_CASE("batch: Slurm's tasks run their chunks, and only what failed is submitted again") {
+  const Batch batch;
+  const Run made = batch.furrow("slurm " + batch.plan + " --chunk 4 --json");
+  REQUIRE(made.exit_code == 0);
+  const json told = json::parse(made.out);
+  CHECK(told["tasks"] == 2);
+  const std::string array = told["written"][1].get<std::string>();
+  CHECK(run_line("SLURM_ARRAY_JOB_ID=7 SLURM_ARRAY_TASK_ID=0 sh " + array) == 0);
+  CHECK(run_line("SLURM_ARRAY_JOB_ID=7 SLURM_ARRAY_TASK_ID=1 sh " + array) == 1);
+  CHECK(run_line("sh " + told["written"][2].get<std::string>()) == 4);
+  const std::vector<json> rows = batch.rows();
+  CHECK(rows[0]["job"] == "7_0");
+  CHECK(rows[5]["job"] == "7_1");
+
+  write_text(batch.folder / "sbatch", "#!/bin/sh\necho \"$@\" >>" + (batch.folder / "calls") + "\necho 12\n");
+  std::filesystem::permissions(batch.folder / "sbatch", std::filesystem::perms::owner_all);
+  const auto submit = [&] {
+    return run_program("sh",
+                       {"-c", "PATH=" + batch.folder.path().string() + ":$PATH " +
+                                  std::string(batch.lines()[0].substr(0, batch.lines()[0].find(" batch"))) +
+                                  " batch slurm " + batch.plan + " --submit --sbatch=--mem=1G --json"});
+  };
+  const json submitted = json::parse(submit().out);
+  CHECK(submitted["tasks"] == 1);
+  CHECK(submitted["job"] == "12");
+  CHECK(read_text(submitted["written"][0].get<std::string>()).find("broken.obj") != std::string::npos);
+  const std::string calls = read_text(batch.folder / "calls");
+  CHECK(calls.find("--mem=1G") != std::string::npos);
+  CHECK(calls.find("--dependency=afterany:12") != std::string::npos);
+
+  const Batch other;  // the same cases, line by line
+  for (const std::string& line : other.lines()) run_line(line);
+  other.furrow("gather " + other.plan);
+  const std::vector<json> a = lasting(rows), b = lasting(other.rows());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    CHECK(a[i]["case"] == b[i]["case"]);
+    CHECK(a[i]["state"] == b[i]["state"]);
+    if (i < 4) CHECK(a[i]["report"]["outcome"] == b[i]["report"]["outcome"]);
+  }
+}
+
+TEST_CASE("batch: what is wrong with a call is told, and nothing is written") {
+  const Batch batch;
+  CHECK(batch.furrow("case " + (batch.folder / "r.json")).exit_code == 2);
+  CHECK(batch.furrow("list " + batch.plan + " more").exit_code == 2);
+  CHECK(batch.furrow("list " + (batch.folder / "none.toml")).exit_code == 3);
+  CHECK_FALSE(std::filesystem::exists(batch.folder / "out"));
+  const Run all = batch.furrow("list " + batch.plan + " --all --json");
+  CHECK(json::parse(all.out)["lines"].size() == 6);
+}
