@@ -133,6 +133,7 @@ int run(int argc, char** argv) {
   cli::add_fit(app);
   cli::add_transfer(app);
   cli::add_bake(app, exit_code);
+  cli::add_body(app, exit_code);
   cli::add_batch(app, exit_code);
   cli::add_studio(app, exit_code);
   cli::add_completion(app);

@@ -33,6 +33,8 @@ void add_studio(CLI::App& app, int& exit_code);
 void add_transfer(CLI::App& app);
 /// Sets exit_code where the run was interrupted.
 void add_bake(CLI::App& app, int& exit_code);
+/// Sets exit_code where a measurement is missed.
+void add_body(CLI::App& app, int& exit_code);
 /// Sets exit_code where a case failed or is open.
 void add_batch(CLI::App& app, int& exit_code);
 

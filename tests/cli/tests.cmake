@@ -3,6 +3,7 @@ furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURC
   run_furrow.h
   run_furrow.cpp
   batch_test.cpp
+  body_test.cpp
   doctor_test.cpp
   quality_test.cpp
   gate_test.cpp

@@ -33,6 +33,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   figure/horizontal_section_test.cpp
   figure/principal_strain_test.cpp
   figure/repair_body_test.cpp
+  figure/shape_body_test.cpp
   figure/torso_levels_test.cpp
   band/band_cases_test.cpp
   band/band_checks.cpp

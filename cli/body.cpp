@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/body.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/subcommands.h"
+#include "jobs/read_inputs.h"
+
+namespace furrow::cli {
+namespace {
+
+struct BodyArguments : CommonArguments {
+  std::string in;
+  geometry::BodyMeasures measures;
+};
+
+/// That which comes with the program: where it is installed, or built.
+std::filesystem::path own_mannequin() {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  fs::path at = fs::read_symlink("/proc/self/exe", none).parent_path();
+  const fs::path installed = at.parent_path() / "share/furrow/meshes/mannequin.obj";
+  if (fs::is_regular_file(installed, none)) return installed;
+  for (int up = 0; up < 3; ++up, at = at.parent_path())
+    if (fs::is_regular_file(at / "meshes/mannequin.obj", none)) return at / "meshes/mannequin.obj";
+  throw UsageError("our mannequin is not installed here; name a body: furrow body BODY");
+}
+
+std::string measures_words(const geometry::BodyMeasures& m) {
+  return fmt::format("height {:.1f} cm, chest {:.1f}, waist {:.1f}, hip {:.1f}", 100 * m.height,
+                     100 * m.chest, 100 * m.waist, 100 * m.hip);
+}
+
+int body(const BodyArguments& a) {
+  const std::filesystem::path in = a.in.empty() ? own_mannequin() : std::filesystem::path(a.in);
+  const geometry::BodyMeasures& m = a.measures;
+  const bool asks = m.height > 0 || m.chest > 0 || m.waist > 0 || m.hip > 0;
+  if (asks && a.out.empty())
+    throw UsageError("nothing to write: name --output for the body with these measurements");
+  if (!asks && !a.out.empty())
+    throw UsageError("no measurement is asked for: name --height, --chest, --waist or --hip, in metres");
+  Terminal terminal(a);
+  const BodyReport report = jobs::shape_body({in, a, m, a.out}, terminal);
+  CommonArguments common = a;
+  common.unit = report.frame.unit_in_use();
+  common.up = report.frame.up_in_use();
+  if (a.out == "-") write_mesh(report.mesh, common);
+  Json json = to_json(report);
+  std::vector<std::string> lines{(asks ? "was: " : "") + measures_words(report.shape.before)};
+  if (asks) lines.push_back("now: " + measures_words(report.shape.reached));
+  if (!a.out.empty()) json["written"] = a.out;
+  print_report(json, a, {lines, {a.out}, ""});
+  if (!asks || report.succeeds()) return exit_ok;
+  if (report.new_crossings > 0)
+    std::cerr
+        << "error: " << report.new_crossings
+        << " pairs of faces cross that did not before; ask for measurements nearer to the body's, or take a "
+           "body whose arms hang farther from it\n";
+  else
+    std::cerr << fmt::format(
+        "error: the body is {:.1f} cm off what was asked for; such measurements do not go together on this "
+        "body\n",
+        100 * report.shape.farthest);
+  return exit_not_converged;
+}
+
+}  // namespace
+
+void add_body(CLI::App& app, int& exit_code) {
+  auto a = std::make_shared<BodyArguments>();
+  CLI::App* sub =
+      app.add_subcommand("body",
+                         "Give a body a person's measurements, or tell those that it has\n\n"
+                         "  furrow body --height 1.68 --chest 0.92 --waist 0.74 --hip 0.98 -o anna.obj\n"
+                         "  furrow body scan.obj --waist 0.80 -o wider.obj\n"
+                         "  furrow body scan.obj");
+  sub->add_option("body", a->in, "standing body to read (default: our mannequin)");
+  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output");
+  sub->add_option("--height", a->measures.height, "from floor to crown [m]")->check(CLI::Range(0.9, 2.5));
+  sub->add_option("--chest", a->measures.chest, "around the fullest of the chest, under the armpits [m]")
+      ->check(CLI::Range(0.3, 3.0));
+  sub->add_option("--waist", a->measures.waist, "around the narrowest [m]")->check(CLI::Range(0.3, 3.0));
+  sub->add_option("--hip", a->measures.hip, "around the fullest of the seat [m]")
+      ->check(CLI::Range(0.3, 3.0));
+  add_common_options(*sub, *a);
+  sub->callback([a, &exit_code] { exit_code = body(*a); });
+}
+
+}  // namespace furrow::cli
