@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/bake.h"
+#include "jobs/body.h"
 #include "jobs/smooth.h"
 #include "jobs/subdivide.h"
 #include "jobs/transfer.h"
 #include "python/mesh_job.h"
 #include "python/smoothing_rows.h"
 
-/// Jobs that make one mesh of another: transfer, bake, subdivide, smooth.
+/// Jobs that make one mesh of another: transfer, bake, subdivide, smooth, body.
 namespace furrow::python {
 namespace {
 
@@ -164,6 +165,39 @@ Outcome smooth(const py::list& inputs, Call& call) {
   return outcome;
 }
 
+// ---- body
+
+const Keywords<jobs::BodyJob>& body_rows() {
+  using Job = jobs::BodyJob;
+  static const Keywords<Job> rows = {
+      row<Job>(
+          "output", "mesh to write: obj, ply, off or stl", [](auto& j) -> auto& { return j.output; }),
+      row<Job>(
+          "height", "from floor to crown [m], in [0.9, 2.5]; none of the four: the body is measured",
+          [](auto& j) -> auto& { return j.measures.height; }),
+      row<Job>(
+          "chest", "around the fullest of the chest, under the armpits [m]",
+          [](auto& j) -> auto& { return j.measures.chest; }),
+      row<Job>(
+          "waist", "around the narrowest [m]", [](auto& j) -> auto& { return j.measures.waist; }),
+      row<Job>(
+          "hip", "around the fullest of the seat [m]", [](auto& j) -> auto& { return j.measures.hip; }),
+  };
+  return rows;
+}
+
+Outcome body(const py::list& inputs, Call& call) {
+  jobs::BodyJob job;
+  take_keywords(body_rows(), call, job);
+  take(Value{"mesh", inputs[0]}, job.mesh);
+  jobs::BodyReport report = without_lock(job, call, jobs::shape_body);
+  Outcome outcome{jobs::to_json(report)};
+  outcome.succeeded = report.succeeds();
+  note_written(outcome.report, job.output);
+  outcome.meshes.push_back({std::move(report.mesh), name_of(inputs[0])});
+  return outcome;
+}
+
 }  // namespace
 
 void add_mesh_jobs(std::vector<Runner>& runners) {
@@ -171,6 +205,7 @@ void add_mesh_jobs(std::vector<Runner>& runners) {
   runners.push_back({"bake", words_of(bake_rows()), bake});
   runners.push_back({"subdivide", words_of(subdivide_rows()), subdivide});
   runners.push_back({"smooth", words_of(smooth_rows()), smooth});
+  runners.push_back({"body", words_of(body_rows()), body});
 }
 
 }  // namespace furrow::python

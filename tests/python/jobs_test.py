@@ -164,6 +164,15 @@ class Others(unittest.TestCase):
         torn = furrow.Mesh(np.vstack([sheet.V, sheet.V]), np.vstack([sheet.F, sheet.F + 16]))
         self.assertFalse(furrow.doctor(torn).succeeded)
 
+    def test_a_body_gets_measurements(self):
+        mannequin = furrow.read_mesh(MESHES / "mannequin.obj")
+        anna = furrow.body(mannequin, height=1.68, waist=0.74)
+        self.assertTrue(anna.succeeded)
+        told = furrow.body(anna.mesh).report["reached"]
+        self.assertAlmostEqual(told["height"], 1.68, delta=1e-3)
+        self.assertAlmostEqual(told["waist"], 0.74, delta=1e-3)
+        self.assertFalse(furrow.body(mannequin, waist=0.92).succeeded)
+
     def test_a_worn_garment_is_measured(self):
         body = furrow.read_mesh(MESHES / "mannequin.obj")
         skirt = furrow.read_mesh(MESHES / "skirt.obj")
@@ -293,8 +302,8 @@ class Ends(unittest.TestCase):
 
 
 class Keywords(unittest.TestCase):
-    JOBS = ("wrinkle", "simulate", "drape", "keep", "chart", "fit", "transfer", "bake", "subdivide", "smooth", "doctor",
-            "quality")
+    JOBS = ("wrinkle", "simulate", "drape", "keep", "chart", "fit", "transfer", "bake", "subdivide", "smooth", "body",
+            "doctor", "quality")
 
     def test_every_flag_of_the_command_line_is_a_keyword(self):
         if not PROGRAM:

@@ -130,6 +130,7 @@ _JOBS = {
              "Bake a wrinkled mesh into textures of the mesh it was made of: OUTPUT_normal.png and others."),
     "subdivide": (("mesh",), (), "Refine a mesh along strokes or everywhere; strokes leave its shape as it is."),
     "smooth": (("mesh",), (), "Smooth a whole mesh without shrinking it (Taubin)."),
+    "body": (("mesh",), (), "Give a standing body a person's measurements, or tell those that it has."),
     "doctor": (("mesh",), (), "Say what is wrong with a mesh, where, and what mends it; with repair, mend it."),
     "quality": (("mesh",), (), "Measure how well a cloth is folded; each measure stands beside its target."),
 }
@@ -167,7 +168,7 @@ def _function(job):
 wrinkle, simulate, drape, keep = _function("wrinkle"), _function("simulate"), _function("drape"), _function("keep")
 chart, fit, transfer, bake = _function("chart"), _function("fit"), _function("transfer"), _function("bake")
 subdivide, smooth, doctor = _function("subdivide"), _function("smooth"), _function("doctor")
-quality = _function("quality")
+body, quality = _function("body"), _function("quality")
 
 
 def read_mesh(path, *, unit=None, up=None):

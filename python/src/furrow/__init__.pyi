@@ -413,6 +413,21 @@ def smooth(
     progress: Optional[Progress] = None,
     cancel: Optional[Cancel] = None,
 ) -> Result: ...
+def body(
+    mesh: Garment,
+    *,
+    output: Optional[Path] = None,
+    height: Optional[float] = None,
+    chest: Optional[float] = None,
+    waist: Optional[float] = None,
+    hip: Optional[float] = None,
+    unit: Optional[Literal["m", "cm", "mm", "inch"]] = None,
+    up: Optional[Literal["y", "z"]] = None,
+    force: Optional[bool] = None,
+    replace: Optional[bool] = None,
+    progress: Optional[Progress] = None,
+    cancel: Optional[Cancel] = None,
+) -> Result: ...
 def doctor(
     mesh: Garment,
     *,
