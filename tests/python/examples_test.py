@@ -12,7 +12,7 @@ from paths import SOURCE
 EXAMPLES = SOURCE / "examples" / "python"
 WRITTEN = {"arrays": "hung.ply", "wrinkle": "ridged.ply", "simulate": "swung.ply", "drape": "worn.ply", "keep": "kept.ply",
            "chart": "chart.csv", "fit": "coloured.ply", "transfer": "folded.obj", "bake": "sheet_normal.png",
-           "subdivide": "fine.ply", "doctor": "mended.obj", "quality": "quality.json"}
+           "subdivide": "fine.ply", "body": "anna.obj", "doctor": "mended.obj", "quality": "quality.json"}
 
 
 class Examples(unittest.TestCase):
