@@ -3,13 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
 #include "furrow/version.h"
 #include "io/base/atomic_file.h"
+#include "io/base/nearest_word.h"
 #include "io/base/run_program.h"
 #include "jobs/batch_slurm.h"
 
@@ -23,8 +26,25 @@ struct BatchArguments : CommonArguments {
   bool all = false, submit = false;
 };
 
-io::BatchPlan read_plan(const BatchArguments& a) {
+/// Throws UsageError for an option that the plan's command does not have, before any case would fail of it.
+void check_options(const io::BatchPlan& plan, const CLI::App& command, const std::string& file) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options())
+    known.insert(known.end(), option->get_lnames().begin(), option->get_lnames().end());
+  std::set<std::string> checked;
+  for (const io::BatchCase& one : plan.cases)
+    for (const std::string& word : one.arguments) {
+      if (!word.starts_with("--") || !checked.insert(word).second) continue;
+      const std::string name = word.substr(2);
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        throw UsageError(file + ": furrow " + plan.command + " has no option '" + name + "'; did you mean '" +
+                         io::nearest_word(name, known) + "'?");
+    }
+}
+
+io::BatchPlan read_plan(const BatchArguments& a, const CLI::App& app) {
   io::BatchPlan plan = io::read_batch_plan(a.plan, FURROW_VERSION);
+  check_options(plan, *app.get_subcommand(plan.command), a.plan);
   if (plan.repeated > 0)
     warn(fmt::format("{}: {} cases are the same as others, and are run once", a.plan, plan.repeated), a);
   return plan;
@@ -132,11 +152,11 @@ int prepare_slurm(const io::BatchPlan& plan, const BatchArguments& a) {
   return exit_ok;
 }
 
-int batch(const BatchArguments& a) {
+int batch(const BatchArguments& a, const CLI::App& app) {
   if (a.action == "case") return run_case_of_batch(a);
   if (!a.words.empty())
     throw UsageError("batch " + a.action + ": '" + a.words[0] + "' is one argument too many");
-  const io::BatchPlan plan = read_plan(a);
+  const io::BatchPlan plan = read_plan(a, app);
   if (a.action == "list") return list_batch(plan, a);
   if (a.action == "parallel") return run_in_parallel(plan, a);
   if (a.action == "slurm") return prepare_slurm(plan, a);
@@ -177,7 +197,7 @@ void add_batch(CLI::App& app, int& exit_code) {
   sub->add_option("--make-field", a->field,
                   "of case: the file of the body's field, made where it is not there yet");
   add_common_options(*sub, *a);
-  sub->callback([a, &exit_code] { exit_code = batch(*a); });
+  sub->callback([a, &app, &exit_code] { exit_code = batch(*a, app); });
 }
 
 }  // namespace furrow::cli

@@ -153,6 +153,11 @@ TEST_CASE("batch: what is wrong with a call is told, and nothing is written") {
   CHECK(batch.furrow("case " + (batch.folder / "r.json")).exit_code == 2);
   CHECK(batch.furrow("list " + batch.plan + " more").exit_code == 2);
   CHECK(batch.furrow("list " + (batch.folder / "none.toml")).exit_code == 3);
+  const std::string typo = batch.folder / "typo.toml";
+  write_text(typo, "[cases]\ngarment = [\"b.obj\"]\nfabrc = [\"silk\"]\n");
+  const Run mistyped = batch.furrow("list " + typo);
+  CHECK(mistyped.exit_code == 2);
+  CHECK(mistyped.err.find("furrow drape has no option 'fabrc'; did you mean 'fabric'?") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(batch.folder / "out"));
   const Run all = batch.furrow("list " + batch.plan + " --all --json");
   CHECK(json::parse(all.out)["lines"].size() == 6);
