@@ -158,10 +158,9 @@ std::string command_line(const io::BatchPlan& plan, const io::BatchCase& one,
                          const std::filesystem::path& program) {
   const CaseFiles files = case_files(plan, one);
   std::vector<std::string> words{program.string(), "batch", "case", files.record.string()};
-  const std::string body = value_behind(one.arguments, "--body");
   std::string field;
-  if (!body.empty() && value_behind(one.arguments, "--field").empty() && plan.command != "fit") {
-    std::string key = io::content_hash(std::filesystem::path(body));
+  if (!one.body_hash.empty() && value_behind(one.arguments, "--field").empty() && plan.command != "fit") {
+    std::string key = one.body_hash;
     for (const char* option : {"--unit", "--up", "--body-unit"}) {
       const std::string value = value_behind(one.arguments, option);
       if (!value.empty()) key += "-" + value;

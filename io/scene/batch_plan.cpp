@@ -178,6 +178,8 @@ BatchCase case_of(const std::string& version, const std::string& command, BatchR
   for (BatchValue& v : row)
     for (std::string& text : v.texts) text = files.resolved(v.column, text, where);
   result.name = name_of(version, command, row, files);
+  for (const BatchValue& v : row)
+    if (v.column == "body" && v.texts.size() == 1) result.body_hash = files.content(v.texts[0]).substr(5);
   result.arguments = {command};
   for (const BatchValue& v : row) {
     if (has(own_columns, v.column))

@@ -15,10 +15,10 @@ struct BatchValue {
 
 /// One call of furrow.
 struct BatchCase {
-  std::string
-      name;  ///< 16 hexadecimal digits of what the call depends on: contents of files, options, version
+  std::string name;  ///< 16 hexadecimal digits of what its files hold, its options and the version
   std::vector<BatchValue> values;      ///< of the plan's columns
   std::vector<std::string> arguments;  ///< subcommand, garments, options; files by absolute path, no outputs
+  std::string body_hash;               ///< content_hash() of its body; "": it has none
 };
 
 /// Cases to be computed on one machine or many (docs/batches.md).

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "io/base/bytes_file.h"
 #include "io/scene/csv.h"
 #include "tests/io/base/io_test_helpers.h"
 
@@ -62,6 +63,7 @@ TEST_CASE("batch_plan: a plan tries each with each, fills in braces, and names f
                                          "--fabric", "cotton"});
   CHECK(plan.columns == Words{"fabric", "size"});
   for (const io::BatchCase& one : plan.cases) CHECK(one.name.size() == 16);
+  CHECK(plan.cases[0].body_hash == io::content_hash(std::filesystem::path(folder / "anna.obj")));
 }
 
 TEST_CASE(
