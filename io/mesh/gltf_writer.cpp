@@ -6,7 +6,7 @@
 #include <map>
 #include <ostream>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "bridge/convert.h"
 #include "geometry/mesh/errors.h"
@@ -38,9 +38,10 @@ struct Skinning {
 struct GltfCorner {
   Vertex vertex;
   std::array<float, 2> texture;
-  bool operator<(const GltfCorner& other) const {
-    return std::tie(vertex, texture) < std::tie(other.vertex, other.texture);
+  auto operator<=>(const GltfCorner& other) const {
+    return std::pair(vertex.idx(), texture) <=> std::pair(other.vertex.idx(), other.texture);
   }
+  bool operator==(const GltfCorner& other) const = default;
 };
 
 /// What becomes one node's mesh.
@@ -235,19 +236,20 @@ class GltfMeshWriter {
       return GltfCorner{mesh_.target(h),
                         gltf_texture(textures ? (*textures)[h] : attribute::texture.default_value)};
     };
-    std::map<GltfCorner, std::uint32_t> numbers;
-    for (const Face f : faces)
-      for (const Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f)))
-        numbers.emplace(corner_of(h), 0);
     std::vector<GltfCorner> corners;  // in the mesh's order
-    for (auto& [corner, number] : numbers)
-      number = static_cast<std::uint32_t>(corners.size()), corners.push_back(corner);
+    for (const Face f : faces)
+      for (const Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f))) corners.push_back(corner_of(h));
+    std::ranges::sort(corners);
+    corners.erase(std::ranges::unique(corners).begin(), corners.end());
+    const auto number_of = [&](Halfedge h) {
+      return static_cast<std::uint32_t>(std::ranges::lower_bound(corners, corner_of(h)) - corners.begin());
+    };
     std::string indices;
     for (const Face f : faces) {
       std::array<std::uint32_t, 3> triangle{};
       std::size_t k = mirrored ? 3 : 0;
       for (const Halfedge h : mesh_.halfedges_around_face(mesh_.halfedge(f)))
-        triangle[mirrored ? --k : k++] = numbers.at(corner_of(h));
+        triangle[mirrored ? --k : k++] = number_of(h);
       append_all(indices, triangle);
     }
     primitive["indices"] =
