@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/bytes_file.h"
@@ -163,6 +164,9 @@ class SceneReader {
 
   GltfSource source() {
     GltfSource source = std::move(kept_->source);
+    if (!hard_points_.empty())
+      source.lost.push_back("the hard edges at " + std::to_string(hard_points_.size()) +
+                            " vertices: all normals are smooth; mark edges as sharp again");
     places_.resize(out_.group_names.size());
     source.places = std::move(places_);
     source.materials.assign(out_.material_names.size(), -1);
@@ -191,10 +195,13 @@ class SceneReader {
       if (!point) throw ContentError(bad_coordinate);
       const auto [index, is_new] = numbers.number(*point);
       points[v] = base + index;
+      const aiVector3D normal = mesh.HasNormals() ? mesh.mNormals[v] : aiVector3D();
       if (!is_new) {
         ++out_.merged_vertices;
+        note_hard_edge(points[v], normal);
         continue;
       }
+      normals_.push_back(normal);
       out_.soup.points.push_back(*point);
       out_.soup.colors.push_back(attribute::color.default_value);
       if (!mesh.HasVertexColors(0)) continue;
@@ -203,6 +210,13 @@ class SceneReader {
       has_colors_ = true;
     }
     return points;
+  }
+
+  /// Where two normals of a point that is one now are more than 8 degrees apart.
+  void note_hard_edge(std::size_t point, const aiVector3D& normal) {
+    const aiVector3D& first = normals_[point];
+    const float lengths = first.Length() * normal.Length();
+    if (lengths > 0 && first * normal < 0.99F * lengths) hard_points_.insert(point);
   }
 
   /// A skin's joints become attributes "weight_<joint>"; of points merged into one, the first with weights
@@ -256,6 +270,8 @@ class SceneReader {
   KeptGltf* kept_;
   std::size_t next_origin_ = 0;
   std::vector<GltfSource::Place> places_;
+  std::vector<aiVector3D> normals_;  // by point: of its first vertex
+  std::set<std::size_t> hard_points_;
   std::map<int, int> numbers_;  // of the file's materials, among the mesh's
   SoupFile out_;
   NameTable groups_{out_.group_names}, materials_{out_.material_names};

@@ -190,7 +190,10 @@ class GltfMeshWriter {
       const std::string attribute =
           weight_attribute(name.empty() ? "nodes[" + std::to_string(node) + "]" : name);
       auto& weights = skinning.joints.emplace_back();
-      if (taken.insert(attribute).second)
+      if (!taken.insert(attribute).second)
+        lost_.push_back("the weights of joint '" + name +
+                        "', whose name differs from another joint's in blanks alone; rename it");
+      else
         for (const VertexAttribute& a : attributes_)
           if (a.name == attribute) weights = a.values, carried_.insert(attribute);
       const std::size_t depth = depth_of(static_cast<int>(node));

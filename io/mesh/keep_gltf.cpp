@@ -224,6 +224,7 @@ class GltfKeeper {
       json& name = names.emplace_back(json::object());
       for (const char* key : {"name", "extras"})
         if (mesh.contains(key)) name[key] = mesh[key];
+      if (name.contains("extras") && name["extras"].is_object()) name["extras"].erase("targetNames");
       for (const json& primitive : list_of(mesh, "primitives"))
         tell_lost(primitive, called("mesh", from_["meshes"], names.size() - 1));
     }

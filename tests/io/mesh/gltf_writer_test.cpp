@@ -353,6 +353,27 @@ TEST_CASE("glTF out: nodes, joints and materials without names go back to their 
   CHECK(out.glb.primitive()["attributes"].contains("WEIGHTS_0"));
 }
 
+TEST_CASE("glTF out: hard edges, and joints whose weights are one attribute, are told") {
+  for (const float turned : {0.F, 1.F}) {
+    Seam seam;
+    const std::size_t at = seam.buffer.size();
+    for (int v = 0; v < 6; ++v)
+      for (const float c : {v < 3 ? 0.F : turned, 0.F, v < 3 ? 1.F : 1 - turned}) put_bytes(seam.buffer, c);
+    seam.scene["buffers"][0]["byteLength"] = seam.buffer.size();
+    seam.scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", 72}});
+    seam.scene["accessors"].push_back(
+        {{"bufferView", 3}, {"componentType", 5126}, {"count", 6}, {"type", "VEC3"}});
+    seam.scene["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 3;
+    const WrittenGlb out = glb_of(read_glb(seam.glb()));
+    CHECK(tells(out.lost, "the hard edges at 2 vertices") == (turned > 0));
+    CHECK(out.lost.size() == (turned > 0 ? 1 : 0));
+  }
+  SkinnedSeam twins;
+  twins.scene["nodes"][1]["name"] = "upper arm", twins.scene["nodes"][2]["name"] = "upper_arm";
+  const WrittenGlb out = glb_of(read_glb(twins.glb()));
+  CHECK(tells(out.lost, "the weights of joint 'upper_arm', whose name differs"));
+}
+
 TEST_CASE("glTF out: the frame that a GLB was read in is the one it is written in") {
   const io::MeshFile file = read_glb(lying_skin().glb(), {.metres_per_unit = 0.01, .up = io::Axis::z});
   const WrittenGlb out = glb_of(file, {.metres_per_unit = 0.01, .up = io::Axis::z});
