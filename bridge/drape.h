@@ -6,7 +6,6 @@
 
 #include "geometry/mesh/mesh.h"
 #include "physics/body/collider.h"
-#include "physics/linear/stiffness_work.h"
 #include "physics/pairs/untangle_contours.h"
 #include "physics/rest/settle.h"
 

@@ -109,7 +109,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
       "--repair", a->repair,
       "join vertices at the same place, drop faces that are twice there, wind neighbours alike, part "
       "what is not manifold, close holes (small ones of a garment, all of a body)");
-  sub->add_option("-o,--output", a->out, "mended mesh to write: obj, ply, off or stl; - is OBJ to stdout");
+  sub->add_option("-o,--output", a->out,
+                  "mended mesh to write: obj, ply, off, stl or glb; - is OBJ to stdout");
   sub->add_option("--picture", a->picture, "PNG to write: a red ball where something is wrong");
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);

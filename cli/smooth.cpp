@@ -37,7 +37,8 @@ void add_smooth(CLI::App& app) {
                                      "Smooth a whole mesh without shrinking it (Taubin)\n\n  furrow smooth "
                                      "scan.ply -o smooth.ply --iterations 20");
   sub->add_option("mesh", a->in, "mesh to read")->required();
-  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output")
+  sub->add_option("-o,--output", a->out,
+                  "mesh to write: obj, ply, off, stl or glb; - is OBJ to standard output")
       ->required();
   add_smoothing_options(*sub, a->smoothing);
   add_common_options(*sub, *a);

@@ -65,7 +65,8 @@ void add_subdivide(CLI::App& app) {
                          "  furrow subdivide shirt.obj --subdivide 2 -o fine.obj\n"
                          "  furrow subdivide shirt.obj --strokes lines.json -o lined.ply");
   sub->add_option("mesh", a->in, "mesh to read")->required();
-  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output")
+  sub->add_option("-o,--output", a->out,
+                  "mesh to write: obj, ply, off, stl or glb; - is OBJ to standard output")
       ->required();
   sub->add_option("--strokes", a->strokes, "insert lines: JSON, or the l elements of an OBJ file");
   sub->add_flag("--all", a->all, "insert a vertex in every face and flip every edge");

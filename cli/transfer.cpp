@@ -50,7 +50,8 @@ void add_transfer(CLI::App& app) {
   sub->add_option("original", a->original, "mesh whose vertices are to move")->required();
   sub->add_option("wrinkled", a->wrinkled, "mesh of wrinkle or simulate; PLY knows where its vertices lay")
       ->required();
-  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output")
+  sub->add_option("-o,--output", a->out,
+                  "mesh to write: obj, ply, off, stl or glb; - is OBJ to standard output")
       ->required();
   sub->add_option("--rest-shape", a->rest,
                   "the wrinkled mesh's vertices before lines and motion, if it is no PLY");

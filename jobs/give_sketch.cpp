@@ -3,8 +3,6 @@
 
 #include <stdexcept>
 
-#include "bridge/convert.h"
-#include "io/animation/animation_file.h"
 #include "jobs/bake.h"
 #include "jobs/transfer.h"
 #include "physics/base/progress.h"
@@ -13,13 +11,6 @@ namespace furrow::jobs {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// glTF holds the shape as an animation of one frame.
-void write_glb(const fs::path& path, const geometry::Mesh& mesh) {
-  io::AnimationWriter writer(path, mesh);
-  writer.add(bridge::positions_of(mesh));
-  writer.close();
-}
 
 /// What is in the folder was written by give_sketch(), which may replace it.
 class Replacing : public SilentListener {
@@ -70,12 +61,10 @@ fs::path give_sketch(const Sketch& sketch, const Json& strokes, const std::strin
   if (failed) throw std::runtime_error(folder.string() + ": cannot be made: " + failed.message());
   if (maps) return write_maps(folder, original, std::move(drawn), sketch.frame, listener);
   const std::string name = original.stem().string();
-  const fs::path path =
-      folder / (on_original ? name + "-original" + original.extension().string() : name + "." + as);
+  const std::string ending = original.extension() == ".gltf" ? ".glb" : original.extension().string();
+  const fs::path path = folder / (on_original ? name + "-original" + ending : name + "." + as);
   if (on_original)
     write_on_original(path, original, std::move(drawn), sketch.frame, listener);
-  else if (as == "glb")
-    write_glb(path, drawn.mesh);
   else
     write_sketched(sketch, drawn, path, listener);
   return path;

@@ -125,7 +125,8 @@ io::MeshFile read_garment(const MeshInput& input, const Context& context, const 
 }
 
 void warn_of_lost_attributes(const std::string& path, const io::MeshFile& file, const Context& context) {
-  if (io::mesh_format(path) == io::MeshFormat::ply) return;
+  const io::MeshFormat format = io::mesh_format(path);
+  if (format == io::MeshFormat::ply || format == io::MeshFormat::gltf) return;  // the latter tells itself
   std::string names;
   for (const geometry::VertexAttribute& attribute : geometry::vertex_attributes(file.mesh))
     names += (names.empty() ? "" : ", ") + attribute.name;
@@ -148,7 +149,9 @@ io::MeshFile with_noted_frame(io::MeshFile file, const Frame& frame) {
 void write_mesh(const std::filesystem::path& path, const io::MeshFile& file, const Context& context) {
   const io::WriteOptions options = write_options(context.frame);
   warn_of_lost_attributes(path.string(), file, context);
-  io::write_mesh(path, with_noted_frame(file, context.frame), options);
+  const auto lost = io::write_mesh(path, with_noted_frame(file, context.frame), options);
+  for (const std::string& what : lost)
+    context.warn("lost_in_glb", path.string() + ": it leaves out " + what, path.string());
 }
 
 SceneInput scene_from_file(const std::filesystem::path& toml) {

@@ -90,7 +90,8 @@ const Keywords<jobs::DoctorJob>& doctor_rows() {
       row<Job>(
           "repair", "mend what can be mended", [](auto& j) -> auto& { return j.repair; }),
       row<Job>(
-          "output", "mended mesh to write: obj, ply, off or stl", [](auto& j) -> auto& { return j.output; }),
+          "output", "mended mesh to write: obj, ply, off, stl or glb",
+          [](auto& j) -> auto& { return j.output; }),
   };
   return rows;
 }

@@ -17,7 +17,7 @@ const Keywords<jobs::TransferJob>& transfer_rows() {
   using Job = jobs::TransferJob;
   static const Keywords<Job> rows = {
       row<Job>(
-          "output", "mesh to write: obj, ply, off or stl", [](auto& j) -> auto& { return j.output; }),
+          "output", "mesh to write: obj, ply, off, stl or glb", [](auto& j) -> auto& { return j.output; }),
       row<Job>(
           "rest_shape", "the wrinkled mesh's vertices before lines and motion, if it does not know them",
           [](auto& j) -> auto& { return j.rest; }),
@@ -104,7 +104,7 @@ const Keywords<jobs::SubdivideJob>& subdivide_rows() {
   };
   static const Keywords<Job> rows = {
       row<Job>(
-          "output", "mesh to write: obj, ply, off or stl", [](auto& j) -> auto& { return j.output; }),
+          "output", "mesh to write: obj, ply, off, stl or glb", [](auto& j) -> auto& { return j.output; }),
       own<Job>("strokes", "Strokes", "insert lines; the shape stays", strokes),
       own<Job>("all", "bool", "insert a vertex in every face and flip every edge", all),
       own<Job>("subdivide", "int", "so many steps of Loop subdivision, 0 to 6", steps(Refinement::loop)),
@@ -146,7 +146,7 @@ const Keywords<jobs::SmoothJob>& smooth_rows() {
   using Job = jobs::SmoothJob;
   static const Keywords<Job> rows = [] {
     Keywords<Job> list = {row<Job>(
-        "output", "mesh to write: obj, ply, off or stl", [](auto& j) -> auto& { return j.output; })};
+        "output", "mesh to write: obj, ply, off, stl or glb", [](auto& j) -> auto& { return j.output; })};
     for (auto& r : smoothing_rows<Job>([](Job& j) -> geometry::TaubinOptions& { return j.options; }))
       list.push_back(r);
     return list;

@@ -14,7 +14,7 @@ set(rooms_geometry mesh "stroke rest" "insert refine figure" band fold quality)
 set(rooms_physics base "cloth body" "plate packed" linear "contact pairs" "motion rest")
 set(rooms_io base mesh "stroke scene" "animation picture")
 # The doors of a room that has them: the only headers of it that other rooms and layers include.
-set(doors_physics_linear block_cholesky free_stiffness lanczos stable_step stiffness_work)
+set(doors_physics_linear block_cholesky free_stiffness lanczos stable_step)
 # furrow_floor(LAYER ROOM OUT): the line of a room; -1: the layer has no such room.
 function(furrow_floor layer room out)
   set(floor 0)

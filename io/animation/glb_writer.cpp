@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -13,6 +11,7 @@
 #include "geometry/mesh/property_names.h"
 #include "io/animation/animation_encoder.h"
 #include "io/base/byte_order.h"
+#include "io/mesh/glb_container.h"
 
 namespace furrow::io {
 namespace {
@@ -22,12 +21,6 @@ using geometry::Halfedge;
 using geometry::Mesh;
 using nlohmann::json;
 using physics::Vec3;
-using Float3 = std::array<float, 3>;
-
-// Codes of the glTF 2.0 specification, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
-constexpr int float_type = 5126, unsigned_int = 5125;
-constexpr int vertex_data = 34962, indices = 34963;
-constexpr std::uint32_t magic = 0x46546C67, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
 template <class T>
 void put(std::string& bytes, T value) {
@@ -36,27 +29,6 @@ void put(std::string& bytes, T value) {
 
 struct Bounds {
   Float3 low, high;
-};
-
-/// Accessors in the order of the binary chunk, a view each.
-class Accessors {
- public:
-  json accessors = json::array(), views = json::array();
-
-  int add(std::size_t count, int component, const char* type, std::size_t bytes, int target) {
-    views.push_back({{"buffer", 0}, {"byteOffset", offset_}, {"byteLength", bytes}});
-    if (target) views.back()["target"] = target;
-    accessors.push_back(
-        {{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
-    offset_ += bytes;
-    return static_cast<int>(accessors.size()) - 1;
-  }
-  void bound(const json& low, const json& high) {
-    accessors.back()["min"] = low, accessors.back()["max"] = high;
-  }
-
- private:
-  std::size_t offset_ = 0;
 };
 
 /// The binary chunk: indices, texture coordinates | frame 0: positions, normals | frame i > 0: what is added
@@ -75,7 +47,7 @@ class GlbEncoder : public AnimationEncoder {
   }
 
   std::string frame(std::size_t index, std::span<const Vec3> positions) override {
-    std::vector<Float3> x(positions.size()), n = normals(positions);
+    std::vector<Float3> x(positions.size()), n = smooth_normals(triangles_, positions);
     const bool first = index == 0;
     if (first) first_positions_.resize(x.size()), first_normals_ = n;
     bounds_.resize(index);
@@ -99,18 +71,7 @@ class GlbEncoder : public AnimationEncoder {
 
   std::string head(std::size_t frames) const override {
     const std::size_t binary = binary_size(frames);
-    std::string text = document(frames, binary).dump();
-    text.append((4 - text.size() % 4) % 4, ' ');
-    std::string bytes;
-    put(bytes, magic);
-    put(bytes, std::uint32_t{2});
-    put(bytes, static_cast<std::uint32_t>(28 + text.size() + binary));
-    put(bytes, static_cast<std::uint32_t>(text.size()));
-    put(bytes, json_chunk);
-    bytes += text;
-    put(bytes, static_cast<std::uint32_t>(binary));
-    put(bytes, binary_chunk);
-    return bytes + static_data_;
+    return glb_head(document(frames, binary), binary) + static_data_;
   }
 
   /// Times, and a row of weights for each: all 0 for the first frame, then one 1.
@@ -134,7 +95,7 @@ class GlbEncoder : public AnimationEncoder {
  private:
   static constexpr float huge = std::numeric_limits<float>::max();
 
-  /// glTF has one texture coordinate a vertex, with v downwards; a corner without one gets (0, 1).
+  /// glTF has one texture coordinate a vertex.
   void split_by_texture(const Mesh& mesh) {
     const auto textures = geometry::find_map(mesh, geometry::attribute::texture);
     if (textures) textures_.assign(source_.size(), {0, 1});
@@ -149,9 +110,7 @@ class GlbEncoder : public AnimationEncoder {
           indices_.push_back(v);
           continue;
         }
-        std::array<float, 2> t{static_cast<float>((*textures)[h][0]),
-                               static_cast<float>(1 - (*textures)[h][1])};
-        if (!std::isfinite(t[0]) || !std::isfinite(t[1])) t = {0, 1};
+        const std::array<float, 2> t = gltf_texture((*textures)[h]);
         const auto next = taken[v] ? static_cast<std::uint32_t>(source_.size()) : v;
         const auto [place, is_new] = known.emplace(std::tuple(v, t[0], t[1]), next);
         if (is_new && next != v) source_.push_back(v), textures_.push_back(t);
@@ -161,28 +120,12 @@ class GlbEncoder : public AnimationEncoder {
     }
   }
 
-  /// Unit normals at the mesh's vertices, weighted by area; upwards where there is none.
-  std::vector<Float3> normals(std::span<const Vec3> x) const {
-    std::vector<Vec3> sum(x.size(), Vec3::Zero());
-    for (const auto& [a, b, c] : triangles_) {
-      const Vec3 normal = (x[b] - x[a]).cross(x[c] - x[a]);
-      for (const int v : {a, b, c}) sum[v] += normal;
-    }
-    std::vector<Float3> result(x.size(), Float3{0, 1, 0});
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const double length = sum[i].norm();
-      if (length > 0 && std::isfinite(length))
-        for (int k = 0; k < 3; ++k) result[i][k] = static_cast<float>(sum[i][k] / length);
-    }
-    return result;
-  }
-
   std::size_t binary_size(std::size_t frames) const {
     const std::size_t animation = frames < 2 ? 0 : 4 * frames + 4 * frames * (frames - 1);
     return static_data_.size() + 24 * source_.size() * frames + animation;
   }
 
-  json weights_over_time(std::size_t frames, Accessors& a) const;
+  json weights_over_time(std::size_t frames, GltfAccessors& a) const;
   json document(std::size_t frames, std::size_t binary) const;
 
   AnimationOptions options_;
@@ -194,34 +137,35 @@ class GlbEncoder : public AnimationEncoder {
   std::vector<Bounds> bounds_;  ///< of the positions (or what is added to them) of each frame
 };
 
-json GlbEncoder::weights_over_time(std::size_t frames, Accessors& a) const {
+json GlbEncoder::weights_over_time(std::size_t frames, GltfAccessors& a) const {
   const std::size_t weights = frames * (frames - 1);
-  const int input = a.add(frames, float_type, "SCALAR", 4 * frames, 0);
+  const int input = a.add(frames, gltf_float, "SCALAR", 4 * frames, 0);
   a.bound(json::array({static_cast<float>(frame_time(options_, 0))}),
           json::array({static_cast<float>(frame_time(options_, frames - 1))}));
-  json sampler = {{"input", input}, {"output", a.add(weights, float_type, "SCALAR", 4 * weights, 0)}};
+  json sampler = {{"input", input}, {"output", a.add(weights, gltf_float, "SCALAR", 4 * weights, 0)}};
   sampler["interpolation"] = options_.interpolation == Interpolation::step ? "STEP" : "LINEAR";
   const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}};
   return {{"samplers", json::array({sampler})}, {"channels", json::array({channel})}};
 }
 
 json GlbEncoder::document(std::size_t frames, std::size_t binary) const {
-  Accessors a;
+  GltfAccessors a;
   const std::size_t n = source_.size();
   json primitive = {{"material", 0}};
-  primitive["indices"] = a.add(indices_.size(), unsigned_int, "SCALAR", 4 * indices_.size(), indices);
+  primitive["indices"] =
+      a.add(indices_.size(), gltf_unsigned_int, "SCALAR", 4 * indices_.size(), gltf_indices);
   json attributes;
-  if (!textures_.empty()) attributes["TEXCOORD_0"] = a.add(n, float_type, "VEC2", 8 * n, vertex_data);
+  if (!textures_.empty()) attributes["TEXCOORD_0"] = a.add(n, gltf_float, "VEC2", 8 * n, gltf_vertex_data);
   json targets = json::array();
   for (std::size_t i = 0; i < frames; ++i) {
     json& to = i == 0 ? attributes : targets.emplace_back();
-    to["POSITION"] = a.add(n, float_type, "VEC3", 12 * n, vertex_data);
+    to["POSITION"] = a.add(n, gltf_float, "VEC3", 12 * n, gltf_vertex_data);
     a.bound(bounds_[i].low, bounds_[i].high);
-    to["NORMAL"] = a.add(n, float_type, "VEC3", 12 * n, vertex_data);
+    to["NORMAL"] = a.add(n, gltf_float, "VEC3", 12 * n, gltf_vertex_data);
   }
   primitive["attributes"] = attributes;
   json mesh = {{"name", "cloth"}};
-  json root = {{"asset", {{"version", "2.0"}, {"generator", "Furrow"}}}, {"scene", 0}};
+  json root = {{"asset", {{"version", "2.0"}, {"generator", gltf_generator}}}, {"scene", 0}};
   root["scenes"] = json::array({{{"nodes", json::array({0})}}});
   root["nodes"] = json::array({{{"mesh", 0}, {"name", "cloth"}}});
   root["materials"] = json::array({{{"name", "cloth"}, {"doubleSided", true}}});

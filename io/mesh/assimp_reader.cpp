@@ -11,12 +11,14 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/bytes_file.h"
 #include "io/base/child_process.h"
 #include "io/base/name_table.h"
 #include "io/mesh/file_frame.h"
+#include "io/mesh/gltf_source.h"
 #include "io/mesh/merge_points.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/soup_bytes.h"
@@ -27,6 +29,7 @@ namespace {
 using namespace geometry;
 using Transform = aiMatrix4x4t<double>;
 
+constexpr std::size_t most_kept = std::size_t{256} << 20;  // of a file beside its geometry [bytes]
 constexpr double same_place = 1e-5;  // of entries of transforms: inverse bind matrices are single precision
 
 bool agree(const Transform& a, const Transform& b) {
@@ -78,7 +81,9 @@ std::optional<BindPose> bind_pose(const aiScene& scene, const aiMesh& mesh) {
 
 class SceneReader {
  public:
-  SceneReader(const aiScene& scene, const ReadOptions& options) : scene_(scene), options_(options) {}
+  /// `kept`: the same file's content beside its geometry; null: none.
+  SceneReader(const aiScene& scene, const ReadOptions& options, KeptGltf* kept)
+      : scene_(scene), options_(options), kept_(kept) {}
 
   SoupFile read() {
     std::vector<std::pair<const aiNode*, Transform>> open = {{scene_.mRootNode, Transform()}};
@@ -94,6 +99,7 @@ class SceneReader {
     if (std::ranges::all_of(out_.soup.textures, is_none)) out_.soup.textures.clear();
     if (!has_colors_) out_.soup.colors.clear();
     for (SoupAttribute& weights : out_.soup.attributes) weights.values.resize(out_.soup.points.size(), 0);
+    if (kept_) out_.gltf = source();
     return std::move(out_);
   }
 
@@ -103,14 +109,69 @@ class SceneReader {
     PointNumbers numbers;
     const std::size_t base = out_.soup.points.size();
     const int group = groups_.index(node.mName.length ? node.mName.C_Str() : "mesh");
+    const GltfMeshNode* origin = origin_of(node);
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       if (node.mMeshes[i] >= scene_.mNumMeshes) throw ContentError("a node names a mesh that is not there");
       const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
       const Transform place = place_of_mesh(mesh, node, transform);
       const std::vector<std::size_t> points = read_points(mesh, place, numbers, base);
       read_weights(mesh, points);
-      read_faces(mesh, points, group, place.Determinant() < 0);
+      read_faces(mesh, points, group, material_of(mesh, origin, i), place.Determinant() < 0);
+      if (i == 0) note_place(group, origin, place);
     }
+  }
+
+  /// assimp walks the tree in the file's order: the next node with a mesh and that name.
+  const GltfMeshNode* origin_of(const aiNode& node) {
+    if (!kept_) return nullptr;
+    const auto& all = kept_->mesh_nodes;
+    for (std::size_t n = next_origin_; n < all.size(); ++n)
+      if (all[n].name.empty() || all[n].name == node.mName.C_Str()) {
+        next_origin_ = n + 1;
+        return &all[n];
+      }
+    return nullptr;
+  }
+
+  void note_place(int group, const GltfMeshNode* origin, const Transform& place) {
+    places_.resize(out_.group_names.size());
+    GltfSource::Place& noted = places_[group];
+    if (noted.node >= 0 && origin)
+      kept_->source.lost.push_back(
+          "of nodes of the same name, '" + out_.group_names[group] +
+          "', the others: all their faces are written to the first; give them names");
+    if (noted.node >= 0 || !origin) return;
+    noted.node = origin->node;
+    for (unsigned i = 0; i < 16; ++i) noted.to_scene[i] = place[i / 4][i % 4];
+  }
+
+  /// A name for each material of the file, also where two have the same.
+  int material_of(const aiMesh& mesh, const GltfMeshNode* origin, unsigned primitive) {
+    const std::string name = mesh.mMaterialIndex < scene_.mNumMaterials
+                                 ? scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()
+                                 : "";
+    const bool known = origin && primitive < origin->materials.size() && origin->materials[primitive] >= 0;
+    if (!known) return materials_.index(name);
+    const int source = origin->materials[primitive];
+    if (const auto found = numbers_.find(source); found != numbers_.end()) return found->second;
+    std::string own = kept_->material_names.at(source);
+    if (own.empty()) own = "material";
+    std::string unique = own;
+    for (int copy = 2; std::ranges::find(out_.material_names, unique) != out_.material_names.end(); ++copy)
+      unique = own + " (" + std::to_string(copy) + ")";
+    return numbers_[source] = materials_.index(unique);
+  }
+
+  GltfSource source() {
+    GltfSource source = std::move(kept_->source);
+    if (!hard_points_.empty())
+      source.lost.push_back("the hard edges at " + std::to_string(hard_points_.size()) +
+                            " vertices: all normals are smooth; mark edges as sharp again");
+    places_.resize(out_.group_names.size());
+    source.places = std::move(places_);
+    source.materials.assign(out_.material_names.size(), -1);
+    for (const auto& [from, to] : numbers_) source.materials[to] = from;
+    return source;
   }
 
   /// Its node's transform, or, of a skinned mesh, that of its bind pose.
@@ -118,8 +179,9 @@ class SceneReader {
     const std::optional<BindPose> pose = bind_pose(scene_, mesh);
     if (!pose) return transform;
     if (pose->moved)
-      out_.warnings.push_back(std::string(node.mName.C_Str()) +
-                              ": its skeleton stands in another pose than it was bound in; read as it was bound");
+      out_.warnings.push_back(
+          std::string(node.mName.C_Str()) +
+          ": its skeleton stands in another pose than it was bound in; read as it was bound");
     return agree(pose->place, transform) ? transform : pose->place;
   }
 
@@ -133,10 +195,13 @@ class SceneReader {
       if (!point) throw ContentError(bad_coordinate);
       const auto [index, is_new] = numbers.number(*point);
       points[v] = base + index;
+      const aiVector3D normal = mesh.HasNormals() ? mesh.mNormals[v] : aiVector3D();
       if (!is_new) {
         ++out_.merged_vertices;
+        note_hard_edge(points[v], normal);
         continue;
       }
+      normals_.push_back(normal);
       out_.soup.points.push_back(*point);
       out_.soup.colors.push_back(attribute::color.default_value);
       if (!mesh.HasVertexColors(0)) continue;
@@ -147,14 +212,19 @@ class SceneReader {
     return points;
   }
 
+  /// Where two normals of a point that is one now are more than 8 degrees apart.
+  void note_hard_edge(std::size_t point, const aiVector3D& normal) {
+    const aiVector3D& first = normals_[point];
+    const float lengths = first.Length() * normal.Length();
+    if (lengths > 0 && first * normal < 0.99F * lengths) hard_points_.insert(point);
+  }
+
   /// A skin's joints become attributes "weight_<joint>"; of points merged into one, the first with weights
   /// counts. (The positions are those of the bind pose.)
   void read_weights(const aiMesh& mesh, const std::vector<std::size_t>& points) {
     for (unsigned b = 0; b < mesh.mNumBones; ++b) {
       const aiBone& bone = *mesh.mBones[b];
-      std::string name = std::string("weight_") + bone.mName.C_Str();
-      for (char& c : name)
-        if (static_cast<unsigned char>(c) <= ' ') c = '_';
+      const std::string name = weight_attribute(bone.mName.C_Str());
       std::vector<double>& values = weights_of(name);
       for (unsigned i = 0; i < bone.mNumWeights; ++i) {
         const aiVertexWeight& weight = bone.mWeights[i];
@@ -175,10 +245,8 @@ class SceneReader {
     return out_.soup.attributes.emplace_back(SoupAttribute{name, {}}).values;
   }
 
-  void read_faces(const aiMesh& mesh, const std::vector<std::size_t>& points, int group, bool mirrored) {
-    int material = -1;
-    if (mesh.mMaterialIndex < scene_.mNumMaterials)
-      material = materials_.index(scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str());
+  void read_faces(const aiMesh& mesh, const std::vector<std::size_t>& points, int group, int material,
+                  bool mirrored) {
     PolygonSoup& soup = out_.soup;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
@@ -199,6 +267,12 @@ class SceneReader {
 
   const aiScene& scene_;
   ReadOptions options_;
+  KeptGltf* kept_;
+  std::size_t next_origin_ = 0;
+  std::vector<GltfSource::Place> places_;
+  std::vector<aiVector3D> normals_;  // by point: of its first vertex
+  std::set<std::size_t> hard_points_;
+  std::map<int, int> numbers_;  // of the file's materials, among the mesh's
   SoupFile out_;
   NameTable groups_{out_.group_names}, materials_{out_.material_names};
   std::map<std::size_t, std::pair<const aiMesh*, unsigned>> taken_from_;  // whose weights a point has
@@ -237,6 +311,12 @@ class OwnFolder : public Assimp::DefaultIOSystem {
     return nullptr;
   }
   const std::string& refused() const { return refused_; }  ///< the last one; empty: none
+  /// The content of a file that is named from there.
+  std::optional<std::string> content(const std::string& name) const {
+    const std::string path = (folder_ / name).string();
+    if (!is_own(path.c_str())) return std::nullopt;
+    return read_text(path);
+  }
 
  private:
   static std::filesystem::path folder_of(const std::filesystem::path& file) {
@@ -261,8 +341,26 @@ ChildLimits limits_for(std::size_t file_size) {
   return limits;
 }
 
+/// What a writer of GLB needs of the file. A file that assimp reads and we do not is one that keeps nothing.
+std::optional<KeptGltf> keep_beside(const std::string& bytes, const OwnFolder& folder,
+                                    std::vector<std::string>& lost) {
+  std::string reason;
+  try {
+    KeptGltf kept = keep_gltf(bytes, [&](const std::string& name) { return folder.content(name); });
+    if (kept.source.document.size() <= most_kept && kept.source.binary.size() <= most_kept) return kept;
+    reason = "more than 256 MiB of pictures and motion";
+  } catch (const ContentError& error) {
+    reason = error.what();
+  } catch (const std::bad_alloc&) {
+    reason = "too large to be kept";
+  }
+  lost = {"materials, pictures, skeleton and motion of the file that was read (" + reason +
+          "); export it again, smaller or repaired"};
+  return std::nullopt;
+}
+
 /// Runs in the child: the logger is the child's own.
-std::string import(const std::filesystem::path& path, const ReadOptions& options) {
+std::string import(const std::filesystem::path& path, const std::string& bytes, const ReadOptions& options) {
   std::vector<std::string> messages;
   auto* warnings = new Warnings(messages);  // the logger's from here
   Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0)
@@ -279,7 +377,10 @@ std::string import(const std::filesystem::path& path, const ReadOptions& options
     throw ContentError("it is no glTF of version 2, or is damaged where it begins; export it again");
   if (!scene) throw ContentError(importer.GetErrorString());
   if (warnings->damage()) throw ContentError("a face names a vertex that is not there; repair the file");
-  SoupFile file = SceneReader(*scene, options).read();
+  std::vector<std::string> lost;
+  std::optional<KeptGltf> kept = keep_beside(bytes, *folder, lost);
+  SoupFile file = SceneReader(*scene, options, kept ? &*kept : nullptr).read();
+  if (!kept) file.gltf.lost = lost;
   for (std::string& message : messages) file.warnings.push_back("assimp: " + std::move(message));
   return to_bytes(file);
 }
@@ -288,18 +389,20 @@ std::string import(const std::filesystem::path& path, const ReadOptions& options
 
 MeshFile read_gltf(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string name = path.string();
-  const std::size_t size = read_text(path).size();
-  if (size == 0) throw ContentError(name + ": the file is empty");
+  const std::string bytes = read_text(path);
+  if (bytes.empty()) throw ContentError(name + ": the file is empty");
   MeshFile file;
   SoupFile content;
   try {
-    content = soup_from_bytes(run_in_child([&] { return import(path, options); }, limits_for(size)));
+    content =
+        soup_from_bytes(run_in_child([&] { return import(path, bytes, options); }, limits_for(bytes.size())));
   } catch (const ContentError& error) {
     throw ContentError(name + ": " + error.what());
   }
   file.group_names = std::move(content.group_names);
   file.material_names = std::move(content.material_names);
   file.repairs.merged_vertices = content.merged_vertices;
+  file.gltf = std::make_shared<const GltfSource>(std::move(content.gltf));
   file.warnings.push_back(name + ": single precision, vertex order not kept");
   for (const std::string& warning : content.warnings) file.warnings.push_back(name + ": " + warning);
   set_mesh(file, content.soup, name);

@@ -49,8 +49,9 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
   const std::string ending = lower_case(path.extension().string());
   for (const auto& [known, format] : endings)
     if (ending == known) return format;
-  throw geometry::ContentError(path.string() + ": unknown format '" + ending +
-                               "'; obj, ply, off, stl, gltf and glb are read, obj, ply, off and stl written");
+  throw geometry::ContentError(
+      path.string() + ": unknown format '" + ending +
+      "'; obj, ply, off, stl, gltf and glb are read, obj, ply, off, stl and glb written");
 }
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
@@ -70,7 +71,8 @@ MeshFile read_mesh(std::istream& in, MeshFormat format, const std::string& name,
   return parse(read_text(in, name), format, name, options);
 }
 
-void write_mesh(const std::filesystem::path& path, const MeshFile& file, const WriteOptions& options) {
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const MeshFile& file,
+                                    const WriteOptions& options) {
   check_unit(options.metres_per_unit);
   if (path == "-") throw std::invalid_argument("path: '-' is standard output; write to a stream");
   MeshFormat format{};
@@ -79,30 +81,33 @@ void write_mesh(const std::filesystem::path& path, const MeshFile& file, const W
   } catch (const geometry::ContentError& error) {
     throw std::invalid_argument(error.what());
   }
-  if (format == MeshFormat::gltf)
-    throw std::invalid_argument(path.string() + ": glTF is not written; choose obj, ply, off or stl");
+  if (lower_case(path.extension().string()) == ".gltf")
+    throw std::invalid_argument(path.string() + ": a glTF is written as one file; let its name end in .glb");
   check_positions(file.mesh, options);
+  std::vector<std::string> lost;
   write_atomically(path, [&](std::ostream& out) {
     if (format == MeshFormat::obj)
       write_obj(out, file, options, folder_of(path));
     else
-      write_mesh(out, format, file, options);
+      lost = write_mesh(out, format, file, options);
   });
+  return lost;
 }
 
-void write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file, const WriteOptions& options) {
+std::vector<std::string> write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file,
+                                    const WriteOptions& options) {
   check_unit(options.metres_per_unit);
   switch (format) {
     case MeshFormat::obj:
-      return write_obj(out, file, options);
+      return write_obj(out, file, options), std::vector<std::string>{};
     case MeshFormat::ply:
-      return write_ply(out, file, options);
+      return write_ply(out, file, options), std::vector<std::string>{};
     case MeshFormat::off:
-      return write_off(out, file, options);
+      return write_off(out, file, options), std::vector<std::string>{};
     case MeshFormat::stl:
-      return write_stl(out, file, options);
+      return write_stl(out, file, options), std::vector<std::string>{};
     default:
-      throw std::invalid_argument("format: glTF is not written; choose obj, ply, off or stl");
+      return write_glb(out, file, options);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct Polyline {
   bool closed = false;
 };
 
+struct GltfSource;
+
 /// A mesh and what its file says beside it. Vertices are in the file's order; positions in metres, y up.
 struct MeshFile {
   geometry::Mesh mesh;                          ///< maps as in geometry/mesh/property_names.h
@@ -42,6 +45,8 @@ struct MeshFile {
   std::vector<std::string> warnings;            ///< e.g. "single precision, vertex order not kept"
   RepairReport repairs;
   std::filesystem::path folder;  ///< that material_libraries are relative to; empty: not known
+  /// Materials, textures, skeleton and motion of a glTF or GLB, which a GLB gets again; null: it was none.
+  std::shared_ptr<const GltfSource> gltf = {};
 };
 
 /// The axis of a file that points up; we work with y up.
@@ -74,14 +79,17 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options
 MeshFile read_mesh(std::istream& in, MeshFormat format, const std::string& name,
                    const ReadOptions& options = {});
 
-/// Writes by the file name's ending: obj, ply, off, stl; to a temporary beside it, then renames. An OBJ in
-/// another folder than the mesh was read from names the material libraries there from here.
-/// Throws std::invalid_argument for "-" and for an ending that we do not write, nothing written;
-/// std::runtime_error if the file cannot be written, the old one left as it was.
-void write_mesh(const std::filesystem::path& path, const MeshFile& file, const WriteOptions& options = {});
+/// Writes by the file name's ending: obj, ply, off, stl, glb; to a temporary beside it, then renames. An OBJ
+/// in another folder than the mesh was read from names the material libraries there from here.
+/// Returns what a GLB has no place for, a sentence each. Throws std::invalid_argument for "-" and for what we
+/// do not write, nothing written; std::runtime_error if the file cannot be written, the old one left as it
+/// was.
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const MeshFile& file,
+                                    const WriteOptions& options = {});
 
-/// Writes a format to a stream (standard output is the program's, not the library's). Not glTF.
-void write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file, const WriteOptions& options = {});
+/// Writes a format, of glTF a GLB, to a stream (standard output is the program's, not the library's).
+std::vector<std::string> write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file,
+                                    const WriteOptions& options = {});
 
 /// What a wrinkled mesh carries beside its maps, so that a simulation needs nothing else. Kept as comments
 /// `furrow wrinkle {…}` (JSON in one line).

@@ -28,6 +28,14 @@ void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& opti
 /// Binary STL: single precision, no vertex is shared. Everything but the triangles is left out.
 void write_stl(std::ostream& out, const MeshFile& file, const WriteOptions& options);
 
+/// GLB, glTF 2.0, in single precision: positions, normals, texture coordinates, colours, a primitive a
+/// material. A mesh that was read from a glTF goes back into the nodes that it came from, in the frame of
+/// `options`, with the four largest of each vertex's skin weights, the skeleton where it stood, and all else
+/// of that file but its geometry. Any other is one node, in metres, y up, with plain materials. Returns what
+/// is left out, a sentence each. Throws std::invalid_argument for a mesh without faces and for a weight that
+/// is negative or not finite.
+std::vector<std::string> write_glb(std::ostream& out, const MeshFile& file, const WriteOptions& options);
+
 /// The number that each vertex gets in a file (by vertex index; removed ones have none of meaning).
 std::vector<std::size_t> vertex_numbers(const geometry::Mesh& mesh);
 /// Throws std::invalid_argument naming the first vertex whose position is not finite in the file's unit.

@@ -25,6 +25,13 @@ void put(std::string& bytes, const std::vector<std::string>& names) {
   for (const std::string& name : names) put(bytes, std::vector<char>(name.begin(), name.end()));
 }
 
+void put(std::string& bytes, const GltfSource& gltf) {
+  put(bytes, std::vector<std::string>{gltf.document, gltf.binary});
+  put(bytes, gltf.places);
+  put(bytes, gltf.materials);
+  put(bytes, gltf.lost);
+}
+
 [[noreturn]] void fail() { throw geometry::ContentError("the reader sent nonsense: the file is damaged"); }
 
 class Reader {
@@ -51,6 +58,17 @@ class Reader {
     }
   }
 
+  void get(GltfSource& gltf) {
+    std::vector<std::string> texts;
+    get(texts);
+    if (texts.size() != 2) fail();
+    gltf.document = std::move(texts[0]);
+    gltf.binary = std::move(texts[1]);
+    get(gltf.places);
+    get(gltf.materials);
+    get(gltf.lost);
+  }
+
   bool at_end() const { return bytes_.empty(); }
 
  private:
@@ -75,6 +93,9 @@ void check(const SoupFile& file) {
   if (std::ranges::any_of(s.attributes, [&](const auto& a) { return a.values.size() != s.points.size(); }))
     fail();
   if (std::ranges::any_of(s.corners, [&](std::size_t c) { return c >= s.points.size(); })) fail();
+  if (!fits(file.gltf.places.size(), file.group_names.size()) ||
+      !fits(file.gltf.materials.size(), file.material_names.size()))
+    fail();
   for (const Point& p : s.points)
     if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) fail();
 }
@@ -99,6 +120,7 @@ std::string to_bytes(const SoupFile& file) {
   put(bytes, file.group_names);
   put(bytes, file.material_names);
   put(bytes, file.warnings);
+  put(bytes, file.gltf);
   put(bytes, std::vector<std::size_t>{file.merged_vertices});
   return bytes;
 }
@@ -122,6 +144,7 @@ SoupFile soup_from_bytes(std::string_view bytes) {
   in.get(file.group_names);
   in.get(file.material_names);
   in.get(file.warnings);
+  in.get(file.gltf);
   in.get(merged);
   if (!in.at_end() || merged.size() != 1 || coordinates.size() % 3 != 0) fail();
   for (std::size_t i = 0; i < coordinates.size(); i += 3)

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/mesh/gltf_source.h"
 #include "io/mesh/polygon_soup.h"
 
 namespace furrow::io {
@@ -13,6 +14,7 @@ struct SoupFile {
   PolygonSoup soup;
   std::vector<std::string> group_names, material_names, warnings;
   std::size_t merged_vertices = 0;
+  GltfSource gltf;  ///< of as many places as groups, and materials as names
 };
 
 /// As bytes for the same machine (not for files), and back.

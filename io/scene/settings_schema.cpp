@@ -76,7 +76,7 @@ const Row<Scene> rows[] = {
     // [output]
     {{.path = "output.mesh",
       .flag = "-o,--output",
-      .help = "mesh to write: obj, ply, off or stl; - is OBJ to standard output",
+      .help = "mesh to write: obj, ply, off, stl or glb; - is OBJ to standard output",
       .what = "the garment at the end",
       .used = used_by::moving},
      path([](auto& s) -> auto& { return s.output.mesh; })},

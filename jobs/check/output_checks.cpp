@@ -28,11 +28,12 @@ void check_folder(const std::string& path) {
 void check_output(const std::string& path) {
   if (path == "-") return;
   try {
-    if (io::mesh_format(path) == io::MeshFormat::gltf)
-      throw std::invalid_argument(path + ": glTF is read, not written; choose obj, ply, off or stl");
+    if (io::mesh_format(path) == io::MeshFormat::gltf &&
+        io::lower_case(fs::path(path).extension().string()) == ".gltf")
+      throw std::invalid_argument(path + ": a glTF is written as one file; let its name end in .glb");
   } catch (const geometry::ContentError&) {
     throw std::invalid_argument(
-        path + ": the ending names no format that can be written; choose obj, ply, off or stl");
+        path + ": the ending names no format that can be written; choose obj, ply, off, stl or glb");
   }
   check_folder(path);
 }

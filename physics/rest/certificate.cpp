@@ -13,8 +13,9 @@
 #include "physics/base/require.h"
 #include "physics/cloth/elements.h"
 #include "physics/contact/residual_force.h"
+#include "physics/linear/free_stiffness.h"
 #include "physics/linear/lanczos.h"
-#include "physics/linear/stiffness_work.h"
+#include "physics/rest/stiffness_work.h"
 
 namespace furrow::physics {
 namespace {

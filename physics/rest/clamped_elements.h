@@ -5,8 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "physics/linear/stiffness_work.h"
+#include "physics/linear/free_stiffness.h"
 #include "physics/plate/plate_bending.h"
+#include "physics/rest/stiffness_work.h"
 
 namespace furrow::physics {
 

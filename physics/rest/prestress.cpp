@@ -13,12 +13,12 @@
 #include "physics/cloth/hinge_forces.h"
 #include "physics/cloth/kinds.h"
 #include "physics/contact/residual_force.h"
-#include "physics/linear/stiffness_work.h"
 #include "physics/plate/plate_bending.h"
 #include "physics/plate/recouple.h"
 #include "physics/rest/balance_forces.h"
 #include "physics/rest/invert_elements.h"
 #include "physics/rest/rigid_imbalance.h"
+#include "physics/rest/stiffness_work.h"
 
 namespace furrow::physics {
 namespace {

@@ -15,9 +15,10 @@
 #include "physics/contact/anchored_contact.h"
 #include "physics/contact/face_contact.h"
 #include "physics/contact/residual_force.h"
-#include "physics/linear/stiffness_work.h"
+#include "physics/linear/free_stiffness.h"
 #include "physics/pairs/cloth_contact.h"
 #include "physics/rest/limited_memory.h"
+#include "physics/rest/stiffness_work.h"
 
 namespace furrow::physics {
 namespace {

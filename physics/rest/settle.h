@@ -35,7 +35,13 @@ struct SelfContact {
   std::span<const Vec3> drawn = {};  ///< positions in which nothing is to be pushed; empty: none
 };
 
-struct StiffnessWork;
+class FreeStiffness;
+
+/// What one solve may leave to the next on a cloth with the same elements and held particles: where blocks of
+/// the matrix lie and the order of elimination. It changes no bit. For one solve at a time.
+struct StiffnessWork {
+  std::shared_ptr<FreeStiffness> stiffness;  ///< filled by the first; anew where it does not fit
+};
 
 struct SettleOptions {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]; finite

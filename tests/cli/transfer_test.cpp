@@ -75,7 +75,7 @@ TEST_CASE(
   CHECK(without.err.find("--rest-shape") != std::string::npos);
   CHECK(run_furrow(call + " --rest-shape " + skirt.mesh).exit_code == 3);  // other vertices
   CHECK(succeed(call + " --rest-shape " + at("w.obj"))["unchanged"].get<int>() > 0);
-  CHECK(run_furrow("transfer " + skirt.mesh + " " + skirt.wrinkled + " -o " + at("c.glb")).exit_code == 2);
+  CHECK(run_furrow("transfer " + skirt.mesh + " " + skirt.wrinkled + " -o " + at("c.gltf")).exit_code == 2);
 }
 
 TEST_CASE("transfer: skin weights and other columns of a PLY survive wrinkle, --max-weights limits them") {

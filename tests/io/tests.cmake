@@ -11,6 +11,7 @@ furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   mesh/assimp_reader_test.cpp
   mesh/chain_segments_test.cpp
   mesh/damaged_files_test.cpp
+  mesh/gltf_writer_test.cpp
   mesh/hostile_files_test.cpp
   mesh/mutated_files_test.cpp
   mesh/obj_test.cpp

@@ -5,7 +5,11 @@
 #include <fstream>
 
 #include "geometry/mesh/sheet.h"
+#include "geometry/mesh/vertex_attributes.h"
+#include "jobs/check/own_output.h"
 #include "physics/base/progress.h"
+#include "tests/io/mesh/glb_parts.h"
+#include "tests/io/mesh/seam.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 
@@ -76,7 +80,39 @@ TEST_CASE("subdivide: a job that is cancelled, or cannot be, leaves nothing") {
   job.refinement = jobs::Refinement::loop;
   job.steps = 7;
   CHECK_THROWS_AS(jobs::subdivide(job, recorder), std::invalid_argument);
-  job.output = folder / "lined.glb";
+  job.output = folder / "lined.gltf";
   CHECK_THROWS_AS(jobs::subdivide(job, recorder), std::invalid_argument);
   CHECK(tests::names_in(folder).empty());
+}
+
+TEST_CASE("subdivide: a rigged GLB comes out as a GLB with its rig, and what it cannot hold is told") {
+  const fs::path folder = tests::empty_folder("subdivide_glb");
+  const tests::SkinnedSeam rigged({{{0, -1, 0}, {0, -1.5F, 0}}});
+  tests::spit(folder / "rigged.glb", rigged.glb());
+  jobs::SubdivideJob job;
+  job.mesh = folder / "rigged.glb";
+  job.refinement = jobs::Refinement::linear;
+  job.steps = 2;
+  job.output = folder / "fine.glb";
+  tests::Recorder recorder;
+  jobs::subdivide(job, recorder);
+  CHECK_FALSE(recorder.warned_of("lost_in_glb"));
+  CHECK_FALSE(recorder.warned_of("lost_attributes"));
+  CHECK(jobs::is_own_output(job.output));
+  const tests::Glb fine(tests::slurp(job.output));
+  tests::check_glb(fine);
+  CHECK(fine.scene["nodes"] == rigged.scene["nodes"]);
+  const io::MeshFile back = io::read_mesh(job.output);
+  CHECK(back.mesh.number_of_faces() == 32);
+  for (const geometry::VertexAttribute& joint : geometry::vertex_attributes(back.mesh))
+    for (const geometry::Vertex v : back.mesh.vertices()) CHECK(joint.values[v] <= 1);
+
+  io::MeshFile masked = back;
+  geometry::ensure_vertex_attribute(masked.mesh, "mask");
+  job.mesh = masked;
+  job.steps = 1;
+  jobs::subdivide(job, recorder);
+  REQUIRE(recorder.warned_of("lost_in_glb"));
+  CHECK(recorder.warnings.back().text ==
+        job.output.string() + ": it leaves out the vertex attributes mask; a PLY keeps them");
 }

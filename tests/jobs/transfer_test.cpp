@@ -113,7 +113,7 @@ TEST_CASE("transfer: a job that cannot be is refused before anything is written"
   job.rest = job.output = folder / "sheet.ply";
   CHECK_THROWS_AS(jobs::transfer(job, recorder), std::invalid_argument);
   job = good;
-  job.output = folder / "moved.glb";
+  job.output = folder / "moved.gltf";
   CHECK_THROWS_AS(jobs::transfer(job, recorder), std::invalid_argument);
   job.output = folder / "nowhere" / "moved.ply";
   CHECK_THROWS_AS(jobs::transfer(job, recorder), std::runtime_error);

@@ -36,7 +36,6 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   linear/dense_front_test.cpp
   linear/dense_kernels_test.cpp
   linear/free_stiffness_test.cpp
-  linear/stiffness_work_test.cpp
   linear/front_tree_test.cpp
   linear/lanczos_test.cpp
   linear/negative_pivots_test.cpp
@@ -80,6 +79,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   rest/rigid_imbalance_test.cpp
   rest/settle_alone_test.cpp
   rest/settle_test.cpp
+  rest/stiffness_work_test.cpp
   rest/settle_faces_test.cpp
   RELEASE_SOURCES
   cloth/patch_test.cpp

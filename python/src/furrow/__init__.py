@@ -177,7 +177,7 @@ def read_mesh(path, *, unit=None, up=None):
 
 
 def _write(self, path, *, unit=None, up=None):
-    """Writes the mesh by the ending of the path: obj, ply, off, stl; whole or not at all."""
+    """Writes the mesh by the ending of the path: obj, ply, off, stl, glb; whole or not at all."""
     _furrow.write_mesh(self, path, {"unit": unit, "up": up}, _warner({"unit", "up"}, level=3))
 
 

@@ -6,8 +6,8 @@
 
 #include "bridge/convert.h"
 #include "io/animation/animation_file.h"
-#include "io/base/byte_order.h"
 #include "tests/io/base/io_test_helpers.h"
+#include "tests/io/mesh/glb_parts.h"
 
 using namespace furrow;
 using namespace furrow::tests;
@@ -16,59 +16,13 @@ using physics::Vec3;
 
 namespace {
 
-/// A GLB taken apart again, without the writer's help.
-struct Glb {
-  json scene;
-  std::string binary;
-
-  explicit Glb(const std::string& bytes) {
-    REQUIRE(bytes.substr(0, 4) == "glTF");
-    REQUIRE(integer(bytes, 4) == 2);
-    REQUIRE(integer(bytes, 8) == bytes.size());
-    const std::size_t text = integer(bytes, 12);
-    REQUIRE(bytes.substr(16, 4) == "JSON");
-    REQUIRE(text % 4 == 0);
-    scene = json::parse(bytes.substr(20, text));
-    REQUIRE(integer(bytes, 20 + text) == bytes.size() - 28 - text);
-    REQUIRE(bytes.substr(24 + text, 4) == std::string("BIN\0", 4));
-    binary = bytes.substr(28 + text);
-    REQUIRE(scene["buffers"][0]["byteLength"] == binary.size());
-  }
-
-  static std::uint32_t integer(const std::string& bytes, std::size_t at) {
-    return io::read_in_order<std::uint32_t>(&bytes.at(at), std::endian::little);
-  }
-
-  template <class T>
-  std::vector<T> numbers(const json& accessor) const {
-    const json& a = scene["accessors"].at(accessor.get<std::size_t>());
-    const json& view = scene["bufferViews"].at(a["bufferView"].get<std::size_t>());
-    const std::size_t width = a["type"] == "VEC3" ? 3 : a["type"] == "VEC2" ? 2 : 1;
-    const std::size_t count = a["count"].get<std::size_t>() * width;
-    REQUIRE(view["byteLength"] == 4 * count);
-    std::vector<T> values;
-    for (std::size_t i = 0; i < count; ++i)
-      values.push_back(io::read_in_order<T>(&binary.at(view["byteOffset"].get<std::size_t>() + 4 * i),
-                                            std::endian::little));
-    for (std::size_t k = 0; k < width && a.contains("min"); ++k) {
-      T low = values[k], high = values[k];
-      for (std::size_t i = k; i < count; i += width)
-        low = std::min(low, values[i]), high = std::max(high, values[i]);
-      CHECK(a["min"][k] == low);
-      CHECK(a["max"][k] == high);
-    }
-    return values;
-  }
-  const json& primitive() const { return scene["meshes"][0]["primitives"][0]; }
-};
-
 std::vector<Vec3> waved(const geometry::Mesh& mesh, int i) {
   std::vector<Vec3> x = bridge::positions_of(mesh);
   for (Vec3& p : x) p += Vec3(0, std::sin(3 * p.x() + i) - std::sin(3 * p.x()), 0);
   return x;
 }
 
-Glb glb_of(const geometry::Mesh& mesh, int frames, const io::AnimationOptions& options = {}) {
+Glb animated_glb(const geometry::Mesh& mesh, int frames, const io::AnimationOptions& options = {}) {
   TemporaryFolder folder;
   io::AnimationWriter writer(folder / "a.glb", mesh, options);
   for (int i = 0; i < frames; ++i) writer.add(waved(mesh, i));
@@ -101,7 +55,7 @@ double farthest(const Glb& glb, const geometry::Mesh& mesh, int i) {
 
 TEST_CASE("GLB: base and targets add up to the frames, normals are those of the frames") {
   const geometry::Mesh mesh = plain_grid(5);
-  const Glb glb = glb_of(mesh, 4);
+  const Glb glb = animated_glb(mesh, 4);
   CHECK(glb.primitive()["targets"].size() == 3);
   CHECK_FALSE(glb.primitive()["attributes"].contains("TEXCOORD_0"));
   for (int i = 0; i < 4; ++i) CHECK(farthest(glb, mesh, i) < 3e-7);
@@ -121,7 +75,7 @@ TEST_CASE("GLB: base and targets add up to the frames, normals are those of the 
 
 TEST_CASE("GLB: one target is on at each frame's time, none at the first") {
   for (const auto rule : {io::Interpolation::linear, io::Interpolation::step}) {
-    const Glb glb = glb_of(plain_grid(2), 3, {.fps = 8, .start = 0.25, .interpolation = rule});
+    const Glb glb = animated_glb(plain_grid(2), 3, {.fps = 8, .start = 0.25, .interpolation = rule});
     const json& animation = glb.scene["animations"][0];
     CHECK(animation["channels"][0]["target"]["path"] == "weights");
     CHECK(animation["samplers"][0]["interpolation"] == (rule == io::Interpolation::step ? "STEP" : "LINEAR"));
@@ -133,7 +87,7 @@ TEST_CASE("GLB: one target is on at each frame's time, none at the first") {
 
 TEST_CASE("GLB: one frame is a plain mesh") {
   const geometry::Mesh mesh = plain_grid(2);
-  const Glb glb = glb_of(mesh, 1);
+  const Glb glb = animated_glb(mesh, 1);
   CHECK_FALSE(glb.scene.contains("animations"));
   CHECK_FALSE(glb.primitive().contains("targets"));
   CHECK(farthest(glb, mesh, 0) < 3e-7);
@@ -142,7 +96,7 @@ TEST_CASE("GLB: one frame is a plain mesh") {
 TEST_CASE("GLB: a vertex of several texture coordinates is there once for each, at the end") {
   const geometry::Mesh mesh = decorated_grid(3).mesh;
   const auto texture = *geometry::find_map(mesh, geometry::attribute::texture);
-  const Glb glb = glb_of(mesh, 3);
+  const Glb glb = animated_glb(mesh, 3);
   const auto indices = glb.numbers<std::uint32_t>(glb.primitive()["indices"]);
   const auto t = glb.numbers<float>(glb.primitive()["attributes"]["TEXCOORD_0"]);
   const auto base = glb.numbers<float>(glb.primitive()["attributes"]["POSITION"]);

@@ -147,17 +147,17 @@ TEST_CASE("bytes_file: any bytes come back, what cannot be read is a content err
 TEST_CASE("write_mesh: by ending, into place, nothing is written for what we do not write") {
   TemporaryFolder folder;
   const io::MeshFile cube = read_from(cube_obj, io::MeshFormat::obj);
-  for (const char* name : {"a.obj", "a.PLY", "a.off", "a.Stl"}) {
+  for (const char* name : {"a.obj", "a.PLY", "a.off", "a.Stl", "a.GLB"}) {
     io::write_mesh(folder / name, cube);
     CHECK(io::read_mesh(folder / name).mesh.number_of_faces() == 12);
   }
-  CHECK(files_in(folder) == 4);
-  for (const char* name : {"a.glb", "a.xyz", "a", "-"}) {
+  CHECK(files_in(folder) == 5);
+  for (const char* name : {"a.gltf", "a.xyz", "a", "-"}) {
     INFO(name);
     CHECK_THROWS_AS(io::write_mesh(name == std::string("-") ? fs::path("-") : folder / name, cube),
                     std::invalid_argument);
   }
-  CHECK(files_in(folder) == 4);
+  CHECK(files_in(folder) == 5);
   CHECK_THROWS_AS(io::read_mesh(folder / "a.xyz"), geometry::ContentError);
   CHECK_THROWS_AS(io::read_mesh(folder / "absent.obj"), geometry::ContentError);
   CHECK_THROWS_AS(io::read_mesh(folder / "a.obj", {.metres_per_unit = -1}), std::invalid_argument);

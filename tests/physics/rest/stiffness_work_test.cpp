@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/linear/stiffness_work.h"
+#include "physics/rest/stiffness_work.h"
 
 #include <catch2/catch.hpp>
 
 #include "physics/cloth/pins.h"
+#include "physics/linear/free_stiffness.h"
 #include "physics/rest/certificate.h"
 #include "physics/rest/prestress.h"
 #include "tests/physics/cloth/finite_differences.h"

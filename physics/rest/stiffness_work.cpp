@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "physics/linear/stiffness_work.h"
+#include "physics/rest/stiffness_work.h"
 
 namespace furrow::physics {
 
