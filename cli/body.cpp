@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/shipped.h"
 #include "cli/subcommands.h"
 #include "jobs/read_inputs.h"
 
@@ -18,25 +19,15 @@ struct BodyArguments : CommonArguments {
   geometry::BodyMeasures measures;
 };
 
-/// That which comes with the program: where it is installed, or built.
-std::filesystem::path own_mannequin() {
-  namespace fs = std::filesystem;
-  std::error_code none;
-  fs::path at = fs::read_symlink("/proc/self/exe", none).parent_path();
-  const fs::path installed = at.parent_path() / "share/furrow/meshes/mannequin.obj";
-  if (fs::is_regular_file(installed, none)) return installed;
-  for (int up = 0; up < 3; ++up, at = at.parent_path())
-    if (fs::is_regular_file(at / "meshes/mannequin.obj", none)) return at / "meshes/mannequin.obj";
-  throw UsageError("our mannequin is not installed here; name a body: furrow body BODY");
-}
-
 std::string measures_words(const geometry::BodyMeasures& m) {
   return fmt::format("height {:.1f} cm, chest {:.1f}, waist {:.1f}, hip {:.1f}", 100 * m.height,
                      100 * m.chest, 100 * m.waist, 100 * m.hip);
 }
 
 int body(const BodyArguments& a) {
-  const std::filesystem::path in = a.in.empty() ? own_mannequin() : std::filesystem::path(a.in);
+  const std::filesystem::path in =
+      a.in.empty() ? shipped("meshes/mannequin.obj") : std::filesystem::path(a.in);
+  if (in.empty()) throw UsageError("our mannequin is not installed here; name a body: furrow body BODY");
   const geometry::BodyMeasures& m = a.measures;
   const bool asks = m.height > 0 || m.chest > 0 || m.waist > 0 || m.hip > 0;
   if (asks && a.out.empty())

@@ -7,6 +7,7 @@
 
 #include "cli/common.h"
 #include "cli/scene_flags.h"
+#include "cli/shipped.h"
 #include "cli/subcommands.h"
 #include "jobs/read_inputs.h"
 #ifdef FURROW_STUDIO
@@ -41,18 +42,6 @@ void open_browser(const std::string& url) {
   waitpid(child, nullptr, 0);
 }
 
-/// Scenes that come with the program: where it is installed, or built.
-std::filesystem::path gallery_folder() {
-  namespace fs = std::filesystem;
-  std::error_code none;
-  fs::path at = fs::read_symlink("/proc/self/exe", none).parent_path();
-  const fs::path installed = at.parent_path() / "share/furrow/scenes/studio";
-  if (fs::is_directory(installed, none)) return installed;
-  for (int up = 0; up < 3; ++up, at = at.parent_path())
-    if (fs::is_directory(at / "scenes/studio", none)) return at / "scenes/studio";
-  return {};
-}
-
 /// The folder of a new drawing: beside nothing, in the working directory, named after what is drawn on.
 std::filesystem::path project_of(const StudioArguments& a) {
   if (!a.project.empty()) return a.project;
@@ -60,7 +49,7 @@ std::filesystem::path project_of(const StudioArguments& a) {
 }
 
 std::unique_ptr<studio::Studio> open_studio(const StudioArguments& a) {
-  const studio::Places places{gallery_folder()};
+  const studio::Places places{shipped("scenes/studio")};
   if (a.in.empty()) {
     if (!a.flags.first().empty() || !a.project.empty())
       throw UsageError((a.project.empty() ? a.flags.first() : "--project") +

@@ -12,11 +12,13 @@ foreach(component IN LISTS furrow_built)
   set(licence_folder ${CMAKE_INSTALL_DOCDIR})
   if(component STREQUAL program)
     install(TARGETS furrow RUNTIME COMPONENT program)
+    # Of furrow body, and of the studio's gallery.
+    install(FILES meshes/mannequin.obj DESTINATION ${CMAKE_INSTALL_DATADIR}/furrow/meshes COMPONENT program)
     if(furrow_studio)  # of what is in the page
       install(FILES ${furrow_page}/licences.txt DESTINATION ${CMAKE_INSTALL_DOCDIR}/studio COMPONENT program)
       # Its gallery, whose scenes name the meshes by relative paths.
       install(DIRECTORY scenes/studio DESTINATION ${CMAKE_INSTALL_DATADIR}/furrow/scenes COMPONENT program)
-      install(FILES meshes/skirt.obj meshes/shirt.obj meshes/hung_sheet.obj meshes/mannequin.obj
+      install(FILES meshes/skirt.obj meshes/shirt.obj meshes/hung_sheet.obj
               DESTINATION ${CMAKE_INSTALL_DATADIR}/furrow/meshes COMPONENT program)
       install(FILES meshes/strokes/figure_skirt.json DESTINATION ${CMAKE_INSTALL_DATADIR}/furrow/meshes/strokes
               COMPONENT program)

@@ -46,7 +46,12 @@ endif()
 set(share ${prefix}/share)
 must_be_there(${share}/bash-completion/completions/furrow ${share}/zsh/site-functions/_furrow
               ${share}/fish/vendor_completions.d/furrow.fish ${share}/man/man1/furrow.1 ${share}/man/man1/furrow-drape.1
-              ${share}/furrow/report.schema.json)
+              ${share}/furrow/report.schema.json ${share}/furrow/meshes/mannequin.obj)
+must(${prefix}/bin/furrow body --json)  # measures the mannequin that is installed
+string(JSON waist GET "${output}" reached waist)
+if(NOT waist GREATER 0.5)
+  message(FATAL_ERROR "furrow body does not measure the mannequin: ${output}")
+endif()
 if(EXISTS ${BINARY}/python)  # where it is built
   file(GLOB python ${prefix}/lib/python*/dist-packages/furrow/_furrow*)
   file(GLOB stubs ${prefix}/lib/python*/dist-packages/furrow/__init__.pyi)

@@ -81,6 +81,8 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
   report_of("transfer " + sheet + " " + (scratch / "w.ply") + out("back.obj"));
   const std::string textured = source_file("meshes/panelled.obj");
   report_of("bake " + textured + " " + textured + out("baked") + " --texels 64 --check 1");
+  report_of("body");
+  report_of("body --waist 0.7" + out("body.obj"));
   report_of("fabric list");
   report_of("fabric show cotton-twill --rings 10 --picture " + (scratch / "f.png"));
   report_of("fabric drape silk --rings 10");
@@ -102,6 +104,23 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
             (scratch / "a.glb") + " --save-state " + (scratch / "st.ply") + out("s.ply"));
   report_of("simulate " + source_file("scenes/validation/free_fall.toml") +
             " --set simulation.seconds=0.01 --accuracy 5%");
+}
+
+TEST_CASE("strict JSON: each report of furrow batch is as its schema says") {
+  const ScratchDirectory scratch;
+  const std::string plan = scratch / "plan.toml";
+  std::ofstream(plan) << "command = \"simulate\"\n[options]\nseconds = 0.005\n[cases]\ngarment = [\""
+                      << source_file("meshes/hung_sheet.obj") << "\"]\n";
+  report_of("batch gather " + plan, 4);
+  const auto is_as = [&](const std::string& words, const char* name, int exit_code) {
+    const Run run = run_furrow("batch " + words + " --json");
+    INFO(words << "\n" << run.err << run.out);
+    REQUIRE(run.exit_code == exit_code);
+    CHECK(faults_of(parse_strictly(run.out), name) == "");
+  };
+  is_as("list " + plan, "batch_list", 0);
+  is_as("slurm " + plan, "batch_slurm", 0);
+  is_as("case " + (scratch / "r.json") + " --json -- info " + (scratch / "none.obj"), "batch_case", 1);
 }
 
 TEST_CASE("strict JSON: every command that has --json has a schema, and the schema is one file of its words",

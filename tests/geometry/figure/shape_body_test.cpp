@@ -44,7 +44,7 @@ TEST_CASE("shape_body: a mannequin gets a person's measurements, and no part of 
   }
 }
 
-TEST_CASE("shape_body: the feet stay on the floor; head and feet follow the height alone") {
+TEST_CASE("shape_body: the feet stay on the floor, and head and feet follow the height alone") {
   Mesh mesh = mannequin(), scaled = mannequin();
   shape_body(mesh, {1.87, 1.1, 0.9, 1.1});
   shape_body(scaled, {1.87, 0, 0, 0});
