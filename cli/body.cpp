@@ -29,7 +29,7 @@ int body(const BodyArguments& a) {
       a.in.empty() ? shipped("meshes/mannequin.obj") : std::filesystem::path(a.in);
   if (in.empty()) throw UsageError("our mannequin is not installed here; name a body: furrow body BODY");
   const geometry::BodyMeasures& m = a.measures;
-  const bool asks = m.height > 0 || m.chest > 0 || m.waist > 0 || m.hip > 0;
+  const bool asks = m.any();
   if (asks && a.out.empty())
     throw UsageError("nothing to write: name --output for the body with these measurements");
   if (!asks && !a.out.empty())
@@ -70,7 +70,8 @@ void add_body(CLI::App& app, int& exit_code) {
                          "  furrow body scan.obj --waist 0.80 -o wider.obj\n"
                          "  furrow body scan.obj");
   sub->add_option("body", a->in, "standing body to read (default: our mannequin)");
-  sub->add_option("-o,--output", a->out, "mesh to write: obj, ply, off or stl; - is OBJ to standard output");
+  sub->add_option("-o,--output", a->out,
+                  "mesh to write: obj, ply, off, stl or glb; - is OBJ to standard output");
   sub->add_option("--height", a->measures.height, "from floor to crown [m]")->check(CLI::Range(0.9, 2.5));
   sub->add_option("--chest", a->measures.chest, "around the fullest of the chest, under the armpits [m]")
       ->check(CLI::Range(0.3, 3.0));

@@ -17,8 +17,6 @@ Json measures_json(const geometry::BodyMeasures& m) {
   return json;
 }
 
-bool asks(const geometry::BodyMeasures& m) { return m.height > 0 || m.chest > 0 || m.waist > 0 || m.hip > 0; }
-
 }  // namespace
 
 BodyReport shape_body(const BodyJob& job, Listener& listener) {
@@ -30,7 +28,7 @@ BodyReport shape_body(const BodyJob& job, Listener& listener) {
   report.mesh = read_mesh(job.mesh, context);
   stop_if_cancelled(context);
   geometry::Mesh& mesh = report.mesh.mesh;
-  if (!asks(job.measures)) {
+  if (!job.measures.any()) {
     const geometry::Body body = geometry::repair_body(mesh);
     report.shape.before = report.shape.reached = geometry::measure_body(body.points, body.triangles);
   } else {

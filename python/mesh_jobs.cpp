@@ -171,7 +171,7 @@ const Keywords<jobs::BodyJob>& body_rows() {
   using Job = jobs::BodyJob;
   static const Keywords<Job> rows = {
       row<Job>(
-          "output", "mesh to write: obj, ply, off or stl", [](auto& j) -> auto& { return j.output; }),
+          "output", "mesh to write: obj, ply, off, stl or glb", [](auto& j) -> auto& { return j.output; }),
       row<Job>(
           "height", "from floor to crown [m], in [0.9, 2.5]; none of the four: the body is measured",
           [](auto& j) -> auto& { return j.measures.height; }),

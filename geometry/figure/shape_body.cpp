@@ -173,8 +173,7 @@ void check_measures(const BodyMeasures& wanted, const BodyMeasures& now) {
   const double all[] = {wanted.height, wanted.chest, wanted.waist, wanted.hip};
   for (const double value : all)
     if (!std::isfinite(value) || value < 0) refuse("shape_body", "a measurement is negative or not finite");
-  if (std::all_of(std::begin(all), std::end(all), [](double v) { return v == 0; }))
-    refuse("shape_body", "no measurement is asked for");
+  if (!wanted.any()) refuse("shape_body", "no measurement is asked for");
   if (wanted.height != 0 && !(wanted.height >= 0.9 && wanted.height <= 2.5))
     refuse("shape_body", "height = " + std::to_string(wanted.height) + " m is not in [0.9, 2.5]");
   const double scale = wanted.height > 0 ? wanted.height / now.height : 1;

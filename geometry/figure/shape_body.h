@@ -10,6 +10,7 @@ namespace furrow::geometry {
 /// What a tape measure tells of a person [m]. 0: not asked for.
 struct BodyMeasures {
   double height = 0, chest = 0, waist = 0, hip = 0;
+  bool any() const { return height != 0 || chest != 0 || waist != 0 || hip != 0; }
 };
 
 /// A standing body's, at the heights of torso_heights(). Of a closed surface, faces outwards, y up. Throws
@@ -28,7 +29,7 @@ struct ShapeReport {
 /// proportion to the height. Repeated until the tape agrees within 1 mm, or 40 times. Faces and maps stay.
 /// Throws std::invalid_argument, nothing changed, if nothing is asked for, a height is outside of 0.9 to
 /// 2.5 m, or a girth is less than half or more than twice the body's at that height; as measure_body(), too.
-/// Cost: 40 times repair_body() and torso_levels() at most.
+/// Cost: repair_body() once, and torso_levels() a round.
 ///
 /// \details Only the shape of slices changes, not their order: shoulders, neck, head and lengths of limbs
 /// follow the height alone, and a bust or a belly grows as the slice that it lies in.

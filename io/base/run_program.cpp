@@ -79,6 +79,9 @@ ProgramRun run_program(const std::filesystem::path& program, const std::vector<s
   return run;
 }
 
-std::filesystem::path this_program() { return std::filesystem::read_symlink("/proc/self/exe"); }
+std::filesystem::path this_program() {
+  std::error_code none;
+  return std::filesystem::read_symlink("/proc/self/exe", none);
+}
 
 }  // namespace furrow::io

@@ -22,7 +22,7 @@ struct ProgramRun {
 /// std::runtime_error if it cannot be started.
 ProgramRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments);
 
-/// The file of the program that runs.
+/// The file of the program that runs; empty where the system does not tell.
 std::filesystem::path this_program();
 
 }  // namespace furrow::io

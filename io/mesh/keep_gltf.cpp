@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/mesh/errors.h"
+#include "io/base/base64.h"
 #include "io/base/byte_order.h"
 #include "io/base/nesting.h"
 #include "io/mesh/glb_container.h"
@@ -38,21 +39,6 @@ std::pair<std::string_view, std::string_view> chunks_of(std::string_view bytes) 
     at += length;
   }
   return chunks;
-}
-
-std::string from_base64(std::string_view text) {
-  std::string bytes;
-  std::uint32_t word = 0;
-  int bits = 0;
-  for (const char c : text) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    if (c == '=') break;
-    const std::size_t digit = digits.find(c);
-    if (digit == digits.npos) throw ContentError("a data URI is no base64");
-    word = word << 6 | static_cast<std::uint32_t>(digit);
-    if ((bits += 6) >= 8) bytes += static_cast<char>(word >> (bits -= 8) & 0xFF);
-  }
-  return bytes;
 }
 
 /// "%20" is a blank.

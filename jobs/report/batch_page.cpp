@@ -6,6 +6,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "io/base/base64.h"
 #include "io/base/bytes_file.h"
 
 namespace furrow::jobs {
@@ -64,19 +65,6 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-std::string base64(std::span<const std::byte> bytes) {
-  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? unsigned(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 /// The value at "fit.strain.p99" of a report; null: it has none.
 Json value_at(const Json& report, const std::string& path) {
   const Json* at = &report;
@@ -127,7 +115,9 @@ void BatchPage::add(const Json& row) {
   out_ << "<tr>";
   for (const std::string& column : plan_.columns) out_ << cell_of(value_at(row["values"], column));
   const std::string state = row["state"].get<std::string>(), error = row.value("error", std::string());
-  out_ << "<td class=" << state << '>' << state;
+  const int exit_code = row.value("exit", 0);
+  out_ << "<td class=" << (exit_code != 0 ? "failed" : state) << '>' << state;
+  if (exit_code != 0) out_ << ", exit " << exit_code;
   if (!error.empty()) out_ << ": " << escaped(error);
   out_ << "</td>";
   const Json report = row.contains("report") ? row["report"] : Json(nullptr);
@@ -145,7 +135,7 @@ void BatchPage::add_picture(const Json& row) {
     if (picture_bytes_ < most_picture_bytes) {
       const std::vector<std::byte> bytes = io::read_bytes(plan_.output / name);
       picture_bytes_ += bytes.size();
-      source = "data:image/png;base64," + base64(bytes);
+      source = "data:image/png;base64," + io::to_base64(bytes);
     }
     out_ << "<img loading=lazy alt=\"case " << row["case"].get<std::string>() << "\" src=\"" << source
          << "\">";

@@ -69,15 +69,15 @@ class Certifier {
     result_.smallest_eigenvalue = std::numeric_limits<double>::infinity();
     if (stiffness_->free_particles() == 0) return result_;
     for (const Support& s : supports_) stiffness_->add(s.particle, s.stiffness);
-    double shift = neutral;
-    add_masses(shift);
-    if (!stiffness_->factorise_definite()) {
+    double shift = 0;
+    const auto is_definite_with = [&](double wanted) {
+      add_masses(wanted - std::exchange(shift, wanted));
+      return stiffness_->factorise_definite();
+    };
+    if (!is_definite_with(neutral)) {
       result_.negative_eigenvalues = stiffness_->negative_eigenvalues();
-      double last = std::exchange(shift, 1);
-      for (add_masses(shift - last); !stiffness_->factorise_definite(); add_masses(shift - last)) {
-        if (!(shift < 1e20)) refuse("certify", "a stiffness is not finite");
-        last = std::exchange(shift, 16 * shift);
-      }
+      for (double wanted = 1; !is_definite_with(wanted); wanted *= 16)
+        if (!(wanted < 1e20)) refuse("certify", "a stiffness is not finite");
     }
     find_smallest(shift);
     return result_;

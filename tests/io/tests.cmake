@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   base/atomic_file_test.cpp
+  base/base64_test.cpp
   base/bytes_file_test.cpp
   base/child_process_test.cpp
   base/error_types_test.cpp
