@@ -51,12 +51,18 @@ io::BatchPlan read_plan(const BatchArguments& a, const CLI::App& app) {
 }
 
 std::string words_of(const BatchCounts& c) {
-  return fmt::format("{} {}: {} finished, {} failed, {} open", c.cases, c.cases == 1 ? "case" : "cases",
-                     c.finished, c.failed, c.open);
+  const std::string missed =
+      c.missed > 0 ? fmt::format(" ({} of them with exit code 4: no success)", c.missed) : "";
+  return fmt::format("{} {}: {} finished{}, {} failed, {} open", c.cases, c.cases == 1 ? "case" : "cases",
+                     c.finished, missed, c.failed, c.open);
 }
 
 Json json_of(const BatchCounts& c) {
-  return {{"cases", c.cases}, {"finished", c.finished}, {"failed", c.failed}, {"open", c.open}};
+  return {{"cases", c.cases},
+          {"finished", c.finished},
+          {"missed", c.missed},
+          {"failed", c.failed},
+          {"open", c.open}};
 }
 
 int gather_batch(const io::BatchPlan& plan, const BatchArguments& a) {
@@ -64,7 +70,7 @@ int gather_batch(const io::BatchPlan& plan, const BatchArguments& a) {
   Json json = json_of(report.counts);
   json["written"] = names_of_files({report.rows.string(), report.page.string()});
   print_report(json, a, {{words_of(report.counts)}, {report.rows.string(), report.page.string()}, ""});
-  return report.counts.finished == report.counts.cases ? exit_ok : exit_not_converged;
+  return report.counts.finished - report.counts.missed == report.counts.cases ? exit_ok : exit_not_converged;
 }
 
 int list_batch(const io::BatchPlan& plan, const BatchArguments& a) {
@@ -152,7 +158,22 @@ int prepare_slurm(const io::BatchPlan& plan, const BatchArguments& a) {
   return exit_ok;
 }
 
+/// Throws UsageError for an option of another action, which would do nothing.
+void check_action(const BatchArguments& a) {
+  const auto check = [&](bool given, const char* option, const char* action) {
+    if (given && a.action != action)
+      throw UsageError(std::string(option) + " goes with furrow batch " + action + ", not with " + a.action);
+  };
+  check(a.all, "--all", "list");
+  check(a.jobs > 0, "--jobs", "parallel");
+  check(a.chunk > 0, "--chunk", "slurm");
+  check(a.submit, "--submit", "slurm");
+  check(!a.options.empty(), "--sbatch", "slurm");
+  check(!a.field.empty(), "--make-field", "case");
+}
+
 int batch(const BatchArguments& a, const CLI::App& app) {
+  check_action(a);
   if (a.action == "case") return run_case_of_batch(a);
   if (!a.words.empty())
     throw UsageError("batch " + a.action + ": '" + a.words[0] + "' is one argument too many");

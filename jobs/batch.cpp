@@ -24,7 +24,9 @@ using Json = nlohmann::ordered_json;
 constexpr int record_schema = 1;
 constexpr std::size_t sampled_cases = 200;  // of which a mean is taken
 
-bool ended_with_verdict(int exit_code) { return exit_code == 0 || exit_code == 4; }
+constexpr int missed_exit = 4;
+
+bool ended_with_verdict(int exit_code) { return exit_code == 0 || exit_code == missed_exit; }
 
 /// None where there is no record.
 std::optional<Json> read_record(const std::filesystem::path& path) {
@@ -132,13 +134,6 @@ Json row_of(const io::BatchPlan& plan, const io::BatchCase& one) {
   return row;
 }
 
-void add_state(CaseState state, BatchCounts& counts) {
-  ++counts.cases;
-  ++(state == CaseState::finished ? counts.finished
-     : state == CaseState::failed ? counts.failed
-                                  : counts.open);
-}
-
 }  // namespace
 
 CaseFiles case_files(const io::BatchPlan& plan, const io::BatchCase& one) {
@@ -201,7 +196,13 @@ CaseReport run_case(const CaseJob& job) {
 
 BatchCounts count(const io::BatchPlan& plan) {
   BatchCounts counts;
-  for (const io::BatchCase& one : plan.cases) add_state(state_of(case_files(plan, one).record), counts);
+  for (const io::BatchCase& one : plan.cases) {
+    const std::optional<Json> record = read_record(case_files(plan, one).record);
+    const int exit_code = record ? (*record)["exit"].get<int>() : 0;
+    ++counts.cases;
+    ++(!record ? counts.open : ended_with_verdict(exit_code) ? counts.finished : counts.failed);
+    counts.missed += exit_code == missed_exit;
+  }
   return counts;
 }
 

@@ -49,6 +49,7 @@ CaseReport run_case(const CaseJob& job);
 
 struct BatchCounts {
   std::size_t cases = 0, finished = 0, failed = 0, open = 0;
+  std::size_t missed = 0;  ///< finished with exit code 4: the verdict is no success
 };
 struct GatherReport {
   BatchCounts counts;

@@ -80,6 +80,7 @@ TEST_CASE(
   const json counts = json::parse(gathered.out);
   CHECK(counts["finished"] == 4);
   CHECK(counts["failed"] == 2);
+  CHECK(counts["missed"] == 0);
   const std::vector<json> rows = batch.rows();
   REQUIRE(rows.size() == 6);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -94,6 +95,22 @@ TEST_CASE(
   const std::string page = read_text(batch.folder / "out/report.html");
   CHECK(page.find("Cloths &lt;fall&gt; &amp; rest") != std::string::npos);
   CHECK(page.find("class=failed") != std::string::npos);
+}
+
+TEST_CASE("batch: a verdict that is no success is finished, counted, and no success of the batch") {
+  const ScratchDirectory folder;
+  write_text(folder / "falls.obj", square);
+  const std::string plan = folder / "plan.toml";
+  write_text(plan,
+             "output = \"out\"\n[options]\nsubdivide = 0\npin-vertices = 0\nmax-iterations = "
+             "1\n[cases]\ngarment = [\"falls.obj\"]\n");
+  const std::string line = run_furrow("batch list " + plan).out;
+  CHECK(run_line(line) == 0);
+  const Run gathered = run_furrow("batch gather " + plan);
+  CHECK(gathered.exit_code == 4);
+  CHECK(gathered.out.find("1 finished (1 of them with exit code 4: no success)") != std::string::npos);
+  CHECK(read_text(folder / "out/report.html").find("finished, exit 4") != std::string::npos);
+  CHECK(run_furrow("batch list " + plan).out.empty());
 }
 
 TEST_CASE("batch: a changed garment is another case, and the old one's result stays") {
@@ -152,6 +169,7 @@ TEST_CASE("batch: what is wrong with a call is told, and nothing is written") {
   const Batch batch;
   CHECK(batch.furrow("case " + (batch.folder / "r.json")).exit_code == 2);
   CHECK(batch.furrow("list " + batch.plan + " more").exit_code == 2);
+  CHECK(batch.furrow("list " + batch.plan + " --jobs 2").exit_code == 2);
   CHECK(batch.furrow("list " + (batch.folder / "none.toml")).exit_code == 3);
   const std::string typo = batch.folder / "typo.toml";
   write_text(typo, "[cases]\ngarment = [\"b.obj\"]\nfabrc = [\"silk\"]\n");
