@@ -422,8 +422,8 @@ class GltfMeshWriter {
          "the state of rest");
     tell(find_map(mesh_, attribute::mass) || find_map(mesh_, attribute::velocity), "masses and motion");
     tell(!struts(mesh_).empty(), "struts");
-    tell(!file_.comments.empty(), "comments");
     if (!names.empty()) lost_.push_back(names + "; write a PLY, too, from which the cloth goes on");
+    if (!file_.comments.empty()) lost_.emplace_back("comments; a PLY or an OBJ keeps them");
     if (has_source_) return;
     if (find_map(mesh_, attribute::group) && !file_.group_names.empty())
       lost_.emplace_back("groups; a PLY or an OBJ keeps them");
