@@ -14,6 +14,8 @@ namespace {
 using geometry::length_text;
 using Lines = std::vector<std::string>;
 
+constexpr double most_off_by_steps = 0.2;  // of all energy that is lost, without a hint
+
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
@@ -414,6 +416,19 @@ Lines quality_lines(const Json& report) {
 /// "implicit step", "leapfrog step": one of a run's.
 std::string step_of(const Json& report) { return text_of(report, "integrator") + " step"; }
 
+/// Where the energy of implicit steps went; "" where none was lost.
+std::string losses_of(const Json& balance) {
+  const Json& lost = table_of(balance, "lost");
+  const double air = value_of(lost, "air"), contact = std::max(0.0, value_of(lost, "contact")),
+               off = std::abs(value_of(lost, "steps")) + std::abs(value_of(lost, "search"));
+  if (!(air + contact + off > 0)) return "";
+  const auto joules = [](double energy) { return number(1000 * energy) + " mJ"; };
+  std::string line = "energy lost: " + joules(air) + " to the air, " + joules(contact) +
+                     " to friction; steps are off by " + joules(off);
+  if (off > most_off_by_steps * (air + contact + off)) line += " (less with a shorter --dt)";
+  return line;
+}
+
 Lines simulate_lines(const Json& report) {
   Lines lines;
   lines.push_back((text_of(report, "title").empty() ? "" : text_of(report, "title") + ": ") +
@@ -443,6 +458,7 @@ Lines simulate_lines(const Json& report) {
   }
   if (known > told) kept += " and " + std::to_string(known - told) + " more";
   if (!kept.empty()) lines.push_back("lines keep of their height: " + kept);
+  if (const std::string lost = losses_of(table_of(report, "balance")); !lost.empty()) lines.push_back(lost);
   if (const Json& choice = table_of(report, "choice"); !choice.empty())
     lines.push_back(text_of(choice, "says"));
   if (report.contains("times")) lines.push_back("processor time: " + shares_of(report["times"]));

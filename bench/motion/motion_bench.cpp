@@ -9,11 +9,15 @@
 //     --threads 1
 //     --hinges           in place of a plate
 //     --self             contact of the cloth with itself, in a run beside that without
+//     --spin 0.5         no wind: the top loop is held, and within 0.3 s body and loop turn that fast [1/s]
 // A row for each scheme: processor seconds a simulated second, how many times fewer than leapfrog's in the
-// same run, counts a step, distance from leapfrog's end, and shares of the processor time.
+// same run, counts a step, distance from leapfrog's end, how deep the cloth ends in the body, what the steps
+// took of the energy that was lost, and shares of the processor time.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -33,6 +37,7 @@ struct Arguments {
   std::vector<double> refinements{1, 2}, seconds{0.6, 0.2}, leapfrog{0.6, 0.2};
   int threads = 1;
   bool self = false;
+  double spin = 0;  // [1/s]; 0: a gust
   bridge::Bending bending = bridge::Bending::plate;
   std::string schemes = "implicit,tr-bdf2";
   std::vector<std::string> files;
@@ -56,27 +61,53 @@ struct Garment {
   std::string name;
   physics::Cloth cloth;  ///< at rest
   double gap, friction;
+  double spin;  ///< of body and what is pinned [1/s]; 0: a gust in its place
 };
 
 Garment at_rest(const cases::GarmentPair& pair, const std::string& name, int refinements,
-                bridge::Bending bending, int threads) {
-  Garment result{name, {}, cases::gap_of(pair, refinements), io::fabric_named("cotton").friction};
+                const Arguments& a) {
+  Garment result{name, {}, cases::gap_of(pair, refinements), io::fabric_named("cotton").friction, a.spin};
   bridge::DrapeOptions options;
   options.refinements = refinements;
   options.settle.friction = result.friction;
   options.settle.gap = result.gap;
-  options.settle.threads = threads;
+  options.settle.threads = a.threads;
   geometry::Mesh mesh = pair.garment;
-  bridge::drape(mesh, result.cloth, &pair.field, options, cases::make_cotton(pair, {}, bending));
+  const std::optional<int> held = a.spin > 0 ? std::optional<int>(cases::vertex_at_top(mesh)) : std::nullopt;
+  bridge::drape(mesh, result.cloth, &pair.field, options, cases::make_cotton(pair, held, a.bending));
   return result;
+}
+
+/// A gust of air, or a body that turns with what is pinned.
+physics::World world_of(const Garment& garment, const physics::Collider& body) {
+  physics::World world;
+  world.collider = &body;
+  if (garment.spin == 0) {
+    world.wind.velocity = Vec3(0, 0, 6);
+    world.wind.gusts = {{0, 1}, {0.4, 1}, {0.4001, 0}};
+    return world;
+  }
+  world.body_motion.spin =
+      physics::Spin{Vec3::Zero(), Vec3::UnitY(), 2 * std::numbers::pi * garment.spin, 0, 0.3};
+  physics::MovedPins pins{{}, world.body_motion};
+  const physics::Particles& p = garment.cloth.particles;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (!(p.inv_mass[i] > 0)) pins.particles.push_back(int(i));
+  world.pins.push_back(std::move(pins));
+  return world;
+}
+
+/// How deep a run's end lies in the body, where that stands then [mm].
+double deepest(const Garment& garment, const physics::Collider& body, const Run& run) {
+  const physics::Pose pose = physics::pose(world_of(garment, body).body_motion, run.seconds);
+  double least = 1;
+  for (const Vec3& x : run.x) least = std::min(least, body.at(pose.to_body(x)).value);
+  return 1e3 * (garment.gap - least);
 }
 
 Run run(const Garment& garment, const physics::Collider& body, const Scheme& scheme, double seconds,
         int threads) {
-  physics::World world;
-  world.collider = &body;
-  world.wind.velocity = Vec3(0, 0, 6);
-  world.wind.gusts = {{0, 1}, {0.4, 1}, {0.4001, 0}};
+  const physics::World world = world_of(garment, body);
   physics::SimulateOptions o;
   o.seconds = seconds;
   o.integrator = scheme.integrator;
@@ -109,14 +140,17 @@ std::string apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return text;
 }
 
-void print(const Garment& garment, const Scheme& scheme, const Run& run, const Run& leapfrog) {
+void print(const Garment& garment, const physics::Collider& body, const Scheme& scheme, const Run& run,
+           const Run& leapfrog) {
   const physics::SimulateReport& r = run.report;
+  const physics::EnergyBalance& e = r.energy;
   const bool comparable = run.seconds == leapfrog.seconds;
-  std::printf("%s,%zu,%s,%.3g,%.3g,%.3f,%.1f,%.2f,%.2f,%lld,%s,%s,%.3g", garment.name.c_str(), run.x.size(),
-              scheme.name.c_str(), r.dt, run.seconds, run.cost(), leapfrog.cost() / run.cost(),
+  std::printf("%s,%zu,%s,%.3g,%.3g,%.3f,%.1f,%.2f,%.2f,%lld,%s,%s,%.3g,%.2f,%.0f", garment.name.c_str(),
+              run.x.size(), scheme.name.c_str(), r.dt, run.seconds, run.cost(), leapfrog.cost() / run.cost(),
               double(r.iterations) / double(r.steps), double(r.factorisations) / double(r.steps),
               static_cast<long long>(r.open_steps), comparable ? apart(run.x, leapfrog.x).c_str() : ",",
-              apart(run.x, garment.cloth.particles.x).c_str(), 1e3 * r.kinetic_energy);
+              apart(run.x, garment.cloth.particles.x).c_str(), 1e3 * r.kinetic_energy,
+              deepest(garment, body, run), e.seconds > 0 ? 100 * e.to_steps() / e.lost() : 0);
   double all = 0;
   for (const double t : r.times) all += t;
   for (const double t : r.times) std::printf(",%.0f", 100 * t / all);
@@ -154,6 +188,8 @@ Arguments arguments_of(int count, char** words) {
         a.leapfrog = value;
       else if (word == "--threads")
         a.threads = int(value.at(0));
+      else if (word == "--spin")
+        a.spin = value.at(0);
       else
         throw std::invalid_argument("unknown option " + word);
     }
@@ -170,22 +206,23 @@ void measure(const Arguments& a) {
   std::printf(
       "garment,vertices,scheme,dt_s,seconds,cpu_per_second,times_cheaper,iterations_a_step,"
       "factorisations_a_step,open_steps,rms_to_leapfrog_mm,median_mm,way_rms_mm,way_median_mm,"
-      "kinetic_mJ");
+      "kinetic_mJ,deepest_in_gap_mm,lost_to_steps_percent");
   for (std::size_t i = 0; i < physics::work_parts; ++i)
     std::printf(",%s", physics::name_of(physics::WorkPart(i)));
   std::printf("\n");
   for (std::size_t i = 0; i < a.refinements.size(); ++i) {
-    const Garment garment = at_rest(pair, name, int(a.refinements[i]), a.bending, a.threads);
+    const Garment garment = at_rest(pair, name, int(a.refinements[i]), a);
     const Scheme reference{"leapfrog", Integrator::leapfrog, 0};
     const Run leapfrog = run(garment, pair.field, reference, a.leapfrog[i], a.threads);
-    print(garment, reference, leapfrog, leapfrog);
+    print(garment, pair.field, reference, leapfrog, leapfrog);
     std::vector<Scheme> schemes{{"implicit", Integrator::implicit, 1.0 / 60},
                                 {"tr-bdf2", Integrator::tr_bdf2, 1.0 / 60}};
     if (a.self)
       schemes.insert(schemes.begin() + 1, {"implicit, self-contact", Integrator::implicit, 1.0 / 60, true});
     for (const Scheme& scheme : schemes)
       if (a.schemes.find(scheme.name.substr(0, scheme.name.find(','))) != std::string::npos)
-        print(garment, scheme, run(garment, pair.field, scheme, a.seconds[i], a.threads), leapfrog);
+        print(garment, pair.field, scheme, run(garment, pair.field, scheme, a.seconds[i], a.threads),
+              leapfrog);
   }
 }
 

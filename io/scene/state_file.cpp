@@ -36,6 +36,17 @@ double number(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
 }
 
+Json to_json(const physics::EnergyBalance& e) {
+  return {e.seconds, e.kinetic,         e.elastic, e.weight,     e.by_air,   e.by_body,
+          e.by_pins, e.by_compensation, e.to_air,  e.to_contact, e.to_search};
+}
+
+physics::EnergyBalance balance_of(const Json& j) {
+  if (j.empty()) return {};
+  const auto e = j.get<std::array<double, 11>>();
+  return {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8], e[9], e[10]};
+}
+
 /// Without the clock times: the same simulation gives the same bytes.
 Json to_json(const physics::SimulateTotals& t) {
   return {{"force_evaluations", t.force_evaluations},
@@ -46,6 +57,7 @@ Json to_json(const physics::SimulateTotals& t) {
           {"factorisations", t.factorisations},
           {"iterations", t.iterations},
           {"open_steps", t.open_steps},
+          {"energy", to_json(t.energy)},
           {"collider_queries", t.collider_queries},
           {"truncated_moves", t.truncated_moves},
           {"cut_moves", t.cut_moves},
@@ -65,6 +77,7 @@ physics::SimulateTotals totals_of(const Json& j) {
   t.factorisations = j.value("factorisations", std::int64_t{0});
   t.iterations = j.value("iterations", std::int64_t{0});
   t.open_steps = j.value("open_steps", std::int64_t{0});
+  t.energy = balance_of(j.value("energy", Json::array()));
   t.collider_queries = j.at("collider_queries");
   t.truncated_moves = j.at("truncated_moves");
   t.cut_moves = j.value("cut_moves", std::int64_t{0});

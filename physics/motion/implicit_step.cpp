@@ -126,12 +126,18 @@ bool ImplicitStep::approach(const Vectors& from, Vectors& x) {
 
 ImplicitStep::State ImplicitStep::read() const {
   const PackedCloth& cloth = motion_.cloth();
-  State state{{}, {}, a_};
+  State state;
+  state.a = a_;
   for (std::size_t i = 0; i < cloth.x.size(); ++i) {
     state.x.push_back(xyz(cloth.x[i]));
     state.v.push_back(xyz(cloth.v[i]));
   }
   return state;
+}
+
+/// From the step before, if nothing was put elsewhere: the same bits.
+void ImplicitStep::know_elements(State& state) {
+  state.elements = state.x == end_ ? elements_ : search_->elements_at(state.x);
 }
 
 void ImplicitStep::write(const State& state) {
@@ -143,6 +149,8 @@ void ImplicitStep::write(const State& state) {
   }
   motion_.arrive();
   a_ = state.a;
+  end_ = state.x;
+  elements_ = state.elements;
 }
 
 /// What compensates, and the air where the cloth is.
@@ -186,25 +194,45 @@ void ImplicitStep::hold(const Vectors& x) {
 }
 
 /// From the step's guess in x. true: the stage is solved, and friction has followed.
-bool ImplicitStep::solve(const Stage& stage, const State& start, Interval time, int few, Vectors& x) {
+ImplicitStep::Solved ImplicitStep::solve(const Stage& stage, const State& start, Interval time, int few,
+                                         Vectors& x) {
   const Particles& p = cloth_.particles;
   const double h = time.length();
+  Solved solved;
   Vectors carried;
   if (contact_) {
     const WorkClock::Within contact(motion_.clock(), WorkPart::contact);
     carried = contact_->move_body(time.from, time.to, start.x);
+    solved.body_way = sum(contact_->in_world(carried), -1, start.x);
     contact_->keep_out(carried, p.inv_mass, x, motion_.pool());
   }
   const double tolerance = options_.tolerance * standard_gravity * h * h;
   const double longest = contact_ ? longest_move : std::numeric_limits<double>::infinity();
   const bool may_keep = options_.keep_factors && scheme_ == Integrator::implicit;
   const SearchOptions options{tolerance, few, most_iterations, longest, may_keep};
-  const StepLoads loads = loads_at(time.to);
+  solved.loads = loads_at(time.to);
   const StageStart begin{start.x, carried};
-  if (pairs_ && !make_way(stage, loads, begin, options, x)) return false;
-  const SearchEnd end = search_->find(stage, loads, begin, options, x);
+  if (pairs_ && !make_way(stage, solved.loads, begin, options, x)) return solved;
+  solved.converged = search_->find(stage, solved.loads, begin, options, x).converged;
+  solved.forces = search_->found();
   hold(x);
-  return end.converged;
+  return solved;
+}
+
+/// What a solved step did. Of pins backward Euler's velocities are those of the ways before and now, as of
+/// all that it moves; else what they go along in the step.
+void ImplicitStep::book(const State& start, const State& end, const StepImpulse& impulse, double seconds) {
+  Vectors before = start.v, after = end.v;
+  const std::span<const int> led = motion_.led();
+  const std::span<const Vec3> came = motion_.led_before();
+  for (std::size_t k = 0; k < led.size(); ++k) {
+    const auto i = std::size_t(led[k]);
+    before[i] = after[i] = (end.x[i] - start.x[i]) / seconds;
+    if (scheme_ == Integrator::implicit) before[i] = came[k];
+  }
+  motion_.work().energy +=
+      balance_of(cloth_.particles, motion_.loads().gravity, {start.x, before, start.elements.energy},
+                 {end.x, after, end.elements.energy}, impulse, seconds);
 }
 
 std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Interval time, bool last) {
@@ -212,11 +240,16 @@ std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Inter
   Stage stage{1 / (h * h), 1 / h, sum(start.x, h, start.v), scaled(-1 / h, start.x)};
   State end;
   end.x = stage.y;
-  const bool solved = solve(stage, start, time, options_.few, end.x);
-  if (!solved && !last) return std::nullopt;
-  if (!solved && no_room_) throw StepBlocked(*no_room_);
-  open_ = open_ || !solved;
+  const Solved solved = solve(stage, start, time, options_.few, end.x);
+  if (!solved.converged && !last) return std::nullopt;
+  if (!solved.converged && no_room_) throw StepBlocked(*no_room_);
+  open_ = open_ || !solved.converged;
   end.v = sum(stage.q, stage.p, end.x);
+  end.elements = solved.forces.elements;
+  StepImpulse impulse(cloth_.particles, motion_.loads().air_drag);
+  impulse.add(h, solved.forces, solved.loads, end.v);
+  impulse.go_along(solved.body_way);
+  book(start, end, impulse, h);
   if (scheme_ == Integrator::tr_bdf2) end.a = scaled(1 / h, sum(end.v, -1, start.v));
   return end;
 }
@@ -226,9 +259,11 @@ std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Int
   const Interval first{time.from, time.from + gamma * h}, second{first.to, time.to};
   Stage trapezoid{1 / (b * b), 1 / b, sum(sum(start.x, 2 * b, start.v), b * b, start.a),
                   sum(scaled(-1 / b, start.x), -1, start.v)};
+  FoundForces at_start{start.elements, search_->contact_at(start.x), {}};
   State middle;
   middle.x = sum(start.x, gamma * h, start.v);
-  if (!solve(trapezoid, start, first, most_iterations, middle.x)) return std::nullopt;
+  const Solved to_middle = solve(trapezoid, start, first, most_iterations, middle.x);
+  if (!to_middle.converged) return std::nullopt;
   middle.v = sum(trapezoid.q, trapezoid.p, middle.x);
 
   const double c1 = 1 / (gamma * (2 - gamma)), c0 = c1 - 1;
@@ -237,9 +272,19 @@ std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Int
   Stage bdf2{1 / (b * b), 1 / b, sum(place, b, speed), scaled(-1 / b, place)};
   State end;
   end.x = sum(middle.x, (1 - gamma) * h, middle.v);
-  if (!solve(bdf2, middle, second, most_iterations, end.x)) return std::nullopt;
+  const Solved to_end = solve(bdf2, middle, second, most_iterations, end.x);
+  if (!to_end.converged) return std::nullopt;
   end.v = sum(bdf2.q, bdf2.p, end.x);
   end.a = scaled(bdf2.s, sum(end.x, -1, bdf2.y));
+  end.elements = to_end.forces.elements;
+  at_start.cloth = to_middle.forces.cloth;
+  StepImpulse impulse(cloth_.particles, motion_.loads().air_drag);
+  impulse.add(c1 * b, at_start, to_middle.loads, start.v);
+  impulse.add(c1 * b, to_middle.forces, to_middle.loads, middle.v);
+  impulse.add(b, to_end.forces, to_end.loads, end.v);
+  impulse.go_along(to_middle.body_way);
+  impulse.go_along(to_end.body_way);
+  book(start, end, impulse, h);
   return end;
 }
 
@@ -272,7 +317,8 @@ ImplicitStep::State ImplicitStep::advance(const State& start, Interval time, int
 void ImplicitStep::step(double dt) {
   require("implicit step", "dt", std::min(dt, 1e300), dt > 0, "> 0");
   prepare(dt);
-  const State start = read();
+  State start = read();
+  know_elements(start);
   const SelfContactMemory known = pair_memory();
   open_ = false;
   try {

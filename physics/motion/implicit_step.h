@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "physics/motion/energy_balance.h"
 #include "physics/motion/step_contact.h"
 #include "physics/motion/step_search.h"
 #include "physics/motion/stepper.h"
@@ -39,12 +40,21 @@ class ImplicitStep : public Stepper {
   struct State {
     std::vector<Vec3> x, v;  ///< [m], [m/s]
     std::vector<Vec3> a;     ///< of the last stage [m/s^2]; empty: not known
+    ElementAnswer elements;  ///< there
+  };
+  /// What solve() leaves beside x.
+  struct Solved {
+    bool converged = false;
+    FoundForces forces;          ///< where it ended, before friction followed
+    std::vector<Vec3> body_way;  ///< of the body's point next to each particle [m]; empty: no body
+    StepLoads loads;
   };
   struct Interval {
     double from, to;  ///< [s]
     double length() const { return to - from; }
   };
   State read() const;
+  void know_elements(State& state);
   void write(const State& state);
   void prepare(double dt);
   void make_pairs();
@@ -58,7 +68,10 @@ class ImplicitStep : public Stepper {
   State advance(const State& start, Interval time, int depth);
   std::optional<State> euler(const State& start, Interval time, bool last);
   std::optional<State> tr_bdf2(const State& start, Interval time);
-  bool solve(const Stage& stage, const State& start, Interval time, int few, std::vector<Vec3>& x);
+  Solved solve(const Stage& stage, const State& start, Interval time, int few, std::vector<Vec3>& x);
+  std::vector<Vec3> contact_before(const State& start, const std::vector<ContactAnchor>& anchors,
+                                   const StepLoads& loads) const;
+  void book(const State& start, const State& end, const StepImpulse& impulse, double seconds);
 
   Motion& motion_;
   Integrator scheme_;
@@ -66,6 +79,8 @@ class ImplicitStep : public Stepper {
   SelfContactOptions self_;
   Cloth cloth_;                         ///< the motion's, by place
   std::vector<Vec3> a_;                 ///< see State
+  ElementAnswer elements_;              ///< at the end of the last step
+  std::vector<Vec3> end_;               ///< where that was [m]
   double stiffness_ = 0;                ///< of contact [N/m]; 0: not chosen yet
   std::vector<ContactAnchor> anchors_;  ///< to begin with; empty: none
   std::unique_ptr<StepContact> contact_;

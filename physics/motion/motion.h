@@ -33,6 +33,7 @@ struct WorkCounts {  // iterations: of Newton's method, or sweeps over all sprin
   std::int64_t steps = 0, force_evaluations = 0, linear_solves = 0, factorisations = 0, iterations = 0;
   std::int64_t spring_evaluations = 0, triangle_evaluations = 0, hinge_evaluations = 0;
   std::int64_t open_steps = 0;  // implicit ones whose search did not end
+  EnergyBalance energy;         // of implicit steps
   ContactCounts contact;
 };
 
@@ -68,6 +69,10 @@ class Motion {
   const Wind* wind() const { return around_.wind; }
   /// Places of particles that are led.
   std::span<const int> led() const { return around_.pins ? around_.pins->places() : std::span<const int>{}; }
+  /// PinLeader::before().
+  std::span<const Vec3> led_before() const {
+    return around_.pins ? around_.pins->before() : std::span<const Vec3>{};
+  }
   const BodyAround* body() const { return around_.body; }
   bool compensates() const { return around_.compensation != nullptr; }
   /// Puts led pins where they are at the step's end.

@@ -35,13 +35,15 @@ void PinLeader::attach(const PackedCloth& packed) {
 
 void PinLeader::begin_step(PackedCloth& packed, double to, double dt) {
   targets_.resize(homes_.size());
+  before_.resize(homes_.size());
   std::size_t next = 0;
   for (const MovedPins& group : pins_) {
-    const Pose at_end = pose(group.motion, to);
+    const Pose at_end = pose(group.motion, to), before = pose(group.motion, to - 2 * dt);
     for (std::size_t k = 0; k < group.particles.size(); ++k, ++next) {
       const Vec3 target = at_end.to_world(homes_[next]);
       const Vec4& x = packed.x[std::size_t(places_[next])];
       const Vec3 v = (target - Vec3(x.x, x.y, x.z)) / dt;
+      before_[next] = (Vec3(x.x, x.y, x.z) - before.to_world(homes_[next])) / dt;
       packed.v[std::size_t(places_[next])] = {v.x(), v.y(), v.z(), 0};
       targets_[next] = target;
     }

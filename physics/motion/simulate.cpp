@@ -120,6 +120,7 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
   motion_.emplace(cloth, Loads{options.gravity, options.air_drag, options.spring_damping}, pool_, around,
                   state.time);
   if (state.step > 0) motion_->work() = {};  // counted by the call that ended here
+  motion_->work().energy = state.totals.energy;
   recall();
   stepper_ = make_stepper(*motion_, {options.integrator, options.xpbd, options.implicit, options.self});
   if (solves_contact(options.integrator) && state.planned) stepper_->recall(state.steps);
@@ -191,6 +192,7 @@ void Simulation::remember() {
   state_.totals.factorisations += work.factorisations;
   state_.totals.iterations += work.iterations;
   state_.totals.open_steps += work.open_steps;
+  state_.totals.energy = work.energy;
   state_.totals.collider_queries += work.contact.queries;
   state_.totals.truncated_moves += work.contact.truncations;
 }

@@ -61,6 +61,22 @@ const char* name_of(WorkPart part);
 /// Processor seconds of all threads, by WorkPart.
 using WorkTimes = std::array<double, work_parts>;
 
+/// Where the energy of cloth that moves by implicit steps came from and went to [J]: what it has gained is
+/// what was given less what was lost. What a force does in a step is its impulse times the mean velocity.
+struct EnergyBalance {
+  double seconds = 0;                           ///< of motion that was counted; 0: none was
+  double kinetic = 0, elastic = 0, weight = 0;  ///< gained since the start, less than 0: spent
+  double by_air = 0, by_body = 0, by_pins = 0;  ///< given by wind, a body that moves, pins that are led
+  double by_compensation = 0;                   ///< given by Compensation
+  double to_air = 0, to_contact = 0;            ///< lost to drag; to friction, of cloth on cloth, too
+  double to_search = 0;  ///< lost as steps were not solved to the end; less than 0: won
+  /// What the scheme lost, the rest; less than 0: won.
+  double to_steps() const { return given() - to_air - to_contact - to_search - kinetic - elastic - weight; }
+  double given() const { return by_air + by_body + by_pins + by_compensation; }
+  double lost() const { return to_air + to_contact + to_search + to_steps(); }
+  EnergyBalance& operator+=(const EnergyBalance& more);
+};
+
 /// What a report counts over all calls that shared a state.
 struct SimulateTotals {
   std::int64_t force_evaluations = 0, collider_queries = 0, truncated_moves = 0;
@@ -69,6 +85,7 @@ struct SimulateTotals {
   std::int64_t open_steps = 0;  ///< see WorkCounts
   std::int64_t cut_moves = 0;   ///< see SimulateReport
   std::int64_t limit_estimates = 0, frames_built = 0;
+  EnergyBalance energy;
   double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
   double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< of leapfrog [s]
   double seconds = 0, cpu_seconds = 0, frame_seconds = 0;              ///< [s]
@@ -283,6 +300,7 @@ struct SimulateReport {
   WorkTimes times{};                    ///< processor time by part, where that was asked for [s]
   StrainStatistics strain;              ///< structural springs (else edges of the membrane) at the end
   double kinetic_energy = 0;            ///< [J]; what rests on the body keeps the last half-kick, g dt/2
+  EnergyBalance energy;                 ///< of implicit steps
   double residual_force =
       0;             ///< see residual_force() [-]; of springs, weight and contact with a body at rest
   int contacts = 0;  ///< particles at the body at the end

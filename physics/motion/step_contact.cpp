@@ -47,6 +47,12 @@ std::vector<Vec3> StepContact::move_body(double from, double to, std::span<const
   return carried;
 }
 
+std::vector<Vec3> StepContact::in_world(std::vector<Vec3> places) const {
+  if (body_.motion)
+    for (Vec3& p : places) p = place_.rotation * p + place_.translation;
+  return places;
+}
+
 /// The end of a way in the body's frame, without what leads from within the gap farther in.
 Vec3 StepContact::slid(Vec3 from, const Vec3& to) const {
   Vec3 rest = to - from;

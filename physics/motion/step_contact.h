@@ -30,6 +30,8 @@ class StepContact {
   /// particles at x [m] are then if each goes with the point of the body that is next to it: in the body's
   /// frame.
   std::vector<Vec3> move_body(double from, double to, std::span<const Vec3> x);
+  /// Places in the body's frame, as move_body() gives them, in the world.
+  std::vector<Vec3> in_world(std::vector<Vec3> places) const;
   /// Shortens the ways of particles that can move (inv_mass > 0) from `start`, as of move_body(), to x, in
   /// the world, along the normal only, so that none goes deeper into the gap than it is. Cost: a few queries
   /// a particle near the body, one for each other.

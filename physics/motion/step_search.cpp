@@ -58,6 +58,30 @@ StepSearch::StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact,
     if (p.inv_mass[i] > 0) mass_ += p.mass[i];
 }
 
+FoundForces StepSearch::found() const {
+  FoundForces forces{{found_.elements, found_.pull}, pushes(), {}, found_.net};
+  if (pairs_ && pairs_->acts()) {
+    forces.cloth.assign(found_.pull.size(), Vec3::Zero());
+    pairs_->add_forces(forces.cloth);
+  }
+  return forces;
+}
+
+/// The body's on each particle where it was looked last.
+std::vector<Vec3> StepSearch::pushes() const {
+  if (!contact_) return {};
+  std::vector<Vec3> force(cloth_.particles.size(), Vec3::Zero());
+  contact_->anchored().add_forces(force);
+  return force;
+}
+
+ElementAnswer StepSearch::elements_at(std::span<const Vec3> x) {
+  ElementAnswer answer;
+  answer.pull.resize(x.size());
+  answer.energy = elements_(x, answer.pull, pool_);
+  return answer;
+}
+
 double StepSearch::contact_stiffness(std::span<const Vec3> x) {
   elements_.assemble(stiffness_, x, pool_);
   const double k = 0.5 * stiffness_.mean_diagonal();
@@ -279,7 +303,13 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
   stage_ = &stage;
   given_ = &given;
   if (pairs_) pairs_->forget_cuts();
-  Answer here = look(x);
+  found_ = look(x);
+  return descend(start, options, x, found_);
+}
+
+/// `here` is of x, before and after.
+SearchEnd StepSearch::descend(const StageStart& start, const SearchOptions& options, std::vector<Vec3>& x,
+                              Answer& here) {
   bool kept = options.keep_factors && kept_factors_serve();
   for (int iteration = 1; iteration <= options.most; ++iteration) {
     if (!kept) factorise(x);

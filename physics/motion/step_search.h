@@ -41,6 +41,20 @@ struct SearchOptions {
   bool keep_factors = false;
 };
 
+/// What elements do at a place.
+struct ElementAnswer {
+  double energy = 0;       ///< [J]
+  std::vector<Vec3> pull;  ///< one a particle [N]
+};
+
+/// Forces where a search ended, one a particle [N].
+struct FoundForces {
+  ElementAnswer elements;
+  std::vector<Vec3> body;   ///< of the body's push and friction; empty: none
+  std::vector<Vec3> cloth;  ///< of cloth on cloth; empty: none
+  std::vector<Vec3> left;   ///< of all, with inertia: 0 in a minimum
+};
+
 struct SearchEnd {
   bool converged;  ///< as the options ask
   int iterations;
@@ -59,6 +73,9 @@ class StepSearch {
   /// From x, which becomes where the search ended. Throws Cancelled.
   SearchEnd find(const Stage& stage, const StepLoads& given, const StageStart& start,
                  const SearchOptions& options, std::vector<Vec3>& x);
+  /// Where the last search ended, before anchors are moved.
+  FoundForces found() const;
+  ElementAnswer elements_at(std::span<const Vec3> x);
   /// Half of the mean diagonal of the elements' stiffness at x [N/m], 1 without: a scale for contact.
   double contact_stiffness(std::span<const Vec3> x);
   double mean_mass() const;  ///< of a free particle [kg]; 0 without
@@ -91,6 +108,9 @@ class StepSearch {
   void factorise(const std::vector<Vec3>& x);
   double inertia_of(const Stage& stage) const;
   bool kept_factors_serve() const;
+  std::vector<Vec3> pushes() const;
+  SearchEnd descend(const StageStart& start, const SearchOptions& options, std::vector<Vec3>& x,
+                    Answer& here);
   std::vector<Vec3> solve(std::vector<Vec3> net);
   bool make_room(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
   Way advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
@@ -113,6 +133,7 @@ class StepSearch {
   std::vector<int> factored_pushed_;
   std::vector<std::array<int, 2>> coupled_;
   double mass_ = 0;  ///< of all free particles [kg]
+  Answer found_;     ///< of where the last search ended
   const Stage* stage_ = nullptr;
   const StepLoads* given_ = nullptr;
 };

@@ -49,6 +49,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   contact/residual_force_test.cpp
   contact/rigid_contact_test.cpp
   motion/compensation_test.cpp
+  motion/energy_balance_test.cpp
   motion/euler_step_test.cpp
   motion/implicit_step_test.cpp
   motion/leapfrog_step_test.cpp
