@@ -12,6 +12,7 @@
 #include "jobs/run/drape_garment.h"
 #include "jobs/run/drape_layers.h"
 #include "jobs/run/fabric_file.h"
+#include "jobs/run/made_for.h"
 #include "jobs/run/recorded_material.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
@@ -118,6 +119,9 @@ void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene
     throw std::invalid_argument("--animation shows one way to rest; leave it out, or --starts");
   if (job.fabrics.size() > 1 && (!job.output.empty() || !s.animation.empty()))
     throw std::invalid_argument("--fabrics writes a picture only; drape each by itself for its mesh");
+  if (!s.made_for.empty() && !scene.body)
+    throw std::invalid_argument(
+        "--made-for: brings a garment from one body to another; name the other one with --body");
   if (!(s.residual > 0)) throw std::invalid_argument("--residual takes a number > 0");
   if (s.plain && s.contact_depth)
     throw std::invalid_argument(
@@ -130,6 +134,7 @@ void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene
   std::vector<std::string> inputs{scene.garment.string()};
   if (scene.body)
     for (const auto& path : {scene.body->mesh, scene.body->field}) inputs.push_back(path.string());
+  inputs.push_back(s.made_for.string());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
   std::vector<std::string> outputs{output, animation};
   if (all.size() > 1) {
@@ -256,6 +261,9 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   std::optional<BodyCollider> body;
   if (open.scene.body)
     body.emplace(load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap)));
+  if (const std::filesystem::path& made_for = job.settings.made_for; !made_for.empty())
+    body->made_for =
+        std::make_shared<const MadeFor>(read_made_for(made_for, *body, open.scene.body->mesh, context));
   const bool choose = !job.subdivide && std::none_of(all.begin(), all.end(), [](const io::TomlDocument& d) {
     return d.root.value("garment", Json::object()).contains("subdivide");
   });
