@@ -13,9 +13,9 @@ namespace {
 
 using Faces = std::span<const std::array<int, 3>>;
 
-constexpr double slice_step = 0.01, leg_ends = 0.05;          // of the height
-constexpr double neck_from = 0.80, neck_to = 0.93;            // where the neck is looked for
-constexpr double outer_shoulder = 0.75, shoulder_band = 0.1;  // of half the breadth between the arms
+constexpr double slice_step = 0.01, ankle = 0.05, sole = 0.008;  // of the height
+constexpr double neck_from = 0.80, neck_to = 0.93;               // where the neck is looked for
+constexpr double outer_shoulder = 0.75, shoulder_band = 0.1;     // of half the breadth between the arms
 
 std::array<double, 2> heights_of(std::span<const Point> points) {
   std::array<double, 2> range{INFINITY, -INFINITY};
@@ -23,31 +23,42 @@ std::array<double, 2> heights_of(std::span<const Point> points) {
   return range;
 }
 
-/// Of level slices below the crotch, on one side of the trunk's middle, upwards.
-std::vector<TrunkOutline> leg_slices(std::span<const Point> points, Faces triangles, const Skeleton& s,
-                                     const std::array<double, 2>& middle, int side) {
-  std::vector<TrunkOutline> slices;
-  const double tall = s.high - s.low;
-  for (double y = s.low + leg_ends * tall; y < s.crotch; y += slice_step * tall) {
-    const std::vector<SectionLoop> loops = horizontal_section(points, triangles, y);
-    const SectionLoop* best = nullptr;
-    for (const SectionLoop& loop : loops) {
-      if (!loop.closed || (centre_of(loop)[0] - middle[0]) * (side ? -1 : 1) <= 0) continue;
-      if (slices.empty() ? !best || enclosed_area(loop) > enclosed_area(*best)
-                         : encloses(loop, slices.back().centre[0], slices.back().centre[1]))
-        best = &loop;
+/// Of level slices below the crotch, on one side of the trunk's middle: upwards from the ankle, then
+/// downwards.
+class LegSlices {
+ public:
+  LegSlices(std::span<const Point> points, Faces triangles, const std::array<double, 2>& middle, int side)
+      : points_(points), triangles_(triangles), middle_(middle), side_(side) {}
+
+  /// A slice around the middle of the one before it; without one, the largest of its side.
+  std::optional<TrunkOutline> at(double y, const TrunkOutline* last) const {
+    std::optional<TrunkOutline> best;
+    double area = 0;
+    for (const SectionLoop& loop : horizontal_section(points_, triangles_, y)) {
+      const double x = centre_of(loop)[0] - middle_[0];
+      // Thighs that are one curve are no leg's: they reach over the middle.
+      if (!loop.closed || (side_ ? -x : x) <= 0 || encloses(loop, middle_[0], middle_[1])) continue;
+      if (last && !encloses(loop, last->centre[0], last->centre[1])) continue;
+      if (enclosed_area(loop) > area) area = enclosed_area(loop), best = outline_of(loop, y);
     }
-    if (!best) continue;
-    // Thighs that are one curve are no leg's: they would reach over the middle.
-    if (encloses(*best, middle[0], middle[1]) && breadth(*best) > 0.15 * tall) break;
-    slices.push_back(outline_of(*best, y));
+    return best;
   }
-  return slices;
-}
+
+ private:
+  std::span<const Point> points_;
+  Faces triangles_;
+  const std::array<double, 2>& middle_;
+  int side_;
+};
 
 Leg leg_of(std::span<const Point> points, Faces triangles, const Skeleton& s,
            const std::array<double, 2>& middle, int side) {
-  Leg leg{leg_slices(points, triangles, s, middle, side)};
+  const LegSlices slices(points, triangles, middle, side);
+  const double tall = s.high - s.low;
+  Leg leg;
+  for (double y = s.low + ankle * tall; y < s.crotch; y += slice_step * tall)
+    if (auto slice = slices.at(y, leg.slices.empty() ? nullptr : &leg.slices.back()))
+      leg.slices.push_back(std::move(*slice));
   if (leg.slices.size() < 20)
     throw ContentError(
         "the body has no two legs below its crotch that could be told apart; it must stand with its legs "
@@ -55,6 +66,10 @@ Leg leg_of(std::span<const Point> points, Faces triangles, const Skeleton& s,
   const TrunkOutline &a = leg.slices.back(), &b = leg.slices.front();
   const Vector along(b.centre[0] - a.centre[0], b.height - a.height, b.centre[1] - a.centre[1]);
   leg.axis = along / std::sqrt(along.squared_length());
+  leg.ankle = {b.centre[0], b.centre[1]};
+  for (double y = b.height - slice_step * tall; y > s.low + sole * tall; y -= slice_step * tall)
+    if (auto slice = slices.at(y, &leg.slices.front()))
+      leg.slices.insert(leg.slices.begin(), std::move(*slice));
   return leg;
 }
 
@@ -102,11 +117,11 @@ double shoulders_of(std::span<const Point> points, const Skeleton& s) {
 /// Toes reach farther from the ankle than heels.
 int facing_of(std::span<const Point> points, const Skeleton& s) {
   const double tall = s.high - s.low;
-  const double ankle = (s.legs[0].slices.front().centre[1] + s.legs[1].slices.front().centre[1]) / 2;
+  const double ankles = (s.legs[0].ankle[1] + s.legs[1].ankle[1]) / 2;
   double front = 0, back = 0;
   for (const Point& p : points)
     if (p.y() < s.low + 0.02 * tall)
-      front = std::max(front, p.z() - ankle), back = std::max(back, ankle - p.z());
+      front = std::max(front, p.z() - ankles), back = std::max(back, ankles - p.z());
   if (std::max(front, back) < 1.3 * std::min(front, back) || std::max(front, back) < 0.03 * tall) return 0;
   return front > back ? 1 : -1;
 }

@@ -39,7 +39,9 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
               (faces ? through
                      : "lies inside the body, by up to " +
                            geometry::length_text(fit.distance.deepest_penetration)) +
-              "; look at where the garment lies before it is draped (and at --unit), refine it with " +
+              (d.placed ? "; it is too small there, or the body leaves cloth no room; refine it with "
+                        : "; look at where the garment lies before it is draped (and at --unit), refine it "
+                          "with ") +
               finer(d) + ", or accept it with --penetration",
           d.name, "garment.subdivide"}});
   else if (faces)
@@ -156,9 +158,9 @@ void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
        {"torn",
         d.name +
             fmt::format(": torn: {:.0f} % of the cloth is strained by more than {:.0f} %, up to {:.0f} %{}; "
-                        "the garment is too small for this body, or lies inside it: look at --unit, and at "
-                        "where it lies",
-                        100 * strain.share_over, 100 * d.fit_options.tight_strain, 100 * strain.max, where),
+                        "the garment is too small for this body{}",
+                        100 * strain.share_over, 100 * d.fit_options.tight_strain, 100 * strain.max, where,
+                        d.placed ? "" : ", or lies inside it: look at --unit, and at where it lies"),
         d.name, "unit"}});
 }
 

@@ -54,8 +54,8 @@ void warn_of_pose(const Placed& placed, const std::string& name, const Context& 
   if (limbs.empty()) return;
   context.warn(
       "pose_differs",
-      fmt::format("{}: the two bodies are not posed alike: {} is held otherwise, and cloth goes around "
-                  "it; look at the armholes and the crotch, where cloth begins pulled or pressed",
+      fmt::format("{}: the two bodies are posed differently, and so its cloth was turned, with {}; look at "
+                  "armholes and crotch, where it begins pulled or pressed",
                   name, limbs),
       name, "made_for");
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/figure/limb_places.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/figure/skeleton.h"
 #include "tests/test_meshes.h"
@@ -27,7 +28,7 @@ inline geometry::Mesh scaled(geometry::Mesh mesh, double by) {
 /// it.
 inline geometry::Point raised(const geometry::Arm& arm, double angle, const geometry::Point& p) {
   const geometry::Point root = arm.rings.front().centre;
-  const double along = (p - root) * arm.axis, t = std::clamp((along + 0.02) / 0.05, 0.0, 1.0);
+  const double along = (p - root) * arm.axis, t = std::clamp(along / 0.06, 0.0, 1.0);
   const double turn = (root.x() > 0 ? 1 : -1) * angle * t * t * (3 - 2 * t);
   const double x = p.x() - root.x(), y = p.y() - root.y(), c = std::cos(turn), s = std::sin(turn);
   return {root.x() + c * x - s * y, root.y() + s * x + c * y, p.z()};
@@ -37,11 +38,9 @@ inline geometry::Point raised(const geometry::Arm& arm, double angle, const geom
 inline geometry::Mesh with_raised_arms(geometry::Mesh mesh, double angle) {
   const geometry::Skeleton s = skeleton_of(mesh);
   for (const geometry::Vertex v : mesh.vertices())
-    for (const auto& arm : s.arms) {
-      const geometry::Point p = mesh.point(v), root = arm->rings.front().centre;
-      if (p.x() * root.x() > 0 && std::abs(p.x()) > std::abs(root.x()) - 0.03 && p.y() < s.shoulders)
-        mesh.point(v) = raised(*arm, angle, p);
-    }
+    for (int side = 0; side < 2; ++side)
+      if (geometry::nearest_part(s, mesh.point(v)) == geometry::arm_part(side))
+        mesh.point(v) = raised(*s.arms[std::size_t(side)], angle, mesh.point(v));
   return mesh;
 }
 
