@@ -34,6 +34,12 @@ void check_scene(const io::Scene& scene) {
     throw std::invalid_argument("drape draws no lines; draw them on what it writes, with furrow wrinkle");
 }
 
+void check_made_for(const DrapeSettings& s, const io::Scene& scene) {
+  if (!s.made_for.empty() && !scene.body)
+    throw std::invalid_argument(
+        "--made-for: brings a garment from one body to another; name the other one with --body");
+}
+
 /// What several garments are not draped with.
 void check_layers(const DrapeJob& job, const io::Scene& scene) {
   const DrapeSettings& s = job.settings;
@@ -108,6 +114,7 @@ std::vector<std::string> names_of(std::span<const std::filesystem::path> paths) 
 void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene, Listener& listener) {
   check_scene(scene);
   const DrapeSettings& s = job.settings;
+  check_made_for(s, scene);
   using physics::require;
   require("drape", "penetration", s.penetration, s.penetration >= 0, ">= 0");
   require("drape", "band_stiffness", s.band_stiffness, s.band_stiffness >= 0, ">= 0");
@@ -119,9 +126,6 @@ void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene
     throw std::invalid_argument("--animation shows one way to rest; leave it out, or --starts");
   if (job.fabrics.size() > 1 && (!job.output.empty() || !s.animation.empty()))
     throw std::invalid_argument("--fabrics writes a picture only; drape each by itself for its mesh");
-  if (!s.made_for.empty() && !scene.body)
-    throw std::invalid_argument(
-        "--made-for: brings a garment from one body to another; name the other one with --body");
   if (!(s.residual > 0)) throw std::invalid_argument("--residual takes a number > 0");
   if (s.plain && s.contact_depth)
     throw std::invalid_argument(
@@ -131,10 +135,9 @@ void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene
   if (!animation.empty() && !io::animation_format(s.animation))
     throw std::invalid_argument(animation + ": the ending names no animation; choose pc2, mdd or glb");
   check_folder(animation);
-  std::vector<std::string> inputs{scene.garment.string()};
+  std::vector<std::string> inputs{scene.garment.string(), s.made_for.string()};
   if (scene.body)
     for (const auto& path : {scene.body->mesh, scene.body->field}) inputs.push_back(path.string());
-  inputs.push_back(s.made_for.string());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
   std::vector<std::string> outputs{output, animation};
   if (all.size() > 1) {
