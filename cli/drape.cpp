@@ -253,6 +253,7 @@ void add_drape(CLI::App& app, int& exit_code) {
       "  furrow drape skirt.obj --body body.obj --fabric silk --band top=0.95 -o worn.ply\n"
       "  furrow drape leggings.obj skirt.obj --body body.obj -o worn.ply\n"
       "  furrow drape shirt.obj --body body.obj --fabrics cotton,silk,denim --picture fabrics.png\n"
+      "  furrow drape shirt.obj --made-for anna.obj --body berta.obj -o worn.ply\n"
       "  furrow drape curtain.obj --pin-loop top -o hangs.ply");
   sub->add_option("garment", a->garments,
                   "garment to read, where it lies on the body or about it, or a scene: a .toml file; several "
@@ -261,6 +262,10 @@ void add_drape(CLI::App& app, int& exit_code) {
   sub->add_option("-o,--output", a->out,
                   "mesh to write: the garment as it is worn; PLY keeps strain and distance. Of several, a "
                   "file each: worn.ply becomes worn-shirt.ply and so on; or put {} for the garment's name");
+  sub->add_option(
+      "--made-for", a->settings.made_for,
+      "body that the garment was made for and lies about, in the garment's unit: the garment is "
+      "brought from there to --body before it is draped, turned with arms and legs; its size stays");
   sub->add_option(
          "--subdivide", a->subdivide,
          "refine the garment so many times (Loop), 0 to 6; its shape is found coarse to fine. auto (the "

@@ -186,6 +186,23 @@ void add_starts(Lines& lines, const Json& report) {
   lines.push_back(text);
 }
 
+/// "brought from anna.obj: height x 1.03, arms turned by 28 degrees, legs by 8; moved by 7 cm, …".
+void add_placed(Lines& lines, const Json& placed) {
+  if (placed.empty()) return;
+  const Json& turned = table_of(placed, "turned");
+  const auto degrees = [&](const char* left, const char* right) {
+    const double most = std::fmax(value_of(turned, left), value_of(turned, right));
+    return std::to_string(std::lround(std::isfinite(most) ? most : 0)) + " degrees";
+  };
+  char scale[32];
+  std::snprintf(scale, sizeof scale, "%.3g", value_of(placed, "height_scale"));
+  lines.push_back("brought from " + text_of(placed, "made_for") + ": height x " + scale +
+                  ", arms turned by " + degrees("left_arm", "right_arm") + ", legs by " +
+                  degrees("left_leg", "right_leg") + "; moved by " + length(placed, "mean_move") +
+                  ", at most " + length(placed, "farthest_move") + "; " +
+                  per_cent(value_of(placed, "inside_share")) + " of it began inside the body");
+}
+
 /// Of one garment on a body.
 void add_draped(Lines& lines, const Json& report) {
   const Json& levels = list_of(report, "levels");
@@ -200,6 +217,7 @@ void add_draped(Lines& lines, const Json& report) {
     lines.push_back("gap: " + asked + " asked, " + (taken == asked ? "" : taken + " aimed at, ") +
                     length(table_of(table_of(report, "fit"), "distance"), "min") + " at the nearest place; " +
                     std::to_string(count_of(report, "touching")) + " vertices touch the body");
+  add_placed(lines, table_of(report, "placed"));
   add_starts(lines, report);
   add_fit(lines, table_of(report, "fit"));
   if (const Json& contact = table_of(report, "self_contact"); contact.contains("crossings_without"))

@@ -12,6 +12,7 @@
 #include "jobs/run/drape_garment.h"
 #include "jobs/run/drape_layers.h"
 #include "jobs/run/fabric_file.h"
+#include "jobs/run/made_for.h"
 #include "jobs/run/recorded_material.h"
 #include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
@@ -31,6 +32,12 @@ void check_scene(const io::Scene& scene) {
         "body.motion: drape takes the body as it lies in its file; move it there, or simulate");
   if (!scene.lines.empty())
     throw std::invalid_argument("drape draws no lines; draw them on what it writes, with furrow wrinkle");
+}
+
+void check_made_for(const DrapeSettings& s, const io::Scene& scene) {
+  if (!s.made_for.empty() && !scene.body)
+    throw std::invalid_argument(
+        "--made-for: brings a garment from one body to another; name the other one with --body");
 }
 
 /// What several garments are not draped with.
@@ -107,6 +114,7 @@ std::vector<std::string> names_of(std::span<const std::filesystem::path> paths) 
 void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene, Listener& listener) {
   check_scene(scene);
   const DrapeSettings& s = job.settings;
+  check_made_for(s, scene);
   using physics::require;
   require("drape", "penetration", s.penetration, s.penetration >= 0, ">= 0");
   require("drape", "band_stiffness", s.band_stiffness, s.band_stiffness >= 0, ">= 0");
@@ -127,7 +135,7 @@ void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene
   if (!animation.empty() && !io::animation_format(s.animation))
     throw std::invalid_argument(animation + ": the ending names no animation; choose pc2, mdd or glb");
   check_folder(animation);
-  std::vector<std::string> inputs{scene.garment.string()};
+  std::vector<std::string> inputs{scene.garment.string(), s.made_for.string()};
   if (scene.body)
     for (const auto& path : {scene.body->mesh, scene.body->field}) inputs.push_back(path.string());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
@@ -256,6 +264,9 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   std::optional<BodyCollider> body;
   if (open.scene.body)
     body.emplace(load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap)));
+  if (const std::filesystem::path& made_for = job.settings.made_for; !made_for.empty())
+    body->made_for =
+        std::make_shared<const MadeFor>(read_made_for(made_for, *body, open.scene.body->mesh, context));
   const bool choose = !job.subdivide && std::none_of(all.begin(), all.end(), [](const io::TomlDocument& d) {
     return d.root.value("garment", Json::object()).contains("subdivide");
   });

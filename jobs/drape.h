@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -48,6 +49,7 @@ struct DrapeSettings {
   double band_stiffness = 50;       ///< [N]; >= 0
   double bending_friction = 0;      ///< [N]; >= 0
   std::filesystem::path animation;  ///< of the finest level, a frame an iteration; empty: none
+  std::filesystem::path made_for;   ///< body that the garment lies about; empty: the scene's
   std::optional<double> gap;  ///< to the body, whatever edges and field need [m]; > 0; none: they raise it
 };
 
@@ -140,6 +142,22 @@ struct LooseParts {
   double area_share = 0;     ///< of the garment's area
 };
 
+/// How a garment was brought from the body that it was made for to the one that it is draped on.
+struct Placed {
+  struct Limb {
+    std::string name;            ///< of the wearer's: "left arm"
+    std::optional<double> turn;  ///< from how it was held [degrees]; none: a body's arm was not found
+    double share = 0;            ///< of the garment's vertices that go with it, in [0, 1]
+  };
+  std::string made_for;                     ///< file of that body
+  double height_scale = 1;                  ///< height of the body over that one's [-]
+  std::array<Limb, 4> limbs;                ///< left and right arm, left and right leg
+  double mean_move = 0, farthest_move = 0;  ///< of vertices [m]
+  std::size_t inside = 0;                   ///< vertices inside the body then, before they are pushed out
+  double inside_share = 0;                  ///< of all [-]
+  double deepest = 0;                       ///< of them [m]
+};
+
 /// A garment that was draped.
 struct Draped {
   io::MeshFile file;  ///< [m], y up, with the columns of its fit
@@ -149,6 +167,7 @@ struct Draped {
   int refinements = 0;                ///< Loop subdivisions of the garment as it was given
   std::optional<double> hem_height;   ///< mean y of the lowest border [m]; none: there is no border
   std::optional<DrapeStarts> starts;  ///< none: there was one
+  std::optional<Placed> placed;       ///< none: it was draped where it lay
   DrapeForces forces;                 ///< none of a garment that was cancelled
   double angle_defect = 0;  ///< how knobbly it rests: sum over inner vertices over the area [rad/m^2]
   std::vector<LineReport> lines = {};  ///< heights against what they were, or the file's at its start

@@ -23,6 +23,9 @@ const Keywords<jobs::DrapeJob>& drape_rows() {
                  take(v, j.subdivide);
                }),
       row<Job>(
+          "made_for", "body that the garment was made for and lies about: brought from there to the body",
+          [](auto& j) -> auto& { return j.settings.made_for; }),
+      row<Job>(
           "fabrics", "the same garment in each of these fabrics; a mesh for each, in the result",
           [](auto& j) -> auto& { return j.fabrics; }),
       row<Job>(

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "geometry/figure/repair_body.h"
+#include "geometry/figure/trunk_outline.h"
 #include "geometry/mesh/errors.h"
 
 namespace furrow::geometry {
@@ -20,7 +20,6 @@ constexpr double close_enough = 1e-3;                       // m
 constexpr double ankles = 0.06, knees = 0.28, neck = 0.87;  // of the height
 constexpr double share_at_knees = 0.4;                      // of what the hips grow by
 constexpr double arm_blend = 0.08;                          // beyond the trunk's outline, of its radius
-constexpr int directions = 96;                              // in which an outline is known
 
 using Triangles = std::span<const std::array<int, 3>>;
 
@@ -33,37 +32,6 @@ std::array<double, 2> extent(std::span<const Point> points) {
   std::array<double, 2> range{points[0].y(), points[0].y()};
   for (const Point& p : points) range = {std::min(range[0], p.y()), std::max(range[1], p.y())};
   return range;
-}
-
-/// Radii of a trunk's outline about its middle [m].
-struct Outline {
-  double height = 0;
-  std::array<double, 2> centre{};
-  std::array<double, directions> radius{};
-
-  /// In a direction [rad].
-  double towards(double angle) const {
-    const double at = (angle / (2 * std::numbers::pi) + 1) * directions, whole = std::floor(at);
-    const std::size_t i = std::size_t(whole) % directions, next = (i + 1) % directions;
-    return radius[i] + (at - whole) * (radius[next] - radius[i]);
-  }
-};
-
-Outline outline_of(const SectionLoop& loop, double height) {
-  Outline outline{height, centre_of(loop), {}};
-  for (std::size_t i = 0; i < loop.points.size(); ++i) {
-    const SectionPoint &p = loop.points[i], &q = loop.points[(i + 1) % loop.points.size()];
-    for (double s = 0; s < 1; s += 0.1) {
-      const double x = p.x + s * (q.x - p.x) - outline.centre[0],
-                   z = p.z + s * (q.z - p.z) - outline.centre[1];
-      const double turn = std::atan2(z, x) / (2 * std::numbers::pi) + 1;
-      double& radius = outline.radius[std::size_t(std::lround(turn * directions)) % directions];
-      radius = std::max(radius, std::hypot(x, z));
-    }
-  }
-  for (std::size_t i = 0; i < directions; ++i)  // coarse meshes leave gaps
-    if (outline.radius[i] == 0) outline.radius[i] = outline.radius[(i + directions - 1) % directions];
-  return outline;
 }
 
 /// A body that was measured, and its trunk.
@@ -134,15 +102,16 @@ class Reshaping {
 
   /// The outlines below and above a height, and how far it is from one to the other [-].
   struct Between {
-    const Outline *below, *above;
+    const TrunkOutline *below, *above;
     double share;
   };
   Between around(double y) const {
-    const auto above = std::lower_bound(outlines_.begin(), outlines_.end(), y,
-                                        [](const Outline& o, double height) { return o.height < height; });
+    const auto above =
+        std::lower_bound(outlines_.begin(), outlines_.end(), y,
+                         [](const TrunkOutline& o, double height) { return o.height < height; });
     if (above == outlines_.begin()) return {&*above, &*above, 0};
     if (above == outlines_.end()) return {&outlines_.back(), &outlines_.back(), 0};
-    const Outline& below = *(above - 1);
+    const TrunkOutline& below = *(above - 1);
     return {&below, &*above, (y - below.height) / (above->height - below.height)};
   }
 
@@ -165,7 +134,7 @@ class Reshaping {
 
   BodyMeasures factors_;
   TorsoHeights heights_;
-  std::vector<Outline> outlines_;
+  std::vector<TrunkOutline> outlines_;
   std::array<Knot, 7> knots_;
 };
 

@@ -9,6 +9,7 @@
 #include "jobs/fit.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/drape_starts.h"
+#include "jobs/run/made_for.h"
 #include "jobs/run/run_warnings.h"
 
 namespace furrow::jobs {
@@ -38,7 +39,9 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
               (faces ? through
                      : "lies inside the body, by up to " +
                            geometry::length_text(fit.distance.deepest_penetration)) +
-              "; look at where the garment lies before it is draped (and at --unit), refine it with " +
+              (d.placed ? "; it is too small there, or the body leaves cloth no room; refine it with "
+                        : "; look at where the garment lies before it is draped (and at --unit), refine it "
+                          "with ") +
               finer(d) + ", or accept it with --penetration",
           d.name, "garment.subdivide"}});
   else if (faces)
@@ -56,6 +59,22 @@ void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
               geometry::length_text(fit.distance.min) +
               "; the cloth is too tight for it there, or the body leaves no room",
           d.name, ""}});
+}
+
+/// A garment that lay well inside the body as it was given.
+void remark_on_start(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  constexpr double deep = 0.025;  // [m]; what was made for a body lies a few millimetres inside it
+  const physics::PushOutReport& pushed = d.report.levels.front().pushed;
+  if (d.placed || !d.fit.on_body || !(pushed.farthest > d.gap + deep)) return;
+  remarks.push_back(
+      {false,
+       {"starts_inside",
+        fmt::format(
+            "{}: lies up to {} inside the body as it is given ({} of {} vertices were brought out): if "
+            "it was made for another body, name that one with --made-for, and it is brought here",
+            d.name, geometry::length_text(pushed.farthest - d.gap), pushed.moved,
+            d.report.levels.front().vertices),
+        d.name, "made_for"}});
 }
 
 /// What could not be taken apart, and where most of it is.
@@ -139,9 +158,9 @@ void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
        {"torn",
         d.name +
             fmt::format(": torn: {:.0f} % of the cloth is strained by more than {:.0f} %, up to {:.0f} %{}; "
-                        "the garment is too small for this body, or lies inside it: look at --unit, and at "
-                        "where it lies",
-                        100 * strain.share_over, 100 * d.fit_options.tight_strain, 100 * strain.max, where),
+                        "the garment is too small for this body{}",
+                        100 * strain.share_over, 100 * d.fit_options.tight_strain, 100 * strain.max, where,
+                        d.placed ? "" : ", or lies inside it: look at --unit, and at where it lies"),
         d.name, "unit"}});
 }
 
@@ -403,6 +422,7 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
   std::vector<DrapeRemark> remarks;
   for (const Draped& d : garments) {
     if (d.report.stopped) break;
+    remark_on_start(d, remarks);
     remark_on_strain(d, remarks);
     remark_on_contact(d, remarks);
     remark_on_loose_parts(d, remarks);
@@ -474,6 +494,7 @@ Json to_json(const Draped& d) {
                      {"vertices", d.loose_parts.vertices},
                      {"area_share", d.loose_parts.area_share},
                      {"done", name_of(d.loose_parts.use)}};
+  if (d.placed) json["placed"] = to_json(*d.placed);
   if (d.self_contact) json["self_contact"] = self_contact_json(d);
   if (d.other) json["other_search"] = to_json(*d.other);
   if (d.untangled.at_start) json["untangled"] = untangled_json(d.untangled);

@@ -18,12 +18,16 @@ struct SavedState;
 }
 namespace furrow::jobs {
 
+struct MadeFor;
+
 /// A rigid body in its own frame.
 struct BodyCollider {
   physics::TriangleMesh triangles;
   physics::ExactDistance exact;
   physics::DistanceField field;
   BodyOutline outline = {};  ///< of its file
+  /// That garments are brought from before they are draped (jobs/run/made_for.h); null: they lie about it.
+  std::shared_ptr<const MadeFor> made_for = {};
 };
 
 /// The frame with another unit, where one is given.

@@ -123,7 +123,7 @@ void finish_loose_parts(const DrapePlan& plan, const std::vector<int>& loose, Dr
 Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int>& loose,
                   const Progress& progress, const Context& context) {
   const double start = now();
-  GarmentMaker maker(plan.scene, plan.body, plan.settings, plan.as_read, context);
+  GarmentMaker maker(plan.scene, plan.body, plan.settings, plan.as_read, context, plan.places);
   maker.loose = loose;
   Draped draped;
   const auto recorder = [&](std::optional<WayRecorder>& way) {
@@ -253,10 +253,10 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   const GivenGarment given = read_given(asked, body, s, choose, context);
   const io::Scene& scene = given.scene;
   const double gap = s.gap.value_or(0) > 0 ? *s.gap : gap_of(scene, body, given.file.mesh, context);
-  DrapePlan plan{scene, body, s, given.file, drape_options_of(scene, s, gap)};
+  DrapePlan plan{scene, body, s, given.file, drape_options_of(scene, s, gap), given.places()};
   plan.options.soft_start = soft_start_of(given.file, !scene.pins.empty());
   if (body) plan.options.settle.faces = {&body->exact, body->field.report().tolerance};
-  const FallWatch watch(given.file.mesh, body, gap);
+  const FallWatch watch(at_places(given.file.mesh, given.places()), body, gap);
   const ProgressScope progress(context.listener, "draping");
   const int count = scene.starts;
   bridge::DrapeWork work;
@@ -268,6 +268,7 @@ Draped drape_garment(const io::Scene& asked, const BodyCollider* body, const Dra
   };
   Draped draped = start(0, context);
   if (count > 1) draped = choose_start(std::move(draped), count, start, context);
+  if (given.placed) draped.placed = given.placed->report;
   return draped;
 }
 

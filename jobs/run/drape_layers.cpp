@@ -42,10 +42,12 @@ class LayerSearch {
               const Context& context)
       : given_(given), body_(body), settings_(settings), options_(options(given, body, settings, context)) {
     for (const GivenGarment& g : given) {
-      makers.push_back(std::make_unique<GarmentMaker>(g.scene, body, settings, g.file, context));
-      meshes_.push_back(&g.file.mesh);
+      makers.push_back(std::make_unique<GarmentMaker>(g.scene, body, settings, g.file, context, g.places()));
+      begun_.push_back(at_places(g.file.mesh, g.places()));
     }
-    watch_ = std::make_unique<FallWatch>(joined_mesh(meshes_), body, options_.settle.gap);
+    std::vector<const geometry::Mesh*> meshes;
+    for (const geometry::Mesh& mesh : begun_) meshes.push_back(&mesh);
+    watch_ = std::make_unique<FallWatch>(joined_mesh(meshes), body, options_.settle.gap);
   }
 
   /// Until nothing falls that was not known to.
@@ -113,7 +115,7 @@ class LayerSearch {
   const BodyCollider* body_;
   const DrapeSettings& settings_;
   bridge::DrapeOptions options_;
-  std::vector<const geometry::Mesh*> meshes_;
+  std::vector<geometry::Mesh> begun_;  ///< the garments where they begin
   std::unique_ptr<FallWatch> watch_;
 };
 
@@ -145,6 +147,7 @@ Draped draped_of(LayerSearch& search, std::size_t i, const GivenGarment& given, 
     carry_loose_parts(d.file.mesh, given.file.mesh, d.refinements, maker.loose);
   }
   measure_draped({given.scene, body, settings, given.file, search.drape_options()}, d);
+  if (given.placed) d.placed = given.placed->report;
   return d;
 }
 

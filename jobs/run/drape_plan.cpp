@@ -148,7 +148,9 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
   GivenGarment given{scene, {}};
   given.scene.subdivide = 0;
   given.file = begin_garment(given.scene, context);
-  if (body)
+  if (body && body->made_for)
+    given.placed = place(given.file.mesh, *body->made_for, *body, scene.garment.string(), context);
+  else if (body)
     heed(faults_of_pair(given.file.mesh, body->outline, scene.body->unit.has_value()), scene.garment.string(),
          context);
   given.scene.subdivide = scene.subdivide;

@@ -2,6 +2,7 @@
 #pragma once
 #include "jobs/drape.h"
 #include "jobs/run/body.h"
+#include "jobs/run/made_for.h"
 
 /// What a drape of one garment, and one of several, have in common.
 namespace furrow::jobs {
@@ -13,6 +14,7 @@ struct DrapePlan {
   const DrapeSettings& settings;
   const io::MeshFile& as_read;
   bridge::DrapeOptions options;
+  std::span<const physics::Vec3> places = {};  ///< where it begins, by vertex [m]; empty: where it lies
 };
 
 /// How far a search for rest has come: the share of the way that its residual force has to fall, by
@@ -48,9 +50,15 @@ double gap_of(const io::Scene& scene, const BodyCollider* body, const geometry::
 struct GivenGarment {
   io::Scene scene;
   io::MeshFile file;
+  std::optional<PlacedStart> placed = {};  ///< where it begins; none: where it lies
+
+  std::span<const physics::Vec3> places() const {
+    return placed ? std::span<const physics::Vec3>(placed->places) : std::span<const physics::Vec3>();
+  }
 };
 
-/// `choose`: refined as often as the gap needs. Throws as reading does.
+/// `choose`: refined as often as the gap needs. Brought to the body from the one that it was made for, if
+/// there is such; its own shape stays. Throws as reading does.
 GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& settings,
                         bool choose, const Context& context);
 

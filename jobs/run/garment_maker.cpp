@@ -9,7 +9,9 @@
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/parts.h"
 #include "geometry/mesh/struts.h"
+#include "geometry/refine/subdivide.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/made_for.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
@@ -63,8 +65,9 @@ std::string name_of(const io::ScenePins& pins) {
 }  // namespace
 
 GarmentMaker::GarmentMaker(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& settings,
-                           const io::MeshFile& as_read, const Context& context)
-    : scene_(scene), body_(body), settings_(settings), as_read_(as_read), context_(context) {
+                           const io::MeshFile& as_read, const Context& context,
+                           std::span<const physics::Vec3> places)
+    : scene_(scene), body_(body), settings_(settings), as_read_(as_read), context_(context), places_(places) {
   for (const io::ScenePins& pins : scene.pins)
     pin_vertices_.push_back(pins.loop.empty() ? -1 : vertex_of_loop(as_read.mesh, pins.loop));
   for (const Band& band : settings.bands) try {
@@ -87,6 +90,7 @@ physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
   physics::Cloth cloth = naming(scene_.garment.string(), [&] {
     return bridge::gather(made.mesh, spring_options(made, scene_.material));
   });
+  if (!places_.empty()) bring_to_places(mesh, cloth);
   pin_cloth(cloth, pins_, nullptr, 0, context_);
   held_.assign(cloth.particles.size(), 0);
   for (const std::vector<int>& held : pins_)
@@ -128,6 +132,13 @@ void GarmentMaker::tie_seams(const geometry::Mesh& mesh) {
   if (ties_.empty()) return;
   tied_ = mesh;
   set_seam_ties(made.mesh, ties_, scene_.material);
+}
+
+/// Refined as the garment is, level by level.
+void GarmentMaker::bring_to_places(const geometry::Mesh& mesh, physics::Cloth& cloth) {
+  if (mesh.num_vertices() == as_read_.mesh.num_vertices()) at_places_ = at_places(as_read_.mesh, places_);
+  while (at_places_.num_vertices() < mesh.num_vertices()) geometry::loop_subdivide(at_places_, 1);
+  cloth.particles.x = bridge::positions_of(at_places_);
 }
 
 void GarmentMaker::hold_loose(const geometry::Mesh& mesh, physics::Cloth& cloth) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <span>
 #include <vector>
 
 #include "jobs/check/seam_ties.h"
@@ -12,10 +13,12 @@ namespace furrow::jobs {
 /// with must outlive it.
 class GarmentMaker {
  public:
-  /// body: null, or what pins are moved out of. Throws std::invalid_argument for a pin's or a band's loop
-  /// that the garment does not have.
+  /// body: null, or what pins are moved out of. places: where the garment begins, by vertex [m], refined as
+  /// it is; its rest shape is as it was read. Empty: where it lies. Throws std::invalid_argument for a pin's
+  /// or a band's loop that the garment does not have.
   GarmentMaker(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& settings,
-               const io::MeshFile& as_read, const Context& context);
+               const io::MeshFile& as_read, const Context& context,
+               std::span<const physics::Vec3> places = {});
 
   /// The mesh gets the maps that the cloth is made of.
   physics::Cloth operator()(geometry::Mesh& mesh);
@@ -34,12 +37,15 @@ class GarmentMaker {
   void hold_loose(const geometry::Mesh& mesh, physics::Cloth& cloth) const;
   void leave_out_loose(const geometry::Mesh& mesh, physics::Cloth& cloth) const;
   std::vector<io::ScenePins> pins_on(const geometry::Mesh& mesh) const;
+  void bring_to_places(const geometry::Mesh& mesh, physics::Cloth& cloth);
 
   const io::Scene& scene_;
   const BodyCollider* body_;
   const DrapeSettings& settings_;
   const io::MeshFile& as_read_;
   const Context& context_;
+  std::span<const physics::Vec3> places_;
+  geometry::Mesh at_places_;  ///< of the level
   std::vector<int> pin_vertices_, band_vertices_;
   std::vector<std::vector<int>> pins_;               ///< of the level
   std::vector<std::vector<physics::Spring>> bands_;  ///< of the level

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// furrow body: a person's measurements, by the tape of furrow fit.
+// furrow body: a person's measurements, by the tape of furrow fit; and garments brought to such a body.
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "run_furrow.h"
@@ -39,4 +40,29 @@ TEST_CASE("body: a call that cannot be meant is refused, and what is missed leav
   const Run missed = run_furrow("body --waist 0.92 -o " + out);
   CHECK(missed.exit_code == 4);
   CHECK(missed.err.find("error:") != std::string::npos);
+}
+
+TEST_CASE("drape --made-for: our skirt is brought to a taller body, by the program and in a batch",
+          "[release]") {
+  const ScratchDirectory folder;
+  const std::string tall = folder / "tall.obj", own = source_file("meshes/mannequin.obj"),
+                    skirt = source_file("meshes/skirt.obj"), out = folder / "worn.ply";
+  REQUIRE(run_furrow("body --height 1.85 -o " + tall + " -q").exit_code == 0);
+  const std::string call = "drape " + skirt + " --made-for " + own + " --subdivide 0 -o " + out;
+  const Run run = run_furrow(call + " --body " + tall);
+  CHECK(run.exit_code == 0);
+  CHECK(run.out.find("brought from " + own + ": height x 1.09, arms turned by ") != std::string::npos);
+  CHECK(run_furrow(call + " --pin-loop top").exit_code == 2);
+  const Run missing = run_furrow("drape " + skirt + " --made-for " + skirt + " --subdivide 0 -o " +
+                                 (folder / "not.ply") + " --body " + tall);
+  CHECK(missing.exit_code == 3);
+  CHECK_FALSE(std::filesystem::exists(folder / "not.ply"));
+  std::ofstream(folder / "plan.toml")
+      << "mesh = \"obj\"\npicture = false\noutput = \"fits\"\n"
+         "report = [\"outcome\", \"placed.height_scale\"]\n[options]\n"
+         "made-for = \""
+      << own << "\"\nsubdivide = 0\n[cases]\ngarment = [\"" << skirt << "\"]\nbody = [\"tall.obj\"]\n";
+  const json lines = json::parse(run_furrow("batch list " + (folder / "plan.toml") + " --json").out)["lines"];
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].get<std::string>().find("--made-for " + own) != std::string::npos);
 }

@@ -63,6 +63,8 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
         json::array({scratch / "kept.ply", scratch / "ks.ply"}));
   report_of("sdf" + body.substr(7) + " --tolerance 0.01 --at 0,1,0.3" + out("body.sdf"));
   report_of("drape " + skirt + body + " --subdivide 0 --band top=0.95" + out("worn.ply"));
+  report_of("drape " + skirt + body + " --subdivide 0 --made-for " + source_file("meshes/mannequin.obj") +
+            out("brought.ply"));
   report_of("drape " + (scratch / "w.ply") + " --pin-loop top --self-contact on" + out("hangs.ply"));
   report_of("drape " + (scratch / "w.ply") + " --pin-loop top --plain --self-contact on --max-iterations 5" +
                 out("plain.ply"),

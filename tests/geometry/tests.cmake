@@ -31,9 +31,11 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   figure/close_holes_test.cpp
   figure/hem_folds_test.cpp
   figure/horizontal_section_test.cpp
+  figure/place_garment_test.cpp
   figure/principal_strain_test.cpp
   figure/repair_body_test.cpp
   figure/shape_body_test.cpp
+  figure/skeleton_test.cpp
   figure/torso_levels_test.cpp
   band/band_cases_test.cpp
   band/band_checks.cpp

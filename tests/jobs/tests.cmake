@@ -23,6 +23,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   loose_parts_test.cpp
   mesh_input_test.cpp
   own_output_test.cpp
+  placing_test.cpp
   quality_test.cpp
   seam_ties_test.cpp
   simulate_test.cpp

@@ -204,6 +204,7 @@ def drape(
     *,
     output: Optional[Path] = None,
     subdivide: Union[int, Literal["auto"], None] = None,
+    made_for: Optional[Path] = None,
     fabrics: Union[str, Sequence[str], None] = None,
     animation: Optional[Path] = None,
     band: Optional[Mapping[str, float]] = None,

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Garments brought from the body that they were made for.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "geometry/figure/shape_body.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/property_names.h"
+#include "geometry/refine/subdivide.h"
+#include "geometry/rest/rest_metric.h"
+#include "jobs/drape.h"
+#include "tests/jobs/recorder.h"
+#include "tests/test_meshes.h"
+#include "tests/test_paths.h"
+
+using namespace furrow;
+
+namespace {
+
+/// Our shirt, made for our mannequin, on a taller and wider one that stands elsewhere.
+jobs::DrapeJob on_another(const std::string& garment) {
+  jobs::DrapeJob job;
+  auto& meshes = job.scene.memory.meshes;
+  for (const std::string name : {"mannequin.obj", garment.c_str()})
+    meshes[name] = io::read_mesh(tests::source_dir() / "meshes" / name);
+  meshes["tall.obj"] = meshes["mannequin.obj"];
+  geometry::Mesh& tall = meshes["tall.obj"].mesh;
+  geometry::shape_body(tall, {1.86, 0.92, 0, 0});
+  for (const geometry::Vertex v : tall.vertices())
+    tall.point(v) = tall.point(v) + geometry::Vector(0.7, 0, -0.3);
+  job.scene.settings = io::parse_toml("[garment]\nmesh = \"" + garment + "\"\n", "test");
+  const auto set = [&](const std::string& path, const io::Json& value) {
+    io::set_value(job.scene.settings, path, value, "the test");
+  };
+  set("body.mesh", "tall.obj");
+  set("body.tolerance", 0.004);
+  set("garment.allow_crossings", 20);
+  job.settings.self_contact = jobs::SelfContactUse::off;
+  job.settings.made_for = "mannequin.obj";
+  job.subdivide = 0;
+  return job;
+}
+
+std::vector<double> rest_lengths(geometry::Mesh mesh) {
+  const auto rest = geometry::ensure_rest_lengths(mesh);
+  std::vector<double> lengths;
+  for (const geometry::Edge e : mesh.edges()) lengths.push_back(rest[e]);
+  return lengths;
+}
+
+}  // namespace
+
+TEST_CASE("placing: a garment is brought from its own body to another one, and rests there in its own size",
+          "[release]") {
+  for (const int levels : {0, 1}) {
+    jobs::DrapeJob job = on_another("skirt.obj");
+    job.subdivide = levels;
+    geometry::Mesh as_given = job.scene.memory.meshes.at("skirt.obj").mesh;
+    tests::Recorder recorder;
+    const jobs::DrapeJobReport report = jobs::drape(job, recorder);
+    const jobs::Draped& d = report.garments[0];
+    CHECK(d.succeeds());
+    REQUIRE(d.placed);
+    CHECK(d.placed->made_for == "mannequin.obj");
+    CHECK(d.placed->height_scale == Approx(1.86 / 1.70).epsilon(0.01));
+    CHECK(d.placed->mean_move > 0.7);
+    CHECK(d.placed->inside_share < 0.1);
+    CHECK(*d.placed->limbs[0].turn < 4);
+    CHECK_FALSE(recorder.warned_of("pose_differs"));
+    if (levels > 0) geometry::loop_subdivide(as_given, levels);
+    CHECK(rest_lengths(d.file.mesh) == rest_lengths(as_given));
+    const jobs::Json told = to_json(report)["placed"];
+    CHECK(told["turned"]["left_leg"].get<double>() < 4);
+    CHECK(told["made_for"] == "mannequin.obj");
+  }
+}
+
+TEST_CASE("placing: on its own body a garment comes to the rest that it has without being brought",
+          "[release]") {
+  jobs::DrapeJob job = on_another("skirt.obj");
+  io::set_value(job.scene.settings, "body.mesh", "mannequin.obj", "the test");
+  tests::Recorder recorder;
+  const jobs::DrapeJobReport brought = jobs::drape(job, recorder);
+  job.settings.made_for.clear();
+  const jobs::DrapeJobReport lay = jobs::drape(job, recorder);
+  CHECK_FALSE(lay.garments[0].placed);
+  const geometry::Mesh &a = brought.garments[0].file.mesh, &b = lay.garments[0].file.mesh;
+  double farthest = 0;
+  for (const geometry::Vertex v : a.vertices())
+    farthest = std::max(farthest, std::sqrt((a.point(v) - b.point(v)).squared_length()));
+  CHECK(farthest < 1e-3);
+}
+
+TEST_CASE("placing: what cannot be brought is refused, and what lies in the body is told what helps") {
+  jobs::DrapeJob job = on_another("skirt.obj");
+  tests::Recorder recorder;
+  job.scene.memory.meshes["ball.obj"].mesh = tests::icosphere(3, 0.8);
+  job.settings.made_for = "ball.obj";
+  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::StartsWith("ball.obj: the body has no"));
+  CHECK_THROWS_WITH(jobs::drape(job, recorder), Catch::Contains("--made-for"));
+  job = on_another("skirt.obj");
+  job.scene.settings.root.erase("body");
+  io::set_value(job.scene.settings, "pins.0.loop", "top", "the test");
+  CHECK_THROWS_AS(jobs::drape(job, recorder), std::invalid_argument);
+}
