@@ -254,12 +254,28 @@ std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Inter
   return end;
 }
 
+/// What the body did to the cloth where the last step ended: what is left of the acceleration.
+Vectors ImplicitStep::contact_before(const State& start, const std::vector<ContactAnchor>& anchors,
+                                     const StepLoads& loads) const {
+  if (anchors.empty()) return {};
+  const Particles& p = cloth_.particles;
+  Vectors force(p.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!(p.inv_mass[i] > 0) || anchors[i].limit < 0) continue;
+    const Vec3 wind = loads.air.empty() ? start.v[i] : Vec3(start.v[i] - loads.air[i]);
+    force[i] = p.mass[i] * (start.a[i] - motion_.loads().gravity + motion_.loads().air_drag * wind) -
+               start.elements.pull[i];
+  }
+  return force;
+}
+
 std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Interval time) {
   const double h = time.length(), gamma = 2 - std::numbers::sqrt2, b = gamma * h / 2;
   const Interval first{time.from, time.from + gamma * h}, second{first.to, time.to};
   Stage trapezoid{1 / (b * b), 1 / b, sum(sum(start.x, 2 * b, start.v), b * b, start.a),
                   sum(scaled(-1 / b, start.x), -1, start.v)};
-  FoundForces at_start{start.elements, search_->contact_at(start.x), {}};
+  FoundForces at_start{start.elements, {}, {}, {}};
+  const auto anchors = contact_ ? contact_->anchored().anchors() : std::vector<ContactAnchor>{};
   State middle;
   middle.x = sum(start.x, gamma * h, start.v);
   const Solved to_middle = solve(trapezoid, start, first, most_iterations, middle.x);
@@ -277,6 +293,7 @@ std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Int
   end.v = sum(bdf2.q, bdf2.p, end.x);
   end.a = scaled(bdf2.s, sum(end.x, -1, bdf2.y));
   end.elements = to_end.forces.elements;
+  at_start.body = contact_before(start, anchors, to_middle.loads);
   at_start.cloth = to_middle.forces.cloth;
   StepImpulse impulse(cloth_.particles, motion_.loads().air_drag);
   impulse.add(c1 * b, at_start, to_middle.loads, start.v);
