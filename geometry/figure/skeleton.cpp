@@ -13,9 +13,9 @@ namespace {
 
 using Faces = std::span<const std::array<int, 3>>;
 
-constexpr double slice_step = 0.01, ankle = 0.05, sole = 0.008;  // of the height
-constexpr double neck_from = 0.80, neck_to = 0.93;               // where the neck is looked for
-constexpr double outer_shoulder = 0.75, shoulder_band = 0.1;     // of half the breadth between the arms
+constexpr double slice_step = 0.01, ankle = 0.05;             // of the height
+constexpr double neck_from = 0.80, neck_to = 0.93;            // where the neck is looked for
+constexpr double outer_shoulder = 0.75, shoulder_band = 0.1;  // of half the breadth between the arms
 
 std::array<double, 2> heights_of(std::span<const Point> points) {
   std::array<double, 2> range{INFINITY, -INFINITY};
@@ -66,10 +66,6 @@ Leg leg_of(std::span<const Point> points, Faces triangles, const Skeleton& s,
   const TrunkOutline &a = leg.slices.back(), &b = leg.slices.front();
   const Vector along(b.centre[0] - a.centre[0], b.height - a.height, b.centre[1] - a.centre[1]);
   leg.axis = along / std::sqrt(along.squared_length());
-  leg.ankle = {b.centre[0], b.centre[1]};
-  for (double y = b.height - slice_step * tall; y > s.low + sole * tall; y -= slice_step * tall)
-    if (auto slice = slices.at(y, &leg.slices.front()))
-      leg.slices.insert(leg.slices.begin(), std::move(*slice));
   return leg;
 }
 
@@ -117,7 +113,7 @@ double shoulders_of(std::span<const Point> points, const Skeleton& s) {
 /// Toes reach farther from the ankle than heels.
 int facing_of(std::span<const Point> points, const Skeleton& s) {
   const double tall = s.high - s.low;
-  const double ankles = (s.legs[0].ankle[1] + s.legs[1].ankle[1]) / 2;
+  const double ankles = (s.legs[0].slices.front().centre[1] + s.legs[1].slices.front().centre[1]) / 2;
   double front = 0, back = 0;
   for (const Point& p : points)
     if (p.y() < s.low + 0.02 * tall)

@@ -25,11 +25,10 @@ struct Arm {
   std::vector<ArmRing> rings;  ///< outwards, from the armpit to the wrist; at least two
 };
 
-/// A leg: level slices, upwards from the foot to the crotch; at least twenty.
+/// A leg: level slices, upwards from the ankle to the crotch; at least twenty.
 struct Leg {
   std::vector<TrunkOutline> slices;
-  Vector axis{0, -1, 0};          ///< of length 1, from the crotch to the ankle
-  std::array<double, 2> ankle{};  ///< (x, z)
+  Vector axis{0, -1, 0};  ///< of length 1, from the crotch to the ankle
 };
 
 /// What a standing body has where [m]; y up. Sides: 0 is that of x above the trunk's middle.

@@ -42,7 +42,7 @@ TEST_CASE("body: a call that cannot be meant is refused, and what is missed leav
   CHECK(missed.err.find("error:") != std::string::npos);
 }
 
-TEST_CASE("drape --made-for: our skirt is brought to a taller body, by the program and in a batch",
+TEST_CASE("drape: with --made-for our skirt is brought to a taller body, by the program and in a batch",
           "[release]") {
   const ScratchDirectory folder;
   const std::string tall = folder / "tall.obj", own = source_file("meshes/mannequin.obj"),

