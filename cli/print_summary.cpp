@@ -438,7 +438,7 @@ std::string step_of(const Json& report) { return text_of(report, "integrator") +
 std::string losses_of(const Json& balance) {
   const Json& lost = table_of(balance, "lost");
   const double air = value_of(lost, "air"), contact = std::max(0.0, value_of(lost, "contact")),
-               steps = value_of(lost, "steps") + value_of(lost, "search"), off = std::abs(steps);
+               steps = value_of(lost, "steps"), off = std::abs(steps);
   if (!(air + contact + off > 0)) return "";
   const auto joules = [](double energy) { return number(1000 * energy) + " mJ"; };
   std::string line = "energy lost: " + joules(air) + " to the air, " + joules(contact) +

@@ -37,14 +37,14 @@ double number(const Json& json) {
 }
 
 Json to_json(const physics::EnergyBalance& e) {
-  return {e.seconds, e.kinetic,         e.elastic, e.weight,     e.by_air,   e.by_body,
-          e.by_pins, e.by_compensation, e.to_air,  e.to_contact, e.to_search};
+  return {e.seconds, e.kinetic, e.elastic,         e.weight, e.by_air,
+          e.by_body, e.by_pins, e.by_compensation, e.to_air, e.to_contact};
 }
 
 physics::EnergyBalance balance_of(const Json& j) {
   if (j.empty()) return {};
-  const auto e = j.get<std::array<double, 11>>();
-  return {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8], e[9], e[10]};
+  const auto e = j.get<std::array<double, 10>>();
+  return {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8], e[9]};
 }
 
 /// Without the clock times: the same simulation gives the same bytes.

@@ -20,8 +20,8 @@ class StepImpulse {
   StepImpulse(const Particles& particles, double air_drag);
   /// Forces that act for so many seconds, with drag at velocities v [m/s].
   void add(double seconds, const FoundForces& forces, const StepLoads& loads, std::span<const Vec3> v);
-  /// The body's point next to each particle has gone so far [m]; empty: there is no body.
-  void go_along(std::span<const Vec3> way);
+  /// Velocities of the body's point next to each particle and of the particle along it [m/s].
+  void go_along(std::span<const Vec3> surface, std::span<const Vec3> slip);
 
  private:
   friend EnergyBalance balance_of(const Particles&, const Vec3&, const StepPlace&, const StepPlace&,
@@ -29,15 +29,14 @@ class StepImpulse {
   const Particles& particles_;
   double air_drag_;
   /// One a particle [N s]; `lead`: of elements and of cloth on cloth, for what does not move by itself.
-  std::vector<Vec3> body_, cloth_, air_, given_, left_, lead_;
-  std::vector<Vec3> body_way_;  ///< [m]
+  std::vector<Vec3> body_, cloth_, air_, given_, lead_;
+  std::vector<Vec3> surface_, slip_;  ///< [m/s]
 };
 
-/// The balance of one step. Each force takes from the motion, or gives, its impulse times the mean velocity;
-/// then the sum over all forces is the change of the kinetic energy to rounding. What is left for the steps
-/// is what they lose between kinetic energy and that of elements and weight. Of
-/// what is led, v are the velocities whose mean counts. Cloth that turns as a whole with its pins then loses
-/// nothing. /// Gravity [m/s^2]. O(particles).
+/// The balance of one step. What a force gives the motion, or takes, is its impulse times the mean velocity.
+/// That of the body goes by the velocity of its surface and the slip along it. Of what is led, the velocity
+/// at the end counts. What is left is the steps': what they lose between kinetic energy and that of elements
+/// and weight, and what the search left. Gravity [m/s^2]. O(particles).
 EnergyBalance balance_of(const Particles& particles, const Vec3& gravity, const StepPlace& start,
                          const StepPlace& end, const StepImpulse& impulse, double seconds);
 

@@ -203,7 +203,6 @@ ImplicitStep::Solved ImplicitStep::solve(const Stage& stage, const State& start,
   if (contact_) {
     const WorkClock::Within contact(motion_.clock(), WorkPart::contact);
     carried = contact_->move_body(time.from, time.to, start.x);
-    solved.body_way = sum(contact_->in_world(carried), -1, start.x);
     contact_->keep_out(carried, p.inv_mass, x, motion_.pool());
   }
   const double tolerance = options_.tolerance * standard_gravity * h * h;
@@ -215,23 +214,26 @@ ImplicitStep::Solved ImplicitStep::solve(const Stage& stage, const State& start,
   if (pairs_ && !make_way(stage, solved.loads, begin, options, x)) return solved;
   solved.converged = search_->find(stage, solved.loads, begin, options, x).converged;
   solved.forces = search_->found();
+  if (contact_) solved.body_way = contact_->ways(carried, start.x);
+  solved.carried = std::move(carried);
   hold(x);
   return solved;
 }
 
-/// What a solved step did. Of pins backward Euler's velocities are those of the ways before and now, as of
-/// all that it moves; else what they go along in the step.
+/// What a solved step did. Backward Euler's forces are those at the end, so what leads has its velocity of
+/// then: a push straight outwards does no work on what turns. Else it is that of the way in the step.
 void ImplicitStep::book(const State& start, const State& end, const StepImpulse& impulse, double seconds) {
-  Vectors before = start.v, after = end.v;
+  Vectors after = end.v;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (!(cloth_.particles.inv_mass[i] > 0)) after[i].setZero();
   const std::span<const int> led = motion_.led();
-  const std::span<const Vec3> came = motion_.led_before();
+  const std::span<const Vec3> at_end = motion_.led_at_end();
   for (std::size_t k = 0; k < led.size(); ++k) {
     const auto i = std::size_t(led[k]);
-    before[i] = after[i] = (end.x[i] - start.x[i]) / seconds;
-    if (scheme_ == Integrator::implicit) before[i] = came[k];
+    after[i] = scheme_ == Integrator::implicit ? at_end[k] : Vec3((end.x[i] - start.x[i]) / seconds);
   }
   motion_.work().energy +=
-      balance_of(cloth_.particles, motion_.loads().gravity, {start.x, before, start.elements.energy},
+      balance_of(cloth_.particles, motion_.loads().gravity, {start.x, start.v, start.elements.energy},
                  {end.x, after, end.elements.energy}, impulse, seconds);
 }
 
@@ -248,7 +250,11 @@ std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Inter
   end.elements = solved.forces.elements;
   StepImpulse impulse(cloth_.particles, motion_.loads().air_drag);
   impulse.add(h, solved.forces, solved.loads, end.v);
-  impulse.go_along(solved.body_way);
+  if (contact_) {
+    const auto [surface, slip] =
+        contact_->beside(solved.carried, start.x, start.v, end.x, time.from, time.to);
+    impulse.go_along(surface, slip);
+  }
   book(start, end, impulse, h);
   if (scheme_ == Integrator::tr_bdf2) end.a = scaled(1 / h, sum(end.v, -1, start.v));
   return end;
@@ -274,7 +280,7 @@ std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Int
   const Interval first{time.from, time.from + gamma * h}, second{first.to, time.to};
   Stage trapezoid{1 / (b * b), 1 / b, sum(sum(start.x, 2 * b, start.v), b * b, start.a),
                   sum(scaled(-1 / b, start.x), -1, start.v)};
-  FoundForces at_start{start.elements, {}, {}, {}};
+  FoundForces at_start{start.elements, {}, {}};
   const auto anchors = contact_ ? contact_->anchored().anchors() : std::vector<ContactAnchor>{};
   State middle;
   middle.x = sum(start.x, gamma * h, start.v);
@@ -299,8 +305,10 @@ std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Int
   impulse.add(c1 * b, at_start, to_middle.loads, start.v);
   impulse.add(c1 * b, to_middle.forces, to_middle.loads, middle.v);
   impulse.add(b, to_end.forces, to_end.loads, end.v);
-  impulse.go_along(to_middle.body_way);
-  impulse.go_along(to_end.body_way);
+  if (contact_) {
+    const Vectors surface = scaled(1 / h, sum(to_middle.body_way, 1, to_end.body_way));
+    impulse.go_along(surface, sum(scaled(0.5, sum(start.v, 1, end.v)), -1, surface));
+  }
   book(start, end, impulse, h);
   return end;
 }

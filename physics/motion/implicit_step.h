@@ -46,6 +46,7 @@ class ImplicitStep : public Stepper {
   struct Solved {
     bool converged = false;
     FoundForces forces;          ///< where it ended, before friction followed
+    std::vector<Vec3> carried;   ///< as of StepContact::move_body(); empty: no body
     std::vector<Vec3> body_way;  ///< of the body's point next to each particle [m]; empty: no body
     StepLoads loads;
   };

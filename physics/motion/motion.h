@@ -69,9 +69,9 @@ class Motion {
   const Wind* wind() const { return around_.wind; }
   /// Places of particles that are led.
   std::span<const int> led() const { return around_.pins ? around_.pins->places() : std::span<const int>{}; }
-  /// PinLeader::before().
-  std::span<const Vec3> led_before() const {
-    return around_.pins ? around_.pins->before() : std::span<const Vec3>{};
+  /// PinLeader::at_end().
+  std::span<const Vec3> led_at_end() const {
+    return around_.pins ? around_.pins->at_end() : std::span<const Vec3>{};
   }
   const BodyAround* body() const { return around_.body; }
   bool compensates() const { return around_.compensation != nullptr; }

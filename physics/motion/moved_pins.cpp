@@ -5,6 +5,11 @@
 #include <string>
 
 namespace furrow::physics {
+namespace {
+
+constexpr double moment = 0.01;  // of a step, for a velocity
+
+}  // namespace
 
 std::vector<Vec3> homes_of(std::span<const MovedPins> pins, const Particles& particles, double time) {
   std::vector<Vec3> homes;
@@ -35,15 +40,17 @@ void PinLeader::attach(const PackedCloth& packed) {
 
 void PinLeader::begin_step(PackedCloth& packed, double to, double dt) {
   targets_.resize(homes_.size());
-  before_.resize(homes_.size());
+  at_end_.resize(homes_.size());
+  const double little = moment * dt;
   std::size_t next = 0;
   for (const MovedPins& group : pins_) {
-    const Pose at_end = pose(group.motion, to), before = pose(group.motion, to - 2 * dt);
+    const Pose at_end = pose(group.motion, to), sooner = pose(group.motion, to - little),
+               later = pose(group.motion, to + little);
     for (std::size_t k = 0; k < group.particles.size(); ++k, ++next) {
       const Vec3 target = at_end.to_world(homes_[next]);
       const Vec4& x = packed.x[std::size_t(places_[next])];
       const Vec3 v = (target - Vec3(x.x, x.y, x.z)) / dt;
-      before_[next] = (Vec3(x.x, x.y, x.z) - before.to_world(homes_[next])) / dt;
+      at_end_[next] = (later.to_world(homes_[next]) - sooner.to_world(homes_[next])) / (2 * little);
       packed.v[std::size_t(places_[next])] = {v.x(), v.y(), v.z(), 0};
       targets_[next] = target;
     }

@@ -23,8 +23,8 @@ class PinLeader {
   std::span<const int> places() const { return places_; }
   /// Sets the velocities that lead to the places at the time `to` in dt.
   void begin_step(PackedCloth& packed, double to, double dt);
-  /// What these would have been for a step as long before, one a place [m/s].
-  std::span<const Vec3> before() const { return before_; }
+  /// Those of the motion itself at the step's end, one a place [m/s].
+  std::span<const Vec3> at_end() const { return at_end_; }
   /// Puts the pins there.
   void arrive(PackedCloth& packed) const;
   /// As if no step had begun: unpack() does nothing.
@@ -37,7 +37,7 @@ class PinLeader {
   std::span<const Vec3> homes_;
   std::vector<int> places_;    // in the packed cloth
   std::vector<Vec3> targets_;  // [m]
-  std::vector<Vec3> before_;   // [m/s]
+  std::vector<Vec3> at_end_;   // [m/s]
 };
 
 }  // namespace furrow::physics

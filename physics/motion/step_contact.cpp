@@ -7,6 +7,7 @@ namespace furrow::physics {
 namespace {
 
 constexpr int most_pieces = 32;  // of a way along the body
+constexpr double moment = 0.01;  // of a step, for a velocity
 
 const Collider& asked(const BodyAround& body) {
   return body.animated ? static_cast<const Collider&>(*body.animated) : *body.collider;
@@ -47,10 +48,35 @@ std::vector<Vec3> StepContact::move_body(double from, double to, std::span<const
   return carried;
 }
 
-std::vector<Vec3> StepContact::in_world(std::vector<Vec3> places) const {
-  if (body_.motion)
-    for (Vec3& p : places) p = place_.rotation * p + place_.translation;
-  return places;
+std::vector<Vec3> StepContact::ways(std::span<const Vec3> carried, std::span<const Vec3> x) const {
+  std::vector<Vec3> ways(carried.begin(), carried.end());
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (body_.motion) ways[i] = place_.rotation * carried[i] + place_.translation;
+    ways[i] -= x[i];
+  }
+  return ways;
+}
+
+StepContact::Beside StepContact::beside(std::span<const Vec3> carried, std::span<const Vec3> x0,
+                                        std::span<const Vec3> v0, std::span<const Vec3> x1, double from,
+                                        double to) const {
+  const double h = to - from, little = moment * h;
+  Beside result{ways(carried, x0), {}};
+  for (Vec3& v : result.surface) v /= h;
+  for (std::size_t i = 0; i < x0.size(); ++i)
+    result.slip.push_back(0.5 * (v0[i] + (x1[i] - x0[i]) / h) - result.surface[i]);
+  if (!body_.motion) return result;
+  const BodyPlace sooner = place_at(to - little), later = place_at(to + little), before = place_at(from - h);
+  const Mat3 turn = place_.rotation * place_at(from).rotation.transpose();
+  for (std::size_t i = 0; i < x0.size(); ++i) {
+    const Vec3 on_body = carried[i], at_end = place_.rotation.transpose() * (x1[i] - place_.translation);
+    const Vec3 slip_before = v0[i] - (x0[i] - (before.rotation * on_body + before.translation)) / h;
+    const Vec3 slip_now = (x1[i] - (place_.rotation * on_body + place_.translation)) / h;
+    result.slip[i] = 0.5 * (slip_now + turn * slip_before);
+    result.surface[i] =
+        ((later.rotation - sooner.rotation) * at_end + later.translation - sooner.translation) / (2 * little);
+  }
+  return result;
 }
 
 /// The end of a way in the body's frame, without what leads from within the gap farther in.

@@ -30,8 +30,16 @@ class StepContact {
   /// particles at x [m] are then if each goes with the point of the body that is next to it: in the body's
   /// frame.
   std::vector<Vec3> move_body(double from, double to, std::span<const Vec3> x);
-  /// Places in the body's frame, as move_body() gives them, in the world.
-  std::vector<Vec3> in_world(std::vector<Vec3> places) const;
+  /// How far the body's points next to x [m] go in a step; `carried` as of move_body().
+  std::vector<Vec3> ways(std::span<const Vec3> carried, std::span<const Vec3> x) const;
+  /// Of the body's point next to each particle at the end of a step, and the particle's along it, the mean of
+  /// those at both ends, turned with the body to the end [m/s].
+  struct Beside {
+    std::vector<Vec3> surface, slip;
+  };
+  /// Of a step from x0, v0 to x1; `carried` as of move_body() then.
+  Beside beside(std::span<const Vec3> carried, std::span<const Vec3> x0, std::span<const Vec3> v0,
+                std::span<const Vec3> x1, double from, double to) const;
   /// Shortens the ways of particles that can move (inv_mass > 0) from `start`, as of move_body(), to x, in
   /// the world, along the normal only, so that none goes deeper into the gap than it is. Cost: a few queries
   /// a particle near the body, one for each other.

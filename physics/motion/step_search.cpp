@@ -59,11 +59,13 @@ StepSearch::StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact,
 }
 
 FoundForces StepSearch::found() const {
-  FoundForces forces{{found_.elements, found_.pull}, pushes(), {}, found_.net};
+  FoundForces forces{{found_.elements, found_.pull}, pushes(), {}};
   if (pairs_ && pairs_->acts()) {
     forces.cloth.assign(found_.pull.size(), Vec3::Zero());
     pairs_->add_forces(forces.cloth);
   }
+  for (std::size_t i = 0; i < forces.body.size(); ++i)  // contact is far stiffer than what else is unsolved
+    if (!forces.body[i].isZero(0)) forces.body[i] -= found_.net[i];
   return forces;
 }
 

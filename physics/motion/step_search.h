@@ -50,9 +50,8 @@ struct ElementAnswer {
 /// Forces where a search ended, one a particle [N].
 struct FoundForces {
   ElementAnswer elements;
-  std::vector<Vec3> body;   ///< of the body's push and friction; empty: none
+  std::vector<Vec3> body;   ///< of the body, as the motion had it; empty: none
   std::vector<Vec3> cloth;  ///< of cloth on cloth; empty: none
-  std::vector<Vec3> left;   ///< of all, with inertia: 0 in a minimum
 };
 
 struct SearchEnd {

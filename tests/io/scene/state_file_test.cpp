@@ -58,7 +58,7 @@ io::SavedState state() {
   sim.compensation.time_constant = std::numeric_limits<double>::infinity();
   sim.totals.force_evaluations = 12;
   sim.totals.open_steps = 3;
-  sim.totals.energy = {0.1, 1 / 3.0, -0.2, 1e-300, 5, 6, 7, 8, 9, 10, 1 / 7.0};
+  sim.totals.energy = {0.1, 1 / 3.0, -0.2, 1e-300, 5, 6, 7, 8, 9, 1 / 7.0};
   sim.steps.contact_stiffness = 1234.5;
   sim.steps.self = {1 / 3.0,  {{true, 4, 9, 0.1 / 3, 0.2}},
                     {1, 2},   5,
