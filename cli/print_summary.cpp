@@ -437,13 +437,12 @@ std::string step_of(const Json& report) { return text_of(report, "integrator") +
 /// Where the energy of implicit steps went; "" where none was lost.
 std::string losses_of(const Json& balance) {
   const Json& lost = table_of(balance, "lost");
-  const double air = value_of(lost, "air"), contact = std::max(0.0, value_of(lost, "contact")),
-               steps = value_of(lost, "steps"), off = std::abs(steps);
-  if (!(air + contact + off > 0)) return "";
+  const double air = value_of(lost, "air"), steps = value_of(lost, "steps"), off = std::abs(steps);
+  if (!(air + off > 0)) return "";
   const auto joules = [](double energy) { return number(1000 * energy) + " mJ"; };
-  std::string line = "energy lost: " + joules(air) + " to the air, " + joules(contact) +
-                     " to friction; the steps " + (steps < 0 ? "made " : "took ") + joules(off);
-  if (off > most_off_by_steps * (air + contact + off)) line += " (less with a shorter --dt)";
+  std::string line = "energy lost: " + joules(air) + " to the air; the steps " +
+                     (steps < 0 ? "made " : "took ") + joules(off);
+  if (off > most_off_by_steps * (air + off)) line += " (less with a shorter --dt)";
   return line;
 }
 
