@@ -24,6 +24,7 @@ constexpr double most_push_at_start = 10;  // weights: more than what cloth at r
 constexpr int most_step_halvings = 5;      // of a step
 constexpr int most_rounds_of_leading = 8;  // in which cloth goes out of the way of what is led
 constexpr int iterations_of_round = 4;
+constexpr double moment = 0.01;  // of a step, for a velocity
 
 Vectors sum(const Vectors& a, double factor, const Vectors& b) {
   Vectors result = a;
@@ -227,10 +228,11 @@ void ImplicitStep::book(const State& start, const State& end, const StepImpulse&
   for (std::size_t i = 0; i < after.size(); ++i)
     if (!(cloth_.particles.inv_mass[i] > 0)) after[i].setZero();
   const std::span<const int> led = motion_.led();
-  const std::span<const Vec3> at_end = motion_.led_at_end();
+  const bool first_order = scheme_ == Integrator::implicit;
+  const Vectors at_end = first_order ? motion_.led_velocities(moment) : Vectors{};
   for (std::size_t k = 0; k < led.size(); ++k) {
     const auto i = std::size_t(led[k]);
-    after[i] = scheme_ == Integrator::implicit ? at_end[k] : Vec3((end.x[i] - start.x[i]) / seconds);
+    after[i] = first_order ? at_end[k] : Vec3((end.x[i] - start.x[i]) / seconds);
   }
   motion_.work().energy +=
       balance_of(cloth_.particles, motion_.loads().gravity, {start.x, start.v, start.elements.energy},
@@ -252,7 +254,7 @@ std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Inter
   impulse.add(h, solved.forces, solved.loads, end.v);
   if (contact_) {
     const auto [surface, slip] =
-        contact_->beside(solved.carried, start.x, start.v, end.x, time.from, time.to);
+        contact_->beside(solved.carried, solved.body_way, start.x, start.v, end.x, time.from, time.to);
     impulse.go_along(surface, slip);
   }
   book(start, end, impulse, h);

@@ -69,9 +69,9 @@ class Motion {
   const Wind* wind() const { return around_.wind; }
   /// Places of particles that are led.
   std::span<const int> led() const { return around_.pins ? around_.pins->places() : std::span<const int>{}; }
-  /// PinLeader::at_end().
-  std::span<const Vec3> led_at_end() const {
-    return around_.pins ? around_.pins->at_end() : std::span<const Vec3>{};
+  /// PinLeader::velocities() at the step's end, over a share of it.
+  std::vector<Vec3> led_velocities(double share) const {
+    return around_.pins ? around_.pins->velocities(to_, share * (to_ - from_)) : std::vector<Vec3>{};
   }
   const BodyAround* body() const { return around_.body; }
   bool compensates() const { return around_.compensation != nullptr; }

@@ -5,12 +5,6 @@
 #include <string>
 
 namespace furrow::physics {
-namespace {
-
-constexpr double moment = 0.01;  // of a step, for a velocity
-
-}  // namespace
-
 std::vector<Vec3> homes_of(std::span<const MovedPins> pins, const Particles& particles, double time) {
   std::vector<Vec3> homes;
   std::vector<char> taken(particles.size());
@@ -40,21 +34,29 @@ void PinLeader::attach(const PackedCloth& packed) {
 
 void PinLeader::begin_step(PackedCloth& packed, double to, double dt) {
   targets_.resize(homes_.size());
-  at_end_.resize(homes_.size());
-  const double little = moment * dt;
   std::size_t next = 0;
   for (const MovedPins& group : pins_) {
-    const Pose at_end = pose(group.motion, to), sooner = pose(group.motion, to - little),
-               later = pose(group.motion, to + little);
+    const Pose at_end = pose(group.motion, to);
     for (std::size_t k = 0; k < group.particles.size(); ++k, ++next) {
       const Vec3 target = at_end.to_world(homes_[next]);
       const Vec4& x = packed.x[std::size_t(places_[next])];
       const Vec3 v = (target - Vec3(x.x, x.y, x.z)) / dt;
-      at_end_[next] = (later.to_world(homes_[next]) - sooner.to_world(homes_[next])) / (2 * little);
       packed.v[std::size_t(places_[next])] = {v.x(), v.y(), v.z(), 0};
       targets_[next] = target;
     }
   }
+}
+
+std::vector<Vec3> PinLeader::velocities(double time, double over) const {
+  std::vector<Vec3> velocities;
+  for (const MovedPins& group : pins_) {
+    const Pose sooner = pose(group.motion, time - over), later = pose(group.motion, time + over);
+    for (std::size_t k = 0; k < group.particles.size(); ++k) {
+      const Vec3& home = homes_[velocities.size()];
+      velocities.push_back((later.to_world(home) - sooner.to_world(home)) / (2 * over));
+    }
+  }
+  return velocities;
 }
 
 void PinLeader::arrive(PackedCloth& packed) const {

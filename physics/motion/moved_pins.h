@@ -23,8 +23,8 @@ class PinLeader {
   std::span<const int> places() const { return places_; }
   /// Sets the velocities that lead to the places at the time `to` in dt.
   void begin_step(PackedCloth& packed, double to, double dt);
-  /// Those of the motion itself at the step's end, one a place [m/s].
-  std::span<const Vec3> at_end() const { return at_end_; }
+  /// Those of the motions themselves at a time [s], mean over that while before and after, one a place [m/s].
+  std::vector<Vec3> velocities(double time, double over) const;
   /// Puts the pins there.
   void arrive(PackedCloth& packed) const;
   /// As if no step had begun: unpack() does nothing.
@@ -37,7 +37,6 @@ class PinLeader {
   std::span<const Vec3> homes_;
   std::vector<int> places_;    // in the packed cloth
   std::vector<Vec3> targets_;  // [m]
-  std::vector<Vec3> at_end_;   // [m/s]
 };
 
 }  // namespace furrow::physics

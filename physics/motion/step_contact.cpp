@@ -2,6 +2,7 @@
 #include "physics/motion/step_contact.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace furrow::physics {
 namespace {
@@ -57,11 +58,11 @@ std::vector<Vec3> StepContact::ways(std::span<const Vec3> carried, std::span<con
   return ways;
 }
 
-StepContact::Beside StepContact::beside(std::span<const Vec3> carried, std::span<const Vec3> x0,
-                                        std::span<const Vec3> v0, std::span<const Vec3> x1, double from,
-                                        double to) const {
+StepContact::Beside StepContact::beside(std::span<const Vec3> carried, std::vector<Vec3> ways,
+                                        std::span<const Vec3> x0, std::span<const Vec3> v0,
+                                        std::span<const Vec3> x1, double from, double to) const {
   const double h = to - from, little = moment * h;
-  Beside result{ways(carried, x0), {}};
+  Beside result{std::move(ways), {}};
   for (Vec3& v : result.surface) v /= h;
   for (std::size_t i = 0; i < x0.size(); ++i)
     result.slip.push_back(0.5 * (v0[i] + (x1[i] - x0[i]) / h) - result.surface[i]);

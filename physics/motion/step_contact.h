@@ -37,9 +37,9 @@ class StepContact {
   struct Beside {
     std::vector<Vec3> surface, slip;
   };
-  /// Of a step from x0, v0 to x1; `carried` as of move_body() then.
-  Beside beside(std::span<const Vec3> carried, std::span<const Vec3> x0, std::span<const Vec3> v0,
-                std::span<const Vec3> x1, double from, double to) const;
+  /// Of a step from x0, v0 to x1; `carried` as of move_body() then, `ways` of that.
+  Beside beside(std::span<const Vec3> carried, std::vector<Vec3> ways, std::span<const Vec3> x0,
+                std::span<const Vec3> v0, std::span<const Vec3> x1, double from, double to) const;
   /// Shortens the ways of particles that can move (inv_mass > 0) from `start`, as of move_body(), to x, in
   /// the world, along the normal only, so that none goes deeper into the gap than it is. Cost: a few queries
   /// a particle near the body, one for each other.

@@ -153,7 +153,7 @@ TEST_CASE(
   CHECK(std::abs(to_steps[1]) < 0.3 * to_steps[0]);
 }
 
-TEST_CASE("energy_balance: pins that lift a sheet give its weight, and a stop changes no bit") {
+TEST_CASE("energy_balance: pins that lift a sheet give energy, and a stop changes no bit") {
   Cloth cloth = swinging_sheet();
   World world;
   MovedPins pins;
