@@ -296,7 +296,8 @@ Stretch simulate_to(double stop, Run& run, Reached& reached, AnimationSeries& an
   reached.starts = false;
   choose_integrator(run, now, cloth);
   physics::SimulateOptions options = options_of(run, now, stop, cloth.particles.size());
-  const Observation observation = observation_of(options, cloth, run.body != nullptr, animations.is_on());
+  const bool is_seen = animations.is_on() || run.watch;
+  const Observation observation = observation_of(options, cloth, run.body != nullptr, is_seen);
   options.observe_steps = observation.steps;
   animations.start(now.file.mesh, now.simulation.time, cloth.particles.x);
   SimulationGate gate(scene.simulation.seconds, scene.simulation.dt.has_value(),

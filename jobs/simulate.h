@@ -152,8 +152,8 @@ struct SimulateJob {
   /// Below which the outputs that a scene file names must lie; none: the scene's folder. Empty: the folder
   /// that the program runs in.
   std::optional<std::filesystem::path> outputs_below = {};
-  /// Called in the run's thread at each step of an integrator that factorises, else about every 0.2 s; must
-  /// not throw.
+  /// Called in the run's thread, at each step of an integrator that factorises, else once in 1/240 s of
+  /// motion at least; must not throw.
   Watch watch = {};
   Hand hand = {};  ///< that may pull at the cloth; empty: there is none
 };

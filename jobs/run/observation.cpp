@@ -2,14 +2,31 @@
 #include "jobs/run/observation.h"
 
 #include <algorithm>
+#include <array>
 
 #include "jobs/judge/cost_table.h"
+#include "physics/linear/stable_step.h"
 #include "physics/plate/plate_bending.h"
 
 namespace furrow::jobs {
 namespace {
 
-constexpr double longest_stretch = 0.2;  // [s]
+constexpr double longest_stretch = 0.2;      // of processor time, between two looks [s]
+constexpr double between_shown = 1.0 / 240;  // of motion [s]
+constexpr std::array steps_between{100, 50, 20, 10, 5, 2, 1};
+
+/// Or a little longer than it will be [s].
+double likely_step(const physics::SimulateOptions& o, const physics::Cloth& cloth) {
+  if (o.dt) return *o.dt;
+  if (physics::is_unconditionally_stable(o.integrator)) return physics::default_dt(o.integrator);
+  return std::min(physics::stable_step(cloth).dt_limit, o.dt_max);
+}
+
+int steps_between_shown(double dt) {
+  for (const int steps : steps_between)
+    if (steps * dt <= between_shown) return steps;
+  return 1;
+}
 
 }  // namespace
 
@@ -32,13 +49,14 @@ double cost_of_step(const physics::SimulateOptions& o, const physics::Cloth& clo
 Observation observation_of(const physics::SimulateOptions& options, const physics::Cloth& cloth,
                            bool has_body, bool animated) {
   Observation observation;
+  if (animated) observation.shown = steps_between_shown(likely_step(options, cloth));
   if (physics::solves_contact(options.integrator)) {
     observation.steps = 1;
     return observation;
   }
   const double most = longest_stretch / cost_of_step(options, cloth, has_body);
-  for (const int steps : {100, 50, 20, 10, 5, 2, 1}) {
-    if (animated && steps > observation.shown) continue;
+  for (const int steps : steps_between) {
+    if (animated && observation.shown % steps != 0) continue;
     observation.steps = steps;
     if (steps <= most) break;
   }

@@ -22,6 +22,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   listener_test.cpp
   loose_parts_test.cpp
   mesh_input_test.cpp
+  observation_test.cpp
   own_output_test.cpp
   placing_test.cpp
   quality_test.cpp
