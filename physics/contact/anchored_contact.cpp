@@ -99,7 +99,7 @@ void AnchoredContact::add_forces(std::span<Vec3> force) const {
   }
 }
 
-void AnchoredContact::add_stiffness(FreeStiffness& stiffness) const {
+void AnchoredContact::add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip) const {
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     const Touch& t = touches_[i];
     if (!(t.push > 0) && t.limit < 0) continue;
@@ -109,7 +109,8 @@ void AnchoredContact::add_stiffness(FreeStiffness& stiffness) const {
       const double length = u.norm();
       Mat3 along = Mat3::Identity() - t.plane * t.plane.transpose();
       // A sliding particle goes on sliding: nothing holds it back along its way.
-      if (length > slip_ || (t.slides && length > 0)) along -= u * u.transpose() / (length * length);
+      const bool slides = length > slip_ || (t.slides && length > 0);
+      if (slides && of_slip == SlipStiffness::none) along -= u * u.transpose() / (length * length);
       block += t.limit / std::max(slip_, length) * along;
     }
     if (place_) block = place_->rotation * block * place_->rotation.transpose();
@@ -148,7 +149,8 @@ void AnchoredContact::carry_anchors(const std::function<Vec3(const Vec3&)>& way)
     if (t.limit >= 0) t.anchor += way(t.anchor);
 }
 
-void AnchoredContact::hold_new(std::span<const Vec3> from) {
+int AnchoredContact::hold_new(std::span<const Vec3> from) {
+  int held = 0;
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     Touch& t = touches_[i];
     if (!(t.push > 0) || t.limit >= 0) continue;
@@ -156,7 +158,9 @@ void AnchoredContact::hold_new(std::span<const Vec3> from) {
     t.plane = t.normal;
     t.limit = options_.friction * t.push;
     t.slides = false;
+    ++held;
   }
+  return held;
 }
 
 void AnchoredContact::let_in(std::span<const double> push) {

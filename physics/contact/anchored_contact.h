@@ -17,6 +17,11 @@ struct AnchoredContactOptions {
   double stiffness = 1000;  ///< of that push beyond the soft layer [N/m]; > 0
 };
 
+/// How stiff friction is along the way of a particle that slides: not at all, as its force is the limit
+/// whatever the way; or by limit over way. Moves are shorter then, and where much slides they lower the
+/// energy.
+enum class SlipStiffness { none, secant };
+
 /// Where a rigid body stands: x -> rotation x + translation takes it from its own frame into the world.
 struct BodyPlace {
   Mat3 rotation = Mat3::Identity();
@@ -42,10 +47,11 @@ class AnchoredContact {
   /// Asks the body at x. All answers below are for these positions, and for particles that can move (inv_mass
   /// > 0).
   void look(std::span<const Vec3> x, std::span<const double> inv_mass, ThreadPool* pool = nullptr);
-  double energy() const;                               ///< [J]
-  void add_forces(std::span<Vec3> force) const;        ///< [N]
-  void add_stiffness(FreeStiffness& stiffness) const;  ///< positive semidefinite
-  void expect(std::span<const Vec3> move);             ///< limits become those of the push after a move [m]
+  double energy() const;                         ///< [J]
+  void add_forces(std::span<Vec3> force) const;  ///< [N]
+  /// Positive semidefinite.
+  void add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip = SlipStiffness::none) const;
+  void expect(std::span<const Vec3> move);  ///< limits become those of the push after a move [m]
   void move_anchors();
   /// Where the body leaves less room than the gap (between two fingers, under an arm), pushes from both sides
   /// meet in a kink at which no step succeeds. A particle may be pushed at `from` and, less than the gap
@@ -61,8 +67,8 @@ class AnchoredContact {
   /// For a body that changes its shape: each anchor goes the way [m] of the surface that it lies on.
   void carry_anchors(const std::function<Vec3(const Vec3&)>& way);
   /// What is pushed and has no anchor gets one at `from`, its place before the step that brought it here, in
-  /// the body's frame: so friction in this step is bounded by this step's push.
-  void hold_new(std::span<const Vec3> from);
+  /// the body's frame: so friction in this step is bounded by this step's push. Returns how many that are.
+  int hold_new(std::span<const Vec3> from);
   /// For motion, so that what begins deep in the gap is not shot out: a particle that is pushed by more than
   /// this [N, one a particle] may lie as deep as it does for now, and is pushed by this. Call look() again.
   void let_in(std::span<const double> push);

@@ -185,13 +185,13 @@ void StepSearch::couple_pairs() {
 }
 
 /// Of the place that was looked at last.
-void StepSearch::assemble(const std::vector<Vec3>& x) {
+void StepSearch::assemble(const std::vector<Vec3>& x, SlipStiffness of_slip) {
   const WorkClock::Within assembly(clock_, WorkPart::assembly);
   const Particles& p = cloth_.particles;
   if (pairs_) couple_pairs();
   elements_.assemble(stiffness_, x, pool_);
   if (pairs_) pairs_->add_stiffness(stiffness_);
-  if (contact_) contact_->anchored().add_stiffness(stiffness_);
+  if (contact_) contact_->anchored().add_stiffness(stiffness_, of_slip);
   const double factor = inertia_of(*stage_);
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p.inv_mass[i] > 0) stiffness_.add(int(i), p.mass[i] * factor * Mat3::Identity());
@@ -206,9 +206,9 @@ bool StepSearch::kept_factors_serve() const {
   return !contact_ || factored_pushed_ == contact_->anchored().pushed();
 }
 
-void StepSearch::factorise(const std::vector<Vec3>& x) {
+void StepSearch::factorise(const std::vector<Vec3>& x, SlipStiffness of_slip) {
   throw_if_cancelled("implicit step");
-  assemble(x);
+  assemble(x, of_slip);
   const WorkClock::Within factorisation(clock_, WorkPart::factorisation);
   ++work_.factorisations;
   single_ = stiffness_.factorise_single(&pool_);
@@ -288,16 +288,17 @@ bool StepSearch::make_room(const std::vector<Vec3>& from, const std::vector<Vec3
 
 bool StepSearch::rubs() const { return contact_ || (pairs_ && pairs_->rubs()); }
 
-/// Limits of friction become those of the push to come.
-void StepSearch::expect(const std::vector<Vec3>& move) {
+/// Limits of friction become those of the push to come; of cloth on cloth once, as it changes the energy.
+void StepSearch::expect(const std::vector<Vec3>& move, bool once) {
   if (contact_) contact_->anchored().expect(move);
-  if (pairs_) pairs_->expect(move);
+  if (pairs_ && once) pairs_->expect(move);
 }
 
-/// What has come to touch has friction, too.
-void StepSearch::hold_new(const StageStart& start, const std::vector<Vec3>& x) {
-  if (contact_) contact_->anchored().hold_new(start.on_body);
+/// What has come to touch has friction, too. Whether the body has such, with limits of a push that is not
+/// solved for yet.
+bool StepSearch::hold_new(const StageStart& start, const std::vector<Vec3>& x) {
   if (pairs_) pairs_->hold_new(start.x, x);
+  return contact_ && contact_->anchored().hold_new(start.on_body) > 0;
 }
 
 SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const StageStart& start,
@@ -309,37 +310,48 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
   return descend(start, options, x, found_);
 }
 
+/// Those of a whole move of this mean and longest length: where a few particles are far off, theirs are
+/// wrong.
+bool StepSearch::factors_go_on_serving(int iteration, double length, double longest,
+                                       const SearchOptions& options) const {
+  const double brief = short_move * options.tolerance;
+  if (length > brief || (options.careful > 0 && longest > longest_enough * brief)) return false;
+  return !options.keep_factors || iteration % most_with_kept != 0;
+}
+
 /// `here` is of x, before and after.
 SearchEnd StepSearch::descend(const StageStart& start, const SearchOptions& options, std::vector<Vec3>& x,
                               Answer& here) {
   bool kept = options.keep_factors && kept_factors_serve();
+  bool relimit = rubs();
+  double share = 1;
   for (int iteration = 1; iteration <= options.most; ++iteration) {
-    if (!kept) factorise(x);
+    const bool careful = options.careful > 0 && (iteration <= options.careful || share < 1);
+    const SlipStiffness of_slip = careful ? SlipStiffness::secant : SlipStiffness::none;
+    if (!kept) factorise(x, of_slip);
     std::vector<Vec3> move = solve(here.net);
     if (kept && iteration == 1 && mean_length(move) > short_move * options.tolerance) {
       kept = false;
-      factorise(x);
+      factorise(x, of_slip);
       move = solve(here.net);
     }
     ++work_.iterations;
-    if (iteration == 1 && rubs()) {  // once, as it changes the energy
-      expect(move);
+    if (relimit) {
+      expect(move, iteration == 1);
       add_contact(x, here);
       move = solve(here.net);
     }
     const double length = mean_length(move), longest = longest_length(move);
     const Way way = advance(move, x, here, options);
-    if (iteration == 1 && rubs()) {  // what came to touch meanwhile, too
-      hold_new(start, x);
-      add_contact(x, here);
-    }
+    share = way.share;
+    relimit = iteration == 1 && rubs() && hold_new(start, x) && options.careful > 0;
+    if (iteration == 1 && rubs()) add_contact(x, here);
     const double enough = (iteration >= options.few ? good_enough : 1) * options.tolerance;
     const bool small = length <= enough && longest <= longest_enough * enough;
     if (small && !way.cut) return {true, iteration};
     const bool at_rounding = std::abs(dot(here.net, move)) <= least_fall * here.terms;
     if (way.share == 0 && !kept && !way.cut && !way.room) return {at_rounding, iteration};
-    kept = way.share == 1 && length <= short_move * options.tolerance &&
-           !(options.keep_factors && iteration % most_with_kept == 0);
+    kept = way.share == 1 && factors_go_on_serving(iteration, length, longest, options);
   }
   return {false, options.most};
 }

@@ -2,6 +2,7 @@
 #include "physics/contact/anchored_contact.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "tests/physics/body/test_bodies.h"
 #include "tests/physics/cloth/finite_differences.h"
@@ -84,6 +85,42 @@ TEST_CASE("anchored_contact: stiffness is the derivative of its forces") {
       CHECK((stacked(u) - Eigen::VectorXd::Unit(b.size(), c)).norm() < 1e-6);
     }
   }
+}
+
+TEST_CASE(
+    "anchored_contact: with the secant of friction no move lowers the energy by less than it promises") {
+  const Floor floor;
+  Cloth cloth;
+  add_particle(cloth, 0.002 * Vec3::UnitY(), 1e-3);
+  const Particles& p = cloth.particles;
+  AnchoredContact contact(floor, {.friction = 0.4, .gap = 0.003, .stiffness = 200}, 1);
+  contact.look(p.x, p.inv_mass);
+  contact.move_anchors();
+  const auto energy = [&](const Vec3& x) {
+    contact.look(std::vector<Vec3>(1, x), p.inv_mass);
+    return contact.energy();
+  };
+  int too_much = 0;  // without it
+  for (const double way : {5e-5, 2e-4, 2e-3}) {
+    const Vec3 x = p.x[0] + way * Vec3(0.6, 0, -0.8);
+    const double here = energy(x);
+    std::vector<Vec3> force(1, Vec3::Zero());
+    contact.add_forces(force);
+    FreeStiffness none(cloth), secant(cloth);
+    for (FreeStiffness* k : {&none, &secant}) k->assemble(cloth, std::vector<Vec3>(1, x), Stiffness::exact);
+    contact.add_stiffness(none);
+    contact.add_stiffness(secant, SlipStiffness::secant);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 d = 4e-3 * std::sin(1.0 + i) * Vec3(std::cos(3.0 * i), 0, std::sin(3.0 * i));
+      const auto promised = [&](const FreeStiffness& k) {
+        return -force[0].dot(d) + 0.5 * d.dot(k.times(std::vector<Vec3>(1, d))[0]);
+      };
+      const double change = energy(x + d) - here;
+      CHECK(change <= promised(secant) + 1e-15);
+      too_much += change > promised(none) + 1e-15;
+    }
+  }
+  CHECK(too_much > 100);
 }
 
 TEST_CASE(
