@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/base/slip_stiffness.h"
 #include "physics/base/thread_pool.h"
 #include "physics/body/collider.h"
 #include "physics/linear/free_stiffness.h"
@@ -16,11 +17,6 @@ struct AnchoredContactOptions {
   double gap = 0.003;       ///< distance at which the body begins to push [m]; > 0
   double stiffness = 1000;  ///< of that push beyond the soft layer [N/m]; > 0
 };
-
-/// How stiff friction is along the way of a particle that slides: not at all, as its force is the limit
-/// whatever the way; or by limit over way. Moves are shorter then, and where much slides they lower the
-/// energy.
-enum class SlipStiffness { none, secant };
 
 /// Where a rigid body stands: x -> rotation x + translation takes it from its own frame into the world.
 struct BodyPlace {

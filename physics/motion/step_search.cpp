@@ -190,7 +190,7 @@ void StepSearch::assemble(const std::vector<Vec3>& x, SlipStiffness of_slip) {
   const Particles& p = cloth_.particles;
   if (pairs_) couple_pairs();
   elements_.assemble(stiffness_, x, pool_);
-  if (pairs_) pairs_->add_stiffness(stiffness_);
+  if (pairs_) pairs_->add_stiffness(stiffness_, of_slip);
   if (contact_) contact_->anchored().add_stiffness(stiffness_, of_slip);
   const double factor = inertia_of(*stage_);
   for (std::size_t i = 0; i < p.size(); ++i)

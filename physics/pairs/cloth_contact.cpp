@@ -493,7 +493,7 @@ void ClothContact::couple(FreeStiffness& stiffness, const Cloth& cloth) const {
   if (misses_blocks(stiffness)) stiffness.couple(cloth, needed_blocks());
 }
 
-void ClothContact::add_stiffness(FreeStiffness& stiffness) const {
+void ClothContact::add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip) const {
   for (const auto* pairs : {&active_, &braced_})
     for (const ActivePair& p : *pairs) {
       const auto block = [&](std::size_t i, std::size_t j) {
@@ -510,7 +510,7 @@ void ClothContact::add_stiffness(FreeStiffness& stiffness) const {
           if (p.weights[j] != 0) stiffness.add(p.vertices[i], p.vertices[j], block(i, j));
       }
     }
-  friction_.add_stiffness(stiffness);
+  friction_.add_stiffness(stiffness, of_slip);
 }
 
 double ClothContact::nearest() const {

@@ -86,7 +86,7 @@ class ClothContact {
   void couple(FreeStiffness& stiffness, const Cloth& cloth) const;
   /// Positive semidefinite; after couple(). Where the way was cut to less than 1/32, the pairs that did so
   /// count as if they were half their range apart.
-  void add_stiffness(FreeStiffness& stiffness) const;
+  void add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip = SlipStiffness::none) const;
   /// As those of AnchoredContact, of the friction between layers, x being where it was looked last.
   void move_anchors(std::span<const Vec3> x) { friction_.move_anchors(active_, x); }
   void expect(std::span<const Vec3> move) { friction_.expect(active_, move); }

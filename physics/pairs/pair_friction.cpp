@@ -163,12 +163,13 @@ void PairFriction::add_forces(std::span<Vec3> force) const {
   }
 }
 
-void PairFriction::add_stiffness(FreeStiffness& stiffness) const {
+void PairFriction::add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip) const {
   for (const Pair& p : pairs_) {
     const double length = p.way.norm();
     Mat3 along = Mat3::Identity() - p.normal * p.normal.transpose();
     // What slides goes on sliding: nothing holds it back along its way.
-    if (length > p.slip || (p.slides && length > 0)) along -= p.way * p.way.transpose() / (length * length);
+    const bool slides = length > p.slip || (p.slides && length > 0);
+    if (slides && of_slip == SlipStiffness::none) along -= p.way * p.way.transpose() / (length * length);
     const Mat3 block = p.limit / std::max(p.slip, length) * along;
     for (std::size_t i = 0; i < 4; ++i) {
       stiffness.add(p.vertices[i], p.weights[i] * p.weights[i] * block);

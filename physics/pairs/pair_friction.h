@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/base/slip_stiffness.h"
 #include "physics/linear/free_stiffness.h"
 #include "physics/pairs/active_pair.h"
 
@@ -43,9 +44,10 @@ class PairFriction {
   void expect(std::span<const ActivePair> active, std::span<const Vec3> move);
   /// All answers below are for these positions.
   void look(std::span<const Vec3> x);
-  double energy() const { return energy_; }            ///< [J]
-  void add_forces(std::span<Vec3> force) const;        ///< [N]
-  void add_stiffness(FreeStiffness& stiffness) const;  ///< positive semidefinite
+  double energy() const { return energy_; }      ///< [J]
+  void add_forces(std::span<Vec3> force) const;  ///< [N]
+  /// Positive semidefinite.
+  void add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip = SlipStiffness::none) const;
   /// The blocks that add_stiffness() writes, by two particles.
   void list_couples(std::vector<std::array<int, 2>>& couples) const;
   bool empty() const { return pairs_.empty(); }  ///< no pair has friction
