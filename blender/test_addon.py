@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """blender -b --factory-startup -P test_addon.py -- FURROW MESHES FOLDER: the add-on, as its zip installs it, on a skirt and
-its body: strokes of the Grease Pencil wrinkle it, it settles, keeps its lines and tells how it fits; edges as lines; what
-the garment has beside its shape stays; a run that is stopped, or refused, leaves the scene as it was."""
+its body: strokes of the Grease Pencil wrinkle it, it settles, keeps its lines and tells how it fits; it goes to another figure; edges as
+lines; what the garment has beside its shape stays; a run that is stopped, or refused, leaves the scene as it was."""
 import os
 import sys
 import time
 
+import bmesh
 import bpy
 import mathutils
 import numpy
@@ -147,6 +148,67 @@ try:
 except RuntimeError as e:
     refused = str(e)
 check("without pins and body it says what is missing", "nothing holds the garment" in refused)
+
+# Made for the mannequin, worn by a taller figure that stands elsewhere.
+def refusal(operator):
+    try:
+        return "nothing" if operator() == {"FINISHED"} else "no word"
+    except RuntimeError as e:
+        return str(e)
+
+
+def in_world(points):
+    return files.in_world(points, skirt.matrix_world, 1)
+
+
+def length(points):
+    return sum(numpy.linalg.norm(points[e.vertices[0]] - points[e.vertices[1]]) for e in skirt.data.edges)
+
+
+def check_worn(how):
+    """That it lies about the tall figure, in the size that it was made in."""
+    now, made = in_world(shape_of(skirt, "Furrow settled")), in_world(shape_of(skirt))
+    aside = numpy.linalg.norm((now.mean(axis=0) - made.mean(axis=0) - step)[:2])
+    check("%s, it lies about the other figure (%.0f mm off)" % (how, 1000 * aside), aside < 0.03)
+    raised = (now[held, 2].mean() - floor) / (made[held, 2].mean() - floor)
+    check("at her waist (%.3f as high)" % raised, 1.05 < raised < 1.07)
+    check("in its own size (%.4f)" % (length(now) / length(made)), abs(length(now) / length(made) - 1) < 0.02)
+    check("and what is beside the shape stays", all_beside_shape(skirt) == before)
+
+
+step, floor = numpy.array((0.9, 0.4, 0.0)), place.translation.z
+tall = bpy.data.objects.new("tall", body.data)
+bpy.context.collection.objects.link(tall)
+tall.matrix_world = mathutils.Matrix.Translation(step) @ place @ mathutils.Matrix.Diagonal((1, 1, 1.06, 1))
+sphere = bmesh.new()
+bmesh.ops.create_icosphere(sphere, subdivisions=3, radius=0.8)
+ball = bpy.data.objects.new("ball", bpy.data.meshes.new("ball"))
+sphere.to_mesh(ball.data)
+bpy.context.collection.objects.link(ball)
+bpy.context.view_layer.update()
+settled = settled.copy()
+scene.furrow.maps, scene.furrow.made_for, scene.furrow.body, scene.furrow.pins = False, body, None, "waist"
+check("made for a body and worn by none is refused as the command line does",
+      "--made-for: brings a garment from one body to another" in refusal(bpy.ops.furrow.settle))
+scene.furrow.body, scene.furrow.made_for = tall, skirt
+check("a garment is not the body that it was made for", "is the garment itself" in refusal(bpy.ops.furrow.settle))
+check("and the shape is as it was", (shape_of(skirt, "Furrow settled") == settled).all())
+scene.furrow.made_for = body
+check("settled on one body, it is brought to another", refusal(bpy.ops.furrow.settle) == "nothing")
+check_worn("brought from there")
+first = shape_of(skirt, "Furrow settled")
+check("settled once more it goes on", refusal(bpy.ops.furrow.settle) == "nothing")
+far = numpy.linalg.norm(shape_of(skirt, "Furrow settled") - first, axis=1).max()
+check("from where it lies (%.1f mm)" % (1000 * far), far < 0.03)
+check("wrinkled anew it lies as it was made", refusal(bpy.ops.furrow.wrinkle) == "nothing")
+check("so it is not kept on the other figure", "settle it on tall first" in refusal(bpy.ops.furrow.keep))
+check("nor is its fit told", "settle it on tall first" in refusal(bpy.ops.furrow.fit))
+scene.furrow.made_for = ball
+check("what is no figure is refused as the command line does", "made_for.obj: the body has no" in refusal(bpy.ops.furrow.settle))
+scene.furrow.made_for = body
+check("from the body that it was made for it is brought", refusal(bpy.ops.furrow.settle) == "nothing")
+check_worn("brought as it was made")
+scene.furrow.made_for = None
 
 # Edges of the mesh as lines, on another object.
 n, size = 14, 0.03

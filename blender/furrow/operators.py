@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Wrinkle, settle, keep, fit: each writes files, lets the program run, and brings what comes of it back as a shape key."""
+import filecmp
 import json
 import os
 import tempfile
@@ -24,6 +25,12 @@ def cloth_of(obj):
     """The cloth of the last result, with its lines and rest lengths; None: there is none."""
     path = os.path.join(folder_of(obj), "cloth.ply")
     return path if obj.get("furrow_cloth") and os.path.exists(path) else None
+
+
+def worn_of(obj):
+    """The body that the cloth of the last result settled on, as it stood then; None: it lies as the garment was made."""
+    path = os.path.join(folder_of(obj), "worn.obj")
+    return path if cloth_of(obj) and os.path.exists(path) else None
 
 
 class Job:
@@ -58,6 +65,8 @@ class Job:
             self.obj.update_from_editmode()
         self.folder, self.scale = folder_of(self.obj), context.scene.unit_settings.scale_length
         self.matrix = self.obj.matrix_world.copy()
+        if not cloth_of(self.obj):  # of another object that had its name
+            self.forget_worn()
         return runs.Run(program, self.folder, self.prepare(context))
 
     def end(self, context, run):
@@ -121,18 +130,46 @@ class Job:
         points = files.in_world(files.coordinates(self.obj.data), self.matrix, self.scale)
         files.write_obj(os.path.join(self.folder, "garment.obj"), self.obj.data, points)
 
+    def write_posed(self, context, figure, name):
+        """A body as it stands in the frame that is shown."""
+        posed = figure.evaluated_get(context.evaluated_depsgraph_get())
+        mesh = posed.to_mesh()
+        flat = numpy.empty(3 * len(mesh.vertices), dtype=numpy.float64)
+        mesh.vertices.foreach_get("co", flat)
+        files.write_obj(os.path.join(self.folder, name), mesh, files.in_world(flat.reshape(-1, 3), posed.matrix_world, self.scale))
+        posed.to_mesh_clear()
+
     def write_body(self, context):
         if not self.scene.body:
             return []
         if self.scene.body == self.obj:
             raise runs.Failed("the body is the garment itself; choose what wears it")
-        posed = self.scene.body.evaluated_get(context.evaluated_depsgraph_get())
-        mesh = posed.to_mesh()
-        flat = numpy.empty(3 * len(mesh.vertices), dtype=numpy.float64)
-        mesh.vertices.foreach_get("co", flat)
-        files.write_obj(os.path.join(self.folder, "body.obj"), mesh, files.in_world(flat.reshape(-1, 3), posed.matrix_world, self.scale))
-        posed.to_mesh_clear()
+        self.write_posed(context, self.scene.body, "body.obj")
         return ["--body", "body.obj"]
+
+    def made_for(self, context):
+        """Whom the cloth lies about, if it is to be brought to the body; after write_body()."""
+        if not self.scene.made_for:
+            return []
+        if self.scene.made_for == self.obj:
+            raise runs.Failed("'Made for' is the garment itself; choose the body that it lies about")
+        worn = worn_of(self.obj)
+        if not worn:
+            self.write_posed(context, self.scene.made_for, "made_for.obj")
+            return ["--made-for", "made_for.obj"]
+        there = self.scene.body and filecmp.cmp(worn, os.path.join(self.folder, "body.obj"), shallow=False)
+        return [] if there else ["--made-for", "worn.obj"]
+
+    def forget_worn(self):
+        worn = os.path.join(self.folder, "worn.obj")
+        if os.path.exists(worn):
+            os.remove(worn)
+
+    def require_brought(self):
+        """Raises runs.Failed where the cloth lies about another body than the one that is chosen."""
+        other = self.scene.made_for
+        if other and self.scene.body and other != self.scene.body and not worn_of(self.obj):
+            raise runs.Failed("the garment lies about %s; settle it on %s first" % (other.name, self.scene.body.name))
 
     def pins(self):
         name = self.scene.pins
@@ -203,6 +240,7 @@ class Wrinkle(Job, bpy.types.Operator):
 
     def take(self, context, run):
         super().take(context, run)
+        self.forget_worn()  # it lies as it was made again
         if self.scene.maps:
             wire_normal_map(self.obj, os.path.join(self.folder, "maps_normal.png"))
 
@@ -212,8 +250,15 @@ class Settle(Job, bpy.types.Operator):
     bl_idname, bl_label, key = "furrow.settle", "Settle on body", "settled"
 
     def prepare(self, context):
+        self.on_body = bool(self.scene.body)
         words = self.input()
-        return [["drape", *words, *self.support(context), "--fabric", self.scene.fabric, "-o", "next.ply"], self.transfer()]
+        words += [*self.support(context), *self.made_for(context), "--fabric", self.scene.fabric]
+        return [["drape", *words, "-o", "next.ply"], self.transfer()]
+
+    def take(self, context, run):
+        super().take(context, run)
+        if self.on_body:
+            os.replace(os.path.join(self.folder, "body.obj"), os.path.join(self.folder, "worn.obj"))
 
 
 class Keep(Job, bpy.types.Operator):
@@ -225,6 +270,7 @@ class Keep(Job, bpy.types.Operator):
         return super().poll(context) and bool(cloth_of(context.object))
 
     def prepare(self, context):
+        self.require_brought()
         words = self.input()
         return [["keep", *words, *self.support(context), "--fabric", self.scene.fabric, "-o", "next.ply", "--json"], self.transfer()]
 
@@ -251,6 +297,7 @@ class Fit(Job, bpy.types.Operator):
         return super().poll(context) and bool(cloth_of(context.object)) and bool(context.scene.furrow.body)
 
     def prepare(self, context):
+        self.require_brought()
         self.write_body(context)
         return [["fit", "cloth.ply", "--body", "body.obj", "--colour", "distance", "-o", "fit.ply"]]
 

@@ -27,6 +27,7 @@ class Panel(bpy.types.Panel):
         cloth = layout.column(align=True)
         cloth.prop(s, "fabric")
         cloth.prop(s, "body")
+        cloth.prop(s, "made_for")
         if context.object and context.object.type == "MESH":
             cloth.prop_search(s, "pins", context.object, "vertex_groups")
         layout.operator("furrow.settle")

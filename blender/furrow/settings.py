@@ -38,6 +38,9 @@ class Settings(bpy.types.PropertyGroup):
     fabric: bpy.props.EnumProperty(name="Fabric", items=[(f, f, "") for f in fabrics])
     body: bpy.props.PointerProperty(name="Body", type=bpy.types.Object, poll=lambda _self, o: o.type == "MESH",
                                     description="What wears the garment, as it stands in the frame that is shown")
+    made_for: bpy.props.PointerProperty(name="Made for", type=bpy.types.Object, poll=lambda _self, o: o.type == "MESH",
+                                        description="The body that the garment lies about, if that is another one: Settle "
+                                                    "brings it from there to the body, in its own size")
     pins: bpy.props.StringProperty(name="Pins", description="Vertex group of the garment that is held")
     maps: bpy.props.BoolProperty(name="Bake a normal map", default=False,
                                  description="What the mesh is too coarse for goes into a normal map of its materials")
