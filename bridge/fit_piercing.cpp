@@ -36,6 +36,19 @@ double depth_in(const std::array<physics::Vec3, 3>& x, const physics::ExactDista
   return -least;
 }
 
+/// The vertices of these faces, in ascending order.
+std::vector<std::size_t> corners_of(const std::vector<std::array<int, 3>>& triangles,
+                                    const std::vector<char>& through, std::size_t vertices) {
+  std::vector<char> is_corner(vertices, 0);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (through[i])
+      for (const int v : triangles[i]) is_corner[std::size_t(v)] = 1;
+  std::vector<std::size_t> corners;
+  for (std::size_t v = 0; v < vertices; ++v)
+    if (is_corner[v]) corners.push_back(v);
+  return corners;
+}
+
 }  // namespace
 
 FitPiercing measure_piercing(const geometry::Mesh& garment, const physics::TriangleMesh& body,
@@ -64,6 +77,7 @@ FitPiercing measure_piercing(const geometry::Mesh& garment, const physics::Trian
     through[i] = through[i] || most < 0;
     result.deepest = std::max(result.deepest, depths[i]);
   }
+  result.corners = corners_of(triangles, through, garment.num_vertices());
   result.zones = fit_zones(garment, std::move(through), depths, 0).zones;
   return result;
 }

@@ -61,6 +61,7 @@ struct FitPiercing {
   std::size_t faces = 0;       ///< that cross or touch the body's surface (geometry/stroke/pierced_faces.h)
   double deepest = 0;          ///< of all points of the garment inside the body, as sampled [m], >= 0
   std::vector<FitZone> zones;  ///< of pierced faces and those with all corners inside; peak: their depth [m]
+  std::vector<std::size_t> corners;  ///< vertices of the faces of all zones by index, in ascending order
 };
 
 /// Room between garment and body at one height. What cannot be measured is missing, and `note` says why.

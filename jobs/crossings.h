@@ -24,6 +24,7 @@ struct ClothCrossings {
   std::size_t pairs = 0;                ///< now
   std::size_t from_start = 0;           ///< of them, where it crossed itself from the start
   std::vector<geometry::Face> faces;    ///< that cross another, in ascending order
+  std::vector<std::size_t> corners;     ///< vertices of those faces by index, in ascending order
   std::vector<CrossingPlace> places;    ///< most pairs first
 };
 
@@ -31,7 +32,7 @@ struct ClothCrossings {
 /// (0.11, 1.32, -0.02) m, between 'shirt' and 'button'".
 std::string words(const ClothCrossings& crossings);
 
-/// The numbers, with the ten places that have most pairs.
+/// The numbers, the corners (left out: nothing crosses), and the ten places that have most pairs.
 Json to_json(const ClothCrossings& crossings);
 
 }  // namespace furrow::jobs

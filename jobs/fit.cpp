@@ -185,6 +185,7 @@ Json to_json(const bridge::FitReport& r, const bridge::FitOptions& o) {
                         {"vertices_inside", r.distance.vertices_inside},
                         {"pierced_faces", r.piercing.faces},
                         {"deepest_penetration", r.distance.deepest_penetration}};
+  if (!r.piercing.corners.empty()) json["distance"]["pierced_corners"] = r.piercing.corners;
   json["ease"] = to_json(r.ease);
   json["tight_zones"] = to_json(r.tight);
   json["loose_zones"] = to_json(r.loose);

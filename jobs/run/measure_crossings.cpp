@@ -56,6 +56,9 @@ ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* s
   result.pairs = found.pairs;
   result.from_start = found.from_start;
   result.faces = found.faces;
+  const std::vector<char> crossed = geometry::crossed_vertices(file.mesh, found);
+  for (std::size_t v = 0; v < crossed.size(); ++v)
+    if (crossed[v]) result.corners.push_back(v);
   for (const geometry::CrossingPlace& p : found.places)
     result.places.push_back({p.centre,
                              p.extent,
@@ -96,6 +99,7 @@ Json to_json(const ClothCrossings& c) {
   if (c.at_start) json["new"] = c.pairs - c.from_start;
   json["faces"] = c.faces.size();
   if (c.places.empty()) return json;
+  json["corners"] = c.corners;
   json["places"] = Json::array();
   for (std::size_t i = 0; i < std::min(most_places, c.places.size()); ++i)
     json["places"].push_back(to_json(c.places[i]));

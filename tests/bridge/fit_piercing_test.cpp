@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bridge/fit_piercing.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <stdexcept>
@@ -46,6 +47,31 @@ TEST_CASE("fit_piercing: two faces that cut a ball without a vertex in it are as
     REQUIRE(r.piercing.zones.size() == 1);
     CHECK(r.piercing.zones[0].height_share == Approx((height + 0.3) / 0.6).epsilon(1e-6));
   }
+}
+
+TEST_CASE(
+    "fit_piercing: the corners told are those of the faces that the body comes through, and of no others") {
+  const Body ball(icosphere(4, 0.3));
+  geometry::Mesh sheet = grid(6, 6, 3, 3);  // the ball is 0.33 m wide at the sheet's height
+  for (auto v : sheet.vertices()) {
+    const geometry::Point p = sheet.point(v);
+    sheet.point(v) = {p.x() - 1.5, 0.25, p.y() - 1.5};
+  }
+  std::vector<std::size_t> around;
+  for (auto v : sheet.vertices()) {
+    const geometry::Point& p = sheet.point(v);
+    if (std::abs(p.x()) > 1e-9 || std::abs(p.z()) > 1e-9) continue;
+    around.push_back(v.idx());
+    for (auto n : sheet.vertices_around_target(sheet.halfedge(v))) around.push_back(n.idx());
+  }
+  std::sort(around.begin(), around.end());
+  REQUIRE(around.size() == 7);
+  const bridge::FitPiercing p = measure(sheet, ball);
+  CHECK(p.faces == 6);
+  CHECK(p.corners == around);
+  for (auto v : sheet.vertices()) sheet.point(v) = sheet.point(v) + geometry::Vector(0, 0.1, 0);
+  CHECK(measure(sheet, ball).corners.empty());
+  CHECK(measure(icosphere(1, 0.2), ball).corners.size() == icosphere(1, 0.2).num_vertices());
 }
 
 TEST_CASE(

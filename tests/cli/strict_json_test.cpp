@@ -108,6 +108,18 @@ TEST_CASE("strict JSON: every command's report is read, and is as its schema say
             " --set simulation.seconds=0.01 --accuracy 5%");
 }
 
+TEST_CASE(
+    "strict JSON: a report names the vertices where cloth crosses cloth and the body, as its schema says") {
+  const ScratchDirectory scratch;
+  std::ofstream(scratch / "two.obj") << "v 2 1 0\nv -0.3 1 -0.3\nv 0.3 1 -0.3\nv 0 1 0.4\n"
+                                        "v -0.3 0.8 0\nv 0.3 0.8 0\nv 0 1.2 0\nv 2 1.1 0\nv 2.1 1 0\n"
+                                        "f 2 3 4\nf 5 6 7\nf 1 8 9\n";
+  const json r = report_of("fit " + (scratch / "two.obj") + " --body " + source_file("meshes/mannequin.obj"));
+  const json all_but_one_face{1, 2, 3, 4, 5, 6};
+  CHECK(r["crossings"]["corners"] == all_but_one_face);
+  CHECK(r["distance"]["pierced_corners"] == all_but_one_face);
+}
+
 TEST_CASE("strict JSON: each report of furrow batch is as its schema says") {
   const ScratchDirectory scratch;
   const std::string plan = scratch / "plan.toml";

@@ -359,6 +359,11 @@ TEST_CASE("drape: cloth that comes to cross other cloth is counted, placed and n
   CHECK(remarks_on(report, "cloth_crosses"));
   CHECK(only(report).outcome().find("cloth crosses itself") != std::string::npos);
   CHECK(to_json(report).at("crossings").at("new") == c.pairs);
+  CHECK(to_json(report).at("crossings").at("corners") == c.corners);
+  for (const geometry::Face f : c.faces)
+    for (const geometry::Vertex v :
+         only(report).file.mesh.vertices_around_face(only(report).file.mesh.halfedge(f)))
+      CHECK(std::binary_search(c.corners.begin(), c.corners.end(), std::size_t(v)));
   set(job, "garment.allow_crossings", c.pairs);
   CHECK_FALSE(only(jobs::drape(job, recorder)).crosses_itself());
 }

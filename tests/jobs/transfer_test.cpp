@@ -146,3 +146,24 @@ TEST_CASE("transfer: two jobs at once in one process give the bits of single run
   CHECK(tests::positions(both_two.result) == tests::positions(single_two.result));
   CHECK(tests::positions(both_one.result) != tests::positions(both_two.result));
 }
+
+TEST_CASE("transfer: the report names the corners of the faces that cross, and none where nothing does") {
+  io::MeshFile file;
+  const auto triangle = [&](geometry::Point a, geometry::Point b, geometry::Point c) {
+    file.mesh.add_face(file.mesh.add_vertex(a), file.mesh.add_vertex(b), file.mesh.add_vertex(c));
+  };
+  triangle({5, 0, 0}, {6, 0, 0}, {5, 1, 0});  // far from the others
+  triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+  triangle({0, 0, -1}, {0.1, 0, 1}, {-0.1, 0, 1});  // through that one
+  jobs::TransferJob job;
+  job.original = job.wrinkled = file;
+  job.rest = file;
+  tests::Recorder recorder;
+  const jobs::Json crossed = to_json(jobs::transfer(job, recorder)).at("crossings");
+  CHECK(crossed.at("pairs") == 1);
+  CHECK(crossed.at("corners") == jobs::Json({3, 4, 5, 6, 7, 8}));
+  for (int v = 6; v < 9; ++v) file.mesh.point(geometry::Vertex(v)) += geometry::Vector(0, 0, 3);
+  job.original = job.wrinkled = file;
+  job.rest = file;
+  CHECK_FALSE(to_json(jobs::transfer(job, recorder)).at("crossings").contains("corners"));
+}
