@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """blender -b --factory-startup -P test_addon.py -- FURROW MESHES FOLDER: the add-on, as its zip installs it, on a skirt and
 its body: strokes of the Grease Pencil wrinkle it, it settles, keeps its lines and tells how it fits; it goes to another figure; edges as
-lines; what the garment has beside its shape stays; a run that is stopped, or refused, leaves the scene as it was."""
+lines; tangles; what the garment has beside its shape stays; a run that is stopped, or refused, leaves the scene as it was."""
 import os
 import sys
 import time
@@ -15,6 +15,7 @@ furrow, meshes, folder = sys.argv[sys.argv.index("--") + 1:]
 bpy.ops.preferences.addon_install(filepath=os.path.join(folder, "furrow-blender.zip"), overwrite=True)
 bpy.ops.preferences.addon_enable(module="furrow")
 bpy.context.preferences.addons["furrow"].preferences.program = furrow
+import furrow.colours as colours_of_tangles
 import furrow.files as files
 import furrow.operators as operators
 import furrow.runs as runs
@@ -238,4 +239,44 @@ scene.furrow.pins = sheet.vertex_groups.new(name="top").name
 sheet.vertex_groups["top"].add([v.index for v in sheet.data.vertices if v.co.z > max(w.co.z for w in sheet.data.vertices) - 1e-3], 1.0, "REPLACE")
 check("keep ends", bpy.ops.furrow.keep() == {"FINISHED"})
 check("and colours its line by the verdict", len({tuple(round(c, 2) for c in d.color) for d in sheet.data.color_attributes["Furrow verdict"].data}) > 1)
+# A tongue through the sheet, and a ball within which it is held, are marked where they are.
+def marked(colour):
+    layer = crossed.data.color_attributes.get("Furrow tangles")
+    return [i for i, d in enumerate(layer.data) if numpy.allclose(tuple(d.color)[:3], colour, atol=0.01)] if layer else None
+
+
+check("cloth that crosses nowhere has no mark", "Furrow tangles" not in sheet.data.color_attributes and "Furrow tangles" not in skirt.data.color_attributes)
+tongue = len(grid.vertices)
+at = numpy.array((0.01, 0, 5.4 * size))  # within a face of the sheet
+mesh = bpy.data.meshes.new("crossed")
+mesh.from_pydata([tuple(v.co) for v in grid.vertices] + [tuple(at + p) for p in ((-0.004, -0.05, 0.004), (0.004, -0.05, 0.004), (0, 0.05, 0))],
+                 [], [tuple(p.vertices) for p in grid.polygons] + [(tongue, tongue + 1, tongue + 2)])
+crossed = bpy.data.objects.new("crossed", mesh)
+bpy.context.collection.objects.link(crossed)
+bpy.context.view_layer.objects.active = crossed
+for part in (mesh.vertices, mesh.polygons):
+    part.foreach_set("select", [False] * len(part))
+row = {(n + 1) * 10 + i for i in range(2, n - 1)}
+for edge in mesh.edges:
+    edge.select = edge.vertices[0] in row and edge.vertices[1] in row
+check("cloth that crosses itself is wrinkled", bpy.ops.furrow.wrinkle() == {"FINISHED"})
+through = marked(colours_of_tangles.crossing)
+cut = next(p for p in mesh.polygons if abs(p.center.x - at[0]) < size / 2 and abs(p.center.z - at[2]) < size / 2)
+check("the tongue is marked, and three corners of the cell that it goes through", through[-3:] == [tongue, tongue + 1, tongue + 2]
+      and len(through) == 6 and set(through[:3]) < set(cut.vertices))
+check("and nothing else", len(marked(colours_of_tangles.pale)) == len(mesh.vertices) - 6)
+top = crossed.vertex_groups.new(name="top")
+top.add([v.index for v in mesh.vertices if v.co.z > size * n - 1e-3] + [tongue, tongue + 1, tongue + 2], 1.0, "REPLACE")
+check("cloth that swings off it is settled", bpy.ops.furrow.settle() == {"FINISHED"})
+check("and the marks are gone", marked(colours_of_tangles.pale) is None)
+ball.location, ball.scale = (0, 0, size * n), (1 / 16, 1 / 16, 1 / 16)  # 5 cm
+bpy.context.view_layer.update()
+scene.furrow.body = ball
+check("cloth that is held inside a body is settled", bpy.ops.furrow.settle() == {"FINISHED"})
+inside = marked(colours_of_tangles.pierced)
+middle = (n + 1) * n + n // 2
+off = numpy.linalg.norm(shape_of(crossed, "Furrow settled")[inside] - numpy.array(ball.location), axis=1)
+check("the body is marked where it comes through (%d vertices)" % len(inside), middle in inside and len(inside) > 3)
+check("and nowhere else (%.0f mm off its middle)" % (1000 * off.max()), off.max() < 0.05 + 1.5 * size)
+check("for there the cloth does not cross itself", marked(colours_of_tangles.crossing) == [])
 print("all passed")

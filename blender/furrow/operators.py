@@ -9,7 +9,7 @@ import bpy
 import mathutils
 import numpy
 
-from . import files, runs, settings
+from . import colours, files, runs, settings
 
 frame = ["--unit", "m", "--up", "z"]
 
@@ -54,6 +54,7 @@ class Job:
         os.replace(os.path.join(self.folder, "next.ply"), os.path.join(self.folder, "cloth.ply"))
         self.obj["furrow_cloth"] = self.key
         show_shape(self.obj, "Furrow " + self.key, files.in_object(points, self.matrix, self.scale))
+        colours.colour_tangles(self, run)
 
     # --- How it goes on ---
     def begin(self, context):
@@ -195,7 +196,7 @@ class Job:
         return ["cloth.ply"] if cloth_of(self.obj) else ["garment.obj", *frame]
 
     def transfer(self):
-        return ["transfer", "garment.obj", "next.ply", "-o", "shape.obj", *frame]
+        return ["transfer", "garment.obj", "next.ply", "-o", "shape.obj", "--json", *frame]
 
 
 class Wrinkle(Job, bpy.types.Operator):
@@ -231,7 +232,7 @@ class Wrinkle(Job, bpy.types.Operator):
     def prepare(self, _context):
         self.write_garment()
         files.write_strokes(os.path.join(self.folder, "lines.json"), self.lines())
-        commands = [["wrinkle", "garment.obj", "lines.json", "-o", "next.ply", *frame], self.transfer()]
+        commands = [["wrinkle", "garment.obj", "lines.json", "-o", "next.ply", "--json", *frame], self.transfer()]
         if self.scene.maps:
             if not self.obj.data.uv_layers.active:
                 raise runs.Failed("a map needs texture coordinates: unwrap %s first" % self.obj.name)
@@ -253,7 +254,7 @@ class Settle(Job, bpy.types.Operator):
         self.on_body = bool(self.scene.body)
         words = self.input()
         words += [*self.support(context), *self.made_for(context), "--fabric", self.scene.fabric]
-        return [["drape", *words, "-o", "next.ply"], self.transfer()]
+        return [["drape", *words, "-o", "next.ply", "--json"], self.transfer()]
 
     def take(self, context, run):
         super().take(context, run)
@@ -280,12 +281,12 @@ class Keep(Job, bpy.types.Operator):
         for line in verdicts:
             self.report({"INFO"}, "%s: %s" % (line.get("name") or line["id"], line["words"]))
         columns = files.read_ply_columns(os.path.join(self.folder, "cloth.ply"))
-        colours = {"held": (0.25, 0.66, 0.41), "held with press": (0.94, 0.80, 0.24), "held with struts": (0.95, 0.53, 0.24),
-                   "held lower": (0.27, 0.47, 0.86), "cannot hold": (0.77, 0.16, 0.20)}
-        of_line = {line["id"]: colours.get(line["verdict"], (0.8, 0.8, 0.8)) for line in verdicts}
+        shades = {"held": (0.25, 0.66, 0.41), "held with press": (0.94, 0.80, 0.24), "held with struts": (0.95, 0.53, 0.24),
+                  "held lower": (0.27, 0.47, 0.86), "cannot hold": (0.77, 0.16, 0.20)}
+        of_line = {line["id"]: shades.get(line["verdict"], (0.8, 0.8, 0.8)) for line in verdicts}
         shown = numpy.array([of_line.get(int(i), (0.8, 0.8, 0.8)) for i in columns["line"]]) if "line" in columns else None
         if shown is not None:
-            colour_by_nearest(self, columns, shown, "Furrow verdict")
+            colours.colour_by_nearest(self, columns, shown, "Furrow verdict")
 
 
 class Fit(Job, bpy.types.Operator):
@@ -304,7 +305,7 @@ class Fit(Job, bpy.types.Operator):
     def take(self, context, run):
         columns = files.read_ply_columns(os.path.join(self.folder, "fit.ply"))
         shown = numpy.stack([columns[c] for c in ("red", "green", "blue")], axis=1) / 255.0
-        colour_by_nearest(self, columns, shown, "Furrow fit")
+        colours.colour_by_nearest(self, columns, shown, "Furrow fit")
         for line in run.outputs[0].splitlines():
             if not line.startswith(("written:", "next:")):
                 self.report({"INFO"}, line)
@@ -322,23 +323,6 @@ def show_shape(obj, name, points):
             other.value = 1 if other == key else 0
     obj.active_shape_key_index = keys.find(key.name)
     obj.data.update()
-
-
-def colour_by_nearest(job, columns, colours, name):
-    """Colours of the cloth's vertices, at the mesh's: that of the nearest, in the shape that is shown."""
-    cloth = numpy.stack([columns[c] for c in "xyz"], axis=1).astype(numpy.float64)
-    tree = mathutils.kdtree.KDTree(len(cloth))
-    for i, p in enumerate(cloth):
-        tree.insert(p, i)
-    tree.balance()
-    shape = files.read_obj_points(os.path.join(job.folder, "shape.obj"))
-    near = [tree.find(p)[1] for p in shape]
-    mesh = job.obj.data
-    layer = mesh.color_attributes.get(name) or mesh.color_attributes.new(name, "FLOAT_COLOR", "POINT")
-    rgba = numpy.ones((len(near), 4), dtype=numpy.float32)
-    rgba[:, :3] = colours[near]
-    layer.data.foreach_set("color", rgba.ravel())
-    mesh.color_attributes.active_color = layer
 
 
 def wire_normal_map(obj, path):
