@@ -126,6 +126,7 @@ WrinkleJob job_of(WrinkleArguments& a) {
   job.max_weights = a.max_weights;
   if (a.rest == "keep") job.keep = surroundings(a, job);
   if (a.settle) job.settle = surroundings(a, job);
+  job.made_for = a.made_for;
   job.smoothed = a.smoothed;
   if (!a.subdivide.empty() && a.subdivide != "auto") job.subdivide = std::stoi(a.subdivide);
   job.output = a.out;
@@ -203,6 +204,10 @@ void add_wrinkle(CLI::App& app, int& exit_code) {
       "--settle", a->settle,
       "let what is drawn come to rest, as furrow drape does: on --body, on pins or on both, in --fabric "
       "(cotton); -o is the garment at rest");
+  sub->add_option(
+      "--made-for", a->made_for,
+      "with --settle: body that the garment was made for and lies about, in its unit; what is drawn is "
+      "brought from there to --body in its own size (furrow drape)");
   sub->add_option(
          "--subdivide", a->subdivide,
          "with --settle: refine the garment so many times (Loop) before its lines are drawn, 0 to 4; auto "

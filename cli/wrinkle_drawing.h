@@ -10,7 +10,7 @@
 namespace furrow::cli {
 
 struct WrinkleArguments : CommonArguments {
-  std::string in, strokes, state, inserted, smoothed, subdivide, preview;
+  std::string in, strokes, state, inserted, smoothed, made_for, subdivide, preview;
   std::vector<std::string> without;
   double height = geometry::Stroke{}.height, fade = io::SceneLines{}.fade;
   std::string rule = "fold", rest = "drawn", region = "two-ring", detail = "normal";

@@ -34,12 +34,6 @@ void check_scene(const io::Scene& scene) {
     throw std::invalid_argument("drape draws no lines; draw them on what it writes, with furrow wrinkle");
 }
 
-void check_made_for(const DrapeSettings& s, const io::Scene& scene) {
-  if (!s.made_for.empty() && !scene.body)
-    throw std::invalid_argument(
-        "--made-for: brings a garment from one body to another; name the other one with --body");
-}
-
 /// What several garments are not draped with.
 void check_layers(const DrapeJob& job, const io::Scene& scene) {
   const DrapeSettings& s = job.settings;
@@ -114,7 +108,7 @@ std::vector<std::string> names_of(std::span<const std::filesystem::path> paths) 
 void check(const DrapeJob& job, const GarmentScenes& all, const io::Scene& scene, Listener& listener) {
   check_scene(scene);
   const DrapeSettings& s = job.settings;
-  check_made_for(s, scene);
+  check_made_for(s.made_for, scene);
   using physics::require;
   require("drape", "penetration", s.penetration, s.penetration >= 0, ">= 0");
   require("drape", "band_stiffness", s.band_stiffness, s.band_stiffness >= 0, ">= 0");
@@ -265,8 +259,8 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   if (open.scene.body)
     body.emplace(load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap)));
   if (const std::filesystem::path& made_for = job.settings.made_for; !made_for.empty())
-    body->made_for =
-        std::make_shared<const MadeFor>(read_made_for(made_for, *body, open.scene.body->mesh, context));
+    body->made_for = std::make_shared<const MadeFor>(
+        read_made_for(made_for, body->triangles, open.scene.body->mesh, context));
   const bool choose = !job.subdivide && std::none_of(all.begin(), all.end(), [](const io::TomlDocument& d) {
     return d.root.value("garment", Json::object()).contains("subdivide");
   });

@@ -20,6 +20,7 @@
 #include "jobs/run/drape_garment.h"
 #include "jobs/run/keep_at_rest.h"
 #include "jobs/run/line_round.h"
+#include "jobs/run/made_for.h"
 #include "jobs/run/max_weights.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/measure_drawn.h"
@@ -57,9 +58,13 @@ void check(const WrinkleJob& job, Listener& listener) {
                                 ": refines 0 to 4 times before lines are drawn that come to rest (--settle)");
   if (!smoothed.empty() && !job.settle)
     throw std::invalid_argument("--smoothed writes what is drawn before it comes to rest; add --settle");
+  if (!job.made_for.empty() && !job.settle)
+    throw std::invalid_argument(
+        "--made-for: brings what is drawn to another body before it comes to rest there; add --settle and "
+        "--body");
   std::vector<std::string> outputs{output, inserted, smoothed};
   std::vector<std::string> inputs{path_of(job.strokes), job.state ? "" : name_of(job.garment, ""),
-                                  job.state_path.string()};
+                                  job.state_path.string(), job.made_for.string()};
   outputs.insert(outputs.end(), job.more_outputs.begin(), job.more_outputs.end());
   inputs.insert(inputs.end(), job.more_inputs.begin(), job.more_inputs.end());
   check_replaced(outputs, inputs, listener);
@@ -209,6 +214,7 @@ io::Scene rest_scene(const WrinkleJob& job, const Frame& frame) {
     throw std::invalid_argument(
         "--settle: the garment rests on a body or hangs from what holds it: name a body with --body, or what "
         "is held with --pin-loop, --pin-group, --pin-box or --pin-vertices");
+  check_made_for(job.made_for, scene);
   return scene;
 }
 
@@ -226,6 +232,9 @@ RestPlan plan_rest(const WrinkleJob& job, geometry::Mesh& garment, const Context
   if (plan.scene.body) {
     plan.body.emplace(load_body(*plan.scene.body, {context.frame, context.listener, &job.settle->memory},
                                 tolerance_for(plan.scene.simulation.contact_gap)));
+    if (!job.made_for.empty())
+      plan.body->made_for = std::make_shared<const MadeFor>(
+          read_made_for(job.made_for, plan.body->triangles, plan.scene.body->mesh, context));
     if (!job.subdivide)
       plan.refinements = refinements_for_gap(garment, plan.scene.simulation.contact_gap,
                                              plan.body->field.report().tolerance);

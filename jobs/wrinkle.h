@@ -55,6 +55,9 @@ struct WrinkleJob {
   /// What is drawn comes to rest as furrow drape lets it, on body or pins of these settings; not with keep or
   /// a state.
   std::optional<SceneInput> settle = {};
+  /// With settle: body that the garment lies about, from which it is brought to that of these settings, as
+  /// drawn; empty: it lies about that one.
+  std::filesystem::path made_for = {};
   /// With settle: refinements (Loop) before the lines are drawn, in [0, 4]; none: as many as the gap needs.
   std::optional<int> subdivide = {};
   std::filesystem::path smoothed = {};  ///< with settle: the garment as drawn; empty or "-": not written

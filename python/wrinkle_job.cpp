@@ -91,6 +91,10 @@ const Keywords<WrinkleCall>& wrinkle_rows() {
         row<Call>(
             "settle", "let what is drawn come to rest, as drape does",
             [](auto& c) -> auto& { return c.settle; }),
+        row<Call>(
+            "made_for",
+            "with settle: body that the garment was made for and lies about: brought from there to the body",
+            [](auto& c) -> auto& { return c.job.made_for; }),
         own<Call>(
             "subdivide", "int | Literal[\"auto\"]",
             "with settle: refinements (Loop) before the lines are drawn, 0 to 4; default as the gap needs",

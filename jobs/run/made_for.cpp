@@ -62,12 +62,18 @@ void warn_of_pose(const Placed& placed, const std::string& name, const Context& 
 
 }  // namespace
 
-MadeFor read_made_for(const std::filesystem::path& path, const BodyCollider& body,
+void check_made_for(const std::filesystem::path& made_for, const io::Scene& scene) {
+  if (!made_for.empty() && !scene.body)
+    throw std::invalid_argument(
+        "--made-for: brings a garment from one body to another; name the other one with --body");
+}
+
+MadeFor read_made_for(const std::filesystem::path& path, const physics::TriangleMesh& body,
                       const std::filesystem::path& body_path, const Context& context) {
   MadeFor made_for{path.string(), {}, {}, {}};
   const physics::TriangleMesh from = read_body(path, context, &made_for.outline);
   made_for.from = skeleton_of(from, path.string());
-  made_for.to = skeleton_of(body.triangles, body_path.string());
+  made_for.to = skeleton_of(body, body_path.string());
   return made_for;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Garments brought from the body that they were made for.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 
 #include "geometry/figure/shape_body.h"
 #include "geometry/mesh/errors.h"
@@ -9,11 +11,14 @@
 #include "geometry/refine/subdivide.h"
 #include "geometry/rest/rest_metric.h"
 #include "jobs/drape.h"
+#include "jobs/wrinkle.h"
+#include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 
 using namespace furrow;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -89,6 +94,39 @@ TEST_CASE("placing: on its own body a garment comes to the rest that it has with
   for (const geometry::Vertex v : a.vertices())
     farthest = std::max(farthest, std::sqrt((a.point(v) - b.point(v)).squared_length()));
   CHECK(farthest < 1e-3);
+}
+
+TEST_CASE("placing: lines are drawn where the garment lies, and brought with it before they come to rest",
+          "[release]") {
+  const jobs::DrapeJob brought = on_another("skirt.obj");
+  jobs::WrinkleJob job;
+  job.garment = brought.scene.memory.meshes.at("skirt.obj");
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "front";
+  ridge.stroke.height = 0.015;
+  for (const geometry::Point& p : tests::mesh_of(job.garment).mesh.points())
+    if (std::abs(p.x()) < 0.012 && p.z() > 0 && p.y() < 0.8) ridge.stroke.points.push_back(p);
+  std::ranges::sort(ridge.stroke.points, std::greater<>(), [](const auto& p) { return p.y(); });
+  job.strokes = std::vector{ridge};
+  const fs::path mannequin = tests::source_dir() / "meshes/mannequin.obj";
+  job.made_for = mannequin;
+  tests::Recorder recorder;
+  CHECK_THROWS_WITH(jobs::wrinkle(job, recorder),
+                    Catch::Contains("--made-for") && Catch::Contains("--settle"));
+  job.settle = brought.scene;
+  const jobs::WrinkleReport report = jobs::wrinkle(job, recorder);
+  REQUIRE(report.rest);
+  REQUIRE(report.rest->placed);
+  CHECK(report.rest->rests());
+  CHECK(report.rest->placed->height_scale == Approx(1.86 / 1.70).epsilon(0.01));
+  CHECK(report.drawn.round.report.lines.size() == 1);
+  double x = 0;
+  for (const geometry::Point& p : report.garment.mesh.points()) x += p.x();
+  CHECK(x / double(report.garment.mesh.number_of_vertices()) == Approx(0.7).margin(0.02));
+  CHECK(to_json(report)["at_rest"].contains("placed"));
+  job.settle->settings.root.erase("body");
+  io::set_value(job.settle->settings, "pins.0.loop", "top", "the test");
+  CHECK_THROWS_WITH(jobs::wrinkle(job, recorder), Catch::Contains("name the other one with --body"));
 }
 
 TEST_CASE("placing: what cannot be brought is refused, and what lies in the body is told what helps") {

@@ -85,6 +85,7 @@ def wrinkle(
     without: Union[str, Sequence[str], None] = None,
     inserted: Optional[Path] = None,
     settle: Optional[bool] = None,
+    made_for: Optional[Path] = None,
     subdivide: Union[int, Literal["auto"], None] = None,
     smoothed: Optional[Path] = None,
     height: Optional[float] = None,
