@@ -21,7 +21,7 @@ namespace furrow::cli {
 namespace {
 
 struct StudioArguments : CommonArguments {
-  std::string in, project;
+  std::string in, project, made_for;
   unsigned short port = 0;
   bool no_browser = false, replay = false, headless = false;
   SceneFlags flags;
@@ -48,25 +48,29 @@ std::filesystem::path project_of(const StudioArguments& a) {
   return std::filesystem::path(a.in).stem().string() + "-studio";
 }
 
+/// One that says what is drawn on; "": none does.
+std::string first_flag(const StudioArguments& a) {
+  return a.made_for.empty() ? a.flags.first() : "--made-for";
+}
+
 std::unique_ptr<studio::Studio> open_studio(const StudioArguments& a) {
   const studio::Places places{shipped("scenes/studio")};
   if (a.in.empty()) {
-    if (!a.flags.first().empty() || !a.project.empty())
-      throw UsageError((a.project.empty() ? a.flags.first() : "--project") +
-                       ": belongs to a garment, which is not named");
+    const std::string flag = !a.project.empty() ? "--project" : first_flag(a);
+    if (!flag.empty()) throw UsageError(flag + ": belongs to a garment, which is not named");
     return std::make_unique<studio::Studio>(places, a.port);
   }
   if (std::filesystem::is_directory(a.in)) {
     if (!studio::Studio::is_project(a.in))
       throw UsageError(a.in + ": is a folder, but no project of the studio; name a garment or a scene");
-    if (!a.flags.first().empty())
-      throw UsageError(a.flags.first() + ": the project " + a.in + " has its own; leave it out");
+    if (!first_flag(a).empty())
+      throw UsageError(first_flag(a) + ": the project " + a.in + " has its own; leave it out");
     return std::make_unique<studio::Studio>(std::filesystem::path(a.in), a.port, places);
   }
   SceneInput scene;
   scene.settings = scene_settings(a.in, "", std::nullopt, a.flags, a);
   if (is_scene(a.in)) scene.folder = std::filesystem::path(a.in).parent_path();
-  return std::make_unique<studio::Studio>(scene, project_of(a), a.port, places);
+  return std::make_unique<studio::Studio>(scene, project_of(a), a.port, places, a.made_for);
 }
 
 /// Does all that a project's log says once more, and compares.
@@ -153,6 +157,9 @@ void add_studio(CLI::App& app, int& exit_code) {
   sub->add_option("--project", a->project,
                   "folder in which every step is kept; made if it is not there (default: the garment's name "
                   "and -studio)");
+  sub->add_option("--made-for", a->made_for,
+                  "body that the garment was made for and lies about, in its unit: it is drawn on there, and "
+                  "a drape brings it to --body in its own size");
   sub->add_option("--port", a->port, "of 127.0.0.1 to serve on (default: a free one)");
   sub->add_flag("--no-browser", a->no_browser, "print the address, and open no browser");
   sub->add_flag("--replay", a->replay,

@@ -11,6 +11,7 @@
 #include "jobs/read_inputs.h"
 #include "jobs/run/body.h"
 #include "jobs/run/line_round.h"
+#include "jobs/run/made_for.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/scene_cloth.h"
 #include "jobs/wrinkle.h"
@@ -101,6 +102,7 @@ SketchAtRest drape_plain(const Sketch& sketch, Listener& listener) {
   job.scene = at_rest_settings(sketch);
   io::set_value(job.scene.settings, "garment.mesh", "the garment", "the studio");
   job.scene.memory.meshes["the garment"] = sketch.garment;
+  job.settings.made_for = sketch.made_for;
   DrapeJobReport report = drape(job, listener);
   if (report.cancelled()) throw physics::Cancelled("cancelled");
   SketchAtRest rest{std::move(report.garments[0].file), report.garments[0].outcome(), {}};
@@ -132,9 +134,10 @@ std::string toml_of(const Json& settings) {
 
 }  // namespace
 
-Sketch open_sketch(const SceneInput& input, Listener& listener) {
+Sketch open_sketch(const SceneInput& input, Listener& listener, const fs::path& made_for) {
   Sketch sketch;
   sketch.scene = input;
+  sketch.made_for = made_for;
   for (const char* list : {"lines", "pins"}) io::make_list(sketch.scene.settings, list);
   if (!sketch.scene.settings.root.value("material", Json::object()).contains("preset"))
     io::set_value(sketch.scene.settings, "material.preset", "cotton", "the studio");
@@ -142,6 +145,7 @@ Sketch open_sketch(const SceneInput& input, Listener& listener) {
   if (!simulation.contains("integrator") && !simulation.contains("dt"))  // at a step that can be watched
     io::set_value(sketch.scene.settings, "simulation.integrator", "implicit", "the studio");
   const io::Scene scene = scene_in_frame(sketch.scene);
+  check_made_for(made_for, scene);
   check_rounds(scene, sketch.scene.settings.name, listener);
   sketch.frame = frame_of_scene(scene);
   const Context context{sketch.frame, listener};
@@ -153,9 +157,21 @@ Sketch open_sketch(const SceneInput& input, Listener& listener) {
                                     [](const io::SceneLines& l) { return l.time == 0; });
     sketch.options = round->options;
   }
-  if (scene.body)
+  if (!made_for.empty())
+    sketch.body = read_mesh(made_for, context);
+  else if (scene.body)
     sketch.body = read_mesh(scene.body->mesh, {with_unit(sketch.frame, scene.body->unit), listener});
   return sketch;
+}
+
+void check_made_for(const Sketch& sketch, Listener& listener) {
+  if (sketch.made_for.empty()) return;
+  const io::Scene scene = scene_of(sketch.scene.settings, sketch.scene.folder);
+  const physics::TriangleMesh body =
+      read_body(scene.body->mesh, {with_unit(sketch.frame, scene.body->unit), listener});
+  const MadeFor pair = read_made_for(sketch.made_for, body, scene.body->mesh, {sketch.frame, listener});
+  heed(faults_of_pair(sketch.garment.mesh, pair.outline, true), scene.garment.string(),
+       {sketch.frame, listener});
 }
 
 Json strokes_of(const Sketch& sketch, Listener& listener) {
@@ -202,6 +218,7 @@ SketchAtRest drape_sketch(const Sketch& sketch, const Json& strokes, Listener& l
   if (strokes.empty()) return drape_plain(sketch, listener);
   WrinkleJob job = job_for(sketch, strokes);
   job.settle = at_rest_settings(sketch);
+  job.made_for = sketch.made_for;
   WrinkleReport report = wrinkle(job, listener);
   if (listener.cancelled() || report.rest->report.stopped) throw physics::Cancelled("cancelled");
   SketchAtRest rest{std::move(report.garment), report.rest->outcome(), {}};

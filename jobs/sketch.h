@@ -19,15 +19,21 @@ struct Sketch {
   SceneInput scene;      ///< settings; the first round of lines at time 0 is the one that is drawn
   Frame frame;           ///< of the files
   io::MeshFile garment;  ///< before its lines [m]
-  std::optional<io::MeshFile> body;  ///< at time 0 [m]
+  std::optional<io::MeshFile> body;  ///< that the garment lies about, at time 0 [m]
+  std::filesystem::path made_for;    ///< its file, if another body is to wear it: the scene's; else empty
   geometry::WrinkleOptions options;  ///< of its lines
   std::optional<double> density;     ///< of the cloth [kg/m^2]; none: as the garment notes, else the default
   std::vector<std::vector<int>> pins;
 };
 
-/// Reads garment and body. Throws std::invalid_argument for settings that cannot be, or that no studio draws
-/// by (several rounds at time 0), geometry::ContentError for files that cannot be used.
-Sketch open_sketch(const SceneInput& scene, Listener& listener);
+/// Reads garment and body. `made_for`: body that the garment lies about, in its unit; empty: the scene's.
+/// Throws std::invalid_argument for settings that cannot be, or that no studio draws by (several rounds at
+/// time 0), geometry::ContentError for files that cannot be used.
+Sketch open_sketch(const SceneInput& scene, Listener& listener, const std::filesystem::path& made_for = {});
+
+/// Throws geometry::ContentError where the garment cannot be brought from the body that it was made for to
+/// the scene's. Cost: what is found of two bodies, 0.3 to 0.8 s each; none without such.
+void check_made_for(const Sketch& sketch, Listener& listener);
 
 /// The strokes of the first round at time 0 as a list of JSON objects; of a scene without one, an empty list.
 Json strokes_of(const Sketch& sketch, Listener& listener);
@@ -53,8 +59,9 @@ struct SketchAtRest {
   std::vector<std::string> remarks;  ///< of what is wrong with it; empty: it is whole and at rest
 };
 
-/// Lets it come to rest on the body, hung from the pins, or both, as furrow wrinkle --settle does, and
-/// furrow drape where there are no strokes. Throws as these, and physics::Cancelled, if the listener cancels.
+/// Lets it come to rest on the scene's body, hung from the pins, or both, as furrow wrinkle --settle does,
+/// and furrow drape where there are no strokes. What was made for another body is brought there. Throws as
+/// these, and physics::Cancelled, if the listener cancels.
 SketchAtRest drape_sketch(const Sketch& sketch, const Json& strokes, Listener& listener);
 
 /// Writes scene.toml, strokes.json and shape.ply, each whole or not at all, into a folder that is there; the

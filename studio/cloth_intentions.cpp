@@ -170,7 +170,15 @@ Json Session::drape(const Json&) {
   return {{"outcome", rest.outcome}, {"remarks", rest.remarks}};
 }
 
+void Session::require_brought(const std::string& what) const {
+  if (project_->now().drawing.contains("made_for"))
+    throw Refused(what +
+                  ": the garment lies about the body that it was made for; drape it first, which "
+                  "brings it to the one that is to wear it");
+}
+
 Json Session::keep(const Json&) {
+  require_brought("keep");
   const jobs::KeptSketch kept = jobs::keep_sketch(sketch_, strokes_on(project_->now().drawing), *this);
   take_result("kept", "keep", kept.file, nullptr);
   out_.show(everybody, std::make_shared<const std::string>(colour_bytes(kept.colours)));
@@ -182,6 +190,7 @@ Json Session::keep(const Json&) {
 }
 
 Json Session::play(const Json& body) {
+  require_brought("play");
   const Json drawing = project_->now().drawing;
   const Json before = drawing.value("motion", Json::object());
   jobs::PlayRequest request;
@@ -239,6 +248,7 @@ void Session::pull(Client client, const Message& message) {
 }
 
 Json Session::fit(const Json& body) {
+  require_brought("fit");
   const std::string by = text_of(body, "by");
   if (by != "strain" && by != "distance") throw Refused("by: is neither strain nor distance");
   const auto colour = by == "strain" ? jobs::FitColour::strain : jobs::FitColour::distance;

@@ -51,9 +51,29 @@ std::string free_name_for(const Json& drawing, const Json& stroke) {
   return free_name(drawing, height.is_number() && height.get<double>() < 0 ? "valley" : "ridge");
 }
 
+std::filesystem::path made_for_of(const Json& drawing, const std::filesystem::path& folder) {
+  const std::string noted = drawing.value("made_for", "");
+  return noted.empty() ? std::filesystem::path() : (folder / noted).lexically_normal();
+}
+
+void note_made_for(const std::filesystem::path& body, const std::filesystem::path& folder, Json& drawing) {
+  namespace fs = std::filesystem;
+  if (body.empty()) return;
+  const fs::path full = fs::absolute(body).lexically_normal();
+  const fs::path way = full.lexically_relative(fs::absolute(folder).lexically_normal());
+  const bool outside = way.empty() || *way.begin() == "..";
+  drawing["made_for"] = (outside && body.is_absolute() ? full : way).generic_string();
+}
+
+jobs::Sketch open_drawing(const Json& drawing, const std::filesystem::path& folder,
+                          jobs::Listener& listener) {
+  return jobs::open_sketch(scene_of_drawing(drawing, folder), listener, made_for_of(drawing, folder));
+}
+
 void take_as_garment(const std::string& file, const Json& pins, Json& drawing) {
   drawing["settings"]["garment"] = {{"mesh", file}};
   drawing["settings"]["pins"] = pins;
+  drawing.erase("made_for");
   const Json lines = std::exchange(drawing["lines"], Json::array());
   for (const Json& line : lines) {
     if (line.value("on", true))

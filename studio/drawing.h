@@ -7,7 +7,8 @@
 #include "jobs/sketch.h"
 
 /// A drawing as a project keeps it: {"settings": a scene's, "lines": [{"on": true, "stroke": {...}}, ...],
-/// "earlier": names of lines that are in the cloth already, "motion": {...}, "middle": x}.
+/// "earlier": names of lines that are in the cloth already, "motion": {...}, "middle": x, "made_for": a path
+/// from the project's folder, as long as the cloth lies about that body and not about the scene's}.
 namespace furrow::studio {
 
 using jobs::Json;
@@ -23,6 +24,12 @@ Json row_of(const Json& line);
 std::string free_name(const Json& drawing, const std::string& word);
 /// The same for a line of this stroke's kind.
 std::string free_name_for(const Json& drawing, const Json& stroke);
+/// The body that the cloth lies about, if another one is to wear it; else empty.
+std::filesystem::path made_for_of(const Json& drawing, const std::filesystem::path& folder);
+/// A drawing notes it; empty: none.
+void note_made_for(const std::filesystem::path& body, const std::filesystem::path& folder, Json& drawing);
+/// The garment of a drawing, before its lines. Throws as jobs::open_sketch().
+jobs::Sketch open_drawing(const Json& drawing, const std::filesystem::path& folder, jobs::Listener& listener);
 /// The mesh of a file in the project's folder takes the garment's place, and the lines that are on are in it.
 void take_as_garment(const std::string& file, const Json& pins, Json& drawing);
 

@@ -27,15 +27,16 @@ class Nobody : public jobs::Listener {};
 void begin_again(const Project& recorded, const fs::path& into) {
   Nobody nobody;
   Step first = recorded.first();
-  const jobs::Sketch sketch = jobs::open_sketch(scene_of_drawing(first.drawing, recorded.folder()), nobody);
+  const jobs::Sketch sketch = open_drawing(first.drawing, recorded.folder(), nobody);
   first.drawing["settings"] = jobs::settings_for(sketch, into);
+  note_made_for(sketch.made_for, into, first.drawing);
   const Project begun(into, first.drawing["settings"], first);
 }
 
 std::string shape_of(const Project& project) {
   Nobody nobody;
   const Json& drawing = project.now().drawing;
-  const jobs::Sketch sketch = jobs::open_sketch(scene_of_drawing(drawing, project.folder()), nobody);
+  const jobs::Sketch sketch = open_drawing(drawing, project.folder(), nobody);
   return jobs::shape_bits(jobs::draw_sketch(sketch, strokes_on(drawing), nobody).file);
 }
 

@@ -26,9 +26,11 @@ class Ground {
   Ground& operator=(const Ground&) = delete;
   const fs::path& folder() const { return folder_; }
   void keep() { keeps_ = true; }
-  /// Writes an upload below the folder, and returns its path from there.
-  std::string take(const Upload& upload, const std::string& beside = "") {
-    const fs::path file = fs::path("files") / ((upload.name == beside ? "body-" : "") + upload.name);
+  /// Writes an upload below the folder, and returns its path from there; `word` goes before a name that is
+  /// taken.
+  std::string take(const Upload& upload, const std::string& word) {
+    fs::path file = fs::path("files") / upload.name;
+    while (fs::exists(folder_ / file)) file.replace_filename(word + "-" + file.filename().string());
     std::error_code failed;
     fs::create_directories(folder_ / "files", failed);
     if (failed) throw std::runtime_error(folder_.string() + ": cannot be made: " + failed.message());
@@ -64,9 +66,9 @@ Rooms::Rooms(const Places& places, Uploads& uploads, Outbox& out)
     : places_(places), uploads_(uploads), out_(out), items_(gallery(places.gallery)) {}
 
 Rooms::Rooms(const Places& places, Uploads& uploads, Outbox& out, const jobs::SceneInput& scene,
-             const fs::path& folder)
+             const fs::path& folder, const fs::path& made_for)
     : Rooms(places, uploads, out) {
-  session_ = std::make_shared<Session>(scene, folder, out);
+  session_ = std::make_shared<Session>(scene, folder, out, made_for);
 }
 
 Rooms::Rooms(const Places& places, Uploads& uploads, Outbox& out, const fs::path& folder)
@@ -145,8 +147,8 @@ fs::path Rooms::free_folder(const std::string& name) const {
   }
 }
 
-void Rooms::enter(const jobs::SceneInput& scene, const fs::path& folder) {
-  auto session = std::make_shared<Session>(scene, folder, out_);
+void Rooms::enter(const jobs::SceneInput& scene, const fs::path& folder, const fs::path& made_for) {
+  auto session = std::make_shared<Session>(scene, folder, out_, made_for);
   const std::lock_guard lock(mutex_);
   session_ = std::move(session);
 }
@@ -161,26 +163,34 @@ Json Rooms::open_item(const std::string& name) {
   return {{"project", ground.folder().string()}};
 }
 
+/// The file that a message names, if it names one.
+std::optional<Upload> Rooms::sent(const Json& body, const char* key) {
+  if (!body.contains(key)) return std::nullopt;
+  std::optional<Upload> upload = uploads_.take(text_of(body, key, 16));
+  if (!upload) throw Refused(std::string(key) + ": the file has not arrived; choose it again");
+  return upload;
+}
+
 Json Rooms::open_files(const Json& body) {
   const std::string unit = choice_of(body, "unit", {"m", "cm", "mm", "inch"}),
                     up = choice_of(body, "up", {"y", "z"});
-  const std::optional<Upload> garment = uploads_.take(text_of(body, "garment", 16));
-  if (!garment) throw Refused("garment: the file has not arrived; choose it again");
-  std::optional<Upload> worn_by;
-  if (body.contains("body")) {
-    worn_by = uploads_.take(text_of(body, "body", 16));
-    if (!worn_by) throw Refused("body: the file has not arrived; choose it again");
-  }
+  if (body.contains("made_for") && !body.contains("body"))
+    throw Refused(
+        "made for: the garment is brought from one body to another; choose the other one as its body");
+  if (!body.contains("garment")) throw Refused("the message has no 'garment'");
+  const std::optional<Upload> garment = sent(body, "garment"), worn_by = sent(body, "body"),
+                              made_for = sent(body, "made_for");
   Ground ground(free_folder(fs::path(garment->name).stem().string()));
-  const std::string mesh = ground.take(*garment),
-                    figure = worn_by ? ground.take(*worn_by, garment->name) : "";
+  const std::string mesh = ground.take(*garment, "garment"),
+                    figure = worn_by ? ground.take(*worn_by, "body") : "",
+                    other = made_for ? ground.take(*made_for, "made-for") : "";
   const jobs::GuessedFrame guess =
       jobs::guess_frame(ground.folder() / mesh, worn_by ? ground.folder() / figure : fs::path());
   std::string toml = "unit = \"" + (unit.empty() ? guess.unit : unit) + "\"\nup = \"" +
                      (up.empty() ? guess.up : up) + "\"\n[garment]\nmesh = \"" + mesh + "\"\n";
   if (worn_by) toml += "[body]\nmesh = \"" + figure + "\"\n";
   const jobs::SceneInput scene{io::parse_toml(toml, garment->name), ground.folder()};
-  enter(scene, ground.folder());
+  enter(scene, ground.folder(), made_for ? ground.folder() / other : fs::path());
   ground.keep();
   Json answer{{"project", ground.folder().string()}};
   if (unit.empty() || up.empty()) answer["told"] = Json::array({words_of(guess)});

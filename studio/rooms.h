@@ -22,7 +22,7 @@ class Rooms {
   Rooms(const Places& places, Uploads& uploads, Outbox& out);
   /// A drawing is, as Session takes it.
   Rooms(const Places& places, Uploads& uploads, Outbox& out, const jobs::SceneInput& scene,
-        const std::filesystem::path& folder);
+        const std::filesystem::path& folder, const std::filesystem::path& made_for);
   Rooms(const Places& places, Uploads& uploads, Outbox& out, const std::filesystem::path& folder);
 
   void greet(Client client);
@@ -38,7 +38,9 @@ class Rooms {
   Json open(Client client, const Json& body);
   Json open_item(const std::string& name);
   Json open_files(const Json& body);
-  void enter(const jobs::SceneInput& scene, const std::filesystem::path& folder);
+  std::optional<Upload> sent(const Json& body, const char* key);
+  void enter(const jobs::SceneInput& scene, const std::filesystem::path& folder,
+             const std::filesystem::path& made_for = {});
   std::filesystem::path free_folder(const std::string& name) const;
 
   const Places places_;

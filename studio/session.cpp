@@ -52,12 +52,16 @@ const std::map<std::string, Session::Does>& Session::intentions() {
   return all;
 }
 
-Session::Session(const jobs::SceneInput& scene, const std::filesystem::path& folder, Outbox& out)
+Session::Session(const jobs::SceneInput& scene, const std::filesystem::path& folder, Outbox& out,
+                 const std::filesystem::path& made_for)
     : out_(out) {
-  const jobs::Sketch opened = jobs::open_sketch(scene, *this);
+  const jobs::Sketch opened = jobs::open_sketch(scene, *this, made_for);
+  jobs::check_made_for(opened, *this);
   const Json settings = jobs::settings_for(opened, folder);
-  const Json drawing = drawing_of(settings, jobs::strokes_of(opened, *this));
-  project_.emplace(folder, settings, Step{"the beginning", drawing});
+  Json drawing = drawing_of(settings, jobs::strokes_of(opened, *this)), opened_with = settings;
+  note_made_for(made_for, folder, drawing);
+  if (drawing.contains("made_for")) opened_with["made_for"] = drawing["made_for"];
+  project_.emplace(folder, opened_with, Step{"the beginning", drawing});
   take_up(project_->now().drawing);
   show_now();
 }
@@ -76,8 +80,10 @@ void Session::progress(const std::string& what, double share) {
   out_.tell(everybody, {{"progress", {{"what", what}, {"share", share}}}});
 }
 
-void Session::take_up(const Json& drawing) {
-  sketch_ = jobs::open_sketch(scene_of_drawing(drawing, project_->folder()), *this);
+void Session::take_up(const Json& drawing) { take_sketch(open_drawing(drawing, project_->folder(), *this)); }
+
+void Session::take_sketch(jobs::Sketch sketch) {
+  sketch_ = std::move(sketch);
   middle_of_sketch_ = jobs::middle_of(sketch_);
   body_ = nullptr;
   if (sketch_.body) body_ = shared(frame_bytes(ShownAs::body, jobs::shown_mesh(sketch_.body->mesh)));
@@ -139,6 +145,7 @@ Json Session::status() const {
           {"wind", wind},
           {"middle", middle()},
           {"has_body", body_ != nullptr},
+          {"made_for_another", drawing.contains("made_for")},
           {"time", drawing.value("motion", Json::object()).value("time", 0.0)},
           {"can_drape", body_ != nullptr || !sketch_.pins.empty()},
           {"undo", project_->next_undo()},
@@ -181,20 +188,18 @@ Json Session::done(const Message& message) {
 void Session::change(const std::string& what, Json drawing) {
   std::optional<jobs::Sketch> other;
   if (drawing.at("settings") != project_->now().drawing.at("settings"))
-    other = jobs::open_sketch(scene_of_drawing(drawing, project_->folder()), *this);
+    other = open_drawing(drawing, project_->folder(), *this);
   const auto drawn = jobs::draw_sketch(other ? *other : sketch_, strokes_on(drawing), *this);
   told_.insert(told_.end(), drawn.told.begin(), drawn.told.end());
   const std::string bytes = frame_bytes(ShownAs::cloth, drawn.shown);
-  const bool moved_before = project_->now().drawing.contains("motion");
+  const Json& before = project_->now().drawing;
+  const bool body_changes = before.contains("motion") || before.contains("made_for");
   project_->add({what, std::move(drawing)}, did_);
   project_->keep_frame(bytes);
-  if (other) {
-    sketch_ = std::move(*other);
-    middle_of_sketch_ = jobs::middle_of(sketch_);
-  }
+  if (other) take_sketch(std::move(*other));
   cloth_ = shared(bytes);
   out_.tell(everybody, {{"status", status()}});
-  if (moved_before && body_) out_.show(everybody, body_);  // it may be back where it began
+  if (body_changes && body_) out_.show(everybody, body_);  // back where it began, or another
   show_body_then();
   out_.show(everybody, cloth_);
 }
@@ -242,6 +247,10 @@ Json Session::save(const Json&) {
   if (const auto motion = motion_of(drawing))
     for (const std::string& file : jobs::save_motion(*motion, sketch_.frame, project_->folder()))
       written.push_back(file);
+  if (drawing.contains("made_for"))
+    told_.push_back(
+        "in scene.toml the garment lies about the body that it was made for; drape it, which brings it to "
+        "its own, before you simulate it");
   return {{"written", written}};
 }
 

@@ -18,9 +18,11 @@ namespace furrow::studio {
 /// The drawing, and what each message does to it. All of it runs in one thread, but for cancel().
 class Session : jobs::Listener {
  public:
-  /// A new drawing in the folder, or the one that is there (Project). Throws as jobs::open_sketch(), and as
+  /// A new drawing in the folder, or the one that is there (Project). `made_for`: body that the garment lies
+  /// about, if that of the scene is to wear it. Throws as jobs::open_sketch() and check_made_for(), and as
   /// Project.
-  Session(const jobs::SceneInput& scene, const std::filesystem::path& folder, Outbox& out);
+  Session(const jobs::SceneInput& scene, const std::filesystem::path& folder, Outbox& out,
+          const std::filesystem::path& made_for = {});
   /// Goes on with a project.
   Session(const std::filesystem::path& folder, Outbox& out);
 
@@ -86,6 +88,9 @@ class Session : jobs::Listener {
   void take_result(const std::string& word, const std::string& what, const io::MeshFile& file, Json motion);
   void go(bool again);
   void take_up(const Json& drawing);
+  void take_sketch(jobs::Sketch sketch);
+  /// Refuses what needs the cloth on its body, while it lies about the one that it was made for.
+  void require_brought(const std::string& what) const;
   void show_now();
   void show_body_then(Client client = everybody);
   void show_preview(const Json& drawing);

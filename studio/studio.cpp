@@ -28,8 +28,8 @@ struct Studio::Parts {
 
 Studio::Studio(const Places& places, unsigned short port) : parts_(std::make_unique<Parts>(port, places)) {}
 Studio::Studio(const jobs::SceneInput& scene, const std::filesystem::path& folder, unsigned short port,
-               const Places& places)
-    : parts_(std::make_unique<Parts>(port, places, scene, folder)) {}
+               const Places& places, const std::filesystem::path& made_for)
+    : parts_(std::make_unique<Parts>(port, places, scene, folder, made_for)) {}
 Studio::Studio(const std::filesystem::path& folder, unsigned short port, const Places& places)
     : parts_(std::make_unique<Parts>(port, places, folder)) {}
 Studio::~Studio() = default;

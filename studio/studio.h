@@ -21,11 +21,12 @@ class Studio {
  public:
   /// Nothing is open: a page chooses from the gallery, or sends files.
   explicit Studio(const Places& places, unsigned short port = 0);
-  /// Begins a drawing in the folder, or goes on with the one that is there. `port` 0: a free one. Throws
+  /// Begins a drawing in the folder, or goes on with the one that is there. `port` 0: a free one. `made_for`:
+  /// body that the garment lies about, if that of the scene is to wear it; empty: it lies about that. Throws
   /// std::invalid_argument for a folder that cannot be taken and for settings that cannot be,
   /// geometry::ContentError for files that cannot be used, std::runtime_error if no port can be had.
   Studio(const jobs::SceneInput& scene, const std::filesystem::path& folder, unsigned short port = 0,
-         const Places& places = {});
+         const Places& places = {}, const std::filesystem::path& made_for = {});
   /// Goes on with a project.
   explicit Studio(const std::filesystem::path& folder, unsigned short port = 0, const Places& places = {});
   ~Studio();

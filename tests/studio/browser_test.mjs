@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The studio in a real browser, by pointer and keys: browser_test.mjs FURROW MESHES PAGE OUT. Opens a skirt on its
 // body, draws, sees it, changes and drags lines, drapes, plays, pulls, undoes all, saves, opens the folder again and
-// replays it. On a small sheet: pins, order of lines, keep. Without a garment: the gallery, a file of one's own, a lasso. axe-core finds nothing serious, light or dark.
+// replays it. On a small sheet: pins, order of lines, keep. Without a garment: the gallery, a file of one's own, a lasso, a skirt made for another body. axe-core finds nothing serious, light or dark.
 // Pictures of the steps are kept in OUT. PAGE is the folder whose node_modules has playwright-core. Ends with 77,
 // which ctest counts as skipped, where there is no Chromium.
 import assert from "node:assert/strict";
@@ -392,8 +392,38 @@ async function openings() {
   await up();
   await seen.at(1);
   assert.match(await tab.getByRole("button", { name: "Undo" }).getAttribute("title"), /hold what was encircled/);
+  await broughtToAnother(seen, dialog);
   assert.deepEqual(seen.faults, []);
   await tab.close();
+}
+
+/** A skirt that was made for our figure, opened with a taller one: it lies about the first until it is draped. */
+async function broughtToAnother(seen, dialog) {
+  const { tab } = seen;
+  const made = spawnSync(furrow, ["body", "--height", "1.86", "-o", "tall.obj"], { cwd: scratch, encoding: "utf8" });
+  assert.equal(made.status, 0, made.stderr);
+  await tab.keyboard.press("Escape");
+  await tab.keyboard.press("o");
+  await dialog.getByLabel("Garment").setInputFiles(join(meshes, "skirt.obj"));
+  assert.equal(await dialog.getByLabel("Made for").count(), 0, "it goes with a body");
+  await dialog.getByLabel("Body").setInputFiles(join(scratch, "tall.obj"));
+  await dialog.getByLabel("Made for").setInputFiles(join(meshes, "mannequin.obj"));
+  await seen.shot("15-made-for");
+  await dialog.getByRole("button", { name: "Open", exact: true }).click();
+  const cloth = tab.getByRole("region", { name: "Cloth" });
+  await until("the skirt that was made for another", async () => /made for/.test(await cloth.innerText()));
+  assert.ok(await tab.getByRole("button", { name: "Keep" }).isDisabled());
+  await still(seen);
+  const before = await seen.pixels();
+  await cloth.getByRole("button", { name: "Drape" }).click();
+  await seen.at(1);
+  assert.doesNotMatch(await cloth.innerText(), /made for/);
+  await tab.waitForTimeout(600);
+  assert.notEqual(await seen.pixels(), before, "another body is seen, and the skirt on it");
+  await seen.shot("16-brought");
+  const folder = await tab.locator("h1").innerText();
+  assert.ok(existsSync(join(scratch, folder, "files", "mannequin.obj")));
+  replay(folder);
 }
 
 /** What the project's log says is done again, and ends in the same bits. */

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studio/rooms.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
 #include <fstream>
 
+#include "geometry/figure/shape_body.h"
 #include "tests/studio/visitor.h"
 #include "tests/test_meshes.h"
+#include "tests/test_paths.h"
 
 namespace furrow {
 namespace {
@@ -70,6 +75,59 @@ struct House {
   std::set<std::string> drawings() const { return tests::names_in(desk.folder / "drawings"); }
   tests::Desk desk;
 };
+
+/// Our skirt, made for our mannequin, and a taller figure that stands elsewhere.
+struct MadeForAnother {
+  explicit MadeForAnother(const fs::path& folder) {
+    skirt = io::read_mesh(tests::source_dir() / "meshes/skirt.obj");
+    skirt_text = tests::bytes_of(tests::source_dir() / "meshes/skirt.obj");
+    anna_text = tests::bytes_of(tests::source_dir() / "meshes/mannequin.obj");
+    io::MeshFile berta = io::read_mesh(tests::source_dir() / "meshes/mannequin.obj");
+    geometry::shape_body(berta.mesh, {1.86, 0.92, 0, 0});
+    for (const geometry::Vertex v : berta.mesh.vertices())
+      berta.mesh.point(v) = berta.mesh.point(v) + geometry::Vector(0.7, 0, -0.3);
+    io::write_mesh(folder / "berta.obj", berta);
+    berta_text = tests::bytes_of(folder / "berta.obj");
+  }
+  /// What a page sends to open it. All of the files may have one name.
+  Json words(const studio::Studio& studio, const std::string& name = "") const {
+    const auto sent = [&](const char* own, const std::string& text) {
+      return number_of(studio, name.empty() ? own : name, text);
+    };
+    return {{"garment", sent("skirt.obj", skirt_text)},
+            {"body", sent("berta.obj", berta_text)},
+            {"made_for", sent("anna.obj", anna_text)}};
+  }
+  /// A ridge at the front, as a page draws it.
+  Json ridge() const {
+    std::vector<geometry::Point> front;
+    for (const geometry::Point& p : skirt.mesh.points())
+      if (std::abs(p.x()) < 0.012 && p.z() > 0 && p.y() < 0.8) front.push_back(p);
+    std::sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.y() > b.y(); });
+    Json points = Json::array();
+    for (const geometry::Point& p : front) points.push_back({p.x(), p.y(), p.z()});
+    return {{"height", 0.015}, {"width", 0.08}, {"points", points}};
+  }
+  io::MeshFile skirt;
+  std::string skirt_text, anna_text, berta_text;
+};
+
+/// The mean x of what a frame shows [m].
+double middle_of(const std::string& frame) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, frame.data() + 8, 4);
+  double sum = 0;
+  for (std::uint32_t v = 0; v < count; ++v) {
+    float x = 0;
+    std::memcpy(&x, frame.data() + 24 + 12 * std::size_t(v), 4);
+    sum += x;
+  }
+  return sum / count;
+}
+
+std::string refusal_of(Visitor& page, const std::string& what, const Json& body = Json::object()) {
+  return page.ask(what, body).value("refused", "it was done");
+}
 
 }  // namespace
 
@@ -145,6 +203,98 @@ TEST_CASE("studio rooms: a garment comes with its body, also under one name") {
   CHECK(page.status.at("has_body") == true);
   CHECK(tests::names_in(house.desk.folder / "drawings/a-studio/files") ==
         std::set<std::string>{"a.obj", "body-a.obj"});
+}
+
+TEST_CASE(
+    "studio rooms: what was made for another body is shown about that one, and not moved or judged there") {
+  const House house("made_for");
+  const MadeForAnother made(house.desk.folder);
+  const studio::Studio studio(house.places());
+  Visitor page(studio);
+  const Json opened = page.ask("open", made.words(studio, "a.obj"));
+  INFO(opened.dump());
+  REQUIRE(opened.contains("done"));
+  page.ask("show");
+  CHECK(page.status.at("made_for_another") == true);
+  CHECK(page.status.at("can_drape") == true);
+  CHECK(tests::names_in(house.desk.folder / "drawings/a-studio/files") ==
+        std::set<std::string>{"a.obj", "body-a.obj", "made-for-a.obj"});
+  CHECK(std::abs(middle_of(page.body)) < 0.02);
+  CHECK(std::abs(page.status.at("middle").get<double>()) < 0.02);
+  for (const char* what : {"play", "keep", "fit"})
+    CHECK(refusal_of(page, what, {{"by", "strain"}}).find("drape it first") != std::string::npos);
+  CHECK(page.ask("save").at("done").at("told").dump().find("scene.toml") != std::string::npos);
+  CHECK(page.ask("fabric", {{"name", "denim"}}).contains("done"));
+  CHECK(page.status.at("made_for_another") == true);
+}
+
+TEST_CASE("studio rooms: a body that a garment cannot come from is refused, and nothing is left of it") {
+  const House house("made_for_bad");
+  const MadeForAnother made(house.desk.folder);
+  const studio::Studio studio(house.places());
+  Visitor page(studio);
+  io::MeshFile ball;
+  ball.mesh = tests::icosphere(3, 0.8);
+  io::write_mesh(house.desk.folder / "ball.obj", ball);
+  const auto open_with = [&](const char* key, const Json& value) {
+    Json words = made.words(studio);
+    words[key] = value;
+    if (value.is_null()) words.erase(key);
+    return refusal_of(page, "open", words);
+  };
+  const std::string round = tests::bytes_of(house.desk.folder / "ball.obj");
+  CHECK(open_with("made_for", number_of(studio, "ball.obj", round)).find("ball.obj: the body has no") !=
+        std::string::npos);
+  CHECK(open_with("made_for", number_of(studio, "rubbish.obj", "v 1 2\nf 7 8 9\n")).find("rubbish.obj") !=
+        std::string::npos);
+  CHECK(open_with("made_for", "999").find("has not arrived") != std::string::npos);
+  CHECK(open_with("made_for", 7).find("made_for: is no text") == 0);
+  CHECK(open_with("body", nullptr).find("choose the other one as its body") != std::string::npos);
+  CHECK(house.drawings().empty());
+}
+
+TEST_CASE(
+    "studio rooms: a drape brings what was made for another body, undo takes it back, and a replay ends "
+    "alike",
+    "[release]") {
+  const House house("brought");
+  const MadeForAnother made(house.desk.folder);
+  const fs::path project = house.desk.folder / "drawings/skirt-studio";
+  const bool drawn = GENERATE(false, true);
+  {
+    const studio::Studio studio(house.places());
+    Visitor page(studio);
+    REQUIRE(page.ask("open", made.words(studio)).contains("done"));
+    if (drawn) REQUIRE(page.ask("draw", made.ridge()).contains("done"));
+    page.ask("show");
+    const std::string before = page.cloth, anna = page.body;
+    const Json draped = page.ask("drape");
+    INFO(draped.dump());
+    REQUIRE(draped.contains("done"));
+    CHECK(draped["done"].at("outcome") == "at rest");
+    CHECK(page.status.at("made_for_another") == false);
+    CHECK(middle_of(page.cloth) == Approx(0.7).margin(0.02));
+    CHECK(middle_of(page.body) == Approx(0.7).margin(0.02));
+    REQUIRE(page.ask("undo").contains("done"));
+    CHECK(page.status.at("made_for_another") == true);
+    CHECK(page.cloth == before);
+    CHECK(page.body == anna);
+    REQUIRE(page.ask("redo").contains("done"));
+    CHECK(page.status.at("made_for_another") == false);
+    CHECK(page.ask("fit", {{"by", "distance"}}).contains("done"));
+    const double settled = middle_of(page.cloth);
+    REQUIRE(page.ask("drape").contains("done"));  // from where it lies, and not from the other body again
+    CHECK(middle_of(page.cloth) == Approx(settled).margin(0.01));
+  }
+  const studio::ReplayReport again =
+      studio::replay(project, house.desk.folder / "again", [](std::size_t, std::size_t) { return true; });
+  CHECK(again.difference == "");
+  CHECK(again.intentions == (drawn ? 5u : 4u));
+  const studio::Studio reopened(project);
+  Visitor page(reopened);
+  while (page.ask("undo").contains("done")) {
+  }
+  CHECK(page.status.at("made_for_another") == true);
 }
 
 TEST_CASE("studio rooms: files that are none, too large, from elsewhere or of a bad name are refused") {

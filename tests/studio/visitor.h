@@ -78,6 +78,7 @@ class Visitor {
       const std::string text = boost::beast::buffers_to_string(buffer.data());
       if (ws_.got_binary()) {
         if (text.at(4) == 0) cloth = text;
+        if (text.at(4) == 1) body = text;
         if (text.at(4) == 2) preview = text;
         if (text.at(4) == 3) ++moved;
         if (text.at(4) == 4) colours = text;
@@ -104,6 +105,7 @@ class Visitor {
   Json status;
   int moved = 0;      ///< frames of moving cloth
   std::string cloth;  ///< the last mesh of it
+  std::string body;   ///< that is shown
   std::string preview;
   std::string colours;
 

@@ -54,7 +54,7 @@ export function App({ token }: { token: string }) {
   const [help, setHelp] = useState(false);
   const [items, setItems] = useState<GalleryItem[]>([]);
   const [opening, setOpening] = useState<"" | "first" | "again">("");
-  const [files, setFiles] = useState<Files>({ garment: null, body: null });
+  const [files, setFiles] = useState<Files>({ garment: null, body: null, madeFor: null });
   const [badFile, setBadFile] = useState("");
   const now = useRef({ tool, draft, chosen, status, seen, me, busy, both });
   now.current = { tool, draft, chosen, status, seen, me, busy, both };
@@ -278,10 +278,12 @@ export function App({ token }: { token: string }) {
     const program = parts.current!.program;
     setBadFile("");
     try {
-      const garment = files?.garment && (await program.upload(files.garment)), body = files?.body && (await program.upload(files.body));
-      const done = await program.ask("open", item ? { item } : { garment, ...(body ? { body } : {}), ...(unit ? { unit } : {}), ...(up ? { up } : {}) });
+      const sent = async (file?: File | null) => file && (await program.upload(file));
+      const garment = await sent(files?.garment), body = await sent(files?.body), made_for = await sent(files?.madeFor);
+      const chosen = { garment, ...(body && { body }), ...(made_for && { made_for }), ...(unit && { unit }), ...(up && { up }) };
+      const done = await program.ask("open", item ? { item } : chosen);
       say([`Every step is kept in ${done.project}.`, ...(done.told ?? [])].join("\n"));
-      setFiles({ garment: null, body: null });
+      setFiles({ garment: null, body: null, madeFor: null });
     } catch (e) {
       setBadFile((e as Error).message);
     }

@@ -69,7 +69,7 @@ function Verdicts({ kept, actions }: { kept: Done; actions: ClothActions }) {
 }
 
 export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Props) {
-  const idle = busy === "" && mayDraw, held = status.can_drape;
+  const idle = busy === "" && mayDraw, held = status.can_drape, brought = !status.made_for_another;
   return (
     <section class="cloth" aria-label="Cloth">
       <h2>Cloth</h2>
@@ -82,22 +82,23 @@ export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Pro
       <Wind wind={status.wind} blow={actions.wind} />
       <div class="group">
         <button class="main" disabled={!held || !idle} title="Let it come to rest (D)" onClick={actions.drape}>Drape</button>
-        <button disabled={!held || !mayDraw || (busy !== "" && busy !== "play")} title="Play, pause (Space)" onClick={() => actions.play()}>
+        <button disabled={!held || !brought || !mayDraw || (busy !== "" && busy !== "play")} title="Play, pause (Space)" onClick={() => actions.play()}>
           {busy === "play" ? "Pause" : "Play"}</button>
-        <button disabled={!held || !idle} title="One step of 1/60 s" onClick={() => actions.play(1 / 60)}>Step</button>
-        <button disabled={!held || !idle} title="Make the lines last, and tell of each whether it will hold (K)" onClick={actions.keep}>Keep</button>
+        <button disabled={!held || !brought || !idle} title="One step of 1/60 s" onClick={() => actions.play(1 / 60)}>Step</button>
+        <button disabled={!held || !brought || !idle} title="Make the lines last, and tell of each whether it will hold (K)" onClick={actions.keep}>Keep</button>
       </div>
       {held && status.borders.some((b) => b.name === "top" && !b.held) && <p class="note">Nothing holds the upper border: it may slip down.</p>}
       {kept && <Verdicts kept={kept} actions={actions} />}
       {(busy === "play" || status.time > 0) && <p class="note" data-time={moving}>At {(busy === "play" ? moving : status.time).toFixed(2)} s of its motion.{busy === "play" && " Pull it with the pointer."}</p>}
-      {status.has_body && <div class="group" role="group" aria-label="Fit">
+      {status.has_body && brought && <div class="group" role="group" aria-label="Fit">
         <span>Fit</span>
         {(["strain", "distance"] as const).map((by) => (
           <button key={by} aria-pressed={fit === by} disabled={!idle} onClick={() => actions.fit(by)}>
             {by === "strain" ? "Strain" : "Distance"}</button>
         ))}
       </div>}
-      <p class="note">{held ? "Drape lets the cloth come to rest under its weight, Play lets it move, Keep makes its lines last."
+      <p class="note">{!brought ? "It lies about the body that it was made for. Drape brings it to yours, in its own size, and lets it come to rest there."
+        : held ? "Drape lets the cloth come to rest under its weight, Play lets it move, Keep makes its lines last."
         : "To let it move, hold a border, pin it (P), or open it with a body (O)."}</p>
     </section>
   );

@@ -3,7 +3,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { GalleryItem } from "./protocol";
 
-export interface Files { garment: File | null; body: File | null }
+export interface Files { garment: File | null; body: File | null; madeFor: File | null }
 export interface OpenWords { item?: string; files?: Files; unit?: string; up?: string }
 interface Props { items: GalleryItem[]; first: boolean; files: Files; bad: string; open(words: OpenWords): Promise<void>; close(): void }
 
@@ -11,7 +11,7 @@ interface Props { items: GalleryItem[]; first: boolean; files: Files; bad: strin
 export function sorted(dropped: File[]): Files {
   const meshes = dropped.filter((f) => /\.(obj|ply|off|stl|glb)$/i.test(f.name));
   const figure = meshes.length > 1 ? (meshes.find((f) => /body|figure|mannequin|avatar|human|person/i.test(f.name)) ?? meshes[1]) : null;
-  return { garment: meshes.find((f) => f !== figure) ?? null, body: figure };
+  return { garment: meshes.find((f) => f !== figure) ?? null, body: figure, madeFor: null };
 }
 
 function Choice({ label, value, all, change }: { label: string; value: string; all: [string, string][]; change(value: string): void }) {
@@ -54,10 +54,12 @@ export function Open({ items, first, files, bad, open, close }: Props) {
       <p class="note">Drop files anywhere on this page, or choose them: OBJ, PLY, OFF, STL or GLB, up to 64 MB each.</p>
       <div class="fields">
         <FileField label="Garment" file={chosen.garment} change={(garment) => setChosen((c) => ({ ...c, garment }))} />
-        <FileField label="Body" file={chosen.body} change={(body) => setChosen((c) => ({ ...c, body }))} />
+        <FileField label="Body" file={chosen.body} change={(body) => setChosen((c) => ({ ...c, body, madeFor: body && c.madeFor }))} />
+        {chosen.body && <FileField label="Made for" file={chosen.madeFor} change={(madeFor) => setChosen((c) => ({ ...c, madeFor }))} />}
         <Choice label="Unit" value={unit} change={setUnit} all={[["", "as its size says"], ["m", "metres"], ["cm", "centimetres"], ["mm", "millimetres"], ["inch", "inches"]]} />
         <Choice label="Upwards" value={up} change={setUp} all={[["", "as its shape says"], ["y", "y"], ["z", "z"]]} />
       </div>
+      {chosen.body && <p class="note">Made for: the body that the garment lies about, if it was made for another one. Drape brings it to yours.</p>}
       {bad && <p class="say bad" role="alert">{bad}</p>}
       <div class="group">
         <button class="main" disabled={busy || !chosen.garment} onClick={() => void go({ files: chosen, unit, up })}>{busy ? "Opening …" : "Open"}</button>

@@ -9,7 +9,7 @@ export interface Border { name: string; length: number; held: boolean }
 export type Vector = [number, number, number];
 export interface Status {
   title: string; lines: Line[]; shown: number[]; earlier: string[]; fabric: string; fabrics: string[]; borders: Border[]; wind: Vector; middle: number;
-  has_body: boolean; can_drape: boolean; time: number; undo: string; redo: string; step: number; pen: number;
+  has_body: boolean; made_for_another: boolean; can_drape: boolean; time: number; undo: string; redo: string; step: number; pen: number;
 }
 export interface GalleryItem { name: string; title: string }
 export interface Verdict { name: string; verdict: "held" | "pressed" | "strutted" | "lowered" | "cannot_hold"; words: string }
