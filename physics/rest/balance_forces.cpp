@@ -55,9 +55,9 @@ class Newton {
          const BalanceOptions& options)
       : particles_(particles), system_(system), load_(load), options_(options) {}
 
-  Balance find() {
-    State start = at(Forces(load_.size(), Vec3::Zero()), 0);
-    Best best{{start.forces, start.net}, start.residual, start.size};
+  Balance find(Forces from) {
+    State start = at(std::move(from), 0);
+    Best best{{start.forces, start.net, start.w}, start.residual, start.size};
     const Minimum found = minimise(std::move(start), first_steps, best);
     // Nothing is left but round-off, or the problem is linear and has no solution.
     const bool done = best.residual <= nearly_zero || (found.descends && within_limits(found.state));
@@ -115,6 +115,7 @@ class Newton {
       if (!(state.size < best.size)) continue;
       balance.forces = state.forces;
       balance.net = state.net;
+      balance.way = state.w;
       best.residual = state.residual;
       best.size = state.size;
     }
@@ -164,8 +165,10 @@ class Newton {
 }  // namespace
 
 Balance balance_forces(const Particles& particles, ClampedElements& system, std::span<const Vec3> load,
-                       const BalanceOptions& options) {
-  return Newton(particles, system, load, options).find();
+                       const BalanceOptions& options, std::span<const Vec3> start) {
+  Forces from(start.begin(), start.end());
+  if (start.empty()) from.assign(load.size(), Vec3::Zero());
+  return Newton(particles, system, load, options).find(std::move(from));
 }
 
 }  // namespace furrow::physics

@@ -15,6 +15,7 @@ struct BalanceOptions {
 struct Balance {
   ClampedForces forces;   ///< answers of elements and contacts
   std::vector<Vec3> net;  ///< load plus answers on each particle [N]; on pins without meaning
+  std::vector<Vec3> way;  ///< the displacement that it is answered to [m]
   int iterations = 0, factorisations = 0;
 };
 
@@ -25,8 +26,9 @@ struct Balance {
 ///
 /// \details Newton's method with a line search on the convex energy of ClampedElements; its matrix is shifted
 /// by the mass times gravity / 10^6 m. If that does not end in 60 steps, again with  1/2 pull w.M w  added,
-/// pull from 1e8/s^2 down, each from the last one's end.
+/// pull from 1e8/s^2 down, each from the last one's end. start: `way` of a problem that hardly differs, from
+/// which the first of the two begins, in a few steps then; empty: none.
 Balance balance_forces(const Particles& particles, ClampedElements& system, std::span<const Vec3> load,
-                       const BalanceOptions& options);
+                       const BalanceOptions& options, std::span<const Vec3> start = {});
 
 }  // namespace furrow::physics

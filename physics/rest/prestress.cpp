@@ -175,9 +175,15 @@ void invert(const ClampedForces& f, Cloth& cloth, PrestressReport& report) {
   list(cloth.hinges.size(), report.hinges);
 }
 
+/// What a solve came to.
+struct Solved {
+  PrestressReport report;
+  Forces way;  ///< of the balance, where the next one begins [m]
+};
+
 /// One solve, with the plates as they are.
-PrestressReport balance_once(Cloth& cloth, const PrestressOptions& o, const Collider* collider,
-                             std::span<const Vec3> loads) {
+Solved balance_once(Cloth& cloth, const PrestressOptions& o, const Collider* collider,
+                    std::span<const Vec3> loads, const Forces& start) {
   const Particles& p = cloth.particles;
   const double g = o.gravity.norm() > 0 ? o.gravity.norm() : standard_gravity;
   const std::vector<ContactPoint> contacts = contacts_of(p, collider, o.gap);
@@ -193,7 +199,7 @@ PrestressReport balance_once(Cloth& cloth, const PrestressOptions& o, const Coll
   PrestressReport report;
   report.imbalance = moved(cloth, load, contacts, false, g);
   for (const RigidImbalance& r : report.imbalance) remove_rigid_load(cloth, r, load);
-  const Balance balance = balance_forces(p, system, load, {g, o.tolerance, o.max_iterations});
+  Balance balance = balance_forces(p, system, load, {g, o.tolerance, o.max_iterations}, start);
   report.iterations = balance.iterations;
   report.factorisations = balance.factorisations;
   if (!contacts.empty()) {
@@ -207,7 +213,7 @@ PrestressReport balance_once(Cloth& cloth, const PrestressOptions& o, const Coll
     report.contact_force.push_back(balance.forces.contact[i]);
   }
   report.residual = residual_force(cloth, o.gravity, collider, o.friction, o.gap, loads);
-  return report;
+  return {std::move(report), std::move(balance.way)};
 }
 
 }  // namespace
@@ -219,17 +225,18 @@ PrestressReport prestress(Cloth& cloth, const PrestressOptions& options, const C
   PrestressOptions o = options;
   if (!o.work) o.work = &own;
   Cloth work = cloth;
-  PrestressReport report = balance_once(work, o, collider, loads);
+  auto [report, way] = balance_once(work, o, collider, loads, {});
   for (int round = 1; recouple(work); ++round) {  // a plate is made of the rest lengths that were solved for
     const double left = residual_force(work, o.gravity, collider, o.friction, o.gap, loads);
     if (left <= std::max(o.tolerance, 1.1 * report.residual) || round == most_plate_rounds) {
       report.residual = left;
       break;
     }
-    PrestressReport next = balance_once(work, o, collider, loads);
-    next.iterations += report.iterations;
-    next.factorisations += report.factorisations;
-    report = std::move(next);
+    Solved next = balance_once(work, o, collider, loads, way);
+    next.report.iterations += report.iterations;
+    next.report.factorisations += report.factorisations;
+    report = std::move(next.report);
+    way = std::move(next.way);
   }
   cloth = std::move(work);
   return report;
