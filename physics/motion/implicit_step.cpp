@@ -19,7 +19,6 @@ using Vectors = std::vector<Vec3>;
 constexpr double standard_gravity = 9.81;  // m/s^2: the scale of a tolerance, whatever acts
 constexpr double longest_move = 0.02;      // m, beside a body: less than half of any limb
 constexpr int most_iterations = 12;
-constexpr int careful_iterations = 1;      // of backward Euler; more would end too soon what slides
 constexpr double push_over_inertia = 100;  // of a mean particle in a step
 constexpr double most_push_at_start = 10;  // weights: more than what cloth at rest bears on a shoulder
 constexpr int most_step_halvings = 5;      // of a step
@@ -209,9 +208,9 @@ ImplicitStep::Solved ImplicitStep::solve(const Stage& stage, const State& start,
   }
   const double tolerance = options_.tolerance * standard_gravity * h * h;
   const double longest = contact_ ? longest_move : std::numeric_limits<double>::infinity();
-  const bool may_keep = options_.keep_factors && scheme_ == Integrator::implicit;
-  const int careful = scheme_ == Integrator::implicit ? careful_iterations : 0;
-  const SearchOptions options{tolerance, few, most_iterations, longest, careful, may_keep};
+  const bool first_order = scheme_ == Integrator::implicit;
+  const SearchOptions options{tolerance, few,         most_iterations,
+                              longest,   first_order, first_order && options_.keep_factors};
   solved.loads = loads_at(time.to);
   const StageStart begin{start.x, carried};
   if (pairs_ && !make_way(stage, solved.loads, begin, options, x)) return solved;

@@ -288,10 +288,10 @@ bool StepSearch::make_room(const std::vector<Vec3>& from, const std::vector<Vec3
 
 bool StepSearch::rubs() const { return contact_ || (pairs_ && pairs_->rubs()); }
 
-/// Limits of friction become those of the push to come; of cloth on cloth once, as it changes the energy.
-void StepSearch::expect(const std::vector<Vec3>& move, bool once) {
+/// Limits of friction become those of the push to come. That changes the energy: of cloth on cloth, once.
+void StepSearch::expect(const std::vector<Vec3>& move, bool of_cloth_too) {
   if (contact_) contact_->anchored().expect(move);
-  if (pairs_ && once) pairs_->expect(move);
+  if (pairs_ && of_cloth_too) pairs_->expect(move);
 }
 
 /// What has come to touch has friction, too. Whether the body has such, with limits of a push that is not
@@ -315,7 +315,7 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
 bool StepSearch::factors_go_on_serving(int iteration, double length, double longest,
                                        const SearchOptions& options) const {
   const double brief = short_move * options.tolerance;
-  if (length > brief || (options.careful > 0 && longest > longest_enough * brief)) return false;
+  if (length > brief || (options.careful && longest > longest_enough * brief)) return false;
   return !options.keep_factors || iteration % most_with_kept != 0;
 }
 
@@ -326,8 +326,8 @@ SearchEnd StepSearch::descend(const StageStart& start, const SearchOptions& opti
   bool relimit = rubs();
   double share = 1;
   for (int iteration = 1; iteration <= options.most; ++iteration) {
-    const bool careful = options.careful > 0 && (iteration <= options.careful || share < 1);
-    const SlipStiffness of_slip = careful ? SlipStiffness::secant : SlipStiffness::none;
+    const bool by_secant = options.careful && (iteration == 1 || share < 1);
+    const SlipStiffness of_slip = by_secant ? SlipStiffness::secant : SlipStiffness::none;
     if (!kept) factorise(x, of_slip);
     std::vector<Vec3> move = solve(here.net);
     if (kept && iteration == 1 && mean_length(move) > short_move * options.tolerance) {
@@ -344,8 +344,11 @@ SearchEnd StepSearch::descend(const StageStart& start, const SearchOptions& opti
     const double length = mean_length(move), longest = longest_length(move);
     const Way way = advance(move, x, here, options);
     share = way.share;
-    relimit = iteration == 1 && rubs() && hold_new(start, x) && options.careful > 0;
-    if (iteration == 1 && rubs()) add_contact(x, here);
+    relimit = false;
+    if (iteration == 1 && rubs()) {
+      relimit = hold_new(start, x) && options.careful;
+      add_contact(x, here);
+    }
     const double enough = (iteration >= options.few ? good_enough : 1) * options.tolerance;
     const bool small = length <= enough && longest <= longest_enough * enough;
     if (small && !way.cut) return {true, iteration};

@@ -37,9 +37,9 @@ struct SearchOptions {
   double tolerance;     ///< root mean square of the next move that ends it, a third of the longest [m]; > 0
   int few, most;        ///< Newton's iterations: after `few` a next move 20 times as long is good enough
   double longest_move;  ///< of a particle in an iteration [m]; > 0
-  /// Iterations, and those after a move that was shortened, in which what slides is held back by its secant
-  /// (SlipStiffness); limits of friction of what came to touch are then those of the push to come, too.
-  int careful = 0;
+  /// In the first iteration, and after a move that was shortened, what slides is held back by its secant
+  /// (SlipStiffness); limits of friction of what came to touch are those of the second move's push.
+  bool careful = false;
   /// The factors of searches before serve one whose first move is short and that touches what they did.
   bool keep_factors = false;
 };
@@ -101,7 +101,7 @@ class StepSearch {
   };
   Answer look(const std::vector<Vec3>& x);
   bool rubs() const;
-  void expect(const std::vector<Vec3>& move, bool once);
+  void expect(const std::vector<Vec3>& move, bool of_cloth_too);
   bool hold_new(const StageStart& start, const std::vector<Vec3>& x);
   void add_contact(const std::vector<Vec3>& x, Answer& answer);
   void add_stage(const std::vector<Vec3>& x, Answer& answer) const;
