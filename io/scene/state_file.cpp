@@ -47,6 +47,14 @@ physics::EnergyBalance balance_of(const Json& j) {
   return {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8], e[9]};
 }
 
+Json to_json(const physics::LongestEdge& e) { return {e.strain, e.time, e.at.x(), e.at.y(), e.at.z()}; }
+
+physics::LongestEdge longest_edge_of(const Json& j) {
+  if (j.empty()) return {};
+  const auto e = j.get<std::array<double, 5>>();
+  return {e[0], e[1], {e[2], e[3], e[4]}};
+}
+
 /// Without the clock times: the same simulation gives the same bytes.
 Json to_json(const physics::SimulateTotals& t) {
   return {{"force_evaluations", t.force_evaluations},
@@ -58,6 +66,7 @@ Json to_json(const physics::SimulateTotals& t) {
           {"iterations", t.iterations},
           {"open_steps", t.open_steps},
           {"energy", to_json(t.energy)},
+          {"longest_edge", to_json(t.longest_edge)},
           {"collider_queries", t.collider_queries},
           {"truncated_moves", t.truncated_moves},
           {"cut_moves", t.cut_moves},
@@ -78,6 +87,7 @@ physics::SimulateTotals totals_of(const Json& j) {
   t.iterations = j.value("iterations", std::int64_t{0});
   t.open_steps = j.value("open_steps", std::int64_t{0});
   t.energy = balance_of(j.value("energy", Json::array()));
+  t.longest_edge = longest_edge_of(j.value("longest_edge", Json::array()));
   t.collider_queries = j.at("collider_queries");
   t.truncated_moves = j.at("truncated_moves");
   t.cut_moves = j.value("cut_moves", std::int64_t{0});

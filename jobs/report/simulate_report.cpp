@@ -31,6 +31,10 @@ const char* name_of(physics::Outcome outcome) {
   return "";
 }
 
+Json to_json(const physics::LongestEdge& e) {
+  return {{"strain", e.strain}, {"time", e.time}, {"at", {e.at.x(), e.at.y(), e.at.z()}}};
+}
+
 Json to_json(const physics::SimulateReport& r) {
   return {{"outcome", name_of(r.outcome)},
           {"time", r.time},
@@ -49,6 +53,7 @@ Json to_json(const physics::SimulateReport& r) {
           {"iterations", r.iterations},
           {"steps_open", r.open_steps},
           {"strain", {{"max", r.strain.max}, {"p99", r.strain.p99}, {"mean", r.strain.mean}}},
+          {"longest_edge", to_json(r.longest_edge)},
           {"kinetic_energy", r.kinetic_energy},
           {"residual_force", r.residual_force}};
 }

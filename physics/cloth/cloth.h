@@ -141,13 +141,16 @@ void for_each_kind(C& cloth, Visit&& visit) {
   visit(cloth.hinges, cloth.hinge_law);
 }
 
+/// Where strain is measured: structural springs and tension; without any of them the membrane's edges, an
+/// inner one counting once a triangle.
+std::vector<Spring> measured_edges(const Cloth& cloth);
+
 /// |l - L| / L over springs; all 0 without springs.
 struct StrainStatistics {
   double max = 0, p99 = 0, mean = 0;  ///< [-]; p99: 99 % of the springs are strained at most so much
 };
 StrainStatistics strain_statistics(std::span<const Vec3> x, std::span<const Spring> springs);
-/// Of structural springs and tension; without any of the membrane's edges, an inner one counting once a
-/// triangle.
+/// Of the measured edges.
 StrainStatistics strain_statistics(const Cloth& cloth);
 
 /// Sum of 1/2 m v^2 [J] over the particles that are not pinned.

@@ -46,13 +46,17 @@ void add_edges(const Cloth& cloth, std::vector<Spring>& to) {
 
 }  // namespace
 
-StrainStatistics strain_statistics(const Cloth& cloth) {
-  if (cloth.tension.empty() && !cloth.structural.empty())
-    return strain_statistics(cloth.particles.x, cloth.structural);
+std::vector<Spring> measured_edges(const Cloth& cloth) {
   std::vector<Spring> edges = cloth.structural;
   add_edges<2>(cloth, edges);
   if (edges.empty()) add_edges<3>(cloth, edges);
-  return strain_statistics(cloth.particles.x, edges);
+  return edges;
+}
+
+StrainStatistics strain_statistics(const Cloth& cloth) {
+  if (cloth.tension.empty() && !cloth.structural.empty())
+    return strain_statistics(cloth.particles.x, cloth.structural);
+  return strain_statistics(cloth.particles.x, measured_edges(cloth));
 }
 
 double kinetic_energy(const Particles& particles) {

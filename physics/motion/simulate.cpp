@@ -13,12 +13,14 @@
 #include "physics/motion/simulate_report.h"
 #include "physics/motion/step_length.h"
 #include "physics/motion/stepper.h"
+#include "physics/motion/strain_watch.h"
 #include "physics/motion/work_clock.h"
 
 namespace furrow::physics {
 namespace {
 
 constexpr int divergence_steps = 16;      // steps between two looks for divergence
+constexpr int steps_of_watch = 128;       // short ones, between two looks for long edges
 constexpr int widening_steps = 64;        // between two changes of what pairs may do
 constexpr int least_steps_of_cuts = 256;  // of a call, before its cuts are judged
 constexpr double most_cut = 0.05;         // of all moves of particles
@@ -88,6 +90,7 @@ class Simulation {
   std::optional<Motion> motion_;
   std::unique_ptr<Stepper> stepper_;
   std::optional<StepLength> length_;
+  std::optional<StrainWatch> strain_;
   bool stepped_ = false;  // in this call
   bool blocked_ = false;
   Vec3 blocked_at_ = Vec3::Zero();
@@ -125,6 +128,7 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
   stepper_ = make_stepper(*motion_, {options.integrator, options.xpbd, options.implicit, options.self});
   if (solves_contact(options.integrator) && state.planned) stepper_->recall(state.steps);
   length_.emplace(cloth, options, state);
+  strain_.emplace(cloth, motion_->cloth());
 }
 
 void Simulation::make_contact() {
@@ -217,6 +221,8 @@ void Simulation::run(const Observer& observer, SimulateReport& report) {
     }
     ++s.step;
     s.time = to;
+    if (solves_contact(options_.integrator) || s.step % steps_of_watch == 0)
+      s.totals.longest_edge = strain_->look(motion_->cloth(), s.time, s.totals.longest_edge);
 
     observed = observer && (s.step % options_.observe_steps == 0 || last);
     const bool checked = s.step % divergence_steps == 0 || observed || last;

@@ -78,6 +78,13 @@ struct EnergyBalance {
   EnergyBalance& operator+=(const EnergyBalance& more);
 };
 
+/// The longest that an edge was, of those measured_edges() names.
+struct LongestEdge {
+  double strain = 0;       ///< (l - L) / L [-]; 0: none was longer than at rest
+  double time = 0;         ///< [s]
+  Vec3 at = Vec3::Zero();  ///< its middle [m]
+};
+
 /// What a report counts over all calls that shared a state.
 struct SimulateTotals {
   std::int64_t force_evaluations = 0, collider_queries = 0, truncated_moves = 0;
@@ -87,6 +94,7 @@ struct SimulateTotals {
   std::int64_t cut_moves = 0;   ///< see SimulateReport
   std::int64_t limit_estimates = 0, frames_built = 0;
   EnergyBalance energy;
+  LongestEdge longest_edge;
   double dt_smallest = std::numeric_limits<double>::infinity();        ///< [s]
   double dt_limit_smallest = std::numeric_limits<double>::infinity();  ///< of leapfrog [s]
   double seconds = 0, cpu_seconds = 0, frame_seconds = 0;              ///< [s]
@@ -213,7 +221,7 @@ struct ImplicitOptions {
   /// A search ends when its next move would correct an error in force of this share of the weight (root mean
   /// square by mass), and nowhere of more than three times that [-]; > 0.
   double tolerance = 0.03;
-  int few = 2;  ///< iterations of backward Euler after which 20 times that is good enough; >= 1
+  int few = 2;  ///< iterations of backward Euler after which 20 times that may be good enough; >= 1
   /// Calm steps of backward Euler go on with the factors of steps before, in under half of the time. Then
   /// a run that was stopped and resumed is the same only up to the tolerance, no more bit by bit.
   bool keep_factors = false;
@@ -300,6 +308,7 @@ struct SimulateReport {
   double seconds = 0, cpu_seconds = 0;  ///< clock and processor time (all threads) [s]
   WorkTimes times{};                    ///< processor time by part, where that was asked for [s]
   StrainStatistics strain;              ///< structural springs (else edges of the membrane) at the end
+  LongestEdge longest_edge;             ///< after any step of implicit ones, of others each 128th
   double kinetic_energy = 0;            ///< [J]; what rests on the body keeps the last half-kick, g dt/2
   EnergyBalance energy;                 ///< of implicit steps
   double residual_force =

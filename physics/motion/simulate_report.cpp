@@ -23,6 +23,7 @@ void take_counts(const SimulateState& state, SimulateReport& report) {
   report.iterations = totals.iterations;
   report.open_steps = totals.open_steps;
   report.energy = totals.energy;
+  report.longest_edge = totals.longest_edge;
   report.spring_evaluations = totals.spring_evaluations;
   report.triangle_evaluations = totals.triangle_evaluations;
   report.hinge_evaluations = totals.hinge_evaluations;

@@ -12,7 +12,8 @@ namespace furrow::physics {
 namespace {
 
 constexpr double good_enough = 20;         // times the tolerance, after few iterations
-constexpr double longest_enough = 3;       // times what is good enough in the mean: a few may be far off yet
+constexpr double longest_enough = 3;       // times what is good enough in the mean
+constexpr double stretch_enough = 0.2;     // of an edge by a move that is good enough: few may be far off yet
 constexpr double short_move = 10;          // times the tolerance: the factors serve the next one
 constexpr int most_with_kept = 4;          // iterations with the factors of a search before
 constexpr double single_residual = 1e-4;   // of the force, that a solution of single precision may leave
@@ -52,6 +53,7 @@ StepSearch::StepSearch(const Cloth& cloth, Motion& motion, StepContact* contact,
       work_(motion.work()),
       clock_(motion.clock()),
       elements_(cloth),
+      edges_(measured_edges(cloth)),
       stiffness_(cloth, StepElements::part.narrow) {
   const Particles& p = cloth.particles;
   for (std::size_t i = 0; i < p.size(); ++i)
@@ -102,6 +104,28 @@ double StepSearch::mean_length(const std::vector<Vec3>& move) const {
   for (std::size_t i = 0; i < move.size(); ++i)
     if (p.inv_mass[i] > 0) sum += p.mass[i] * move[i].squaredNorm();
   return mass_ > 0 ? std::sqrt(sum / mass_) : 0;
+}
+
+/// The most by which a move changes an edge, and rounding off of what it turns [-].
+double StepSearch::stretch_of(const std::vector<Vec3>& move, const std::vector<Vec3>& x) const {
+  double most = 0;
+  for (const Spring& edge : edges_) {
+    const auto a = std::size_t(edge.a), b = std::size_t(edge.b);
+    const Vec3 way = x[b] - x[a];
+    const double length = std::max(way.norm(), edge.rest_length);
+    most = std::max(most, std::abs(way.dot(move[b] - move[a])) / (length * edge.rest_length));
+  }
+  return most;
+}
+
+/// Whether the next move would be short enough to be left.
+bool StepSearch::is_good_enough(int iteration, const std::vector<Vec3>& move, const std::vector<Vec3>& x,
+                                const SearchOptions& options) const {
+  const double length = mean_length(move), longest = longest_length(move);
+  const auto within = [&](double enough) { return length <= enough && longest <= longest_enough * enough; };
+  if (within(options.tolerance)) return true;
+  return iteration >= options.few && within(good_enough * options.tolerance) &&
+         stretch_of(move, x) <= stretch_enough;
 }
 
 /// Inertia, weight, what is given, and the air.
@@ -349,9 +373,7 @@ SearchEnd StepSearch::descend(const StageStart& start, const SearchOptions& opti
       relimit = hold_new(start, x) && options.careful;
       add_contact(x, here);
     }
-    const double enough = (iteration >= options.few ? good_enough : 1) * options.tolerance;
-    const bool small = length <= enough && longest <= longest_enough * enough;
-    if (small && !way.cut) return {true, iteration};
+    if (!way.cut && is_good_enough(iteration, move, x, options)) return {true, iteration};
     const bool at_rounding = std::abs(dot(here.net, move)) <= least_fall * here.terms;
     if (way.share == 0 && !kept && !way.cut && !way.room) return {at_rounding, iteration};
     kept = way.share == 1 && factors_go_on_serving(iteration, length, longest, options);

@@ -34,8 +34,10 @@ struct StageStart {
 };
 
 struct SearchOptions {
-  double tolerance;     ///< root mean square of the next move that ends it, a third of the longest [m]; > 0
-  int few, most;        ///< Newton's iterations: after `few` a next move 20 times as long is good enough
+  double tolerance;  ///< root mean square of the next move that ends it, a third of the longest [m]; > 0
+  /// Newton's iterations: after `few` a next move 20 times as long is good enough that changes no edge by
+  /// more than a fifth.
+  int few, most;
   double longest_move;  ///< of a particle in an iteration [m]; > 0
   /// In the first iteration, and after a move that was shortened, what slides is held back by its secant
   /// (SlipStiffness); limits of friction of what came to touch are those of the second move's push.
@@ -120,6 +122,9 @@ class StepSearch {
   Way advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
               const SearchOptions& options);
   double mean_length(const std::vector<Vec3>& move) const;
+  double stretch_of(const std::vector<Vec3>& move, const std::vector<Vec3>& x) const;
+  bool is_good_enough(int iteration, const std::vector<Vec3>& move, const std::vector<Vec3>& x,
+                      const SearchOptions& options) const;
 
   const Cloth& cloth_;
   const Loads& loads_;
@@ -129,6 +134,7 @@ class StepSearch {
   WorkCounts& work_;
   WorkClock& clock_;
   StepElements elements_;
+  std::vector<Spring> edges_;  ///< where strain is measured
   FreeStiffness stiffness_;
   bool single_ = false;  ///< whether the factors are of single precision
   /// What the factors were made for, as far as it is compared: a particle's mass counts so many times

@@ -492,6 +492,22 @@ TEST_CASE("simulate: what is led out of the gap goes on after a stop with the bi
   CHECK(tests::positions(jobs::simulate(rest, recorder).garment) == tests::positions(whole.garment));
 }
 
+TEST_CASE("simulate: what was stretched on the way is told where the end does not show it") {
+  physics::SimulateReport run;
+  run.steps = 30;
+  run.strain.max = 0.3;
+  run.longest_edge = {0.62, 0.21, {0.1, 1.2, -0.3}};
+  const std::vector<jobs::Warning> odd = jobs::oddities_of({}, run);
+  REQUIRE(odd.size() == 1);
+  CHECK(odd[0].code == "stretched_on_the_way");
+  CHECK_THAT(odd[0].text, Catch::Contains("62 % at 0.21 s, near (0.10, 1.20, -0.30) m"));
+  run.strain.max = 0.4;  // half of it is still seen
+  CHECK(jobs::oddities_of({}, run).empty());
+  run = {};
+  run.longest_edge.strain = 0.49;
+  CHECK(jobs::oddities_of({}, run).empty());
+}
+
 TEST_CASE("simulate: steps that were not solved are told, and more than a tenth of all are no success") {
   physics::SimulateReport run;
   run.steps = 30;

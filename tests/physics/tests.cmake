@@ -61,6 +61,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   motion/simulate_state_test.cpp
   motion/simulate_test.cpp
   motion/step_elements_test.cpp
+  motion/strain_watch_test.cpp
   motion/stepper_contact_test.cpp
   motion/stepper_shell_test.cpp
   motion/stepper_stability_test.cpp

@@ -58,6 +58,7 @@ io::SavedState state() {
   sim.compensation.time_constant = std::numeric_limits<double>::infinity();
   sim.totals.force_evaluations = 12;
   sim.totals.open_steps = 3;
+  sim.totals.longest_edge = {1 / 3.0, 0.1, {1, -1e-9, 7}};
   sim.totals.energy = {0.1, 1 / 3.0, -0.2, 1e-300, 5, 6, 7, 8, 9, 1 / 7.0};
   sim.steps.contact_stiffness = 1234.5;
   sim.steps.self = {1 / 3.0,  {{true, 4, 9, 0.1 / 3, 0.2}},
@@ -97,6 +98,9 @@ TEST_CASE("state_file: a state holds everything to the last bit") {
   CHECK(a.compensation.force == b.compensation.force);
   CHECK(a.totals.force_evaluations == b.totals.force_evaluations);
   CHECK(a.totals.open_steps == b.totals.open_steps);
+  CHECK(a.totals.longest_edge.strain == b.totals.longest_edge.strain);
+  CHECK(a.totals.longest_edge.time == b.totals.longest_edge.time);
+  CHECK(a.totals.longest_edge.at == b.totals.longest_edge.at);
   CHECK(a.totals.energy.seconds == b.totals.energy.seconds);
   CHECK(a.totals.energy.to_contact == b.totals.energy.to_contact);
   CHECK(a.totals.energy.to_steps() == b.totals.energy.to_steps());
