@@ -21,7 +21,7 @@ constexpr double longest_move = 0.02;      // m, beside a body: less than half o
 constexpr int most_iterations = 12;
 constexpr double push_over_inertia = 100;  // of a mean particle in a step
 constexpr double most_push_at_start = 10;  // weights: more than what cloth at rest bears on a shoulder
-constexpr int most_step_halvings = 5;      // of a step
+constexpr int most_parts = 32;             // of a step
 constexpr int most_rounds_of_leading = 8;  // in which cloth goes out of the way of what is led
 constexpr int iterations_of_round = 4;
 constexpr double moment = 0.01;  // of a step, for a velocity
@@ -206,7 +206,8 @@ ImplicitStep::Solved ImplicitStep::solve(const Stage& stage, const State& start,
     carried = contact_->move_body(time.from, time.to, start.x);
     contact_->keep_out(carried, p.inv_mass, x, motion_.pool());
   }
-  const double tolerance = options_.tolerance * standard_gravity * h * h;
+  // Parts may leave as much in velocity as the whole step may.
+  const double tolerance = options_.tolerance * standard_gravity * h * h * time.parts;
   const double longest = contact_ ? longest_move : std::numeric_limits<double>::infinity();
   const bool first_order = scheme_ == Integrator::implicit;
   const SearchOptions options{tolerance, few,         most_iterations,
@@ -240,8 +241,9 @@ void ImplicitStep::book(const State& start, const State& end, const StepImpulse&
                  {end.x, after, end.elements.energy}, impulse, seconds);
 }
 
-std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Interval time, bool last) {
+std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Interval time) {
   const double h = time.length();
+  const bool last = time.parts == most_parts;
   Stage stage{1 / (h * h), 1 / h, sum(start.x, h, start.v), scaled(-1 / h, start.x)};
   State end;
   end.x = stage.y;
@@ -280,7 +282,7 @@ Vectors ImplicitStep::contact_before(const State& start, const std::vector<Conta
 
 std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Interval time) {
   const double h = time.length(), gamma = 2 - std::numbers::sqrt2, b = gamma * h / 2;
-  const Interval first{time.from, time.from + gamma * h}, second{first.to, time.to};
+  const Interval first{time.from, time.from + gamma * h, time.parts}, second{first.to, time.to, time.parts};
   Stage trapezoid{1 / (b * b), 1 / b, sum(sum(start.x, 2 * b, start.v), b * b, start.a),
                   sum(scaled(-1 / b, start.x), -1, start.v)};
   FoundForces at_start{start.elements, {}, {}};
@@ -317,7 +319,7 @@ std::optional<ImplicitStep::State> ImplicitStep::tr_bdf2(const State& start, Int
 }
 
 /// By the scheme, else by backward Euler, else in halves.
-ImplicitStep::State ImplicitStep::advance(const State& start, Interval time, int depth) {
+ImplicitStep::State ImplicitStep::advance(const State& start, Interval time) {
   const auto anchors = contact_ ? contact_->anchored().anchors() : std::vector<ContactAnchor>{};
   const auto of_pairs = pairs_ ? pairs_->anchors() : std::vector<PairAnchor>{};
   const auto go_back = [&] {
@@ -331,11 +333,11 @@ ImplicitStep::State ImplicitStep::advance(const State& start, Interval time, int
       if (auto end = tr_bdf2(start, time)) return *std::move(end);
       go_back();
     }
-    if (auto end = euler(start, time, depth == most_step_halvings)) return *std::move(end);
+    if (auto end = euler(start, time)) return *std::move(end);
     go_back();
     const double middle = 0.5 * (time.from + time.to);
-    const State half = advance(start, {time.from, middle}, depth + 1);
-    return advance(half, {middle, time.to}, depth + 1);
+    const State half = advance(start, {time.from, middle, 2 * time.parts});
+    return advance(half, {middle, time.to, 2 * time.parts});
   } catch (...) {
     go_back();
     throw;
@@ -351,7 +353,7 @@ void ImplicitStep::step(double dt) {
   open_ = false;
   try {
     if (pairs_) pairs_->widen(start.x);
-    write(advance(start, {motion_.from(), motion_.from() + dt}, 0));
+    write(advance(start, {motion_.from(), motion_.from() + dt, 1}));
     if (contact_) contact_->anchored().lead_out(motion_.body()->recovery_speed * dt);
   } catch (...) {
     if (pairs_) forget_step(known);

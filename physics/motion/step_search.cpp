@@ -122,10 +122,10 @@ double StepSearch::stretch_of(const std::vector<Vec3>& move, const std::vector<V
 bool StepSearch::is_good_enough(int iteration, const std::vector<Vec3>& move, const std::vector<Vec3>& x,
                                 const SearchOptions& options) const {
   const double length = mean_length(move), longest = longest_length(move);
-  const auto within = [&](double enough) { return length <= enough && longest <= longest_enough * enough; };
-  if (within(options.tolerance)) return true;
-  return iteration >= options.few && within(good_enough * options.tolerance) &&
-         stretch_of(move, x) <= stretch_enough;
+  if (length <= options.tolerance && longest <= longest_enough * options.tolerance) return true;
+  const double enough = good_enough * options.tolerance;
+  if (iteration < options.few || length > enough || stretch_of(move, x) > stretch_enough) return false;
+  return longest <= longest_enough * enough || (iteration == options.most && options.few < options.most);
 }
 
 /// Inertia, weight, what is given, and the air.

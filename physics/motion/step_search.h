@@ -36,7 +36,7 @@ struct StageStart {
 struct SearchOptions {
   double tolerance;  ///< root mean square of the next move that ends it, a third of the longest [m]; > 0
   /// Newton's iterations: after `few` a next move 20 times as long is good enough that changes no edge by
-  /// more than a fifth.
+  /// more than a fifth, and after `most`, where that is more, it need be so short in the mean alone.
   int few, most;
   double longest_move;  ///< of a particle in an iteration [m]; > 0
   /// In the first iteration, and after a move that was shortened, what slides is held back by its secant
