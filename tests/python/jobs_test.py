@@ -259,6 +259,8 @@ class Ends(unittest.TestCase):
             furrow.simulate(strip(), progress=fail, **self.LONG)
 
     def test_ctrl_c_ends_a_job(self):
+        # What a shell starts in the background ignores Ctrl-C.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
