@@ -187,6 +187,10 @@ void OutputGroup::commit() {
   if (pending_) pending_->rename();
 }
 
+OutputAlone::OutputAlone() : around_(std::exchange(OutputGroup::outermost_, nullptr)) {}
+
+OutputAlone::~OutputAlone() { OutputGroup::outermost_ = around_; }
+
 void write_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);

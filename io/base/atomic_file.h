@@ -13,8 +13,8 @@ namespace furrow::io {
 /// the old file. What is not a regular file (a pipe, /dev/null) is written directly. Throws
 /// std::runtime_error if the file cannot be written, and what `write` throws; then the temporary is removed
 /// and the old file is as it was.
-/// \details Temporaries are named ".NAME.furrow-PID-N.tmp" and locked (flock) while they are written. Those of
-/// runs that were killed have no lock any more: the next write into their folder removes them.
+/// \details Temporaries are named ".NAME.furrow-PID-N.tmp" and locked (flock) while they are written. Those
+/// of runs that were killed have no lock any more: the next write into their folder removes them.
 void write_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
 /// Files that belong together appear together: while one of these lives, what its thread writes by
@@ -33,9 +33,22 @@ class OutputGroup {
 
  private:
   class Pending;
+  friend class OutputAlone;
   friend void write_atomically(const std::filesystem::path&, const std::function<void(std::ostream&)>&);
   static thread_local OutputGroup* outermost_;
   std::unique_ptr<Pending> pending_;  ///< null: part of an outer group
+};
+
+/// While one of these lives, what its thread writes appears at once, whatever group it is in.
+class OutputAlone {
+ public:
+  OutputAlone();
+  ~OutputAlone();
+  OutputAlone(const OutputAlone&) = delete;
+  OutputAlone& operator=(const OutputAlone&) = delete;
+
+ private:
+  OutputGroup* around_;
 };
 
 }  // namespace furrow::io

@@ -8,6 +8,7 @@ furrow_add_tests(io io LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
   base/fuzz_corpus_test.cpp
   base/nesting_test.cpp
   base/run_program_test.cpp
+  base/share_file_test.cpp
   base/text_scanner_test.cpp
   mesh/assimp_reader_test.cpp
   mesh/chain_segments_test.cpp

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/base/share_file.h"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "io/base/atomic_file.h"
+#include "tests/io/base/io_test_helpers.h"
+
+using namespace furrow;
+using namespace furrow::tests;
+
+namespace {
+
+/// Wants a file that holds "seven".
+struct Wanted {
+  std::filesystem::path path;
+  std::string value = {};
+  int makings = 0;
+
+  io::ShareReport share(const std::function<void()>& wait = [] {}) {
+    const auto read = [&] {
+      if (slurp(path) != "seven") throw std::invalid_argument("it says " + slurp(path));
+      value = "seven, read";
+    };
+    const auto make = [&] {
+      ++makings;
+      value = "seven, made";
+    };
+    const auto write = [&] { io::write_atomically(path, [](std::ostream& out) { out << "seven"; }); };
+    return io::share_file(path, {read, make, write, wait});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("share_file: the first makes it, the next reads it, and one that cannot be used is made again") {
+  TemporaryFolder folder;
+  Wanted wanted{folder / "new/file"};
+  CHECK(wanted.share().made);
+  CHECK(wanted.value == "seven, made");
+  CHECK_FALSE(wanted.share().made);
+  CHECK(wanted.value == "seven, read");
+  spit(wanted.path, "eight");
+  const io::ShareReport report = wanted.share();
+  CHECK(report.made);
+  CHECK(report.broken == "it says eight");
+  CHECK(report.unwritten.empty());
+  CHECK(slurp(wanted.path) == "seven");
+  CHECK(wanted.makings == 2);
+}
+
+TEST_CASE("share_file: where nothing can be written it is made all the same, and that is told") {
+  TemporaryFolder folder;
+  spit(folder / "a file", "");
+  Wanted wanted{folder / "a file" / "file"};
+  const io::ShareReport report = wanted.share();
+  CHECK(report.made);
+  CHECK_FALSE(report.unwritten.empty());
+  CHECK(wanted.value == "seven, made");
+}
+
+TEST_CASE("share_file: it is there at once for others, also where outputs wait to appear together") {
+  TemporaryFolder folder;
+  const io::OutputGroup group;
+  Wanted wanted{folder / "file"};
+  wanted.share();
+  CHECK(slurp(wanted.path) == "seven");
+}
+
+TEST_CASE("share_file: one makes it while others wait, who may give up") {
+  TemporaryFolder folder;
+  const std::filesystem::path path = folder / "file";
+  std::atomic<bool> begun = false, may_end = false;
+  std::thread maker([&] {
+    io::share_file(path, {[] {},
+                          [&] {
+                            begun = true;
+                            while (!may_end) std::this_thread::yield();
+                          },
+                          [&] { spit(path, "seven"); }, [] {}});
+  });
+  while (!begun) std::this_thread::yield();
+  Wanted impatient{path}, patient{path};
+  CHECK_THROWS_AS(impatient.share([] { throw std::runtime_error("given up"); }), std::runtime_error);
+  int asked = 0;
+  patient.share([&] { may_end = ++asked > 2; });
+  maker.join();
+  CHECK(asked > 2);
+  CHECK(patient.value == "seven, read");
+  CHECK(impatient.makings + patient.makings == 0);
+}
