@@ -104,7 +104,7 @@ TEST_CASE("placing: lines are drawn where the garment lies, and brought with it 
   io::DrawnStroke ridge;
   ridge.stroke.name = "front";
   ridge.stroke.height = 0.015;
-  for (const geometry::Point& p : tests::mesh_of(job.garment).mesh.points())
+  for (const geometry::Point& p : std::get<io::MeshFile>(job.garment).mesh.points())
     if (std::abs(p.x()) < 0.012 && p.z() > 0 && p.y() < 0.8) ridge.stroke.points.push_back(p);
   std::ranges::sort(ridge.stroke.points, std::greater<>(), [](const auto& p) { return p.y(); });
   job.strokes = std::vector{ridge};
