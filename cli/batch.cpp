@@ -20,7 +20,7 @@ namespace furrow::cli {
 namespace {
 
 struct BatchArguments : CommonArguments {
-  std::string action, plan, field, options;
+  std::string action, plan, options;
   std::vector<std::string> words;  ///< of a case
   int jobs = 0, chunk = 0;
   bool all = false, submit = false;
@@ -94,7 +94,7 @@ int list_batch(const io::BatchPlan& plan, const BatchArguments& a) {
 int run_case_of_batch(const BatchArguments& a) {
   if (a.words.empty())
     throw UsageError("batch case: there is no command behind --; furrow batch list PLAN writes such lines");
-  const CaseReport report = run_case({io::this_program(), a.plan, a.words, a.field});
+  const CaseReport report = run_case({io::this_program(), a.plan, a.words});
   Json json{{"record", a.plan},
             {"state", report.state == CaseState::finished ? "finished"
                       : report.state == CaseState::failed ? "failed"
@@ -169,7 +169,6 @@ void check_action(const BatchArguments& a) {
   check(a.chunk > 0, "--chunk", "slurm");
   check(a.submit, "--submit", "slurm");
   check(!a.options.empty(), "--sbatch", "slurm");
-  check(!a.field.empty(), "--make-field", "case");
 }
 
 int batch(const BatchArguments& a, const CLI::App& app) {
@@ -215,8 +214,6 @@ void add_batch(CLI::App& app, int& exit_code) {
   sub->add_option("--sbatch", a->options,
                   "of slurm: options for sbatch: --sbatch '--partition=short --mem=2G'");
   sub->add_flag("--submit", a->submit, "of slurm: hand the scripts to sbatch, too");
-  sub->add_option("--make-field", a->field,
-                  "of case: the file of the body's field, made where it is not there yet");
   add_common_options(*sub, *a);
   sub->callback([a, &app, &exit_code] { exit_code = batch(*a, app); });
 }

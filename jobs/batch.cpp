@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/batch.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -41,38 +39,6 @@ std::optional<Json> read_record(const std::filesystem::path& path) {
 std::string value_behind(const std::vector<std::string>& words, const std::string& option) {
   const auto at = std::find(words.begin(), words.end(), option);
   return at != words.end() && at + 1 != words.end() ? *(at + 1) : "";
-}
-
-/// One process at a time makes a shared file; the others wait. The lock ends with the process.
-class MakerLock {
- public:
-  explicit MakerLock(const std::filesystem::path& file)
-      : handle_(::open((file.string() + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
-    if (handle_ >= 0) ::flock(handle_, LOCK_EX);
-  }
-  ~MakerLock() {
-    if (handle_ >= 0) ::close(handle_);
-  }
-  MakerLock(const MakerLock&) = delete;
-  MakerLock& operator=(const MakerLock&) = delete;
-
- private:
-  int handle_;
-};
-
-/// Whether the field is there now. A body that yields none is for the case itself to tell of.
-bool make_field(const CaseJob& job) {
-  if (std::filesystem::exists(job.field)) return true;
-  std::filesystem::create_directories(job.field.parent_path());
-  const MakerLock lock(job.field);
-  if (std::filesystem::exists(job.field)) return true;
-  std::vector<std::string> words{"sdf", value_behind(job.arguments, "--body"), "--output", job.field.string(),
-                                 "--quiet"};
-  for (const char* option : {"--unit", "--up", "--body-unit"}) {
-    const std::string value = value_behind(job.arguments, option);
-    if (!value.empty()) words.insert(words.end(), {option, value});
-  }
-  return io::run_program(job.program, words).exit_code == 0;
 }
 
 /// Slurm's number of the job and task; "": none.
@@ -153,19 +119,10 @@ std::string command_line(const io::BatchPlan& plan, const io::BatchCase& one,
                          const std::filesystem::path& program) {
   const CaseFiles files = case_files(plan, one);
   std::vector<std::string> words{program.string(), "batch", "case", files.record.string()};
-  std::string field;
-  if (!one.body_hash.empty() && value_behind(one.arguments, "--field").empty() && plan.command != "fit") {
-    std::string key = one.body_hash;
-    for (const char* option : {"--unit", "--up", "--body-unit"}) {
-      const std::string value = value_behind(one.arguments, option);
-      if (!value.empty()) key += "-" + value;
-    }
-    field = (plan.output / "cache" / (key + ".field")).string();
-    words.insert(words.end(), {"--make-field", field});
-  }
   words.push_back("--");
   words.insert(words.end(), one.arguments.begin(), one.arguments.end());
-  if (!field.empty()) words.insert(words.end(), {"--field", field});
+  if (one.has_body && plan.command != "fit" && value_behind(one.arguments, "--cache").empty())
+    words.insert(words.end(), {"--cache", (plan.output / "cache").string()});
   if (!files.mesh.empty()) words.insert(words.end(), {"--output", files.mesh.string()});
   if (!files.picture.empty()) words.insert(words.end(), {"--picture", files.picture.string()});
   std::string line;
@@ -176,10 +133,6 @@ std::string command_line(const io::BatchPlan& plan, const io::BatchCase& one,
 CaseReport run_case(const CaseJob& job) {
   if (state_of(job.record) == CaseState::finished) return {CaseState::finished, false, 0, ""};
   std::vector<std::string> words = job.arguments;
-  if (!job.field.empty() && !make_field(job)) {
-    const auto at = std::find(words.begin(), words.end(), "--field");
-    if (at != words.end()) words.erase(at, std::min(at + 2, words.end()));
-  }
   for (const char* option : {"--output", "--picture"})
     if (const std::filesystem::path file = value_behind(words, option); file.has_parent_path())
       std::filesystem::create_directories(file.parent_path());

@@ -34,7 +34,6 @@ struct CaseJob {
   std::filesystem::path program;       ///< furrow itself
   std::filesystem::path record;        ///< JSON to write; its folder is made
   std::vector<std::string> arguments;  ///< of the program
-  std::filesystem::path field;         ///< made of the case's body where it is not there yet; empty: none
 };
 struct CaseReport {
   CaseState state = CaseState::open;  ///< open: it was interrupted, and there is no record

@@ -169,7 +169,7 @@ void check_made_for(const Sketch& sketch, Listener& listener) {
   const io::Scene scene = scene_of(sketch.scene.settings, sketch.scene.folder);
   const physics::TriangleMesh body =
       read_body(scene.body->mesh, {with_unit(sketch.frame, scene.body->unit), listener});
-  const MadeFor pair = read_made_for(sketch.made_for, body, scene.body->mesh, {sketch.frame, listener});
+  const MadeFor pair = read_made_for(sketch.made_for, body, *scene.body, {sketch.frame, listener});
   heed(faults_of_pair(sketch.garment.mesh, pair.outline, true), scene.garment.string(),
        {sketch.frame, listener});
 }

@@ -234,7 +234,7 @@ RestPlan plan_rest(const WrinkleJob& job, geometry::Mesh& garment, const Context
                                 tolerance_for(plan.scene.simulation.contact_gap)));
     if (!job.made_for.empty())
       plan.body->made_for = std::make_shared<const MadeFor>(
-          read_made_for(job.made_for, plan.body->triangles, plan.scene.body->mesh, context));
+          read_made_for(job.made_for, plan.body->triangles, *plan.scene.body, context));
     if (!job.subdivide)
       plan.refinements = refinements_for_gap(garment, plan.scene.simulation.contact_gap,
                                              plan.body->field.report().tolerance);

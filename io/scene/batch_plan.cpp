@@ -26,6 +26,9 @@ const std::vector<std::string> file_columns{"garment", "body", "made-for", "stro
 /// What a batch gives each case by itself.
 const std::vector<std::string> own_columns{"output", "picture", "json", "quiet", "replace", "progress"};
 
+/// Names a folder, which no result depends on.
+const std::string cache_column = "cache";
+
 using BatchRow = std::vector<BatchValue>;
 
 bool has(const std::vector<std::string>& words, const std::string& word) {
@@ -133,6 +136,7 @@ class Files {
   /// one.
   std::string resolved(const std::string& column, const std::string& text, const std::string& where) {
     const std::filesystem::path path = (folder_ / text).lexically_normal();
+    if (column == cache_column) return path.string();
     std::error_code ignored;
     const bool is_file = std::filesystem::is_regular_file(path, ignored);
     const bool must = has(file_columns, column);
@@ -159,6 +163,7 @@ std::string name_of(const std::string& version, const std::string& command, cons
                     Files& files) {
   std::vector<std::string> parts;
   for (const BatchValue& v : row) {
+    if (v.column == cache_column) continue;
     std::string part = v.column;
     for (const std::string& text : v.texts) part += '\x1f' + files.content(text);
     parts.push_back(part);
@@ -179,7 +184,7 @@ BatchCase case_of(const std::string& version, const std::string& command, BatchR
     for (std::string& text : v.texts) text = files.resolved(v.column, text, where);
   result.name = name_of(version, command, row, files);
   for (const BatchValue& v : row)
-    if (v.column == "body" && v.texts.size() == 1) result.body_hash = files.content(v.texts[0]).substr(5);
+    if (v.column == "body" && v.texts.size() == 1) result.has_body = true;
   result.arguments = {command};
   for (const BatchValue& v : row) {
     if (has(own_columns, v.column))

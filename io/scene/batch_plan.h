@@ -18,7 +18,7 @@ struct BatchCase {
   std::string name;  ///< 16 hexadecimal digits of what its files hold, its options and the version
   std::vector<BatchValue> values;      ///< of the plan's columns
   std::vector<std::string> arguments;  ///< subcommand, garments, options; files by absolute path, no outputs
-  std::string body_hash;               ///< content_hash() of its body; "": it has none
+  bool has_body = false;               ///< one, that its files name themselves
 };
 
 /// Cases to be computed on one machine or many (docs/batches.md).

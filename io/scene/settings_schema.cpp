@@ -525,6 +525,15 @@ const Row<Scene> rows[] = {
       .usual = "built",
       .flag_in = used_by::all},
      path([](auto& s) -> auto& { return s.body->field; })},
+    {{.path = "body.cache",
+      .flag = "--cache",
+      .help = "folder in which what is made of bodies' files (mended surface, field, skeleton) is kept for "
+              "other runs; results are the same without",
+      .what = "folder in which what is made of bodies' files (mended surface, field, skeleton) is kept for "
+              "other runs ([batches.md](batches.md)); results are the same without",
+      .usual = "nothing is kept",
+      .flag_in = used_by::all},
+     path([](auto& s) -> auto& { return s.body->cache; })},
     {{.path = "body.tolerance",
       .flag = "--tolerance",
       .help = "error of the body's distance field [m]; default 1/1000 of its diagonal, at most 0.002",

@@ -20,6 +20,7 @@
 #include "io/scene/state_file.h"
 #include "jobs/check/gate.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/body_cache.h"
 #include "physics/body/compare_colliders.h"
 #include "physics/body/depth_map_collider.h"
 #include "physics/body/posed_collider.h"
@@ -147,13 +148,17 @@ double tolerance_for(const io::SavedState& state) {
 BodyCollider load_body(const io::SceneBody& body, const Context& context, double at_most) {
   stop_if_cancelled(context);
   BodyOutline outline;
-  physics::TriangleMesh triangles =
-      read_body(body.mesh, {with_unit(context.frame, body.unit), context.listener, context.memory}, &outline);
+  const Context own{with_unit(context.frame, body.unit), context.listener, context.memory};
+  const bool in_memory = context.memory && context.memory->find_mesh(body.mesh);
+  const std::filesystem::path cache = in_memory ? "" : body.cache;
+  physics::TriangleMesh triangles = kept_body(cache, body.mesh, own, &outline);
   physics::ExactDistance exact(triangles);
-  physics::DistanceField field =
-      body.field.empty() ? field_of(exact, with_finer_field(threaded(body.options), at_most, exact),
-                                    body.mesh.string(), context)
-                         : io::read_field(body.field, triangles);
+  const auto make_field = [&] {
+    const physics::DistanceFieldOptions options = with_finer_field(threaded(body.options), at_most, exact);
+    return kept_field(cache, triangles, options, context,
+                      [&] { return field_of(exact, options, body.mesh.string(), context); });
+  };
+  physics::DistanceField field = body.field.empty() ? make_field() : io::read_field(body.field, triangles);
   return {std::move(triangles), std::move(exact), std::move(field), outline};
 }
 

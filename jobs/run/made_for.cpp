@@ -8,6 +8,7 @@
 #include "bridge/convert.h"
 #include "geometry/figure/place_garment.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/body_cache.h"
 
 namespace furrow::jobs {
 namespace {
@@ -69,11 +70,14 @@ void check_made_for(const std::filesystem::path& made_for, const io::Scene& scen
 }
 
 MadeFor read_made_for(const std::filesystem::path& path, const physics::TriangleMesh& body,
-                      const std::filesystem::path& body_path, const Context& context) {
+                      const io::SceneBody& file, const Context& context) {
   MadeFor made_for{path.string(), {}, {}, {}};
-  const physics::TriangleMesh from = read_body(path, context, &made_for.outline);
-  made_for.from = skeleton_of(from, path.string());
-  made_for.to = skeleton_of(body, body_path.string());
+  const physics::TriangleMesh from = kept_body(file.cache, path, context, &made_for.outline);
+  const auto skeleton = [&](const physics::TriangleMesh& of, const std::filesystem::path& name) {
+    return kept_skeleton(file.cache, of, context, [&] { return skeleton_of(of, name.string()); });
+  };
+  made_for.from = skeleton(from, path);
+  made_for.to = skeleton(body, file.mesh);
   return made_for;
 }
 

@@ -16,10 +16,10 @@ struct MadeFor {
 /// Throws std::invalid_argument where one is named, and the scene has no body to bring a garment to.
 void check_made_for(const std::filesystem::path& made_for, const io::Scene& scene);
 
-/// Reads the former, in the garment's unit, and finds both skeletons. Throws geometry::ContentError, naming
-/// the file, for a body without what places a garment.
+/// Reads the former, in the garment's unit, and finds both skeletons. `file`: of the other body. Throws
+/// geometry::ContentError, naming the file, for a body without what places a garment.
 MadeFor read_made_for(const std::filesystem::path& path, const physics::TriangleMesh& body,
-                      const std::filesystem::path& body_path, const Context& context);
+                      const io::SceneBody& file, const Context& context);
 
 /// Where a garment begins.
 struct PlacedStart {

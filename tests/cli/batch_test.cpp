@@ -2,6 +2,7 @@
 // furrow batch: cases of a plan as lines, on one machine and by Slurm's scripts.
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -111,6 +112,40 @@ TEST_CASE("batch: a verdict that is no success is finished, counted, and no succ
   CHECK(gathered.out.find("1 finished (1 of them with exit code 4: no success)") != std::string::npos);
   CHECK(read_text(folder / "out/report.html").find("finished, exit 4") != std::string::npos);
   CHECK(run_furrow("batch list " + plan).out.empty());
+}
+
+TEST_CASE("batch: cases share what is made of their body, and come to the same without") {
+  const ScratchDirectory folder;
+  write_text(folder / "cloth.obj", "v 0 0.4 0\nv 0.1 0.4 0\nv 0.1 0.4 0.1\nv 0 0.4 0.1\nf 1 3 2\nf 1 4 3\n");
+  write_text(folder / "box.obj",
+             "v 0 0 0\nv .3 0 0\nv .3 .3 0\nv 0 .3 0\nv 0 0 .3\nv .3 0 .3\nv .3 .3 .3\nv 0 .3 .3\n"
+             "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n");
+  const std::string plan = folder / "plan.toml";
+  write_text(plan,
+             "picture = false\n[options]\nsubdivide = 1\nmax-iterations = 5\ngap = 0.001\n[cases]\ngarment = "
+             "[\"cloth.obj\"]\nbody = [\"box.obj\"]\nfabric = [\"cotton\", \"silk\"]\n");
+  const auto run_all = [&](bool shares) {
+    const json listed = json::parse(run_furrow("batch list --all --json " + plan).out);
+    for (const json& line : listed["lines"]) {
+      std::string text = line;
+      const std::string option = " --cache " + (folder / "plan-results/cache");
+      REQUIRE(text.find(option) != std::string::npos);
+      if (!shares) text.erase(text.find(option), option.size());
+      run_line(text);
+    }
+    std::map<std::string, std::string> meshes;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "plan-results/meshes"))
+      meshes[entry.path().filename()] = read_text(entry.path());
+    return meshes;
+  };
+  const auto shared = run_all(true);
+  CHECK(shared.size() == 2);
+  std::size_t kept = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "plan-results/cache"))
+    kept += entry.path().extension() != ".lock";
+  CHECK(kept == 2);  // the body and its field
+  std::filesystem::remove_all(folder / "plan-results");
+  CHECK(run_all(false) == shared);
 }
 
 TEST_CASE("batch: a changed garment is another case, and the old one's result stays") {

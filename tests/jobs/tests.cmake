@@ -3,6 +3,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   job_folders.h
   recorder.h
   bake_test.cpp
+  body_cache_test.cpp
   chain_test.cpp
   chart_test.cpp
   choose_steps_test.cpp

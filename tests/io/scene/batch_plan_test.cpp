@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/batch_plan.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "io/base/bytes_file.h"
@@ -63,7 +64,7 @@ TEST_CASE("batch_plan: a plan tries each with each, fills in braces, and names f
                                          "--fabric", "cotton"});
   CHECK(plan.columns == Words{"fabric", "size"});
   for (const io::BatchCase& one : plan.cases) CHECK(one.name.size() == 16);
-  CHECK(plan.cases[0].body_hash == io::content_hash(std::filesystem::path(folder / "anna.obj")));
+  CHECK(plan.cases[0].has_body);
 }
 
 TEST_CASE(
@@ -80,6 +81,19 @@ TEST_CASE(
   const io::BatchPlan same = there.read(sizes);
   CHECK(same.cases.size() == 2);
   CHECK(same.repeated == 2);
+}
+
+TEST_CASE("batch_plan: a cache is a folder beside the plan, and no case depends on it") {
+  const PlanFolder folder("cache");
+  std::string text = sizes;
+  const std::string name = folder.read(text).cases[0].name;
+  text.replace(text.find("[cases]"), 0, "cache = \"../kept\"\n");
+  const io::BatchCase one = folder.read(text).cases[0];
+  CHECK(one.name == name);
+  const std::string kept = std::filesystem::path(folder / "../kept").lexically_normal().string();
+  const auto at = std::find(one.arguments.begin(), one.arguments.end(), "--cache");
+  REQUIRE(one.arguments.end() - at > 1);
+  CHECK(at[1] == kept);
 }
 
 TEST_CASE("batch_plan: cases come from a table in commas, too") {

@@ -65,6 +65,7 @@ time = 1.5
 fade = 0.1
 [body]
 mesh = "b.obj"
+cache = "kept"
 tolerance = 0.001
 gradient = "interpolated"
 [body.motion]
@@ -110,6 +111,7 @@ fps = 30
   CHECK(s.lines[1].time == 1.5);
   CHECK(s.lines[1].fade == 0.1);
   REQUIRE(s.body);
+  CHECK(s.body->cache.filename() == "kept");
   CHECK(s.body->options.tolerance == 0.001);
   CHECK(s.body->options.gradient == physics::GradientRule::interpolated_corners);
   REQUIRE(s.body->motion.keyframes.size() == 2);
