@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+#include <stdexcept>
+
 #include "furrow/version.h"
 #include "io/base/bytes_file.h"
 #include "io/base/share_file.h"
