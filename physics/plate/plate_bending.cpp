@@ -29,55 +29,75 @@ std::vector<int> sort_pairs(const std::vector<std::array<int, 2>>& pairs,
   return begin;
 }
 
+/// The particles that move a triangle's curvature, rising.
+std::vector<int> corners_of(const Plate& plate, int t) {
+  std::vector<int> corners;
+  for (int e = plate.begin[std::size_t(t)]; e < plate.begin[std::size_t(t) + 1]; ++e)
+    for (const int v : plate.hinges[std::size_t(plate.hinge[std::size_t(e)])].vertices) corners.push_back(v);
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
 }  // namespace
 
 PlateBending::PlateBending(Plate plate, std::size_t particles, std::shared_ptr<const PlateOrigin> origin)
     : plate_(std::move(plate)), layout_(plate_), origin_(std::move(origin)) {
   for (const Hinge& h : plate_.hinges) check(h, particles);
-  find_pattern();
-  alone_.assign(plate_.hinges.size(), 0);
-  for (std::size_t t = 0; t < plate_.stiffness.size(); ++t)
-    for (std::size_t e = std::size_t(plate_.begin[t]); e < std::size_t(plate_.begin[t + 1]); ++e)
-      alone_[std::size_t(plate_.hinge[e])] += plate_.share[e].dot(plate_.stiffness[t] * plate_.share[e]);
+  pattern_ = find_pattern(plate_);
+  alone_ = stiffness_alone();
 }
 
-void PlateBending::find_pattern() {
+PlateBending::PlateBending(Plate plate, const PlateBending& like, std::shared_ptr<const PlateOrigin> origin)
+    : plate_(std::move(plate)), layout_(plate_), origin_(std::move(origin)), pattern_(like.pattern_) {
+  const Plate& other = like.plate_;
+  const auto same = [](const Hinge& a, const Hinge& b) { return a.vertices == b.vertices; };
+  if (plate_.begin != other.begin || plate_.hinge != other.hinge ||
+      !std::ranges::equal(plate_.hinges, other.hinges, same))
+    refuse("plate", "its hinges and triangles are not those of the other one");
+  alone_ = stiffness_alone();
+}
+
+std::vector<double> PlateBending::stiffness_alone() const {
+  std::vector<double> alone(plate_.hinges.size(), 0);
+  for (std::size_t t = 0; t < plate_.stiffness.size(); ++t)
+    for (std::size_t e = std::size_t(plate_.begin[t]); e < std::size_t(plate_.begin[t + 1]); ++e)
+      alone[std::size_t(plate_.hinge[e])] += plate_.share[e].dot(plate_.stiffness[t] * plate_.share[e]);
+  return alone;
+}
+
+std::shared_ptr<const PlateBending::Pattern> PlateBending::find_pattern(const Plate& plate) {
+  auto pattern = std::make_shared<Pattern>();
   std::vector<std::array<int, 2>> all;
-  corner_begin_.push_back(0);
-  for (int t = 0; t < plate_.triangles(); ++t) {
-    std::vector<int> corners;
-    for (int e = plate_.begin[std::size_t(t)]; e < plate_.begin[std::size_t(t) + 1]; ++e)
-      for (const int v : plate_.hinges[std::size_t(plate_.hinge[std::size_t(e)])].vertices)
-        corners.push_back(v);
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    for (int e = plate_.begin[std::size_t(t)]; e < plate_.begin[std::size_t(t) + 1]; ++e) {
-      auto& at = corner_of_entry_.emplace_back();
+  for (int t = 0; t < plate.triangles(); ++t) {
+    const std::vector<int> corners = corners_of(plate, t);
+    for (int e = plate.begin[std::size_t(t)]; e < plate.begin[std::size_t(t) + 1]; ++e) {
+      auto& at = pattern->corner_of_entry.emplace_back();
       for (std::size_t k = 0; k < 4; ++k) {
-        const int v = plate_.hinges[std::size_t(plate_.hinge[std::size_t(e)])].vertices[k];
+        const int v = plate.hinges[std::size_t(plate.hinge[std::size_t(e)])].vertices[k];
         at[k] =
             static_cast<unsigned char>(std::lower_bound(corners.begin(), corners.end(), v) - corners.begin());
       }
     }
-    corner_.insert(corner_.end(), corners.begin(), corners.end());
-    corner_begin_.push_back(int(corner_.size()));
+    pattern->corners.push_back(int(corners.size()));
     for (std::size_t r = 0; r < corners.size(); ++r)
       for (std::size_t c = 0; c <= r; ++c) all.push_back({corners[r], corners[c]});
   }
-  const std::vector<int> row = sort_pairs(all, pairs_);
+  const std::vector<int> row = sort_pairs(all, pattern->pairs);
   const auto place = [&](int i, int j) {
     const std::array<int, 2> pair{std::max(i, j), std::min(i, j)};
-    const auto begin = pairs_.begin() + row[std::size_t(pair[0])];
-    return int(std::lower_bound(begin, pairs_.begin() + row[std::size_t(pair[0]) + 1], pair) -
-               pairs_.begin());
+    const auto begin = pattern->pairs.begin() + row[std::size_t(pair[0])];
+    const auto end = pattern->pairs.begin() + row[std::size_t(pair[0]) + 1];
+    return int(std::lower_bound(begin, end, pair) - pattern->pairs.begin());
   };
-  for (const auto& [i, j] : all) place_.push_back(place(i, j));
-  for (const Hinge& h : plate_.hinges) {
-    auto& at = hinge_place_.emplace_back();
+  for (const auto& [i, j] : all) pattern->place.push_back(place(i, j));
+  for (const Hinge& h : plate.hinges) {
+    auto& at = pattern->hinge_place.emplace_back();
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c <= r; ++c)
         at[std::size_t(lower_block(r, c))] = place(h.vertices[std::size_t(r)], h.vertices[std::size_t(c)]);
   }
+  return pattern;
 }
 
 /// What bends and how it turns with the particles.
@@ -153,16 +173,17 @@ void PlateBending::add_curvature_blocks(const std::vector<std::array<Vec3, 4>>& 
   std::vector<Mat3> j, answer;
   std::size_t place = 0;
   for (std::size_t t = 0; t < plate_.stiffness.size(); ++t) {
-    const std::size_t corners = std::size_t(corner_begin_[t + 1] - corner_begin_[t]);
+    const std::size_t corners = std::size_t(pattern_->corners[t]);
     j.assign(corners, Mat3::Zero());
     for (std::size_t e = std::size_t(plate_.begin[t]); e < std::size_t(plate_.begin[t + 1]); ++e)
       for (std::size_t k = 0; k < 4; ++k)
-        j[corner_of_entry_[e][k]] += plate_.share[e] * gradient[std::size_t(plate_.hinge[e])][k].transpose();
+        j[pattern_->corner_of_entry[e][k]] +=
+            plate_.share[e] * gradient[std::size_t(plate_.hinge[e])][k].transpose();
     answer.resize(corners);
     for (std::size_t c = 0; c < corners; ++c) answer[c].noalias() = plate_.stiffness[t] * j[c];
     for (std::size_t r = 0; r < corners; ++r)
       for (std::size_t c = 0; c <= r; ++c)
-        blocks[std::size_t(place_[place++])] += j[r].transpose().lazyProduct(answer[c]);
+        blocks[std::size_t(pattern_->place[place++])] += j[r].transpose().lazyProduct(answer[c]);
   }
 }
 
@@ -194,7 +215,7 @@ bool PlateBending::add_stiffness(std::span<const Vec3> x, Stiffness stiffness, c
     return true;
   }
   const Bends b(plate_.hinges, x);
-  std::vector<Mat3> blocks(pairs_.size(), Mat3::Zero());
+  std::vector<Mat3> blocks(pattern_->pairs.size(), Mat3::Zero());
   add_curvature_blocks(b.gradient, blocks);
   double energy = 0;
   const std::vector<double> moment = moments_of(b.bend, energy);
@@ -206,15 +227,15 @@ bool PlateBending::add_stiffness(std::span<const Vec3> x, Stiffness stiffness, c
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c <= r; ++c) {
         const std::size_t i = std::size_t(lower_block(r, c));
-        Mat3& block = blocks[std::size_t(hinge_place_[h][i])];
+        Mat3& block = blocks[std::size_t(pattern_->hinge_place[h][i])];
         if (v[std::size_t(r)] >= v[std::size_t(c)])
           block += m * hessian[i];
         else
           block += m * hessian[i].transpose();
       }
   }
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const auto [i, j] = pairs_[p];
+  for (std::size_t p = 0; p < pattern_->pairs.size(); ++p) {
+    const auto [i, j] = pattern_->pairs[p];
     sink(i, j, blocks[p]);
     if (i != j) sink(j, i, blocks[p].transpose());
   }

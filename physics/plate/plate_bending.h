@@ -22,14 +22,17 @@ struct PlateOrigin {
 
 /// A plate as an energy of a cloth: E = 1/2 sum k^T A D k (k less what it is at rest), k linear in the
 /// hinges' bends. Forces follow from the hinges' moments m = dE/dtheta; the stiffness is G^T Q G + sum m
-/// d2theta/dx2 with the gradients G of the angles, its positive part the first term (Gauss and Newton's). With
-/// Stiffness::narrow Q is its diagonal: what hinges couple, and 0.2 to 2.3 times as stiff on garments.
+/// d2theta/dx2 with the gradients G of the angles, its positive part the first term (Gauss and Newton's).
+/// With Stiffness::narrow Q is its diagonal: what hinges couple, and 0.2 to 2.3 times as stiff on garments.
 /// Energy, total force and moment behave under rigid motions as those of hinges do; sums have one order.
 class PlateBending : public Energy {
  public:
   /// Throws std::invalid_argument as check(Hinge) if a hinge names a particle out of range. Cost: a sort of
   /// some 60 pairs of particles a triangle.
   PlateBending(Plate plate, std::size_t particles, std::shared_ptr<const PlateOrigin> origin = nullptr);
+  /// The same hinges and triangles as another's, pressed or at rest otherwise: without that sort. Throws
+  /// std::invalid_argument if they are not.
+  PlateBending(Plate plate, const PlateBending& like, std::shared_ptr<const PlateOrigin> origin);
 
   double energy(std::span<const Vec3> x) const override;
   void add_forces(std::span<const Vec3> x, std::span<Vec3> force) const override;
@@ -52,7 +55,16 @@ class PlateBending : public Energy {
 
  private:
   struct Bends;
-  void find_pattern();
+  /// Which blocks of K there are, on and below the diagonal, and which of them a triangle and a hinge fill.
+  struct Pattern {
+    std::vector<std::array<int, 2>> pairs;
+    std::vector<int> corners;  ///< how many particles move each triangle's curvature
+    std::vector<std::array<unsigned char, 4>> corner_of_entry;
+    std::vector<int> place;                        ///< of each triangle's blocks, row by row
+    std::vector<std::array<int, 10>> hinge_place;  ///< of each hinge's blocks
+  };
+  static std::shared_ptr<const Pattern> find_pattern(const Plate& plate);
+  std::vector<double> stiffness_alone() const;
   void add_curvature_blocks(const std::vector<std::array<Vec3, 4>>& gradient,
                             std::vector<Mat3>& blocks) const;
   void hand_out_hinges(std::span<const Vec3> x, Stiffness stiffness, const BlockSink& sink) const;
@@ -60,13 +72,8 @@ class PlateBending : public Energy {
   Plate plate_;
   PlateLayout layout_;
   std::shared_ptr<const PlateOrigin> origin_;
-  // Which blocks of K there are, on and below the diagonal, and which of them a triangle and a hinge fill.
-  std::vector<std::array<int, 2>> pairs_;
-  std::vector<int> corner_begin_, corner_;  ///< of each triangle the particles that move its curvature
-  std::vector<std::array<unsigned char, 4>> corner_of_entry_;
-  std::vector<int> place_;                        ///< of each triangle's blocks, row by row
-  std::vector<std::array<int, 10>> hinge_place_;  ///< of each hinge's blocks
-  std::vector<double> alone_;                     ///< d2E/dbend2 of each hinge alone [N m]
+  std::shared_ptr<const Pattern> pattern_;  ///< not changed, and shared by copies
+  std::vector<double> alone_;               ///< d2E/dbend2 of each hinge alone [N m]
 };
 
 /// How many hinges of a cloth became a plate, and how many stayed.

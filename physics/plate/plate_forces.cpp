@@ -123,7 +123,8 @@ void PlateLayout::lay_out_triangles(const Plate& plate, const std::vector<int>& 
     four = {};
     four.begin = int(shares_.size());
     int most = 0;
-    for (int i = first; i < std::min(first + 4, n); ++i) most = std::max(most, entries(order[std::size_t(i)]));
+    for (int i = first; i < std::min(first + 4, n); ++i)
+      most = std::max(most, entries(order[std::size_t(i)]));
     shares_.resize(shares_.size() + std::size_t(most), FourShares{});
     four.end = int(shares_.size());
     for (int i = first; i < std::min(first + 4, n); ++i) {

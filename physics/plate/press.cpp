@@ -14,15 +14,15 @@ namespace {
 
 /// The plate with the hinges `on` pressed.
 std::shared_ptr<const PlateBending> pressed(const PlateBending& own, const std::vector<char>& on,
-                                            double factor, std::size_t particles) {
+                                            double factor) {
   Plate plate = own.plate();
   for (std::size_t e = 0; e < plate.hinge.size(); ++e)
     if (on[std::size_t(plate.hinge[e])]) plate.share[e] *= std::sqrt(factor);
-  if (!own.origin()) return std::make_shared<PlateBending>(std::move(plate), particles);
+  if (!own.origin()) return std::make_shared<PlateBending>(std::move(plate), own, nullptr);
   PlateOrigin origin = *own.origin();
   for (std::size_t h = 0; h < on.size(); ++h)
     if (on[h]) origin.press[std::size_t(origin.coupled[h])] *= factor;
-  return std::make_shared<PlateBending>(std::move(plate), particles,
+  return std::make_shared<PlateBending>(std::move(plate), own,
                                         std::make_shared<PlateOrigin>(std::move(origin)));
 }
 
@@ -42,7 +42,7 @@ int press_hinges(Cloth& cloth, const std::function<bool(const Hinge&)>& which, d
     std::vector<char> on;
     for (const Hinge& h : plate->plate().hinges) on.push_back(which(h));
     const int of_plate = int(std::count(on.begin(), on.end(), 1));
-    if (of_plate > 0) energy = pressed(*plate, on, factor, cloth.particles.size());
+    if (of_plate > 0) energy = pressed(*plate, on, factor);
     count += of_plate;
   }
   return count;

@@ -31,7 +31,7 @@ std::shared_ptr<const Energy> flat_to_itself(const Energy* energy, std::span<con
     const auto& v = h.vertices;
     h.rest_angle = dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
   }
-  return std::make_shared<PlateBending>(std::move(plate), x.size(), own->origin());
+  return std::make_shared<PlateBending>(std::move(plate), *own, own->origin());
 }
 
 /// The cloth with its rest state as it lies; tension becomes linear.

@@ -39,7 +39,7 @@ PlateFriction add_plate_friction(Cloth& cloth, const HingeFrictionOptions& o) {
     Plate second = plate->plate();
     for (Eigen::Matrix3d& d : second.stiffness) d *= o.stiffness;
     friction.energies.push_back(cloth.energies.size());
-    cloth.energies.push_back(std::make_shared<PlateBending>(std::move(second), cloth.particles.size()));
+    cloth.energies.push_back(std::make_shared<PlateBending>(std::move(second), *plate, nullptr));
   }
   return friction;
 }

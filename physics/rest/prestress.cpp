@@ -152,7 +152,7 @@ void invert_plates(const ClampedForces& f, double most, Cloth& cloth, PrestressR
       plate.hinges[h].rest_angle = bend(dihedral_angle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]), by);
       report.max_angle = std::max(report.max_angle, std::abs(by));
     }
-    cloth.energies[i] = std::make_shared<PlateBending>(std::move(plate), x.size(), own.origin());
+    cloth.energies[i] = std::make_shared<PlateBending>(std::move(plate), own, own.origin());
   }
 }
 

@@ -141,6 +141,26 @@ TEST_CASE("plate_bending: other orders of triangles and hinges give the same ene
   CHECK((forces(other, x) - forces(cloth, x)).norm() < 1e-11 * forces(cloth, x).norm());
 }
 
+TEST_CASE("plate_bending: a plate made like another is the same as one made anew") {
+  Cloth cloth = crumpled_plate(SheetKind::jittered, 8), anew = cloth;
+  const PlateBending& own = plate_in(cloth);
+  Plate pressed = own.plate();
+  for (auto& share : pressed.share) share *= 3;
+  pressed.hinges[2].rest_angle += 0.1;
+  anew.energies = {std::make_shared<PlateBending>(pressed, cloth.particles.size())};
+  const auto like = std::make_shared<PlateBending>(pressed, own, nullptr);
+  cloth.energies = {like};
+  const Positions& x = cloth.particles.x;
+  CHECK(potential_energy(cloth, x) == potential_energy(anew, x));
+  CHECK(forces(cloth, x) == forces(anew, x));
+  for (const Stiffness part : {Stiffness::exact, Stiffness{1, true}})
+    CHECK(stiffness_matrix(cloth, x, part) == stiffness_matrix(anew, x, part));
+
+  Plate other = pressed;
+  std::swap(other.hinges[0], other.hinges[1]);
+  CHECK_THROWS_WITH(PlateBending(other, *like, nullptr), Catch::Contains("not those of the other"));
+}
+
 TEST_CASE("plate_bending: its narrow stiffness couples what hinges couple, and is near the true one") {
   for (const SheetKind kind : sheet_kinds) {
     Cloth cloth = sheet_of(kind, 1, 1, 5);
