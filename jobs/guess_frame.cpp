@@ -28,7 +28,7 @@ struct Unit {
   const char* name;
   double metres;
 };
-constexpr Unit units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
+constexpr Unit file_units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
 
 }  // namespace
 
@@ -43,7 +43,7 @@ GuessedFrame guess_frame(const std::filesystem::path& garment, const std::filesy
   } else if (io::mesh_format(garment) != io::MeshFormat::gltf) {  // which is in metres, y up, always
     const double least = has_body ? 0.8 : 0.25, most = 2.3;
     int fitting = 0;
-    for (const Unit& unit : units) {
+    for (const Unit& unit : file_units) {
       const double size = longest * unit.metres;
       if (size < least || size > most) continue;
       if (++fitting == 1) guess.unit = unit.name;
@@ -52,9 +52,9 @@ GuessedFrame guess_frame(const std::filesystem::path& garment, const std::filesy
     if (edges[2] > 1.25 * edges[1]) guess.up = "z";
     if (edges[2] < 1.25 * edges[1] && edges[1] < 1.25 * edges[2]) guess.sure = false;
   }
-  const Unit* unit =
-      std::find_if(std::begin(units), std::end(units), [&](const Unit& u) { return u.name == guess.unit; });
-  guess.height = edges[guess.up == "z" ? 2 : 1] * (unit == std::end(units) ? 0.0254 : unit->metres);
+  const Unit* unit = std::find_if(std::begin(file_units), std::end(file_units),
+                                  [&](const Unit& u) { return u.name == guess.unit; });
+  guess.height = edges[guess.up == "z" ? 2 : 1] * (unit == std::end(file_units) ? 0.0254 : unit->metres);
   return guess;
 }
 

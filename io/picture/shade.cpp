@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 constexpr double ray_offset = 1e-4;    // a ray starts this far above the surface it leaves
 constexpr double sky_distance = 0.35;  // what lies farther away does not hide the sky
 // Strength of the lights.
-constexpr double key = 1.02, sky = 0.52, fill = 0.24;
+constexpr double key = 1.02, sky = 0.52, fill_light = 0.24;
 constexpr double bounce = 0.15;  // of the sky's light, from whatever hides it
 const Vector3d key_tint(1.03, 1, 0.96), sky_tint(0.95, 0.985, 1.04);
 // Cloth.
@@ -176,7 +176,7 @@ Vector3d Shader::surface(const Vector3d& direction, const SurfaceHit& hit, int s
   const Seen seen = see(mesh, hit, direction);
   const Vector3d light = key * key_light(seen.point, seen.normal, sample, shift) * key_tint +
                          sky * sky_light(seen.point, seen.normal, sample, shift) * sky_tint +
-                         Vector3d::Constant(fill * std::max(0.0, seen.normal.dot(fill_direction_)));
+                         Vector3d::Constant(fill_light * std::max(0.0, seen.normal.dot(fill_direction_)));
   Vector3d reflected = seen.colour;
   if (mesh.style == Style::cloth) {
     const double grazing = 1 - std::max(0.0, -seen.normal.dot(direction));

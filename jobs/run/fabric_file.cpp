@@ -13,7 +13,9 @@ bool is_file(const Json& preset) {
   return preset.is_string() && std::filesystem::path(preset.get<std::string>()).extension() == ".toml";
 }
 
-Json material_of(const io::TomlDocument& document) { return document.root.value("material", Json::object()); }
+Json material_table(const io::TomlDocument& document) {
+  return document.root.value("material", Json::object());
+}
 
 Json preset_of(const Json& material) {
   return material.is_object() ? material.value("preset", Json()) : Json();
@@ -22,11 +24,11 @@ Json preset_of(const Json& material) {
 }  // namespace
 
 void take_fabric_file(io::TomlDocument& document, const std::filesystem::path& folder) {
-  if (!is_file(preset_of(material_of(document)))) return;
+  if (!is_file(preset_of(material_table(document)))) return;
   std::filesystem::path path;
   io::SettingsTable(document, folder).table("material")->read("preset", path);
   const io::TomlDocument file = io::read_toml(path);
-  const Json fabric = material_of(file);
+  const Json fabric = material_table(file);
   if (!fabric.is_object() || fabric.empty())
     throw geometry::ContentError(file.name + ": there is no [material] in it to take a fabric from");
   if (is_file(preset_of(fabric)))

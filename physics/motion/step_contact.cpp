@@ -7,8 +7,8 @@
 namespace furrow::physics {
 namespace {
 
-constexpr int most_pieces = 32;  // of a way along the body
-constexpr double moment = 0.01;  // of a step, for a velocity
+constexpr int most_pieces = 32;          // of a way along the body
+constexpr double contact_moment = 0.01;  // of a step, for a velocity
 
 const Collider& asked(const BodyAround& body) {
   return body.animated ? static_cast<const Collider&>(*body.animated) : *body.collider;
@@ -61,7 +61,7 @@ std::vector<Vec3> StepContact::ways(std::span<const Vec3> carried, std::span<con
 StepContact::Beside StepContact::beside(std::span<const Vec3> carried, std::vector<Vec3> ways,
                                         std::span<const Vec3> x0, std::span<const Vec3> v0,
                                         std::span<const Vec3> x1, double from, double to) const {
-  const double h = to - from, little = moment * h;
+  const double h = to - from, little = contact_moment * h;
   Beside result{std::move(ways), {}};
   for (Vec3& v : result.surface) v /= h;
   for (std::size_t i = 0; i < x0.size(); ++i)

@@ -21,7 +21,7 @@ namespace {
 
 std::string mannequin_path() { return (source_dir() / "meshes/mannequin.obj").string(); }
 
-json report_of(const std::string& arguments) {
+json drape_report(const std::string& arguments) {
   const Run run = run_furrow(arguments + " --json");
   INFO(arguments << "\n" << run.err);
   REQUIRE(run.exit_code == 0);
@@ -90,11 +90,12 @@ TEST_CASE("drape: fit, simulate and drape know the contact, the fabric and the b
           "[release]") {
   ScratchDirectory scratch;
   const std::string worn = scratch / "worn.ply", on = " --body " + mannequin_path();
-  const json draped = report_of("drape " + skirt() + " --fabric silk --gap 0.006 --band top=0.95 -o " + worn);
+  const json draped =
+      drape_report("drape " + skirt() + " --fabric silk --gap 0.006 --band top=0.95 -o " + worn);
   CHECK(draped["outcome"] == "at rest");
   CHECK(draped["gap"].get<double>() == Approx(0.006));
   CHECK(draped["fit"]["distance"]["contact"].get<double>() == Approx(1.2 * 0.006));
-  json fit = report_of("fit " + worn + on);
+  json fit = drape_report("fit " + worn + on);
   fit.erase("schema");
   CHECK(fit["crossings"]["pairs"] == draped["crossings"]["pairs"]);
   fit.erase("crossings");
@@ -109,7 +110,7 @@ TEST_CASE("drape: fit, simulate and drape know the contact, the fabric and the b
   top = loops[geometry::find_border_loop(loops, "top")].length;
   CHECK(rest == Approx(0.95 * top));
 
-  const json still = report_of("simulate " + worn + on + " --seconds 0.02 -o " + (scratch / "s.ply"));
+  const json still = drape_report("simulate " + worn + on + " --seconds 0.02 -o " + (scratch / "s.ply"));
   const std::string flags = still["flags"];
   CHECK(flags.find("--fabric silk") != std::string::npos);
   CHECK(flags.find("--gap 0.006") != std::string::npos);
@@ -117,14 +118,14 @@ TEST_CASE("drape: fit, simulate and drape know the contact, the fabric and the b
       run_furrow("simulate " + worn + on + " --seconds 0.02 --fabric denim --json -o " + (scratch / "d.ply"));
   CHECK(other.err.find("came to rest with --gap 0.006 --fabric silk") != std::string::npos);
   const std::string end = " --seconds 0.02 -o " + (scratch / "e.ply");
-  CHECK(report_of("simulate " + worn + on + " --fabric silk --gap 0.006" + end)["kinetic_energy"] ==
+  CHECK(drape_report("simulate " + worn + on + " --fabric silk --gap 0.006" + end)["kinetic_energy"] ==
         still["kinetic_energy"]);
-  CHECK(report_of("simulate " + worn + on + " --membrane paper --bending-law cross" +
-                  end)["kinetic_energy"] != still["kinetic_energy"]);
-  const json again = report_of("drape " + worn + on + " -o " + (scratch / "again.ply"));
+  CHECK(drape_report("simulate " + worn + on + " --membrane paper --bending-law cross" +
+                     end)["kinetic_energy"] != still["kinetic_energy"]);
+  const json again = drape_report("drape " + worn + on + " -o " + (scratch / "again.ply"));
   CHECK(again["outcome"] == "at rest");
   CHECK(geometry::struts(io::read_mesh(scratch / "again.ply").mesh).size() == band.size());
-  const json sewn = report_of("drape " + worn + on + " --band top=1 -o " + (scratch / "sewn.ply"));
+  const json sewn = drape_report("drape " + worn + on + " --band top=1 -o " + (scratch / "sewn.ply"));
   CHECK(geometry::struts(io::read_mesh(scratch / "sewn.ply").mesh).size() == band.size());
 }
 
@@ -136,7 +137,7 @@ TEST_CASE("drape: a density beside a fabric stays with the garment", "[release]"
   const Run run = run_furrow("drape " + (scratch / "scene.toml") + " --body " + mannequin_path() +
                              " --iterations 0 -o " + worn);
   REQUIRE(run.exit_code == 4);
-  const std::string flags = report_of("simulate " + worn + on + (scratch / "s.ply"))["flags"];
+  const std::string flags = drape_report("simulate " + worn + on + (scratch / "s.ply"))["flags"];
   CHECK(flags.find("--fabric denim") != std::string::npos);
   CHECK(flags.find("--density 0.2") != std::string::npos);
   const auto total = [](const std::string& path) {
@@ -261,9 +262,9 @@ TEST_CASE("drape: a file that crosses itself is taken apart, and its report says
   strip([&](int i, int j) { return point(0.02 * i, 0, 0.02 * j); }, 1);
   strip([&](int i, int j) { return point(0.02 * i + 0.003, 0.011 - 0.004 * j, 0.02 * j + 0.002); }, 56);
   write_text(scratch / "two.obj", obj);
-  const json r = report_of("drape " + (scratch / "two.obj") +
-                           " --pin-box=-1,-1,-1,1,1,0.01 --self-contact on --residual 1e9 -o " +
-                           (scratch / "apart.ply"));
+  const json r = drape_report("drape " + (scratch / "two.obj") +
+                              " --pin-box=-1,-1,-1,1,1,0.01 --self-contact on --residual 1e9 -o " +
+                              (scratch / "apart.ply"));
   INFO(r.dump(1));
   CHECK(r["crossings"]["at_start"].get<int>() > 5);
   CHECK(r["crossings"]["pairs"] == 0);
@@ -317,7 +318,7 @@ TEST_CASE("drape: --loose says what becomes of a scrap that nothing holds") {
   const std::string call = "drape " + (scratch / "a.obj") + " --pin-vertices 2,3 -o " + (scratch / "b.obj");
   for (const auto& [use, done, vertices] :
        {std::tuple("", "held", 7), {" --loose hold", "held", 7}, {" --loose drop", "dropped", 4}}) {
-    const json r = report_of(call + use);
+    const json r = drape_report(call + use);
     INFO(r.dump(1));
     CHECK(r["loose"]["done"] == done);
     CHECK(r["loose"]["pieces"] == 1);
@@ -393,8 +394,8 @@ TEST_CASE(
   CHECK(coarse.err.find("mm from the body, not 1 mm") != std::string::npos);
   const std::string on = "simulate " + (scratch / "a.ply") + " --body " + mannequin_path() +
                          " --seconds 0.01 -o " + (scratch / "b.ply");
-  CHECK(report_of(on)["contact_gap"].get<double>() == Approx(gap).epsilon(0.02));
-  CHECK(report_of(on + " --gap 0.006")["contact_gap"] == 0.006);
+  CHECK(drape_report(on)["contact_gap"].get<double>() == Approx(gap).epsilon(0.02));
+  CHECK(drape_report(on + " --gap 0.006")["contact_gap"] == 0.006);
 }
 
 TEST_CASE("drape: interrupted, it tells which files there are, and draws no picture") {

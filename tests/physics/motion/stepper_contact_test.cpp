@@ -9,7 +9,7 @@ using namespace furrow::tests;
 
 namespace {
 
-constexpr double gap = 0.003, g = 9.81;
+constexpr double floor_gap = 0.003, earth_pull = 9.81;
 
 struct Slide {
   Vec3 way, v;    ///< mean over the sheet [m], [m/s]
@@ -20,10 +20,11 @@ struct Slide {
 /// needs springs that are soft and damped.
 Slide slide(Integrator integrator, double friction, double angle, double dt, double seconds) {
   Cloth cloth = sheet(6, 6, 0.05, 0.2, 5, 1, 0.1);
-  for (Vec3& x : cloth.particles.x) x = Vec3(x.x(), gap, -x.y());
+  for (Vec3& x : cloth.particles.x) x = Vec3(x.x(), floor_gap, -x.y());
   const Floor floor;
-  BodyContact contact(floor, {.friction = friction, .gap = gap}, int(cloth.particles.size()));
-  const Loads loads{.gravity = g * Vec3(std::sin(angle), -std::cos(angle), 0), .spring_damping = 0.5};
+  BodyContact contact(floor, {.friction = friction, .gap = floor_gap}, int(cloth.particles.size()));
+  const Loads loads{.gravity = earth_pull * Vec3(std::sin(angle), -std::cos(angle), 0),
+                    .spring_damping = 0.5};
   const Particles end =
       after(cloth, loads, {integrator}, dt, int(std::lround(seconds / dt)), 1, {.contact = &contact});
   Slide result{Vec3::Zero(), Vec3::Zero(), 0};
@@ -31,7 +32,7 @@ Slide slide(Integrator integrator, double friction, double angle, double dt, dou
   for (std::size_t i = 0; i < end.size(); ++i) {
     result.way += (end.x[i] - cloth.particles.x[i]) / n;
     result.v += end.v[i] / n;
-    result.height = std::max(result.height, std::abs(end.x[i].y() - gap));
+    result.height = std::max(result.height, std::abs(end.x[i].y() - floor_gap));
   }
   return result;
 }
@@ -49,7 +50,7 @@ TEST_CASE("stepper: a sheet rests on a slab with each integrator") {
   const Slide rest = slide(integrator, 0.3, 0, dt, 0.5);
   CAPTURE(int(integrator));
   CHECK(rest.way.norm() < 1e-9);
-  CHECK(rest.v.norm() < 1.01 * g * dt);  // the kick that the next contact takes away
+  CHECK(rest.v.norm() < 1.01 * earth_pull * dt);  // the kick that the next contact takes away
   CHECK(rest.height < 1e-9);
 }
 
@@ -58,19 +59,21 @@ TEST_CASE("stepper: a sheet sticks on an incline of 30 degrees with friction 0.6
   const double dt = step_of(integrator);
   const Slide rest = slide(integrator, 0.6, incline, dt, 0.5);
   CAPTURE(int(integrator));
-  CHECK(rest.way.norm() < 2 * g * dt * dt);  // the first step may meet a contact that is not loaded yet
-  CHECK(rest.v.norm() < 1.01 * g * dt);
+  CHECK(rest.way.norm() <
+        2 * earth_pull * dt * dt);  // the first step may meet a contact that is not loaded yet
+  CHECK(rest.v.norm() < 1.01 * earth_pull * dt);
   CHECK(rest.height < 1e-9);
 }
 
 TEST_CASE("stepper: a sheet slides down an incline with friction 0.3 as theory says, with each integrator",
           "[release]") {
   const Integrator integrator = GENERATE(from_range(all_integrators));
-  const double dt = step_of(integrator), t = 0.5, a = g * (std::sin(incline) - 0.3 * std::cos(incline));
+  const double dt = step_of(integrator), t = 0.5,
+               a = earth_pull * (std::sin(incline) - 0.3 * std::cos(incline));
   const Slide down = slide(integrator, 0.3, incline, dt, t);
   CAPTURE(int(integrator), down.way.x() - a * t * t / 2, down.v.x() - a * t);
-  CHECK(std::abs(down.way.x() - a * t * t / 2) < 2 * g * t * dt);
-  CHECK(std::abs(down.v.x() - a * t) < 2 * g * dt);
+  CHECK(std::abs(down.way.x() - a * t * t / 2) < 2 * earth_pull * t * dt);
+  CHECK(std::abs(down.v.x() - a * t) < 2 * earth_pull * dt);
   CHECK(std::abs(down.way.y()) < 1e-9);
   const double half = std::abs(slide(integrator, 0.3, incline, dt / 2, t).way.x() - a * t * t / 2);
   CHECK(half < 0.6 * std::abs(down.way.x() - a * t * t / 2) + 1e-9);  // order one or better

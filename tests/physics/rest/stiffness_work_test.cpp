@@ -16,7 +16,7 @@ using namespace furrow::tests;
 namespace {
 
 /// A sheet that hangs by two corners, uneven, of this stiffness.
-Cloth hung(double stretch) {
+Cloth stretched_square(double stretch) {
   Cloth cloth = sheet(5, 5, 0.1, 0.2, 0, 0, 0);
   add_membrane(cloth, stretch);
   add_hinges(cloth, 0.01);
@@ -48,7 +48,8 @@ Kept keep(Cloth cloth, StiffnessWork* work) {
 TEST_CASE("stiffness_work: what solves share changes no bit of a rest state or a certificate") {
   StiffnessWork work;
   for (const double stretch : {500.0, 50.0, 5000.0}) {
-    const Kept alone = keep(hung(stretch), nullptr), shared = keep(hung(stretch), &work);
+    const Kept alone = keep(stretched_square(stretch), nullptr),
+               shared = keep(stretched_square(stretch), &work);
     CHECK(shared.rest == alone.rest);
     CHECK(shared.certificate.negative_eigenvalues == alone.certificate.negative_eigenvalues);
     CHECK(shared.certificate.smallest_eigenvalue == alone.certificate.smallest_eigenvalue);
@@ -58,9 +59,9 @@ TEST_CASE("stiffness_work: what solves share changes no bit of a rest state or a
 
 TEST_CASE("stiffness_work: it is taken where it fits, and made anew where it does not") {
   StiffnessWork work;
-  const Cloth cloth = hung(500);
+  const Cloth cloth = stretched_square(500);
   const auto first = stiffness_for(cloth, false, &work);
-  CHECK(stiffness_for(hung(50), false, &work) == first);
+  CHECK(stiffness_for(stretched_square(50), false, &work) == first);
   CHECK(stiffness_for(cloth, false, nullptr) != first);
   CHECK(work.stiffness == first);
   CHECK(stiffness_for(cloth, true, &work) != first);
