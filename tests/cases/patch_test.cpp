@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 using physics::Cloth;
 using physics::Vec3;
 
-constexpr double young = 100;  // N/m; nothing depends on it
+constexpr double patch_young = 100;  // N/m; nothing depends on it
 
 /// The displacement of all unknowns that is `move` on the held ones and leaves the others without force.
 struct Relaxation {
@@ -78,10 +78,10 @@ PatchScore patch_test(Cloth sheet, int columns, const Carrier& carrier) {
   double width = 0;
   for (const Vec3& x : sheet.particles.x) width = std::max(width, x.x());
   if (carrier) {
-    set_membrane_stiffness(sheet, *carrier, calibrated_stiffness(sheet, *carrier, young, areas), areas);
+    set_membrane_stiffness(sheet, *carrier, calibrated_stiffness(sheet, *carrier, patch_young, areas), areas);
   } else {
     sheet.structural.clear();
-    add_flat_membrane(sheet, young, 1.0 / 3);
+    add_flat_membrane(sheet, patch_young, 1.0 / 3);
   }
   const Relaxation relax(sheet, with_border_held(sheet));
   const double h = width / columns;
@@ -89,10 +89,10 @@ PatchScore patch_test(Cloth sheet, int columns, const Carrier& carrier) {
     return answer(sheet, relax, (Eigen::Matrix2d() << xx, xy, xy, yy).finished(), h, area * target);
   };
   // W = Y/(1 - nu) = 3/2 Y for e = I;  2 mu = Y/(1 + nu) = 3/4 Y for both shears.
-  const PatchAnswer dilation = score(1, 0, 1, 1.5 * young);
-  const PatchAnswer stretch = score(1, 0, -1, 0.75 * young), slide = score(0, 1, 0, 0.75 * young);
+  const PatchAnswer dilation = score(1, 0, 1, 1.5 * patch_young);
+  const PatchAnswer stretch = score(1, 0, -1, 0.75 * patch_young), slide = score(0, 1, 0, 0.75 * patch_young);
   const double omega = highest_frequency(relax.k, masses(sheet, relax.all));
-  return {dilation, stretch, slide, 2 / omega / (h * std::sqrt(mass / area / young))};
+  return {dilation, stretch, slide, 2 / omega / (h * std::sqrt(mass / area / patch_young))};
 }
 
 }  // namespace furrow::cases

@@ -32,7 +32,7 @@ Cloth square(bool inserted) {
   return cloth;
 }
 
-double farthest(const Cloth& cloth, const Cloth& start) {
+double farthest_moved(const Cloth& cloth, const Cloth& start) {
   double most = 0;
   for (std::size_t i = 0; i < start.particles.size(); ++i)
     most = std::max(most, (cloth.particles.x[i] - start.particles.x[i]).norm());
@@ -76,11 +76,11 @@ TEST_CASE("compensation: an equilibrium stays one after an insertion while its f
   const SimulateReport kept = simulate(after, World{}, options, &state);
   CHECK(kept.compensation_left == 1);
   CHECK((kept.compensation_force - Vec3(-0.003 * gravity)).norm() < 1e-12);
-  CHECK(farthest(after, start) < 1e-12);
+  CHECK(farthest_moved(after, start) < 1e-12);
 
   Cloth loose = start;
   CHECK(simulate(loose, World{}, options).outcome == Outcome::finished);
-  CHECK(farthest(loose, start) > 1e-3);
+  CHECK(farthest_moved(loose, start) > 1e-3);
 }
 
 TEST_CASE("compensation: it decays as set and is then forgotten") {

@@ -53,7 +53,7 @@ double work_of(const PlateBending& friction, const std::vector<char>& core, std:
   return work;
 }
 
-double lowest(const Cloth& cloth) {
+double strip_lowest(const Cloth& cloth) {
   double z = 0;
   for (const Vec3& x : cloth.particles.x) z = std::min(z, x.z());
   return -z;
@@ -108,14 +108,14 @@ TEST_CASE("plate_friction: a strip that hung from a clamp keeps a curve with fri
     Cloth cloth = strip.cloth;
     const PlateFriction friction = add_plate_friction(cloth, {.moment = moment});
     for (int i = 1; i <= 4; ++i) CHECK(settles(cloth, friction, down_to(1e-6, i / 4.0 * gravity), 1e-6));
-    const double hung = lowest(cloth);
+    const double hung = strip_lowest(cloth);
     CHECK(settles(cloth, friction, down_to(1e-5, Vec3::Zero()), 1e-6));
-    return std::pair(hung / strip.length, lowest(cloth) / strip.length);
+    return std::pair(hung / strip.length, strip_lowest(cloth) / strip.length);
   };
   const auto [loose_hung, loose] = run(0);
   Cloth plain = strip.cloth;
   CHECK(find_rest(plain, down_to(1e-6, gravity)).converged);
-  CHECK(loose_hung == Approx(lowest(plain) / strip.length).margin(1e-3));
+  CHECK(loose_hung == Approx(strip_lowest(plain) / strip.length).margin(1e-3));
   CHECK(loose < 1e-3);
   const auto [hung, kept] = run(0.1 * strip.density * size * strip.length * strip.length / 2);
   CAPTURE(loose_hung, hung, kept);
