@@ -60,8 +60,9 @@ endfunction()
 set(furrow_mesh_headers ${PROJECT_SOURCE_DIR}/geometry/mesh/mesh.h <Eigen/Core> <algorithm> <functional> <map> <optional> <set>
                         <span> <sstream> <stdexcept> <string> <unordered_map> <vector>)
 
-# furrow_unite(TARGET): with FURROW_UNITY, up to ten sources of a room are compiled as one, so that what they include is parsed
-# and instantiated once. (CMake leaves out sources with options of their own.) Names in their anonymous namespaces must differ.
+# furrow_unite(TARGET): with FURROW_UNITY, up to FURROW_UNITY_SIZE sources of a room are compiled as one, so that what they
+# include is parsed and instantiated once. (CMake leaves out sources with options of their own.) Names in their anonymous
+# namespaces must differ.
 function(furrow_unite target)
   if(NOT FURROW_UNITY)
     return()
@@ -73,7 +74,7 @@ function(furrow_unite target)
     cmake_path(GET source PARENT_PATH room)
     string(MAKE_C_IDENTIFIER "in_${room}" room)
     math(EXPR ${room} "${${room}} + 1")
-    math(EXPR part "(${${room}} + 9) / 10")
+    math(EXPR part "(${${room}} + ${FURROW_UNITY_SIZE} - 1) / ${FURROW_UNITY_SIZE}")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room}_${part})
   endforeach()
 endfunction()
