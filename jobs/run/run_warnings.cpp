@@ -63,6 +63,14 @@ std::optional<Warning> stretched_for_a_moment(const io::Scene& scene, const phys
       "", implicit ? "simulation.dt" : ""};
 }
 
+std::string help_of_divergence(const io::Scene& scene, const physics::SimulateReport& report) {
+  if (scene.simulation.integrator == physics::Integrator::explicit_euler)
+    return "explicit Euler always does in the end: use leapfrog";
+  if (scene.simulation.dt) return "leave out --dt";
+  const std::string shorter = fmt::format("take shorter steps: --dt {:.1g}", report.dt / 3);
+  return scene.body ? "look for pins or cloth that start deep inside the body, or " + shorter : shorter;
+}
+
 }  // namespace
 
 std::optional<Fault> unsolved_steps(const physics::SimulateReport& report) {
@@ -233,10 +241,7 @@ std::string words_of_divergence(const io::Scene& scene, const physics::SimulateR
   std::ostringstream text;
   text << "the simulation diverged at " << report.time << " s with steps of " << report.dt
        << " s (stable below " << report.dt_limit << " s); the garment was not written; "
-       << (scene.simulation.integrator == physics::Integrator::explicit_euler
-               ? "explicit Euler always does in the end: use leapfrog"
-           : scene.simulation.dt ? "leave out --dt"
-                                 : "look for pins or cloth that start deep inside the body");
+       << help_of_divergence(scene, report);
   return text.str();
 }
 

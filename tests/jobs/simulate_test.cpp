@@ -492,6 +492,18 @@ TEST_CASE("simulate: what is led out of the gap goes on after a stop with the bi
   CHECK(tests::positions(jobs::simulate(rest, recorder).garment) == tests::positions(whole.garment));
 }
 
+TEST_CASE("simulate: a run that diverged is told what helps, and nothing of a body that it has not") {
+  physics::SimulateReport run;
+  run.dt = 3.6e-5;
+  io::Scene scene;
+  CHECK_THAT(jobs::words_of_divergence(scene, run), Catch::EndsWith("; take shorter steps: --dt 1e-05"));
+  scene.body.emplace();
+  CHECK_THAT(jobs::words_of_divergence(scene, run),
+             Catch::EndsWith("inside the body, or take shorter steps: --dt 1e-05"));
+  scene.simulation.dt = 1e-3;
+  CHECK_THAT(jobs::words_of_divergence(scene, run), Catch::EndsWith("leave out --dt"));
+}
+
 TEST_CASE("simulate: what was stretched on the way is told where the end does not show it") {
   physics::SimulateReport run;
   run.steps = 30;
