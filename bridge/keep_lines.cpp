@@ -28,8 +28,8 @@ constexpr double out_of_balance = 1e-6;
 constexpr double share_of_statics = 0.05;  // of a trial, as its progress is told
 // Of what a line may lose or win: where the shape is not stable, and after gusts.
 constexpr double reserve = 0.4, reserve_in_gusts = 0.5;
-// A line that is off by so much is given two steps of help at once [-], as one that fails again is; and where
-// others are helped, one that uses so much of what it may lose goes with them [-].
+// A line that is off by so much is given two steps of help at once [-], as one is that had help before; and
+// where others are helped, one that uses so much of what it may lose goes with them [-].
 constexpr double far_off = 0.2, near_the_edge = 0.6;
 
 using Flags = std::vector<char>;  // one a line
@@ -157,7 +157,6 @@ class Keeper {
 
   /// More help for what needs it, until nothing does or all is given.
   Found help_by_stiffness(Plan plan, Tally& tally) const {
-    Flags helped(plan.lines.size(), 0);
     for (std::optional<Found> last;;) {
       // Cancelled before there is any rest state, it comes out.
       std::optional<Found> solved = last ? try_solve(plan, tally) : found_by(plan, tally);
@@ -172,9 +171,8 @@ class Keeper {
       if ((!any(weak) && !rest) || tally.interrupted) return std::move(found);
       if (any(weak)) add_near_the_edge(found, weak);
       for (std::size_t i = 0; i < weak.size(); ++i) {
-        const int more = weak[i] != 0 && helped[i] != 0 ? 2 : int(weak[i]);
-        helped[i] = helped[i] || more > 0;
-        plan.lines[i].step = std::min(plan.lines[i].step + more, help_steps(o_));
+        int& step = plan.lines[i].step;
+        step = std::min(step + (weak[i] != 0 && step > 0 ? 2 : int(weak[i])), help_steps(o_));
       }
       tally.helped = int(weak.size()) - int(std::count(weak.begin(), weak.end(), 0));
       plan.rest_step += rest ? 1 : 0;

@@ -32,9 +32,9 @@ std::string place(const physics::Vec3& x) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", x.x(), x.y(), x.z());
 }
 
-constexpr double most_strain = 0.5;
-constexpr double for_a_moment = 2;  // times what is left at the end
-constexpr double most_open = 0.1;   // of all steps, with which a motion is still one
+constexpr double most_strain = 0.5;  // that is not told
+constexpr double for_a_moment = 2;   // times what is left at the end
+constexpr double most_open = 0.1;    // of all steps, with which a motion is still one
 
 /// Too many steps were not solved.
 bool is_unsolved(const physics::SimulateReport& report) {
@@ -50,7 +50,7 @@ Warning told_open_steps(const physics::SimulateReport& report) {
 }
 
 /// That an edge was much longer on the way than it is at the end.
-std::optional<Warning> stretched_for_a_moment(const io::Scene& scene, const physics::SimulateReport& report) {
+std::optional<Warning> stretched_on_the_way(const io::Scene& scene, const physics::SimulateReport& report) {
   const physics::LongestEdge& longest = report.longest_edge;
   if (longest.strain <= std::max(most_strain, for_a_moment * report.strain.max)) return std::nullopt;
   const bool implicit = physics::solves_contact(scene.simulation.integrator);
@@ -86,7 +86,7 @@ std::vector<Warning> oddities_of(const io::Scene& scene, const physics::Simulate
          "the cloth is strained by " + std::to_string(int(100 * report.strain.max)) +
              " % somewhere; look for lines that are far too high, or pins that do not go with the body",
          "", ""});
-  if (auto moment = stretched_for_a_moment(scene, report)) found.push_back(*std::move(moment));
+  if (auto stretched = stretched_on_the_way(scene, report)) found.push_back(*std::move(stretched));
   // RK4 blows up so slowly there that it may come to its end.
   if (scene.simulation.step_rule == physics::StepRule::forced && report.steps > 0 &&
       report.outcome != physics::Outcome::diverged && report.dt > report.dt_limit_smallest)

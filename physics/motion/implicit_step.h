@@ -16,15 +16,15 @@ namespace furrow::physics {
 ///  - Integrator::tr_bdf2: a trapezoidal stage to gamma dt, gamma = 2 - sqrt 2, then a BDF2 stage to the end
 ///    (Bank et al. 1985). Order two, stable for any dt; a step whose stages do not end in twelve iterations,
 ///    and the first one, are those of backward Euler.
-/// A step that does not end in twelve iterations, but for a few particles of backward Euler, is made in
-/// halves, down to 1/32; what is still open then is counted (WorkCounts::open_steps). With contact of the
-/// cloth with itself, pairs that touch are a part of the energy, with friction, and neither a guess nor a
-/// move passes through cloth. What is led goes as far as cloth lets it, and farther as that goes out of its
-/// way, in eight rounds; where it has no room in 1/32 of a step, it throws StepBlocked. Drag is implicit; dashpots of springs do not act: their share is far below
-/// what the steps themselves take out. Cost of an iteration: assembly and a sparse Cholesky factorisation
-/// (O(n^1.5) of n vertices of a sheet); two to three iterations a stage in calm motion. Same bits for any
-/// number of threads. Sources: Gast et al., TVCG 21 (2015) 1103-1115; Bank et al., IEEE Trans. Electron
-/// Devices 32 (1985) 1992-2007.
+/// A step that does not end in twelve iterations is made in halves, down to 1/32; what is still open then is
+/// counted (WorkCounts::open_steps). Backward Euler may leave a few particles that still move. With contact
+/// of the cloth with itself, pairs that touch are a part of the energy, with friction, and neither a guess
+/// nor a move passes through cloth. What is led goes as far as cloth lets it, and farther as that goes out of
+/// its way, in eight rounds; where it has no room in 1/32 of a step, it throws StepBlocked. Drag is implicit;
+/// dashpots of springs do not act: their share is far below what the steps themselves take out. Cost of an
+/// iteration: assembly and a sparse Cholesky factorisation (O(n^1.5) of n vertices of a sheet); two to three
+/// iterations a stage in calm motion. Same bits for any number of threads. Sources: Gast et al., TVCG 21
+/// (2015) 1103-1115; Bank et al., IEEE Trans. Electron Devices 32 (1985) 1992-2007.
 class ImplicitStep : public Stepper {
  public:
   /// Throws std::invalid_argument if an option is out of its range.

@@ -106,7 +106,7 @@ double StepSearch::mean_length(const std::vector<Vec3>& move) const {
   return mass_ > 0 ? std::sqrt(sum / mass_) : 0;
 }
 
-/// The most by which a move changes an edge, and rounding off of what it turns [-].
+/// The most by which a move changes an edge's length [-], to first order: turning does not count.
 double StepSearch::stretch_of(const std::vector<Vec3>& move, const std::vector<Vec3>& x) const {
   double most = 0;
   for (const Spring& edge : edges_) {
@@ -118,14 +118,17 @@ double StepSearch::stretch_of(const std::vector<Vec3>& move, const std::vector<V
   return most;
 }
 
-/// Whether the next move would be short enough to be left.
-bool StepSearch::is_good_enough(int iteration, const std::vector<Vec3>& move, const std::vector<Vec3>& x,
-                                const SearchOptions& options) const {
-  const double length = mean_length(move), longest = longest_length(move);
-  if (length <= options.tolerance && longest <= longest_enough * options.tolerance) return true;
+/// Whether the move after this one would be short enough to be left.
+bool StepSearch::is_good_enough(int iteration, const std::vector<Vec3>& move, Lengths lengths,
+                                const std::vector<Vec3>& x, const SearchOptions& options) const {
+  const auto within = [&](double enough) {
+    return lengths.mean <= enough && lengths.longest <= longest_enough * enough;
+  };
+  if (within(options.tolerance)) return true;
   const double enough = good_enough * options.tolerance;
-  if (iteration < options.few || length > enough || stretch_of(move, x) > stretch_enough) return false;
-  return longest <= longest_enough * enough || (iteration == options.most && options.few < options.most);
+  if (iteration < options.few || lengths.mean > enough || stretch_of(move, x) > stretch_enough) return false;
+  const bool by_mean_alone = iteration == options.most && options.few < options.most;
+  return by_mean_alone || within(enough);
 }
 
 /// Inertia, weight, what is given, and the air.
@@ -336,10 +339,9 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
 
 /// Those of a whole move of this mean and longest length: where a few particles are far off, theirs are
 /// wrong.
-bool StepSearch::factors_go_on_serving(int iteration, double length, double longest,
-                                       const SearchOptions& options) const {
+bool StepSearch::factors_go_on_serving(int iteration, Lengths lengths, const SearchOptions& options) const {
   const double brief = short_move * options.tolerance;
-  if (length > brief || (options.careful && longest > longest_enough * brief)) return false;
+  if (lengths.mean > brief || (options.careful && lengths.longest > longest_enough * brief)) return false;
   return !options.keep_factors || iteration % most_with_kept != 0;
 }
 
@@ -365,7 +367,7 @@ SearchEnd StepSearch::descend(const StageStart& start, const SearchOptions& opti
       add_contact(x, here);
       move = solve(here.net);
     }
-    const double length = mean_length(move), longest = longest_length(move);
+    const Lengths lengths{mean_length(move), longest_length(move)};
     const Way way = advance(move, x, here, options);
     share = way.share;
     relimit = false;
@@ -373,10 +375,10 @@ SearchEnd StepSearch::descend(const StageStart& start, const SearchOptions& opti
       relimit = hold_new(start, x) && options.careful;
       add_contact(x, here);
     }
-    if (!way.cut && is_good_enough(iteration, move, x, options)) return {true, iteration};
+    if (!way.cut && is_good_enough(iteration, move, lengths, x, options)) return {true, iteration};
     const bool at_rounding = std::abs(dot(here.net, move)) <= least_fall * here.terms;
     if (way.share == 0 && !kept && !way.cut && !way.room) return {at_rounding, iteration};
-    kept = way.share == 1 && factors_go_on_serving(iteration, length, longest, options);
+    kept = way.share == 1 && factors_go_on_serving(iteration, lengths, options);
   }
   return {false, options.most};
 }

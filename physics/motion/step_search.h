@@ -94,6 +94,10 @@ class StepSearch {
     bool cut;      ///< as the cloth is in its own way, to less than half
     bool room;     ///< was made for what the body pushes from two sides: the energy is another one now
   };
+  /// Of a move [m].
+  struct Lengths {
+    double mean, longest;  ///< root mean square by mass; of any particle
+  };
   struct Answer {
     std::vector<Vec3> net;   ///< minus the gradient [N]; 0 on what is held
     std::vector<Vec3> pull;  ///< of the elements alone [N]
@@ -112,8 +116,7 @@ class StepSearch {
   void factorise(const std::vector<Vec3>& x, SlipStiffness of_slip);
   double inertia_of(const Stage& stage) const;
   bool kept_factors_serve() const;
-  bool factors_go_on_serving(int iteration, double length, double longest,
-                             const SearchOptions& options) const;
+  bool factors_go_on_serving(int iteration, Lengths lengths, const SearchOptions& options) const;
   std::vector<Vec3> pushes() const;
   SearchEnd descend(const StageStart& start, const SearchOptions& options, std::vector<Vec3>& x,
                     Answer& here);
@@ -123,8 +126,8 @@ class StepSearch {
               const SearchOptions& options);
   double mean_length(const std::vector<Vec3>& move) const;
   double stretch_of(const std::vector<Vec3>& move, const std::vector<Vec3>& x) const;
-  bool is_good_enough(int iteration, const std::vector<Vec3>& move, const std::vector<Vec3>& x,
-                      const SearchOptions& options) const;
+  bool is_good_enough(int iteration, const std::vector<Vec3>& move, Lengths lengths,
+                      const std::vector<Vec3>& x, const SearchOptions& options) const;
 
   const Cloth& cloth_;
   const Loads& loads_;
