@@ -28,6 +28,12 @@ struct ClothCrossings {
   std::vector<CrossingPlace> places;    ///< most pairs first
 };
 
+/// How a garment crossed itself as it was given.
+struct CrossedStart {
+  std::size_t pairs = 0;
+  std::vector<char> vertices;  ///< by index, whether a face at it crossed; of the refined mesh
+};
+
 /// "43 pairs of faces of the cloth cross (12 of them from the start), 40 of them within 6.0 cm of
 /// (0.11, 1.32, -0.02) m, between 'shirt' and 'button'".
 std::string words(const ClothCrossings& crossings);

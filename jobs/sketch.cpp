@@ -12,6 +12,7 @@
 #include "jobs/run/body.h"
 #include "jobs/run/line_round.h"
 #include "jobs/run/made_for.h"
+#include "jobs/run/measure_crossings.h"
 #include "jobs/run/pins.h"
 #include "jobs/run/scene_cloth.h"
 #include "jobs/wrinkle.h"
@@ -93,6 +94,8 @@ WrinkleJob job_for(const Sketch& sketch, const Json& strokes) {
   job.frame = sketch.frame;
   job.options = sketch.options;
   job.density = sketch.density;
+  job.crossed = sketch.crossed;
+  job.wants_quality = false;
   return job;
 }
 
@@ -151,6 +154,7 @@ Sketch open_sketch(const SceneInput& input, Listener& listener, const fs::path& 
   const Context context{sketch.frame, listener};
   sketch.garment = begin_garment(scene, context);
   sketch.pins = find_pins(sketch.garment, scene.pins);
+  sketch.crossed = std::make_shared<const CrossedStart>(crossed_start(sketch.garment.mesh));
   sketch.density = scene.material.density;
   if (rounds_at_start(scene) == 1) {
     const auto round = std::find_if(scene.lines.begin(), scene.lines.end(),

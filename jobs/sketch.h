@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "geometry/fold/wrinkle.h"
+#include "jobs/crossings.h"
 #include "jobs/inputs.h"
 #include "jobs/shown_mesh.h"
 
@@ -24,6 +26,7 @@ struct Sketch {
   geometry::WrinkleOptions options;  ///< of its lines
   std::optional<double> density;     ///< of the cloth [kg/m^2]; none: as the garment notes, else the default
   std::vector<std::vector<int>> pins;
+  std::shared_ptr<const CrossedStart> crossed;  ///< how the garment crosses itself
 };
 
 /// Reads garment and body. `made_for`: body that the garment lies about, in its unit; empty: the scene's.

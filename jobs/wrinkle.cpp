@@ -135,19 +135,20 @@ LineTarget target_of(const WrinkleJob& job, Canvas& canvas, const io::Scene* kee
   return target;
 }
 
-/// The round drawn into the canvas. `stages` (null: not wanted) are filled on the way.
+/// The round drawn into the canvas. `stages` and `quality` (null: not wanted) are filled on the way.
 DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, bool refined,
-                WrinkleStages* stages, DrawnQuality& quality, const Context& context) {
+                WrinkleStages* stages, DrawnQuality* quality, const Context& context) {
   const std::vector<io::DrawnStroke> strokes = strokes_of(job, context);
   require_heights(strokes, canvas.file.mesh, context);
   io::SceneLines lines;
   lines.options = job.options;
   lines.fade = job.fade;
   if (stages) stages->before = canvas.file.mesh;
-  quality.before = quality_before(canvas.file.mesh);
+  if (quality) quality->before = quality_before(canvas.file.mesh);
   std::vector<geometry::Point> displaced;
   const auto keep_stage = [&](geometry::Stage stage, const geometry::Mesh& mesh) {
-    if (stage == geometry::Stage::displaced) displaced.assign(mesh.points().begin(), mesh.points().end());
+    if (quality && stage == geometry::Stage::displaced)
+      displaced.assign(mesh.points().begin(), mesh.points().end());
     if (stages && stage == geometry::Stage::inserted) stages->inserted = mesh;
     if (stages && stage == geometry::Stage::displaced) stages->displaced = mesh;
   };
@@ -157,8 +158,10 @@ DrawnRound draw(const WrinkleJob& job, Canvas& canvas, const io::Scene* keep, bo
   if (refined) target.garment.clear();  // its file alone does not draw the same lines again
   drawn.round = draw_lines(target, strokes, lines, keep_stage);
   for (const std::string& w : drawn.round.warnings) context.warn("drawing", w, path_of(job.strokes));
-  quality.drawn = quality_of_lines(canvas.file.mesh, displaced, drawn.round.report);
-  quality.after = quality_of_lines(canvas.file.mesh, drawn.round.report);
+  if (quality) {
+    quality->drawn = quality_of_lines(canvas.file.mesh, displaced, drawn.round.report);
+    quality->after = quality_of_lines(canvas.file.mesh, drawn.round.report);
+  }
   pin_new_vertices(canvas.file.mesh, old_count, canvas.pins);
   if (canvas.state) {
     canvas.state->pins = canvas.pins;
@@ -307,17 +310,21 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
   std::optional<RestPlan> settle;
   if (job.settle) settle = plan_rest(job, canvas.file.mesh, context);
   stop_if_cancelled(context);
-  const CrossedStart crossed = crossed_start(canvas.file.mesh);
+  const bool refined = settle && settle->refinements > 0;
+  const auto crossed = job.crossed && !refined
+                           ? job.crossed
+                           : std::make_shared<const CrossedStart>(crossed_start(canvas.file.mesh));
   if (job.wants_stages || !job.inserted.empty()) report.stages.emplace();
-  report.drawn = draw(job, canvas, scene, settle && settle->refinements > 0,
-                      report.stages ? &*report.stages : nullptr, report.quality, context);
+  if (job.wants_quality) report.quality.emplace();
+  report.drawn = draw(job, canvas, scene, refined, report.stages ? &*report.stages : nullptr,
+                      report.quality ? &*report.quality : nullptr, context);
   stop_if_cancelled(context);
   if (scene) report.drawn.kept = keep_drawn(canvas, *scene, context);
   if (job.max_weights) limit_noted_weights(canvas.file, *job.max_weights);
   if (scene) warn_if_shape_only(job.output, context);
   if (scene && !job.state) note_material(canvas.file, job.keep->settings, 0);
   report.drawn.rest = geometry::audit_rest_metric(canvas.file.mesh);
-  report.crossings = measure_crossings(canvas.file, &crossed);
+  report.crossings = measure_crossings(canvas.file, crossed.get());
   if (report.crossings.pairs)
     context.warn("cloth_crosses", words(report.crossings), path_of(job.strokes), "lines.height");
   report.garment = std::move(canvas.file);
@@ -336,7 +343,7 @@ Json to_json(const WrinkleReport& report) {
   Json json = to_json(report.drawn);
   json["crossings"] = to_json(report.crossings);
   if (report.rest) json["at_rest"] = to_json(*report.rest);
-  json["quality"] = to_json(report.quality);
+  if (report.quality) json["quality"] = to_json(*report.quality);
   return json;
 }
 

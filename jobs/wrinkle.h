@@ -64,6 +64,9 @@ struct WrinkleJob {
   std::filesystem::path output;         ///< mesh, or with a state a state, to write; empty or "-": none
   std::filesystem::path inserted;  ///< mesh after insertion and before smoothing; empty or "-": not written
   bool wants_stages = false;       ///< the report has the mesh before and after insertion
+  bool wants_quality = true;       ///< the report has the quality of the lines: a fifth of the time
+  /// How the garment crosses itself before the lines; none: it is counted, a tenth of the time.
+  std::shared_ptr<const CrossedStart> crossed = {};
   std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another
   std::vector<std::string> more_inputs = {};   ///< files that the caller reads: none may be replaced
 };
@@ -96,7 +99,7 @@ struct WrinkleReport {
   std::optional<io::SavedState> state;      ///< what goes on from there, where a state was drawn into
   std::optional<WrinkleStages> stages;      ///< where they were wanted
   ClothCrossings crossings;                 ///< of the cloth with itself, as drawn
-  DrawnQuality quality;                     ///< before the lines, as they were drawn, and after smoothing
+  std::optional<DrawnQuality> quality;      ///< before the lines, as they were drawn, and after smoothing
   Frame frame;                              ///< of the files written
   std::shared_ptr<const Draped> rest = {};  ///< where it was to come to rest (jobs/drape.h)
   std::vector<Warning> failures = {};       ///< why that is no success; empty: it is

@@ -276,6 +276,7 @@ void Session::show_moving_body(const std::vector<float>& positions) {
   const auto now = std::chrono::steady_clock::now();
   if (now - body_shown_ < std::chrono::milliseconds(30)) return;
   body_shown_ = now;
+  body_moved_ = true;
   out_.show(everybody, std::make_shared<const std::string>(moving_bytes(0, positions, ShownAs::moving_body)));
 }
 

@@ -144,6 +144,7 @@ class Page : public std::enable_shared_from_this<Page> {
   void run(const Request& request) {
     ws_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
     ws_.read_message_max(largest_message + 1024);
+    ws_.auto_fragment(false);  // a mesh of 1 MB came in 250 parts
     ws_.async_accept(request, [self = shared_from_this()](beast::error_code failed) {
       if (failed) return;
       self->server_.pages[self->client_] = self;

@@ -85,8 +85,9 @@ void Session::take_up(const Json& drawing) { take_sketch(open_drawing(drawing, p
 void Session::take_sketch(jobs::Sketch sketch) {
   sketch_ = std::move(sketch);
   middle_of_sketch_ = jobs::middle_of(sketch_);
-  body_ = nullptr;
-  if (sketch_.body) body_ = shared(frame_bytes(ShownAs::body, jobs::shown_mesh(sketch_.body->mesh)));
+  std::string body;
+  if (sketch_.body) body = frame_bytes(ShownAs::body, jobs::shown_mesh(sketch_.body->mesh));
+  if (body.empty() || !body_ || *body_ != body) body_ = body.empty() ? nullptr : shared(std::move(body));
 }
 
 void Session::show_now() {
@@ -98,17 +99,25 @@ void Session::show_now() {
   }
   cloth_ = shared(std::move(*bytes));
   out_.tell(everybody, {{"status", status()}});
-  if (body_) out_.show(everybody, body_);
-  show_body_then();
+  show_body();
   out_.show(everybody, cloth_);
 }
 
-/// A body that has moved stands where it came to.
-void Session::show_body_then(Client client) {
+/// Where it is another one, or stands elsewhere than the pages show it.
+void Session::show_body() {
+  const Bytes moved = moved_body();
+  if (body_ && (body_ != shown_body_ || (body_moved_ && !moved))) out_.show(everybody, body_);
+  if (moved) out_.show(everybody, moved);
+  shown_body_ = body_;
+  body_moved_ = moved != nullptr;
+}
+
+/// Where a body that has moved stands now; null: as it began.
+Bytes Session::moved_body() {
   const double time = project_->now().drawing.value("motion", Json::object()).value("time", 0.0);
-  if (!body_ || time == 0) return;
+  if (!body_ || time == 0) return nullptr;
   const std::vector<float> body = jobs::body_at(sketch_, time);
-  if (!body.empty()) out_.show(client, shared(moving_bytes(0, body, ShownAs::moving_body)));
+  return body.empty() ? nullptr : shared(moving_bytes(0, body, ShownAs::moving_body));
 }
 
 void Session::greet(Client client) {
@@ -116,7 +125,7 @@ void Session::greet(Client client) {
   out_.tell(client, {{"you", client}});
   out_.tell(client, {{"status", status()}});
   if (body_) out_.show(client, body_);
-  show_body_then(client);
+  if (const Bytes moved = moved_body()) out_.show(client, moved);
   out_.show(client, cloth_);
 }
 
@@ -192,15 +201,12 @@ void Session::change(const std::string& what, Json drawing) {
   const auto drawn = jobs::draw_sketch(other ? *other : sketch_, strokes_on(drawing), *this);
   told_.insert(told_.end(), drawn.told.begin(), drawn.told.end());
   const std::string bytes = frame_bytes(ShownAs::cloth, drawn.shown);
-  const Json& before = project_->now().drawing;
-  const bool body_changes = before.contains("motion") || before.contains("made_for");
   project_->add({what, std::move(drawing)}, did_);
   project_->keep_frame(bytes);
   if (other) take_sketch(std::move(*other));
   cloth_ = shared(bytes);
   out_.tell(everybody, {{"status", status()}});
-  if (body_changes && body_) out_.show(everybody, body_);  // back where it began, or another
-  show_body_then();
+  show_body();
   out_.show(everybody, cloth_);
 }
 

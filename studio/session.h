@@ -92,7 +92,8 @@ class Session : jobs::Listener {
   /// Refuses what needs the cloth on its body, while it lies about the one that it was made for.
   void require_brought(const std::string& what) const;
   void show_now();
-  void show_body_then(Client client = everybody);
+  void show_body();
+  Bytes moved_body();
   void show_preview(const Json& drawing);
   void show_moving(double time, const std::vector<float>& positions);
   void show_moving_body(const std::vector<float>& positions);
@@ -114,6 +115,8 @@ class Session : jobs::Listener {
   Json did_;                       ///< the intention that is being done, as the log will have it
   std::vector<std::string> told_;  ///< by the job that runs
   Bytes cloth_, body_;             ///< as they are shown
+  Bytes shown_body_;               ///< that all pages have
+  bool body_moved_ = false;        ///< since it was shown so
   std::mutex grip_mutex_;
   std::optional<jobs::Grip> grip_;  ///< that a page asks for
   std::chrono::steady_clock::time_point progress_told_ = {}, moving_shown_ = {}, body_shown_ = {};

@@ -5,12 +5,6 @@
 
 namespace furrow::jobs {
 
-/// How a garment crossed itself as it was given.
-struct CrossedStart {
-  std::size_t pairs = 0;
-  std::vector<char> vertices;  ///< by index, whether a face at it crossed; of the refined mesh
-};
-
 /// Of a mesh, as it is known after so many Loop refinements. Costs a count, and where cloth crosses the
 /// refinements, too. Throws as geometry::find_crossings().
 CrossedStart crossed_start(const geometry::Mesh& mesh, int refinements = 0);

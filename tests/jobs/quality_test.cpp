@@ -259,7 +259,7 @@ TEST_CASE("quality: the report of wrinkle tells it before the lines, drawn and s
   for (const auto rule :
        {geometry::InsertionRule::fold, geometry::InsertionRule::safe, geometry::InsertionRule::paper}) {
     const jobs::WrinkleReport report = sheet_wrinkled(rule, plain_sheet());
-    const jobs::DrawnQuality& q = report.quality;
+    const jobs::DrawnQuality& q = report.quality.value();
     INFO(to_json(report)["quality"].dump(1));
     CHECK_FALSE(q.before.crest_ripple);
     CHECK(q.before.angle_defect == Approx(0).margin(1e-9));

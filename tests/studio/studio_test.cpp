@@ -265,6 +265,31 @@ TEST_CASE("studio: it colours the cloth by its fit, in the words of furrow fit, 
   CHECK(page.status == status);
 }
 
+TEST_CASE("studio: the body is sent again only where it has moved") {
+  const Desk desk("body");
+  jobs::SceneInput scene = desk.scene;
+  io::MeshFile ball;
+  ball.mesh = tests::icosphere(2, 0.15, {0, 0.2, -0.4});
+  io::write_mesh(desk.folder / "ball.ply", ball);
+  io::set_value(scene.settings, "body.mesh", "ball.ply", "test");
+  io::set_value(scene.settings, "body.motion.spin",
+                Json{{"axis", {0, 1, 0}}, {"rate", 1}, {"start", 0}, {"ramp", 0.1}}, "test");
+  const studio::Studio studio(scene, desk.project());
+  Visitor page(studio);
+  REQUIRE(page.ask("draw", line_at(0.2)).contains("done"));
+  REQUIRE(page.ask("set", {{"line", 0}, {"height", 0.03}}).contains("done"));
+  REQUIRE(page.ask("undo").contains("done"));
+  REQUIRE(page.ask("fabric", {{"name", "silk"}}).contains("done"));
+  page.ask("show");
+  CHECK(page.bodies == 1);
+  const std::string as_begun = page.body;
+  REQUIRE(page.ask("play", {{"seconds", 2 / 60.0}}).contains("done"));
+  REQUIRE(page.ask("undo").contains("done"));
+  page.ask("show");
+  CHECK(page.bodies == 2);
+  CHECK(page.body == as_begun);
+}
+
 TEST_CASE("studio: without its token, from another host or another page, nothing is told") {
   const Desk desk("doors");
   const studio::Studio studio(desk.scene, desk.project());

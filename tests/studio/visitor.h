@@ -78,7 +78,10 @@ class Visitor {
       const std::string text = boost::beast::buffers_to_string(buffer.data());
       if (ws_.got_binary()) {
         if (text.at(4) == 0) cloth = text;
-        if (text.at(4) == 1) body = text;
+        if (text.at(4) == 1) {
+          body = text;
+          ++bodies;
+        }
         if (text.at(4) == 2) preview = text;
         if (text.at(4) == 3) ++moved;
         if (text.at(4) == 4) colours = text;
@@ -106,6 +109,7 @@ class Visitor {
   int moved = 0;      ///< frames of moving cloth
   std::string cloth;  ///< the last mesh of it
   std::string body;   ///< that is shown
+  int bodies = 0;     ///< meshes of it
   std::string preview;
   std::string colours;
 

@@ -16,6 +16,9 @@ interface Colours { ground: number; cloth: number; body: number; ridge: number; 
 const light: Colours = { ground: 0xeceef1, cloth: 0xd9cdb8, body: 0xb9bcc2, ridge: 0xd4610f, valley: 0x2a6fd6, wire: 0x39424e };
 const dark: Colours = { ground: 0x1b1e22, cloth: 0xc9bca5, body: 0x6d737c, ridge: 0xff9a52, valley: 0x7fb0ff, wire: 0x14171b };
 
+/** A picture that takes longer is drawn with fewer pixels while things change [ms]. */
+const slow = 45;
+
 /** Where a point of the pen's band lies above the cloth [share of the cloth's size]. */
 const lift = 0.0018;
 
@@ -38,11 +41,16 @@ export class View {
   private bodyTree?: MeshBVH;
   private undrawnTree?: MeshBVH;  // of the present frame, where it was asked for
   private treesAreOld = false;    // things have moved since the trees were fitted
+  private treesSoon = 0;
   private handles: THREE.Points;
   private plane: THREE.Mesh;
   private rope: THREE.Line;
   private frame?: Frame;
   private asked = false;
+  private takes = 0;      // the last picture with all pixels [ms]
+  private timed?: Frame;  // of which it was
+  private isCoarse = false;
+  private fineSoon = 0;
   private framed = false;
   private kinds: number[] = [];
   private chosen = -1;
@@ -93,23 +101,48 @@ export class View {
   private fit() {
     const { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
     if (!w || !h) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.setSize(w, h, false);
+    this.setPixels(Math.min(devicePixelRatio, 2), w, h);
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
     this.draw();
   }
 
-  /** Draws soon: once, however often it was asked. */
+  private setPixels(ratio: number, w: number, h: number) {
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(w, h, false);
+  }
+
+  /** Draws soon: once, however often it was asked. Where pictures take long, one with a quarter of the pixels comes
+   *  first, and the fine one when nothing has changed for a while. */
   draw() {
     if (this.asked) return;
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
-      this.key.position.copy(this.camera.localToWorld(new THREE.Vector3(-0.55, 0.75, 0.35).multiplyScalar(this.size)));
-      this.key.target.position.copy(this.controls.target);
-      this.renderer.render(this.scene, this.camera);
+      this.render(this.takes > slow);
+      clearTimeout(this.fineSoon);
+      if (this.isCoarse || this.timed !== this.frame) this.fineSoon = window.setTimeout(() => this.renderFine(), 300);
     });
+  }
+
+  /** Nobody waits: draws with all pixels, and takes the time that this takes. */
+  private renderFine() {
+    const start = performance.now(), gl = this.renderer.getContext();
+    this.render(false);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits until it is drawn
+    this.takes = performance.now() - start;
+    this.timed = this.frame;
+  }
+
+  private render(isCoarse: boolean) {
+    if (isCoarse !== this.isCoarse) {
+      const { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
+      this.setPixels(Math.min(devicePixelRatio, 2) * (isCoarse ? 0.5 : 1), w, h);
+      this.isCoarse = isCoarse;
+    }
+    this.key.position.copy(this.camera.localToWorld(new THREE.Vector3(-0.55, 0.75, 0.35).multiplyScalar(this.size)));
+    this.key.target.position.copy(this.controls.target);
+    this.renderer.render(this.scene, this.camera);
   }
 
   private geometryOf(frame: Frame): THREE.BufferGeometry {
@@ -132,7 +165,8 @@ export class View {
     if (frame.kind === Kind.body) {
       this.body.geometry.dispose();
       this.body.geometry = this.geometryOf(frame);
-      this.bodyTree = new MeshBVH(this.body.geometry);
+      this.bodyTree = undefined;
+      this.fitTreesSoon();
       return this.draw();
     }
     this.frame = frame;
@@ -140,7 +174,8 @@ export class View {
     this.cloth.geometry.dispose();
     this.cloth.geometry = this.geometryOf(frame);
     this.colour(null);
-    this.clothTree = new MeshBVH(this.cloth.geometry);
+    this.clothTree = undefined;
+    this.fitTreesSoon();
     this.cloth.geometry.computeBoundingBox();
     this.size = this.cloth.geometry.boundingBox!.getSize(new THREE.Vector3()).length();
     this.showWire();
@@ -257,17 +292,27 @@ export class View {
     return caster.ray;
   }
 
-  private refitTrees() {
-    if (!this.treesAreOld) return;
-    this.clothTree?.refit();
-    this.bodyTree?.refit();
-    this.treesAreOld = false;
+  /** What is pointed at is found by trees: they are made after the picture, which nobody shall wait for. */
+  private fitTrees() {
+    if (this.treesAreOld) {
+      this.clothTree?.refit();
+      this.bodyTree?.refit();
+      this.treesAreOld = false;
+    }
+    if (this.cloth.geometry.index) this.clothTree ??= new MeshBVH(this.cloth.geometry);
+    if (this.body.geometry.index) this.bodyTree ??= new MeshBVH(this.body.geometry);
+  }
+
+  private fitTreesSoon() {
+    clearTimeout(this.treesSoon);
+    this.treesSoon = window.setTimeout(() => this.fitTrees(), 150);
   }
 
   /** The cloth under a place of the window, unless the body hides it. */
   pick(x: number, y: number): Hit | null {
-    if (!this.clothTree || !this.frame) return null;
-    this.refitTrees();
+    if (!this.frame) return null;
+    this.fitTrees();
+    if (!this.clothTree) return null;
     const ray = this.rayThrough(x, y);
     const hit = this.clothTree.raycastFirst(ray, THREE.DoubleSide);
     if (!hit?.face) return null;
@@ -303,8 +348,9 @@ export class View {
 
   /** The vertices within a polygon of the window that are seen: nothing lies before them. */
   verticesIn(polygon: [number, number][]): number[] {
-    if (!this.frame || !this.clothTree || polygon.length < 3) return [];
-    this.refitTrees();
+    if (!this.frame || polygon.length < 3) return [];
+    this.fitTrees();
+    if (!this.clothTree) return [];
     const inside = (x: number, y: number) => polygon.reduce((is, [ax, ay], i) => {
       const [bx, by] = polygon[(i + 1) % polygon.length];
       return ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax) ? !is : is;
