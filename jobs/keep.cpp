@@ -113,7 +113,12 @@ std::string why_unsettled(const SceneCloth& garment, const io::Scene& scene) {
 SceneCloth drawn_at_rest(const KeepJob& job, const io::Scene& scene, const Context& context,
                          KeepReport& report) {
   SceneCloth garment = drawn_by(scene, context);
-  const std::string why = job.settle && scene.body ? why_unsettled(garment, scene) : "";
+  std::string why;
+  if (job.settle && scene.body) {
+    context.listener.progress("looking whether the body holds it", 0);
+    why = why_unsettled(garment, scene);
+    context.listener.progress("looking whether the body holds it", 1);
+  }
   if (why.empty()) return garment;
   const std::optional<MemoryFiles> settled = settle_first(scene, garment.options.contact_gap, context);
   stop_if_cancelled(context);
@@ -244,6 +249,7 @@ class Trials {
 bridge::KeepReport find_rest(const KeepJob& job, const io::Scene& scene, SceneCloth& garment,
                              const io::WrinkleRecord& record, const Context& context) {
   Trials trials(context.listener);
+  trials({1, 0, 0});  // its rest state takes a while before there is more to tell
   return bridge::keep_lines(garment.file.mesh, garment.cloth, garment.world(scene), base_heights(record),
                             options_of(job, scene, garment, record), std::ref(trials));
 }

@@ -68,6 +68,9 @@ SceneInput at_rest_settings(const Sketch& sketch) {
   input.settings.root.erase("output");
   input.settings.root.erase("title");
   if (input.settings.root.contains("garment")) input.settings.root["garment"].erase("subdivide");
+  if (input.settings.root.contains("simulation"))
+    input.settings.root["simulation"].erase(
+        "integrator");  // which open_sketch() chose, and no search for rest uses
   return input;
 }
 

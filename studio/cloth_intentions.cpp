@@ -167,7 +167,7 @@ void Session::take_result(const std::string& word, const std::string& what, cons
 Json Session::drape(const Json&) {
   const jobs::SketchAtRest rest = jobs::drape_sketch(sketch_, strokes_on(project_->now().drawing), *this);
   take_result("rest", "drape", rest.file, nullptr);
-  return {{"outcome", rest.outcome}, {"remarks", rest.remarks}};
+  return {{"outcome", rest.outcome}, {"remarks", rest.remarks}, {"lost", lost_}};
 }
 
 void Session::require_brought(const std::string& what) const {

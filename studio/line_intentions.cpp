@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a page asks of lines.
+#include <cmath>
+
 #include "jobs/sketch_lines.h"
 #include "studio/drawing.h"
 #include "studio/session.h"
@@ -25,12 +27,12 @@ bool flag_of(const Json& body, const char* key) {
   return body[key] == true;
 }
 
-/// Changes what the message names of a line; returns what the step is called.
+/// Changes what the message names of a line; returns what the step does to it.
 std::string change_line(const Json& body, Json& line) {
   std::string what;
   for (const auto& [key, range] : number_keys()) {
     if (!body.contains(key)) continue;
-    what = "change " + std::string(range.words) + " of " + name_of_line(line);
+    what = "change " + std::string(range.words) + " of";
     if (key == "width" && body[key].is_null())
       line["stroke"].erase(key);
     else
@@ -39,20 +41,40 @@ std::string change_line(const Json& body, Json& line) {
   if (body.contains("points")) {
     if (!line["stroke"].contains("points"))
       throw Refused("this line is given by vertices of the garment, not by points: draw it anew");
-    what = "drag " + name_of_line(line);
+    what = "drag";
     line["stroke"]["points"] = points_of(body);
   }
   if (body.contains("on")) {
     const bool on = flag_of(body, "on");
-    what = (on ? "switch on " : "switch off ") + name_of_line(line);
+    what = on ? "switch on" : "switch off";
     line["on"] = on;
   }
   if (body.contains("name")) {
-    what = "rename " + name_of_line(line);
+    what = "rename";
     line["stroke"]["name"] = text_of(body, "name");
   }
   if (what.empty()) throw Refused("set: there is nothing to set");
   return what;
+}
+
+/// The lines that a message means: one, or several at once, which keep their names, places and signs.
+std::vector<std::size_t> lines_of(const Json& body, std::size_t count) {
+  if (!body.contains("lines")) return {index_of(body, "line", count)};
+  const Json& list = body["lines"];
+  if (!list.is_array() || list.empty() || list.size() > count) throw Refused("lines: is no list of lines");
+  if (body.contains("name") || body.contains("points"))
+    throw Refused("set: several lines at once keep their names and points");
+  std::vector<std::size_t> lines;
+  for (const Json& at : list) lines.push_back(index_of({{"line", at}}, "line", count));
+  return lines;
+}
+
+/// As one of several: a ridge stays one, and a valley, too.
+Json with_own_sign(Json body, const Json& line) {
+  const Json own = line.at("stroke").value("height", Json());
+  if (body.contains("height") && body["height"].is_number() && own.is_number())
+    body["height"] = std::copysign(body["height"].get<double>(), own.get<double>());
+  return body;
 }
 
 /// Whether a line is called as the studio calls a new one of that kind: "ridge 3".
@@ -106,10 +128,16 @@ Json Session::draw(const Json& body) {
 
 Json Session::set(const Json& body) {
   Json drawing = project_->now().drawing;
-  Json& line = line_of(drawing, body);
-  const Json before = line.at("stroke");
-  const std::string what = change_line(body, line);
-  rename_turned(drawing, before, line["stroke"]);
+  const std::vector<std::size_t> lines = lines_of(body, drawing.at("lines").size());
+  std::string what;
+  for (const std::size_t at : lines) {
+    Json& line = drawing["lines"][at];
+    const Json before = line.at("stroke");
+    const std::string name = name_of_line(line);
+    what = change_line(lines.size() > 1 ? with_own_sign(body, line) : body, line) + " " +
+           (lines.size() > 1 ? std::to_string(lines.size()) + " lines" : name);
+    rename_turned(drawing, before, line["stroke"]);
+  }
   if (flag_of(body, "live")) {
     show_preview(drawing);
     return {{"live", true}};

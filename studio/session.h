@@ -50,7 +50,12 @@ class Session : jobs::Listener {
   static const std::map<std::string, Does>& intentions();
 
   void progress(const std::string& what, double share) override;
-  void warn(const jobs::Warning& warning) override { told_.push_back(warning.text); }
+  /// That lines were lost is told first.
+  void warn(const jobs::Warning& warning) override {
+    const bool lost = warning.code == "lines_lost";
+    lost_ = lost_ || lost;
+    told_.insert(lost ? told_.begin() : told_.end(), warning.text);
+  }
   bool cancelled() override { return cancelled_; }
   bool allows(const std::string&) override { return playing_; }
 
@@ -114,6 +119,7 @@ class Session : jobs::Listener {
   bool playing_ = false;           ///< until somebody stops it: it may take as long as it likes
   Json did_;                       ///< the intention that is being done, as the log will have it
   std::vector<std::string> told_;  ///< by the job that runs
+  bool lost_ = false;              ///< lines, by what it told
   Bytes cloth_, body_;             ///< as they are shown
   Bytes shown_body_;               ///< that all pages have
   bool body_moved_ = false;        ///< since it was shown so

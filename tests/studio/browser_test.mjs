@@ -149,6 +149,36 @@ async function refuse(seen) {
   await seen.tab.keyboard.press("Escape");
 }
 
+/** A line from above the waist to below the hem reaches both; and all lines get another height at once. */
+async function reachBordersAndChangeAll(seen) {
+  const { tab } = seen;
+  const save = async () => {
+    await tab.keyboard.press("Control+s");
+    await until("saved", async () => (await seen.words()).startsWith("Saved"));
+  };
+  await tab.keyboard.press("r");
+  await (await stroke(tab, [[0.6, 0.1], [0.61, 0.5], [0.62, 0.95]]))();
+  await seen.at(4);
+  await tab.keyboard.press("Escape");
+  await save();
+  const { points } = strokesIn("skirt-studio")[2];
+  const heights = readFileSync(join(meshes, "skirt.obj"), "utf8").split("\n").filter((l) => l.startsWith("v ")).map((l) => Number(l.split(" ")[2]));
+  assert.ok(Math.max(...heights) - points[0][1] < 0.004, `it begins at ${points[0][1]}, and the waist is at ${Math.max(...heights)}`);
+  assert.ok(points.at(-1)[1] - Math.min(...heights) < 0.004, `it ends at ${points.at(-1)[1]}, and the hem is at ${Math.min(...heights)}`);
+  await tab.getByRole("button", { name: "All 3 lines" }).click();
+  await tab.getByRole("group", { name: "All lines" }).getByRole("slider", { name: "Height" }).fill("22");
+  await seen.at(5);
+  await save();
+  assert.deepEqual(strokesIn("skirt-studio").map((s) => s.height), [0.022, -0.022, 0.022]);
+  await tab.waitForTimeout(600);
+  await seen.shot("17-all-lines");
+  for (const step of [4, 3]) {
+    await tab.keyboard.press("Control+z");
+    await seen.at(step);
+  }
+  await save();
+}
+
 async function drape(seen) {
   await seen.tab.keyboard.press("d");
   await seen.at(4);
@@ -438,6 +468,7 @@ try {
   const seen = await open(first.url);
   await drawAndUndo(seen);
   await refuse(seen);
+  await reachBordersAndChangeAll(seen);
   await dragLine(seen);
   await accessible(seen, "skirt");
   await drape(seen);

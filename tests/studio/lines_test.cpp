@@ -54,6 +54,27 @@ TEST_CASE("studio lines: a ridge that becomes a valley is called one, unless som
   CHECK(name(1) == "ridge 7");
 }
 
+TEST_CASE("studio lines: several change at once, as one step, and stay ridges and valleys") {
+  const Desk desk("several");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  for (const Json& line : {line_at(0.1), line_at(0.2, -0.02), line_at(0.15, 0.015)})
+    REQUIRE(page.ask("draw", line).contains("done"));
+  REQUIRE(page.ask("set", {{"lines", {0, 1}}, {"height", 0.01}}).contains("done"));
+  const auto height = [&](int line) { return page.status.at("lines").at(line).at("height").get<double>(); };
+  CHECK(height(0) == 0.01);
+  CHECK(height(1) == -0.01);
+  CHECK(height(2) == 0.015);
+  CHECK(page.status.at("undo") == "change the height of 2 lines");
+  REQUIRE(page.ask("undo").contains("done"));
+  page.ask("show");
+  CHECK(height(0) == 0.02);
+  CHECK(height(1) == -0.02);
+  REQUIRE(page.ask("set", {{"lines", {0, 1, 2}}, {"height", 0.03}, {"live", true}}).contains("done"));
+  CHECK(page.preview.size() > 0);
+  CHECK(height(2) == 0.015);
+}
+
 TEST_CASE("studio lines: their order can be changed, and is the one that is saved", "[long]") {
   const Desk desk("order");
   const studio::Studio studio(desk.scene, desk.project());

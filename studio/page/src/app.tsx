@@ -6,10 +6,10 @@ import { readFrame, Kind } from "./frame";
 import { Hand } from "./hand";
 import { Handles } from "./handles";
 import { Help } from "./help";
-import { type LineActions, Lines, mm, ownWidth, Slider } from "./lines";
+import { type LineActions, type LineChange, Lines, mm, ownWidth, Slider } from "./lines";
 import { type Files, Open, type OpenWords, sorted } from "./open";
 import { Pen } from "./pen";
-import { type Done, type GalleryItem, Program, type Progress, type Status, type Vector } from "./protocol";
+import { type Done, type GalleryItem, type Line, Program, type Progress, type Status, type Vector } from "./protocol";
 import { type Seen, View } from "./view";
 
 type Tool = "look" | "ridge" | "valley" | "pin";
@@ -23,11 +23,17 @@ type Busy = "" | "drape" | "keep" | "give" | "play";
 const hints: [(s: Status) => boolean, string][] = [
   [(s) => s.lines.length === 0 && s.step === 0, "Pick Ridge or Valley above, then draw on the cloth. Drag to turn it."],
   [(s) => s.step === 1 && s.lines.length > 0, "Its height, width and sharpness are on the right; choose it, and drag it by its dots. Draw more."],
-  [(s) => (s.step === 2 || s.step === 3) && s.lines.length > 0 && s.can_drape, "Press Drape (D): the cloth comes to rest with its lines. Undo takes anything back."],
-  [(s) => s.undo === "drape" && s.step <= 8, "Draw more, Play moves it, Keep makes its lines last; ? shows all keys."],
+  [(s) => s.step <= 12 && s.lines.some((l) => l.on) && s.can_drape, "When all lines are drawn: Keep (K) makes them last, then Drape (D) lets the cloth come to rest. Undo takes anything back."],
+  [(s) => s.undo === "keep" && s.step <= 13, "Now press Drape (D): the cloth comes to rest with its folds."],
+  [(s) => s.undo === "drape" && s.step <= 14, "Picture, below on the right, takes one. Draw more, or Play (Space); ? shows all keys."],
 ];
 /** What a job says of options of the command line, in words that the page has. */
 const inPage = (text: string) => text.replace(/; --[a-z-]+[^;.\n]*/g, "").replace(/furrow keep/g, "Keep").replace(/furrow drape/g, "Drape");
+/** A line with a change that is not answered yet; several at once keep their signs. */
+const changed = (line: Line, { points, width, height, ...more }: LineChange, isOneOfSeveral: boolean): Line => ({
+  ...line, ...more, ...(width !== undefined && { width: width ?? undefined }),
+  ...(height !== undefined && { height: isOneOfSeveral && (line.height ?? 1) < 0 ? -height : height, varies: false }),
+});
 const isPen = (tool: Tool) => tool === "ridge" || tool === "valley";
 
 export function App({ token }: { token: string }) {
@@ -48,6 +54,7 @@ export function App({ token }: { token: string }) {
   const [tangles, setTangles] = useState(false);
   const [dragging, setDragging] = useState(false);  // a line, by its dots
   const [moving, setMoving] = useState(0);
+  const [lost, setLost] = useState(false);  // what was draped has lost lines
   const [fit, setFit] = useState<"" | "strain" | "distance">("");
   const [frames, setFrames] = useState(0);
   const [gone, setGone] = useState(false);
@@ -174,17 +181,20 @@ export function App({ token }: { token: string }) {
 
   const actions: LineActions = {
     choose: setChosen,
-    set: (line, change, isLive) => {
+    set: (lines, change, isLive) => {
+      const meant = Array.isArray(lines) ? { lines } : { line: lines };
       if (!isLive) {
         live.current.waiting = null;
+        // The panel has it at once: what is pressed next goes on from there.
+        setStatus((s) => s && { ...s, lines: s.lines.map((l, i) => ([lines].flat().includes(i) ? changed(l, change, Array.isArray(lines)) : l)) });
         // What is refused leaves no preview behind.
-        void ask("set", { line, ...change }).then((is) => void (is || parts.current!.program.ask("show")));
+        void ask("set", { ...meant, ...change }).then((is) => void (is || parts.current!.program.ask("show")));
         return;
       }
       const send = async () => {
         live.current.running = true;
         live.current.waiting = null;
-        await ask("set", { line, ...change, live: true });
+        await ask("set", { ...meant, ...change, live: true });
         live.current.running = false;
         (live.current as { waiting: null | (() => void) }).waiting?.();
       };
@@ -205,9 +215,12 @@ export function App({ token }: { token: string }) {
   const drape = async () => {
     if (busy) return;
     setBusy("drape");
+    setLost(false);
     say("The cloth comes to rest …");
-    await ask("drape", {}, (done) => [done.outcome === "at rest" ? "The cloth is at rest. Draw more, or undo." : `Outcome: ${done.outcome}.`,
-      ...(done.remarks ?? [])].join("\n"));
+    await ask("drape", {}, (done) => {
+      setLost(done.lost ?? false);
+      return [done.outcome === "at rest" ? "The cloth is at rest. Draw more, or undo." : `Outcome: ${done.outcome}.`, ...(done.remarks ?? [])].join("\n");
+    });
     setBusy("");
     setProgress(undefined);
   };
@@ -221,6 +234,11 @@ export function App({ token }: { token: string }) {
     });
     setBusy("");
     setProgress(undefined);
+  };
+  /** Back to where the lines were drawn, and they are made to last there. */
+  const keepInstead = async () => {
+    setLost(false);
+    if (await ask("undo")) await keep();
   };
   const showTangles = async () => {
     if (tangles) {
@@ -265,8 +283,15 @@ export function App({ token }: { token: string }) {
     again.current = false;
     void play();
   });
-  const undo = () => void ask("undo");
-  const redo = () => void ask("redo");
+  const undo = () => {
+    const what = now.current.status?.undo;
+    setLost(false);
+    void ask("undo", {}, () => `Undone: ${what}.`);
+  };
+  const redo = () => {
+    const what = now.current.status?.redo;
+    void ask("redo", {}, () => `Done again: ${what}.`);
+  };
   const save = () => void ask("save", {}, (done) => `Saved in ${status?.title}: ${(done.written ?? []).join(", ")}.`);
   const give = async (as: string) => {
     setBusy("give");
@@ -328,7 +353,7 @@ export function App({ token }: { token: string }) {
       if (e.altKey && chosen >= 0 && (key === "arrowup" || key === "arrowdown")) act(() => actions.move(chosen, chosen + (key === "arrowup" ? -1 : 1)));
       if (e.altKey) return;
       const plain: Record<string, () => void> = {
-        r: () => pick("ridge"), v: () => pick("valley"), f: () => view.look(), "1": () => view.look("front"), "2": () => view.look("back"),
+        r: () => pick("ridge"), v: () => pick("valley"), f: () => view.frameAll(), "1": () => view.look("front"), "2": () => view.look("back"),
         "3": () => view.look("right"), b: () => toggle("body"), w: () => toggle("wire"), l: () => toggle("lines"), d: () => void drape(),
         "?": () => setHelp(true), " ": () => void play(), escape: () => {
           const { pen, handles, hand } = parts.current!;
@@ -355,15 +380,16 @@ export function App({ token }: { token: string }) {
   });
 
   const clothActions: ClothActions = {
-    fabric: (name) => void ask("fabric", { name }), hold: (border, on) => void ask("hold", { border, on }), wind: (v) => void blow(v),
+    fabric: (name) => void ask("fabric", { name }, () => `It is made of ${name} now; Drape or Play shows how that hangs.`), hold: (border, on) => void ask("hold", { border, on }), wind: (v) => void blow(v),
     drape: () => void drape(), keep: () => void keep(), play: (seconds) => void play(seconds), fit: (by) => void showFit(by),
-    accept: () => {
+    accept: (drapes) => {
       setVerdict(undefined);
       parts.current!.view.colour(null);
+      if (drapes) void drape();
     },
     takeBack: undo,
   };
-  const hint = !status ? (opening ? "" : "Opening …") : tool === "pin" ? "Click the cloth to hold it there, or to let it go; Shift: the whole border. Draw a loop to hold all within; Shift: to let it go. Esc: enough." : tool !== "look" ? `Draw on the cloth. Drag beside it to turn it. Shift: straight. Esc: lay the pen down.`
+  const hint = !status ? (opening ? "" : "Opening …") : tool === "pin" ? "Click the cloth to hold it there, or to let it go; Shift: the whole border. Draw a loop to hold all within; Shift: to let it go. Esc: enough." : tool !== "look" ? `Draw on the cloth; begin and end beside it to reach its border. Drag on the background to turn it. Shift: straight. Esc: lay the pen down.`
     : hints.find(([fits]) => fits(status))?.[1] ?? "";
 
   return (
@@ -386,11 +412,6 @@ export function App({ token }: { token: string }) {
         </div>
         <div class="group">
           <button aria-pressed={both} title="Draw each line on the other side, too (M while a pen is up)" onClick={() => setBoth(!both)}>Both sides</button>
-          {both && status && <Slider label="Middle" value={status.middle * 1000} min={Math.round(status.middle * 1000) - 300} max={Math.round(status.middle * 1000) + 300} step={1}
-            text={(v) => mm(v / 1000)} change={(v, isLive) => {
-              setMiddle(isLive ? v / 1000 : null);
-              if (!isLive) void ask("middle", { x: v / 1000 });
-            }} />}
         </div>
         <div class="group">
           <button disabled={!status?.undo} title={status?.undo ? `Undo: ${status.undo} (Ctrl Z)` : "Nothing to undo"} onClick={undo}>Undo</button>
@@ -403,8 +424,15 @@ export function App({ token }: { token: string }) {
       <main class={tool !== "look" ? "pen" : busy === "play" ? "hand" : ""}>
         <canvas ref={canvas} tabIndex={0} aria-label="The cloth. Arrow keys turn it, plus and minus bring it nearer." />
         {hint && <div class="hint" role="status">{hint}</div>}
+        {both && status && <div class="middle group">
+          <Slider label="Middle" value={status.middle * 1000} min={Math.round(status.middle * 1000) - 300} max={Math.round(status.middle * 1000) + 300} step={1}
+            text={(v) => mm(v / 1000)} change={(v, isLive) => {
+              setMiddle(isLive ? v / 1000 : null);
+              if (!isLive) void ask("middle", { x: v / 1000 });
+            }} />
+        </div>}
         <div class="views" role="group" aria-label="View">
-          <button class="small" title="Frame (F)" onClick={() => parts.current!.view.look()}>Frame</button>
+          <button class="small" title="The cloth; once more: with its body (F)" onClick={() => parts.current!.view.frameAll()}>Frame</button>
           <button class="small" title="Front (1)" onClick={() => parts.current!.view.look("front")}>Front</button>
           <button class="small" title="Back (2)" onClick={() => parts.current!.view.look("back")}>Back</button>
           <button class="small" title="Side (3)" onClick={() => parts.current!.view.look("right")}>Side</button>
@@ -418,7 +446,7 @@ export function App({ token }: { token: string }) {
         <section aria-label="Lines">
           <h2>Lines</h2>
           {status && status.earlier.length > 0 &&
-            <p class="note">In the cloth since it moved: {status.earlier.join(", ")}. To change them, undo.</p>}
+            <p class="note">In the cloth by now: {status.earlier.join(", ")}. To change them, undo.</p>}
           {status && <Lines lines={status.lines} again={status.earlier.length > 0} chosen={chosen} actions={actions} />}
         </section>
         {status && <Cloth status={status} busy={busy} mayDraw={mayDraw} fit={fit} moving={moving} kept={verdict?.step === status.step ? verdict.done : undefined} actions={clothActions} />}
@@ -442,6 +470,7 @@ export function App({ token }: { token: string }) {
         <div class={words.bad ? "say bad" : "say"} role={words.bad ? "alert" : "status"}>
           {gone ? "The program has ended. Every step is kept: start furrow studio again to go on." : words.text}
         </div>
+        {lost && busy === "" && mayDraw && status?.undo === "drape" && <button class="main" onClick={() => void keepInstead()}>Undo and keep its lines</button>}
         {!mayDraw && status && !gone && <button class="main" onClick={() => void ask("take")}>Take the pen</button>}
         {(busy === "drape" || busy === "keep" || progress) && <>
           <span>{progress?.what}</span>

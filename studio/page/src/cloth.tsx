@@ -11,7 +11,8 @@ export interface ClothActions {
   keep(): void;
   play(seconds?: number): void;
   fit(by: "strain" | "distance"): void;
-  accept(): void;
+  /** `drapes`: and lets the cloth come to rest. */
+  accept(drapes: boolean): void;
   takeBack(): void;
 }
 
@@ -61,7 +62,8 @@ function Verdicts({ kept, actions }: { kept: Done; actions: ClothActions }) {
       </ul>
       <p class="note">{kept.legend}</p>
       <div class="group">
-        <button class="main" onClick={actions.accept}>Accept</button>
+        <button class="main" onClick={() => actions.accept(true)}>Drape it</button>
+        <button onClick={() => actions.accept(false)}>Accept</button>
         <button onClick={actions.takeBack}>Take back</button>
       </div>
     </section>
@@ -69,6 +71,7 @@ function Verdicts({ kept, actions }: { kept: Done; actions: ClothActions }) {
 }
 
 export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Props) {
+  const hasLines = status.lines.some((line) => line.on);  // that are to be kept before all else
   const idle = busy === "" && mayDraw, held = status.can_drape, brought = !status.made_for_another;
   return (
     <section class="cloth" aria-label="Cloth">
@@ -81,13 +84,15 @@ export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Pro
       <Borders status={status} actions={actions} />
       <Wind wind={status.wind} blow={actions.wind} />
       <div class="group">
-        <button class="main" disabled={!held || !idle} title="Let it come to rest (D)" onClick={actions.drape}>Drape</button>
+        <button class={hasLines && brought ? "main" : ""} disabled={!held || !brought || !idle} title="Make the lines last, and tell of each whether it will hold (K)"
+          onClick={actions.keep}>Keep</button>
+        <button class={hasLines && brought ? "" : "main"} disabled={!held || !idle} title="Let it come to rest (D)" onClick={actions.drape}>Drape</button>
         <button disabled={!held || !brought || !mayDraw || (busy !== "" && busy !== "play")} title="Play, pause (Space)" onClick={() => actions.play()}>
           {busy === "play" ? "Pause" : "Play"}</button>
         <button disabled={!held || !brought || !idle} title="One step of 1/60 s" onClick={() => actions.play(1 / 60)}>Step</button>
-        <button disabled={!held || !brought || !idle} title="Make the lines last, and tell of each whether it will hold (K)" onClick={actions.keep}>Keep</button>
       </div>
-      {held && status.borders.some((b) => b.name === "top" && !b.held) && <p class="note">Nothing holds the upper border: it may slip down.</p>}
+      {held && status.borders.some((b) => b.name === "top" && !b.held) && <p class="note">Nothing holds the upper border: a skirt or trousers slip down, and folds at the waist open.{" "}
+        <button class="small" disabled={!idle} onClick={() => actions.hold(status.borders.findIndex((b) => b.name === "top"), true)}>Hold it</button></p>}
       {kept && <Verdicts kept={kept} actions={actions} />}
       {(busy === "play" || status.time > 0) && <p class="note" data-time={moving}>At {(busy === "play" ? moving : status.time).toFixed(2)} s of its motion.{busy === "play" && " Pull it with the pointer."}</p>}
       {status.has_body && brought && <div class="group" role="group" aria-label="Fit">
@@ -98,7 +103,7 @@ export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Pro
         ))}
       </div>}
       <p class="note">{!brought ? "It lies about the body that it was made for. Drape brings it to yours, in its own size, and lets it come to rest there."
-        : held ? "Drape lets the cloth come to rest under its weight, Play lets it move, Keep makes its lines last."
+        : held ? "Keep makes its lines last: in a minute or two it tries what each needs. Drape lets the cloth come to rest under its weight, Play lets it move."
         : "To let it move, hold a border, pin it (P), or open it with a body (O)."}</p>
     </section>
   );

@@ -16,9 +16,11 @@ export function Help({ close }: { close: () => void }) {
   return (
     <dialog ref={dialog} onClose={close} aria-labelledby="help-title">
       <h2 id="help-title" tabIndex={-1} autofocus>How it works</h2>
-      <p>Pick the ridge or the valley pen and draw on the cloth: it wrinkles there when you lift the pen. Drag beside the cloth to turn it,
+      <p>Pick the ridge or the valley pen and draw on the cloth: it wrinkles there when you lift the pen. A line that begins or ends beside the cloth reaches its border. Drag on the background to turn it,
         with the right button to move it; the wheel brings it nearer. Every line stays in the list and can be changed; a chosen one is dragged by
-        its dots. <b>Play</b> lets the cloth move until you pause it (pull at it meanwhile), <b>Keep</b> makes its lines last, <b>Drape</b> lets it come to rest under its weight; then you can draw more. Each step can be undone, and is kept on disk.</p>
+        its dots. When they are drawn,
+        <b>Keep</b> makes them last, <b>Drape</b> lets the cloth come to rest under its weight, and <b>Picture</b> takes one of it; <b>Play</b> lets the cloth move
+        until you pause it (pull at it meanwhile). Then you can draw more. Each step can be undone, and is kept on disk.</p>
       <table>
         <tbody>{keys.map(([key, what]) => <tr key={key}><td><kbd>{key}</kbd></td><td>{what}</td></tr>)}</tbody>
       </table>

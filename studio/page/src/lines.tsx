@@ -3,10 +3,13 @@
 import { useRef, useState } from "preact/hooks";
 import type { Line } from "./protocol";
 
+export interface LineChange {
+  name?: string; on?: boolean; height?: number; width?: number | null; sharpness?: number; press?: number; points?: number[][];
+}
 export interface LineActions {
   choose(line: number): void;
-  /** `live`: while a slider moves. */
-  set(line: number, change: object, live: boolean): void;
+  /** Of a line, or of several. `live`: while a slider moves. */
+  set(lines: number | number[], change: LineChange, live: boolean): void;
   remove(line: number): void;
   mirror(line: number): void;
   duplicate(line: number): void;
@@ -44,7 +47,7 @@ export function Slider({ label, value, min, max, step, text, change }: SliderPro
 
 function Edit({ line, index, count, actions }: { line: Line; index: number; count: number; actions: LineActions }) {
   const height = line.height ?? 0.01, sign = height < 0 ? -1 : 1;
-  const set = (change: object, live = false) => actions.set(index, change, live);
+  const set = (change: LineChange, live = false) => actions.set(index, change, live);
   return (
     <div class="edit">
       <label for={`name-${index}`}>Name</label>
@@ -73,10 +76,30 @@ function Edit({ line, index, count, actions }: { line: Line; index: number; coun
   );
 }
 
+/** Of all lines at once: each keeps its place, and stays a ridge or a valley. */
+function EditAll({ lines, actions }: { lines: Line[]; actions: LineActions }) {
+  const all = lines.map((_, i) => i), first = lines[0];
+  const differ = (value: (line: Line) => unknown) => lines.some((line) => line.varies || value(line) !== value(first));
+  const size = (line: Line) => Math.abs(line.height ?? 0.01), width = (line: Line) => line.width ?? ownWidth(size(line));
+  const sharpness = (line: Line) => line.sharpness ?? usualSharpness;
+  const or = (isOne: boolean, dragged: boolean, text: string) => (isOne || dragged ? text : "differ");
+  return (
+    <div class="edit all" role="group" aria-label="All lines">
+      <Slider label="Height" value={size(first) * 1000} min={1} max={Math.max(100, size(first) * 1000)} step={1}
+        text={(v, d) => or(!differ(size), d, mm(v / 1000))} change={(v, live) => actions.set(all, { height: v / 1000 }, live)} />
+      <Slider label="Width" value={width(first) * 1000} min={5} max={Math.max(300, width(first) * 1000)} step={1}
+        text={(v, d) => or(!differ(width), d, mm(v / 1000))} change={(v, live) => actions.set(all, { width: v / 1000 }, live)} />
+      <Slider label="Sharpness" value={sharpness(first)} min={0} max={1} step={0.05}
+        text={(v, d) => or(!differ(sharpness), d, v.toFixed(2))} change={(v, live) => actions.set(all, { sharpness: v }, live)} />
+    </div>
+  );
+}
+
 export function Lines({ lines, again, chosen, actions }: { lines: Line[]; again: boolean; chosen: number; actions: LineActions }) {
   const list = useRef<HTMLUListElement>(null);
   const [held, setHeld] = useState(-1);  // the line that is dragged to another place
   const [over, setOver] = useState(-1);
+  const [all, setAll] = useState(false);
   const begin = (e: PointerEvent, i: number) => {
     (e.currentTarget as HTMLElement).setPointerCapture(e.pointerId);
     setHeld(i);
@@ -94,7 +117,9 @@ export function Lines({ lines, again, chosen, actions }: { lines: Line[]; again:
     setOver(-1);
   };
   if (lines.length === 0) return <p class="note">{again ? "No line since then." : "No line yet."} Pick a pen and draw on the cloth.</p>;
-  return (
+  return <>
+    {lines.length > 1 && <button class="small" aria-expanded={all} onClick={() => setAll(!all)}>All {lines.length} lines</button>}
+    {lines.length > 1 && all && <EditAll lines={lines} actions={actions} />}
     <ul class="lines" ref={list}>
       {lines.map((line, i) => (
         <li key={i} class={[i === chosen ? "chosen" : "", i === held ? "held" : "", i === over && over !== held ? (over > held ? "below" : "above") : ""].join(" ")}>
@@ -111,5 +136,5 @@ export function Lines({ lines, again, chosen, actions }: { lines: Line[]; again:
         </li>
       ))}
     </ul>
-  );
+  </>;
 }

@@ -9,8 +9,9 @@ export interface PenHearer { drawn(line: Drawn): void; tooShort(): void }
 
 /** Distances as shares of the cloth's size. */
 const spacing = 0.004, longestJump = 0.1, shortest = 0.015;
-/** The window's distance between places that are looked at [pixels]. */
-const step = 3;
+/** Distances in the window [pixels]: between places that are looked at, from the cloth where a line may begin, and from
+ *  a border that a line is taken to reach. */
+const step = 3, beside = 40, short = 20;
 
 export class Pen {
   private hits: Hit[] = [];
@@ -33,11 +34,11 @@ export class Pen {
   private begin(e: PointerEvent) {
     if (!this.settings().on || e.button !== 0 || this.down) return;
     const hit = this.view.pick(e.clientX, e.clientY);
-    if (!hit) return;  // beside the cloth the camera turns
+    if (!hit && !this.view.isNear(e.clientX, e.clientY, beside)) return;  // far from the cloth the camera turns
     e.stopImmediatePropagation();
     this.view.canvas.setPointerCapture(e.pointerId);
     this.down = true;
-    this.hits = [hit];
+    this.hits = hit ? [hit] : [];
     this.pressures = [];
     this.feel(e);
     this.first = this.last = [e.clientX, e.clientY];
@@ -46,6 +47,7 @@ export class Pen {
   private add(x: number, y: number) {
     const hit = this.view.pick(x, y), before = this.hits[this.hits.length - 1];
     if (!hit) return;
+    if (!before) return void this.hits.push(hit);  // it came from beside the cloth
     const far = hit.shown.distanceTo(before.shown) / this.view.size;
     if (far >= spacing && far <= longestJump) this.hits.push(hit);
   }
@@ -65,7 +67,7 @@ export class Pen {
     e.stopImmediatePropagation();
     this.feel(e);
     if (e.shiftKey) {
-      this.hits.length = 1;
+      this.hits.length = Math.min(this.hits.length, 1);
       this.addTo(e.clientX, e.clientY, this.first!);
     } else {
       for (const place of e.getCoalescedEvents?.() ?? [e]) {
@@ -74,6 +76,7 @@ export class Pen {
       }
     }
     this.last = [e.clientX, e.clientY];
+    if (this.hits.length < 2) return;
     const { width, colour } = this.settings();
     this.view.showBand(this.isClosed() ? [...this.hits, this.hits[0]] : this.hits, width, colour);
   }
@@ -89,6 +92,16 @@ export class Pen {
     return gap < 0.03 * this.view.size && this.length() > 8 * gap && this.length() > 0.15 * this.view.size;
   }
 
+  /** A line that ends just before a border is meant to reach it. */
+  private reachBorders() {
+    const reach = (end: Hit, before: Hit) =>
+      this.view.borderAhead(end, before, Math.min(short * this.view.lengthOfPixel(end.shown), this.settings().width / 2));
+    const n = this.hits.length, back = Math.min(n - 1, 4);
+    const last = reach(this.hits[n - 1], this.hits[n - 1 - back]), first = reach(this.hits[0], this.hits[back]);
+    if (last) this.hits.push(last);
+    if (first) this.hits.unshift(first);
+  }
+
   private end(e: PointerEvent) {
     if (!this.down) return;
     e.stopImmediatePropagation();
@@ -98,8 +111,10 @@ export class Pen {
       this.drop();
       return this.hearer.tooShort();
     }
+    const isClosed = this.isClosed();
+    if (!isClosed) this.reachBorders();
     const felt = this.pressures, pressure = felt.length > 0 ? felt.reduce((sum, p) => sum + p, 0) / felt.length : undefined;
-    this.hearer.drawn({ points: this.hits.map((h) => h.undrawn.toArray()), closed: this.isClosed(), pressure });
+    this.hearer.drawn({ points: this.hits.map((h) => h.undrawn.toArray()), closed: isClosed, pressure });
   }
 
   /** Lets the line go. */

@@ -22,6 +22,17 @@ const slow = 45;
 /** Where a point of the pen's band lies above the cloth [share of the cloth's size]. */
 const lift = 0.0018;
 
+/** Edges that belong to one face. */
+function borderEdges(faces: Uint32Array): [number, number][] {
+  const edges = new Map<string, [number, number] | null>();
+  for (let f = 0; f < faces.length; f += 3)
+    for (let k = 0; k < 3; ++k) {
+      const a = faces[f + k], b = faces[f + ((k + 1) % 3)], name = a < b ? `${a} ${b}` : `${b} ${a}`;
+      edges.set(name, edges.has(name) ? null : [a, b]);
+    }
+  return [...edges.values()].filter((edge) => edge !== null);
+}
+
 export class View {
   readonly camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
   readonly controls: OrbitControls;
@@ -40,12 +51,15 @@ export class View {
   private clothTree?: MeshBVH;
   private bodyTree?: MeshBVH;
   private undrawnTree?: MeshBVH;  // of the present frame, where it was asked for
+  private borders?: [number, number][];  // likewise: edges of one face
   private treesAreOld = false;    // things have moved since the trees were fitted
   private treesSoon = 0;
   private handles: THREE.Points;
   private plane: THREE.Mesh;
   private rope: THREE.Line;
   private frame?: Frame;
+  private isWide = false;  // the body is looked at, too
+  private lookedFrom = new THREE.Vector3();
   private asked = false;
   private takes = 0;      // the last picture with all pixels [ms]
   private timed?: Frame;  // of which it was
@@ -171,6 +185,7 @@ export class View {
     }
     this.frame = frame;
     this.undrawnTree = undefined;
+    this.borders = undefined;
     this.cloth.geometry.dispose();
     this.cloth.geometry = this.geometryOf(frame);
     this.colour(null);
@@ -330,6 +345,39 @@ export class View {
     return { shown: hit.point.clone(), normal: blend(normals).normalize(), undrawn: blend(undrawn), vertex: corner };
   }
 
+  /** Whether cloth is within so many pixels of a place of the window, three times as many on the body. */
+  isNear(x: number, y: number, pixels: number): boolean {
+    this.fitTrees();
+    if (this.seen.body && this.bodyTree?.raycastFirst(this.rayThrough(x, y), THREE.FrontSide)) pixels *= 3;
+    const around = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => (k * Math.PI) / 4);
+    return [0.33, 0.67, 1].some((r) => around.some((a) => this.pick(x + r * pixels * Math.cos(a), y + r * pixels * Math.sin(a)) !== null));
+  }
+
+  /** How long a piece of the picture is where a point lies [m a pixel]. */
+  lengthOfPixel(at: THREE.Vector3): number {
+    const height = this.canvas.getBoundingClientRect().height;
+    return (2 * at.distanceTo(this.camera.position) * Math.tan((this.camera.fov * Math.PI) / 360)) / height;
+  }
+
+  /** The border of the cloth that a line runs towards at its end, within so much of it [m]; null: none. */
+  borderAhead(end: Hit, before: Hit, most: number): Hit | null {
+    if (!this.frame) return null;
+    const { positions, undrawn } = this.frame, way = end.shown.clone().sub(before.shown).normalize();
+    const at = (list: Float32Array, v: number) => new THREE.Vector3().fromArray(list, 3 * v);
+    const on = new THREE.Vector3(), piece = new THREE.Line3();
+    let best: Hit | null = null, least = most;
+    for (const [a, b] of (this.borders ??= borderEdges(this.frame.faces))) {
+      piece.set(at(positions, a), at(positions, b));
+      const share = piece.closestPointToPointParameter(end.shown, true);
+      piece.at(share, on);
+      const far = on.distanceTo(end.shown);
+      if (far > least || on.clone().sub(end.shown).dot(way) < 0.5 * far) continue;
+      least = far;
+      best = { shown: on.clone(), normal: end.normal, undrawn: at(undrawn, a).lerp(at(undrawn, b), share), vertex: share < 0.5 ? a : b };
+    }
+    return best;
+  }
+
   /** Where the ray through a place of the window meets the plane through a point that faces the camera. */
   dragTo(x: number, y: number, through: THREE.Vector3): THREE.Vector3 | null {
     const facing = new THREE.Plane().setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new THREE.Vector3()), through);
@@ -421,9 +469,9 @@ export class View {
     this.draw();
   }
 
-  /** What is seen, without pins and dots and twice as fine, goes to the browser's downloads. */
+  /** What is seen, without lines, pins and dots and twice as fine, goes to the browser's downloads. */
   savePicture(name: string) {
-    const tools = [this.pins, this.handles, this.rope, this.plane, this.band], seen = tools.map((t) => t.visible);
+    const tools = [this.lines, this.pins, this.handles, this.rope, this.plane, this.band], seen = tools.map((t) => t.visible);
     const ratio = this.renderer.getPixelRatio(), { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
     for (const tool of tools) tool.visible = false;
     this.renderer.setPixelRatio(Math.max(2, ratio));
@@ -481,11 +529,19 @@ export class View {
     this.draw();
   }
 
-  /** Looks at the whole cloth: from a side, or from where the camera is. */
-  look(side?: Side) {
+  /** Looks at the cloth from where the camera is; where it does so already, at body and cloth. */
+  frameAll() {
+    this.look(undefined, !this.isWide && this.camera.position.equals(this.lookedFrom));
+  }
+
+  /** Looks at the whole cloth, and the body with it: from a side, or from where the camera is. */
+  look(side?: Side, withBody = false) {
     if (!this.frame) return;
-    const sphere = new THREE.Box3().setFromBufferAttribute(this.cloth.geometry.getAttribute("position") as THREE.BufferAttribute)
-      .getBoundingSphere(new THREE.Sphere());
+    const at = (mesh: THREE.Mesh) => mesh.geometry.getAttribute("position") as THREE.BufferAttribute | undefined;
+    const box = new THREE.Box3().setFromBufferAttribute(at(this.cloth)!), body = at(this.body);
+    this.isWide = withBody && body !== undefined && this.seen.body;
+    if (this.isWide) box.union(new THREE.Box3().setFromBufferAttribute(body!));
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
     const ways = { front: [0, 0.12, 1], back: [0, 0.12, -1], right: [1, 0.12, 0] };
     const way = side ? new THREE.Vector3(...ways[side]) : this.camera.position.clone().sub(this.controls.target);
     const half = Math.atan(Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
@@ -496,6 +552,7 @@ export class View {
     this.camera.far = distance * 20;
     this.camera.updateProjectionMatrix();
     this.controls.update();
+    this.lookedFrom.copy(this.camera.position);
     this.draw();
   }
 
