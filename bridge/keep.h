@@ -71,7 +71,17 @@ struct KeepOptions {
 /// Throws std::invalid_argument, with the option and its value, if one is out of its range.
 void require_legal(const KeepOptions& options);
 
-enum class Verdict { held, pressed, strutted, lowered, cannot_hold };
+enum class Verdict {
+  held,
+  pressed,
+  strutted,
+  lowered,
+  may_hold,  ///< it kept its height in the trial, but not by so much that another run could not lose it
+  cannot_hold
+};
+
+/// Whether a line with that verdict is held, for all that trials can tell.
+constexpr bool holds(Verdict verdict) { return verdict < Verdict::may_hold; }
 
 struct KeptLine {
   int line = -1;  ///< its id in attribute::line
@@ -81,7 +91,7 @@ struct KeptLine {
   double height = 0;               ///< that it was balanced at, after lowering [m]
   double lowered = 1;              ///< that over the height as drawn [-]
   double kept = 0, kept_gust = 0;  ///< shares of `height` after the two runs [-]; NaN: not run
-  std::string reason;              ///< of cannot_hold
+  std::string reason;              ///< of may_hold and cannot_hold
 };
 
 struct KeepReport {

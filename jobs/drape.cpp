@@ -259,8 +259,8 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   if (open.scene.body)
     body.emplace(load_body(*open.scene.body, context, tolerance_for(open.scene.simulation.contact_gap)));
   if (const std::filesystem::path& made_for = job.settings.made_for; !made_for.empty())
-    body->made_for = std::make_shared<const MadeFor>(
-        read_made_for(made_for, body->triangles, *open.scene.body, context));
+    body->made_for =
+        std::make_shared<const MadeFor>(read_made_for(made_for, body->triangles, *open.scene.body, context));
   const bool choose = !job.subdivide && std::none_of(all.begin(), all.end(), [](const io::TomlDocument& d) {
     return d.root.value("garment", Json::object()).contains("subdivide");
   });

@@ -248,8 +248,8 @@ class Trials {
 
 bridge::KeepReport find_rest(const KeepJob& job, const io::Scene& scene, SceneCloth& garment,
                              const io::WrinkleRecord& record, const Context& context) {
+  context.listener.progress("keeping, trial 1", 0);  // its rest state takes a while
   Trials trials(context.listener);
-  trials({1, 0, 0});  // its rest state takes a while before there is more to tell
   return bridge::keep_lines(garment.file.mesh, garment.cloth, garment.world(scene), base_heights(record),
                             options_of(job, scene, garment, record), std::ref(trials));
 }

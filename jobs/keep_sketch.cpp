@@ -36,6 +36,8 @@ VerdictLook look_of(Verdict verdict) {
       return {"strutted", {243, 135, 60}};
     case Verdict::lowered:
       return {"lowered", {70, 120, 220}};
+    case Verdict::may_hold:
+      return {"may_hold", {160, 90, 210}};
     case Verdict::cannot_hold:
       break;
   }
@@ -45,8 +47,8 @@ VerdictLook look_of(Verdict verdict) {
 constexpr const char* in_memory = "-";
 constexpr Rgb plain{216, 210, 198};
 constexpr const char* legend_of_verdicts =
-    "Green: held. Yellow: held, pressed. Orange: held by struts. Blue: held at a lower height. Red: cannot "
-    "hold.";
+    "Green: held. Yellow: held, pressed. Orange: held by struts. Blue: held at a lower height. "
+    "Violet: may hold. Red: cannot hold.";
 
 /// The cloth of each line in its verdict's colour, the worst on top.
 std::vector<std::uint8_t> colours_of_verdicts(const KeepReport& report) {
@@ -55,8 +57,8 @@ std::vector<std::uint8_t> colours_of_verdicts(const KeepReport& report) {
   const auto id = geometry::find_map(mesh, geometry::attribute::line);
   const std::vector<double> lengths = geometry::lengths_before_lines(mesh);
   const std::vector<double> widths = io::line_widths(report.record);
-  for (const Verdict verdict :
-       {Verdict::held, Verdict::pressed, Verdict::strutted, Verdict::lowered, Verdict::cannot_hold})
+  for (const Verdict verdict : {Verdict::held, Verdict::pressed, Verdict::strutted, Verdict::lowered,
+                                Verdict::may_hold, Verdict::cannot_hold})
     for (const KeptLine& line : report.lines.lines) {
       if (line.verdict != verdict || !id) continue;
       std::vector<geometry::Vertex> seeds;

@@ -11,7 +11,7 @@ namespace furrow::jobs {
 /// What was found of a line that is to be kept.
 struct KeptSketchLine {
   std::string name;
-  std::string verdict;  ///< "held", "pressed", "strutted", "lowered" or "cannot_hold"
+  std::string verdict;  ///< "held", "pressed", "strutted", "lowered", "may_hold" or "cannot_hold"
   std::string words;    ///< "held with press x10": jobs::words()
 };
 

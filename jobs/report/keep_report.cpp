@@ -26,6 +26,8 @@ const char* name_of(Verdict verdict) {
       return "held with struts";
     case Verdict::lowered:
       return "held lower";
+    case Verdict::may_hold:
+      return "may hold";
     case Verdict::cannot_hold:
       return "cannot hold";
   }
@@ -93,7 +95,7 @@ Json to_json(const physics::PrestressReport& rest, const physics::Certificate& c
 
 bool KeepReport::all_hold() const {
   return std::all_of(lines.lines.begin(), lines.lines.end(),
-                     [](const KeptLine& l) { return l.verdict != Verdict::cannot_hold; });
+                     [](const KeptLine& l) { return bridge::holds(l.verdict); });
 }
 
 std::string words(const KeptLine& line) {
@@ -107,6 +109,8 @@ std::string words(const KeptLine& line) {
     case Verdict::lowered:
       return fmt::format("held at h = {}{}", geometry::length_text(line.height),
                          help.empty() ? "" : " with " + help);
+    case Verdict::may_hold:
+      return "may hold" + (help.empty() ? "" : " with " + help) + ": " + line.reason;
     case Verdict::cannot_hold:
       break;
   }

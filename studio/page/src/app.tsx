@@ -230,7 +230,7 @@ export function App({ token }: { token: string }) {
     say("The lines are tried: each has to hold, at rest and in a gust. That takes minutes on a large garment, and can be stopped.");
     await ask("keep", {}, (done) => {
       setVerdict({ step: now.current.status!.step, done });
-      return [done.all_hold ? "Every line holds." : "Not every line can hold; the list says why.", ...(done.remarks ?? [])].join("\n");
+      return [done.all_hold ? "Every line holds." : "Not every line is sure to hold; the list says why.", ...(done.remarks ?? [])].join("\n");
     });
     setBusy("");
     setProgress(undefined);

@@ -56,7 +56,7 @@ function Wind({ wind, blow }: { wind: Vector; blow(velocity: Vector): void }) {
 function Verdicts({ kept, actions }: { kept: Done; actions: ClothActions }) {
   return (
     <section class="verdicts" aria-label="Verdict">
-      <h3>{kept.all_hold ? "Every line holds" : "Not every line can hold"}</h3>
+      <h3>{kept.all_hold ? "Every line holds" : "Not every line is sure to hold"}</h3>
       <ul>
         {kept.verdicts!.map((v, i) => <li key={i}><span class={`dot ${v.verdict}`} aria-hidden="true" /><span><b>{v.name}</b>: {v.words}</span></li>)}
       </ul>

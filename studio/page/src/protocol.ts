@@ -12,7 +12,7 @@ export interface Status {
   has_body: boolean; made_for_another: boolean; can_drape: boolean; time: number; undo: string; redo: string; step: number; pen: number;
 }
 export interface GalleryItem { name: string; title: string }
-export interface Verdict { name: string; verdict: "held" | "pressed" | "strutted" | "lowered" | "cannot_hold"; words: string }
+export interface Verdict { name: string; verdict: "held" | "pressed" | "strutted" | "lowered" | "may_hold" | "cannot_hold"; words: string }
 export interface Done {
   told?: string[]; outcome?: string; time?: number; words?: string; legend?: string; remarks?: string[]; written?: string[]; live?: boolean; passed_over?: boolean;
   points?: Vector[]; verdicts?: Verdict[]; all_hold?: boolean; lost?: boolean; pairs?: number; at?: Vector; file?: string; project?: string;
