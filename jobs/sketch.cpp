@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/sketch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "io/base/atomic_file.h"
@@ -308,10 +311,18 @@ void write_whole(const fs::path& path, const std::string& bytes) {
   io::write_atomically(path, [&](std::ostream& out) { out << bytes; });
 }
 
-std::vector<std::string> fabric_names() {
-  std::vector<std::string> names;
-  for (const io::Fabric& fabric : io::fabrics()) names.push_back(fabric.name);
-  return names;
+std::vector<FabricChoice> fabric_choices() {
+  constexpr double gravity = 9.81;
+  std::vector<FabricChoice> choices;
+  for (const io::Fabric& fabric : io::fabrics()) {
+    const double length = std::cbrt(fabric.rigidity / (fabric.density * gravity));
+    const char* const feel = length < 0.014   ? "flowing"
+                             : length < 0.023 ? "soft"
+                             : length < 0.028 ? "firm"
+                                              : "stiff";
+    choices.push_back({fabric.name, fmt::format("{:.0f} g/m², {}", 1000 * fabric.density, feel)});
+  }
+  return choices;
 }
 
 }  // namespace furrow::jobs

@@ -96,7 +96,13 @@ std::string shape_bits(const io::MeshFile& file);
 /// Writes a file whole or not at all, after a loss of power, too (io/base/atomic_file.h).
 void write_whole(const std::filesystem::path& path, const std::string& bytes);
 
-/// The names of the fabrics that there are.
-std::vector<std::string> fabric_names();
+/// A fabric that there is, and what it is like: "120 g/m², soft".
+struct FabricChoice {
+  std::string name, words;
+};
+
+/// All of them. Words go by the bending length (B / (density g))^(1/3), by which cloth falls in large or
+/// small folds (Peirce 1930): flowing below 14 mm, soft below 23, firm below 28, else stiff.
+std::vector<FabricChoice> fabric_choices();
 
 }  // namespace furrow::jobs

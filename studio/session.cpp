@@ -23,6 +23,13 @@ Json rows_of_borders(const jobs::Sketch& sketch) {
   return rows;
 }
 
+Json rows_of_fabrics() {
+  Json rows = Json::array();
+  for (const jobs::FabricChoice& fabric : jobs::fabric_choices())
+    rows.push_back({{"name", fabric.name}, {"words", fabric.words}});
+  return rows;
+}
+
 }  // namespace
 
 const std::map<std::string, Session::Does>& Session::intentions() {
@@ -149,7 +156,7 @@ Json Session::status() const {
           {"shown", shown},
           {"earlier", drawing.value("earlier", Json::array())},
           {"fabric", settings.value("material", Json::object()).value("preset", "")},
-          {"fabrics", jobs::fabric_names()},
+          {"fabrics", rows_of_fabrics()},
           {"borders", rows_of_borders(sketch_)},
           {"wind", wind},
           {"middle", middle()},

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long the studio takes from a hand's move until it is seen: times.mjs FURROW PAGE GARMENT [BODY]. PAGE is the folder
+// How long the studio takes from a hand's move until it is seen: times.mjs FURROW PAGE GARMENT [BODY], which holds it. PAGE is the folder
 // whose node_modules has playwright-core (build/release/page). Each row is the median of 20 in a real Chromium, and the
-// least, from the event in the page to the second picture after what the program answered; beside it the share of the
-// machine that was idle meanwhile, without which no such time means much.
+// least, from the event in the page to the second picture after what the program answered, and to its mesh alone, which no
+// slow picture adds to; beside them the share of the machine that was idle meanwhile, without which no time means much.
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
@@ -15,7 +15,7 @@ const executablePath = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/
 const scratch = mkdtempSync(join(tmpdir(), "furrow-times-"));
 const repeats = 20;
 
-const { program, url } = await start(furrow, garment, body, scratch);
+const { program, url } = await start(furrow, garment, body, scratch, !body);
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--headless", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
 
 /** Idle and all ticks of the machine so far. */
@@ -43,6 +43,7 @@ try {
         const start = performance.now(), frames = foot.dataset.frames;
         const look = () => {
           if (foot.dataset.frames === frames) return requestAnimationFrame(look);
+        globalThis.meshTook = performance.now() - start;
           requestAnimationFrame(() => requestAnimationFrame(() => (globalThis.took = performance.now() - start)));
         };
         look();
@@ -51,17 +52,18 @@ try {
   });
   const box = await tab.locator("canvas").boundingBox();
   const row = async (what, kind, act, after = async () => undefined) => {
-    const list = [], before = ticks();
+    const list = [], meshes = [], before = ticks();
     for (let i = 0; i < repeats; ++i) {
       await tab.evaluate((k) => globalThis.timeFrom(k), kind);
       await act(i);
       await until(() => tab.evaluate(() => globalThis.took !== undefined));
       list.push(await tab.evaluate(() => globalThis.took));
+      meshes.push(await tab.evaluate(() => globalThis.meshTook));
       await after();
     }
     const now = ticks();
     const idle = Math.round((100 * (now.idle - before.idle)) / (now.all - before.all));
-    console.log(`${what}: ${Math.round(median(list))} ms (least ${Math.round(list[0])}), ${idle} % idle`);
+    console.log(`${what}: ${Math.round(median(list))} ms (least ${Math.round(list[0])}), its mesh ${Math.round(median(meshes))} ms (least ${Math.round(meshes[0])}), ${idle} % idle`);
   };
   const settled = () => tab.waitForTimeout(150);
   const undo = async () => {
@@ -102,16 +104,16 @@ try {
   await tab.keyboard.press("Space");
   await until(async () => Number(await attribute("step")) === still + 1);
   console.log(`a frame while it moves: ${Math.round(took / steps)} ms, ${Math.round((100 * (now.idle - before.idle)) / (now.all - before.all))} % idle`);
-  await undo();
+  while (Number(await attribute("step")) > 0) await undo();  // without a line
   const drapes = [];
-  for (let i = 0; i < 5; ++i) {
+  for (let i = 0; i < 3; ++i) {
     const step = Number(await attribute("step")), began = performance.now();
     await tab.keyboard.press("d");
     for (const end = Date.now() + 200000; Number(await attribute("step")) === step && Date.now() < end;) await new Promise((r) => setTimeout(r, 20));
     drapes.push(performance.now() - began);
     await undo();
   }
-  console.log(`drape: ${(median(drapes) / 1000).toFixed(2)} s (median of 5)`);
+  console.log(`drape: ${(median(drapes) / 1000).toFixed(2)} s (median of 3)`);
 } finally {
   program.removeAllListeners("exit");
   program.kill("SIGINT");

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <set>
 
 #include "tests/studio/visitor.h"
@@ -58,6 +59,19 @@ TEST_CASE("studio cloth: a click pins a vertex, another lets it go, and borders 
   CHECK(pinned_in(page) == before + 1);
   while (page.status.at("step") > 0) REQUIRE(page.ask("undo").contains("done"));
   CHECK(pinned_in(page) == before);
+}
+
+TEST_CASE("studio cloth: fabrics are told by what they are like") {
+  const Desk desk("fabrics");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  page.ask("show");
+  std::map<std::string, std::string> words;
+  for (const Json& fabric : page.status.at("fabrics")) words[fabric.at("name")] = fabric.at("words");
+  CHECK(words.at("cotton") == "120 g/m², soft");
+  CHECK(words.at("silk").find("flowing") != std::string::npos);
+  CHECK(words.at("jet-set").find("firm") != std::string::npos);
+  CHECK(words.at("target").find("stiff") != std::string::npos);
 }
 
 TEST_CASE("studio cloth: what is encircled is held, and let go") {

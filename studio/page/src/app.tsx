@@ -28,13 +28,21 @@ const hints: [(s: Status) => boolean, string][] = [
   [(s) => s.undo === "drape" && s.step <= 14, "Picture, below on the right, takes one. Draw more, or Play (Space); ? shows all keys."],
 ];
 /** What a job says of options of the command line, in words that the page has. */
-const inPage = (text: string) => text.replace(/; --[a-z-]+[^;.\n]*/g, "").replace(/furrow keep/g, "Keep").replace(/furrow drape/g, "Drape");
+const inPage = (text: string) => text.replace(/; cloth has no contact with cloth here: .*/g, "; Tangles (T) shows where, Undo takes it back").replace(/; --[a-z-]+[^;.\n]*/g, "").replace(/furrow keep/g, "Keep").replace(/furrow drape/g, "Drape");
 /** A line with a change that is not answered yet; several at once keep their signs. */
 const changed = (line: Line, { points, width, height, ...more }: LineChange, isOneOfSeveral: boolean): Line => ({
   ...line, ...more, ...(width !== undefined && { width: width ?? undefined }),
   ...(height !== undefined && { height: isOneOfSeveral && (line.height ?? 1) < 0 ? -height : height, varies: false }),
 });
 const isPen = (tool: Tool) => tool === "ridge" || tool === "valley";
+
+/** How long what is told will take, by how long it took so far; nothing while that is a guess. */
+function Left({ progress }: { progress: Progress }) {
+  const begun = useRef({ what: "", at: 0 });
+  if (begun.current.what !== progress.what) begun.current = { what: progress.what, at: performance.now() };
+  const took = (performance.now() - begun.current.at) / 1000, left = (took * (1 - progress.share)) / progress.share;
+  return progress.share < 0.15 || took < 3 ? null : <>, about {left < 90 ? `${Math.max(1, Math.round(left))} s` : `${Math.round(left / 60)} min`} left of it</>;
+}
 
 export function App({ token }: { token: string }) {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -258,6 +266,7 @@ export function App({ token }: { token: string }) {
     if (busy === "play") return pause();
     if (busy || !status?.can_drape || !mayDraw) return;
     setBusy("play");
+    setTool((t) => (isPen(t) ? "look" : t));  // the pointer pulls now
     setMoving(status.time);
     say("");
     await ask("play", seconds ? { seconds } : {}, (done) => [`It has moved for ${done.time!.toFixed(2)} s. Draw more, go on, or undo.`,
@@ -473,7 +482,7 @@ export function App({ token }: { token: string }) {
         {lost && busy === "" && mayDraw && status?.undo === "drape" && <button class="main" onClick={() => void keepInstead()}>Undo and keep its lines</button>}
         {!mayDraw && status && !gone && <button class="main" onClick={() => void ask("take")}>Take the pen</button>}
         {(busy === "drape" || busy === "keep" || progress) && <>
-          <span>{progress?.what}</span>
+          <span>{progress?.what}{progress && <Left progress={progress} />}</span>
           <progress max={1} value={progress?.share} aria-label={progress?.what ?? "working"} />
           <button onClick={() => void parts.current!.program.ask("cancel")}>Cancel</button>
         </>}

@@ -60,10 +60,10 @@ function Verdicts({ kept, actions }: { kept: Done; actions: ClothActions }) {
       <ul>
         {kept.verdicts!.map((v, i) => <li key={i}><span class={`dot ${v.verdict}`} aria-hidden="true" /><span><b>{v.name}</b>: {v.words}</span></li>)}
       </ul>
-      <p class="note">{kept.legend}</p>
+      <p class="note">{kept.legend} Press: as if ironed or starched there. Struts: threads that lace the fold.</p>
       <div class="group">
         <button class="main" onClick={() => actions.accept(true)}>Drape it</button>
-        <button onClick={() => actions.accept(false)}>Accept</button>
+        <button title="Go on with it as it is: draw more" onClick={() => actions.accept(false)}>Accept</button>
         <button onClick={actions.takeBack}>Take back</button>
       </div>
     </section>
@@ -78,7 +78,7 @@ export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Pro
       <h2>Cloth</h2>
       <label>Fabric
         <select value={status.fabric} onChange={(e) => actions.fabric(e.currentTarget.value)}>
-          {status.fabrics.map((f) => <option key={f}>{f}</option>)}
+          {status.fabrics.map((f) => <option key={f.name} value={f.name}>{f.name}: {f.words}</option>)}
         </select>
       </label>
       <Borders status={status} actions={actions} />
@@ -86,7 +86,7 @@ export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Pro
       <div class="group">
         <button class={hasLines && brought ? "main" : ""} disabled={!held || !brought || !idle} title="Make the lines last, and tell of each whether it will hold (K)"
           onClick={actions.keep}>Keep</button>
-        <button class={hasLines && brought ? "" : "main"} disabled={!held || !idle} title="Let it come to rest (D)" onClick={actions.drape}>Drape</button>
+        <button class={(hasLines && brought) || kept ? "" : "main"} disabled={!held || !idle} title="Let it come to rest (D)" onClick={actions.drape}>Drape</button>
         <button disabled={!held || !brought || !mayDraw || (busy !== "" && busy !== "play")} title="Play, pause (Space)" onClick={() => actions.play()}>
           {busy === "play" ? "Pause" : "Play"}</button>
         <button disabled={!held || !brought || !idle} title="One step of 1/60 s" onClick={() => actions.play(1 / 60)}>Step</button>

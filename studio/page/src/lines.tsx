@@ -88,7 +88,7 @@ function EditAll({ lines, actions }: { lines: Line[]; actions: LineActions }) {
       <Slider label="Height" value={size(first) * 1000} min={1} max={Math.max(100, size(first) * 1000)} step={1}
         text={(v, d) => or(!differ(size), d, mm(v / 1000))} change={(v, live) => actions.set(all, { height: v / 1000 }, live)} />
       <Slider label="Width" value={width(first) * 1000} min={5} max={Math.max(300, width(first) * 1000)} step={1}
-        text={(v, d) => or(!differ(width), d, mm(v / 1000))} change={(v, live) => actions.set(all, { width: v / 1000 }, live)} />
+        text={(v, d) => (lines.every((l) => l.width === undefined) && !d ? "auto" : or(!differ(width), d, mm(v / 1000)))} change={(v, live) => actions.set(all, { width: v / 1000 }, live)} />
       <Slider label="Sharpness" value={sharpness(first)} min={0} max={1} step={0.05}
         text={(v, d) => or(!differ(sharpness), d, v.toFixed(2))} change={(v, live) => actions.set(all, { sharpness: v }, live)} />
     </div>

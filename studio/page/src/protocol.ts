@@ -8,7 +8,7 @@ export interface Line {
 export interface Border { name: string; length: number; held: boolean }
 export type Vector = [number, number, number];
 export interface Status {
-  title: string; lines: Line[]; shown: number[]; earlier: string[]; fabric: string; fabrics: string[]; borders: Border[]; wind: Vector; middle: number;
+  title: string; lines: Line[]; shown: number[]; earlier: string[]; fabric: string; fabrics: { name: string; words: string }[]; borders: Border[]; wind: Vector; middle: number;
   has_body: boolean; made_for_another: boolean; can_drape: boolean; time: number; undo: string; redo: string; step: number; pen: number;
 }
 export interface GalleryItem { name: string; title: string }
