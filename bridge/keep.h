@@ -24,10 +24,15 @@ struct KeptShape {
 /// (physics/rest/certificate.h). Without a body, what hangs on a line of pins or on one pin is first turned
 /// about it into balance, if by no more than largest_turn [rad] (physics/rest/rigid_imbalance.h); what is
 /// nearer to a body than the gap is first brought out to it. Otherwise positions stay; velocities and
-/// stiffnesses always do. Wind is no load here. Cost: a factorisation or two. Throws std::invalid_argument,
-/// nothing changed, as require_still() and prestress() do.
+/// stiffnesses always do. Wind is no load here. count: how many ways it gives way, else only whether. Cost: a
+/// factorisation or two. Throws std::invalid_argument, nothing changed, as require_still() and prestress()
+/// do.
 KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
-                     const physics::PrestressOptions& options, double largest_turn = 0);
+                     const physics::PrestressOptions& options, double largest_turn = 0, bool count = true);
+
+/// Of a cloth that keep_shape() gave its rest state, with the same world and options.
+physics::Certificate certify_kept(const physics::Cloth& cloth, const physics::World& world,
+                                  const physics::PrestressOptions& options, bool count);
 
 /// Throws std::invalid_argument if body or pins move.
 void require_still(const physics::World& world);

@@ -222,6 +222,12 @@ class Keeper {
     return try_forward(plan, tally).value_or(std::move(found));
   }
 
+  /// For the report: trials need to know only whether there are any.
+  void count_negative_eigenvalues(Found& found) const {
+    if (found.outcome.shape.certificate.stable()) return;
+    found.outcome.shape.certificate = certify_kept(found.outcome.cloth, world_, bounds(), true);
+  }
+
  private:
   /// Nothing, and that is noted, if it was broken off.
   std::optional<Found> try_solve(const Plan& plan, Tally& tally) const try {
@@ -231,14 +237,18 @@ class Keeper {
     return std::nullopt;
   }
 
+  physics::PrestressOptions bounds() const {
+    physics::PrestressOptions bounds = o_.bounds;
+    bounds.work = &exact_work_;
+    return bounds;
+  }
+
   Outcome solve(const Plan& plan, Tally& tally) const {
     const std::vector<double> unknown(plan.lines.size(), NAN);
     Outcome outcome{start_, {}, plan.rest_step > 0 ? o_.presses[plan.rest_step - 1] : 1, unknown, unknown};
     place_lines(plan.lines, mesh_, start_.particles, outcome.cloth.particles);
     stiffen_lines(plan.lines, o_, outcome.rest_press, outcome.cloth);
-    physics::PrestressOptions bounds = o_.bounds;
-    bounds.work = &exact_work_;
-    outcome.shape = keep_shape(outcome.cloth, world_, bounds, o_.largest_turn);
+    outcome.shape = keep_shape(outcome.cloth, world_, bounds(), o_.largest_turn, false);
     ++tally.trials;
     return outcome;
   }
@@ -471,6 +481,7 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
   if (!tally.interrupted && o.height_trials > 0 &&
       geometry::find_map(mesh, geometry::attribute::rest_position))
     found = keeper.help_by_height(std::move(found), tally);
+  if (!tally.interrupted) keeper.count_negative_eigenvalues(found);
 
   scatter(found.outcome.cloth.particles, mesh);
   KeepReport report = report_of(found, o, meter, low, tally);

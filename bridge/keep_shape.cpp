@@ -12,8 +12,20 @@ void require_still(const physics::World& world) {
     throw std::invalid_argument("body or pins move; a shape is kept on what stands still");
 }
 
+physics::Certificate certify_kept(const physics::Cloth& cloth, const physics::World& world,
+                                  const physics::PrestressOptions& options, bool count) {
+  const std::optional<physics::PosedCollider> standing = standing_body(world);
+  return physics::certify(cloth,
+                          {.gravity = options.gravity,
+                           .friction = options.friction,
+                           .gap = options.gap,
+                           .work = options.work,
+                           .count = count},
+                          standing ? &*standing : nullptr);
+}
+
 KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
-                     const physics::PrestressOptions& options, double largest_turn) {
+                     const physics::PrestressOptions& options, double largest_turn, bool count) {
   require_still(world);
   const std::optional<physics::PosedCollider> standing = standing_body(world);
   const physics::Collider* body = standing ? &*standing : nullptr;
@@ -24,10 +36,7 @@ KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
   const double turn = body ? 0 : physics::balance_rigidly(balanced, options.gravity);
   if (turn > 0 && turn <= largest_turn) kept = std::move(balanced), shape.turned = turn;
   shape.rest = physics::prestress(kept, options, body);
-  shape.certificate = physics::certify(
-      kept,
-      {.gravity = options.gravity, .friction = options.friction, .gap = options.gap, .work = options.work},
-      body);
+  shape.certificate = certify_kept(kept, world, options, count);
   cloth = std::move(kept);
   return shape;
 }

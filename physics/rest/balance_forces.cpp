@@ -15,6 +15,7 @@ constexpr double longest_way = 1e6;                    // m: gravity over the le
 constexpr double first_pull = 1e8, pull_factor = 0.1;  // [1/s^2], [-]
 constexpr double nearly_zero = 1e-7;                   // of the weight: the limits in reach are known
 constexpr double free_pull = 1;  // [1/s^2]: 10 m of way; with more, the limits are not in reach yet
+constexpr double served = 0.1;   // share of what was left, that factors of another problem may leave
 constexpr double slowest = 0.9;  // factor at which it gives up
 constexpr int first_steps = 60, steps_a_pull = 20;
 
@@ -58,10 +59,12 @@ class Newton {
   Balance find(Forces from) {
     State start = at(std::move(from), 0);
     Best best{{start.forces, start.net, start.w}, start.residual, start.size};
+    if (options_.factors_serve) start = go_on_with_factors(std::move(start), best);
     const Minimum found = minimise(std::move(start), first_steps, best);
     // Nothing is left but round-off, or the problem is linear and has no solution.
     const bool done = best.residual <= nearly_zero || (found.descends && within_limits(found.state));
     if (!done) lower_pull(best);
+    best.balance.free_factors = has_free_factors();
     return std::move(best.balance);
   }
 
@@ -102,6 +105,36 @@ class Newton {
     return s;
   }
 
+  /// With those that the system has from before.
+  State go_on_with_factors(State state, Best& best) {
+    factorised_.assign(state.forces.scale.size(), 1);
+    factorised_shift_ = least_shift();
+    while (state.slack > options_.tolerance && within_limits(state)) {
+      throw_if_cancelled("prestress");
+      ++best.balance.iterations;
+      std::optional<State> next = step(state);
+      if (!next || next->slack > served * state.slack) break;
+      state = std::move(*next);
+      note(state, best);
+    }
+    if (state.slack > options_.tolerance) factorised_.clear();
+    return state;
+  }
+
+  void note(const State& state, Best& best) const {
+    if (!(state.size < best.size)) return;
+    best.balance.forces = state.forces;
+    best.balance.net = state.net;
+    best.balance.way = state.w;
+    best.residual = state.residual;
+    best.size = state.size;
+  }
+
+  bool has_free_factors() const {
+    return factorised_shift_ == least_shift() && !factorised_.empty() &&
+           std::all_of(factorised_.begin(), factorised_.end(), [](double scale) { return scale == 1; });
+  }
+
   Minimum minimise(State state, int steps, Best& best) {
     const double enough = state.pull > 0 ? 1e-8 : options_.tolerance;
     Balance& balance = best.balance;
@@ -112,12 +145,7 @@ class Newton {
       std::optional<State> next = step(state);
       if (!next) return {std::move(state), false};
       state = std::move(*next);
-      if (!(state.size < best.size)) continue;
-      balance.forces = state.forces;
-      balance.net = state.net;
-      balance.way = state.w;
-      best.residual = state.residual;
-      best.size = state.size;
+      note(state, best);
     }
     return {std::move(state), true};
   }

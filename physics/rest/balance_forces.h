@@ -11,12 +11,16 @@ struct BalanceOptions {
   double gravity;      ///< what net forces are measured by: m times this is a particle's weight [m/s^2]; > 0
   double tolerance;    ///< largest net force over weight at which it ends [-]; > 0
   int max_iterations;  ///< Newton steps, all in all; >= 1
+  /// The system has the factors of a problem that hardly differs, with no limit in reach: they serve as long
+  /// as each step with them leaves no more than a tenth.
+  bool factors_serve = false;
 };
 struct Balance {
   ClampedForces forces;   ///< answers of elements and contacts
   std::vector<Vec3> net;  ///< load plus answers on each particle [N]; on pins without meaning
   std::vector<Vec3> way;  ///< the displacement that it is answered to [m]
   int iterations = 0, factorisations = 0;
+  bool free_factors = false;  ///< the system has factors of this problem or of the one before, without limits
 };
 
 /// Answers of elements and contacts, within their limits, that balance the load [N] on the free particles, or

@@ -23,6 +23,7 @@ namespace {
 constexpr double least_push = 1e-6;  // of the weight
 constexpr double hold = 1e6;         // over the mean diagonal
 constexpr double neutral = 1e-6;     // 1/s^2
+constexpr double shift_factor = 4;   // the nearer to the eigenvalue, the fewer steps find it
 constexpr double enough = 1e-11;     // relative error of (lambda + shift)^-1
 
 using Vectors = std::vector<Vec3>;
@@ -75,8 +76,8 @@ class Certifier {
       return stiffness_->factorise_definite();
     };
     if (!is_definite_with(neutral)) {
-      result_.negative_eigenvalues = stiffness_->negative_eigenvalues();
-      for (double wanted = 1; !is_definite_with(wanted); wanted *= 16)
+      result_.negative_eigenvalues = options_.count ? stiffness_->negative_eigenvalues() : -1;
+      for (double wanted = 1; !is_definite_with(wanted); wanted *= shift_factor)
         if (!(wanted < 1e20)) refuse("certify", "a stiffness is not finite");
     }
     find_smallest(shift);

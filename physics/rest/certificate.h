@@ -16,12 +16,13 @@ struct CertificateOptions {
   double gap = 0.003;             ///< a body at most this far (and 1e-5 m) carries [m]; > 0
   int max_steps = 100;            ///< of Lanczos' method; >= 2
   StiffnessWork* work = nullptr;  ///< shared with solves before and after; null: none
+  bool count = true;  ///< negative eigenvalues; else they are -1 where there are any, in half of the time
 };
 
 struct Certificate {
   double residual = 0;          ///< residual_force() [-]
-  int negative_eigenvalues = 0; /**< of K, less than -1e-6/s^2 for K v = lambda M v; -1: not known (a pivot of
-                                   the factor is 0) */
+  int negative_eigenvalues = 0; /**< of K, less than -1e-6/s^2 for K v = lambda M v; -1: some, not known how
+                                   many (not counted, or a pivot of the factor is 0) */
   double smallest_eigenvalue = 0;  ///< lambda [1/s^2]; infinity if nothing can move
   double frequency = 0;            ///< sqrt(lambda) / 2 pi [Hz]; 0 if lambda <= 0
   std::vector<Vec3> mode;          ///< its v, one a particle, the longest 1; empty if nothing can move
@@ -44,7 +45,7 @@ struct Certificate {
 /// - N d2psi/dx2 in the tangent plane, N the force, from differences of the field's gradient over the gap (a
 /// coarse field blurs that). To hold by friction is no minimum of energy: such a state keeps for disturbances
 /// below the friction that is left. The eigenvalue by Lanczos' method on (K + s M)^-1, s = 1e-6/s^2, or, if K
-/// is not positive definite, the least s = 1, 16, 256 ... /s^2 with which it is. So motions that cost no
+/// is not positive definite, the least s = 1, 4, 16 ... /s^2 with which it is. So motions that cost no
 /// energy (a swing about a vertical axis) count as neither.
 /// Source: Parlett, The Symmetric Eigenvalue Problem, chapters 13 and 15.
 Certificate certify(const Cloth& cloth, const CertificateOptions& options = {},

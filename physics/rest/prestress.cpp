@@ -178,15 +178,17 @@ void invert(const ClampedForces& f, Cloth& cloth, PrestressReport& report) {
 /// What a solve came to.
 struct Solved {
   PrestressReport report;
-  Forces way;  ///< of the balance, where the next one begins [m]
+  Forces way;                 ///< of the balance, where the next one begins [m]
+  bool free_factors = false;  ///< of Balance
 };
 
-/// One solve, with the plates as they are.
+/// One solve, with the plates as they are. before: of a problem that hardly differs, or empty.
 Solved balance_once(Cloth& cloth, const PrestressOptions& o, const Collider* collider,
-                    std::span<const Vec3> loads, const Forces& start) {
+                    std::span<const Vec3> loads, const Solved& before) {
   const Particles& p = cloth.particles;
   const double g = o.gravity.norm() > 0 ? o.gravity.norm() : standard_gravity;
   const std::vector<ContactPoint> contacts = contacts_of(p, collider, o.gap);
+  const FreeStiffness* const matrix = o.work->stiffness.get();
   ClampedElements system(cloth,
                          {o.max_strain, std::min(o.max_compression, o.max_strain), o.max_angle, o.friction},
                          contacts, o.work);
@@ -199,7 +201,8 @@ Solved balance_once(Cloth& cloth, const PrestressOptions& o, const Collider* col
   PrestressReport report;
   report.imbalance = moved(cloth, load, contacts, false, g);
   for (const RigidImbalance& r : report.imbalance) remove_rigid_load(cloth, r, load);
-  Balance balance = balance_forces(p, system, load, {g, o.tolerance, o.max_iterations}, start);
+  const bool serve = before.free_factors && o.work->stiffness.get() == matrix;
+  Balance balance = balance_forces(p, system, load, {g, o.tolerance, o.max_iterations, serve}, before.way);
   report.iterations = balance.iterations;
   report.factorisations = balance.factorisations;
   if (!contacts.empty()) {
@@ -213,7 +216,7 @@ Solved balance_once(Cloth& cloth, const PrestressOptions& o, const Collider* col
     report.contact_force.push_back(balance.forces.contact[i]);
   }
   report.residual = residual_force(cloth, o.gravity, collider, o.friction, o.gap, loads);
-  return {std::move(report), std::move(balance.way)};
+  return {std::move(report), std::move(balance.way), balance.free_factors};
 }
 
 }  // namespace
@@ -225,21 +228,21 @@ PrestressReport prestress(Cloth& cloth, const PrestressOptions& options, const C
   PrestressOptions o = options;
   if (!o.work) o.work = &own;
   Cloth work = cloth;
-  auto [report, way] = balance_once(work, o, collider, loads, {});
+  Solved last = balance_once(work, o, collider, loads, {});
+  PrestressReport& report = last.report;
   for (int round = 1; recouple(work); ++round) {  // a plate is made of the rest lengths that were solved for
     const double left = residual_force(work, o.gravity, collider, o.friction, o.gap, loads);
     if (left <= std::max(o.tolerance, 1.1 * report.residual) || round == most_plate_rounds) {
       report.residual = left;
       break;
     }
-    Solved next = balance_once(work, o, collider, loads, way);
+    Solved next = balance_once(work, o, collider, loads, last);
     next.report.iterations += report.iterations;
     next.report.factorisations += report.factorisations;
-    report = std::move(next.report);
-    way = std::move(next.way);
+    last = std::move(next);
   }
   cloth = std::move(work);
-  return report;
+  return std::move(last.report);
 }
 
 }  // namespace furrow::physics

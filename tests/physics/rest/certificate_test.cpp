@@ -69,6 +69,15 @@ TEST_CASE("certificate: a pendulum swings with g / L, upside down it falls with 
   CHECK(c.frequency == 0);
 }
 
+TEST_CASE("certificate: what is not counted is as stable or not, with the same mode") {
+  const Certificate stands = certify(hung(0.5), {.count = false}), counted = certify(hung(0.5));
+  CHECK(stands.negative_eigenvalues == -1);
+  CHECK_FALSE(stands.stable());
+  CHECK(stands.smallest_eigenvalue == counted.smallest_eigenvalue);
+  CHECK(stands.mode == counted.mode);
+  CHECK(certify(hung(-0.5), {.count = false}).negative_eigenvalues == 0);
+}
+
 TEST_CASE("certificate: eigenvalue and count agree with the dense problem, stable and not") {
   for (const double crumple : {0.0, 0.01}) {
     Cloth cloth = sheet(4, 4, 0.1, 0.2, 3, 300, 40);

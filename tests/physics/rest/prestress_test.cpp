@@ -107,6 +107,8 @@ TEST_CASE("prestress: a plate is the one that its cloth's rest lengths make, pre
   const PrestressReport report = prestress(cloth);
   CHECK(report.residual <= 1e-8);
   CHECK(report.max_strain > 1e-4);
+  CHECK(report.iterations > 3);
+  CHECK(report.factorisations == 1);  // it serves the rounds behind the first
   const std::vector<Vec3>& x = cloth.particles.x;
   const double energy = cloth.energies[0]->energy(x);
   CHECK(energy > 0);
