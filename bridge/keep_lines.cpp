@@ -258,8 +258,8 @@ class Keeper {
     if (found.plan.lines.empty()) return {};  // all were refused
     if (!o_.statics) return run_forward(found, may_end, tally);
     const double part = o_.prove ? share_of_statics : 1;
-    const bool blow = !o_.prove || !physics::solves_contact(o_.run.integrator);  // else motion is as fast
-    const KeepTrial trial = try_statics(found.outcome.cloth, world_, o_, blow, meter_, search_work_,
+    const bool brief = o_.prove && physics::solves_contact(o_.run.integrator);  // else motion is as fast
+    const KeepTrial trial = try_statics(found.outcome.cloth, world_, o_, brief, meter_, search_work_,
                                         [&](double share) { return go_on(part * share, tally); });
     found.outcome.kept = trial.kept;
     found.outcome.kept_gust = trial.kept_gust;

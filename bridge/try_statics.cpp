@@ -14,16 +14,17 @@ using physics::Vec3;
 constexpr double overshoot = 1.15;      // of the gust, by which cloth in motion swings out farther
 constexpr double longest_move = 0.005;  // m: a search shall not step over what holds a fold
 
-constexpr int most_iterations = 60;  // of a search: what moves on then is measured where it is
+constexpr int most_iterations = 60;   // of a search: what moves on then is measured where it is
+constexpr int brief_iterations = 14;  // of one that motion follows: it is left to that
 
-physics::SettleOptions options_of(const KeepOptions& o, physics::StiffnessWork& work) {
+physics::SettleOptions options_of(const KeepOptions& o, bool brief, physics::StiffnessWork& work) {
   physics::SettleOptions settle;
   settle.gravity = o.run.gravity;
   settle.friction = o.run.friction;
   settle.gap = o.run.contact_gap;
   settle.threads = o.run.threads;
   settle.longest_move = longest_move;
-  settle.max_iterations = most_iterations;
+  settle.max_iterations = brief ? brief_iterations : most_iterations;
   settle.work = &work;
   return settle;
 }
@@ -31,21 +32,22 @@ physics::SettleOptions options_of(const KeepOptions& o, physics::StiffnessWork& 
 }  // namespace
 
 KeepTrial try_statics(const physics::Cloth& start, const physics::World& world, const KeepOptions& o,
-                      bool blow, LineMeter& meter, physics::StiffnessWork& work,
+                      bool brief, LineMeter& meter, physics::StiffnessWork& work,
                       const std::function<bool(double)>& go_on) {
   const std::optional<physics::PosedCollider> standing = standing_body(world);
   const physics::Collider* const body = standing ? &*standing : nullptr;
   const std::vector<double> drawn = meter.heights(start.particles);
   KeepTrial trial{std::vector<double>(drawn.size(), NAN), std::vector<double>(drawn.size(), NAN)};
   physics::Cloth cloth = start;
-  physics::SettleOptions settle = options_of(o, work);
+  physics::SettleOptions settle = options_of(o, brief, work);
+  physics::SettleReport last;
   int searches = 0;
-  const double all = blow ? 3 : 1;
+  const double all = brief ? 1 : 3;
   const auto rest_under = [&](const Vec3& gravity) {
     const double done = searches++ / all;
     settle.gravity = gravity;
-    trial.stopped =
-        physics::settle(cloth, body, settle, [&](const auto&) { return !go_on || go_on(done); }).stopped;
+    last = physics::settle(cloth, body, settle, [&](const auto&) { return !go_on || go_on(done); });
+    trial.stopped = last.stopped;
     return !trial.stopped;
   };
   const auto shares = [&] {
@@ -58,8 +60,9 @@ KeepTrial try_statics(const physics::Cloth& start, const physics::World& world, 
   trial.kept = shares();
   for (std::size_t i = 0; i < start.particles.size(); ++i)
     trial.drift = std::max(trial.drift, (cloth.particles.x[i] - start.particles.x[i]).norm());
-  if (!blow) {
+  if (brief) {
     trial.kept_gust.assign(drawn.size(), 1);  // that is for motion to say
+    if (!last.converged) trial.kept = trial.kept_gust;
     return trial;
   }
   const Vec3 gust = gust_of(o, start.particles.x);
