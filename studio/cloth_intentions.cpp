@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a page asks of the cloth: how it is held, what it is made of, and that it come to rest or move.
+#include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <thread>
 #include <utility>
 
 #include "jobs/fit_sketch.h"
 #include "jobs/keep_sketch.h"
+#include "jobs/sketch_mass.h"
 #include "jobs/sketch_pins.h"
 #include "jobs/sketch_tangles.h"
 #include "studio/drawing.h"
@@ -87,6 +92,31 @@ RecordedHand recorded_hand(const Json& body) {
   }
   return hand;
 }
+
+/// Lets a motion be seen at a speed of its own: what is computed sooner waits, what is late does not.
+class Pace {
+ public:
+  /// speed: of the motion over the clock's [-]; from: its time now [s].
+  Pace(double speed, double from) : speed_(speed), from_(from) {}
+
+  /// Until the motion may be at a time [s], or is stopped.
+  void wait_for(double time, const std::atomic<bool>& stopped) {
+    using namespace std::chrono_literals;
+    const auto due = begun_ + std::chrono::duration<double>((time - from_) / speed_);
+    const auto now = std::chrono::steady_clock::now();
+    if (due + 50ms < now) {  // what it lost it does not make up for
+      begun_ = now;
+      from_ = time;
+    }
+    while (!stopped && std::chrono::steady_clock::now() < due)
+      std::this_thread::sleep_until(
+          std::min(due, std::chrono::duration<double>(5ms) + std::chrono::steady_clock::now()));
+  }
+
+ private:
+  double speed_, from_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
 
 Json row_of_pull(double time, const std::optional<jobs::Grip>& grip) {
   Json row{{"time", time}};
@@ -199,7 +229,12 @@ Json Session::play(const Json& body) {
   const std::string state = free_name_of_file("run") + "-state.ply";
   request.new_state = project_->folder() / state;
   if (before.contains("state")) request.state = project_->folder() / before["state"].get<std::string>();
-  request.watch = [this](double time, const std::vector<float>& positions) { show_moving(time, positions); };
+  std::optional<Pace> pace;
+  if (body.contains("speed")) pace.emplace(number_of(body, "speed", 0.01, 100), before.value("time", 0.0));
+  request.watch = [&](double time, const std::vector<float>& positions) {
+    show_moving(time, positions);
+    if (pace) pace->wait_for(time, cancelled_);
+  };
   request.watch_body = [this](const std::vector<float>& positions) { show_moving_body(positions); };
   Json pulls = Json::array();
   std::optional<RecordedHand> again;
@@ -248,11 +283,17 @@ void Session::pull(Client client, const Message& message) {
 }
 
 Json Session::fit(const Json& body) {
-  require_brought("fit");
   const std::string by = text_of(body, "by");
-  if (by != "strain" && by != "distance") throw Refused("by: is neither strain nor distance");
+  const Json strokes = strokes_on(project_->now().drawing);
+  if (by == "mass") {
+    const jobs::SketchMass found = jobs::mass_of_sketch(sketch_, strokes, *this);
+    out_.show(everybody, std::make_shared<const std::string>(colour_bytes(found.colours)));
+    return {{"words", found.words}, {"legend", found.legend}};
+  }
+  require_brought("fit");
+  if (by != "strain" && by != "distance") throw Refused("by: is neither strain, distance nor mass");
   const auto colour = by == "strain" ? jobs::FitColour::strain : jobs::FitColour::distance;
-  const jobs::SketchFit found = jobs::fit_sketch(sketch_, strokes_on(project_->now().drawing), colour, *this);
+  const jobs::SketchFit found = jobs::fit_sketch(sketch_, strokes, colour, *this);
   out_.show(everybody, std::make_shared<const std::string>(colour_bytes(found.colours)));
   return {{"words", found.words}, {"legend", found.legend}};
 }

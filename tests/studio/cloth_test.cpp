@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <map>
 #include <set>
@@ -72,6 +73,29 @@ TEST_CASE("studio cloth: fabrics are told by what they are like") {
   CHECK(words.at("silk").find("flowing") != std::string::npos);
   CHECK(words.at("jet-set").find("firm") != std::string::npos);
   CHECK(words.at("target").find("stiff") != std::string::npos);
+}
+
+TEST_CASE("studio cloth: its mass is told and shown, without a body, too") {
+  const Desk desk("mass");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  REQUIRE(page.ask("fabric", {{"name", "denim"}}).contains("done"));
+  const Json plain = page.ask("fit", {{"by", "mass"}}).at("done");
+  INFO(plain.dump());
+  const std::string words = plain.at("words");
+  CHECK(words.find("324 g/m²") != std::string::npos);
+  double grams = 0, area = 0;
+  REQUIRE(std::sscanf(words.c_str(), "It weighs %lf g, 324 g/m² of %lf m²", &grams, &area) == 2);
+  CHECK(grams == Approx(324 * area).epsilon(0.06));
+  page.ask("show");
+  std::uint32_t vertices = 0;
+  std::memcpy(&vertices, page.cloth.data() + 8, 4);
+  CHECK(page.colours.size() == 16 + 3 * std::size_t(vertices));
+  REQUIRE(page.ask("draw", line_at(0.1)).contains("done"));
+  const std::string drawn = page.ask("fit", {{"by", "mass"}}).at("done").at("words");
+  double more = 0;
+  REQUIRE(std::sscanf(drawn.c_str(), "It weighs %lf g", &more) == 1);
+  CHECK(more >= grams);  // a fold has cloth in it
 }
 
 TEST_CASE("studio cloth: what is encircled is held, and let go") {

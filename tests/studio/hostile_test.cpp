@@ -136,6 +136,7 @@ std::vector<Key> keys() {
            "pulls",
            {{"seconds", 0.01}},
            {"null", "7", "{}", "[7]", "[{}]", "[{\"time\":-1}]", "[{\"time\":0,\"vertex\":-1}]"}},
+          {"play", "speed", {{"seconds", 0.01}}, with(no_numbers, {"0", "-1", "101"})},
           {"fit", "by", Json::object(), with(no_texts, {"\"ease\"", "\"\""})},
           {"give", "as", Json::object(), with(no_texts, {"\"\"", "\"exe\"", "\"../ply\"", "\"moving glb\""})},
           {"open", "item", Json::object(), with(no_texts, {"\"\"", "\"../skirt\"", "\"/etc/passwd\""})},

@@ -2,6 +2,7 @@
 #include "studio/studio.h"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -162,6 +163,26 @@ TEST_CASE("studio: play moves the cloth as furrow simulate does, goes on to the 
   page.ask("show");
   CHECK(page.cloth == drawn);
   CHECK(page.status.at("time") == 0);
+}
+
+TEST_CASE("studio: a play at a tenth of the clock's pace takes ten times as long, to the same bits",
+          "[release]") {
+  const Desk slow("slow"), fast("fast");
+  std::vector<std::string> reached;
+  double took = 0;
+  for (const Desk* desk : {&slow, &fast}) {
+    const studio::Studio studio(desk->scene, desk->project());
+    Visitor page(studio);
+    const auto begun = std::chrono::steady_clock::now();
+    Json play{{"seconds", 6 / 60.0}};
+    if (desk == &slow) play["speed"] = 0.1;
+    REQUIRE(page.ask("play", play).contains("done"));
+    if (desk == &slow) took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    page.ask("show");
+    reached.push_back(page.cloth);
+  }
+  CHECK(took > 0.8);
+  CHECK(reached[0] == reached[1]);
 }
 
 TEST_CASE("studio: a line that is drawn into moving cloth leaves it its velocities", "[release]") {

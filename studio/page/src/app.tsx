@@ -62,8 +62,9 @@ export function App({ token }: { token: string }) {
   const [tangles, setTangles] = useState(false);
   const [dragging, setDragging] = useState(false);  // a line, by its dots
   const [moving, setMoving] = useState(0);
+  const [speed, setSpeed] = useState(1);  // of a play, over the clock's
   const [lost, setLost] = useState(false);  // what was draped has lost lines
-  const [fit, setFit] = useState<"" | "strain" | "distance">("");
+  const [fit, setFit] = useState<"" | "strain" | "distance" | "mass">("");
   const [frames, setFrames] = useState(0);
   const [gone, setGone] = useState(false);
   const [help, setHelp] = useState(false);
@@ -71,8 +72,8 @@ export function App({ token }: { token: string }) {
   const [opening, setOpening] = useState<"" | "first" | "again">("");
   const [files, setFiles] = useState<Files>({ garment: null, body: null, madeFor: null });
   const [badFile, setBadFile] = useState("");
-  const now = useRef({ tool, draft, chosen, status, seen, me, busy, both });
-  now.current = { tool, draft, chosen, status, seen, me, busy, both };
+  const now = useRef({ tool, draft, chosen, status, seen, me, busy, both, speed });
+  now.current = { tool, draft, chosen, status, seen, me, busy, both, speed };
   const live = useRef({ running: false, waiting: null as null | (() => void) });
 
   const say = (text: string, bad = false) => setWords({ text, bad });
@@ -269,12 +270,12 @@ export function App({ token }: { token: string }) {
     setTool((t) => (isPen(t) ? "look" : t));  // the pointer pulls now
     setMoving(status.time);
     say("");
-    await ask("play", seconds ? { seconds } : {}, (done) => [`It has moved for ${done.time!.toFixed(2)} s. Draw more, go on, or undo.`,
+    await ask("play", seconds ? { seconds } : { speed: now.current.speed }, (done) => [`It has moved for ${done.time!.toFixed(2)} s. Draw more, go on, or undo.`,
       ...(done.remarks ?? [])].join("\n"));
     setBusy("");
   };
-  /** Shows strain, or the distance to the body, or the cloth's own colour again. */
-  const showFit = async (by: "strain" | "distance") => {
+  /** Shows strain, the distance to the body, or mass, or the cloth's own colour again. */
+  const showFit = async (by: "strain" | "distance" | "mass") => {
     if (fit === by) {
       setFit("");
       return parts.current!.view.colour(null);
@@ -396,7 +397,7 @@ export function App({ token }: { token: string }) {
       parts.current!.view.colour(null);
       if (drapes) void drape();
     },
-    takeBack: undo,
+    takeBack: undo, pace: setSpeed,
   };
   const hint = !status ? (opening ? "" : "Opening …") : tool === "pin" ? "Click the cloth to hold it there, or to let it go; Shift: the whole border. Draw a loop to hold all within; Shift: to let it go. Esc: enough." : tool !== "look" ? `Draw on the cloth; begin and end beside it to reach its border. Drag on the background to turn it. Shift: straight. Esc: lay the pen down.`
     : hints.find(([fits]) => fits(status))?.[1] ?? "";
@@ -458,7 +459,7 @@ export function App({ token }: { token: string }) {
             <p class="note">In the cloth by now: {status.earlier.join(", ")}. To change them, undo.</p>}
           {status && <Lines lines={status.lines} again={status.earlier.length > 0} chosen={chosen} actions={actions} />}
         </section>
-        {status && <Cloth status={status} busy={busy} mayDraw={mayDraw} fit={fit} moving={moving} kept={verdict?.step === status.step ? verdict.done : undefined} actions={clothActions} />}
+        {status && <Cloth status={status} busy={busy} mayDraw={mayDraw} fit={fit} moving={moving} speed={speed} kept={verdict?.step === status.step ? verdict.done : undefined} actions={clothActions} />}
         {status && <section aria-label="Give away">
           <h2>Give away</h2>
           <div class="group wrap">

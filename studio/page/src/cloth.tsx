@@ -10,13 +10,15 @@ export interface ClothActions {
   drape(): void;
   keep(): void;
   play(seconds?: number): void;
-  fit(by: "strain" | "distance"): void;
+  fit(by: "strain" | "distance" | "mass"): void;
   /** `drapes`: and lets the cloth come to rest. */
   accept(drapes: boolean): void;
   takeBack(): void;
+  /** How fast a play is seen, over the clock's pace. */
+  pace(speed: number): void;
 }
 
-interface Props { status: Status; busy: string; mayDraw: boolean; fit: string; moving: number; kept?: Done; actions: ClothActions }
+interface Props { status: Status; busy: string; mayDraw: boolean; fit: string; moving: number; speed: number; kept?: Done; actions: ClothActions }
 
 /** Borders that are told apart in a list; more of them are pinned by clicks. */
 const mostBorders = 6;
@@ -70,7 +72,7 @@ function Verdicts({ kept, actions }: { kept: Done; actions: ClothActions }) {
   );
 }
 
-export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Props) {
+export function Cloth({ status, busy, mayDraw, fit, moving, speed, kept, actions }: Props) {
   const hasLines = status.lines.some((line) => line.on);  // that are to be kept before all else
   const idle = busy === "" && mayDraw, held = status.can_drape, brought = !status.made_for_another;
   return (
@@ -90,18 +92,20 @@ export function Cloth({ status, busy, mayDraw, fit, moving, kept, actions }: Pro
         <button disabled={!held || !brought || !mayDraw || (busy !== "" && busy !== "play")} title="Play, pause (Space)" onClick={() => actions.play()}>
           {busy === "play" ? "Pause" : "Play"}</button>
         <button disabled={!held || !brought || !idle} title="One step of 1/60 s" onClick={() => actions.play(1 / 60)}>Step</button>
+        <select aria-label="Speed" title="How fast it is seen to move, at most" disabled={busy === "play"} value={speed} onChange={(e) => actions.pace(Number(e.currentTarget.value))}>
+          {[1, 0.5, 0.25, 0.1].map((s) => <option key={s} value={s}>{s}×</option>)}
+        </select>
       </div>
       {held && status.borders.some((b) => b.name === "top" && !b.held) && <p class="note">Nothing holds the upper border: a skirt or trousers slip down, and folds at the waist open.{" "}
         <button class="small" disabled={!idle} onClick={() => actions.hold(status.borders.findIndex((b) => b.name === "top"), true)}>Hold it</button></p>}
       {kept && <Verdicts kept={kept} actions={actions} />}
       {(busy === "play" || status.time > 0) && <p class="note" data-time={moving}>At {(busy === "play" ? moving : status.time).toFixed(2)} s of its motion.{busy === "play" && " Pull it with the pointer."}</p>}
-      {status.has_body && brought && <div class="group" role="group" aria-label="Fit">
-        <span>Fit</span>
-        {(["strain", "distance"] as const).map((by) => (
-          <button key={by} aria-pressed={fit === by} disabled={!idle} onClick={() => actions.fit(by)}>
-            {by === "strain" ? "Strain" : "Distance"}</button>
+      <div class="group" role="group" aria-label="Colours">
+        <span>Show</span>
+        {([["strain", "Strain"], ["distance", "Distance"], ["mass", "Mass"]] as const).filter(([by]) => by === "mass" || (status.has_body && brought)).map(([by, name]) => (
+          <button key={by} aria-pressed={fit === by} disabled={!idle} onClick={() => actions.fit(by)}>{name}</button>
         ))}
-      </div>}
+      </div>
       <p class="note">{!brought ? "It lies about the body that it was made for. Drape brings it to yours, in its own size, and lets it come to rest there."
         : held ? "Keep makes its lines last: in a minute or two it tries what each needs. Drape lets the cloth come to rest under its weight, Play lets it move."
         : "To let it move, hold a border, pin it (P), or open it with a body (O)."}</p>
