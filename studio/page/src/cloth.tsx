@@ -85,7 +85,7 @@ export function Cloth({ status, busy, mayDraw, fit, moving, speed, kept, actions
       </label>
       <Borders status={status} actions={actions} />
       <Wind wind={status.wind} blow={actions.wind} />
-      <div class="group">
+      <div class="group wrap">
         <button class={hasLines && brought ? "main" : ""} disabled={!held || !brought || !idle} title="Make the lines last, and tell of each whether it will hold (K)"
           onClick={actions.keep}>Keep</button>
         <button class={(hasLines && brought) || kept ? "" : "main"} disabled={!held || !idle} title="Let it come to rest (D)" onClick={actions.drape}>Drape</button>
