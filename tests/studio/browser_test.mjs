@@ -10,6 +10,7 @@ import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { inflateSync } from "node:zlib";
 
 const [furrow, meshes, page, out] = process.argv.slice(2);
 const browserAt = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
@@ -242,6 +243,16 @@ async function accessible(seen, what) {
   await seen.tab.emulateMedia({ colorScheme: "light" });
 }
 
+/** Red, green and blue in the middle of the canvas. */
+async function colourInTheMiddle({ tab }) {
+  const box = await tab.locator("canvas").boundingBox();
+  const clip = { x: Math.round(box.x + box.width / 2), y: Math.round(box.y + box.height / 2), width: 1, height: 1 };
+  const png = await tab.screenshot({ clip }), parts = [];
+  for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at))
+    if (png.toString("latin1", at + 4, at + 8) === "IDAT") parts.push(png.subarray(at + 8, at + 8 + png.readUInt32BE(at)));
+  return [...inflateSync(Buffer.concat(parts)).subarray(1, 4)];
+}
+
 /** The colours of the fit, and the cloth's own again. */
 async function fit(seen) {
   const press = async () => {
@@ -250,6 +261,10 @@ async function fit(seen) {
   };
   const becomes = (what, picture) => until(what, async () => (await seen.pixels()) === picture);
   await press();  // its words take a line more, so the picture is smaller from now on
+  await until("far from the body it is yellow", async () => {
+    const [red, green, blue] = await colourInTheMiddle(seen);
+    return red > 180 && green > 180 && blue < 150;
+  });
   await seen.shot("8-fit");
   const coloured = await still(seen);
   await press();

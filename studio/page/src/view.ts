@@ -71,6 +71,11 @@ export class View {
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.renderer.shadowMap.autoUpdate = false;
+    this.key.castShadow = true;
+    this.key.shadow.mapSize.set(2048, 2048);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.screenSpacePanning = true;
     this.controls.addEventListener("change", () => this.draw());
@@ -87,6 +92,7 @@ export class View {
     this.plane.add(new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial()));  // its edges, which are seen from the front, too
     this.plane.visible = this.rope.visible = this.handles.visible = false;
     this.handles.renderOrder = this.rope.renderOrder = 3;
+    for (const solid of [this.cloth, this.body]) solid.castShadow = solid.receiveShadow = true;
     this.scene.add(this.handles, this.plane, this.rope);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8d8478, 1.15), this.key, this.key.target);
     this.scene.add(this.cloth, this.body, this.wire, this.lines, this.pins, this.band);
@@ -156,7 +162,25 @@ export class View {
     }
     this.key.position.copy(this.camera.localToWorld(new THREE.Vector3(-0.55, 0.75, 0.35).multiplyScalar(this.size)));
     this.key.target.position.copy(this.controls.target);
+    this.shade(!isCoarse);
+    // three counts a picture before it draws the shadows, and would take what has changed since then for sent.
+    ++this.renderer.info.render.frame;
     this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Shadows of the light from above, in pictures with all pixels; others have the same shaders, and see none. */
+  private shade(isOn: boolean) {
+    this.key.shadow.intensity = isOn ? 1 : 0;
+    this.renderer.shadowMap.needsUpdate = isOn;
+    const { camera } = this.key.shadow, around = 1.1 * this.size;
+    if (camera.right === around) return;
+    camera.left = camera.bottom = -around;
+    camera.right = camera.top = around;
+    camera.near = 0.01 * this.size;
+    camera.far = 3 * this.size;
+    camera.updateProjectionMatrix();
+    this.key.shadow.normalBias = 0.004 * this.size;
+    this.key.shadow.bias = -0.0004;
   }
 
   private geometryOf(frame: Frame): THREE.BufferGeometry {
