@@ -146,6 +146,12 @@ std::string Project::redo() {
   return now_.what;
 }
 
+std::vector<std::string> Project::names_from(std::size_t first) const {
+  std::vector<std::string> names;
+  for (std::size_t i = first; i < count_; ++i) names.push_back(read_step(i).what);
+  return names;
+}
+
 std::optional<std::string> Project::frame() const { return read_whole(frame_file(at_)); }
 
 void Project::keep_frame(const std::string& bytes) {

@@ -50,6 +50,8 @@ class Project {
   /// What that step would be called; "": there is none.
   std::string next_undo() const { return at_ > 0 ? now_.what : ""; }
   std::string next_redo() const { return redo_what_; }
+  /// What the steps from this one on were, those undone with them. Cost: a file each.
+  std::vector<std::string> names_from(std::size_t first) const;
 
   /// The present step's frame, if it was kept: that of the latest steps is.
   std::optional<std::string> frame() const;

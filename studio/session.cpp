@@ -50,6 +50,7 @@ const std::map<std::string, Session::Does>& Session::intentions() {
                                                {"undo", &Session::undo},
                                                {"redo", &Session::redo},
                                                {"points", &Session::tell_points},
+                                               {"history", &Session::tell_history},
                                                {"fit", &Session::fit},
                                                {"tangles", &Session::find_tangles},
                                                {"save", &Session::save},
@@ -297,6 +298,13 @@ Json Session::give_animation(const std::string& name) {
   for (const auto& part : jobs::give_motion(project_->folder() / "motion.toml", file, *this))
     files += (files.empty() ? "" : ", ") + std::filesystem::absolute(part).string();
   return {{"file", files}};
+}
+
+/// The latest steps by name, and which of them the cloth is at.
+Json Session::tell_history(const Json&) {
+  constexpr std::size_t most = 50;
+  const std::size_t first = project_->at() > most ? project_->at() - most : 0;
+  return {{"first", first}, {"at", project_->at()}, {"steps", project_->names_from(first)}};
 }
 
 Json Session::show(const Json&) {

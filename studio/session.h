@@ -86,6 +86,7 @@ class Session : jobs::Listener {
   Json give(const Json& body);
   Json give_animation(const std::string& as);
   Json show(const Json& body);
+  Json tell_history(const Json& body);
 
   void change(const std::string& what, Json drawing);
   void change_pins(const std::string& what, Json pins);

@@ -173,10 +173,14 @@ async function reachBordersAndChangeAll(seen) {
   assert.deepEqual(strokesIn("skirt-studio").map((s) => s.height), [0.022, -0.022, 0.022]);
   await tab.waitForTimeout(600);
   await seen.shot("17-all-lines");
-  for (const step of [4, 3]) {
-    await tab.keyboard.press("Control+z");
-    await seen.at(step);
-  }
+  await tab.getByText("History", { exact: true }).click();
+  const list = tab.getByRole("region", { name: "History" });
+  await until("the history tells its steps", async () => /draw ridge 1[^]*draw ridge 2[^]*change the height of 3 lines/.test(await list.innerText()));
+  await list.getByRole("button", { name: "draw ridge 2" }).click();
+  await seen.at(4);
+  await list.getByRole("button", { name: /change the height of/ }).first().click();
+  await seen.at(3);
+  await tab.getByText("History", { exact: true }).click();
   await save();
 }
 

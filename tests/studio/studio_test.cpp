@@ -65,6 +65,22 @@ TEST_CASE("studio: a line is drawn, changed, switched off, undone and drawn agai
   CHECK(page.ask("redo").at("refused") == "there is nothing to do again");
 }
 
+TEST_CASE("studio: its history tells what each step was, also of those undone") {
+  const Desk desk("history");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  REQUIRE(page.ask("draw", line_at(0.2)).contains("done"));
+  REQUIRE(page.ask("set", {{"line", 0}, {"height", 0.03}}).contains("done"));
+  REQUIRE(page.ask("undo").contains("done"));
+  const Json told = page.ask("history").at("done");
+  CHECK(told.at("first") == 0);
+  CHECK(told.at("at") == 1);
+  CHECK(told.at("steps") == Json::array({"the beginning", "draw ridge 1", "change the height of ridge 1"}));
+  REQUIRE(page.ask("draw", line_at(0.1)).contains("done"));
+  CHECK(page.ask("history").at("done").at("steps") ==
+        Json::array({"the beginning", "draw ridge 1", "draw ridge 2"}));
+}
+
 TEST_CASE("studio: what is saved is what furrow wrinkle draws") {
   const Desk desk("save");
   const studio::Studio studio(desk.scene, desk.project());

@@ -6,6 +6,7 @@ import { readFrame, Kind } from "./frame";
 import { Hand } from "./hand";
 import { Handles } from "./handles";
 import { Help } from "./help";
+import { History } from "./history";
 import { type LineActions, type LineChange, Lines, mm, ownWidth, Slider } from "./lines";
 import { type Files, Open, type OpenWords, sorted } from "./open";
 import { Pen } from "./pen";
@@ -298,6 +299,11 @@ export function App({ token }: { token: string }) {
     setLost(false);
     void ask("undo", {}, () => `Undone: ${what}.`);
   };
+  /** So many steps back, or on where that is negative. */
+  const goBack = async (steps: number) => {
+    setLost(false);
+    for (let i = 0; i < Math.abs(steps); ++i) if (!(await ask(steps > 0 ? "undo" : "redo"))) return;
+  };
   const redo = () => {
     const what = now.current.status?.redo;
     void ask("redo", {}, () => `Done again: ${what}.`);
@@ -460,6 +466,7 @@ export function App({ token }: { token: string }) {
           {status && <Lines lines={status.lines} again={status.earlier.length > 0} chosen={chosen} actions={actions} />}
         </section>
         {status && <Cloth status={status} busy={busy} mayDraw={mayDraw} fit={fit} moving={moving} speed={speed} kept={verdict?.step === status.step ? verdict.done : undefined} actions={clothActions} />}
+        {status && <History status={status} told={frames} ask={() => parts.current!.program.ask("history")} go={(steps) => void goBack(steps)} />}
         {status && <section aria-label="Give away">
           <h2>Give away</h2>
           <div class="group wrap">

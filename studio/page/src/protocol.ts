@@ -15,7 +15,7 @@ export interface GalleryItem { name: string; title: string }
 export interface Verdict { name: string; verdict: "held" | "pressed" | "strutted" | "lowered" | "may_hold" | "cannot_hold"; words: string }
 export interface Done {
   told?: string[]; outcome?: string; time?: number; words?: string; legend?: string; remarks?: string[]; written?: string[]; live?: boolean; passed_over?: boolean;
-  points?: Vector[]; verdicts?: Verdict[]; all_hold?: boolean; lost?: boolean; pairs?: number; at?: Vector; file?: string; project?: string;
+  points?: Vector[]; verdicts?: Verdict[]; all_hold?: boolean; lost?: boolean; pairs?: number; at?: Vector; file?: string; project?: string; first?: number; steps?: string[];
 }
 export interface Progress { what: string; share: number }
 export interface Hearer {
