@@ -378,10 +378,9 @@ std::string why_not(bool interrupted, const Found& found, std::size_t line, cons
     return "the fold can give way without effort: the cloth bends too easily for it";
   if (may_hold(found, line, o))
     return "it came within " + share_text(farthest_off(found.outcome, line)) +
-           " of its height in this trial, but another may end farther off: to be sure of it, that would have "
-           "to be " +
-           share_text(may_lose(found.outcome, o.kept)) + ", and " +
-           share_text(may_lose_in_gusts(found.outcome, o.kept)) + " after gusts";
+           " of its height in this trial, but another may end farther off; a line is held for sure within " +
+           share_text(may_lose(found.outcome, o.kept)) + ", and after gusts within " +
+           share_text(may_lose_in_gusts(found.outcome, o.kept));
   return "the fold turns into another shape";
 }
 

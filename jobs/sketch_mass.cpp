@@ -20,6 +20,9 @@ void add_colour(double share, std::vector<std::uint8_t>& colours) {
     colours.push_back(static_cast<std::uint8_t>(std::lround(light[k] + share * (dark[k] - light[k]))));
 }
 
+/// "1.3 mg", "430 mg".
+std::string milligrams(double mass) { return fmt::format("{:.{}f} mg", 1e6 * mass, mass < 1e-5 ? 1 : 0); }
+
 }  // namespace
 
 SketchMass mass_of_sketch(const Sketch& sketch, const Json& strokes, Listener& listener) {
@@ -35,11 +38,11 @@ SketchMass mass_of_sketch(const Sketch& sketch, const Json& strokes, Listener& l
   }
   SketchMass shown;
   for (const geometry::Vertex v : mesh.vertices()) add_colour(most > 0 ? mass[v] / most : 0, shown.colours);
-  shown.words = fmt::format(
-      "It weighs {:.0f} g, {:.0f} g/m² of {:.2f} m²; its {} vertices {:.2g} to {:.2g} mg.", 1e3 * whole,
-      1e3 * density, whole / density, mesh.number_of_vertices(), 1e6 * least, 1e6 * most);
-  shown.legend = fmt::format(
-      "Pale: light, where the mesh is fine, as at lines. Dark blue: heavy, up to {:.2g} mg.", 1e6 * most);
+  shown.words = fmt::format("It weighs {:.1f} g, {:.0f} g/m² of {:.2f} m²; its {} vertices {} to {}.",
+                            1e3 * whole, 1e3 * density, whole / density, mesh.number_of_vertices(),
+                            milligrams(least), milligrams(most));
+  shown.legend =
+      "Pale: light, where the mesh is fine, as at lines. Dark blue: heavy, up to " + milligrams(most) + ".";
   return shown;
 }
 

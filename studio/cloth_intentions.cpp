@@ -283,17 +283,17 @@ void Session::pull(Client client, const Message& message) {
 }
 
 Json Session::fit(const Json& body) {
-  const std::string by = text_of(body, "by");
-  const Json strokes = strokes_on(project_->now().drawing);
-  if (by == "mass") {
-    const jobs::SketchMass found = jobs::mass_of_sketch(sketch_, strokes, *this);
-    out_.show(everybody, std::make_shared<const std::string>(colour_bytes(found.colours)));
-    return {{"words", found.words}, {"legend", found.legend}};
-  }
   require_brought("fit");
-  if (by != "strain" && by != "distance") throw Refused("by: is neither strain, distance nor mass");
+  const std::string by = text_of(body, "by");
+  if (by != "strain" && by != "distance") throw Refused("by: is neither strain nor distance");
   const auto colour = by == "strain" ? jobs::FitColour::strain : jobs::FitColour::distance;
-  const jobs::SketchFit found = jobs::fit_sketch(sketch_, strokes, colour, *this);
+  const jobs::SketchFit found = jobs::fit_sketch(sketch_, strokes_on(project_->now().drawing), colour, *this);
+  out_.show(everybody, std::make_shared<const std::string>(colour_bytes(found.colours)));
+  return {{"words", found.words}, {"legend", found.legend}};
+}
+
+Json Session::weigh(const Json&) {
+  const jobs::SketchMass found = jobs::mass_of_sketch(sketch_, strokes_on(project_->now().drawing), *this);
   out_.show(everybody, std::make_shared<const std::string>(colour_bytes(found.colours)));
   return {{"words", found.words}, {"legend", found.legend}};
 }

@@ -52,6 +52,7 @@ const std::map<std::string, Session::Does>& Session::intentions() {
                                                {"points", &Session::tell_points},
                                                {"history", &Session::tell_history},
                                                {"fit", &Session::fit},
+                                               {"weigh", &Session::weigh},
                                                {"tangles", &Session::find_tangles},
                                                {"save", &Session::save},
                                                {"give", &Session::give},

@@ -78,6 +78,7 @@ class Session : jobs::Listener {
   Json keep(const Json& body);
   Json play(const Json& body);
   Json fit(const Json& body);
+  Json weigh(const Json& body);
   Json find_tangles(const Json& body);
   // All of it
   Json undo(const Json& body);

@@ -80,7 +80,7 @@ TEST_CASE("studio cloth: its mass is told and shown, without a body, too") {
   const studio::Studio studio(desk.scene, desk.project());
   Visitor page(studio);
   REQUIRE(page.ask("fabric", {{"name", "denim"}}).contains("done"));
-  const Json plain = page.ask("fit", {{"by", "mass"}}).at("done");
+  const Json plain = page.ask("weigh").at("done");
   INFO(plain.dump());
   const std::string words = plain.at("words");
   CHECK(words.find("324 g/m²") != std::string::npos);
@@ -92,10 +92,11 @@ TEST_CASE("studio cloth: its mass is told and shown, without a body, too") {
   std::memcpy(&vertices, page.cloth.data() + 8, 4);
   CHECK(page.colours.size() == 16 + 3 * std::size_t(vertices));
   REQUIRE(page.ask("draw", line_at(0.1)).contains("done"));
-  const std::string drawn = page.ask("fit", {{"by", "mass"}}).at("done").at("words");
+  const std::string drawn = page.ask("weigh").at("done").at("words");
   double more = 0;
   REQUIRE(std::sscanf(drawn.c_str(), "It weighs %lf g", &more) == 1);
-  CHECK(more >= grams);  // a fold has cloth in it
+  INFO(drawn);
+  CHECK(more > grams);  // a fold has cloth in it
 }
 
 TEST_CASE("studio cloth: what is encircled is held, and let go") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Vector3 } from "three";
-import { Cloth, type ClothActions } from "./cloth";
+import { Cloth, type ClothActions, type ClothMap } from "./cloth";
 import { readFrame, Kind } from "./frame";
 import { Hand } from "./hand";
 import { Handles } from "./handles";
@@ -65,7 +65,7 @@ export function App({ token }: { token: string }) {
   const [moving, setMoving] = useState(0);
   const [speed, setSpeed] = useState(1);  // of a play, over the clock's
   const [lost, setLost] = useState(false);  // what was draped has lost lines
-  const [fit, setFit] = useState<"" | "strain" | "distance" | "mass">("");
+  const [map, setMap] = useState<"" | ClothMap>("");  // that the cloth's colours show
   const [frames, setFrames] = useState(0);
   const [gone, setGone] = useState(false);
   const [help, setHelp] = useState(false);
@@ -116,14 +116,14 @@ export function App({ token }: { token: string }) {
           view.move(frame.positions);
           hand.follow();
           setMoving(frame.time);
-          setFit("");
+          setMap("");
           return;
         }
         if ("colours" in frame) return view.colour(frame.colours);
         view.show(frame);
         if (frame.kind !== Kind.body) handles.show();
         if (frame.kind === Kind.cloth) {
-          setFit("");
+          setMap("");
           setTangles(false);
         }
         if (frame.kind !== Kind.body && !pen.drawing) view.showBand([], 0, 0);
@@ -257,7 +257,7 @@ export function App({ token }: { token: string }) {
     }
     await ask("tangles", {}, (done) => {
       setTangles(done.pairs! > 0);
-      setFit("");
+      setMap("");
       if (done.at) parts.current!.view.lookAt(new Vector3(...done.at));
       return done.words!;
     });
@@ -276,12 +276,12 @@ export function App({ token }: { token: string }) {
     setBusy("");
   };
   /** Shows strain, the distance to the body, or mass, or the cloth's own colour again. */
-  const showFit = async (by: "strain" | "distance" | "mass") => {
-    if (fit === by) {
-      setFit("");
+  const showMap = async (of: ClothMap) => {
+    if (map === of) {
+      setMap("");
       return parts.current!.view.colour(null);
     }
-    if (await ask("fit", { by }, (done) => `${done.words}\n${done.legend}`)) setFit(by);
+    if (await ask(of === "mass" ? "weigh" : "fit", { by: of }, (done) => `${done.words}\n${done.legend}`)) setMap(of);
   };
   /** In a wind that changes while the cloth moves, it moves on. */
   const blow = async (velocity: Vector) => {
@@ -397,7 +397,7 @@ export function App({ token }: { token: string }) {
 
   const clothActions: ClothActions = {
     fabric: (name) => void ask("fabric", { name }, () => `It is made of ${name} now; Drape or Play shows how that hangs.`), hold: (border, on) => void ask("hold", { border, on }), wind: (v) => void blow(v),
-    drape: () => void drape(), keep: () => void keep(), play: (seconds) => void play(seconds), fit: (by) => void showFit(by),
+    drape: () => void drape(), keep: () => void keep(), play: (seconds) => void play(seconds), map: (of) => void showMap(of),
     accept: (drapes) => {
       setVerdict(undefined);
       parts.current!.view.colour(null);
@@ -465,7 +465,7 @@ export function App({ token }: { token: string }) {
             <p class="note">In the cloth by now: {status.earlier.join(", ")}. To change them, undo.</p>}
           {status && <Lines lines={status.lines} again={status.earlier.length > 0} chosen={chosen} actions={actions} />}
         </section>
-        {status && <Cloth status={status} busy={busy} mayDraw={mayDraw} fit={fit} moving={moving} speed={speed} kept={verdict?.step === status.step ? verdict.done : undefined} actions={clothActions} />}
+        {status && <Cloth status={status} busy={busy} mayDraw={mayDraw} map={map} moving={moving} speed={speed} kept={verdict?.step === status.step ? verdict.done : undefined} actions={clothActions} />}
         {status && <History status={status} told={frames} ask={() => parts.current!.program.ask("history")} go={(steps) => void goBack(steps)} />}
         {status && <section aria-label="Give away">
           <h2>Give away</h2>

@@ -3,6 +3,8 @@
 import { Slider } from "./lines";
 import type { Border, Done, Status, Vector } from "./protocol";
 
+/** What colours of the cloth can show. */
+export type ClothMap = "strain" | "distance" | "mass";
 export interface ClothActions {
   fabric(name: string): void;
   hold(border: number, on: boolean): void;
@@ -10,7 +12,7 @@ export interface ClothActions {
   drape(): void;
   keep(): void;
   play(seconds?: number): void;
-  fit(by: "strain" | "distance" | "mass"): void;
+  map(of: ClothMap): void;
   /** `drapes`: and lets the cloth come to rest. */
   accept(drapes: boolean): void;
   takeBack(): void;
@@ -18,7 +20,7 @@ export interface ClothActions {
   pace(speed: number): void;
 }
 
-interface Props { status: Status; busy: string; mayDraw: boolean; fit: string; moving: number; speed: number; kept?: Done; actions: ClothActions }
+interface Props { status: Status; busy: string; mayDraw: boolean; map: string; moving: number; speed: number; kept?: Done; actions: ClothActions }
 
 /** Borders that are told apart in a list; more of them are pinned by clicks. */
 const mostBorders = 6;
@@ -72,7 +74,7 @@ function Verdicts({ kept, actions }: { kept: Done; actions: ClothActions }) {
   );
 }
 
-export function Cloth({ status, busy, mayDraw, fit, moving, speed, kept, actions }: Props) {
+export function Cloth({ status, busy, mayDraw, map, moving, speed, kept, actions }: Props) {
   const hasLines = status.lines.some((line) => line.on);  // that are to be kept before all else
   const idle = busy === "" && mayDraw, held = status.can_drape, brought = !status.made_for_another;
   return (
@@ -102,8 +104,8 @@ export function Cloth({ status, busy, mayDraw, fit, moving, speed, kept, actions
       {(busy === "play" || status.time > 0) && <p class="note" data-time={moving}>At {(busy === "play" ? moving : status.time).toFixed(2)} s of its motion.{busy === "play" && " Pull it with the pointer."}</p>}
       <div class="group" role="group" aria-label="Colours">
         <span>Show</span>
-        {([["strain", "Strain"], ["distance", "Distance"], ["mass", "Mass"]] as const).filter(([by]) => by === "mass" || (status.has_body && brought)).map(([by, name]) => (
-          <button key={by} aria-pressed={fit === by} disabled={!idle} onClick={() => actions.fit(by)}>{name}</button>
+        {([["strain", "Strain"], ["distance", "Distance"], ["mass", "Mass"]] as const).filter(([of]) => of === "mass" || (status.has_body && brought)).map(([of, name]) => (
+          <button key={of} aria-pressed={map === of} disabled={!idle} onClick={() => actions.map(of)}>{name}</button>
         ))}
       </div>
       <p class="note">{!brought ? "It lies about the body that it was made for. Drape brings it to yours, in its own size, and lets it come to rest there."

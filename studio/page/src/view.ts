@@ -121,15 +121,10 @@ export class View {
   private fit() {
     const { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
     if (!w || !h) return;
-    this.setPixels(Math.min(devicePixelRatio, 2), w, h);
+    this.renderer.setSize(w, h, false);
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
     this.draw();
-  }
-
-  private setPixels(ratio: number, w: number, h: number) {
-    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(w, h, false);
   }
 
   /** Draws soon: once, however often it was asked. Where pictures take long, one with a quarter of the pixels comes
@@ -155,20 +150,22 @@ export class View {
   }
 
   private render(isCoarse: boolean) {
-    if (isCoarse !== this.isCoarse) {
-      const { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
-      this.setPixels(Math.min(devicePixelRatio, 2) * (isCoarse ? 0.5 : 1), w, h);
-      this.isCoarse = isCoarse;
-    }
+    this.isCoarse = isCoarse;
+    this.renderWith(Math.min(devicePixelRatio, 2) * (isCoarse ? 0.5 : 1), !isCoarse);
+  }
+
+  /** `ratio`: pixels of the picture a pixel of the page. */
+  private renderWith(ratio: number, hasShadows: boolean) {
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);  // which sets the size, too
     this.key.position.copy(this.camera.localToWorld(new THREE.Vector3(-0.55, 0.75, 0.35).multiplyScalar(this.size)));
     this.key.target.position.copy(this.controls.target);
-    this.shade(!isCoarse);
+    this.shade(hasShadows);
     // three counts a picture before it draws the shadows, and would take what has changed since then for sent.
     ++this.renderer.info.render.frame;
     this.renderer.render(this.scene, this.camera);
   }
 
-  /** Shadows of the light from above, in pictures with all pixels; others have the same shaders, and see none. */
+  /** Shadows of the light from above; pictures without have the same shaders, and see none. */
   private shade(isOn: boolean) {
     this.key.shadow.intensity = isOn ? 1 : 0;
     this.renderer.shadowMap.needsUpdate = isOn;
@@ -496,15 +493,10 @@ export class View {
   /** What is seen, without lines, pins and dots and twice as fine, goes to the browser's downloads. */
   savePicture(name: string) {
     const tools = [this.lines, this.pins, this.handles, this.rope, this.plane, this.band], seen = tools.map((t) => t.visible);
-    const ratio = this.renderer.getPixelRatio(), { clientWidth: w, clientHeight: h } = this.canvas.parentElement!;
     for (const tool of tools) tool.visible = false;
-    this.renderer.setPixelRatio(Math.max(2, ratio));
-    this.renderer.setSize(w, h, false);
-    this.renderer.render(this.scene, this.camera);  // what was drawn before is gone from the canvas
+    this.renderWith(Math.max(2, devicePixelRatio), true);  // what was drawn before is gone from the canvas
     this.canvas.toBlob((picture) => {
       tools.forEach((tool, i) => (tool.visible = seen[i]));
-      this.renderer.setPixelRatio(ratio);
-      this.renderer.setSize(w, h, false);
       this.draw();
       if (!picture) return;
       const link = document.createElement("a");
