@@ -157,8 +157,9 @@ export class View {
   /** `ratio`: pixels of the picture a pixel of the page. */
   private renderWith(ratio: number, hasShadows: boolean) {
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);  // which sets the size, too
-    this.key.position.copy(this.camera.localToWorld(new THREE.Vector3(-0.55, 0.75, 0.35).multiplyScalar(this.size)));
+    const fromAbove = new THREE.Vector3(-0.55, 0.75, 2.25).multiplyScalar(this.size).applyQuaternion(this.camera.quaternion);
     this.key.target.position.copy(this.controls.target);
+    this.key.position.copy(this.controls.target).add(fromAbove);  // however far the camera is
     this.shade(hasShadows);
     // three counts a picture before it draws the shadows, and would take what has changed since then for sent.
     ++this.renderer.info.render.frame;
@@ -173,8 +174,8 @@ export class View {
     if (camera.right === around) return;
     camera.left = camera.bottom = -around;
     camera.right = camera.top = around;
-    camera.near = 0.01 * this.size;
-    camera.far = 3 * this.size;
+    camera.near = 0.4 * this.size;
+    camera.far = 4.5 * this.size;
     camera.updateProjectionMatrix();
     this.key.shadow.normalBias = 0.004 * this.size;
     this.key.shadow.bias = -0.0004;
