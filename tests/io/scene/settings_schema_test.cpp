@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 
@@ -94,13 +95,11 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 }  // namespace
 
 TEST_CASE("settings: docs/scenes.md has the table that the schema prints") {
-  INFO("make it anew: build/release/tests/test_io \"[write-docs]\"");
-  CHECK(split_page().table == page());
-}
-
-TEST_CASE("settings: docs/scenes.md is written anew", "[.][write-docs]") {
-  const Split split = split_page();
-  std::ofstream(scenes_page, std::ios::binary) << split.before << page() << split.after;
+  INFO("write it anew: FURROW_WRITE_DOCS=1 build/release/tests/test_io \"settings: docs*\"");
+  if (std::getenv("FURROW_WRITE_DOCS")) {
+    const Split split = split_page();
+    std::ofstream(scenes_page, std::ios::binary) << split.before << page() << split.after;
+  }
   CHECK(split_page().table == page());
 }
 
