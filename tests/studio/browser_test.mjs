@@ -414,6 +414,29 @@ async function sheet() {
   await tab.close();
 }
 
+/** A ridge across all of a hanging sheet is draped flat, which is said; a button goes back and keeps it in place of that. */
+async function drapedFlat() {
+  writeFileSync(join(scratch, "hung.obj"), sheetText(14, 0.03));
+  const seen = await open((await studio("hung.obj", "--project", "hung", "--pin-box=-1,0.41,-1,1,1,1")).url, 1);
+  const { tab } = seen;
+  await tab.keyboard.press("r");
+  await (await stroke(tab, [[0.25, 0.5], [0.5, 0.5], [0.75, 0.5]]))();
+  await seen.at(1);
+  await tab.keyboard.press("Escape");
+  await tab.keyboard.press("d");
+  await seen.at(2);
+  const instead = tab.getByRole("button", { name: "Undo and keep its lines" });
+  await until("it offers to keep the line", async () => (await instead.count()) === 1);
+  assert.match(await seen.words(), /lost/);
+  await seen.shot("18-draped-flat");
+  await instead.click();
+  await until("the verdict in place of the drape", async () => (await tab.locator(".verdicts li").count()) === 1);
+  assert.equal(await seen.step(), 2);
+  assert.equal(await instead.count(), 0);
+  assert.deepEqual(seen.faults, []);
+  await tab.close();
+}
+
 /** Without a garment: one from the gallery, then a file in centimetres, of which a part is held by a lasso. */
 async function openings() {
   writeFileSync(join(scratch, "mine.obj"), sheetText(14, 3));
@@ -510,6 +533,7 @@ try {
   assert.deepEqual(again.faults, []);
   replay("skirt-studio");
   await sheet();
+  await drapedFlat();
   await openings();
   console.log("1 passed, 0 failed");
 } finally {

@@ -98,7 +98,7 @@ export function Cloth({ status, busy, mayDraw, map, moving, speed, kept, actions
           {[1, 0.5, 0.25, 0.1].map((s) => <option key={s} value={s}>{s}×</option>)}
         </select>
       </div>
-      {held && status.borders.some((b) => b.name === "top" && !b.held) && <p class="note">Nothing holds the upper border: a skirt or trousers slip down, and folds at the waist open.{" "}
+      {held && status.has_body && status.borders.some((b) => b.name === "top" && !b.held) && <p class="note">Nothing holds the upper border: a skirt or trousers slip down, and folds at the waist open.{" "}
         <button class="small" disabled={!idle} onClick={() => actions.hold(status.borders.findIndex((b) => b.name === "top"), true)}>Hold it</button></p>}
       {kept && <Verdicts kept={kept} actions={actions} />}
       {(busy === "play" || status.time > 0) && <p class="note" data-time={moving}>At {(busy === "play" ? moving : status.time).toFixed(2)} s of its motion.{busy === "play" && " Pull it with the pointer."}</p>}
