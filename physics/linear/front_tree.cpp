@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "physics/base/cancel_scope.h"
 #include "physics/linear/nested_dissection.h"
@@ -11,58 +12,136 @@ namespace furrow::physics {
 namespace {
 
 using Front = FrontTree::Front;
-using Lists = std::vector<std::vector<int>>;
 
 constexpr double together = 0.7;  // share of their speed that threads keep on one front
 constexpr int most_splits = 8;    // a thread
 
-/// Rows of blocks below the diagonal, of each column of blocks.
-Lists blocks_below(const Eigen::SparseMatrix<double>& lower) {
-  Lists below(std::size_t(lower.cols() / 3));
-  for (std::size_t c = 0; c < below.size(); ++c) {
-    for (int v = lower.outerIndexPtr()[3 * c] + 3; v < lower.outerIndexPtr()[3 * c + 1]; v += 3)
-      below[c].push_back(lower.innerIndexPtr()[v] / 3);
+ColumnRows blocks_below(const FrontTree::Sparse& lower) {
+  ColumnRows below;
+  const int columns = int(lower.cols()) / 3, *outer = lower.outerIndexPtr();
+  below.rows.reserve(std::size_t(lower.nonZeros()) / 9);
+  for (int c = 0; c < columns; ++c) {
+    for (int v = outer[3 * c] + 3; v < outer[3 * c + 1]; v += 3)
+      below.rows.push_back(lower.innerIndexPtr()[v] / 3);
+    below.first.push_back(below.rows.size());
   }
   return below;
 }
 
-/// The same after a permutation, each list ascending.
-Lists permuted(const Lists& below, const std::vector<int>& position) {
-  Lists result(below.size());
-  for (std::size_t c = 0; c < below.size(); ++c) {
-    for (const int r : below[c]) {
-      const auto [low, high] = std::minmax(position[c], position[r]);
-      result[low].push_back(high);
-    }
-  }
-  for (auto& list : result) std::sort(list.begin(), list.end());
+/// Sorts pairs by their second part into columns that hold the first, in the order of the pairs. each(f)
+/// calls f(first, second) for each pair.
+template <class Each>
+ColumnRows gathered(int columns, Each each) {
+  ColumnRows result;
+  result.first.assign(std::size_t(columns) + 1, 0);
+  each([&](int, int second) { ++result.first[std::size_t(second) + 1]; });
+  std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
+  result.rows.resize(result.first.back());
+  std::vector<std::size_t> end(result.first.begin(), result.first.end() - 1);
+  each([&](int first, int second) { result.rows[end[std::size_t(second)]++] = first; });
   return result;
+}
+
+/// Of each row the columns before it.
+ColumnRows transposed(const ColumnRows& below) {
+  return gathered(below.columns(), [&](const auto& take) {
+    for (int c = 0; c < below.columns(); ++c)
+      for (const int r : below.of(c)) take(c, r);
+  });
+}
+
+/// The same after a permutation.
+ColumnRows permuted(const ColumnRows& below, const std::vector<int>& position) {
+  const ColumnRows before = gathered(below.columns(), [&](const auto& take) {
+    for (int c = 0; c < below.columns(); ++c)
+      for (const int r : below.of(c)) {
+        const auto [low, high] = std::minmax(position[std::size_t(c)], position[std::size_t(r)]);
+        take(low, high);
+      }
+  });
+  return transposed(before);  // row by row, so that each column's rows ascend
 }
 
 /// How much of a joined panel may be zeros.
 double most_zeros(int width) { return width <= 4 ? 0.6 : width <= 16 ? 0.25 : 0.08; }
 
-/// One front for each run of columns whose parents follow each other and whose rows agree.
-std::vector<Front> make_fronts(Lists& below) {
-  const int columns = int(below.size());
-  std::vector<Front> fronts;
-  const std::vector<int> parent = elimination_tree(below);
-  std::vector<int> front_of(below.size());
-  for (int c = 0; c < columns; ++c) {  // below becomes the structure of L: a column's rows go to its parent
-    if (parent[c] < 0) continue;
-    std::vector<int>& rows = below[parent[c]];
-    std::vector<int> all;
-    std::set_union(rows.begin(), rows.end(), below[c].begin() + 1, below[c].end(), std::back_inserter(all));
-    rows = std::move(all);
+/// The rows of each column of the factor. Most columns have those of one child, which are not copied.
+class FactorRows {
+ public:
+  FactorRows(const ColumnRows& below, std::span<const int> parent)
+      : below_(below), parts_(parent.size()), stamp_(parent.size(), -1) {
+    std::vector<int> first(parent.size(), -1), next(parent.size(), -1);  // lists of children
+    for (int c = 0; c < int(parent.size()); ++c) {
+      find(c, first[std::size_t(c)], next);
+      const int p = parent[std::size_t(c)];
+      if (p < 0) continue;
+      next[std::size_t(c)] = first[std::size_t(p)];
+      first[std::size_t(p)] = c;
+    }
   }
+  std::span<const int> of(int column) const {
+    const Part& part = parts_[std::size_t(column)];
+    return {rows_.data() + part.begin, part.size};
+  }
+
+ private:
+  struct Part {
+    std::size_t begin = 0, size = 0;
+  };
+
+  void find(int column, int child, const std::vector<int>& next) {
+    int largest = -1;
+    for (int k = child; k >= 0; k = next[std::size_t(k)])
+      if (largest < 0 || of(k).size() > of(largest).size()) largest = k;
+    Part part;  // of the largest child, behind the column
+    if (largest >= 0) part = {parts_[std::size_t(largest)].begin + 1, parts_[std::size_t(largest)].size - 1};
+    for (std::size_t i = 0; i < part.size; ++i) stamp_[std::size_t(rows_[part.begin + i])] = column;
+    more_.clear();
+    const auto take = [&](int row) {
+      if (row == column || std::exchange(stamp_[std::size_t(row)], column) == column) return;
+      more_.push_back(row);
+    };
+    for (const int row : below_.of(column)) take(row);
+    for (int k = child; k >= 0; k = next[std::size_t(k)])
+      if (k != largest)
+        for (const int row : of(k)) take(row);
+    parts_[std::size_t(column)] = more_.empty() ? part : merged(part);
+  }
+
+  Part merged(const Part& part) {
+    std::sort(more_.begin(), more_.end());
+    const std::size_t begin = rows_.size();
+    rows_.resize(begin + part.size + more_.size());
+    const auto old = rows_.begin() + std::ptrdiff_t(part.begin);
+    std::merge(old, old + std::ptrdiff_t(part.size), more_.begin(), more_.end(),
+               rows_.begin() + std::ptrdiff_t(begin));
+    return {begin, part.size + more_.size()};
+  }
+
+  const ColumnRows& below_;
+  std::vector<Part> parts_;
+  std::vector<int> rows_, stamp_, more_;
+};
+
+/// One front for each run of columns whose parents follow each other and whose rows agree.
+std::vector<Front> make_fronts(const ColumnRows& below) {
+  const int columns = below.columns();
+  const std::vector<int> parent = elimination_tree(below);
+  const FactorRows rows(below, parent);
+  std::vector<Front> fronts;
+  std::vector<int> front_of(parent.size());
   for (int c = 0; c < columns; ++c) {
-    const bool follows = c > 0 && parent[c - 1] == c && below[c - 1].size() == below[c].size() + 1;
+    const bool follows =
+        c > 0 && parent[std::size_t(c) - 1] == c && rows.of(c - 1).size() == rows.of(c).size() + 1;
     if (!follows) fronts.emplace_back().first = c;
     ++fronts.back().width;
-    fronts.back().rows = below[c];
-    front_of[c] = int(fronts.size()) - 1;
+    front_of[std::size_t(c)] = int(fronts.size()) - 1;
   }
-  for (Front& f : fronts) f.parent = f.rows.empty() ? -1 : front_of[f.rows[0]];
+  for (Front& f : fronts) {
+    const std::span<const int> left = rows.of(f.first + f.width - 1);
+    f.rows.assign(left.begin(), left.end());
+    f.parent = f.rows.empty() ? -1 : front_of[std::size_t(f.rows[0])];
+  }
   return fronts;
 }
 
@@ -139,8 +218,12 @@ void find_parents(std::vector<Front>& fronts) {
     if (f.parent < 0) continue;
     Front& p = fronts[std::size_t(f.parent)];
     p.children.push_back(int(i));
+    std::size_t at = 0;  // among the parent's rows
     for (int r = 0; r < int(f.rows.size()); ++r) {
-      const int place = 3 * place_in(p, f.rows[std::size_t(r)]);
+      const int row = f.rows[std::size_t(r)];
+      if (row >= p.first + p.width)
+        while (p.rows[at] != row) ++at;
+      const int place = 3 * (row < p.first + p.width ? row - p.first : p.width + int(at));
       if (f.runs.empty() || f.runs.back().to + f.runs.back().length != place)
         f.runs.push_back({3 * r, place, 0});
       f.runs.back().length += 3;
@@ -164,6 +247,12 @@ void find_blocks(const FrontTree::Sparse& lower, FrontTree& tree) {
   }
 }
 
+/// Of a front alone: products; moving.
+double work_of(const Front& f) {
+  const double w = f.width, n = w + double(f.rows.size());
+  return w * (n * n - n * w + w * w / 3) + 10 * n * n;
+}
+
 struct Work {
   std::vector<double> own, branch;  // of a front alone; with all below it
   std::vector<int> lowest;          // front of its branch; a branch is a range
@@ -173,8 +262,7 @@ Work work_of(const std::vector<Front>& fronts) {
   Work work{std::vector<double>(fronts.size()), std::vector<double>(fronts.size()),
             std::vector<int>(fronts.size())};
   for (std::size_t i = 0; i < fronts.size(); ++i) {
-    const double w = fronts[i].width, n = w + double(fronts[i].rows.size());
-    work.own[i] = w * (n * n - n * w + w * w / 3) + 10 * n * n;  // products; moving
+    work.own[i] = work_of(fronts[i]);
     work.branch[i] += work.own[i];
     work.lowest[i] = int(i);
     for (const int child : fronts[i].children)
@@ -193,20 +281,15 @@ double time_of(const std::vector<int>& branches, const Work& work, int threads) 
 
 }  // namespace
 
-std::vector<int> elimination_tree(std::span<const std::vector<int>> below) {
-  const int n = int(below.size());
-  Lists before(below.size());
-  for (int c = 0; c < n; ++c)
-    for (const int r : below[c]) before[r].push_back(c);
+std::vector<int> elimination_tree(const ColumnRows& below) {
+  const ColumnRows before = transposed(below);
+  const std::size_t n = std::size_t(below.columns());
   std::vector<int> parent(n, -1), ancestor(n, -1);
-  for (int r = 0; r < n; ++r) {
-    for (int c : before[r]) {
-      while (ancestor[c] >= 0 && ancestor[c] != r) {
-        const int next = ancestor[c];
-        ancestor[c] = r;
-        c = next;
-      }
-      if (ancestor[c] < 0 && c != r) ancestor[c] = parent[c] = r;
+  for (int r = 0; r < int(n); ++r) {
+    for (int c : before.of(r)) {
+      while (ancestor[std::size_t(c)] >= 0 && ancestor[std::size_t(c)] != r)
+        c = std::exchange(ancestor[std::size_t(c)], r);
+      if (ancestor[std::size_t(c)] < 0 && c != r) ancestor[std::size_t(c)] = parent[std::size_t(c)] = r;
     }
   }
   return parent;
@@ -214,37 +297,37 @@ std::vector<int> elimination_tree(std::span<const std::vector<int>> below) {
 
 std::vector<int> postorder(std::span<const int> parent) {
   const int n = int(parent.size());
-  Lists children(parent.size());
-  std::vector<int> stack, place(n, -1);
-  for (int i = n - 1; i >= 0; --i) {
-    if (parent[i] < 0) stack.push_back(i);
-    if (parent[i] >= 0) children[parent[i]].push_back(i);  // the last one first
+  std::vector<int> stack, place(parent.size(), -1), first(parent.size(), -1), later(parent.size(), -1);
+  for (int i = n - 1; i >= 0; --i) {  // a node's children, the first one first
+    const int p = parent[std::size_t(i)];
+    if (p < 0) stack.push_back(i);
+    if (p >= 0) later[std::size_t(i)] = std::exchange(first[std::size_t(p)], i);
   }
   int next = n;  // from the roots downwards: a node, then its children from the last to the first
   std::reverse(stack.begin(), stack.end());
   while (!stack.empty()) {
     const int i = stack.back();
     stack.pop_back();
-    place[i] = --next;
-    for (auto c = children[i].rbegin(); c != children[i].rend(); ++c) stack.push_back(*c);
+    place[std::size_t(i)] = --next;
+    for (int c = first[std::size_t(i)]; c >= 0; c = later[std::size_t(c)]) stack.push_back(c);
   }
   return place;
 }
 
-FrontTree front_tree(const FrontTree::Sparse& lower) {
+FrontTree front_tree(const FrontTree::Sparse& lower, std::vector<int> order) {
   FrontTree tree;
-  const Lists below = blocks_below(lower);
-  tree.position = nested_dissection(below);
+  const ColumnRows below = blocks_below(lower);
+  tree.position = order.empty() ? nested_dissection(below) : std::move(order);
   const std::vector<int> place = postorder(elimination_tree(permuted(below, tree.position)));
   for (int& p : tree.position) p = place[std::size_t(p)];
   throw_if_cancelled("front_tree");
-  Lists factor = permuted(below, tree.position);
-  tree.fronts = make_fronts(factor);
+  tree.fronts = make_fronts(permuted(below, tree.position));
   throw_if_cancelled("front_tree");
   join_parents(tree.fronts);
   order_columns(tree);
   find_parents(tree.fronts);
   find_blocks(lower, tree);
+  for (const Front& f : tree.fronts) tree.work += work_of(f);
   return tree;
 }
 

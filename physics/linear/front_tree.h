@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "physics/linear/column_rows.h"
+
 namespace furrow::physics {
 
 /// The fronts of a multifrontal Cholesky factorisation of a BlockMatrix: particles whose columns of the
@@ -33,11 +35,13 @@ struct FrontTree {
   };
   std::vector<int> position;  // of each row of blocks in the order of elimination
   std::vector<Front> fronts;  // children before parents, a branch in one piece
+  double work = 0;            // of a factorisation: products, and numbers that are moved ten times [-]
 };
 
-/// Cost: the order of elimination, 0.1 s for 12,000 vertices, and about half of that. Asks in between whether
-/// it is cancelled; throws as nested_dissection().
-FrontTree front_tree(const FrontTree::Sparse& lower);
+/// order: the place of each row of blocks, as `position` of a tree for a like pattern; empty:
+/// nested_dissection(). Cost: that order, 0.1 s for 12,000 vertices, and a fifth of it. Asks in between
+/// whether it is cancelled; throws as nested_dissection().
+FrontTree front_tree(const FrontTree::Sparse& lower, std::vector<int> order = {});
 
 /// How threads share a tree of fronts: branches, each done by one thread, and the trunk that they grow from,
 /// done by all together.
@@ -50,10 +54,10 @@ struct FrontDivision {
 FrontDivision divide_fronts(const std::vector<FrontTree::Front>& fronts, int threads);
 
 /// The elimination tree of a sparse symmetric matrix: the parent of a column is the first row below the
-/// diagonal in its column of the Cholesky factor, -1 if there is none (a root). below: of each column the
-/// rows below the diagonal, in range. Cost: nearly linear in them. Source: Liu, The role of elimination trees
-/// in sparse factorization, SIAM J. Matrix Anal. Appl. 11(1), 1990.
-std::vector<int> elimination_tree(std::span<const std::vector<int>> below);
+/// diagonal in its column of the Cholesky factor, -1 if there is none (a root). Cost: nearly linear in the
+/// rows. Source: Liu, The role of elimination trees in sparse factorization, SIAM J. Matrix Anal. Appl.
+/// 11(1), 1990.
+std::vector<int> elimination_tree(const ColumnRows& below);
 
 /// The place of each node in an order where each node comes right behind its descendants; children keep their
 /// order. Every parent has a higher index than its children, or is -1.

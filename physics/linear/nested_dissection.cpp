@@ -20,20 +20,21 @@ struct Graph {
   std::size_t size() const { return first.size() - 1; }
 };
 
-Graph graph_of(std::span<const std::vector<int>> below) {
+Graph graph_of(const ColumnRows& below) {
   Graph g;
-  g.first.assign(below.size() + 1, 0);
-  for (std::size_t c = 0; c < below.size(); ++c) {
-    g.first[c + 1] += idx_t(below[c].size());
-    for (const int r : below[c]) ++g.first[std::size_t(r) + 1];
+  const int n = below.columns();
+  g.first.assign(std::size_t(n) + 1, 0);
+  for (int c = 0; c < n; ++c) {
+    g.first[std::size_t(c) + 1] += idx_t(below.of(c).size());
+    for (const int r : below.of(c)) ++g.first[std::size_t(r) + 1];
   }
   std::partial_sum(g.first.begin(), g.first.end(), g.first.begin());
   std::vector<idx_t> end(g.first.begin(), g.first.end() - 1);
   g.next.resize(std::size_t(g.first.back()));
-  for (std::size_t c = 0; c < below.size(); ++c) {
-    for (const int r : below[c]) {
-      g.next[std::size_t(end[c]++)] = r;
-      g.next[std::size_t(end[std::size_t(r)]++)] = idx_t(c);
+  for (int c = 0; c < n; ++c) {
+    for (const int r : below.of(c)) {
+      g.next[std::size_t(end[std::size_t(c)]++)] = r;
+      g.next[std::size_t(end[std::size_t(r)]++)] = c;
     }
   }
   return g;
@@ -125,7 +126,7 @@ std::vector<int> order(Graph& g) {
 
 }  // namespace
 
-std::vector<int> nested_dissection(std::span<const std::vector<int>> below) {
+std::vector<int> nested_dissection(const ColumnRows& below) {
   Graph g = graph_of(below);
   return order(g);
 }

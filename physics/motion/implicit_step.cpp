@@ -113,16 +113,18 @@ SelfContactState ImplicitStep::self_contact() const {
   return state;
 }
 
-/// Brings a guess to where the cloth can go from a place. false: what is held does not arrive.
-bool ImplicitStep::approach(const Vectors& from, Vectors& x) {
+/// Brings a guess to where the cloth can go from a place. Returns how many particles do not arrive; one that
+/// is held is noted.
+int ImplicitStep::approach(const Vectors& from, Vectors& x) {
   const WorkClock::Within pair_part(motion_.clock(), WorkPart::self_contact);
   Vectors reached = from;
   no_room_.reset();
-  if (pairs_->approach(reached, x, &motion_.pool()) > 0)
+  const int stopped = pairs_->approach(reached, x, &motion_.pool());
+  if (stopped > 0)
     for (std::size_t i = 0; i < x.size() && !no_room_; ++i)
       if (!(cloth_.particles.inv_mass[i] > 0) && reached[i] != x[i]) no_room_ = reached[i];
   x = std::move(reached);
-  return !no_room_;
+  return stopped;
 }
 
 ImplicitStep::State ImplicitStep::read() const {
@@ -170,20 +172,28 @@ StepLoads ImplicitStep::loads_at(double time) {
   return given;
 }
 
-/// Brings a guess to where cloth lets it. What is led goes as far as it can, and then, round by round, as the
-/// rest goes out of its way. false: it does not arrive.
+/// Brings a guess to where cloth lets it. Where cloth touches cloth, or would on the way, what is free begins
+/// where it was instead: a guess that is stopped particle by particle is torn, and its pairs all but touch.
+/// What is led goes as far as it can, and then, round by round, as the rest goes out of its way. false: it
+/// does not arrive.
 bool ImplicitStep::make_way(const Stage& stage, const StepLoads& loads, const StageStart& start,
                             SearchOptions options, Vectors& x) {
   const std::vector<double>& inv_mass = cloth_.particles.inv_mass;
   options.few = options.most = iterations_of_round;
   const Vectors goal = x;
   Vectors reached(start.x.begin(), start.x.end());
-  for (int round = 0; !approach(reached, x); ++round) {
+  if (!pairs_->acts() && approach(reached, x) == 0) return true;
+  x = reached;
+  const auto lead = [&] {
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (!(inv_mass[i] > 0)) x[i] = goal[i];
+  };
+  lead();
+  for (int round = 0; approach(reached, x), no_room_; ++round) {
     if (round == most_rounds_of_leading) return false;
     search_->find(stage, loads, start, options, x);
     reached = x;
-    for (std::size_t i = 0; i < x.size(); ++i)
-      if (!(inv_mass[i] > 0)) x[i] = goal[i];
+    lead();
   }
   return true;
 }

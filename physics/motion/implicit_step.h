@@ -61,7 +61,7 @@ class ImplicitStep : public Stepper {
   void prepare(double dt);
   void make_pairs();
   void forget_step(const SelfContactMemory& before);
-  bool approach(const std::vector<Vec3>& from, std::vector<Vec3>& x);
+  int approach(const std::vector<Vec3>& from, std::vector<Vec3>& x);
   bool make_way(const Stage& stage, const StepLoads& loads, const StageStart& start, SearchOptions options,
                 std::vector<Vec3>& x);
   void hold(const std::vector<Vec3>& x);

@@ -22,7 +22,7 @@ TEST_CASE("front_tree: parents of the elimination tree are those that a dense fa
       a(i, j) = a(j, i) = 1 + 0.1 * noise();
     }
     const Eigen::MatrixXd factor = a.llt().matrixL();
-    const std::vector<int> parent = elimination_tree(below);
+    const std::vector<int> parent = elimination_tree(ColumnRows(below));
     for (int c = 0; c < n; ++c) {
       int first = -1;
       for (int r = n - 1; r > c; --r) {
