@@ -21,8 +21,6 @@ constexpr double first_part = 0.2;  // of the first run, before it is asked whet
 constexpr int look_steps = 100;     // between two moments that are looked at, however often a run is observed
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
-// Steps of backward Euler take so much out of a swing that their gusts blow stronger, by this.
-constexpr double gust_of_euler = 1.6;
 constexpr double calm_dt = 1.0 / 30;   // of implicit steps, where nothing blows [s]
 constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -135,9 +133,9 @@ struct Part {
 };
 
 /// What goes on from a run: gusts to both sides along two level axes, and calm.
-std::vector<Part> gusts_and_calm(const KeepOptions& o, const Vec3& gust, double from) {
+std::vector<Part> gusts_and_calm(const KeepOptions& o, const Vec3& gust, double from, double stronger) {
   if (!(o.gust > 0)) return {};
-  const double factor = o.run.integrator == physics::Integrator::implicit ? gust_of_euler : 1;
+  const double factor = o.run.integrator == physics::Integrator::implicit ? stronger : 1;
   const Vec3 a = factor * gust, b = factor * across(gust, o.run.gravity);
   std::vector<Part> parts;
   for (const Vec3& side : {a, Vec3(-a), b, Vec3(-b)})
@@ -214,11 +212,11 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
                     const KeepOptions& o, LineMeter& meter, const InVain& in_vain,
-                    const std::function<bool(double)>& go_on) {
+                    const std::function<bool(double)>& go_on, double stronger) {
   using physics::Outcome;
   const int runs = stable ? 1 : o.pushes;
   const double branch = first_part * o.seconds;
-  const std::vector<Part> gusts = gusts_and_calm(o, gust_of(o, start.particles.x), branch);
+  const std::vector<Part> gusts = gusts_and_calm(o, gust_of(o, start.particles.x), branch, stronger);
   const double in_gusts = gusts.empty() ? 0 : gusts.back().until - branch;
   const Setting setting{world, o, go_on, meter, meter.heights(start.particles), runs * o.seconds + in_gusts};
   const std::vector<double> unknown(setting.drawn.size(), NAN);

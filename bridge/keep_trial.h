@@ -50,18 +50,21 @@ struct KeepTrial {
 /// trial ends.
 using InVain = std::function<bool(const std::vector<double>& shares, bool at_end)>;
 
+/// Steps of backward Euler take so much out of a swing that their gusts blow stronger, by this.
+constexpr double gust_of_euler = 1.6;
+
 /// Runs a cloth forward from rest for a fifth of the options' seconds; from there through gusts to both sides
 /// along two level axes, and a calm; and from there, too, without gusts to the end. The cloth is not changed.
 /// stable: what its certificate says; if not, there are options.pushes runs without gusts, and of `kept` the
-/// worst counts, at any time from 0.5 s on. Implicit steps are those of backward Euler, which damp a swing:
-/// their gusts are 1.6 times as strong, and where nothing blows they go on with factors of steps before, 1/30
-/// s long unless the options name a step. What a trial that ends early does not know is NaN. Both functions
+/// worst counts, at any time from 0.5 s on. Implicit steps are those of backward Euler: their gusts are
+/// `stronger` times as strong, and where nothing blows they go on with factors of steps before, 1/30 s long
+/// unless the options name a step. What a trial that ends early does not know is NaN. Both functions
 /// may be empty.
 ///
 /// \details Each run begins with a push of every vertex: an unstable shape would stand still like a pencil on
 /// its tip, and a stable one may lie in a shallow hollow.
 KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
                     const KeepOptions& options, LineMeter& meter, const InVain& in_vain,
-                    const std::function<bool(double)>& go_on);
+                    const std::function<bool(double)>& go_on, double stronger = gust_of_euler);
 
 }  // namespace furrow::bridge

@@ -18,11 +18,11 @@ const char* name_of(Integrator i) { return i == Integrator::implicit ? "implicit
 
 void print(const std::string& what, const cases::Handling& how, const cases::Handled& h) {
   std::printf(
-      "| %s | %s%s | %d | %d | %d | %d | %.3f | %.4f%% | %d | %.1f |", what.c_str(), name_of(how.integrator),
-      how.self_contact ? "" : ", without", h.vertices, h.looked, h.most_crossings, h.report.self.pairs,
-      1e3 * h.report.self.nearest,
+      "| %s | %s%s | %d | %d | %d | %d | %.3f | %.4f%% | %lld | %d | %.1f |", what.c_str(),
+      name_of(how.integrator), how.self_contact ? "" : ", without", h.vertices, h.looked, h.most_crossings,
+      h.report.self.pairs, 1e3 * h.report.self.nearest,
       100.0 * double(h.report.cut_moves) / (double(h.vertices) * std::max(1.0, double(h.report.steps))),
-      int(h.report.outcome), h.report.cpu_seconds);
+      static_cast<long long>(h.report.open_steps), int(h.report.outcome), h.report.cpu_seconds);
   if (h.torques[0] != 0) std::printf(" %.4g %.4g |", h.torques[0], h.torques[1]);
   std::printf("\n");
   std::fflush(stdout);
@@ -46,7 +46,8 @@ int main(int count, char** arguments) {
   }
   std::printf(
       "| case | steps | vertices | looked at | most edges through faces | pairs at the end | nearest [mm] | "
-      "moves cut | outcome | seconds |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "moves cut | steps not solved | outcome | seconds |\n| --- | --- | --- | --- | --- | --- | --- | --- | "
+      "--- | --- | --- |\n");
   if (what == "wring") {
     how.seconds = 2.5;
     print("towel, " + std::to_string(many) + " turns", how, cases::wring(many, how));

@@ -99,9 +99,13 @@ physics::SimulateTotals totals_of(const Json& j) {
 }
 
 Json to_json(const physics::SelfContactMemory& self) {
-  Json json{{"stiffness", self.stiffness}, {"crossed_at_start", self.crossed_at_start},
-            {"loose", self.loose},         {"coupled", self.coupled},
-            {"pairs", Json::array()},      {"friction", Json::array()}};
+  Json json{{"stiffness", self.stiffness},
+            {"crossed_at_start", self.crossed_at_start},
+            {"loose", self.loose},
+            {"coupled", self.coupled},
+            {"pairs", Json::array()},
+            {"friction", Json::array()},
+            {"ordered_for", self.ordered_for}};
   for (const physics::PairMemory& p : self.pairs)
     json["pairs"].push_back({int(p.edges), p.first, p.second, p.range, p.target});
   for (const physics::PairFrictionMemory& f : self.friction)
@@ -118,6 +122,7 @@ physics::SelfContactMemory self_contact_of(const Json& json) {
   self.coupled = json.at("coupled").get<std::vector<std::array<int, 2>>>();
   for (const Json& p : json.at("pairs"))
     self.pairs.push_back({p.at(0).get<int>() != 0, p.at(1), p.at(2), p.at(3), p.at(4)});
+  self.ordered_for = json.value("ordered_for", self.coupled);  // absent in older files
   for (const Json& f : json.value("friction", Json::array()))  // absent in older files
     self.friction.push_back({f.at(0).get<int>() != 0, f.at(1), f.at(2), Vec3(f.at(3), f.at(4), f.at(5)),
                              f.at(6).get<int>() != 0});

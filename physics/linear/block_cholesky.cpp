@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstring>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include "physics/base/cancel_scope.h"
@@ -18,6 +18,7 @@ namespace furrow::physics {
 namespace {
 
 constexpr double least_shared_numbers = 5e4;  // numbers to move that are worth waking threads
+constexpr double most_work = 1.5;             // with an order for another matrix, over that one's
 constexpr double asked_after = 1e6;           // multiplications: a fraction of a millisecond
 
 /// Rows of a front's update.
@@ -344,16 +345,26 @@ void FrontFactors<Real>::solve(Eigen::VectorXd& b, ThreadPool* pool) const {
 
 }  // namespace
 
-/// Of each kind when it is first needed.
 struct BlockCholesky::Factors {
+  template <class Real>
+  struct Kind {
+    FrontFactors<Real> factors;
+    bool fits = false;  // the tree; it is fitted when it is first needed
+  };
   FrontTree tree;
-  std::optional<FrontFactors<double>> exact;
-  std::optional<FrontFactors<float>> single;
+  std::vector<int> order;   // that was found last, and
+  double ordered_work = 0;  // the work of the tree for which it was
+  Kind<double> exact;
+  Kind<float> single;
   bool is_single = false;  // those made last
-  template <class Kind>
-  Kind& of(std::optional<Kind>& factors) {
-    if (!factors) factors.emplace().analyse(tree);
-    return *factors;
+  template <class Real>
+  FrontFactors<Real>& of(Kind<Real>& kind) {
+    if (!std::exchange(kind.fits, true)) kind.factors.analyse(tree);
+    return kind.factors;
+  }
+  void take(FrontTree other) {
+    tree = std::move(other);
+    exact.fits = single.fits = false;
   }
 };
 
@@ -363,9 +374,16 @@ BlockCholesky::BlockCholesky(BlockCholesky&&) noexcept = default;
 BlockCholesky& BlockCholesky::operator=(BlockCholesky&&) noexcept = default;
 
 void BlockCholesky::analyse(const Sparse& lower) {
-  factors_->tree = front_tree(lower);
-  factors_->exact.reset();
-  factors_->single.reset();
+  factors_->take(front_tree(lower));
+  factors_->order = factors_->tree.position;
+  factors_->ordered_work = factors_->tree.work;
+}
+
+bool BlockCholesky::analyse_like(const Sparse& lower) {
+  FrontTree tree = front_tree(lower, factors_->order);
+  if (tree.work > most_work * factors_->ordered_work) return false;
+  factors_->take(std::move(tree));
+  return true;
 }
 
 bool BlockCholesky::factorise(const Sparse& lower, double shift, ThreadPool* pool) {
@@ -380,9 +398,9 @@ bool BlockCholesky::factorise_single(const Sparse& lower, ThreadPool* pool) {
 
 void BlockCholesky::solve(Eigen::VectorXd& b, ThreadPool* pool) const {
   if (factors_->is_single)
-    factors_->single->solve(b, pool);
+    factors_->single.factors.solve(b, pool);
   else
-    factors_->exact->solve(b, pool);
+    factors_->exact.factors.solve(b, pool);
 }
 
 }  // namespace furrow::physics

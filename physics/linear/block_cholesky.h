@@ -24,6 +24,10 @@ class BlockCholesky {
   /// Finds order and fronts. Cost: two to four factorisations; the order takes most of it.
   /// Throws Cancelled as nested_dissection().
   void analyse(const Sparse& lower);
+  /// The same for another matrix with as many rows, with the order that is there. false, and nothing is
+  /// changed: a factorisation would take more than half as much again as of the matrix that it was found for.
+  /// Needs analyse(). Cost: a sixth of that.
+  bool analyse_like(const Sparse& lower);
   /// Factorises matrix + shift I; false if it is not positive definite or not finite. Needs the pattern of
   /// analyse(). pool: threads that share the work (null: the caller alone). Asks between fronts whether it is
   /// cancelled (cancel_scope.h): then it throws Cancelled, and there are no factors until the next call.

@@ -19,6 +19,7 @@ class BlockMatrix {
   struct Place {
     int value = -1;         ///< first of its first column; -1: nowhere
     int column_length = 0;  ///< of that column
+    int column = -1;        ///< of blocks
     enum { diagonal, below, above } part = diagonal;
   };
 
@@ -29,12 +30,19 @@ class BlockMatrix {
   /// is out of range. Cost: O(pairs log pairs).
   BlockMatrix(std::span<const double> inv_mass, std::span<const std::array<int, 2>> pairs);
 
+  /// The blocks of another matrix and those of more pairs. All is zero. Throws as above.
+  /// Cost: O(blocks + pairs log pairs).
+  BlockMatrix(const BlockMatrix& fewer, std::span<const std::array<int, 2>> more);
+
   int rows() const { return rows_; }  ///< of blocks
   /// Row of a particle; -1: it has none.
   int row(int particle) const { return row_[std::size_t(particle)]; }
   /// Of the block (i, j) of particles, nowhere if one has no row. Throws std::invalid_argument for a pair
   /// that was not announced.
   Place place(int i, int j) const;
+  /// Where what has that place in a matrix that this one has all blocks of has its own. O(1) where the column
+  /// has no more blocks than there.
+  Place carried(const Place& place, const BlockMatrix& fewer) const;
   /// Whether place(i, j) is somewhere or nowhere, and does not throw.
   bool has(int i, int j) const;
 
@@ -50,6 +58,11 @@ class BlockMatrix {
   void scatter(const Eigen::VectorXd& rows, std::span<Vec3> v) const;
 
  private:
+  using Lists = std::vector<std::vector<int>>;
+  Lists below_by(std::span<const std::array<int, 2>> pairs) const;
+  void lay_out(std::span<const int> outer, std::span<const int> inner);
+  int begin_of(int column) const { return lower_.outerIndexPtr()[3 * column]; }
+  int length_of(int column) const { return lower_.outerIndexPtr()[3 * column + 1] - begin_of(column); }
   /// Where the block (r, column) of rows begins, r > column; -1: there is none.
   int find_below(int column, int r) const;
 

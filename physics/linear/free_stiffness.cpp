@@ -39,14 +39,20 @@ FreeStiffness::FreeStiffness(const Cloth& cloth, bool narrow) : narrow_(narrow) 
   place_blocks(pairs);
 }
 
-void FreeStiffness::couple(const Cloth& cloth, std::span<const std::array<int, 2>> more) {
-  const Pairs pairs = block_pairs(cloth, {0, narrow_});
-  Pairs all = pairs;
-  all.insert(all.end(), more.begin(), more.end());
-  matrix_ = BlockMatrix(cloth.particles.inv_mass, all);
-  addends_.clear();
-  place_blocks(pairs);
+void FreeStiffness::couple(Pairs pairs) {
+  if (own_places_.empty()) {
+    own_ = matrix_;
+    for (const Addend& a : addends_) own_places_.push_back(a.place);
+  }
+  matrix_ = BlockMatrix(own_, pairs);
+  for (std::size_t i = 0; i < addends_.size(); ++i) addends_[i].place = matrix_.carried(own_places_[i], own_);
+  coupled_ = std::move(pairs);
   analysed_ = false;
+}
+
+void FreeStiffness::order_for(Pairs pairs) {
+  couple(std::move(pairs));
+  if (matrix_.rows() > 0) analyse(true);
 }
 
 bool FreeStiffness::belongs_to(const Cloth& cloth) const {
@@ -127,9 +133,14 @@ int FreeStiffness::negative_eigenvalues() const {
   return matrix_.rows() == 0 ? 0 : negative_pivots(matrix_.lower());
 }
 
-void FreeStiffness::analyse() {
-  if (!analysed_) definite_.analyse(matrix_.lower());
-  analysed_ = true;
+void FreeStiffness::analyse(bool anew) {
+  if (analysed_) return;
+  const bool kept = ordered_ && !anew && definite_.analyse_like(matrix_.lower());
+  if (!kept) {
+    definite_.analyse(matrix_.lower());
+    ordered_for_ = coupled_;
+  }
+  analysed_ = ordered_ = true;
 }
 
 bool FreeStiffness::factorise_definite(double shift, ThreadPool* pool) {

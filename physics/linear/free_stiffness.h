@@ -42,9 +42,15 @@ class FreeStiffness {
   void add(int particle, const Mat3& block);
   /// The same of the block (i, j) and its mirror image; elements, or couple(), couple the two.
   void add(int i, int j, const Mat3& block);
+  using Pairs = std::vector<std::array<int, 2>>;
   /// Gives K's pattern the blocks of these pairs of particles beside those of the elements, in place of those
-  /// of an earlier call. Call assemble() next. Cost: as the constructor, with a new order of elimination.
-  void couple(const Cloth& cloth, std::span<const std::array<int, 2>> pairs);
+  /// of an earlier call. Call assemble() next. Cost: O(blocks), and fronts for the next factorisation, whose
+  /// order of elimination is kept while it serves (BlockCholesky::analyse_like()).
+  void couple(Pairs pairs);
+  /// The pairs that were coupled when the order of elimination was last found.
+  const Pairs& ordered_for() const { return ordered_for_; }
+  /// Couples these and finds the order for them: then couple() goes on as where that was done before.
+  void order_for(Pairs pairs);
   /// Whether K's pattern couples two particles, or one is held.
   bool couples(int i, int j) const { return matrix_.has(i, j); }
 
@@ -70,9 +76,8 @@ class FreeStiffness {
     int block;  // in its chunk
     BlockMatrix::Place place;
   };
-  using Pairs = std::vector<std::array<int, 2>>;
   void place_blocks(const Pairs& pairs);
-  void analyse();
+  void analyse(bool anew = false);
   void sum(int chunk, int bucket);
 
   bool narrow_ = false;
@@ -83,8 +88,11 @@ class FreeStiffness {
   std::vector<std::size_t> buckets_;  ///< where each begins, and the end
   std::vector<Mat3> blocks_;          ///< of a chunk
   BlockMatrix matrix_;
+  BlockMatrix own_;                             ///< of elements alone, once more was coupled
+  std::vector<BlockMatrix::Place> own_places_;  ///< of each addend in that
+  Pairs coupled_, ordered_for_;
   BlockCholesky definite_;
-  bool analysed_ = false;  // definite_, when it is first needed
+  bool analysed_ = false, ordered_ = false;  // definite_: for this pattern; ever
 };
 
 }  // namespace furrow::physics

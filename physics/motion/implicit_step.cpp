@@ -79,7 +79,7 @@ void ImplicitStep::prepare(double dt) {
   }
   if (self_.on) make_pairs();
   search_ = std::make_unique<StepSearch>(cloth_, motion_, contact_.get(), pairs_.get());
-  search_->couple(known_.coupled);
+  search_->couple(known_.coupled, known_.ordered_for);
 }
 
 void ImplicitStep::make_pairs() {
@@ -99,6 +99,7 @@ SelfContactMemory ImplicitStep::pair_memory() const {
   if (!pairs_) return known_;
   SelfContactMemory result = memory_of(*pairs_, stiffness_);
   result.coupled = search_->coupled();
+  if (!result.coupled.empty()) result.ordered_for = search_->ordered_for();
   return result;
 }
 
@@ -172,8 +173,8 @@ StepLoads ImplicitStep::loads_at(double time) {
   return given;
 }
 
-/// Brings a guess to where cloth lets it. Where cloth touches cloth, or would on the way, what is free begins
-/// where it was instead: a guess that is stopped particle by particle is torn, and its pairs all but touch.
+/// Brings a guess to where cloth lets it. Where cloth is in its own way, what is free begins where it was
+/// instead: a guess that is stopped particle by particle is torn, and its pairs all but touch.
 /// What is led goes as far as it can, and then, round by round, as the rest goes out of its way. false: it
 /// does not arrive.
 bool ImplicitStep::make_way(const Stage& stage, const StepLoads& loads, const StageStart& start,
@@ -182,7 +183,7 @@ bool ImplicitStep::make_way(const Stage& stage, const StepLoads& loads, const St
   options.few = options.most = iterations_of_round;
   const Vectors goal = x;
   Vectors reached(start.x.begin(), start.x.end());
-  if (!pairs_->acts() && approach(reached, x) == 0) return true;
+  if (approach(reached, x) == 0) return true;
   x = reached;
   const auto lead = [&] {
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -378,7 +379,7 @@ void ImplicitStep::forget_step(const SelfContactMemory& before) {
   known_ = before;
   make_pairs();
   search_ = std::make_unique<StepSearch>(cloth_, motion_, contact_.get(), pairs_.get());
-  search_->couple(known_.coupled);
+  search_->couple(known_.coupled, known_.ordered_for);
 }
 
 void ImplicitStep::recall(const StepMemory& memory) {

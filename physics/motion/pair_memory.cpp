@@ -5,7 +5,7 @@ namespace furrow::physics {
 
 SelfContactMemory memory_of(const ClothContact& contact, double stiffness) {
   const ClothContact::Memory memory = contact.memory();
-  SelfContactMemory result{stiffness, {}, memory.loose, memory.crossed_at_start, {}, {}};
+  SelfContactMemory result{stiffness, {}, memory.loose, memory.crossed_at_start, {}, {}, {}};
   for (const ClothContact::SpecialPair& p : memory.special)
     result.pairs.push_back({p.key.edges == 1, p.key.first, p.key.second, p.range, p.target});
   for (const PairAnchor& a : memory.friction)

@@ -138,8 +138,9 @@ struct SelfContactMemory {
   std::vector<PairMemory> pairs;  ///< sorted
   std::vector<int> loose;         ///< particles that crossed something at the start, or are next to such
   int crossed_at_start = 0;       ///< edges through faces
-  std::vector<std::array<int, 2>> coupled;   ///< what the stiffness has blocks for beside the elements
-  std::vector<PairFrictionMemory> friction;  ///< sorted
+  std::vector<std::array<int, 2>> coupled;      ///< what the stiffness has blocks for beside the elements
+  std::vector<PairFrictionMemory> friction;     ///< sorted
+  std::vector<std::array<int, 2>> ordered_for;  ///< what was coupled when its order of elimination was found
 
   bool operator==(const SelfContactMemory&) const = default;
 };

@@ -97,9 +97,10 @@ void check(const SimulateState& s, std::size_t particles) {
     require(p.range >= 0 && p.target >= p.range && std::isfinite(p.target), "a pair's range is not one");
   for (const PairFrictionMemory& f : steps.self.friction)
     require(f.tether.allFinite(), "a pair's friction is not finite");
-  for (const auto& pair : steps.self.coupled)
-    for (const int i : pair)
-      require(i >= 0 && std::size_t(i) < particles, "a pair is coupled that is not there");
+  for (const auto* pairs : {&steps.self.coupled, &steps.self.ordered_for})
+    for (const auto& pair : *pairs)
+      for (const int i : pair)
+        require(i >= 0 && std::size_t(i) < particles, "a pair is coupled that is not there");
   for (const ContactAnchor& a : steps.anchors)
     require(a.anchor.allFinite() && a.plane.allFinite() && std::isfinite(a.limit) && a.nearer >= 0 &&
                 std::isfinite(a.nearer),

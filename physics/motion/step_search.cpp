@@ -191,20 +191,25 @@ StepSearch::Answer StepSearch::look(const std::vector<Vec3>& x) {
   return answer;
 }
 
-void StepSearch::couple(std::vector<std::array<int, 2>> pairs) {
-  if (pairs == coupled_) return;
+void StepSearch::couple(FreeStiffness::Pairs pairs, FreeStiffness::Pairs ordered_for) {
+  if (pairs.empty()) return;
+  stiffness_.order_for(std::move(ordered_for));
+  couple(std::move(pairs));
+}
+
+void StepSearch::couple(FreeStiffness::Pairs pairs) {
   coupled_ = std::move(pairs);
   factored_ = 0;
-  stiffness_.couple(cloth_, coupled_);
+  stiffness_.couple(coupled_);
 }
 
 /// What is coupled stays so until it is several times what must be.
 void StepSearch::couple_pairs() {
-  std::vector<std::array<int, 2>> needed = pairs_->couples();
+  FreeStiffness::Pairs needed = pairs_->couples();
   const auto there = [this](const std::array<int, 2>& pair) { return stiffness_.couples(pair[0], pair[1]); };
   if (std::all_of(needed.begin(), needed.end(), there)) return;
   if (coupled_.size() < most_coupled * needed.size()) {
-    std::vector<std::array<int, 2>> both;
+    FreeStiffness::Pairs both;
     std::set_union(needed.begin(), needed.end(), coupled_.begin(), coupled_.end(), std::back_inserter(both));
     needed = std::move(both);
   }

@@ -84,8 +84,11 @@ class StepSearch {
   double contact_stiffness(std::span<const Vec3> x);
   double mean_mass() const;  ///< of a free particle [kg]; 0 without
   /// Pairs of particles that the matrix has blocks for beside those of elements.
-  const std::vector<std::array<int, 2>>& coupled() const { return coupled_; }
-  void couple(std::vector<std::array<int, 2>> pairs);
+  const FreeStiffness::Pairs& coupled() const { return coupled_; }
+  /// And those that it had when its order of elimination was found.
+  const FreeStiffness::Pairs& ordered_for() const { return stiffness_.ordered_for(); }
+  /// Goes on as one that had these.
+  void couple(FreeStiffness::Pairs pairs, FreeStiffness::Pairs ordered_for);
 
  private:
   /// What was made of a move.
@@ -112,6 +115,7 @@ class StepSearch {
   void add_contact(const std::vector<Vec3>& x, Answer& answer);
   void add_stage(const std::vector<Vec3>& x, Answer& answer) const;
   void assemble(const std::vector<Vec3>& x, SlipStiffness of_slip);
+  void couple(FreeStiffness::Pairs pairs);
   void couple_pairs();
   void factorise(const std::vector<Vec3>& x, SlipStiffness of_slip);
   double inertia_of(const Stage& stage) const;
@@ -144,7 +148,7 @@ class StepSearch {
   /// [1/s^2], and these are pushed. 0: there are none.
   double factored_ = 0;
   std::vector<int> factored_pushed_;
-  std::vector<std::array<int, 2>> coupled_;
+  FreeStiffness::Pairs coupled_;
   double mass_ = 0;  ///< of all free particles [kg]
   Answer found_;     ///< of where the last search ended
   const Stage* stage_ = nullptr;

@@ -489,8 +489,8 @@ bool ClothContact::misses_blocks(const FreeStiffness& stiffness) const {
                      [&](const auto& c) { return !stiffness.couples(c[0], c[1]); });
 }
 
-void ClothContact::couple(FreeStiffness& stiffness, const Cloth& cloth) const {
-  if (misses_blocks(stiffness)) stiffness.couple(cloth, needed_blocks());
+void ClothContact::couple(FreeStiffness& stiffness) const {
+  if (misses_blocks(stiffness)) stiffness.couple(needed_blocks());
 }
 
 void ClothContact::add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip) const {

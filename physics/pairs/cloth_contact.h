@@ -83,7 +83,7 @@ class ClothContact {
   /// Whether the matrix lacks blocks that pairs need.
   bool misses_blocks(const FreeStiffness& stiffness) const;
   /// Gives the matrix the blocks that pairs need and that are not there yet; before it is assembled.
-  void couple(FreeStiffness& stiffness, const Cloth& cloth) const;
+  void couple(FreeStiffness& stiffness) const;
   /// Positive semidefinite; after couple(). Where the way was cut to less than 1/32, the pairs that did so
   /// count as if they were half their range apart.
   void add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip = SlipStiffness::none) const;

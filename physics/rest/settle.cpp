@@ -333,7 +333,7 @@ class Settler {
     if (!pairs_->misses_blocks(*stiffness_)) return;
     if (o_.work && !own_stiffness_) stiffness_ = std::make_shared<FreeStiffness>(cloth_, true);
     own_stiffness_ = true;
-    pairs_->couple(*stiffness_, cloth_);
+    pairs_->couple(*stiffness_);
   }
 
   /// Clamps the Hessian until it is positive definite.

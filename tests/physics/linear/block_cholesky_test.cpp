@@ -115,3 +115,25 @@ TEST_CASE("block_cholesky: it throws where it is cancelled, and the next call ha
     }
   }
 }
+
+TEST_CASE("block_cholesky: the order for one pattern serves a like one, but not one that fills its factor") {
+  const Eigen::MatrixXd sheet = symmetric(20, 20, 0), like = symmetric(20, 20, 4),
+                        full = symmetric(20, 20, 400);
+  BlockCholesky factor;
+  factor.analyse(lower(sheet));
+  REQUIRE(factor.factorise(lower(sheet), 0));
+  const Eigen::VectorXd b = some_vector(sheet.rows());
+  const auto solved = [&](const Eigen::MatrixXd& a, bool single) {
+    Eigen::VectorXd x = b;
+    REQUIRE((single ? factor.factorise_single(lower(a)) : factor.factorise(lower(a), 0)));
+    factor.solve(x);
+    return (a * x - b).norm() / b.norm();
+  };
+  REQUIRE(factor.analyse_like(lower(like)));
+  CHECK(solved(like, false) < 1e-12);
+  CHECK(solved(like, true) < 1e-5);
+  CHECK_FALSE(factor.analyse_like(lower(full)));
+  CHECK(solved(like, false) < 1e-12);  // nothing was changed
+  factor.analyse(lower(full));
+  CHECK(solved(full, false) < 1e-11);
+}

@@ -52,6 +52,32 @@ TEST_CASE("block_matrix: blocks come in where a dense matrix has them, and their
   CHECK(matrix.lower().nonZeros() == 4 * 6 + 3 * 9);
 }
 
+TEST_CASE(
+    "block_matrix: with more pairs it has the blocks of a matrix of all pairs, and places are carried over") {
+  const BlockMatrix fewer(inv_mass, pairs);
+  const std::vector<std::array<int, 2>> more{{3, 0}, {4, 0}, {1, 2}, {2, 4}, {0, 3}};
+  std::vector<std::array<int, 2>> all = pairs;
+  all.insert(all.end(), more.begin(), more.end());
+  BlockMatrix grown(fewer, more), whole_one(inv_mass, all);
+  CHECK(grown.lower().nonZeros() == whole_one.lower().nonZeros());
+  Noise noise(3);
+  for (const auto& [i, j] : {std::array{0, 0}, {0, 4}, {4, 0}, {2, 0}, {3, 4}, {3, 3}, {1, 3}, {2, 2}}) {
+    Mat3 block = some_block(noise);
+    if (i == j) block = (block + block.transpose()).eval();
+    grown.add(grown.carried(fewer.place(i, j), fewer), block);
+    whole_one.add(whole_one.place(i, j), block);
+  }
+  for (const auto& [i, j] : more) {
+    const Mat3 block = some_block(noise);
+    grown.add(grown.place(i, j), block);
+    whole_one.add(whole_one.place(i, j), block);
+  }
+  CHECK(whole(grown) == whole(whole_one));
+  CHECK(whole(BlockMatrix(grown, {})).rows() == 12);
+  CHECK(BlockMatrix(grown, {}).lower().nonZeros() == grown.lower().nonZeros());
+  CHECK_THROWS_AS(BlockMatrix(fewer, std::vector<std::array<int, 2>>{{0, 5}}), std::invalid_argument);
+}
+
 TEST_CASE("block_matrix: vectors of particles and of rows") {
   const BlockMatrix matrix(inv_mass, pairs);
   std::vector<Vec3> v(5);

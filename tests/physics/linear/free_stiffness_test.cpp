@@ -137,3 +137,40 @@ TEST_CASE("free_stiffness: it has the same bits on any number of threads") {
     CHECK(u == first);
   }
 }
+
+TEST_CASE(
+    "free_stiffness: what is coupled beside elements counts, and where it was ordered before it has the same "
+    "bits") {
+  const Cloth cloth = crumpled(0.002);
+  const std::span<const Vec3> x = cloth.particles.x;
+  const FreeStiffness::Pairs first{{1, 14}}, second{{1, 14}, {2, 13}, {5, 9}, {2, 3}};
+  const auto fill = [&](FreeStiffness& k, const FreeStiffness::Pairs& pairs) {
+    k.assemble(cloth, x, Stiffness::positive_part);
+    for (int i = 0; i < 16; ++i) k.add(i, 50 * Mat3::Identity());
+    for (const auto& [i, j] : pairs) k.add(i, j, (0.1 * (i + 1)) * Mat3::Ones());
+    REQUIRE(k.factorise_definite());
+  };
+  std::vector<Vec3> b(cloth.particles.size(), Vec3(1, 2, -3));
+  FreeStiffness k(cloth);
+  k.couple(first);
+  fill(k, first);
+  CHECK(k.ordered_for() == first);
+  k.couple(second);
+  CHECK(k.couples(2, 13));
+  fill(k, second);
+  std::vector<Vec3> u = b;
+  k.solve(u);
+  const std::vector<Vec3> back = k.times(u);
+  for (int i = 0; i < 16; ++i)
+    if (cloth.particles.inv_mass[std::size_t(i)] > 0)
+      CHECK((back[std::size_t(i)] - b[std::size_t(i)]).norm() < 1e-10);
+  FreeStiffness resumed(cloth);
+  resumed.order_for(k.ordered_for());
+  resumed.couple(second);
+  fill(resumed, second);
+  std::vector<Vec3> v = b;
+  resumed.solve(v);
+  CHECK(u == v);
+  k.couple({});
+  CHECK_FALSE(k.couples(2, 13));
+}

@@ -225,7 +225,7 @@ TEST_CASE("cloth_contact: its stiffness is semidefinite") {
   contact.look(cloth.particles.x, nullptr);
   CHECK(contact.touching() > 50);
   FreeStiffness stiffness(cloth);
-  contact.couple(stiffness, cloth);
+  contact.couple(stiffness);
   Cloth soft = cloth;
   for (MembraneTriangle& t : soft.membrane) t.lambda = t.mu = 0;
   stiffness.assemble(soft, soft.particles.x, Stiffness::positive_part);
@@ -257,7 +257,7 @@ TEST_CASE("cloth_contact: its stiffness is the change of forces of a vertex over
     for (std::size_t i = 0; i < 6; ++i) change[i] -= side / (2 * step) * force[i];
   }
   FreeStiffness stiffness(cloth);
-  contact.couple(stiffness, cloth);
+  contact.couple(stiffness);
   stiffness.assemble(cloth, cloth.particles.x, Stiffness::exact);
   contact.add_stiffness(stiffness);
   REQUIRE(stiffness.factorise_definite(shift));

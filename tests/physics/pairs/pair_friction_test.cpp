@@ -193,7 +193,7 @@ TEST_CASE("pair_friction: with contact its forces are the derivative of the ener
   contact.move_anchors(x);
   CHECK(contact.sliding() > 10);
   FreeStiffness stiffness(cloth);
-  contact.couple(stiffness, cloth);
+  contact.couple(stiffness);
   Cloth soft = cloth;
   for (MembraneTriangle& t : soft.membrane) t.lambda = t.mu = 0;
   stiffness.assemble(soft, x, Stiffness::positive_part);
