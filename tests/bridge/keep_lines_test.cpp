@@ -194,15 +194,24 @@ TEST_CASE("keep_lines: soft cloth needs help, and without it no line is called h
   }
 }
 
+namespace {
+
+/// Motion alone judges, in a second, and nothing helps.
+void try_bare(Hung& hung, double kept) {
+  hung.options.presses.clear();
+  hung.options.struts.clear();
+  hung.options.height_trials = 0;
+  hung.options.seconds = hung.options.calm_seconds = 1;
+  hung.options.statics = false;
+  hung.options.kept = kept;
+}
+
+}  // namespace
+
 TEST_CASE("keep_lines: a line that keeps its height with little to spare may hold", "[release]") {
   const auto verdict = [](double kept) {
     Hung hung(1e-4);
-    hung.options.presses.clear();
-    hung.options.struts.clear();
-    hung.options.height_trials = 0;
-    hung.options.seconds = hung.options.calm_seconds = 1;
-    hung.options.statics = false;
-    hung.options.kept = kept;
+    try_bare(hung, kept);
     return hung.keep().lines[0];
   };
   const bridge::KeptLine sure = verdict(0.1);
@@ -222,12 +231,7 @@ TEST_CASE("keep_lines: what stands the gusts that were asked for, but not strong
           "[release]") {
   const auto verdict = [](double kept, double gust) {
     Hung hung(1e-4);
-    hung.options.presses.clear();
-    hung.options.struts.clear();
-    hung.options.height_trials = 0;
-    hung.options.seconds = hung.options.calm_seconds = 1;
-    hung.options.statics = false;
-    hung.options.kept = kept;
+    try_bare(hung, kept);
     hung.options.gust = gust;
     hung.options.run.integrator = physics::Integrator::implicit;
     return hung.keep();
