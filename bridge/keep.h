@@ -81,7 +81,7 @@ enum class Verdict {
   pressed,
   strutted,
   lowered,
-  may_hold,  ///< it kept its height in the trial, but not by so much that another run could not lose it
+  may_hold,  ///< it kept its height, but hardly, or only in gusts no stronger than asked for: see reason
   cannot_hold
 };
 

@@ -402,6 +402,12 @@ bool stands_named_gusts(const Found& found, std::size_t line, const KeepOptions&
          std::abs(outcome.kept_named[line] - 1) <= 1 - o.kept;
 }
 
+/// "at 81 % of its height"; nothing is left to measure where a share is not finite.
+std::string left_at(double share) {
+  if (!std::isfinite(share)) return "with no height to measure";
+  return "at " + std::to_string(std::lround(100 * share)) + " % of its height";
+}
+
 std::string why_not(bool interrupted, const Found& found, std::size_t line, const KeepOptions& o) {
   if (interrupted) return "interrupted";
   if (hangs_wrong(found.outcome)) return "nothing holds the garment in balance as it lies; see imbalance";
@@ -416,8 +422,8 @@ std::string why_not(bool interrupted, const Found& found, std::size_t line, cons
            share_text(may_lose_in_gusts(found.outcome, o.kept));
   if (stands_named_gusts(found, line, o))
     return "it stood gusts of the strength that was asked for, but stronger ones, which make up for what the "
-           "steps damp, left it at " +
-           std::to_string(std::lround(100 * found.outcome.kept_gust[line])) + " % of its height";
+           "steps damp, left it " +
+           left_at(found.outcome.kept_gust[line]);
   return "the fold turns into another shape";
 }
 

@@ -26,7 +26,7 @@ class BlockCholesky {
   void analyse(const Sparse& lower);
   /// The same for another matrix with as many rows, with the order that is there. false, and nothing is
   /// changed: a factorisation would take more than half as much again as of the matrix that it was found for.
-  /// Needs analyse(). Cost: a sixth of that.
+  /// Needs analyse(). Cost: that of analyse() without its order.
   bool analyse_like(const Sparse& lower);
   /// Factorises matrix + shift I; false if it is not positive definite or not finite. Needs the pattern of
   /// analyse(). pool: threads that share the work (null: the caller alone). Asks between fronts whether it is

@@ -40,7 +40,7 @@ FreeStiffness::FreeStiffness(const Cloth& cloth, bool narrow) : narrow_(narrow) 
 }
 
 void FreeStiffness::couple(Pairs pairs) {
-  if (own_places_.empty()) {
+  if (own_.rows() == 0) {
     own_ = matrix_;
     for (const Addend& a : addends_) own_places_.push_back(a.place);
   }

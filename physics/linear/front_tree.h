@@ -39,7 +39,7 @@ struct FrontTree {
 };
 
 /// order: the place of each row of blocks, as `position` of a tree for a like pattern; empty:
-/// nested_dissection(). Cost: that order, 0.1 s for 12,000 vertices, and a fifth of it. Asks in between
+/// nested_dissection(). Cost: that order, 0.1 s for 12,000 vertices, and less for the fronts. Asks in between
 /// whether it is cancelled; throws as nested_dissection().
 FrontTree front_tree(const FrontTree::Sparse& lower, std::vector<int> order = {});
 
