@@ -66,10 +66,12 @@ struct KeepOptions {
   /// (geometry/fold/line_region.h); and presses [-] that the cloth's hinges have already, for the report.
   /// What is missing at the end counts as none, and as 1.
   std::vector<double> line_widths = {}, line_presses = {};
-  /// Each trial begins with searches for rest, and what fails there is helped before anything runs
-  /// (bridge/try_statics.h). With `prove` what passes is run forward, and that decides; without, lines that
-  /// are called held do so at rest. One of the two at least.
-  bool statics = true, prove = true;
+  /// Each trial begins with a search for rest, and what fails there is helped before anything runs
+  /// (bridge/try_statics.h).
+  bool statics = true;
+  /// Runs decide. Without, a trial is a calm, one gust and a calm by long steps (try_one_gust()), and no more
+  /// is known of lines that are called held.
+  bool prove = true;
   bool whole = false;  ///< the rest of the garment is pressed, too, until nothing in it is unstable
 };
 
@@ -108,7 +110,7 @@ struct KeepReport {
   int pushed_out = 0;        ///< particles nearer to the body than the gap, brought there first
   double farthest_push = 0;  ///< the longest way of one [m]
   int trials = 0, runs = 0;  ///< rest states that were solved for, and forward runs
-  bool proved = true;        ///< in motion; false: lines hold at rest, as far as is known
+  bool proved = true;        ///< by runs; false: in one gust by long steps
   double drift = 0;          ///< of any vertex in the last trial's runs without gusts [m]
   bool interrupted = false;  ///< the last rest state stands; lines say what is known
 };
@@ -134,7 +136,7 @@ using KeepObserver = std::function<bool(const KeepProgress&)>;
 /// \details A verdict asks the certificate of stability (physics/rest/certificate.h) and runs forward, from
 /// rest and through gusts. What is nearer to the body than the gap is first brought there: a valley on a body
 /// is as deep as there is room. Lines that do not hold are helped by a step, by two where they are off by a
-/// fifth or had help before, and with them those that use 60 % of what they may lose in gusts: press (their
+/// fifth or had help before, and with them those that use 40 % of what they may lose in gusts: press (their
 /// hinges stiffer), then struts on top of the strongest press, then a lower height. The first that holds
 /// stays. With `whole` the hinges between the lines are pressed likewise, where the motion that nothing holds
 /// back is theirs.

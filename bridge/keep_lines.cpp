@@ -30,7 +30,7 @@ constexpr double share_of_statics = 0.05;  // of a trial, as its progress is tol
 constexpr double reserve = 0.4, reserve_in_gusts = 0.5;
 // A line that is off by so much is given two steps of help at once [-], as one is that had help before; and
 // where others are helped, one that uses so much of what it may lose goes with them [-].
-constexpr double far_off = 0.2, near_the_edge = 0.6;
+constexpr double far_off = 0.2, near_the_edge = 0.4;
 
 using Flags = std::vector<char>;  // one a line
 using Steps = std::vector<char>;  // of help that lines need more, one a line
@@ -279,24 +279,43 @@ class Keeper {
     return outcome;
   }
 
-  /// Statics first, then motion, unless that is not asked for, or is in vain. As run_forward().
+  /// Statics first, then motion, unless that is in vain. As run_forward().
   Steps try_out(Found& found, bool may_end, Tally& tally) const {
     if (found.plan.lines.empty()) return {};  // all were refused
+    if (!o_.prove) return blow_once(found, may_end, tally);
     if (!o_.statics) return run_forward(found, may_end, tally);
-    const double part = o_.prove ? share_of_statics : 1;
-    const bool brief = o_.prove && physics::solves_contact(o_.run.integrator);  // else motion is as fast
-    const KeepTrial trial = try_statics(found.outcome.cloth, world_, o_, brief, meter_, search_work_,
-                                        [&](double share) { return go_on(part * share, tally); });
-    found.outcome.kept = trial.kept;
-    found.outcome.kept_gust = trial.kept_gust;
+    const bool brief = physics::solves_contact(o_.run.integrator);  // else motion is slower
+    const StaticTrial trial = try_statics(found.outcome.cloth, world_, o_, brief, meter_, search_work_,
+                                          [&] { return go_on(0, tally); });
     tally.drift = trial.drift;
     tally.interrupted = tally.interrupted || trial.stopped;
+    found.outcome.kept = trial.kept;
+    found.outcome.kept_gust.assign(trial.kept.size(), 1);  // that is for motion to say
     const Steps weak = weak_lines(found);
-    if (!o_.prove) return weak;
     found.outcome.kept.assign(weak.size(), NAN);  // until motion says it, whatever ends the search
     found.outcome.kept_gust.assign(weak.size(), NAN);
     if (tally.interrupted || (may_end && any(weak))) return weak;
     return run_forward(found, may_end, tally);
+  }
+
+  /// As run_forward(), of one gust by long steps; what fails gets two steps of help at once.
+  Steps blow_once(Found& found, bool may_end, Tally& tally) const {
+    Steps weak;
+    const auto in_vain = [&](const std::vector<double>& kept, bool) {
+      found.outcome.kept = kept;
+      found.outcome.kept_gust.assign(kept.size(), 1);  // that is for the gust to say
+      weak = weak_lines(found);
+      return may_end && any(weak);
+    };
+    const KeepTrial trial = try_one_gust(found.outcome.cloth, world_, o_, meter_, in_vain,
+                                         [&](double share) { return go_on(share, tally); });
+    found.outcome.kept = trial.kept;
+    found.outcome.kept_gust = trial.kept_gust;
+    tally.drift = trial.drift;
+    tally.interrupted = tally.interrupted || trial.stopped;
+    if (!may_end || !any(weak)) weak = weak_lines(found);
+    for (char& steps : weak) steps = steps > 0 ? 2 : 0;
+    return weak;
   }
 
   /// For those that may be helped and do not hold.

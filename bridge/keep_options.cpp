@@ -21,8 +21,6 @@ void require_legal(const KeepOptions& o) {
   need(o.largest_turn >= 0, "largest_turn", o.largest_turn);
   need(o.least_height >= 0 && std::isfinite(o.least_height), "least_height", o.least_height);
   need(o.height_trials >= 0, "height_trials", o.height_trials);
-  if (!o.statics && !o.prove)
-    physics::refuse("keep_lines", "statics and prove are both false: nothing would be tried");
   double last = 1;
   for (const double factor : o.presses)
     need(factor > last, "presses do not rise above 1", factor), last = factor;

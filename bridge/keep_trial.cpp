@@ -21,7 +21,9 @@ constexpr double first_part = 0.2;  // of the first run, before it is asked whet
 constexpr int look_steps = 100;     // between two moments that are looked at, however often a run is observed
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
-constexpr double calm_dt = 1.0 / 30;   // of implicit steps, where nothing blows [s]
+constexpr double calm_dt = 1.0 / 30;  // of implicit steps, where nothing blows [s]
+// Of what is tried in one gust [s], and its strength over the options': chosen on three garments.
+constexpr double first_calm_dt = 1.0 / 15, long_dt = 1.0 / 30, gust_of_long_steps = 1.2;
 constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -60,6 +62,17 @@ void push_off(physics::Cloth& cloth, double by, std::uint64_t number) {
     const double a = random(), b = random(), c = random();
     if (p.inv_mass[i] > 0) p.x[i] += most[i] * Vec3(a, b, c).normalized();
   }
+}
+
+std::vector<double> shares_of_heights(std::vector<double> heights, const std::vector<double>& at_start) {
+  for (std::size_t i = 0; i < heights.size(); ++i) heights[i] /= at_start[i];
+  return heights;
+}
+
+double farthest_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
 }
 
 LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths)
@@ -127,9 +140,9 @@ struct Run {
 
 /// Of a run, up to so many seconds from its beginning.
 struct Part {
-  double until;  ///< [s]
-  Vec3 gravity;  ///< with the gust [m/s^2]
-  bool calm;     ///< nothing blows
+  double until;                   ///< [s]
+  Vec3 gravity;                   ///< with the gust [m/s^2]
+  std::optional<double> dt = {};  ///< of implicit steps, if the options name none [s]
 };
 
 /// What goes on from a run: gusts to both sides along two level axes, and calm.
@@ -139,8 +152,8 @@ std::vector<Part> gusts_and_calm(const KeepOptions& o, const Vec3& gust, double 
   const Vec3 a = factor * gust, b = factor * across(gust, o.run.gravity);
   std::vector<Part> parts;
   for (const Vec3& side : {a, Vec3(-a), b, Vec3(-b)})
-    parts.push_back({from += o.gust_seconds, o.run.gravity + side, false});
-  parts.push_back({from + o.calm_seconds, o.run.gravity, true});
+    parts.push_back({from += o.gust_seconds, o.run.gravity + side});
+  parts.push_back({from + o.calm_seconds, o.run.gravity, calm_dt});
   return parts;
 }
 
@@ -163,9 +176,7 @@ struct Setting {
 
   /// Shares of the heights at the start.
   std::vector<double> shares(const physics::Cloth& cloth) const {
-    std::vector<double> now = meter.heights(cloth.particles);
-    for (std::size_t i = 0; i < now.size(); ++i) now[i] /= drawn[i];
-    return now;
+    return shares_of_heights(meter.heights(cloth.particles), drawn);
   }
 
   /// Simulates a part of the run; from next_look on it notes what lines keep.
@@ -176,7 +187,7 @@ struct Setting {
     options.implicit.keep_factors = true;
     const bool large_steps = physics::solves_contact(options.integrator);
     if (large_steps) options.observe_steps = 1;
-    if (large_steps && part.calm && !options.dt) options.dt = calm_dt;
+    if (large_steps && !options.dt) options.dt = part.dt;
     return physics::simulate(run.cloth, world, options, &run.state,
                              [&](const auto& now) {
                                const bool looks =
@@ -190,8 +201,8 @@ struct Setting {
         .outcome;
   }
 
-  /// What lines keep of a copy of the run that goes through these parts.
-  physics::Outcome through(const std::vector<Part>& parts, Run run, std::vector<double>& kept) const {
+  /// What lines keep of a run after these parts.
+  physics::Outcome through(const std::vector<Part>& parts, Run& run, std::vector<double>& kept) const {
     run.next_look = never;  // a gust may bend what comes back
     for (const Part& part : parts) {
       const physics::Outcome end = on_to(part, run, kept);
@@ -201,12 +212,6 @@ struct Setting {
     return physics::Outcome::finished;
   }
 };
-
-double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
-  return most;
-}
 
 }  // namespace
 
@@ -227,23 +232,54 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
   for (int number = 1; number <= runs; ++number) {
     Run run{start, {}, (number - 1) * o.seconds + (number > 1 ? in_gusts : 0), stable ? never : first_look};
     push_off(run.cloth, o.push, std::uint64_t(number));
-    Outcome end = setting.on_to({branch, o.run.gravity, true}, run, trial.kept);
+    Outcome end = setting.on_to({branch, o.run.gravity, calm_dt}, run, trial.kept);
     if (end != Outcome::finished) return lost(end);
     if (const std::vector<double> early = setting.shares(run.cloth); in_vain && in_vain(early, false))
       return {early, unknown};
     if (number == 1 && !gusts.empty()) {
-      end = setting.through(gusts, run, trial.kept_gust);
+      Run blown = run;
+      end = setting.through(gusts, blown, trial.kept_gust);
       if (end != Outcome::finished) return lost(end);
       if (in_vain && in_vain(trial.kept_gust, true)) return {unknown, trial.kept_gust};
       run.before += in_gusts;
     }
-    end = setting.on_to({o.seconds, o.run.gravity, true}, run, trial.kept);
+    end = setting.on_to({o.seconds, o.run.gravity, calm_dt}, run, trial.kept);
     if (end != Outcome::finished) return lost(end);
     note(setting.shares(run.cloth), trial.kept);
-    trial.drift = std::max(trial.drift, farthest(run.cloth.particles.x, start.particles.x));
+    trial.drift = std::max(trial.drift, farthest_apart(run.cloth.particles.x, start.particles.x));
   }
   if (gusts.empty()) trial.kept_gust = trial.kept;
   return trial;
+}
+
+KeepTrial try_one_gust(const physics::Cloth& start, const physics::World& world, const KeepOptions& options,
+                       LineMeter& meter, const InVain& in_vain, const std::function<bool(double)>& go_on) {
+  using physics::Outcome;
+  KeepOptions o = options;
+  o.run.integrator = physics::Integrator::implicit;
+  o.run.dt.reset();
+  const double calm = first_part * o.seconds, gust = calm + o.gust_seconds, all = gust + o.calm_seconds;
+  const bool blown = o.gust > 0;
+  const Setting setting{world, o, go_on, meter, meter.heights(start.particles), blown ? all : calm};
+  const std::vector<double> unknown(setting.drawn.size(), NAN);
+  KeepTrial trial{unknown, unknown};
+  const auto ended = [&](Outcome end) {
+    trial.stopped = end == Outcome::stopped_by_observer;
+    return trial;
+  };
+  Run run{start, {}, 0, never};
+  push_off(run.cloth, o.push, 1);
+  Outcome end = setting.through({{calm, o.run.gravity, first_calm_dt}}, run, trial.kept);
+  trial.drift = farthest_apart(run.cloth.particles.x, start.particles.x);
+  if (end != Outcome::finished || (in_vain && in_vain(trial.kept, false))) return ended(end);
+  if (!blown) {
+    trial.kept_gust = trial.kept;
+    return trial;
+  }
+  const Vec3 side = gust_of_long_steps * gust_of(o, start.particles.x);
+  end = setting.through({{gust, o.run.gravity + side, long_dt}, {all, o.run.gravity, calm_dt}}, run,
+                        trial.kept_gust);
+  return ended(end);
 }
 
 }  // namespace furrow::bridge

@@ -104,8 +104,8 @@ void add_keep(CLI::App& app, int& exit_code) {
                 "no press, struts or lower height where the rest state alone does not hold");
   sub->add_flag(
       "--fast", a->fast,
-      "by searches for rest alone, before and after a steady gust: sooner, but a line that is called held "
-      "does so at rest, and may be lost in motion");
+      "one gust in place of four and steps twice as long: several times sooner, but a line that is called "
+      "held may be lost in others");
   sub->add_flag("--whole", a->whole,
                 "press what lies between the lines, too, where it could give way, so that all of the garment "
                 "stays as drawn");

@@ -3,7 +3,7 @@
 // line that is called held must keep 95 to 105 % of the told height in another run than the verdict's own,
 // and after gusts to four sides; for one that cannot hold all help is tried that there is.
 // random_lines [CSV [threads [first [end [word ...]]]]]. Words: plate, their bending is one; fast, verdicts
-// by statics alone; motion, without statics; leapfrog, runs of a verdict by leapfrog; ornate, lines over the
+// by one gust; motion, without statics; leapfrog, runs of a verdict by leapfrog; ornate, lines over the
 // hem, half circles and rings; quick, what "cannot hold" is not tried harder.
 #include <algorithm>
 #include <atomic>

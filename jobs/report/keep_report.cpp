@@ -134,7 +134,7 @@ Json to_json(const KeepReport& report) {
   json.update({{"drift", r.drift},
                {"trials", r.trials},
                {"runs", r.runs},
-               {"proof", r.proved ? "motion" : "statics"}});
+               {"proof", r.proved ? "motion" : "gust"}});
   json["crossings"] = jobs::to_json(report.crossings);
   if (r.rest_press > 1)
     json["rest_of_garment"] = {{"press", r.rest_press},
