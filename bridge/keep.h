@@ -136,7 +136,7 @@ using KeepObserver = std::function<bool(const KeepProgress&)>;
 /// \details A verdict asks the certificate of stability (physics/rest/certificate.h) and runs forward, from
 /// rest and through gusts. What is nearer to the body than the gap is first brought there: a valley on a body
 /// is as deep as there is room. Lines that do not hold are helped by a step, by two where they are off by a
-/// fifth or had help before, and with them those that use 40 % of what they may lose in gusts: press (their
+/// fifth or had help before, and with them those that use half of what they may lose in gusts: press (their
 /// hinges stiffer), then struts on top of the strongest press, then a lower height. The first that holds
 /// stays. With `whole` the hinges between the lines are pressed likewise, where the motion that nothing holds
 /// back is theirs.

@@ -30,7 +30,7 @@ constexpr double share_of_statics = 0.05;  // of a trial, as its progress is tol
 constexpr double reserve = 0.4, reserve_in_gusts = 0.5;
 // A line that is off by so much is given two steps of help at once [-], as one is that had help before; and
 // where others are helped, one that uses so much of what it may lose goes with them [-].
-constexpr double far_off = 0.2, near_the_edge = 0.4;
+constexpr double far_off = 0.2, near_the_edge = 0.5;
 
 using Flags = std::vector<char>;  // one a line
 using Steps = std::vector<char>;  // of help that lines need more, one a line
