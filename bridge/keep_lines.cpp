@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -10,48 +9,27 @@
 #include "bridge/gather.h"
 #include "bridge/keep.h"
 #include "bridge/keep_trial.h"
+#include "bridge/keep_verdicts.h"
 #include "bridge/line_help.h"
 #include "bridge/standing_body.h"
 #include "bridge/try_statics.h"
 #include "geometry/fold/line_region.h"
-#include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "physics/base/progress.h"
+#include "physics/rest/settle.h"
 
 namespace furrow::bridge {
 namespace {
 
 using physics::Vec3;
 
-constexpr double share_of_mode = 0.1;  // of an unstable motion's energy that makes it a line's
-constexpr double out_of_balance = 1e-6;
 constexpr double share_of_statics = 0.05;  // of a trial, as its progress is told
-// Of what a line may lose or win: where the shape is not stable, and after gusts.
-constexpr double reserve = 0.4, reserve_in_gusts = 0.5;
 // A line that is off by so much is given two steps of help at once [-], as one is that had help before; and
-// where others are helped, one that uses so much of what it may lose goes with them [-].
-constexpr double far_off = 0.2, near_the_edge = 0.5;
+// where others are helped, one that uses so much of what it may lose goes with them [-], of one gust less.
+constexpr double far_off = 0.2, near_the_edge = 0.5, near_in_one_gust = 0.4;
 
-using Flags = std::vector<char>;  // one a line
 using Steps = std::vector<char>;  // of help that lines need more, one a line
 
-/// The lines and their help.
-struct Plan {
-  std::vector<HelpedLine> lines;
-  std::size_t rest_step = 0;  ///< of presses, on what lies in no line's patch
-};
-/// Where a plan leads.
-struct Outcome {
-  physics::Cloth cloth;                 ///< with its rest state
-  KeptShape shape;                      ///< of that
-  double rest_press;                    ///< factor on the hinges outside of all patches [-]
-  std::vector<double> kept, kept_gust;  ///< of each line, shares of its height [-]; NaN: not run
-  std::vector<double> kept_named = {};  ///< after gusts no stronger than asked for; empty: not run
-};
-struct Found {
-  Plan plan;
-  Outcome outcome;
-};
 /// What it took so far.
 struct Tally {
   int trials = 0, runs = 0;
@@ -66,64 +44,8 @@ char steps_more(double off, double most) {
   return off > far_off ? 2 : 1;  // not a number: 1
 }
 
-bool any(const Flags& flags) {
+bool any(const LineFlags& flags) {
   return std::any_of(flags.begin(), flags.end(), [](char flag) { return flag != 0; });
-}
-
-/// Shares in the motion that nothing holds back, of each line and last of the rest; 0 if there is no such
-/// motion.
-std::vector<double> loose_shares(const Found& found) {
-  const physics::Certificate& certificate = found.outcome.shape.certificate;
-  if (certificate.stable()) return std::vector<double>(found.plan.lines.size() + 1, 0.0);
-  return shares_of(found.plan.lines, found.outcome.cloth.particles, certificate.mode);
-}
-
-/// Lines with a good part in it.
-Flags loose_lines(const Found& found) {
-  const std::vector<double> shares = loose_shares(found);
-  Flags loose(found.plan.lines.size());
-  for (std::size_t i = 0; i < loose.size(); ++i) loose[i] = shares[i] > share_of_mode;
-  return loose;
-}
-
-bool hangs_wrong(const Outcome& outcome) {
-  return outcome.shape.rest.residual > out_of_balance && !outcome.shape.rest.imbalance.empty();
-}
-
-bool is_bound(const HelpedLine& line, const Outcome& outcome) {
-  return outcome.shape.rest.residual > out_of_balance && on_bounds(line, outcome.shape.rest, outcome.cloth);
-}
-
-/// Of its height, or win [-]. An unstable shape ends elsewhere each time: a run is a sample, and the next one
-/// may be worse.
-double may_lose(const Outcome& outcome, double least) {
-  return (outcome.shape.certificate.stable() ? 1 : reserve) * (1 - least);
-}
-
-/// Where a gust leaves a line is a sample, too, whether the shape is stable or not.
-double may_lose_in_gusts(const Outcome& outcome, double least) {
-  return std::min(may_lose(outcome, least), reserve_in_gusts * (1 - least));
-}
-
-bool holds(const Outcome& outcome, std::size_t line, double least) {
-  return std::abs(outcome.kept[line] - 1) <= may_lose(outcome, least) &&
-         std::abs(outcome.kept_gust[line] - 1) <= may_lose_in_gusts(outcome, least);
-}
-
-/// Lines that hold, as far as is known; least: share of its height that a line must keep [-].
-Flags good_lines(const Found& found, double least) {
-  const Flags loose = loose_lines(found);
-  Flags good(loose.size(), 0);
-  if (hangs_wrong(found.outcome)) return good;
-  for (std::size_t i = 0; i < good.size(); ++i)
-    good[i] = holds(found.outcome, i, least) && !is_bound(found.plan.lines[i], found.outcome) && !loose[i];
-  return good;
-}
-
-/// Nothing but its trials speaks against a line.
-bool may_be_judged(const Found& found, std::size_t line) {
-  return !hangs_wrong(found.outcome) && !is_bound(found.plan.lines[line], found.outcome) &&
-         !loose_lines(found)[line];
 }
 
 /// Goes from plan to plan; the members are what all of them have in common.
@@ -134,14 +56,14 @@ class Keeper {
       : mesh_(mesh), start_(start), world_(world), o_(options), meter_(meter), go_on_(go_on) {}
 
   /// The lines without help.
-  Plan plan() const {
+  KeepPlan plan() const {
     const auto id = geometry::find_map(mesh_, geometry::attribute::line);
     const std::vector<double> drawn = meter_.heights(start_.particles),
                               lengths = geometry::lengths_before_lines(mesh_);
     const auto of_line = [](const std::vector<double>& list, int line, double missing) {
       return std::size_t(line) < list.size() ? list[line] : missing;
     };
-    Plan plan;
+    KeepPlan plan;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       std::vector<geometry::Vertex> vertices;
       for (const geometry::Vertex v : mesh_.vertices())
@@ -157,18 +79,18 @@ class Keeper {
     return plan;
   }
 
-  Found found_by(const Plan& plan, Tally& tally) const {
-    Outcome outcome = solve(plan, tally);
+  TriedPlan found_by(const KeepPlan& plan, Tally& tally) const {
+    KeepOutcome outcome = solve(plan, tally);
     return {plan, std::move(outcome)};
   }
 
   /// More help for what needs it, until nothing does or all is given.
-  Found help_by_stiffness(Plan plan, Tally& tally) const {
-    for (std::optional<Found> last;;) {
+  TriedPlan help_by_stiffness(KeepPlan plan, Tally& tally) const {
+    for (std::optional<TriedPlan> last;;) {
       // Cancelled before there is any rest state, it comes out.
-      std::optional<Found> solved = last ? try_solve(plan, tally) : found_by(plan, tally);
+      std::optional<TriedPlan> solved = last ? try_solve(plan, tally) : found_by(plan, tally);
       if (!solved) return std::move(*last);
-      Found& found = last.emplace(std::move(*solved));
+      TriedPlan& found = last.emplace(std::move(*solved));
       Steps weak = loose_lines(found);
       for (std::size_t i = 0; i < weak.size(); ++i)
         weak[i] = can_be_helped(plan.lines[i]) && (weak[i] || is_bound(plan.lines[i], found.outcome));
@@ -188,17 +110,17 @@ class Keeper {
 
   /// Gives all help to all lines, since a neighbour that holds by itself can let a line go. The help stays if
   /// more lines hold.
-  Found help_all(Found least, Tally& tally) const {
+  TriedPlan help_all(TriedPlan least, Tally& tally) const {
     const auto is_helped = [&](const HelpedLine& line) { return !can_be_helped(line); };
     const std::size_t before = failing(least);
     if (before == 0 || hangs_wrong(least.outcome) ||
         std::all_of(least.plan.lines.begin(), least.plan.lines.end(), is_helped))
       return least;
     const double drift = tally.drift;
-    Plan plan = least.plan;
+    KeepPlan plan = least.plan;
     for (HelpedLine& line : plan.lines) line.step = help_steps(o_);
     tally.helped = int(plan.lines.size());
-    std::optional<Found> most = try_solve(plan, tally);
+    std::optional<TriedPlan> most = try_solve(plan, tally);
     if (!most) return least;
     try_out(*most, false, tally);
     if (tally.interrupted || failing(*most) < before) return std::move(*most);
@@ -207,20 +129,20 @@ class Keeper {
   }
 
   /// Bisects the heights of all lines that fail at once.
-  Found help_by_height(Found found, Tally& tally) const {
-    const Flags good = good_lines(found, o_.kept);
+  TriedPlan help_by_height(TriedPlan found, Tally& tally) const {
+    const LineFlags good = good_lines(found, o_.kept);
     std::vector<std::size_t> lines;
     for (std::size_t i = 0; i < good.size(); ++i)
       if (!good[i]) lines.push_back(i);
     if (lines.empty() || hangs_wrong(found.outcome)) return found;
     tally.helped = int(lines.size());
-    Plan plan = found.plan;
+    KeepPlan plan = found.plan;
     std::vector<double> low(lines.size(), 0), high(lines.size(), 1);  // low: the greatest that held
     for (int trial = 0; trial < o_.height_trials && !tally.interrupted; ++trial) {
       for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = (low[i] + high[i]) / 2;
-      const std::optional<Found> tried = try_forward(plan, tally);
+      const std::optional<TriedPlan> tried = try_forward(plan, tally);
       if (!tried) return found;
-      const Flags now = good_lines(*tried, o_.kept);
+      const LineFlags now = good_lines(*tried, o_.kept);
       for (std::size_t i = 0; i < lines.size(); ++i)
         (now[lines[i]] ? low[i] : high[i]) = plan.lines[lines[i]].height;
     }
@@ -231,7 +153,7 @@ class Keeper {
 
   /// Where gusts that are stronger than asked for, as those of implicit steps are, took a line away: what
   /// those that were asked for do.
-  void try_named_gusts(Found& found, Tally& tally) const {
+  void try_named_gusts(TriedPlan& found, Tally& tally) const {
     const bool blown_harder = o_.prove && o_.gust > 0 && o_.run.integrator == physics::Integrator::implicit;
     const auto lost_in_gusts = [&](std::size_t i) {
       return std::abs(found.outcome.kept[i] - 1) <= 1 - o_.kept && may_be_judged(found, i) &&
@@ -249,14 +171,14 @@ class Keeper {
   }
 
   /// For the report: trials need to know only whether there are any.
-  void count_negative_eigenvalues(Found& found) const {
+  void count_negative_eigenvalues(TriedPlan& found) const {
     if (found.outcome.shape.certificate.stable()) return;
     found.outcome.shape.certificate = certify_kept(found.outcome.cloth, world_, bounds(), true);
   }
 
  private:
   /// Nothing, and that is noted, if it was broken off.
-  std::optional<Found> try_solve(const Plan& plan, Tally& tally) const try {
+  std::optional<TriedPlan> try_solve(const KeepPlan& plan, Tally& tally) const try {
     return found_by(plan, tally);
   } catch (const physics::Cancelled&) {
     tally.interrupted = true;
@@ -269,9 +191,10 @@ class Keeper {
     return bounds;
   }
 
-  Outcome solve(const Plan& plan, Tally& tally) const {
+  KeepOutcome solve(const KeepPlan& plan, Tally& tally) const {
     const std::vector<double> unknown(plan.lines.size(), NAN);
-    Outcome outcome{start_, {}, plan.rest_step > 0 ? o_.presses[plan.rest_step - 1] : 1, unknown, unknown};
+    KeepOutcome outcome{
+        start_, {}, plan.rest_step > 0 ? o_.presses[plan.rest_step - 1] : 1, unknown, unknown};
     place_lines(plan.lines, mesh_, start_.particles, outcome.cloth.particles);
     stiffen_lines(plan.lines, o_, outcome.rest_press, outcome.cloth);
     outcome.shape = keep_shape(outcome.cloth, world_, bounds(), o_.largest_turn, false);
@@ -280,7 +203,7 @@ class Keeper {
   }
 
   /// Statics first, then motion, unless that is in vain. As run_forward().
-  Steps try_out(Found& found, bool may_end, Tally& tally) const {
+  Steps try_out(TriedPlan& found, bool may_end, Tally& tally) const {
     if (found.plan.lines.empty()) return {};  // all were refused
     if (!o_.prove) return blow_once(found, may_end, tally);
     if (!o_.statics) return run_forward(found, may_end, tally);
@@ -299,7 +222,7 @@ class Keeper {
   }
 
   /// As run_forward(), of one gust by long steps; what fails gets two steps of help at once.
-  Steps blow_once(Found& found, bool may_end, Tally& tally) const {
+  Steps blow_once(TriedPlan& found, bool may_end, Tally& tally) const {
     Steps weak;
     const auto in_vain = [&](const std::vector<double>& kept, bool) {
       found.outcome.kept = kept;
@@ -319,9 +242,9 @@ class Keeper {
   }
 
   /// For those that may be helped and do not hold.
-  Steps weak_lines(const Found& found) const {
+  Steps weak_lines(const TriedPlan& found) const {
     const std::vector<HelpedLine>& lines = found.plan.lines;
-    const Outcome& outcome = found.outcome;
+    const KeepOutcome& outcome = found.outcome;
     Steps weak(lines.size(), 0);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (!can_be_helped(lines[i])) continue;
@@ -332,18 +255,19 @@ class Keeper {
   }
 
   /// Where a trial has failed anyway, lines that hardly hold are helped with those that do not.
-  void add_near_the_edge(const Found& found, Steps& weak) const {
+  void add_near_the_edge(const TriedPlan& found, Steps& weak) const {
+    const double near = o_.prove ? near_the_edge : near_in_one_gust;
     for (std::size_t i = 0; i < weak.size(); ++i) {
       const double off = std::abs(found.outcome.kept_gust[i] - 1);
       if (weak[i] == 0 && can_be_helped(found.plan.lines[i]) &&
-          off > near_the_edge * may_lose_in_gusts(found.outcome, o_.kept))
+          off > near * may_lose_in_gusts(found.outcome, o_.kept))
         weak[i] = 1;
     }
   }
 
   /// Notes what the lines keep. Returns the steps of help that those need that may be helped and do not hold;
   /// with `may_end` the run ends early if one is far from it.
-  Steps run_forward(Found& found, bool may_end, Tally& tally) const {
+  Steps run_forward(TriedPlan& found, bool may_end, Tally& tally) const {
     const bool stable = found.outcome.shape.certificate.stable();
     tally.runs += stable ? 1 : o_.pushes;
     const std::vector<HelpedLine>& lines = found.plan.lines;
@@ -364,8 +288,8 @@ class Keeper {
     return any(weak) ? weak : weak_lines(found);
   }
 
-  std::optional<Found> try_forward(const Plan& plan, Tally& tally) const {
-    std::optional<Found> found = try_solve(plan, tally);
+  std::optional<TriedPlan> try_forward(const KeepPlan& plan, Tally& tally) const {
+    std::optional<TriedPlan> found = try_solve(plan, tally);
     if (found) try_out(*found, false, tally);
     return found;
   }
@@ -376,12 +300,12 @@ class Keeper {
 
   bool can_be_helped(const HelpedLine& line) const { return line.step < help_steps(o_); }
 
-  bool rest_needs_help(const Found& found) const {
-    return o_.whole && found.plan.rest_step < o_.presses.size() && loose_shares(found).back() > share_of_mode;
+  bool rest_needs_help(const TriedPlan& found) const {
+    return o_.whole && found.plan.rest_step < o_.presses.size() && rest_is_loose(found);
   }
 
-  std::size_t failing(const Found& found) const {
-    const Flags good = good_lines(found, o_.kept);
+  std::size_t failing(const TriedPlan& found) const {
+    const LineFlags good = good_lines(found, o_.kept);
     return std::size_t(std::count(good.begin(), good.end(), 0));
   }
 
@@ -394,111 +318,12 @@ class Keeper {
   mutable physics::StiffnessWork exact_work_, search_work_;  // of all trials; they change no bit
 };
 
-/// "2.5 %".
-std::string share_text(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
-  return text;
-}
-
-/// How far a line came from its height in the worse of the two runs [-]; NaN: not run.
-double farthest_off(const Outcome& outcome, std::size_t line) {
-  const double calm = std::abs(outcome.kept[line] - 1), gusts = std::abs(outcome.kept_gust[line] - 1);
-  return calm > gusts ? calm : gusts;  // not a number: that of the gusts
-}
-
-/// Not held for sure: it kept its height here, and nothing but chance speaks against it.
-bool nearly_held(const Found& found, std::size_t line, const KeepOptions& o) {
-  return may_be_judged(found, line) && std::isfinite(found.outcome.kept[line]) &&
-         farthest_off(found.outcome, line) <= 1 - o.kept;
-}
-
-/// It kept its height, and after gusts of the strength that was asked for, but not after stronger ones.
-bool stands_named_gusts(const Found& found, std::size_t line, const KeepOptions& o) {
-  const Outcome& outcome = found.outcome;
-  return may_be_judged(found, line) && !outcome.kept_named.empty() &&
-         std::abs(outcome.kept[line] - 1) <= 1 - o.kept &&
-         std::abs(outcome.kept_named[line] - 1) <= 1 - o.kept;
-}
-
-/// "at 81 % of its height"; nothing is left to measure where a share is not finite.
-std::string left_at(double share) {
-  if (!std::isfinite(share)) return "with no height to measure";
-  return "at " + std::to_string(std::lround(100 * share)) + " % of its height";
-}
-
-std::string why_not(bool interrupted, const Found& found, std::size_t line, const KeepOptions& o) {
-  if (interrupted) return "interrupted";
-  if (hangs_wrong(found.outcome)) return "nothing holds the garment in balance as it lies; see imbalance";
-  if (is_bound(found.plan.lines[line], found.outcome))
-    return "the bounds on strain and angle leave no balance";
-  if (loose_lines(found)[line])
-    return "the fold can give way without effort: the cloth bends too easily for it";
-  if (nearly_held(found, line, o))
-    return "it came within " + share_text(farthest_off(found.outcome, line)) +
-           " of its height in this trial, but another may end farther off; a line is held for sure within " +
-           share_text(may_lose(found.outcome, o.kept)) + ", and after gusts within " +
-           share_text(may_lose_in_gusts(found.outcome, o.kept));
-  if (stands_named_gusts(found, line, o))
-    return "it stood gusts of the strength that was asked for, but stronger ones, which make up for what the "
-           "steps damp, left it " +
-           left_at(found.outcome.kept_gust[line]);
-  return "the fold turns into another shape";
-}
-
-std::vector<KeptLine> verdicts(const Found& found, const KeepOptions& o, bool interrupted) {
-  const Flags good = good_lines(found, o.kept);
-  std::vector<KeptLine> kept;
-  for (std::size_t i = 0; i < good.size(); ++i) {
-    const HelpedLine& line = found.plan.lines[i];
-    KeptLine& v = kept.emplace_back();
-    v.line = line.id;
-    v.press = line.press * press_of(line, o);
-    v.struts = struts_of(line, o);
-    v.lowered = line.height;
-    v.height = line.height * line.drawn;
-    v.kept = found.outcome.kept[i];
-    v.kept_gust = found.outcome.kept_gust[i];
-    if (!good[i]) {
-      v.reason = why_not(interrupted, found, i, o);
-      if (!interrupted && (nearly_held(found, i, o) || stands_named_gusts(found, i, o)))
-        v.verdict = Verdict::may_hold;
-      continue;
-    }
-    v.verdict = line.height < 1 ? Verdict::lowered
-                : v.struts > 0  ? Verdict::strutted
-                : line.step > 0 ? Verdict::pressed
-                                : Verdict::held;
-  }
-  return kept;
-}
-
-KeptLine unmeasured(int id) {
-  KeptLine line;
-  line.line = id;
-  line.height = line.kept = line.kept_gust = NAN;
-  line.reason =
-      "its height cannot be measured: its fold leaves too little cloth around it, or runs along a border";
-  return line;
-}
-
-KeptLine too_low(const LineMeter::TooLow& low) {
-  KeptLine line;
-  line.line = low.line;
-  line.height = low.height;
-  line.kept = line.kept_gust = NAN;
-  line.reason = "its height of " + geometry::length_text(std::abs(low.height)) + " is less than " +
-                geometry::length_text(low.least) +
-                ", the least that can be tried on this mesh; draw it higher";
-  return line;
-}
-
-KeepReport report_of(Found& found, const KeepOptions& o, const LineMeter& meter,
+KeepReport report_of(TriedPlan& found, const KeepOptions& o, const LineMeter& meter,
                      const std::vector<LineMeter::TooLow>& low, const Tally& tally) {
   KeepReport report;
   report.lines = verdicts(found, o, tally.interrupted);
-  for (const int id : meter.unmeasured()) report.lines.push_back(unmeasured(id));
-  for (const LineMeter::TooLow& line : low) report.lines.push_back(too_low(line));
+  for (const int id : meter.unmeasured()) report.lines.push_back(unmeasured_line(id));
+  for (const LineMeter::TooLow& line : low) report.lines.push_back(too_low_line(line));
   std::sort(report.lines.begin(), report.lines.end(),
             [](const KeptLine& a, const KeptLine& b) { return a.line < b.line; });
   report.rest = std::move(found.outcome.shape.rest);
@@ -538,7 +363,7 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
 
   const Keeper keeper(mesh, start, world, o, meter, go_on);
   Tally tally;
-  Found found = keeper.help_by_stiffness(keeper.plan(), tally);
+  TriedPlan found = keeper.help_by_stiffness(keeper.plan(), tally);
   if (!tally.interrupted) found = keeper.help_all(std::move(found), tally);
   if (!tally.interrupted && o.height_trials > 0 &&
       geometry::find_map(mesh, geometry::attribute::rest_position))
