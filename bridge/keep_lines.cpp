@@ -25,7 +25,8 @@ using physics::Vec3;
 
 constexpr double share_of_statics = 0.05;  // of a trial, as its progress is told
 // A line that is off by so much is given two steps of help at once [-], as one is that had help before; and
-// where others are helped, one that uses so much of what it may lose goes with them [-], of one gust less.
+// where others are helped, one that uses so much of what it may lose goes with them [-]: less is allowed
+// where one gust is all that is tried.
 constexpr double far_off = 0.2, near_the_edge = 0.5, near_in_one_gust = 0.4;
 
 using Steps = std::vector<char>;  // of help that lines need more, one a line

@@ -22,7 +22,8 @@ constexpr int look_steps = 100;     // between two moments that are looked at, h
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
 constexpr double calm_dt = 1.0 / 30;  // of implicit steps, where nothing blows [s]
-// Of what is tried in one gust [s], and its strength over the options': chosen on three garments.
+// Of what is tried in one gust: steps before and in it [s], and its strength over the options', which was
+// chosen on three garments [-].
 constexpr double first_calm_dt = 1.0 / 15, long_dt = 1.0 / 30, gust_of_long_steps = 1.2;
 constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();

@@ -32,15 +32,16 @@ StaticTrial try_statics(const physics::Cloth& start, const physics::World& world
                         const std::function<bool()>& go_on) {
   const std::optional<physics::PosedCollider> standing = standing_body(world);
   const std::vector<double> drawn = meter.heights(start.particles);
-  StaticTrial trial{start, std::vector<double>(drawn.size(), NAN)};
-  push_off(trial.cloth, o.push, 1);
+  StaticTrial trial{std::vector<double>(drawn.size(), NAN)};
+  physics::Cloth cloth = start;
+  push_off(cloth, o.push, 1);
   const physics::SettleReport rest =
-      physics::settle(trial.cloth, standing ? &*standing : nullptr, options_of(o, brief, work),
+      physics::settle(cloth, standing ? &*standing : nullptr, options_of(o, brief, work),
                       [&](const auto&) { return !go_on || go_on(); });
   trial.stopped = rest.stopped;
   if (trial.stopped) return trial;
-  trial.kept = shares_of_heights(meter.heights(trial.cloth.particles), drawn);
-  trial.drift = farthest_apart(trial.cloth.particles.x, start.particles.x);
+  trial.kept = shares_of_heights(meter.heights(cloth.particles), drawn);
+  trial.drift = farthest_apart(cloth.particles.x, start.particles.x);
   if (brief && !rest.converged) trial.kept.assign(drawn.size(), 1);
   return trial;
 }

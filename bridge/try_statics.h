@@ -4,9 +4,8 @@
 
 namespace furrow::bridge {
 
-/// A cloth that was searched for rest, and what its lines keep there.
+/// What a search for rest came to.
 struct StaticTrial {
-  physics::Cloth cloth;
   std::vector<double> kept;  ///< of each line, shares of the height at the start [-]; NaN: not reached
   double drift = 0;          ///< of any particle [m]
   bool stopped = false;      ///< by go_on

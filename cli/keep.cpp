@@ -104,7 +104,7 @@ void add_keep(CLI::App& app, int& exit_code) {
                 "no press, struts or lower height where the rest state alone does not hold");
   sub->add_flag(
       "--fast", a->fast,
-      "one gust in place of four and steps twice as long: several times sooner, but a line that is called "
+      "one gust in place of four and longer steps: two to four times sooner, but a line that is called "
       "held may be lost in others");
   sub->add_flag("--whole", a->whole,
                 "press what lies between the lines, too, where it could give way, so that all of the garment "
