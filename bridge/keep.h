@@ -93,10 +93,10 @@ constexpr bool holds(Verdict verdict) { return verdict < Verdict::may_hold; }
 struct KeptLine {
   int line = -1;  ///< its id in attribute::line
   Verdict verdict = Verdict::cannot_hold;
-  double press = 1;                ///< factor on its hinges, its own and that of the help [-]
-  double struts = 0;               ///< stiffness of its struts [N/m]; 0: none
-  double height = 0;               ///< that it was balanced at, after lowering [m]
-  double lowered = 1;              ///< that over the height as drawn [-]
+  double press = 1;    ///< factor on its hinges, its own and that of the help [-]
+  double struts = 0;   ///< stiffness of its struts [N/m]; 0: none
+  double height = 0;   ///< that it was balanced at, after lowering [m]
+  double lowered = 1;  ///< that over the height as drawn, by its own or a neighbour's lowering [-]
   double kept = 0, kept_gust = 0;  ///< shares of `height` after the two runs [-]; NaN: not run
   std::string reason;              ///< of may_hold and cannot_hold
 };

@@ -124,6 +124,17 @@ std::string why_not(bool interrupted, const TriedPlan& found, std::size_t line, 
 
 }  // namespace
 
+namespace {
+
+/// Of its height as drawn, where the plan lowers lines: one that lies across another is lowered with it.
+double lowered_to(const TriedPlan& found, std::size_t line) {
+  const std::vector<HelpedLine>& lines = found.plan.lines;
+  const bool any = std::any_of(lines.begin(), lines.end(), [](const auto& l) { return l.height < 1; });
+  return any ? found.outcome.heights[line] / lines[line].drawn : 1;
+}
+
+}  // namespace
+
 std::vector<KeptLine> verdicts(const TriedPlan& found, const KeepOptions& o, bool interrupted) {
   const LineFlags good = good_lines(found, o.kept);
   std::vector<KeptLine> kept;
@@ -133,8 +144,8 @@ std::vector<KeptLine> verdicts(const TriedPlan& found, const KeepOptions& o, boo
     v.line = line.id;
     v.press = line.press * press_of(line, o);
     v.struts = struts_of(line, o);
-    v.lowered = line.height;
-    v.height = line.height * line.drawn;
+    v.lowered = lowered_to(found, i);
+    v.height = v.lowered * line.drawn;
     v.kept = found.outcome.kept[i];
     v.kept_gust = found.outcome.kept_gust[i];
     if (!good[i]) {
@@ -143,10 +154,10 @@ std::vector<KeptLine> verdicts(const TriedPlan& found, const KeepOptions& o, boo
         v.verdict = Verdict::may_hold;
       continue;
     }
-    v.verdict = line.height < 1 ? Verdict::lowered
-                : v.struts > 0  ? Verdict::strutted
-                : line.step > 0 ? Verdict::pressed
-                                : Verdict::held;
+    v.verdict = line.height < 1 || std::abs(v.lowered - 1) > 1 - o.kept ? Verdict::lowered
+                : v.struts > 0                                          ? Verdict::strutted
+                : line.step > 0                                         ? Verdict::pressed
+                                                                        : Verdict::held;
   }
   return kept;
 }

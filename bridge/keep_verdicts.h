@@ -20,6 +20,7 @@ struct KeepOutcome {
   physics::Cloth cloth;                 ///< with its rest state
   KeptShape shape;                      ///< of that
   double rest_press;                    ///< factor on the hinges outside of all patches [-]
+  std::vector<double> heights;          ///< of each line there [m]
   std::vector<double> kept, kept_gust;  ///< of each line, shares of its height [-]; NaN: not run
   std::vector<double> kept_named = {};  ///< after gusts no stronger than asked for; empty: not run
 };

@@ -439,6 +439,26 @@ TEST_CASE("keep_lines: lines drawn at random on coarse meshes and called held ar
   CHECK(held >= 6);
 }
 
+TEST_CASE("keep_lines: a line that lies across others which are lowered is told as it lies", "[release]") {
+  cases::RandomGarment garment = cases::random_garment(20261143, 3);
+  garment.springs.bending = bridge::Bending::plate;
+  const std::vector<double> drawn = cases::heights_of(garment);
+  physics::Cloth cloth = garment.cloth();
+  KeepOptions options;
+  options.seconds = 2;
+  options.run.integrator = physics::Integrator::implicit;
+  const bridge::KeepReport report = bridge::keep_lines(garment.mesh, cloth, {}, garment.base(), options);
+  const std::vector<double> lie = cases::heights_of(garment);
+  REQUIRE(std::count_if(report.lines.begin(), report.lines.end(),
+                        [](const auto& line) { return line.lowered < 0.9; }) == 3);
+  for (const bridge::KeptLine& line : report.lines) {
+    CAPTURE(line.line, line.kept);
+    CHECK(line.verdict == Verdict::lowered);
+    CHECK(line.height == Approx(lie[line.line]));
+    CHECK(line.lowered == Approx(lie[line.line] / drawn[line.line]));
+  }
+}
+
 TEST_CASE("keep_lines: a trial asks on the way and after the gusts, and what one of them ends is not known") {
   Hung hung(1e-4);
   hung.options.seconds = hung.options.calm_seconds = 0.1;
