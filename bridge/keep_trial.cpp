@@ -22,9 +22,10 @@ constexpr int look_steps = 100;     // between two moments that are looked at, h
 // At what is on its way elsewhere, when the push has calmed [s].
 constexpr double first_look = 0.5, look = 0.1;
 constexpr double calm_dt = 1.0 / 30;  // of implicit steps, where nothing blows [s]
-// Of what is tried in one gust: steps before and in it [s], and its strength over the options', which was
-// chosen on three garments [-].
-constexpr double first_calm_dt = 1.0 / 15, long_dt = 1.0 / 30, gust_of_long_steps = 1.2;
+// Of what is tried in one gust: steps before and in it [s], and over the options' its strength, which was
+// chosen on three garments, and that of the push, much of which such steps damp out at once [-].
+constexpr double first_calm_dt = 1.0 / 15, long_dt = 1.0 / 30, gust_of_long_steps = 1.2,
+                 push_of_long_steps = 2;
 constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -269,7 +270,7 @@ KeepTrial try_one_gust(const physics::Cloth& start, const physics::World& world,
     return trial;
   };
   Run run{start, {}, 0, never};
-  push_off(run.cloth, o.push, 1);
+  push_off(run.cloth, push_of_long_steps * o.push, 1);
   Outcome end = setting.through({{calm, o.run.gravity, first_calm_dt}}, run, trial.kept);
   trial.drift = farthest_apart(run.cloth.particles.x, start.particles.x);
   if (end != Outcome::finished || (in_vain && in_vain(trial.kept, false))) return ended(end);

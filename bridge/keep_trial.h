@@ -72,9 +72,10 @@ KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::Wor
                     const KeepOptions& options, LineMeter& meter, const InVain& in_vain,
                     const std::function<bool(double)>& go_on, double stronger = gust_of_euler);
 
-/// A trial's first part, one gust of 1.2 times the options' strength, and the calm after it, by backward
-/// Euler, whatever the options name. Steps are twice as long as in try_shape(), but for that calm. What it
-/// lets pass may still be lost there. in_vain: asked after the first part. Cost: some 90 steps.
+/// A trial's first part, from twice the options' push, one gust of 1.2 times their strength, and the calm
+/// after it, by backward Euler, whatever the options name. Steps are twice as long as in try_shape(), but for
+/// that calm. What it lets pass may still be lost there. in_vain: asked after the first part. Cost: some 90
+/// steps.
 KeepTrial try_one_gust(const physics::Cloth& start, const physics::World& world, const KeepOptions& options,
                        LineMeter& meter, const InVain& in_vain, const std::function<bool(double)>& go_on);
 

@@ -201,9 +201,10 @@ std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineRe
   if (lost == 0) return {};
   if (lost > most_told) told += ", and " + std::to_string(lost - most_told) + " more";
   return {{"lines_lost",
-           std::to_string(lost) + " of " + std::to_string(lines.size()) +
-               (lines.size() == 1 ? " line" : " lines") + " lost more than half of the height: " + told +
-               "; " +
+           (lines.size() == 1
+                ? "the line lost more than half of its height: "
+                : fmt::format("{} of {} lines lost more than half of their height: ", lost, lines.size())) +
+               told + "; " +
                (keeps_first_shape(scene)
                     ? "furrow keep finds out which lines hold, and helps those that do not"
                     : "furrow keep makes the drawn shape the rest and helps lines that do not hold"),

@@ -334,7 +334,7 @@ TEST_CASE("simulate: a line that fades or turns over is warned of by name, with 
   REQUIRE(lost(faded));
   CHECK(lost(faded)->where == "ridge");
   CHECK(lost(faded)->help == "furrow keep");
-  CHECK(lost(faded)->text.find("1 of 1 line lost more than half of the height: 'ridge' ") == 0);
+  CHECK(lost(faded)->text.find("the line lost more than half of its height: 'ridge' ") == 0);
   CHECK(lost(faded)->text.find(" mm)") != std::string::npos);
   const jobs::SimulateReport fresh = jobs::simulate(hung_sheet(0.001), recorder);
   REQUIRE(*fresh.shape->lines[0].kept > 0.5);
