@@ -3,7 +3,8 @@
 // encircled is held, or with Shift let go.
 import * as THREE from "three";
 import type { Vector } from "./protocol";
-import type { Hit, View } from "./view";
+import type { Hit } from "./picker";
+import type { View } from "./view";
 
 export interface HandHearer {
   /** null: it lets go. */
@@ -37,7 +38,7 @@ export class Hand {
   private begin(e: PointerEvent) {
     const does = this.does();
     if (!does || e.button !== 0) return;
-    const hit: Hit | null = this.view.pick(e.clientX, e.clientY);
+    const hit: Hit | null = this.view.picker.pick(e.clientX, e.clientY);
     if (!hit) return;  // beside the cloth the camera turns
     e.stopImmediatePropagation();
     this.view.canvas.setPointerCapture(e.pointerId);
@@ -47,7 +48,7 @@ export class Hand {
       return;
     }
     this.vertex = hit.vertex;
-    this.from = this.view.placeOf(hit.vertex);
+    this.from = this.view.picker.placeOf(hit.vertex);
     this.pull(this.from);
   }
 
@@ -59,7 +60,7 @@ export class Hand {
 
   /** Draws the rope anew, as the cloth has moved. */
   follow() {
-    if (this.vertex >= 0) this.view.showRope([this.view.placeOf(this.vertex), this.to]);
+    if (this.vertex >= 0) this.view.showRope([this.view.picker.placeOf(this.vertex), this.to]);
   }
 
   private move(e: PointerEvent) {
@@ -71,7 +72,7 @@ export class Hand {
     }
     if (this.vertex < 0) return;
     e.stopImmediatePropagation();
-    const to = this.view.dragTo(e.clientX, e.clientY, this.from);
+    const to = this.view.picker.dragTo(e.clientX, e.clientY, this.from);
     if (to) this.pull(to);
   }
 
@@ -97,7 +98,7 @@ export class Hand {
     const isClick = this.isClick();
     this.drop();
     if (isClick) return this.hearer.pins(clicked.undrawn.toArray() as Vector, e.shiftKey);
-    this.hearer.encircles(this.view.verticesIn(lasso), !e.shiftKey);
+    this.hearer.encircles(this.view.picker.verticesIn(lasso), !e.shiftKey);
   }
 
   /** Lets the cloth go, and what is encircled. */

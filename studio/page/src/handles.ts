@@ -45,17 +45,17 @@ export class Handles {
 
   /** Puts the dots where the cloth is now. */
   show() {
-    this.view.showHandles(this.on() ? this.dots.map((i) => this.view.nearest(this.points[i])?.shown ?? this.points[i]) : []);
+    this.view.showHandles(this.on() ? this.dots.map((i) => this.view.picker.nearest(this.points[i])?.shown ?? this.points[i]) : []);
   }
 
   private begin(e: PointerEvent) {
     if (!this.on() || e.button !== 0 || this.dots.length === 0) return;
     let best = near;
     this.dots.forEach((i, k) => {
-      const shown = this.view.nearest(this.points[i])?.shown;
+      const shown = this.view.picker.nearest(this.points[i])?.shown;
       if (!shown) return;
-      const [x, y] = this.view.windowPlace(shown), far = Math.hypot(x - e.clientX, y - e.clientY);
-      const hit = this.view.pick(x, y);
+      const [x, y] = this.view.picker.windowPlace(shown), far = Math.hypot(x - e.clientX, y - e.clientY);
+      const hit = this.view.picker.pick(x, y);
       const hidden = !hit || hit.shown.distanceTo(shown) > 0.05 * this.view.size;  // behind the cloth, or the body
       if (far < best && !hidden) {
         best = far;
@@ -83,14 +83,14 @@ export class Handles {
   private move(e: PointerEvent) {
     if (!this.dragging) return;
     e.stopImmediatePropagation();
-    const hit = this.view.pick(e.clientX, e.clientY);
+    const hit = this.view.picker.pick(e.clientX, e.clientY);
     if (!hit) return;
     const way = hit.undrawn.clone().sub(this.base[this.dots[this.grabbed]]);
     this.points = this.base.map((p, i) => {
       const share = this.share(i);
       if (share === 0) return p.clone();
       const wanted = p.clone().addScaledVector(way, share);
-      return share === 1 ? hit.undrawn.clone() : (this.view.nearest(wanted)?.undrawn ?? wanted);
+      return share === 1 ? hit.undrawn.clone() : (this.view.picker.nearest(wanted)?.undrawn ?? wanted);
     });
     this.show();
     this.hearer.moved(this.list(), true);

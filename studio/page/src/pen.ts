@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The pen: a line that sticks to the cloth while the button is down.
-import type { Hit, View } from "./view";
+import type { Hit } from "./picker";
+import type { View } from "./view";
 
 /** `pressure`: the mean of a pen that feels it, 0.5 where it is held as usual. */
 export interface Drawn { points: number[][]; closed: boolean; pressure?: number }
@@ -33,8 +34,8 @@ export class Pen {
 
   private begin(e: PointerEvent) {
     if (!this.settings().on || e.button !== 0 || this.down) return;
-    const hit = this.view.pick(e.clientX, e.clientY);
-    if (!hit && !this.view.isNear(e.clientX, e.clientY, beside)) return;  // far from the cloth the camera turns
+    const hit = this.view.picker.pick(e.clientX, e.clientY);
+    if (!hit && !this.view.picker.isNear(e.clientX, e.clientY, beside)) return;  // far from the cloth the camera turns
     e.stopImmediatePropagation();
     this.view.canvas.setPointerCapture(e.pointerId);
     this.down = true;
@@ -45,7 +46,7 @@ export class Pen {
   }
 
   private add(x: number, y: number) {
-    const hit = this.view.pick(x, y), before = this.hits[this.hits.length - 1];
+    const hit = this.view.picker.pick(x, y), before = this.hits[this.hits.length - 1];
     if (!hit) return;
     if (!before) return void this.hits.push(hit);  // it came from beside the cloth
     const far = hit.shown.distanceTo(before.shown) / this.view.size;
@@ -95,7 +96,7 @@ export class Pen {
   /** A line that ends just before a border is meant to reach it. */
   private reachBorders() {
     const reach = (end: Hit, before: Hit) =>
-      this.view.borderAhead(end, before, Math.min(short * this.view.lengthOfPixel(end.shown), this.settings().width / 2));
+      this.view.picker.borderAhead(end, before, Math.min(short * this.view.picker.lengthOfPixel(end.shown), this.settings().width / 2));
     const n = this.hits.length, back = Math.min(n - 1, 4);
     const last = reach(this.hits[n - 1], this.hits[n - 1 - back]), first = reach(this.hits[0], this.hits[back]);
     if (last) this.hits.push(last);

@@ -5,10 +5,9 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
-import { MeshBVH } from "three-mesh-bvh";
 import { type Frame, Kind } from "./frame";
+import { type Hit, Picker } from "./picker";
 
-export interface Hit { shown: THREE.Vector3; normal: THREE.Vector3; undrawn: THREE.Vector3; vertex: number }
 export interface Seen { body: boolean; wire: boolean; lines: boolean }
 export type Side = "front" | "back" | "right";
 
@@ -22,42 +21,26 @@ const slow = 45;
 /** Where a point of the pen's band lies above the cloth [share of the cloth's size]. */
 const lift = 0.0018;
 
-/** Edges that belong to one face. */
-function borderEdges(faces: Uint32Array): [number, number][] {
-  const edges = new Map<string, [number, number] | null>();
-  for (let f = 0; f < faces.length; f += 3)
-    for (let k = 0; k < 3; ++k) {
-      const a = faces[f + k], b = faces[f + ((k + 1) % 3)], name = a < b ? `${a} ${b}` : `${b} ${a}`;
-      edges.set(name, edges.has(name) ? null : [a, b]);
-    }
-  return [...edges.values()].filter((edge) => edge !== null);
-}
-
 export class View {
   readonly camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
   readonly controls: OrbitControls;
   readonly renderer: THREE.WebGLRenderer;
+  readonly cloth: THREE.Mesh;
+  readonly body: THREE.Mesh;
+  readonly picker = new Picker(this);
+  frame?: Frame;  // the cloth's, as it lies now
   colours = light;
   size = 1;  // the cloth's diagonal [m]
   seen: Seen = { body: true, wire: false, lines: true };
   private scene = new THREE.Scene();
   private key = new THREE.DirectionalLight(0xffffff, 2.1);
-  private cloth: THREE.Mesh;
-  private body: THREE.Mesh;
   private wire: THREE.LineSegments;
   private band: THREE.Mesh;
   private pins: THREE.Points;
   private lines = new THREE.Group();
-  private clothTree?: MeshBVH;
-  private bodyTree?: MeshBVH;
-  private undrawnTree?: MeshBVH;  // of the present frame, where it was asked for
-  private borders?: [number, number][];  // likewise: edges of one face
-  private treesAreOld = false;    // things have moved since the trees were fitted
-  private treesSoon = 0;
   private handles: THREE.Points;
   private plane: THREE.Mesh;
   private rope: THREE.Line;
-  private frame?: Frame;
   private isWide = false;  // the body is looked at, too
   private lookedFrom = new THREE.Vector3();
   private asked = false;
@@ -193,7 +176,7 @@ export class View {
   forget() {
     this.body.geometry.dispose();
     this.body.geometry = new THREE.BufferGeometry();
-    this.bodyTree = undefined;
+    this.picker.forgetBody();
     this.framed = false;
   }
 
@@ -201,18 +184,14 @@ export class View {
     if (frame.kind === Kind.body) {
       this.body.geometry.dispose();
       this.body.geometry = this.geometryOf(frame);
-      this.bodyTree = undefined;
-      this.fitTreesSoon();
+      this.picker.forgetBody();
       return this.draw();
     }
     this.frame = frame;
-    this.undrawnTree = undefined;
-    this.borders = undefined;
     this.cloth.geometry.dispose();
     this.cloth.geometry = this.geometryOf(frame);
     this.colour(null);
-    this.clothTree = undefined;
-    this.fitTreesSoon();
+    this.picker.forgetCloth();
     this.cloth.geometry.computeBoundingBox();
     this.size = this.cloth.geometry.boundingBox!.getSize(new THREE.Vector3()).length();
     this.showWire();
@@ -242,7 +221,7 @@ export class View {
     if (!this.frame || positions.length !== this.frame.positions.length) return;
     this.colour(null);
     this.frame.positions.set(positions);
-    this.treesAreOld = true;
+    this.picker.haveMoved();
     this.cloth.geometry.getAttribute("position").needsUpdate = true;
     this.cloth.geometry.computeVertexNormals();
     this.cloth.geometry.computeBoundingSphere();
@@ -260,7 +239,7 @@ export class View {
     at.needsUpdate = true;
     this.body.geometry.computeVertexNormals();
     this.body.geometry.computeBoundingSphere();
-    this.treesAreOld = true;
+    this.picker.haveMoved();
     this.draw();
   }
 
@@ -319,142 +298,6 @@ export class View {
       const isChosen = line >= 0 && line === this.chosen;
       this.lines.add(new LineSegments2(geometry, new LineMaterial({ color: colour, linewidth: isChosen ? 5 : 2, transparent: !isChosen, opacity: isChosen ? 1 : 0.75 })));
     }
-  }
-
-  private rayThrough(x: number, y: number): THREE.Ray {
-    const box = this.canvas.getBoundingClientRect();
-    const at = new THREE.Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
-    const caster = new THREE.Raycaster();
-    caster.setFromCamera(at, this.camera);
-    return caster.ray;
-  }
-
-  /** What is pointed at is found by trees: they are made after the picture, which nobody shall wait for. */
-  private fitTrees() {
-    if (this.treesAreOld) {
-      this.clothTree?.refit();
-      this.bodyTree?.refit();
-      this.treesAreOld = false;
-    }
-    if (this.cloth.geometry.index) this.clothTree ??= new MeshBVH(this.cloth.geometry);
-    if (this.body.geometry.index) this.bodyTree ??= new MeshBVH(this.body.geometry);
-  }
-
-  private fitTreesSoon() {
-    clearTimeout(this.treesSoon);
-    this.treesSoon = window.setTimeout(() => this.fitTrees(), 150);
-  }
-
-  /** The cloth under a place of the window, unless the body hides it. */
-  pick(x: number, y: number): Hit | null {
-    if (!this.frame) return null;
-    this.fitTrees();
-    if (!this.clothTree) return null;
-    const ray = this.rayThrough(x, y);
-    const hit = this.clothTree.raycastFirst(ray, THREE.DoubleSide);
-    if (!hit?.face) return null;
-    const before = this.seen.body && this.bodyTree?.raycastFirst(ray, THREE.FrontSide);
-    if (before && before.distance < hit.distance - 0.01 * this.size) return null;
-    const { a, b, c } = hit.face;
-    const at = (list: ArrayLike<number>, v: number) => new THREE.Vector3(list[3 * v], list[3 * v + 1], list[3 * v + 2]);
-    const { positions, undrawn } = this.frame;
-    const weights = THREE.Triangle.getBarycoord(hit.point, at(positions, a), at(positions, b), at(positions, c), new THREE.Vector3());
-    if (!weights) return null;
-    const normals = this.cloth.geometry.getAttribute("normal").array;
-    const blend = (list: ArrayLike<number>) =>
-      at(list, a).multiplyScalar(weights.x).addScaledVector(at(list, b), weights.y).addScaledVector(at(list, c), weights.z);
-    const corner = weights.x >= weights.y && weights.x >= weights.z ? a : weights.y >= weights.z ? b : c;
-    return { shown: hit.point.clone(), normal: blend(normals).normalize(), undrawn: blend(undrawn), vertex: corner };
-  }
-
-  /** Whether cloth is within so many pixels of a place of the window, three times as many on the body. */
-  isNear(x: number, y: number, pixels: number): boolean {
-    this.fitTrees();
-    if (this.seen.body && this.bodyTree?.raycastFirst(this.rayThrough(x, y), THREE.FrontSide)) pixels *= 3;
-    const around = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => (k * Math.PI) / 4);
-    return [0.33, 0.67, 1].some((r) => around.some((a) => this.pick(x + r * pixels * Math.cos(a), y + r * pixels * Math.sin(a)) !== null));
-  }
-
-  /** How long a piece of the picture is where a point lies [m a pixel]. */
-  lengthOfPixel(at: THREE.Vector3): number {
-    const height = this.canvas.getBoundingClientRect().height;
-    return (2 * at.distanceTo(this.camera.position) * Math.tan((this.camera.fov * Math.PI) / 360)) / height;
-  }
-
-  /** The border of the cloth that a line runs towards at its end, within so much of it [m]; null: none. */
-  borderAhead(end: Hit, before: Hit, most: number): Hit | null {
-    if (!this.frame) return null;
-    const { positions, undrawn } = this.frame, way = end.shown.clone().sub(before.shown).normalize();
-    const at = (list: Float32Array, v: number) => new THREE.Vector3().fromArray(list, 3 * v);
-    const on = new THREE.Vector3(), piece = new THREE.Line3();
-    let best: Hit | null = null, least = most;
-    for (const [a, b] of (this.borders ??= borderEdges(this.frame.faces))) {
-      piece.set(at(positions, a), at(positions, b));
-      const share = piece.closestPointToPointParameter(end.shown, true);
-      piece.at(share, on);
-      const far = on.distanceTo(end.shown);
-      if (far > least || on.clone().sub(end.shown).dot(way) < 0.5 * far) continue;
-      least = far;
-      best = { shown: on.clone(), normal: end.normal, undrawn: at(undrawn, a).lerp(at(undrawn, b), share), vertex: share < 0.5 ? a : b };
-    }
-    return best;
-  }
-
-  /** Where the ray through a place of the window meets the plane through a point that faces the camera. */
-  dragTo(x: number, y: number, through: THREE.Vector3): THREE.Vector3 | null {
-    const facing = new THREE.Plane().setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new THREE.Vector3()), through);
-    return this.rayThrough(x, y).intersectPlane(facing, new THREE.Vector3());
-  }
-
-  placeOf(vertex: number): THREE.Vector3 {
-    return new THREE.Vector3().fromArray(this.frame!.positions, 3 * vertex);
-  }
-
-  /** The place of the window under which a point lies [pixels]. */
-  windowPlace(point: THREE.Vector3): [number, number] {
-    const box = this.canvas.getBoundingClientRect(), at = point.clone().project(this.camera);
-    return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
-  }
-
-  /** The vertices within a polygon of the window that are seen: nothing lies before them. */
-  verticesIn(polygon: [number, number][]): number[] {
-    if (!this.frame || polygon.length < 3) return [];
-    this.fitTrees();
-    if (!this.clothTree) return [];
-    const inside = (x: number, y: number) => polygon.reduce((is, [ax, ay], i) => {
-      const [bx, by] = polygon[(i + 1) % polygon.length];
-      return ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax) ? !is : is;
-    }, false);
-    const found: number[] = [], eye = this.camera.position;
-    for (let v = 0; 3 * v < this.frame.positions.length; ++v) {
-      const at = this.placeOf(v), [x, y] = this.windowPlace(at);
-      if (!inside(x, y)) continue;
-      const ray = new THREE.Ray(eye, at.clone().sub(eye).normalize()), way = at.distanceTo(eye) - 0.004 * this.size;
-      const cloth = this.clothTree.raycastFirst(ray, THREE.DoubleSide), body = this.seen.body && this.bodyTree?.raycastFirst(ray, THREE.FrontSide);
-      if ((!cloth || cloth.distance > way) && (!body || body.distance > way - 0.006 * this.size)) found.push(v);
-    }
-    return found;
-  }
-
-  /** The nearest point of the cloth without its lines, and the same point with them. */
-  nearest(point: THREE.Vector3): { undrawn: THREE.Vector3; shown: THREE.Vector3 } | null {
-    if (!this.frame) return null;
-    const { positions, undrawn, faces } = this.frame;
-    if (!this.undrawnTree) {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.BufferAttribute(undrawn, 3));
-      geometry.setIndex(new THREE.BufferAttribute(faces.slice(), 1));
-      this.undrawnTree = new MeshBVH(geometry);
-    }
-    const hit = this.undrawnTree.closestPointToPoint(point);
-    if (!hit) return null;
-    const index = this.undrawnTree.geometry.index!.array, corners = [0, 1, 2].map((k) => index[3 * hit.faceIndex + k]);
-    const at = (list: Float32Array, v: number) => new THREE.Vector3().fromArray(list, 3 * v);
-    const [a, b, c] = corners.map((v) => at(undrawn, v));
-    const w = THREE.Triangle.getBarycoord(hit.point, a, b, c, new THREE.Vector3());
-    if (!w) return { undrawn: hit.point.clone(), shown: at(positions, corners[0]) };
-    const shown = at(positions, corners[0]).multiplyScalar(w.x).addScaledVector(at(positions, corners[1]), w.y).addScaledVector(at(positions, corners[2]), w.z);
-    return { undrawn: hit.point.clone(), shown };
   }
 
   /** Dots by which the chosen line is dragged. */
