@@ -38,7 +38,10 @@ export function Open({ items, first, files, bad, open, close }: Props) {
   const [chosen, setChosen] = useState<Files>(files);
   const [unit, setUnit] = useState(""), [up, setUp] = useState(""), [busy, setBusy] = useState(false);
   useEffect(() => dialog.current?.showModal(), []);
-  useEffect(() => setChosen(files), [files]);
+  const dropped = useRef(files);  // an effect comes after the first picture, and would take back what was chosen by then
+  useEffect(() => {
+    if (dropped.current !== files) setChosen((dropped.current = files));
+  }, [files]);
   const go = async (words: OpenWords) => {
     setBusy(true);
     await open(words);
