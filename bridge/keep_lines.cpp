@@ -199,7 +199,6 @@ class Keeper {
     place_lines(plan.lines, mesh_, start_.particles, outcome.cloth.particles);
     stiffen_lines(plan.lines, o_, outcome.rest_press, outcome.cloth);
     outcome.shape = keep_shape(outcome.cloth, world_, bounds(), o_.largest_turn, false);
-    outcome.heights = meter_.heights(outcome.cloth.particles);
     ++tally.trials;
     return outcome;
   }
@@ -320,10 +319,10 @@ class Keeper {
   mutable physics::StiffnessWork exact_work_, search_work_;  // of all trials; they change no bit
 };
 
-KeepReport report_of(TriedPlan& found, const KeepOptions& o, const LineMeter& meter,
+KeepReport report_of(TriedPlan& found, const KeepOptions& o, LineMeter& meter,
                      const std::vector<LineMeter::TooLow>& low, const Tally& tally) {
   KeepReport report;
-  report.lines = verdicts(found, o, tally.interrupted);
+  report.lines = verdicts(found, meter.heights(found.outcome.cloth.particles), o, tally.interrupted);
   for (const int id : meter.unmeasured()) report.lines.push_back(unmeasured_line(id));
   for (const LineMeter::TooLow& line : low) report.lines.push_back(too_low_line(line));
   std::sort(report.lines.begin(), report.lines.end(),

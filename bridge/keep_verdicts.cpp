@@ -122,20 +122,17 @@ std::string why_not(bool interrupted, const TriedPlan& found, std::size_t line, 
   return "the fold turns into another shape";
 }
 
-}  // namespace
-
-namespace {
-
-/// Of its height as drawn, where the plan lowers lines: one that lies across another is lowered with it.
-double lowered_to(const TriedPlan& found, std::size_t line) {
-  const std::vector<HelpedLine>& lines = found.plan.lines;
-  const bool any = std::any_of(lines.begin(), lines.end(), [](const auto& l) { return l.height < 1; });
-  return any ? found.outcome.heights[line] / lines[line].drawn : 1;
+/// Of a height as drawn, what is left: a line that lies across one which the plan lowers is lowered with it.
+double lowered_to(double height, const HelpedLine& line, const KeepPlan& plan) {
+  const bool any =
+      std::any_of(plan.lines.begin(), plan.lines.end(), [](const auto& l) { return l.height < 1; });
+  return any ? height / line.drawn : 1;
 }
 
 }  // namespace
 
-std::vector<KeptLine> verdicts(const TriedPlan& found, const KeepOptions& o, bool interrupted) {
+std::vector<KeptLine> verdicts(const TriedPlan& found, const std::vector<double>& heights,
+                               const KeepOptions& o, bool interrupted) {
   const LineFlags good = good_lines(found, o.kept);
   std::vector<KeptLine> kept;
   for (std::size_t i = 0; i < good.size(); ++i) {
@@ -144,7 +141,7 @@ std::vector<KeptLine> verdicts(const TriedPlan& found, const KeepOptions& o, boo
     v.line = line.id;
     v.press = line.press * press_of(line, o);
     v.struts = struts_of(line, o);
-    v.lowered = lowered_to(found, i);
+    v.lowered = lowered_to(heights[i], line, found.plan);
     v.height = v.lowered * line.drawn;
     v.kept = found.outcome.kept[i];
     v.kept_gust = found.outcome.kept_gust[i];

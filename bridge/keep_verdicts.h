@@ -20,7 +20,6 @@ struct KeepOutcome {
   physics::Cloth cloth;                 ///< with its rest state
   KeptShape shape;                      ///< of that
   double rest_press;                    ///< factor on the hinges outside of all patches [-]
-  std::vector<double> heights;          ///< of each line there [m]
   std::vector<double> kept, kept_gust;  ///< of each line, shares of its height [-]; NaN: not run
   std::vector<double> kept_named = {};  ///< after gusts no stronger than asked for; empty: not run
 };
@@ -49,8 +48,10 @@ LineFlags good_lines(const TriedPlan& found, double least);
 /// Whether nothing but its trials speaks against a line.
 bool may_be_judged(const TriedPlan& found, std::size_t line);
 
-/// What is told of each line that was tried, with reasons; interrupted: what is not known is told so.
-std::vector<KeptLine> verdicts(const TriedPlan& found, const KeepOptions& options, bool interrupted);
+/// What is told of each line that was tried, with reasons. heights: of each line in the outcome's cloth [m];
+/// interrupted: what is not known is told so.
+std::vector<KeptLine> verdicts(const TriedPlan& found, const std::vector<double>& heights,
+                               const KeepOptions& options, bool interrupted);
 KeptLine unmeasured_line(int id);                     ///< of one whose height is not known
 KeptLine too_low_line(const LineMeter::TooLow& low);  ///< of one that was refused
 

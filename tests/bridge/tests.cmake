@@ -11,6 +11,7 @@ furrow_add_tests(bridge bridge LIBRARIES furrow::bridge garment_cases SOURCES
   gather_test.cpp
   woven_gather_test.cpp
   keep_lines_test.cpp
+  keep_verdicts_test.cpp
   place_noise_test.cpp
   reactions_test.cpp
   store_rest_state_test.cpp
