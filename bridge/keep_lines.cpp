@@ -194,8 +194,11 @@ class Keeper {
 
   KeepOutcome solve(const KeepPlan& plan, Tally& tally) const {
     const std::vector<double> unknown(plan.lines.size(), NAN);
-    KeepOutcome outcome{start_, {},      plan.rest_step > 0 ? o_.presses[plan.rest_step - 1] : 1,
-                        {},     unknown, unknown};
+    KeepOutcome outcome{.cloth = start_,
+                        .shape = {},
+                        .rest_press = plan.rest_step > 0 ? o_.presses[plan.rest_step - 1] : 1,
+                        .kept = unknown,
+                        .kept_gust = unknown};
     place_lines(plan.lines, mesh_, start_.particles, outcome.cloth.particles);
     stiffen_lines(plan.lines, o_, outcome.rest_press, outcome.cloth);
     outcome.shape = keep_shape(outcome.cloth, world_, bounds(), o_.largest_turn, false);

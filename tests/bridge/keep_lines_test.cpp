@@ -346,6 +346,7 @@ TEST_CASE("keep_lines: a garment that nothing holds is said to be out of balance
   CHECK(report.lines[0].reason.find("balance") != std::string::npos);
   CHECK(report.runs == 0);  // it would fall as it is
   CHECK(std::isnan(report.lines[0].kept));
+  CHECK(std::isnan(report.lines[0].kept_gust));
 }
 
 TEST_CASE(

@@ -12,7 +12,9 @@ namespace {
 /// Three lines of 10 mm, stable, that keep their heights.
 struct Tried {
   bridge::KeepOptions options;
-  bridge::TriedPlan found{{{{0, {}, 0.01}, {1, {}, 0.01}, {2, {}, 0.01}}}, {{}, {}, 1, {1, 1, 1}, {1, 1, 1}}};
+  bridge::TriedPlan found{
+      {{{0, {}, 0.01}, {1, {}, 0.01}, {2, {}, 0.01}}},
+      {.cloth = {}, .shape = {}, .rest_press = 1, .kept = {1, 1, 1}, .kept_gust = {1, 1, 1}}};
   std::vector<double> heights{0.01, 0.01, 0.01};
 
   std::vector<bridge::KeptLine> told() const { return bridge::verdicts(found, heights, options, false); }
