@@ -28,8 +28,8 @@ constexpr double share_of_statics = 0.05;  // of a trial, as its progress is tol
 // where others are helped, one that uses so much of what it may lose goes with them [-]: less is allowed
 // where one gust is all that is tried.
 constexpr double far_off = 0.2, near_the_edge = 0.5, near_in_one_gust = 0.4;
-
-using Steps = std::vector<char>;  // of help that lines need more, one a line
+// Of the greatest height that held in trials, since bisection ends at the edge of what holds [-].
+constexpr double off_the_edge = 0.9;
 
 /// What it took so far.
 struct Tally {
@@ -99,12 +99,11 @@ class Keeper {
       if (hangs_wrong(found.outcome)) return std::move(found);
       if (!any(weak) && !rest) weak = try_out(found, true, tally);
       if ((!any(weak) && !rest) || tally.interrupted) return std::move(found);
+      // As one that gives way lets go the next, all get help then: that ends sooner, and with less for those
+      // that need most. By long steps two are given at once.
+      const bool one_by_one = tally.trials > 1 && fails_anew(weak, plan.lines);
       if (any(weak)) add_near_the_edge(found, weak);
-      for (std::size_t i = 0; i < weak.size(); ++i) {
-        int& step = plan.lines[i].step;
-        step = std::min(step + (weak[i] != 0 && step > 0 ? 2 : int(weak[i])), help_steps(o_));
-      }
-      tally.helped = int(weak.size()) - int(std::count(weak.begin(), weak.end(), 0));
+      tally.helped = add_help(weak, one_by_one ? (o_.prove ? 1 : 2) : 0, o_, plan.lines);
       plan.rest_step += rest ? 1 : 0;
     }
   }
@@ -147,7 +146,8 @@ class Keeper {
       for (std::size_t i = 0; i < lines.size(); ++i)
         (now[lines[i]] ? low[i] : high[i]) = plan.lines[lines[i]].height;
     }
-    for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = low[i] > 0 ? low[i] : 1;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      plan.lines[lines[i]].height = low[i] > 0 ? off_the_edge * low[i] : 1;
     if (tally.interrupted) return found;
     return try_forward(plan, tally).value_or(std::move(found));
   }

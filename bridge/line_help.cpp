@@ -22,6 +22,24 @@ double struts_of(const HelpedLine& line, const KeepOptions& o) {
   return n > 0 ? o.struts[n - 1] : 0;
 }
 
+bool fails_anew(const Steps& steps, const std::vector<HelpedLine>& lines) {
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (steps[i] != 0 && lines[i].step == 0) return true;
+  return false;
+}
+
+int add_help(const Steps& steps, int least, const KeepOptions& o, std::vector<HelpedLine>& lines) {
+  int helped = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    int& step = lines[i].step;
+    const int more = steps[i] != 0 && step > 0 ? 2 : int(steps[i]);
+    const int now = std::min(std::max(step + more, least), help_steps(o));
+    helped += now > step ? 1 : 0;
+    step = now;
+  }
+  return helped;
+}
+
 namespace {
 
 /// Of all plates, one plate after the other.

@@ -18,6 +18,14 @@ int help_steps(const KeepOptions& options);                            ///< how 
 double press_of(const HelpedLine& line, const KeepOptions& options);   ///< factor that helps [-]
 double struts_of(const HelpedLine& line, const KeepOptions& options);  ///< [N/m]; 0: none
 
+using Steps = std::vector<char>;  // of help that lines need more, one a line
+
+/// Whether a line fails that had no help yet.
+bool fails_anew(const Steps& steps, const std::vector<HelpedLine>& lines);
+/// Adds these steps, but two to a line that had help before, and gives each line at least the step `least`,
+/// as far as there is help. Returns how many lines get more.
+int add_help(const Steps& steps, int least, const KeepOptions& options, std::vector<HelpedLine>& lines);
+
 /// Whether some element of its patch is on a bound of the rest state.
 bool on_bounds(const HelpedLine& line, const physics::PrestressReport& rest, const physics::Cloth& cloth);
 

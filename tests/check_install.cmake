@@ -90,7 +90,7 @@ endif()
 
 # Its own build: quickly made, for it is linked and run, not measured.
 must(${CMAKE_COMMAND} -G Ninja -S ${ROOT} -B ${alone}/build -DFURROW_COMPONENTS=physics ${hidden}
-     -DFURROW_UNITY=ON -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O0")
+     -DFURROW_UNITY=ON -DFURROW_UNITY_SIZE=40 -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O0")
 must(${CMAKE_COMMAND} --build ${alone}/build -j 2)
 must(${CMAKE_COMMAND} --install ${alone}/build --prefix ${alone}/installed)
 must_be_there(${alone}/installed/share/doc/furrow/physics/LICENSE)

@@ -12,6 +12,7 @@ furrow_add_tests(bridge bridge LIBRARIES furrow::bridge garment_cases SOURCES
   woven_gather_test.cpp
   keep_lines_test.cpp
   keep_verdicts_test.cpp
+  line_help_test.cpp
   place_noise_test.cpp
   reactions_test.cpp
   store_rest_state_test.cpp
