@@ -28,8 +28,6 @@ constexpr double share_of_statics = 0.05;  // of a trial, as its progress is tol
 // where others are helped, one that uses so much of what it may lose goes with them [-]: less is allowed
 // where one gust is all that is tried.
 constexpr double far_off = 0.2, near_the_edge = 0.5, near_in_one_gust = 0.4;
-// Of the greatest height that held in trials, since bisection ends at the edge of what holds [-].
-constexpr double off_the_edge = 0.9;
 
 /// What it took so far.
 struct Tally {
@@ -146,8 +144,7 @@ class Keeper {
       for (std::size_t i = 0; i < lines.size(); ++i)
         (now[lines[i]] ? low[i] : high[i]) = plan.lines[lines[i]].height;
     }
-    for (std::size_t i = 0; i < lines.size(); ++i)
-      plan.lines[lines[i]].height = low[i] > 0 ? off_the_edge * low[i] : 1;
+    for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = low[i] > 0 ? low[i] : 1;
     if (tally.interrupted) return found;
     return try_forward(plan, tally).value_or(std::move(found));
   }
