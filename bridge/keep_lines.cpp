@@ -134,6 +134,7 @@ class Keeper {
       if (!good[i]) lines.push_back(i);
     if (lines.empty() || hangs_wrong(found.outcome)) return found;
     tally.helped = int(lines.size());
+    const double drift = tally.drift;
     KeepPlan plan = found.plan;
     std::vector<double> low(lines.size(), 0), high(lines.size(), 1);  // low: the greatest that held
     for (int trial = 0; trial < o_.height_trials && !tally.interrupted; ++trial) {
@@ -144,8 +145,12 @@ class Keeper {
       for (std::size_t i = 0; i < lines.size(); ++i)
         (now[lines[i]] ? low[i] : high[i]) = plan.lines[lines[i]].height;
     }
-    for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = low[i] > 0 ? low[i] : 1;
     if (tally.interrupted) return found;
+    if (std::all_of(low.begin(), low.end(), [](double height) { return height == 0; })) {
+      tally.drift = drift;  // nothing lower holds: what was found stands
+      return found;
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = low[i] > 0 ? low[i] : 1;
     return try_forward(plan, tally).value_or(std::move(found));
   }
 

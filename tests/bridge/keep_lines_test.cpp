@@ -194,6 +194,25 @@ TEST_CASE("keep_lines: soft cloth needs help, and without it no line is called h
   }
 }
 
+TEST_CASE("keep_lines: where no lower height holds either, what was found stands", "[release]") {
+  Hung once(1e-8), lower(1e-8);
+  for (Hung* hung : {&once, &lower}) {
+    hung->options.prove = false;
+    hung->options.presses.clear();
+    hung->options.struts.clear();
+    hung->options.height_trials = 0;
+  }
+  lower.options.height_trials = 3;
+  const bridge::KeepReport found = once.keep(), tried = lower.keep();
+  REQUIRE(found.lines[0].verdict == Verdict::cannot_hold);
+  CHECK(tried.trials == found.trials + 3);
+  CHECK(tried.lines[0].verdict == Verdict::cannot_hold);
+  CHECK(tried.lines[0].lowered == 1);
+  CHECK(tried.lines[0].reason == found.lines[0].reason);
+  CHECK(tried.drift == found.drift);
+  CHECK(lower.cloth.particles.x == once.cloth.particles.x);
+}
+
 namespace {
 
 /// Motion alone judges, in a second, and nothing helps.
