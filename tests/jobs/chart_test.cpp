@@ -7,6 +7,7 @@
 
 #include "geometry/mesh/sheet.h"
 #include "io/scene/scene.h"
+#include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 
 using namespace furrow;
@@ -28,9 +29,7 @@ jobs::ChartJob chart_of_hung_sheet(const std::string& simulation = "") {
 }  // namespace
 
 TEST_CASE("chart: the choice is the same from call to call, and the numbers are written") {
-  const fs::path folder = fs::temp_directory_path() / "furrow_jobs_chart";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const fs::path folder = tests::empty_folder("chart");
   tests::Recorder recorder;
   jobs::ChartJob job = chart_of_hung_sheet();
   job.csv = folder / "chart.csv";

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -13,8 +15,29 @@
 /// Files that the tests of jobs write, and what is in them.
 namespace furrow::tests {
 
+/// Folders of this process, gone when it ends: tests run beside each other. A child that is forked takes none
+/// with it.
+class OwnFolders {
+ public:
+  ~OwnFolders() {
+    std::error_code none;
+    if (::getpid() == process_)
+      for (const std::filesystem::path& folder : made_) std::filesystem::remove_all(folder, none);
+  }
+  std::filesystem::path add(const std::string& name) {
+    const std::string own = "furrow_jobs_" + name + "_" + std::to_string(process_);
+    made_.insert(std::filesystem::temp_directory_path() / own);
+    return std::filesystem::temp_directory_path() / own;
+  }
+
+ private:
+  const pid_t process_ = ::getpid();
+  std::set<std::filesystem::path> made_;
+};
+
 inline std::filesystem::path empty_folder(const std::string& name) {
-  const auto folder = std::filesystem::temp_directory_path() / ("furrow_jobs_" + name);
+  static OwnFolders own;
+  const std::filesystem::path folder = own.add(name);
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

@@ -166,9 +166,7 @@ TEST_CASE("keep: two jobs at once in one process give the bits and the words of 
 
 TEST_CASE("keep: cancelled before its first rest state a job writes nothing, later the last one, whole",
           "[long]") {
-  const fs::path folder = fs::temp_directory_path() / "furrow_jobs_keep_cancelled";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const fs::path folder = tests::empty_folder("keep_cancelled");
   jobs::KeepJob job = hung_ridge();
   io::set_value(job.scene.settings, "output.mesh", (folder / "kept.ply").string(), "the test");
   std::optional<jobs::KeepReport> report;

@@ -5,17 +5,12 @@
 #include "io/mesh/mesh_file.h"
 #include "jobs/inputs.h"
 #include "jobs/read_inputs.h"
+#include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 
 using namespace furrow;
 
 namespace {
-
-std::filesystem::path scratch_folder(const std::string& name) {
-  const auto folder = std::filesystem::temp_directory_path() / ("furrow_" + name);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
 
 /// A triangle of this size [m].
 io::MeshFile triangle(double size) {
@@ -34,7 +29,7 @@ double height(const io::MeshFile& file) {
 }  // namespace
 
 TEST_CASE("mesh_input: a mesh in memory is what its file is when it is read") {
-  const auto folder = scratch_folder("jobs_mesh_input");
+  const auto folder = tests::empty_folder("mesh_input");
   tests::Recorder recorder;
   const jobs::MemoryFiles memory{{{"shirt", triangle(0.5)}}, {}};
   const jobs::Context context{{}, recorder, &memory};
@@ -49,7 +44,7 @@ TEST_CASE("mesh_input: a mesh in memory is what its file is when it is read") {
 }
 
 TEST_CASE("mesh_input: a file is read in the unit that it notes, and says so where the frame names another") {
-  const auto folder = scratch_folder("jobs_noted_unit");
+  const auto folder = tests::empty_folder("noted_unit");
   tests::Recorder recorder;
   io::MeshFile file = triangle(0.5);
   io::set_wrinkle_record(file, {});
