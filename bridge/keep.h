@@ -137,9 +137,11 @@ using KeepObserver = std::function<bool(const KeepProgress&)>;
 /// rest and through gusts. What is nearer to the body than the gap is first brought there: a valley on a body
 /// is as deep as there is room. Lines that do not hold are helped by a step, by two where they are off by a
 /// fifth or had help before, and with them those that use half of what they may lose in gusts: press (their
-/// hinges stiffer), then struts on top of the strongest press, then a lower height. The first that holds
-/// stays. With `whole` the hinges between the lines are pressed likewise, where the motion that nothing holds
-/// back is theirs.
+/// hinges stiffer), then struts on top of the strongest press, then a lower height. Once a line without help
+/// fails in a later trial than the first, all lines get the first step. The first help that holds stays.
+///
+/// With `whole` the hinges between the lines are pressed likewise, where the motion that nothing holds back
+/// is theirs.
 ///
 /// The positions of `mesh` are the drawn shape, and follow where heights were lowered.
 /// attribute::rest_position tells where a line lies without its height; without that map nothing is lowered.

@@ -97,8 +97,8 @@ class Keeper {
       if (hangs_wrong(found.outcome)) return std::move(found);
       if (!any(weak) && !rest) weak = try_out(found, true, tally);
       if ((!any(weak) && !rest) || tally.interrupted) return std::move(found);
-      // As one that gives way lets go the next, all get help then: that ends sooner, and with less for those
-      // that need most. By long steps two are given at once.
+      // A line that gives way lets the next one go. All lines get help then, which saves trials; long steps
+      // give two steps at once.
       const bool one_by_one = tally.trials > 1 && fails_anew(weak, plan.lines);
       if (any(weak)) add_near_the_edge(found, weak);
       tally.helped = add_help(weak, one_by_one ? (o_.prove ? 1 : 2) : 0, o_, plan.lines);

@@ -488,9 +488,11 @@ Lines keep_lines(const Json& report) {
   const auto fails = [](const Json& line) { return text_of(line, "verdict").rfind("held", 0) != 0; };
   const auto n = std::count_if(drawn.begin(), drawn.end(), fails);
   const bool fast = text_of(report, "proof") == "gust";
-  Lines lines{std::to_string(drawn.size() - static_cast<std::size_t>(n)) + " of " +
-              counted(static_cast<long long>(drawn.size()), "line") +
-              (fast ? " hold in one gust (for a verdict leave out --fast)" : " will hold")};
+  Lines lines{drawn.empty()
+                  ? "there is no line to keep"
+                  : std::to_string(drawn.size() - static_cast<std::size_t>(n)) + " of " +
+                        counted(static_cast<long long>(drawn.size()), "line") +
+                        (fast ? " hold in one gust (for a verdict leave out --fast)" : " will hold")};
   for (const bool failing : {true, false})  // what fails first
     for (const Json& line : drawn)
       if (fails(line) == failing)

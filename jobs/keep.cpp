@@ -263,6 +263,27 @@ void write_outputs(const OpenScene& open, SceneCloth& garment, std::optional<io:
   if (!out.mesh.empty() && out.mesh != "-") write_mesh(out.mesh, garment.file, context);
 }
 
+/// What a whole report is to warn of.
+std::vector<Warning> warnings_of(const KeepReport& report, const io::Scene& scene) {
+  std::vector<Warning> warnings = idle_presses(scene.material, report.record);
+  if (report.lines.lines.empty())
+    warnings.push_back(
+        {"no_lines",
+         "the garment carries no line, so none was tried; draw one with furrow wrinkle, or name "
+         "strokes in the scene's [[lines]]",
+         scene.garment.string(), "lines"});
+  for (const physics::RigidImbalance& i : report.lines.rest.imbalance)
+    warnings.push_back(
+        {"shape_unbalanced",
+         words(i) + (scene.body ? "; " : "; name the body that it lies on (--body), or ") +
+             "let the garment come to rest where it lies (furrow drape) before lines are drawn "
+             "on it, or pin it",
+         scene.garment.string(), "pins"});
+  if (report.crossings.pairs)
+    warnings.push_back({"cloth_crosses", words(report.crossings), report.mesh.string(), ""});
+  return warnings;
+}
+
 }  // namespace
 
 KeepReport keep(const KeepJob& job, Listener& listener) {
@@ -289,17 +310,8 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   physics::soften_clamps(garment.cloth);
   bridge::store_rest_state(garment.cloth, spring_options(garment.file, scene.material), garment.file.mesh);
   write_outputs(open, garment, std::move(state), context);
-  report.warnings = idle_presses(scene.material, report.record);
-  for (const physics::RigidImbalance& i : report.lines.rest.imbalance)
-    report.warnings.push_back({"shape_unbalanced",
-                               words(i) +
-                                   (scene.body ? "; " : "; name the body that it lies on (--body), or ") +
-                                   "let the garment come to rest where it lies (furrow drape) before lines "
-                                   "are drawn on it, or pin it",
-                               scene.garment.string(), "pins"});
   report.crossings = measure_crossings(garment.file, &crossed);
-  if (report.crossings.pairs)
-    report.warnings.push_back({"cloth_crosses", words(report.crossings), report.mesh.string(), ""});
+  report.warnings = warnings_of(report, scene);
   report.garment = std::move(garment.file);
   return report;
 }

@@ -15,8 +15,8 @@
 /// Files that the tests of jobs write, and what is in them.
 namespace furrow::tests {
 
-/// Folders of this process, gone when it ends: tests run beside each other. A child that is forked takes none
-/// with it.
+/// Folders of this process alone, since tests run beside each other. They are removed when it ends, but not
+/// when a child that it forked does.
 class OwnFolders {
  public:
   ~OwnFolders() {
@@ -26,8 +26,7 @@ class OwnFolders {
   }
   std::filesystem::path add(const std::string& name) {
     const std::string own = "furrow_jobs_" + name + "_" + std::to_string(process_);
-    made_.insert(std::filesystem::temp_directory_path() / own);
-    return std::filesystem::temp_directory_path() / own;
+    return *made_.insert(std::filesystem::temp_directory_path() / own).first;
   }
 
  private:

@@ -6,7 +6,7 @@ if(furrow_studio)
   if(NOT FURROW_SANITIZE)
     add_test(NAME studio_browser COMMAND ${FURROW_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/studio/browser_test.mjs
       $<TARGET_FILE:furrow> ${PROJECT_SOURCE_DIR}/meshes ${furrow_page} ${PROJECT_BINARY_DIR}/studio-pictures)
-    # The longest: it begins first, and most of it is waiting.
+    # The longest test begins first.
     set_tests_properties(studio_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 COST 1000)
   endif()
 endif()
