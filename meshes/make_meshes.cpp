@@ -77,6 +77,28 @@ void make_figure(const std::filesystem::path& folder) {
   save("skirt.obj", furrow::meshes::make_skirt(), "flared skirt for mannequin.obj");
 }
 
+/// Garments as they come from elsewhere: in a unit, with an upward axis, with a front and an origin of their
+/// own.
+void make_strange(const std::filesystem::path& folder) {
+  Mesh dress = furrow::meshes::make_dress();
+  for (Vertex v : dress.vertices()) {  // to z up, the front towards -y, as Blender has it
+    const Point p = dress.point(v);
+    dress.point(v) = {rounded(p.x()) * 100, rounded(-p.z()) * 100, rounded(p.y()) * 100};
+  }
+  round_positions(dress);
+  write(folder / "dress_cm.obj",
+        obj(dress, "dress for mannequin.obj; centimetres, z up, made by make_meshes"));
+  Mesh tunic = furrow::meshes::make_tunic();
+  for (Vertex v : tunic.vertices()) {
+    const Point p = tunic.point(v);
+    tunic.point(v) = {p.z() + 0.4, p.y() - 0.3, 0.25 - p.x()};
+  }
+  round_positions(tunic);
+  write(folder / "tunic.obj", obj(tunic,
+                                  "tunic for mannequin.obj, which looks along +x and stands at 0.4 -0.3 0.25;"
+                                  " metres, y up, made by make_meshes"));
+}
+
 /// Lines without a face.
 void make_chain(const std::filesystem::path& path) {
   constexpr int links = 32;
@@ -190,6 +212,7 @@ int main(int argc, char** argv) {
     if (argc != 2) throw std::invalid_argument("usage: make_meshes FOLDER");
     make(argv[1]);
     make_figure(argv[1]);
+    make_strange(argv[1]);
     make_validation(std::filesystem::path(argv[1]) / "validation");
     make_chain(std::filesystem::path(argv[1]) / "chain.obj");
     return 0;

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What users do, from end to end, with defaults, by the program alone. A journey is the run of programs that other tests
+# take apart, and takes seconds: all are [release].
+if(NOT FURROW_SANITIZE)
+  furrow_add_tests(journeys journeys LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURCES
+    ../cli/run_furrow.cpp
+    journey.h
+    journey.cpp
+    garments_test.cpp
+  )
+  add_dependencies(test_journeys furrow)
+endif()
