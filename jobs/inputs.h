@@ -88,17 +88,28 @@ struct Frame {
   std::string up_in_use() const { return up.value_or(noted_up); }
 };
 
+/// A path by which something is found: "./a/../b", "b" and "/here/b" are one, as they name one place. Links
+/// are not looked up.
+class PathKey {
+ public:
+  PathKey(const std::filesystem::path& path) : place_(std::filesystem::absolute(path).lexically_normal()) {}
+  PathKey(const std::string& path) : PathKey(std::filesystem::path(path)) {}
+  PathKey(const char* path) : PathKey(std::filesystem::path(path)) {}
+  auto operator<=>(const PathKey& other) const = default;
+
+ private:
+  std::filesystem::path place_;
+};
+
 /// What a job has in memory in place of files: settings name it as if it were one. Keys are paths as the
 /// program would open them; metres, y up.
 struct MemoryFiles {
-  std::map<std::string, io::MeshFile> meshes = {};
-  std::map<std::string, std::vector<io::DrawnStroke>> strokes = {};
+  std::map<PathKey, io::MeshFile> meshes = {};
+  std::map<PathKey, std::vector<io::DrawnStroke>> strokes = {};
 
-  bool holds(const std::filesystem::path& path) const {
-    return meshes.count(path.string()) || strokes.count(path.string());
-  }
-  const io::MeshFile* find_mesh(const std::filesystem::path& path) const {
-    const auto found = meshes.find(path.string());
+  bool holds(const PathKey& path) const { return meshes.count(path) || strokes.count(path); }
+  const io::MeshFile* find_mesh(const PathKey& path) const {
+    const auto found = meshes.find(path);
     return found == meshes.end() ? nullptr : &found->second;
   }
 };

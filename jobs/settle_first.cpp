@@ -113,12 +113,12 @@ std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, cons
     if (lines.time > 0) break;
     const io::ResolvedStrokes resolved =
         io::resolve_strokes(read_strokes(lines, quiet), before, lines.options.insertion.max_distance);
-    std::vector<io::DrawnStroke>& strokes = memory.strokes[lines.strokes.string()];
+    std::vector<io::DrawnStroke>& strokes = memory.strokes[lines.strokes];
     strokes.clear();
     for (const geometry::Stroke& stroke : resolved.strokes)
       strokes.push_back({CarriedStroke(stroke, carrier, spacing).make()});
   }
-  memory.meshes[scene.garment.string()] = std::move(rests);
+  memory.meshes[scene.garment] = std::move(rests);
   return memory;
 }
 

@@ -24,7 +24,7 @@ Json round_of(const Sketch& sketch, double time) {
 void add_round(const Sketch& sketch, const Json& strokes, double time, Json rounds, SceneInput& scene) {
   if (!strokes.empty()) {
     rounds.push_back(round_of(sketch, time));
-    scene.memory.strokes[(scene.folder / strokes_name).string()] =
+    scene.memory.strokes[scene.folder / strokes_name] =
         io::drawn_strokes_from(Json{{"strokes", strokes}}.dump(), strokes_name);
   }
   scene.settings.root["lines"] = std::move(rounds);

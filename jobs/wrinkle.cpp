@@ -262,7 +262,7 @@ void settle_drawn(const WrinkleJob& job, const RestPlan& plan, WrinkleReport& re
   const io::Scene& scene = plan.scene;
   if (!job.smoothed.empty() && job.smoothed != "-") write_mesh(job.smoothed, report.garment, context);
   MemoryFiles memory = job.settle->memory;
-  memory.meshes[scene.garment.string()] = report.garment;
+  memory.meshes[scene.garment] = report.garment;
   const Context there{context.frame, context.listener, &memory};
   Draped draped = drape_garment(scene, plan.body ? &*plan.body : nullptr, {}, false, there);
   draped.refinements = plan.refinements;

@@ -216,8 +216,8 @@ void leave_out(std::vector<io::DrawnStroke>& strokes, const std::vector<std::str
 
 std::vector<io::DrawnStroke> read_strokes(const io::SceneLines& lines, const Context& context) {
   std::vector<io::DrawnStroke> strokes;
-  if (context.memory && context.memory->strokes.count(lines.strokes.string()))
-    strokes = context.memory->strokes.at(lines.strokes.string());
+  if (context.memory && context.memory->strokes.count(lines.strokes))
+    strokes = context.memory->strokes.at(lines.strokes);
   else
     strokes = io::read_drawn_strokes(lines.strokes, lines.height, read_options(context.frame));
   if (!lines.without.empty()) leave_out(strokes, lines.without);

@@ -43,6 +43,22 @@ TEST_CASE("mesh_input: a mesh in memory is what its file is when it is read") {
   CHECK(recorder.warnings.empty());
 }
 
+TEST_CASE("mesh_input: what is in memory is found by each text that names its place") {
+  jobs::MemoryFiles memory;
+  memory.meshes["./drawings/shirt"] = triangle(0.5);
+  memory.strokes["drawings/the lines"];
+  for (const std::string& path :
+       {std::string("drawings/shirt"), std::string("./drawings/../drawings/./shirt"),
+        (std::filesystem::current_path() / "drawings/shirt").string()}) {
+    INFO(path);
+    CHECK(memory.find_mesh(path));
+    CHECK(memory.holds(path));
+  }
+  CHECK(memory.holds("drawings//the lines"));
+  CHECK_FALSE(memory.holds("shirt"));
+  CHECK_FALSE(memory.holds("drawings/Shirt"));
+}
+
 TEST_CASE("mesh_input: a file is read in the unit that it notes, and says so where the frame names another") {
   const auto folder = tests::empty_folder("noted_unit");
   tests::Recorder recorder;

@@ -125,6 +125,16 @@ double middle_of(const std::string& frame) {
   return sum / count;
 }
 
+/// The working directory is another one while this lives.
+class Within {
+ public:
+  explicit Within(const fs::path& folder) : before_(fs::current_path()) { fs::current_path(folder); }
+  ~Within() { fs::current_path(before_); }
+
+ private:
+  fs::path before_;
+};
+
 std::string refusal_of(Visitor& page, const std::string& what, const Json& body = Json::object()) {
   return page.ask(what, body).value("refused", "it was done");
 }
@@ -158,6 +168,25 @@ TEST_CASE(
   Visitor back(again);
   back.ask("show");
   CHECK(back.status.at("lines").size() == 1);
+}
+
+TEST_CASE(
+    "studio rooms: a drawing in a folder of the working directory is kept, moved and moved on with its lines",
+    "[release]") {
+  const House house("relative");
+  const Within here(house.desk.folder);
+  const std::string drawings = GENERATE(".", "drawings", "./gallery/../drawings");
+  INFO(drawings);
+  const studio::Studio studio(studio::Places{house.desk.folder / "gallery", drawings});
+  Visitor page(studio);
+  REQUIRE(page.ask("open", {{"item", "hung"}}).contains("done"));
+  REQUIRE(page.ask("draw", line_at(0.1)).contains("done"));
+  CHECK(refusal_of(page, "keep") == "it was done");
+  CHECK(refusal_of(page, "undo") == "it was done");
+  CHECK(refusal_of(page, "play", {{"seconds", 2 / 60.0}}) == "it was done");
+  CHECK(refusal_of(page, "draw", line_at(-0.1)) == "it was done");
+  CHECK(refusal_of(page, "play", {{"seconds", 1 / 60.0}}) == "it was done");
+  CHECK(refusal_of(page, "drape") == "it was done");
 }
 
 TEST_CASE(
