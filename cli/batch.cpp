@@ -4,14 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iostream>
 #include <memory>
 #include <set>
+#include <thread>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
 #include "furrow/version.h"
-#include "io/base/atomic_file.h"
 #include "io/base/nearest_word.h"
 #include "io/base/run_program.h"
 #include "jobs/batch_slurm.h"
@@ -75,10 +76,7 @@ int gather_batch(const io::BatchPlan& plan, const BatchArguments& a) {
 
 int list_batch(const io::BatchPlan& plan, const BatchArguments& a) {
   std::vector<std::string> lines;
-  if (a.all)
-    for (const io::BatchCase& one : plan.cases) lines.push_back(command_line(plan, one, io::this_program()));
-  else
-    lines = open_lines(plan, io::this_program());
+  for (const CaseJob& one : case_jobs(plan, io::this_program(), a.all)) lines.push_back(command_line(one));
   if (a.json) {
     Json json = json_of(count(plan));
     json["lines"] = lines;
@@ -91,51 +89,74 @@ int list_batch(const io::BatchPlan& plan, const BatchArguments& a) {
   return exit_ok;
 }
 
+Json json_of(const CaseReport& r) {
+  return {{"case", r.name},
+          {"state", r.state == CaseState::finished ? "finished"
+                    : r.state == CaseState::failed ? "failed"
+                                                   : "open"},
+          {"computed", r.computed},
+          {"exit", r.exit_code},
+          {"error", r.error}};
+}
+
+std::string words_of(const CaseReport& r) {
+  if (r.state == CaseState::finished) return r.name + (r.computed ? ": computed" : ": was finished before");
+  return fmt::format("{}: {} with exit code {}{}{}", r.name,
+                     r.state == CaseState::open ? "interrupted" : "failed", r.exit_code,
+                     r.error.empty() ? "" : ": ", r.error);
+}
+
+ExitCode exit_code_of(const CaseReport& r) {
+  return r.state == CaseState::open ? exit_interrupted : r.state == CaseState::failed ? exit_failed : exit_ok;
+}
+
 int run_case_of_batch(const BatchArguments& a) {
   if (a.words.empty())
     throw UsageError("batch case: there is no command behind --; furrow batch list PLAN writes such lines");
   const CaseReport report = run_case({io::this_program(), a.plan, a.words});
-  Json json{{"record", a.plan},
-            {"state", report.state == CaseState::finished ? "finished"
-                      : report.state == CaseState::failed ? "failed"
-                                                          : "open"},
-            {"computed", report.computed},
-            {"exit", report.exit_code},
-            {"error", report.error}};
-  const std::string name = std::filesystem::path(a.plan).stem().string();
-  std::string words = name + (report.computed ? ": computed" : ": was finished before");
-  if (report.state != CaseState::finished)
-    words = fmt::format("{}: {} with exit code {}{}{}", name,
-                        report.state == CaseState::open ? "interrupted" : "failed", report.exit_code,
-                        report.error.empty() ? "" : ": ", report.error);
-  print_report(json, a, {{words}, {}, ""});
-  if (report.state == CaseState::open) return exit_interrupted;
-  return report.state == CaseState::finished ? exit_ok : exit_failed;
+  Json json = json_of(report);
+  json["record"] = a.plan;
+  print_report(json, a, {{words_of(report)}, {}, ""});
+  return exit_code_of(report);
 }
 
-/// By GNU parallel, then gathered, whatever came of it.
-int run_in_parallel(const io::BatchPlan& plan, const BatchArguments& a) {
-  const std::vector<std::string> lines = open_lines(plan, io::this_program());
-  const std::filesystem::path todo = plan.output / "todo.txt", log = plan.output / "joblog";
-  if (!lines.empty()) {
-    std::filesystem::create_directories(plan.output);
-    io::write_atomically(todo, [&](std::ostream& out) {
-      for (const std::string& line : lines) out << line << '\n';
-    });
-    std::vector<std::string> words{"--joblog", log.string(), "--arg-file", todo.string()};
-    if (a.jobs > 0) words.insert(words.end(), {"--jobs", std::to_string(a.jobs)});
-    io::ProgramRun run;
-    try {
-      run = io::run_program("parallel", words);
-    } catch (const std::runtime_error& e) {
-      throw std::runtime_error(std::string(e.what()) +
-                               "; install GNU parallel, or run the lines of furrow batch list " + a.plan +
-                               " by another program: furrow batch list " + a.plan + " | sh");
-    }
-    if (run.exit_code < 0 || run.exit_code > 101)  // up to 101: so many cases failed
-      throw std::runtime_error("GNU parallel failed: " + run.err);
+/// The lines of a file that Slurm's script names, one after the other.
+int run_task_of_batch(const BatchArguments& a) {
+  if (a.words.size() != 2)
+    throw UsageError("batch task: write the first and the last line of its file; furrow batch slurm does");
+  const auto number = [](const std::string& word) {
+    int n = 0;
+    const auto end = std::from_chars(word.data(), word.data() + word.size(), n);
+    if (end.ec != std::errc() || end.ptr != word.data() + word.size() || n < 1)
+      throw UsageError("batch task: '" + word + "' is no number of a line");
+    return n;
+  };
+  catch_interrupts();
+  Terminal terminal(a);
+  const std::vector<CaseReport> reports =
+      run_cases(read_cases(a.plan, number(a.words[0]), number(a.words[1]), io::this_program()), 1, terminal);
+  Json json{{"cases", Json::array()}};
+  std::vector<std::string> words;
+  int exit_code = interrupted() ? exit_interrupted : exit_ok;
+  for (const CaseReport& one : reports) {
+    json["cases"].push_back(json_of(one));
+    words.push_back(words_of(one));
+    exit_code = std::max(exit_code, int(exit_code_of(one)));
   }
-  return gather_batch(plan, a);
+  print_report(json, a, {words, {}, ""});
+  return exit_code;
+}
+
+/// Cases side by side, then gathered, whatever came of them.
+int run_in_parallel(const io::BatchPlan& plan, const BatchArguments& a) {
+  catch_interrupts();
+  const int cores = std::max(1, int(std::thread::hardware_concurrency()));
+  {
+    Terminal terminal(a);
+    run_cases(case_jobs(plan, io::this_program()), a.jobs > 0 ? a.jobs : cores, terminal);
+  }
+  const int exit_code = gather_batch(plan, a);
+  return interrupted() ? exit_interrupted : exit_code;
 }
 
 int prepare_slurm(const io::BatchPlan& plan, const BatchArguments& a) {
@@ -174,6 +195,7 @@ void check_action(const BatchArguments& a) {
 int batch(const BatchArguments& a, const CLI::App& app) {
   check_action(a);
   if (a.action == "case") return run_case_of_batch(a);
+  if (a.action == "task") return run_task_of_batch(a);
   if (!a.words.empty())
     throw UsageError("batch " + a.action + ": '" + a.words[0] + "' is one argument too many");
   const io::BatchPlan plan = read_plan(a, app);
@@ -196,15 +218,17 @@ void add_batch(CLI::App& app, int& exit_code) {
                                      "  furrow batch gather plan.toml");
   sub->add_option(
          "action", a->action,
-         "list: a line for a shell of each case that is not finished; parallel: run them by GNU parallel, "
-         "then "
-         "gather; slurm: write scripts for an array of Slurm; gather: results.jsonl and report.html; case: "
-         "run one (that is what the lines do)")
+         "list: a line for a shell of each case that is not finished; parallel: run them, then gather; "
+         "slurm: write scripts for an array of Slurm; gather: results.jsonl and report.html; case, task: "
+         "run one or several (that is what the lines and the scripts do)")
       ->required()
-      ->check(CLI::IsMember({"list", "parallel", "slurm", "gather", "case"}));
-  sub->add_option("plan", a->plan, "plan to read (TOML, docs/batches.md); of case: the record to write")
+      ->check(CLI::IsMember({"list", "parallel", "slurm", "gather", "case", "task"}));
+  sub->add_option("plan", a->plan,
+                  "plan to read (TOML, docs/batches.md); of case: the record to write; of "
+                  "task: the file of cases")
       ->required();
-  sub->add_option("words", a->words, "of case: what furrow is to do, behind --");
+  sub->add_option("words", a->words,
+                  "of case: what furrow is to do, behind --; of task: its first and last line");
   sub->add_flag("--all", a->all, "of list: finished cases, too");
   sub->add_option("--jobs", a->jobs, "of parallel: cases at a time (default: one a core)")
       ->check(CLI::Range(1, 10000));

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <exception>
+#include <mutex>
+#include <thread>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/atomic_file.h"
@@ -115,23 +118,34 @@ CaseState state_of(const std::filesystem::path& record) {
   return ended_with_verdict((*found)["exit"]) ? CaseState::finished : CaseState::failed;
 }
 
-std::string command_line(const io::BatchPlan& plan, const io::BatchCase& one,
-                         const std::filesystem::path& program) {
-  const CaseFiles files = case_files(plan, one);
-  std::vector<std::string> words{program.string(), "batch", "case", files.record.string()};
-  words.push_back("--");
-  words.insert(words.end(), one.arguments.begin(), one.arguments.end());
-  if (one.has_body && plan.command != "fit" && value_behind(one.arguments, "--cache").empty())
-    words.insert(words.end(), {"--cache", (plan.output / "cache").string()});
-  if (!files.mesh.empty()) words.insert(words.end(), {"--output", files.mesh.string()});
-  if (!files.picture.empty()) words.insert(words.end(), {"--picture", files.picture.string()});
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + io::shell_word(word);
+std::vector<CaseJob> case_jobs(const io::BatchPlan& plan, const std::filesystem::path& program,
+                               bool finished_too) {
+  std::vector<CaseJob> jobs;
+  for (const io::BatchCase& one : plan.cases) {
+    const CaseFiles files = case_files(plan, one);
+    if (!finished_too && state_of(files.record) == CaseState::finished) continue;
+    std::vector<std::string> words = one.arguments;
+    if (one.has_body && plan.command != "fit" && value_behind(words, "--cache").empty())
+      words.insert(words.end(), {"--cache", (plan.output / "cache").string()});
+    if (!files.mesh.empty()) words.insert(words.end(), {"--output", files.mesh.string()});
+    if (!files.picture.empty()) words.insert(words.end(), {"--picture", files.picture.string()});
+    jobs.push_back({program, files.record, std::move(words)});
+  }
+  return jobs;
+}
+
+std::string command_line(const CaseJob& job) {
+  std::string line = io::shell_word(job.program.string());
+  for (const std::string& word : {std::string("batch"), std::string("case"), job.record.string()})
+    line += " " + io::shell_word(word);
+  line += " --";
+  for (const std::string& word : job.arguments) line += " " + io::shell_word(word);
   return line;
 }
 
 CaseReport run_case(const CaseJob& job) {
-  if (state_of(job.record) == CaseState::finished) return {CaseState::finished, false, 0, ""};
+  const std::string name = job.record.stem().string();
+  if (state_of(job.record) == CaseState::finished) return {name, CaseState::finished, false, 0, ""};
   std::vector<std::string> words = job.arguments;
   for (const char* option : {"--output", "--picture"})
     if (const std::filesystem::path file = value_behind(words, option); file.has_parent_path())
@@ -139,12 +153,43 @@ CaseReport run_case(const CaseJob& job) {
   std::filesystem::create_directories(job.record.parent_path());
   words.insert(words.end(), {"--json", "--quiet", "--replace"});
   const io::ProgramRun run = io::run_program(job.program, words);
-  CaseReport report{CaseState::open, true, run.signal ? 128 + run.signal : run.exit_code,
+  CaseReport report{name, CaseState::open, true, run.signal ? 128 + run.signal : run.exit_code,
                     last_error(run.err)};
   if (report.exit_code == 130 || run.signal == SIGTERM || run.signal == SIGINT) return report;
   report.state = ended_with_verdict(report.exit_code) ? CaseState::finished : CaseState::failed;
   io::write_atomically(job.record, [&](std::ostream& out) { out << record_of(job, run).dump() << '\n'; });
   return report;
+}
+
+std::vector<CaseReport> run_cases(const std::vector<CaseJob>& jobs, int at_a_time, Listener& listener) {
+  std::vector<CaseReport> reports;
+  for (const CaseJob& job : jobs)
+    reports.push_back({job.record.stem().string(), CaseState::open, false, 0, ""});
+  ProgressScope progress(listener, "batch");
+  std::mutex shared;  // the listener, and what follows
+  std::size_t next = 0, done = 0;
+  std::exception_ptr failed;
+  const auto work = [&] {
+    std::unique_lock lock(shared);
+    try {
+      while (!failed && next < jobs.size() && progress(double(done) / double(jobs.size()))) {
+        const std::size_t number = next++;
+        lock.unlock();
+        reports[number] = run_case(jobs[number]);
+        lock.lock();
+        ++done;
+      }
+    } catch (...) {
+      if (!lock.owns_lock()) lock.lock();
+      failed = std::current_exception();
+    }
+  };
+  std::vector<std::jthread> others;
+  for (int i = 1; i < at_a_time && std::size_t(i) < jobs.size(); ++i) others.emplace_back(work);
+  work();
+  others.clear();  // waits for them
+  if (failed) std::rethrow_exception(failed);
+  return reports;
 }
 
 BatchCounts count(const io::BatchPlan& plan) {

@@ -25,18 +25,22 @@ CaseFiles case_files(const io::BatchPlan& plan, const io::BatchCase& one);
 /// What the file says of a case; open if there is none, or no record is in it.
 CaseState state_of(const std::filesystem::path& record);
 
-/// The case as a line for a shell, by absolute paths: "furrow batch case RECORD -- drape …". Running it twice
-/// computes once. program: furrow itself.
-std::string command_line(const io::BatchPlan& plan, const io::BatchCase& one,
-                         const std::filesystem::path& program);
-
 struct CaseJob {
   std::filesystem::path program;       ///< furrow itself
   std::filesystem::path record;        ///< JSON to write; its folder is made
   std::vector<std::string> arguments;  ///< of the program
 };
+/// The plan's cases by absolute paths, those that are not finished or all. program: furrow itself.
+std::vector<CaseJob> case_jobs(const io::BatchPlan& plan, const std::filesystem::path& program,
+                               bool finished_too = false);
+
+/// The case as a line for a shell: "furrow batch case RECORD -- drape …". Running it twice computes once.
+/// Throws std::invalid_argument as io::shell_word().
+std::string command_line(const CaseJob& job);
+
 struct CaseReport {
-  CaseState state = CaseState::open;  ///< open: it was interrupted, and there is no record
+  std::string name;                   ///< of the case
+  CaseState state = CaseState::open;  ///< open: interrupted or not begun; there is no record
   bool computed = false;              ///< false: it was finished before
   int exit_code = 0;                  ///< of the program; 128 + signal if one ended it
   std::string error;                  ///< its last line of error
@@ -45,6 +49,11 @@ struct CaseReport {
 /// times, memory, host, job and the program's report. What is finished is not run again. Throws
 /// std::runtime_error if the program cannot be started or the record not be written.
 CaseReport run_case(const CaseJob& job);
+
+/// Runs cases, `at_a_time` of them (>= 1), each in a process of its own, until all have run or the listener
+/// cancels; then those that were not begun are open. A report each, in their order. The listener is called
+/// from several threads, one at a time. Throws as run_case(), once those that run have ended.
+std::vector<CaseReport> run_cases(const std::vector<CaseJob>& jobs, int at_a_time, Listener& listener);
 
 struct BatchCounts {
   std::size_t cases = 0, finished = 0, failed = 0, open = 0;

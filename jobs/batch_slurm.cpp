@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
+#include "geometry/mesh/errors.h"
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
+#include "io/base/control_character.h"
 #include "io/base/shell_word.h"
-#include "jobs/batch.h"
 
 namespace furrow::jobs {
 namespace {
@@ -38,7 +40,8 @@ std::string job_name(const std::string& title) {
   return name.substr(0, 40);
 }
 
-std::string array_script(const io::BatchPlan& plan, const SlurmScripts& s) {
+std::string array_script(const io::BatchPlan& plan, const SlurmScripts& s,
+                         const std::filesystem::path& program) {
   const std::string chunk = std::to_string(s.chunk);
   return "#!/bin/sh\n"
          "#SBATCH --job-name=" +
@@ -50,48 +53,50 @@ std::string array_script(const io::BatchPlan& plan, const SlurmScripts& s) {
          "#SBATCH --cpus-per-task=1\n"
          "#SBATCH --requeue\n"
          "#SBATCH --open-mode=append\n"
-         "# Each task runs " +
-         chunk +
-         " lines; it fails if one of them did, after all of them.\n"
-         "first=$((SLURM_ARRAY_TASK_ID * " +
-         chunk +
-         " + 1))\n"
-         "last=$((first + " +
-         std::to_string(s.chunk - 1) +
-         "))\n"
-         "sed -n \"${first},${last}p\" " +
-         io::shell_word(s.todo.string()) +
-         " | {\n"
-         "  status=0\n"
-         "  while IFS= read -r line; do sh -c \"$line\" </dev/null || status=1; done\n"
-         "  exit $status\n"
-         "}\n";
+         "# A task fails if one of its cases did, after all of them.\n"
+         "exec " +
+         io::shell_word(program.string()) + " batch task " + io::shell_word(s.todo.string()) +
+         " $((SLURM_ARRAY_TASK_ID * " + chunk + " + 1)) $((SLURM_ARRAY_TASK_ID * " + chunk + " + " + chunk +
+         "))\n";
 }
 
 }  // namespace
 
-std::vector<std::string> open_lines(const io::BatchPlan& plan, const std::filesystem::path& program) {
-  std::vector<std::string> lines;
-  for (const io::BatchCase& one : plan.cases)
-    if (state_of(case_files(plan, one).record) != CaseState::finished)
-      lines.push_back(command_line(plan, one, program));
-  return lines;
+std::vector<CaseJob> read_cases(const std::filesystem::path& todo, int first, int last,
+                                const std::filesystem::path& program) {
+  std::istringstream in(io::read_text(todo));
+  std::vector<CaseJob> jobs;
+  std::string line;
+  for (int number = 1; number <= last && std::getline(in, line); ++number) {
+    if (number < first) continue;
+    try {
+      const Json one = Json::parse(line);
+      jobs.push_back({program, one.at("record").get<std::string>(), one.at("arguments")});
+    } catch (const Json::exception&) {
+      throw geometry::ContentError(todo.string() + ":" + std::to_string(number) +
+                                   ": is no case; furrow batch slurm writes such files");
+    }
+  }
+  return jobs;
 }
 
 SlurmScripts write_slurm_scripts(const io::BatchPlan& plan, const SlurmJob& job) {
   if (job.chunk < 0) throw std::invalid_argument("chunk = " + std::to_string(job.chunk) + " is not >= 0");
-  const std::vector<std::string> lines = open_lines(plan, job.program);
-  if (lines.empty()) throw std::invalid_argument("no case of the plan is open; there is nothing to submit");
+  if (io::has_control_character(job.options))
+    throw std::invalid_argument("options for sbatch have a control character; write them in one line");
+  const std::vector<CaseJob> cases = case_jobs(plan, job.program);
+  if (cases.empty()) throw std::invalid_argument("no case of the plan is open; there is nothing to submit");
   std::string todo;
-  for (const std::string& line : lines) todo += line + "\n";
+  for (const CaseJob& one : cases)
+    todo += Json{{"record", one.record.string()}, {"arguments", one.arguments}}.dump() + "\n";
   const std::string hash = io::content_hash(std::as_bytes(std::span(todo.data(), todo.size())));
   const std::filesystem::path folder = plan.output / "slurm" / hash;
   std::filesystem::create_directories(folder);
-  SlurmScripts s{folder / "todo.txt", folder / "array.sh", folder / "gather.sh", folder / "submit.sh"};
-  s.chunk = chunk_of(plan, job, lines.size());
-  s.tasks = (lines.size() + std::size_t(s.chunk) - 1) / std::size_t(s.chunk);
+  SlurmScripts s{folder / "todo.jsonl", folder / "array.sh", folder / "gather.sh", folder / "submit.sh"};
+  s.chunk = chunk_of(plan, job, cases.size());
+  s.tasks = (cases.size() + std::size_t(s.chunk) - 1) / std::size_t(s.chunk);
   io::write_atomically(s.todo, [&](std::ostream& out) { out << todo; });
-  write_script(s.array, array_script(plan, s));
+  write_script(s.array, array_script(plan, s, job.program));
   write_script(s.gather, "#!/bin/sh\n#SBATCH --job-name=" + job_name("-gather") +
                              "\n#SBATCH --open-mode=append\nexec " + io::shell_word(job.program.string()) +
                              " batch gather " + io::shell_word(job.plan.string()) + "\n");

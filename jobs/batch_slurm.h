@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/batch_plan.h"
+#include "jobs/batch.h"
 
 namespace furrow::jobs {
 
@@ -19,12 +19,15 @@ struct SlurmScripts {
   int chunk = 0;
 };
 /// Writes what Slurm needs for the cases that are not finished into a folder of its own in the plan's output:
-/// their lines, an array script of which each task runs a chunk, a script that gathers after it whatever came
-/// of it, and one that submits both. Larger chunks than asked for where an array of 1,000 tasks would not do.
-/// Throws std::invalid_argument if no case is open or the chunk is negative.
+/// them as JSON, a line each, an array script of which each task runs a chunk, a script that gathers after it
+/// whatever came of it, and one that submits both. Larger chunks than asked for where an array of 1,000 tasks
+/// would not do. Throws std::invalid_argument if no case is open, the chunk is negative, or a name or the
+/// options have a control character.
 SlurmScripts write_slurm_scripts(const io::BatchPlan& plan, const SlurmJob& job);
 
-/// Lines of the cases that are not finished.
-std::vector<std::string> open_lines(const io::BatchPlan& plan, const std::filesystem::path& program);
+/// Lines `first` to `last` of such a file of cases, from 1; fewer where it ends before. Throws
+/// geometry::ContentError for a line that is no case.
+std::vector<CaseJob> read_cases(const std::filesystem::path& todo, int first, int last,
+                                const std::filesystem::path& program);
 
 }  // namespace furrow::jobs

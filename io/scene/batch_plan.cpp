@@ -8,6 +8,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/base/bytes_file.h"
+#include "io/base/control_character.h"
 #include "io/base/nearest_word.h"
 #include "io/scene/csv.h"
 #include "io/scene/scene.h"
@@ -39,8 +40,17 @@ bool has(const std::vector<std::string>& words, const std::string& word) {
   throw geometry::ContentError(document.place(path) + ": " + path + " " + what);
 }
 
+/// Throws for a text that could not stand in one line of a script, a log or a table.
+const std::string& without_control(const std::string& text, const std::string& where) {
+  if (has_control_character(text))
+    throw geometry::ContentError(where + ": " +
+                                 Json(text).dump(-1, ' ', false, Json::error_handler_t::replace) +
+                                 " has a control character, such as a line end; write it without");
+  return text;
+}
+
 std::string text_of(const TomlDocument& document, const std::string& path, const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return without_control(value.get<std::string>(), document.place(path) + ": " + path);
   if (value.is_number()) return value.dump();
   fail_at(document, path, "is neither a text nor a number");
 }
@@ -92,7 +102,7 @@ std::vector<BatchRow> rows_of_csv(const std::filesystem::path& path) {
   for (std::size_t r = 1; r < table.size(); ++r) {
     BatchRow& row = rows.emplace_back();
     for (std::size_t c = 0; c < table[0].size(); ++c) {
-      const std::string& cell = table[r][c];
+      const std::string& cell = without_control(table[r][c], path.string() + ": case " + std::to_string(r));
       if (cell.empty() || cell == "false") continue;
       row.push_back({table[0][c], cell == "true" ? std::vector<std::string>{} : std::vector{cell}});
     }
@@ -137,6 +147,9 @@ class Files {
   std::string resolved(const std::string& column, const std::string& text, const std::string& where) {
     const std::filesystem::path path = (folder_ / text).lexically_normal();
     if (column == cache_column) return path.string();
+    if (text.size() > 1 && text[0] == '-' && !std::isdigit(text[1]) && text[1] != '.')
+      throw geometry::ContentError(where + ": " + column + ": '" + text +
+                                   "' is an option and no value; give it a column of its own");
     std::error_code ignored;
     const bool is_file = std::filesystem::is_regular_file(path, ignored);
     const bool must = has(file_columns, column);
@@ -222,11 +235,21 @@ std::string word_of(const TomlDocument& document, const char* key, std::string o
   if (!document.root.contains(key)) return otherwise;
   const Json& value = document.root[key];
   if (!value.is_string()) fail_at(document, key, "must be a text");
-  return value.get<std::string>();
+  return text_of(document, key, value);
+}
+
+/// Keys, also those of tables in tables.
+void check_names(const Json& table, const std::string& where) {
+  if (!table.is_object()) return;
+  for (const auto& [key, value] : table.items()) {
+    without_control(key, where);
+    check_names(value, where);
+  }
 }
 
 /// All but the cases.
 BatchPlan plan_of(const TomlDocument& document, const std::filesystem::path& path) {
+  check_names(document.root, document.name);
   for (const auto& [key, value] : document.root.items())
     if (!has(plan_keys, key))
       fail_at(document, key, "is no key of a plan; did you mean '" + nearest_word(key, plan_keys) + "'?");
@@ -236,6 +259,7 @@ BatchPlan plan_of(const TomlDocument& document, const std::filesystem::path& pat
   if (!has(plan_commands, plan.command))
     fail_at(document, "command", "must be drape, simulate, keep, wrinkle or fit");
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  without_control(folder.string(), "the folder of the plan");
   plan.output = (folder / word_of(document, "output", path.stem().string() + "-results")).lexically_normal();
   plan.mesh = word_of(document, "mesh", plan.command == "fit" ? "" : "ply");
   if (document.root.contains("picture")) {

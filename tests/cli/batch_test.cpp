@@ -200,6 +200,56 @@ TEST_CASE("batch: Slurm's tasks run their chunks, and only what failed is submit
   }
 }
 
+TEST_CASE("batch: no word of a plan reaches a shell, neither by a line end nor by a quote") {
+  const ScratchDirectory folder;
+  const std::string pwned = folder / "PWNED", plan = folder / "plan.toml", odd = "it's $(touch PWNED)";
+  write_text(folder / "a 'cloth' $(x) {}.obj", square);
+  const auto write_plan = [&](const std::string& fabric) {
+    write_text(plan,
+               "command = \"simulate\"\noutput = 'out {} $(touch x)'\n[options]\nseconds = 0.01\nfabric = " +
+                   json(fabric).dump() + "\n[cases]\ngarment = [\"a 'cloth' $(x) {}.obj\"]\n");
+  };
+  write_plan("cotton\ntouch " + pwned + "; : \n");
+  for (const std::string action : {"list ", "parallel ", "slurm ", "gather "}) {
+    const Run refused = run_furrow("batch " + action + plan);
+    CHECK(refused.exit_code == 3);
+    CHECK(refused.err.find("plan.toml:5:1: options.fabric: \"cotton\\ntouch") != std::string::npos);
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "out {} $(touch x)"));
+  write_plan(odd);  // no fabric, which each way to run it says
+  const auto error_of = [&] {
+    const std::string rows = read_text(folder / "out {} $(touch x)/results.jsonl");
+    std::filesystem::remove_all(folder / "out {} $(touch x)");
+    return json::parse(rows)["error"].get<std::string>();
+  };
+  CHECK(run_furrow("batch parallel " + plan).exit_code == 4);
+  const std::string error = error_of();
+  INFO(error);
+  CHECK(error.find(odd) != std::string::npos);
+  run_line(run_furrow("batch list " + plan).out);
+  run_furrow("batch gather " + plan);
+  CHECK(error_of() == error);
+  const json scripts = json::parse(run_furrow("batch slurm " + plan + " --json").out);
+  const std::string array = scripts["written"][1];
+  CHECK(run_program("env", {"SLURM_ARRAY_TASK_ID=0", "sh", array}).exit_code == 1);
+  run_furrow("batch gather " + plan);
+  CHECK(error_of() == error);
+  for (const std::string& file : {pwned, std::string("PWNED")}) CHECK_FALSE(std::filesystem::exists(file));
+}
+
+TEST_CASE("batch: cases side by side come to what they come to one after the other") {
+  std::vector<std::vector<json>> outcomes;
+  for (const char* jobs : {"1", "4"}) {
+    const Batch batch;
+    CHECK(batch.furrow("parallel " + batch.plan + " --jobs " + jobs).exit_code == 4);
+    std::vector<json>& all = outcomes.emplace_back();
+    for (const json& row : lasting(batch.rows()))
+      all.push_back(row["state"] == "finished" ? row["report"]["outcome"] : row["state"]);
+  }
+  REQUIRE(outcomes[0].size() == 6);
+  CHECK(outcomes[0] == outcomes[1]);
+}
+
 TEST_CASE("batch: what is wrong with a call is told, and nothing is written") {
   const Batch batch;
   CHECK(batch.furrow("case " + (batch.folder / "r.json")).exit_code == 2);

@@ -137,6 +137,8 @@ TEST_CASE("strict JSON: each report of furrow batch is as its schema says") {
   };
   is_as("list " + plan, "batch_list", 0);
   is_as("slurm " + plan, "batch_slurm", 0);
+  const json scripts = parse_strictly(run_furrow("batch slurm " + plan + " --json").out);
+  is_as("task " + scripts["written"][0].get<std::string>() + " 1 2", "batch_task", 0);
   is_as("case " + (scratch / "r.json") + " --json -- info " + (scratch / "none.obj"), "batch_case", 1);
 }
 

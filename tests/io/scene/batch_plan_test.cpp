@@ -138,6 +138,18 @@ TEST_CASE("batch_plan: a fault is told with its place and what to do") {
   told("[options]\noutput = \"x.ply\"\n" + cases, "output", "a batch names that of each case by itself");
   told("mesh = \"\"\npicture = false\n" + cases, "plan.toml", "neither a mesh nor a picture");
   told("cases = \"no.csv\"\n", "no.csv", "");
+  const std::string control = "has a control character, such as a line end; write it without";
+  for (const std::string& text :
+       {"title = \"a\\nb\"\n" + cases, "output = \"a\\nb\"\n" + cases, "report = [\"a\\tb\"]\n" + cases,
+        "[options]\nfabric = \"silk\\ntouch x; : \"\n" + cases, "[options]\n\"a\\nb\" = true\n" + cases,
+        std::string("[cases]\ngarment = [\"shirt-M.obj\"]\nfabric = [\"silk\", \"\\u001b[2J\"]\n")})
+    told(text, "plan.toml", control);
+  folder.write("lines.csv", "garment,fabric\nshirt-M.obj,\"silk\ntouch x; : \"\n");
+  told("cases = \"lines.csv\"\n", "lines.csv: case 1: \"silk\\ntouch x; : \"", control);
+  folder.write("a\nb.obj", "");
+  told("[cases]\ngarment = [\"a\\nb.obj\"]\n", "plan.toml:2", control);
+  told("[options]\nfabric = \"--output=x.ply\"\n" + cases, "fabric", "is an option and no value");
+  CHECK(folder.read("[options]\nheight = \"-.5\"\n" + cases).cases.size() == 1);
 }
 
 TEST_CASE("csv: fields in quotes hold commas, line ends and quotes") {
