@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The only source that knows assimp.
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -300,12 +301,17 @@ class Warnings : public Assimp::LogStream {
 /// Opens ordinary files in a file's own folder, or below it: a file from elsewhere may name any other.
 class OwnFolder : public Assimp::DefaultIOSystem {
  public:
-  explicit OwnFolder(const std::filesystem::path& file) : folder_(folder_of(file)) {}
+  explicit OwnFolder(const std::filesystem::path& file) : file_(file.string()), folder_(folder_of(file)) {}
+  /// Gives these bytes in place of the file's.
+  void put_in_place(std::string bytes) { in_place_ = std::move(bytes); }
 
   bool Exists(const char* path) const override {
     return is_own(path) && Assimp::DefaultIOSystem::Exists(path);
   }
   Assimp::IOStream* Open(const char* path, const char* mode) override {
+    if (in_place_ && path == file_)
+      return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(in_place_->data()),
+                                        in_place_->size());
     if (is_own(path)) return Assimp::DefaultIOSystem::Open(path, mode);
     refused_ = path;
     return nullptr;
@@ -329,7 +335,9 @@ class OwnFolder : public Assimp::DefaultIOSystem {
     return std::mismatch(folder_.begin(), folder_.end(), real.begin(), real.end()).first == folder_.end();
   }
 
+  std::string file_;
   std::filesystem::path folder_;
+  std::optional<std::string> in_place_;
   std::string refused_;
 };
 
@@ -368,6 +376,9 @@ std::string import(const std::filesystem::path& path, const std::string& bytes, 
   Assimp::Importer importer;
   auto* folder = new OwnFolder(path);  // the importer's from here
   importer.SetIOHandler(folder);
+  if (std::optional<std::string> plain =
+          plain_gltf(bytes, [&](const std::string& name) { return folder->content(name); }))
+    folder->put_in_place(std::move(*plain));
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (!scene && !folder->refused().empty())
     throw ContentError("it names '" + folder->refused() +

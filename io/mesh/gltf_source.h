@@ -44,6 +44,11 @@ using OpenBeside = std::function<std::optional<std::string>(const std::string& n
 /// into the binary. Throws geometry::ContentError for what is no glTF 2.0.
 KeptGltf keep_gltf(std::string_view bytes, const OpenBeside& open);
 
+/// The file with floats where it has integers, and with inverse bind matrices; nothing if it is so already.
+/// Throws geometry::ContentError for what is no glTF 2.0, and, naming it, for a required extension that says
+/// where vertices are and is not read.
+std::optional<std::string> plain_gltf(std::string_view bytes, const OpenBeside& open);
+
 /// The vertex attribute that a joint's weights are.
 std::string weight_attribute(const std::string& joint);
 

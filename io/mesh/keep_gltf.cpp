@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "geometry/mesh/errors.h"
-#include "io/base/base64.h"
-#include "io/base/byte_order.h"
-#include "io/base/nesting.h"
-#include "io/mesh/glb_container.h"
-#include "io/mesh/gltf_source.h"
+#include "io/mesh/gltf_document.h"
 
 namespace furrow::io {
 namespace {
@@ -21,82 +16,12 @@ using nlohmann::json;
 
 constexpr const char* second_map = "; only the first is kept: let the one that counts be the first";
 
-std::uint32_t glb_word(std::string_view bytes, std::size_t at) {
-  if (bytes.size() < 4 || at > bytes.size() - 4) throw ContentError("it ends too soon");
-  return read_in_order<std::uint32_t>(bytes.data() + at, std::endian::little);
-}
-
-/// The JSON and the binary chunk of a GLB; a glTF has the first alone.
-std::pair<std::string_view, std::string_view> chunks_of(std::string_view bytes) {
-  if (!bytes.starts_with("glTF")) return {bytes, {}};
-  std::pair<std::string_view, std::string_view> chunks;
-  for (std::size_t at = 12; at < bytes.size();) {
-    const std::size_t length = glb_word(bytes, at), kind = glb_word(bytes, at + 4);
-    at += 8;
-    if (length > bytes.size() - at) throw ContentError("it ends too soon");
-    if (kind == glb_json_chunk && chunks.first.empty()) chunks.first = bytes.substr(at, length);
-    if (kind == glb_binary_chunk && chunks.second.empty()) chunks.second = bytes.substr(at, length);
-    at += length;
-  }
-  return chunks;
-}
-
-/// "%20" is a blank.
-std::string from_uri(const std::string& uri) {
-  const auto digit = [](char c) {
-    constexpr std::string_view digits = "0123456789abcdefABCDEF";
-    const std::size_t at = digits.find(c);
-    return at == digits.npos ? -1 : static_cast<int>(at < 16 ? at : at - 6);
-  };
-  std::string name;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool coded =
-        uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
-    name += coded ? static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2])) : uri[i];
-    if (coded) i += 2;
-  }
-  return name;
-}
-
 std::string image_type(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return "image/png";
   if (bytes.starts_with("\xFF\xD8\xFF")) return "image/jpeg";
   if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
   if (bytes.starts_with("\xABKTX 20")) return "image/ktx2";
   return {};
-}
-
-/// 0 where a component is of no known type, or an element's parts are padded.
-std::size_t element_size(const json& accessor) {
-  static const std::map<int, std::size_t> components = {{5120, 1}, {5121, 1}, {5122, 2},
-                                                        {5123, 2}, {5125, 4}, {5126, 4}};
-  static const std::map<std::string, std::size_t> widths = {
-      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
-  const auto component = components.find(accessor.value("componentType", 0));
-  const auto width = widths.find(accessor.value("type", ""));
-  return component == components.end() || width == widths.end() ? 0 : component->second * width->second;
-}
-
-/// A list of the document; an empty one where it has none.
-const json& list_of(const json& from, const char* name) {
-  static const json none = json::array();
-  const auto found = from.find(name);
-  if (found == from.end()) return none;
-  if (!found->is_array()) throw ContentError(std::string(name) + " is no list");
-  return *found;
-}
-
-std::size_t index_in(const json& list, const json& index) {
-  if (!index.is_number_unsigned() || index.get<std::size_t>() >= list.size())
-    throw ContentError("it names by number what is not there");
-  return index.get<std::size_t>();
-}
-
-std::size_t count_of(const json& object, const char* name) {
-  const auto found = object.find(name);
-  if (found == object.end()) return 0;
-  if (!found->is_number_unsigned()) throw ContentError(std::string(name) + " is no count");
-  return found->get<std::size_t>();
 }
 
 /// "skin 'Rig'", or "skin 0" where it has no name.
@@ -120,13 +45,7 @@ bool touches_geometry(const json& value) {
 /// Copies what is kept out of a document whose geometry is left behind.
 class GltfKeeper {
  public:
-  GltfKeeper(std::string_view bytes, const OpenBeside& open) : open_(open) {
-    const auto [text, binary] = chunks_of(bytes);
-    if (is_nested_too_deep(text)) throw ContentError("its JSON is " + too_deep_text());
-    from_ = json::parse(text);
-    chunk_ = binary;
-    if (!from_.is_object()) throw ContentError("its JSON is no object");
-  }
+  GltfKeeper(std::string_view bytes, const OpenBeside& open) : open_(open), document_(bytes, open) {}
 
   KeptGltf keep() {
     to_ = from_;
@@ -289,14 +208,14 @@ class GltfKeeper {
       if (image.contains("bufferView")) image["bufferView"] = keep_view(image["bufferView"]);
       const std::string uri = image.value("uri", "");
       if (uri.empty() || uri.starts_with("data:")) continue;
-      const std::optional<std::string> content = open_(from_uri(uri));
+      const std::optional<std::string> content = open_(gltf_file_of(uri));
       const std::string type = content ? image_type(*content) : "";
       if (type.empty()) {
         lose("the picture of " + called("image", to_["images"], i) + ": '" + uri +
              "' is named as before, but is no picture in the folder of the file that was read; lay it there");
         continue;
       }
-      if (!image.contains("name")) image["name"] = from_uri(uri);
+      if (!image.contains("name")) image["name"] = gltf_file_of(uri);
       image.erase("uri");
       image["mimeType"] = type;
       image["bufferView"] = add_view(*content, {});
@@ -356,11 +275,11 @@ class GltfKeeper {
     const std::size_t from = index_in(list_of(from_, "accessors"), number);
     if (const auto known = accessors_.find(from); known != accessors_.end()) return known->second;
     json accessor = from_["accessors"][from];
-    const std::size_t size = element_size(accessor);
+    const std::size_t size = gltf_element_size(accessor);
     if (accessor.contains("sparse") || accessor.contains("extensions") || size == 0) {
       keep_views_in(accessor);
     } else if (accessor.contains("bufferView")) {
-      const std::string elements = elements_of(accessor, size);
+      const std::string elements = document_.elements_of(accessor);
       accessor.erase("byteOffset");
       accessor["bufferView"] = add_view(elements, {});
     }
@@ -374,26 +293,13 @@ class GltfKeeper {
       if (value.contains(part) && value[part].is_object()) keep_views_in(value[part]);
   }
 
-  std::string elements_of(const json& accessor, std::size_t size) {
-    const json& view = from_["bufferViews"][index_in(list_of(from_, "bufferViews"), accessor["bufferView"])];
-    const std::string_view bytes = bytes_of(view);
-    const std::size_t count = count_of(accessor, "count"), at = count_of(accessor, "byteOffset");
-    const std::size_t stride = std::max(count_of(view, "byteStride"), size);
-    if (count == 0 || at > bytes.size() || bytes.size() - at < size ||
-        (count - 1) > (bytes.size() - at - size) / stride)
-      throw ContentError("an accessor reaches beyond its view");
-    std::string elements;
-    for (std::size_t i = 0; i < count; ++i) elements += bytes.substr(at + i * stride, size);
-    return elements;
-  }
-
   /// The number of a view's copy, byte for byte.
   std::size_t keep_view(const json& number) {
     const std::size_t from = index_in(list_of(from_, "bufferViews"), number);
     if (const auto known = views_.find(from); known != views_.end()) return known->second;
     const json& view = from_["bufferViews"][from];
     if (view.contains("extensions")) throw ContentError("a view that is kept is compressed");
-    return views_[from] = add_view(bytes_of(view), view);
+    return views_[from] = add_view(document_.bytes_of(view), view);
   }
 
   std::size_t add_view(std::string_view bytes, const json& like) {
@@ -408,34 +314,10 @@ class GltfKeeper {
     return to_["bufferViews"].size() - 1;
   }
 
-  std::string_view bytes_of(const json& view) {
-    const std::string_view buffer = buffer_of(index_in(list_of(from_, "buffers"), view.at("buffer")));
-    const std::size_t at = count_of(view, "byteOffset"), length = count_of(view, "byteLength");
-    if (at > buffer.size() || length > buffer.size() - at)
-      throw ContentError("a view reaches beyond its buffer");
-    return buffer.substr(at, length);
-  }
-
-  std::string_view buffer_of(std::size_t number) {
-    const std::string uri = from_["buffers"][number].value("uri", "");
-    if (uri.empty()) return chunk_;
-    const auto [place, is_new] = buffers_.try_emplace(number);
-    if (!is_new) return place->second;
-    const std::size_t comma = uri.find(',');
-    if (uri.starts_with("data:") && comma != uri.npos) {
-      place->second = from_base64(std::string_view(uri).substr(comma + 1));
-    } else {
-      std::optional<std::string> content = open_(from_uri(uri));
-      if (!content) throw ContentError("the buffer '" + uri + "' is not to be had");
-      place->second = std::move(*content);
-    }
-    return place->second;
-  }
-
   const OpenBeside& open_;
-  json from_, to_;
-  std::string_view chunk_;
-  std::map<std::size_t, std::string> buffers_;
+  GltfDocument document_;
+  const json& from_ = document_.root;
+  json to_;
   std::map<std::size_t, std::size_t> accessors_, views_;  ///< the numbers of copies
   KeptGltf kept_;
 };

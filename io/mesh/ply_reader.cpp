@@ -102,6 +102,8 @@ class PlyReader {
         read_vertices(element);
       else if (element.name == "face")
         read_faces(element);
+      else if (element.name == "tristrips" && !has_faces())
+        read_strips(element);
       else if (element.name == "edge" && find_edge_columns(element))
         read_edges(element);
       else if (element.name == "strut" && find_group(element, {strut_names}).size() == strut_names.size())
@@ -331,16 +333,47 @@ class PlyReader {
     for (std::size_t i = 0; i < element.count; ++i) {
       next_row(element, i);
       const auto& corners = row_.lists[*indices];
-      for (const double c : corners) {
-        if (!(c >= 0 && c < 9e15) || c != std::floor(c))
-          rows_.fail("a corner is no index of a vertex; correct it");
-        soup_.corners.push_back(static_cast<std::size_t>(c));
-      }
+      for (const double c : corners) soup_.corners.push_back(corner(c));
       soup_.close_face();
       if (texcoord) add_textures(row_.lists[*texcoord], corners.size());
       if (!lengths.empty()) add_triangle_lengths(lengths, corners.size());
       take(of_faces_);
     }
+  }
+
+  bool has_faces() const {
+    return std::ranges::any_of(header_.elements,
+                               [](const PlyElement& e) { return e.name == "face" && e.count > 0; });
+  }
+
+  /// Triangles of three neighbours in a list, every other one turned; -1 begins a new strip.
+  void read_strips(const PlyElement& element) {
+    const auto indices = find_column(element, {"vertex_indices", "vertex_index"}, PlyKind::list);
+    if (!indices) rows_.fail("the strips have no list vertex_indices");
+    for (std::size_t i = 0; i < element.count; ++i) {
+      next_row(element, i);
+      std::vector<std::size_t> strip;
+      for (const double c : row_.lists[*indices]) {
+        if (c == -1) strip.clear();
+        if (c == -1) continue;
+        strip.push_back(corner(c));
+        if (strip.size() >= 3) add_of_strip(strip);
+      }
+    }
+  }
+
+  /// The last triangle; a strip turns a corner by triangles without area.
+  void add_of_strip(const std::vector<std::size_t>& strip) {
+    const std::size_t n = strip.size(), a = strip[n - 3], b = strip[n - 2], c = strip[n - 1];
+    if (a == b || b == c || c == a) return;
+    for (const std::size_t v : n % 2 ? std::array{a, b, c} : std::array{b, a, c}) soup_.corners.push_back(v);
+    soup_.close_face();
+  }
+
+  std::size_t corner(double c) const {
+    if (!(c >= 0 && c < 9e15) || c != std::floor(c))
+      rows_.fail("a corner is no index of a vertex; correct it");
+    return static_cast<std::size_t>(c);
   }
 
   void add_textures(const std::vector<double>& values, std::size_t corners) {

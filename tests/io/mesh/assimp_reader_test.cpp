@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/mesh/vertex_attributes.h"
+#include "io/base/byte_order.h"
 #include "tests/io/base/io_test_helpers.h"
 #include "tests/io/mesh/seam.h"
+#include "tests/test_paths.h"
 
 using namespace furrow;
 using namespace furrow::geometry;
@@ -179,4 +181,146 @@ TEST_CASE("glTF: a file that is none is refused in words of our own") {
     CHECK(error.find("it is no glTF of version 2, or is damaged where it begins") != std::string::npos);
     CHECK(error.find("suitable reader") == std::string::npos);
   }
+}
+
+namespace {
+
+/// Stores an attribute of floats as integers: of the component type, normalised or not, times `scale` before.
+void store_as_integers(Seam& seam, const char* attribute, int type, bool normalized, double scale = 1) {
+  json& accessor =
+      seam.scene["accessors"]
+                [seam.scene["meshes"][0]["primitives"][0]["attributes"][attribute].get<std::size_t>()];
+  const std::size_t from = seam.scene["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteOffset"],
+                    width = accessor["type"] == "VEC2"   ? 2
+                            : accessor["type"] == "VEC3" ? 3
+                                                         : 4,
+                    at = seam.buffer.size(), stride = type < 5122 ? 4 : 8;
+  const double most = type == 5120 ? 127 : type == 5121 ? 255 : type == 5122 ? 32767 : 65535;
+  for (std::size_t v = 0; v < 6; ++v) {
+    for (std::size_t k = 0; k < width; ++k) {
+      const double value =
+          io::read_in_order<float>(&seam.buffer[from + 4 * (v * width + k)], std::endian::little);
+      const auto number = static_cast<std::uint16_t>(std::lround(value * scale * (normalized ? most : 1)));
+      type < 5122 ? put_bytes(seam.buffer, static_cast<std::uint8_t>(number))
+                  : put_bytes(seam.buffer, number);
+    }
+    seam.buffer.resize(at + stride * (v + 1));
+  }
+  accessor["bufferView"] = seam.scene["bufferViews"].size();
+  accessor["componentType"] = type;
+  accessor["normalized"] = normalized;
+  seam.scene["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", at}, {"byteLength", 6 * stride}, {"byteStride", stride}});
+  seam.scene["buffers"][0]["byteLength"] = seam.buffer.size();
+}
+
+/// How far apart two meshes of the same faces are at most: vertices, texture coordinates, weights.
+std::array<double, 3> differences(const io::MeshFile& a, const io::MeshFile& b) {
+  REQUIRE(a.mesh.number_of_vertices() == b.mesh.number_of_vertices());
+  REQUIRE(a.mesh.number_of_faces() == b.mesh.number_of_faces());
+  std::array<double, 3> most{};
+  for (const Vertex v : a.mesh.vertices())
+    most[0] = std::max(most[0], std::sqrt(CGAL::squared_distance(a.mesh.point(v), b.mesh.point(v))));
+  const auto ta = *find_map(a.mesh, attribute::texture), tb = *find_map(b.mesh, attribute::texture);
+  for (const Halfedge h : a.mesh.halfedges())
+    for (std::size_t k = 0; k < 2 && !a.mesh.is_border(h); ++k)
+      most[1] = std::max(most[1], std::abs(ta[h][k] - tb[h][k]));
+  const auto wa = vertex_attributes(a.mesh), wb = vertex_attributes(b.mesh);
+  REQUIRE(wa.size() == wb.size());
+  for (std::size_t i = 0; i < wa.size(); ++i) {
+    REQUIRE(wa[i].name == wb[i].name);
+    for (const Vertex v : a.mesh.vertices())
+      most[2] = std::max(most[2], std::abs(wa[i].values[v] - wb[i].values[v]));
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("glTF: integers are read as the numbers that they stand for, normalised or not") {
+  const io::MeshFile floats = SkinnedSeam().read();
+  for (const auto& [type, step] : {std::pair(5121, 1 / 255.), {5123, 1 / 65535.}}) {
+    SkinnedSeam seam;
+    store_as_integers(seam, "WEIGHTS_0", type, true);
+    store_as_integers(seam, "TEXCOORD_0", type, true);
+    const auto [points, textures, weights] = differences(seam.read(), floats);
+    CHECK(points == 0);
+    CHECK(textures <= step / 2 + 1e-7);
+    CHECK(weights <= step / 2 + 1e-7);
+  }
+  for (const int type : {5120, 5121, 5122, 5123}) {
+    SkinnedSeam seam;
+    const bool is_signed = type == 5120 || type == 5122;
+    store_as_integers(seam, "POSITION", type, is_signed, is_signed ? 1 : 100);
+    // a skinned mesh lies where its joints put it
+    seam.scene["nodes"][1]["scale"] = std::vector(3, is_signed ? 1 : 0.01);
+    seam.scene["extensionsUsed"] = seam.scene["extensionsRequired"] = {"KHR_mesh_quantization"};
+    CHECK(differences(seam.read(), floats)[0] <= (type == 5121 || type == 5120 ? 0.01 : 1e-4));
+  }
+}
+
+TEST_CASE("glTF: a skin without inverse bind matrices has identities") {
+  SkinnedSeam seam;
+  const io::MeshFile given = seam.read();
+  seam.scene["skins"][0].erase("inverseBindMatrices");
+  CHECK(differences(seam.read(), given) == std::array<double, 3>{});
+}
+
+TEST_CASE("glTF: an extension that is needed and not read is refused by its name, with what undoes it") {
+  const auto error_with = [](const char* name) {
+    Seam seam;
+    seam.scene["extensionsUsed"] = seam.scene["extensionsRequired"] = {name};
+    return error_of_glb(seam.glb());
+  };
+  for (const char* name : {"EXT_meshopt_compression", "KHR_draco_mesh_compression"})
+    CHECK(
+        error_with(name).ends_with(std::string("it needs the extension ") + name +
+                                   ", which is not read; undo it by gltf-transform cp packed.glb plain.glb"));
+  CHECK(
+      error_with("EXT_mesh_gpu_instancing").ends_with("which is not read; export the file again without it"));
+  for (const char* name : {"KHR_texture_transform", "KHR_materials_unlit", "KHR_lights_punctual"})
+    CHECK(error_with(name) == "(none)");
+}
+
+TEST_CASE("glTF: integers that cannot be read are refused, whatever contradicts itself") {
+  SkinnedSeam sparse, far;
+  store_as_integers(sparse, "TEXCOORD_0", 5123, true);
+  sparse.scene["accessors"][1]["sparse"] = {{"count", 1}};
+  CHECK(error_of_glb(sparse.glb()).find("sparse integers are not read") != std::string::npos);
+  store_as_integers(far, "TEXCOORD_0", 5123, true);
+  far.scene["accessors"][1]["count"] = 2000000000;
+  CHECK(error_of_glb(far.glb()).find("an accessor reaches beyond its view") != std::string::npos);
+  far.scene["accessors"][1]["type"] = "VEC7";
+  CHECK(error_of_glb(far.glb()).find("a.glb: ") != std::string::npos);
+}
+
+TEST_CASE("glTF: files with integers from other programs are read as those with floats") {
+  if (!have_shared()) {
+    WARN("skipped: no shared data");
+    return;
+  }
+  const std::filesystem::path wild = shared_dir() / "wild", second = shared_dir() / "defects/second";
+  const io::MeshFile bytes = io::read_mesh(wild / "w_u8.glb"), words = io::read_mesh(wild / "uv_u16.glb"),
+                     no_matrices = io::read_mesh(wild / "no_ibm.glb");
+  const auto [points, textures, weights] = differences(bytes, words);
+  CHECK(points == 0);
+  CHECK(textures <= 1 / 65535.);
+  CHECK(weights <= 3 / 255.);  // whole bytes that sum up to 255
+  for (const VertexAttribute& a : vertex_attributes(bytes.mesh))
+    for (const Vertex v : bytes.mesh.vertices())
+      CHECK(std::abs(255 * a.values[v] - std::round(255 * a.values[v])) < 1e-4);
+  CHECK(no_matrices.mesh.number_of_vertices() == words.mesh.number_of_vertices());
+  CHECK(differences(no_matrices, words)[1] <= 1 / 65535.);
+  const auto has_box = [](const io::MeshFile& file, const Point& low, const Point& high) {
+    CGAL::Bbox_3 box;
+    for (const Point& p : file.mesh.points()) box += p.bbox();
+    CHECK(std::sqrt(CGAL::squared_distance(low, Point(box.xmin(), box.ymin(), box.zmin()))) < 0.01);
+    CHECK(std::sqrt(CGAL::squared_distance(high, Point(box.xmax(), box.ymax(), box.zmax()))) < 0.01);
+  };
+  has_box(io::read_mesh(wild / "quant_int.glb"), {-0.26, 0.55, -0.23}, {0.26, 1.04, 0.21});
+  has_box(io::read_mesh(wild / "plain_vpf.glb"), {-0.26, 0.55, -0.23}, {0.26, 1.04, 0.21});
+  has_box(io::read_mesh(second / "quantized.glb"), {-0.2, 0.18, -0.2}, {0.2, 0.22, 0.2});
+  for (const char* name : {"plain_meshopt.glb", "plain_draco.glb"})
+    CHECK(content_error([&] { io::read_mesh(wild / name); }).find("it needs the extension ") !=
+          std::string::npos);
 }

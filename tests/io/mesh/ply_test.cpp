@@ -438,3 +438,23 @@ TEST_CASE("PLY: an attribute with the name of another column is not written") {
   ensure_map(named.mesh, attribute::rest_position);
   CHECK(content_error([&] { written(named, MeshFormat::ply); }).find("'rest_x'") != std::string::npos);
 }
+
+TEST_CASE("PLY: strips of triangles are read, as scanners' files have them") {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n5 5 5\n9 0 1 2 3 4 -1 3 5 4\n";
+  const io::MeshFile file = read_from(text, io::MeshFormat::ply);
+  CHECK(file.mesh.number_of_faces() == 4);
+  CHECK(file.warnings.empty());
+  for (const geometry::Face f : file.mesh.faces()) {
+    std::vector<geometry::Point> p;
+    for (const auto v : file.mesh.vertices_around_face(file.mesh.halfedge(f)))
+      p.push_back(file.mesh.point(v));
+    if (p[0].z() + p[1].z() + p[2].z() == 0) CHECK(CGAL::cross_product(p[1] - p[0], p[2] - p[0]).z() > 0);
+  }
+  std::string wrong = text;
+  wrong.replace(wrong.find("-1 3"), 2, "-2");
+  CHECK(content_error([&] { read_from(wrong, io::MeshFormat::ply); }).find("no index of a vertex") !=
+        std::string::npos);
+}

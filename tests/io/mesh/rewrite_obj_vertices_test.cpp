@@ -14,11 +14,29 @@ using geometry::Point;
 TEST_CASE("rewrite_obj_vertices: only coordinates change, every other byte stays") {
   const std::string text =
       "# v 9 9 9\r\nmtllib a.mtl\r\n  v\t1.50  2 -3e0 1 0 0\r\nvn 0 0 1\r\nv 0 \\\r\n 1 0 # note\r\n"
-      "v 7 8 9 1.0\ng skirt\nusemtl silk\nf 1//1 2//1 3//1\nl 1 2";
+      "v 7 8 9 1.0\ng skirt\nusemtl silk\nf 1 2 3\nl 1 2";
   const std::vector<Point> positions{{1.5, 0.25, -3}, {0, 1, -0.5}, {7, 8, 9}};
   CHECK(io::rewrite_obj_vertices(text, "a.obj", positions) ==
         "# v 9 9 9\r\nmtllib a.mtl\r\n  v\t1.50  0.25 -3e0 1 0 0\r\nvn 0 0 1\r\nv 0 \\\r\n 1 -0.5 # note\r\n"
-        "v 7 8 9 1.0\ng skirt\nusemtl silk\nf 1//1 2//1 3//1\nl 1 2");
+        "v 7 8 9 1.0\ng skirt\nusemtl silk\nf 1 2 3\nl 1 2");
+}
+
+TEST_CASE("rewrite_obj_vertices: normals are made for what moved, in the file's groups of corners") {
+  const std::string head = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 5\nv 6 5 5\nv 5 6 5\nvt 0 0\n",
+                    faces = "f 1/1/1 2/1/1 3/1/1\nf 1//1 -5//1 4//-3\nf 5//3 6//3 7//3 # far\n";
+  const std::string text = head + "vn 0 0 1\r\nvn  0.6 0.8 0\nvn 0.1 0 .99 \n" + faces;
+  std::vector<Point> positions{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {5, 5, 5}, {6, 5, 5}, {5, 6, 5}};
+  CHECK(io::rewrite_obj_vertices(text, "a.obj", positions) == text);  // nothing moved
+  for (Point& p : positions)
+    if (p.x() == 1) p = Point(1, p.y(), 1);  // the square lies askew now
+  const std::string moved = io::rewrite_obj_vertices(text, "a.obj", positions);
+  CHECK(moved.find("vn -0.707107 0 0.707107\r\n") != std::string::npos);
+  CHECK(moved.find("vn 0.1 0 .99\r\n") != std::string::npos);  // of the face that stayed
+  CHECK(moved.find("f 5//5 6//6 7//7 # far\n") != std::string::npos);
+  CHECK(moved.find("0.6 0.8 0") == std::string::npos);  // no corner had it
+  CHECK(moved.find("f 1/1/1 2/1/2 3/1/3\nf 1//1 -5//3 4//4\n") != std::string::npos);
+  const io::MeshFile back = read_from(moved, io::MeshFormat::obj);
+  CHECK(back.mesh.number_of_faces() == 3);
 }
 
 TEST_CASE("rewrite_obj_vertices: a material library is named from the folder that the text is for") {
