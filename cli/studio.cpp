@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -73,22 +75,43 @@ std::unique_ptr<studio::Studio> open_studio(const StudioArguments& a) {
   return std::make_unique<studio::Studio>(scene, project_of(a), a.port, places, a.made_for);
 }
 
+/// A new folder in a project, which goes again unless it is kept.
+class FreshFolder {
+ public:
+  explicit FreshFolder(const std::string& project)
+      : path_((std::filesystem::path(project) / "replay-XXXXXX").string()) {
+    if (!mkdtemp(path_.data()))
+      throw std::runtime_error(project + ": no folder can be made in it: " + std::strerror(errno));
+  }
+  ~FreshFolder() {
+    std::error_code none;
+    if (!keeps_) std::filesystem::remove_all(path_, none);
+  }
+  FreshFolder(const FreshFolder&) = delete;
+  FreshFolder& operator=(const FreshFolder&) = delete;
+  const std::string& path() const { return path_; }
+  void keep() { keeps_ = true; }
+
+ private:
+  std::string path_;
+  bool keeps_ = false;
+};
+
 /// Does all that a project's log says once more, and compares.
 int replay(const StudioArguments& a) {
   if (!a.headless) throw UsageError("--replay: is done without a page; add --headless");
   if (!studio::Studio::is_project(a.in))
     throw UsageError(a.in + ": is no project of the studio; name the folder of one to --replay");
-  const std::filesystem::path into = std::filesystem::path(a.in) / "replay";
-  std::filesystem::remove_all(into);
+  FreshFolder into(a.in);
   Terminal terminal(a);
   const studio::ReplayReport report =
-      studio::replay(std::filesystem::path(a.in), into, [&](std::size_t done, std::size_t of) {
+      studio::replay(std::filesystem::path(a.in), into.path(), [&](std::size_t done, std::size_t of) {
         terminal.progress("replaying", double(done) / double(of));
         return !interrupted();
       });
   terminal.progress("replaying", 1);
   const bool same = report.difference.empty() && !report.cancelled;
-  if (same) std::filesystem::remove_all(into);
+  if (!report.difference.empty()) into.keep();
   const std::string outcome = report.cancelled ? "interrupted" : same ? "same bits" : "differs";
   if (a.json) {
     Json json{{"outcome", outcome}, {"intentions", report.intentions}, {"steps", report.steps}};
@@ -100,7 +123,7 @@ int replay(const StudioArguments& a) {
   }
   if (!report.difference.empty())
     std::cerr << "error: " << a.in << ": replayed, " << report.difference << "; what was made is in "
-              << into.string() << "\n";
+              << into.path() << "\n";
   return exit_code_of(report.cancelled, same);
 }
 

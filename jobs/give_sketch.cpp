@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "io/base/outputs_below.h"
 #include "jobs/bake.h"
 #include "jobs/transfer.h"
 #include "physics/base/progress.h"
@@ -57,6 +58,7 @@ fs::path give_sketch(const Sketch& sketch, const Json& strokes, const std::strin
     throw std::invalid_argument("as: is none of ply, obj, glb, original and maps");
   io::MeshFile drawn = draw_sketch(sketch, strokes, listener).file;
   std::error_code failed;
+  io::OutputsBelow::check(folder);
   fs::create_directories(folder, failed);
   if (failed) throw std::runtime_error(folder.string() + ": cannot be made: " + failed.message());
   if (maps) return write_maps(folder, original, std::move(drawn), sketch.frame, listener);

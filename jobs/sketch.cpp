@@ -26,12 +26,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A sketch is read again and again, and in one that comes from elsewhere nothing is to wait for a pipe.
+void require_regular(const fs::path& path) {
+  if (fs::is_other(fs::status(path)))
+    throw geometry::ContentError(path.string() +
+                                 ": is no regular file; the studio reads it more than once, so copy "
+                                 "it to one");
+}
+
 /// The scene, in the frame that its garment notes.
 io::Scene scene_in_frame(SceneInput& input) {
   io::Scene scene = scene_of(input.settings, input.folder);
   if (scene.garment.empty())
     throw std::invalid_argument(input.settings.name + ": garment.mesh is missing: name the garment");
   check_inputs(scene, input.settings, -1);
+  require_regular(scene.garment);
+  if (scene.body) require_regular(scene.body->mesh);
+  if (scene.body) require_regular(scene.body->field);
+  if (scene.body) require_regular(scene.body->frames);
+  for (const io::SceneLines& round : scene.lines) require_regular(round.strokes);
   take_noted_frame(scene, input.settings);
   return scene;
 }
@@ -147,6 +160,7 @@ Sketch open_sketch(const SceneInput& input, Listener& listener, const fs::path& 
   Sketch sketch;
   sketch.scene = input;
   sketch.made_for = made_for;
+  require_regular(made_for);
   for (const char* list : {"lines", "pins"}) io::make_list(sketch.scene.settings, list);
   if (!sketch.scene.settings.root.value("material", Json::object()).contains("preset"))
     io::set_value(sketch.scene.settings, "material.preset", "cotton", "the studio");
@@ -305,10 +319,6 @@ std::string shape_bits(const io::MeshFile& file) {
   for (const geometry::Face f : file.mesh.faces())
     for (const geometry::Vertex v : file.mesh.vertices_around_face(file.mesh.halfedge(f))) add(v.idx());
   return bits;
-}
-
-void write_whole(const fs::path& path, const std::string& bytes) {
-  io::write_atomically(path, [&](std::ostream& out) { out << bytes; });
 }
 
 std::vector<FabricChoice> fabric_choices() {

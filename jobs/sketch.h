@@ -93,9 +93,6 @@ void write_sketched(const Sketch& sketch, const io::MeshFile& file, const std::f
 /// Positions and faces, to the last bit: equal for equal shapes alone.
 std::string shape_bits(const io::MeshFile& file);
 
-/// Writes a file whole or not at all, after a loss of power, too (io/base/atomic_file.h).
-void write_whole(const std::filesystem::path& path, const std::string& bytes);
-
 /// A fabric that there is, and what it is like: "120 g/m², soft".
 struct FabricChoice {
   std::string name, words;

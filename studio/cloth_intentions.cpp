@@ -118,6 +118,34 @@ class Pace {
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
 
+/// A file that goes again if no step was recorded that names it.
+class Tentative {
+ public:
+  Tentative(std::filesystem::path file, const bool& recorded) : file_(std::move(file)), recorded_(recorded) {}
+  ~Tentative() {
+    std::error_code none;
+    if (!recorded_) std::filesystem::remove(file_, none);
+  }
+  Tentative(const Tentative&) = delete;
+  Tentative& operator=(const Tentative&) = delete;
+  const std::filesystem::path& path() const { return file_; }
+
+ private:
+  const std::filesystem::path file_;
+  const bool& recorded_;
+};
+
+/// The state that a motion goes on from.
+std::filesystem::path state_of(const Json& motion, const std::filesystem::path& folder) {
+  const std::filesystem::path name = motion.at("state").get<std::string>();
+  std::error_code none;
+  if (name != name.filename() ||
+      !std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / name, none)))
+    throw Refused(name.string() +
+                  ", where the motion was paused, is no file of the project; undo, and play anew");
+  return folder / name;
+}
+
 Json row_of_pull(double time, const std::optional<jobs::Grip>& grip) {
   Json row{{"time", time}};
   if (grip) row.update({{"vertex", grip->vertex}, {"to", grip->to}});
@@ -187,7 +215,8 @@ void Session::take_result(const std::string& word, const std::string& what, cons
                           Json motion) {
   Json drawing = project_->now().drawing;
   const std::string name = free_name_of_file(word) + ".ply";
-  jobs::write_sketched(sketch_, file, project_->folder() / name, *this);
+  const Tentative result(project_->folder() / name, recorded_);
+  jobs::write_sketched(sketch_, file, result.path(), *this);
   take_as_garment(name, jobs::pins_after(sketch_, file), drawing);
   drawing.erase("motion");
   if (!motion.is_null()) drawing["motion"] = std::move(motion);
@@ -227,8 +256,9 @@ Json Session::play(const Json& body) {
   request.seconds =
       body.contains("seconds") ? number_of(body, "seconds", 1e-4, jobs::longest_play) : jobs::longest_play;
   const std::string state = free_name_of_file("run") + "-state.ply";
-  request.new_state = project_->folder() / state;
-  if (before.contains("state")) request.state = project_->folder() / before["state"].get<std::string>();
+  const Tentative reached(project_->folder() / state, recorded_);
+  request.new_state = reached.path();
+  if (before.contains("state")) request.state = state_of(before, project_->folder());
   std::optional<Pace> pace;
   if (body.contains("speed")) pace.emplace(number_of(body, "speed", 0.01, 100), before.value("time", 0.0));
   request.watch = [&](double time, const std::vector<float>& positions) {

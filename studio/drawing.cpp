@@ -5,6 +5,53 @@
 #include <utility>
 
 namespace furrow::studio {
+namespace {
+
+bool is_text(const Json& value) { return value.is_string(); }
+bool is_number(const Json& value) { return value.is_number(); }
+
+/// Whether a key is missing or holds what it should.
+bool may_hold(const Json& table, const char* key, bool (*is_it)(const Json&)) {
+  const auto found = table.find(key);
+  return found == table.end() || is_it(*found);
+}
+
+bool is_line(const Json& line) {
+  return line.is_object() && may_hold(line, "on", [](const Json& on) { return on.is_boolean(); }) &&
+         line.contains("stroke") && line["stroke"].is_object() && may_hold(line["stroke"], "name", is_text);
+}
+
+bool is_round(const Json& round) {
+  return round.is_object() && round.contains("time") && round["time"].is_number() &&
+         round.contains("strokes") && round["strokes"].is_array();
+}
+
+bool is_list_of(const Json& list, bool (*is_it)(const Json&)) {
+  return list.is_array() && std::all_of(list.begin(), list.end(), is_it);
+}
+
+bool is_motion(const Json& motion) {
+  if (!motion.is_object() || !may_hold(motion, "state", is_text) || !may_hold(motion, "time", is_number))
+    return false;
+  if (!may_hold(motion, "again", [](const Json& again) { return again.is_boolean(); })) return false;
+  if (!may_hold(motion, "begun", [](const Json& begun) { return begun.is_object(); })) return false;
+  if (!may_hold(motion, "rounds", [](const Json& list) { return is_list_of(list, is_round); })) return false;
+  return !motion.value("again", false) ||
+         (motion.contains("begun") && motion.contains("rounds") && motion.contains("time"));
+}
+
+}  // namespace
+
+std::string fault_of_drawing(const Json& drawing) {
+  if (!drawing.is_object()) return "it holds no drawing";
+  if (!drawing.contains("settings") || !drawing["settings"].is_object()) return "it has no settings";
+  if (!drawing.contains("lines") || !is_list_of(drawing["lines"], is_line)) return "its lines are no lines";
+  if (!may_hold(drawing, "earlier", [](const Json& list) { return is_list_of(list, is_text); }))
+    return "its earlier lines are no names";
+  if (!may_hold(drawing, "middle", is_number)) return "its middle is no number";
+  if (!may_hold(drawing, "made_for", is_text)) return "the body that it was made for is no path";
+  return may_hold(drawing, "motion", is_motion) ? "" : "its motion is none";
+}
 
 jobs::SceneInput scene_of_drawing(const Json& drawing, const std::filesystem::path& folder) {
   return {io::document_of(drawing.at("settings"), "the project"), folder};

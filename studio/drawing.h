@@ -13,6 +13,10 @@ namespace furrow::studio {
 
 using jobs::Json;
 
+/// What is wrong with the form of a drawing from a file, in words; "": nothing. Whether settings and strokes
+/// can be used is seen where they are.
+std::string fault_of_drawing(const Json& drawing);
+
 jobs::SceneInput scene_of_drawing(const Json& drawing, const std::filesystem::path& folder);
 Json drawing_of(const Json& settings, const Json& strokes);
 /// The strokes of those lines that are on.

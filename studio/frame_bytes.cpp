@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studio/frame_bytes.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -31,6 +32,25 @@ std::string frame_bytes(ShownAs kind, const jobs::ShownMesh& mesh) {
   add_list(bytes, mesh.edges);
   add_list(bytes, mesh.pinned);
   return bytes;
+}
+
+bool is_frame(const std::string& bytes) {
+  constexpr std::size_t words_of_head = 6;
+  std::vector<std::uint32_t> words(bytes.size() / 4);
+  if (bytes.size() % 4 != 0 || words.size() < words_of_head) return false;
+  std::memcpy(words.data(), bytes.data(), bytes.size());
+  const std::uint64_t vertices = words[2], faces = words[3], edges = words[4], pins = words[5];
+  if (words[0] != 0x57525546 || words[1] != static_cast<std::uint32_t>(ShownAs::cloth) ||
+      words.size() != words_of_head + 6 * vertices + 3 * faces + 3 * edges + pins)
+    return false;
+  const auto first = words.begin() + std::ptrdiff_t(words_of_head + 6 * vertices);
+  const auto is_vertex = [&](std::uint32_t v) { return v < vertices; };
+  const auto first_edge = first + std::ptrdiff_t(3 * faces),
+             first_pin = first_edge + std::ptrdiff_t(3 * edges);
+  bool sound = std::all_of(first, first_edge, is_vertex) && std::all_of(first_pin, words.end(), is_vertex);
+  for (auto edge = first_edge; edge != first_pin; edge += 3)
+    sound = sound && is_vertex(edge[0]) && is_vertex(edge[1]);
+  return sound;
 }
 
 std::string moving_bytes(double time, const std::vector<float>& positions, ShownAs kind) {

@@ -21,6 +21,10 @@ enum class ShownAs : std::uint32_t {
 /// edges (from, to, line) and pinned vertices (32 bits each).
 std::string frame_bytes(ShownAs kind, const jobs::ShownMesh& mesh);
 
+/// Whether bytes from anywhere are such a mesh of cloth: its numbers agree with its length, and faces, edges
+/// and pins name vertices that there are.
+bool is_frame(const std::string& bytes);
+
 /// Positions of the cloth or body that was shown last [m], by its vertices' indices: the number 0x57525546,
 /// the kind, how many vertices, and the time [ms]; then positions (float32).
 std::string moving_bytes(double time, const std::vector<float>& positions, ShownAs kind = ShownAs::moving);

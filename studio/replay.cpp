@@ -30,7 +30,7 @@ void begin_again(const Project& recorded, const fs::path& into) {
   const jobs::Sketch sketch = open_drawing(first.drawing, recorded.folder(), nobody);
   first.drawing["settings"] = jobs::settings_for(sketch, into);
   note_made_for(sketch.made_for, into, first.drawing);
-  const Project begun(into, first.drawing["settings"], first);
+  const Project begun(into, first.drawing["settings"], first);  // and let go, for the session
 }
 
 std::string shape_of(const Project& project) {
@@ -58,8 +58,9 @@ std::string difference_of(const Project& recorded, Session& session) {
 
 ReplayReport replay(const fs::path& folder, const fs::path& into,
                     const std::function<bool(std::size_t, std::size_t)>& go_on) {
-  const Project recorded(folder);
-  if (fs::exists(into)) throw std::invalid_argument(into.string() + ": is there already; move it away");
+  const Project recorded(folder, Project::Access::read);
+  if (fs::exists(into) && !(fs::is_directory(into) && fs::is_empty(into)))
+    throw std::invalid_argument(into.string() + ": is there already; move it away");
   const std::vector<Json> log = recorded.log();
   begin_again(recorded, into);
   Hearing hearing;

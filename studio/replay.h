@@ -18,7 +18,7 @@ struct ReplayReport {
 /// Does all that the log of the project in `folder` says once more, from its first step on, in the new folder
 /// `into`, and compares names of steps, lines and the shape, to the last bit. The project itself is read
 /// alone. `go_on`: asked before each intention; false stops. Throws as Project and jobs::open_sketch() for a
-/// project that cannot be opened, std::invalid_argument where `into` is there.
+/// project that cannot be opened, std::invalid_argument where `into` is there and not empty.
 ReplayReport replay(const std::filesystem::path& folder, const std::filesystem::path& into,
                     const std::function<bool(std::size_t done, std::size_t of)>& go_on);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "jobs/guess_frame.h"
+#include "jobs/project_files.h"
 #include "jobs/read_inputs.h"
 
 namespace furrow::studio {
@@ -14,10 +15,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A new project's folder, which goes again if nothing comes of it.
+/// A new project's folder, made here and by nobody else, which goes again if nothing comes of it.
 class Ground {
  public:
-  explicit Ground(fs::path folder) : folder_(std::move(folder)) {}
+  Ground(const fs::path& drawings, const std::string& name) {
+    for (int n = 1; folder_.empty(); ++n) {
+      const fs::path folder = drawings / (name + "-studio" + (n > 1 ? "-" + std::to_string(n) : ""));
+      std::error_code failed, none;
+      if (fs::create_directory(folder, failed)) folder_ = folder;
+      if (failed && !fs::exists(fs::symlink_status(folder, none)))
+        throw std::runtime_error(folder.string() + ": cannot be made: " + failed.message());
+    }
+  }
   ~Ground() {
     std::error_code none;
     if (!keeps_) fs::remove_all(folder_, none);
@@ -140,13 +149,6 @@ Json Rooms::open(Client client, const Json& body) {
   return answer;
 }
 
-fs::path Rooms::free_folder(const std::string& name) const {
-  for (int n = 1;; ++n) {
-    const fs::path folder = places_.drawings / (name + "-studio" + (n > 1 ? "-" + std::to_string(n) : ""));
-    if (!fs::exists(folder)) return folder;
-  }
-}
-
 void Rooms::enter(const jobs::SceneInput& scene, const fs::path& folder, const fs::path& made_for) {
   auto session = std::make_shared<Session>(scene, folder, out_, made_for);
   const std::lock_guard lock(mutex_);
@@ -156,7 +158,7 @@ void Rooms::enter(const jobs::SceneInput& scene, const fs::path& folder, const f
 Json Rooms::open_item(const std::string& name) {
   const auto item = std::ranges::find(items_, name, &GalleryItem::name);
   if (item == items_.end()) throw Refused("item: the gallery has nothing of that name");
-  Ground ground(free_folder(name));
+  Ground ground(places_.drawings, name);
   enter({jobs::settings_of(item->scene.string(), "", std::nullopt), item->scene.parent_path()},
         ground.folder());
   ground.keep();
@@ -180,7 +182,7 @@ Json Rooms::open_files(const Json& body) {
   if (!body.contains("garment")) throw Refused("the message has no 'garment'");
   const std::optional<Upload> garment = sent(body, "garment"), worn_by = sent(body, "body"),
                               made_for = sent(body, "made_for");
-  Ground ground(free_folder(fs::path(garment->name).stem().string()));
+  Ground ground(places_.drawings, fs::path(garment->name).stem().string());
   const std::string mesh = ground.take(*garment, "garment"),
                     figure = worn_by ? ground.take(*worn_by, "body") : "",
                     other = made_for ? ground.take(*made_for, "made-for") : "";

@@ -41,7 +41,6 @@ class Rooms {
   std::optional<Upload> sent(const Json& body, const char* key);
   void enter(const jobs::SceneInput& scene, const std::filesystem::path& folder,
              const std::filesystem::path& made_for = {});
-  std::filesystem::path free_folder(const std::string& name) const;
 
   const Places places_;
   Uploads& uploads_;

@@ -33,6 +33,9 @@ using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 
 constexpr std::size_t most_pages = 32, longest_queue = 4096;
+constexpr std::size_t most_silent = 32;                  // connections of which a request is awaited
+constexpr auto first_silence = std::chrono::seconds(5);  // until a connection asks for anything
+constexpr auto later_silence = std::chrono::seconds(30);
 
 std::string random_token() {
   unsigned char bytes[32];  // 256 bits
@@ -100,8 +103,6 @@ Response no_token(const Request& request, bool is_page) {
 
 }  // namespace
 
-class Page;
-
 struct Server::Parts {
   explicit Parts(unsigned short wanted) : acceptor(io) {
     const tcp::endpoint here(asio::ip::address_v4::loopback(), wanted);
@@ -119,8 +120,12 @@ struct Server::Parts {
     return origin.substr(0, 7) == "http://" && is_own_host(origin.substr(7));
   }
   void accept();
+  /// The one that has been silent for longest makes room, so that silence keeps nobody out.
+  void make_room();
 
-  std::size_t open = 0;  ///< connections; first, as those that end with `io` count down
+  std::size_t open = 0;                         ///< pages; before `io`, as those that end with it count down
+  std::map<std::uint64_t, Connection*> silent;  ///< of which a request is awaited, by when that began
+  std::uint64_t next_silence = 0;
   asio::io_context io{1};
   tcp::acceptor acceptor;
   unsigned short port = 0;
@@ -213,22 +218,24 @@ class Page : public std::enable_shared_from_this<Page> {
 /// A connection that asks for files, until it asks for the WebSocket.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(tcp::socket&& socket, Server::Parts& server) : stream_(std::move(socket)), server_(server) {
-    ++server_.open;
-  }
-  ~Connection() { --server_.open; }
+  Connection(tcp::socket&& socket, Server::Parts& server) : stream_(std::move(socket)), server_(server) {}
+  ~Connection() { server_.silent.erase(silence_); }
 
   void read() {
+    stream_.expires_after(parser_ ? later_silence : first_silence);
     parser_.emplace();
     parser_->header_limit(16 << 10);
     parser_->body_limit(largest_upload);
-    stream_.expires_after(std::chrono::seconds(30));
+    silence_ = ++server_.next_silence;
+    server_.silent[silence_] = this;
     http::async_read_header(stream_, buffer_, *parser_,
                             [self = shared_from_this()](beast::error_code failed, std::size_t) {
+                              self->server_.silent.erase(self->silence_);
                               if (failed == http::error::body_limit) return self->refuse_size();
                               if (!failed) self->answer(self->parser_->get());
                             });
   }
+  void close() { stream_.close(); }
 
  private:
   void answer(const Request& request) {
@@ -288,6 +295,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return send(plain(request, http::status::bad_request, "400: this address takes a WebSocket"));
     if (!server_.is_own_origin(view(request[http::field::origin])))
       return send(plain(request, http::status::forbidden, "403: the page is of another origin"));
+    if (server_.open >= most_pages)
+      return send(plain(request, http::status::service_unavailable,
+                        "503: " + std::to_string(most_pages) + " pages are open already; close one"));
     stream_.expires_never();
     std::make_shared<Page>(std::move(stream_), server_)->run(request);
   }
@@ -307,6 +317,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   beast::tcp_stream stream_;
   Server::Parts& server_;
+  std::uint64_t silence_ = 0;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   std::optional<http::request_parser<http::string_body>> file_;
@@ -316,9 +327,16 @@ class Connection : public std::enable_shared_from_this<Connection> {
 void Server::Parts::accept() {
   acceptor.async_accept([this](beast::error_code failed, tcp::socket socket) {
     if (failed == asio::error::operation_aborted) return;
-    if (!failed && open < most_pages) std::make_shared<Connection>(std::move(socket), *this)->read();
+    if (!failed) std::make_shared<Connection>(std::move(socket), *this)->read();
+    make_room();
     accept();
   });
+}
+
+void Server::Parts::make_room() {
+  if (silent.size() <= most_silent) return;
+  silent.begin()->second->close();
+  silent.erase(silent.begin());
 }
 
 Server::Server(unsigned short port) {

@@ -71,14 +71,12 @@ Session::Session(const jobs::SceneInput& scene, const std::filesystem::path& fol
   note_made_for(made_for, folder, drawing);
   if (drawing.contains("made_for")) opened_with["made_for"] = drawing["made_for"];
   project_.emplace(folder, opened_with, Step{"the beginning", drawing});
-  take_up(project_->now().drawing);
-  show_now();
+  open_present();
 }
 
 Session::Session(const std::filesystem::path& folder, Outbox& out) : out_(out) {
   project_.emplace(folder);
-  take_up(project_->now().drawing);
-  show_now();
+  open_present();
 }
 
 void Session::progress(const std::string& what, double share) {
@@ -89,24 +87,55 @@ void Session::progress(const std::string& what, double share) {
   out_.tell(everybody, {{"progress", {{"what", what}, {"share", share}}}});
 }
 
-void Session::take_up(const Json& drawing) { take_sketch(open_drawing(drawing, project_->folder(), *this)); }
+struct Session::Prepared {
+  std::optional<jobs::Sketch> sketch;  ///< none: the present one stays
+  double middle = 0;
+  Bytes body, cloth;
+};
 
-void Session::take_sketch(jobs::Sketch sketch) {
-  sketch_ = std::move(sketch);
-  middle_of_sketch_ = jobs::middle_of(sketch_);
-  std::string body;
-  if (sketch_.body) body = frame_bytes(ShownAs::body, jobs::shown_mesh(sketch_.body->mesh));
-  if (body.empty() || !body_ || *body_ != body) body_ = body.empty() ? nullptr : shared(std::move(body));
+Session::Prepared Session::prepare(const Json& drawing, std::optional<std::string> frame) {
+  Prepared made;
+  if (!cloth_ || drawing.at("settings") != project_->now().drawing.at("settings")) {
+    made.sketch = open_drawing(drawing, project_->folder(), *this);
+    made.middle = jobs::middle_of(*made.sketch);
+    if (made.sketch->body)
+      made.body = shared(frame_bytes(ShownAs::body, jobs::shown_mesh(made.sketch->body->mesh)));
+    if (made.body && body_ && *body_ == *made.body) made.body = body_;
+  }
+  if (!frame || !is_frame(*frame)) {
+    const jobs::Sketch& sketch = made.sketch ? *made.sketch : sketch_;
+    const auto drawn = jobs::draw_sketch(sketch, strokes_on(drawing), *this);
+    told_.insert(told_.end(), drawn.told.begin(), drawn.told.end());
+    frame = frame_bytes(ShownAs::cloth, drawn.shown);
+  }
+  made.cloth = shared(std::move(*frame));
+  return made;
 }
 
-void Session::show_now() {
-  std::optional<std::string> bytes = project_->frame();
-  if (!bytes) {
-    const auto drawn = jobs::draw_sketch(sketch_, strokes_on(project_->now().drawing), *this);
-    bytes = frame_bytes(ShownAs::cloth, drawn.shown);
-    project_->keep_frame(*bytes);
+void Session::take(Prepared made) noexcept {
+  if (made.sketch) {
+    sketch_ = std::move(*made.sketch);
+    middle_of_sketch_ = made.middle;
+    body_ = std::move(made.body);
   }
-  cloth_ = shared(std::move(*bytes));
+  cloth_ = std::move(made.cloth);
+}
+
+void Session::open_present() {
+  std::optional<std::string> kept = project_->frame(project_->at());
+  const bool is_kept = kept && is_frame(*kept);
+  take(prepare(project_->now().drawing, std::move(kept)));
+  if (!is_kept) project_->keep_frame(*cloth_);
+  show_all();
+}
+
+void Session::note_unkept(const std::string& why) {
+  if (!why.empty())
+    told_.push_back("the step is recorded, but its picture is not, and is drawn anew when it is needed: " +
+                    why);
+}
+
+void Session::show_all() {
   out_.tell(everybody, {{"status", status()}});
   show_body();
   out_.show(everybody, cloth_);
@@ -179,21 +208,25 @@ double Session::middle() const {
 
 void Session::handle(Client client, const Message& message) {
   told_.clear();
-  lost_ = false;
+  lost_ = recorded_ = false;
   std::string why;
+  Json answer = Json::object();
   try {
     if (pen_ == everybody || message.what == "take") pen_ = client;
     if (pen_ != client)
       throw Refused("another page is drawing; press \"Take the pen\" here to draw on this one");
-    Json answer = done(message);
-    if (!told_.empty()) answer["told"] = told_;
-    return out_.tell(client, {{"id", message.id}, {"done", answer}});
+    const jobs::OutputsBelow below(project_->folder());
+    answer = done(message);
   } catch (const std::bad_alloc&) {
     why = "not enough memory for that; nothing was changed";
   } catch (const std::exception& e) {
     why = cancelled_ ? "stopped; nothing was changed" : e.what();
   }
-  out_.tell(client, {{"id", message.id}, {"refused", why}});
+  if (!why.empty() && !recorded_) return out_.tell(client, {{"id", message.id}, {"refused", why}});
+  if (!why.empty())
+    told_.push_back("the step is recorded, but not all that follows it was done; reload the page");
+  if (!told_.empty()) answer["told"] = told_;
+  out_.tell(client, {{"id", message.id}, {"done", answer}});
 }
 
 Json Session::done(const Message& message) {
@@ -205,19 +238,12 @@ Json Session::done(const Message& message) {
 }
 
 void Session::change(const std::string& what, Json drawing) {
-  std::optional<jobs::Sketch> other;
-  if (drawing.at("settings") != project_->now().drawing.at("settings"))
-    other = open_drawing(drawing, project_->folder(), *this);
-  const auto drawn = jobs::draw_sketch(other ? *other : sketch_, strokes_on(drawing), *this);
-  told_.insert(told_.end(), drawn.told.begin(), drawn.told.end());
-  const std::string bytes = frame_bytes(ShownAs::cloth, drawn.shown);
+  Prepared made = prepare(drawing, std::nullopt);
   project_->add({what, std::move(drawing)}, did_);
-  project_->keep_frame(bytes);
-  if (other) take_sketch(std::move(*other));
-  cloth_ = shared(bytes);
-  out_.tell(everybody, {{"status", status()}});
-  show_body();
-  out_.show(everybody, cloth_);
+  recorded_ = true;
+  take(std::move(made));
+  note_unkept(project_->keep_frame(*cloth_));
+  show_all();
 }
 
 void Session::show_preview(const Json& drawing) {
@@ -233,7 +259,9 @@ std::string Session::shape_bits() {
 std::string Session::free_name_of_file(const std::string& word) const {
   for (int n = 1;; ++n) {
     std::string name = word + "-" + std::to_string(n);
-    if (!std::filesystem::exists(project_->folder() / (name + ".ply"))) return name;
+    std::error_code none;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(project_->folder() / (name + ".ply"), none)))
+      return name;
   }
 }
 
@@ -250,10 +278,16 @@ Json Session::redo(const Json&) {
 void Session::go(bool again) {
   if ((again ? project_->next_redo() : project_->next_undo()).empty())
     throw Refused(again ? "there is nothing to do again" : "there is nothing to undo");
-  const Json before = project_->now().drawing.at("settings");
+  const Step to = again ? project_->after() : project_->before();
+  std::optional<std::string> kept = project_->frame(again ? project_->at() + 1 : project_->at() - 1);
+  const bool is_kept = kept && is_frame(*kept);
+  Prepared made = prepare(to.drawing, std::move(kept));
   again ? project_->redo() : project_->undo();
-  if (project_->now().drawing.at("settings") != before) take_up(project_->now().drawing);
-  show_now();
+  recorded_ = true;
+  take(std::move(made));
+  told_.clear();  // it was told when the step was made
+  if (!is_kept) project_->keep_frame(*cloth_);
+  show_all();
 }
 
 Json Session::save(const Json&) {
@@ -294,6 +328,7 @@ Json Session::give_animation(const std::string& name) {
             : "nothing has moved yet; press Play first");
   jobs::save_motion(*motion, sketch_.frame, project_->folder());
   const std::filesystem::path file = project_->folder() / "give" / name;
+  jobs::OutputsBelow::check(file.parent_path());
   std::filesystem::create_directories(file.parent_path());
   std::string files;
   for (const auto& part : jobs::give_motion(project_->folder() / "motion.toml", file, *this))
@@ -309,7 +344,7 @@ Json Session::tell_history(const Json&) {
 }
 
 Json Session::show(const Json&) {
-  show_now();
+  show_all();
   return Json::object();
 }
 

@@ -94,11 +94,15 @@ class Session : jobs::Listener {
   /// The mesh that a job made takes the garment's place, under such a file name.
   void take_result(const std::string& word, const std::string& what, const io::MeshFile& file, Json motion);
   void go(bool again);
-  void take_up(const Json& drawing);
-  void take_sketch(jobs::Sketch sketch);
+  /// What a drawing needs to be the one that is shown, made before a step is recorded.
+  struct Prepared;
+  Prepared prepare(const Json& drawing, std::optional<std::string> frame);
+  void take(Prepared prepared) noexcept;
+  void open_present();
+  void note_unkept(const std::string& why);
   /// Refuses what needs the cloth on its body, while it lies about the one that it was made for.
   void require_brought(const std::string& what) const;
-  void show_now();
+  void show_all();
   void show_body();
   Bytes moved_body();
   void show_preview(const Json& drawing);
@@ -122,6 +126,7 @@ class Session : jobs::Listener {
   Json did_;                       ///< the intention that is being done, as the log will have it
   std::vector<std::string> told_;  ///< by the job that runs
   bool lost_ = false;              ///< lines, by what it told
+  bool recorded_ = false;          ///< a step, for the message that is being handled
   Bytes cloth_, body_;             ///< as they are shown
   Bytes shown_body_;               ///< that all pages have
   bool body_moved_ = false;        ///< since it was shown so

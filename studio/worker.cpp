@@ -78,12 +78,16 @@ void Worker::run() {
       tasks_.pop_front();
       rooms_.allow();
     }
-    if (task.message)
-      rooms_.handle(task.client, *task.message);
-    else if (task.gone)
-      rooms_.leave(task.client);
-    else
-      rooms_.greet(task.client);
+    try {
+      if (task.message)
+        rooms_.handle(task.client, *task.message);
+      else if (task.gone)
+        rooms_.leave(task.client);
+      else
+        rooms_.greet(task.client);
+    } catch (const std::exception& e) {  // for want of memory: the next page may have more luck
+      refuse(task.client, nullptr, e.what());
+    }
   }
 }
 

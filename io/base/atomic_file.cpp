@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "io/base/outputs_below.h"
+
 namespace furrow::io {
 namespace {
 
@@ -192,6 +194,7 @@ OutputAlone::OutputAlone() : around_(std::exchange(OutputGroup::outermost_, null
 OutputAlone::~OutputAlone() { OutputGroup::outermost_ = around_; }
 
 void write_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+  OutputsBelow::check(path);
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   const bool exists = fs::exists(status);

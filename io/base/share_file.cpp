@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "io/base/atomic_file.h"
+#include "io/base/outputs_below.h"
 
 namespace furrow::io {
 namespace {
@@ -18,7 +19,8 @@ namespace {
 class MakerLock {
  public:
   MakerLock(const std::filesystem::path& file, const std::function<void()>& wait)
-      : handle_(::open((file.string() + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
+      : handle_(::open((file.string() + ".lock").c_str(),
+                       O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644)) {
     try {
       while (handle_ >= 0 && ::flock(handle_, LOCK_EX | LOCK_NB) != 0 &&
              (errno == EWOULDBLOCK || errno == EINTR)) {
@@ -43,7 +45,12 @@ class MakerLock {
 /// Whether the file is there and could be used; else `why` says what was wrong with one that is there.
 bool was_read(const std::filesystem::path& path, const std::function<void()>& read, std::string& why) {
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return false;
+  const std::filesystem::file_status status = std::filesystem::symlink_status(path, ignored);
+  if (!std::filesystem::exists(status)) return false;
+  if (!std::filesystem::is_regular_file(status)) {
+    why = "it is a link, or no regular file";
+    return false;
+  }
   try {
     read();
     return true;
@@ -67,6 +74,7 @@ ShareReport share_file(const std::filesystem::path& path, const ShareSteps& step
   report.made = true;
   try {
     const OutputAlone alone;
+    const OutputsBelow below(path.parent_path());
     steps.write();
   } catch (const std::exception& e) {
     report.unwritten = e.what();

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <set>
 
 #include "jobs/play_sketch.h"
@@ -344,6 +345,40 @@ TEST_CASE("studio: without its token, from another host or another page, nothing
   CHECK(std::string(page["Content-Security-Policy"]).find("default-src 'none'") == 0);
   CHECK(page["X-Content-Type-Options"] == "nosniff");
   CHECK(page["Cache-Control"] == "no-store");
+}
+
+TEST_CASE("studio: connections that ask for nothing keep nobody out") {
+  namespace asio = boost::asio;
+  const Desk desk("silent");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor before(studio);
+  asio::io_context io;
+  std::vector<asio::ip::tcp::socket> silent;
+  const auto connect = [&](const std::string& said) {
+    silent.emplace_back(io);
+    silent.back().connect({asio::ip::address_v4::loopback(), studio.port()});
+    asio::write(silent.back(), asio::buffer(said));
+  };
+  for (int i = 0; i < 100; ++i) connect(i % 2 ? "" : "GET /?token=");
+  CHECK(get(studio, "/?token=" + studio.token()).result() == http::status::ok);
+  for (int i = 0; i < 10; ++i) {
+    connect("");
+    Visitor page(studio);
+    CHECK(page.ask("take").contains("done"));
+  }
+  CHECK(before.ask("take").contains("done"));
+  CHECK(before.ask("draw", line_at(0.1)).contains("done"));
+}
+
+TEST_CASE("studio: one page more than it bears is refused in words, and the others go on") {
+  const Desk desk("crowd");
+  const studio::Studio studio(desk.scene, desk.project());
+  std::vector<std::unique_ptr<Visitor>> pages;
+  for (int i = 0; i < 32; ++i) pages.push_back(std::make_unique<Visitor>(studio));
+  CHECK(pages.back()->ask("take").contains("done"));
+  CHECK_THROWS_AS(Visitor(studio), boost::system::system_error);
+  pages.erase(pages.begin());
+  CHECK(pages.back()->ask("draw", line_at(0.1)).contains("done"));
 }
 
 TEST_CASE("studio: one page draws, another watches until it takes the pen") {

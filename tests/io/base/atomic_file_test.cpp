@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "io/base/bytes_file.h"
+#include "io/base/outputs_below.h"
 #include "tests/io/base/io_test_helpers.h"
 
 using namespace furrow;
@@ -55,6 +56,43 @@ TEST_CASE("write_atomically: links are followed, permissions are kept") {
   CHECK(fs::is_symlink(folder / "link"));
   CHECK(slurp(folder / "target") == "new");
   CHECK(fs::status(folder / "target").permissions() == fs::perms(0640));
+}
+
+TEST_CASE("write_atomically: below a folder nothing is written over a link, a pipe, or elsewhere") {
+  TemporaryFolder folder, outside;
+  const fs::path inside = folder / "project";
+  fs::create_directories(inside / "sub");
+  spit(outside / "target", "old");
+  fs::create_directory_symlink(outside.path(), inside / "way");
+  fs::create_symlink(outside / "target", inside / "link");
+  fs::create_symlink(outside / "nothing", inside / "sub/dangling");
+  REQUIRE(mkfifo((inside / "pipe").c_str(), 0600) == 0);
+  fs::create_directory_symlink(inside, folder / "home");
+  const auto write = [](const fs::path& path) {
+    io::write_atomically(path, [](std::ostream& out) { out << "new"; });
+  };
+  {
+    const io::OutputsBelow below(folder / "home");  // the way to it may be a link
+    write(folder / "home/plain");
+    write(folder / "home/./sub/../plain");
+    for (const char* name :
+         {"home/link", "home/sub/dangling", "home/way/new", "home/pipe", "home/../other", "home"}) {
+      INFO(name);
+      CHECK_THROWS_AS(write(folder / name), std::runtime_error);
+    }
+    CHECK_THROWS_WITH(write(folder / "home/way/new"), Catch::Contains("way is a link"));
+    {
+      const io::OutputsBelow other(outside.path());
+      write(outside / "allowed");
+    }
+    CHECK_THROWS_AS(write(outside / "allowed"), std::runtime_error);
+  }
+  CHECK(slurp(inside / "plain") == "new");
+  CHECK(slurp(outside / "target") == "old");
+  CHECK(files_in(outside) == 2);
+  CHECK_FALSE(fs::exists(folder / "other"));
+  write(folder / "home/link");  // elsewhere links are followed
+  CHECK(slurp(outside / "target") == "new");
 }
 
 TEST_CASE("write_atomically: what cannot be written is an error, devices are written directly") {

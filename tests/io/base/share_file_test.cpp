@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/base/share_file.h"
 
+#include <sys/stat.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <stdexcept>
@@ -60,6 +62,25 @@ TEST_CASE("share_file: where nothing can be written it is made all the same, and
   CHECK(report.made);
   CHECK_FALSE(report.unwritten.empty());
   CHECK(wanted.value == "seven, made");
+}
+
+TEST_CASE("share_file: a link is neither read nor written through, and a pipe holds nobody up") {
+  TemporaryFolder folder, outside;
+  spit(outside / "mine", "seven");
+  Wanted linked{folder / "linked"}, piped{folder / "piped"};
+  std::filesystem::create_symlink(outside / "mine", linked.path);
+  std::filesystem::create_symlink(outside / "lock", folder / "linked.lock");
+  REQUIRE(mkfifo(piped.path.c_str(), 0600) == 0);
+  REQUIRE(mkfifo((folder / "piped.lock").c_str(), 0600) == 0);
+  for (Wanted* wanted : {&linked, &piped}) {
+    const io::ShareReport report = wanted->share();
+    CHECK(report.made);
+    CHECK_FALSE(report.broken.empty());
+    CHECK_FALSE(report.unwritten.empty());
+    CHECK(wanted->value == "seven, made");
+  }
+  CHECK(slurp(outside / "mine") == "seven");
+  CHECK_FALSE(std::filesystem::exists(outside / "lock"));
 }
 
 TEST_CASE("share_file: it is there at once for others, also where outputs wait to appear together") {
