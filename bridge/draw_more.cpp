@@ -14,6 +14,7 @@
 #include "physics/cloth/cloth.h"
 #include "physics/cloth/pins.h"
 #include "physics/motion/compensation.h"
+#include "physics/motion/state_memory.h"
 
 namespace furrow::bridge {
 namespace {
@@ -93,12 +94,12 @@ DrawMoreReport draw_more(Mesh& mesh, physics::SimulateState& state, std::span<co
 
   const std::vector<Vec3> jump =
       physics::force_jump(coupled(before, mesh, options.springs, options.wrinkle.held),
-                          coupled(std::move(after), work, springs, options.wrinkle.held));
+                          coupled(after, work, springs, options.wrinkle.held));
+  physics::carry_memory(before, after, state);
   for (const Vec3& f : jump) report.largest_jump = std::max(report.largest_jump, f.norm());
   physics::add(state.compensation, jump, state.time);
   state.compensation.time_constant = options.fade;  // of what is left of earlier jumps, too
   state.planned = false;
-  state.contact.clear();
   state.homes.clear();
   mesh = std::move(work);
   return report;

@@ -29,6 +29,8 @@ struct DrawMoreReport {
 /// \details
 /// - Strain is carried over. A rest length is its intrinsic value times length after / before displacement
 ///   and smoothing (method S1.18), so that lines of height 0 leave the cloth isometric.
+/// - What the state remembers of vertices that stay where they were (contact, friction, layers that touch)
+///   goes on; of those that are new or were moved contact begins where they lie.
 /// - New vertices get the interpolated velocity. Then the vertices of the changed faces share a correction
 ///   that keeps the momentum (masses move when edges flip and when a line adds cloth).
 /// - Another triangulation of a strained cloth pulls differently. The difference of the spring forces is

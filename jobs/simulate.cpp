@@ -113,8 +113,11 @@ Reached take_up(Run& run, io::SavedState now) {
                                 "; go on with the same pins");
   if (!run.resumed) now.pins = find_pins(now.file, run.scene.pins);
   const std::string body = run.body ? run.body->fingerprint() : "";
-  if (now.body != body) now.simulation.contact.clear();
-  if (now.body != body) now.simulation.body_travel = now.contact_gap = 0;
+  if (now.body != body) {
+    now.simulation.contact.clear();
+    now.simulation.steps.anchors.clear();
+    now.simulation.body_travel = now.contact_gap = 0;
+  }
   now.body = body;
   if (run.resumed)
     change_plan(run, now);
@@ -221,12 +224,12 @@ double next_stop(const io::Scene& scene, int lines_drawn) {
   return stop;
 }
 
-/// Options of the stretch to `stop`; raises the gap that the state has kept.
+/// Options of the stretch to `stop`; the state keeps its first gap: lines only make edges shorter.
 physics::SimulateOptions options_of(const Run& run, io::SavedState& now, double stop, std::size_t vertices) {
   physics::SimulateOptions options = run.scene.simulation;
-  if (run.body)
-    options.contact_gap = now.contact_gap =
-        std::max(now.contact_gap, contact_gap(options.contact_gap, run.body->tolerance(), now.file));
+  if (run.body && now.contact_gap == 0)
+    now.contact_gap = contact_gap(options.contact_gap, run.body->tolerance(), now.file);
+  if (run.body) options.contact_gap = now.contact_gap;
   if (stop < options.seconds) options.stop_at = stop;
   options.threads = threads_of(run.scene, vertices);
   options.times = run.times;
@@ -378,6 +381,7 @@ std::vector<Warning> remarks_on_run(const Run& run, const physics::SimulateRepor
 /// Writes, measures and remarks on what was reached.
 void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std::int64_t steps_before,
               SimulateReport& report) {
+  const physics::CancelScope whole([] { return false; });  // one that was stopped is told of, too
   io::SavedState& now = reached.now;
   if (report.run.outcome == physics::Outcome::diverged) {
     report.failure = words_of_divergence(run.scene, report.run);

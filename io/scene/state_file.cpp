@@ -17,6 +17,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
+#include "physics/motion/state_memory.h"
 
 namespace furrow::io {
 namespace {
@@ -107,10 +108,10 @@ Json to_json(const physics::SelfContactMemory& self) {
             {"friction", Json::array()},
             {"ordered_for", self.ordered_for}};
   for (const physics::PairMemory& p : self.pairs)
-    json["pairs"].push_back({int(p.edges), p.first, p.second, p.range, p.target});
+    json["pairs"].push_back({int(p.edges), p.vertices, p.range, p.target});
   for (const physics::PairFrictionMemory& f : self.friction)
     json["friction"].push_back(
-        {int(f.edges), f.first, f.second, f.tether.x(), f.tether.y(), f.tether.z(), int(f.slides)});
+        {int(f.edges), f.vertices, f.tether.x(), f.tether.y(), f.tether.z(), int(f.slides)});
   return json;
 }
 
@@ -121,17 +122,17 @@ physics::SelfContactMemory self_contact_of(const Json& json) {
   self.loose = json.at("loose").get<std::vector<int>>();
   self.coupled = json.at("coupled").get<std::vector<std::array<int, 2>>>();
   for (const Json& p : json.at("pairs"))
-    self.pairs.push_back({p.at(0).get<int>() != 0, p.at(1), p.at(2), p.at(3), p.at(4)});
-  self.ordered_for = json.value("ordered_for", self.coupled);  // absent in older files
-  for (const Json& f : json.value("friction", Json::array()))  // absent in older files
-    self.friction.push_back({f.at(0).get<int>() != 0, f.at(1), f.at(2), Vec3(f.at(3), f.at(4), f.at(5)),
-                             f.at(6).get<int>() != 0});
+    self.pairs.push_back({p.at(0).get<int>() != 0, p.at(1), p.at(2), p.at(3)});
+  self.ordered_for = json.at("ordered_for").get<std::vector<std::array<int, 2>>>();
+  for (const Json& f : json.at("friction"))
+    self.friction.push_back(
+        {f.at(0).get<int>() != 0, f.at(1), Vec3(f.at(2), f.at(3), f.at(4)), f.at(5).get<int>() != 0});
   return self;
 }
 
 Json to_json(const SavedState& saved) {
   const SimulateState& s = saved.simulation;
-  Json json{{"version", 2},
+  Json json{{"version", 3},
             {"time", s.time},
             {"step", s.step},
             {"planned", s.planned},
@@ -158,6 +159,7 @@ Json to_json(const SavedState& saved) {
   if (saved.field_tolerance > 0) json["field_tolerance"] = saved.field_tolerance;
   if (s.steps.contact_stiffness > 0) json["contact_stiffness"] = s.steps.contact_stiffness;
   if (s.steps.self.stiffness > 0) json["self_contact"] = to_json(s.steps.self);
+  if (!s.steps.fresh.empty()) json["fresh"] = s.steps.fresh;
   for (const Vec3& home : s.homes)
     for (int k = 0; k < 3; ++k) json["homes"].push_back(home[k]);
   return json;
@@ -190,7 +192,7 @@ void name_rule(nlohmann::ordered_json& scene) {
 
 SavedState from_json(const Json& json, std::size_t vertices) {
   const int version = json.value("version", 0);
-  if (version != 1 && version != 2) throw std::invalid_argument("its version is not 1 or 2");
+  if (version < 1 || version > 3) throw std::invalid_argument("its version is not 1, 2 or 3");
   SavedState saved;
   SimulateState& s = saved.simulation;
   s.time = json.at("time");
@@ -228,7 +230,9 @@ SavedState from_json(const Json& json, std::size_t vertices) {
     saved.integrator = name == "implicit" ? Integrator::implicit : Integrator::leapfrog;
   }
   s.steps.contact_stiffness = json.value("contact_stiffness", 0.0);
-  if (json.contains("self_contact")) s.steps.self = self_contact_of(json.at("self_contact"));
+  // Older ones number layers that touch by how a cloth was laid out: it looks for them anew.
+  if (json.contains("self_contact") && version > 2) s.steps.self = self_contact_of(json.at("self_contact"));
+  s.steps.fresh = json.value("fresh", std::vector<int>{});
   saved.scene = json.at("scene");
   if (!saved.scene.is_object()) throw std::invalid_argument("its scene is no table");
   if (version == 1) name_rule(saved.scene);
@@ -308,10 +312,8 @@ void fill_maps(SavedState& state) {
       throw std::invalid_argument(std::string("a state with ") + std::to_string(n) + " " + what + " for " +
                                   std::to_string(mesh.number_of_vertices()) + " vertices");
   };
-  check(s.contact.size(), "contact memories");
-  check(s.compensation.force.size(), "compensating forces");
-  check(s.steps.anchors.size(), "anchors of friction");
-  check(s.steps.acceleration.size(), "accelerations");
+  physics::for_each_particle_array(
+      s, [&](const char* what, const auto& array, physics::Carried) { check(array.size(), what); });
   fill_steps(mesh, s.steps);
   ensure_map(mesh, attribute::velocity);
   if (!s.contact.empty()) {

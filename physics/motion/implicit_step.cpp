@@ -67,19 +67,33 @@ void ImplicitStep::prepare(double dt) {
   }
   if (body) {
     contact_ = std::make_unique<StepContact>(*body, stiffness_, p.size(), motion_.from());
-    AnchoredContact& anchored = contact_->anchored();
-    if (anchors_.empty()) {
-      anchored.look(p.x, p.inv_mass, &motion_.pool());
-      anchored.let_in(scaled(most_push_at_start * standard_gravity, p.mass));
-      anchored.look(p.x, p.inv_mass, &motion_.pool());
-      anchored.move_anchors();
-    } else {
-      anchored.set_anchors(anchors_);
-    }
+    begin_contact();
   }
   if (self_.on) make_pairs();
   search_ = std::make_unique<StepSearch>(cloth_, motion_, contact_.get(), pairs_.get());
-  search_->couple(known_.coupled, known_.ordered_for);
+  couple_again();
+  fresh_.clear();
+}
+
+/// What begins here may lie as deep as it does.
+void ImplicitStep::begin_contact() {
+  const Particles& p = cloth_.particles;
+  AnchoredContact& anchored = contact_->anchored();
+  const bool known = !anchors_.empty();
+  if (known) anchored.set_anchors(anchors_);
+  if (known && fresh_.empty()) return;
+  std::vector<double> most = scaled(most_push_at_start * standard_gravity, p.mass);
+  if (known) {
+    std::vector<char> begins(p.size(), 0);
+    for (const int i : fresh_) begins[std::size_t(i)] = 1;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (!begins[std::size_t(motion_.cloth().particle[i])]) most[i] = std::numeric_limits<double>::infinity();
+  }
+  anchored.look(p.x, p.inv_mass, &motion_.pool());
+  anchored.let_in(most);
+  if (known) return;  // the step gives anchors to what it finds pushed and without one
+  anchored.look(p.x, p.inv_mass, &motion_.pool());
+  anchored.move_anchors();
 }
 
 void ImplicitStep::make_pairs() {
@@ -92,14 +106,20 @@ void ImplicitStep::make_pairs() {
     pairs_->look(x, &motion_.pool());
     pairs_->move_anchors(x);
   }
-  recall_pairs(known_, x, *pairs_, &motion_.pool());
+  recall_pairs(known_, fresh_, motion_.cloth().particle, x, *pairs_, &motion_.pool());
 }
 
 SelfContactMemory ImplicitStep::pair_memory() const {
   if (!pairs_) return known_;
-  SelfContactMemory result = memory_of(*pairs_, stiffness_);
-  result.coupled = search_->coupled();
-  if (!result.coupled.empty()) result.ordered_for = search_->ordered_for();
+  const std::vector<int>& particle = motion_.cloth().particle;
+  SelfContactMemory result = memory_of(*pairs_, stiffness_, particle);
+  const auto by_particle = [&](FreeStiffness::Pairs pairs) {
+    for (auto& pair : pairs)
+      for (int& i : pair) i = particle[std::size_t(i)];
+    return pairs;
+  };
+  result.coupled = by_particle(search_->coupled());
+  if (!result.coupled.empty()) result.ordered_for = by_particle(search_->ordered_for());
   return result;
 }
 
@@ -379,7 +399,13 @@ void ImplicitStep::forget_step(const SelfContactMemory& before) {
   known_ = before;
   make_pairs();
   search_ = std::make_unique<StepSearch>(cloth_, motion_, contact_.get(), pairs_.get());
-  search_->couple(known_.coupled, known_.ordered_for);
+  couple_again();
+}
+
+/// As the memory says that it was.
+void ImplicitStep::couple_again() {
+  SelfContactMemory placed = by_place(known_, motion_.cloth().particle);
+  search_->couple(std::move(placed.coupled), std::move(placed.ordered_for));
 }
 
 void ImplicitStep::recall(const StepMemory& memory) {
@@ -390,6 +416,7 @@ void ImplicitStep::recall(const StepMemory& memory) {
   }
   stiffness_ = memory.contact_stiffness;
   known_ = memory.self;
+  fresh_ = memory.fresh;
 }
 
 StepMemory ImplicitStep::memory() const {
@@ -397,6 +424,7 @@ StepMemory ImplicitStep::memory() const {
   StepMemory memory;
   memory.contact_stiffness = stiffness_;
   memory.self = pair_memory();
+  memory.fresh = fresh_;
   memory.acceleration.resize(a_.size());
   const auto anchors = contact_ ? contact_->anchored().anchors() : anchors_;
   memory.anchors.resize(anchors.size());

@@ -59,7 +59,9 @@ class ImplicitStep : public Stepper {
   void know_elements(State& state);
   void write(const State& state);
   void prepare(double dt);
+  void begin_contact();
   void make_pairs();
+  void couple_again();
   void forget_step(const SelfContactMemory& before);
   int approach(const std::vector<Vec3>& from, std::vector<Vec3>& x);
   bool make_way(const Stage& stage, const StepLoads& loads, const StageStart& start, SearchOptions options,
@@ -87,6 +89,7 @@ class ImplicitStep : public Stepper {
   std::vector<ContactAnchor> anchors_;  ///< to begin with; empty: none
   std::unique_ptr<StepContact> contact_;
   SelfContactMemory known_;  ///< of contact of the cloth with itself, to begin with
+  std::vector<int> fresh_;   ///< particles whose contact begins with the first step
   std::unique_ptr<ClothContact> pairs_;
   std::optional<Vec3> no_room_;  ///< where the last guess could not lead what is held [m]
   bool open_ = false;            ///< a part of the present step was not solved

@@ -98,10 +98,12 @@ void PairResponse::widen(const PackedCloth& cloth) {
   pushes_->contact().widen(x);
 }
 
-SelfContactMemory PairResponse::memory() const { return memory_of(pushes_->contact(), 1); }
+SelfContactMemory PairResponse::memory(const PackedCloth& cloth) const {
+  return memory_of(pushes_->contact(), 1, cloth.particle);
+}
 
-void PairResponse::recall(const SelfContactMemory& known) {
-  recall_pairs(known, {}, pushes_->contact(), nullptr);
+void PairResponse::recall(const StepMemory& known, const PackedCloth& cloth) {
+  recall_pairs(known.self, known.fresh, cloth.particle, {}, pushes_->contact(), nullptr);
 }
 
 SelfContactState PairResponse::state(const PackedCloth& cloth) const {

@@ -40,8 +40,8 @@ class PairResponse {
 
   /// Now and then, before a step: lets pairs that crossed at the start, or were too near, take part.
   void widen(const PackedCloth& cloth);
-  SelfContactMemory memory() const;
-  void recall(const SelfContactMemory& memory);
+  SelfContactMemory memory(const PackedCloth& cloth) const;
+  void recall(const StepMemory& known, const PackedCloth& cloth);
   SelfContactState state(const PackedCloth& cloth) const;
   std::int64_t cut_moves() const { return cut_moves_; }  ///< of particles, by the guard, since it is attached
   int list_builds() const { return pushes_->contact().list_builds(); }

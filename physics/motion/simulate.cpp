@@ -126,7 +126,7 @@ Simulation::Simulation(Cloth& cloth, const World& world, const SimulateOptions& 
   motion_->work().energy = state.totals.energy;
   recall();
   stepper_ = make_stepper(*motion_, {options.integrator, options.xpbd, options.implicit, options.self});
-  if (solves_contact(options.integrator) && state.planned) stepper_->recall(state.steps);
+  if (solves_contact(options.integrator)) stepper_->recall(state.steps);
   length_.emplace(cloth, options, state);
   strain_.emplace(cloth, motion_->cloth());
 }
@@ -163,8 +163,7 @@ void Simulation::lead_pins() {
 }
 
 void Simulation::recall() {
-  if (!state_.planned) state_.contact.clear();
-  if (pairs_ && state_.planned) pairs_->recall(state_.steps.self);
+  if (pairs_) pairs_->recall(state_.steps, motion_->cloth());
   if (state_.contact.empty() || !contact_) return;
   for (std::size_t i = 0; i < state_.contact.size(); ++i) {
     contact_->memory()[i] = state_.contact[std::size_t(motion_->cloth().particle[i])];
@@ -179,7 +178,7 @@ void Simulation::remember() {
   if (share_left(state_.compensation, state_.time) == 0) state_.compensation.force.clear();
   state_.steps = stepper_->memory();
   if (pairs_) {
-    state_.steps.self = pairs_->memory();
+    state_.steps.self = pairs_->memory(motion_->cloth());
     state_.totals.cut_moves += pairs_->cut_moves();
   }
   if (world_.animated) {

@@ -114,10 +114,10 @@ struct Compensation {
 
 /// A pair of the cloth's primitives whose range is not theirs (ClothContact).
 struct PairMemory {
-  bool edges = false;         ///< two edges; else a vertex and a triangle
-  int first = 0, second = 0;  ///< their numbers
-  double range = 0;           ///< at which they push each other now [m]; 0: not yet
-  double target = 0;          ///< and may do later [m]
+  bool edges = false;             ///< two edges; else a vertex and a triangle
+  std::array<int, 4> vertices{};  ///< the particles of the one, then of the other
+  double range = 0;               ///< at which they push each other now [m]; 0: not yet
+  double target = 0;              ///< and may do later [m]
 
   bool operator==(const PairMemory&) const = default;
 };
@@ -125,14 +125,14 @@ struct PairMemory {
 /// What friction of such a pair remembers (PairAnchor).
 struct PairFrictionMemory {
   bool edges = false;
-  int first = 0, second = 0;
+  std::array<int, 4> vertices{};
   Vec3 tether = Vec3::Zero();  ///< [m]
   bool slides = false;
 
   bool operator==(const PairFrictionMemory&) const = default;
 };
 
-/// What contact of the cloth with itself remembers, beside positions.
+/// What contact of the cloth with itself remembers, beside positions, by particle.
 struct SelfContactMemory {
   double stiffness = 0;           ///< of its push [N/m], 1 where it has none; 0: it was never on
   std::vector<PairMemory> pairs;  ///< sorted
@@ -151,19 +151,21 @@ struct StepMemory {
   std::vector<Vec3> acceleration;      ///< at the step's end, one a particle [m/s^2], or empty
   double contact_stiffness = 0;        ///< of a body's push [N/m]; 0: not chosen yet
   SelfContactMemory self;
+  std::vector<int> fresh;  ///< particles whose contact begins with the next step, as all do at the start
 };
 
 /// All that a simulation knows besides cloth, world and options. A call of simulate() that is stopped at any
 /// step and continued with the same state, cloth, world and options gives the bits of one that was not
 /// stopped, for any number of threads. A default state is the beginning. Plain numbers and arrays: a file can
-/// hold them (bit by bit, with infinity and NaN). After a change of the cloth set `planned` to false, and add
-/// a force_jump() to the compensation if the cloth was strained.
+/// hold them (bit by bit, with infinity and NaN). After a change of the cloth set `planned` to false, take the
+/// memory along (carry_memory(), or clear `contact` and `steps`), and add a force_jump() to the compensation
+/// if the cloth was strained.
 struct SimulateState {
   double time = 0;        ///< [s]
   std::int64_t step = 0;  ///< steps made
 
   /// The plan: steps_left steps of dt until `end`. false, as after a change of the cloth: estimate the limit
-  /// and divide the rest anew, and forget `contact`.
+  /// and divide the rest anew.
   bool planned = false;
   double end = 0;         ///< [s]
   double dt = 0;          ///< [s]

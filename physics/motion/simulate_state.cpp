@@ -3,13 +3,16 @@
 #include <cmath>
 #include <concepts>
 #include <cstring>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
+#include <type_traits>
 
 #include "physics/cloth/kinds.h"
 #include "physics/motion/compensation.h"
 #include "physics/motion/simulate.h"
+#include "physics/motion/state_memory.h"
 
 namespace furrow::physics {
 namespace {
@@ -51,6 +54,40 @@ void add_later_fields(Hash& hash, const MembraneTriangle& t) {
   for (const double field : {t.threads.angle, t.threads.warp, t.threads.weft}) hash.add(field);
 }
 
+/// What an array has for a particle of which nothing is known.
+Vec3 nothing_of(const Vec3&) { return Vec3::Zero(); }
+ContactAnchor nothing_of(const ContactAnchor&) { return {}; }
+ContactMemory nothing_of(const ContactMemory&) {
+  return {Vec3::Zero(), std::numeric_limits<double>::quiet_NaN()};
+}
+
+void check_memory(const SimulateState& s, std::size_t particles) {
+  for_each_particle_array(s, [&](const char* what, const auto& array, Carried) {
+    require(array.empty() || array.size() == particles, array.size(), " ", what, " for ", particles,
+            " particles");
+  });
+  const StepMemory& steps = s.steps;
+  const auto is_there = [&](int i) {
+    require(i >= 0 && std::size_t(i) < particles, "it names particle ", i, " of ", particles);
+  };
+  for_each_particle_number(steps.self, is_there);
+  for (const int i : steps.fresh) is_there(i);
+  require(steps.contact_stiffness >= 0 && std::isfinite(steps.contact_stiffness),
+          "contact_stiffness = ", steps.contact_stiffness, " is not >= 0");
+  require(steps.self.stiffness >= 0 && std::isfinite(steps.self.stiffness),
+          "self.stiffness = ", steps.self.stiffness, " is not >= 0");
+  for (const PairMemory& p : steps.self.pairs)
+    require(p.range >= 0 && p.target >= p.range && std::isfinite(p.target), "a pair's range is not one");
+  for (const PairFrictionMemory& f : steps.self.friction)
+    require(f.tether.allFinite(), "a pair's friction is not finite");
+  for (const ContactAnchor& a : steps.anchors)
+    require(a.anchor.allFinite() && a.plane.allFinite() && std::isfinite(a.limit) && a.nearer >= 0 &&
+                std::isfinite(a.nearer),
+            "an anchor is not finite");
+  for (const Vec3& a : steps.acceleration) require(a.allFinite(), "an acceleration is not finite");
+  for (const ContactMemory& known : s.contact) require(known.x.allFinite(), "a contact is not finite");
+}
+
 }  // namespace
 
 std::uint64_t fingerprint(const Cloth& cloth) {
@@ -75,6 +112,7 @@ void check(const SimulateState& s, std::size_t particles) {
           " is not >= 0");
   check(s.compensation, particles);
   for (const Vec3& home : s.homes) require(home.allFinite(), "a pin's home is not finite");
+  check_memory(s, particles);
   if (!s.planned) return;
   require(s.steps_left >= 0, "steps_left = ", s.steps_left, " is not >= 0");
   require(s.steps_left == 0 || (s.dt > 0 && std::isfinite(s.dt)), "dt = ", s.dt, " is not > 0");
@@ -84,29 +122,34 @@ void check(const SimulateState& s, std::size_t particles) {
   require(s.steps_left == 0 || std::abs(s.time + rest - s.end) <= 1e-6 * std::max(s.end, s.dt), s.steps_left,
           " steps of ", s.dt, " s do not lead from ", s.time, " s to ", s.end, " s");
   require(s.dt_limit >= 0, "dt_limit = ", s.dt_limit, " is not >= 0");
-  require(s.contact.empty() || s.contact.size() == particles, "of a cloth with ", s.contact.size(),
-          " particles instead of ", particles);
-  const StepMemory& steps = s.steps;
-  for (const std::size_t n : {steps.anchors.size(), steps.acceleration.size()})
-    require(n == 0 || n == particles, "what steps remember is of ", n, " particles instead of ", particles);
-  require(steps.contact_stiffness >= 0 && std::isfinite(steps.contact_stiffness),
-          "contact_stiffness = ", steps.contact_stiffness, " is not >= 0");
-  require(steps.self.stiffness >= 0 && std::isfinite(steps.self.stiffness),
-          "self.stiffness = ", steps.self.stiffness, " is not >= 0");
-  for (const PairMemory& p : steps.self.pairs)
-    require(p.range >= 0 && p.target >= p.range && std::isfinite(p.target), "a pair's range is not one");
-  for (const PairFrictionMemory& f : steps.self.friction)
-    require(f.tether.allFinite(), "a pair's friction is not finite");
-  for (const auto* pairs : {&steps.self.coupled, &steps.self.ordered_for})
-    for (const auto& pair : *pairs)
-      for (const int i : pair)
-        require(i >= 0 && std::size_t(i) < particles, "a pair is coupled that is not there");
-  for (const ContactAnchor& a : steps.anchors)
-    require(a.anchor.allFinite() && a.plane.allFinite() && std::isfinite(a.limit) && a.nearer >= 0 &&
-                std::isfinite(a.nearer),
-            "an anchor is not finite");
-  for (const Vec3& a : steps.acceleration) require(a.allFinite(), "an acceleration is not finite");
-  for (const ContactMemory& known : s.contact) require(known.x.allFinite(), "a contact is not finite");
 }
 
+void carry_memory(const Cloth& before, const Cloth& after, SimulateState& state) {
+  const std::size_t old = before.particles.size(), all = after.particles.size();
+  require(all >= old, all, " particles after, but ", old, " before");
+  check_memory(state, old);
+  std::vector<char> begins(all, 1);
+  for (const int i : state.steps.fresh) begins[std::size_t(i)] = 2;  // it has not begun yet
+  for (std::size_t i = 0; i < old; ++i)
+    if (begins[i] == 1) begins[i] = char(before.particles.x[i] != after.particles.x[i]);
+  for_each_particle_array(state, [&](const char*, auto& array, Carried carried) {
+    using Entry = typename std::remove_cvref_t<decltype(array)>::value_type;
+    if (carried == Carried::never) array.clear();
+    if (array.empty()) return;
+    array.resize(all, nothing_of(Entry{}));
+    for (std::size_t i = 0; i < old; ++i)
+      if (carried == Carried::in_place && begins[i]) array[i] = nothing_of(Entry{});
+  });
+  SelfContactMemory& self = state.steps.self;
+  self.coupled.clear();
+  self.ordered_for.clear();
+  const auto is_gone = [&](const auto& pair) {
+    return std::ranges::any_of(pair.vertices, [&](int i) { return begins[std::size_t(i)] != 0; });
+  };
+  std::erase_if(self.pairs, is_gone);
+  std::erase_if(self.friction, is_gone);
+  state.steps.fresh.clear();
+  for (std::size_t i = 0; i < all; ++i)
+    if (begins[i]) state.steps.fresh.push_back(int(i));
+}
 }  // namespace furrow::physics

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "physics/base/require.h"
 #include "physics/pairs/barrier.h"
@@ -120,11 +122,7 @@ void ClothContact::find_special(std::span<const Vec3> x, std::span<const Vec3> d
     for (const int v : mesh_.edges[std::size_t(c.edge)]) loose_[std::size_t(v)] = 1;
     for (const int v : mesh_.triangles[std::size_t(c.triangle)]) loose_[std::size_t(v)] = 1;
   }
-  const std::vector<char> core = loose_;
-  for (const auto& [a, b] : mesh_.edges) {
-    if (core[std::size_t(a)]) loose_[std::size_t(b)] = 1;
-    if (core[std::size_t(b)]) loose_[std::size_t(a)] = 1;
-  }
+  loose_ = with_neighbours(std::move(loose_));
   PairList list(mesh_);  // its margin is none, so it is made anew for each
   note_near(x, true, list, pool);
   if (!drawn.empty()) note_near(drawn, false, list, pool);
@@ -441,16 +439,27 @@ void ClothContact::set_anchors(std::span<const PairAnchor> anchors, std::span<co
 }
 
 ClothContact::Memory ClothContact::memory() const {
-  Memory memory{special_, {}, crossed_at_start_, friction_.anchors()};
+  Memory memory{special_, {}, crossed_at_start_, friction_.anchors(), {}};
   for (std::size_t i = 0; i < loose_.size(); ++i)
     if (loose_[i]) memory.loose.push_back(int(i));
   return memory;
 }
 
-void ClothContact::recall(const Memory& memory, std::span<const Vec3> x, ThreadPool* pool) {
+/// And what edges join them to.
+std::vector<char> ClothContact::with_neighbours(std::vector<char> marked) const {
+  const std::vector<char> core = marked;
+  for (const auto& [a, b] : mesh_.edges) {
+    if (core[std::size_t(a)]) marked[std::size_t(b)] = 1;
+    if (core[std::size_t(b)]) marked[std::size_t(a)] = 1;
+  }
+  return marked;
+}
+
+void ClothContact::check(const Memory& memory) const {
   const char* const operation = "ClothContact";
-  for (const int v : memory.loose)
-    if (v < 0 || std::size_t(v) >= loose_.size()) refuse(operation, "what it knows is of another cloth");
+  for (const auto* vertices : {&memory.loose, &memory.fresh})
+    for (const int v : *vertices)
+      if (v < 0 || std::size_t(v) >= loose_.size()) refuse(operation, "what it knows is of another cloth");
   const auto check = [&](const PairKey& key) {
     const std::size_t second = key.edges ? mesh_.edges.size() : mesh_.triangles.size(),
                       first = key.edges ? second : loose_.size();
@@ -460,10 +469,27 @@ void ClothContact::recall(const Memory& memory, std::span<const Vec3> x, ThreadP
   };
   for (const SpecialPair& p : memory.special) check(p.key);
   for (const PairAnchor& a : memory.friction) check(a.key);
-  special_ = memory.special;
-  crossed_at_start_ = memory.crossed_at_start;
-  loose_.assign(loose_.size(), 0);
+}
+
+void ClothContact::recall(const Memory& memory, std::span<const Vec3> x, ThreadPool* pool) {
+  check(memory);
+  std::vector<char> unknown(loose_.size(), 0);
+  for (const int v : memory.fresh) unknown[std::size_t(v)] = 1;
+  unknown = with_neighbours(std::move(unknown));
+  std::vector<SpecialPair> known = memory.special, made = std::move(special_);
+  for (SpecialPair& p : known) p.target = std::min(p.target, range_of(mesh_, p.key));
+  for (SpecialPair& p : known) p.range = std::min(p.range, p.target);
+  std::erase_if(made, [&](const SpecialPair& p) {
+    const auto v = vertices_of(mesh_, p.key);
+    return std::none_of(v.begin(), v.end(), [&](int i) { return unknown[std::size_t(i)] != 0; });
+  });
+  special_.clear();
+  std::set_union(known.begin(), known.end(), made.begin(), made.end(), std::back_inserter(special_),
+                 [](const SpecialPair& a, const SpecialPair& b) { return a.key < b.key; });
+  for (std::size_t v = 0; v < loose_.size(); ++v) loose_[v] = char(loose_[v] && unknown[v]);
   for (const int v : memory.loose) loose_[std::size_t(v)] = 1;
+  crossed_at_start_ =
+      memory.fresh.empty() ? memory.crossed_at_start : std::max(crossed_at_start_, memory.crossed_at_start);
   if (options_.friction > 0) set_anchors(memory.friction, x, pool);
 }
 

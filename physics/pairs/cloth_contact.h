@@ -46,10 +46,11 @@ class ClothContact {
     std::vector<int> loose;            ///< vertices where something crossed at the start, or next to such
     int crossed_at_start = 0;
     std::vector<PairAnchor> friction;  ///< sorted by key
+    std::vector<int> fresh;  ///< vertices of which, and of their neighbours, it knows nothing; of memory(): none
   };
   Memory memory() const;
-  /// Goes on at x, which counts with friction only, as one that had this memory there. Throws
-  /// std::invalid_argument if it is of another cloth.
+  /// Goes on at x, which counts with friction only, as one that had this memory there; where that knows
+  /// nothing, as it was made. Throws std::invalid_argument if it is of another cloth.
   void recall(const Memory& memory, std::span<const Vec3> x, ThreadPool* pool);
   /// A new search begins: no way of it was cut.
   void forget_cuts();
@@ -129,6 +130,8 @@ class ClothContact {
   const SpecialPair* special_of(const PairKey& key) const;
   bool is_loose(const EdgeFaceCrossing& crossing) const;
   std::vector<PairKey> crossed_now(std::span<const Vec3> x) const;
+  void check(const Memory& memory) const;
+  std::vector<char> with_neighbours(std::vector<char> marked) const;
   double range_now(const ListedPair& pair) const;
   std::vector<std::array<int, 2>> needed_blocks() const;
   ActivePair brace(const ListedPair& pair, std::span<const Vec3> x) const;

@@ -18,6 +18,7 @@
 #include "physics/cloth/pins.h"
 #include "physics/motion/compensation.h"
 #include "physics/motion/simulate.h"
+#include "tests/cases/friction.h"
 #include "tests/cases/safe_rule.h"
 #include "tests/physics/cloth/one_kind.h"
 #include "tests/test_meshes.h"
@@ -262,6 +263,56 @@ TEST_CASE("draw_more: drawing keeps the momentum of a cloth in motion") {
       sum += cloth.particles.mass[i] * cloth.particles.v[i];
     CHECK((sum - report.momentum_before).norm() < 1e-12 * report.wrinkle.total_mass * 2);
   }
+}
+
+TEST_CASE("draw_more: cloth that lies by implicit steps keeps contact and friction beside the lines") {
+  Mesh mesh = jittered_sheet();
+  for (Vertex v : mesh.vertices()) mesh.point(v) = mesh.point(v) + geometry::Vector(0, 0, 0.003);
+  const bridge::DrawMoreOptions o = options_for(mesh);
+  const cases::Plane floor({0.2, 0, 1});
+  for (Vertex v : mesh.vertices())
+    mesh.point(v) = mesh.point(v) + geometry::Vector(0, 0, -0.2 * mesh.point(v).x());
+  physics::World world;
+  world.collider = &floor;
+  physics::SimulateOptions how;
+  how.gravity = {0, 0, -9.81};
+  how.friction = 0.5;
+  how.integrator = GENERATE(physics::Integrator::implicit, physics::Integrator::tr_bdf2);
+  how.seconds = 0.3;
+  physics::SimulateState state;
+  const auto move = [&](Mesh& of, physics::SimulateState& s) {
+    physics::Cloth cloth = bridge::gather(of, o.springs);
+    physics::simulate(cloth, world, how, &s);
+    bridge::scatter(cloth.particles, of);
+    bridge::scatter_velocities(cloth.particles, of);
+  };
+  move(mesh, state);
+  Mesh undrawn = mesh;
+  physics::SimulateState was = state;
+  const std::vector<Vec3> lay = bridge::positions_of(mesh);
+  std::vector<geometry::Stroke> line(1);
+  line[0].points = {{0.2, 0.5, 0.003 - 0.04}, {0.8, 0.5, 0.003 - 0.16}};
+  line[0].height = GENERATE(0.0, 0.01);
+  bridge::draw_more(mesh, state, line, o);
+  const std::size_t all = mesh.number_of_vertices();
+  CHECK_NOTHROW(physics::check(state, all));
+  REQUIRE(state.steps.anchors.size() == all);
+  std::size_t stayed = 0;
+  for (std::size_t i = 0; i < lay.size(); ++i) {
+    if (bridge::to_eigen(mesh.point(Vertex(i))) != lay[i]) continue;
+    ++stayed;
+    REQUIRE(state.steps.anchors[i] == was.steps.anchors[i]);
+  }
+  CHECK(stayed > lay.size() / 2);
+  CHECK(state.steps.fresh.size() == all - stayed);
+  if (line[0].height != 0) return;
+  how.seconds = 0.4;
+  move(mesh, state);
+  move(undrawn, was);
+  double most = 0;
+  for (Vertex v : undrawn.vertices())
+    most = std::max(most, std::sqrt(CGAL::squared_distance(mesh.point(v), undrawn.point(v))));
+  CHECK(most < 1e-4);
 }
 
 TEST_CASE("draw_more: a strained cloth moves little when lines of height 0 are drawn into it", "[release]") {

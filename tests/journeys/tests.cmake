@@ -7,6 +7,7 @@ if(NOT FURROW_SANITIZE)
     journey.h
     journey.cpp
     garments_test.cpp
+    worn_lines_test.cpp
   )
   add_dependencies(test_journeys furrow)
 endif()

@@ -59,6 +59,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   motion/shell_motion_test.cpp
   motion/simulate_integrators_test.cpp
   motion/simulate_state_test.cpp
+  motion/state_memory_test.cpp
   motion/simulate_test.cpp
   motion/step_elements_test.cpp
   motion/strain_watch_test.cpp

@@ -38,7 +38,7 @@ io::SavedState state() {
     velocity[v] = {std::sin(t), -0.0, t};
     sim.contact.push_back({{t, 2 * t, 1e-300}, v % 2 ? t : std::nan("")});
     sim.compensation.force.push_back({t, -t, 1 / t});
-    sim.steps.anchors.push_back({{t, 1 / t, -t}, {0, t, 1e-300}, v % 3 ? t : -1, v % 2 == 0});
+    sim.steps.anchors.push_back({{t, 1 / t, -t}, {0, t, 1e-300}, v % 3 ? t : -1, v % 2 == 0, 1e-4 * t});
     sim.steps.acceleration.push_back({-t, 3 * t, 1 / t});
   }
   sim.time = 0.1 + 0.2;
@@ -61,9 +61,11 @@ io::SavedState state() {
   sim.totals.longest_edge = {1 / 3.0, 0.1, {1, -1e-9, 7}};
   sim.totals.energy = {0.1, 1 / 3.0, -0.2, 1e-300, 5, 6, 7, 8, 9, 1 / 7.0};
   sim.steps.contact_stiffness = 1234.5;
-  sim.steps.self = {1 / 3.0,  {{true, 4, 9, 0.1 / 3, 0.2}},
+  sim.steps.self = {1 / 3.0,  {{true, {4, 9, 1, 2}, 0.1 / 3, 0.2}},
                     {1, 2},   5,
-                    {{3, 1}}, {{true, 4, 9, {1 / 3.0, -0.0, 1e-300}, true}}};
+                    {{3, 1}}, {{false, {4, 9, 3, 5}, {1 / 3.0, -0.0, 1e-300}, true}},
+                    {{2, 1}}};
+  sim.steps.fresh = {3, 7};
   s.pins = {{1, 2}, {}};
   s.lines_drawn = 2;
   s.scene = {{"garment", {{"mesh", "../g.obj"}}}, {"simulation", {{"seconds", 2}}}};
@@ -80,6 +82,17 @@ TEST_CASE("state_file: a state that is read and written again has the same bytes
 TEST_CASE("state_file: a state holds everything to the last bit") {
   const io::SavedState was = state(), is = io::parse_state(io::state_bytes(was), "s.ply");
   const auto &a = was.simulation, &b = is.simulation;
+  {  // a member that is added does not compile here: read and write it, and compare it below
+    const auto& [time, step, planned, end, dt, dt_longest, steps_left, estimated_at, dt_limit, strain, cloth,
+                 contact, steps, body_travel, homes, compensation, totals] = a;
+    const auto& [anchors, acceleration, contact_stiffness, self, fresh] = steps;
+    const auto& [anchor, plane, limit, slides, nearer] = anchors.front();
+    const auto& [file, simulation, scene, pins, body, lines_drawn, contact_gap, integrator, tolerance] = was;
+    CHECK(fresh == b.steps.fresh);
+    CHECK(nearer == b.steps.anchors.front().nearer);
+    CHECK(body_travel == b.body_travel);
+    CHECK(contact_gap == is.contact_gap);
+  }
   CHECK(a.time == b.time);
   CHECK(a.step == b.step);
   CHECK(b.planned);
@@ -137,13 +150,15 @@ TEST_CASE(
   s.scene["lines"] = {{{"strokes", "a.json"}}, {{"strokes", "b.json"}, {"rule", "paper"}}};
   std::string bytes = io::state_bytes(s);
   CHECK_FALSE(io::parse_state(bytes, "s.ply").scene["lines"][0].contains("rule"));
-  const std::size_t at = bytes.find("\"version\":2");
+  const std::size_t at = bytes.find("\"version\":3");
   REQUIRE(at != std::string::npos);
+  bytes[at + 10] = '2';
+  CHECK(io::parse_state(bytes, "s.ply").simulation.steps.self == physics::SelfContactMemory{});
   bytes[at + 10] = '1';
   const io::SavedState old = io::parse_state(bytes, "s.ply");
   CHECK(old.scene["lines"][0]["rule"] == "safe");
   CHECK(old.scene["lines"][1]["rule"] == "paper");
-  bytes[at + 10] = '3';
+  bytes[at + 10] = '4';
   CHECK_THROWS_AS(io::parse_state(bytes, "s.ply"), geometry::ContentError);
 }
 
