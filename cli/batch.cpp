@@ -67,7 +67,8 @@ Json json_of(const BatchCounts& c) {
 }
 
 int gather_batch(const io::BatchPlan& plan, const BatchArguments& a) {
-  const GatherReport report = gather(plan);
+  Terminal terminal(a);
+  const GatherReport report = gather(plan, terminal);
   Json json = json_of(report.counts);
   json["written"] = names_of_files({report.rows.string(), report.page.string()});
   print_report(json, a, {{words_of(report.counts)}, {report.rows.string(), report.page.string()}, ""});

@@ -15,6 +15,7 @@
 #include "io/base/bytes_file.h"
 #include "io/base/run_program.h"
 #include "io/base/shell_word.h"
+#include "jobs/check/output_checks.h"
 #include "jobs/report/batch_page.h"
 
 namespace furrow::jobs {
@@ -217,9 +218,10 @@ std::optional<double> mean_seconds(const io::BatchPlan& plan) {
   return number > 0 ? std::optional(sum / double(number)) : std::nullopt;
 }
 
-GatherReport gather(const io::BatchPlan& plan) {
+GatherReport gather(const io::BatchPlan& plan, Listener& listener) {
   std::filesystem::create_directories(plan.output);
   GatherReport report{count(plan), plan.output / "results.jsonl", plan.output / "report.html"};
+  check_replaced({report.rows.string(), report.page.string()}, {}, listener);
   io::OutputGroup together;
   io::write_atomically(report.rows, [&](std::ostream& out) {
     for (const io::BatchCase& one : plan.cases) out << row_of(plan, one).dump() << '\n';

@@ -63,8 +63,9 @@ struct GatherReport {
   BatchCounts counts;
   std::filesystem::path rows, page;  ///< JSON, one line a case, in the plan's order; HTML
 };
-/// Brings the records of a plan's cases together in its output folder: results.jsonl and report.html.
-GatherReport gather(const io::BatchPlan& plan);
+/// Brings the records of a plan's cases together in its output folder: results.jsonl and report.html. Throws
+/// std::invalid_argument if one is there that furrow did not write and the listener does not replace.
+GatherReport gather(const io::BatchPlan& plan, Listener& listener);
 
 BatchCounts count(const io::BatchPlan& plan);
 

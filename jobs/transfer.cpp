@@ -5,6 +5,7 @@
 #include "geometry/mesh/property_names.h"
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
+#include "io/base/own_mark.h"
 #include "io/mesh/material_libraries.h"
 #include "io/mesh/rewrite_obj_vertices.h"
 #include "jobs/check/gate.h"
@@ -44,8 +45,12 @@ std::optional<std::string> text_as_read(const TransferJob& job, const io::MeshFi
       !is_obj(job.output.string()))
     return std::nullopt;
   const std::vector<geometry::Point> positions(file.mesh.points().begin(), file.mesh.points().end());
-  return io::rewrite_obj_vertices(io::read_text(original), original, positions, write_options(frame),
-                                  file.folder, io::folder_of(job.output));
+  const std::string mark = "# " + std::string(io::own_mark) + "\n",
+                    text = io::rewrite_obj_vertices(io::read_text(original), original, positions,
+                                                    write_options(frame), file.folder,
+                                                    io::folder_of(job.output));
+  const std::size_t first = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  return text.compare(first, mark.size(), mark) == 0 ? text : std::string(text).insert(first, mark);
 }
 
 void write(const TransferJob& job, const TransferReport& report, const Context& context) {

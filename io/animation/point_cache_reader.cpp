@@ -11,6 +11,7 @@
 #include "geometry/mesh/errors.h"
 #include "io/animation/animation_file.h"
 #include "io/base/byte_order.h"
+#include "io/base/own_mark.h"
 #include "io/mesh/file_frame.h"
 
 namespace furrow::io {
@@ -135,8 +136,10 @@ std::unique_ptr<FrameSource> open_point_cache(const fs::path& path, bool mdd, st
   std::error_code error;
   if (!fs::is_regular_file(path, error))
     throw ContentError(path.string() + ": " + (error ? error.message() : "is no regular file"));
-  const std::uint64_t size = fs::file_size(path, error);
+  std::uint64_t size = fs::file_size(path, error);
   if (error) throw ContentError(path.string() + ": cannot be read: " + error.message());
+  if (size >= own_tail.size() && read_part(path, size - own_tail.size(), own_tail.size()) == own_tail)
+    size -= own_tail.size();
   Layout layout = mdd ? mdd_layout(path, size, vertices) : pc2_layout(path, size, vertices, options.fps);
   check_times(path, layout.times);
   return std::make_unique<PointCache>(path, std::move(layout), options.frame);

@@ -5,6 +5,7 @@
 #include "bridge/convert.h"
 #include "io/animation/animation_encoder.h"
 #include "io/base/byte_order.h"
+#include "io/base/own_mark.h"
 #include "io/mesh/file_frame.h"
 
 namespace furrow::io {
@@ -25,6 +26,8 @@ class PointCacheEncoder : public AnimationEncoder {
     }
     return bytes;
   }
+
+  std::string tail(std::size_t) const override { return std::string(own_tail); }
 
  protected:
   template <class T>

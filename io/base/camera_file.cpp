@@ -6,6 +6,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
+#include "io/base/own_mark.h"
 #include "io/base/text_scanner.h"
 
 namespace furrow::io {
@@ -22,7 +23,7 @@ Position position(const Json& object, const char* key, const JsonFields& fields)
 
 CameraPicture camera_from(const Json& object, const JsonFields& fields) {
   if (!object.is_object()) fields.fail("a camera must be an object {\"eye\": …, \"target\": …, \"size\": …}");
-  fields.check_keys(object, {"eye", "target", "up", "fov", "parallel", "size"});
+  fields.check_keys(object, {"eye", "target", "up", "fov", "parallel", "size", "generator"});
   for (const char* key : {"eye", "target", "size"})
     if (!object.contains(key)) fields.fail(std::string("'") + key + "' of the camera is missing");
   if (object.contains("fov") && object.contains("parallel"))
@@ -66,7 +67,8 @@ Json to_json(const CameraPicture& picture) {
 }
 
 void write_camera(const std::filesystem::path& path, const CameraPicture& picture) {
-  const Json object = to_json(picture);
+  Json object = to_json(picture);
+  object["generator"] = own_generator;
   write_atomically(path, [&](std::ostream& out) { out << object.dump() << '\n'; });
 }
 

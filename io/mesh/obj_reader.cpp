@@ -5,6 +5,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "io/base/name_table.h"
+#include "io/base/own_mark.h"
 #include "io/base/text_scanner.h"
 #include "io/mesh/chain_segments.h"
 #include "io/mesh/file_frame.h"
@@ -100,7 +101,7 @@ class ObjReader {
     if (!line.starts_with('#')) return false;
     std::string_view text = line.substr(1);
     if (text.starts_with(' ')) text.remove_prefix(1);
-    file.comments.emplace_back(text);
+    if (text != own_mark) file.comments.emplace_back(text);
     return true;
   }
 

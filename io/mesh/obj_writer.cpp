@@ -8,6 +8,7 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
 #include "io/base/number_text.h"
+#include "io/base/own_mark.h"
 #include "io/mesh/chain_segments.h"
 #include "io/mesh/material_libraries.h"
 #include "io/mesh/mesh_writers.h"
@@ -23,6 +24,7 @@ class ObjWriter {
       : file_(file), mesh_(file.mesh), options_(options), folder_(folder), numbers_(vertex_numbers(mesh_)) {}
 
   std::string text() {
+    out_ = "# " + std::string(own_mark) + "\n";
     for (const std::string& comment : file_.comments) out_ += "# " + one_line(comment) + "\n";
     for (const std::string& library : file_.material_libraries)
       out_ += "mtllib " + one_line(library_from(library, file_.folder, folder_)) + "\n";

@@ -3,6 +3,7 @@
 
 #include "geometry/mesh/property_names.h"
 #include "io/base/number_text.h"
+#include "io/base/own_mark.h"
 #include "io/mesh/mesh_writers.h"
 
 namespace furrow::io {
@@ -40,7 +41,7 @@ void write_off(std::ostream& out, const MeshFile& file, const WriteOptions& opti
       text += ' ', append_number(text, numbers[v]);
     text += '\n';
   }
-  out << text;
+  out << text << "# " << own_mark << '\n';
 }
 
 }  // namespace furrow::io

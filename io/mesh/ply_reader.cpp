@@ -11,6 +11,7 @@
 #include "geometry/mesh/attribute_slots.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/struts.h"
+#include "io/base/own_mark.h"
 #include "io/mesh/file_frame.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/ply_rows.h"
@@ -492,7 +493,7 @@ class PlyReader {
   /// "furrow group 3 sleeve" names a group, "furrow material 0 cotton" a material; the rest is kept.
   void take_comments() {
     for (std::string& comment : header_.comments)
-      if (!take_name(comment, "furrow group ", file_.group_names) &&
+      if (comment != own_mark && !take_name(comment, "furrow group ", file_.group_names) &&
           !take_name(comment, "furrow material ", file_.material_names))
         file_.comments.push_back(std::move(comment));
   }

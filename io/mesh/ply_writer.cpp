@@ -11,6 +11,7 @@
 #include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/base/number_text.h"
+#include "io/base/own_mark.h"
 #include "io/mesh/mesh_writers.h"
 #include "io/mesh/ply_motion.h"
 
@@ -152,7 +153,7 @@ class PlyWriter {
   }
 
   void write_header() {
-    out_ = "ply\nformat binary_little_endian 1.0\n";
+    out_ = "ply\nformat binary_little_endian 1.0\ncomment " + std::string(own_mark) + "\n";
     for (const std::string& comment : file_.comments) out_ += "comment " + one_line(comment) + "\n";
     write_names("group", file_.group_names);
     write_names("material", file_.material_names);

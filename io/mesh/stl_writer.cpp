@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <ostream>
 
+#include "io/base/own_mark.h"
 #include "io/mesh/mesh_writers.h"
 
 namespace furrow::io {
@@ -24,7 +25,7 @@ void put(std::string& out, const Vector& v) {
 void write_stl(std::ostream& out, const MeshFile& file, const WriteOptions& options) {
   const Mesh& mesh = file.mesh;
   check_positions(mesh, options);
-  std::string bytes = "binary STL written by furrow";  // must not begin with "solid"
+  std::string bytes = "binary STL " + std::string(own_mark);  // must not begin with "solid"
   bytes.resize(80, ' ');
   put(bytes, static_cast<std::uint32_t>(mesh.number_of_faces()));
   for (const Face f : mesh.faces()) {

@@ -16,6 +16,7 @@
 #include "geometry/mesh/errors.h"
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
+#include "io/base/own_mark.h"
 
 namespace furrow::io {
 namespace {
@@ -136,6 +137,11 @@ bool decode(Stream& stream, Image16& image, std::vector<png_bytep>& rows) {
 
 }  // namespace
 
+std::string marked_png(std::string_view bytes) {
+  if (!bytes.ends_with(png_end)) throw std::invalid_argument("bytes: a PNG ends with the chunk IEND");
+  return std::string(bytes.substr(0, bytes.size() - png_end.size())).append(png_mark).append(png_end);
+}
+
 void write_png16(const std::filesystem::path& path, const Image16& image) {
   check(image);
   std::string bytes;
@@ -143,7 +149,7 @@ void write_png16(const std::filesystem::path& path, const Image16& image) {
   stream.out = &bytes;
   if (!encode(image, stream))
     throw std::runtime_error(path.string() + ": cannot write the picture: " + stream.message);
-  write_atomically(path, [&](std::ostream& out) { out.write(bytes.data(), std::streamsize(bytes.size())); });
+  write_atomically(path, [&](std::ostream& out) { out << marked_png(bytes); });
 }
 
 Image16 read_png16(const std::filesystem::path& path) {
@@ -174,7 +180,7 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   const bool whole = std::fclose(memory) == 0;
   const std::unique_ptr<char, decltype(&std::free)> owner(bytes, &std::free);
   if (!done || !whole) fail(done ? "not enough memory" : control.image.message);
-  write_atomically(path, [&](std::ostream& out) { out.write(bytes, std::streamsize(size)); });
+  write_atomically(path, [&](std::ostream& out) { out << marked_png({bytes, size}); });
 }
 
 Image read_png(const std::filesystem::path& path) {

@@ -2,6 +2,8 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace furrow::io {
@@ -31,6 +33,10 @@ struct Image16 {
 /// coarser than they seem.
 void write_png16(const std::filesystem::path& path, const Image16& image);
 Image16 read_png16(const std::filesystem::path& path);
+
+/// A PNG's bytes with the text "Software: furrow" before its end (own_mark.h), as those have that are written
+/// here.
+std::string marked_png(std::string_view bytes);
 
 /// Reads a PNG of any kind; transparent pixels lie on white. Throws geometry::ContentError if the file cannot
 /// be read as one, or if it has more than 100 million pixels.

@@ -41,7 +41,7 @@ class StrokeReader {
   std::vector<DrawnStroke> read(std::string_view text) {
     const Json root = fields_.parse(plain_text(text, fields_.name()));
     if (!root.is_object()) fields_.fail("the file must hold an object {\"strokes\": […]}");
-    fields_.check_keys(root, {"strokes", "camera"});
+    fields_.check_keys(root, {"strokes", "camera", "generator"});
     if (!root.contains("strokes") || !root["strokes"].is_array())
       fields_.fail("'strokes' must be a list of strokes");
     if (root.contains("camera")) camera_ = read_picture(root["camera"]);

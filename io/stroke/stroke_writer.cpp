@@ -6,6 +6,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/camera_file.h"
+#include "io/base/own_mark.h"
 #include "io/mesh/file_frame.h"
 #include "io/stroke/stroke_file.h"
 
@@ -80,6 +81,16 @@ void check(const std::vector<DrawnStroke>& strokes, const WriteOptions& options)
   }
 }
 
+Json document_of(const std::vector<DrawnStroke>& strokes, const WriteOptions& options) {
+  Json root = {{"strokes", Json::array()}};
+  for (const DrawnStroke& stroke : strokes) root["strokes"].push_back(to_json(stroke, options));
+  return root;
+}
+
+std::string text_of(const Json& document) {
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::vector<DrawnStroke> drawn_in_space(const std::vector<Stroke>& strokes) {
   std::vector<DrawnStroke> drawn;
   for (const Stroke& stroke : strokes) drawn.push_back({stroke});
@@ -90,15 +101,15 @@ std::vector<DrawnStroke> drawn_in_space(const std::vector<Stroke>& strokes) {
 
 void write_strokes(std::ostream& out, const std::vector<DrawnStroke>& strokes, const WriteOptions& options) {
   check(strokes, options);
-  Json root = {{"strokes", Json::array()}};
-  for (const DrawnStroke& stroke : strokes) root["strokes"].push_back(to_json(stroke, options));
-  out << root.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  out << text_of(document_of(strokes, options));
 }
 
 void write_strokes(const std::filesystem::path& path, const std::vector<DrawnStroke>& strokes,
                    const WriteOptions& options) {
   check(strokes, options);
-  write_atomically(path, [&](std::ostream& out) { write_strokes(out, strokes, options); });
+  Json root = document_of(strokes, options);
+  root["generator"] = own_generator;
+  write_atomically(path, [&](std::ostream& out) { out << text_of(root); });
 }
 
 void write_strokes(std::ostream& out, const std::vector<Stroke>& strokes, const WriteOptions& options) {

@@ -97,7 +97,8 @@ std::string heading_of(const std::string& words) {
 }  // namespace
 
 BatchPage::BatchPage(const io::BatchPlan& plan, std::ostream& out) : plan_(plan), out_(out) {
-  out_ << "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
+  out_ << "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>" << batch_page_mark
+       << "<meta name=viewport "
           "content=\"width=device-width\"><title>"
        << escaped(plan.title) << "</title><style>" << page_style << "</style></head>\n<body><h1>"
        << escaped(plan.title) << "</h1>\n<p>furrow " << escaped(plan.command) << ", " << plan.cases.size()

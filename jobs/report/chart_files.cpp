@@ -12,6 +12,8 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/lower_case.h"
+#include "io/base/own_mark.h"
+#include "io/picture/png_file.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
@@ -161,11 +163,16 @@ void draw_chart(const std::string& path, const Judgement& j, const std::string& 
     const std::string command =
         "gnuplot 2>/dev/null <<'end of chart'\n" + script(path, j, title) + "end of chart\n";
     std::FILE* gnuplot = popen(command.c_str(), "r");
+    std::string drawn;
     std::array<char, 4096> part;
     for (std::size_t n; gnuplot && (n = std::fread(part.data(), 1, part.size(), gnuplot)) > 0;)
-      out.write(part.data(), static_cast<std::streamsize>(n));
-    if (!gnuplot || pclose(gnuplot) != 0)
+      drawn.append(part.data(), n);
+    if (!gnuplot || pclose(gnuplot) != 0 || drawn.empty())
       throw std::runtime_error(path + ": gnuplot could not draw it; --csv has the numbers");
+    if (ending(path) == ".svg")
+      out << drawn << "<!-- " << io::own_mark << " -->\n";
+    else
+      out << io::marked_png(drawn);
   });
 }
 

@@ -55,7 +55,9 @@ struct Wall {
 TEST_CASE("strokes: with a picture, its camera and pixels they are drawn without a 3D editor") {
   Wall wall;
   const json report = json::parse(wall.render().out);
-  CHECK(report["camera"] == json::parse(read_text(wall.camera)));
+  json camera = json::parse(read_text(wall.camera));
+  CHECK(camera.erase("generator") == 1);
+  CHECK(report["camera"] == camera);
   CHECK(report["camera"]["size"] == json{200, 160});
   wall.draw();
   const json lines = wall.wrinkle(wall.mesh + " " + wall.strokes + " -o " + wall.wrinkled)["lines"];

@@ -11,7 +11,7 @@
 #include "geometry/mesh/property_names.h"
 #include "io/animation/animation_file.h"
 #include "io/base/camera_file.h"
-#include "io/mesh/rewrite_obj_vertices.h"
+#include "io/base/own_mark.h"
 #include "io/picture/baked_maps.h"
 #include "io/picture/png_file.h"
 #include "io/scene/field_file.h"
@@ -20,6 +20,7 @@
 #include "jobs/report/chart_files.h"
 #include "jobs/smooth.h"
 #include "jobs/subdivide.h"
+#include "jobs/transfer.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_meshes.h"
@@ -143,24 +144,63 @@ TEST_CASE("own_output: strokes, cameras and charts are known again") {
 
 TEST_CASE("own_output: an OBJ of another program with transferred positions is furrow's") {
   const fs::path folder = tests::empty_folder("own_transfer");
-  put(folder / "a.obj", of_blender());
-  CHECK_FALSE(jobs::is_own_output(folder / "a.obj"));
-  const std::vector<geometry::Point> moved{{0, 0, 0}, {1.0 / 3, 0, -0.25}, {0, 1, 0.333333}};
-  put(folder / "a.obj", io::rewrite_obj_vertices(of_blender(), "a.obj", moved, {}));
-  CHECK(jobs::is_own_output(folder / "a.obj"));
+  tests::Recorder listener;
+  for (const std::string& mark : {"", "\xEF\xBB\xBF"}) {
+    put(folder / "a.obj", mark + of_blender());
+    CHECK_FALSE(jobs::is_own_output(folder / "a.obj"));
+    jobs::TransferJob job;
+    job.original = job.wrinkled = folder / "a.obj";
+    job.rest = job.original;
+    job.output = folder / "b.obj";
+    for (int again = 0; again < 2; ++again) {
+      jobs::transfer(job, listener);
+      CHECK(jobs::is_own_output(job.output));
+      CHECK(tests::bytes_of(job.output) == mark + "# written by furrow\n" + of_blender());
+    }
+    job.original = job.wrinkled = folder / "b.obj";
+    job.rest = job.original;
+    job.output = folder / "c.obj";
+    jobs::transfer(job, listener);
+    CHECK(tests::bytes_of(job.output) == tests::bytes_of(folder / "b.obj"));
+  }
 }
 
-TEST_CASE("own_output: pictures that earlier versions wrote are known, meshes with short numbers are kept") {
-  int pictures = 0;
-  for (const char* folder : {"docs", "docs/accuracy"})
-    for (const auto& entry : fs::directory_iterator(tests::source_dir() / folder))
-      if (entry.path().extension() == ".png") {
-        INFO(entry.path());
-        const bool of_browser = entry.path().filename().string().rfind("studio-", 0) == 0;
-        CHECK(jobs::is_own_output(entry.path()) != of_browser);
-        ++pictures;
-      }
-  CHECK(pictures > 20);
+TEST_CASE("own_output: what is as furrow writes it, but for the mark, is not furrow's") {
+  const fs::path folder = tests::empty_folder("unmarked");
+  const io::MeshFile mesh = some_mesh();
+  const auto unmarked = [&](const char* name, std::string_view mark) {
+    std::string bytes = tests::bytes_of(folder / name);
+    const std::size_t at = bytes.rfind(mark);
+    INFO(name);
+    CHECK(jobs::is_own_output(folder / name));
+    REQUIRE(at != bytes.npos);
+    put(folder / name, bytes.erase(at, mark.size()));
+    CHECK_FALSE(jobs::is_own_output(folder / name));
+  };
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) io::write_mesh(folder / name, mesh);
+  unmarked("a.ply", "comment written by furrow\n");  // as CGAL writes it
+  unmarked("a.obj", "# written by furrow\n");
+  unmarked("a.off", "# written by furrow\n");
+  unmarked("a.stl", "written by furrow");
+  for (const char* name : {"a.pc2", "a.mdd", "a.glb"}) {
+    io::AnimationWriter writer(folder / name, mesh.mesh, {});
+    writer.add(frame_of(mesh.mesh));
+    writer.close();
+  }
+  unmarked("a.pc2", io::own_tail);
+  unmarked("a.mdd", io::own_tail);
+  unmarked("a.glb", "\"generator\":\"Furrow\"");
+  io::write_png(folder / "a.png", grey(300, 200));
+  io::write_png16(folder / "b.png", {2, 1, {1, 2, 3, 4, 5, 65535}});
+  unmarked("a.png", io::png_mark);
+  unmarked("b.png", io::png_mark);
+  io::write_strokes(folder / "a.json", std::vector<geometry::Stroke>{{.points = {{0, 0, 0}, {1, 0, 0}}}});
+  unmarked("a.json", "\"generator\": \"furrow\"");
+  io::write_camera(folder / "c.json", {});
+  unmarked("c.json", ",\"generator\":\"furrow\"");
+}
+
+TEST_CASE("own_output: meshes of the repository are not furrow's outputs") {
   for (const char* name : {"skirt.obj", "shirt.obj", "mannequin.obj"}) {
     INFO(name);
     CHECK_FALSE(jobs::is_own_output(tests::source_dir() / "meshes" / name));
@@ -192,6 +232,21 @@ TEST_CASE("own_output: files of other programs and of people are told from furro
       {"a.stl", std::string(84, '\0')},
       {"ascii.stl", "solid shirt\nendsolid\n"},
       {"a.glb", "glTF....{\"asset\":{\"generator\":\"Khronos glTF Blender I/O v4\"}}"},
+      // a script that writes single precision as three.js does
+      {"three.obj",
+       "# my own work\no Mesh\nv 0.10000000149011612 0.20000000298023224 0.30000001192092896\n"
+       "v 1.100000023841858 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n"},
+      {"script.obj", "v 0 0 0\nv 0.1 0 0.30000000000000004\nv 0 1 0\nf 1 2 3\n"},
+      {"cgal.ply", ply + "comment Generated by the CGAL library\nelement vertex 0\nproperty double x\n"
+                         "property double y\nproperty double z\nelement face 0\n"
+                         "property list uchar int vertex_indices\nend_header\n"},
+      {"one.pc2",
+       std::string("POINTCACHE2\0\1\0\0\0\1\0\0\0\0\0\0\0\0\0\x80\x3f\1\0\0\0", 32) + std::string(12, '\0')},
+      {"one.mdd", std::string("\0\0\0\1\0\0\0\1\0\0\0\0", 12) + std::string(12, '\0')},
+      {"deep16.png",
+       png + chunk("IHDR", std::string("\0\0\0\2\0\0\0\2\20\2\0\0\0", 13)) + chunk("IDAT", "x") + end},
+      {"python.json", "{\n \"strokes\": [\n  {\n   \"height\": 0.02\n  }\n ]\n}\n"},
+      {"page.html", "<!DOCTYPE html>\n<html><body>my report</body></html>\n"},
       {"short.pc2", std::string("POINTCACHE2\0\1\0\0\0\4\0\0\0\0\0\0\0\0\0\x80\x3f\1\0\0\0", 32)},
       {"a.mdd", "not an animation at all"},
       {"plain.png", png + chunk("IHDR", rgb8) + chunk("IDAT", "x") + end},

@@ -161,7 +161,7 @@ TEST_CASE("OBJ: unit and axis of the file are turned into ours and back") {
   const io::MeshFile file = obj("v 2 4 6\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", millimetres);
   CHECK(file.mesh.point(Vertex(0)) == Point(1, 3, -2));
   const std::string text = written(file, MeshFormat::obj, {.metres_per_unit = 0.5, .up = io::Axis::z});
-  CHECK(text.starts_with("v 2 4 6\n"));
+  CHECK(text.starts_with("# written by furrow\nv 2 4 6\n"));
   CHECK_THROWS_AS(obj(cube_obj, {.metres_per_unit = 0}), std::invalid_argument);
   CHECK_THROWS_AS(written(file, MeshFormat::obj, {.metres_per_unit = -1}), std::invalid_argument);
 }
