@@ -8,6 +8,7 @@ if(NOT FURROW_SANITIZE)
     journey.cpp
     garments_test.cpp
     worn_lines_test.cpp
+    rigged_test.cpp
   )
   add_dependencies(test_journeys furrow)
 endif()
