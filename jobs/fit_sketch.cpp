@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "geometry/mesh/property_names.h"
 #include "jobs/report/fit_picture.h"
@@ -38,7 +39,10 @@ std::string legend_of(const io::FitScale& scale) {
 SketchFit fit_sketch(const Sketch& sketch, const Json& strokes, FitColour colour, Listener& listener) {
   if (!sketch.body) throw std::invalid_argument("there is no body to fit; open the garment with --body");
   FitJob job;
-  job.worn = {draw_sketch(sketch, strokes, listener).file};
+  io::MeshFile drawn = draw_sketch(sketch, strokes, listener).file;
+  if (!geometry::find_map(drawn.mesh, geometry::attribute::rest_length))
+    job.rest = drawn;  // it is as it was made
+  job.worn = {std::move(drawn)};
   job.bodies = {*sketch.body};
   job.colour = colour;
   const FitJobReport report = fit(job, listener);

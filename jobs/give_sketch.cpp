@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/give_sketch.h"
 
+#include <optional>
 #include <stdexcept>
 
+#include "geometry/mesh/property_names.h"
 #include "io/base/outputs_below.h"
 #include "jobs/bake.h"
 #include "jobs/transfer.h"
@@ -20,11 +22,18 @@ class Replacing : public SilentListener {
   bool replaces(const std::string&) override { return true; }
 };
 
+/// Of a garment that no line and no drape has changed, which does not note it: as it lies.
+std::optional<MeshInput> rest_of(const io::MeshFile& drawn) {
+  if (geometry::find_map(drawn.mesh, geometry::attribute::rest_position)) return std::nullopt;
+  return drawn;
+}
+
 void write_on_original(const fs::path& path, const fs::path& original, io::MeshFile drawn, const Frame& frame,
                        Listener& listener) {
   Replacing replacing(listener);
   TransferJob job;
   job.original = original;
+  job.rest = rest_of(drawn);
   job.wrinkled = std::move(drawn);
   job.frame = frame;
   job.output = path;
@@ -37,6 +46,7 @@ fs::path write_maps(const fs::path& folder, const fs::path& original, io::MeshFi
   Replacing replacing(listener);
   TransferJob shape;
   shape.original = original;
+  shape.rest = rest_of(drawn);
   shape.wrinkled = drawn;
   shape.frame = frame;
   BakeJob job;

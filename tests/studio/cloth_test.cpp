@@ -247,6 +247,10 @@ TEST_CASE("studio cloth: it is given away in four formats, also on the vertices 
   const Desk desk("give");
   const studio::Studio studio(desk.scene, desk.project());
   Visitor page(studio);
+  const Json bare = page.ask("give", {{"as", "original"}});  // before anything was done to it
+  INFO(bare.dump());
+  CHECK(tests::positions(io::read_mesh(bare.at("done").at("file").get<std::string>())) ==
+        tests::positions(io::read_mesh(desk.folder / "sheet.ply")));
   REQUIRE(page.ask("draw", line_at(0.0)).contains("done"));
   page.ask("show");
   for (const std::string as : {"ply", "obj", "glb"}) {
@@ -264,6 +268,23 @@ TEST_CASE("studio cloth: it is given away in four formats, also on the vertices 
     CHECK(moved != start);
   }
   CHECK(page.ask("give", {{"as", "../x"}}).contains("refused"));
+}
+
+TEST_CASE("studio cloth: what was draped without a line goes onto its own vertices, too", "[release]") {
+  const Desk desk("give_draped");
+  const studio::Studio studio(desk.scene, desk.project());
+  Visitor page(studio);
+  REQUIRE(page.ask("drape").contains("done"));
+  const Json given = page.ask("give", {{"as", "original"}});
+  INFO(given.dump());
+  const auto moved = tests::positions(io::read_mesh(given.at("done").at("file").get<std::string>())),
+             start = tests::positions(io::read_mesh(desk.folder / "sheet.ply"));
+  REQUIRE(moved.size() == start.size());
+  double farthest = 0;  // it hung before
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    farthest = std::max(farthest, std::sqrt(CGAL::squared_distance(moved[i], start[i])));
+  CHECK(farthest < 0.05);
+  CHECK(moved != start);
 }
 
 TEST_CASE("studio cloth: how it moved is given away as an animation, but not what was pulled at",
