@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 
 #include "io/base/atomic_file.h"
@@ -66,6 +67,12 @@ ShareReport share_file(const std::filesystem::path& path, const ShareSteps& step
   ShareReport report;
   std::string unseen;
   if (was_read(path, steps.read, unseen)) return report;
+  try {
+    OutputsBelow::check(path);
+  } catch (const std::runtime_error& e) {
+    steps.make();
+    return {.made = true, .broken = unseen, .unwritten = e.what()};
+  }
   std::error_code ignored;
   std::filesystem::create_directories(path.parent_path(), ignored);
   const MakerLock lock(path, steps.wait);

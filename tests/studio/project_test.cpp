@@ -56,6 +56,22 @@ void draw_two(const Desk& desk) {
   session.handle(1, {1, "undo", {{"do", "undo"}}});
 }
 
+/// Such a project, which can be had again as it was.
+class Drawn {
+ public:
+  explicit Drawn(const Desk& desk) : folder_(desk.project()), sound_(tests::empty_folder("studio_sound")) {
+    draw_two(desk);
+    fs::copy(folder_, sound_, fs::copy_options::recursive);
+  }
+  void restore() const {
+    fs::remove_all(folder_);
+    fs::copy(sound_, folder_, fs::copy_options::recursive);
+  }
+
+ private:
+  const fs::path folder_, sound_;
+};
+
 void write_text(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
 }
@@ -120,6 +136,7 @@ TEST_CASE("studio project: files that are nested deep, no JSON, or of another fo
   const Desk desk("damaged");
   const fs::path state = desk.project() / "project.json", step = desk.project() / "history/1.json",
                  undone = desk.project() / "history/2.json";
+  const Drawn drawn(desk);
   const std::string deep = nested(200000);
   const std::vector<std::pair<fs::path, std::string>> damages{
       {state, deep},
@@ -143,13 +160,11 @@ TEST_CASE("studio project: files that are nested deep, no JSON, or of another fo
       {undone, deep}};
   for (const auto& [file, text] : damages) {
     INFO(file << " " << text.substr(0, 80));
-    fs::remove_all(desk.project());
-    draw_two(desk);
+    drawn.restore();
     write_text(file, text);
     CHECK(refusal_to_open(desk.project()).size() > 20);
   }
-  fs::remove_all(desk.project());
-  draw_two(desk);
+  drawn.restore();
   const std::string log = tests::bytes_of(desk.project() / "log.jsonl");
   for (const std::string& line : {deep, std::string("{"), std::string("[]"), std::string(R"({"do":7})")}) {
     write_text(desk.project() / "log.jsonl", line.substr(0, log.size() - 1) + "\n");
@@ -204,6 +219,7 @@ TEST_CASE("studio project: a frame that is none is drawn anew, and one that is a
 
 TEST_CASE("studio project: no link in it is written over, whatever is asked for", "[release]") {
   const Desk desk("links");
+  const Drawn drawn(desk);
   const std::vector<std::string> places{"project.json",    "log.jsonl",       "lock",
                                         "history",         "history/2.json",  "history/2.new",
                                         "history/2.frame", "history/1.frame", "scene.toml",
@@ -213,8 +229,7 @@ TEST_CASE("studio project: no link in it is written over, whatever is asked for"
   for (const std::string& place : places)
     for (const bool dangles : {false, true}) {
       INFO(place << (dangles ? ", to nothing" : ""));
-      fs::remove_all(desk.project());
-      draw_two(desk);
+      drawn.restore();
       const fs::path outside = tests::empty_folder("studio_outside"), link = desk.project() / place;
       const bool is_folder = place == "history" || place == "give";
       if (is_folder && !dangles && place == "history")
@@ -261,12 +276,13 @@ TEST_CASE("studio project: another name of the log's file, elsewhere, keeps what
 TEST_CASE(
     "studio project: pipes in place of its files, or of what it names, are refused and not waited for") {
   const Desk desk("pipes");
+  const std::string sheet = tests::bytes_of(desk.folder / "sheet.ply");
+  const Drawn drawn(desk);
   for (const std::string place : {"project.json", "log.jsonl", "history/1.json", "lock", "../sheet.ply"}) {
     INFO(place);
-    fs::remove_all(desk.project());
-    if (fs::exists(desk.folder / "sheet.ply") && !fs::is_regular_file(desk.folder / "sheet.ply"))
-      fs::remove(desk.folder / "sheet.ply");
-    draw_two(desk);
+    drawn.restore();
+    fs::remove(desk.folder / "sheet.ply");
+    write_text(desk.folder / "sheet.ply", sheet);
     const fs::path pipe = desk.project() / place;
     fs::remove(pipe);
     REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);

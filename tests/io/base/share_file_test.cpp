@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "io/base/atomic_file.h"
+#include "io/base/outputs_below.h"
 #include "tests/io/base/io_test_helpers.h"
 
 using namespace furrow;
@@ -81,6 +82,19 @@ TEST_CASE("share_file: a link is neither read nor written through, and a pipe ho
   }
   CHECK(slurp(outside / "mine") == "seven");
   CHECK_FALSE(std::filesystem::exists(outside / "lock"));
+}
+
+TEST_CASE("share_file: where outputs are kept below a folder nothing is made outside of it") {
+  TemporaryFolder folder, outside;
+  const io::OutputsBelow below(folder.path());
+  Wanted far{outside / "new/file"}, near{folder / "new/file"};
+  const io::ShareReport report = far.share();
+  CHECK(report.made);
+  CHECK(report.unwritten.find("outside") != std::string::npos);
+  CHECK(far.value == "seven, made");
+  CHECK_FALSE(std::filesystem::exists(outside / "new"));
+  CHECK(near.share().unwritten.empty());
+  CHECK_FALSE(near.share().made);
 }
 
 TEST_CASE("share_file: it is there at once for others, also where outputs wait to appear together") {
