@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/base/cancel_scope.h"
+
 namespace furrow::physics {
 namespace {
 
@@ -75,7 +77,8 @@ ColliderComparison compare_colliders(const Collider& tested, const ExactDistance
   check_body(mesh, "compare_colliders");
   ColliderComparison result;
   std::vector<double> push_out, near, over, angle;
-  for (const Vec3& x : offset_points(mesh, o)) {
+  for (int asked = 0; const Vec3& x : offset_points(mesh, o)) {
+    if (asked++ % 64 == 0) throw_if_cancelled("compare_colliders");
     const SignedDistance is = exact.at(x), said = tested.at(x);
     const bool says_inside = said.value < 0;
     if (is.value > o.outside_margin) ++result.outside, result.false_inside += says_inside;

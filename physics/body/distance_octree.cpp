@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <functional>
 
+#include "physics/base/cancel_scope.h"
+
 namespace furrow::physics {
 namespace {
 
@@ -24,6 +26,8 @@ std::array<double, 27> interpolate(const std::array<double, 8>& corner) {
   for (int i = 0; i < 9; ++i) v[9 + i] = 0.5 * (v[i] + v[18 + i]);
   return v;
 }
+
+constexpr int cells_a_question = 1024;  // of whether the work is cancelled
 
 /// Of the allowed error: between the tested points, and after the repair, the error is a little larger.
 constexpr double reserve = 0.93;
@@ -183,8 +187,10 @@ void DistanceOctree::refine(const Progress& progress) {
     for (std::size_t i = first; i < last; ++i) lattices.push_back(add_lattice(cells_[i]));
     const int level = cells_[first].level;
     samples_.evaluate([&](double share) { tell(level + share); });
-    for (std::size_t i = first; i < last; ++i)
+    for (std::size_t i = first; i < last; ++i) {
+      if (i % cells_a_question == 0) throw_if_cancelled("DistanceField");
       if (must_split(cells_[i], lattices[i - first])) append_children(static_cast<int>(i));
+    }
     check_next_level(first, last, samples_before, lattices);
     first = last;
   }
@@ -211,6 +217,7 @@ void DistanceOctree::balance() {
     if (cells_[i].first_child != 0) split[cells_[i].level].push_back(static_cast<int>(i));
   for (int level = rule_.max_depth - 1; level > 1; --level)
     for (std::size_t n = 0; n < split[level].size(); ++n) {
+      if (n % cells_a_question == 0) throw_if_cancelled("DistanceField");
       const LatticePoint low = cells_[split[level][n]].low;
       const int step = edge(cells_[split[level][n]]);
       for (int way = 0; way < 27; ++way) {
@@ -227,7 +234,8 @@ void DistanceOctree::find_hanging() {
   std::vector<char> seen(values_.size(), 0);
   std::vector<std::vector<Hanging>> by_level(rule_.max_depth + 1);
   std::vector<LatticePoint> point(values_.size());
-  for (const OctreeCell& cell : cells_)
+  for (const OctreeCell& cell : cells_) {
+    if ((&cell - cells_.data()) % cells_a_question == 0) throw_if_cancelled("DistanceField");
     for (int c = 0; cell.first_child == 0 && c < 8; ++c) {
       const int sample = cell.corner[c];
       if (seen[sample]) continue;
@@ -244,6 +252,7 @@ void DistanceOctree::find_hanging() {
       if (std::find(corners.begin(), corners.end(), sample) == corners.end())
         by_level[cells_[coarsest].level].push_back({sample, coarsest});
     }
+  }
   for (const auto& level : by_level)
     for (const Hanging& h : level) {
       hanging_.push_back(h);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/body/triangle_crossings.h"
 
 namespace furrow::physics {
@@ -95,6 +96,7 @@ void SurfaceSides::leave_out_unsound(const std::vector<char>& crossed) {
 void SurfaceSides::find_inner_walls(const std::vector<char>& crossed) {
   for (std::size_t t = 0; t < outer_.size(); ++t) {
     const int i = static_cast<int>(t);
+    if (t % 256 == 0) throw_if_cancelled("SurfaceSides");
     if (outer_[t] != unknown)
       dropped_[t] = outer_[t] >= 1;
     else if (!topology_.closed && !crossed[t])
@@ -108,6 +110,7 @@ void SurfaceSides::find_inner_walls(const std::vector<char>& crossed) {
 
 /// At the i-th of all places near the surface: adds to the counts and to the triangles summed over.
 void SurfaceSides::compare_signs_at(int i, double reach, Comparison& sum) {
+  throw_if_cancelled("SurfaceSides");
   const auto triangles = static_cast<std::int64_t>(outer_.size());
   const int t = static_cast<int>(i * triangles / comparisons);
   if (topology_.normals[t].isZero()) return;

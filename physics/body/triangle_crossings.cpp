@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/base/cancel_scope.h"
+
 namespace furrow::physics {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
+constexpr int triangles_a_question = 256;
 
 /// In the plane of the triangle: no line along one of its edges, nor along the segment, parts the two.
 bool meet_in_plane(const Vec3& p, const Vec3& q, const Corners& t, const Vec3& n, double slack) {
@@ -103,6 +106,7 @@ std::vector<char> crossed_triangles(const TriangleBvh& bvh, const SurfaceTopolog
   const std::vector<char> crowded = crowded_triangles(topology);
   std::vector<int> near;
   for (int i = 0; i < count; ++i) {
+    if (i % triangles_a_question == 0) throw_if_cancelled("crossed_triangles");
     if (crowded[i]) continue;
     const Corners& s = bvh.corners(i);
     const Vec3 low = s[0].cwiseMin(s[1]).cwiseMin(s[2]), high = s[0].cwiseMax(s[1]).cwiseMax(s[2]);

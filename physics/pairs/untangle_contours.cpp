@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
 #include "physics/pairs/tangle_contours.h"
 #include "physics/pairs/tangle_moves.h"
@@ -51,7 +52,8 @@ class ContourUntangler {
     std::vector<EdgeFaceCrossing> now = edge_face_crossings(mesh_, x_);
     report.at_start = report.left = int(now.size());
     std::vector<Vec3> best = moves_.start();
-    for (int stale = 0; !now.empty() && report.rounds < o_.most_rounds && stale < 2 * o_.patience; ++stale) {
+    const auto may_go_on = [&] { return report.rounds < o_.most_rounds && !is_cancelled(); };
+    for (int stale = 0; !now.empty() && stale < 2 * o_.patience && may_go_on(); ++stale) {
       if (!move(now)) break;
       ++report.rounds;
       now = edge_face_crossings(mesh_, x_);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
 #include "physics/pairs/edge_face_crossings.h"
 #include "physics/pairs/pair_list.h"
@@ -26,7 +27,8 @@ class Untangler {
     State best = now;
     std::vector<Vec3> best_x = moves_.start();
     report.at_start = int(now.crossings.size());
-    for (int stale = 0; !now.is_apart() && report.rounds < o_.most_rounds && stale < o_.patience; ++stale) {
+    const auto may_go_on = [&] { return report.rounds < o_.most_rounds && !is_cancelled(); };
+    for (int stale = 0; !now.is_apart() && stale < o_.patience && may_go_on(); ++stale) {
       if (now.crossings.empty())
         spread(now.near);
       else

@@ -364,11 +364,11 @@ class Settler {
   }
 
   /// The longest share of the move, from its largest halved, that lowers the energy. Asks the contact there
-  /// last; if there is none, where the particles are.
+  /// last; if there is none, or it is cancelled, where the particles are.
   Trial search(const Answer& here, const Vectors& net, const Move& move) {
     const double before = energy(here), slope = -dot(net, move.way);
     if (!(slope < 0)) return {};
-    for (double share = move.share; share > least_share * move.share; share *= 0.5) {
+    for (double share = move.share; share > least_share * move.share && !is_cancelled(); share *= 0.5) {
       Trial trial{share, moved(p_.x, share, move.way), {}};
       trial.answer = look(trial.x);
       if (energy(trial.answer) <= before + 1e-4 * share * slope + 1e-13 * std::abs(before)) return trial;

@@ -84,6 +84,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   rest/settle_test.cpp
   rest/stiffness_work_test.cpp
   rest/settle_faces_test.cpp
+  base/cancelling_test.cpp
   RELEASE_SOURCES
   cloth/patch_test.cpp
   plate/plate_patch_test.cpp
