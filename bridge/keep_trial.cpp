@@ -11,6 +11,7 @@
 #include "bridge/gather.h"
 #include "geometry/fold/line_height.h"
 #include "geometry/mesh/property_names.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::bridge {
 namespace {
@@ -90,6 +91,7 @@ LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base
 }
 
 std::vector<double> LineMeter::heights(const physics::Particles& p) {
+  const physics::CancelScope whole([] { return false; });  // a trial that was stopped is measured, too
   scatter(p, shape_);
   std::vector<double> result;
   const auto all = geometry::line_heights(shape_, widths_);

@@ -12,6 +12,8 @@
 #include "io/picture/baked_maps.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
+#include "physics/base/cancel_scope.h"
+#include "physics/base/progress.h"
 #include "physics/base/require.h"
 
 namespace furrow::jobs {
@@ -65,12 +67,12 @@ void check_maps(const geometry::BakedMaps& maps, const Mesh& low, const BakeJob&
                                  "one pose (furrow transfer)");
 }
 
-std::vector<Face> faces_away_from(const Mesh& mesh, const Mesh& low, Listener& listener) {
+std::vector<Face> faces_away_from(const Mesh& mesh, const Mesh& low) {
   const geometry::SurfaceProjector surface(low);
   std::vector<Face> faces;
   for (Face f : mesh.faces())
     for (geometry::Vertex v : mesh.vertices_around_face(mesh.halfedge(f)))
-      if (!listener.cancelled() && surface.closest(mesh.point(v)).distance > moved) {
+      if (surface.closest(mesh.point(v)).distance > moved) {
         faces.push_back(f);
         break;
       }
@@ -83,25 +85,31 @@ BakeCheck measure_maps(const BakeJob& job, const io::MeshFile& low, const Mesh& 
                        const io::BakedFiles& files, const Context& context) {
   BakeCheck result{low, {}};
   const io::MeshFile& applied = result.applied;
-  geometry::apply_displacement(result.applied.mesh, io::read_displacement(files.record), *job.check);
+  {
+    const physics::CancelScope whole([] { return false; });
+    geometry::apply_displacement(result.applied.mesh, io::read_displacement(files.record), *job.check);
+  }
   if (!job.applied.empty() && job.applied != "-") write_mesh(job.applied, applied, context);
   const auto measure = [&](const char* name, const Mesh& from, const Mesh& to, const auto&... faces) {
-    if (context.listener.cancelled()) return;
     const geometry::SurfaceDeviation d = geometry::surface_deviation(from, to, faces...);
     result.deviations.push_back({name, d.median, d.p95, d.largest, d.area});
   };
-  measure("to_high", applied.mesh, high);
-  measure("from_high", high, applied.mesh);
-  const std::vector<Face> ours = faces_away_from(applied.mesh, low.mesh, context.listener),
-                          theirs = faces_away_from(high, low.mesh, context.listener);
-  if (!ours.empty()) measure("wrinkled_to_high", applied.mesh, high, ours);
-  if (!theirs.empty()) measure("wrinkled_from_high", high, applied.mesh, theirs);
+  try {
+    measure("to_high", applied.mesh, high);
+    measure("from_high", high, applied.mesh);
+    const std::vector<Face> ours = faces_away_from(applied.mesh, low.mesh),
+                            theirs = faces_away_from(high, low.mesh);
+    if (!ours.empty()) measure("wrinkled_to_high", applied.mesh, high, ours);
+    if (!theirs.empty()) measure("wrinkled_from_high", high, applied.mesh, theirs);
+  } catch (const physics::Cancelled&) {
+  }
   return result;
 }
 
 }  // namespace
 
 BakeReport bake(const BakeJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   check(job, listener);
   BakeReport report;
   report.frame = job.frame;
@@ -111,9 +119,10 @@ BakeReport bake(const BakeJob& job, Listener& listener) {
   const io::MeshFile low = read_textured(job.low, "the low mesh", context),
                      high = read_textured(job.high, "the high mesh", context);
   std::optional<geometry::BakedMaps> maps;
-  {
+  try {
     const ProgressScope progress(listener, "baking");
     maps = geometry::bake_maps(low.mesh, high.mesh, job.options, std::cref(progress));
+  } catch (const physics::Cancelled&) {
   }
   if (!maps) return report;
   if (maps->overlapping > 0)

@@ -4,6 +4,7 @@
 #include "geometry/mesh/self_intersections.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -20,6 +21,7 @@ Json measures_json(const geometry::BodyMeasures& m) {
 }  // namespace
 
 BodyReport shape_body(const BodyJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   if (!job.output.empty()) check_output(job.output.string());
   check_replaced({job.output.string()}, {name_of(job.mesh, "")}, listener);
   BodyReport report{{}, job.measures, {}, 0, job.frame};

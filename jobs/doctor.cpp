@@ -10,6 +10,7 @@
 #include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/body.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -141,6 +142,7 @@ Json to_json(const std::vector<Ailment>& all) {
 }  // namespace
 
 DoctorReport doctor(const DoctorJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   check(job, listener);
   DoctorReport report;
   report.frame = job.frame;

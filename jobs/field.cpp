@@ -8,6 +8,7 @@
 #include "io/picture/render_slice.h"
 #include "io/scene/field_file.h"
 #include "jobs/check/output_checks.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -45,6 +46,7 @@ FieldErrors errors_of(const BodyCollider& body) {
 }  // namespace
 
 FieldReport field(const FieldJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   if (job.output == "-") throw std::invalid_argument("-o: a field needs a file name");
   check_folder(job.output.string());
   check_picture(job.slice.string(), "--picture");

@@ -306,6 +306,7 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   report.record = *io::find_wrinkle_record(garment.file);
   const CrossedStart crossed = crossed_start(garment.file.mesh);
   report.lines = find_rest(job, scene, garment, report.record, context);
+  const physics::CancelScope whole([] { return false; });  // one that was stopped is told of, too
   note_presses(report.lines, report.record, garment.file);
   physics::soften_clamps(garment.cloth);
   bridge::store_rest_state(garment.cloth, spring_options(garment.file, scene.material), garment.file.mesh);

@@ -3,10 +3,12 @@
 
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 
 SmoothReport smooth(const SmoothJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   if (!job.output.empty()) check_output(job.output.string());
   check_replaced({job.output.string()}, {name_of(job.mesh, "")}, listener);
   SmoothReport report{{}, job.options.iterations, job.frame};

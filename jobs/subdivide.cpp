@@ -15,6 +15,7 @@
 #include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -88,6 +89,7 @@ void refine(const SubdivideJob& job, SubdivideReport& result, SeamTies& ties, co
 }  // namespace
 
 SubdivideReport subdivide(const SubdivideJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   const std::string output = job.output.string();
   if (!output.empty()) check_output(output);
   const auto* strokes = std::get_if<std::filesystem::path>(&job.strokes);

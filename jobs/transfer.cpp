@@ -12,6 +12,7 @@
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/measure_crossings.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -69,6 +70,7 @@ void write(const TransferJob& job, const TransferReport& report, const Context& 
 }  // namespace
 
 TransferReport transfer(const TransferJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
   if (!job.output.empty()) check_output(job.output.string());
   check_replaced({job.output.string()}, names_of_inputs(job), listener);
   TransferReport report;

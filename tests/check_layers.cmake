@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
 # Which folder may include what. CGAL lies in the system's include path, so the compiler would not tell.
-set(may_include_geometry geometry)
+set(may_include_geometry geometry physics)
+set(only_geometry_physics base/cancel_scope base/progress)  # and of that no more
 set(may_include_physics physics)
 set(may_include_bridge bridge geometry physics)
 set(may_include_io io bridge geometry physics)
@@ -72,6 +73,12 @@ foreach(folder geometry physics bridge io jobs studio cli python)
         endif()
       endif()
       string(REGEX REPLACE ".*include *[<\"]([^/>\"]+)[/>\"].*" "\\1" top "${line}")
+      if(only_${folder}_${top})
+        string(REGEX REPLACE ".*include \"${top}/([a-z_/]+)[.]h\".*" "\\1" inner "${line}")
+        if(NOT inner IN_LIST only_${folder}_${top})
+          list(APPEND faults "${file}: ${folder} may include of ${top} ${only_${folder}_${top}} alone")
+        endif()
+      endif()
       if(top IN_LIST ours AND NOT top IN_LIST may_include_${folder})
         list(APPEND faults "${file}: ${folder} may not include ${top}")
       endif()

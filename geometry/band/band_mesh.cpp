@@ -9,6 +9,7 @@
 
 #include "geometry/insert/flip_rules.h"
 #include "geometry/mesh/carry_attributes.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -238,6 +239,7 @@ std::size_t BandMesh::flip_to_delaunay() {
   };
   std::vector<std::pair<Vertex, Edge>> higher;
   for (Vertex v : vertices()) {
+    physics::throw_if_cancelled("wrinkle");
     higher.clear();
     for (Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))
       if (mesh.source(h) > v) higher.push_back({mesh.source(h), mesh.edge(h)});
@@ -248,6 +250,7 @@ std::size_t BandMesh::flip_to_delaunay() {
   // Flips end in exact arithmetic; the limit guards against rounding.
   const std::size_t limit = 100 * queue.size() + 100;
   for (; !queue.empty() && count < limit; queue.pop_front()) {
+    physics::throw_if_cancelled("wrinkle");
     const Edge e = queue.front();
     waiting[e.idx()] = false;
     if (!(cotangent_sum(mesh, rest, e) < -tie) || !may_be_flipped(e, shape)) continue;
@@ -309,6 +312,7 @@ Vertex BandMesh::previous_on(int curve, double along) const {
 void BandMesh::finish() {
   const VertexBlend blend(base.mesh(), mesh, &Carry::insertion);
   for (Vertex v : mesh.vertices()) {
+    physics::throw_if_cancelled("wrinkle");
     if (is_old(v) && !moved[v.idx()]) continue;
     blend.set(v, corners_of(base.mesh(), place[v.idx()].face), place[v.idx()].barycentrics);
     if (moved[v.idx()]) editor.note_moved(v);

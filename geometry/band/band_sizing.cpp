@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/base/cancel_scope.h"
+
 namespace furrow::geometry {
 namespace {
 
@@ -89,6 +91,7 @@ BandSizing::BandSizing(std::span<const FoldCurve> curves, Detail detail, double 
     const std::vector<double> to_border = ways_to_border(curve);
     std::vector<Edges> edges;
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
+      physics::throw_if_cancelled("wrinkle");
       const double w = curve.width[i];
       const double at_border =
           edge_at_crest(w, curve.height[i], border_share, detail, least_edge) + border_growth * to_border[i];

@@ -10,6 +10,7 @@
 
 #include "geometry/insert/connect_line.h"
 #include "geometry/mesh/errors.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -74,6 +75,7 @@ class Embedding {
     std::vector<Face> faces;
     Face face = start;
     for (std::size_t i = 0; i <= curve_.segments(); ++i) {
+      physics::throw_if_cancelled("wrinkle");
       face = walk_towards(mesh_, face, curve_.point(i), [](Edge) { return true; }).face;
       faces.push_back(face);
     }
@@ -92,13 +94,15 @@ class Embedding {
 
   std::vector<Candidate> candidates(const std::vector<Face>& faces) const {
     std::map<Vertex, BandCurve::Near> nearest;
-    for (std::size_t i = 0; i < faces.size(); ++i)
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      physics::throw_if_cancelled("wrinkle");
       for (Vertex v : around(faces[i])) {
         const auto k = static_cast<std::ptrdiff_t>(i);
         const BandCurve::Near near = curve_.nearest(mesh_.point(v), k - 3, k + 3);
         const auto [known, is_new] = nearest.try_emplace(v, near);
         if (!is_new && near.distance < known->second.distance) known->second = near;
       }
+    }
     std::vector<Candidate> result;
     for (const auto& [v, near] : nearest) result.push_back({v, near, local_h(v, near.along)});
     std::stable_sort(result.begin(), result.end(), [](const Candidate& a, const Candidate& b) {
@@ -185,6 +189,7 @@ class Embedding {
   }
 
   void snap(const Candidate& c, const Snap& rule) {
+    physics::throw_if_cancelled("wrinkle");
     if (c.near.distance > rule.within * c.h || band_.along(c.vertex, index_) >= 0) return;
     if (!stays(c.vertex) && !band_.on[c.vertex.idx()].empty() && slide_to_crossing(c)) return;
     if (is_shared(c.vertex)) {
@@ -402,6 +407,7 @@ class Embedding {
     std::set<Vertex> seen;
     int detours = 0;
     do {
+      physics::throw_if_cancelled("wrinkle");
       seen.insert(v);
       if (seen.size() > 4 * curve_.segments() + 200) refuse_way(given);
       const double along = band_.along(v, index_);

@@ -15,6 +15,7 @@
 #include "geometry/band/tighten_displaced.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -111,6 +112,7 @@ class SecondPass {
   void flip() {
     std::vector<std::pair<std::pair<Vertex, Vertex>, Edge>> edges;
     for (Edge e : mesh_.edges()) {
+      physics::throw_if_cancelled("wrinkle");
       const Halfedge h = band_.from_lower(e);
       if (!mesh_.is_border(e) && band_.touches_band(e) && !is_delaunay(e))
         edges.push_back({{mesh_.source(h), mesh_.target(h)}, e});
@@ -120,6 +122,7 @@ class SecondPass {
     for (const auto& entry : edges) queue.push_back(entry.second);
     const std::size_t limit = 100 * queue.size() + 100;
     for (std::size_t count = 0; !queue.empty() && count < limit; queue.pop_front()) {
+      physics::throw_if_cancelled("wrinkle");
       const Edge e = queue.front();
       if (mesh_.is_border(e) || is_delaunay(e) || !may_be_flipped(e)) continue;
       band_.editor.flip_edge(e);

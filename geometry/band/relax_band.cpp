@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "physics/base/cancel_scope.h"
+
 namespace furrow::geometry {
 namespace {
 
@@ -24,7 +26,10 @@ class Relaxation {
     const std::vector<Vertex> vertices = band_.vertices();
     for (Vertex v : vertices) size_[v.idx()] = sizing_.at(mesh_.point(v), 4 * band_.mean_edge(v));
     std::size_t count = 0;
-    for (Vertex v : vertices) count += relax(v);
+    for (Vertex v : vertices) {
+      physics::throw_if_cancelled("wrinkle");
+      count += relax(v);
+    }
     band_.flip_to_delaunay();
     return count;
   }

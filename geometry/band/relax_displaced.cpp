@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "geometry/band/relax_band.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -42,6 +43,7 @@ std::size_t relax_displaced(BandMesh& band, const BandSizing& sizing, std::vecto
   for (Vertex v : vertices) size[v.idx()] = sizing.at(mesh.point(v), 4 * band.mean_edge(v));
   std::size_t moved = 0;
   for (Vertex v : vertices) {
+    physics::throw_if_cancelled("wrinkle");
     if (!may_move(band, v)) continue;
     const Star raised = lay_flat(mesh, displaced, v), flat = lay_flat(mesh, band.rest, v);
     const StarPoint to = find_in_star(raised, relaxed_place(mesh, raised, size));

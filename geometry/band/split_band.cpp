@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "geometry/band/split_longest.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -29,6 +30,7 @@ std::vector<bool> band_faces(const Mesh& mesh, const EdgeMap<double>& rest, std:
   for (const FoldCurve& curve : curves)
     for (const FacePoint& p : curve.places) add(p.face);
   for (std::size_t next = 0; next < queue.size(); ++next) {
+    physics::throw_if_cancelled("wrinkle");
     const auto lengths = rest_lengths_of(mesh, rest, queue[next]);
     const double longest = *std::max_element(lengths.begin(), lengths.end());
     const Point centre = centre_of(mesh, queue[next]);

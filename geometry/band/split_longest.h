@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/band/band_mesh.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 
@@ -29,6 +30,7 @@ std::size_t split_longest(const BandMesh& band, const Length& length, const IsTo
   const Mesh& mesh = band.mesh;
   std::priority_queue<WaitingEdge> queue;
   const auto push = [&](Edge e) {
+    physics::throw_if_cancelled("wrinkle");
     const Halfedge h = band.from_lower(e);
     if (band.touches_band(e) && is_too_long(e))
       queue.push({static_cast<float>(length(e)), mesh.source(h), mesh.target(h)});

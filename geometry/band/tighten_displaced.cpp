@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/base/cancel_scope.h"
+
 namespace furrow::geometry {
 namespace {
 
@@ -84,6 +86,7 @@ class Tightening {
   std::vector<WaitingFlip> flips_that_gain() const {
     std::vector<WaitingFlip> list;
     for (Edge e : mesh_.edges()) {
+      physics::throw_if_cancelled("wrinkle");
       if (mesh_.is_border(e) || !band_.touches_band(e)) continue;
       const Quad q = quad_of(e);
       if (!changed_[q.a.idx()] && !changed_[q.b.idx()] && !changed_[q.c.idx()] && !changed_[q.d.idx()])

@@ -9,6 +9,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -86,6 +87,7 @@ std::vector<SectionLoop> horizontal_section(std::span<const Point> points,
                                             std::span<const std::array<int, 3>> triangles, double height) {
   if (!std::isfinite(height))
     refuse("horizontal_section", "height = " + std::to_string(height) + " is not finite");
+  physics::throw_if_cancelled("horizontal_section");
   const std::vector<Piece> pieces = cut(points, triangles, height);
   std::unordered_map<EdgeKey, std::size_t> starting, ending;
   for (std::size_t i = 0; i < pieces.size(); ++i)

@@ -8,6 +8,7 @@
 #include "geometry/figure/limb_places.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -38,6 +39,7 @@ void blend(const Mesh& garment, std::vector<Weights>& weights) {
   std::vector<Weights> next = weights;
   for (int round = 0; round < rounds; ++round) {
     for (const Vertex v : garment.vertices()) {
+      physics::throw_if_cancelled("place_garment");
       if (garment.is_isolated(v)) continue;
       Weights sum{};
       double n = 0;

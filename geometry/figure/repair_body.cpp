@@ -20,6 +20,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/self_intersections.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -110,6 +111,7 @@ void fill_holes(ExactMesh& body, BodyReport& report) {
   std::vector<ExactMesh::Halfedge_index> cycles;
   pmp::extract_boundary_cycles(body, std::back_inserter(cycles));
   for (auto border : cycles) {
+    physics::throw_if_cancelled("repair_body");
     std::vector<ExactMesh::Face_index> faces;
     if (count_edges(body, border) <= 1000) pmp::triangulate_hole(body, border, std::back_inserter(faces));
     report.filling_faces += faces.empty() ? fill_by_fan(body, border) : faces.size();

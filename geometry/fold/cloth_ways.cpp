@@ -8,6 +8,7 @@
 #include <string>
 
 #include "geometry/mesh/preconditions.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -44,6 +45,7 @@ class Front {
   std::vector<VertexWay> run() {
     std::vector<VertexWay> result;
     while (!next_.empty()) {
+      physics::throw_if_cancelled("wrinkle");
       const auto [way, v] = next_.top();
       next_.pop();
       if (passed_[v.idx()]) continue;

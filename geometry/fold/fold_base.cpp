@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "geometry/mesh/tangent_frames.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -33,6 +34,7 @@ void average_normals(const Mesh& mesh, const std::vector<bool>& of, std::vector<
   std::vector<Vector> next = normals;
   for (int round = 0; round < rounds; ++round) {
     for (Vertex v : mesh.vertices()) {
+      physics::throw_if_cancelled("wrinkle");
       if (!of[v.idx()] || mesh.is_isolated(v)) continue;
       Vector sum = normals[v.idx()];
       for (Halfedge h : mesh.halfedges_around_target(mesh.halfedge(v)))

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/base/cancel_scope.h"
+
 namespace furrow::geometry {
 namespace {
 
@@ -69,6 +71,7 @@ FoldHeight::FoldHeight(const FoldCurve& curve)
 void FoldHeight::reach_height() {
   double most = 0;
   for (const Place& place : places_) {
+    physics::throw_if_cancelled("wrinkle");
     if (place.height == 0) continue;
     const double asked = place.height / std::max(place.taper, 1e-300);
     most = std::max(most, (meets_itself_ ? passes_at(place.point) : sum_at(place.point)) / asked);
@@ -131,12 +134,15 @@ void FoldHeight::divide_by_crest(const FoldCurve& curve) {
       all.push_back({end.point + k * step, end.radius, 15 / (16 * end.radius) * ds});
   }
   std::vector<double> crest(places_.size(), 0);
-  for (std::size_t i = 0; i < places_.size(); ++i)
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    physics::throw_if_cancelled("wrinkle");
     for (std::size_t j = 0; j < all.size(); ++j) {
+      const double near = bump((all[j].point - places_[i].point).squaredNorm(), all[j].radius);
+      if (near == 0) continue;
       const double share = meets_itself_ && j < places_.size() ? share_of_pass(i, j) : 1;
-      crest[i] +=
-          share * all[j].weight * bump((all[j].point - places_[i].point).squaredNorm(), all[j].radius);
+      crest[i] += share * all[j].weight * near;
     }
+  }
   // Beyond a border the extension ends, too: it takes the integral at the border.
   const std::size_t first = before_, last = before_ + n - 1;
   for (std::size_t i = 0; i < places_.size(); ++i)
@@ -220,10 +226,37 @@ double FoldHeight::share_of_pass(std::size_t i, std::size_t of) const {
   return 1 - smoothstep((way_between(i, of) / radius - whole_pass) / (pass_ends - whole_pass));
 }
 
+/// Of each term the sum over its pass. Cost: O(terms) for each of the places within a pass.
+std::vector<double> FoldHeight::passes_of(const std::vector<Term>& terms) const {
+  double widest = 0;
+  for (const Term& term : terms) widest = std::max(widest, places_[term.first].radius);
+  const auto n = static_cast<std::ptrdiff_t>(places_.size()),
+             reach = static_cast<std::ptrdiff_t>(std::min(pass_ends * widest / step_ + 2, double(n)));
+  const auto from = [&](std::ptrdiff_t i) {
+    const Term first{static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, n)), 0};
+    return std::lower_bound(terms.begin(), terms.end(), first,
+                            [](const Term& a, const Term& b) { return a.first < b.first; });
+  };
+  std::vector<double> passes;
+  for (const Term& term : terms) {
+    const auto i = static_cast<std::ptrdiff_t>(term.first);
+    double sum = 0;
+    const auto add = [&](auto begin, auto end) {
+      for (auto of = begin; of < end; ++of) sum += share_of_pass(term.first, of->first) * of->second;
+    };
+    const auto begin = from(i - reach), end = from(i + reach + 1);
+    if (closed_) add(terms.begin(), std::min(begin, from(i + reach + 1 - n)));
+    add(begin, end);
+    if (closed_) add(std::max(end, from(i - reach + n)), terms.end());
+    passes.push_back(sum);
+  }
+  return passes;
+}
+
 /// Of a curve that meets itself: the integral over the highest pass, joined with that over the highest of the
 /// others. Passes come and go smoothly with x, as all places have shares in all passes.
 double FoldHeight::passes_at(const Vec3& x) const {
-  std::vector<std::pair<std::size_t, double>> terms;
+  std::vector<Term> terms;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if ((x - blocks_[b].centre).squaredNorm() >= blocks_[b].reach * blocks_[b].reach) continue;
     const std::size_t last = std::min((b + 1) * block_size, places_.size());
@@ -232,12 +265,7 @@ double FoldHeight::passes_at(const Vec3& x) const {
       if (term != 0) terms.push_back({i, term});
     }
   }
-  std::vector<double> passes;
-  for (const auto& [i, own] : terms) {
-    double sum = 0;
-    for (const auto& [j, term] : terms) sum += share_of_pass(i, j) * term;
-    passes.push_back(sum);
-  }
+  const std::vector<double> passes = passes_of(terms);
   if (passes.empty()) return 0;
   const auto higher = [](double a, double b) { return std::abs(a) < std::abs(b); };
   const auto top =

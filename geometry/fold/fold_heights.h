@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/stroke/fold_curve.h"
@@ -56,6 +58,8 @@ class FoldHeight {
   void reach_height();
   double sum_at(const Eigen::Vector3d& x) const;
   double passes_at(const Eigen::Vector3d& x) const;
+  using Term = std::pair<std::size_t, double>;  ///< of an integral: number of the place, and what it adds
+  std::vector<double> passes_of(const std::vector<Term>& terms) const;
   double way_between(std::size_t i, std::size_t j) const;
   double share_of_pass(std::size_t i, std::size_t of) const;
   double tent(const Eigen::Vector3d& x) const;

@@ -6,11 +6,14 @@
 #include <numbers>
 #include <set>
 
+#include "geometry/band/band_sizing.h"
 #include "geometry/fold/fold_base.h"
 #include "geometry/fold/raise_folds.h"
 #include "geometry/fold/smooth_folds.h"
 #include "geometry/fold/wrinkle_steps.h"
 #include "geometry/mesh/edge_metric.h"
+#include "geometry/mesh/errors.h"
+#include "geometry/mesh/measures.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/fold_rest.h"
@@ -23,6 +26,7 @@ namespace {
 
 constexpr double full_share = 0.98;  ///< of the highest T: there a crest is measured
 constexpr double thinnest = 3;       ///< angle of a face that physics bears [degrees]
+constexpr double most_faces = 2e6;   ///< that folds are made of: some minutes, 2 GB
 
 void lay(Mesh& mesh, const Raised& raised) {
   for (Vertex v : mesh.vertices()) mesh.point(v) = raised.displaced(v);
@@ -156,6 +160,38 @@ Folds folds_of(const Mesh& mesh, std::span<const Stroke> strokes, const WrinkleO
   return Folds(std::move(prepared.curves));
 }
 
+/// Faces that a fold needs, about: of its flanks, its crest, and those that grow beyond it (BandSizing).
+double faces_of(const FoldCurve& curve, const BandOptions& o) {
+  const auto faces = [](double area, double edge) { return area / (std::numbers::sqrt3 / 4 * edge * edge); };
+  double sum = 0;
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const double w = curve.width[i], length = (curve.points[i] - curve.points[i - 1]).norm();
+    const double flank = crest_edge(w, 0, o.detail, o.least_edge),
+                 crest = crest_edge(w, curve.height[i], o.detail, o.least_edge);
+    sum += length * (faces(0.9 * w, flank) + faces(0.2 * w, crest) + 13 / flank);
+  }
+  return sum;
+}
+
+/// So that a garment in another unit, or a scribble, does not take hours and all memory.
+void require_bearable(const Folds& folds, const BandOptions& refining) {
+  double all = 0, most = 0;
+  const FoldCurve* largest = nullptr;
+  for (const FoldCurve& curve : folds.curves) {
+    const double faces = faces_of(curve, refining);
+    all += faces;
+    if (faces > most) most = faces, largest = &curve;
+  }
+  if (all > most_faces)
+    throw ContentError(
+        "stroke \"" + largest->name + "\": its fold, " + length_text(largest->length) + " long and " +
+        length_text(largest->width.front()) + " wide, would take some " +
+        std::to_string(std::lround(most / 1e5) / 10.0).substr(0, 5) + " million faces, all lines " +
+        std::to_string(std::lround(all / 1e5) / 10.0).substr(0, 5) +
+        ", and 2 are borne; is the garment in metres (--unit)? Draw fewer lines, shorter or wider "
+        "ones, or use the rule safe");
+}
+
 void complete_springs(Mesh& mesh, std::span<const Face> changed) {
   rebuild_bending_springs(mesh, changed);
   ensure_rest_angles(mesh);
@@ -192,6 +228,7 @@ WrinkleReport fold_lines(Mesh& mesh, std::span<const Stroke> strokes, const Wrin
   report.fold->angle_defect_before = angle_defect(work);
   const Folds folds = folds_of(work, strokes, options, report);
   const BandOptions refining{options.detail, 0.003, options.insertion.may_flip, options.held};
+  require_bearable(folds, refining);
   BandReport band = refine_band(work, folds.curves, refining);
   if (observer) {
     complete_springs(work, band.changed_faces);

@@ -11,6 +11,7 @@
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/two_ring.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -44,6 +45,7 @@ Eigen::MatrixXd harmonic_fill(const Mesh& mesh, const Patch& patch, const std::v
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, 3);
   for (Face f : patch.faces) {
+    physics::throw_if_cancelled("line_heights");
     const Halfedge first = mesh.halfedge(f);
     const auto [a, b, c] = edge_lengths(mesh, f, lengths);
     const auto cot = bounded_cotangents(a, b, c);  // opposite first, next, prev
@@ -127,6 +129,7 @@ std::vector<LineHeight> line_heights(const Mesh& mesh, std::span<const double> w
   for (Vertex v : line_vertices(mesh))
     if (!mesh.is_isolated(v)) lines[(*line)[v]].push_back(v);
   for (auto& [id, vertices] : lines) {
+    physics::throw_if_cancelled("line_heights");
     LineHeight height{id, unset_value, vertices.size()};
     const double width = static_cast<std::size_t>(id) < widths.size() ? widths[id] : unset_value;
     const std::vector<Vertex> free =

@@ -8,6 +8,7 @@
 #include "geometry/fold/line_region.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/preconditions.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -29,6 +30,7 @@ std::vector<Lift> lift_by_profile(const Mesh& mesh, std::span<const Vertex> line
   const double sharpness = stroke.sharpness.value_or(usual_sharpness);
   std::vector<Lift> lifts;
   for (Vertex v : vertices_within(mesh, line, farthest * half, rest_lengths(mesh))) {
+    physics::throw_if_cancelled("wrinkle");
     const double t = own[v.idx()] ? 0 : distance_to(path, mesh.point(v)) / half;
     const double height = stroke.height * line_profile(t, sharpness);
     if (height != 0) lifts.push_back({v, height});

@@ -11,6 +11,7 @@
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/two_ring.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 
@@ -41,6 +42,7 @@ std::vector<Vertex> vertices_within(const Mesh& mesh, std::span<const Vertex> se
   for (Vertex v : seeds) offer(v, 0);
   std::vector<Vertex> result;
   while (!next.empty()) {
+    physics::throw_if_cancelled("wrinkle");
     const auto [d, v] = next.top();
     next.pop();
     if (d > distance[v.idx()]) continue;

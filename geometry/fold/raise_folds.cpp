@@ -8,6 +8,7 @@
 #include "geometry/fold/fold_base.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/tangent_frames.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -50,6 +51,7 @@ class Raising {
   }
 
   void raise(RaisedVertex& v) const {
+    physics::throw_if_cancelled("wrinkle");
     const Folds::Joined joined = folds_.at(coordinates(v.base), v.ways);
     v.height = joined.height;
     double sum = 0, weights = 0;
@@ -117,6 +119,7 @@ std::vector<Point> base_of(const Mesh& mesh, const BandReport& band, const Raisi
                            const std::set<Vertex>& held) {
   std::vector<Point> base(mesh.points().begin(), mesh.points().end());
   for (Vertex v : mesh.vertices()) {
+    physics::throw_if_cancelled("wrinkle");
     const FacePoint& place = band.places[v.idx()];
     if (held.count(v) || !place.face.is_valid()) continue;
     const auto& b = place.barycentrics;

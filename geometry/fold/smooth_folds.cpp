@@ -10,6 +10,7 @@
 #include "geometry/mesh/face_point.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/rest_metric.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -34,11 +35,13 @@ std::size_t take_back(Mesh& mesh, const std::vector<Point>& before, std::span<co
   Mesh unsmoothed = mesh;
   for (Vertex v : region) unsmoothed.point(v) = before[v.idx()];
   std::map<Face, double> wanted;
+  physics::throw_if_cancelled("wrinkle");
   for (Face f : faces) wanted[f] = std::min(least_angle, face_angle(unsmoothed, f)) - 1e-6;
   std::set<Vertex> taken;
   for (bool changed = true; changed;) {
     changed = false;
     for (Face f : faces) {
+      physics::throw_if_cancelled("wrinkle");
       if (face_angle(mesh, f) >= wanted[f]) continue;
       for (Vertex v : corners_of(mesh, f))
         if (mesh.point(v) != before[v.idx()]) {

@@ -7,6 +7,7 @@
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -104,6 +105,7 @@ SmoothingRows gather_smoothing_rows(const Mesh& mesh, std::span<const Vertex> re
   RowGatherer row(mesh, options);
   rows.first.push_back(0);
   for (Vertex v : whole_or_sorted(mesh, region)) {
+    physics::throw_if_cancelled("taubin_smooth");
     row.gather(v);
     if (row.neighbours().empty()) continue;
     rows.active.push_back(static_cast<int>(v.idx()));

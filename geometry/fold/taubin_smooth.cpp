@@ -8,10 +8,12 @@
 
 #include "geometry/fold/smoothing_rows.h"
 #include "geometry/mesh/preconditions.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
 
+constexpr std::size_t rows_a_question = 1024;
 using Padded = Eigen::Array4d;  // x, y, z, 0: whole registers in the inner loop
 
 /// to = from + factor (W from - from) in the rows' vertices.
@@ -21,6 +23,7 @@ void filter_step(const SmoothingRows& rows, double factor, const std::vector<Pad
   const int* neighbour = rows.neighbour.data();
   const double* weight = rows.weight.data();
   for (std::size_t r = 0; r < rows.active.size(); ++r) {
+    if (r % rows_a_question == 0) physics::throw_if_cancelled("taubin_smooth");
     const int last = rows.first[r + 1];
     Padded mean = Padded::Zero();
     for (int j = rows.first[r]; j < last; ++j)

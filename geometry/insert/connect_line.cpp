@@ -5,6 +5,7 @@
 #include <map>
 
 #include "geometry/insert/flip_rules.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -117,6 +118,7 @@ std::set<Edge> connect_line(MeshEditor& editor, std::vector<Link>& links, double
   std::vector<bool> joined(links.size(), false);
   for (std::size_t i = 0; i < links.size(); ++i) joined[i] = connector.joined_already(links[i]);
   for (std::size_t i = 0; i < links.size(); ++i) {
+    physics::throw_if_cancelled("wrinkle");
     if (!joined[i]) connector.join(links[i]);
   }
   return connector.fresh();
@@ -128,6 +130,7 @@ std::vector<Vertex> shortest_edge_path(const Mesh& mesh, const EdgeMap<double>& 
   std::set<std::pair<double, Vertex>> queue{{0.0, from}};
   std::set<Vertex> done;
   while (!queue.empty()) {
+    physics::throw_if_cancelled("wrinkle");
     const auto [distance, v] = *queue.begin();
     queue.erase(queue.begin());
     if (v == to) break;

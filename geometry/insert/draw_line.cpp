@@ -7,6 +7,7 @@
 
 #include "geometry/insert/insert_in_faces.h"
 #include "geometry/insert/restore_delaunay.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -102,6 +103,7 @@ NodePlan choose_nodes(const MeshEditor& editor, const Drawing& d) {
   std::set<Face> seen;
   for (const SubStroke& part : d.traced.sub_strokes) {
     for (const CrossedFace& visit : part.faces) {
+      physics::throw_if_cancelled("wrinkle");
       if (!seen.insert(visit.face).second) continue;
       check_face(editor.mesh(), editor.rest(), visit.face);
       const auto corner = d.options.rule == InsertionRule::safe ? corner_for(editor, d, visit) : std::nullopt;
@@ -143,6 +145,7 @@ std::vector<Edge> rim_of(const Mesh& mesh, const TracedStroke& traced, const Nod
 Nodes split_faces(MeshEditor& editor, const NodePlan& plan) {
   Nodes nodes{plan.corners, plan.parameters, {}, {}};
   for (const NewNode& node : plan.splits) {
+    physics::throw_if_cancelled("wrinkle");
     const Vector normal = normalized(area_normal_of(editor.mesh(), node.point.face));
     const Vertex v = editor.split_face(node.point);
     nodes.of_face[node.point.face] = v;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "physics/base/cancel_scope.h"
+
 namespace furrow::geometry {
 namespace {
 
@@ -89,6 +91,7 @@ LineDeviation deviation_of(const DrawnLine& drawn, const Mesh& before, const Edg
   LineDeviation deviation;
   const auto longest = longest_edges_around(before, rest_before, traced);
   for (const ProjectedSample& sample : traced.samples) {
+    physics::throw_if_cancelled("wrinkle");
     double squared = std::numeric_limits<double>::infinity();
     for (const auto& chain : drawn.insertion.line.chains) {
       for (std::size_t i = 0; i < chain.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "geometry/mesh/struts.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -133,6 +134,7 @@ void SavedAttributes::restore_corners(Mesh& mesh, const std::function<Face(Face)
     if (attribute.carry.subdivision != CarryRule::computed) set_all(mesh, map, attribute.default_value);
   });
   for (Face f : mesh.faces()) {
+    physics::throw_if_cancelled("subdivide");
     const Face from = parent(f);
     for (Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
       const Vertex v = mesh.target(h);

@@ -12,6 +12,7 @@
 
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/preconditions.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -56,6 +57,7 @@ Soup gather(std::span<const Point> points, std::span<const std::array<int, 3>> t
   const std::vector<int> welded = weld(points);
   Soup soup;
   for (std::size_t k = 0; k < triangles.size(); ++k) {
+    physics::throw_if_cancelled("count_self_intersections");
     const std::array<int, 3>& t = triangles[k];
     std::array<Exact::Point_3, 3> p;
     std::array<int, 3> ids;
@@ -78,15 +80,17 @@ Soup gather(std::span<const Point> points, std::span<const std::array<int, 3>> t
 /// Boxes that are sorted and scanned in place of cut in halves: faces are small and spread out, for which
 /// CGAL's own 10 takes two to three times as long (3,000 to 49,000 vertices).
 constexpr std::ptrdiff_t scanned = 1000;
+constexpr std::size_t looks_a_question = 32;
 
 /// Calls `found` with each pair, as the triangles were numbered.
 template <class Found>
 void for_each_pair(std::span<const Point> points, std::span<const std::array<int, 3>> triangles,
                    const Found& found) {
   Soup soup = gather(points, triangles);
-  double candidates = 0;
+  std::size_t looked = 0;
   const auto look_at = [&](const Box& a, const Box& b) {
-    if (++candidates > most_candidates(triangles.size()))
+    if (++looked % looks_a_question == 0) physics::throw_if_cancelled("count_self_intersections");
+    if (double(looked) > most_candidates(triangles.size()))
       throw ContentError("too many of the faces lie at one place to count those that cross each other");
     const auto& s = soup.corners[a.info()];
     const auto& t = soup.corners[b.info()];

@@ -6,6 +6,7 @@
 
 #include "geometry/mesh/property_names.h"
 #include "geometry/quality/fold_quality.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -52,6 +53,7 @@ std::vector<Vec3> blurred(const std::vector<Vec3>& points, bool closed, double s
   };
   std::vector<Vec3> result;
   for (int i = 0; i < n; ++i) {
+    physics::throw_if_cancelled("carried_curves");
     Vec3 sum = Vec3::Zero();
     double weights = 0;
     for (int o = -reach; o <= reach; ++o) {

@@ -9,6 +9,7 @@
 
 #include "geometry/mesh/face_point.h"
 #include "geometry/mesh/property_names.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -115,6 +116,7 @@ class Cutting {
 
   /// -1: farther than `far` from all.
   int nearest_row(const Vec3& x, double far) const {
+    physics::throw_if_cancelled("cut_sections");
     int nearest = -1;
     double least = far * far;
     for (const RowBlock& block : blocks_) {
@@ -212,6 +214,7 @@ class Cutting {
   /// Calls with the rows that may cut a face.
   template <class Call>
   void each_row_of(Face f, const Call& call) const {
+    physics::throw_if_cancelled("cut_sections");
     const auto c = corners_of(*surface_.mesh, f);
     const auto n = static_cast<int>(rows_.size());
     int first = n, last = -1;

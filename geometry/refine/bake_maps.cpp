@@ -9,6 +9,7 @@
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/tangent_frames.h"
 #include "geometry/refine/texture_raster.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -64,6 +65,7 @@ class Baker {
   bool fill(const BakeObserver& observer) {
     for (int row = 0; row < size_; ++row) {
       if (observer && row % std::max(1, size_ / 100) == 0 && !observer(0.9 * row / size_)) return false;
+      physics::throw_if_cancelled("bake");
       for (int column = 0; column < size_; ++column) {
         const std::size_t at = std::size_t(row) * size_ + column;
         const int low = low_raster_.face[at], high = high_raster_.face[at];
@@ -83,10 +85,12 @@ class Baker {
     for (int ring = 1; ring <= options_.padding; ++ring) {
       if (observer && !observer(0.9 + 0.1 * ring / options_.padding)) return false;
       std::vector<std::pair<std::size_t, std::size_t>> fresh;  // a texel and the neighbour that it goes by
-      for (int row = 0; row < size_; ++row)
+      for (int row = 0; row < size_; ++row) {
+        physics::throw_if_cancelled("bake");
         for (int column = 0; column < size_; ++column)
           if (const auto by = filled_neighbour(column, row))
             fresh.emplace_back(std::size_t(row) * size_ + column, *by);
+      }
       for (const auto& [at, by] : fresh) {
         if (ring == 1) {
           set(int(at % size_), int(at / size_), Face(low_raster_.face[by]), Face(high_raster_.face[by]));

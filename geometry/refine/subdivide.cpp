@@ -16,6 +16,7 @@
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/preconditions.h"
 #include "geometry/refine/refine_rest.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -29,6 +30,7 @@ class KeepIsolated : public Mask {
  public:
   explicit KeepIsolated(Mesh& mesh) : Mask(&mesh, mesh.points()), mesh_(mesh) {}
   void vertex_node(Vertex v, Point& p) {
+    physics::throw_if_cancelled("subdivide");
     if (mesh_.is_isolated(v))
       p = mesh_.point(v);
     else
@@ -46,7 +48,10 @@ class MidpointMask : public CGAL::PQQ_stencil_3<Mesh, PointMap> {
   void edge_node(Halfedge h, Point& p) {
     p = CGAL::midpoint(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)));
   }
-  void vertex_node(Vertex v, Point& p) { p = mesh_.point(v); }
+  void vertex_node(Vertex v, Point& p) {
+    physics::throw_if_cancelled("subdivide");
+    p = mesh_.point(v);
+  }
   void border_node(Halfedge h, Point& on_edge, Point& at_target) {
     edge_node(h, on_edge);
     at_target = mesh_.point(mesh_.target(h));
@@ -179,29 +184,41 @@ void sqrt3_step(Mesh& mesh, bool refine_border) {
   refine_rest_of_sqrt3(saved, mesh, origins);
 }
 
+/// All steps, or the mesh as it was where they end by an exception.
+template <class Step>
+void whole(Mesh& mesh, int steps, const Step& step) {
+  const Mesh before = mesh;
+  try {
+    for (int i = 0; i < steps; ++i) step(i);
+  } catch (...) {
+    mesh = before;
+    throw;
+  }
+}
+
 }  // namespace
 
 void loop_subdivide(Mesh& mesh, int steps) {
   check(mesh, steps, 4, "loop_subdivide");
-  for (int i = 0; i < steps; ++i) quadrisect<KeepIsolated<CGAL::Loop_mask_3<Mesh, PointMap>>>(mesh);
+  whole(mesh, steps, [&](int) { quadrisect<KeepIsolated<CGAL::Loop_mask_3<Mesh, PointMap>>>(mesh); });
 }
 
 std::vector<Face> midpoint_subdivide(Mesh& mesh, int steps) {
   check(mesh, steps, 4, "midpoint_subdivide");
   mesh.collect_garbage();
   std::vector<Face> parents(mesh.faces().begin(), mesh.faces().end());
-  for (int i = 0; i < steps; ++i) {
+  whole(mesh, steps, [&](int) {
     const std::size_t old_faces = parents.size();
     quadrisect<MidpointMask>(mesh);
     for (std::size_t f = old_faces; f < mesh.number_of_faces(); ++f)
       parents.push_back(parents[old_parent(Face(static_cast<Face::size_type>(f)), old_faces).idx()]);
-  }
+  });
   return parents;
 }
 
 void sqrt3_subdivide(Mesh& mesh, int steps) {
   check(mesh, steps, 3, "sqrt3_subdivide");
-  for (int i = 0; i < steps; ++i) sqrt3_step(mesh, i % 2 == 1);
+  whole(mesh, steps, [&](int i) { sqrt3_step(mesh, i % 2 == 1); });
 }
 
 }  // namespace furrow::geometry

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geometry/mesh/errors.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -37,6 +38,7 @@ TextureRaster rasterize_texture(const Mesh& mesh, int size) {
   raster.face.assign(std::size_t(size) * size, -1);
   std::vector<char> inside(raster.face.size(), 0);
   for (Face f : mesh.faces()) {
+    physics::throw_if_cancelled("bake");
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, sum = 0;
     for (Halfedge h : halfedges_of(mesh, f))
       for (int k = 0; k < 2; ++k) {
@@ -47,7 +49,8 @@ TextureRaster rasterize_texture(const Mesh& mesh, int size) {
     if (!std::isfinite(sum)) continue;
     raster.out_of_range += std::min(low[0], low[1]) < -beyond || std::max(high[0], high[1]) > 1 + beyond;
     const auto texel = [&](double x) { return int(std::clamp(std::floor(x * size), 0.0, size - 1.0)); };
-    for (int row = texel(1 - high[1]); row <= texel(1 - low[1]); ++row)
+    for (int row = texel(1 - high[1]); row <= texel(1 - low[1]); ++row) {
+      physics::throw_if_cancelled("bake");
       for (int column = texel(low[0]); column <= texel(high[0]); ++column) {
         const Barycentrics b = texture_barycentrics(mesh, *texture, f, texel_middle(size, column, row));
         const double least = std::min({b[0], b[1], b[2]});
@@ -59,6 +62,7 @@ TextureRaster rasterize_texture(const Mesh& mesh, int size) {
         raster.face[at] = int(f.idx());
         ++raster.covered;
       }
+    }
   }
   return raster;
 }

@@ -13,6 +13,7 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/refine/subdivide.h"
 #include "geometry/stroke/project_onto_surface.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -92,6 +93,7 @@ class Transfer {
   }
 
   Point target(Vertex v) {
+    physics::throw_if_cancelled("transfer");
     const Point& p = original_.point(v);
     if (is_known(v)) {
       ++report.copied;

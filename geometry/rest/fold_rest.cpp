@@ -13,6 +13,7 @@
 #include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/rest_angles.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -91,6 +92,7 @@ std::size_t reshape(Mesh& mesh, std::vector<Face> asked) {
   std::vector<char> is_reshaped(mesh.num_faces(), 0);
   std::size_t reshaped = 0;
   while (!asked.empty()) {
+    physics::throw_if_cancelled("wrinkle");
     const Face f = asked.back();
     asked.pop_back();
     if (is_reshaped[f.idx()] || !(rest.flatness(f) > flattest)) continue;
@@ -113,6 +115,7 @@ void give_area(Mesh& mesh) {
   bool changed = true;
   for (int round = 0; changed && round < 1000; ++round) {
     changed = false;
+    physics::throw_if_cancelled("wrinkle");
     for (Face f : mesh.faces()) {
       if (rest.flatness(f) < 1 - 1e-9) continue;
       changed = true;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/rest/warp_frame.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -71,6 +72,7 @@ std::vector<char> reached_faces(const Mesh& mesh, const std::vector<WarpLink>& l
   for (std::size_t i = 0; i < known.size(); ++i)
     if (known[i]) open.push_back(i);
   while (!open.empty()) {
+    physics::throw_if_cancelled("spread_warp");
     const std::size_t at = open.back();
     open.pop_back();
     for (const std::size_t next : beside[at])

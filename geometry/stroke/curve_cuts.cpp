@@ -7,17 +7,20 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/mesh/errors.h"
 #include "geometry/mesh/measures.h"
 #include "geometry/stroke/walk_surface.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double touching = 0.03;    ///< in widths: nearer than that, vertices on one are on the other
-constexpr double least_loop = 0.25;  ///< in widths, along the curve: what is nearer only bends
-constexpr double small_loop = 0.5;   ///< in widths, along the curve
+constexpr double touching = 0.03;          ///< in widths: nearer than that, vertices on one are on the other
+constexpr double least_loop = 0.25;        ///< in widths, along the curve: what is nearer only bends
+constexpr double small_loop = 0.5;         ///< in widths, along the curve
+constexpr std::size_t most_meetings = 50;  ///< of a segment, in the mean
 
 /// Two segments of a curve that meet, the first before the second.
 struct Meeting {
@@ -55,7 +58,8 @@ class Meetings {
   /// Of a closed curve, counted from its first point. Segments far from each other are stepped over.
   std::vector<Meeting> find() const {
     std::vector<Meeting> meetings;
-    for (std::size_t i = 0; i + 2 < segments_; ++i)
+    for (std::size_t i = 0; i + 2 < segments_; ++i) {
+      physics::throw_if_cancelled("wrinkle");
       for (std::size_t j = i + 2; j < segments_;) {
         const double reach = touching * width(i) + 2 * longest_;
         const double apart = (begin(j) - begin(i)).norm() - reach;
@@ -64,8 +68,12 @@ class Meetings {
           continue;
         }
         if (const auto meeting = meet(i, j)) meetings.push_back(*meeting);
+        if (meetings.size() > most_meetings * segments_)
+          throw ContentError("stroke \"" + curve_.name +
+                             "\": it meets itself again and again; draw it in parts");
         ++j;
       }
+    }
     return meetings;
   }
 

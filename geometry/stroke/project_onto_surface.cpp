@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/mesh/errors.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -95,11 +96,13 @@ SurfaceProjector::SurfaceProjector(const Mesh& mesh) {
 SurfaceProjector::~SurfaceProjector() = default;
 
 SurfaceHit SurfaceProjector::closest(const Point& query) const {
+  physics::throw_if_cancelled("SurfaceProjector");
   const auto [position, face] = tree_->tree.closest_point_and_primitive(query);
   return make_hit(tree_->mesh, face, position, query);
 }
 
 SurfaceHit SurfaceProjector::closest_among(const Point& query, std::span<const Face> faces) const {
+  physics::throw_if_cancelled("SurfaceProjector");
   const Mesh& mesh = tree_->mesh;
   const auto project = Kernel().construct_projected_point_3_object();
   Face best_face = faces.front();
@@ -115,6 +118,7 @@ SurfaceHit SurfaceProjector::closest_among(const Point& query, std::span<const F
 }
 
 std::optional<SurfaceHit> SurfaceProjector::first_hit(const Point& origin, const Vector& direction) const {
+  physics::throw_if_cancelled("SurfaceProjector");
   const Mesh& mesh = tree_->mesh;
   // Rounding may let a ray slip through the edge between two faces: two neighbours of it do not both.
   const auto box = tree_->tree.bbox();

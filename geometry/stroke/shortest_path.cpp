@@ -14,6 +14,7 @@
 #include "geometry/mesh/degenerate_faces.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/face_point.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -21,7 +22,28 @@ namespace {
 using PathKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using PathPoint = PathKernel::Point_3;
 using PathMesh = CGAL::Surface_mesh<PathPoint>;
-using PathTraits = CGAL::Surface_mesh_shortest_path_traits<PathKernel, PathMesh>;
+
+/// CGAL's, which asks at each edge that the front of paths crosses whether it is cancelled.
+struct PathTraits : CGAL::Surface_mesh_shortest_path_traits<PathKernel, PathMesh> {
+  using Base = CGAL::Surface_mesh_shortest_path_traits<PathKernel, PathMesh>;
+  using Base::Base;
+  struct Construct_triangle_3_along_segment_2_flattening
+      : Base::Construct_triangle_3_along_segment_2_flattening {
+    using Flattening = Base::Construct_triangle_3_along_segment_2_flattening;
+    using Flattening::Flattening;
+    explicit Construct_triangle_3_along_segment_2_flattening(const Flattening& own) : Flattening(own) {}
+    template <class... Arguments>
+    decltype(auto) operator()(const Arguments&... arguments) const {
+      physics::throw_if_cancelled("shortest_path");
+      return Flattening::operator()(arguments...);
+    }
+  };
+  Construct_triangle_3_along_segment_2_flattening construct_triangle_3_along_segment_2_flattening_object()
+      const {
+    return Construct_triangle_3_along_segment_2_flattening(
+        Base::construct_triangle_3_along_segment_2_flattening_object());
+  }
+};
 using PathFinder = CGAL::Surface_mesh_shortest_path<PathTraits>;
 
 /// Length of the shortest path along edges (Dijkstra); infinite if there is none.
@@ -31,6 +53,7 @@ double length_along_edges(const Mesh& mesh, Vertex from, Vertex to) {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   queue.push({length[from.idx()] = 0, from});
   while (!queue.empty()) {
+    physics::throw_if_cancelled("shortest_path");
     const auto [reached, v] = queue.top();
     queue.pop();
     if (v == to) return reached;

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "physics/base/cancel_scope.h"
+
 namespace furrow::geometry {
 
 SurfaceWalk walk_surface(const Mesh& mesh, Face face, const Point& start, const Point& target,
@@ -16,6 +18,7 @@ SurfaceWalk walk_surface(const Mesh& mesh, Face face, const Point& start, const 
   const auto height = [&](Vertex v) { return side * (mesh.point(v) - start); };
   Point last = start;
   while (true) {
+    physics::throw_if_cancelled("walk_surface");
     // Seen from above, the path leaves a face where the edge goes from its right (height >= 0) to its left.
     std::optional<Halfedge> exit;
     for (Halfedge h : halfedges_of(mesh, face)) {
@@ -49,6 +52,7 @@ std::vector<Face> faces_reachable_within(const Mesh& mesh, Face face, const Poin
     return CGAL::squared_distance(mesh.point(v), centre) <= radius * radius;
   };
   for (std::size_t next = 0; next < queue.size(); ++next) {
+    physics::throw_if_cancelled("walk_surface");
     for (Halfedge h : halfedges_of(mesh, queue[next])) {
       const Halfedge beyond = mesh.opposite(h);
       if (mesh.is_border(beyond) || !(near(mesh.source(h)) || near(mesh.target(h)))) continue;
@@ -66,6 +70,7 @@ std::vector<EdgeCrossing> fewest_crossings(const Mesh& mesh, Face from, Face to,
   for (std::size_t steps = 0; steps < most && seen.count(to) == 0; ++steps) {
     std::vector<Face> next;
     for (Face face : ring) {
+      physics::throw_if_cancelled("walk_surface");
       for (Halfedge h : halfedges_of(mesh, face)) {
         if (mesh.is_border(mesh.opposite(h))) continue;
         const Face beyond = mesh.face(mesh.opposite(h));

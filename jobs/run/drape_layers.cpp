@@ -15,6 +15,7 @@
 #include "jobs/run/loose_parts.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/measure_layers.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -161,6 +162,7 @@ WornOver drape_worn_over(std::span<const io::Scene> scenes, std::span<const std:
   LayerSearch search(given, body, settings, context);
   const ProgressScope progress(context.listener, "draping");
   search.run(progress);
+  const physics::CancelScope whole([] { return false; });  // one that was stopped is measured, too
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   WornOver worn;
   const physics::UntangleReport& untangled = search.report.untangled;

@@ -117,6 +117,7 @@ bridge::DrapeOptions drape_options_of(const io::Scene& scene, const DrapeSetting
 }
 
 void measure_draped(const DrapePlan& plan, Draped& draped) {
+  const physics::CancelScope whole([] { return false; });  // one that was stopped is measured, too
   const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
   draped.self_contact = plan.options.settle.self.on;
   draped.penetration = plan.settings.penetration;
@@ -136,7 +137,6 @@ void measure_draped(const DrapePlan& plan, Draped& draped) {
   draped.gap = plan.options.settle.gap;
   draped.wanted_gap = plan.scene.simulation.contact_gap;
   draped.fit_options.contact_distance = contact_distance(draped.gap);
-  const physics::CancelScope whole([] { return false; });  // one that was stopped is measured, too
   draped.fit =
       bridge::fit_report(draped.file.mesh, plan.body->triangles, plan.body->exact, draped.fit_options);
   if (draped.gap == draped.wanted_gap)

@@ -18,6 +18,7 @@
 #include "physics/body/collider.h"
 #include "physics/cloth/elastic_band.h"
 #include "physics/cloth/pins.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -78,6 +79,7 @@ GarmentMaker::GarmentMaker(const io::Scene& scene, const BodyCollider* body, con
 }
 
 physics::Cloth GarmentMaker::operator()(geometry::Mesh& mesh) {
+  const physics::CancelScope whole([] { return false; });  // as of refine_level()
   made = as_read_;
   made.mesh = mesh;
   pins_ = find_pins(made, pins_on(mesh));

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
+  cancelling_test.cpp
   mesh/attribute_register_test.cpp
   mesh/border_loops_test.cpp
   mesh/edge_metric_test.cpp

@@ -82,7 +82,7 @@ std::string drape_refused(geometry::Mesh garment, geometry::Mesh body, const std
   job.scene.settings =
       io::parse_toml("[garment]\nmesh = \"garment\"\n[body]\nmesh = \"body\"\ntolerance = 0.01\n", "test");
   if (!body_unit.empty()) io::set_value(job.scene.settings, "body.unit", body_unit, "test");
-  tests::Recorder recorder(2000);
+  tests::Recorder recorder(1000000);
   try {
     jobs::drape(job, recorder);
   } catch (const geometry::ContentError& e) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/fit.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <thread>
 
@@ -89,7 +90,7 @@ TEST_CASE("fit: a cancelled job leaves nothing", "[long]") {
   tests::Recorder all;
   jobs::fit(job, all);
   REQUIRE(all.asked >= 2);
-  for (int at = 1; at <= all.asked; ++at) {
+  for (int at = 1; at <= all.asked; at += std::max(1, all.asked / 30)) {
     fs::remove(job.output);
     tests::Recorder recorder(at);
     CHECK_THROWS_AS(jobs::fit(job, recorder), physics::Cancelled);

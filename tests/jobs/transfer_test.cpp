@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/transfer.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <thread>
@@ -92,7 +93,7 @@ TEST_CASE("transfer: a cancelled job leaves nothing") {
   tests::Recorder all;
   jobs::transfer(job, all);
   REQUIRE(all.asked >= 2);
-  for (int at = 1; at <= all.asked; ++at) {
+  for (int at = 1; at <= all.asked; at += std::max(1, all.asked / 30)) {
     fs::remove(job.output);
     tests::Recorder recorder(at);
     CHECK_THROWS_AS(jobs::transfer(job, recorder), physics::Cancelled);

@@ -11,12 +11,14 @@
 #include <string>
 
 #include "geometry/fold/fold_base.h"
+#include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/sheet.h"
 #include "geometry/rest/fold_rest.h"
 #include "geometry/rest/rest_angles.h"
 #include "geometry/stroke/place_path_stroke.h"
 #include "geometry/stroke/project_onto_surface.h"
+#include "physics/base/cancel_scope.h"
 #include "tests/test_meshes.h"
 #include "tests/test_paths.h"
 
@@ -439,4 +441,34 @@ TEST_CASE("fold_base: the angle defect is that of Gauss and Bonnet, and 0 of a s
   CHECK(angle_defect(icosphere(3, 0.5)) == Approx(1 / 0.25).epsilon(0.02));  // 4 pi over 4 pi r^2
   CHECK(angle_defect(equilateral_sheet(0.5, 0.5, 0.02)) == Approx(0).margin(1e-9));
   CHECK(angle_defect(cylinder(0.1, 0.3, 20, 10)) == Approx(0).margin(1e-6));
+}
+
+TEST_CASE(
+    "fold_lines: folds of more faces than are borne are refused by name, as on a garment in another unit") {
+  Mesh mesh = grid(10, 10, 300, 300);
+  try {
+    fold(mesh, {line({{30, 30, 0}, {250, 240, 0}, {40, 260, 0}}, 0.001, 0.014)});
+    FAIL("they were drawn");
+  } catch (const ContentError& e) {
+    CHECK_THAT(e.what(), Catch::Contains("stroke \"fold\"") && Catch::Contains("million faces") &&
+                             Catch::Contains("--unit"));
+  }
+  CHECK(mesh.number_of_vertices() == 121);
+}
+
+TEST_CASE("fold_lines: a scribble comes to its end after work that is bounded") {
+  const auto questions = [](int points) {
+    Mesh mesh = grid(10, 10, 1, 1);
+    Stroke zigzag = line({}, 0.01, 0.4);
+    for (int i = 0; i < points; ++i)
+      zigzag.points.emplace_back(0.1 + 0.8 * i / (points - 1), i % 2 ? 0.9 : 0.1, 0);
+    int asked = 0;
+    const furrow::physics::CancelScope scope([&] { return ++asked < 0; });
+    try {
+      fold(mesh, {zigzag});
+    } catch (const ContentError&) {  // there may be no way along it
+    }
+    return asked;
+  };
+  CHECK(questions(400) < 30 * questions(50));  // 64 times as many, were they as its crossings
 }
