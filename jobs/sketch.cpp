@@ -231,6 +231,7 @@ SketchedGarment draw_sketch(const Sketch& sketch, const Json& strokes, Listener&
     drawn.file = std::move(report.garment);
     drawn.shown = shown_mesh(drawn.file.mesh, round.report.undisplaced, round.first_line);
     drawn.told = std::move(collecting.texts);
+    for (const Warning& w : report.failures) drawn.told.push_back(w.text);
     pin_new_vertices(drawn.file.mesh, sketch.garment.mesh.number_of_vertices(), pins);
   }
   for (const std::vector<int>& group : pins)

@@ -19,6 +19,7 @@
 #include "jobs/run/chain.h"
 #include "jobs/run/drape_garment.h"
 #include "jobs/run/keep_at_rest.h"
+#include "jobs/run/line_faults.h"
 #include "jobs/run/line_round.h"
 #include "jobs/run/made_for.h"
 #include "jobs/run/max_weights.h"
@@ -193,6 +194,25 @@ void write(const WrinkleJob& job, const WrinkleReport& report, const Context& co
   write_mesh(job.inserted, inserted_garment(report), context);
 }
 
+/// How the drawn cloth crosses itself, and what of that makes it no success; what comes to rest is judged
+/// there.
+void look_at_lines(const WrinkleJob& job, const io::MeshFile& file, const CrossedStart& crossed,
+                   WrinkleReport& report, const Context& context) {
+  const std::string where = path_of(job.strokes);
+  report.crossings = measure_crossings(file, &crossed);
+  const geometry::WrinkleReport& lines = report.drawn.round.report;
+  auto layers = layers_crossed(file.mesh, lines, report.crossings);
+  if (layers) layers->where = where;
+  if (layers && !job.settle)
+    report.failures.push_back(*layers);
+  else if (layers)
+    context.listener.warn(*layers);
+  else if (report.crossings.pairs)
+    context.warn("cloth_crosses", words(report.crossings), where, "lines.height");
+  if (const auto turned = lines_inside_out(file.mesh, lines))
+    context.warn(turned->code, turned->text, where, turned->help);
+}
+
 /// The garment that a wrinkled mesh was made of: where it was, or beside the mesh; unchanged.
 fs::path find_garment(const io::WrinkleRecord& record, const fs::path& wrinkled) {
   const fs::path named = record.garment, folder = wrinkled.parent_path();
@@ -324,9 +344,7 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
   if (scene) warn_if_shape_only(job.output, context);
   if (scene && !job.state) note_material(canvas.file, job.keep->settings, 0);
   report.drawn.rest = geometry::audit_rest_metric(canvas.file.mesh);
-  report.crossings = measure_crossings(canvas.file, crossed.get());
-  if (report.crossings.pairs)
-    context.warn("cloth_crosses", words(report.crossings), path_of(job.strokes), "lines.height");
+  look_at_lines(job, canvas.file, *crossed, report, context);
   report.garment = std::move(canvas.file);
   if (canvas.state) {
     report.state = std::move(canvas.state);

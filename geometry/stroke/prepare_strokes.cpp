@@ -14,6 +14,7 @@
 #include "geometry/stroke/project_onto_surface.h"
 #include "geometry/stroke/trace_stroke.h"
 #include "geometry/stroke/walk_surface.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::geometry {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr double width_of_height = 5, least_width = 4;  ///< in |k|, in h
+constexpr double most_of_height = 7.5;                  ///< in |k|: where h is long, it widens no fold beyond
 constexpr double steepest = 0.31;                       ///< k over width: 45 degrees
 constexpr std::size_t most_points = 5000;
 
@@ -222,6 +224,7 @@ class Preparing {
     const Vec3 p = 0.5 * (piece.points[i] + piece.points[i + 1]),
                along = (piece.points[i + 1] - piece.points[i]).normalized(),
                normal = normal_at(mesh_, piece.faces[i]);
+    physics::throw_if_cancelled("wrinkle");
     double least = std::numeric_limits<double>::infinity();
     for (const Piece& other : pieces_) {
       if (other.stroke == piece.stroke || strokes_[other.stroke].height * strokes_[piece.stroke].height <= 0)
@@ -243,9 +246,10 @@ class Preparing {
       const Stroke& stroke = strokes_[piece.stroke];
       piece.width = stroke.width.value_or(0);
       if (stroke.width) continue;
-      const double apart = neighbour_distance(piece);
-      piece.width = std::max(std::min(width_of_height * std::abs(stroke.height), apart),
-                             least_width * options_.mean_edge);
+      const double apart = neighbour_distance(piece), k = std::abs(stroke.height);
+      const double least = least_width * options_.mean_edge;
+      piece.width =
+          std::max(std::min(width_of_height * k, apart), k > 0 ? std::min(least, most_of_height * k) : least);
     }
     for (Piece& piece : pieces_)  // the pieces of a stroke are one fold
       for (const Piece& other : pieces_)
@@ -292,6 +296,7 @@ class Preparing {
     };
     std::vector<Vec3> result;
     for (std::ptrdiff_t i = 0; i < n; ++i) {
+      physics::throw_if_cancelled("wrinkle");
       Vec3 sum = Vec3::Zero();
       double weights = 0;
       for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
@@ -332,6 +337,7 @@ class Preparing {
     curve.set = stroke.set;
     const Samples samples = resample(piece);
     for (double along : samples.along) {
+      physics::throw_if_cancelled("wrinkle");
       curve.width.push_back(number_at(piece, stroke.widths, piece.width, along));
       curve.height.push_back(number_at(piece, stroke.heights, stroke.height, along));
     }
@@ -450,13 +456,24 @@ class Preparing {
       }
   }
 
-  /// Whether two curves are nearer than `reach` for more than a quarter of the first one.
+  static Vec3 direction_at(const FoldCurve& curve, std::size_t i) {
+    const std::size_t last = curve.points.size() - 1;
+    return (curve.points[std::min(i + 1, last)] - curve.points[i > 0 ? i - 1 : 0]).normalized();
+  }
+
+  /// Whether two curves run along each other, nearer than `reach`, for more than a quarter of the first one.
   static bool overlap(const FoldCurve& a, const FoldCurve& b, double reach) {
+    physics::throw_if_cancelled("wrinkle");
     std::size_t near = 0, asked = 0;
     const std::size_t step = std::max<std::size_t>(1, a.points.size() / 64);
-    for (std::size_t i = 0; i < a.points.size(); i += step, ++asked)
-      near += std::any_of(b.points.begin(), b.points.end(),
-                          [&](const Vec3& p) { return (p - a.points[i]).norm() < reach; });
+    for (std::size_t i = 0; i < a.points.size(); i += step, ++asked) {
+      const Vec3 along = direction_at(a, i);
+      for (std::size_t j = 0; j < b.points.size(); ++j)
+        if ((b.points[j] - a.points[i]).norm() < reach && std::abs(direction_at(b, j).dot(along)) > 0.7) {
+          ++near;
+          break;
+        }
+    }
     return 4 * near > asked;
   }
 

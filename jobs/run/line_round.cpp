@@ -17,6 +17,7 @@
 #include "jobs/inputs.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
+#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {
@@ -97,7 +98,7 @@ void note_strokes(io::WrinkleRecord& record, const std::string& garment, std::ve
   record.strokes = text.str();
 }
 
-/// The share of a stroke's length that lies within `reach` of another's [-].
+/// The share of a stroke's length that lies within `reach` of another's which runs along it there [-].
 double share_near(const geometry::Stroke& stroke, const geometry::Stroke& other, double reach) {
   using Segment = CGAL::Segment_3<geometry::Point::R>;
   const auto segments = [](const geometry::Stroke& s) {
@@ -108,16 +109,22 @@ double share_near(const geometry::Stroke& stroke, const geometry::Stroke& other,
     if (s.closed && s.points.size() > 2) list.emplace_back(s.points.back(), s.points.front());
     return list;
   };
+  constexpr double along = 0.7;  // cosine of the angle between two that run side by side
   const std::vector<Segment> of_other = segments(other);
   double near = 0, length = 0;
   for (const Segment& s : segments(stroke)) {
+    physics::throw_if_cancelled("draw_lines");
     const double part = std::sqrt(s.squared_length());
     const int n = int(std::clamp(4 * part / reach, 1.0, 200.0));
+    const auto is_beside = [&](const geometry::Point& p, const Segment& t) {
+      const double lengths = part * std::sqrt(t.squared_length());
+      return std::abs(s.to_vector() * t.to_vector()) > along * lengths &&
+             CGAL::squared_distance(p, t) < reach * reach;
+    };
     for (int k = 0; k < n; ++k) {
       const geometry::Point p = s.source() + (k + 0.5) / n * s.to_vector();
       length += part / n;
-      if (std::any_of(of_other.begin(), of_other.end(),
-                      [&](const Segment& t) { return CGAL::squared_distance(p, t) < reach * reach; }))
+      if (std::any_of(of_other.begin(), of_other.end(), [&](const Segment& t) { return is_beside(p, t); }))
         near += part / n;
     }
   }
@@ -128,15 +135,17 @@ double share_near(const geometry::Stroke& stroke, const geometry::Stroke& other,
 /// that.
 void warn_of_cancelling(const std::vector<geometry::Stroke>& strokes, const geometry::WrinkleReport& report,
                         std::vector<std::string>& warnings) {
-  constexpr double side_by_side = 0.25, kept = 0.8;  // lines that cross are near each other at one place only
-  const auto line = [&](std::size_t i) -> const geometry::WrinkledLine& { return report.lines[i]; };
+  constexpr double side_by_side = 0.25, kept = 0.8;
+  const auto asked = [&](std::size_t i) { return report.lines[i].height; };
+  const auto drawn = [&](std::size_t i) {  // as the report has it
+    return report.lines[i].crest_height.value_or(report.lines[i].drawn_height);
+  };
   const auto lost = [&](std::size_t i) {
-    return !(std::copysign(1, line(i).height) * line(i).drawn_height >= kept * std::abs(line(i).height));
+    return !(std::copysign(1, asked(i)) * drawn(i) >= kept * std::abs(asked(i)));
   };
   const auto told = [&](std::size_t i) {
-    return "'" + strokes[i].name + "' (" + geometry::length_text(line(i).height) + " asked, " +
-           (std::isfinite(line(i).drawn_height) ? geometry::length_text(line(i).drawn_height) : "none") +
-           " drawn)";
+    return "'" + strokes[i].name + "' (" + geometry::length_text(asked(i)) + " asked, " +
+           (std::isfinite(drawn(i)) ? geometry::length_text(drawn(i)) : "none") + " drawn)";
   };
   for (std::size_t i = 0; i < std::min(strokes.size(), report.lines.size()); ++i)
     for (std::size_t j = 0; j < i; ++j) {

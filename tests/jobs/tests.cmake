@@ -33,5 +33,6 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   stroke_list_test.cpp
   subdivide_test.cpp
   transfer_test.cpp
+  line_faults_test.cpp
   wrinkle_test.cpp
 )

@@ -79,14 +79,18 @@ TEST_CASE("prepare_strokes: a hand's jitter goes, the ends stay, and a line move
 }
 
 TEST_CASE(
-    "prepare_strokes: a line without a width gets five heights, its neighbour's distance, or four edges") {
+    "prepare_strokes: a line without a width gets five heights, its neighbour's distance, or four edges, "
+    "which are "
+    "no more than seven and a half heights") {
   const Mesh mesh = sheet();
   const auto width = [&](const std::vector<Stroke>& strokes) {
     return prepare(mesh, strokes).curves[0].width[0];
   };
   const Stroke up = line({{0, 0.05, 0}, {0, 0.35, 0}}, 0.03);
   CHECK(width({up}) == Approx(0.15));
-  CHECK(width({line({{0, 0.05, 0}, {0, 0.35, 0}}, -0.004)}) == Approx(4 * edge));
+  CHECK(width({line({{0, 0.05, 0}, {0, 0.35, 0}}, -0.6 * edge)}) == Approx(4 * edge));
+  CHECK(width({line({{0, 0.05, 0}, {0, 0.35, 0}}, -0.1 * edge)}) == Approx(0.75 * edge));
+  CHECK(width({line({{0, 0.05, 0}, {0, 0.35, 0}}, 0)}) == Approx(4 * edge));
   CHECK(width({up, line({{0.11, 0, 0}, {0.11, 0.4, 0}}, 0.02)}) == Approx(0.11).epsilon(1e-4));
   CHECK(width({up, line({{0.11, 0, 0}, {0.11, 0.4, 0}}, -0.02)}) == Approx(0.15));  // a valley
   CHECK(width({up, line({{0.05, 0.1, 0}, {0.3, 0.1, 0}}, 0.02)}) == Approx(0.15));  // it runs across
@@ -130,7 +134,7 @@ TEST_CASE("prepare_strokes: ends at a hem are at the border, and one such end ma
   const FoldCurve along = curve({-0.1, 0.004, 0}, {0.1, 0.004, 0});  // along the hem
   CHECK_FALSE((along.begins_at_border || along.ends_at_border));
   const FoldCurve inside = curve({-0.2, 0.2, 0}, {0.2, 0.2, 0});
-  CHECK(inside.rise[0] == Approx(std::min(1.5 * 0.08, 0.45 * 0.4)));
+  CHECK(inside.rise[0] == Approx(std::min(1.5 * 0.075, 0.45 * 0.4)));
   Stroke plain = line({{0.013, 0.2, 0}, {0.013, -0.03, 0}});
   plain.flare = false;
   plain.taper = {{0.03, 0}};
