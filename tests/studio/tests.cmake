@@ -5,11 +5,14 @@ if(furrow_studio)
     replay_test.cpp rooms_test.cpp studio_test.cpp)
   # Has functions of the system's names.
   set_source_files_properties(studio/failing_disk.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  # In a real browser; 77: there is none.
+  # In a real browser; 77: there is none. The longest tests begin first.
   if(NOT FURROW_SANITIZE)
-    add_test(NAME studio_browser COMMAND ${FURROW_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/studio/browser_test.mjs
-      $<TARGET_FILE:furrow> ${PROJECT_SOURCE_DIR}/meshes ${furrow_page} ${PROJECT_BINARY_DIR}/studio-pictures)
-    # The longest test begins first.
-    set_tests_properties(studio_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 COST 1000)
+    set(studio_browser studio/browser_test.mjs)
+    set(studio_journeys journeys/studio_journeys.mjs)
+    foreach(test studio_browser studio_journeys)
+      add_test(NAME ${test} COMMAND ${FURROW_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/${${test}}
+        $<TARGET_FILE:furrow> ${PROJECT_SOURCE_DIR}/meshes ${furrow_page} ${PROJECT_BINARY_DIR}/studio-pictures)
+      set_tests_properties(${test} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 COST 1000)
+    endforeach()
   endif()
 endif()
