@@ -12,13 +12,14 @@ namespace furrow::cli {
 namespace {
 
 struct TransferArguments : CommonArguments {
-  std::string original, wrinkled, rest;
+  std::string original, wrinkled, rest, body;
   geometry::TransferOptions options;
 };
 
 void transfer(const TransferArguments& a) {
   using Path = std::filesystem::path;
-  TransferJob job{Path(a.original), Path(a.wrinkled), {}, a, a.options, a.out};
+  TransferJob job{Path(a.original), Path(a.wrinkled), {}, {}, a, a.options, a.out};
+  if (!a.body.empty()) job.body = Path(a.body);
   if (!a.rest.empty()) job.rest = Path(a.rest);
   Terminal terminal(a);
   const TransferReport report = jobs::transfer(job, terminal);
@@ -55,6 +56,8 @@ void add_transfer(CLI::App& app) {
       ->required();
   sub->add_option("--rest-shape", a->rest,
                   "the wrinkled mesh's vertices before lines and motion, if it is no PLY");
+  sub->add_option("--body", a->body,
+                  "body that it is worn on, in the same frame: where it comes through the mesh is reported");
   sub->add_option("--max-distance", a->options.max_distance,
                   "how far an original vertex may lie from the wrinkled mesh's rest surface [m]")
       ->capture_default_str();

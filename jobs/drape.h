@@ -10,6 +10,7 @@
 #include "bridge/drape.h"
 #include "bridge/fit_report.h"
 #include "jobs/crossings.h"
+#include "jobs/ends.h"
 #include "jobs/simulate.h"
 
 namespace furrow::jobs {
@@ -81,6 +82,7 @@ struct DrapeStart {
   std::uint64_t seed = 0;                  ///< bridge::DrapeOptions::seed
   std::string outcome;                     ///< as Draped::outcome()
   bool rests = false;                      ///< without, it counts in no spread
+  Badness badness = {};                    ///< of its end
   double residual = 0;                     ///< [-]
   int iterations = 0, factorisations = 0;  ///< of all levels
   double seconds = 0;                      ///< [s]
@@ -100,7 +102,8 @@ struct NumberSpread {
 /// Several rests of one garment, and what they tell of its numbers.
 struct DrapeStarts {
   int asked = 0;
-  std::size_t chosen = 0;  ///< in `runs`: the rest with the lowest energy (within 1e-6 of it, the first)
+  std::size_t chosen = 0;  ///< in `runs`: the best end; of equal ones that of the lowest energy (within
+                           ///< 1e-6 of it, the first)
   std::vector<DrapeStart> runs;
   std::vector<NumberSpread> spread;
   /// Starts that came to rest.
@@ -175,17 +178,14 @@ struct Draped {
   double wanted_gap = 0;               ///< that was asked for [m]; 0: there is none
   std::size_t too_near = 0; /**< vertices that keep less than nine tenths of a gap that was not raised, by
                                  more than the field's tolerance */
-  bool falls = false;       ///< nothing carries it: its forces balance at no time
-  bool broken = false;      ///< its numbers are beyond what can be computed with
-  std::size_t parts = 1;    ///< pieces that it consists of
+  EndFacts end;             ///< what the judge of ends knows of it
+  EndLimits limits = {};    ///< what it was allowed
   std::vector<std::string> loose = {};  ///< names of those that nothing holds
   LooseParts loose_parts = {};          ///< what was done with them
   bool animated = false;                ///< the animation was written
   double seconds = 0;                   ///< that the fit took, without reading and the body's field [s]
   std::string name;                     ///< of the garment, or of the fabric
-  double penetration = 0;               ///< depth to which the body may come through the cloth [m]
   ClothCrossings crossings;             ///< of the cloth with itself, as it was given and now
-  std::size_t allowed_crossings = 0;    ///< pairs that may be left
   bool self_contact = false;            ///< cloth kept off cloth
   /// What that took apart where the garment crossed itself: at the start of the first level that it had to,
   /// left at the start of the last; rounds of all.
@@ -196,25 +196,19 @@ struct Draped {
   std::size_t crossings_with_others = 0;  ///< pairs of its faces and those of other garments that cross
   std::filesystem::path written;          ///< its file, where there are several garments
 
-  bool rests() const { return report.levels.back().settle.converged && !falls && !broken; }
-  /// Whether more than a hundredth of the cloth is strained to over twice its length, or by no number.
-  bool is_torn() const { return fit.strain && !(fit.strain->p99 <= 1); }
+  /// Whether its forces balance where it was worn.
+  bool rests() const { return end.rests(limits) && end.finite && !end.falls(); }
   /// Whether it keeps half as much again as the gap that was asked for, or more.
   bool floats() const { return gap > 1.5 * wanted_gap; }
-  /// Whether the body comes through the cloth by more than was allowed.
-  bool is_pierced() const { return fit.distance.deepest_penetration > penetration; }
   /// Whether the cloth passes through itself more often than was allowed.
-  bool crosses_itself() const { return crossings.pairs > allowed_crossings; }
+  bool crosses_itself() const { return crossings.pairs > limits.crossings; }
   /// Whether it passes through other garments more often than was allowed.
-  bool crosses_others() const { return crossings_with_others > allowed_crossings; }
+  bool crosses_others() const { return crossings_with_others > limits.crossings; }
   /// Whether more is loose than a button or a scrap: over a twentieth of its area, unless that was dropped.
   bool falls_apart() const { return loose_parts.use == LooseUse::hold && loose_parts.area_share > 0.05; }
   /// Whether it is whole and at rest: not torn, not pierced, not crossing any cloth, not falling apart.
-  bool succeeds() const {
-    return rests() && !is_torn() && !is_pierced() && !crosses_itself() && !crosses_others() && !falls_apart();
-  }
-  /// "at rest", "not at rest", "blocked", "falls", "torn", "numerical failure" or "interrupted", and what
-  /// else is wrong.
+  bool succeeds() const { return jobs::succeeds(end, limits) && !falls_apart(); }
+  /// "interrupted", or as outcome_of() its end; and what else is wrong.
   std::string outcome() const;
 };
 

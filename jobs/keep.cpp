@@ -298,6 +298,7 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   if (!state && later && !(state = run_until_drawn(open, context))) return report;
   if (state) refuse_chain(state->file.mesh, job.state_path.string());
   SceneCloth garment = state ? drawn_in(*state, scene, context) : drawn_at_rest(job, scene, context, report);
+  const double time = state ? state->simulation.time : 0;
   stop_if_cancelled(context);
   report.ran = true;
   report.frame = open.frame;
@@ -312,6 +313,9 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   bridge::store_rest_state(garment.cloth, spring_options(garment.file, scene.material), garment.file.mesh);
   write_outputs(open, garment, std::move(state), context);
   report.crossings = measure_crossings(garment.file, &crossed);
+  report.end.crossings = report.crossings.pairs;
+  if (garment.body)
+    report.end.body = garment.body->end_of(garment.file.mesh, garment.options.contact_gap, time);
   report.warnings = warnings_of(report, scene);
   report.garment = std::move(garment.file);
   return report;

@@ -6,6 +6,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/scene/state_file.h"
 #include "jobs/crossings.h"
+#include "jobs/ends.h"
 
 namespace furrow::jobs {
 
@@ -17,6 +18,7 @@ struct KeepReport {
   io::WrinkleRecord record;    ///< of the garment as drawn: names of lines
   io::MeshFile garment;        ///< with its new rest state [m], y up
   ClothCrossings crossings;    ///< of the cloth with itself
+  EndFacts end;                ///< of the shape that is kept
   std::filesystem::path mesh;  ///< the settings' output; "-": not written
   std::filesystem::path saved_state;   ///< the same
   Frame frame;                         ///< of the files written

@@ -101,7 +101,7 @@ std::optional<MemoryFiles> settle_first(const io::Scene& scene, double gap, cons
   DrapeSettings settings;
   settings.gap = gap;
   const Draped draped = drape_garment(alone, &body, settings, false, quiet);
-  if (draped.falls || draped.broken || draped.report.stopped) return std::nullopt;
+  if (draped.end.falls() || !draped.end.finite || draped.report.stopped) return std::nullopt;
   io::MeshFile rests = before;
   for (const geometry::Vertex v : rests.mesh.vertices()) rests.mesh.point(v) = draped.file.mesh.point(v);
   if (auto map = geometry::find_map(rests.mesh, geometry::attribute::rest_position))

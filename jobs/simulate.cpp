@@ -378,6 +378,17 @@ std::vector<Warning> remarks_on_run(const Run& run, const physics::SimulateRepor
   return all;
 }
 
+/// What the judge of ends knows of the shape that was measured.
+void take_facts(SimulateReport& report) {
+  EndFacts& end = report.shape->end;
+  end.strain = report.run.strain.p99;
+  end.crossings = report.shape->crossings.pairs;
+  end.blocked = report.run.outcome == physics::Outcome::blocked;
+  if (!report.rest || report.run.steps > 0) return;
+  end.residual = report.rest->settle.residual;
+  end.settled = report.rest->settle.converged;
+}
+
 /// Writes, measures and remarks on what was reached.
 void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std::int64_t steps_before,
               SimulateReport& report) {
@@ -389,13 +400,18 @@ void conclude(const Run& run, Reached& reached, AnimationSeries& animations, std
     write_outputs(run, now, animations);
     report.shape = measure_shape(now.file, reached.heights, run.body.get(), now.contact_gap, report.run.time);
     report.shape->crossings = measure_crossings(now.file, &reached.crossed);
+    take_facts(report);
     report.faults = faults_of(run.scene, *report.shape, report.run.strain);
     if (report.run.outcome == physics::Outcome::blocked)
       report.faults.push_back(words_of_block(run.scene, report.run));
     if (const auto unsolved = unsolved_steps(report.run)) report.faults.push_back(*unsolved);
     if (report.rest && !report.rest->settle.converged)
       report.faults.push_back(words_of_unrest(run.scene, *report.rest, report.run.steps > 0));
+    if (report.rest)
+      if (const auto fallen = words_of_fall(run.scene, *report.rest)) report.faults.push_back(*fallen);
     report.warnings = remarks_on_run(run, report.run, now.file, now.contact_gap, steps_before);
+    if (const auto through = body_comes_through(run.scene, report.shape->end))
+      report.warnings.push_back(*through);
     const std::vector<Warning> lost = lost_lines(run.scene, report.shape->lines);
     report.warnings.insert(report.warnings.end(), lost.begin(), lost.end());
     if (const auto falls = falls_freely(run.scene, now.pins)) report.warnings.push_back(*falls);

@@ -12,6 +12,7 @@
 #include "io/scene/state_file.h"
 #include "jobs/chart.h"
 #include "jobs/crossings.h"
+#include "jobs/ends.h"
 #include "jobs/inputs.h"
 #include "jobs/wrinkle.h"
 #include "physics/body/exact_distance.h"
@@ -59,6 +60,7 @@ struct ReachedShape {
   physics::Vec3 centre{0, 0, 0};         ///< of mass [m]
   std::optional<ContactReport> contact;  ///< none: there is no body
   ClothCrossings crossings;
+  EndFacts end;                          ///< without a residual of what moves
   physics::Vec3 strained_most{0, 0, 0};  ///< the middle of the edge that is [m]
   std::vector<BorderReport> borders;     ///< longest first
   std::vector<LineReport> lines;
@@ -69,7 +71,8 @@ struct RestStage {
   physics::SettleReport settle;
   double angle_defect_before = 0, angle_defect = 0;  ///< how knobbly it was drawn, and is at rest [rad/m^2]
   ClothCrossings crossings;                          ///< at rest
-  double seconds = 0;                                ///< that this took [s]
+  EndFacts end;
+  double seconds = 0;  ///< that this took [s]
 };
 
 /// What is wrong with a shape that was reached: a word for the outcome, and a sentence with the remedy.

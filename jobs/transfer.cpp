@@ -11,6 +11,7 @@
 #include "jobs/check/gate.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
+#include "jobs/run/body.h"
 #include "jobs/run/measure_crossings.h"
 #include "physics/base/cancel_scope.h"
 
@@ -18,7 +19,8 @@ namespace furrow::jobs {
 namespace {
 
 std::vector<std::string> names_of_inputs(const TransferJob& job) {
-  return {name_of(job.original, ""), name_of(job.wrinkled, ""), job.rest ? name_of(*job.rest, "") : ""};
+  return {name_of(job.original, ""), name_of(job.wrinkled, ""), job.rest ? name_of(*job.rest, "") : "",
+          job.body ? name_of(*job.body, "") : ""};
 }
 
 /// Rest positions from a mesh with the same vertices.
@@ -34,6 +36,21 @@ void set_rest_positions(geometry::Mesh& mesh, const TransferJob& job, const Cont
     const geometry::Point& p = rest.mesh.point(v);
     map[v] = {p.x(), p.y(), p.z()};
   }
+}
+
+/// Vertices that keep off the body may lie farther apart than those that were draped: between them it comes
+/// through.
+BodyEnd end_on(const MeshInput& input, const geometry::Mesh& garment, const Context& context) {
+  const physics::TriangleMesh body = read_body(input, context);
+  const BodyEnd end = body_end(garment, body, physics::ExactDistance(body), 0);
+  const std::string name = name_of(input, "body");
+  if (end.pierced_faces)
+    context.warn("body_comes_through",
+                 words_of_piercing(end) +
+                     ": its faces are larger than those that were worn; refine the original first (furrow "
+                     "subdivide), or let what is worn keep farther off (--gap)",
+                 name, "furrow subdivide");
+  return end;
 }
 
 bool is_obj(const std::string& path) { return io::mesh_format(path) == io::MeshFormat::obj; }
@@ -89,6 +106,8 @@ TransferReport transfer(const TransferJob& job, Listener& listener) {
   });
   report.crossings = measure_crossings(report.result, &crossed);
   if (report.crossings.pairs) context.warn("cloth_crosses", words(report.crossings), job.output.string());
+  report.end.crossings = report.crossings.pairs;
+  if (job.body) report.end.body = end_on(*job.body, report.result.mesh, context);
   stop_if_cancelled(context);
   report.obj_text = text_as_read(job, report.result, report.frame);
   write(job, report, context);
@@ -102,7 +121,8 @@ Json to_json(const TransferReport& r) {
           {"interpolated", r.moved.interpolated},
           {"unchanged", r.moved.unchanged},
           {"max_distance", r.moved.max_distance},
-          {"crossings", to_json(r.crossings)}};
+          {"crossings", to_json(r.crossings)},
+          {"end", to_json(r.end)}};
 }
 
 }  // namespace furrow::jobs

@@ -6,14 +6,16 @@
 
 #include "geometry/refine/transfer_shape.h"
 #include "jobs/crossings.h"
+#include "jobs/ends.h"
 
 namespace furrow::jobs {
 
 /// The shape of a wrinkled mesh, to be brought back to the mesh it was made of.
 struct TransferJob {
   MeshInput original, wrinkled;
-  std::optional<MeshInput> rest;  ///< the wrinkled mesh before lines and motion, if it does not know
-  Frame frame = {};               ///< of the files read and written
+  std::optional<MeshInput> rest;       ///< the wrinkled mesh before lines and motion, if it does not know
+  std::optional<MeshInput> body = {};  ///< that it is worn on: where it comes through is reported
+  Frame frame = {};                    ///< of the files read and written
   geometry::TransferOptions options = {};
   std::filesystem::path output;  ///< mesh to write; empty or "-": none
 };
@@ -23,6 +25,7 @@ struct TransferReport {
   geometry::TransferReport moved;
   io::MeshFile result;                  ///< the original in its new shape [m], y up
   ClothCrossings crossings;             ///< of the cloth with itself
+  EndFacts end;                         ///< with what the body does, where one was given
   std::optional<std::string> obj_text;  ///< from OBJ to OBJ: the file's text with other positions
   Frame frame;                          ///< of the file written
 };

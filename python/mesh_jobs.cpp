@@ -22,6 +22,9 @@ const Keywords<jobs::TransferJob>& transfer_rows() {
           "rest_shape", "the wrinkled mesh's vertices before lines and motion, if it does not know them",
           [](auto& j) -> auto& { return j.rest; }),
       row<Job>(
+          "body", "body that it is worn on, in the same frame: where it comes through the mesh is reported",
+          [](auto& j) -> auto& { return j.body; }),
+      row<Job>(
           "max_distance",
           "how far an original vertex may lie from the wrinkled mesh's rest surface [m], > 0; "
           "default 0.02",

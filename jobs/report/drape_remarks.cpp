@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "io/mesh/mesh_file.h"
 #include "jobs/fit.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/drape_starts.h"
@@ -15,23 +16,17 @@
 namespace furrow::jobs {
 namespace {
 
-std::string words_of_piercing(const bridge::FitReport& fit) {
-  const double deepest = fit.distance.deepest_penetration;
-  const auto faces = fit.piercing.faces;
-  return "the body comes through " + std::to_string(faces) + (faces == 1 ? " face, by " : " faces, by ") +
-         (deepest < 5e-5 ? "less than 0.1 mm" : "up to " + geometry::length_text(deepest));
-}
-
 /// The next refinement.
 std::string finer(const Draped& d) { return "--subdivide " + std::to_string(d.refinements + 1); }
 
 /// What the body does to the cloth that has come to rest on it.
 void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
-  if (d.is_torn() && !d.is_pierced()) return;  // no refinement helps
+  const bool pierced = d.end.is_pierced(d.limits);
+  if (d.end.is_torn() && !pierced) return;  // no refinement helps
   const bridge::FitReport& fit = d.fit;
   const auto faces = fit.piercing.faces;
-  const std::string through = words_of_piercing(fit);
-  if (d.is_pierced())
+  const std::string through = d.end.body ? words_of_piercing(*d.end.body) : "";
+  if (pierced)
     remarks.push_back(
         {true,
          {"pierced",
@@ -144,9 +139,38 @@ void remark_on_way_back(const Draped& d, std::vector<DrapeRemark>& remarks) {
         d.name, "self_contact"}});
 }
 
+/// With contact it is no success either, and still the better end.
+void remark_on_way_kept(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (!d.other || d.other->self_contact) return;
+  remarks.push_back({false,
+                     {"contact_kept",
+                      fmt::format("{}: without contact of cloth with cloth the garment ends {}, {} pairs of "
+                                  "faces crossing, which is worse; --self-contact off writes that",
+                                  d.name, d.other->outcome, d.other->crossings),
+                      d.name, "self_contact"}});
+}
+
+/// Lines that lost their height, or have no vertex left to measure it by.
+void remark_on_lines(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  for (const Warning& lost : lost_lines({}, d.lines)) remarks.push_back({false, lost});
+  const auto record = io::find_wrinkle_record(d.file);
+  std::string gone;
+  for (std::size_t id = 0; record && id < record->lines.size(); ++id)
+    if (std::none_of(d.lines.begin(), d.lines.end(), [&](const LineReport& line) { return line.id == id; }))
+      gone += (gone.empty() ? "'" : ", '") + record->lines[id].name + "'";
+  if (!gone.empty())
+    remarks.push_back({false,
+                       {"lines_merged",
+                        d.name +
+                            ": whether these lines stand cannot be measured, as later lines run along them "
+                            "and took their vertices: " +
+                            gone,
+                        d.name, ""}});
+}
+
 /// Cloth that no cloth survives: the fabric's law says nothing true of it any more.
 void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
-  if (!d.is_torn()) return;
+  if (!d.end.is_torn()) return;
   const bridge::FitStrain& strain = *d.fit.strain;
   std::string where;
   if (!d.fit.tight.empty()) {
@@ -190,8 +214,8 @@ void remark_on_loose_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
       {d.falls_apart(),
        {"loose_parts",
         d.name +
-            fmt::format(": nothing holds {} of its {} parts: {}; {}{}{}", d.loose.size(), d.parts, names,
-                        words_of_loose(d.loose_parts), cut,
+            fmt::format(": nothing holds {} of its {} parts: {}; {}{}{}", d.loose.size(), d.end.parts.size(),
+                        names, words_of_loose(d.loose_parts), cut,
                         d.loose_parts.use == LooseUse::drop
                             ? ""
                             : "; join them to the garment in its file, pin them (--pin-group, --pin-box), or "
@@ -202,7 +226,7 @@ void remark_on_loose_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
 /// Why a garment that nothing carries does not rest.
 void remark_on_nothing_carried(const Draped& d, const physics::SettleReport& last,
                                std::vector<DrapeRemark>& remarks) {
-  if (d.broken) {
+  if (!d.end.finite) {
     remarks.push_back(
         {true,
          {"numerical_failure",
@@ -236,11 +260,36 @@ void remark_on_block(const Draped& d, const physics::SettleReport& last, std::ve
         d.name, "self_contact"}});
 }
 
+/// Whether a part came to lie on something, far below where it was worn.
+bool came_lower(const Draped& d) {
+  const bool carried = d.report.levels.back().settle.touching > 0 || !d.end.falls();
+  return d.end.finite && d.end.lost() > 0 && d.end.fallen() > 0 && carried;
+}
+
+void remark_on_lost_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (!came_lower(d)) return;
+  std::string names;
+  for (const PartEnd& part : d.end.parts)
+    if (part.lost) names += (names.empty() ? "" : ", ") + part.name;
+  const bool whole = d.end.falls();
+  remarks.push_back(
+      {true,
+       {"fallen",
+        fmt::format(
+            "{}: {}fell {} from where it lay before anything stopped it: the body does not carry it "
+            "where it is worn{}; look for skin that the body lacks there (holes in it are filled), put "
+            "the garment where it is worn, or hold it with a pin or a band",
+            d.name, whole ? "" : names + " ", geometry::length_text(d.end.fallen()),
+            whole ? "" : ", nor does the rest of the garment"),
+        d.name, "pins"}});
+}
+
 void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
   const physics::SettleReport& last = d.report.levels.back().settle;
-  if (last.touching == 0 && (d.broken || d.fit.on_body)) remark_on_nothing_carried(d, last, remarks);
-  if (d.broken) return;
-  if (d.falls) {
+  if (!d.end.finite || (last.touching == 0 && d.fit.on_body)) remark_on_nothing_carried(d, last, remarks);
+  if (!d.end.finite) return;
+  if (d.end.falls() && came_lower(d)) return;  // told of as fallen
+  if (d.end.falls()) {
     remarks.push_back(
         {true,
          {"falls",
@@ -257,7 +306,8 @@ void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
     text << ", and no step leads on: draw or lay it otherwise, or try --starts 4";
   else if (last.self.cut_moves.value_or(0) > 0)
     text << ", " << *last.self.cut_moves << " moves of vertices cut, as cloth was in their way";
-  if (!last.stuck && !d.is_torn()) text << "; give more with --max-iterations, or accept it with --residual";
+  if (!last.stuck && !d.end.is_torn())
+    text << "; give more with --max-iterations, or accept it with --residual";
   remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
 }
 
@@ -426,29 +476,27 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
     remark_on_strain(d, remarks);
     remark_on_contact(d, remarks);
     remark_on_loose_parts(d, remarks);
+    remark_on_lost_parts(d, remarks);
     remark_on_crossings(d, remarks);
     remark_on_way_back(d, remarks);
+    remark_on_way_kept(d, remarks);
     if (!d.rests()) remark_on_unrest(d, remarks);
     for (const Warning& doubt : doubts_of(d)) remarks.push_back({false, doubt});
-    if (d.rests() && !d.is_torn())
-      for (const Warning& lost : lost_lines({}, d.lines)) remarks.push_back({false, lost});
+    if (d.end.finite) remark_on_lines(d, remarks);
   }
   return remarks;
 }
 
 std::string Draped::outcome() const {
   if (report.stopped) return "interrupted";
-  const std::string rest = broken                                     ? "numerical failure"
-                           : is_torn()                                ? "torn"
-                           : falls                                    ? "falls"
-                           : rests()                                  ? "at rest"
-                           : report.levels.back().settle.self.blocked ? "blocked"
-                                                                      : "not at rest";
-  return rest + (is_pierced() ? ", pierced by the body" : "") +
+  return outcome_of(end, limits) + (end.is_pierced(limits) ? ", pierced by the body" : "") +
          (crosses_itself() ? ", cloth crosses itself" : "") +
          (crosses_others() ? ", crosses other garments" : "") +
-         (loose.empty() ? "" : fmt::format(", {} of {} parts loose", loose.size(), parts)) +
-         (floats() && !broken && !falls ? ", " + geometry::length_text(gap) + " off the body" : "");
+         (end.lost() > 0 && !end.falls()
+              ? fmt::format(", {} of {} parts fallen", end.lost(), end.parts.size())
+              : "") +
+         (loose.empty() ? "" : fmt::format(", {} of {} parts loose", loose.size(), end.parts.size())) +
+         (floats() && end.finite && !end.falls() ? ", " + geometry::length_text(gap) + " off the body" : "");
 }
 
 namespace {
@@ -482,7 +530,8 @@ Json to_json(const Draped& d) {
             {"gap", d.fit.on_body ? Json(d.gap) : Json(nullptr)},
             {"gap_asked", d.fit.on_body ? Json(d.wanted_gap) : Json(nullptr)},
             {"subdivide", d.refinements},
-            {"parts", d.parts},
+            {"parts", d.end.parts.size()},
+            {"end", jobs::to_json(d.end)},
             {"loose_parts", d.loose},
             {"seconds", d.seconds},
             {"levels", levels},

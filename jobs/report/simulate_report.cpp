@@ -103,6 +103,7 @@ Json to_json(const ReachedShape& shape, const physics::SimulateReport& run) {
                             {"cut_moves", run.cut_moves}};
   json["self_intersections"] = shape.crossings.pairs;
   json["crossings"] = jobs::to_json(shape.crossings);
+  json["end"] = jobs::to_json(shape.end);
   json["borders"] = to_json(shape.borders);
   json["lines"] = to_json(shape.lines);
   return json;

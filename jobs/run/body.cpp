@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "bridge/convert.h"
+#include "bridge/fit_piercing.h"
 #include "bridge/gather.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
@@ -277,6 +278,17 @@ physics::Penetration WorldBody::penetration(std::vector<physics::Vec3> points, d
   return physics::penetration(rigid_->exact, points);
 }
 
+BodyEnd WorldBody::end_of(geometry::Mesh garment, double gap, double time) const {
+  if (animated_) {
+    const physics::TriangleMesh body{vertices_at(time), triangles_};
+    return body_end(garment, body, physics::ExactDistance(body), gap);
+  }
+  const physics::Pose pose = physics::pose(motion_, time);
+  if (!physics::is_identity(motion_))
+    for (geometry::Point& p : garment.points()) p = bridge::to_cgal(pose.to_body(bridge::to_eigen(p)));
+  return body_end(garment, rigid_->triangles, rigid_->exact, gap);
+}
+
 physics::Vec3 WorldBody::deepest_of(const std::vector<physics::Vec3>& points, double time) const {
   const auto deepest = [&](const physics::Collider& body) {
     return *std::min_element(
@@ -317,6 +329,22 @@ io::MeshFile WorldBody::at(double time, const Context& context) const {
   for (geometry::Vertex v : file.mesh.vertices())
     file.mesh.point(v) = bridge::to_cgal(animated_ ? x[v] : pose.to_world(x[v]));
   return file;
+}
+
+BodyEnd body_end(const geometry::Mesh& garment, const physics::TriangleMesh& body,
+                 const physics::ExactDistance& exact, double gap) {
+  std::vector<double> distances;
+  BodyEnd end;
+  end.gap = gap;
+  for (const physics::Vec3& x : bridge::positions_of(garment)) {
+    distances.push_back(exact.sample(x).value);
+    end.vertices_inside += distances.back() < 0;
+    end.depth = std::max(end.depth, -distances.back());
+  }
+  const bridge::FitPiercing through = bridge::measure_piercing(garment, body, exact, distances);
+  end.pierced_faces = through.faces;
+  end.depth = std::max(end.depth, through.deepest);
+  return end;
 }
 
 Eigen::AlignedBox3d box_of(const std::vector<physics::Vec3>& points) {

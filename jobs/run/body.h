@@ -7,6 +7,7 @@
 #include "io/animation/animation_file.h"
 #include "io/scene/scene.h"
 #include "jobs/check/gate.h"
+#include "jobs/ends.h"
 #include "jobs/inputs.h"
 #include "physics/body/collider.h"
 #include "physics/body/distance_field.h"
@@ -79,6 +80,8 @@ class WorldBody {
                                   double time) const;
   /// Of points in the world, at a time, by exact distance.
   physics::Penetration penetration(std::vector<physics::Vec3> points, double time) const;
+  /// What it does to a garment that lies in the world at a time, by exact distance; gap: that was kept [m].
+  BodyEnd end_of(geometry::Mesh garment, double gap, double time) const;
   /// The point that lies deepest; of none, any.
   physics::Vec3 deepest_of(const std::vector<physics::Vec3>& points, double time) const;
   /// Points that are nearer than `distance` [m] at time 0, or inside; by the field.
@@ -104,6 +107,11 @@ class WorldBody {
   std::unique_ptr<io::FrameSource> frames_;
   std::unique_ptr<physics::AnimatedBody> animated_;
 };
+
+/// What a body does to a garment; `exact` is of the body; gap: that was kept [m]. Cost: a distance a vertex,
+/// and that of bridge::measure_piercing().
+BodyEnd body_end(const geometry::Mesh& garment, const physics::TriangleMesh& body,
+                 const physics::ExactDistance& exact, double gap);
 
 Eigen::AlignedBox3d box_of(const std::vector<physics::Vec3>& points);
 

@@ -5,10 +5,10 @@
 #include "geometry/figure/skeleton.h"
 #include "jobs/run/body.h"
 
-/// What is made of a body's file, kept in a folder for other runs (the setting body.cache). A file is named by
-/// a hash of the version and of all that its content depends on. One run makes it while others wait; one that
-/// is damaged is told of, and made again. Results are the same without, bit by bit, and so are warnings. An
-/// empty folder, and a mesh in memory: nothing is kept.
+/// What is made of a body's file, kept in a folder for other runs (the setting body.cache). A file is named
+/// by a hash of the version and of all that its content depends on. One run makes it while others wait; one
+/// that is damaged is told of, and made again. Results are the same without, bit by bit, and so are warnings.
+/// An empty folder, and a mesh in memory: nothing is kept.
 namespace furrow::jobs {
 
 /// As read_body().

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -67,15 +68,15 @@ struct Gone {
 /// Told how far one way is, in [0, 1]; returns whether to go on.
 using Progress = std::function<bool(double)>;
 
-Gone go(const DrapePlan& plan, GarmentMaker& maker, WayRecorder& way, const FallWatch& watch,
+/// watch: null: parts may fall.
+Gone go(const DrapePlan& plan, GarmentMaker& maker, WayRecorder& way, const FallWatch* watch,
         const Progress& progress) {
   Gone gone;
   WayToRest to_rest(plan.options.settle.tolerance);
   const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
     way.observe(level, cloth);
-    if (level == 0 && maker.loose.empty() && plan.settings.loose != LooseUse::fall && p.iteration > 0 &&
-        p.iteration % 5 == 0)
-      gone.falling = watch.find(cloth, maker.held());
+    if (watch && p.iteration > 0 && p.iteration % 5 == 0)
+      gone.falling = watch->find(cloth.particles.x, maker.held());
     return progress((level + to_rest.share(p)) / (plan.options.refinements + 1)) && gone.falling.empty();
   };
   bridge::DrapeOptions options = plan.options;
@@ -83,7 +84,21 @@ Gone go(const DrapePlan& plan, GarmentMaker& maker, WayRecorder& way, const Fall
   gone.mesh = plan.as_read.mesh;
   gone.report = bridge::drape(gone.mesh, gone.cloth, plan.body ? &plan.body->field : nullptr, options,
                               std::ref(maker), observe);
+  if (watch && !gone.report.stopped) gone.falling = watch->find(gone.cloth.particles.x, maker.held());
   return gone;
+}
+
+/// Goes until nothing falls that was not known to: each time with what fell held aside. Where that would be
+/// all, the garment falls, and goes its way to the end.
+Gone go_with_parts(const DrapePlan& plan, GarmentMaker& maker, std::optional<WayRecorder>& way,
+                   const FallWatch& watch, const Progress& progress, const Context& context) {
+  for (bool watches = plan.settings.loose != LooseUse::fall;;) {
+    way.emplace(plan.settings.animation, plan.scene.subdivide, context);
+    Gone gone = go(plan, maker, *way, watches ? &watch : nullptr, progress);
+    if (gone.falling.empty()) return gone;
+    watches = maker.loose.size() + gone.falling.size() < watch.count();
+    if (watches) maker.loose.insert(maker.loose.end(), gone.falling.begin(), gone.falling.end());
+  }
 }
 
 void take_result(Gone gone, GarmentMaker& maker, const DrapePlan& plan, const FallWatch& watch,
@@ -96,9 +111,11 @@ void take_result(Gone gone, GarmentMaker& maker, const DrapePlan& plan, const Fa
   close_seam_ties(draped.file.mesh);
   const physics::SettleReport& last = draped.report.levels.back().settle;
   const bool uncarried = last.touching == 0 && !plan.scene.simulation.gravity.isZero() && !maker.any_held();
-  draped.broken = uncarried && is_broken(last);
-  draped.falls = uncarried && !draped.broken;
-  draped.parts = watch.count();
+  draped.end.parts = watch.ends(plan.as_read, gone.cloth.particles.x, maker.held(), maker.loose,
+                                plan.scene.simulation.gravity);
+  draped.end.finite = std::isfinite(last.residual) && !(uncarried && is_broken(last));
+  if (uncarried && draped.end.finite)
+    for (PartEnd& part : draped.end.parts) part.lost = true;
   for (const int seed : maker.loose)
     draped.loose.push_back(
         name_of_part(plan.as_read, watch.parts(), watch.parts().of_vertex[std::size_t(seed)]));
@@ -109,10 +126,7 @@ void finish_loose_parts(const DrapePlan& plan, const std::vector<int>& loose, Dr
   if (loose.empty()) return measure_draped(plan, draped);
   draped.loose_parts = loose_parts_of(plan.as_read, loose);
   draped.loose_parts.use = plan.settings.loose;
-  if (plan.settings.loose == LooseUse::hold) {
-    carry_loose_parts(draped.file.mesh, plan.as_read.mesh, draped.refinements, loose);
-    return measure_draped(plan, draped);
-  }
+  if (plan.settings.loose == LooseUse::hold) return carry_and_measure(plan, loose, draped);
   io::MeshFile kept = plan.as_read;
   drop_parts(kept, loose);
   drop_parts(draped.file, loose);
@@ -126,17 +140,9 @@ Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int
   GarmentMaker maker(plan.scene, plan.body, plan.settings, plan.as_read, context, plan.places);
   maker.loose = loose;
   Draped draped;
-  const auto recorder = [&](std::optional<WayRecorder>& way) {
-    way.emplace(plan.settings.animation, plan.scene.subdivide, context);
-  };
   std::optional<WayRecorder> way;
-  recorder(way);
-  Gone gone = go(plan, maker, *way, watch, progress);
-  if (!gone.falling.empty()) {
-    loose = maker.loose = gone.falling;
-    recorder(way);
-    gone = go(plan, maker, *way, watch, progress);
-  }
+  Gone gone = go_with_parts(plan, maker, way, watch, progress, context);
+  loose = maker.loose;
   take_result(std::move(gone), maker, plan, watch, draped);
   draped.seconds = now() - start;
   draped.animated = way->close();
@@ -168,38 +174,25 @@ class GarmentSearch {
     return drape_once(plan, watch_, loose_[contact], progress, context);
   }
 
-  /// Where contact of cloth with cloth leads to no success: the end without it, unless cloth crosses itself
-  /// there and with contact fewer faces do so at rest.
+  /// Where contact of cloth with cloth leads to no success: the better end of that and of a search without;
+  /// of equal ones the other. What was broken off on the way is no end.
   Draped look_without(Draped with, const Context& context) {
     SilentListener silent(context.listener);
     const Context quiet{context.frame, silent, context.memory};  // what was warned of is so still
     const ProgressScope progress(context.listener, "draping without contact of cloth with cloth");
-    Draped without = once(false, std::ref(progress), quiet);
-    const double seconds = with.seconds + without.seconds;
-    if (without.report.stopped) {
+    try {
+      Draped without = once(false, std::ref(progress), quiet);
+      with.report.stopped = without.report.stopped;
+      const double seconds = with.seconds + without.seconds;
+      const bool better = with.report.stopped || is_better(with.end, without.end, with.limits);
+      if (better && !with.report.stopped && with.animated) with = once(true, std::ref(progress), quiet);
+      Draped taken = better ? take(std::move(with), without) : take(std::move(without), with);
+      taken.seconds = seconds;
+      return taken;
+    } catch (const physics::Cancelled&) {
       with.report.stopped = true;
-    } else if (asks_for_contact(without)) {
-      with = with_contact_again(std::move(with), std::ref(progress), quiet);
-      const bool better =
-          with.rests() && (with.crossings.pairs < without.crossings.pairs || !without.rests());
-      with = better ? take(std::move(with), without) : take(std::move(without), with);
-    } else {
-      with = take(std::move(without), with);
+      return with;
     }
-    with.seconds = seconds;
-    return with;
-  }
-
-  /// Whether contact of cloth with cloth would have kept it from what it came to; cloth that has gone through
-  /// itself may find no rest.
-  static bool asks_for_contact(const Draped& d) { return !d.falls && !d.broken && d.crosses_itself(); }
-
-  /// It goes the way again where the other one found parts that nothing holds, or was written as animation.
-  Draped with_contact_again(Draped with, const Progress& progress, const Context& context) {
-    const bool found = loose_[true].empty() && !loose_[false].empty();
-    if (!found && plan_.settings.animation.empty()) return with;
-    if (found) loose_[true] = loose_[false];
-    return once(true, progress, context);
   }
 
   static Draped take(Draped taken, const Draped& left) {
@@ -219,8 +212,8 @@ class GarmentSearch {
   std::vector<int> loose_[2];  ///< without and with contact: as the first start found
 };
 
-/// Goes on from the first start to all of them, and returns the one with the lowest energy, with what all
-/// tell. start(i, context) is the i-th. What is cancelled ends with the starts that there are.
+/// Goes on from the first start to all of them, and returns the best, with what all tell. start(i, context)
+/// is the i-th. What is cancelled ends with the starts that there are.
 template <class Start>
 Draped choose_start(Draped best, int count, const Start& start, const Context& context) {
   SilentListener silent(context.listener);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "bridge/drape_layers.h"
@@ -58,6 +59,8 @@ class LayerSearch {
   }
 
   const bridge::DrapeOptions& drape_options() const { return options_; }
+  /// The i-th garment where it begins.
+  const geometry::Mesh& begun(std::size_t i) const { return begun_[i]; }
 
   std::vector<std::unique_ptr<GarmentMaker>> makers;
   std::vector<bridge::LayerGarment> garments;
@@ -75,10 +78,19 @@ class LayerSearch {
     return o;
   }
 
-  std::vector<char> held() const {
-    std::vector<char> all;
-    for (const auto& maker : makers) all.insert(all.end(), maker->held().begin(), maker->held().end());
-    return all;
+  /// What falls of all garments, joined on any level: of each, its vertices as it was given come first.
+  std::vector<int> find_falling(const physics::Cloth& joined) const {
+    std::vector<physics::Vec3> x;
+    std::vector<char> held;
+    auto first = joined.particles.x.begin();
+    for (std::size_t i = 0; i < given_.size(); ++i) {
+      const auto own = std::ptrdiff_t(begun_[i].number_of_vertices());
+      const std::vector<char>& of_level = makers[i]->held();
+      x.insert(x.end(), first, first + own);
+      held.insert(held.end(), of_level.begin(), of_level.begin() + own);
+      first += std::ptrdiff_t(of_level.size());
+    }
+    return watch_->find(x, held);
   }
 
   void hold(int vertex) {
@@ -92,8 +104,6 @@ class LayerSearch {
   /// A vertex of each part that falls, which ended it.
   std::vector<int> go(const ProgressScope& progress) {
     std::vector<int> falling;
-    bool none_held = true;
-    for (const auto& maker : makers) none_held = none_held && maker->loose.empty();
     garments.clear();
     for (std::size_t i = 0; i < given_.size(); ++i)
       garments.push_back({.mesh = given_[i].file.mesh,
@@ -102,9 +112,8 @@ class LayerSearch {
                           .touches = given_[i].scene.touch});
     WayToRest to_rest(options_.settle.tolerance);
     const auto observe = [&](int level, const physics::SettleProgress& p, const physics::Cloth& cloth) {
-      if (level == 0 && none_held && settings_.loose != LooseUse::fall && p.iteration > 0 &&
-          p.iteration % 5 == 0)
-        falling = watch_->find(cloth, held());
+      if (level >= 0 && settings_.loose != LooseUse::fall && p.iteration > 0 && p.iteration % 5 == 0)
+        falling = find_falling(cloth);
       const double share = level < 0 ? 0 : (level + to_rest.share(p)) / (options_.refinements + 1);
       return progress(share) && falling.empty();
     };
@@ -135,19 +144,26 @@ Draped draped_of(LayerSearch& search, std::size_t i, const GivenGarment& given, 
   d.file.mesh = std::move(search.garments[i].mesh);
   close_seam_ties(d.file.mesh);
   const geometry::Parts parts = geometry::find_parts(given.file.mesh);
-  d.parts = parts.list.size();
   const physics::SettleReport& last = d.report.levels.back().settle;
   const bool uncarried = last.touching == 0 && !given.scene.simulation.gravity.isZero();
-  d.broken = uncarried && is_broken(last);
-  d.falls = (uncarried && !d.broken) || maker.loose.size() == d.parts;
-  if (!d.falls)
+  const bool broken = uncarried && is_broken(last);
+  d.end.finite = std::isfinite(last.residual) && !broken;
+  d.end.parts = FallWatch(search.begun(i), body, 0)
+                    .ends(given.file, search.garments[i].cloth.particles.x, maker.held(), maker.loose,
+                          given.scene.simulation.gravity);
+  if ((uncarried && !broken) || maker.loose.size() == parts.list.size())
+    for (PartEnd& part : d.end.parts) part.lost = true;
+  if (!d.end.falls())
     for (const int seed : maker.loose)
       d.loose.push_back(name_of_part(given.file, parts, parts.of_vertex[std::size_t(seed)]));
   if (!d.loose.empty()) {
     d.loose_parts = loose_parts_of(given.file, maker.loose);
-    carry_loose_parts(d.file.mesh, given.file.mesh, d.refinements, maker.loose);
   }
-  measure_draped({given.scene, body, settings, given.file, search.drape_options()}, d);
+  const DrapePlan plan{given.scene, body, settings, given.file, search.drape_options()};
+  if (d.loose.empty())
+    measure_draped(plan, d);
+  else
+    carry_and_measure(plan, maker.loose, d);
   if (given.placed) d.placed = given.placed->report;
   return d;
 }
@@ -182,6 +198,7 @@ WornOver drape_worn_over(std::span<const io::Scene> scenes, std::span<const std:
   }
   for (std::size_t i = 0; i < layers.size(); ++i) layers[i].now = &worn.garments[i].file.mesh;
   worn.layers.pairs = measure_layers(layers, worn.garments);
+  for (Draped& d : worn.garments) take_facts(d);
   return worn;
 }
 

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <thread>
 
 #include "geometry/fold/fold_base.h"
@@ -16,6 +18,7 @@
 #include "jobs/check/seam_ties.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/drape_garment.h"
+#include "jobs/run/loose_parts.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/measure_shape.h"
 #include "jobs/run/scene_cloth.h"
@@ -58,6 +61,25 @@ std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels,
          (drawn ? "refine it before its lines are drawn (furrow subdivide), or " : "") + "with --subdivide " +
          std::to_string(levels + 1) + " (some " + std::to_string(std::llround(vertices)) +
          " vertices) it is " + geometry::length_text(gap_with(wanted, sag / 4, tolerance));
+}
+
+/// A body that is the garment: nearly all that either consists of lies where the other does.
+std::vector<Ailment> worn_on_itself(const geometry::Mesh& garment, const physics::TriangleMesh& body) {
+  constexpr double nearly_all = 0.9;
+  std::set<std::array<double, 3>> places;
+  for (const physics::Vec3& x : body.vertices) places.insert({x.x(), x.y(), x.z()});
+  double same = 0;
+  for (const geometry::Vertex v : garment.vertices()) {
+    const geometry::Point& p = garment.point(v);
+    same += double(places.count({p.x(), p.y(), p.z()}));
+  }
+  if (same < nearly_all * std::max(double(garment.number_of_vertices()), double(places.size()))) return {};
+  Ailment a{"worn_on_itself", "", "--body"};
+  a.text =
+      "the body is the garment itself, and nothing is worn on itself: name the body with --body, in a file "
+      "that does not hold the garment";
+  a.fatal = true;
+  return {a};
 }
 
 }  // namespace
@@ -120,8 +142,8 @@ void measure_draped(const DrapePlan& plan, Draped& draped) {
   const physics::CancelScope whole([] { return false; });  // one that was stopped is measured, too
   const CrossedStart crossed = crossed_start(plan.as_read.mesh, draped.refinements);
   draped.self_contact = plan.options.settle.self.on;
-  draped.penetration = plan.settings.penetration;
-  draped.allowed_crossings = std::size_t(plan.scene.allow_crossings);
+  draped.limits = {std::size_t(plan.scene.allow_crossings), plan.settings.penetration,
+                   plan.settings.residual};
   draped.thickness = thickness_of(plan.scene, plan.settings);
   draped.untangled = untangled_of(draped.report.levels);
   draped.cloth_friction = plan.options.settle.self.friction;
@@ -132,7 +154,7 @@ void measure_draped(const DrapePlan& plan, Draped& draped) {
   draped.lines = measure_lines(draped.file, line_heights_by_id(plan.as_read));
   if (!plan.body) {
     draped.fit = bridge::strain_report(draped.file.mesh, draped.fit_options);
-    return;
+    return take_facts(draped);
   }
   draped.gap = plan.options.settle.gap;
   draped.wanted_gap = plan.scene.simulation.contact_gap;
@@ -141,6 +163,32 @@ void measure_draped(const DrapePlan& plan, Draped& draped) {
       bridge::fit_report(draped.file.mesh, plan.body->triangles, plan.body->exact, draped.fit_options);
   if (draped.gap == draped.wanted_gap)
     draped.too_near = count_nearer(draped.file.mesh, 0.9 * draped.gap - plan.body->field.report().tolerance);
+  take_facts(draped);
+}
+
+void carry_and_measure(const DrapePlan& plan, std::span<const int> loose, Draped& draped) {
+  const auto carry = [&](Draped& d, LooseCarry how) {
+    carry_loose_parts(d.file.mesh, plan.as_read.mesh, d.refinements, loose, how);
+    measure_draped(plan, d);
+  };
+  carry(draped, LooseCarry::as_one);
+  if (draped.succeeds()) return;
+  Draped other = draped;
+  carry(other, LooseCarry::by_place);
+  if (is_better(other.end, draped.end, draped.limits)) draped = std::move(other);
+}
+
+void take_facts(Draped& d) {
+  EndFacts& end = d.end;
+  const physics::SettleReport& last = d.report.levels.back().settle;
+  if (d.fit.strain) end.strain = d.fit.strain->p99;
+  end.crossings = d.crossings.pairs + d.crossings_with_others;
+  if (d.fit.on_body)
+    end.body = {d.fit.piercing.faces, d.fit.distance.vertices_inside, d.fit.distance.deepest_penetration,
+                d.gap};
+  end.residual = last.residual;
+  end.settled = last.converged || last.residual > d.limits.residual;
+  end.blocked = last.self.blocked;
 }
 
 GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& s, bool choose,
@@ -150,9 +198,11 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
   given.file = begin_garment(given.scene, context);
   if (body && body->made_for)
     given.placed = place(given.file.mesh, *body->made_for, *body, scene.garment.string(), context);
-  else if (body)
+  if (body && !body->made_for) {
+    heed(worn_on_itself(given.file.mesh, body->triangles), scene.garment.string(), context);
     heed(faults_of_pair(given.file.mesh, body->outline, scene.body->unit.has_value()), scene.garment.string(),
          context);
+  }
   given.scene.subdivide = scene.subdivide;
   if (choose && !s.plain && body)
     given.scene.subdivide =

@@ -62,7 +62,14 @@ struct GivenGarment {
 GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const DrapeSettings& settings,
                         bool choose, const Context& context);
 
-/// What a garment that was draped has come to: `draped` has its file and its report.
+/// What a garment that was draped has come to: `draped` has its file, its report and the ends of its parts.
 void measure_draped(const DrapePlan& plan, Draped& draped);
+
+/// The same of one with parts that were held aside (a vertex of each): first they go with the other parts, as
+/// rigid bodies, or place by place where that ends better.
+void carry_and_measure(const DrapePlan& plan, std::span<const int> loose, Draped& draped);
+
+/// Its facts, of what was measured: all that the judge of ends knows of a drape.
+void take_facts(Draped& draped);
 
 }  // namespace furrow::jobs

@@ -92,6 +92,7 @@ int DrapeStarts::resting() const {
 DrapeStart start_of(const Draped& d, std::uint64_t seed) {
   DrapeStart start;
   start.seed = seed, start.outcome = d.outcome(), start.rests = d.rests();
+  start.badness = badness_of(d.end, d.limits);
   start.residual = d.report.levels.back().settle.residual;
   for (const bridge::DrapeLevel& level : d.report.levels) {
     start.iterations += level.soft.iterations + level.settle.iterations;
@@ -104,7 +105,7 @@ DrapeStart start_of(const Draped& d, std::uint64_t seed) {
 }
 
 bool is_better(const DrapeStart& a, const DrapeStart& b) {
-  if (a.rests != b.rests) return a.rests;
+  if (a.badness != b.badness) return a.badness < b.badness;
   return a.energy.total() < b.energy.total() - same_energy * largest_part(b.energy);
 }
 

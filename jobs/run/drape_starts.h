@@ -9,8 +9,8 @@ namespace furrow::jobs {
 /// What one rest tells among several.
 DrapeStart start_of(const Draped& draped, std::uint64_t seed);
 
-/// Whether a rest is taken in place of another: it rests and the other does not, or its energy is lower by
-/// more than a millionth of the largest part of it.
+/// Whether an end is taken in place of another: the judge of ends calls it better, or they are equal there
+/// and its energy is lower by more than a millionth of the largest part of it.
 bool is_better(const DrapeStart& a, const DrapeStart& b);
 
 /// Mean and spread of each number over the starts that rest, in the order of the first that knows it; of the

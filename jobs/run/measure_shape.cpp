@@ -114,7 +114,10 @@ ReachedShape measure_shape(const io::MeshFile& file, const std::vector<double>& 
                            double contact_gap, double time) {
   ReachedShape shape;
   shape.centre = centre_of_mass(file.mesh);
-  if (body) shape.contact = measure_contact(file.mesh, *body, contact_gap, time);
+  if (body) {
+    shape.contact = measure_contact(file.mesh, *body, contact_gap, time);
+    shape.end.body = body->end_of(file.mesh, contact_gap, time);
+  }
   shape.strained_most = strained_most(file.mesh);
   shape.borders = measure_borders(file.mesh);
   shape.lines = measure_lines(file, before);

@@ -4,14 +4,17 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "bridge/drape.h"
 #include "bridge/gather.h"
 #include "geometry/fold/fold_base.h"
+#include "geometry/mesh/measures.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/drape_garment.h"
 #include "jobs/run/drape_plan.h"
+#include "jobs/run/fall_watch.h"
 #include "jobs/run/measure_crossings.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
@@ -27,6 +30,21 @@ bridge::DrapeOptions rest_options(const io::Scene& scene, double gap, const io::
   options.settle.gap = gap;
   options.settle.threads = threads_of(scene, garment.mesh.number_of_vertices());
   return options;
+}
+
+std::vector<char> held_in(const physics::Cloth& cloth) {
+  std::vector<char> held(cloth.particles.size());
+  for (std::size_t i = 0; i < held.size(); ++i) held[i] = cloth.particles.inv_mass[i] == 0;
+  return held;
+}
+
+void take_facts(std::vector<PartEnd> parts, RestStage& stage) {
+  EndFacts& end = stage.end;
+  end.parts = std::move(parts);
+  end.residual = stage.settle.residual;
+  end.settled = stage.settle.converged || stage.settle.residual > EndLimits{}.residual;
+  end.finite = std::isfinite(stage.settle.residual);
+  end.crossings = stage.crossings.pairs;
 }
 
 }  // namespace
@@ -55,6 +73,7 @@ RestStage rest_stage(io::MeshFile& garment, const io::Scene& scene, const std::v
     return cloth;
   };
   geometry::Mesh mesh = garment.mesh;
+  const FallWatch watch(mesh, nullptr, gap);
   physics::Cloth cloth;
   const bridge::DrapeReport report = bridge::drape(mesh, cloth, collider.get(), options, make, observe);
   stop_if_cancelled(context);
@@ -64,8 +83,21 @@ RestStage rest_stage(io::MeshFile& garment, const io::Scene& scene, const std::v
   stage.settle.factorisations += report.levels.back().soft.factorisations;
   stage.angle_defect = geometry::angle_defect(garment.mesh);
   stage.crossings = measure_crossings(garment);
+  take_facts(watch.ends(garment, cloth.particles.x, held_in(cloth), {}, options.settle.gravity), stage);
+  if (body) stage.end.body = body->end_of(garment.mesh, gap, 0);
   stage.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return stage;
+}
+
+std::optional<Fault> words_of_fall(const io::Scene& scene, const RestStage& stage) {
+  if (stage.end.lost() == 0 || !stage.settle.converged) return std::nullopt;
+  return Fault{
+      "fallen",
+      {"fallen",
+       fmt::format("the garment came to rest {} below where it lay ({} of {} parts): the body does not "
+                   "carry it where it is worn; put it where it is worn, or pin it",
+                   geometry::length_text(stage.end.fallen()), stage.end.lost(), stage.end.parts.size()),
+       scene.garment.string(), "pins"}};
 }
 
 Fault words_of_unrest(const io::Scene& scene, const RestStage& stage, bool moved) {
@@ -88,6 +120,7 @@ Json to_json(const RestStage& stage) {
           {"angle_defect_before", stage.angle_defect_before},
           {"angle_defect", stage.angle_defect},
           {"crossings", jobs::to_json(stage.crossings)},
+          {"end", jobs::to_json(stage.end)},
           {"seconds", stage.seconds}};
 }
 

@@ -12,6 +12,9 @@ namespace furrow::jobs {
 RestStage rest_stage(io::MeshFile& garment, const io::Scene& scene, const std::vector<std::vector<int>>& pins,
                      const WorldBody* body, double gap, const Context& context);
 
+/// That parts of it rest far below where they lay, and what helps; none: none does.
+std::optional<Fault> words_of_fall(const io::Scene& scene, const RestStage& stage);
+
 /// "not at rest" before it moved, and what helps.
 Fault words_of_unrest(const io::Scene& scene, const RestStage& stage, bool moved);
 

@@ -36,6 +36,13 @@ constexpr double most_strain = 0.5;  // that is not told
 constexpr double for_a_moment = 2;   // times what is left at the end
 constexpr double most_open = 0.1;    // of all steps, with which a motion is still one
 
+Warning pierced_between_vertices(const io::Scene& scene, const BodyEnd& body) {
+  return {"body_comes_through",
+          scene.garment.stem().string() + ": " + words_of_piercing(body) +
+              "; refine the garment where it is made (furrow subdivide), or keep it farther off (--gap)",
+          scene.garment.string(), "material.gap"};
+}
+
 /// Too many steps were not solved.
 bool is_unsolved(const physics::SimulateReport& report) {
   return double(report.open_steps) > most_open * double(report.steps);
@@ -138,6 +145,8 @@ std::vector<Fault> faults_of(const io::Scene& scene, const ReachedShape& shape,
               shape.contact->inside.inside, geometry::length_text(shape.contact->inside.deepest),
               place(shape.contact->deepest_at)),
           garment, "unit"}});
+  else if (shape.end.is_pierced(EndLimits{}))
+    faults.push_back({"pierced by the body", pierced_between_vertices(scene, *shape.end.body)});
   if (shape.crossings.pairs > std::size_t(scene.allow_crossings))
     faults.push_back(
         {"cloth crosses itself",
@@ -177,6 +186,11 @@ std::vector<Warning> idle_presses(const io::SceneMaterial& material, const io::W
                            "hinge",
                        line.name, "material.bending_law"});
   return found;
+}
+
+std::optional<Warning> body_comes_through(const io::Scene& scene, const EndFacts& end) {
+  if (!end.body || end.body->pierced_faces == 0 || end.is_pierced(EndLimits{})) return std::nullopt;
+  return pierced_between_vertices(scene, *end.body);
 }
 
 std::optional<Warning> falls_freely(const io::Scene& scene, const std::vector<std::vector<int>>& pins) {

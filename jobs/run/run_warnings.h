@@ -22,6 +22,9 @@ Warning raised_gap(const io::Scene& scene, const geometry::Mesh& garment, double
 /// Lines with a press where nothing has hinges to be pressed.
 std::vector<Warning> idle_presses(const io::SceneMaterial& material, const io::WrinkleRecord& record);
 
+/// That the body comes through the cloth of a shape that was reached, less deeply than is a fault.
+std::optional<Warning> body_comes_through(const io::Scene& scene, const EndFacts& end);
+
 /// That neither a body nor one of the run's pins holds the garment, which has weight.
 std::optional<Warning> falls_freely(const io::Scene& scene, const std::vector<std::vector<int>>& pins);
 

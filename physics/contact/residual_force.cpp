@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -24,6 +25,7 @@ double after_contact(const Vec3& f, const Vec3& n, double friction) {
 double residual_of(std::span<const Vec3> force, const Particles& p, const Vec3& gravity,
                    const Collider* collider, double friction, double gap) {
   const double g = gravity.norm() > 0 ? gravity.norm() : standard_gravity;
+  if (!std::isfinite(g)) return std::numeric_limits<double>::quiet_NaN();  // no force is small beside it
   double largest = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p.inv_mass[i] == 0) continue;

@@ -16,7 +16,8 @@ inline constexpr double standard_gravity = 9.81;   ///< [m/s^2]
 /// 0). With -f = w split along the normal of smooth_at(), w_n and w_t, what contact cannot take is
 ///   0 if |w_t| <= mu w_n;   |w| if w_n <= -mu |w_t|;   (|w_t| - mu w_n) / sqrt(1 + mu^2) between.
 /// collider may be null. loads: further forces that act whatever moves, one a particle [N]; may be empty. 0
-/// if nothing can move. Cost: one force evaluation, one query a particle.
+/// if nothing can move; NaN for a gravity whose length is beyond numbers. Cost: one force evaluation, one
+/// query a particle.
 double residual_force(const Cloth& cloth, const Vec3& gravity, const Collider* collider, double friction,
                       double gap, std::span<const Vec3> loads = {});
 

@@ -647,3 +647,33 @@ TEST_CASE(
   set_output(job, "settled", empty_folder("simulate_not_settled") / "rests.ply");
   CHECK_THROWS_WITH(jobs::simulate(job, recorder), Catch::Contains("output.settled needs settle"));
 }
+
+TEST_CASE(
+    "simulate: where the body comes through between vertices is reported, and no success where it is deep") {
+  for (const double depth : {0.0018, 0.008}) {
+    tests::Recorder recorder;
+    jobs::SimulateJob job;
+    geometry::Mesh& sheet = job.scene.memory.meshes["sheet"].mesh;
+    sheet = geometry::equilateral_sheet(0.6, 0.6, 0.2);  // no vertex above the ball's top
+    for (geometry::Point& p : sheet.points()) p = {p.x() + 0.07, 0.1 - depth, p.y() - 0.31};
+    job.scene.memory.meshes["ball"].mesh = tests::icosphere(4, 0.1);
+    job.scene.settings =
+        io::parse_toml("[garment]\nmesh = \"sheet\"\n[simulation]\nseconds = 0.01\n", "test");
+    io::set_value(job.scene.settings, "body.mesh", "ball", "test");
+    io::set_value(job.scene.settings, "body.tolerance", 0.005, "test");
+    io::set_value(job.scene.settings, "pins.0", io::Json{{"box", {-9, -9, -9, 9, 9, 9}}}, "test");
+    const jobs::SimulateReport report = jobs::simulate(job, recorder);
+    INFO(to_json(report).dump(1));
+    REQUIRE(report.shape);
+    REQUIRE(report.shape->end.body);
+    CHECK(report.shape->end.body->pierced_faces > 0);
+    CHECK(report.shape->end.body->vertices_inside == 0);
+    CHECK(report.shape->end.body->depth == Approx(depth).margin(0.0003));
+    const bool warned = std::any_of(report.warnings.begin(), report.warnings.end(),
+                                    [](const jobs::Warning& w) { return w.code == "body_comes_through"; });
+    CHECK(warned == (depth < 0.005));
+    CHECK(report.fails() == (depth > 0.005));
+    CHECK((report.outcome().find("pierced by the body") != std::string::npos) == (depth > 0.005));
+    CHECK(to_json(report).at("end").at("body").at("depth") == report.shape->end.body->depth);
+  }
+}

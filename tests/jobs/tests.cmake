@@ -35,4 +35,6 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
   transfer_test.cpp
   line_faults_test.cpp
   wrinkle_test.cpp
+  ends_test.cpp
+  drape_ends_test.cpp
 )

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <thread>
 
@@ -13,6 +14,7 @@
 #include "physics/base/progress.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
+#include "tests/test_meshes.h"
 
 using namespace furrow;
 namespace fs = std::filesystem;
@@ -167,4 +169,41 @@ TEST_CASE("transfer: the report names the corners of the faces that cross, and n
   job.original = job.wrinkled = file;
   job.rest = file;
   CHECK_FALSE(to_json(jobs::transfer(job, recorder)).at("crossings").contains("corners"));
+}
+
+TEST_CASE("transfer: where the body comes through the mesh is reported with its depth, and warned of") {
+  tests::Recorder recorder;
+  const auto on_ball = [](double edge) {  // 3 mm off a ball of 10 cm, by vertices
+    io::MeshFile file;
+    file.mesh = geometry::equilateral_sheet(0.16, 0.16, edge);
+    for (geometry::Point& p : file.mesh.points()) p = {p.x(), p.y() - 0.08, 0};
+    return file;
+  };
+  const auto bent = [](io::MeshFile file) {
+    auto rest = geometry::ensure_map(file.mesh, geometry::attribute::rest_position);
+    for (const geometry::Vertex v : file.mesh.vertices()) {
+      const geometry::Point p = file.mesh.point(v);
+      rest[v] = {p.x(), p.y(), p.z()};
+      const double length = std::sqrt(p.x() * p.x() + p.y() * p.y() + 0.01);
+      file.mesh.point(v) = {0.103 * p.x() / length, 0.103 * p.y() / length, 0.103 * 0.1 / length};
+    }
+    return file;
+  };
+  jobs::TransferJob job;
+  job.wrinkled = bent(on_ball(0.01));
+  io::MeshFile ball;
+  ball.mesh = tests::icosphere(4, 0.1);
+  for (const double edge : {0.01, 0.08}) {
+    job.original = on_ball(edge);
+    job.body.reset();
+    CHECK(to_json(jobs::transfer(job, recorder)).at("end").at("body").is_null());
+    CHECK_FALSE(recorder.warned_of("body_comes_through"));
+    job.body = ball;
+    const jobs::TransferReport report = jobs::transfer(job, recorder);
+    REQUIRE(report.end.body);
+    CHECK((report.end.body->pierced_faces > 0) == (edge > 0.05));
+    CHECK((report.end.body->depth > 0.002) == (edge > 0.05));
+    CHECK(report.end.body->vertices_inside == 0);
+    CHECK(recorder.warned_of("body_comes_through") == (edge > 0.05));
+  }
 }

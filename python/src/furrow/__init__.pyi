@@ -359,6 +359,7 @@ def transfer(
     *,
     output: Optional[Path] = None,
     rest_shape: Optional[Garment] = None,
+    body: Optional[Garment] = None,
     max_distance: Optional[float] = None,
     unit: Optional[Literal["m", "cm", "mm", "inch"]] = None,
     up: Optional[Literal["y", "z"]] = None,
