@@ -9,7 +9,6 @@
 
 #include "bridge/drape.h"
 #include "bridge/fit_report.h"
-#include "jobs/crossings.h"
 #include "jobs/ends.h"
 #include "jobs/simulate.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bridge/fit_report.h"
-#include "jobs/crossings.h"
+#include "jobs/ends.h"
 
 namespace furrow::jobs {
 

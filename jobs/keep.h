@@ -5,7 +5,6 @@
 #include "bridge/keep.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/state_file.h"
-#include "jobs/crossings.h"
 #include "jobs/ends.h"
 
 namespace furrow::jobs {

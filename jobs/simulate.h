@@ -11,7 +11,6 @@
 #include "bridge/drape.h"
 #include "io/scene/state_file.h"
 #include "jobs/chart.h"
-#include "jobs/crossings.h"
 #include "jobs/ends.h"
 #include "jobs/inputs.h"
 #include "jobs/wrinkle.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geometry/fold/wrinkle.h"
-#include "jobs/crossings.h"
+#include "jobs/ends.h"
 #include "jobs/inputs.h"
 #include "jobs/shown_mesh.h"
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "geometry/refine/transfer_shape.h"
-#include "jobs/crossings.h"
 #include "jobs/ends.h"
 
 namespace furrow::jobs {

@@ -13,7 +13,7 @@
 #include "geometry/rest/rest_state.h"
 #include "io/scene/scene.h"
 #include "io/scene/state_file.h"
-#include "jobs/crossings.h"
+#include "jobs/ends.h"
 
 namespace furrow::jobs {
 

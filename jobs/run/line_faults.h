@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "geometry/fold/wrinkle.h"
-#include "jobs/crossings.h"
+#include "jobs/ends.h"
 #include "jobs/inputs.h"
 
 namespace furrow::jobs {

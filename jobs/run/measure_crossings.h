@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "geometry/mesh/parts.h"
-#include "jobs/crossings.h"
+#include "jobs/ends.h"
 
 namespace furrow::jobs {
 

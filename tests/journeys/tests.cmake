@@ -9,6 +9,7 @@ if(NOT FURROW_SANITIZE)
     garments_test.cpp
     worn_lines_test.cpp
     rigged_test.cpp
+    settled_lines_test.cpp
   )
   add_dependencies(test_journeys furrow)
 endif()
