@@ -92,7 +92,8 @@ struct Frame {
 /// are not looked up.
 class PathKey {
  public:
-  PathKey(const std::filesystem::path& path) : place_(std::filesystem::absolute(path).lexically_normal()) {}
+  PathKey(const std::filesystem::path& path)
+      : place_(path.empty() ? path : std::filesystem::absolute(path).lexically_normal()) {}
   PathKey(const std::string& path) : PathKey(std::filesystem::path(path)) {}
   PathKey(const char* path) : PathKey(std::filesystem::path(path)) {}
   auto operator<=>(const PathKey& other) const = default;
