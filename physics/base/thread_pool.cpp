@@ -7,9 +7,16 @@
 
 namespace furrow::physics {
 
+namespace {
+
+constexpr int most_threads = 1024;  // more is a mistake
+
+}  // namespace
+
 ThreadPool::ThreadPool(int threads) {
-  if (threads < 1)
-    throw std::invalid_argument("threads = " + std::to_string(threads) + "; at least 1 is needed");
+  if (threads < 1 || threads > most_threads)
+    throw std::invalid_argument("threads = " + std::to_string(threads) + " is not in [1, " +
+                                std::to_string(most_threads) + "]");
   errors_.resize(std::size_t(threads));
   for (int i = 1; i < threads; ++i) workers_.emplace_back([this, i] { serve(i); });
 }

@@ -9,6 +9,11 @@ namespace furrow::physics {
 void check(const Spring& s, std::size_t n) {
   if (s.a < 0 || s.b < 0 || std::size_t(s.a) >= n || std::size_t(s.b) >= n)
     refuse("spring", "(", s.a, ", ", s.b, ") of ", n, " particles");
+  if (s.a == s.b) refuse("spring", "joins particle ", s.a, " with itself");
+  if (!(s.rest_length > 0) || !std::isfinite(s.rest_length))
+    refuse("spring", "(", s.a, ", ", s.b, "): rest length ", s.rest_length, " is not > 0");
+  if (!(s.stiffness >= 0) || !std::isfinite(s.stiffness))
+    refuse("spring", "(", s.a, ", ", s.b, "): stiffness ", s.stiffness, " is not >= 0");
 }
 
 double energy(std::span<const Vec3> x, const Spring& s) {

@@ -31,8 +31,10 @@ void require_positive(double value, const char* name) {
 
 void check(const SimulateOptions& o) {
   if (o.self.on) require_positive(o.self.thickness, "self.thickness");
-  if (!(o.self.friction >= 0) || !std::isfinite(o.self.friction))
-    refuse("simulate", "self.friction = ", o.self.friction, " is not >= 0");
+  require("simulate", "self.friction", o.self.friction, o.self.friction >= 0, ">= 0");
+  require("simulate", "friction", o.friction, o.friction >= 0, ">= 0");
+  require_positive(o.contact_gap, "contact_gap");
+  require_positive(o.recovery_speed, "recovery_speed");
   if (!(o.seconds >= 0) || !std::isfinite(o.seconds))
     refuse("simulate", "seconds = ", o.seconds, " is not >= 0");
   if (o.stop_at && std::isnan(*o.stop_at)) refuse("simulate", "stop_at is not a number");

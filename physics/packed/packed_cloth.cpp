@@ -12,47 +12,13 @@
 #include <utility>
 
 #include "physics/base/require.h"
+#include "physics/cloth/check_cloth.h"
 #include "physics/cloth/cloth.h"
 #include "physics/cloth/elements.h"
 #include "physics/cloth/kinds.h"
 
 namespace furrow::physics {
 namespace {
-
-void check_particles(const Particles& p) {
-  const std::size_t n = p.size();
-  if (p.v.size() != n || p.mass.size() != n || p.inv_mass.size() != n) {
-    throw std::invalid_argument("particles: x, v, mass and inv_mass differ in length");
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::string name = "particle " + std::to_string(i);
-    if (!(p.mass[i] >= 0) || !std::isfinite(p.mass[i]))
-      throw std::invalid_argument(name + ": mass is not >= 0");
-    if (!(p.inv_mass[i] >= 0) || !std::isfinite(p.inv_mass[i])) {
-      throw std::invalid_argument(name + ": inv_mass is not >= 0 and finite");
-    }
-    if (!p.x[i].allFinite() || !p.v[i].allFinite()) {
-      throw std::invalid_argument(name + ": position or velocity is not finite");
-    }
-  }
-}
-
-void check_springs(const std::vector<Spring>& springs, std::size_t n, const char* kind) {
-  for (std::size_t i = 0; i < springs.size(); ++i) {
-    const Spring& s = springs[i];
-    const std::string name = std::string(kind) + " spring " + std::to_string(i);
-    if (s.a < 0 || s.b < 0 || std::size_t(s.a) >= n || std::size_t(s.b) >= n || s.a == s.b) {
-      throw std::invalid_argument(name + ": joins " + std::to_string(s.a) + " and " + std::to_string(s.b) +
-                                  " of " + std::to_string(n) + " particles");
-    }
-    if (!(s.rest_length > 0) || !std::isfinite(s.rest_length)) {
-      throw std::invalid_argument(name + ": rest length " + std::to_string(s.rest_length) + " is not > 0");
-    }
-    if (!(s.stiffness >= 0) || !std::isfinite(s.stiffness)) {
-      throw std::invalid_argument(name + ": stiffness " + std::to_string(s.stiffness) + " is not >= 0");
-    }
-  }
-}
 
 std::vector<int> places(const std::vector<int>& particle) {
   std::vector<int> place(particle.size());
@@ -180,10 +146,7 @@ std::vector<std::array<int, 2>> neighbour_pairs(const Cloth& cloth) {
 
 PackedCloth pack(const Cloth& cloth, bool dashpots) {
   const Particles& from = cloth.particles;
-  check_particles(from);
-  check_springs(cloth.structural, from.size(), "structural");
-  check_springs(cloth.bending, from.size(), "bending");
-  check_elements(cloth, from.size());
+  check_cloth(cloth, "cloth");
   PackedCloth packed;
   packed.particle = breadth_first_order(int(from.size()), neighbour_pairs(cloth));
   packed.force.assign(from.size(), Vec4{});

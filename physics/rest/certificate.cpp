@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "physics/base/cancel_scope.h"
-#include "physics/base/check_particles.h"
 #include "physics/base/require.h"
+#include "physics/cloth/check_cloth.h"
 #include "physics/cloth/elements.h"
 #include "physics/contact/residual_force.h"
 #include "physics/linear/free_stiffness.h"
@@ -34,8 +34,8 @@ void check(const Cloth& cloth, const CertificateOptions& o, std::span<const Vec3
   require(me, "friction", o.friction, o.friction >= 0, ">= 0");
   require(me, "gap", o.gap, o.gap > 0, "> 0");
   if (o.max_steps < 2) refuse(me, "max_steps = ", o.max_steps, " is not >= 2");
-  check_loaded_particles(cloth.particles, loads, me);
-  check_elements(cloth, cloth.particles.size());
+  check_cloth(cloth, me);
+  check_loads(cloth, loads, me);
   if (!has_all_stiffness(cloth))
     refuse(me, "an energy of the cloth has no stiffness: whether the state is stable is not known");
 }

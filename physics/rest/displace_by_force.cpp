@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "physics/base/check_particles.h"
 #include "physics/base/require.h"
 #include "physics/base/thread_pool.h"
 #include "physics/body/collider.h"
+#include "physics/cloth/check_cloth.h"
 #include "physics/cloth/elements.h"
 #include "physics/cloth/tension_forces.h"
 #include "physics/contact/contact.h"
@@ -44,7 +44,7 @@ void check(const Cloth& cloth, const DisplaceOptions& o) {
     require(me, "replacement", o.replacement, o.replacement > 0 && o.replacement <= o.limit, "in (0, limit]");
   }
   require(me, "threads", o.threads, o.threads >= 1, ">= 1");
-  check_particles(cloth.particles, me);
+  check_cloth(cloth, me);
 }
 
 /// Of the free particles [N]; 0 if there are none.
@@ -308,7 +308,10 @@ const char* name_of(DisplaceOutcome outcome) {
 }
 
 double displacement_rate(const Cloth& cloth, const Vec3& gravity, double longest) {
-  (void)potential_energy(cloth, cloth.particles.x);  // checks the elements
+  constexpr const char* me = "displacement_rate";
+  for (const double g : gravity) require(me, "gravity", g, true, "finite");
+  require(me, "longest", longest, longest > 0, "> 0");
+  check_cloth(cloth, me);
   const Weights weights(cloth.particles, gravity);
   if (weights.sum == 0) return 0;
   Cloth unit = cloth;  // with masses 1 the eigenvalues are those of K

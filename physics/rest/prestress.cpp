@@ -6,9 +6,9 @@
 #include <concepts>
 #include <memory>
 
-#include "physics/base/check_particles.h"
 #include "physics/base/require.h"
 #include "physics/cloth/carried_angle.h"
+#include "physics/cloth/check_cloth.h"
 #include "physics/cloth/dihedral.h"
 #include "physics/cloth/hinge_forces.h"
 #include "physics/cloth/kinds.h"
@@ -44,7 +44,8 @@ void check(const Cloth& cloth, const PrestressOptions& o, std::span<const Vec3> 
   require(me, "max_angle", o.max_angle, o.max_angle > 0 && o.max_angle <= 3, "in (0, 3]");
   require(me, "tolerance", o.tolerance, o.tolerance > 0, "> 0");
   require(me, "max_iterations", o.max_iterations, o.max_iterations >= 1, ">= 1");
-  check_loaded_particles(cloth.particles, loads, me);
+  check_cloth(cloth, me);
+  check_loads(cloth, loads, me);
   for_each_kind(cloth, [&](const auto& kind, auto...) {
     if (!is_inverted<KindOf<decltype(kind)>> && !kind.empty())
       refuse(me, "the cloth has elements of a kind whose rest state cannot be solved for");

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "physics/base/cancel_scope.h"
-#include "physics/base/check_particles.h"
 #include "physics/base/progress.h"
 #include "physics/base/require.h"
 #include "physics/base/vector_sums.h"
+#include "physics/cloth/check_cloth.h"
 #include "physics/cloth/element_forces.h"
 #include "physics/contact/anchored_contact.h"
 #include "physics/contact/face_contact.h"
@@ -64,7 +64,7 @@ void check(const Cloth& cloth, const SettleOptions& o) {
   const std::size_t groups = o.self.groups.size();
   if (groups != 0 && groups != n) refuse(me, "self.groups has ", groups, " numbers for ", n, " particles");
   for (const double t : o.self.thicknesses) require(me, "self.thicknesses", t, t > 0, "> 0");
-  check_particles(cloth.particles, me);
+  check_cloth(cloth, me);
 }
 
 /// What elements and weight answer at a place.

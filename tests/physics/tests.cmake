@@ -3,6 +3,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   base/cancel_scope_test.cpp
   base/require_test.cpp
   base/thread_pool_test.cpp
+  cloth/check_cloth_test.cpp
   cloth/element_forces_test.cpp
   cloth/elements_test.cpp
   cloth/energy_test.cpp
@@ -52,6 +53,7 @@ furrow_add_tests(physics physics LIBRARIES furrow::physics cases SOURCES
   motion/energy_balance_test.cpp
   motion/euler_step_test.cpp
   motion/implicit_step_test.cpp
+  motion/landing_test.cpp
   motion/leapfrog_step_test.cpp
   motion/moved_pins_test.cpp
   motion/pair_response_test.cpp

@@ -198,7 +198,7 @@ TEST_CASE("simulate: a state that does not fit is refused and nothing changes") 
     scene = start;
   };
   scene.state.contact.pop_back();
-  refused("of a cloth with 181 particles instead of 182");
+  refused("181 contact memories for 182 particles");
   scene.state.homes.push_back(Vec3::Zero());
   refused("the state knows 2 moved pins, but there are 1");
   scene.state.compensation.force.pop_back();

@@ -213,7 +213,7 @@ TEST_CASE("displace_by_force: it refuses bad options and cloths, and changes not
   refuses(bad, {}, "mass");
   bad = cloth;
   bad.particles.mass.pop_back();
-  refuses(bad, {}, "length");
+  refuses(bad, {}, "masses");
   bad = cloth;
   bad.structural[0].b = 7;
   CHECK_THROWS_AS(displace_by_force(bad, nullptr, {}), std::invalid_argument);

@@ -461,7 +461,7 @@ TEST_CASE("prestress: what cannot be is refused and nothing changes") {
   refuses(bad, {}, "mass of free particle 1");
   bad = good;
   bad.particles.x[4].z() = std::numeric_limits<double>::infinity();
-  refuses(bad, {}, "position 4");
+  refuses(bad, {}, "position of particle 4");
   bad = with_triangles(good);
   bad.membrane[2].mu = 0;
   bad.structural = good.structural;

@@ -102,13 +102,13 @@ TEST_CASE("settle: what cannot be is refused and nothing moves") {
   refuses(good, o, "gravity");
   Cloth bad = good;
   bad.particles.mass[1] = 0;
-  refuses(bad, {}, "mass of a free particle = 0");
+  refuses(bad, {}, "mass of free particle 1 = 0");
   bad = good;
   bad.particles.v.pop_back();
-  refuses(bad, {}, "length");
+  refuses(bad, {}, "velocities");
   bad = good;
   bad.particles.x[1].y() = std::numeric_limits<double>::infinity();
-  refuses(bad, {}, "a position = inf");
+  refuses(bad, {}, "position of particle 1");
   bad = good;
   bad.structural[0].b = 7;
   refuses(bad, {}, "7");
