@@ -127,6 +127,11 @@ void AnchoredContact::expect(std::span<const Vec3> move) {
   }
 }
 
+void AnchoredContact::relimit() {
+  for (Touch& t : touches_)
+    if (t.limit >= 0) t.limit = options_.friction * t.push;
+}
+
 void AnchoredContact::move_anchors() {
   for (Touch& t : touches_) {
     if (!(t.push > 0)) {
@@ -163,15 +168,29 @@ int AnchoredContact::hold_new(std::span<const Vec3> from) {
   return held;
 }
 
-void AnchoredContact::let_in(std::span<const double> push) {
+void AnchoredContact::let_in(std::span<const Vec3> force, std::span<const char> begins) {
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     Touch& t = touches_[i];
-    if (t.push > push[i]) t.nearer += t.depth - depth_of(push[i] / t.slope);
+    if (!(t.push > 0) || !begins[i]) continue;
+    const Vec3 f = place_ ? Vec3(place_->rotation.transpose() * force[i]) : force[i];
+    const double push = std::max(0.0, -t.normal.dot(f));
+    if (t.push > push) t.nearer += t.depth - depth_of(push / t.slope);
   }
 }
 
-void AnchoredContact::lead_out(double by) {
-  for (Touch& t : touches_) t.nearer = std::max(0.0, t.nearer - by);
+std::vector<Vec3> AnchoredContact::lead_out(double by) {
+  std::vector<Vec3> ways(touches_.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    Touch& t = touches_[i];
+    const double rise = std::min(by, t.nearer);
+    if (!(rise > 0)) continue;
+    t.nearer -= rise;
+    const SignedDistance here = collider_.smooth_at(t.x);
+    const Vec3 way = rise / here.gradient.squaredNorm() * here.gradient;
+    if (!(collider_.smooth_at(t.x + way).value > here.value + 0.5 * rise)) continue;
+    ways[i] = place_ ? Vec3(place_->rotation * way) : way;
+  }
+  return ways;
 }
 
 std::vector<ContactAnchor> AnchoredContact::anchors() const { return {touches_.begin(), touches_.end()}; }
@@ -215,6 +234,18 @@ double AnchoredContact::deepest() const {
   for (const Touch& t : touches_)
     if (t.push > 0) depth = std::max(depth, t.depth);
   return depth;
+}
+
+double AnchoredContact::held_back(std::span<const double> mass, double inertia) const {
+  double most = 0;
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const Touch& t = touches_[i];
+    if (t.limit < 0) continue;
+    const double length = t.way().norm();
+    if (length > slip_ || (t.slides && length > 0))
+      most = std::max(most, t.limit / std::max(slip_, length) / (mass[i] * inertia));
+  }
+  return most;
 }
 
 int AnchoredContact::touching() const {

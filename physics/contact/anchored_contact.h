@@ -48,6 +48,7 @@ class AnchoredContact {
   /// Positive semidefinite.
   void add_stiffness(FreeStiffness& stiffness, SlipStiffness of_slip = SlipStiffness::none) const;
   void expect(std::span<const Vec3> move);  ///< limits become those of the push after a move [m]
+  void relimit();                           ///< limits become those of the push as it is
   void move_anchors();
   /// Where the body leaves less room than the gap (between two fingers, under an arm), pushes from both sides
   /// meet in a kink at which no step succeeds. A particle may be pushed at `from` and, less than the gap
@@ -65,14 +66,18 @@ class AnchoredContact {
   /// What is pushed and has no anchor gets one at `from`, its place before the step that brought it here, in
   /// the body's frame: so friction in this step is bounded by this step's push. Returns how many that are.
   int hold_new(std::span<const Vec3> from);
-  /// For motion, so that what begins deep in the gap is not shot out: a particle that is pushed by more than
-  /// this [N, one a particle] may lie as deep as it does for now, and is pushed by this. Call look() again.
-  void let_in(std::span<const double> push);
-  /// What was let in, or has less room, may lie less deep by so much [m]; the next look() sees it.
-  void lead_out(double by);
+  /// For motion, so that what begins in the gap is not shot out: a particle that begins (not 0) and is pushed
+  /// by more than other forces [N, one a particle] press it to the body may lie as deep as it does for now,
+  /// and is pushed by that. Call look() again.
+  void let_in(std::span<const Vec3> force, std::span<const char> begins);
+  /// What was let in, or has less room, may lie less deep by so much [m]; the next look() sees it. Returns
+  /// the way out [m] of each particle, as it was looked at last; of what has no room there, none.
+  std::vector<Vec3> lead_out(double by);
   std::vector<ContactAnchor> anchors() const;
   /// Throws std::invalid_argument for another number of anchors than of particles.
   void set_anchors(std::span<const ContactAnchor> anchors);
+  /// The most by which SlipStiffness::secant holds back what slides, over mass times `inertia` [1/s^2] of it.
+  double held_back(std::span<const double> mass, double inertia) const;
   int touching() const;             ///< particles that are pushed
   std::vector<int> pushed() const;  ///< which ones, rising
   double deepest() const;           ///< of them, inside its gap [m]; 0: none

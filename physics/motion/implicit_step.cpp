@@ -20,7 +20,6 @@ constexpr double standard_gravity = 9.81;  // m/s^2: the scale of a tolerance, w
 constexpr double longest_move = 0.02;      // m, beside a body: less than half of any limb
 constexpr int most_iterations = 12;
 constexpr double push_over_inertia = 100;  // of a mean particle in a step
-constexpr double most_push_at_start = 10;  // weights: more than what cloth at rest bears on a shoulder
 constexpr int most_parts = 32;             // of a step
 constexpr int most_rounds_of_leading = 8;  // in which cloth goes out of the way of what is led
 constexpr int iterations_of_round = 4;
@@ -61,13 +60,14 @@ void ImplicitStep::prepare(double dt) {
   if (search_) return;
   const Particles& p = cloth_.particles;
   const BodyAround* body = motion_.body();
-  if ((body || self_.on) && stiffness_ == 0) {
-    StepSearch scale(cloth_, motion_, nullptr, nullptr);
+  StepSearch scale(cloth_, motion_, nullptr, nullptr);
+  begins_ = stiffness_ == 0;
+  if ((body || self_.on) && begins_) {
     stiffness_ = std::max(scale.contact_stiffness(p.x), push_over_inertia * scale.mean_mass() / (dt * dt));
   }
   if (body) {
     contact_ = std::make_unique<StepContact>(*body, stiffness_, p.size(), motion_.from());
-    begin_contact();
+    begin_contact(scale.elements_at(p.x).pull);
   }
   if (self_.on) make_pairs();
   search_ = std::make_unique<StepSearch>(cloth_, motion_, contact_.get(), pairs_.get());
@@ -75,22 +75,20 @@ void ImplicitStep::prepare(double dt) {
   fresh_.clear();
 }
 
-/// What begins here may lie as deep as it does.
-void ImplicitStep::begin_contact() {
+/// What begins here may lie as deep as it does, and is pushed by what presses it to the body: pull is the
+/// elements'.
+void ImplicitStep::begin_contact(Vectors pull) {
   const Particles& p = cloth_.particles;
   AnchoredContact& anchored = contact_->anchored();
   const bool known = !anchors_.empty();
   if (known) anchored.set_anchors(anchors_);
   if (known && fresh_.empty()) return;
-  std::vector<double> most = scaled(most_push_at_start * standard_gravity, p.mass);
-  if (known) {
-    std::vector<char> begins(p.size(), 0);
-    for (const int i : fresh_) begins[std::size_t(i)] = 1;
-    for (std::size_t i = 0; i < p.size(); ++i)
-      if (!begins[std::size_t(motion_.cloth().particle[i])]) most[i] = std::numeric_limits<double>::infinity();
-  }
+  std::vector<char> fresh(p.size(), !known), begins;
+  for (const int i : fresh_) fresh[std::size_t(i)] = 1;
+  for (const int i : motion_.cloth().particle) begins.push_back(fresh[std::size_t(i)]);
+  for (std::size_t i = 0; i < p.size(); ++i) pull[i] += p.mass[i] * motion_.loads().gravity;
   anchored.look(p.x, p.inv_mass, &motion_.pool());
-  anchored.let_in(most);
+  anchored.let_in(pull, begins);
   if (known) return;  // the step gives anchors to what it finds pushed and without one
   anchored.look(p.x, p.inv_mass, &motion_.pool());
   anchored.move_anchors();
@@ -275,7 +273,11 @@ void ImplicitStep::book(const State& start, const State& end, const StepImpulse&
 std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Interval time) {
   const double h = time.length();
   const bool last = time.parts == most_parts;
-  Stage stage{1 / (h * h), 1 / h, sum(start.x, h, start.v), scaled(-1 / h, start.x)};
+  // A velocity of backward Euler is that of the middle of its step; the first step, which gets that of its
+  // start, has the forces for half of its time. Without that, what slides stops v h / 2 too soon.
+  const bool begins = begins_ && contact_ && scheme_ == Integrator::implicit && time.from == motion_.from();
+  const double seconds = begins ? h / 2 : h;
+  Stage stage{1 / (seconds * h), 1 / h, sum(start.x, h, start.v), scaled(-1 / h, start.x)};
   State end;
   end.x = stage.y;
   const Solved solved = solve(stage, start, time, options_.few, end.x);
@@ -285,7 +287,7 @@ std::optional<ImplicitStep::State> ImplicitStep::euler(const State& start, Inter
   end.v = sum(stage.q, stage.p, end.x);
   end.elements = solved.forces.elements;
   StepImpulse impulse(cloth_.particles, motion_.loads().air_drag);
-  impulse.add(h, solved.forces, solved.loads, end.v);
+  impulse.add(seconds, solved.forces, solved.loads, end.v);
   if (contact_) {
     const auto [surface, slip] =
         contact_->beside(solved.carried, solved.body_way, start.x, start.v, end.x, time.from, time.to);
@@ -384,14 +386,26 @@ void ImplicitStep::step(double dt) {
   open_ = false;
   try {
     if (pairs_) pairs_->widen(start.x);
-    write(advance(start, {motion_.from(), motion_.from() + dt, 1}));
-    if (contact_) contact_->anchored().lead_out(motion_.body()->recovery_speed * dt);
+    State end = advance(start, {motion_.from(), motion_.from() + dt, 1});
+    if (contact_) lead_out(motion_.body()->recovery_speed * dt, end);
+    write(end);
+    begins_ = false;
   } catch (...) {
     if (pairs_) forget_step(known);
     throw;
   }
   motion_.work().open_steps += open_;
   ++motion_.work().steps;
+}
+
+/// What began in the gap is moved, not pushed: it gets no speed.
+void ImplicitStep::lead_out(double by, State& state) {
+  Vectors ways = contact_->anchored().lead_out(by);
+  if (std::all_of(ways.begin(), ways.end(), [](const Vec3& way) { return way.isZero(0); })) return;
+  Vectors x = sum(state.x, 1, ways);
+  if (pairs_) approach(state.x, x);
+  state.x = std::move(x);
+  state.elements = search_->elements_at(state.x);
 }
 
 /// Contact of the cloth with itself as before the step.
@@ -417,9 +431,11 @@ void ImplicitStep::recall(const StepMemory& memory) {
   stiffness_ = memory.contact_stiffness;
   known_ = memory.self;
   fresh_ = memory.fresh;
+  recalled_ = memory;
 }
 
 StepMemory ImplicitStep::memory() const {
+  if (begins_) return recalled_;  // its first step was given up: whoever goes on begins, too
   const std::vector<int>& particle = motion_.cloth().particle;
   StepMemory memory;
   memory.contact_stiffness = stiffness_;

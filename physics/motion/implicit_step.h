@@ -58,8 +58,9 @@ class ImplicitStep : public Stepper {
   State read() const;
   void know_elements(State& state);
   void write(const State& state);
+  void lead_out(double by, State& state);
   void prepare(double dt);
-  void begin_contact();
+  void begin_contact(std::vector<Vec3> pull);
   void make_pairs();
   void couple_again();
   void forget_step(const SelfContactMemory& before);
@@ -93,6 +94,8 @@ class ImplicitStep : public Stepper {
   std::unique_ptr<ClothContact> pairs_;
   std::optional<Vec3> no_room_;  ///< where the last guess could not lead what is held [m]
   bool open_ = false;            ///< a part of the present step was not solved
+  bool begins_ = false;          ///< no step was made before
+  StepMemory recalled_;          ///< what it goes on from
   std::unique_ptr<StepSearch> search_;
 };
 

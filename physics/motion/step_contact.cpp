@@ -90,7 +90,7 @@ Vec3 StepContact::slid(Vec3 from, const Vec3& to) const {
     double share = std::max(room, body_.gap / 4) / length;
     if (room < body_.gap / 4) {
       const Vec3 n = field.gradient.normalized();
-      rest -= std::min(0.0, n.dot(rest)) * n;
+      rest += std::max(0.0, -n.dot(rest) - std::max(0.0, room)) * n;
       share = std::min(1.0, body_.gap / std::max(rest.norm(), 1e-300));
     }
     from += share * rest;
@@ -100,13 +100,26 @@ Vec3 StepContact::slid(Vec3 from, const Vec3& to) const {
   return from;
 }
 
+Vec3 StepContact::in_frame(const Vec3& x) const {
+  return body_.motion ? Vec3(place_.rotation.transpose() * (x - place_.translation)) : x;
+}
+
+bool StepContact::cut_ways(std::span<const Vec3> x, std::span<const double> inv_mass, std::span<Vec3> to,
+                           ThreadPool& pool) const {
+  std::vector<Vec3> from(x.begin(), x.end());
+  for (Vec3& p : from) p = in_frame(p);
+  const std::vector<Vec3> whole(to.begin(), to.end());
+  keep_out(from, inv_mass, to, pool);
+  return !std::equal(to.begin(), to.end(), whole.begin());
+}
+
 void StepContact::keep_out(std::span<const Vec3> start, std::span<const double> inv_mass, std::span<Vec3> x,
                            ThreadPool& pool) const {
   pool.run(int(x.size()), [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const auto i = std::size_t(k);
       if (!(inv_mass[i] > 0)) continue;
-      const Vec3 to = body_.motion ? Vec3(place_.rotation.transpose() * (x[i] - place_.translation)) : x[i];
+      const Vec3 to = in_frame(x[i]);
       const Vec3 end_of_way = slid(start[i], to);
       if (end_of_way == to) continue;
       x[i] = body_.motion ? Vec3(place_.rotation * end_of_way + place_.translation) : end_of_way;

@@ -45,6 +45,9 @@ class StepContact {
   /// a particle near the body, one for each other.
   void keep_out(std::span<const Vec3> start, std::span<const double> inv_mass, std::span<Vec3> x,
                 ThreadPool& pool) const;
+  /// The same of ways from x, in the world where the body is now. Whether any was shortened.
+  bool cut_ways(std::span<const Vec3> x, std::span<const double> inv_mass, std::span<Vec3> to,
+                ThreadPool& pool) const;
   AnchoredContact& anchored() { return contact_; }
   const AnchoredContact& anchored() const { return contact_; }
 
@@ -52,6 +55,7 @@ class StepContact {
   BodyPlace place_at(double time) const;
   const Collider& collider() const;
   Vec3 slid(Vec3 from, const Vec3& to) const;
+  Vec3 in_frame(const Vec3& x) const;
 
   BodyAround body_;
   AnchoredContact contact_;

@@ -19,6 +19,8 @@ constexpr int most_with_kept = 4;          // iterations with the factors of a s
 constexpr double single_residual = 1e-4;   // of the force, that a solution of single precision may leave
 constexpr std::size_t most_coupled = 4;    // times the pairs of particles that contact couples
 constexpr double longest_in_cloth = 0.02;  // m, of a move where cloth touches cloth: few pairs are on its way
+constexpr int most_rounds = 4;             // in which friction follows the push
+constexpr double followed = 0.1;           // of the tolerance, for the move of another round
 constexpr double armijo = 1e-4;
 constexpr double least_move_share = 1e-3;  // of a move
 constexpr double least_fall = 1e-12;       // of the energy, that can be told from rounding
@@ -182,6 +184,7 @@ StepSearch::Answer StepSearch::look(const std::vector<Vec3>& x) {
   if (contact_) {
     const WorkClock::Within contact_part(clock_, WorkPart::contact);
     contact_->anchored().look(x, cloth_.particles.inv_mass, &pool_);
+    met_ = met_ || contact_->anchored().touching() > 0;
   }
   if (pairs_) {
     const WorkClock::Within pair_part(clock_, WorkPart::self_contact);
@@ -243,6 +246,7 @@ void StepSearch::factorise(const std::vector<Vec3>& x, SlipStiffness of_slip) {
   assemble(x, of_slip);
   const WorkClock::Within factorisation(clock_, WorkPart::factorisation);
   ++work_.factorisations;
+  secant_ = of_slip == SlipStiffness::secant;
   single_ = stiffness_.factorise_single(&pool_);
   // What is positive semidefinite and a mass beside it fails where numbers are not finite: the run is seen to
   // have diverged.
@@ -304,11 +308,24 @@ StepSearch::Way StepSearch::advance(const std::vector<Vec3>& move, std::vector<V
       here = room ? look(x) : std::move(there);
       return {share, cut, room};
     }
+    if (share == wanted && contact_)
+      if (auto landed = land(x, trial); landed && landed->energy - here.energy <= armijo * share * slope) {
+        x = std::move(trial);
+        here = *std::move(landed);
+        return {0.5 * share, cut, false};
+      }
     share = least_of_parabola(share, slope, rise);
   }
   const bool room = make_room(x, moved(x, wanted, move));
   here = look(x);
   return {0, cut, room};
+}
+
+/// Where a move ends if each particle goes on only to where the body begins to push it: none, if all do.
+std::optional<StepSearch::Answer> StepSearch::land(const std::vector<Vec3>& from, std::vector<Vec3>& to) {
+  if (!contact_->cut_ways(from, cloth_.particles.inv_mass, to, pool_)) return std::nullopt;
+  if (pairs_ && pairs_->safe_share(from, moved(to, -1, from), 1, &pool_) < 1) return std::nullopt;
+  return look(to);
 }
 
 /// For what the body pushes from two sides. Whether there is such.
@@ -338,8 +355,32 @@ SearchEnd StepSearch::find(const Stage& stage, const StepLoads& given, const Sta
   stage_ = &stage;
   given_ = &given;
   if (pairs_) pairs_->forget_cuts();
+  met_ = false;
   found_ = look(x);
-  return descend(start, options, x, found_);
+  const SearchEnd end = descend(start, options, x, found_);
+  if (end.converged && met_) follow_friction(start, options, x, found_);
+  return end;
+}
+
+/// How many times as far as their moves the factors' particles may have to go: the secant holds them back.
+double StepSearch::friction_bias() const {
+  return secant_ ? 1 + contact_->anchored().held_back(cloth_.particles.mass, inertia_of(*stage_)) : 1;
+}
+
+/// Round by round, limits become those of the push as it is. What the factors at hand say of another round is
+/// enough to end; where the cloth lies or slides as before, that is at once.
+void StepSearch::follow_friction(const StageStart& start, const SearchOptions& options, std::vector<Vec3>& x,
+                                 Answer& here) {
+  for (int round = 0; round < most_rounds; ++round) {
+    contact_->anchored().relimit();
+    hold_new(start, x);
+    add_contact(x, here);
+    if (friction_bias() * mean_length(solve(here.net)) <= followed * options.tolerance) return;
+    factorise(x, SlipStiffness::none);
+    ++work_.iterations;
+    const Way way = advance(solve(here.net), x, here, options);
+    if (way.cut || way.share == 0) return;
+  }
 }
 
 /// Those of a whole move of this mean and longest length: where a few particles are far off, theirs are

@@ -66,8 +66,9 @@ struct SearchEnd {
 
 /// Looks for the minima of stages, all on one cloth, by Newton's method with the positive part of the
 /// stiffness, a fresh factorisation each iteration, and a line search. A factorisation serves twice where the
-/// move is short. It keeps room and symbolic work, but nothing that a result depends on unless
-/// `keep_factors`.
+/// move is short. Where the body was met, a search that has ended goes on until the limits of friction are
+/// those of the push that it found, so that what lands or slides loses the momentum that Coulomb's law says.
+/// It keeps room and symbolic work, but nothing that a result depends on unless `keep_factors`.
 class StepSearch {
  public:
   /// cloth: that of the motion, by place; its particles' masses and elements count, and must stay. contact:
@@ -124,7 +125,11 @@ class StepSearch {
   std::vector<Vec3> pushes() const;
   SearchEnd descend(const StageStart& start, const SearchOptions& options, std::vector<Vec3>& x,
                     Answer& here);
+  void follow_friction(const StageStart& start, const SearchOptions& options, std::vector<Vec3>& x,
+                       Answer& here);
+  double friction_bias() const;
   std::vector<Vec3> solve(std::vector<Vec3> net);
+  std::optional<Answer> land(const std::vector<Vec3>& from, std::vector<Vec3>& to);
   bool make_room(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
   Way advance(const std::vector<Vec3>& move, std::vector<Vec3>& x, Answer& here,
               const SearchOptions& options);
@@ -144,6 +149,8 @@ class StepSearch {
   std::vector<Spring> edges_;  ///< where strain is measured
   FreeStiffness stiffness_;
   bool single_ = false;  ///< whether the factors are of single precision
+  bool secant_ = false;  ///< whether they hold back what slides
+  bool met_ = false;     ///< the body was touched somewhere in this search
   /// What the factors were made for, as far as it is compared: a particle's mass counts so many times
   /// [1/s^2], and these are pushed. 0: there are none.
   double factored_ = 0;

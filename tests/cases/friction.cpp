@@ -175,4 +175,42 @@ double incline_threshold(double friction, double dt) {
                 [&](double angle) { return slide_of_sheet(angle, friction, dt) < 1e-5; });
 }
 
+Cloth sheet_over_floor(double above, double gap, double stiffness) {
+  Cloth cloth = right_sheet(0.1, 0.1, 5, 5, 0.15, true);
+  const std::vector<double> areas = rest_areas(cloth);
+  set_membrane_stiffness(cloth, MembraneLaw::van_gelder, stiffness, areas);
+  for (Vec3& x : cloth.particles.x) x = Vec3(x.x(), gap + above, -x.y());
+  return cloth;
+}
+
+namespace {
+
+/// Of the mean of all particles along x.
+double way_along(Cloth cloth, physics::SimulateOptions options) {
+  const Plane floor(Vec3::UnitY());
+  options.air_drag = 0;
+  options.spring_damping = 0;
+  double way = 0;
+  for (const Vec3& x : cloth.particles.x) way -= x.x();
+  simulate(cloth, &floor, options);
+  for (const Vec3& x : cloth.particles.x) way += x.x();
+  return way / double(cloth.particles.size());
+}
+
+}  // namespace
+
+double slide_of_landing(double angle, double above, double stiffness, physics::SimulateOptions options) {
+  options.gravity = gravity * Vec3(std::sin(angle), -std::cos(angle), 0);
+  options.seconds = 2;
+  return way_along(sheet_over_floor(above, options.contact_gap, stiffness), options) -
+         std::max(0.0, above) * std::tan(angle);
+}
+
+double braking_way(double speed, double above, double stiffness, physics::SimulateOptions options) {
+  Cloth cloth = sheet_over_floor(above, options.contact_gap, stiffness);
+  for (Vec3& v : cloth.particles.v) v = Vec3(speed, 0, 0);
+  options.seconds = 2 * speed / (options.friction * gravity);
+  return way_along(std::move(cloth), options);
+}
+
 }  // namespace furrow::cases

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <functional>
+#include <vector>
 
 #include "physics/body/collider.h"
 #include "physics/motion/simulate.h"
@@ -75,5 +76,17 @@ CriticalLength critical_length(const std::function<physics::Cloth(double)>& make
 double slide_of_sheet(double angle, double friction, double dt);
 /// The angle [rad] beyond which it slides by more than 1e-5 m, by bisection to 1e-4 rad.
 double incline_threshold(double friction, double dt);
+
+/// A sheet of springs of that membrane stiffness [N/m], 10 cm wide, that starts so far above where it rests
+/// on the plane y = 0 with that gap [m]; less than 0: below.
+physics::Cloth sheet_over_floor(double above, double gap, double stiffness);
+/// The eight starts that landings are tried from [m].
+inline const std::vector<double> landing_starts{-2e-3, -1e-3, -5e-4, -1e-4, 1e-4, 5e-4, 1e-3, 2e-3};
+
+/// Integrator, step, gap and friction are those of the options; nothing is damped.
+/// How far it slides down an incline in 2 s, beyond the way that it falls along it before it lands [m].
+double slide_of_landing(double angle, double above, double stiffness, physics::SimulateOptions options);
+/// How far it slides on the floor until it stands [m]; speed: along it at the start [m/s].
+double braking_way(double speed, double above, double stiffness, physics::SimulateOptions options);
 
 }  // namespace furrow::cases

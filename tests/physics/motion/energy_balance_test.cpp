@@ -91,7 +91,7 @@ TEST_CASE("energy_balance: what cloth has gained is what was given less what was
   if (integrator == Integrator::implicit)
     CHECK(e.to_steps() > 0);
   else
-    CHECK(std::abs(e.to_steps()) < 0.3 * (e.to_air + e.to_contact));
+    CHECK(std::abs(e.to_steps()) < 0.4 * (e.to_air + e.to_contact));  // what lands does not bounce
 }
 
 TEST_CASE(
