@@ -2,6 +2,7 @@
 #include "jobs/run/choose_steps.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -10,6 +11,8 @@
 #include "jobs/run/scene_cloth.h"
 #include "jobs/simulate.h"
 #include "physics/linear/stable_step.h"
+#include "tests/cases/friction.h"
+#include "tests/cases/gravity.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_meshes.h"
@@ -118,4 +121,20 @@ TEST_CASE("choose_steps: lines of short edges turn leapfrog into implicit steps,
     CHECK(resumed.integrator == Integrator::implicit);
     CHECK(tests::positions(resumed.garment) == tests::positions(whole.garment));
   }
+}
+
+TEST_CASE("choose_steps: what is chosen holds and brakes a sheet that lands as Coulomb says") {
+  const double stiffness = GENERATE(20.0, 1e4), above = GENERATE(from_range(cases::landing_starts));
+  constexpr double degree = 3.14159265358979323846 / 180, friction = 0.37;
+  physics::SimulateOptions options;
+  options.friction = friction;
+  const physics::Cloth cloth = cases::sheet_over_floor(above, options.contact_gap, stiffness);
+  options.integrator = jobs::choose_steps(options, cloth, true).integrator;
+  CHECK(options.integrator == (stiffness > 1000 ? Integrator::implicit : Integrator::leapfrog));
+  CAPTURE(stiffness, above);
+  const double angle = std::atan(friction);
+  CHECK(cases::slide_of_landing(angle - 0.2 * degree, above, stiffness, options) < 5e-4);
+  CHECK(cases::slide_of_landing(angle + 0.2 * degree, above, stiffness, options) > 5e-3);
+  CHECK(cases::braking_way(1, above, stiffness, options) ==
+        Approx(1 / (2 * friction * cases::gravity)).epsilon(0.01));
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-furrow_add_tests(jobs jobs LIBRARIES furrow::jobs SOURCES
+furrow_add_tests(jobs jobs LIBRARIES furrow::jobs cases SOURCES
   job_folders.h
   recorder.h
   bake_test.cpp
