@@ -71,7 +71,7 @@ int gather_batch(const io::BatchPlan& plan, const BatchArguments& a) {
   const GatherReport report = gather(plan, terminal);
   Json json = json_of(report.counts);
   json["written"] = names_of_files({report.rows.string(), report.page.string()});
-  print_report(json, a, {{words_of(report.counts)}, {report.rows.string(), report.page.string()}, ""});
+  print_report(json, a, {{words_of(report.counts)}, {report.rows.string(), report.page.string()}, {}});
   return report.counts.finished - report.counts.missed == report.counts.cases ? exit_ok : exit_not_converged;
 }
 
@@ -117,7 +117,7 @@ int run_case_of_batch(const BatchArguments& a) {
   const CaseReport report = run_case({io::this_program(), a.plan, a.words});
   Json json = json_of(report);
   json["record"] = a.plan;
-  print_report(json, a, {{words_of(report)}, {}, ""});
+  print_report(json, a, {{words_of(report)}, {}, {}});
   return exit_code_of(report);
 }
 
@@ -144,7 +144,7 @@ int run_task_of_batch(const BatchArguments& a) {
     words.push_back(words_of(one));
     exit_code = std::max(exit_code, int(exit_code_of(one)));
   }
-  print_report(json, a, {words, {}, ""});
+  print_report(json, a, {words, {}, {}});
   return exit_code;
 }
 
@@ -167,12 +167,12 @@ int prepare_slurm(const io::BatchPlan& plan, const BatchArguments& a) {
       {"tasks", s.tasks},
       {"chunk", s.chunk},
       {"written", names_of_files({s.todo.string(), s.array.string(), s.gather.string(), s.submit.string()})}};
-  std::string next = "sh " + s.submit.string();
+  std::vector<std::string> next{"sh", s.submit.string()};
   if (a.submit) {
     const io::ProgramRun run = io::run_program("sh", {s.submit.string()});
     if (run.exit_code != 0) throw std::runtime_error("sbatch refused the job: " + run.err);
     json["job"] = run.out.substr(0, run.out.find('\n'));
-    next = "furrow batch gather " + a.plan;
+    next = {"furrow", "batch", "gather", a.plan};
   }
   std::string words = fmt::format("{} tasks of up to {} cases", s.tasks, s.chunk);
   if (a.submit) words += ", submitted as job " + json["job"].get<std::string>();

@@ -44,7 +44,7 @@ int body(const BodyArguments& a) {
   std::vector<std::string> lines{(asks ? "was: " : "") + measures_words(report.shape.before)};
   if (asks) lines.push_back("now: " + measures_words(report.shape.reached));
   if (!a.out.empty()) json["written"] = a.out;
-  print_report(json, a, {lines, {a.out}, ""});
+  print_report(json, a, {lines, {a.out}, {}});
   if (!asks || report.succeeds()) return exit_ok;
   if (report.new_crossings > 0)
     std::cerr

@@ -61,14 +61,16 @@ Json sentences(Json report) {
 }
 
 /// What to call next: the mend, or the use of what is well.
-std::string next_of(const DoctorReport& report, const DoctorArguments& a) {
+std::vector<std::string> next_of(const DoctorReport& report, const DoctorArguments& a) {
   const auto mendable = [](const Ailment& ailment) { return ailment.mendable; };
   if (!report.repaired && std::any_of(report.found.begin(), report.found.end(), mendable))
-    return "furrow doctor " + a.mesh + (a.is_body ? " --as-body" : "") + " --repair -o mended.obj";
-  if (!report.well() || a.is_body) return "";
+    return a.is_body ? std::vector<std::string>{"furrow",   "doctor", a.mesh,      "--as-body",
+                                                "--repair", "-o",     "mended.obj"}
+                     : std::vector<std::string>{"furrow", "doctor", a.mesh, "--repair", "-o", "mended.obj"};
+  if (!report.well() || a.is_body) return {};
   const std::string mesh = a.out.empty() || a.out == "-" ? a.mesh : a.out;
-  if (a.body.empty()) return "furrow wrinkle " + mesh + " strokes.json -o wrinkled.ply";
-  return "furrow drape " + mesh + " --body " + a.body + " -o draped.ply";
+  if (a.body.empty()) return {"furrow", "wrinkle", mesh, "LINES", "-o", "wrinkled.ply"};
+  return {"furrow", "drape", mesh, "--body", a.body, "-o", "draped.ply"};
 }
 
 int doctor(const DoctorArguments& a) {

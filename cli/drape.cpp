@@ -229,10 +229,16 @@ int drape(const DrapeArguments& a) {
   if (draws) json["picture"] = a.picture;
   if (animated) json["animation"] = a.animation;
   const bool many = report.garments.size() > 1;
-  const std::string next = a.out.empty() || a.out == "-" || many ? ""
-                           : report.scene.body                   ? "furrow fit " + a.out + " --body " +
-                                                     report.scene.body->mesh.string() + " --picture fit.png"
-                                               : "furrow render " + a.out + " -o rests.png";
+  std::vector<std::string> next;
+  if (!a.out.empty() && a.out != "-" && !many)
+    next = report.scene.body ? std::vector<std::string>{"furrow",
+                                                        "fit",
+                                                        a.out,
+                                                        "--body",
+                                                        report.scene.body->mesh.string(),
+                                                        "--picture",
+                                                        "fit.png"}
+                             : std::vector<std::string>{"furrow", "render", a.out, "-o", "rests.png"};
   std::vector<std::string> files = written_files(report, a);
   files.insert(files.end(), {draws ? a.picture : "", animated ? a.animation : ""});
   print_report(json, common, {drape_lines(json), files, next});

@@ -176,9 +176,10 @@ int show(const FabricArguments& a, Listener& listener) {
     lines.push_back(words_of_disc(disc));
   }
   json["written"] = names_of_files({a.picture});
-  print_report(
-      json, a,
-      {lines, {a.picture}, fmt::format("furrow drape GARMENT --body BODY --fabric {} -o worn.ply", a.name)});
+  print_report(json, a,
+               {lines,
+                {a.picture},
+                {"furrow", "drape", "GARMENT", "--body", "BODY", "--fabric", a.name, "-o", "worn.ply"}});
   return exit_code_of(false, rested);
 }
 
@@ -271,7 +272,7 @@ int fit_fabric(const FabricArguments& a, Listener& listener) {
   print_report(json, a,
                {{text.substr(2, text.find('\n') - 2)},
                 {a.out},
-                "furrow drape GARMENT --body BODY --fabric " + a.out + " -o worn.ply"});
+                {"furrow", "drape", "GARMENT", "--body", "BODY", "--fabric", a.out, "-o", "worn.ply"}});
   return exit_ok;
 }
 
@@ -280,7 +281,7 @@ int list(const FabricArguments& a) {
   std::string rows = header_of_rows();
   for (const io::Fabric& f : io::fabrics())
     json["fabrics"].push_back(figures_of(f)), rows += "\n" + row_of(f);
-  print_report(json, a, {{rows}, {}, "furrow fabric show NAME --picture fabric.png"});
+  print_report(json, a, {{rows}, {}, {"furrow", "fabric", "show", "NAME", "--picture", "fabric.png"}});
   return exit_ok;
 }
 

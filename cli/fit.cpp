@@ -105,10 +105,10 @@ void fit(FitArguments a) {
   Json json = to_json(report);
   if (!a.picture.empty()) json["picture"] = a.picture;
   if (!a.out.empty()) json["written"] = a.out;
-  print_report(json, a,
-               {fit_lines(json),
-                {a.out, a.picture},
-                a.picture.empty() ? "the same with --picture fit.png shows where" : ""});
+  std::vector<std::string> next;
+  if (a.picture.empty() && !a.compare)
+    next = {"furrow", "fit", a.worn[0], "--body", a.bodies[0], "--picture", "fit.png"};
+  print_report(json, a, {fit_lines(json), {a.out, a.picture}, next});
 }
 
 void add_thresholds(CLI::App& sub, FitArguments& a) {

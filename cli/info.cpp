@@ -24,9 +24,11 @@ void info(const InfoArguments& a) {
   const Json json = jobs::info(file);
   std::vector<std::string> lines = info_lines(json);
   if (!odd.empty() && lines.back() == "no faults found") lines.back() = "look at: its size";
-  print_report(
-      json, a,
-      {lines, {}, odd.empty() ? "" : "furrow info " + a.mesh + " --unit cm, mm or inch, as its file is"});
+  print_report(json, a,
+               {lines,
+                {},
+                odd.empty() ? std::vector<std::string>{}
+                            : std::vector<std::string>{"furrow", "info", a.mesh, "--unit", "UNIT"}});
 }
 
 }  // namespace

@@ -67,9 +67,9 @@ int keep(const KeepArguments& a) {
   print_report(json, common,
                {keep_lines(json),
                 {mesh, a.picture},
-                mesh.empty() || mesh == "-"
-                    ? ""
-                    : "furrow simulate " + mesh + " -o after.ply, with the same pins and body"});
+                mesh.empty() || mesh == "-" ? std::vector<std::string>{}
+                                            : std::vector<std::string>{"furrow", "simulate", mesh,
+                                                                       "PINS_AND_BODY", "-o", "after.ply"}});
   for (const Warning& w : report.warnings) terminal.warn(w);
   return exit_code_of(report.lines.interrupted, report.all_hold());
 }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "geometry/mesh/measures.h"
+#include "io/base/shell_word.h"
 
 namespace furrow::cli {
 namespace {
@@ -488,11 +489,9 @@ Lines keep_lines(const Json& report) {
   const auto fails = [](const Json& line) { return text_of(line, "verdict").rfind("held", 0) != 0; };
   const auto n = std::count_if(drawn.begin(), drawn.end(), fails);
   const bool fast = text_of(report, "proof") == "gust";
-  Lines lines{drawn.empty()
-                  ? "there is no line to keep"
-                  : std::to_string(drawn.size() - static_cast<std::size_t>(n)) + " of " +
-                        counted(static_cast<long long>(drawn.size()), "line") +
-                        (fast ? " hold in one gust (for a verdict leave out --fast)" : " will hold")};
+  Lines lines{std::to_string(drawn.size() - static_cast<std::size_t>(n)) + " of " +
+              counted(static_cast<long long>(drawn.size()), "line") +
+              (fast ? " hold in one gust (for a verdict leave out --fast)" : " will hold")};
   for (const bool failing : {true, false})  // what fails first
     for (const Json& line : drawn)
       if (fails(line) == failing)
@@ -640,7 +639,10 @@ void print_summary(std::ostream& out, const Summary& summary) {
   for (const std::string& file : summary.written)
     if (!file.empty() && file != "-") written += (written.empty() ? "" : ", ") + file;
   if (!written.empty()) out << "written: " << written << "\n";
-  if (!summary.next.empty()) out << "next: " << summary.next << "\n";
+  if (std::ranges::any_of(summary.next, io::has_control_character)) return;  // no line can hold it
+  for (std::size_t i = 0; i < summary.next.size(); ++i)
+    out << (i == 0 ? "next: " : " ") << io::shell_word(summary.next[i]);
+  if (!summary.next.empty()) out << "\n";
 }
 
 }  // namespace furrow::cli

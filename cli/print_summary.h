@@ -14,7 +14,8 @@ using Json = nlohmann::ordered_json;
 struct Summary {
   std::vector<std::string> lines = {};    ///< what happened, and what to look at; more than eight are cut
   std::vector<std::string> written = {};  ///< files; "" and "-" are passed over
-  std::string next = {};                  ///< a call that is likely to follow; "": none
+  /// Words of a call that is likely to follow; none: none. Those in capitals are for the user to fill in.
+  std::vector<std::string> next = {};
 };
 
 /// The lines about a job's report.

@@ -47,7 +47,7 @@ int quality(const QualityArguments& a) {
   if (!a.picture.empty()) write_picture(report, a);
   Json json = to_json(report);
   if (!a.picture.empty()) json["picture"] = a.picture;
-  print_report(json, a, {quality_lines(json), {a.picture, a.camera.save_camera}, ""});
+  print_report(json, a, {quality_lines(json), {a.picture, a.camera.save_camera}, {}});
   return exit_code_of(false, !a.check || report.met());
 }
 

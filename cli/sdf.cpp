@@ -34,7 +34,9 @@ void sdf(const SdfArguments& a) {
   print_report(json, a,
                {sdf_lines(json),
                 {a.out, a.slice},
-                a.out.empty() ? "" : "furrow simulate GARMENT --body " + a.body_path + " --field " + a.out});
+                a.out.empty() ? std::vector<std::string>{}
+                              : std::vector<std::string>{"furrow", "simulate", "GARMENT", "--body",
+                                                         a.body_path, "--field", a.out, "-o", "worn.ply"}});
 }
 
 }  // namespace

@@ -20,10 +20,6 @@ struct StrokesArguments : CommonArguments {
   bool in_space = false;
 };
 
-std::string ending_of(const std::string& path) {
-  return io::lower_case(std::filesystem::path(path).extension().string());
-}
-
 /// NAME=VALUE, parted at the last '='.
 std::pair<std::string, std::string> parted(const std::string& text, const std::string& option) {
   const auto at = text.rfind('=');
@@ -116,7 +112,7 @@ void check_output_name(const StrokesArguments& a) {
   check_folder(a.out);
   refuse_same(a.out, a.garment);
   Terminal terminal(a);
-  if (ending_of(a.in) != ".json" || !same_file(a.out, a.in)) check_replaced({a.out}, {a.in}, terminal);
+  if (io::ending_of(a.in) != ".json" || !same_file(a.out, a.in)) check_replaced({a.out}, {a.in}, terminal);
 }
 
 void strokes(StrokesArguments a) {

@@ -48,11 +48,12 @@ void subdivide(const SubdivideArguments& a) {
   if (a.out == "-") write_mesh(report.mesh, common);
   Json json = to_json(report);
   json["written"] = a.out;
-  print_report(
-      json, a,
-      {subdivide_lines(json),
-       {a.out},
-       a.out == "-" || !a.strokes.empty() ? "" : "furrow wrinkle " + a.out + " lines.json -o wrinkled.ply"});
+  print_report(json, a,
+               {subdivide_lines(json),
+                {a.out},
+                a.out == "-" || !a.strokes.empty()
+                    ? std::vector<std::string>{}
+                    : std::vector<std::string>{"furrow", "wrinkle", a.out, "LINES", "-o", "wrinkled.ply"}});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_drawing.h"
+#include "io/base/lower_case.h"
 #include "io/picture/png_file.h"
 #include "io/scene/relocated.h"
 #include "jobs/read_inputs.h"
@@ -18,7 +19,7 @@ namespace furrow::cli {
 namespace {
 
 void check_call(const WrinkleArguments& a) {
-  if (a.state.empty() && std::filesystem::path(a.in).extension() == ".json")
+  if (a.state.empty() && io::ending_of(a.in) == ".json")
     throw UsageError(a.in + ": is a file of strokes; the garment comes first, then its strokes");
   if (a.out.empty() && a.preview.empty())
     throw UsageError("wrinkle writes a mesh (-o) or a picture (--picture)");
@@ -159,14 +160,14 @@ int wrinkle(WrinkleArguments a) {
   Json json = to_json(report);
   json["written"] = names_of_files({a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera});
   const bool has_file = !a.out.empty() && a.out != "-";
-  const std::string next = report.rest
-                               ? "furrow render " + a.out + " -o rests.png"
-                               : "furrow simulate " + (a.state.empty() ? "" : std::string("--state ")) +
-                                     a.out + (a.state.empty() ? " --body body.obj" : "") + " -o worn.ply";
+  std::vector<std::string> next;
+  if (has_file && report.rest) next = {"furrow", "render", a.out, "-o", "rests.png"};
+  if (has_file && !report.rest)
+    next = a.state.empty()
+               ? std::vector<std::string>{"furrow", "simulate", a.out, "--body", "BODY", "-o", "worn.ply"}
+               : std::vector<std::string>{"furrow", "simulate", "--state", a.out, "-o", "worn.ply"};
   print_report(json, a,
-               {wrinkle_lines(json),
-                {a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera},
-                has_file ? next : ""});
+               {wrinkle_lines(json), {a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera}, next});
   for (const Warning& w : report.failures) std::cerr << "error: " << w.text << "\n";
   return exit_code_of(interrupted(), report.failures.empty());
 }

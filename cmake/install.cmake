@@ -32,9 +32,12 @@ foreach(component IN LISTS furrow_built)
     endif()
   elseif(component STREQUAL python)
     set(python_folder ${FURROW_PYTHON_FOLDER}/furrow)
-    install(TARGETS python LIBRARY DESTINATION ${python_folder} COMPONENT python)
-    list(TRANSFORM furrow_python_files PREPEND python/src/furrow/)
-    install(FILES ${furrow_python_files} DESTINATION ${python_folder} COMPONENT python)
+    # Where the program alone was built there is no module, and its package is left out.
+    install(TARGETS python LIBRARY DESTINATION ${python_folder} COMPONENT python OPTIONAL)
+    list(TRANSFORM furrow_python_files PREPEND ${PROJECT_SOURCE_DIR}/python/src/furrow/)
+    install(CODE "if(EXISTS \"$<TARGET_FILE:python>\")
+  file(INSTALL ${furrow_python_files} DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${python_folder}\")
+endif()" COMPONENT python)
   else()
     install(TARGETS ${component} EXPORT furrow_${component}
             ARCHIVE COMPONENT ${component}

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "geometry/mesh/property_names.h"
+#include "io/base/lower_case.h"
 #include "io/base/outputs_below.h"
 #include "jobs/bake.h"
 #include "jobs/transfer.h"
@@ -73,7 +74,7 @@ fs::path give_sketch(const Sketch& sketch, const Json& strokes, const std::strin
   if (failed) throw std::runtime_error(folder.string() + ": cannot be made: " + failed.message());
   if (maps) return write_maps(folder, original, std::move(drawn), sketch.frame, listener);
   const std::string name = original.stem().string();
-  const std::string ending = original.extension() == ".gltf" ? ".glb" : original.extension().string();
+  const std::string ending = io::ending_of(original) == ".gltf" ? ".glb" : original.extension().string();
   const fs::path path = folder / (on_original ? name + "-original" + ending : name + "." + as);
   if (on_original)
     write_on_original(path, original, std::move(drawn), sketch.frame, listener);

@@ -10,6 +10,7 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
+#include "io/base/lower_case.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/scene_rules.h"
@@ -158,7 +159,7 @@ SceneInput scene_from_file(const std::filesystem::path& toml) {
   return {io::read_toml(toml), toml.parent_path()};
 }
 
-bool is_scene(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
+bool is_scene(const std::string& path) { return io::ending_of(path) == ".toml"; }
 
 io::TomlDocument settings_of(const std::string& scene_or_garment, const std::string& state_path,
                              const std::optional<io::SavedState>& state) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bridge/store_rest_state.h"
+#include "io/base/lower_case.h"
 #include "io/mesh/ply_motion.h"
 #include "io/scene/relocated.h"
 #include "jobs/check/output_checks.h"
@@ -35,7 +36,7 @@ void check_outputs(const KeepJob& job, const OpenScene& open, Listener& listener
   const bool of_file = is_scene(open.document.name);
   for (const auto& path : {out.mesh, out.state})
     if (!path.empty()) check_output(path.string());
-  if (!out.state.empty() && out.state.extension() != ".ply")
+  if (!out.state.empty() && io::ending_of(out.state) != ".ply")
     throw std::invalid_argument(out.state.string() + ": a state is a .ply file");
   if (!out.animation.empty() || !out.inserted.empty() || !out.smoothed.empty() || !out.body.empty())
     if (!of_file) throw std::invalid_argument("keep writes --output, --save-state and --picture alone");
@@ -266,12 +267,6 @@ void write_outputs(const OpenScene& open, SceneCloth& garment, std::optional<io:
 /// What a whole report is to warn of.
 std::vector<Warning> warnings_of(const KeepReport& report, const io::Scene& scene) {
   std::vector<Warning> warnings = idle_presses(scene.material, report.record);
-  if (report.lines.lines.empty())
-    warnings.push_back(
-        {"no_lines",
-         "the garment carries no line, so none was tried; draw one with furrow wrinkle, or name "
-         "strokes in the scene's [[lines]]",
-         scene.garment.string(), "lines"});
   for (const physics::RigidImbalance& i : report.lines.rest.imbalance)
     warnings.push_back(
         {"shape_unbalanced",
@@ -305,6 +300,10 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
   report.mesh = scene.output.mesh;
   report.saved_state = scene.output.state;
   report.record = *io::find_wrinkle_record(garment.file);
+  if (report.record.lines.empty())
+    throw std::invalid_argument(
+        "there is no line to keep: draw one with furrow wrinkle, or name strokes in the "
+        "scene's [[lines]]");
   const CrossedStart crossed = crossed_start(garment.file.mesh);
   report.lines = find_rest(job, scene, garment, report.record, context);
   const physics::CancelScope whole([] { return false; });  // one that was stopped is told of, too

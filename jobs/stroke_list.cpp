@@ -37,7 +37,7 @@ Json to_json(const io::DrawnStroke& drawn) {
 }  // namespace
 
 std::vector<io::DrawnStroke> read_stroke_list(const std::filesystem::path& path, const Context& context) {
-  if (io::lower_case(path.extension().string()) != ".ply")
+  if (io::ending_of(path) != ".ply")
     return io::read_drawn_strokes(path, geometry::Stroke{}.height, read_options(context.frame));
   const auto record = io::find_wrinkle_record(read_mesh(path, context));
   if (!record || record->strokes.empty())

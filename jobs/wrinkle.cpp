@@ -5,6 +5,7 @@
 #include "geometry/mesh/property_names.h"
 #include "geometry/refine/subdivide.h"
 #include "io/base/bytes_file.h"
+#include "io/base/lower_case.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/relocated.h"
 #include "io/scene/scene_file.h"
@@ -43,7 +44,7 @@ std::string path_of(const StrokeInput& strokes) {
 void check(const WrinkleJob& job, Listener& listener) {
   const std::string output = job.output.string(), inserted = job.inserted.string();
   if (!output.empty()) check_output(output);
-  if (job.state && !output.empty() && job.output.extension() != ".ply")
+  if (job.state && !output.empty() && io::ending_of(job.output) != ".ply")
     throw std::invalid_argument(output + ": lines drawn into a state make a state, a .ply file");
   if (!inserted.empty()) check_output(inserted);
   const std::string smoothed = job.smoothed.string();

@@ -47,6 +47,32 @@ set(share ${prefix}/share)
 must_be_there(${share}/bash-completion/completions/furrow ${share}/zsh/site-functions/_furrow
               ${share}/fish/vendor_completions.d/furrow.fish ${share}/man/man1/furrow.1 ${share}/man/man1/furrow-drape.1
               ${share}/furrow/report.schema.json ${share}/furrow/meshes/mannequin.obj)
+# A page for each subcommand; of the studio, where it is built, its gallery and the licences of what is in its page.
+must(${prefix}/bin/furrow --help)
+string(REGEX MATCHALL "\n  [a-z]+ +[A-Z]" subcommands "${output}")
+list(LENGTH subcommands count)
+if(count LESS 20)
+  message(FATAL_ERROR "furrow --help names ${count} subcommands: ${output}")
+endif()
+foreach(line IN LISTS subcommands)
+  string(REGEX MATCH "[a-z]+" subcommand "${line}")
+  must_be_there(${share}/man/man1/furrow-${subcommand}.1)
+endforeach()
+if(EXISTS ${BINARY}/page)
+  must_be_there(${share}/doc/furrow/studio/licences.txt ${share}/furrow/meshes/skirt.obj
+                ${share}/furrow/meshes/strokes/figure_skirt.json)
+  file(GLOB scenes RELATIVE ${ROOT}/scenes/studio ${ROOT}/scenes/studio/*)
+  foreach(scene IN LISTS scenes)
+    must_be_there(${share}/furrow/scenes/studio/${scene})
+  endforeach()
+endif()
+# All of this is the program's own component, and made by the target that scripts/demo builds, `furrow`.
+must(${CMAKE_COMMAND} --install ${BINARY} --component program --prefix ${prefix}-program)
+file(GLOB_RECURSE pages ${prefix}-program/share/man/man1/*.1)
+list(LENGTH pages pages)
+if(NOT pages GREATER count)
+  message(FATAL_ERROR "the program alone brings ${pages} pages of ${count} subcommands")
+endif()
 must(${prefix}/bin/furrow body --json)  # measures the mannequin that is installed
 string(JSON waist GET "${output}" reached waist)
 if(NOT waist GREATER 0.5)

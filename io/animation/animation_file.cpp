@@ -13,6 +13,7 @@
 #include "bridge/convert.h"
 #include "io/animation/animation_encoder.h"
 #include "io/base/atomic_file.h"
+#include "io/base/lower_case.h"
 #include "io/base/spool.h"
 #include "io/mesh/file_frame.h"
 
@@ -63,9 +64,7 @@ void check_positions(std::span<const physics::Vec3> positions, std::size_t verti
 }  // namespace
 
 std::optional<AnimationFormat> animation_format(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  const std::string ending = ending_of(path);
   for (const auto& [known, format] : endings)
     if (ending == known) return format;
   return std::nullopt;

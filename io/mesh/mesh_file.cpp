@@ -46,7 +46,7 @@ MeshFile parse(std::string_view text, MeshFormat format, const std::string& name
 
 MeshFormat mesh_format(const std::filesystem::path& path) {
   if (path == "-") return MeshFormat::obj;
-  const std::string ending = lower_case(path.extension().string());
+  const std::string ending = ending_of(path);
   for (const auto& [known, format] : endings)
     if (ending == known) return format;
   throw geometry::ContentError(
@@ -81,7 +81,7 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mes
   } catch (const geometry::ContentError& error) {
     throw std::invalid_argument(error.what());
   }
-  if (lower_case(path.extension().string()) == ".gltf")
+  if (ending_of(path) == ".gltf")
     throw std::invalid_argument(path.string() + ": a glTF is written as one file; let its name end in .glb");
   check_positions(file.mesh, options);
   std::vector<std::string> lost;

@@ -128,7 +128,7 @@ std::optional<WrinkleRecord> find_wrinkle_record(const MeshFile& file) {
 }
 
 std::optional<WrinkleRecord> read_wrinkle_record(const std::filesystem::path& path) {
-  const std::string ending = lower_case(path.extension().string());
+  const std::string ending = ending_of(path);
   std::error_code none;
   if ((ending != ".ply" && ending != ".obj") || !std::filesystem::is_regular_file(path, none))
     return std::nullopt;

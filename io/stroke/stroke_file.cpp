@@ -335,7 +335,7 @@ void check_options(double default_height, const ReadOptions& options) {
 std::vector<DrawnStroke> read_drawn_strokes(const std::filesystem::path& path, double default_height,
                                             const ReadOptions& options) {
   check_options(default_height, options);
-  const std::string ending = lower_case(path.extension().string()), name = path.string();
+  const std::string ending = ending_of(path), name = path.string();
   if (ending != ".json" && ending != ".obj")
     throw ContentError(name + ": unknown format '" + ending + "' of strokes; json and obj are read");
   const std::string text = read_text(path);

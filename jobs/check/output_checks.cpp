@@ -28,8 +28,7 @@ void check_folder(const std::string& path) {
 void check_output(const std::string& path) {
   if (path == "-") return;
   try {
-    if (io::mesh_format(path) == io::MeshFormat::gltf &&
-        io::lower_case(fs::path(path).extension().string()) == ".gltf")
+    if (io::mesh_format(path) == io::MeshFormat::gltf && io::ending_of(path) == ".gltf")
       throw std::invalid_argument(path + ": a glTF is written as one file; let its name end in .glb");
   } catch (const geometry::ContentError&) {
     throw std::invalid_argument(
@@ -41,7 +40,7 @@ void check_output(const std::string& path) {
 void check_picture(const std::string& path, const std::string& option) {
   if (path.empty()) return;
   if (path == "-") throw std::invalid_argument(option + ": a picture needs a file name");
-  if (io::lower_case(fs::path(path).extension().string()) != ".png")
+  if (io::ending_of(path) != ".png")
     throw std::invalid_argument(option + ": " + path +
                                 ": pictures are written as PNG; let the name end in .png");
   check_folder(path);

@@ -73,8 +73,7 @@ SeamTies all_ties(const io::MeshFile& file, const std::string& name, const Conte
 }
 
 void warn_of_lost_ties(const geometry::Mesh& mesh, const std::filesystem::path& output, Listener& listener) {
-  if (output.empty() || io::lower_case(output.extension().string()) == ".ply" || seam_ties(mesh).empty())
-    return;
+  if (output.empty() || io::ending_of(output) == ".ply" || seam_ties(mesh).empty()) return;
   listener.warn({"ties_lost",
                  output.string() + ": ties of seams where three or more faces meet go into a .ply alone",
                  output.string(), "-o OUT.ply"});

@@ -23,10 +23,6 @@ namespace {
 
 constexpr double least_error = 1e-8;  // drawn there if below, also 0
 
-std::string ending(const std::string& path) {
-  return io::lower_case(std::filesystem::path(path).extension().string());
-}
-
 /// In gnuplot's single quotes.
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -101,8 +97,8 @@ std::string script(const std::string& path, const Judgement& j, const std::strin
   y.take(100 * j.options.tolerance);
   const double top = std::pow(10, std::ceil(std::log10(y.high) + 0.3));
   std::ostringstream out;
-  out << (ending(path) == ".svg" ? "set terminal svg size 900,460 font 'sans,13' background 'white'\n"
-                                 : "set terminal pngcairo size 1000,520 font 'sans,13'\n")
+  out << (io::ending_of(path) == ".svg" ? "set terminal svg size 900,460 font 'sans,13' background 'white'\n"
+                                        : "set terminal pngcairo size 1000,520 font 'sans,13'\n")
       << "set title " << quoted(title) << " noenhanced\n"
       << "set logscale xy\nset format y '%g %%'\nset grid\nset key outside right center Left reverse samplen "
          "1 font ',11'\n"
@@ -148,7 +144,7 @@ void write_chart_csv(const std::string& path, const Judgement& j) {
 }
 
 void check_chart_picture(const std::string& path) {
-  if (ending(path) != ".svg" && ending(path) != ".png")
+  if (io::ending_of(path) != ".svg" && io::ending_of(path) != ".png")
     throw std::invalid_argument("--output: " + path +
                                 ": charts are drawn as SVG or PNG; let the name end in .svg or .png");
   check_folder(path);
@@ -169,7 +165,7 @@ void draw_chart(const std::string& path, const Judgement& j, const std::string& 
       drawn.append(part.data(), n);
     if (!gnuplot || pclose(gnuplot) != 0 || drawn.empty())
       throw std::runtime_error(path + ": gnuplot could not draw it; --csv has the numbers");
-    if (ending(path) == ".svg")
+    if (io::ending_of(path) == ".svg")
       out << drawn << "<!-- " << io::own_mark << " -->\n";
     else
       out << io::marked_png(drawn);

@@ -9,6 +9,7 @@
 
 #include "furrow/version.h"
 #include "io/base/bytes_file.h"
+#include "io/base/lower_case.h"
 #include "io/base/share_file.h"
 #include "io/scene/field_file.h"
 #include "jobs/read_inputs.h"
@@ -153,7 +154,7 @@ class Hearer : public Listener {
 /// The file that is read; none: it is in memory, or what it names lies in files beside it.
 std::optional<std::filesystem::path> file_of(const MeshInput& input, const Context& context) {
   const auto* path = std::get_if<std::filesystem::path>(&input);
-  if (!path || (context.memory && context.memory->find_mesh(*path)) || path->extension() == ".gltf")
+  if (!path || (context.memory && context.memory->find_mesh(*path)) || io::ending_of(*path) == ".gltf")
     return std::nullopt;
   return *path;
 }

@@ -2,6 +2,7 @@
 #include "jobs/run/fabric_file.h"
 
 #include "geometry/mesh/errors.h"
+#include "io/base/lower_case.h"
 #include "io/scene/settings_table.h"
 
 namespace furrow::jobs {
@@ -10,7 +11,7 @@ namespace {
 using io::Json;
 
 bool is_file(const Json& preset) {
-  return preset.is_string() && std::filesystem::path(preset.get<std::string>()).extension() == ".toml";
+  return preset.is_string() && io::ending_of(preset.get<std::string>()) == ".toml";
 }
 
 Json material_table(const io::TomlDocument& document) {

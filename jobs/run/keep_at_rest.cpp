@@ -57,7 +57,7 @@ std::string words(const physics::RigidImbalance& i) {
 }
 
 void warn_if_shape_only(const std::filesystem::path& mesh, const Context& context) {
-  if (!mesh.empty() && io::lower_case(mesh.extension().string()) != ".ply")
+  if (!mesh.empty() && io::ending_of(mesh) != ".ply")
     context.warn("shape_only",
                  mesh.string() + ": holds the shape alone; the rest state that keeps it goes into a .ply",
                  mesh.string());

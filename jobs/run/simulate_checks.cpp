@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/animation/animation_file.h"
+#include "io/base/lower_case.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/fabric_file.h"
@@ -67,7 +68,7 @@ void check_output_formats(const io::SceneOutput& out, bool has_body) {
     throw std::invalid_argument(out.animation.string() +
                                 ": the ending names no animation; choose pc2, mdd or glb");
   check_folder(out.animation.string());
-  if (!out.state.empty() && out.state.extension() != ".ply")
+  if (!out.state.empty() && io::ending_of(out.state) != ".ply")
     throw std::invalid_argument(out.state.string() + ": a state is a .ply file");
   if (!out.state.empty()) check_output(out.state.string());
   if (!out.body.empty() && !has_body)

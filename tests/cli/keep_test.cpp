@@ -68,16 +68,17 @@ TEST_CASE("keep: --fast says that lines hold in one gust, and proves nothing") {
   for (const json& line : report["lines"]) CHECK(line["kept"].get<double>() == Approx(1).margin(0.05));
 }
 
-TEST_CASE("keep: a garment without a line is told to have none, not that all hold") {
+TEST_CASE("keep: a garment without a line is refused, as in the studio, and nothing is written") {
   const ScratchDirectory scratch;
   write_text(scratch / "sheet.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0.1 0.1 0\nf 1 2 4\nf 1 4 3\n");
-  const std::string words =
-      "keep --run 0.05 --pin-vertices 2,3 " + (scratch / "sheet.obj") + " -o " + (scratch / "k.ply");
-  const Run told = run_furrow(words);
-  INFO(told.err);
-  CHECK(told.exit_code == 0);
-  CHECK(told.out.find("there is no line to keep") != std::string::npos);
-  CHECK(told.err.find("furrow wrinkle") != std::string::npos);
+  const Run told = run_furrow("keep --run 0.05 --pin-vertices 2,3 " + (scratch / "sheet.obj") + " -o " +
+                              (scratch / "k.PLY") + " --save-state " + (scratch / "s.ply"));
+  CHECK(told.exit_code == 2);
+  CHECK(told.err ==
+        "error: there is no line to keep: draw one with furrow wrinkle, or name strokes in the scene's "
+        "[[lines]]\n");
+  CHECK_FALSE(std::filesystem::exists(scratch / "k.PLY"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "s.ply"));
 }
 
 TEST_CASE("keep: no output replaces what is read") {

@@ -375,3 +375,27 @@ TEST_CASE("outputs: lines over the hem need no larger --max-distance than their 
   CHECK(run.exit_code == 0);
   CHECK(holds(run.err, "point 1 lies outside of the camera's picture of 100 by 100 pixels"));
 }
+
+TEST_CASE("outputs: endings mean the same in capitals, for each kind of output and input") {
+  Files f;
+  f.wrinkle();
+  std::filesystem::copy_file(f.mesh, f / "WALL.OBJ");
+  std::filesystem::copy_file(f.lines, f / "LINES.JSON");
+  const std::string run = "simulate -q --seconds 0.02 --pin-loop 0 ";
+  for (const std::string& call :
+       {"wrinkle -q " + (f / "WALL.OBJ") + " " + (f / "LINES.JSON") + " -o " + (f / "W.PLY"),
+        run + (f / "W.PLY") + " -o " + (f / "O.PLY") + " --save-state " + (f / "S.PLY"),
+        "simulate -q --seconds 0.02 --state " + (f / "S.PLY") + " -o " + (f / "O2.Ply"),
+        "wrinkle -q --state " + (f / "S.PLY") + " " + (f / "LINES.JSON") + " -o " + (f / "S2.PLY"),
+        run + (f / "W.PLY") + " --animation " + (f / "A.PC2"),
+        "strokes -q " + (f / "W.PLY") + " -o " + (f / "L.JSON"),
+        "render -q --size 60,60 --quality draft " + (f / "W.PLY") + " -o " + (f / "P.PNG")}) {
+    const Run done = run_furrow(call);
+    INFO(call << "\n" << done.err);
+    CHECK(done.exit_code == 0);
+  }
+  write_text(f / "S.TOML",
+             "[garment]\nmesh = \"wall.obj\"\n[[pins]]\nloop = 0\n[simulation]\nseconds = 0\n"
+             "[output]\nmesh = \"T.PLY\"\n");
+  CHECK(run_furrow("simulate -q " + (f / "S.TOML")).exit_code == 0);
+}

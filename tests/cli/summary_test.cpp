@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "io/base/run_program.h"
 #include "io/picture/png_file.h"
 #include "run_furrow.h"
 
@@ -174,4 +175,43 @@ TEST_CASE("info: a mesh of an odd size is not called faultless, nor refined, and
   CHECK(
       run_furrow(picture + " --save-camera " + (scratch / "c.json")).err.find("the camera is of that unit") !=
       std::string::npos);
+}
+
+TEST_CASE("report: what to call next names files that are there, or words in capitals to fill in, quoted") {
+  const ScratchDirectory scratch;
+  const std::string sheet = scratch / "my 'first' sheet.obj", quoted = "\"" + sheet + "\"",
+                    lines = scratch / "lines.json", small = scratch / "small.obj";
+  std::filesystem::copy_file(source_file("meshes/hung_sheet.obj"), sheet);
+  write_text(lines, R"({"strokes":[{"height":0.01,"points":[[-0.1,0.3,0],[0.1,0.3,0]]}]})");
+  write_text(small, "v 0 0 0\nv 900 0 0\nv 0 900 0\nv 900 900 0\nf 1 2 4\nf 1 4 3\n");
+  const std::string body = source_file("meshes/mannequin.obj");
+  const std::vector<std::pair<std::string, int>> calls{
+      {"wrinkle " + quoted + " " + lines + " -o " + (scratch / "wrinkled.ply"), 0},
+      {"subdivide " + quoted + " --linear 1 -o " + (scratch / "finer.obj"), 0},
+      {"doctor " + quoted, 0},
+      {"doctor " + quoted + " --body " + body, 0},
+      {"info " + small, 0},
+      {"fit " + quoted + " --body " + body, 0},
+      {"drape " + quoted + " --pin-loop 0 --subdivide 0 --max-iterations 2 -o " + (scratch / "d.ply"), 4},
+      {"fabric list", 0}};
+  std::size_t told_next = 0;
+  for (const auto& [call, exit_code] : calls) {
+    const std::string out = told(call, exit_code);
+    const std::size_t at = out.find("next: ");
+    if (at == std::string::npos) continue;
+    ++told_next;
+    const std::string next = out.substr(at + 6, out.find('\n', at) - at - 6);
+    INFO(call << "\n" << next);
+    // a shell reads the words; none but an output's, which stands behind its option, may name what is not
+    // there
+    std::istringstream words(furrow::io::run_program("sh", {"-c", "printf '%s\\n' " + next}).out);
+    std::string before;
+    for (std::string word; std::getline(words, word); before = word) {
+      const bool is_output = before == "-o" || before == "--picture";
+      if (is_output || std::filesystem::path(word).extension().empty()) continue;
+      INFO(word);
+      CHECK(std::filesystem::exists(word));
+    }
+  }
+  CHECK(told_next >= 6);
 }

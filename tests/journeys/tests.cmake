@@ -6,6 +6,7 @@ if(NOT FURROW_SANITIZE)
     ../cli/run_furrow.cpp
     journey.h
     journey.cpp
+    batch_test.cpp
     garments_test.cpp
     worn_lines_test.cpp
     rigged_test.cpp
