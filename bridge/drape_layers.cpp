@@ -42,17 +42,6 @@ Positions positions_of_all(std::span<const LayerGarment> garments) {
   return all;
 }
 
-/// Whether most of a cloth's faces look into the body.
-bool looks_inwards(const physics::Cloth& cloth, const physics::Collider& body) {
-  double out = 0;
-  for (const auto& t : cloth.triangles) {
-    const Vec3 &a = cloth.particles.x[std::size_t(t[0])], &b = cloth.particles.x[std::size_t(t[1])],
-               &c = cloth.particles.x[std::size_t(t[2])];
-    out += (b - a).eval().cross((c - a).eval()).dot(body.at((a + b + c) / 3).gradient);
-  }
-  return out < 0;
-}
-
 /// What the first level begins with.
 struct Start {
   const Positions& places;  ///< of all particles, as they were given [m]
@@ -212,6 +201,16 @@ void finish(std::span<LayerGarment> garments, std::vector<geometry::Mesh>& made,
 
 }  // namespace
 
+bool looks_inwards(const physics::TriangleMesh& cloth, const physics::Collider& body) {
+  double out = 0;
+  for (const auto& t : cloth.triangles) {
+    const Vec3 &a = cloth.vertices[std::size_t(t[0])], &b = cloth.vertices[std::size_t(t[1])],
+               &c = cloth.vertices[std::size_t(t[2])];
+    out += (b - a).eval().cross((c - a).eval()).dot(body.at((a + b + c) / 3).gradient);
+  }
+  return out < 0;
+}
+
 LayersReport drape_layers(std::span<LayerGarment> garments, const physics::Collider* body,
                           const DrapeOptions& asked, const DrapeObserver& go_on) {
   check_layers(garments, asked);
@@ -233,7 +232,8 @@ LayersReport drape_layers(std::span<LayerGarment> garments, const physics::Colli
     told.vertices = now.joined.particles.size();
     report.disturbance = std::ldexp(report.stopped ? 0 : o.disturbance * noise.diagonal(), -level);
     if (level == 0 && body)
-      for (LayerGarment& g : garments) g.turned = looks_inwards(g.cloth, *body);
+      for (LayerGarment& g : garments)
+        g.turned = looks_inwards({g.cloth.particles.x, g.cloth.triangles}, *body);
     begin_alone(garments, ended, body, asked, {places, noise, report.disturbance, alone}, told);
     report.stopped = report.stopped || told.soft.stopped;
     add_untangled(part_layers(garments, now.joined, o.settle.self), report.untangled);

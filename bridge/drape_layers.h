@@ -18,6 +18,9 @@ struct LayerGarment {
   bool turned = false;        ///< out: its faces look into the body
 };
 
+/// Whether most of a cloth's faces look into the body. O(T).
+bool looks_inwards(const physics::TriangleMesh& cloth, const physics::Collider& body);
+
 struct LayersReport {
   std::vector<DrapeLevel> levels;     ///< of all as one cloth; `soft` of the first: of each by itself
   physics::UntangleReport untangled;  ///< before the first level

@@ -215,6 +215,22 @@ bool Terminal::allows(const std::string& demand) {
   return common_.force;
 }
 
+void add_budget_option(CLI::App& sub, double& seconds, const std::string& what) {
+  char standard[32];
+  std::snprintf(standard, sizeof standard, "%.4g", seconds);
+  sub.add_option(
+      "--budget", seconds,
+      "processor time after which " + what + " [s], > 0, inf for no end (default " + standard + ")");
+}
+
+void report_spent_budget(double seconds, const std::string& written) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.4g", seconds);
+  std::cerr << "error: the budget of " << text << " s of processor time is spent; "
+            << (written.empty() ? "" : written + " holds the best state so far; ")
+            << "give it more with --budget, or refine less (--subdivide)\n";
+}
+
 void catch_interrupts() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);

@@ -27,6 +27,7 @@ struct DrapeArguments : CommonArguments {
   SceneFlags flags;
   CameraArguments camera;
   bool view_chosen = false, no_legend = false;
+  double budget = DrapeJob{}.budget;
 };
 
 std::string trimmed(const std::string& text) {
@@ -120,6 +121,7 @@ DrapeJob job_of(const DrapeArguments& a) {
   }
   if (a.compare) job.fabrics = parse_fabrics(*a.compare);
   job.output = a.out;
+  job.budget = a.budget;
   job.more_outputs = {a.picture, a.camera.save_camera};
   job.more_inputs = {a.camera.camera};
   if (is_scene(a.in)) job.more_inputs.push_back(a.in);
@@ -196,14 +198,15 @@ void tell_interruption(const DrapeArguments& a, bool drawn, bool animated) {
 }
 
 /// Says what is to be said of the result, and returns the exit code for it.
-int tell_remarks(const DrapeJobReport& report, Terminal& terminal) {
+int tell_remarks(const DrapeJobReport& report, const DrapeArguments& a, Terminal& terminal) {
+  if (report.budget_spent) report_spent_budget(a.budget, a.out);
   for (const DrapeRemark& r : report.remarks) {
     if (r.fails)
       std::cerr << "error: " << r.remark.text << "\n";
     else
       terminal.warn(r.remark);
   }
-  return exit_code_of(report.cancelled(), !report.fails());
+  return exit_code_of(report.cancelled() && !report.budget_spent, !report.fails() && !report.budget_spent);
 }
 
 int drape(const DrapeArguments& a) {
@@ -242,7 +245,7 @@ int drape(const DrapeArguments& a) {
   std::vector<std::string> files = written_files(report, a);
   files.insert(files.end(), {draws ? a.picture : "", animated ? a.animation : ""});
   print_report(json, common, {drape_lines(json), files, next});
-  const int code = tell_remarks(report, terminal);
+  const int code = tell_remarks(report, a, terminal);
   if (interrupted()) tell_interruption(a, draws, animated);
   return code == exit_ok && interrupted() ? exit_interrupted : code;
 }
@@ -321,6 +324,7 @@ void add_drape(CLI::App& app, int& exit_code) {
          "nearest cloth; drop takes them out; fall drapes them as the rest")
       ->capture_default_str()
       ->check(CLI::IsMember({"hold", "drop", "fall"}));
+  add_budget_option(*sub, a->budget, "the best state so far is written, with exit code 4");
   sub->add_option("--penetration", a->settings.penetration,
                   "depth to which the body may come through the cloth, between vertices, too [m] (default "
                   "0.005); beyond it the exit code is 4")

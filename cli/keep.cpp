@@ -21,6 +21,7 @@ struct KeepArguments : CommonArguments {
   double run = 5, gust = 12;
   std::string kept = "95%";
   bool no_balance = false, no_settle = false, no_help = false, whole = false, fast = false;
+  double budget = KeepJob{}.budget;
 };
 
 KeepJob job_of(const KeepArguments& a) {
@@ -40,6 +41,7 @@ KeepJob job_of(const KeepArguments& a) {
   job.help = !a.no_help;
   job.whole = a.whole;
   job.prove = !a.fast;
+  job.budget = a.budget;
   job.more_outputs = {a.picture, a.camera.save_camera};
   return job;
 }
@@ -48,7 +50,8 @@ int keep(const KeepArguments& a) {
   catch_interrupts();
   Terminal terminal(a);
   const KeepReport report = jobs::keep(job_of(a), terminal);
-  if (!report.ran) return exit_interrupted;
+  if (report.budget_spent) report_spent_budget(a.budget, report.mesh.string());
+  if (!report.ran) return report.budget_spent ? exit_not_converged : exit_interrupted;
   CommonArguments common = a;
   common.unit = report.frame.unit;
   common.up = report.frame.up;
@@ -71,7 +74,8 @@ int keep(const KeepArguments& a) {
                                             : std::vector<std::string>{"furrow", "simulate", mesh,
                                                                        "PINS_AND_BODY", "-o", "after.ply"}});
   for (const Warning& w : report.warnings) terminal.warn(w);
-  return exit_code_of(report.lines.interrupted, report.all_hold());
+  return exit_code_of(report.lines.interrupted && !report.budget_spent,
+                      report.all_hold() && !report.budget_spent);
 }
 
 }  // namespace
@@ -109,6 +113,7 @@ void add_keep(CLI::App& app, int& exit_code) {
   sub->add_flag("--whole", a->whole,
                 "press what lies between the lines, too, where it could give way, so that all of the garment "
                 "stays as drawn");
+  add_budget_option(*sub, a->budget, "the last rest state that was found is written, with exit code 4");
   sub->add_option(
       "--picture", a->picture,
       "picture of the garment, lines coloured by verdict: green held, yellow pressed, orange struts, blue "

@@ -13,6 +13,7 @@
 #include "cli/subcommands.h"
 #include "geometry/mesh/errors.h"
 #include "io/base/nearest_word.h"
+#include "jobs/check/budget.h"
 #include "physics/base/progress.h"
 
 namespace {
@@ -160,6 +161,8 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the user's limit is an error, told like a full disk
   try {
     return run(argc, argv);
+  } catch (const jobs::BudgetSpent& e) {
+    return fail(cli::exit_not_converged, e.what());
   } catch (const physics::Cancelled&) {
     return fail(cli::exit_interrupted, "interrupted before anything was written");
   } catch (const cli::UsageError& e) {

@@ -131,6 +131,7 @@ WrinkleJob job_of(WrinkleArguments& a) {
   job.smoothed = a.smoothed;
   if (!a.subdivide.empty() && a.subdivide != "auto") job.subdivide = std::stoi(a.subdivide);
   job.output = a.out;
+  job.budget = a.budget;
   job.inserted = a.inserted;
   job.wants_stages = !a.preview.empty();
   job.more_outputs = {a.preview, a.camera.save_camera};
@@ -169,7 +170,8 @@ int wrinkle(WrinkleArguments a) {
   print_report(json, a,
                {wrinkle_lines(json), {a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera}, next});
   for (const Warning& w : report.failures) std::cerr << "error: " << w.text << "\n";
-  return exit_code_of(interrupted(), report.failures.empty());
+  if (report.budget_spent) report_spent_budget(a.budget, a.out);
+  return exit_code_of(interrupted(), report.failures.empty() && !report.budget_spent);
 }
 
 }  // namespace
@@ -214,6 +216,7 @@ void add_wrinkle(CLI::App& app, int& exit_code) {
          "with --settle: refine the garment so many times (Loop) before its lines are drawn, 0 to 4; auto "
          "(the default): as often as its edges need to keep the gap from the body")
       ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4"}));
+  add_budget_option(*sub, a->budget, "with --settle, the best state so far is written, with exit code 4");
   sub->add_option("--smoothed", a->smoothed, "with --settle: also write the garment as drawn");
   sub->add_option(
       "--picture", a->preview,

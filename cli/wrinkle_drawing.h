@@ -19,6 +19,7 @@ struct WrinkleArguments : CommonArguments {
   geometry::WrinkleOptions options;
   SmoothingArguments smoothing;
   bool settle = false;
+  double budget = WrinkleJob{}.budget;
   SceneFlags flags;  ///< of --rest keep and --settle
   CameraArguments camera;
   const CLI::App* typed = nullptr;  ///< what was on the command line

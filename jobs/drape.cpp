@@ -6,6 +6,7 @@
 #include "io/animation/animation_file.h"
 #include "io/scene/garment_list.h"
 #include "io/scene/settings_schema.h"
+#include "jobs/check/budget.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/drape_remarks.h"
@@ -248,8 +249,9 @@ bool DrapeJobReport::fails() const {
          std::any_of(garments.begin(), garments.end(), [](const Draped& d) { return !d.succeeds(); });
 }
 
-DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
-  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
+namespace {
+
+DrapeJobReport drape_all(const DrapeJob& job, Listener& listener) {
   const GarmentScenes all = garment_scenes(job);
   warn_of_unused_settings(all.front(), listener);
   const OpenScene open = open_scene(job, all, listener);
@@ -279,6 +281,16 @@ DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
   if (job.fabrics.size() < 2) note_material(report.garments[0].file, open.document, report.garments[0].gap);
   if (!job.output.empty() && job.output != "-") write_mesh(job.output, report.garments[0].file, context);
   report.remarks = remarks_on(report.garments);
+  return report;
+}
+
+}  // namespace
+
+DrapeJobReport drape(const DrapeJob& job, Listener& listener) {
+  Budget budget("drape", job.budget, listener);
+  const physics::CancelScope cancelling([&budget] { return budget.cancelled(); });
+  DrapeJobReport report = budget.run([&] { return drape_all(job, budget); });
+  report.budget_spent = report.cancelled() && budget.is_spent();
   return report;
 }
 

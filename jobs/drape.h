@@ -68,6 +68,7 @@ struct DrapeJob {
   std::filesystem::path output;
   std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another
   std::vector<std::string> more_inputs = {};   ///< files that the caller reads: none may be replaced
+  double budget = 60;  ///< processor time after which the best state so far is the end [s]; > 0
 };
 
 /// A number of a garment at rest, by the name that it has in reports; SI units.
@@ -250,6 +251,7 @@ struct DrapeJobReport {
   std::vector<DrapeRemark> remarks;
   io::Scene scene;  ///< that was draped, in its first fabric
   Frame frame;      ///< of the file written
+  bool budget_spent = false;  ///< that ended it
 
   bool cancelled() const { return garments.back().report.stopped; }
   bool fails() const;  ///< one does not succeed
@@ -262,7 +264,7 @@ std::filesystem::path layer_output(const std::filesystem::path& output, const st
 /// Finds how the garment comes to rest (bridge/drape.h), measures how it fits, and writes the mesh, whole or
 /// not at all. Where it is cancelled on the way, what was reached is returned and written. Throws
 /// std::invalid_argument for a job that cannot be, geometry::ContentError for files that cannot be used,
-/// physics::Cancelled before anything was found.
+/// physics::Cancelled (BudgetSpent, jobs/check/budget.h) before anything was found.
 DrapeJobReport drape(const DrapeJob& job, Listener& listener);
 
 /// The report for programs, and what the command line prints, without the names of the files written.

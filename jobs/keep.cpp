@@ -7,6 +7,7 @@
 #include "io/base/lower_case.h"
 #include "io/mesh/ply_motion.h"
 #include "io/scene/relocated.h"
+#include "jobs/check/budget.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/chain.h"
@@ -279,10 +280,7 @@ std::vector<Warning> warnings_of(const KeepReport& report, const io::Scene& scen
   return warnings;
 }
 
-}  // namespace
-
-KeepReport keep(const KeepJob& job, Listener& listener) {
-  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
+KeepReport keep_within(const KeepJob& job, Listener& listener) {
   const OpenScene open = open_scene(job, listener);
   const io::Scene& scene = open.scene;
   const Context context{open.frame, listener, &job.scene.memory};
@@ -317,6 +315,16 @@ KeepReport keep(const KeepJob& job, Listener& listener) {
     report.end.body = garment.body->end_of(garment.file.mesh, garment.options.contact_gap, time);
   report.warnings = warnings_of(report, scene);
   report.garment = std::move(garment.file);
+  return report;
+}
+
+}  // namespace
+
+KeepReport keep(const KeepJob& job, Listener& listener) {
+  Budget budget("keep", job.budget, listener);
+  const physics::CancelScope cancelling([&budget] { return budget.cancelled(); });
+  KeepReport report = budget.run([&] { return keep_within(job, budget); });
+  report.budget_spent = budget.is_spent() && (!report.ran || report.lines.interrupted);
   return report;
 }
 

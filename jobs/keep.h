@@ -21,6 +21,7 @@ struct KeepReport {
   std::filesystem::path mesh;  ///< the settings' output; "-": not written
   std::filesystem::path saved_state;   ///< the same
   Frame frame;                         ///< of the files written
+  bool budget_spent = false;           ///< that ended it
   std::vector<Warning> warnings = {};  ///< about the result; those on the way went to the listener
 
   /// Whether every line holds, perhaps with help.
@@ -50,6 +51,7 @@ struct KeepJob {
   bool prove = true;   ///< runs in motion decide; false: one gust by long steps
   bool whole = false;  ///< what lies between the lines is pressed, too, where it could give way
   std::vector<std::string> more_outputs = {};  ///< files that the caller writes: none may replace another
+  double budget = 300;  ///< processor time after which the last rest state is the end [s]; > 0
 };
 
 /// Gives a garment the rest state that keeps its drawn lines, tells of each whether it will hold

@@ -93,6 +93,7 @@ class OfFilesAlone : public Listener {
 
 KeepJob keep_job(const Sketch& sketch, const Json& strokes) {
   KeepJob job;
+  job.budget = std::numeric_limits<double>::infinity();  // whoever draws sees it and cancels
   job.scene = sketch.scene;
   job.scene.settings.root.erase("output");
   add_round(sketch, strokes, 0, Json::array(), job.scene);

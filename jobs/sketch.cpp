@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "io/base/atomic_file.h"
@@ -115,12 +116,14 @@ WrinkleJob job_for(const Sketch& sketch, const Json& strokes) {
   job.density = sketch.density;
   job.crossed = sketch.crossed;
   job.wants_quality = false;
+  job.budget = std::numeric_limits<double>::infinity();  // whoever draws sees it and cancels
   return job;
 }
 
 /// The garment without strokes comes to rest as furrow drape lets it.
 SketchAtRest drape_plain(const Sketch& sketch, Listener& listener) {
   DrapeJob job;
+  job.budget = std::numeric_limits<double>::infinity();
   job.scene = at_rest_settings(sketch);
   io::set_value(job.scene.settings, "garment.mesh", "the garment", "the studio");
   job.scene.memory.meshes["the garment"] = sketch.garment;

@@ -10,6 +10,7 @@
 #include "io/scene/relocated.h"
 #include "io/scene/scene_file.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/check/budget.h"
 #include "jobs/check/gate.h"
 #include "jobs/check/output_checks.h"
 #include "jobs/check/seam_ties.h"
@@ -284,8 +285,12 @@ void settle_drawn(const WrinkleJob& job, const RestPlan& plan, WrinkleReport& re
   if (!job.smoothed.empty() && job.smoothed != "-") write_mesh(job.smoothed, report.garment, context);
   MemoryFiles memory = job.settle->memory;
   memory.meshes[scene.garment] = report.garment;
-  const Context there{context.frame, context.listener, &memory};
-  Draped draped = drape_garment(scene, plan.body ? &*plan.body : nullptr, {}, false, there);
+  Budget budget("wrinkle", job.budget, context.listener);
+  const physics::CancelScope cancelling([&budget] { return budget.cancelled(); });
+  const Context there{context.frame, budget, &memory};
+  Draped draped =
+      budget.run([&] { return drape_garment(scene, plan.body ? &*plan.body : nullptr, {}, false, there); });
+  report.budget_spent = draped.report.stopped && budget.is_spent();
   draped.refinements = plan.refinements;
   draped.name = scene.garment.stem().string();
   for (const DrapeRemark& r : remarks_on({&draped, 1}))
@@ -362,6 +367,7 @@ Json to_json(const WrinkleReport& report) {
   Json json = to_json(report.drawn);
   json["crossings"] = to_json(report.crossings);
   if (report.rest) json["at_rest"] = to_json(*report.rest);
+  if (report.budget_spent) json["budget_spent"] = true;
   if (report.quality) json["quality"] = to_json(*report.quality);
   return json;
 }

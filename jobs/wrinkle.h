@@ -60,6 +60,7 @@ struct WrinkleJob {
   std::filesystem::path made_for = {};
   /// With settle: refinements (Loop) before the lines are drawn, in [0, 4]; none: as many as the gap needs.
   std::optional<int> subdivide = {};
+  double budget = 60;  ///< with settle: processor time after which the best state so far is its end [s]; > 0
   std::filesystem::path smoothed = {};  ///< with settle: the garment as drawn; empty or "-": not written
   std::filesystem::path output;         ///< mesh, or with a state a state, to write; empty or "-": none
   std::filesystem::path inserted;  ///< mesh after insertion and before smoothing; empty or "-": not written
@@ -102,6 +103,7 @@ struct WrinkleReport {
   std::optional<DrawnQuality> quality;      ///< before the lines, as they were drawn, and after smoothing
   Frame frame;                              ///< of the files written
   std::shared_ptr<const Draped> rest = {};  ///< where it was to come to rest (jobs/drape.h)
+  bool budget_spent = false;                ///< that ended the search for rest
   std::vector<Warning> failures = {};       ///< why that is no success; empty: it is
 };
 

@@ -73,6 +73,9 @@ const Keywords<jobs::DrapeJob>& drape_rows() {
           "penetration", "depth to which the body may come through the cloth [m], >= 0; default 0.005",
           [](auto& j) -> auto& { return j.settings.penetration; }),
       row<Job>(
+          "budget", "processor time after which the best state so far is the end [s], > 0; default 60",
+          [](auto& j) -> auto& { return j.budget; }),
+      row<Job>(
           "plain", "paper 2's own scheme, to compare with",
           [](auto& j) -> auto& { return j.settings.plain; }),
       row<Job>(
@@ -159,6 +162,9 @@ const Keywords<KeepCall>& keep_rows() {
       row<KeepCall>(
           "whole", "press what lies between the lines, too, where it could give way",
           [](auto& c) -> auto& { return c.job.whole; }),
+      row<KeepCall>(
+          "budget", "processor time after which the last rest state is the end [s], > 0; default 300",
+          [](auto& c) -> auto& { return c.job.budget; }),
   };
   return rows;
 }

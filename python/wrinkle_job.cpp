@@ -95,6 +95,10 @@ const Keywords<WrinkleCall>& wrinkle_rows() {
             "made_for",
             "with settle: body that the garment was made for and lies about: brought from there to the body",
             [](auto& c) -> auto& { return c.job.made_for; }),
+        row<Call>(
+            "budget",
+            "with settle: processor time after which the best state so far is the end [s], > 0; default 60",
+            [](auto& c) -> auto& { return c.job.budget; }),
         own<Call>(
             "subdivide", "int | Literal[\"auto\"]",
             "with settle: refinements (Loop) before the lines are drawn, 0 to 4; default as the gap needs",

@@ -271,6 +271,59 @@ std::optional<Ailment> exchanged(const Mesh& garment, const BodyOutline& body) {
   return a;
 }
 
+/// The body given as the garment, too: their boxes are one.
+std::optional<Ailment> same_as_body(const Eigen::AlignedBox3d& garment, const BodyOutline& body) {
+  if (garment.isEmpty() || body.box.isEmpty()) return std::nullopt;
+  const double off = std::max((garment.min() - body.box.min()).cwiseAbs().maxCoeff(),
+                              (garment.max() - body.box.max()).cwiseAbs().maxCoeff());
+  if (off > 1e-6 * size_of(garment)) return std::nullopt;
+  Ailment a{"same_as_body", "", "export the garment without the body"};
+  a.text =
+      "garment and body are one mesh, so a body would be draped on itself; where one file holds both, "
+      "export the garment by itself, and the body, too";
+  a.fatal = true;
+  return a;
+}
+
+/// A closed figure in place of cloth.
+std::optional<Ailment> body_as_garment(const Mesh& garment) {
+  const Eigen::AlignedBox3d box = box_of(garment);
+  if (box.isEmpty() || !geometry::measure(garment).closed || !is_body(garment, box, true))
+    return std::nullopt;
+  Ailment a{"body_as_garment", "", "name the garment in its place"};
+  a.text = "the garment is closed, a figure of " + three_digits(1000 * volume_of(garment, box.center())) +
+           " litres: a body, and no cloth; " + a.help;
+  a.fatal = true;
+  return a;
+}
+
+/// Half of a garment, whose cut lies in a plane through the middle of the body: a mirror that was not
+/// applied.
+std::optional<Ailment> half_of_garment(const Mesh& garment, const BodyOutline& body) {
+  const Eigen::AlignedBox3d box = box_of(garment);
+  if (box.isEmpty() || body.box.isEmpty()) return std::nullopt;
+  for (const int axis : {0, 2})
+    for (const double plane : {box.min()[axis], box.max()[axis]}) {
+      if (std::abs(plane - body.box.center()[axis]) > 0.1 * body.box.sizes()[axis]) continue;
+      double cut = 0;
+      const auto in_plane = [&](Vertex v) {
+        return std::abs(garment.point(v)[axis] - plane) < 1e-4 * size_of(box);
+      };
+      for (const geometry::Edge e : garment.edges())
+        if (garment.is_border(e) && in_plane(garment.vertex(e, 0)) && in_plane(garment.vertex(e, 1)))
+          cut += std::sqrt(CGAL::squared_distance(garment.point(garment.vertex(e, 0)),
+                                                  garment.point(garment.vertex(e, 1))));
+      if (cut < 0.5 * box.sizes().y()) continue;
+      Ailment a{"half", "", "apply the mirror modifier where the garment was made"};
+      a.text = "a border of " + geometry::length_text(cut) + " lies in the plane " + (axis == 0 ? "x" : "z") +
+               " = " + three_digits(std::abs(plane) < 1e-9 ? 0 : plane) +
+               " m, amid the body, and all of the garment on one side of it: this is half of a garment; " +
+               a.help;
+      return a;
+    }
+  return std::nullopt;
+}
+
 /// "cm" for 100 and the like; "" if the ratio is that of no unit.
 std::string unit_of(double ratio) {
   std::string unit;
@@ -340,7 +393,13 @@ std::optional<Ailment> lying(const Eigen::AlignedBox3d& garment, const BodyOutli
 
 std::vector<Ailment> faults_of_pair(const Mesh& garment, const BodyOutline& body, bool unit_said) {
   std::vector<Ailment> found;
-  if (const auto a = exchanged(garment, body)) found.push_back(*a);
+  if (const auto a = same_as_body(box_of(garment), body))
+    found.push_back(*a);
+  else if (const auto b = exchanged(garment, body))
+    found.push_back(*b);
+  else if (const auto c = body_as_garment(garment))
+    found.push_back(*c);
+  if (const auto a = half_of_garment(garment, body)) found.push_back(*a);
   if (const auto a = lying(box_of(garment), body))
     found.push_back(*a);
   else

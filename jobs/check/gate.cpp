@@ -76,9 +76,10 @@ void require_allowed(const std::string& demand, const Context& context) {
 
 std::string odd_size(const geometry::Mesh& mesh, const std::string& what, const Frame& frame) {
   const auto [x, height, z] = box_edges(mesh);
-  if (height > 10)
-    return "the " + what + " is " + geometry::length_text(height) +
-           " tall; if its file is not in metres, say so with --unit cm, mm or inch" +
+  const bool wide = what != "body" && std::max(x, z) > std::max(height, 10.0);  // a floor may be as wide
+  if (height > 10 || wide)
+    return "the " + what + " is " + geometry::length_text(wide ? std::max(x, z) : height) +
+           (wide ? " wide" : " tall") + "; if its file is not in metres, say so with --unit cm, mm or inch" +
            (what == "body" ? ", or with --body-unit if only the body's is not" : "");
   return too_small(std::max({x, height, z}), what, frame);
 }

@@ -25,8 +25,8 @@ constexpr Limits limits;
 /// Throws std::invalid_argument "<demand>; --force goes on all the same" unless the listener allows it.
 void require_allowed(const std::string& demand, const Context& context);
 
-/// What is odd about the size of a mesh: taller than 10 m, or too small, with the units that would make a
-/// person's or a garment's size of it; else "". `what`: "body", "garment", …
+/// What is odd about the size of a mesh: taller than 10 m, wider unless it is a body, or too small, with the
+/// units that would make a person's or a garment's size of it; else "". `what`: "body", "garment", …
 std::string odd_size(const geometry::Mesh& mesh, const std::string& what, const Frame& frame);
 /// Throws geometry::ContentError, naming the file, for an odd size that the listener does not allow.
 void require_size(const geometry::Mesh& mesh, const std::string& name, const std::string& what,
@@ -71,7 +71,8 @@ struct BodyOutline {
 };
 BodyOutline outline_of(const geometry::Mesh& body);
 
-/// Of a garment beside its body: the two exchanged, sizes that are of two units. `unit_said`: somebody said
+/// Of a garment beside its body: the two exchanged, or one; a body as garment, half of a garment, sizes that
+/// are of two units. `unit_said`: somebody said
 /// in what unit they are. O(F).
 std::vector<Ailment> faults_of_pair(const geometry::Mesh& garment, const BodyOutline& body, bool unit_said);
 

@@ -557,10 +557,14 @@ Json to_json(const Draped& d) {
 }
 
 Json to_json(const DrapeJobReport& report) {
-  if (report.garments.size() == 1) return to_json(report.garments[0]);
-  Json garments = Json::array();
-  for (const Draped& d : report.garments) garments.push_back(to_json(d));
-  Json json{{"garments", garments}};
+  Json json;
+  if (report.garments.size() == 1) {
+    json = to_json(report.garments[0]);
+  } else {
+    json["garments"] = Json::array();
+    for (const Draped& d : report.garments) json["garments"].push_back(to_json(d));
+  }
+  if (report.budget_spent) json["budget_spent"] = true;
   if (report.layers) json["layers"] = to_json(*report.layers);
   return json;
 }

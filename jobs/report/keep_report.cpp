@@ -138,6 +138,7 @@ Json to_json(const KeepReport& report) {
   if (r.rest_press > 1)
     json["rest_of_garment"] = {{"press", r.rest_press},
                                {"words", fmt::format("pressed x{:g} between the lines", r.rest_press)}};
+  if (report.budget_spent) json["budget_spent"] = true;
   if (report.settled) json["settled"] = true;
   if (r.turned > 0) json["turned"] = r.turned;
   if (r.pushed_out > 0) json["pushed_out"] = {{"vertices", r.pushed_out}, {"farthest", r.farthest_push}};

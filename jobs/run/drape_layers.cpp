@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "bridge/convert.h"
 #include "bridge/drape_layers.h"
 #include "geometry/mesh/property_names.h"
 #include "jobs/check/seam_ties.h"
@@ -168,6 +169,19 @@ Draped draped_of(LayerSearch& search, std::size_t i, const GivenGarment& given, 
   return d;
 }
 
+/// As they begin.
+void require_order_of(const LayerSearch& search, std::span<const std::string> names, const BodyCollider& body,
+                      std::span<const GivenGarment> given, const Context& context) {
+  std::vector<Layer> layers;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const geometry::Mesh& mesh = search.begun(i);
+    const bool turned =
+        bridge::looks_inwards({bridge::positions_of(mesh), bridge::triangles_of(mesh)}, body.field);
+    layers.push_back({&mesh, nullptr, turned, given[i].scene.touch});
+  }
+  require_order(layers, names, context);
+}
+
 }  // namespace
 
 WornOver drape_worn_over(std::span<const io::Scene> scenes, std::span<const std::string> names,
@@ -176,6 +190,7 @@ WornOver drape_worn_over(std::span<const io::Scene> scenes, std::span<const std:
   const std::vector<GivenGarment> given = read_all(scenes, body, settings, choose, context);
   const auto start = std::chrono::steady_clock::now();
   LayerSearch search(given, body, settings, context);
+  if (body) require_order_of(search, names, *body, given, context);
   const ProgressScope progress(context.listener, "draping");
   search.run(progress);
   const physics::CancelScope whole([] { return false; });  // one that was stopped is measured, too

@@ -3,6 +3,7 @@
 
 #include "bridge/convert.h"
 #include "geometry/mesh/crossings.h"
+#include "jobs/check/gate.h"
 #include "physics/pairs/layer_order.h"
 
 namespace furrow::jobs {
@@ -55,7 +56,28 @@ LayerPair measure_pair(const Layer& inner, const Layer& outer, const Draped& a, 
   return pair;
 }
 
+constexpr double clearly_inside = 0.8;  // share of what is compared
+constexpr int enough_compared = 20;     // vertices
+
 }  // namespace
+
+void require_order(std::span<const Layer> layers, std::span<const std::string> names,
+                   const Context& context) {
+  for (std::size_t outer = 1; outer < layers.size(); ++outer)
+    for (std::size_t inner = 0; inner < outer; ++inner) {
+      if (!layers[inner].touch || !layers[outer].touch) continue;
+      const physics::LayerOrder order =
+          order_of(*layers[inner].given, *layers[outer].given, layers[inner].turned);
+      const int inside = order.compared - order.outside;
+      if (order.compared < enough_compared || inside < clearly_inside * order.compared) continue;
+      require_allowed(names[outer] + " lies inside " + names[inner] + " as they are given (" +
+                          std::to_string(inside) + " of " + std::to_string(order.compared) +
+                          " vertices that are near it), but is named after it; name the garments from the "
+                          "inside to the outside: " +
+                          names[outer] + " before " + names[inner],
+                      context);
+    }
+}
 
 geometry::Mesh joined_mesh(std::span<const geometry::Mesh* const> meshes) {
   geometry::Mesh joined;

@@ -125,10 +125,14 @@ TEST_CASE("drape: a skirt over leggings comes to rest where steps are cut short 
   CHECK(report.layers->pairs.at(0).crossings == 0);
 }
 
-TEST_CASE("drape: a garment that lay inside the one under it is told", "[release]") {
-  tests::Recorder recorder;
+TEST_CASE("drape: a garment that lies inside the one under it is refused with what to swap, unless forced",
+          "[release]") {
   jobs::DrapeJob job = two_across_ball(0);
   job.scene.memory.meshes["under"] = sheet_at(0.118, 0.05, 0);
+  check_refused(job, "over before under");
+  struct : tests::Recorder {
+    bool allows(const std::string&) override { return true; }
+  } recorder;
   const jobs::DrapeJobReport report = jobs::drape(job, recorder);
   INFO(to_json(report).dump(1));
   CHECK(report.layers->pairs[0].began_inside());

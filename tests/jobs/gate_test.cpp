@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/check/gate.h"
 
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "geometry/mesh/errors.h"
 #include "jobs/field.h"
@@ -9,6 +13,7 @@
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
 #include "tests/test_meshes.h"
+#include "tests/test_paths.h"
 
 using namespace furrow;
 using Catch::Contains;
@@ -30,6 +35,10 @@ jobs::Frame in_unit(const std::string& unit) {
   jobs::Frame frame;
   frame.unit = unit;
   return frame;
+}
+
+geometry::Mesh own_mesh(const std::string& name) {
+  return tests::read_plain_obj(tests::source_dir() / "meshes" / name);
 }
 
 }  // namespace
@@ -83,6 +92,45 @@ TEST_CASE("gate: a simulation of more than a day of processor time is asked abou
   asked.check(slow);
   asked.check(slow);
   CHECK(generous.demands.size() == 1);
+}
+
+TEST_CASE(
+    "gate: a flat sheet in the wrong unit is refused, whichever way it lies, and a wide floor is none") {
+  geometry::Mesh sheet = tests::grid(2, 2);
+  for (geometry::Point& p : sheet.points()) p = {300 * p.x(), p.y() * 0, 300 * p.y()};
+  CHECK_THAT(jobs::odd_size(sheet, "garment", {}), Contains("wide; if its file is not in metres"));
+  CHECK(jobs::odd_size(sheet, "body", {}).empty());
+}
+
+TEST_CASE("gate: a body given as its own garment, a body as garment, and half a garment are named") {
+  const geometry::Mesh figure = own_mesh("mannequin.obj"), skirt = own_mesh("skirt.obj");
+  const jobs::BodyOutline body = jobs::outline_of(figure);
+  const auto codes = [&](const geometry::Mesh& garment) {
+    std::vector<std::string> found;
+    for (const jobs::Ailment& a : jobs::faults_of_pair(garment, body, true))
+      if (a.code != "body_apart") found.push_back(a.code);
+    return found;
+  };
+  CHECK(codes(skirt).empty());
+  CHECK(codes(figure) == std::vector<std::string>{"same_as_body"});
+  geometry::Mesh other = figure;
+  for (geometry::Point& p : other.points()) p = {p.x(), p.y(), p.z() + 0.02};
+  CHECK(codes(other) == std::vector<std::string>{"body_as_garment"});
+  geometry::Mesh half = skirt;
+  for (geometry::Face f : half.faces()) {
+    double most = 0;
+    for (geometry::Vertex v : half.vertices_around_face(half.halfedge(f)))
+      most = std::max(most, std::abs(std::min(0.0, half.point(v).x())));
+    if (most > 1e-9) CGAL::Euler::remove_face(half.halfedge(f), half);
+  }
+  half.collect_garbage();
+  double least = 1;
+  for (geometry::Vertex v : half.vertices())
+    if (!half.is_isolated(v)) least = std::min(least, half.point(v).x());
+  for (geometry::Vertex v : half.vertices())  // a cut that lies in a plane
+    if (half.is_border(v) && half.point(v).x() < least + 0.02)
+      half.point(v) = geometry::Point(least, half.point(v).y(), half.point(v).z());
+  CHECK(codes(half) == std::vector<std::string>{"half"});
 }
 
 TEST_CASE("gate: a garment without any area is refused by its name") {

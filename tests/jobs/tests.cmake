@@ -4,6 +4,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs cases SOURCES
   recorder.h
   bake_test.cpp
   body_cache_test.cpp
+  budget_test.cpp
   chain_test.cpp
   chart_test.cpp
   choose_steps_test.cpp

@@ -8,6 +8,7 @@ if(NOT FURROW_SANITIZE)
     journey.cpp
     batch_test.cpp
     garments_test.cpp
+    layers_test.cpp
     worn_lines_test.cpp
     rigged_test.cpp
     settled_lines_test.cpp
