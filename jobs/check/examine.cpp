@@ -272,15 +272,15 @@ std::optional<Ailment> exchanged(const Mesh& garment, const BodyOutline& body) {
 }
 
 /// The body given as the garment, too: their boxes are one.
-std::optional<Ailment> same_as_body(const Eigen::AlignedBox3d& garment, const BodyOutline& body) {
+std::optional<Ailment> worn_on_itself(const Eigen::AlignedBox3d& garment, const BodyOutline& body) {
   if (garment.isEmpty() || body.box.isEmpty()) return std::nullopt;
   const double off = std::max((garment.min() - body.box.min()).cwiseAbs().maxCoeff(),
                               (garment.max() - body.box.max()).cwiseAbs().maxCoeff());
   if (off > 1e-6 * size_of(garment)) return std::nullopt;
-  Ailment a{"same_as_body", "", "export the garment without the body"};
+  Ailment a{"worn_on_itself", "", "--body"};
   a.text =
-      "garment and body are one mesh, so a body would be draped on itself; where one file holds both, "
-      "export the garment by itself, and the body, too";
+      "the body is the garment itself, and nothing is worn on itself: name the body with --body, in a file "
+      "that does not hold the garment";
   a.fatal = true;
   return a;
 }
@@ -393,7 +393,7 @@ std::optional<Ailment> lying(const Eigen::AlignedBox3d& garment, const BodyOutli
 
 std::vector<Ailment> faults_of_pair(const Mesh& garment, const BodyOutline& body, bool unit_said) {
   std::vector<Ailment> found;
-  if (const auto a = same_as_body(box_of(garment), body))
+  if (const auto a = worn_on_itself(box_of(garment), body))
     found.push_back(*a);
   else if (const auto b = exchanged(garment, body))
     found.push_back(*b);

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <set>
 #include <thread>
 
 #include "geometry/fold/fold_base.h"
@@ -61,25 +59,6 @@ std::string remedy_of_gap(const geometry::Mesh& garment, double sag, int levels,
          (drawn ? "refine it before its lines are drawn (furrow subdivide), or " : "") + "with --subdivide " +
          std::to_string(levels + 1) + " (some " + std::to_string(std::llround(vertices)) +
          " vertices) it is " + geometry::length_text(gap_with(wanted, sag / 4, tolerance));
-}
-
-/// A body that is the garment: nearly all that either consists of lies where the other does.
-std::vector<Ailment> worn_on_itself(const geometry::Mesh& garment, const physics::TriangleMesh& body) {
-  constexpr double nearly_all = 0.9;
-  std::set<std::array<double, 3>> places;
-  for (const physics::Vec3& x : body.vertices) places.insert({x.x(), x.y(), x.z()});
-  double same = 0;
-  for (const geometry::Vertex v : garment.vertices()) {
-    const geometry::Point& p = garment.point(v);
-    same += double(places.count({p.x(), p.y(), p.z()}));
-  }
-  if (same < nearly_all * std::max(double(garment.number_of_vertices()), double(places.size()))) return {};
-  Ailment a{"worn_on_itself", "", "--body"};
-  a.text =
-      "the body is the garment itself, and nothing is worn on itself: name the body with --body, in a file "
-      "that does not hold the garment";
-  a.fatal = true;
-  return {a};
 }
 
 }  // namespace
@@ -198,11 +177,9 @@ GivenGarment read_given(const io::Scene& scene, const BodyCollider* body, const 
   given.file = begin_garment(given.scene, context);
   if (body && body->made_for)
     given.placed = place(given.file.mesh, *body->made_for, *body, scene.garment.string(), context);
-  if (body && !body->made_for) {
-    heed(worn_on_itself(given.file.mesh, body->triangles), scene.garment.string(), context);
+  else if (body)
     heed(faults_of_pair(given.file.mesh, body->outline, scene.body->unit.has_value()), scene.garment.string(),
          context);
-  }
   given.scene.subdivide = scene.subdivide;
   if (choose && !s.plain && body)
     given.scene.subdivide =

@@ -112,7 +112,7 @@ TEST_CASE("gate: a body given as its own garment, a body as garment, and half a 
     return found;
   };
   CHECK(codes(skirt).empty());
-  CHECK(codes(figure) == std::vector<std::string>{"same_as_body"});
+  CHECK(codes(figure) == std::vector<std::string>{"worn_on_itself"});
   geometry::Mesh other = figure;
   for (geometry::Point& p : other.points()) p = {p.x(), p.y(), p.z() + 0.02};
   CHECK(codes(other) == std::vector<std::string>{"body_as_garment"});

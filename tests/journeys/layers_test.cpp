@@ -53,7 +53,7 @@ TEST_CASE("journeys: a body that is named as its own garment is refused", "[rele
   here.bring_body_of_tunic("she.obj");
   const Run run = run_furrow("drape she.obj --body ./she.obj -o worn.ply");
   CHECK(run.exit_code == 3);
-  CHECK_THAT(run.err, Contains("one mesh"));
+  CHECK_THAT(run.err, Contains("nothing is worn on itself"));
 }
 
 TEST_CASE("journeys: a drape whose budget is spent leaves a file and says so", "[release]") {
