@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <chrono>
 #include <string>
 
 #include "jobs/inputs.h"
@@ -46,6 +47,7 @@ class Budget : public Listener {
   std::string job_;
   double seconds_, end_;
   Listener& other_;
+  std::chrono::steady_clock::time_point next_look_ = {};
   bool spent_ = false;
 };
 
