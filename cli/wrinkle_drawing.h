@@ -6,6 +6,7 @@
 #include "cli/smoothing_options.h"
 #include "geometry/fold/wrinkle.h"
 #include "io/scene/scene.h"
+#include "jobs/wrinkle.h"
 
 namespace furrow::cli {
 
@@ -19,7 +20,7 @@ struct WrinkleArguments : CommonArguments {
   geometry::WrinkleOptions options;
   SmoothingArguments smoothing;
   bool settle = false;
-  double budget = WrinkleJob{}.budget;
+  double budget = jobs::WrinkleJob{}.budget;
   SceneFlags flags;  ///< of --rest keep and --settle
   CameraArguments camera;
   const CLI::App* typed = nullptr;  ///< what was on the command line
