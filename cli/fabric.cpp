@@ -6,10 +6,13 @@
 #include <cmath>
 #include <memory>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
 #include "io/base/atomic_file.h"
+#include "io/base/nearest_word.h"
 #include "io/base/number_text.h"
 #include "io/picture/png_file.h"
 #include "io/picture/render_scene.h"
@@ -97,7 +100,10 @@ const io::Fabric& find_fabric(const FabricArguments& a) {
   if (a.name.empty()) throw UsageError("fabric " + a.action + ": name a fabric, one of " + known_fabrics());
   for (const io::Fabric& f : io::fabrics())
     if (a.name == f.name) return f;
-  throw UsageError("there is no fabric '" + a.name + "'; furrow fabric list has " + known_fabrics());
+  std::vector<std::string> names;
+  for (const io::Fabric& f : io::fabrics()) names.emplace_back(f.name);
+  throw UsageError("there is no fabric '" + a.name + "'; did you mean " + io::nearest_word(a.name, names) +
+                   "? furrow fabric list has " + known_fabrics());
 }
 
 io::SceneMaterial material_of_fabric(const std::string& name) {

@@ -11,8 +11,8 @@
 #include "cli/common.h"
 #include "cli/old_names.h"
 #include "cli/subcommands.h"
+#include "cli/usage_words.h"
 #include "geometry/mesh/errors.h"
-#include "io/base/nearest_word.h"
 #include "jobs/check/budget.h"
 #include "physics/base/progress.h"
 
@@ -25,24 +25,11 @@ bool has_subcommand(const CLI::App& app, const std::string& word) {
   return std::any_of(subs.begin(), subs.end(), [&](const CLI::App* sub) { return sub->get_name() == word; });
 }
 
-/// The word of the list that is nearest, if no more than a quarter of its letters and one are wrong; "":
-/// none.
-std::string nearest_of(const std::vector<std::string>& words, const std::string& word) {
-  std::string nearest;
-  std::size_t least = word.size() / 4 + 2;
-  for (const std::string& other : words)
-    if (const std::size_t d = io::edit_distance(word, other); d < least) {
-      least = d;
-      nearest = other;
-    }
-  return nearest;
-}
-
 /// The message for a first word that is no subcommand, with the nearest one.
 std::string unknown_subcommand(const CLI::App& app, const std::string& word) {
   std::vector<std::string> names;
   for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
-  const std::string nearest = nearest_of(names, word);
+  const std::string nearest = cli::nearest_of(names, word);
   return "there is no subcommand '" + word + "'" +
          (nearest.empty() ? "; furrow --help lists them" : "; did you mean '" + nearest + "'?");
 }
@@ -55,7 +42,7 @@ std::string unknown_words(const CLI::App& app) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   const std::vector<std::string> words = app.remaining(true);
   const std::string word = words.empty() ? "" : words.front().substr(0, words.front().find('='));
-  const std::string nearest = word.rfind("--", 0) == 0 ? nearest_of(names, word) : "";
+  const std::string nearest = word.rfind("--", 0) == 0 ? cli::nearest_of(names, word) : "";
   const std::string command = "furrow" + (&sub == &app ? "" : " " + sub.get_name());
   return word + ": " + command +
          (word.rfind("-", 0) == 0 ? " has no such option" : " takes no further argument") +
@@ -80,25 +67,6 @@ std::vector<std::string> words_of(int argc, char** argv) {
   if (words[0] != "help") return words;
   if (words.size() == 1) return {"--help"};
   return {words[1], "--help"};
-}
-
-/// CLI11's message for a word that is no number, in words that help: lengths often come with their unit.
-std::string words_of_conversion(const std::string& what) {
-  const std::string begin = "Could not convert: ";
-  const std::size_t equals = what.find(" = ");
-  if (what.rfind(begin, 0) != 0 || equals == std::string::npos) return what;
-  const std::string option = what.substr(begin.size(), equals - begin.size()),
-                    value = what.substr(equals + 3);
-  std::string text = option + " takes a number, not '" + value + "'";
-  char* end = nullptr;
-  const double number = std::strtod(value.c_str(), &end);
-  for (const auto& [unit, metres] : {std::pair("mm", 1e-3), {"cm", 1e-2}, {"m", 1.0}})
-    if (end != value.c_str() && std::string(end) == unit) {
-      char in_metres[32];
-      std::snprintf(in_metres, sizeof in_metres, "%.9g", number * metres);
-      return text + "; lengths are metres: write " + in_metres;
-    }
-  return text;
 }
 
 int fail(int code, const std::string& message) {
@@ -150,7 +118,7 @@ int run(int argc, char** argv) {
     return fail(cli::exit_usage, unknown_words(app));
   } catch (const CLI::ParseError& e) {
     return fail(cli::exit_usage,
-                words_of_conversion(e.what()) + "; furrow " + words[0] + " --help tells more");
+                cli::words_of_error(app, words[0], e.what()) + "; furrow " + words[0] + " --help tells more");
   }
   return exit_code;
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <istream>
 #include <ostream>
+#include <string_view>
 
 #include "geometry/mesh/errors.h"
 #include "io/base/atomic_file.h"
@@ -39,6 +40,12 @@ Bytes read_all(std::istream& in, const std::string& name, std::size_t expected, 
   return bytes;
 }
 
+/// What a clone holds in place of a large file that was not fetched (Git LFS, docs/spec.md).
+bool is_git_lfs_pointer(std::span<const std::byte> bytes) {
+  constexpr std::string_view begin = "version https://git-lfs.github.com/spec/";
+  return bytes.size() >= begin.size() && std::memcmp(bytes.data(), begin.data(), begin.size()) == 0;
+}
+
 template <class Bytes>
 Bytes read_file(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -53,7 +60,11 @@ Bytes read_file(const std::filesystem::path& path) {
   if (std::filesystem::is_regular_file(path, ignored)) expected = std::filesystem::file_size(path, ignored);
   if (ignored) expected = 0;
   if (expected > largest_file_size) refuse_size(path.string(), largest_file_size);
-  return read_all<Bytes>(in, path.string(), expected, largest_file_size);
+  Bytes bytes = read_all<Bytes>(in, path.string(), expected, largest_file_size);
+  if (is_git_lfs_pointer(std::as_bytes(std::span(bytes))))
+    throw geometry::ContentError(path.string() +
+                                 ": is a pointer of Git LFS, not the file itself; git lfs pull brings that");
+  return bytes;
 }
 
 }  // namespace

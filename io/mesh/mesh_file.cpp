@@ -51,7 +51,10 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
     if (ending == known) return format;
   throw geometry::ContentError(
       path.string() + ": unknown format '" + ending +
-      "'; obj, ply, off, stl, gltf and glb are read, obj, ply, off, stl and glb written");
+      "'; obj, ply, off, stl, gltf and glb are read, obj, ply, off, stl and glb written" +
+      (ending == ".fbx" || ending == ".blend" || ending == ".dae" || ending == ".usd" || ending == ".abc"
+           ? "; export it as GLB or OBJ"
+           : ""));
 }
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {

@@ -45,7 +45,7 @@ const Mistake mistakes[] = {
      "error: {d}/shrit.obj: cannot be opened: No such file or directory"},
     {"a mesh in a format that is not read", "info {d}/mesh.blend", 3,
      "error: {d}/mesh.blend: unknown format '.blend'; obj, ply, off, stl, gltf and glb are read, obj, ply, "
-     "off, stl and glb written"},
+     "off, stl and glb written; export it as GLB or OBJ"},
     {"a folder in place of a mesh", "info {d}", 3, "error: {d}: is a folder; name a mesh in it"},
     {"an empty mesh", "info {d}/empty.obj", 3,
      "error: {d}/empty.obj: no faces; a mesh with at least one triangle is needed"},
@@ -80,9 +80,9 @@ const Mistake mistakes[] = {
      "error: --height takes a number, not '10mm'; lengths are metres: write 0.01; furrow wrinkle --help "
      "tells more"},
     {"a unit that there is not", "info {m}/sheet.obj --unit metre", 2,
-     "error: --unit: metre not in {m,cm,mm,inch}; furrow info --help tells more"},
+     "error: --unit: 'metre' is none of m, cm, mm, inch; furrow info --help tells more"},
     {"an axis that there is not", "info {m}/sheet.obj --up x", 2,
-     "error: --up: x not in {y,z}; furrow info --help tells more"},
+     "error: --up: 'x' is none of y, z; did you mean y?; furrow info --help tells more"},
     {"a garment in millimetres", "simulate {d}/mm.obj -o {d}/o.ply", 3,
      "error: {d}/mm.obj: the garment is 1700 m tall; if its file is not in metres, say so with --unit cm, mm "
      "or inch; --force takes it as it is"},
@@ -104,6 +104,23 @@ const Mistake mistakes[] = {
      "gray-interlock, red-jet-set, polyester-twill, polyester-plain, wool-twill, viscose-twill, "
      "elastane-plain, "
      "cotton-twill; did you mean cotton?"},
+    {"a depth below 0", "drape {m}/skirt.obj --body {m}/mannequin.obj --penetration -1 -o {d}/o.ply", 2,
+     "error: --penetration takes a number, 0 or more, not -1; furrow drape --help tells more"},
+    {"a height in centimetres", "body --height 168 -o {d}/o.obj", 2,
+     "error: --height takes a number, 0.9 to 2.5, not 168; lengths are metres: write 1.68; furrow body "
+     "--help "
+     "tells more"},
+    {"a plan without an action", "batch plan.toml", 2,
+     "error: action: 'plan.toml' is none of list, parallel, slurm, gather, case, task; write furrow batch "
+     "parallel plan.toml; furrow batch --help tells more"},
+    {"a fabric without an action, misspelt", "fabric cottn", 2,
+     "error: action: 'cottn' is none of list, show, drape, fit; did you mean furrow fabric show cotton?; "
+     "furrow fabric --help tells more"},
+    {"another program's file", "drape {d}/a.fbx --body {m}/mannequin.obj -o {d}/o.ply", 3,
+     "error: {d}/a.fbx: unknown format '.fbx'; obj, ply, off, stl, gltf and glb are read, obj, ply, off, stl "
+     "and glb written; export it as GLB or OBJ"},
+    {"a file that Git LFS did not bring", "info {d}/pointer.obj", 3,
+     "error: {d}/pointer.obj: is a pointer of Git LFS, not the file itself; git lfs pull brings that"},
     {"an integrator misspelt", "simulate {m}/sheet.obj --integrator leapfrogg -o {d}/o.ply", 2,
      "error: --integrator: simulation.integrator = \"leapfrogg\" is none of auto, leapfrog, euler, rk4, "
      "xpbd, implicit, tr-bdf2; did you mean leapfrog?"},
@@ -127,6 +144,9 @@ const Mistake mistakes[] = {
     {"a scene whose garment is not there", "simulate {d}/missing.toml", 3,
      "error: {d}/missing.toml:2:1: garment.mesh: there is no file {d}/shrit.obj; paths are relative to the "
      "file that names them"},
+    {"a garment's file in place of its table", "simulate {d}/named.toml", 3,
+     "error: {d}/named.toml:1:1: garment = \"skirt.obj\" must be a table of settings; write garment.mesh = "
+     "\"skirt.obj\""},
     {"a share without its sign", "chart {d}/missing.toml --accuracy 1", 2,
      "error: --accuracy takes a share of the garment's size such as 1%, not '1'"},
     {"a band without a length", "drape {m}/skirt.obj --body {m}/mannequin.obj --band top -o {d}/o.ply", 2,
@@ -165,6 +185,9 @@ void write_files(const ScratchDirectory& d) {
     write_text(d / name, "{\"strokes\": [" + stroke + "]}");
   };
   write_text(d / "empty.obj", "");
+  write_text(d / "a.fbx", "Kaydara FBX Binary");
+  write_text(d / "pointer.obj", "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n");
+  write_text(d / "named.toml", "garment = \"skirt.obj\"\n");
   write_text(d / "bad.obj", "v 0 0 0\nv 1 0 zero\n");
   write_text(d / "mesh.blend", "BLENDER");
   write_text(d / "broken.json", "{\"strokes\": [");
