@@ -38,7 +38,7 @@ geometry::Mesh ring_at(double y) {
   return ring;
 }
 
-geometry::Mesh sheet_on_ball(double edge = 0.03) {
+geometry::Mesh sheet_that_ends_on_ball(double edge = 0.03) {
   geometry::Mesh sheet = geometry::equilateral_sheet(0.3, 0.3, edge);
   for (Point& p : sheet.points()) p = {p.x(), 0.155, p.y() - 0.15};
   return sheet;
@@ -97,7 +97,7 @@ TEST_CASE("drape: a garment on itself is refused, and gravity beyond numbers is 
 
 TEST_CASE("drape: parts that nothing holds are found on every level, with contact and without", "[long]") {
   tests::Recorder recorder;
-  geometry::Mesh sheet = sheet_on_ball();
+  geometry::Mesh sheet = sheet_that_ends_on_ball();
   add_button(sheet, {0.35, 0.155, 0});
   add_button(sheet, {0, 0.155, 0.33});
   jobs::DrapeJob job = job_on_ball(sheet);

@@ -7,7 +7,7 @@
 #include "tests/cases/gravity.h"
 
 using namespace furrow::physics;
-using namespace furrow::cases;
+namespace cases = furrow::cases;
 
 namespace {
 
@@ -24,31 +24,31 @@ SimulateOptions landing(Integrator integrator) {
 
 TEST_CASE("landing: below the angle of friction a sheet stays where it lands, above it slides") {
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::leapfrog);
-  const double above = GENERATE(from_range(landing_starts));
+  const double above = GENERATE(from_range(cases::landing_starts));
   // Leapfrog is the choice for what is soft.
   const double stiffness = integrator == Integrator::leapfrog ? 20 : 1000,
                angle = std::atan(landing_friction);
   CAPTURE(int(integrator), above);
-  CHECK(slide_of_landing(19.7 * degree, above, stiffness, landing(integrator)) < 5e-4);
-  CHECK(slide_of_landing(angle - 0.2 * degree, above, stiffness, landing(integrator)) < 5e-4);
-  CHECK(slide_of_landing(angle + 0.2 * degree, above, stiffness, landing(integrator)) > 5e-3);
+  CHECK(cases::slide_of_landing(19.7 * degree, above, stiffness, landing(integrator)) < 5e-4);
+  CHECK(cases::slide_of_landing(angle - 0.2 * degree, above, stiffness, landing(integrator)) < 5e-4);
+  CHECK(cases::slide_of_landing(angle + 0.2 * degree, above, stiffness, landing(integrator)) > 5e-3);
 }
 
 TEST_CASE("landing: a sheet that lands as it slides stops after v^2 / (2 mu g)") {
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::leapfrog);
-  const double above = GENERATE(from_range(landing_starts)), speed = GENERATE(1.0, 2.0);
+  const double above = GENERATE(from_range(cases::landing_starts)), speed = GENERATE(1.0, 2.0);
   const double stiffness = integrator == Integrator::leapfrog ? 20 : 1000;
   CAPTURE(int(integrator), above, speed);
-  CHECK(braking_way(speed, above, stiffness, landing(integrator)) ==
-        Approx(speed * speed / (2 * landing_friction * gravity)).epsilon(0.01));
+  CHECK(cases::braking_way(speed, above, stiffness, landing(integrator)) ==
+        Approx(speed * speed / (2 * landing_friction * cases::gravity)).epsilon(0.01));
 }
 
 TEST_CASE("landing: what starts in the gap is lifted out of it without speed") {
   const double above = GENERATE(-2e-3, -1e-3, -1e-4), dt = GENERATE(1.0 / 60, 1.0 / 240, 1e-3, 1e-4);
   const Integrator integrator = GENERATE(Integrator::implicit, Integrator::tr_bdf2);
   SimulateOptions options = landing(integrator);
-  Cloth cloth = sheet_over_floor(above, options.contact_gap, 1000);
-  const Plane floor(Vec3::UnitY());
+  Cloth cloth = cases::sheet_over_floor(above, options.contact_gap, 1000);
+  const cases::Plane floor(Vec3::UnitY());
   options.dt = dt;
   options.seconds = 0.1;
   options.observe_steps = 1;

@@ -14,7 +14,7 @@ using furrow::cases::Plane;
 
 namespace {
 
-double farthest(const Cloth& a, const Cloth& b) {
+double farthest_apart(const Cloth& a, const Cloth& b) {
   double most = 0;
   for (std::size_t i = 0; i < std::min(a.particles.size(), b.particles.size()); ++i)
     most = std::max(most, (a.particles.x[i] - b.particles.x[i]).norm());
@@ -59,8 +59,8 @@ TEST_CASE(
   simulate(whole, world, by(integrator, 0.7), &state);
   simulate(carried, world, by(integrator, 0.7), &with);
   simulate(forgotten, world, by(integrator, 0.7), &without);
-  CHECK(farthest(whole, carried) < 1e-6);
-  CHECK(farthest(whole, forgotten) > 1e-5);
+  CHECK(farthest_apart(whole, carried) < 1e-6);
+  CHECK(farthest_apart(whole, forgotten) > 1e-5);
 }
 
 TEST_CASE("carry_memory: layers that touch go on as they did") {
@@ -86,7 +86,7 @@ TEST_CASE("carry_memory: layers that touch go on as they did") {
   o.seconds = 0.3;
   simulate(whole, World{}, o, &state);
   simulate(carried, World{}, o, &with);
-  CHECK(farthest(whole, carried) < 1e-6);
+  CHECK(farthest_apart(whole, carried) < 1e-6);
 }
 
 TEST_CASE("carry_memory: what stays keeps its entries, what is new or was moved has none and is fresh") {
