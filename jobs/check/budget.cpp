@@ -3,8 +3,7 @@
 
 #include <cstdio>
 #include <ctime>
-
-#include "physics/base/require.h"
+#include <stdexcept>
 
 namespace furrow::jobs {
 namespace {
@@ -20,7 +19,8 @@ double processor_seconds() {
 
 Budget::Budget(const char* job, double seconds, Listener& other)
     : job_(job), seconds_(seconds), end_(processor_seconds() + seconds), other_(other) {
-  physics::require(job, "budget", seconds, seconds > 0, "> 0");
+  if (!(seconds > 0))  // infinity is none
+    throw std::invalid_argument(std::string(job) + ": budget = " + std::to_string(seconds) + " is not > 0");
 }
 
 bool Budget::cancelled() {
