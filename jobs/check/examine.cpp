@@ -297,22 +297,29 @@ std::optional<Ailment> body_as_garment(const Mesh& garment) {
   return a;
 }
 
+/// Length of the border that lies in the plane of the axis, within the tolerance [m].
+double border_in_plane(const Mesh& mesh, int axis, double plane, double tolerance) {
+  double length = 0;
+  for (const geometry::Edge e : mesh.edges()) {
+    const Point &a = mesh.point(mesh.vertex(e, 0)), &b = mesh.point(mesh.vertex(e, 1));
+    if (mesh.is_border(e) && std::abs(a[axis] - plane) < tolerance && std::abs(b[axis] - plane) < tolerance)
+      length += std::sqrt(CGAL::squared_distance(a, b));
+  }
+  return length;
+}
+
 /// Half of a garment, whose cut lies in a plane through the middle of the body: a mirror that was not
 /// applied.
 std::optional<Ailment> half_of_garment(const Mesh& garment, const BodyOutline& body) {
   const Eigen::AlignedBox3d box = box_of(garment);
-  if (box.isEmpty() || body.box.isEmpty()) return std::nullopt;
-  for (const int axis : {0, 2})
+  if (box.isEmpty() || !box.intersects(body.box)) return std::nullopt;
+  const Eigen::Vector3d middle = body.box.center(), size = body.box.sizes();
+  for (const int axis : {0, 2}) {
+    const int across = 2 - axis;  // a curtain beside somebody hangs on one side of him
+    if (box.min()[across] > middle[across] || box.max()[across] < middle[across]) continue;
     for (const double plane : {box.min()[axis], box.max()[axis]}) {
-      if (std::abs(plane - body.box.center()[axis]) > 0.1 * body.box.sizes()[axis]) continue;
-      double cut = 0;
-      const auto in_plane = [&](Vertex v) {
-        return std::abs(garment.point(v)[axis] - plane) < 1e-4 * size_of(box);
-      };
-      for (const geometry::Edge e : garment.edges())
-        if (garment.is_border(e) && in_plane(garment.vertex(e, 0)) && in_plane(garment.vertex(e, 1)))
-          cut += std::sqrt(CGAL::squared_distance(garment.point(garment.vertex(e, 0)),
-                                                  garment.point(garment.vertex(e, 1))));
+      if (std::abs(plane - middle[axis]) > 0.1 * size[axis]) continue;
+      const double cut = border_in_plane(garment, axis, plane, 1e-4 * size_of(box));
       if (cut < 0.5 * box.sizes().y()) continue;
       Ailment a{"half", "", "apply the mirror modifier where the garment was made"};
       a.text = "a border of " + geometry::length_text(cut) + " lies in the plane " + (axis == 0 ? "x" : "z") +
@@ -321,6 +328,7 @@ std::optional<Ailment> half_of_garment(const Mesh& garment, const BodyOutline& b
                a.help;
       return a;
     }
+  }
   return std::nullopt;
 }
 
@@ -399,11 +407,12 @@ std::vector<Ailment> faults_of_pair(const Mesh& garment, const BodyOutline& body
     found.push_back(*b);
   else if (const auto c = body_as_garment(garment))
     found.push_back(*c);
-  if (const auto a = half_of_garment(garment, body)) found.push_back(*a);
-  if (const auto a = lying(box_of(garment), body))
+  if (const auto a = lying(box_of(garment), body)) {
     found.push_back(*a);
-  else
+  } else {
+    if (const auto half = half_of_garment(garment, body)) found.push_back(*half);
     add_apart(box_of(garment), body.box, found);
+  }
   const double cloth = size_of(box_of(garment)), wearer = size_of(body.box);
   if (unit_said || !(cloth > 0) || !(wearer > 0)) return found;
   const bool large_body = wearer > cloth;

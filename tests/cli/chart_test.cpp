@@ -290,7 +290,7 @@ TEST_CASE("chart: it replaces nothing that its scene reads") {
                     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.1\nf 1 2 3\nf 2 4 3\n";
   write_text(garment, text);
   write_text(scratch / "tent.toml", "garment.mesh = \"tent.obj\"\n");
-  const Run run = run_furrow("chart -q " + (scratch / "tent.toml") + " --csv " + garment);
+  const Run run = run_furrow("chart -q --replace " + (scratch / "tent.toml") + " --csv " + garment);
   CHECK(run.exit_code == 2);
   CHECK(run.err.find("would replace") != std::string::npos);
   CHECK(read_text(garment) == text);
