@@ -6,7 +6,7 @@ set(may_throw_physics ${everywhere} Cancelled TooMuchWork StepBlocked std::bad_a
 set(may_throw_geometry ${everywhere} ContentError std::logic_error)  # the last one: a fault of ours, never an input's
 set(may_throw_bridge ${everywhere} geometry::ContentError ContentError)
 set(may_throw_io ${everywhere} geometry::ContentError ContentError std::runtime_error std::bad_alloc)
-set(may_throw_jobs ${everywhere} physics::TooMuchWork geometry::ContentError std::runtime_error physics::Cancelled)
+set(may_throw_jobs ${everywhere} physics::TooMuchWork geometry::ContentError std::runtime_error physics::Cancelled BudgetSpent)
 set(faults "")
 set(seen 0)
 file(READ ${ROOT}/docs/library.md manual)
