@@ -315,8 +315,10 @@ std::optional<Ailment> half_of_garment(const Mesh& garment, const BodyOutline& b
   if (box.isEmpty() || !box.intersects(body.box)) return std::nullopt;
   const Eigen::Vector3d middle = body.box.center(), size = body.box.sizes();
   for (const int axis : {0, 2}) {
-    const int across = 2 - axis;  // a curtain beside somebody hangs on one side of him
-    if (box.min()[across] > middle[across] || box.max()[across] < middle[across]) continue;
+    const int across = 2 - axis;  // a curtain beside somebody hangs on one side of him, and is flat
+    if (box.sizes()[axis] < 0.1 * size_of(box) || box.min()[across] > middle[across] ||
+        box.max()[across] < middle[across])
+      continue;
     for (const double plane : {box.min()[axis], box.max()[axis]}) {
       if (std::abs(plane - middle[axis]) > 0.1 * size[axis]) continue;
       const double cut = border_in_plane(garment, axis, plane, 1e-4 * size_of(box));
