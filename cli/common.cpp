@@ -223,11 +223,13 @@ void add_budget_option(CLI::App& sub, double& seconds, const std::string& what) 
       "processor time after which " + what + " [s], > 0, inf for no end (default " + standard + ")");
 }
 
-void report_spent_budget(double seconds, const std::string& written) {
+void report_spent_budget(double seconds, const std::vector<std::string>& files) {
   char text[64];
   std::snprintf(text, sizeof text, "%.4g", seconds);
+  std::string written;
+  for (const std::string& file : names_of_files(files)) written += (written.empty() ? "" : ", ") + file;
   std::cerr << "error: the budget of " << text << " s of processor time is spent; "
-            << (written.empty() ? "" : written + " holds the best state so far; ")
+            << (written.empty() ? "" : "the best state so far is in " + written + "; ")
             << "give it more with --budget, or refine less (--subdivide)\n";
 }
 

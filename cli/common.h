@@ -27,7 +27,7 @@ enum ExitCode {
 /// The option for a job's budget of processor time, with its default [s].
 void add_budget_option(CLI::App& sub, double& seconds, const std::string& what);
 /// On stderr: that the budget of so many seconds ended the job, what that means, and what helps.
-void report_spent_budget(double seconds, const std::string& written);
+void report_spent_budget(double seconds, const std::vector<std::string>& written);
 
 /// exit_interrupted, else whether it came to what was asked for: exit_ok or exit_not_converged.
 inline ExitCode exit_code_of(bool was_interrupted, bool succeeded) {

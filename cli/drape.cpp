@@ -199,7 +199,7 @@ void tell_interruption(const DrapeArguments& a, bool drawn, bool animated) {
 
 /// Says what is to be said of the result, and returns the exit code for it.
 int tell_remarks(const DrapeJobReport& report, const DrapeArguments& a, Terminal& terminal) {
-  if (report.budget_spent) report_spent_budget(a.budget, a.out);
+  if (report.budget_spent) report_spent_budget(a.budget, written_files(report, a));
   for (const DrapeRemark& r : report.remarks) {
     if (r.fails)
       std::cerr << "error: " << r.remark.text << "\n";

@@ -50,7 +50,7 @@ int keep(const KeepArguments& a) {
   catch_interrupts();
   Terminal terminal(a);
   const KeepReport report = jobs::keep(job_of(a), terminal);
-  if (report.budget_spent) report_spent_budget(a.budget, report.mesh.string());
+  if (report.budget_spent) report_spent_budget(a.budget, {report.mesh.string()});
   if (!report.ran) return report.budget_spent ? exit_not_converged : exit_interrupted;
   CommonArguments common = a;
   common.unit = report.frame.unit;

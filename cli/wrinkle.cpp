@@ -170,7 +170,7 @@ int wrinkle(WrinkleArguments a) {
   print_report(json, a,
                {wrinkle_lines(json), {a.out, a.inserted, a.smoothed, a.preview, a.camera.save_camera}, next});
   for (const Warning& w : report.failures) std::cerr << "error: " << w.text << "\n";
-  if (report.budget_spent) report_spent_budget(a.budget, a.out);
+  if (report.budget_spent) report_spent_budget(a.budget, {a.out});
   return exit_code_of(interrupted(), report.failures.empty() && !report.budget_spent);
 }
 

@@ -326,8 +326,7 @@ std::optional<Ailment> half_of_garment(const Mesh& garment, const BodyOutline& b
       Ailment a{"half", "", "apply the mirror modifier where the garment was made"};
       a.text = "a border of " + geometry::length_text(cut) + " lies in the plane " + (axis == 0 ? "x" : "z") +
                " = " + three_digits(std::abs(plane) < 1e-9 ? 0 : plane) +
-               " m, amid the body, and all of the garment on one side of it: this is half of a garment; " +
-               a.help;
+               " m, amid the body, and all of the garment on one side of it: this is half of a garment";
       return a;
     }
   }

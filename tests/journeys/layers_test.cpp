@@ -63,5 +63,6 @@ TEST_CASE("journeys: a drape whose budget is spent leaves a file and says so", "
   const Run run = run_furrow("drape tunic.obj --body she.obj --subdivide 3 --budget 4 -o worn.ply");
   CHECK(run.exit_code == 4);
   CHECK_THAT(run.err, Contains("budget"));
-  CHECK(std::filesystem::exists("worn.ply") == (run.err.find("holds the best state") != std::string::npos));
+  CHECK(std::filesystem::exists("worn.ply") ==
+        (run.err.find("the best state so far is in") != std::string::npos));
 }
