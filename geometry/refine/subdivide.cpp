@@ -30,7 +30,6 @@ class KeepIsolated : public Mask {
  public:
   explicit KeepIsolated(Mesh& mesh) : Mask(&mesh, mesh.points()), mesh_(mesh) {}
   void vertex_node(Vertex v, Point& p) {
-    physics::throw_if_cancelled("subdivide");
     if (mesh_.is_isolated(v))
       p = mesh_.point(v);
     else
@@ -48,10 +47,7 @@ class MidpointMask : public CGAL::PQQ_stencil_3<Mesh, PointMap> {
   void edge_node(Halfedge h, Point& p) {
     p = CGAL::midpoint(mesh_.point(mesh_.source(h)), mesh_.point(mesh_.target(h)));
   }
-  void vertex_node(Vertex v, Point& p) {
-    physics::throw_if_cancelled("subdivide");
-    p = mesh_.point(v);
-  }
+  void vertex_node(Vertex v, Point& p) { p = mesh_.point(v); }
   void border_node(Halfedge h, Point& on_edge, Point& at_target) {
     edge_node(h, on_edge);
     at_target = mesh_.point(mesh_.target(h));
@@ -118,7 +114,11 @@ void quadrisect(Mesh& mesh) {
   const Mesh& before = saved.before();
   Mask mask(mesh);
   cgal::PTQ(mesh, mask, CGAL::parameters::number_of_iterations(1));
-  const auto parent = [&](Face f) { return old_parent(f, old_faces); };
+  // Not within CGAL's step, which would leak what it has allocated.
+  const auto parent = [&](Face f) {
+    physics::throw_if_cancelled("subdivide");
+    return old_parent(f, old_faces);
+  };
   const auto origin = [&](Vertex v, Face in) {
     Origin at{in};
     const bool is_old = v.idx() < old_vertices;

@@ -23,28 +23,8 @@ using PathKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using PathPoint = PathKernel::Point_3;
 using PathMesh = CGAL::Surface_mesh<PathPoint>;
 
-/// CGAL's, which asks at each edge that the front of paths crosses whether it is cancelled.
-struct PathTraits : CGAL::Surface_mesh_shortest_path_traits<PathKernel, PathMesh> {
-  using Base = CGAL::Surface_mesh_shortest_path_traits<PathKernel, PathMesh>;
-  using Base::Base;
-  struct Construct_triangle_3_along_segment_2_flattening
-      : Base::Construct_triangle_3_along_segment_2_flattening {
-    using Flattening = Base::Construct_triangle_3_along_segment_2_flattening;
-    using Flattening::Flattening;
-    explicit Construct_triangle_3_along_segment_2_flattening(const Flattening& own) : Flattening(own) {}
-    template <class... Arguments>
-    decltype(auto) operator()(const Arguments&... arguments) const {
-      physics::throw_if_cancelled("shortest_path");
-      return Flattening::operator()(arguments...);
-    }
-  };
-  Construct_triangle_3_along_segment_2_flattening construct_triangle_3_along_segment_2_flattening_object()
-      const {
-    return Construct_triangle_3_along_segment_2_flattening(
-        Base::construct_triangle_3_along_segment_2_flattening_object());
-  }
-};
-using PathFinder = CGAL::Surface_mesh_shortest_path<PathTraits>;
+using PathFinder =
+    CGAL::Surface_mesh_shortest_path<CGAL::Surface_mesh_shortest_path_traits<PathKernel, PathMesh>>;
 
 /// Length of the shortest path along edges (Dijkstra); infinite if there is none.
 double length_along_edges(const Mesh& mesh, Vertex from, Vertex to) {
@@ -76,6 +56,7 @@ std::vector<Face> faces_in_reach(const Mesh& mesh, Vertex from, Vertex to, doubl
   };
   std::vector<Face> faces;
   for (Face face : mesh.faces()) {
+    physics::throw_if_cancelled("shortest_path");
     double longest = 0, detour = std::numeric_limits<double>::infinity();
     for (Halfedge h : halfedges_of(mesh, face)) {
       const Point& p = mesh.point(mesh.source(h));
