@@ -2,7 +2,9 @@
 """blender -b --factory-startup -P test_addon.py -- FURROW MESHES FOLDER: the add-on, as its zip installs it, on a skirt and
 its body: strokes of the Grease Pencil wrinkle it, it settles, keeps its lines and tells how it fits; it goes to another figure; edges as
 lines; tangles; what the garment has beside its shape stays; a run that is stopped, or refused, leaves the scene as it was."""
+import json
 import os
+import subprocess
 import sys
 import time
 
@@ -123,6 +125,15 @@ check("settle ends", bpy.ops.furrow.settle() == {"FINISHED"})
 held = [v.index for v in skirt.data.vertices if v.co.z > high - 0.01]
 settled = shape_of(skirt, "Furrow settled")
 check("what is pinned stays", numpy.abs(settled[held] - shape_of(skirt)[held]).max() < 1e-4)
+there = operators.folder_of(skirt)
+by_hand = [furrow, "wrinkle", "garment.obj", "lines.json", "--settle", "--body", "worn.obj", "--unit", "m", "--up", "z", "--pin-vertices",
+           ",".join(map(str, held)), "--fabric", scene.furrow.fabric, "-o", os.path.join(folder, "by_hand.ply"), "--json", "-q"]
+rest = json.loads(subprocess.run(by_hand, cwd=there, stdout=subprocess.PIPE, check=True).stdout)["at_rest"]
+check("the program keeps 3 mm (%s)" % rest["gap"], rest["outcome"] == "at rest" and rest["gap"] == 0.003)
+subprocess.run([furrow, "transfer", "garment.obj", os.path.join(folder, "by_hand.ply"), "-o", os.path.join(folder, "by_hand.obj"),
+                "--unit", "m", "--up", "z", "-q"], cwd=there, check=True)
+off = numpy.abs(files.in_world(settled, skirt.matrix_world, 1) - files.read_obj_points(os.path.join(folder, "by_hand.obj"))).max()
+check("and the add-on's garment lies as the program's (%.2g m)" % off, off < 1e-5)
 check("the rest hangs", numpy.linalg.norm(settled - shape_of(skirt), axis=1).max() > 0.004)
 keys = skirt.data.shape_keys.key_blocks
 check("the latest shape is shown alone", [k.value for k in keys] == [0.0, 0.0, 1.0] or keys["Furrow settled"].value == 1 and keys["Furrow wrinkled"].value == 0)
@@ -259,7 +270,9 @@ for part in (mesh.vertices, mesh.polygons):
 row = {(n + 1) * 10 + i for i in range(2, n - 1)}
 for edge in mesh.edges:
     edge.select = edge.vertices[0] in row and edge.vertices[1] in row
+scene.furrow.width = 0.45  # so wide that the sheet swings
 check("cloth that crosses itself is wrinkled", bpy.ops.furrow.wrinkle() == {"FINISHED"})
+scene.furrow.width = 0
 through = marked(colours_of_tangles.crossing)
 cut = next(p for p in mesh.polygons if abs(p.center.x - at[0]) < size / 2 and abs(p.center.z - at[2]) < size / 2)
 check("the tongue is marked, and three corners of the cell that it goes through", through[-3:] == [tongue, tongue + 1, tongue + 2]
@@ -267,6 +280,7 @@ check("the tongue is marked, and three corners of the cell that it goes through"
 check("and nothing else", len(marked(colours_of_tangles.pale)) == len(mesh.vertices) - 6)
 top = crossed.vertex_groups.new(name="top")
 top.add([v.index for v in mesh.vertices if v.co.z > size * n - 1e-3] + [tongue, tongue + 1, tongue + 2], 1.0, "REPLACE")
+scene.furrow.body = None
 check("cloth that swings off it is settled", bpy.ops.furrow.settle() == {"FINISHED"})
 check("and the marks are gone", marked(colours_of_tangles.pale) is None)
 ball.location, ball.scale = (0, 0, size * n), (1 / 16, 1 / 16, 1 / 16)  # 5 cm

@@ -252,9 +252,12 @@ class Settle(Job, bpy.types.Operator):
 
     def prepare(self, context):
         self.on_body = bool(self.scene.body)
-        words = self.input()
+        drawn = self.on_body and cloth_of(self.obj) and self.obj["furrow_cloth"] == Wrinkle.key
+        job, words = "drape", self.input()
+        if drawn:  # from the start, so that a coarse garment is refined before its lines are drawn and keeps its gap
+            job, words = "wrinkle", ["garment.obj", "lines.json", "--settle", *frame]
         words += [*self.support(context), *self.made_for(context), "--fabric", self.scene.fabric]
-        return [["drape", *words, "-o", "next.ply", "--json"], self.transfer()]
+        return [[job, *words, "-o", "next.ply", "--json"], self.transfer()]
 
     def take(self, context, run):
         super().take(context, run)

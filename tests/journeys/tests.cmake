@@ -6,6 +6,7 @@ if(NOT FURROW_SANITIZE)
     ../cli/run_furrow.cpp
     journey.h
     journey.cpp
+    advice_test.cpp
     batch_test.cpp
     garments_test.cpp
     layers_test.cpp
@@ -14,4 +15,11 @@ if(NOT FURROW_SANITIZE)
     settled_lines_test.cpp
   )
   add_dependencies(test_journeys furrow)
+  find_program(FURROW_BLENDER blender)
+  if(FURROW_BLENDER)
+    add_test(NAME journeys_blender COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/journeys/blender_addon $<TARGET_FILE:furrow>
+                                           ${CMAKE_BINARY_DIR}/blender)
+  else()
+    message(STATUS "skipped: there is no blender, so its add-on is not tried (bench/interop/blender installs it)")
+  endif()
 endif()
