@@ -11,11 +11,11 @@
 
 namespace furrow::tests {
 
-Run run_furrow(const std::string& arguments) {
+Run run_furrow(const std::string& arguments, const std::string& by) {
   const ScratchDirectory scratch;
   const std::string out = scratch / "out", err = scratch / "err";
   const std::string command =
-      std::string(FURROW_BINARY_DIR) + "/furrow " + arguments + " >" + out + " 2>" + err + " </dev/null";
+      by + " " FURROW_BINARY_DIR "/furrow " + arguments + " >" + out + " 2>" + err + " </dev/null";
   const int status = std::system(command.c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return {code, read_text(out), read_text(err)};

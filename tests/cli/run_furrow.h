@@ -10,8 +10,9 @@ struct Run {
   std::string out, err;
 };
 
-/// Runs the built program with these arguments (shell syntax), standard input closed.
-Run run_furrow(const std::string& arguments);
+/// Runs the built program with these arguments (shell syntax), standard input closed; `by` is another program
+/// that starts it, such as timeout.
+Run run_furrow(const std::string& arguments, const std::string& by = "");
 
 /// A directory of this test's own, empty at the start and gone at the end.
 class ScratchDirectory {

@@ -9,6 +9,7 @@ if(NOT FURROW_SANITIZE)
     advice_test.cpp
     batch_test.cpp
     garments_test.cpp
+    interrupted_test.cpp
     layers_test.cpp
     worn_lines_test.cpp
     rigged_test.cpp
