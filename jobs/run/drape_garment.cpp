@@ -17,6 +17,7 @@
 #include "jobs/run/garment_maker.h"
 #include "jobs/run/loose_parts.h"
 #include "jobs/run/measure_crossings.h"
+#include "physics/base/cancel_scope.h"
 #include "physics/base/progress.h"
 
 namespace furrow::jobs {
@@ -143,6 +144,7 @@ Draped drape_once(const DrapePlan& plan, const FallWatch& watch, std::vector<int
   std::optional<WayRecorder> way;
   Gone gone = go_with_parts(plan, maker, way, watch, progress, context);
   loose = maker.loose;
+  const physics::CancelScope whole([] { return false; });  // what was reached is carried and measured, too
   take_result(std::move(gone), maker, plan, watch, draped);
   draped.seconds = now() - start;
   draped.animated = way->close();

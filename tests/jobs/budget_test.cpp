@@ -94,6 +94,28 @@ TEST_CASE("budget: whatever it is, a drape ends with a garment that is written a
   CHECK(cut > 0);
 }
 
+TEST_CASE("budget: once there is a state, whenever a drape is cancelled, it returns what was reached",
+          "[release]") {
+  jobs::DrapeJob job = over_ball();
+  job.subdivide = 1;
+  geometry::Mesh& garment = job.scene.memory.meshes["sheet"].mesh;
+  const auto corner = [&](double x, double z) { return garment.add_vertex({x, 0.125, z}); };
+  garment.add_face(corner(0.2, 0), corner(0.2, 0.01), corner(0.21, 0));  // a button beside it, which falls
+  int returned = 0, thrown_later = 0;
+  bool whole = false;
+  for (int at = 1; !whole; at += 1 + at / 12) {
+    tests::Recorder recorder(at);
+    try {
+      whole = !jobs::drape(job, recorder).cancelled();
+      ++returned;
+    } catch (const physics::Cancelled&) {
+      thrown_later += returned > 0;
+    }
+  }
+  CHECK(returned > 5);
+  CHECK(thrown_later == 0);
+}
+
 TEST_CASE("budget: a keep without time for its first rest state says so") {
   jobs::KeepJob job;
   job.scene = over_ball().scene;
