@@ -195,6 +195,7 @@ struct Draped {
   double cloth_friction = 0;              ///< Coulomb coefficient of cloth on cloth then [-]
   std::size_t crossings_with_others = 0;  ///< pairs of its faces and those of other garments that cross
   std::filesystem::path written;          ///< its file, where there are several garments
+  bool budget_spent = false;              ///< that ended the search
 
   /// Whether its forces balance where it was worn.
   bool rests() const { return end.rests(limits) && end.finite && !end.falls(); }
@@ -208,7 +209,7 @@ struct Draped {
   bool falls_apart() const { return loose_parts.use == LooseUse::hold && loose_parts.area_share > 0.05; }
   /// Whether it is whole and at rest: not torn, not pierced, not crossing any cloth, not falling apart.
   bool succeeds() const { return jobs::succeeds(end, limits) && !falls_apart(); }
-  /// "interrupted", or as outcome_of() its end; and what else is wrong.
+  /// "interrupted"; or "out of budget", else as outcome_of() its end, and what else is wrong.
   std::string outcome() const;
 };
 
@@ -249,8 +250,8 @@ struct DrapeJobReport {
   std::vector<Draped> garments;        ///< in the order of the fabrics; the last one may have been cancelled
   std::optional<DrapedLayers> layers;  ///< of garments over each other, the inner ones first; none: no such
   std::vector<DrapeRemark> remarks;
-  io::Scene scene;  ///< that was draped, in its first fabric
-  Frame frame;      ///< of the file written
+  io::Scene scene;            ///< that was draped, in its first fabric
+  Frame frame;                ///< of the file written
   bool budget_spent = false;  ///< that ended it
 
   bool cancelled() const { return garments.back().report.stopped; }

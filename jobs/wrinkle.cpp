@@ -290,7 +290,7 @@ void settle_drawn(const WrinkleJob& job, const RestPlan& plan, WrinkleReport& re
   const Context there{context.frame, budget, &memory};
   Draped draped =
       budget.run([&] { return drape_garment(scene, plan.body ? &*plan.body : nullptr, {}, false, there); });
-  report.budget_spent = draped.report.stopped && budget.is_spent();
+  report.budget_spent = draped.budget_spent = draped.report.stopped && budget.is_spent();
   draped.refinements = plan.refinements;
   draped.name = scene.garment.stem().string();
   for (const DrapeRemark& r : remarks_on({&draped, 1}))

@@ -488,8 +488,9 @@ std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
 }
 
 std::string Draped::outcome() const {
-  if (report.stopped) return "interrupted";
-  return outcome_of(end, limits) + (end.is_pierced(limits) ? ", pierced by the body" : "") +
+  if (report.stopped && !budget_spent) return "interrupted";
+  return (report.stopped ? "out of budget" : outcome_of(end, limits)) +
+         (end.is_pierced(limits) ? ", pierced by the body" : "") +
          (crosses_itself() ? ", cloth crosses itself" : "") +
          (crosses_others() ? ", crosses other garments" : "") +
          (end.lost() > 0 && !end.falls()

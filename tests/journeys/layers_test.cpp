@@ -48,6 +48,25 @@ TEST_CASE("journeys: a coat over a tunic rests, and the other order is refused w
   CHECK_FALSE(std::filesystem::exists("wrong-coat.ply"));
 }
 
+TEST_CASE("journeys: a suit of three layers in one file rests without a crossing", "[release]") {
+  const Journey here;
+  here.bring("meshes/tunic.obj");
+  here.bring_body_of_tunic("she.obj");
+  io::MeshFile suit;
+  for (const double by : {0.0, 0.012, 0.024}) {
+    const geometry::Mesh part = widened("tunic.obj", by);
+    const auto first = geometry::Vertex::size_type(suit.mesh.number_of_vertices());
+    for (const geometry::Vertex v : part.vertices()) suit.mesh.add_vertex(part.point(v));
+    const auto at = [&](int i) { return geometry::Vertex(first + geometry::Vertex::size_type(i)); };
+    for (const auto& [a, b, c] : bridge::triangles_of(part)) suit.mesh.add_face(at(a), at(b), at(c));
+  }
+  io::write_mesh("suit.obj", suit);
+  const auto report = step("drape suit.obj --body she.obj --subdivide 0 -o worn.ply");
+  CHECK(report["crossings"]["pairs"] == 0);
+  CHECK(report["end"]["parts"].size() == 3);
+  CHECK(report["end"]["parts_lost"] == 0);
+}
+
 TEST_CASE("journeys: a body that is named as its own garment is refused", "[release]") {
   const Journey here;
   here.bring_body_of_tunic("she.obj");
@@ -63,6 +82,7 @@ TEST_CASE("journeys: a drape whose budget is spent leaves a file and says so", "
   const Run run = run_furrow("drape tunic.obj --body she.obj --subdivide 3 --budget 4 -o worn.ply");
   CHECK(run.exit_code == 4);
   CHECK_THAT(run.err, Contains("budget"));
+  CHECK_THAT(run.out, !Contains("interrupted"));
   CHECK(std::filesystem::exists("worn.ply") ==
         (run.err.find("the best state so far is in") != std::string::npos));
 }
