@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/common.h"
 
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -45,10 +46,19 @@ bool takes_control_codes() {
 }
 
 volatile std::sig_atomic_t interrupt_flag = 0;
-/// The second one ends the process at once.
+timespec first_interrupt = {};
+/// The second one ends the process at once. `timeout` and some shells send one signal to the process and one
+/// to its group, so what follows within 0.2 s belongs to the first one.
 void on_interrupt(int signal) {
-  interrupt_flag = 1;
-  std::signal(signal, SIG_DFL);
+  timespec now = {};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (!interrupt_flag) {
+    first_interrupt = now;
+    interrupt_flag = 1;
+  } else if (now.tv_sec - first_interrupt.tv_sec + 1e-9 * (now.tv_nsec - first_interrupt.tv_nsec) > 0.2) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
 }
 
 }  // namespace
