@@ -175,43 +175,58 @@ Progress::Form Progress::form_of(const CommonArguments& common) {
   return wants_bar && takes_control_codes() ? Form::bar : Form::lines;
 }
 
-Progress::Progress(std::string what, const CommonArguments& common)
+Progress::Progress(std::string what, const CommonArguments& common, double budget)
     : what_(std::move(what)),
       form_(form_of(common)),
       start_(now()),
       told_(start_),
-      between_lines_(seconds_between_lines(common.progress)) {}
+      between_lines_(seconds_between_lines(common.progress)) {
+  char text[64];
+  std::snprintf(text, sizeof text, " (at most %.4g s of processor time)", budget);
+  if (std::isfinite(budget)) limit_ = text;
+}
 
 Progress::~Progress() {
   if (form_ == Form::bar && shown_ >= 0) std::cerr << "\r\033[K" << std::flush;
 }
 
-void Progress::draw_bar(int permille, double seconds_left) {
+/// ", 12 s left", or nothing where the end has moved away since it was last expected.
+std::string Progress::seconds_left(double time, int permille) {
+  if (permille == 0) return "";
+  const double end = time + (time - start_) * (1000 - permille) / permille;
+  const bool recedes = end - start_ > 1.2 * (end_ - start_);
+  end_ = end;
+  char text[64];
+  std::snprintf(text, sizeof text, ", %.0f s left", end - time);
+  return recedes ? "" : text;
+}
+
+void Progress::draw_bar(int permille, double time) {
   if (permille == shown_) return;
   shown_ = permille;
   std::string bar(30, ' ');
   std::fill_n(bar.begin(), 30 * permille / 1000, '=');
-  char text[96];
-  std::snprintf(text, sizeof text, "] %5.1f %%  %.0f s left", permille / 10.0, seconds_left);
-  std::cerr << "\r\033[K" << what_ << " [" << bar << text << std::flush;
+  char text[64];
+  std::snprintf(text, sizeof text, "] %5.1f %%", permille / 10.0);
+  std::cerr << "\r\033[K" << what_ << " [" << bar << text << seconds_left(time, permille) << limit_
+            << std::flush;
 }
 
 void Progress::show(double share) {
   if (form_ == Form::none) return;
   const int permille = static_cast<int>(1000 * std::clamp(share, 0.0, 1.0));
   const double time = now();
-  const double left = permille > 0 ? (time - start_) * (1000 - permille) / permille : 0.0;
-  if (form_ == Form::bar) return draw_bar(permille, left);
+  if (form_ == Form::bar) return draw_bar(permille, time);
   if (time - told_ < between_lines_) return;
   told_ = time;
   char text[64];
-  std::snprintf(text, sizeof text, ": %.1f %%, %.0f s left\n", permille / 10.0, left);
-  std::cerr << what_ + text << std::flush;
+  std::snprintf(text, sizeof text, ": %.1f %%", permille / 10.0);
+  std::cerr << what_ + text + seconds_left(time, permille) + limit_ + "\n" << std::flush;
 }
 
 void Terminal::progress(const std::string& what, double share) {
   if (share >= 1) return bar_.reset();
-  if (!bar_ || what != what_) bar_ = std::make_unique<Progress>(what, common_);
+  if (!bar_ || what != what_) bar_ = std::make_unique<Progress>(what, common_, budget_);
   what_ = what;
   bar_->show(share);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -83,11 +84,14 @@ double parse_share(const std::string& text, const std::string& option);
 /// What stands between the commas; nothing of "", and no empty part at the end.
 std::vector<std::string> split_at_commas(const std::string& text);
 
+constexpr double unlimited = std::numeric_limits<double>::infinity();  ///< budget [s]
+
 /// Tells progress on stderr unless the user does not want to hear of it: as a bar that cleans up after
 /// itself, or as a line every ten seconds (or as many as were asked for) where nobody sits at a terminal.
 class Progress {
  public:
-  Progress(std::string what, const CommonArguments& common);
+  /// budget: of processor time, which every line names [s]; infinity: none.
+  Progress(std::string what, const CommonArguments& common, double budget);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -96,13 +100,16 @@ class Progress {
  private:
   enum class Form { none, bar, lines };
   static Form form_of(const CommonArguments& common);
-  void draw_bar(int permille, double seconds_left);
+  std::string seconds_left(double time, int permille);
+  void draw_bar(int permille, double time);
 
   std::string what_;
   Form form_;
   int shown_ = -1;  ///< by the bar [permille]
   double start_, told_;
-  double between_lines_;  ///< [s]
+  double between_lines_;    ///< [s]
+  double end_ = unlimited;  ///< as it was last expected [s]
+  std::string limit_;       ///< words for the budget
 };
 
 /// From the first call on, Ctrl-C and SIGTERM set a flag in place of ending the program; the second one ends
@@ -114,7 +121,9 @@ bool interrupted();
 /// called.
 class Terminal : public Listener {
  public:
-  explicit Terminal(const CommonArguments& common) : common_(common) {}
+  /// budget: of the job, of processor time [s].
+  explicit Terminal(const CommonArguments& common, double budget = unlimited)
+      : common_(common), budget_(budget) {}
   void progress(const std::string& what, double share) override;
   void warn(const Warning& warning) override;
   bool cancelled() override;
@@ -123,6 +132,7 @@ class Terminal : public Listener {
 
  private:
   const CommonArguments& common_;
+  double budget_;
   std::string what_;
   std::unique_ptr<Progress> bar_;
 };

@@ -211,7 +211,7 @@ int tell_remarks(const DrapeJobReport& report, const DrapeArguments& a, Terminal
 
 int drape(const DrapeArguments& a) {
   catch_interrupts();
-  Terminal terminal(a);
+  Terminal terminal(a, a.budget);
   io::OutputGroup together;
   DrapeJobReport report = jobs::drape(job_of(a), terminal);
   CommonArguments common = a;

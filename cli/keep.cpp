@@ -48,7 +48,7 @@ KeepJob job_of(const KeepArguments& a) {
 
 int keep(const KeepArguments& a) {
   catch_interrupts();
-  Terminal terminal(a);
+  Terminal terminal(a, a.budget);
   const KeepReport report = jobs::keep(job_of(a), terminal);
   if (report.budget_spent) report_spent_budget(a.budget, {report.mesh.string()});
   if (!report.ran) return report.budget_spent ? exit_not_converged : exit_interrupted;

@@ -175,7 +175,7 @@ void render(RenderArguments a) {
     throw UsageError("--captions: " + std::to_string(captions.size()) + " for " +
                      std::to_string(list.size()) + " pictures");
   std::vector<io::Panel> panels;
-  Progress progress("rendering", a);
+  Progress progress("rendering", a, unlimited);
   for (std::size_t i = 0; i < list.size(); ++i) {
     panels.push_back({io::render(list[i], options), i < captions.size() ? captions[i] : ""});
     progress.show(double(i + 1) / double(list.size()));

@@ -150,7 +150,7 @@ int wrinkle(WrinkleArguments a) {
   check_call(a);
   if (a.settle) catch_interrupts();
   const WrinkleJob job = job_of(a);
-  Terminal terminal(a);
+  Terminal terminal(a, a.settle ? a.budget : unlimited);
   const WrinkleReport report = jobs::wrinkle(job, terminal);
   CommonArguments common = a;
   common.unit = report.frame.unit_in_use();

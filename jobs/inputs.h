@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -66,15 +67,18 @@ class ProgressScope {
   ~ProgressScope() { listener_.progress(what_, 1); }
   ProgressScope(const ProgressScope&) = delete;
   ProgressScope& operator=(const ProgressScope&) = delete;
-  /// Tells the share that is done; returns whether to go on.
+  /// Reports the share that is done, or the largest so far where a search begins again; returns whether to go
+  /// on.
   bool operator()(double share) const {
-    listener_.progress(what_, share);
+    most_ = std::max(most_, share);
+    listener_.progress(what_, most_);
     return !listener_.cancelled();
   }
 
  private:
   Listener& listener_;
   std::string what_;
+  mutable double most_ = 0;
 };
 
 /// Unit and upward axis of the files that a job reads and writes.

@@ -20,6 +20,15 @@ TEST_CASE("listener: a stretch of work tells its end, also where it is broken of
   CHECK(recorder.told[1] == std::pair<std::string, double>("stitching", 1.0));
 }
 
+TEST_CASE("listener: a share never falls, also where a search begins again") {
+  tests::Recorder recorder;
+  const jobs::ProgressScope progress(recorder, "stitching");
+  for (const double share : {0.1, 0.5, 0.2, 0.6}) progress(share);
+  REQUIRE(recorder.told.size() == 4);
+  CHECK(recorder.told[2].second == 0.5);
+  CHECK(recorder.told[3].second == 0.6);
+}
+
 TEST_CASE("listener: a stretch of work is not to go on once the listener cancels") {
   tests::Recorder recorder(3);
   const jobs::ProgressScope progress(recorder, "stitching");

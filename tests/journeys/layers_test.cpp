@@ -79,8 +79,10 @@ TEST_CASE("journeys: a drape whose budget is spent leaves a file and says so", "
   const Journey here;
   here.bring("meshes/tunic.obj");
   here.bring_body_of_tunic("she.obj");
-  const Run run = run_furrow("drape tunic.obj --body she.obj --subdivide 3 --budget 4 -o worn.ply");
+  const Run run =
+      run_furrow("drape tunic.obj --body she.obj --subdivide 3 --budget 4 --progress 0.2 -o worn.ply");
   CHECK(run.exit_code == 4);
+  CHECK_THAT(run.err, Contains("draping: ") && Contains("(at most 4 s of processor time)\n"));
   CHECK_THAT(run.err, Contains("budget"));
   CHECK_THAT(run.out, !Contains("interrupted"));
   CHECK(std::filesystem::exists("worn.ply") ==
