@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "cli/common.h"
-#include "cli/old_names.h"
 #include "cli/subcommands.h"
 #include "cli/usage_words.h"
 #include "geometry/mesh/errors.h"
@@ -47,17 +46,6 @@ std::string unknown_words(const CLI::App& app) {
   return word + ": " + command +
          (word.rfind("-", 0) == 0 ? " has no such option" : " takes no further argument") +
          (nearest.empty() ? "; " + command + " --help tells more" : "; did you mean " + nearest + "?");
-}
-
-/// With the present names of options; tells of old ones, unless it is to be quiet.
-std::vector<std::string> renamed(const std::vector<std::string>& words) {
-  const cli::PresentWords present = cli::with_present_names(words);
-  const auto is_given = [&](const char* flag) {
-    return std::find(words.begin(), words.end(), flag) != words.end();
-  };
-  if (!is_given("-q") && !is_given("--quiet"))
-    for (const std::string& note : present.notes) std::cerr << note << "\n";
-  return present.words;
 }
 
 /// The words of the command line, less the first; `furrow` alone and `furrow help [NAME]` ask for help.
@@ -107,7 +95,7 @@ int run(int argc, char** argv) {
   cli::add_studio(app, exit_code);
   cli::add_completion(app);
   cli::add_man(app);
-  const std::vector<std::string> words = renamed(words_of(argc, argv));
+  const std::vector<std::string> words = words_of(argc, argv);
   if (words[0].rfind("-", 0) != 0 && !has_subcommand(app, words[0]))
     return fail(cli::exit_usage, unknown_subcommand(app, words[0]));
   try {

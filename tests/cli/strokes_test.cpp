@@ -212,3 +212,26 @@ TEST_CASE("strokes: width, sharpness, press and order are set, and the mesh carr
         "--change up.heigth=0.1"})
     CHECK(run_furrow("strokes " + wall.strokes + " " + flags + " -o " + edited).exit_code != 0);
 }
+
+TEST_CASE("wrinkle: --width is that of strokes that name none, and --strokes names their file", "[long]") {
+  const ScratchDirectory scratch;
+  const std::string sheet = source_file("meshes/sheet.obj");
+  write_text(scratch / "l.json", R"({"strokes": [{"name": "a", "points": [[-0.2,0.3,0],[0.2,0.3,0]]},
+                                                 {"name": "b", "width": 0.1, "points": [[-0.2,0.7,0],[0.2,0.7,0]]}]})");
+  const Run run = run_furrow("wrinkle --json " + sheet + " --strokes " + (scratch / "l.json") +
+                             " --width 0.08 -o " + (scratch / "w.ply"));
+  INFO(run.err);
+  REQUIRE(run.exit_code == 0);
+  const json lines = json::parse(run.out)["lines"];
+  CHECK(lines[0]["width"] == 0.08);
+  CHECK(lines[1]["width"] == 0.1);
+  // Drawn again, its lines are as wide.
+  const Run again = run_furrow("wrinkle --json " + (scratch / "w.ply") + " -o " + (scratch / "again.ply"));
+  INFO(again.err);
+  REQUIRE(again.exit_code == 0);
+  CHECK(json::parse(again.out)["lines"] == lines);
+  CHECK(run_furrow("wrinkle " + (scratch / "w.ply") + " --width 0.1 -o " + (scratch / "b.ply")).exit_code ==
+        2);
+  CHECK(run_furrow("wrinkle " + sheet + " " + (scratch / "l.json") + " --width 0 -o " + (scratch / "b.ply"))
+            .exit_code == 2);
+}

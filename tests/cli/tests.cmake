@@ -13,7 +13,6 @@ furrow_add_tests(cli cli LIBRARIES furrow::io nlohmann_json::nlohmann_json SOURC
   usage_test.cpp
   completion_test.cpp
   summary_test.cpp
-  old_names_test.cpp
   mistakes_test.cpp
   picture_options_test.cpp
   pipeline_test.cpp
