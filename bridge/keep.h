@@ -66,6 +66,9 @@ struct KeepOptions {
   /// (geometry/fold/line_region.h); and presses [-] that the cloth's hinges have already, for the report.
   /// What is missing at the end counts as none, and as 1.
   std::vector<double> line_widths = {}, line_presses = {};
+  /// By line id: the height that was asked for [m], as line_heights() measures it less `base`; NaN, 0 or
+  /// missing: that at which the line lies.
+  std::vector<double> line_heights = {};
   /// Each trial begins with a search for rest, and what fails there is helped before anything runs
   /// (bridge/try_statics.h).
   bool statics = true;
@@ -82,13 +85,13 @@ enum class Verdict {
   held,
   pressed,
   strutted,
-  lowered,
+  lowered,   ///< it stands, at less than `kept` of the height that was asked for
   may_hold,  ///< it kept its height, but hardly, or only in gusts no stronger than asked for: see reason
   cannot_hold
 };
 
-/// Whether a line with that verdict is held, for all that trials can tell.
-constexpr bool holds(Verdict verdict) { return verdict < Verdict::may_hold; }
+/// Whether a line with that verdict stands at the height that was asked for, as far as trials can say.
+constexpr bool holds(Verdict verdict) { return verdict < Verdict::lowered; }
 
 struct KeptLine {
   int line = -1;  ///< its id in attribute::line
@@ -96,9 +99,10 @@ struct KeptLine {
   double press = 1;    ///< factor on its hinges, its own and that of the help [-]
   double struts = 0;   ///< stiffness of its struts [N/m]; 0: none
   double height = 0;   ///< that it was balanced at, after lowering [m]
-  double lowered = 1;  ///< that over the height as drawn, by its own or a neighbour's lowering [-]
-  double kept = 0, kept_gust = 0;  ///< shares of `height` after the two runs [-]; NaN: not run
-  std::string reason;              ///< of may_hold and cannot_hold
+  double lowered = 1;  ///< that over the height that was asked for [-]; NaN: not known
+  /// Shares of `height` after the two runs [-]; NaN: not run. Gusts are those that decided.
+  double kept = 0, kept_gust = 0;
+  std::string reason;  ///< of may_hold and cannot_hold
 };
 
 struct KeepReport {
@@ -139,6 +143,8 @@ using KeepObserver = std::function<bool(const KeepProgress&)>;
 /// fifth or had help before, and with them those that use half of what they may lose in gusts: press (their
 /// hinges stiffer), then struts on top of the strongest press, then a lower height. Once a line without help
 /// fails in a later trial than the first, all lines get the first step. The first help that holds stays.
+/// Trials blow harder than asked for. A line that only this takes away, with all help, is tried in gusts as
+/// they were asked for: what stands those may hold and is not lowered.
 ///
 /// With `whole` the hinges between the lines are pressed likewise, where the motion that nothing holds back
 /// is theirs.

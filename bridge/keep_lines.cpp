@@ -126,12 +126,12 @@ class Keeper {
     return least;
   }
 
-  /// Bisects the heights of all lines that fail at once.
+  /// Bisects the heights of all lines at once that fail, and not in stronger gusts alone.
   TriedPlan help_by_height(TriedPlan found, Tally& tally) const {
     const LineFlags good = good_lines(found, o_.kept);
     std::vector<std::size_t> lines;
     for (std::size_t i = 0; i < good.size(); ++i)
-      if (!good[i]) lines.push_back(i);
+      if (!good[i] && !may_hold(found, i, o_.kept)) lines.push_back(i);
     if (lines.empty() || hangs_wrong(found.outcome)) return found;
     tally.helped = int(lines.size());
     const double drift = tally.drift;
@@ -154,21 +154,22 @@ class Keeper {
     return try_forward(plan, tally).value_or(std::move(found));
   }
 
-  /// Where gusts that are stronger than asked for, as those of implicit steps are, took a line away: what
-  /// those that were asked for do.
+  /// Where gusts that are stronger than asked for, as those of implicit steps and of one gust are, took a
+  /// line away: what those that were asked for do.
   void try_named_gusts(TriedPlan& found, Tally& tally) const {
-    const bool blown_harder = o_.prove && o_.gust > 0 && o_.run.integrator == physics::Integrator::implicit;
+    const bool blown_harder =
+        o_.gust > 0 && (!o_.prove || o_.run.integrator == physics::Integrator::implicit);
     const auto lost_in_gusts = [&](std::size_t i) {
       return std::abs(found.outcome.kept[i] - 1) <= 1 - o_.kept && may_be_judged(found, i) &&
              !(std::abs(found.outcome.kept_gust[i] - 1) <= 1 - o_.kept);
     };
     bool any = false;
     for (std::size_t i = 0; i < found.plan.lines.size(); ++i) any = any || lost_in_gusts(i);
-    if (!blown_harder || !any) return;
-    ++tally.runs;
+    if (!blown_harder || !any || !found.outcome.kept_named.empty()) return;
+    tally.runs += o_.prove ? 1 : 0;
+    // The plan's own trial has been shown to its end, and progress never goes back.
     const KeepTrial trial = try_shape(
-        found.outcome.cloth, true, world_, o_, meter_, {}, [&](double share) { return go_on(share, tally); },
-        1);
+        found.outcome.cloth, true, world_, o_, meter_, {}, [&](double) { return go_on(1, tally); }, 1);
     tally.interrupted = trial.stopped;
     if (!trial.stopped) found.outcome.kept_named = trial.kept_gust;
   }
@@ -329,7 +330,7 @@ KeepReport report_of(TriedPlan& found, const KeepOptions& o, LineMeter& meter,
   KeepReport report;
   report.lines = verdicts(found, meter.heights(found.outcome.cloth.particles), o, tally.interrupted);
   for (const int id : meter.unmeasured()) report.lines.push_back(unmeasured_line(id));
-  for (const LineMeter::TooLow& line : low) report.lines.push_back(too_low_line(line));
+  for (const LineMeter::TooLow& line : low) report.lines.push_back(too_low_line(line, o));
   std::sort(report.lines.begin(), report.lines.end(),
             [](const KeptLine& a, const KeptLine& b) { return a.line < b.line; });
   report.rest = std::move(found.outcome.shape.rest);
@@ -371,6 +372,7 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
   Tally tally;
   TriedPlan found = keeper.help_by_stiffness(keeper.plan(), tally);
   if (!tally.interrupted) found = keeper.help_all(std::move(found), tally);
+  if (!tally.interrupted) keeper.try_named_gusts(found, tally);
   if (!tally.interrupted && o.height_trials > 0 &&
       geometry::find_map(mesh, geometry::attribute::rest_position))
     found = keeper.help_by_height(std::move(found), tally);

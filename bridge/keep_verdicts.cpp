@@ -16,9 +16,15 @@ constexpr double out_of_balance = 1e-6;
 // Of what a line may lose or win: where the shape is not stable, and after gusts.
 constexpr double reserve = 0.4, reserve_in_gusts = 0.5;
 
+/// How far a line is off after gusts no stronger than asked for [-]; NaN: they were not tried.
+double off_in_named_gusts(const KeepOutcome& outcome, std::size_t line) {
+  return outcome.kept_named.empty() ? NAN : std::abs(outcome.kept_named[line] - 1);
+}
+
 bool holds(const KeepOutcome& outcome, std::size_t line, double least) {
   return std::abs(outcome.kept[line] - 1) <= may_lose(outcome, least) &&
-         std::abs(outcome.kept_gust[line] - 1) <= may_lose_in_gusts(outcome, least);
+         std::abs(outcome.kept_gust[line] - 1) <= may_lose_in_gusts(outcome, least) &&
+         !(off_in_named_gusts(outcome, line) > 1 - least);
 }
 
 }  // namespace
@@ -70,10 +76,10 @@ bool may_be_judged(const TriedPlan& found, std::size_t line) {
 
 namespace {
 
-/// "2.5 %".
+/// "2.55 %".
 std::string share_text(double share) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
   return text;
 }
 
@@ -84,17 +90,17 @@ double farthest_off(const KeepOutcome& outcome, std::size_t line) {
 }
 
 /// Not held for sure: it kept its height here, and nothing but chance speaks against it.
-bool nearly_held(const TriedPlan& found, std::size_t line, const KeepOptions& o) {
+bool nearly_held(const TriedPlan& found, std::size_t line, double least) {
   return may_be_judged(found, line) && std::isfinite(found.outcome.kept[line]) &&
-         farthest_off(found.outcome, line) <= 1 - o.kept;
+         farthest_off(found.outcome, line) <= 1 - least &&
+         !(off_in_named_gusts(found.outcome, line) > 1 - least);
 }
 
 /// It kept its height, and after gusts of the strength that was asked for, but not after stronger ones.
-bool stands_named_gusts(const TriedPlan& found, std::size_t line, const KeepOptions& o) {
+bool stands_named_gusts(const TriedPlan& found, std::size_t line, double least) {
   const KeepOutcome& outcome = found.outcome;
-  return may_be_judged(found, line) && !outcome.kept_named.empty() &&
-         std::abs(outcome.kept[line] - 1) <= 1 - o.kept &&
-         std::abs(outcome.kept_named[line] - 1) <= 1 - o.kept;
+  return may_be_judged(found, line) && std::abs(outcome.kept[line] - 1) <= 1 - least &&
+         off_in_named_gusts(outcome, line) <= 1 - least;
 }
 
 /// "at 81 % of its height"; nothing is left to measure where a share is not finite.
@@ -110,26 +116,40 @@ std::string why_not(bool interrupted, const TriedPlan& found, std::size_t line, 
     return "the bounds on strain and angle leave no balance";
   if (loose_lines(found)[line])
     return "the fold can give way without effort: the cloth bends too easily for it";
-  if (nearly_held(found, line, o))
+  if (nearly_held(found, line, o.kept))
     return "it came within " + share_text(farthest_off(found.outcome, line)) +
            " of its height in this trial, but another may end farther off; a line is held for sure within " +
            share_text(may_lose(found.outcome, o.kept)) + ", and after gusts within " +
            share_text(may_lose_in_gusts(found.outcome, o.kept));
-  if (stands_named_gusts(found, line, o))
+  if (stands_named_gusts(found, line, o.kept))
     return "it stood gusts of the strength that was asked for, but stronger ones, which make up for what the "
            "steps damp, left it " +
            left_at(found.outcome.kept_gust[line]);
   return "the fold turns into another shape";
 }
 
-/// Of a height as drawn, what is left: a line that lies across one which the plan lowers is lowered with it.
-double lowered_to(double height, const HelpedLine& line, const KeepPlan& plan) {
+/// What a line is balanced at [m]: one that lies across another which the plan lowers is lowered with it.
+double balanced_height(double height, const HelpedLine& line, const KeepPlan& plan) {
   const bool any =
       std::any_of(plan.lines.begin(), plan.lines.end(), [](const auto& l) { return l.height < 1; });
-  return any ? height / line.drawn : 1;
+  return any ? height : line.drawn;
+}
+
+/// [m]; drawn: where it is not known.
+double asked_height(int line, double drawn, const KeepOptions& o) {
+  const double asked = std::size_t(line) < o.line_heights.size() ? o.line_heights[line] : NAN;
+  return std::isfinite(asked) && asked != 0 ? asked : drawn;
+}
+
+Verdict verdict_of(const HelpedLine& line, const KeepOptions& o) {
+  return struts_of(line, o) > 0 ? Verdict::strutted : line.step > 0 ? Verdict::pressed : Verdict::held;
 }
 
 }  // namespace
+
+bool may_hold(const TriedPlan& found, std::size_t line, double least) {
+  return nearly_held(found, line, least) || stands_named_gusts(found, line, least);
+}
 
 std::vector<KeptLine> verdicts(const TriedPlan& found, const std::vector<double>& heights,
                                const KeepOptions& o, bool interrupted) {
@@ -141,20 +161,20 @@ std::vector<KeptLine> verdicts(const TriedPlan& found, const std::vector<double>
     v.line = line.id;
     v.press = line.press * press_of(line, o);
     v.struts = struts_of(line, o);
-    v.lowered = lowered_to(heights[i], line, found.plan);
-    v.height = v.lowered * line.drawn;
+    v.height = balanced_height(heights[i], line, found.plan);
+    v.lowered = v.height / asked_height(line.id, line.drawn, o);
     v.kept = found.outcome.kept[i];
-    v.kept_gust = found.outcome.kept_gust[i];
-    if (!good[i]) {
-      v.reason = why_not(interrupted, found, i, o);
-      if (!interrupted && (nearly_held(found, i, o) || stands_named_gusts(found, i, o)))
-        v.verdict = Verdict::may_hold;
+    const bool named = !found.outcome.kept_named.empty() && !nearly_held(found, i, o.kept);
+    v.kept_gust = named ? found.outcome.kept_named[i] : found.outcome.kept_gust[i];
+    const bool as_asked = v.lowered >= o.kept;
+    if (good[i]) {
+      v.verdict = as_asked ? verdict_of(line, o) : Verdict::lowered;
       continue;
     }
-    v.verdict = line.height < 1 || std::abs(v.lowered - 1) > 1 - o.kept ? Verdict::lowered
-                : v.struts > 0                                          ? Verdict::strutted
-                : line.step > 0                                         ? Verdict::pressed
-                                                                        : Verdict::held;
+    v.reason = why_not(interrupted, found, i, o);
+    if (interrupted) continue;
+    if (as_asked && may_hold(found, i, o.kept)) v.verdict = Verdict::may_hold;
+    if (!as_asked) v.reason = share_text(v.lowered) + " of the height asked is left, and " + v.reason;
   }
   return kept;
 }
@@ -162,16 +182,17 @@ std::vector<KeptLine> verdicts(const TriedPlan& found, const std::vector<double>
 KeptLine unmeasured_line(int id) {
   KeptLine line;
   line.line = id;
-  line.height = line.kept = line.kept_gust = NAN;
+  line.height = line.lowered = line.kept = line.kept_gust = NAN;
   line.reason =
       "its height cannot be measured: its fold leaves too little cloth around it, or runs along a border";
   return line;
 }
 
-KeptLine too_low_line(const LineMeter::TooLow& low) {
+KeptLine too_low_line(const LineMeter::TooLow& low, const KeepOptions& o) {
   KeptLine line;
   line.line = low.line;
   line.height = low.height;
+  line.lowered = low.height / asked_height(low.line, low.height, o);
   line.kept = line.kept_gust = NAN;
   line.reason = "its height of " + geometry::length_text(std::abs(low.height)) + " is less than " +
                 geometry::length_text(low.least) +

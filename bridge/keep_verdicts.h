@@ -47,12 +47,14 @@ double may_lose_in_gusts(const KeepOutcome& outcome, double least);
 LineFlags good_lines(const TriedPlan& found, double least);
 /// Whether nothing but its trials speaks against a line.
 bool may_be_judged(const TriedPlan& found, std::size_t line);
+/// Whether a line kept its height, if only in gusts no stronger than asked for.
+bool may_hold(const TriedPlan& found, std::size_t line, double least);
 
 /// What is told of each line that was tried, with reasons. heights: of each line in the outcome's cloth [m];
 /// interrupted: what is not known is told so.
 std::vector<KeptLine> verdicts(const TriedPlan& found, const std::vector<double>& heights,
                                const KeepOptions& options, bool interrupted);
-KeptLine unmeasured_line(int id);                     ///< of one whose height is not known
-KeptLine too_low_line(const LineMeter::TooLow& low);  ///< of one that was refused
+KeptLine unmeasured_line(int id);  ///< of one whose height is not known
+KeptLine too_low_line(const LineMeter::TooLow& low, const KeepOptions& options);  ///< of one that was refused
 
 }  // namespace furrow::bridge

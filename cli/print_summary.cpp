@@ -50,10 +50,9 @@ long long count_of(const Json& report, const char* key) {
   return std::isfinite(value) ? static_cast<long long>(value) : 0;
 }
 
-std::string length(const Json& report, const char* key) {
-  const double value = value_of(report, key);
-  return std::isfinite(value) ? length_text(value) : "unknown";
-}
+std::string length_or_unknown(double value) { return std::isfinite(value) ? length_text(value) : "unknown"; }
+
+std::string length(const Json& report, const char* key) { return length_or_unknown(value_of(report, key)); }
 
 /// What is below a thousandth of a per cent is none.
 std::string per_cent(double share) {
@@ -496,8 +495,8 @@ Lines keep_lines(const Json& report) {
     for (const Json& line : drawn)
       if (fails(line) == failing)
         lines.push_back(name_of_line(line) + ": " + text_of(line, "words") + " (asked " +
-                        length(line, "asked") + ", drawn " + length(line, "smoothed") + ", kept " +
-                        per_cent(value_of(line, "kept")) + ")");
+                        length(line, "asked") + ", drawn " + length(line, "smoothed") + ", left " +
+                        length_or_unknown(value_of(line, "height") * value_of(line, "kept")) + ")");
   if (lines.size() > 6) {
     const std::size_t more = lines.size() - 5;
     lines.resize(5);

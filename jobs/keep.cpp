@@ -2,6 +2,7 @@
 #include "jobs/keep.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bridge/store_rest_state.h"
 #include "io/base/lower_case.h"
@@ -171,6 +172,17 @@ std::vector<double> base_heights(const io::WrinkleRecord& record) {
   return base;
 }
 
+/// Heights that were asked for, as lines are measured: of a fold that of its crest, which its record compares
+/// with the mean along the line; of other rules, whose smoothing is part of what was asked, as smoothed.
+std::vector<double> asked_heights(const io::WrinkleRecord& record) {
+  std::vector<double> asked;
+  for (const auto& line : record.lines) {
+    const double mean_share = line.crest_height ? line.drawn_height / *line.crest_height : NAN;
+    asked.push_back(mean_share > 0 ? mean_share * line.height : line.smoothed_height);
+  }
+  return asked;
+}
+
 /// Each line's press from now on, so that keeping it again goes on from there.
 void note_presses(const bridge::KeepReport& report, io::WrinkleRecord record, io::MeshFile& file) {
   for (const bridge::KeptLine& line : report.lines)
@@ -216,6 +228,7 @@ bridge::KeepOptions options_of(const KeepJob& job, const io::Scene& scene, const
   options.gust = job.gust;
   options.line_widths = io::line_widths(record);
   options.line_presses = io::line_presses(record);
+  options.line_heights = asked_heights(record);
   options.whole = job.whole;
   options.prove = job.prove;
   if (!job.balance) options.largest_turn = 0;

@@ -24,13 +24,13 @@ struct KeepReport {
   bool budget_spent = false;           ///< that ended it
   std::vector<Warning> warnings = {};  ///< about the result; those on the way went to the listener
 
-  /// Whether every line holds, perhaps with help.
+  /// Whether every line stands at the height that was asked for, perhaps with help.
   bool all_hold() const;
 };
 
-/// "held", "held with press x10", "held with struts of 3 N/m", "held at h = 4.2 mm", or "cannot hold, because
-/// ...".
-std::string words(const bridge::KeptLine& line);
+/// "held", "held with press x10", "held with struts of 3 N/m", "lowered to h = 4.2 mm of 10 mm asked", or
+/// "cannot hold: ...". What is off by more than 5 % is never called held without its height.
+std::string words(const bridge::KeptLine& line, const io::WrinkleRecord& record);
 
 /// A rest state's balance and stability.
 Json to_json(const bridge::KeptShape& kept);

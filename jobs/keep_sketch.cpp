@@ -47,7 +47,7 @@ VerdictLook look_of(Verdict verdict) {
 constexpr const char* in_memory = "-";
 constexpr Rgb plain{216, 210, 198};
 constexpr const char* legend_of_verdicts =
-    "Green: held. Yellow: held, pressed. Orange: held by struts. Blue: held at a lower height. "
+    "Green: held. Yellow: held, pressed. Orange: held by struts. Blue: stands, lower than asked. "
     "Violet: may hold. Red: cannot hold.";
 
 /// The cloth of each line in its verdict's colour, the worst on top.
@@ -117,7 +117,7 @@ KeptSketch keep_sketch(const Sketch& sketch, const Json& strokes, Listener& list
   for (const KeptLine& line : report.lines.lines) {
     const std::size_t i = std::size_t(line.line);
     kept.lines.push_back({i < report.record.lines.size() ? report.record.lines[i].name : "a line",
-                          look_of(line.verdict).word, words(line)});
+                          look_of(line.verdict).word, words(line, report.record)});
   }
   for (const Warning& w : report.warnings) kept.remarks.push_back(w.text);
   kept.file = std::move(report.garment);

@@ -51,6 +51,9 @@ struct Judged {
   std::vector<Row> rows;
 };
 
+/// At whatever height.
+bool stands(Verdict verdict) { return verdict < Verdict::may_hold; }
+
 bool keeps(double share) { return std::abs(share - 1) <= most; }
 
 /// A garment with this help for one line (-1: for all), in balance.
@@ -96,7 +99,7 @@ class TryHarder {
   TryHarder(Judged& j, const bridge::KeepOptions& o, std::uint64_t seed) : j_(j), o_(o), seed_(seed) {
     o_.pushes = 1;
     for (Row& row : j.rows)
-      if (!bridge::holds(row.line.verdict)) open_.push_back(&row);
+      if (!stands(row.line.verdict)) open_.push_back(&row);
   }
 
   void run() {
@@ -222,7 +225,7 @@ void summarise(const std::vector<std::optional<Judged>>& all) {
     for (const Row& r : j->rows) {
       Count& c = counts[int(r.line.verdict)];
       ++c.lines;
-      if (!bridge::holds(r.line.verdict)) {
+      if (!stands(r.line.verdict)) {
         c.calm += keeps(r.help.kept);
         c.wrong += keeps(r.help.kept) && keeps(r.help.kept_gust);
         continue;

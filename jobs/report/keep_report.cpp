@@ -25,7 +25,7 @@ const char* name_of(Verdict verdict) {
     case Verdict::strutted:
       return "held with struts";
     case Verdict::lowered:
-      return "held lower";
+      return "lowered";
     case Verdict::may_hold:
       return "may hold";
     case Verdict::cannot_hold:
@@ -48,7 +48,17 @@ double crest_share(const io::WrinkleRecord::Line& drawn) {
   return std::isfinite(share) && share > 0 ? share : 1;
 }
 
-Json to_json(KeptLine line, const io::WrinkleRecord& record) {
+/// A line's height as it is told, and the one that was asked for [m]; NaN: not known.
+struct ToldHeight {
+  double height, asked = NAN;
+};
+ToldHeight told_height(const KeptLine& line, const io::WrinkleRecord& record) {
+  if (std::size_t(line.line) >= record.lines.size()) return {line.height};
+  const io::WrinkleRecord::Line& drawn = record.lines[line.line];
+  return {crest_share(drawn) * line.height, drawn.height};
+}
+
+Json to_json(const KeptLine& line, const io::WrinkleRecord& record) {
   Json json{{"id", line.line}};
   if (std::size_t(line.line) < record.lines.size()) {
     const io::WrinkleRecord::Line& drawn = record.lines[line.line];
@@ -57,16 +67,15 @@ Json to_json(KeptLine line, const io::WrinkleRecord& record) {
                  {"asked", share(drawn.height)},
                  {"drawn", share(crest * drawn.drawn_height)},
                  {"smoothed", share(crest * drawn.smoothed_height)}});
-    line.height *= crest;
   }
   json.update({{"verdict", name_of(line.verdict)},
-               {"height", share(line.height)},
+               {"height", share(told_height(line, record).height)},
                {"kept", share(line.kept)},
                {"kept_after_gust", share(line.kept_gust)},
                {"press", line.press},
                {"struts", line.struts},
-               {"lowered", line.lowered},
-               {"words", words(line)}});
+               {"lowered", share(line.lowered)},
+               {"words", words(line, record)}});
   return json;
 }
 
@@ -98,19 +107,22 @@ bool KeepReport::all_hold() const {
                      [](const KeptLine& l) { return bridge::holds(l.verdict); });
 }
 
-std::string words(const KeptLine& line) {
-  const std::string help = help_of(line);
+std::string words(const KeptLine& line, const io::WrinkleRecord& record) {
+  constexpr double no_news = 0.05;  // that a height is off [-]
+  const std::string help = help_of(line), with = help.empty() ? "" : " with " + help;
+  const ToldHeight told = told_height(line, record);
+  const bool other = std::abs(told.height / told.asked - 1) > no_news;
+  std::string at = " h = " + geometry::length_text(told.height);
+  if (std::isfinite(told.asked)) at += " of " + geometry::length_text(told.asked) + " asked";
   switch (line.verdict) {
     case Verdict::held:
-      return "held";
     case Verdict::pressed:
     case Verdict::strutted:
-      return "held with " + help;
+      return "held" + with + (other ? " at" + at : "");
     case Verdict::lowered:
-      return fmt::format("held at h = {}{}", geometry::length_text(line.height),
-                         help.empty() ? "" : " with " + help);
+      return "lowered to" + at + (help.empty() ? "" : ", with " + help);
     case Verdict::may_hold:
-      return "may hold" + (help.empty() ? "" : " with " + help) + ": " + line.reason;
+      return "may hold" + with + (other ? " at" + at : "") + ": " + line.reason;
     case Verdict::cannot_hold:
       break;
   }

@@ -54,6 +54,40 @@ TEST_CASE("keep_verdicts: help names what holds, gusts allow half of what calm d
   CHECK_FALSE(told[2].reason.empty());
 }
 
+TEST_CASE("keep_verdicts: what stands lower than asked is not held, whatever it keeps of that") {
+  Tried tried;
+  tried.options.line_heights = {0.02, 0.0102, NAN};
+  tried.found.outcome.kept[1] = tried.found.outcome.kept[2] = 0.98;
+  const auto told = tried.told();
+  CHECK(told[0].verdict == Verdict::lowered);
+  CHECK(told[0].lowered == Approx(0.5));
+  CHECK(told[0].kept == 1);
+  CHECK_FALSE(bridge::holds(told[0].verdict));
+  CHECK(told[1].verdict == Verdict::held);
+  CHECK(told[1].lowered == Approx(1 / 1.02));
+  CHECK(told[2].verdict == Verdict::held);
+  CHECK(told[2].lowered == 1);
+  tried.found.outcome.kept_gust = {0.96, 0.96, 0.5};
+  const auto nearly = tried.told();
+  CHECK(nearly[0].verdict == Verdict::cannot_hold);
+  CHECK_THAT(nearly[0].reason, Catch::StartsWith("50 % of the height asked is left, and it came within 4 %"));
+  CHECK(nearly[1].verdict == Verdict::may_hold);
+  CHECK(nearly[2].verdict == Verdict::cannot_hold);
+}
+
+TEST_CASE("keep_verdicts: gusts as they were asked for decide, where stronger ones blew, too") {
+  Tried tried;
+  for (const double stronger : {0.5, -3.0, 0.98}) {
+    tried.found.outcome.kept_gust = {stronger, stronger, 1};
+    tried.found.outcome.kept_named = {0.99, 0.9, 0.9};
+    const auto told = tried.told();
+    CHECK(told[0].verdict == (stronger == 0.98 ? Verdict::held : Verdict::may_hold));
+    CHECK(told[1].verdict == Verdict::cannot_hold);
+    CHECK(told[1].kept_gust == 0.9);
+    CHECK(told[2].verdict == Verdict::cannot_hold);
+  }
+}
+
 TEST_CASE("keep_verdicts: a line that only stronger gusts took may hold, one that calm took cannot") {
   Tried tried;
   tried.found.outcome.kept_gust = {0.5, 0.5, 1};

@@ -148,6 +148,56 @@ TEST_CASE("keep: a wrinkled file above a ball comes to rest on it with its lines
   CHECK(line.at("smoothed").get<double>() == Approx(0.004).epsilon(0.05));
 }
 
+TEST_CASE("keep: a fold that lost half of the height asked before it is kept is lowered, and told so",
+          "[release]") {
+  jobs::KeepJob job = hung_ridge();
+  {
+    jobs::WrinkleJob drawn;
+    drawn.garment = job.scene.memory.meshes.at("patch");
+    drawn.strokes = job.scene.memory.strokes.at("ridge");
+    tests::Recorder silent;
+    io::MeshFile file = jobs::wrinkle(drawn, silent).garment;
+    for (const geometry::Vertex v : file.mesh.vertices()) {  // the patch was level
+      const geometry::Point p = file.mesh.point(v);
+      file.mesh.point(v) = {p.x(), 0.003 + 0.5 * (p.y() - 0.003), p.z()};
+    }
+    job.scene.memory.meshes["patch"] = std::move(file);
+  }
+  job.scene.settings =
+      io::parse_toml("[garment]\nmesh = \"patch\"\n" + std::string(tests::hung_patch), "test");
+  tests::Recorder recorder;
+  const jobs::KeepReport report = jobs::keep(job, recorder);
+  const jobs::Json line = to_json(report).at("lines").at(0);
+  INFO(line.dump());
+  CHECK(line.at("kept").get<double>() == Approx(1).margin(0.05));
+  CHECK(line.at("height").get<double>() == Approx(0.002).epsilon(0.05));
+  CHECK(line.at("lowered").get<double>() == Approx(0.5).epsilon(0.05));
+  CHECK(line.at("verdict") == "lowered");
+  CHECK_THAT(line.at("words").get<std::string>(),
+             Catch::StartsWith("lowered to h = ") && Catch::Contains(" of 4 mm asked"));
+  CHECK_FALSE(report.all_hold());
+}
+
+TEST_CASE("keep: words tell the height of what is held at another than asked") {
+  io::WrinkleRecord record;
+  record.lines = {{"safe", 0.01, 0.01, 0.0067}, {"fold", 0.01, 0.009, 0.009}};
+  record.lines[1].crest_height = 0.01;
+  bridge::KeptLine smoothed, fold;
+  smoothed.line = 0;
+  fold.line = 1;
+  smoothed.verdict = fold.verdict = bridge::Verdict::pressed;
+  smoothed.press = fold.press = 10;
+  smoothed.height = 0.0067;
+  fold.height = 0.009;
+  CHECK(jobs::words(smoothed, record) == "held with press x10 at h = 6.7 mm of 10 mm asked");
+  CHECK(jobs::words(fold, record) == "held with press x10");
+  fold.height = 0.0108;
+  CHECK(jobs::words(fold, record) == "held with press x10 at h = 12 mm of 10 mm asked");
+  fold.verdict = bridge::Verdict::lowered;
+  fold.height = 0.0045;
+  CHECK(jobs::words(fold, record) == "lowered to h = 5 mm of 10 mm asked, with press x10");
+}
+
 TEST_CASE("keep: two jobs at once in one process give the bits and the words of single runs", "[long]") {
   tests::Recorder recorder, first, second;
   const jobs::KeepJob low = hung_ridge(), high = hung_ridge(0.006);
