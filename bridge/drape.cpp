@@ -10,6 +10,7 @@
 #include "bridge/gather.h"
 #include "bridge/level_start.h"
 #include "bridge/place_noise.h"
+#include "geometry/mesh/preconditions.h"
 #include "physics/base/require.h"
 #include "physics/rest/give_way.h"
 #include "physics/rest/settle.h"
@@ -108,6 +109,7 @@ bool falls_past(physics::Cloth& cloth, const physics::Collider* body, const Drap
 DrapeReport drape(geometry::Mesh& garment, physics::Cloth& cloth, const physics::Collider* body,
                   const DrapeOptions& asked, const MakeCloth& make_cloth, const DrapeObserver& go_on) {
   check(asked);
+  geometry::check_mesh(garment, "drape");
   DrapeOptions o = asked;
   DrapeReport report;
   Carried carried;

@@ -235,8 +235,7 @@ void measure_strain(Mesh& garment, const FitOptions& options, const std::vector<
 
 std::vector<double> checked_areas(const Mesh& garment, const FitOptions& options, FitReport& report) {
   check(options);
-  geometry::require_finite(garment, "fit_report");
-  geometry::require_triangles(garment, "fit_report");
+  geometry::check_mesh(garment, "fit_report");
   std::vector<double> areas = face_areas(garment);
   for (Face f : garment.faces()) report.area += areas[f.idx()];
   if (!(report.area > 0)) throw geometry::ContentError("fit_report: the garment has no faces with an area");

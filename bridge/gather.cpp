@@ -15,6 +15,7 @@
 #include "geometry/fold/line_press.h"
 #include "geometry/mesh/edge_metric.h"
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/rest/bending_springs.h"
@@ -31,17 +32,20 @@ using namespace geometry;
 void check(const Mesh& mesh, const GatherOptions& o) {
   const auto fail = [](const std::string& what) { throw std::invalid_argument("gather: " + what); };
   const auto range = [&](const char* name, double value, bool fine) {
-    if (!fine) fail(std::string(name) + " = " + std::to_string(value) + " is out of its range");
+    if (!fine || !std::isfinite(value))
+      fail(std::string(name) + " = " + std::to_string(value) + " is out of its range");
   };
   range("structural_stiffness", o.structural_stiffness, o.structural_stiffness > 0);
   range("bending_stiffness", o.bending_stiffness, o.bending_stiffness >= 0);
   range("mean_structural_length", o.mean_structural_length, o.mean_structural_length > 0);
   range("mean_bending_length", o.mean_bending_length, o.mean_bending_length >= 0);
-  range("stretch", o.stretch, o.stretch > 0 && std::isfinite(o.stretch));
+  range("stretch", o.stretch, o.stretch > 0);
   range("poisson", o.poisson, o.poisson > -1 && o.poisson < 1);
-  range("rigidity", o.rigidity, o.rigidity >= 0 && std::isfinite(o.rigidity));
+  range("rigidity", o.rigidity, o.rigidity >= 0);
+  range("tension", o.tension, o.tension > 0);
   range("compression", o.compression, o.compression >= 0 && o.compression <= 1);
-  if (mesh.has_garbage()) fail("the mesh has removed elements");
+  range("shear", o.shear, o.shear >= 0 && o.shear <= 1);
+  check_mesh(mesh, "gather");
   if (!find_map(mesh, attribute::rest_length))
     fail(std::string("the mesh has no map ") + attribute::rest_length.name);
 }

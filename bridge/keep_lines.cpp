@@ -14,8 +14,10 @@
 #include "bridge/standing_body.h"
 #include "bridge/try_statics.h"
 #include "geometry/fold/line_region.h"
+#include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "physics/base/progress.h"
+#include "physics/cloth/check_cloth.h"
 #include "physics/rest/settle.h"
 
 namespace furrow::bridge {
@@ -355,6 +357,8 @@ KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics
                                 std::to_string(cloth.particles.size()));
   require_legal(options);
   require_still(world);
+  geometry::check_mesh(mesh, "keep_lines");
+  physics::check_cloth(cloth, "keep_lines");
   KeepOptions o = options;
   o.bounds.gravity = o.run.gravity;
   o.bounds.friction = o.run.friction;

@@ -3,6 +3,7 @@
 
 #include "bridge/keep.h"
 #include "bridge/standing_body.h"
+#include "physics/cloth/check_cloth.h"
 #include "physics/rest/rigid_imbalance.h"
 
 namespace furrow::bridge {
@@ -27,6 +28,7 @@ physics::Certificate certify_kept(const physics::Cloth& cloth, const physics::Wo
 KeptShape keep_shape(physics::Cloth& cloth, const physics::World& world,
                      const physics::PrestressOptions& options, double largest_turn, bool count) {
   require_still(world);
+  physics::check_cloth(cloth, "keep_shape");
   const std::optional<physics::PosedCollider> standing = standing_body(world);
   const physics::Collider* body = standing ? &*standing : nullptr;
   KeptShape shape;

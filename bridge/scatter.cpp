@@ -13,6 +13,8 @@ void check(const physics::Particles& particles, const geometry::Mesh& mesh) {
   if (particles.size() != mesh.number_of_vertices())
     throw std::invalid_argument("scatter: " + std::to_string(particles.size()) + " particles for " +
                                 std::to_string(mesh.number_of_vertices()) + " vertices");
+  if (mesh.has_garbage())
+    throw std::invalid_argument("scatter: the mesh has removed elements; call its collect_garbage() first");
 }
 
 }  // namespace
@@ -24,6 +26,9 @@ void scatter(const physics::Particles& particles, geometry::Mesh& mesh) {
 
 void scatter_velocities(const physics::Particles& particles, geometry::Mesh& mesh) {
   check(particles, mesh);
+  if (particles.v.size() != particles.size())
+    throw std::invalid_argument("scatter: " + std::to_string(particles.v.size()) + " velocities of " +
+                                std::to_string(particles.size()) + " particles");
   auto velocity = geometry::ensure_map(mesh, geometry::attribute::velocity);
   for (geometry::Vertex v : mesh.vertices()) velocity[v] = to_cgal(particles.v[v]) - CGAL::ORIGIN;
 }

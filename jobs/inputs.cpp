@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/struts.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/base/lower_case.h"
@@ -110,8 +111,8 @@ io::MeshFile read_mesh(const MeshInput& input, const Context& context, Chains ch
   const io::MeshFile* known = !path            ? &std::get<io::MeshFile>(input)
                               : context.memory ? context.memory->find_mesh(*path)
                                                : nullptr;
-  if (!known) return read_file(path->string(), context, chains);
-  io::MeshFile file = *known;
+  io::MeshFile file = known ? *known : read_file(path->string(), context, chains);
+  geometry::check_mesh(file.mesh, name_of(input, "a mesh in memory").c_str());
   io::drop_motion(file);
   return file;
 }

@@ -20,6 +20,12 @@ std::array<Halfedge, 3> corners_of(const Mesh& mesh, Face f) {
   return {h, mesh.next(h), mesh.next(mesh.next(h))};
 }
 
+Doubles numbers_of(py::handle given, const std::string& what) {
+  const Doubles numbers = Doubles::ensure(given);
+  if (!numbers) throw py::type_error(what + ": must be an array of numbers");
+  return numbers;
+}
+
 py::array read_only(py::array array) {
   array.attr("flags").attr("writeable") = false;
   return array;
@@ -152,8 +158,7 @@ const char* fault_of(PlyValue kind, double x) {
 /// The numbers of `given`, of the column's shape. Throws std::invalid_argument for another shape or number.
 Doubles checked(const Columns& c, const std::string& name, const py::handle given,
                 const std::vector<py::ssize_t>& shape, PlyValue kind) {
-  const Doubles numbers = Doubles::ensure(given);
-  if (!numbers) throw py::error_already_set();
+  const Doubles numbers = numbers_of(given, std::string(c.words()) + " column '" + name + "'");
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument(std::string(c.words()) + " column '" + name + "': " + what);
   };

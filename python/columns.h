@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 
 #include <array>
+#include <string>
 
 #include "geometry/mesh/mesh.h"
 #include "python/values.h"
@@ -25,6 +26,9 @@ struct Columns {
 
 /// The corners of a face in the order of F and of PLY files: of each the halfedge that ends there.
 std::array<geometry::Halfedge, 3> corners_of(const geometry::Mesh& mesh, geometry::Face f);
+
+/// An array of doubles; throws TypeError, naming `what`, for what is none.
+Doubles numbers_of(py::handle given, const std::string& what);
 
 /// The array, which nobody may write to any more.
 py::array read_only(py::array array);

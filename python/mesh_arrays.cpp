@@ -28,7 +28,7 @@ void add_faces(py::handle faces, io::PolygonSoup& soup) {
   };
   const auto whole = [](py::handle given) {
     const py::array any = py::array::ensure(given);
-    if (!any) throw py::error_already_set();
+    if (!any) throw py::type_error("F: must be an array of whole numbers");
     if (any.size() > 0 && any.dtype().kind() != 'i' && any.dtype().kind() != 'u')
       throw std::invalid_argument("F: must hold whole numbers, the indices of vertices");
     return Indices(any);
@@ -67,8 +67,7 @@ void tell_repairs(const io::RepairReport& r, const std::string& name) {
 }
 
 HeldMesh mesh_of(py::handle positions, py::handle faces, const std::string& name) {
-  const Doubles v = Doubles::ensure(positions);
-  if (!v) throw py::error_already_set();
+  const Doubles v = numbers_of(positions, "V");
   if (v.ndim() != 2 || v.shape(1) != 3) throw std::invalid_argument("V: must be n x 3");
   io::PolygonSoup soup;
   for (py::ssize_t i = 0; i < v.shape(0); ++i) {
@@ -98,8 +97,7 @@ py::array positions_of(const py::object& self) {
 
 void set_positions(HeldMesh& held, py::handle given) {
   Mesh& mesh = held.file.mesh;
-  const Doubles v = Doubles::ensure(given);
-  if (!v) throw py::error_already_set();
+  const Doubles v = numbers_of(given, "V");
   if (v.ndim() != 2 || v.shape(1) != 3 || std::size_t(v.shape(0)) != mesh.number_of_vertices())
     throw std::invalid_argument("V: must be " + std::to_string(mesh.number_of_vertices()) +
                                 " x 3, as the mesh has vertices");

@@ -98,7 +98,12 @@ Json to_json(const Value& value, Memory& memory) {
   const py::object given = plain(value.given);
   if (given.is_none()) return nullptr;
   if (py::isinstance<py::bool_>(given)) return py::cast<bool>(given);
-  if (py::isinstance<py::int_>(given)) return py::cast<std::int64_t>(given);
+  if (py::isinstance<py::int_>(given)) {
+    int overflow = 0;
+    const long long number = PyLong_AsLongLongAndOverflow(given.ptr(), &overflow);
+    if (overflow) value.fail("a smaller whole number");
+    return std::int64_t(number);
+  }
   if (py::isinstance<py::float_>(given)) return py::cast<double>(given);
   if (is_text(given)) {
     std::string text;
@@ -131,7 +136,8 @@ void take(const Value& value, double& target) {
   const bool is_number = py::isinstance<py::float_>(given) ||
                          (py::isinstance<py::int_>(given) && !py::isinstance<py::bool_>(given));
   if (!is_number) value.fail("a number");
-  target = py::cast<double>(given);
+  target = PyFloat_AsDouble(given.ptr());
+  if (PyErr_Occurred()) PyErr_Clear(), value.fail("a smaller number");  // a whole one that no double holds
   if (std::isnan(target)) value.fail("a number");
 }
 

@@ -180,8 +180,7 @@ bool encloses_volume(const ExactMesh& body) {
 }  // namespace
 
 Body repair_body(const Mesh& mesh) {
-  require_finite(mesh, "repair_body");
-  require_triangles(mesh, "repair_body");
+  check_mesh(mesh, "repair_body");
   if (mesh.number_of_faces() == 0) throw ContentError("repair_body: the mesh has no faces");
   Body body;
   Soup soup = soup_of(mesh);

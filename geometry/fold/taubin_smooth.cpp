@@ -63,6 +63,7 @@ SmoothReport taubin_smooth(Mesh& mesh, std::span<const Vertex> region, const Tau
   SmoothReport report;
   report.k_max = options.weights == SmoothingWeights::uniform ? 2 : 3;
   check(options, report.k_max);
+  require_structure(mesh, "taubin_smooth");
   require_vertices(mesh, region, "taubin_smooth");
   require_finite(mesh, "taubin_smooth");
   if (options.weights == SmoothingWeights::cotangent) require_triangles(mesh, "taubin_smooth");

@@ -28,18 +28,20 @@ namespace furrow::geometry {
 namespace {
 
 void check_all(const Mesh& mesh, std::span<const Stroke> strokes, const WrinkleOptions& options) {
-  if (!(options.density > 0)) refuse("wrinkle", "density must be > 0 kg/m^2");
-  if (options.first_line < 0)
-    refuse("wrinkle", "first_line must be >= 0, not " + std::to_string(options.first_line));
+  if (!(options.density > 0 && std::isfinite(options.density)))
+    refuse("wrinkle", "density must be > 0 kg/m^2");
+  if (options.first_line < 0 || options.first_line > most_lines)
+    refuse("wrinkle", "first_line must be in [0, " + std::to_string(most_lines) + "], not " +
+                          std::to_string(options.first_line));
   for (const auto& r_avg : {options.mean_structural_length, options.mean_bending_length})
-    if (r_avg && !(*r_avg > 0)) refuse("wrinkle", "a mean rest length must be > 0 m");
+    if (r_avg && !(*r_avg > 0 && std::isfinite(*r_avg)))
+      refuse("wrinkle", "a mean rest length must be > 0 m");
   check(options.insertion);
   for (const Stroke& stroke : strokes)
     if (const std::string fault = shape_fault(stroke); !fault.empty())
       throw ContentError("stroke \"" + stroke.name + "\": " + fault);
-  for (Vertex v : options.held)
-    if (v.idx() >= mesh.num_vertices())
-      refuse("wrinkle", "held vertex " + std::to_string(v.idx()) + " is not in the mesh");
+  check_mesh(mesh, "wrinkle");
+  require_vertices(mesh, options.held, "wrinkle: held");
 }
 
 struct Moves {

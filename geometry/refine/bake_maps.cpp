@@ -21,8 +21,7 @@ constexpr double outside = -0.5;
 constexpr int neighbours[8][2] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
 
 TextureRaster rasterize(const Mesh& mesh, int size, const char* which) {
-  require_triangles(mesh, "bake");
-  require_finite(mesh, "bake");
+  check_mesh(mesh, "bake");
   if (!find_map(mesh, attribute::texture))
     throw ContentError(std::string("bake: the ") + which + " mesh has no texture coordinates");
   TextureRaster raster = rasterize_texture(mesh, size);

@@ -59,6 +59,7 @@ class MidpointMask : public CGAL::PQQ_stencil_3<Mesh, PointMap> {
 
 void check(Mesh& mesh, int steps, int faces_per_face, const char* operation) {
   if (steps < 0 || steps > 6) refuse(operation, "steps is " + std::to_string(steps) + ", not in [0, 6]");
+  require_structure(mesh, operation);
   require_triangles(mesh, operation);
   require_finite(mesh, operation);
   const double faces = static_cast<double>(mesh.number_of_faces()) * std::pow(faces_per_face, steps);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/mesh/errors.h"
@@ -164,8 +165,10 @@ class Transfer {
 TransferReport transfer_shape(Mesh& original, const Mesh& wrinkled, const TransferOptions& options) {
   if (!(options.max_distance > 0))
     refuse("transfer", "max_distance must be > 0 m, not " + length_text(options.max_distance));
-  require_finite(original, "transfer");
-  require_finite(wrinkled, "transfer");
+  for (const Mesh* mesh : {&std::as_const(original), &wrinkled}) {
+    require_structure(*mesh, "transfer");
+    require_finite(*mesh, "transfer");
+  }
   Transfer transfer(original, wrinkled, options);
   std::vector<Point> targets(original.num_vertices());
   for (Vertex v : original.vertices()) targets[v.idx()] = transfer.target(v);

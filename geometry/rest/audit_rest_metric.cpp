@@ -3,12 +3,14 @@
 #include <numbers>
 #include <vector>
 
+#include "geometry/mesh/preconditions.h"
 #include "geometry/rest/rest_metric.h"
 #include "geometry/rest/rest_state.h"
 
 namespace furrow::geometry {
 
 RestMetricAudit audit_rest_metric(const Mesh& mesh) {
+  check_mesh(mesh, "audit_rest_metric");
   RestMetricAudit audit;
   const auto rest = find_map(mesh, attribute::rest_length);
   const auto length = [&](Halfedge h) {

@@ -65,6 +65,7 @@ std::size_t carry_struts(Mesh& mesh, const Change& change) {
 }  // namespace
 
 RestSnapshot take_rest_snapshot(const Mesh& mesh) {
+  check_mesh(mesh, "take_rest_snapshot");
   RestSnapshot snapshot;
   snapshot.positions.assign(mesh.points().begin(), mesh.points().end());
   snapshot.edges = mesh.num_edges();
@@ -81,7 +82,7 @@ RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule
                                   " vertices and " + std::to_string(before.edges) + " edges, the mesh has " +
                                   std::to_string(mesh.num_vertices()) + " and " +
                                   std::to_string(mesh.num_edges()));
-  require_finite(mesh, "apply_rest_rule");
+  check_mesh(mesh, "apply_rest_rule");
   RestReport report;
   if (rule == RestRule::flat) return report;
   const Change change(mesh, before);
@@ -106,7 +107,7 @@ RestReport apply_rest_rule(Mesh& mesh, const RestSnapshot& before, RestRule rule
 }
 
 double rest_area(const Mesh& mesh) {
-  require_triangles(mesh, "rest_area");
+  check_mesh(mesh, "rest_area");
   const std::vector<double> lengths = rest_lengths(mesh);
   double sum = 0;
   for (Face f : mesh.faces()) {

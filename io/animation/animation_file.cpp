@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bridge/convert.h"
+#include "geometry/mesh/preconditions.h"
 #include "io/animation/animation_encoder.h"
 #include "io/base/atomic_file.h"
 #include "io/base/lower_case.h"
@@ -74,6 +75,8 @@ AnimationWriter::AnimationWriter(const std::filesystem::path& path, const geomet
                                  const AnimationOptions& options)
     : path_(path), options_(options), vertices_(mesh.number_of_vertices()) {
   check(options);
+  geometry::require_structure(mesh, "animation");
+  geometry::require_triangles(mesh, "animation");
   if (vertices_ == 0 || mesh.has_garbage())
     throw std::invalid_argument("animation: the mesh has no vertices, or removed ones: collect its garbage");
   encoder_ = make_encoder(path, mesh, options);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
 #include "io/base/atomic_file.h"
 #include "io/base/bytes_file.h"
 #include "io/base/lower_case.h"
@@ -40,6 +41,13 @@ MeshFile parse(std::string_view text, MeshFormat format, const std::string& name
     default:
       throw std::invalid_argument("format: glTF is read from files only, not from streams");
   }
+}
+
+void check_file(const MeshFile& file, const WriteOptions& options) {
+  check_unit(options.metres_per_unit);
+  geometry::require_structure(file.mesh, "mesh");
+  geometry::require_triangles(file.mesh, "mesh");
+  check_positions(file.mesh, options);
 }
 
 }  // namespace
@@ -76,7 +84,6 @@ MeshFile read_mesh(std::istream& in, MeshFormat format, const std::string& name,
 
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const MeshFile& file,
                                     const WriteOptions& options) {
-  check_unit(options.metres_per_unit);
   if (path == "-") throw std::invalid_argument("path: '-' is standard output; write to a stream");
   MeshFormat format{};
   try {
@@ -86,7 +93,7 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mes
   }
   if (ending_of(path) == ".gltf")
     throw std::invalid_argument(path.string() + ": a glTF is written as one file; let its name end in .glb");
-  check_positions(file.mesh, options);
+  check_file(file, options);
   std::vector<std::string> lost;
   write_atomically(path, [&](std::ostream& out) {
     if (format == MeshFormat::obj)
@@ -99,7 +106,7 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mes
 
 std::vector<std::string> write_mesh(std::ostream& out, MeshFormat format, const MeshFile& file,
                                     const WriteOptions& options) {
-  check_unit(options.metres_per_unit);
+  check_file(file, options);
   switch (format) {
     case MeshFormat::obj:
       return write_obj(out, file, options), std::vector<std::string>{};

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "geometry/mesh/errors.h"
+#include "geometry/mesh/preconditions.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/vertex_attributes.h"
 #include "io/base/bytes_file.h"
@@ -361,6 +362,7 @@ void drop_motion(MeshFile& file) {
 
 std::string state_bytes(SavedState state) {
   Mesh& mesh = state.file.mesh;
+  check_mesh(mesh, "state");
   drop(mesh, attribute::force_jump);
   drop(mesh, attribute::contact_point);
   drop(mesh, attribute::contact_level);
@@ -400,6 +402,7 @@ SavedState parse_state(const std::string& bytes, const std::string& name) {
     file.comments.erase(comment);
     state.file = std::move(file);
     take_maps(state);
+    check_mesh(state.file.mesh, name.c_str());
     physics::check(state.simulation, vertices);
   } catch (const nlohmann::json::exception& e) {
     refuse(e.what());

@@ -5,19 +5,28 @@
 #include <string>
 
 #include "physics/base/arrays.h"
+#include "physics/base/require.h"
 
 namespace furrow::physics {
+
+namespace {
+
+void require_corners(std::span<const std::array<int, 3>> triangles, std::size_t vertices, const char* who) {
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const int v : triangles[t])
+      if (v < 0 || std::size_t(v) >= vertices)
+        refuse(who, "triangle ", t, " names vertex ", v, " of ", vertices);
+}
+
+}  // namespace
 
 void check_body(const TriangleMesh& mesh, const char* who) {
   const std::string start = std::string(who) + ": ";
   if (mesh.triangles.empty()) throw std::invalid_argument(start + "the body has no triangle");
-  const int vertices = static_cast<int>(mesh.vertices.size());
+  require_corners(mesh.triangles, mesh.vertices.size(), who);
   bool has_area = false;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (int v : mesh.triangles[t]) {
-      if (v < 0 || v >= vertices)
-        throw std::invalid_argument(start + "triangle " + std::to_string(t) + " names vertex " +
-                                    std::to_string(v) + " of " + std::to_string(vertices));
       if (!(mesh.vertices[v].cwiseAbs().sum() <= 1e9))  // also false for NaN
         throw std::invalid_argument(start + "vertex " + std::to_string(v) + " is not finite or beyond 1e9 m");
     }
@@ -29,6 +38,7 @@ void check_body(const TriangleMesh& mesh, const char* who) {
 }
 
 double bounding_diagonal(const TriangleMesh& mesh) {
+  require_corners(mesh.triangles, mesh.vertices.size(), "bounding_diagonal");
   Eigen::AlignedBox3d box;
   for (const auto& t : mesh.triangles)
     for (int v : t) box.extend(mesh.vertices[v]);
@@ -36,6 +46,7 @@ double bounding_diagonal(const TriangleMesh& mesh) {
 }
 
 std::vector<Vec3> vertex_normals(std::span<const std::array<int, 3>> triangles, std::span<const Vec3> x) {
+  require_corners(triangles, x.size(), "vertex_normals");
   std::vector<Vec3> normal(x.size(), Vec3::Zero());
   for (const auto& t : triangles) {
     const Vec3 &a = x[std::size_t(t[0])], &b = x[std::size_t(t[1])], &c = x[std::size_t(t[2])];

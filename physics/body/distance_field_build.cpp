@@ -14,10 +14,10 @@ void check(const DistanceFieldOptions& o) {
     require("DistanceFieldOptions", option, value, good, range);
   };
   if (o.tolerance) check("tolerance", *o.tolerance, *o.tolerance > 0, "> 0 [m]");
-  check("outer_band", o.outer_band, o.outer_band >= 0, ">= 0 [m]");
-  check("inner_band", o.inner_band, o.inner_band >= 0, ">= 0 [m]");
+  check("outer_band", o.outer_band, o.outer_band >= 0 && o.outer_band <= 1e9, "in [0, 1e9] [m]");
+  check("inner_band", o.inner_band, o.inner_band >= 0 && o.inner_band <= 1e9, "in [0, 1e9] [m]");
   check("far_slope", o.far_slope, o.far_slope >= 0 && o.far_slope <= 1, "in [0, 1]");
-  check("margin", o.margin, o.margin > 0, "> 0 [m]");
+  check("margin", o.margin, o.margin > 0 && o.margin <= 1e9, "in (0, 1e9] [m]");
   check("max_depth", o.max_depth, o.max_depth >= 3 && o.max_depth <= 12, "in [3, 12]");
   check("band_depth", o.band_depth, o.band_depth >= 3 && o.band_depth <= o.max_depth, "in [3, max_depth]");
   check("most_samples", double(o.most_samples), o.most_samples >= 0, ">= 0");

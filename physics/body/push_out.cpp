@@ -35,6 +35,9 @@ PushOutReport push_out(std::span<Vec3> x, std::span<const int> which, const Coll
 }
 
 PushOutReport bring_out(Particles& particles, const Collider& body, double gap) {
+  if (particles.inv_mass.size() != particles.size())
+    throw std::invalid_argument("bring_out: " + std::to_string(particles.inv_mass.size()) +
+                                " inverse masses of " + std::to_string(particles.size()) + " particles");
   std::vector<int> free;
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (particles.inv_mass[i] > 0) free.push_back(int(i));

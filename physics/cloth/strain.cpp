@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/base/require.h"
 #include "physics/cloth/cloth.h"
 #include "physics/cloth/kinds.h"
 
@@ -14,6 +15,8 @@ StrainStatistics strain_statistics(std::span<const Vec3> x, std::span<const Spri
   strains.reserve(springs.size());
   double sum = 0;
   for (const Spring& s : springs) {
+    if (std::min(s.a, s.b) < 0 || std::size_t(std::max(s.a, s.b)) >= x.size())
+      refuse("strain_statistics", "a spring from ", s.a, " to ", s.b, " of ", x.size(), " particles");
     strains.push_back(std::abs((x[s.b] - x[s.a]).norm() - s.rest_length) / s.rest_length);
     sum += strains.back();
   }
@@ -60,6 +63,9 @@ StrainStatistics strain_statistics(const Cloth& cloth) {
 }
 
 double kinetic_energy(const Particles& particles) {
+  for (const std::size_t n : {particles.v.size(), particles.mass.size(), particles.inv_mass.size()})
+    if (n != particles.size())
+      refuse("kinetic_energy", particles.size(), " particles, but an array of ", n, " of them");
   double energy = 0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     if (particles.inv_mass[i] > 0) energy += 0.5 * particles.mass[i] * particles.v[i].squaredNorm();

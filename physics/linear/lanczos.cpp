@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 
 #include "physics/base/require.h"
 
@@ -60,6 +61,11 @@ LanczosResult largest_eigenvalue(const LinearOperator& a, const VectorXd& start,
     }
     beta.push_back(w.norm());
     const int steps = int(alpha.size());
+    if (!std::isfinite(alpha.back() + beta.back())) {  // of such numbers the solver would find no end
+      result.weights = VectorXd::Zero(steps);
+      result.value = result.residual = std::numeric_limits<double>::quiet_NaN();
+      return result;
+    }
     const bool last = beta.back() <= o.nothing || steps >= o.most_steps;
     if (last || (steps >= o.least_steps && steps % o.steps_a_look == 0)) {
       find_ritz(alpha, beta, result);

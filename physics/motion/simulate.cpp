@@ -155,7 +155,7 @@ void Simulation::make_contact() {
 }
 
 void Simulation::lead_pins() {
-  if (world_.pins.empty()) return;
+  if (world_.pins.empty() && state_.homes.empty()) return;
   std::vector<Vec3> homes = homes_of(world_.pins, cloth_.particles, state_.time);
   if (!state_.homes.empty() && state_.homes.size() != homes.size()) {
     refuse("simulate", "the state knows ", state_.homes.size(), " moved pins, but there are ", homes.size());

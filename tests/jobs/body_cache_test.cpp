@@ -2,6 +2,8 @@
 // What is made of bodies' files, kept for other runs.
 #include "jobs/run/body_cache.h"
 
+#include <CGAL/boost/graph/Euler_operations.h>
+
 #include <catch2/catch.hpp>
 
 #include "geometry/mesh/errors.h"
@@ -25,7 +27,7 @@ struct Ball {
   explicit Ball(const std::string& name) : folder(tests::empty_folder(name)) {
     io::MeshFile ball;
     ball.mesh = tests::icosphere(2, 0.1);
-    ball.mesh.remove_face(geometry::Face(7));
+    CGAL::Euler::remove_face(ball.mesh.halfedge(geometry::Face(7)), ball.mesh);
     io::write_mesh(folder / "ball.obj", ball);
     body.mesh = folder / "ball.obj";
     body.cache = folder / "cache";

@@ -23,6 +23,7 @@ furrow_add_tests(jobs jobs LIBRARIES furrow::jobs cases SOURCES
   lay_warp_test.cpp
   listener_test.cpp
   loose_parts_test.cpp
+  mesh_doors_test.cpp
   mesh_input_test.cpp
   observation_test.cpp
   own_output_test.cpp

@@ -190,6 +190,8 @@ def info(mesh, *, unit=None, up=None):
 
 def from_meshio(mesh, name=""):
     """A mesh of meshio: its triangles, quads and polygons, and what it has at each point as a number."""
+    if not (hasattr(mesh, "cells") and hasattr(mesh, "points")):
+        raise TypeError(f"mesh: must be a mesh of meshio, not {mesh!r:.60}")
     faces = [face for block in mesh.cells if block.type in ("triangle", "quad", "polygon")
              for face in block.data.tolist()]
     made = Mesh(mesh.points, faces, name=name)
@@ -201,6 +203,8 @@ def from_meshio(mesh, name=""):
 
 def to_meshio(mesh):
     """The mesh for meshio, with its vertex and face columns; positions are those of mesh.V, not a copy."""
+    if not isinstance(mesh, Mesh):
+        raise TypeError(f"mesh: must be a furrow.Mesh, not {mesh!r:.60}")
     import meshio
     return meshio.Mesh(mesh.V, [("triangle", mesh.F)], point_data={n: mesh.vertex[n] for n in mesh.vertex},
                        cell_data={n: [mesh.face[n]] for n in mesh.face})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/rest/rest_metric.h"
 
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <rapidcheck.h>
 
 #include <catch2/catch.hpp>
@@ -10,6 +11,7 @@
 #include "geometry/rest/rest_state.h"
 #include "geometry/rest/stiffness.h"
 #include "tests/geometry/insert/insertion_meshes.h"
+#include "tests/test_meshes.h"
 
 namespace furrow::tests {
 
@@ -102,9 +104,12 @@ TEST_CASE("rest_metric: the audit sees inverted faces, duplicate edges and the s
   ensure_rest_lengths(mesh)[mesh.edge(mesh.halfedge(Vertex(0), Vertex(1)))] = 9;
   CHECK(audit_rest_metric(mesh).inverted_faces == 1);
   CHECK(audit_rest_metric(mesh).min_angle_deg == 0);
-  // A second edge between 0 and 2.
-  mesh.add_edge(Vertex(0), Vertex(2));
-  CHECK(audit_rest_metric(mesh).duplicate_edges == 1);
+  // An edge of a tetrahedron, flipped, joins two corners that another edge joins already.
+  Mesh flipped =
+      mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  CHECK(audit_rest_metric(flipped).duplicate_edges == 0);
+  CGAL::Euler::flip_edge(flipped.halfedge(Vertex(0), Vertex(1)), flipped);
+  CHECK(audit_rest_metric(flipped).duplicate_edges == 1);
 }
 
 }  // namespace furrow::tests

@@ -2,16 +2,20 @@
 // Every public door that takes a cloth, each with every way in which one can be broken.
 #include "physics/cloth/check_cloth.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>
 
+#include "physics/body/distance_field.h"
 #include "physics/motion/simulate.h"
 #include "physics/rest/certificate.h"
 #include "physics/rest/prestress.h"
 #include "physics/rest/settle.h"
 #include "tests/physics/cloth/shell_cloths.h"
+#include "tests/public_functions.h"
 
 using namespace furrow::physics;
 using namespace furrow::tests;
@@ -129,6 +133,38 @@ std::vector<Door> doors() {
   return all;
 }
 
+struct Ground : Collider {
+  SignedDistance at(const Vec3& x) const override { return {x.y(), Vec3::UnitY()}; }
+};
+
+/// What only measures a cloth, or its arrays: a motion that diverged can be measured, too.
+std::vector<Door> measures() {
+  return {{"strain_statistics", [](Cloth& c) { strain_statistics(c); }},
+          {"strain_statistics of springs", [](Cloth& c) { strain_statistics(c.particles.x, c.structural); }},
+          {"measured_edges", [](Cloth& c) { measured_edges(c); }},
+          {"kinetic_energy", [](Cloth& c) { kinetic_energy(c.particles); }},
+          {"fingerprint", [](Cloth& c) { fingerprint(c); }},
+          {"bring_out", [](Cloth& c) { bring_out(c.particles, Ground(), 0.003); }},
+          {"vertex_normals", [](Cloth& c) { vertex_normals(c.triangles, c.particles.x); }},
+          {"check_body",
+           [](Cloth& c) {
+             check_body({c.particles.x, c.triangles}, "test");
+           }},
+          {"bounding_diagonal",
+           [](Cloth& c) {
+             bounding_diagonal({c.particles.x, c.triangles});
+           }},
+          {"ExactDistance",
+           [](Cloth& c) {
+             ExactDistance({c.particles.x, c.triangles});
+           }},
+          {"build", [](Cloth& c) {
+             DistanceFieldOptions o;
+             o.max_depth = o.band_depth = 3;
+             DistanceField::build({c.particles.x, c.triangles}, o);
+           }}};
+}
+
 template <class Array>
 bool same_bytes(const Array& a, const Array& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
@@ -181,6 +217,70 @@ TEST_CASE("check_cloth: every door refuses every broken cloth by name, and leave
                         Catch::StartsWith("door: ") && Catch::Contains(damage.message));
     }
   }
+}
+
+TEST_CASE(
+    "check_cloth: what measures a cloth refuses arrays that do not fit, and measures what is not finite") {
+  const std::vector<std::pair<const char*, std::vector<const char*>>> must_refuse{
+      {"spring beyond", {"strain_statistics", "strain_statistics of springs"}},
+      {"spring before", {"strain_statistics", "strain_statistics of springs"}},
+      {"velocity missing", {"kinetic_energy"}},
+      {"mass missing", {"kinetic_energy"}},
+      {"inverse mass missing", {"kinetic_energy", "bring_out"}},
+      {"triangle beyond", {"vertex_normals", "check_body", "bounding_diagonal", "ExactDistance", "build"}},
+      {"triangle before", {"vertex_normals", "check_body", "bounding_diagonal", "ExactDistance", "build"}}};
+  for (const Door& door : measures())
+    for (const Damage& damage : damages()) {
+      Cloth cloth = whole_cloth();
+      damage.make(cloth);
+      CAPTURE(door.name, damage.name);
+      bool must = false, refused = false;
+      for (const auto& [name, by] : must_refuse)
+        if (damage.name == std::string(name)) must = std::count(by.begin(), by.end(), door.name) > 0;
+      try {
+        door.enter(cloth);
+      } catch (const std::invalid_argument&) {
+        refused = true;
+      }
+      if (must) CHECK(refused);
+    }
+  Cloth diverged = whole_cloth();
+  diverged.particles.v[3].x() = diverged.particles.x[3].x() = no_number;
+  CHECK(std::isnan(kinetic_energy(diverged.particles)));
+  CHECK(std::isnan(strain_statistics(diverged).max));
+}
+
+TEST_CASE("check_cloth: no public function is left out") {
+  std::set<std::string> entered;
+  for (const auto& list : {doors(), measures()})
+    for (const Door& door : list) entered.insert(door.name.substr(0, door.name.find(' ')));
+  for (const std::string& name : public_functions_of("physics", "Cloth|Particles|TriangleMesh")) {
+    INFO(name << "() is given a cloth or a body: add it to the tables above");
+    CHECK(entered.count(name));
+  }
+}
+
+TEST_CASE("check_cloth: a state that leads pins is refused where there are none") {
+  Cloth cloth = whole_cloth();
+  SimulateState state;
+  state.homes.assign(3, Vec3::Zero());
+  SimulateOptions o;
+  o.seconds = 0.01;
+  CHECK_THROWS_WITH(simulate(cloth, World(), o, &state), Catch::Contains("3 moved pins"));
+}
+
+TEST_CASE("check_cloth: a field's lengths are such that its numbers can be computed with") {
+  const TriangleMesh body{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  for (double DistanceFieldOptions::*length :
+       {&DistanceFieldOptions::margin, &DistanceFieldOptions::outer_band, &DistanceFieldOptions::inner_band})
+    for (const double value : {-1.0, 1e300, no_number, endless}) {
+      DistanceFieldOptions o;
+      o.max_depth = o.band_depth = 3;
+      o.*length = value;
+      CAPTURE(value);
+      CHECK_THROWS_AS(DistanceField::build(body, o), std::invalid_argument);
+    }
 }
 
 TEST_CASE("check_cloth: loads are finite, one a particle") {

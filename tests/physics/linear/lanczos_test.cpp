@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -76,6 +77,22 @@ TEST_CASE("lanczos: it ends where the start's directions are exhausted, and look
       by(a), noise_vector(12), {.tolerance = 1, .most_steps = 12, .least_steps = 5, .steps_a_look = 4});
   CHECK(late.steps() == 8);
   CHECK(largest_eigenvalue(by(a), noise_vector(12), {.tolerance = 1, .most_steps = 12}).steps() == 1);
+}
+
+TEST_CASE("lanczos: it ends at once where numbers are beyond what can be computed with") {
+  for (const double factor :
+       {1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    const MatrixXd a = factor * chain(60);
+    LanczosOptions options;
+    options.most_steps = 60;
+    int products = 0;
+    const auto counted = [&](const VectorXd& q, VectorXd& product) { ++products, product = a * q; };
+    const LanczosResult result = largest_eigenvalue(counted, noise_vector(60), options);
+    CAPTURE(factor);
+    CHECK(std::isnan(result.value));
+    CHECK(products <= 2);
+    CHECK(result.vector().size() == 60);
+  }
 }
 
 TEST_CASE("lanczos: options out of their ranges and a start that says nothing are refused") {
