@@ -32,6 +32,9 @@ void check_particle(const Particles& p, std::size_t i, std::string_view operatio
     refuse(operation, "the inverse mass of particle ", i, " = ", p.inv_mass[i], " is not >= 0");
   if (p.inv_mass[i] > 0 && !(p.mass[i] > 0))
     refuse(operation, "the mass of free particle ", i, " = ", p.mass[i], " is not > 0");
+  if (p.inv_mass[i] > 0 && !(std::abs(p.inv_mass[i] * p.mass[i] - 1) <= 1e-6))
+    refuse(operation, "the inverse mass of particle ", i, " = ", p.inv_mass[i], " is neither 0 nor 1 / ",
+           p.mass[i]);
 }
 
 void check_triangles(const Cloth& cloth, std::string_view operation) {

@@ -54,6 +54,7 @@ std::vector<Damage> damages() {
       {"mass missing", [](C c) { c.particles.mass.pop_back(); }, " masses"},
       {"inverse mass missing", [](C c) { c.particles.inv_mass.pop_back(); }, "inverse masses"},
       {"free without mass", [](C c) { c.particles.mass[3] = 0; }, "free particle 3"},
+      {"inverse of another mass", [](C c) { c.particles.inv_mass[3] *= 1.5; }, "neither 0 nor 1 / "},
       {"spring beyond", [](C c) { c.structural.back().b = 1 << 20; }, "1048576"},
       {"spring before", [](C c) { c.structural[0].a = -1; }, "-1"},
       {"spring in itself", [](C c) { c.structural[0].b = c.structural[0].a; }, "itself"},
