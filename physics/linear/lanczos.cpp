@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
 
 namespace furrow::physics {
@@ -54,6 +55,7 @@ LanczosResult largest_eigenvalue(const LinearOperator& a, const VectorXd& start,
   std::vector<double> alpha, beta;
   VectorXd w(start.size());
   while (true) {
+    throw_if_cancelled("largest_eigenvalue");
     a(basis.back(), w);
     alpha.push_back(basis.back().dot(w));
     for (int round = 0; round < 2; ++round) {

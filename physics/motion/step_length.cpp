@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
 #include "physics/linear/stable_step.h"
 #include "physics/packed/dashpots.h"
@@ -62,7 +63,8 @@ void StepLength::advance() {
   if (state_.step - state_.estimated_at < options_.limit_steps &&
       !(strain > state_.strain_at_estimate + options_.limit_strain))
     return;
-  if (!std::isfinite(strain)) return;  // diverged: seen elsewhere
+  if (!std::isfinite(strain)) return;             // diverged: seen elsewhere
+  const CancelScope whole([] { return false; });  // a run that is resumed would lack this estimate
   estimate();
   divide(double(state_.steps_left) * state_.dt);
 }

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstdint>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
 #include "physics/cloth/cloth.h"
 #include "physics/cloth/elements.h"
@@ -21,7 +22,10 @@ constexpr double least_reach = 1e-6;  // of a difference, over the cloth's size
 void for_elements(const Cloth& cloth, const auto& visit) {
   for_each_kind(cloth, [&](const auto& kind, auto... law) {
     if constexpr (!std::same_as<KindOf<decltype(kind)>, Spring>)
-      for (const auto& e : kind) visit(e, law...);
+      for (const auto& e : kind) {
+        if ((&e - &*kind.begin()) % 4096 == 0) throw_if_cancelled("ElementProduct");
+        visit(e, law...);
+      }
   });
 }
 
@@ -57,6 +61,7 @@ std::vector<std::uint64_t> keys_of(const Cloth& cloth, std::vector<std::shared_p
     });
     if (!known) rough.push_back(own);
   }
+  throw_if_cancelled("ElementProduct");
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   return keys;

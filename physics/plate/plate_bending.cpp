@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/base/require.h"
 #include "physics/cloth/dihedral.h"
 #include "physics/cloth/hinge_forces.h"
@@ -173,6 +174,7 @@ void PlateBending::add_curvature_blocks(const std::vector<std::array<Vec3, 4>>& 
   std::vector<Mat3> j, answer;
   std::size_t place = 0;
   for (std::size_t t = 0; t < plate_.stiffness.size(); ++t) {
+    if (t % 4096 == 0) throw_if_cancelled("plates");
     const std::size_t corners = std::size_t(pattern_->corners[t]);
     j.assign(corners, Mat3::Zero());
     for (std::size_t e = std::size_t(plate_.begin[t]); e < std::size_t(plate_.begin[t + 1]); ++e)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "physics/base/cancel_scope.h"
 #include "physics/cloth/dihedral_lanes.h"
 
 namespace furrow::physics {
@@ -119,6 +120,7 @@ void PlateLayout::lay_out_triangles(const Plate& plate, const std::vector<int>& 
       sorted_by(n, [&](int t) { return place_of_hinge[std::size_t(plate.hinge[entry(t, 0)])]; });
   lane_of_.resize(std::size_t(n));
   for (int first = 0; first < n; first += 4) {
+    if (first % 4096 == 0) throw_if_cancelled("plates");
     FourTriangles& four = triangles_.emplace_back();
     four = {};
     four.begin = int(shares_.size());

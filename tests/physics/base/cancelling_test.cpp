@@ -11,6 +11,7 @@
 #include "physics/body/compare_colliders.h"
 #include "physics/body/distance_field.h"
 #include "physics/body/exact_distance.h"
+#include "physics/linear/stable_step.h"
 #include "physics/pairs/edge_face_crossings.h"
 #include "physics/pairs/untangle_contours.h"
 #include "physics/pairs/untangle_layers.h"
@@ -92,6 +93,13 @@ TEST_CASE("cancelling: what is asked of a body is broken off within its preparat
   points.points = 1000;
   check_asks(
       "compare_colliders", 10, [&] { compare_colliders(field, exact, body, points); }, true);
+}
+
+TEST_CASE("cancelling: the search for the longest step is broken off at each iteration") {
+  Cloth cloth = sheet(12, 12, 0.05);
+  add_springs_and_masses(cloth, 100, 1, 0.2);
+  check_asks(
+      "stable_step", 20, [&] { stable_step(cloth); }, true);
 }
 
 TEST_CASE("cancelling: cloth that is taken apart keeps the best that was found") {
