@@ -249,7 +249,7 @@ TEST_CASE(
   }));
 }
 
-TEST_CASE("studio protocol: a thousand random intentions are, too", "[release]") {
+TEST_CASE("studio protocol: a thousand random intentions are, too", "[release][long]") {
   std::mt19937_64 seeds(22);
   int failed = 0;
   for (int i = 0; i < 20; ++i) {
