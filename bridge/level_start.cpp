@@ -8,10 +8,10 @@
 
 #include "bridge/convert.h"
 #include "geometry/refine/subdivide.h"
+#include "physics/base/cancel_scope.h"
 #include "physics/base/thread_pool.h"
 #include "physics/pairs/cloth_contact.h"
 #include "physics/pairs/untangle_contours.h"
-#include "physics/base/cancel_scope.h"
 
 namespace furrow::bridge {
 namespace {
@@ -110,7 +110,8 @@ void begin_level(physics::Cloth& cloth, const Carried& carried, const Disturbanc
 }
 
 std::vector<Vec3> refine_level(const std::vector<Vec3>& found, geometry::Mesh& garment) {
-  const physics::CancelScope whole([] { return false; });  // a search that was stopped goes up to the last level, too
+  // A search that was stopped goes up to the last level, too.
+  const physics::CancelScope whole([] { return false; });
   geometry::Mesh shape = garment;  // so that new vertices come in the same order
   for (const geometry::Vertex v : shape.vertices()) shape.point(v) = to_cgal(found[v.idx()]);
   geometry::loop_subdivide(shape, 1);

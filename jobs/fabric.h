@@ -26,8 +26,8 @@ struct DiscReport {
   std::size_t vertices = 0;
   geometry::Mesh mesh;  ///< y up [m]; with f:warp
 };
-/// Throws std::invalid_argument for rings or a friction that do not fit, or a material without a density; physics::Cancelled
-/// if the listener cancels.
+/// Throws std::invalid_argument for rings or a friction that do not fit, or a material without a density;
+/// physics::Cancelled if the listener cancels.
 DiscReport drape_disc(const DiscJob& job, Listener& listener);
 
 /// A strip 6 cm wide and 20 cm long, cut at an angle to the warp, its ends clamped and pulled apart.

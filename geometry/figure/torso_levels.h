@@ -22,11 +22,11 @@ struct TorsoLevel {
 /// followed up and down (to at most 85 % and 40 %). Arms that hang apart are curves of their own and left
 /// out; the torso ends where no curve lies around that centre, or where the girth changes by more than a
 /// tenth in one step: above, arms grow out of it there (by 20 % and more on the bodies that were looked at,
-/// while a bust changes by 4 %), below, legs part. Arms that are stretched out sideways grow out step by step:
-/// above the waist it ends, too, where the breadth grows by more than 6 % in a step or 18 % in four, and
-/// begins to do so (2 % a step) where they begin. `points` are of a closed body, y up, its faces outwards.
-/// Empty if the body is lower than 0.9 m or higher than 2.5 m, or has no torso between 55 % and 70 % of its
-/// height. Throws as horizontal_section() does. O(100 triangles).
+/// while a bust changes by 4 %), below, legs part. Arms that are stretched out sideways grow out step by
+/// step: above the waist it ends, too, where the breadth grows by more than 6 % in a step or 18 % in four,
+/// and begins to do so (2 % a step) where they begin. `points` are of a closed body, y up, its faces
+/// outwards. Empty if the body is lower than 0.9 m or higher than 2.5 m, or has no torso between 55 % and 70
+/// % of its height. Throws as horizontal_section() does. O(100 triangles).
 std::vector<TorsoLevel> torso_levels(std::span<const Point> points,
                                      std::span<const std::array<int, 3>> triangles);
 

@@ -26,7 +26,8 @@ std::size_t find_border_loop(std::span<const BorderLoop> loops, std::string_view
 
 /// Length of the loop at rest [m]: the sum of the rest lengths of its edges (the present length where unset).
 /// Throws std::invalid_argument if two consecutive vertices of the loop are not joined by an edge.
-/// Cost: O(edges of the mesh), which the second form saves: it takes them, rest_lengths(mesh), for many loops.
+/// Cost: O(edges of the mesh), which the second form saves: it takes them, rest_lengths(mesh), for many
+/// loops.
 double rest_length(const Mesh& mesh, const BorderLoop& loop);
 double rest_length(const Mesh& mesh, const BorderLoop& loop, const std::vector<double>& lengths);
 

@@ -51,7 +51,8 @@ class Unfolder {
   /// In the plane of its triangle, whose side h runs from (0, 0) to (length of h, 0).
   Place place(const Origin& at, Halfedge h) const {
     const Mesh& before = saved_.before();
-    const double length = lengths_[before.edge(h).idx()], from_b = lengths_[before.edge(before.next(h)).idx()],
+    const double length = lengths_[before.edge(h).idx()],
+                 from_b = lengths_[before.edge(before.next(h)).idx()],
                  from_a = lengths_[before.edge(before.prev(h)).idx()];
     const double x = length > 0 ? (length * length + from_a * from_a - from_b * from_b) / (2 * length) : 0;
     const double y = std::sqrt(std::max(0.0, from_a * from_a - x * x));

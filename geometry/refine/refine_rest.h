@@ -4,16 +4,16 @@
 
 #include "geometry/mesh/carry_attributes.h"
 
-/// The rest metric of a subdivided mesh, from that of the mesh before: a point of the finer mesh lies in an old
-/// triangle, flat at rest, so its distances to the others there are exact, wherever the masks move it in
+/// The rest metric of a subdivided mesh, from that of the mesh before: a point of the finer mesh lies in an
+/// old triangle, flat at rest, so its distances to the others there are exact, wherever the masks move it in
 /// space. Only lengths that were set are carried: where an old edge has none (NaN), what lies along it has
 /// none either. Stiffnesses and springs are not touched.
 namespace furrow::geometry {
 
-/// After a step with the topology of Loop's scheme (each triangle in four; old edge i was cut at the vertex i +
-/// number of old vertices): attribute::rest_length, and attribute::triangle_rest_length of the parts of each
-/// face. A half of an edge has half its length, and so has the edge between two mid-points, as the side that
-/// it is parallel to. `parent(f)` is the old face that f lies in. O(faces).
+/// After a step with the topology of Loop's scheme (each triangle in four; old edge i was cut at the vertex i
+/// + number of old vertices): attribute::rest_length, and attribute::triangle_rest_length of the parts of
+/// each face. A half of an edge has half its length, and so has the edge between two mid-points, as the side
+/// that it is parallel to. `parent(f)` is the old face that f lies in. O(faces).
 void refine_rest_of_quarters(const SavedAttributes& saved, Mesh& mesh,
                              const std::function<Face(Face)>& parent);
 

@@ -24,8 +24,8 @@ struct BendingSpring {
 /// Saito, section 3 (the springs are rebuilt after the flips).
 void rebuild_bending_springs(Mesh& mesh);
 /// rebuild_bending_springs(mesh), unless the mesh has bending springs already: those keep their rest lengths.
-/// Rest lengths and stiffnesses that are set on edges without a count (a file's own columns) are taken over by
-/// the springs made; of edges that share one, the first that is set.
+/// Rest lengths and stiffnesses that are set on edges without a count (a file's own columns) are taken over
+/// by the springs made; of edges that share one, the first that is set.
 void ensure_bending_springs(Mesh& mesh);
 
 /// The same where connectivity changed. `changed` holds every face that was added or has got other corners

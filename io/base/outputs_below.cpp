@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 thread_local const OutputsBelow* OutputsBelow::present_ = nullptr;
 
 OutputsBelow::OutputsBelow(const fs::path& folder)
-    : folder_(fs::absolute(folder.empty() ? "." : folder).lexically_normal()), around_(std::exchange(present_, this)) {}
+    : folder_(fs::absolute(folder.empty() ? "." : folder).lexically_normal()),
+      around_(std::exchange(present_, this)) {}
 
 OutputsBelow::~OutputsBelow() { present_ = around_; }
 

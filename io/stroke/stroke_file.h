@@ -60,9 +60,10 @@ void move_stroke(DrawnStroke& stroke, std::span<const double> by);
 /// Reads strokes by the file name's ending, json or obj. Points and directions are turned, and points scaled,
 /// by `options`; heights, widths and cameras are in metres, y up, always. Strict: unknown keys, wrong types
 /// and numbers that are not finite are errors. obj: the polylines (`l` elements, two-point ones of an object
-/// chained), with the name of their object (`o`, else `g`), whose words h=15mm and w=60mm are height and width
-/// of its lines; without, they have the default height. Throws geometry::ContentError with the place in the text, or the stroke's index
-/// and key; also if there is no stroke. Throws std::invalid_argument if default_height [m] is not finite.
+/// chained), with the name of their object (`o`, else `g`), whose words h=15mm and w=60mm are height and
+/// width of its lines; without, they have the default height. Throws geometry::ContentError with the place in
+/// the text, or the stroke's index and key; also if there is no stroke. Throws std::invalid_argument if
+/// default_height [m] is not finite.
 ///
 /// \details json is
 ///     {"strokes": [{"name": "…", "height": 0.02, "width": 0.06, "sharpness": 0.5, "press": 1,

@@ -15,10 +15,10 @@
 #include "jobs/run/pins.h"
 #include "jobs/run/prepare_garment.h"
 #include "jobs/run/scene_cloth.h"
+#include "physics/base/cancel_scope.h"
 #include "physics/body/collider.h"
 #include "physics/cloth/elastic_band.h"
 #include "physics/cloth/pins.h"
-#include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {
 namespace {

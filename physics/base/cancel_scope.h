@@ -5,8 +5,9 @@
 namespace furrow::physics {
 
 /// While it lives, what takes long asks it whether to go on: work within one step or iteration, too, which no
-/// observer sees, and in geometry each face or point. It counts in its own thread, where it is asked, as often
-/// as every microsecond; the innermost one counts, threads of a ThreadPool follow the one that called them.
+/// observer sees, and in geometry each face or point. It counts in its own thread, where it is asked, as
+/// often as every microsecond; the innermost one counts, threads of a ThreadPool follow the one that called
+/// them.
 class CancelScope {
  public:
   /// cancelled: cheap; true: what asks throws Cancelled, or ends as if its observer had stopped it.

@@ -100,10 +100,10 @@ void recall_pairs(const SelfContactMemory& known, std::span<const int> fresh, st
       with_keys<Special>(numbers, placed.pairs, [](const PairKey& key, const PairMemory& p, double) {
         return Special{key, p.range, p.target};
       });
-  memory.friction = with_keys<PairAnchor>(
-      numbers, placed.friction, [](const PairKey& key, const PairFrictionMemory& f, double way) {
-        return PairAnchor{key, way * f.tether, f.slides};
-      });
+  memory.friction = with_keys<PairAnchor>(numbers, placed.friction,
+                                          [](const PairKey& key, const PairFrictionMemory& f, double way) {
+                                            return PairAnchor{key, way * f.tether, f.slides};
+                                          });
   for (const int i : fresh) memory.fresh.push_back(place.at(std::size_t(i)));
   contact.recall(memory, x, pool);
 }

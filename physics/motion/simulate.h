@@ -157,9 +157,9 @@ struct StepMemory {
 /// All that a simulation knows besides cloth, world and options. A call of simulate() that is stopped at any
 /// step and continued with the same state, cloth, world and options gives the bits of one that was not
 /// stopped, for any number of threads. A default state is the beginning. Plain numbers and arrays: a file can
-/// hold them (bit by bit, with infinity and NaN). After a change of the cloth set `planned` to false, take the
-/// memory along (carry_memory(), or clear `contact` and `steps`), and add a force_jump() to the compensation
-/// if the cloth was strained.
+/// hold them (bit by bit, with infinity and NaN). After a change of the cloth set `planned` to false, take
+/// the memory along (carry_memory(), or clear `contact` and `steps`), and add a force_jump() to the
+/// compensation if the cloth was strained.
 struct SimulateState {
   double time = 0;        ///< [s]
   std::int64_t step = 0;  ///< steps made

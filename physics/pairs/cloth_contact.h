@@ -46,7 +46,8 @@ class ClothContact {
     std::vector<int> loose;            ///< vertices where something crossed at the start, or next to such
     int crossed_at_start = 0;
     std::vector<PairAnchor> friction;  ///< sorted by key
-    std::vector<int> fresh;  ///< vertices of which, and of their neighbours, it knows nothing; of memory(): none
+    std::vector<int>
+        fresh;  ///< vertices of which, and of their neighbours, it knows nothing; of memory(): none
   };
   Memory memory() const;
   /// Goes on at x, which counts with friction only, as one that had this memory there; where that knows

@@ -11,8 +11,8 @@
 
 namespace furrow::physics {
 
-/// Finite: what is no number, or goes beyond what single precision holds, has failed anyway, and must not lead
-/// a search out of its arrays.
+/// Finite: what is no number, or goes beyond what single precision holds, has failed anyway, and must not
+/// lead a search out of its arrays.
 inline float bounded_float(double coordinate) {
   constexpr double most = 1e30;
   return float(coordinate < most ? (coordinate > -most ? coordinate : -most) : most);

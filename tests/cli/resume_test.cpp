@@ -135,7 +135,8 @@ TEST_CASE("resume: what changes at a stop is noticed", "[long]") {
           .exit_code == 0);
   const std::string same = sheet.run("--state " + state);
   SECTION("stiffer springs have a shorter step") {
-    const Run run = run_furrow("simulate --state " + state + out + " --stiffness 20000 --allow-crossings 200");
+    const Run run =
+        run_furrow("simulate --state " + state + out + " --stiffness 20000 --allow-crossings 200");
     INFO(run.err);
     CHECK(run.exit_code == 0);
   }

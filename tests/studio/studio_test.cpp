@@ -281,7 +281,8 @@ TEST_CASE("studio: it colours the cloth by its fit, in the words of furrow fit, 
   io::set_value(scene.settings, "body.mesh", "ball.ply", "test");
   const studio::Studio studio(scene, desk.folder / "dressed");
   Visitor page(studio);
-  CHECK(page.ask("fit", {{"by", "strain"}}).contains("done"));  // also as it was made, which is without strain
+  CHECK(
+      page.ask("fit", {{"by", "strain"}}).contains("done"));  // also as it was made, which is without strain
   REQUIRE(page.ask("draw", line_at(0.1)).contains("done"));
   page.ask("show");
   const std::string before = page.cloth;

@@ -84,10 +84,21 @@ TEST_CASE("measure: degenerate faces, two fans at one vertex, and nothing at all
 }
 
 TEST_CASE("length_text: lengths stand as people write them") {
-  for (const auto& [metres, text] :
-       {std::pair(0.13, "130 mm"), {0.0036, "3.6 mm"}, {0.003, "3 mm"}, {4e-5, "0.04 mm"}, {0.1296, "130 mm"},
-        {0.99996, "1 m"}, {0.9994, "999 mm"}, {1.7499, "1.75 m"}, {80, "80 m"}, {1700, "1700 m"},
-        {12345.6, "12346 m"}, {0, "0 mm"}, {-0.05, "-50 mm"}, {-2.5, "-2.5 m"}, {1e-9, "1e-09 m"}}) {
+  for (const auto& [metres, text] : {std::pair(0.13, "130 mm"),
+                                     {0.0036, "3.6 mm"},
+                                     {0.003, "3 mm"},
+                                     {4e-5, "0.04 mm"},
+                                     {0.1296, "130 mm"},
+                                     {0.99996, "1 m"},
+                                     {0.9994, "999 mm"},
+                                     {1.7499, "1.75 m"},
+                                     {80, "80 m"},
+                                     {1700, "1700 m"},
+                                     {12345.6, "12346 m"},
+                                     {0, "0 mm"},
+                                     {-0.05, "-50 mm"},
+                                     {-2.5, "-2.5 m"},
+                                     {1e-9, "1e-09 m"}}) {
     INFO(metres);
     CHECK(length_text(metres) == text);
   }

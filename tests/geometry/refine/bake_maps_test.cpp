@@ -8,10 +8,10 @@
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/tangent_frames.h"
-#include "geometry/refine/texture_raster.h"
 #include "geometry/refine/apply_displacement.h"
 #include "geometry/refine/subdivide.h"
 #include "geometry/refine/surface_deviation.h"
+#include "geometry/refine/texture_raster.h"
 #include "tests/test_meshes.h"
 
 using namespace furrow::geometry;

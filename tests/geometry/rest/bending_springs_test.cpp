@@ -199,7 +199,8 @@ TEST_CASE("bending_springs: a stiffness set on an edge that shares a spring goes
   Mesh mesh = union_jack(4, 4);  // valence four: two edges for one spring
   rebuild_bending_springs(mesh);
   const auto springs = bending_springs(mesh);
-  const auto shared = std::find_if(springs.begin(), springs.end(), [](const auto& s) { return s.count == 2; });
+  const auto shared =
+      std::find_if(springs.begin(), springs.end(), [](const auto& s) { return s.count == 2; });
   REQUIRE(shared != springs.end());
   Mesh stated = union_jack(4, 4);
   auto stiffness = ensure_map(stated, attribute::bending_stiffness);

@@ -22,8 +22,7 @@ TEST_CASE("run_program: it tells how a program ended and what it wrote") {
 }
 
 TEST_CASE("shell_word: a shell reads the word back") {
-  for (const std::string word :
-       {"plain", "", "two words", "it's", "$HOME `x` \"y\" \\", "*?[]~#&|;<>(){}!"})
+  for (const std::string word : {"plain", "", "two words", "it's", "$HOME `x` \"y\" \\", "*?[]~#&|;<>(){}!"})
     CHECK(run_program("sh", {"-c", "printf %s " + shell_word(word)}).out == word);
   CHECK(shell_word("a/b.c") == "a/b.c");
   for (const std::string word : {"a\nb", "\x1b[2J", "tab\t", "\x7f"})

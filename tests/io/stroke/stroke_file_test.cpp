@@ -204,8 +204,9 @@ TEST_CASE("strokes: lines of an OBJ file have the names of their objects, which 
   CHECK(spelt.at(0).height == Approx(0.015));
   CHECK(spelt.at(0).width.value() == Approx(0.06));
   spit(folder / "other.obj", "o belly_hight=15mm\nv 0 0 0\nv 1 0 0\nl 1 2\n");
-  CHECK(content_error([&] { io::read_strokes(folder / "other.obj"); }).find("only h= (height) and w= (width)") !=
-        std::string::npos);
+  CHECK(content_error([&] {
+          io::read_strokes(folder / "other.obj");
+        }).find("only h= (height) and w= (width)") != std::string::npos);
   spit(folder / "flat.obj", "o belly_w=-3mm\nv 0 0 0\nv 1 0 0\nl 1 2\n");
   CHECK(content_error([&] { io::read_strokes(folder / "flat.obj"); }).find("w= takes a width") !=
         std::string::npos);
