@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cases V11 and V12 of docs/contact.md: sheets that a lid crushes, from many seeds, and a towel that is
+// Cases V11 and V12 of docs/figures.md: sheets that a lid crushes, from many seeds, and a towel that is
 // wrung. handled_cases [crush|wring [columns [seeds or turns [word …]]]]. Words: implicit; without, no
 // contact; short, steps of a third; smooth, no friction of cloth on cloth.
 #include <algorithm>

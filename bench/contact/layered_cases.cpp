@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of docs/contact.md: cloth on cloth at rest against closed forms, at two resolutions. For
+// The table of docs/figures.md: cloth on cloth at rest against closed forms, at two resolutions. For
 // bench/contact/run.
 #include <cmath>
 #include <cstdio>

@@ -7,7 +7,7 @@
 
 namespace furrow::cases {
 
-/// Cloth on cloth at rest, with closed forms, or numbers from one-dimensional equations (docs/contact.md).
+/// Cloth on cloth at rest, with closed forms, or numbers from one-dimensional equations (docs/figures.md).
 
 /// What one number of a case is to be, and is.
 struct LayeredNumber {
