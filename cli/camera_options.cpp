@@ -5,6 +5,7 @@
 #include <map>
 #include <thread>
 
+#include "cli/help.h"
 #include "io/base/camera_file.h"
 
 namespace furrow::cli {
@@ -81,15 +82,13 @@ Json save_camera(const io::RenderOptions& options, const CameraArguments& a) {
 }
 
 void add_camera_options(CLI::App& sub, CameraArguments& a) {
+  begin_group(sub, group::picture, Audience::few);
   CLI::Option* file = sub.add_option("--camera", a.camera,
                                      "the camera of an earlier picture, which --save-camera wrote; in place "
                                      "of all that follows");
   const auto add = [&](const char* name, auto& value, const char* help) {
     return sub.add_option(name, value, help)->excludes(file);
   };
-  add("--view", a.view, "from where: front, back, left, right, top or three-quarter")
-      ->check(CLI::IsMember(views))
-      ->capture_default_str();
   add("--eye", a.eye, "where the camera stands: x,y,z [m, y up]; with --target, in place of --view");
   add("--target", a.target, "what it looks at: x,y,z [m, y up]");
   add("--camera-up", a.up_vector, "what points up in the picture: x,y,z; default 0,1,0");
@@ -98,9 +97,6 @@ void add_camera_options(CLI::App& sub, CameraArguments& a) {
   add("--size", a.size, "width,height of each picture [pixels]")->capture_default_str();
   sub.add_option("--save-camera", a.save_camera,
                  "write the camera as JSON: strokes in a stroke file can be drawn in its pixels");
-  sub.add_option("--quality", a.quality, "draft, normal or fine")
-      ->check(CLI::IsMember(qualities))
-      ->capture_default_str();
   sub.add_option("--oversample", a.oversample,
                  "make the picture so many times as large, and each pixel the mean of a square: finer, and "
                  "slower; 1 to 8")
@@ -111,6 +107,13 @@ void add_camera_options(CLI::App& sub, CameraArguments& a) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   sub.add_flag("--wire", a.wire, "show the edges of the cloth's mesh");
+  begin_group(sub, group::picture);
+  add("--view", a.view, "from where: front, back, left, right, top or three-quarter")
+      ->check(CLI::IsMember(views))
+      ->capture_default_str();
+  sub.add_option("--quality", a.quality, "draft, normal or fine")
+      ->check(CLI::IsMember(qualities))
+      ->capture_default_str();
 }
 
 }  // namespace furrow::cli

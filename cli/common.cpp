@@ -12,6 +12,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "cli/help.h"
 #include "cli/print_text.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/finite_report.h"
@@ -64,6 +65,7 @@ void on_interrupt(int signal) {
 }  // namespace
 
 void add_common_options(CLI::App& sub, CommonArguments& common) {
+  begin_group(sub, group::output);
   sub.add_option("--unit", common.unit,
                  "unit of length in the mesh and stroke files: m, cm, mm or inch; heights are metres always "
                  "(default m, or what "
@@ -79,6 +81,7 @@ void add_common_options(CLI::App& sub, CommonArguments& common) {
   sub.add_flag("-v,--verbose", common.verbose, "all numbers of the report, not its summary alone");
   sub.add_flag("-q,--quiet", common.quiet,
                "no report, no progress, no warnings; with --json the report alone");
+  begin_group(sub, group::output, Audience::few);
   sub.add_option(
          "--progress", common.progress,
          "bar (on a terminal, without NO_COLOR), lines (one every 10 s), seconds between two lines, or "

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/camera_options.h"
+#include "cli/help.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/base/atomic_file.h"
@@ -268,45 +269,39 @@ void add_drape(CLI::App& app, int& exit_code) {
                   "garment to read, where it lies on the body or about it, or a scene: a .toml file; several "
                   "are worn over each other, the first one innermost, and none passes through another")
       ->required();
+  begin_group(*sub, group::output);
   sub->add_option("-o,--output", a->out,
                   "mesh to write: the garment as it is worn; PLY keeps strain and distance. Of several, a "
                   "file each: worn.ply becomes worn-shirt.ply and so on; or put {} for the garment's name");
-  sub->add_option(
-      "--made-for", a->settings.made_for,
-      "body that the garment was made for and lies about, in the garment's unit: the garment is "
-      "brought from there to --body before it is draped, turned with arms and legs; its size stays");
+  sub->add_option("--animation", a->animation,
+                  "the way to rest, not a motion in time: a frame an iteration; pc2, mdd or glb");
+  begin_group(*sub, group::cloth);
   sub->add_option(
          "--subdivide", a->subdivide,
          "refine the garment so many times (Loop), 0 to 6; its shape is found coarse to fine. auto (the "
          "default): as often as its edges need to keep the gap, up to some 60,000 vertices; 0 for a "
          "garment with a rest state of its own")
       ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4", "5", "6"}));
-  sub->add_option("--picture", a->picture, "PNG to write: the garment on the body, coloured, with a legend");
-  sub->add_option("--colour", a->colour, "of the picture: strain (default) or distance")
-      ->check(CLI::IsMember({"strain", "distance"}));
-  sub->add_flag("--no-legend", a->no_legend, "leave the bar of colours and the words out of the picture");
-  sub->add_option("--fabrics", a->compare, "fabrics separated by commas: one picture of them all");
-  sub->add_option("--animation", a->animation,
-                  "the way to rest, not a motion in time: a frame an iteration; pc2, mdd or glb");
-  sub->add_option(
-         "--band", a->bands,
-         "an elastic band along a border loop and its length over the loop's: top=0.9; may be given again")
-      ->allow_extra_args(false);
-  sub->add_option("--band-stiffness", a->settings.band_stiffness,
-                  "force in a band at twice its length [N] (default 50)")
-      ->check(CLI::NonNegativeNumber);
+  begin_group(*sub, group::cloth, Audience::few);
   sub->add_option(
          "--bending-friction", a->settings.bending_friction,
          "internal friction of bending: the moment that a metre of crease bears before it gives way [N] "
          "(default 0; half of Kawabata's 2HB)")
       ->check(CLI::NonNegativeNumber);
-  sub->add_option("--residual", a->settings.residual,
-                  "largest net force on a vertex, over its weight, at which it rests (default 0.001)");
-  sub->add_option("--contact-depth", a->settings.contact_depth,
-                  "go on, with contact ever stiffer, until nothing lies deeper in the gap than this [m]: "
-                  "1e-6 gives tight cloth its full strain, in about twice the time (default: usually some "
-                  "0.1 mm)")
-      ->check(CLI::Range(1e-7, 1.0));
+  begin_group(*sub, group::body);
+  sub->add_option(
+      "--made-for", a->settings.made_for,
+      "body that the garment was made for and lies about, in the garment's unit: the garment is "
+      "brought from there to --body before it is draped, turned with arms and legs; its size stays");
+  sub->add_option(
+         "--band", a->bands,
+         "an elastic band along a border loop and its length over the loop's: top=0.9; may be given again")
+      ->allow_extra_args(false);
+  begin_group(*sub, group::body, Audience::few);
+  sub->add_option("--band-stiffness", a->settings.band_stiffness,
+                  "force in a band at twice its length [N] (default 50)")
+      ->check(CLI::NonNegativeNumber);
+  begin_group(*sub, group::rest);
   sub->add_option(
          "--self-contact", a->self_contact,
          "whether cloth keeps off cloth: layers and folds lie on each other, and nothing passes through that "
@@ -315,16 +310,24 @@ void add_drape(CLI::App& app, int& exit_code) {
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "on", "off"}));
   sub->add_option(
-         "--cloth-thickness", a->settings.thickness,
-         "of the cloth, with --self-contact: layers are so far apart [m] (default the scene's, else 0.001)")
-      ->check(CLI::Range(1e-5, 0.05));
-  sub->add_option(
          "--loose", a->loose,
          "parts that neither the body nor a pin holds: hold lets them lie aside, and carries them with the "
          "nearest cloth; drop takes them out; fall drapes them as the rest")
       ->capture_default_str()
       ->check(CLI::IsMember({"hold", "drop", "fall"}));
   add_budget_option(*sub, a->budget, "the best state so far is written, with exit code 4");
+  begin_group(*sub, group::rest, Audience::few);
+  sub->add_option("--residual", a->settings.residual,
+                  "largest net force on a vertex, over its weight, at which it rests (default 0.001)");
+  sub->add_option("--contact-depth", a->settings.contact_depth,
+                  "go on, with contact ever stiffer, until nothing lies deeper in the gap than this [m]: "
+                  "1e-6 gives tight cloth its full strain, in about twice the time (default: usually some "
+                  "0.1 mm)")
+      ->check(CLI::Range(1e-7, 1.0));
+  sub->add_option(
+         "--cloth-thickness", a->settings.thickness,
+         "of the cloth, with --self-contact: layers are so far apart [m] (default the scene's, else 0.001)")
+      ->check(CLI::Range(1e-5, 0.05));
   sub->add_option("--penetration", a->settings.penetration,
                   "depth to which the body may come through the cloth, between vertices, too [m] (default "
                   "0.005); beyond it the exit code is 4")
@@ -334,6 +337,13 @@ void add_drape(CLI::App& app, int& exit_code) {
   sub->add_option("--max-iterations", a->settings.iterations,
                   "at most, on each level (default 200; --plain: 20000)")
       ->check(CLI::NonNegativeNumber);
+  begin_group(*sub, group::picture);
+  sub->add_option("--picture", a->picture, "PNG to write: the garment on the body, coloured, with a legend");
+  sub->add_option("--fabrics", a->compare, "fabrics separated by commas: one picture of them all");
+  begin_group(*sub, group::picture, Audience::few);
+  sub->add_option("--colour", a->colour, "of the picture: strain (default) or distance")
+      ->check(CLI::IsMember({"strain", "distance"}));
+  sub->add_flag("--no-legend", a->no_legend, "leave the bar of colours and the words out of the picture");
   a->flags.add_to(*sub, io::used_by::drape);
   add_camera_options(*sub, a->camera);
   add_common_options(*sub, *a);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/camera_options.h"
+#include "cli/help.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
@@ -90,13 +91,23 @@ void add_keep(CLI::App& app, int& exit_code) {
       "  furrow keep --state worn.ply --save-state kept.ply\n"
       "  furrow simulate --state kept.ply --seconds 5 -o after.ply");
   sub->add_option("garment", a->in, "wrinkled garment, or a scene: a .toml file");
+  begin_group(*sub, group::lines);
   sub->add_option("--state", a->state, "a saved state, with lines drawn on the cloth as it hangs or lies");
-  sub->add_option("--run", a->run, "how long each trial runs forward from rest [s] (default 5)")
-      ->check(CLI::PositiveNumber);
   sub->add_option("--gust", a->gust,
                   "and an acceleration to each of four sides for 0.4 s, and 2 s of calm [m/s^2] (default 12)")
       ->check(CLI::NonNegativeNumber);
   sub->add_option("--kept", a->kept, "share of its height with which a line holds (default 95%)");
+  sub->add_flag(
+      "--fast", a->fast,
+      "one gust in place of four and longer steps: two to four times sooner, but a line that is called "
+      "held may be lost in others");
+  sub->add_flag("--whole", a->whole,
+                "press what lies between the lines, too, where it could give way, so that all of the garment "
+                "stays as drawn");
+  add_budget_option(*sub, a->budget, "the last rest state that was found is written, with exit code 4");
+  begin_group(*sub, group::lines, Audience::few);
+  sub->add_option("--run", a->run, "how long each trial runs forward from rest [s] (default 5)")
+      ->check(CLI::PositiveNumber);
   sub->add_flag(
       "--no-balance", a->no_balance,
       "do not turn a garment about a line of pins, or one, until its centre of mass hangs below them "
@@ -106,14 +117,7 @@ void add_keep(CLI::App& app, int& exit_code) {
                 "nothing holds it there, or a few vertices; by default it comes to rest first then");
   sub->add_flag("--no-help", a->no_help,
                 "no press, struts or lower height where the rest state alone does not hold");
-  sub->add_flag(
-      "--fast", a->fast,
-      "one gust in place of four and longer steps: two to four times sooner, but a line that is called "
-      "held may be lost in others");
-  sub->add_flag("--whole", a->whole,
-                "press what lies between the lines, too, where it could give way, so that all of the garment "
-                "stays as drawn");
-  add_budget_option(*sub, a->budget, "the last rest state that was found is written, with exit code 4");
+  begin_group(*sub, group::picture);
   sub->add_option(
       "--picture", a->picture,
       "picture of the garment, lines coloured by verdict: green held, yellow pressed, orange struts, blue "

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/common.h"
+#include "cli/help.h"
 #include "cli/subcommands.h"
 #include "cli/usage_words.h"
 #include "geometry/mesh/errors.h"
@@ -70,6 +71,8 @@ int run(int argc, char** argv) {
       "  furrow simulate wrinkled.ply --body body.obj -o worn.ply\n"
       "  furrow render worn.ply --body body.obj -o worn.png"};
   app.name("furrow");
+  app.formatter(std::make_shared<cli::HelpFormatter>());
+  app.set_help_all_flag("--help-all", "Print the rarer options, too, and exit");
   app.set_version_flag("-V,--version", cli::version_text());
   app.require_subcommand(1);
   int exit_code = cli::exit_ok;

@@ -2,6 +2,7 @@
 #include "cli/scene_flags.h"
 
 #include "cli/common.h"
+#include "cli/help.h"
 #include "jobs/read_inputs.h"
 
 namespace furrow::cli {
@@ -13,6 +14,19 @@ io::Json value_of(const std::string& text, bool is_text) {
   if (text.find(',') != std::string::npos && text.find('[') == std::string::npos)
     return io::parse_value("[" + text + "]");
   return io::parse_value(text);
+}
+
+/// The group of --help that the settings of this table belong in.
+const char* group_of(const std::string& table, unsigned subcommand) {
+  if (table == "material" || table == "garment") return group::cloth;
+  if (table == "body" || table == "pins") return group::body;
+  if (table == "output") return group::output;
+  return subcommand & io::used_by::drape ? group::rest : group::motion;
+}
+
+void begin_group_of(CLI::App& sub, const io::Setting& s, unsigned subcommand) {
+  begin_group(sub, group_of(s.table(), subcommand),
+              s.shown_in & subcommand ? Audience::everyone : Audience::few);
 }
 
 void add_pins(io::TomlDocument& document, const char* kind, io::Json value, const std::string& flag) {
@@ -27,23 +41,27 @@ void SceneFlags::add_to(CLI::App& sub, unsigned subcommand) {
   for (const io::Setting& s : io::scene_settings()) {
     if (!has(s) || s.kind == io::Kind::yes_no || s.table() == "pins") continue;
     Given& g = given_.emplace_back(Given{&s, s.long_flag()});
+    begin_group_of(sub, s, subcommand);
     g.option = sub.add_option(s.flag, g.text, s.help)->type_name(s.is_text() ? "TEXT" : "NUMBER");
   }
   for (const io::Setting& s : io::scene_settings()) {
     if (!has(s) || s.kind != io::Kind::yes_no) continue;
     Given& g = given_.emplace_back(Given{&s, s.long_flag()});
+    begin_group_of(sub, s, subcommand);
     g.option = sub.add_flag(s.flag, g.is_on, s.help);
   }
-  add_pin_flags(sub);
+  add_pin_flags(sub, subcommand);
   if (subcommand & io::used_by::wrinkle) return;
+  begin_group(sub, group_of("simulation", subcommand));
   sub.add_option("--set", sets_,
                  "any setting of a scene, as key=value: --set body.motion.spin.rate=3; may be given again")
       ->allow_extra_args(false);
 }
 
-void SceneFlags::add_pin_flags(CLI::App& sub) {
+void SceneFlags::add_pin_flags(CLI::App& sub, unsigned subcommand) {
   const auto add = [&](const char* path, auto& values) {
     const io::Setting& s = *io::find_setting(path);
+    begin_group_of(sub, s, subcommand);
     return sub.add_option(s.flag, values, s.help);
   };
   add("pins.box", pin_boxes_)->allow_extra_args(false);

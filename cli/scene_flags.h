@@ -27,7 +27,7 @@ class SceneFlags {
     bool is_on = false;  ///< of yes_no
     CLI::Option* option = nullptr;
   };
-  void add_pin_flags(CLI::App& sub);
+  void add_pin_flags(CLI::App& sub, unsigned subcommand);
 
   std::list<Given> given_;  // a list: CLI11 keeps pointers to the texts
   std::vector<std::string> pin_boxes_, pin_loops_, pin_groups_, sets_;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/help.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/scene/equivalent_flags.h"
@@ -108,12 +109,14 @@ void add_simulate(CLI::App& app, int& exit_code) {
   sub->add_option(
       "garment", a->in,
       "garment to read (PLY of furrow wrinkle brings rest lengths and masses), or a scene: a .toml file");
+  begin_group(*sub, group::motion);
   sub->add_option("--state", a->state, "go on from a saved state");
   a->flags.add_to(*sub, io::used_by::simulate);
   sub->add_option("--accuracy", a->accuracy,
                   "error of the result that is accepted, as a share of the garment's diagonal, 1%: "
                   "integrator and step are "
                   "chosen for it");
+  begin_group(*sub, group::motion, Audience::few);
   a->budget_option = sub->add_option(
       "--budget", a->budget,
       "predicted seconds of one thread that choosing for --accuracy 1% may take [s] (default 60)");

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/help.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "cli/wrinkle_drawing.h"
@@ -189,41 +190,49 @@ void add_wrinkle(CLI::App& app, int& exit_code) {
       "  furrow wrinkle skirt.obj lines.obj --height -0.02 -o wrinkled.ply\n"
       "  furrow wrinkle skirt.obj lines.json --settle --body body.obj --pin-loop top -o rests.ply");
   sub->add_option("mesh", a->in, "garment to read; with --state: the file of strokes")->required();
+  begin_group(*sub, group::lines);
   sub->add_option(
       "strokes,--strokes", a->strokes,
       "lines: JSON, or the l elements of an OBJ file; none: those that the mesh, a wrinkled PLY, was "
       "made with are drawn again on its garment, with its options");
-  sub->add_option("-o,--output", a->out, "mesh to write; PLY keeps rest lengths, masses and lines");
   sub->add_option(
       "--state", a->state,
       "draw into a simulation that was stopped (furrow simulate --save-state); -o is a state, too");
+  sub->add_option("--without", a->without, "leave out the stroke of this name; may be given several times")
+      ->allow_extra_args(false);
+  begin_group(*sub, group::lines, Audience::few);
   sub->add_option("--fade", a->fade,
                   "with --state: how slowly the forces of the new lines set in [s]; inf: never")
       ->capture_default_str();
-  sub->add_option("--without", a->without, "leave out the stroke of this name; may be given several times")
-      ->allow_extra_args(false);
+  begin_group(*sub, group::output);
+  sub->add_option("-o,--output", a->out, "mesh to write; PLY keeps rest lengths, masses and lines");
+  begin_group(*sub, group::output, Audience::few);
   sub->add_option("--inserted", a->inserted, "also write the mesh after insertion and before smoothing");
+  sub->add_option("--smoothed", a->smoothed, "with --settle: also write the garment as drawn");
+  begin_group(*sub, group::rest);
   sub->add_flag(
       "--settle", a->settle,
       "let what is drawn come to rest, as furrow drape does: on --body, on pins or on both, in --fabric "
       "(cotton); -o is the garment at rest");
-  sub->add_option(
-      "--made-for", a->made_for,
-      "with --settle: body that the garment was made for and lies about, in its unit; what is drawn is "
-      "brought from there to --body in its own size (furrow drape)");
   sub->add_option(
          "--subdivide", a->subdivide,
          "with --settle: refine the garment so many times (Loop) before its lines are drawn, 0 to 4; auto "
          "(the default): as often as its edges need to keep the gap from the body")
       ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4"}));
   add_budget_option(*sub, a->budget, "with --settle, the best state so far is written, with exit code 4");
-  sub->add_option("--smoothed", a->smoothed, "with --settle: also write the garment as drawn");
+  begin_group(*sub, group::rest, Audience::few);
+  sub->add_option(
+      "--made-for", a->made_for,
+      "with --settle: body that the garment was made for and lies about, in its unit; what is drawn is "
+      "brought from there to --body in its own size (furrow drape)");
+  begin_group(*sub, group::picture);
   sub->add_option(
       "--picture", a->preview,
       "PNG of what is inserted where, before anything is displaced, faces that cross in magenta; without "
       "-o no mesh is written");
   add_drawing_options(*sub, *a);
   a->flags.add_to(*sub, io::used_by::wrinkle);
+  begin_group(*sub, group::lines, Audience::few);
   add_smoothing_options(*sub, a->smoothing);
   a->camera.quality = "draft";  // a look before anything is changed: four times faster than normal
   add_camera_options(*sub, a->camera);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/wrinkle_drawing.h"
 
+#include "cli/help.h"
 #include "cli/max_weights.h"
 #include "cli/recorded_options.h"
 #include "geometry/mesh/errors.h"
@@ -32,15 +33,13 @@ geometry::WrinkleOptions to_options(const WrinkleArguments& a) {
 }
 
 void add_drawing_options(CLI::App& sub, WrinkleArguments& a) {
+  begin_group(sub, group::lines);
   sub.add_option("--height", a.height, "height of strokes that name none [m]; > 0 ridge, < 0 valley")
       ->capture_default_str();
   sub.add_option(
          "--width", a.width,
          "width of the fold of strokes that name none [m], > 0 (default: as wide as smoothing makes it)")
       ->check(CLI::PositiveNumber);
-  sub.add_option("--max-distance", a.options.insertion.max_distance,
-                 "how far a stroke may lie from the surface [m]")
-      ->capture_default_str();
   sub.add_option(
          "--rule", a.rule,
          "fold: smooth folds on a mesh refined around them; safe: the paper's chain of vertices, flips "
@@ -52,6 +51,10 @@ void add_drawing_options(CLI::App& sub, WrinkleArguments& a) {
                  "as it was; "
                  "keep: the drawn shape bears its weight (needs --fabric or hinges; docs/keep.md)")
       ->check(CLI::IsMember({"drawn", "flat", "copied", "keep"}))
+      ->capture_default_str();
+  begin_group(sub, group::lines, Audience::few);
+  sub.add_option("--max-distance", a.options.insertion.max_distance,
+                 "how far a stroke may lie from the surface [m]")
       ->capture_default_str();
   sub.add_option("--region", a.region, "what is smoothed: two-ring (around the lines) or whole-mesh")
       ->check(CLI::IsMember({"two-ring", "whole-mesh"}))

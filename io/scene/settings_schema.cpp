@@ -77,12 +77,14 @@ const Row<Scene> rows[] = {
     {{.path = "output.mesh",
       .flag = "-o,--output",
       .help = "mesh to write: obj, ply, off, stl or glb; - is OBJ to standard output",
+      .shown_in = used_by::all,
       .what = "the garment at the end",
       .used = used_by::moving},
      path([](auto& s) -> auto& { return s.output.mesh; })},
     {{.path = "output.state",
       .flag = "--save-state",
       .help = "state to write (a PLY), to go on from with --state or wrinkle --state",
+      .shown_in = used_by::moving,
       .what = "to go on from",
       .used = used_by::moving},
      path([](auto& s) -> auto& { return s.output.state; })},
@@ -116,6 +118,7 @@ const Row<Scene> rows[] = {
     {{.path = "output.animation",
       .flag = "--animation",
       .help = "animation to write: pc2, mdd or glb",
+      .shown_in = used_by::simulate,
       .what = "pc2, mdd or glb ([animations.md](animations.md))",
       .used = used_by::moving},
      path([](auto& s) -> auto& { return s.output.animation; })},
@@ -128,6 +131,7 @@ const Row<Scene> rows[] = {
     {{.path = "output.fps",
       .flag = "--fps",
       .help = "its frames a second (default 25)",
+      .shown_in = used_by::simulate,
       .what = "frames a second of the animation",
       .used = used_by::moving},
      number(
@@ -136,6 +140,7 @@ const Row<Scene> rows[] = {
     // [simulation]: its end
     {{.path = "simulation.seconds",
       .flag = "--seconds",
+      .shown_in = used_by::simulate,
       .what = "the end of the simulation",
       .used = used_by::moving},
      number(
@@ -144,6 +149,7 @@ const Row<Scene> rows[] = {
       .flag = "--settle",
       .help = "bring the garment to rest first, on its body and its pins as they lie at time 0, as furrow "
               "drape does; with --seconds 0 that is all",
+      .shown_in = used_by::simulate,
       .what = "the garment, with the lines of time 0, comes to rest before it moves, on body and pins as "
               "they lie "
               "at time 0; with `seconds = 0` that is all",
@@ -156,6 +162,7 @@ const Row<Scene> rows[] = {
       .help =
           "look for rest from so many starts (default 1), write the rest with the lowest energy, and tell "
           "each number as mean and spread",
+      .shown_in = used_by::drape,
       .what =
           "starts of `furrow drape`, each with noise of its own: the rest with the lowest energy is taken, "
           "and numbers are told as mean and spread",
@@ -166,6 +173,7 @@ const Row<Scene> rows[] = {
     {{.path = "simulation.stop_at",
       .flag = "--stop-at",
       .help = "stop earlier, at this time [s], and keep the plan in the state",
+      .shown_in = used_by::simulate,
       .what = "stop earlier, with the plan kept",
       .used = used_by::moving},
      number(
@@ -184,6 +192,7 @@ const Row<Scene> rows[] = {
       .help =
           "a measured fabric: cotton, silk, denim, … (furrow fabric list), or a file of furrow fabric fit "
           "(.toml); default what the garment's PLY notes, else cotton",
+      .shown_in = used_by::all,
       .what = "a measured fabric, see below, or a file (.toml) with a `[material]`; the keys beside it go "
               "before it",
       .usual = "what the garment's PLY notes; else cotton, where no other key says what the cloth is",
@@ -326,6 +335,7 @@ const Row<Scene> rows[] = {
     {{.path = "material.friction",
       .flag = "--friction",
       .help = "Coulomb friction with the body; default the fabric's, else 0.3",
+      .shown_in = used_by::all,
       .what = "Coulomb friction with the body",
       .flag_in = used_by::all},
      number(
@@ -341,6 +351,7 @@ const Row<Scene> rows[] = {
       .flag = "--gap",
       .help = "distance that the cloth keeps from the body [m]; raised to what the mesh and the field need "
               "(default 0.003)",
+      .shown_in = used_by::all,
       .what = "distance that the cloth keeps from the body; raised to what the mesh and the field need",
       .flag_in = used_by::all},
      number(
@@ -357,6 +368,7 @@ const Row<Scene> rows[] = {
     {{.path = "forces.wind",
       .flag = "--wind",
       .help = "velocity of the air x,y,z [m/s]; acts through the drag",
+      .shown_in = used_by::moving,
       .what = "velocity of the air; acts through `drag`",
       .used = used_by::moving},
      vector(
@@ -396,6 +408,7 @@ const Row<Scene> rows[] = {
           "auto (default): leapfrog, or implicit steps where those take less than half of its time (keep: "
           "implicit); leapfrog, implicit, tr-bdf2, rk4, xpbd, or euler (the baseline that "
           "diverges)",
+      .shown_in = used_by::simulate,
       .what = "the scheme of its steps; auto is leapfrog, or implicit where that takes less than half of its "
               "time; euler is the baseline that diverges",
       .used = used_by::moving},
@@ -417,6 +430,7 @@ const Row<Scene> rows[] = {
     {{.path = "simulation.self_contact",
       .flag = "--self-contact",
       .help = "on: cloth keeps off cloth, and no step passes through it (default off)",
+      .shown_in = used_by::moving,
       .what = "`on`: cloth keeps off cloth, and no step passes through it",
       .used = used_by::simulate,
       .flag_in = used_by::simulate},
@@ -444,6 +458,7 @@ const Row<Scene> rows[] = {
     {{.path = "garment.subdivide",
       .flag = "--subdivide",
       .help = "refine the garment so many times (Loop) before the first line",
+      .shown_in = used_by::moving,
       .what = "Loop steps before the first line"},
      whole(
          0, 4, [](auto& s) -> auto& { return s.subdivide; })},
@@ -494,6 +509,7 @@ const Row<Scene> rows[] = {
     {{.path = "body.mesh",
       .flag = "--body",
       .help = "body that the garment rests on",
+      .shown_in = used_by::all,
       .what = "the body that the garment rests on",
       .usual = "must be there",
       .flag_in = used_by::all},
@@ -627,6 +643,7 @@ const Row<Scene> rows[] = {
     {{.path = "pins.box",
       .flag = "--pin-box",
       .help = "hold the vertices in a box x0,y0,z0,x1,y1,z1 [m, y up]; may be given again",
+      .shown_in = used_by::all,
       .what = "the vertices in `[x0, y0, z0, x1, y1, z1]`",
       .flag_in = used_by::all},
      own(Kind::list, "6 numbers [m]",
@@ -634,6 +651,7 @@ const Row<Scene> rows[] = {
     {{.path = "pins.loop",
       .flag = "--pin-loop",
       .help = "hold a boundary loop: top, bottom, or its index (the longest is 0)",
+      .shown_in = used_by::all,
       .what = "a boundary loop: top, bottom or an index (the longest is 0)",
       .flag_in = used_by::all},
      own(Kind::text, "text, or whole number",
@@ -643,6 +661,7 @@ const Row<Scene> rows[] = {
     {{.path = "pins.group",
       .flag = "--pin-group",
       .help = "hold the vertices of a group, by its name",
+      .shown_in = used_by::all,
       .what = "the vertices of a group, by its name",
       .flag_in = used_by::all},
      text([](auto& s) -> auto& { return s.pins.back().group; })},

@@ -24,10 +24,11 @@ enum class Kind { number, whole, yes_no, text, choice, path, vector, list, table
 struct Setting {
   /// "material.friction"; "lines.time": of each in the list; "spin.rate": of each such table inside others.
   std::string path = {};
-  std::string flag = {};   ///< as "-o,--output"; "": --set alone reaches it
-  std::string help = {};   ///< of the flag; "": made of the next two
-  std::string what = {};   ///< in Markdown, for docs/scenes.md
-  std::string usual = {};  ///< the default in words; "": the value that a new Scene has
+  std::string flag = {};                ///< as "-o,--output"; "": --set alone reaches it
+  std::string help = {};                ///< of the flag; "": made of the next two
+  unsigned shown_in = used_by::nobody;  ///< whose --help shows it; elsewhere --help-all alone does
+  std::string what = {};                ///< in Markdown, for docs/scenes.md
+  std::string usual = {};               ///< the default in words; "": the value that a new Scene has
   /// Who has a use for it. `drape` warns of what it has none for, unless it refuses it with words of its own.
   unsigned used = used_by::all;
   unsigned flag_in = used_by::moving;  ///< who has the flag; nobody: it is an option of all subcommands

@@ -104,7 +104,7 @@ TEST_CASE("completion: every command of --help has its words in all shells", "[l
   const std::vector<std::string> names = commands();
   REQUIRE(names.size() >= 16);
   for (const std::string& name : names) {
-    const std::set<std::string> options = options_in(run_furrow(name + " --help").out);
+    const std::set<std::string> options = options_in(run_furrow(name + " --help-all").out);
     INFO(name);
     CHECK(!options.empty());
     const std::string offered = bash_offers(scratch / "bash", "furrow " + name + " --");
@@ -139,7 +139,7 @@ TEST_CASE("man: every command of --help has a page with its options, which roff 
     const std::string file = scratch / ("furrow-" + name + ".1"), page = read_text(file);
     CHECK(run_furrow("man " + name).out == page);
     CHECK(page.rfind(".TH \"FURROW", 0) == 0);
-    for (std::string option : options_in(run_furrow(name + " --help").out)) {
+    for (std::string option : options_in(run_furrow(name + " --help-all").out)) {
       option = std::regex_replace(option, std::regex("-"), "\\-");
       CHECK(page.find("\\fB" + option + "\\fR") != std::string::npos);
     }

@@ -206,7 +206,7 @@ TEST_CASE("drape: it names the settings that it has no use for, and cloth that i
   CHECK(quiet.err.find("warning") == std::string::npos);
   CHECK(json::parse(quiet.out).contains("outcome"));
   CHECK(run_furrow(call + " -q").out.empty());
-  const std::string help = run_furrow("drape --help").out;
+  const std::string help = run_furrow("drape --help-all").out;
   CHECK(help.find("else cotton") != std::string::npos);
   CHECK(help.find("paper's law, default") == std::string::npos);
 }

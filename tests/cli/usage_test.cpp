@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 
 #include "io/scene/settings_schema.h"
 #include "run_furrow.h"
@@ -20,7 +23,29 @@ TEST_CASE("usage: every subcommand has help with units, and help succeeds") {
     CHECK(run.out.find("--json") != std::string::npos);
     CHECK(run.err.empty());
   }
-  CHECK(run_furrow("simulate --help").out.find("[N/m]") != std::string::npos);
+  CHECK(run_furrow("simulate --help-all").out.find("[N/m]") != std::string::npos);
+}
+
+TEST_CASE("usage: --help shows at most thirty options in groups, --help-all those and the rarer ones") {
+  const auto options_of = [](const std::string& call) {
+    const std::string help = run_furrow(call).out;
+    std::set<std::string> options;
+    const std::regex line("\n +(?:-\\w,)?(?:\\w+,)?(--[a-z-]+)");
+    for (std::sregex_iterator at(help.begin(), help.end(), line), end; at != end; ++at)
+      options.insert((*at)[1]);
+    return options;
+  };
+  for (const std::string sub : {"drape", "wrinkle", "simulate", "keep"}) {
+    INFO(sub);
+    const std::set<std::string> few = options_of(sub + " --help"), all = options_of(sub + " --help-all");
+    CHECK(few.size() <= 30);
+    CHECK(few.count("--output") + few.count("--body") + few.count("--fabric") == 3);
+    CHECK(std::includes(all.begin(), all.end(), few.begin(), few.end()));
+    const std::string rarer = std::to_string(all.size() - few.size()) + " rarer options: furrow " + sub;
+    CHECK(run_furrow(sub + " --help").out.find(rarer + " --help-all\n") != std::string::npos);
+    CHECK(run_furrow(sub + " --help").out.find("\nBody and pins:\n") != std::string::npos);
+  }
+  CHECK(options_of("info --help") == options_of("info --help-all"));
 }
 
 TEST_CASE("usage: the help of each subcommand has the flags that the schema of settings gives it") {
@@ -29,7 +54,7 @@ TEST_CASE("usage: the help of each subcommand has the flags that the schema of s
                                  {"keep", used_by::keep},
                                  {"drape", used_by::drape},
                                  {"wrinkle", used_by::wrinkle}}) {
-    const std::string help = run_furrow(std::string(sub) + " --help").out;
+    const std::string help = run_furrow(std::string(sub) + " --help-all").out;
     for (const furrow::io::Setting& s : furrow::io::scene_settings()) {
       if (s.flag.empty() || (bit == used_by::wrinkle && s.flag == "--density")) continue;  // its own option
       INFO(sub << " " << s.flag << ": " << s.help);

@@ -18,7 +18,8 @@ from paths import MESHES, PROGRAM
 
 RIDGE = [{"name": "ridge", "height": 0.02, "points": [[-0.3, 0, 0], [0.3, 0, 0]]}]
 # What the command line has for files of its own, for people and for pictures.
-OF_PROGRAM = {"help", "json", "verbose", "quiet", "set", "picture", "no_legend", "compare", "captions", "view", "eye",
+OF_PROGRAM = {"help", "help_all",
+              "json", "verbose", "quiet", "set", "picture", "no_legend", "compare", "captions", "view", "eye",
               "target", "camera", "camera_up", "size", "quality", "save_camera", "fov", "wire", "thickness",
               "orthographic", "oversample"}
 
@@ -311,7 +312,7 @@ class Keywords(unittest.TestCase):
         if not PROGRAM:
             self.skipTest("the command line is not built")
         for job in self.JOBS:
-            text = subprocess.run([PROGRAM, job, "--help"], capture_output=True, text=True).stdout
+            text = subprocess.run([PROGRAM, job, "--help-all"], capture_output=True, text=True).stdout
             flags = {f.replace("-", "_") for f in re.findall(r"^ +(?:-\w,)?(?:\w+,)?--([a-z][a-z0-9-]+)", text, re.M)}
             self.assertGreater(len(flags), 5, text)
             known = {name.rstrip("_") for name in inspect.signature(getattr(furrow, job)).parameters}
