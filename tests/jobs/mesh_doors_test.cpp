@@ -39,7 +39,7 @@ using namespace furrow::geometry;
 
 namespace {
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<Stroke> ridge() {
   Stroke stroke;
@@ -118,7 +118,7 @@ std::vector<Damage> damages() {
          for (const Vertex v : m.vertices()) m.point(v) = {0, 0, 0};
        }},
       {"face without area", odd, [](M m) { m.point(m.target(inner(m))) = m.point(m.source(inner(m))); }},
-      {"not a number", no_place, [](M m) { put_position(m, no_number); }},
+      {"not a number", no_place, [](M m) { put_position(m, not_a_number); }},
       {"infinite", no_place, [](M m) { put_position(m, HUGE_VAL); }},
       {"1e300", odd, [](M m) { put_position(m, 1e300); }},
       {"face removed", removed, [](M m) { CGAL::Euler::remove_face(inner(m), m); }},
@@ -148,11 +148,11 @@ std::vector<Damage> damages() {
       {"rest length 0", odd, [](M m) { put_first(m, attribute::rest_length, 0); }},
       {"rest length < 0", odd, [](M m) { put_first(m, attribute::rest_length, -1); }},
       {"rest length infinite", odd, [](M m) { put_first(m, attribute::rest_length, HUGE_VAL); }},
-      {"mass none", odd, [](M m) { put_first(m, attribute::mass, no_number); }},
+      {"mass none", odd, [](M m) { put_first(m, attribute::mass, not_a_number); }},
       {"mass < 0", odd, [](M m) { put_first(m, attribute::mass, -1); }},
       {"texture none", odd,
        [](M m) {
-         put_first(m, attribute::texture, {no_number, no_number});
+         put_first(m, attribute::texture, {not_a_number, not_a_number});
        }},
       {"generation", odd, [](M m) { put_first(m, attribute::generation, 1 << 30); }}};
 }
@@ -268,7 +268,7 @@ void add_bridge(std::vector<Door>& all) {
                  }});
 }
 
-io::MeshFile file_of(const Mesh& mesh) {
+io::MeshFile as_file(const Mesh& mesh) {
   io::MeshFile file;
   file.mesh = mesh;
   file.group_names = file.material_names = {"front"};
@@ -277,7 +277,7 @@ io::MeshFile file_of(const Mesh& mesh) {
 
 io::SavedState state_of(const Mesh& mesh) {
   io::SavedState state;
-  state.file = file_of(mesh);
+  state.file = as_file(mesh);
   return state;
 }
 
@@ -296,18 +296,18 @@ void add_io(std::vector<Door>& all) {
     all.push_back({"write_mesh",
                    [format](M m) {
                      std::ostringstream out;
-                     io::write_mesh(out, format, file_of(m));
+                     io::write_mesh(out, format, as_file(m));
                    },
                    removed});
   for (const char* name : {"a.obj", "a.ply"})
-    all.push_back({"write_mesh", [name](M m) { io::write_mesh(folder / name, file_of(m)); }, removed});
+    all.push_back({"write_mesh", [name](M m) { io::write_mesh(folder / name, as_file(m)); }, removed});
   all.push_back({"state_bytes", [](M m) { io::state_bytes(state_of(m)); }});
   all.push_back({"write_state", [](M m) { io::write_state(folder / "s.ply", state_of(m)); }});
 }
 
 jobs::SceneInput scene_of(const Mesh& mesh) {
   jobs::SceneInput scene;
-  scene.memory.meshes["sheet"] = file_of(mesh);
+  scene.memory.meshes["sheet"] = as_file(mesh);
   scene.settings = io::parse_toml(
       "[garment]\nmesh = \"sheet\"\n[material]\nmembrane = \"paper\"\n[simulation]\nseconds = 0.01\n"
       "[[pins]]\nbox = [-1, 0.29, -1, 1, 1, 1]\n",
@@ -320,34 +320,34 @@ void add_jobs(std::vector<Door>& all) {
   using M = Mesh&;
   all.push_back({"jobs::bake", [](M m) {
                    jobs::BakeJob job;
-                   job.low = file_of(m);
-                   job.high = file_of(whole_mesh());
+                   job.low = as_file(m);
+                   job.high = as_file(whole_mesh());
                    job.options = {16, 1};
                    jobs::bake(job, nobody);
                  }});
   all.push_back({"jobs::fit", [](M m) {
                    jobs::FitJob job;
-                   job.worn = {file_of(m)};
-                   job.bodies = {file_of(tests::icosphere(1, 0.1))};
+                   job.worn = {as_file(m)};
+                   job.bodies = {as_file(tests::icosphere(1, 0.1))};
                    jobs::fit(job, nobody);
                  }});
   all.push_back({"jobs::fit body", [](M m) {
                    jobs::FitJob job;
                    Mesh garment = tests::grid(3, 3, 0.2, 0.2);
                    tests::lift(garment, [](double, double) { return 0.05; });
-                   job.worn = {file_of(garment)};
-                   job.bodies = {file_of(m)};
+                   job.worn = {as_file(garment)};
+                   job.bodies = {as_file(m)};
                    jobs::fit(job, nobody);
                  }});
   all.push_back({"jobs::transfer", [](M m) {
                    jobs::TransferJob job;
-                   job.original = file_of(tests::grid(6, 6, 0.3, 0.3));
-                   job.wrinkled = file_of(m);
+                   job.original = as_file(tests::grid(6, 6, 0.3, 0.3));
+                   job.wrinkled = as_file(m);
                    jobs::transfer(job, nobody);
                  }});
   all.push_back({"jobs::wrinkle", [](M m) {
                    jobs::WrinkleJob job;
-                   job.garment = file_of(m);
+                   job.garment = as_file(m);
                    io::DrawnStroke stroke;
                    stroke.stroke = ridge()[0];
                    job.strokes = std::vector<io::DrawnStroke>{stroke};
@@ -439,7 +439,7 @@ void smooth_often(Mesh& mesh, int iterations) {
   taubin_smooth(mesh, {}, options);
 }
 
-const std::vector<double> none_of_any{no_number, HUGE_VAL, -HUGE_VAL};
+const std::vector<double> none_of_any{not_a_number, HUGE_VAL, -HUGE_VAL};
 
 }  // namespace
 
@@ -447,14 +447,15 @@ TEST_CASE("mesh doors: no number out of its range is taken, and the mesh stays a
   const auto smooth = [](Mesh& m, const TaubinOptions& o) { taubin_smooth(m, {}, o); };
   refuses<TaubinOptions>("taubin_smooth", {&TaubinOptions::lambda, &TaubinOptions::mu}, none_of_any, smooth);
   const auto draw = [](Mesh& m, const WrinkleOptions& o) { wrinkle(m, ridge(), o); };
-  refuses<WrinkleOptions>("wrinkle", {&WrinkleOptions::density}, {no_number, HUGE_VAL, 0, -1}, draw);
+  refuses<WrinkleOptions>("wrinkle", {&WrinkleOptions::density}, {not_a_number, HUGE_VAL, 0, -1}, draw);
   const auto insert = [](Mesh& m, const InsertionOptions& o) {
     WrinkleOptions options;
     options.insertion = o;
     wrinkle(m, ridge(), options);
   };
   using I = InsertionOptions;
-  refuses<I>("wrinkle", {&I::max_distance, &I::min_barycentric, &I::min_angle_deg}, {no_number, -1}, insert);
+  refuses<I>("wrinkle", {&I::max_distance, &I::min_barycentric, &I::min_angle_deg}, {not_a_number, -1},
+             insert);
   const auto line = [](Mesh& m, const Stroke& s) {
     Stroke stroke = s;
     stroke.points = ridge()[0].points;
@@ -463,25 +464,25 @@ TEST_CASE("mesh doors: no number out of its range is taken, and the mesh stays a
   refuses<Stroke>("wrinkle", {&Stroke::height, &Stroke::press, &Stroke::smooth, &Stroke::set}, none_of_any,
                   line);
   const auto shape = [](Mesh& m, const TransferOptions& o) { transfer_shape(m, whole_mesh(), o); };
-  refuses<TransferOptions>("transfer_shape", {&TransferOptions::max_distance}, {no_number, 0, -1}, shape);
+  refuses<TransferOptions>("transfer_shape", {&TransferOptions::max_distance}, {not_a_number, 0, -1}, shape);
   using F = bridge::FitOptions;
   const auto measure = [](Mesh& m, const F& o) { bridge::strain_report(m, o); };
   refuses<F>("strain_report", {&F::tight_strain, &F::loose_distance, &F::contact_distance, &F::smallest_zone},
-             {no_number, HUGE_VAL, -1}, measure);
+             {not_a_number, HUGE_VAL, -1}, measure);
   using G = bridge::GatherOptions;
   const auto gather = [](Mesh& m, const G& o) { bridge::gather(m, o); };
   refuses<G>(
       "gather",
       {&G::structural_stiffness, &G::bending_stiffness, &G::mean_structural_length, &G::mean_bending_length,
        &G::stretch, &G::poisson, &G::rigidity, &G::tension, &G::compression, &G::shear},
-      {no_number, HUGE_VAL, -1.5}, gather, springs());
+      {not_a_number, HUGE_VAL, -1.5}, gather, springs());
   using D = bridge::DrapeOptions;
   const auto put_on = [](Mesh& m, const D& o) {
     physics::Cloth cloth;
     bridge::drape(m, cloth, nullptr, o, [](Mesh& made) { return bridge::gather(made, springs()); });
   };
   refuses<D>("drape", {&D::coarse_tolerance, &D::disturbance, &D::soft_start, &D::bending_friction},
-             {no_number, HUGE_VAL, -1}, put_on);
+             {not_a_number, HUGE_VAL, -1}, put_on);
   using K = bridge::KeepOptions;
   const auto keep = [](Mesh& m, const K& o) {
     physics::Cloth cloth = bridge::gather(m, springs());
@@ -490,7 +491,7 @@ TEST_CASE("mesh doors: no number out of its range is taken, and the mesh stays a
   refuses<K>("keep_lines",
              {&K::seconds, &K::gust, &K::gust_seconds, &K::calm_seconds, &K::push, &K::kept, &K::least_height,
               &K::largest_turn},
-             {no_number, HUGE_VAL, -1}, keep);
+             {not_a_number, HUGE_VAL, -1}, keep);
   using M = bridge::DrawMoreOptions;
   const auto more = [](Mesh& m, const M& o) {
     physics::SimulateState state;
@@ -498,18 +499,18 @@ TEST_CASE("mesh doors: no number out of its range is taken, and the mesh stays a
   };
   M right;
   right.springs = springs();
-  refuses<M>("draw_more", {&M::fade}, {no_number, 0, -1}, more, right);
+  refuses<M>("draw_more", {&M::fade}, {not_a_number, 0, -1}, more, right);
   const auto move = [](Mesh& m, const io::AnimationOptions& o) {
     io::AnimationWriter(tests::empty_folder("mesh_doors") / "a.pc2", m, o);
   };
   refuses<io::AnimationOptions>("AnimationWriter", {&io::AnimationOptions::fps, &io::AnimationOptions::start},
-                                {no_number, HUGE_VAL, -1}, move);
+                                {not_a_number, HUGE_VAL, -1}, move);
   const auto write = [](Mesh& m, const io::WriteOptions& o) {
     std::ostringstream out;
-    io::write_mesh(out, io::MeshFormat::obj, file_of(m), o);
+    io::write_mesh(out, io::MeshFormat::obj, as_file(m), o);
   };
-  refuses<io::WriteOptions>("write_mesh", {&io::WriteOptions::metres_per_unit}, {no_number, HUGE_VAL, 0, -1},
-                            write);
+  refuses<io::WriteOptions>("write_mesh", {&io::WriteOptions::metres_per_unit},
+                            {not_a_number, HUGE_VAL, 0, -1}, write);
 }
 
 TEST_CASE("mesh doors: no count and no handle out of its range is taken") {

@@ -46,7 +46,7 @@ jobs::DrapeJob on_another(const std::string& garment) {
   return job;
 }
 
-std::vector<double> rest_lengths(geometry::Mesh mesh) {
+std::vector<double> lengths_at_rest(geometry::Mesh mesh) {
   const auto rest = geometry::ensure_rest_lengths(mesh);
   std::vector<double> lengths;
   for (const geometry::Edge e : mesh.edges()) lengths.push_back(rest[e]);
@@ -73,7 +73,7 @@ TEST_CASE("placing: a garment is brought from its own body to another one, and r
     CHECK(*d.placed->limbs[0].turn < 4);
     CHECK_FALSE(recorder.warned_of("pose_differs"));
     if (levels > 0) geometry::loop_subdivide(as_given, levels);
-    CHECK(rest_lengths(d.file.mesh) == rest_lengths(as_given));
+    CHECK(lengths_at_rest(d.file.mesh) == lengths_at_rest(as_given));
     const jobs::Json told = to_json(report)["placed"];
     CHECK(told["turned"]["left_leg"].get<double>() < 4);
     CHECK(told["made_for"] == "mannequin.obj");
