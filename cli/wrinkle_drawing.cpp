@@ -36,9 +36,10 @@ void add_drawing_options(CLI::App& sub, WrinkleArguments& a) {
   begin_group(sub, group::lines);
   sub.add_option("--height", a.height, "height of strokes that name none [m]; > 0 ridge, < 0 valley")
       ->capture_default_str();
-  sub.add_option(
-         "--width", a.width,
-         "width of the fold of strokes that name none [m], > 0 (default: as wide as smoothing makes it)")
+  sub.add_option("--width", a.width,
+                 "width of the fold of strokes that name none [m], > 0 (default: some five heights; with "
+                 "--rule safe or "
+                 "paper as wide as smoothing makes it)")
       ->check(CLI::PositiveNumber);
   sub.add_option(
          "--rule", a.rule,

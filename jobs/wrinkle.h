@@ -45,8 +45,8 @@ struct WrinkleJob {
   std::filesystem::path state_path;         ///< where it was read from
   std::vector<std::string> without = {};    ///< names of strokes that are left out
   double height = io::SceneLines{}.height;  ///< of strokes that name none [m]; > 0 ridge, < 0 valley
-  std::optional<double>
-      width;  ///< of the fold of strokes that name none [m], > 0; none: as smoothing makes it
+  std::optional<double> width;  ///< of the fold of strokes that name none [m], > 0; none: some five heights,
+                                ///< or as smoothing makes it
   double fade = io::SceneLines{}.fade;  ///< with a state: tau of the forces of the new lines [s]; > 0
   geometry::WrinkleOptions options = {};
   std::optional<double> density;   ///< of the cloth [kg/m^2]; none: as the garment notes, else the default

@@ -26,7 +26,9 @@ std::vector<Keyword<WrinkleCall>> drawing_rows() {
           "height", "of strokes that name none [m]; > 0 ridge, < 0 valley; default 0.01",
           [](auto& c) -> auto& { return c.job.height; }),
       row<Call>(
-          "width", "of the fold of strokes that name none [m], > 0; default as wide as smoothing makes it",
+          "width",
+          "of the fold of strokes that name none [m], > 0; default some five heights, by the rules safe and "
+          "paper as wide as smoothing makes it",
           [](auto& c) -> auto& { return c.job.width; }),
       row<Call>(
           "max_distance", "how far a stroke may lie from the surface [m], > 0; default 0.05",

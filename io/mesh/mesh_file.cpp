@@ -38,9 +38,10 @@ MeshFile parse(std::string_view text, MeshFormat format, const std::string& name
       return read_off(text, name, options);
     case MeshFormat::stl:
       return read_stl(text, name, options);
-    default:
+    case MeshFormat::gltf:
       throw std::invalid_argument("format: glTF is read from files only, not from streams");
   }
+  throw std::invalid_argument("format: there is no such format");
 }
 
 void check_file(const MeshFile& file, const WriteOptions& options) {
@@ -116,9 +117,10 @@ std::vector<std::string> write_mesh(std::ostream& out, MeshFormat format, const 
       return write_off(out, file, options), std::vector<std::string>{};
     case MeshFormat::stl:
       return write_stl(out, file, options), std::vector<std::string>{};
-    default:
+    case MeshFormat::gltf:
       return write_glb(out, file, options);
   }
+  throw std::invalid_argument("format: there is no such format");
 }
 
 void set_mesh(MeshFile& file, const PolygonSoup& soup, const std::string& name, bool chains) {

@@ -148,7 +148,7 @@ const Row<Scene> rows[] = {
     {{.path = "simulation.settle",
       .flag = "--settle",
       .help = "bring the garment to rest first, on its body and its pins as they lie at time 0, as furrow "
-              "drape does; with --seconds 0 that is all",
+              "drape does, but without contact of cloth with cloth; with --seconds 0 that is all",
       .shown_in = used_by::simulate,
       .what = "the garment, with the lines of time 0, comes to rest before it moves, on body and pins as "
               "they lie "
@@ -444,8 +444,9 @@ const Row<Scene> rows[] = {
          positive("m"), [](auto& s) -> auto& { return s.simulation.self.thickness; })},
     {{.path = "simulation.threads",
       .flag = "--threads",
-      .help = "threads (default: one for each 10,000 vertices, at most all cores); the result does not "
-              "depend on them",
+      .help =
+          "threads (default: one for each 10,000 vertices, at most all cores; furrow drape: all cores); the "
+          "result does not depend on them",
       .what = "the result does not depend on them",
       .usual = "one for each 10,000 vertices, at most all cores",
       .flag_in = used_by::moving | used_by::drape},

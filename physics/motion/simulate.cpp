@@ -307,11 +307,18 @@ SimulateReport simulate(Cloth& cloth, const World& world, const SimulateOptions&
   check(options);
   SimulateState present = state ? *state : SimulateState{};
   SimulateReport report;
-  {
-    Simulation simulation(cloth, world, options, present);
-    simulation.run(observer, report);
-    simulation.finish(report);
+  std::optional<Simulation> simulation;
+  try {
+    simulation.emplace(cloth, world, options, present);
+  } catch (const Cancelled&) {  // cloth and state are as they were
+    report.outcome = Outcome::stopped_by_observer;
+    report.time = present.time;
+    report.steps = present.step;
+    return report;
   }
+  simulation->run(observer, report);
+  simulation->finish(report);
+  simulation.reset();
   report.cpu_seconds = present.totals.cpu_seconds += processor_seconds() - cpu_started;
   report.seconds = present.totals.seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

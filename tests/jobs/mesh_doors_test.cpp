@@ -378,7 +378,8 @@ std::vector<Door> doors() {
 bool is_same(const Mesh& a, const Mesh& b) {
   return a.num_vertices() == b.num_vertices() && a.num_edges() == b.num_edges() &&
          a.num_faces() == b.num_faces() &&
-         std::memcmp(a.points().data(), b.points().data(), a.num_vertices() * sizeof(Point)) == 0;
+         std::equal(a.points().begin(), a.points().end(), b.points().begin(), b.points().end(),
+                    [](const Point& p, const Point& q) { return std::memcmp(&p, &q, sizeof p) == 0; });
 }
 
 /// "" if it went well; what was thrown, if that is a refusal.

@@ -204,7 +204,8 @@ TEST_CASE("simulate: a job that is cancelled ends with the next question and lea
   const std::set<std::string> all{"mesh.ply", "run.pc2", "state.ply"};
   REQUIRE(names_in(folder) == all);
   int before_anything = 0, on_the_way = 0;
-  const auto step = [&](int at) { return at > whole.asked - 80 ? 1 : std::max(1, whole.asked / 20); };
+  const int last = whole.asked - 80;
+  const auto step = [&](int at) { return std::max(1, std::min(whole.asked / 20, last - at)); };
   for (int cancel_at = 1; cancel_at < whole.asked; cancel_at += step(cancel_at)) {
     for (const std::string& name : all) fs::remove(folder / name);
     tests::Recorder recorder(cancel_at);

@@ -136,6 +136,23 @@ TEST_CASE(
   check_same(whole, one, parts, simulate(parts.cloth, parts.world, parts.options, &parts.state));
 }
 
+TEST_CASE("simulate: cancelled while it is prepared, it ends as if its observer had stopped it") {
+  Cloth cloth = sheet(6, 6, 0.05);
+  add_springs_and_masses(cloth, 100, 1, 0.2);
+  const std::vector<Vec3> before = cloth.particles.x;
+  SimulateOptions options;
+  options.integrator = Integrator::leapfrog;
+  options.seconds = 0.1;
+  int asked = 0;
+  const CancelScope scope([&] { return ++asked >= 3; });
+  SimulateState state;
+  const SimulateReport report = simulate(cloth, World{}, options, &state);
+  CHECK(report.outcome == Outcome::stopped_by_observer);
+  CHECK(report.steps == 0);
+  CHECK(state.step == 0);
+  CHECK(cloth.particles.x == before);
+}
+
 TEST_CASE("simulate: a step that is cancelled is none, and going on gives the bits of a run that was not",
           "[long]") {
   const Sphere ball(Vec3::Zero(), 0.2);
