@@ -152,7 +152,7 @@ TEST_CASE("fit: wrong calls of fit are told before the work", "[long]") {
     CHECK(run.exit_code == 2);
     CHECK(run.err.find("error: ") != std::string::npos);  // perhaps behind what was repaired
   }
-  CHECK(run_furrow(good + "--rest " + f.body).exit_code == 3);
+  CHECK(run_furrow(good + "--rest-shape " + f.body).exit_code == 3);
   write_text(f / "empty.obj", "v 0 0 0\n");
   CHECK(run_furrow("fit " + (f / "empty.obj") + " --body " + f.body).exit_code == 3);
   CHECK(run_furrow("fit " + f.worn + " --body " + (f / "empty.obj")).exit_code == 3);
