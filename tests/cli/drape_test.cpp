@@ -135,7 +135,7 @@ TEST_CASE("drape: a density beside a fabric stays with the garment", "[release]"
   write_text(scratch / "scene.toml", "[garment]\nmesh = '" + (source_dir() / "meshes/skirt.obj").string() +
                                          "'\n[material]\npreset = 'denim'\ndensity = 0.2\n");
   const Run run = run_furrow("drape " + (scratch / "scene.toml") + " --body " + mannequin_path() +
-                             " --iterations 0 -o " + worn);
+                             " --max-iterations 0 -o " + worn);
   REQUIRE(run.exit_code == 4);
   const std::string flags = drape_report("simulate " + worn + on + (scratch / "s.ply"))["flags"];
   CHECK(flags.find("--fabric denim") != std::string::npos);
