@@ -31,7 +31,7 @@ double depth_in(const std::array<physics::Vec3, 3>& x, const physics::ExactDista
       const double value = distance.sample(p).value;
       least = std::min(least, value);
       const double passed = step > 0 ? (1 - 1e-9) * (value - least) / step : 0;
-      j += 1 + int(std::min(passed, double(n)));
+      j += 1 + (passed > 0 ? int(std::min(passed, double(n))) : 0);  // not a number: none
     }
   return -least;
 }
