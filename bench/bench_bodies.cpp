@@ -92,12 +92,6 @@ TriangleMesh noisy_sphere(int frequency) {
   return mesh;
 }
 
-TriangleMesh geodesic_ball(int frequency, double radius) {
-  TriangleMesh mesh = Geodesic(frequency).mesh;
-  for (Vec3& x : mesh.vertices) x *= radius / x.norm();
-  return mesh;
-}
-
 TriangleMesh read_obj(const std::string& path) {
   std::ifstream in(path);
   if (!in) throw std::runtime_error("cannot read " + path);

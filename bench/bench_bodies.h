@@ -10,9 +10,6 @@ namespace furrow::bench {
 /// edge lengths: the body that other distance libraries were measured with. It is the same in every run.
 physics::TriangleMesh noisy_sphere(int frequency);
 
-/// Geodesic ball of 20 * frequency^2 triangles; the vertices are on the sphere.
-physics::TriangleMesh geodesic_ball(int frequency, double radius);
-
 /// Reads `v` and `f` of an OBJ file; polygons are cut from their first corner.
 physics::TriangleMesh read_obj(const std::string& path);
 

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "bench/bench_bodies.h"
-#include "bench/machine_probes.h"
+#include "bench/cpu_seconds.h"
 #include "physics/body/distance_field.h"
 
 namespace {
@@ -146,8 +146,6 @@ int main(int argc, char** argv) {
     else
       bodies.push_back(word);
   }
-  std::cout << "{\"stream_triad_gb_s\": " << furrow::bench::stream_triad()
-            << ", \"plain_springs_mvertex_steps_s\": " << furrow::bench::plain_springs() << "}" << std::endl;
   if (bodies.empty()) measure("noisy sphere", furrow::bench::noisy_sphere(71), relative, threads);
   for (const std::string& path : bodies) {
     const TriangleMesh mesh = furrow::bench::read_obj(path);

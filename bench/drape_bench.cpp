@@ -21,7 +21,6 @@
 #include <thread>
 #include <vector>
 
-#include "bench/machine_probes.h"
 #include "io/scene/fabrics.h"
 #include "tests/cases/garment_pair.h"
 
@@ -166,10 +165,7 @@ int main(int count, char** words) {
   using namespace furrow::bench;
   try {
     const Arguments a = arguments_of(count, words);
-    std::printf(
-        "# best of %d by the clock, %d threads; STREAM triad %.1f GB/s, plain springs %.1f M vertex "
-        "steps/s\n",
-        a.best, a.threads, stream_triad(), plain_springs());
+    std::printf("# best of %d by the clock, %d threads\n", a.best, a.threads);
     std::printf(
         "garment,scheme,refinements,level,vertices,clock [s],processor [s],iterations,factorisations,"
         "residual [-],at rest,touching,clock a vertex [us],clock a factorisation [ms]\n");

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/machine_probes.h"
+#include "bench/cpu_seconds.h"
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/sheet.h"
 #include "io/mesh/mesh_file.h"

@@ -7,7 +7,6 @@
 #include <map>
 #include <string>
 
-#include "machine_probes.h"
 #include "physics/cloth/dihedral.h"
 #include "physics/cloth/hinge_forces.h"
 #include "physics/cloth/pins.h"
@@ -215,10 +214,7 @@ int main(int argc, char** argv) {
   for (int i = times ? 2 : 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
   if (sizes.empty()) sizes = {2000, 10000};
   if (times) {
-    std::printf(
-        "# best of 5, one thread, processor time [ms]; STREAM triad %.1f GB/s, plain springs %.1f M "
-        "vertex steps/s\n",
-        furrow::bench::stream_triad(), furrow::bench::plain_springs());
+    std::printf("# best of 5, one thread, processor time [ms]\n");
     std::printf("vertices,assembly,numeric factor,solve,symbolic factor,whole prestress(),certificate\n");
     for (const int n : sizes) furrow::bench::print_times(n);
     return 0;

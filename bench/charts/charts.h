@@ -17,8 +17,6 @@ void chart_stability(const std::string& folder, Effort effort);    ///< stabilit
 void chart_damping(const std::string& folder, Effort effort);      ///< damping.csv
 void chart_contact(const std::string& folder, Effort effort);      ///< contact.csv
 void chart_equilibria(const std::string& folder, Effort effort);   ///< equilibria.csv
-void chart_fields(const std::string& folder, Effort effort);       ///< fields.csv
-void chart_smoothing(const std::string& folder, Effort effort);    ///< smoothing.csv
 void chart_metamorphic(const std::string& folder, Effort effort);  ///< metamorphic.csv
 
 }  // namespace furrow::bench

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the charts were measured on: processor, compiler, and how fast plain code runs there.
+// What the charts were measured on: processor and compiler.
 #include "bench/accuracy_table.h"
 #include "bench/charts/charts.h"
-#include "bench/machine_probes.h"
 
 namespace furrow::bench {
 namespace {
@@ -24,10 +23,8 @@ constexpr const char* compiler = "g++ " __VERSION__;
 }  // namespace
 
 void chart_machine(const std::string& folder, Effort) {
-  Table table(folder + "/machine.csv",
-              "STREAM triad and a step of a plain sheet of springs, one thread, processor time, median of 7.",
-              "processor,compiler,triad[GB/s],plain springs[M vertex steps/s]");
-  table.row('"' + processor() + '"', '"' + std::string(compiler) + '"', stream_triad(), plain_springs());
+  Table table(folder + "/machine.csv", "What the charts were measured on.", "processor,compiler");
+  table.row('"' + processor() + '"', '"' + std::string(compiler) + '"');
 }
 
 }  // namespace furrow::bench
