@@ -11,6 +11,7 @@
 #include "io/base/lower_case.h"
 #include "io/picture/png_file.h"
 #include "io/scene/relocated.h"
+#include "jobs/chain/wrinkle_stages.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/wrinkle_reports.h"
 #include "jobs/run/fabric_file.h"

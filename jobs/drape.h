@@ -9,8 +9,8 @@
 
 #include "bridge/drape.h"
 #include "bridge/fit_report.h"
+#include "jobs/cloth/shape_report.h"
 #include "jobs/ends.h"
-#include "jobs/simulate.h"
 
 namespace furrow::jobs {
 

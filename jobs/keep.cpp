@@ -10,6 +10,7 @@
 #include "io/scene/relocated.h"
 #include "jobs/check/budget.h"
 #include "jobs/check/output_checks.h"
+#include "jobs/cloth/lost_lines.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/chain.h"
 #include "jobs/run/fabric_file.h"

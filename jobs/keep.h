@@ -32,8 +32,6 @@ struct KeepReport {
 /// "cannot hold: ...". What is off by more than 5 % is never called held without its height.
 std::string words(const bridge::KeptLine& line, const io::WrinkleRecord& record);
 
-/// A rest state's balance and stability.
-Json to_json(const bridge::KeptShape& kept);
 Json to_json(const KeepReport& report);
 
 /// A garment whose lines are to be kept: of a scene, or of a saved state.

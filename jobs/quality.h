@@ -7,8 +7,8 @@
 
 #include "geometry/quality/fold_quality.h"
 #include "io/mesh/mesh_file.h"
+#include "jobs/draw/drawn_round.h"
 #include "jobs/inputs.h"
-#include "jobs/wrinkle.h"
 
 namespace furrow::jobs {
 

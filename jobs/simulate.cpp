@@ -13,6 +13,7 @@
 #include "io/scene/relocated.h"
 #include "jobs/check/gate.h"
 #include "jobs/check/seam_ties.h"
+#include "jobs/cloth/lost_lines.h"
 #include "jobs/judge/judge.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"

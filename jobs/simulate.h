@@ -11,9 +11,10 @@
 #include "bridge/drape.h"
 #include "io/scene/state_file.h"
 #include "jobs/chart.h"
+#include "jobs/cloth/shape_report.h"
+#include "jobs/draw/drawn_round.h"
 #include "jobs/ends.h"
 #include "jobs/inputs.h"
-#include "jobs/wrinkle.h"
 #include "physics/body/exact_distance.h"
 #include "physics/motion/simulate.h"
 #include "physics/rest/settle.h"
@@ -26,43 +27,6 @@ struct AnimationReport {
   double start = 0;  ///< time of the first frame [s]
   double fps = 25;   ///< [1/s]
   std::size_t frames = 0;
-};
-
-/// A border loop as it lies.
-struct BorderReport {
-  double rest_length, length;       ///< [m]
-  double mean_height, mean_radius;  ///< horizontal radius [m]
-  int radius_maxima;                ///< folds
-};
-
-/// A line's height against what it was.
-struct LineReport {
-  std::size_t id = 0;
-  std::optional<std::string> name;     ///< name and drawn height: none where the garment notes no such line
-  std::optional<double> drawn_height;  ///< [m]
-  std::optional<double> width;         ///< [m]; none: it has none
-  double smoothed_height = 0;          ///< after it was drawn, or at the run's start [m]
-  double height = 0;                   ///< now [m]
-  std::optional<double> kept;  ///< height over smoothed_height [-]; none: it has no height of its own to keep
-};
-
-/// What the cloth does to the body, and it to the cloth.
-struct ContactReport {
-  double gap = 0;        ///< that was kept [m]
-  double tolerance = 0;  ///< error of the body's field [m]
-  physics::Penetration inside;
-  physics::Vec3 deepest_at{0, 0, 0};  ///< of a vertex, where any is inside [m]
-};
-
-/// A garment as a simulation left it.
-struct ReachedShape {
-  physics::Vec3 centre{0, 0, 0};         ///< of mass [m]
-  std::optional<ContactReport> contact;  ///< none: there is no body
-  ClothCrossings crossings;
-  EndFacts end;                          ///< without a residual of what moves
-  physics::Vec3 strained_most{0, 0, 0};  ///< the middle of the edge that is [m]
-  std::vector<BorderReport> borders;     ///< longest first
-  std::vector<LineReport> lines;
 };
 
 /// A garment that came to rest before it moved.
@@ -78,12 +42,6 @@ struct RestStage {
 struct Fault {
   std::string word;  ///< "cloth crosses itself"
   Warning told;
-};
-
-/// Which steps a cloth is moved by where a scene leaves that open, and why.
-struct ChosenSteps {
-  physics::Integrator integrator = physics::Integrator::leapfrog;
-  double leapfrog = 0, implicit = 0;  ///< predicted seconds of one thread for a second of motion [s]
 };
 
 /// What jobs::simulate() did.
@@ -122,8 +80,6 @@ struct SimulateReport {
 
 /// The report for programs, and what the command line prints. (Its equivalent flags are the command line's.)
 Json to_json(const SimulateReport& report);
-Json to_json(const std::vector<BorderReport>& borders);
-Json to_json(const std::vector<LineReport>& lines);
 
 /// Sees a run go on: the time [s], and where the vertices are by their index [m].
 using Watch = std::function<void(double time, std::span<const physics::Vec3> x)>;

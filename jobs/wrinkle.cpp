@@ -10,6 +10,7 @@
 #include "io/scene/relocated.h"
 #include "io/scene/scene_file.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/chain/wrinkle_stages.h"
 #include "jobs/check/budget.h"
 #include "jobs/check/gate.h"
 #include "jobs/check/output_checks.h"

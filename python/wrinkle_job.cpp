@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/settings_schema.h"
+#include "jobs/chain/wrinkle_stages.h"
 #include "jobs/drape.h"
 #include "jobs/report/wrinkle_reports.h"
 #include "jobs/run/fabric_file.h"

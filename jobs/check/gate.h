@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 
-#include "jobs/doctor.h"
+#include "jobs/base/ailment.h"
 #include "jobs/inputs.h"
 #include "physics/motion/simulate.h"
 

@@ -9,7 +9,6 @@
 #include "io/base/nesting.h"
 #include "io/base/own_mark.h"
 #include "jobs/inputs.h"
-#include "jobs/report/batch_page.h"
 
 namespace furrow::jobs {
 namespace {

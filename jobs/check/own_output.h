@@ -4,6 +4,9 @@
 
 namespace furrow::jobs {
 
+/// By which the page of a batch is known again.
+inline constexpr const char* batch_page_mark = "<meta name=generator content=furrow>";
+
 /// Whether a file looks as what furrow writes, of this version or an earlier one: then it may be replaced
 /// without asking. By content alone, whatever the name (but MDD, which has no mark: by its ending and its
 /// length); an empty file counts, as nothing is lost with it. Reads at most 16 MB of meshes, the heads of

@@ -8,6 +8,7 @@
 
 #include "io/base/base64.h"
 #include "io/base/bytes_file.h"
+#include "jobs/check/own_output.h"
 
 namespace furrow::jobs {
 namespace {

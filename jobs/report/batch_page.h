@@ -7,9 +7,6 @@
 
 namespace furrow::jobs {
 
-/// By which a page is known again.
-inline constexpr const char* batch_page_mark = "<meta name=generator content=furrow>";
-
 /// A page of a batch in one file of HTML, written row by row: a table that sorts by a click and is searched
 /// by words, with the pictures in it (up to 64 MB of them; later ones are linked to). It asks nothing of the
 /// network.

@@ -7,11 +7,11 @@
 #include <sstream>
 
 #include "io/mesh/mesh_file.h"
+#include "jobs/cloth/lost_lines.h"
 #include "jobs/fit.h"
 #include "jobs/read_inputs.h"
 #include "jobs/run/drape_starts.h"
 #include "jobs/run/made_for.h"
-#include "jobs/run/run_warnings.h"
 
 namespace furrow::jobs {
 namespace {

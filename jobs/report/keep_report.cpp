@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jobs/base/kept_shape.h"
 #include "jobs/keep.h"
 #include "jobs/read_inputs.h"
 
@@ -80,26 +81,6 @@ Json to_json(const KeptLine& line, const io::WrinkleRecord& record) {
 }
 
 /// A rest state's balance and stability.
-Json to_json(const physics::PrestressReport& rest, const physics::Certificate& certificate) {
-  Json imbalance = Json::array();
-  for (const physics::RigidImbalance& i : rest.imbalance)
-    imbalance.push_back({{"vertices", i.piece.size()},
-                         {"freedoms", i.freedoms},
-                         {"axis", {i.axis.x(), i.axis.y(), i.axis.z()}},
-                         {"point", {i.point.x(), i.point.y(), i.point.z()}},
-                         {"acceleration", i.largest}});
-  Json json{{"residual", certificate.residual},
-            {"stable", certificate.stable()},
-            {"negative_eigenvalues", certificate.negative_eigenvalues},
-            {"frequency", certificate.frequency},
-            {"max_strain", rest.max_strain},
-            {"max_angle", rest.max_angle},
-            {"bounds_active", rest.active_bounds()},
-            {"touching", rest.touching.size()}};
-  if (!imbalance.empty()) json["imbalance"] = imbalance;
-  return json;
-}
-
 }  // namespace
 
 bool KeepReport::all_hold() const {
@@ -127,14 +108,6 @@ std::string words(const KeptLine& line, const io::WrinkleRecord& record) {
       break;
   }
   return "cannot hold" + (help.empty() ? "" : ", also with " + help) + ": " + line.reason;
-}
-
-Json to_json(const bridge::KeptShape& kept) {
-  Json json = to_json(kept.rest, kept.certificate);
-  if (kept.turned > 0) json["turned"] = kept.turned;
-  if (kept.pushed.moved > 0)
-    json["pushed_out"] = {{"vertices", kept.pushed.moved}, {"farthest", kept.pushed.farthest}};
-  return json;
 }
 
 Json to_json(const KeepReport& report) {

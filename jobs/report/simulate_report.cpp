@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "jobs/base/kept_shape.h"
 #include "jobs/judge/candidates.h"
-#include "jobs/keep.h"
 #include "jobs/read_inputs.h"
 #include "jobs/report/judge_report.h"
 #include "jobs/report/wrinkle_reports.h"
@@ -74,17 +74,6 @@ Json to_json(const physics::EnergyBalance& e) {
       {"lost", {{"air", e.to_air}, {"contact", e.to_contact}, {"steps", e.to_steps()}}}};
 }
 
-Json line_json(const LineReport& r) {
-  Json line{{"id", r.id}};
-  if (r.name) line["name"] = *r.name;
-  if (r.drawn_height) line["drawn_height"] = *r.drawn_height;
-  if (r.width) line["width"] = *r.width;
-  line["smoothed_height"] = r.smoothed_height;
-  line["height"] = r.height;
-  line["kept"] = r.kept ? Json(*r.kept) : Json();
-  return line;
-}
-
 Json to_json(const ReachedShape& shape, const physics::SimulateReport& run) {
   Json json{{"centre", {shape.centre.x(), shape.centre.y(), shape.centre.z()}}};
   if (shape.contact) {
@@ -123,23 +112,6 @@ Json times_json(const physics::WorkTimes& times) {
 }
 
 }  // namespace
-
-Json to_json(const std::vector<BorderReport>& borders) {
-  Json loops = Json::array();
-  for (const BorderReport& border : borders)
-    loops.push_back({{"rest_length", border.rest_length},
-                     {"length", border.length},
-                     {"mean_height", border.mean_height},
-                     {"mean_radius", border.mean_radius},
-                     {"radius_maxima", border.radius_maxima}});
-  return loops;
-}
-
-Json to_json(const std::vector<LineReport>& lines) {
-  Json list = Json::array();
-  for (const LineReport& line : lines) list.push_back(line_json(line));
-  return list;
-}
 
 std::string SimulateReport::outcome() const {
   const bool rests = rest && run.steps == 0 && run.outcome == physics::Outcome::finished;

@@ -2,15 +2,11 @@
 #include "jobs/report/wrinkle_reports.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "geometry/mesh/crossings.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/rest/rest_state.h"
 #include "io/mesh/mesh_file.h"
-#include "io/picture/render_preview.h"
-#include "io/picture/render_scene.h"
-#include "jobs/keep.h"
+#include "jobs/base/kept_shape.h"
 
 namespace furrow::jobs {
 
@@ -62,29 +58,6 @@ Json to_json(const bridge::DrawMoreReport& r, double time) {
           {"momentum_before", list(r.momentum_before)},
           {"momentum_after", list(r.momentum_after)},
           {"largest_force_jump", r.largest_jump}};
-}
-
-io::RenderScene preview_scene(const WrinkleReport& report) {
-  std::vector<double> heights;
-  const io::WrinkleRecord record = io::find_wrinkle_record(report.garment).value();
-  for (const io::WrinkleRecord::Line& line : record.lines)
-    heights.push_back(std::isfinite(line.height) ? line.height : 0);
-  const WrinkleStages& stages = report.stages.value();
-  // Steep flanks of folds are refined after insertion: those faces are not there yet.
-  std::vector<geometry::Face> changed;
-  for (geometry::Face f : report.drawn.round.report.insertion.changed_faces)
-    if (stages.inserted.has_valid_index(f)) changed.push_back(f);
-  io::RenderScene scene = io::preview_scene(stages.inserted, changed, stages.before.num_vertices(), heights);
-  io::mark_faces(scene.meshes[0],
-                 geometry::find_crossings(stages.inserted, geometry::find_parts(stages.inserted)).faces);
-  return scene;
-}
-
-io::MeshFile inserted_garment(const WrinkleReport& report) {
-  io::MeshFile inserted = report.garment;
-  inserted.mesh = report.stages.value().displaced;
-  io::drop_motion(inserted);
-  return inserted;
 }
 
 int next_line(const geometry::Mesh& mesh) {

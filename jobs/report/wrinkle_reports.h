@@ -4,9 +4,8 @@
 #include "geometry/fold/wrinkle.h"
 #include "geometry/rest/rest_state.h"
 #include "io/mesh/mesh_file.h"
-#include "io/picture/render.h"
+#include "jobs/draw/drawn_round.h"
 #include "jobs/inputs.h"
-#include "jobs/wrinkle.h"
 
 namespace furrow::jobs {
 
@@ -22,11 +21,6 @@ Json to_json(const bridge::DrawMoreReport& report, double time);
 
 /// A round of lines, with what drawing it in motion and keeping its shape did.
 Json to_json(const DrawnRound& round);
-
-/// The mesh with its vertices inserted as a picture, before anything is displaced. The report has stages.
-io::RenderScene preview_scene(const WrinkleReport& report);
-/// The garment as it was after insertion and before smoothing. The report has stages.
-io::MeshFile inserted_garment(const WrinkleReport& report);
 
 /// The first id above those of the lines that a mesh has.
 int next_line(const geometry::Mesh& mesh);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "jobs/simulate.h"
+#include "jobs/cloth/shape_report.h"
 
 namespace furrow::jobs {
 

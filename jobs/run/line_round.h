@@ -6,8 +6,8 @@
 #include "io/mesh/mesh_file.h"
 #include "io/scene/scene.h"
 #include "io/stroke/stroke_file.h"
+#include "jobs/draw/drawn_round.h"
 #include "jobs/inputs.h"
-#include "jobs/wrinkle.h"
 
 namespace furrow::jobs {
 

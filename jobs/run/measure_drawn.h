@@ -2,7 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "jobs/wrinkle.h"
+#include "jobs/draw/drawn_round.h"
+#include "jobs/inputs.h"
 
 namespace furrow::jobs {
 

@@ -16,6 +16,17 @@
 namespace furrow::jobs {
 namespace {
 
+Json line_json(const LineReport& r) {
+  Json line{{"id", r.id}};
+  if (r.name) line["name"] = *r.name;
+  if (r.drawn_height) line["drawn_height"] = *r.drawn_height;
+  if (r.width) line["width"] = *r.width;
+  line["smoothed_height"] = r.smoothed_height;
+  line["height"] = r.height;
+  line["kept"] = r.kept ? Json(*r.kept) : Json();
+  return line;
+}
+
 LineReport measure_line(std::size_t id, double now, double before, const io::WrinkleRecord& record) {
   LineReport line;
   line.id = id;
@@ -122,6 +133,23 @@ ReachedShape measure_shape(const io::MeshFile& file, const std::vector<double>& 
   shape.borders = measure_borders(file.mesh);
   shape.lines = measure_lines(file, before);
   return shape;
+}
+
+Json to_json(const std::vector<BorderReport>& borders) {
+  Json loops = Json::array();
+  for (const BorderReport& border : borders)
+    loops.push_back({{"rest_length", border.rest_length},
+                     {"length", border.length},
+                     {"mean_height", border.mean_height},
+                     {"mean_radius", border.mean_radius},
+                     {"radius_maxima", border.radius_maxima}});
+  return loops;
+}
+
+Json to_json(const std::vector<LineReport>& lines) {
+  Json list = Json::array();
+  for (const LineReport& line : lines) list.push_back(line_json(line));
+  return list;
 }
 
 }  // namespace furrow::jobs

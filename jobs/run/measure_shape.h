@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "jobs/cloth/shape_report.h"
 #include "jobs/run/body.h"
-#include "jobs/simulate.h"
 
 namespace furrow::jobs {
 

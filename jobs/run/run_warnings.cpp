@@ -8,24 +8,9 @@
 
 #include "jobs/read_inputs.h"
 #include "jobs/run/body.h"
-#include "jobs/run/keep_at_rest.h"
 
 namespace furrow::jobs {
 namespace {
-
-constexpr double least_kept = 0.5;    // share of a line's height
-constexpr std::size_t most_told = 5;  // lines in one warning
-
-/// "keeps 18 % (1.8 of 10.0 mm)"
-std::string words_of_loss(const LineReport& line) {
-  std::ostringstream text;
-  text.setf(std::ios::fixed);
-  text.precision(0);
-  text << (*line.kept < 0 ? "turned over, " : "keeps ") << 100 * *line.kept << " % (";
-  text.precision(1);
-  text << 1000 * line.height << " of " << 1000 * line.smoothed_height << " mm)";
-  return text.str();
-}
 
 /// "(0.11, 1.32, -0.02) m".
 std::string place(const physics::Vec3& x) {
@@ -201,28 +186,6 @@ std::optional<Warning> falls_freely(const io::Scene& scene, const std::vector<st
           ": falls, as there is neither a body nor a pin: name a body with --body, or what is held "
           "with --pin-loop, --pin-group, --pin-box or --pin-vertices",
       scene.garment.string(), "body"};
-}
-
-std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineReport>& lines) {
-  std::string told, first;
-  std::size_t lost = 0;
-  for (const LineReport& line : lines) {
-    if (!line.kept || *line.kept >= least_kept) continue;
-    const std::string name = "'" + line.name.value_or(std::to_string(line.id)) + "'";
-    if (++lost == 1) first = line.name.value_or(std::to_string(line.id));
-    if (lost <= most_told) told += (told.empty() ? "" : ", ") + name + " " + words_of_loss(line);
-  }
-  if (lost == 0) return {};
-  if (lost > most_told) told += ", and " + std::to_string(lost - most_told) + " more";
-  return {{"lines_lost",
-           (lines.size() == 1
-                ? "the line lost more than half of its height: "
-                : fmt::format("{} of {} lines lost more than half of their height: ", lost, lines.size())) +
-               told + "; " +
-               (keeps_first_shape(scene)
-                    ? "furrow keep finds out which lines hold, and helps those that do not"
-                    : "furrow keep makes the drawn shape the rest and helps lines that do not hold"),
-           first, "furrow keep"}};
 }
 
 Warning interruption_of(const io::Scene& scene, const physics::SimulateReport& report) {

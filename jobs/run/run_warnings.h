@@ -28,10 +28,6 @@ std::optional<Warning> body_comes_through(const io::Scene& scene, const EndFacts
 /// That neither a body nor one of the run's pins holds the garment, which has weight.
 std::optional<Warning> falls_freely(const io::Scene& scene, const std::vector<std::vector<int>>& pins);
 
-/// Lines that lost more than half of their height, or turned over to the other side, with figures and what
-/// helps.
-std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineReport>& lines);
-
 /// That the run was broken off, and what was kept.
 Warning interruption_of(const io::Scene& scene, const physics::SimulateReport& report);
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/chain/wrinkle_stages.h"
+
+#include <cmath>
+
+#include "geometry/mesh/crossings.h"
+#include "io/picture/render_preview.h"
+#include "io/picture/render_scene.h"
+
+namespace furrow::jobs {
+
+io::RenderScene preview_scene(const WrinkleReport& report) {
+  std::vector<double> heights;
+  const io::WrinkleRecord record = io::find_wrinkle_record(report.garment).value();
+  for (const io::WrinkleRecord::Line& line : record.lines)
+    heights.push_back(std::isfinite(line.height) ? line.height : 0);
+  const WrinkleStages& stages = report.stages.value();
+  // Steep flanks of folds are refined after insertion: those faces are not there yet.
+  std::vector<geometry::Face> changed;
+  for (geometry::Face f : report.drawn.round.report.insertion.changed_faces)
+    if (stages.inserted.has_valid_index(f)) changed.push_back(f);
+  io::RenderScene scene = io::preview_scene(stages.inserted, changed, stages.before.num_vertices(), heights);
+  io::mark_faces(scene.meshes[0],
+                 geometry::find_crossings(stages.inserted, geometry::find_parts(stages.inserted)).faces);
+  return scene;
+}
+
+io::MeshFile inserted_garment(const WrinkleReport& report) {
+  io::MeshFile inserted = report.garment;
+  inserted.mesh = report.stages.value().displaced;
+  io::drop_motion(inserted);
+  return inserted;
+}
+
+}  // namespace furrow::jobs

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "io/scene/scene.h"
+#include "jobs/cloth/shape_report.h"
+
+namespace furrow::jobs {
+
+/// Lines that lost more than half of their height, or turned over to the other side, with figures and what
+/// helps.
+std::vector<Warning> lost_lines(const io::Scene& scene, const std::vector<LineReport>& lines);
+
+}  // namespace furrow::jobs
