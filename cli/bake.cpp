@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/bake.h"
+#include "jobs/mesh/bake.h"
 
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "jobs/read_inputs.h"
+#include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

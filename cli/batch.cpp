@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/batch.h"
+#include "jobs/batch/batch.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "furrow/version.h"
 #include "io/base/nearest_word.h"
 #include "io/base/run_program.h"
-#include "jobs/batch_slurm.h"
+#include "jobs/batch/batch_slurm.h"
 
 namespace furrow::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/body.h"
+#include "jobs/body/body.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "cli/common.h"
 #include "cli/shipped.h"
 #include "cli/subcommands.h"
-#include "jobs/read_inputs.h"
+#include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

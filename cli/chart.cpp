@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/chart.h"
+#include "jobs/move/chart.h"
 
 #include <iostream>
 #include <memory>
@@ -7,8 +7,8 @@
 #include "cli/common.h"
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
-#include "jobs/read_inputs.h"
-#include "jobs/report/judge_report.h"
+#include "jobs/base/read_inputs.h"
+#include "jobs/move/judge_report.h"
 
 namespace furrow::cli {
 namespace {

@@ -14,8 +14,8 @@
 
 #include "cli/help.h"
 #include "cli/print_text.h"
-#include "jobs/read_inputs.h"
-#include "jobs/report/finite_report.h"
+#include "jobs/base/finite_report.h"
+#include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "cli/print_summary.h"
 #include "io/mesh/mesh_file.h"
-#include "jobs/check/output_checks.h"
-#include "jobs/inputs.h"
-#include "jobs/read_inputs.h"
+#include "jobs/base/inputs.h"
+#include "jobs/base/output_checks.h"
+#include "jobs/base/read_inputs.h"
 
 /// What the subcommands share: units, reports, progress, interruption, exit codes.
 namespace furrow::cli {

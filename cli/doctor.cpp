@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/doctor.h"
+#include "jobs/mesh/doctor.h"
 
 #include <algorithm>
 #include <memory>
@@ -8,7 +8,7 @@
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
 #include "io/picture/render_scene.h"
-#include "jobs/read_inputs.h"
+#include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

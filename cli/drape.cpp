@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/drape.h"
+#include "jobs/rest/drape.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,8 +12,8 @@
 #include "cli/subcommands.h"
 #include "io/base/atomic_file.h"
 #include "io/picture/png_file.h"
-#include "jobs/read_inputs.h"
-#include "jobs/report/fit_picture.h"
+#include "jobs/base/read_inputs.h"
+#include "jobs/rest/fit_picture.h"
 
 namespace furrow::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/fabric.h"
+#include "jobs/cloth/fabric.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@
 #include "io/picture/render_weave.h"
 #include "io/picture/strip.h"
 #include "io/scene/fabrics.h"
-#include "jobs/check/gate.h"
+#include "jobs/base/gate.h"
 
 namespace furrow::cli {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/fit.h"
+#include "jobs/rest/fit.h"
 
 #include <memory>
 
 #include "cli/camera_options.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
-#include "jobs/read_inputs.h"
-#include "jobs/report/fit_picture.h"
+#include "jobs/base/read_inputs.h"
+#include "jobs/rest/fit_picture.h"
 
 namespace furrow::cli {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/info.h"
+#include "jobs/mesh/info.h"
 
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "jobs/check/gate.h"
-#include "jobs/read_inputs.h"
+#include "jobs/base/gate.h"
+#include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

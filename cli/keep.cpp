@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/keep.h"
+#include "jobs/chain/keep.h"
 
 #include <memory>
 
@@ -9,8 +9,8 @@
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
 #include "io/picture/render_scene.h"
-#include "jobs/read_inputs.h"
-#include "jobs/report/verdict_scene.h"
+#include "jobs/base/read_inputs.h"
+#include "jobs/chain/verdict_scene.h"
 
 namespace furrow::cli {
 namespace {

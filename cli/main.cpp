@@ -13,7 +13,7 @@
 #include "cli/subcommands.h"
 #include "cli/usage_words.h"
 #include "geometry/mesh/errors.h"
-#include "jobs/check/budget.h"
+#include "jobs/base/budget.h"
 #include "physics/base/progress.h"
 
 namespace {

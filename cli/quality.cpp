@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/quality.h"
+#include "jobs/draw/quality.h"
 
 #include <memory>
 
 #include "cli/camera_options.h"
 #include "cli/subcommands.h"
 #include "io/picture/png_file.h"
-#include "jobs/read_inputs.h"
-#include "jobs/report/quality_targets.h"
+#include "jobs/base/read_inputs.h"
+#include "jobs/draw/quality_targets.h"
 
 namespace furrow::cli {
 namespace {

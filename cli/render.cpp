@@ -17,10 +17,10 @@
 #include "io/picture/strip.h"
 #include "io/stroke/resolve_strokes.h"
 #include "io/stroke/stroke_file.h"
-#include "jobs/check/gate.h"
-#include "jobs/read_inputs.h"
-#include "jobs/run/lay_warp.h"
-#include "jobs/run/measure_crossings.h"
+#include "jobs/base/gate.h"
+#include "jobs/base/measure_crossings.h"
+#include "jobs/base/read_inputs.h"
+#include "jobs/cloth/lay_warp.h"
 
 namespace furrow::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "cli/common.h"
 #include "cli/help.h"
-#include "jobs/read_inputs.h"
+#include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

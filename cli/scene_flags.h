@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/scene/settings_schema.h"
-#include "jobs/inputs.h"
+#include "jobs/base/inputs.h"
 
 namespace furrow::cli {
 

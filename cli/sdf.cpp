@@ -3,7 +3,7 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "jobs/field.h"
+#include "jobs/body/field.h"
 
 namespace furrow::cli {
 namespace {

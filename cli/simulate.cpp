@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/simulate.h"
+#include "jobs/move/simulate.h"
 
 #include <iostream>
 #include <memory>
@@ -9,8 +9,8 @@
 #include "cli/scene_flags.h"
 #include "cli/subcommands.h"
 #include "io/scene/equivalent_flags.h"
-#include "jobs/read_inputs.h"
-#include "jobs/report/judge_report.h"
+#include "jobs/base/read_inputs.h"
+#include "jobs/move/judge_report.h"
 
 namespace furrow::cli {
 namespace {

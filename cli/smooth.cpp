@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/smooth.h"
+#include "jobs/mesh/smooth.h"
 
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/smoothing_options.h"
 #include "cli/subcommands.h"
-#include "jobs/read_inputs.h"
+#include "jobs/base/read_inputs.h"
 
 namespace furrow::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include "cli/subcommands.h"
 #include "io/base/lower_case.h"
 #include "io/stroke/stroke_file.h"
-#include "jobs/read_inputs.h"
-#include "jobs/stroke_list.h"
+#include "jobs/base/read_inputs.h"
+#include "jobs/draw/stroke_list.h"
 
 namespace furrow::cli {
 namespace {

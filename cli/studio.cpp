@@ -11,7 +11,7 @@
 #include "cli/scene_flags.h"
 #include "cli/shipped.h"
 #include "cli/subcommands.h"
-#include "jobs/read_inputs.h"
+#include "jobs/base/read_inputs.h"
 #ifdef FURROW_STUDIO
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/wrinkle.h"
+#include "jobs/chain/wrinkle.h"
 
 #include <iostream>
 #include <memory>
@@ -11,11 +11,11 @@
 #include "io/base/lower_case.h"
 #include "io/picture/png_file.h"
 #include "io/scene/relocated.h"
+#include "jobs/base/read_inputs.h"
 #include "jobs/chain/wrinkle_stages.h"
-#include "jobs/read_inputs.h"
-#include "jobs/report/wrinkle_reports.h"
-#include "jobs/run/fabric_file.h"
-#include "jobs/run/recorded_material.h"
+#include "jobs/cloth/fabric_file.h"
+#include "jobs/cloth/recorded_material.h"
+#include "jobs/draw/wrinkle_reports.h"
 
 namespace furrow::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "cli/smoothing_options.h"
 #include "geometry/fold/wrinkle.h"
 #include "io/scene/scene.h"
-#include "jobs/wrinkle.h"
+#include "jobs/chain/wrinkle.h"
 
 namespace furrow::cli {
 

@@ -3,7 +3,7 @@
 //   simulate_job scene.toml
 #include <iostream>
 
-#include "jobs/simulate.h"
+#include "jobs/move/simulate.h"
 
 /// Prints progress and warnings as they come.
 struct Talker : furrow::jobs::Listener {

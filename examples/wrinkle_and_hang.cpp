@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // wrinkle_and_hang GARMENT BODY OUT.ply: draws a ridge across a garment, and lets it hang and fall on a body
 // for a second.
-#include "bridge/gather.h"
+#include "bridge/arrays/gather.h"
 #include "geometry/fold/wrinkle.h"
 #include "io/mesh/mesh_file.h"
 #include "physics/body/distance_field.h"

@@ -3,7 +3,7 @@
 //   wrinkle_job garment.obj wrinkled.ply
 #include <iostream>
 
-#include "jobs/wrinkle.h"
+#include "jobs/chain/wrinkle.h"
 
 /// Prints warnings as they come.
 struct Talker : furrow::jobs::Listener {

@@ -5,7 +5,7 @@
 
 #include "io/base/nearest_word.h"
 #include "io/scene/settings_schema.h"
-#include "jobs/read_inputs.h"
+#include "jobs/base/read_inputs.h"
 
 namespace furrow::python {
 namespace {

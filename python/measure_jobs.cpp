@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/doctor.h"
-#include "jobs/fit.h"
-#include "jobs/quality.h"
+#include "jobs/draw/quality.h"
+#include "jobs/mesh/doctor.h"
+#include "jobs/rest/fit.h"
 #include "python/mesh_job.h"
 
 /// Jobs that measure meshes: fit, doctor, quality.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/bake.h"
-#include "jobs/body.h"
-#include "jobs/smooth.h"
-#include "jobs/subdivide.h"
-#include "jobs/transfer.h"
+#include "jobs/body/body.h"
+#include "jobs/mesh/bake.h"
+#include "jobs/mesh/smooth.h"
+#include "jobs/mesh/subdivide.h"
+#include "jobs/mesh/transfer.h"
 #include "python/mesh_job.h"
 #include "python/smoothing_rows.h"
 

@@ -3,9 +3,9 @@
 
 #include "furrow/version.h"
 #include "geometry/mesh/errors.h"
-#include "jobs/info.h"
-#include "jobs/read_inputs.h"
-#include "jobs/report/finite_report.h"
+#include "jobs/base/finite_report.h"
+#include "jobs/base/read_inputs.h"
+#include "jobs/mesh/info.h"
 #include "physics/base/progress.h"
 #include "python/keywords.h"
 #include "python/mesh_arrays.h"

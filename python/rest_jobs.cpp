@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/settings_schema.h"
-#include "jobs/drape.h"
-#include "jobs/keep.h"
+#include "jobs/chain/keep.h"
+#include "jobs/rest/drape.h"
 #include "python/keywords.h"
 
 /// Jobs that bring a scene to rest: drape, keep.

@@ -5,8 +5,8 @@
 
 #include "io/scene/equivalent_flags.h"
 #include "io/scene/settings_schema.h"
-#include "jobs/report/judge_report.h"
-#include "jobs/simulate.h"
+#include "jobs/move/judge_report.h"
+#include "jobs/move/simulate.h"
 #include "python/keywords.h"
 
 /// Jobs that move a scene: simulate, chart.

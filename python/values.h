@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/inputs.h"
-#include "jobs/wrinkle.h"
+#include "jobs/base/inputs.h"
+#include "jobs/chain/wrinkle.h"
 
 /// Values of Python as those of jobs, and back. All throw std::invalid_argument, naming the keyword, for a
 /// value of another type.
@@ -24,7 +24,7 @@ struct HeldMesh {
   std::string name;  ///< of its file without ending, or as it was called; ""
 };
 
-/// A report as dicts and lists. Numbers are finite (jobs/report/finite_report.h).
+/// A report as dicts and lists. Numbers are finite (jobs/base/finite_report.h).
 py::object to_python(const Json& json);
 
 /// A value as a keyword gave it.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/settings_schema.h"
+#include "jobs/chain/wrinkle.h"
 #include "jobs/chain/wrinkle_stages.h"
-#include "jobs/drape.h"
-#include "jobs/report/wrinkle_reports.h"
-#include "jobs/run/fabric_file.h"
-#include "jobs/run/recorded_material.h"
-#include "jobs/wrinkle.h"
+#include "jobs/cloth/fabric_file.h"
+#include "jobs/cloth/recorded_material.h"
+#include "jobs/draw/wrinkle_reports.h"
+#include "jobs/rest/drape.h"
 #include "python/keywords.h"
 #include "python/smoothing_rows.h"
 

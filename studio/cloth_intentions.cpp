@@ -9,11 +9,11 @@
 #include <thread>
 #include <utility>
 
-#include "jobs/fit_sketch.h"
-#include "jobs/keep_sketch.h"
-#include "jobs/sketch_mass.h"
-#include "jobs/sketch_pins.h"
-#include "jobs/sketch_tangles.h"
+#include "jobs/sketch/fit_sketch.h"
+#include "jobs/sketch/keep_sketch.h"
+#include "jobs/sketch/sketch_mass.h"
+#include "jobs/sketch/sketch_pins.h"
+#include "jobs/sketch/sketch_tangles.h"
 #include "studio/drawing.h"
 #include "studio/frame_bytes.h"
 #include "studio/session.h"

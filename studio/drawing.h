@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "jobs/sketch.h"
+#include "jobs/sketch/sketch.h"
 
 /// A drawing as a project keeps it: {"settings": a scene's, "lines": [{"on": true, "stroke": {...}}, ...],
 /// "earlier": names of lines that are in the cloth already, "motion": {...}, "middle": x, "made_for": a path

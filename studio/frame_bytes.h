@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/shown_mesh.h"
+#include "jobs/draw/shown_mesh.h"
 
 namespace furrow::studio {
 

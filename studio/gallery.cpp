@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "jobs/read_inputs.h"
+#include "jobs/base/read_inputs.h"
 
 namespace furrow::studio {
 

@@ -2,7 +2,7 @@
 // What a page asks of lines.
 #include <cmath>
 
-#include "jobs/sketch_lines.h"
+#include "jobs/sketch/sketch_lines.h"
 #include "studio/drawing.h"
 #include "studio/session.h"
 

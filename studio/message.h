@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "jobs/inputs.h"
+#include "jobs/base/inputs.h"
 
 namespace furrow::studio {
 

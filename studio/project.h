@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/project_files.h"
+#include "jobs/base/project_files.h"
 
 namespace furrow::studio {
 

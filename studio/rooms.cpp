@@ -6,9 +6,9 @@
 #include <new>
 #include <utility>
 
-#include "jobs/guess_frame.h"
-#include "jobs/project_files.h"
-#include "jobs/read_inputs.h"
+#include "jobs/base/guess_frame.h"
+#include "jobs/base/project_files.h"
+#include "jobs/base/read_inputs.h"
 
 namespace furrow::studio {
 namespace {

@@ -4,10 +4,10 @@
 #include <new>
 #include <utility>
 
-#include "jobs/give_motion.h"
-#include "jobs/give_sketch.h"
-#include "jobs/sketch_lines.h"
-#include "jobs/sketch_pins.h"
+#include "jobs/move/give_motion.h"
+#include "jobs/sketch/give_sketch.h"
+#include "jobs/sketch/sketch_lines.h"
+#include "jobs/sketch/sketch_pins.h"
 #include "studio/drawing.h"
 #include "studio/frame_bytes.h"
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "jobs/play_sketch.h"
-#include "jobs/sketch.h"
+#include "jobs/sketch/play_sketch.h"
+#include "jobs/sketch/sketch.h"
 #include "studio/message.h"
 #include "studio/outbox.h"
 #include "studio/project.h"

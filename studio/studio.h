@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "jobs/inputs.h"
+#include "jobs/base/inputs.h"
 #include "studio/replay.h"
 
 namespace furrow::studio {

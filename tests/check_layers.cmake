@@ -13,7 +13,9 @@ set(may_include_python python jobs io bridge geometry physics)
 # The order of rooms: a room may include itself and those of lines above it. Rooms of one line do not know each other.
 set(rooms_geometry mesh "stroke rest" "insert refine figure" band fold quality)
 set(rooms_physics base "cloth body" "plate packed" linear "contact pairs" "motion rest")
+set(rooms_bridge arrays draping keeping)
 set(rooms_io base mesh "stroke scene" "animation picture")
+set(rooms_jobs base "body draw" cloth "rest mesh" move chain "sketch batch")
 # The doors of a room that has them: the only headers of it that other rooms and layers include.
 set(doors_physics_linear block_cholesky free_stiffness lanczos stable_step)
 # furrow_floor(LAYER ROOM OUT): the line of a room; -1: the layer has no such room.

@@ -10,7 +10,7 @@
 
 #include "bench/accuracy_table.h"
 #include "bench/charts/charts.h"
-#include "bridge/drape.h"
+#include "bridge/draping/drape.h"
 #include "io/scene/fabrics.h"
 #include "physics/cloth/elements.h"
 #include "physics/cloth/pins.h"

@@ -6,8 +6,8 @@
 #include <iostream>
 #include <span>
 
-#include "bridge/convert.h"
-#include "bridge/gather.h"
+#include "bridge/arrays/convert.h"
+#include "bridge/arrays/gather.h"
 #include "geometry/mesh/property_names.h"
 #include "io/animation/animation_file.h"
 #include "io/base/bytes_file.h"

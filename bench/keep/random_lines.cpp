@@ -15,9 +15,9 @@
 #include <string>
 #include <thread>
 
-#include "bridge/gather.h"
-#include "bridge/keep_trial.h"
-#include "bridge/line_help.h"
+#include "bridge/arrays/gather.h"
+#include "bridge/keeping/keep_trial.h"
+#include "bridge/keeping/line_help.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/two_ring.h"
 #include "physics/cloth/struts.h"

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "bridge/convert.h"
-#include "bridge/fit_report.h"
-#include "bridge/gather.h"
+#include "bridge/arrays/convert.h"
+#include "bridge/arrays/gather.h"
+#include "bridge/draping/fit_report.h"
 #include "geometry/figure/repair_body.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/fabrics.h"

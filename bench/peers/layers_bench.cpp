@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "jobs/drape.h"
+#include "jobs/rest/drape.h"
 #include "physics/motion/work_clock.h"
 
 namespace furrow::bench {

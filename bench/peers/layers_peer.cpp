@@ -12,14 +12,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "bridge/convert.h"
-#include "bridge/fit_report.h"
-#include "bridge/gather.h"
+#include "bridge/arrays/convert.h"
+#include "bridge/arrays/gather.h"
+#include "bridge/draping/fit_report.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/mesh/crossings.h"
 #include "geometry/rest/rest_metric.h"
 #include "io/mesh/mesh_file.h"
-#include "jobs/run/measure_layers.h"
+#include "jobs/rest/measure_layers.h"
 #include "physics/pairs/layer_order.h"
 
 namespace furrow::bench {

@@ -34,7 +34,8 @@ inline constexpr PropertyName<Vertex, int> line{"v:line", -1};
 inline constexpr PropertyName<Vertex, double> mass{"v:mass", unset_value};
 /// Velocity [m/s]; insertion interpolates it. (Not constexpr: CGAL's vectors are not.)
 inline const PropertyName<Vertex, Vector> velocity{"v:velocity", {0, 0, 0}};
-/// Spring force that insertion added to a vertex and that a simulation fades in [N], see bridge/draw_more.h.
+/// Spring force that insertion added to a vertex and that a simulation fades in [N], see
+/// bridge/keeping/draw_more.h.
 inline const PropertyName<Vertex, Vector> force_jump{"v:force_jump", {0, 0, 0}};
 /// Where contact last asked the body's field (in the body's frame) [m], and its value there [m]; NaN = never.
 inline const PropertyName<Vertex, Vector> contact_point{"v:contact_point", {0, 0, 0}};
@@ -53,7 +54,8 @@ inline constexpr PropertyName<Edge, int> bending_count{"e:bending_count", 0};
 /// Angle at rest between the two faces of an edge [rad]; NaN = as the shape lies, or a border.
 inline constexpr PropertyName<Edge, double> rest_angle{"e:rest_angle", unset_value};
 /// Of an edge: stiffness of its structural spring [N/m], of its bending spring, whatever that one's count
-/// [N/m], of its hinge [N m], its tension at the strain 1 [N]; >= 0; NaN = by the material (bridge/gather.h).
+/// [N/m], of its hinge [N m], its tension at the strain 1 [N]; >= 0; NaN = by the material
+/// (bridge/arrays/gather.h).
 inline constexpr PropertyName<Edge, double> stiffness{"e:stiffness", unset_value},
     bending_stiffness{"e:bending_stiffness", unset_value}, hinge_stiffness{"e:hinge_stiffness", unset_value},
     tension{"e:tension", unset_value};

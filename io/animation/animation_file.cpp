@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "geometry/mesh/preconditions.h"
 #include "io/animation/animation_encoder.h"
 #include "io/base/atomic_file.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "geometry/mesh/errors.h"
 #include "io/animation/animation_file.h"
 #include "io/mesh/file_frame.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "geometry/mesh/property_names.h"
 #include "io/animation/animation_encoder.h"
 #include "io/base/byte_order.h"

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "geometry/mesh/errors.h"
 #include "io/animation/animation_file.h"
 #include "io/base/byte_order.h"

@@ -2,7 +2,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "io/animation/animation_encoder.h"
 #include "io/base/byte_order.h"
 #include "io/base/own_mark.h"

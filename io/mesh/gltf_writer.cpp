@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/mesh/struts.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bridge/gather.h"
+#include "bridge/arrays/gather.h"
 #include "geometry/fold/wrinkle.h"
 #include "physics/body/distance_field.h"
 #include "physics/motion/simulate.h"

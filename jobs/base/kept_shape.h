@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "bridge/keep.h"
-#include "jobs/inputs.h"
+#include "bridge/keeping/keep.h"
+#include "jobs/base/inputs.h"
 
 namespace furrow::jobs {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "io/picture/render.h"
-#include "jobs/wrinkle.h"
+#include "jobs/chain/wrinkle.h"
 
 namespace furrow::jobs {
 

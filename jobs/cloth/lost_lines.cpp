@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "jobs/run/keep_at_rest.h"
+#include "jobs/cloth/keep_at_rest.h"
 
 namespace furrow::jobs {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/ends.h"
+#include "jobs/base/ends.h"
 #include "physics/body/exact_distance.h"
 #include "physics/motion/simulate.h"
 

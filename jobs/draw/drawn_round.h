@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "bridge/draw_more.h"
-#include "bridge/keep.h"
+#include "bridge/keeping/draw_more.h"
+#include "bridge/keeping/keep.h"
 #include "geometry/fold/wrinkle.h"
 #include "geometry/rest/rest_state.h"
 #include "io/stroke/stroke_file.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "bridge/gather.h"
+#include "bridge/arrays/gather.h"
 #include "physics/body/exact_distance.h"
 
 namespace furrow::tests {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "bridge/convert.h"
-#include "bridge/gather.h"
+#include "bridge/arrays/convert.h"
+#include "bridge/arrays/gather.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/rest/bending_springs.h"
 #include "geometry/rest/masses.h"

@@ -2,7 +2,7 @@
 #pragma once
 #include <memory>
 
-#include "bridge/gather.h"
+#include "bridge/arrays/gather.h"
 #include "geometry/mesh/mesh.h"
 #include "tests/cases/metamorphic.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bridge/couple_bending.h"
+#include "bridge/arrays/couple_bending.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/property_names.h"

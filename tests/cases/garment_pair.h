@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "bridge/drape.h"
-#include "bridge/gather.h"
+#include "bridge/arrays/gather.h"
+#include "bridge/draping/drape.h"
 #include "physics/body/distance_field.h"
 #include "physics/body/exact_distance.h"
 

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "bridge/couple_bending.h"
-#include "bridge/gather.h"
-#include "bridge/store_rest_state.h"
+#include "bridge/arrays/couple_bending.h"
+#include "bridge/arrays/gather.h"
+#include "bridge/arrays/store_rest_state.h"
 #include "geometry/fold/line_height.h"
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/sheet.h"

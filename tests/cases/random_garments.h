@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bridge/gather.h"
-#include "bridge/keep.h"
+#include "bridge/arrays/gather.h"
+#include "bridge/keeping/keep.h"
 
 namespace furrow::cases {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "io/mesh/mesh_file.h"
 #include "run_furrow.h"
 #include "tests/test_paths.h"

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "geometry/mesh/border_loops.h"
 #include "geometry/mesh/property_names.h"
 #include "io/animation/animation_file.h"

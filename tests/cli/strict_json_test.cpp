@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every report is JSON that a strict reader takes, and is as its schema says, jobs/report/report.schema.json.
+// Every report is JSON that a strict reader takes, and is as its schema says, jobs/report.schema.json.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ using nlohmann::json;
 namespace {
 
 const json& schema() {
-  static const json all = parse_strictly(read_text(source_file("jobs/report/report.schema.json")));
+  static const json all = parse_strictly(read_text(source_file("jobs/report.schema.json")));
   return all;
 }
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "io/mesh/mesh_file.h"
 #include "physics/body/moving_body.h"
 #include "run_furrow.h"

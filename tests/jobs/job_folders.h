@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/mesh/mesh_file.h"
-#include "jobs/inputs.h"
+#include "jobs/base/inputs.h"
 
 /// Files that the tests of jobs write, and what is in them.
 namespace furrow::tests {

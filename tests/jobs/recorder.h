@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/inputs.h"
+#include "jobs/base/inputs.h"
 
 namespace furrow::tests {
 

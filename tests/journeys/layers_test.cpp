@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "io/mesh/mesh_file.h"
 #include "journey.h"
 

@@ -10,8 +10,8 @@
 #include <random>
 #include <thread>
 
-#include "jobs/play_sketch.h"
-#include "jobs/simulate.h"
+#include "jobs/move/simulate.h"
+#include "jobs/sketch/play_sketch.h"
 #include "tests/studio/visitor.h"
 
 namespace furrow {

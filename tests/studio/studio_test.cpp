@@ -9,9 +9,9 @@
 #include <memory>
 #include <set>
 
-#include "jobs/play_sketch.h"
-#include "jobs/simulate.h"
-#include "jobs/wrinkle.h"
+#include "jobs/chain/wrinkle.h"
+#include "jobs/move/simulate.h"
+#include "jobs/sketch/play_sketch.h"
 #include "tests/studio/visitor.h"
 #include "tests/test_meshes.h"
 

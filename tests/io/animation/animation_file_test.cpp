@@ -7,7 +7,7 @@
 #include <csignal>
 #include <limits>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "io/base/own_mark.h"
 #include "tests/io/base/io_test_helpers.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "io/animation/animation_file.h"
 #include "io/base/byte_order.h"
 #include "io/base/own_mark.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "bridge/convert.h"
+#include "bridge/arrays/convert.h"
 #include "io/animation/animation_file.h"
 #include "tests/io/base/io_test_helpers.h"
 #include "tests/io/mesh/glb_parts.h"

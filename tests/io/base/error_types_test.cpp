@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <span>
 
-#include "bridge/convert.h"
-#include "bridge/gather.h"
+#include "bridge/arrays/convert.h"
+#include "bridge/arrays/gather.h"
 #include "geometry/figure/repair_body.h"
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/property_names.h"

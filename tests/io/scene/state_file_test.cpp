@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "bridge/store_rest_state.h"
+#include "bridge/arrays/store_rest_state.h"
 #include "geometry/fold/wrinkle.h"
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bridge/arrays/gather.h"
+#include "bridge/draping/standing_body.h"
+#include "bridge/keeping/keep.h"
+#include "bridge/keeping/keep_trial.h"
+#include "bridge/keeping/keep_verdicts.h"
+#include "bridge/keeping/line_help.h"
+#include "bridge/keeping/try_statics.h"
+#include "geometry/fold/line_region.h"
+#include "geometry/mesh/preconditions.h"
+#include "geometry/mesh/property_names.h"
+#include "physics/base/progress.h"
+#include "physics/cloth/check_cloth.h"
+#include "physics/rest/settle.h"
+
+namespace furrow::bridge {
+namespace {
+
+using physics::Vec3;
+
+constexpr double share_of_statics = 0.05;  // of a trial, as its progress is told
+// A line that is off by so much is given two steps of help at once [-], as one is that had help before; and
+// where others are helped, one that uses so much of what it may lose goes with them [-]: less is allowed
+// where one gust is all that is tried.
+constexpr double far_off = 0.2, near_the_edge = 0.5, near_in_one_gust = 0.4;
+
+/// What it took so far.
+struct Tally {
+  int trials = 0, runs = 0;
+  int helped = 0;    ///< lines with more help than in the trial before
+  double drift = 0;  ///< of any vertex in the last trial [m]
+  bool interrupted = false;
+};
+
+/// Of one that is off by so much and may be by `most` [-].
+char steps_more(double off, double most) {
+  if (off <= most) return 0;
+  return off > far_off ? 2 : 1;  // not a number: 1
+}
+
+bool any(const LineFlags& flags) {
+  return std::any_of(flags.begin(), flags.end(), [](char flag) { return flag != 0; });
+}
+
+/// Goes from plan to plan; the members are what all of them have in common.
+class Keeper {
+ public:
+  Keeper(const geometry::Mesh& mesh, const physics::Cloth& start, const physics::World& world,
+         const KeepOptions& options, LineMeter& meter, const KeepObserver& go_on)
+      : mesh_(mesh), start_(start), world_(world), o_(options), meter_(meter), go_on_(go_on) {}
+
+  /// The lines without help.
+  KeepPlan plan() const {
+    const auto id = geometry::find_map(mesh_, geometry::attribute::line);
+    const std::vector<double> drawn = meter_.heights(start_.particles),
+                              lengths = geometry::lengths_before_lines(mesh_);
+    const auto of_line = [](const std::vector<double>& list, int line, double missing) {
+      return std::size_t(line) < list.size() ? list[line] : missing;
+    };
+    KeepPlan plan;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      std::vector<geometry::Vertex> vertices;
+      for (const geometry::Vertex v : mesh_.vertices())
+        if ((*id)[v] == meter_.lines()[i]) vertices.push_back(v);
+      HelpedLine line{meter_.lines()[i], {}, drawn[i]};
+      line.press = of_line(o_.line_presses, line.id, 1);
+      const double width = of_line(o_.line_widths, line.id, NAN);
+      line.width = width > 0 ? width : 0;
+      for (const geometry::Vertex v : geometry::line_region(mesh_, vertices, width, lengths))
+        line.patch.push_back(int(v));
+      plan.lines.push_back(std::move(line));
+    }
+    return plan;
+  }
+
+  TriedPlan found_by(const KeepPlan& plan, Tally& tally) const {
+    KeepOutcome outcome = solve(plan, tally);
+    return {plan, std::move(outcome)};
+  }
+
+  /// More help for what needs it, until nothing does or all is given.
+  TriedPlan help_by_stiffness(KeepPlan plan, Tally& tally) const {
+    for (std::optional<TriedPlan> last;;) {
+      // Cancelled before there is any rest state, it comes out.
+      std::optional<TriedPlan> solved = last ? try_solve(plan, tally) : found_by(plan, tally);
+      if (!solved) return std::move(*last);
+      TriedPlan& found = last.emplace(std::move(*solved));
+      Steps weak = loose_lines(found);
+      for (std::size_t i = 0; i < weak.size(); ++i)
+        weak[i] = can_be_helped(plan.lines[i]) && (weak[i] || is_bound(plan.lines[i], found.outcome));
+      const bool rest = rest_needs_help(found);
+      if (hangs_wrong(found.outcome)) return std::move(found);
+      if (!any(weak) && !rest) weak = try_out(found, true, tally);
+      if ((!any(weak) && !rest) || tally.interrupted) return std::move(found);
+      // A line that gives way lets the next one go. All lines get help then, which saves trials; long steps
+      // give two steps at once.
+      const bool one_by_one = tally.trials > 1 && fails_anew(weak, plan.lines);
+      if (any(weak)) add_near_the_edge(found, weak);
+      tally.helped = add_help(weak, one_by_one ? (o_.prove ? 1 : 2) : 0, o_, plan.lines);
+      plan.rest_step += rest ? 1 : 0;
+    }
+  }
+
+  /// Gives all help to all lines, since a neighbour that holds by itself can let a line go. The help stays if
+  /// more lines hold.
+  TriedPlan help_all(TriedPlan least, Tally& tally) const {
+    const auto is_helped = [&](const HelpedLine& line) { return !can_be_helped(line); };
+    const std::size_t before = failing(least);
+    if (before == 0 || hangs_wrong(least.outcome) ||
+        std::all_of(least.plan.lines.begin(), least.plan.lines.end(), is_helped))
+      return least;
+    const double drift = tally.drift;
+    KeepPlan plan = least.plan;
+    for (HelpedLine& line : plan.lines) line.step = help_steps(o_);
+    tally.helped = int(plan.lines.size());
+    std::optional<TriedPlan> most = try_solve(plan, tally);
+    if (!most) return least;
+    try_out(*most, false, tally);
+    if (tally.interrupted || failing(*most) < before) return std::move(*most);
+    tally.drift = drift;
+    return least;
+  }
+
+  /// Bisects the heights of all lines at once that fail, and not in stronger gusts alone.
+  TriedPlan help_by_height(TriedPlan found, Tally& tally) const {
+    const LineFlags good = good_lines(found, o_.kept);
+    std::vector<std::size_t> lines;
+    for (std::size_t i = 0; i < good.size(); ++i)
+      if (!good[i] && !may_hold(found, i, o_.kept)) lines.push_back(i);
+    if (lines.empty() || hangs_wrong(found.outcome)) return found;
+    tally.helped = int(lines.size());
+    const double drift = tally.drift;
+    KeepPlan plan = found.plan;
+    std::vector<double> low(lines.size(), 0), high(lines.size(), 1);  // low: the greatest that held
+    for (int trial = 0; trial < o_.height_trials && !tally.interrupted; ++trial) {
+      for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = (low[i] + high[i]) / 2;
+      const std::optional<TriedPlan> tried = try_forward(plan, tally);
+      if (!tried) return found;
+      const LineFlags now = good_lines(*tried, o_.kept);
+      for (std::size_t i = 0; i < lines.size(); ++i)
+        (now[lines[i]] ? low[i] : high[i]) = plan.lines[lines[i]].height;
+    }
+    if (tally.interrupted) return found;
+    if (std::all_of(low.begin(), low.end(), [](double height) { return height == 0; })) {
+      tally.drift = drift;  // nothing lower holds: what was found stands
+      return found;
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) plan.lines[lines[i]].height = low[i] > 0 ? low[i] : 1;
+    return try_forward(plan, tally).value_or(std::move(found));
+  }
+
+  /// Where gusts that are stronger than asked for, as those of implicit steps and of one gust are, took a
+  /// line away: what those that were asked for do.
+  void try_named_gusts(TriedPlan& found, Tally& tally) const {
+    const bool blown_harder =
+        o_.gust > 0 && (!o_.prove || o_.run.integrator == physics::Integrator::implicit);
+    const auto lost_in_gusts = [&](std::size_t i) {
+      return std::abs(found.outcome.kept[i] - 1) <= 1 - o_.kept && may_be_judged(found, i) &&
+             !(std::abs(found.outcome.kept_gust[i] - 1) <= 1 - o_.kept);
+    };
+    bool any = false;
+    for (std::size_t i = 0; i < found.plan.lines.size(); ++i) any = any || lost_in_gusts(i);
+    if (!blown_harder || !any || !found.outcome.kept_named.empty()) return;
+    tally.runs += o_.prove ? 1 : 0;
+    // The plan's own trial has been shown to its end, and progress never goes back.
+    const KeepTrial trial = try_shape(
+        found.outcome.cloth, true, world_, o_, meter_, {}, [&](double) { return go_on(1, tally); }, 1);
+    tally.interrupted = trial.stopped;
+    if (!trial.stopped) found.outcome.kept_named = trial.kept_gust;
+  }
+
+  /// For the report: trials need to know only whether there are any.
+  void count_negative_eigenvalues(TriedPlan& found) const {
+    if (found.outcome.shape.certificate.stable()) return;
+    found.outcome.shape.certificate = certify_kept(found.outcome.cloth, world_, bounds(), true);
+  }
+
+ private:
+  /// Nothing, and that is noted, if it was broken off.
+  std::optional<TriedPlan> try_solve(const KeepPlan& plan, Tally& tally) const try {
+    return found_by(plan, tally);
+  } catch (const physics::Cancelled&) {
+    tally.interrupted = true;
+    return std::nullopt;
+  }
+
+  physics::PrestressOptions bounds() const {
+    physics::PrestressOptions bounds = o_.bounds;
+    bounds.work = &exact_work_;
+    return bounds;
+  }
+
+  KeepOutcome solve(const KeepPlan& plan, Tally& tally) const {
+    const std::vector<double> unknown(plan.lines.size(), NAN);
+    KeepOutcome outcome{.cloth = start_,
+                        .shape = {},
+                        .rest_press = plan.rest_step > 0 ? o_.presses[plan.rest_step - 1] : 1,
+                        .kept = unknown,
+                        .kept_gust = unknown};
+    place_lines(plan.lines, mesh_, start_.particles, outcome.cloth.particles);
+    stiffen_lines(plan.lines, o_, outcome.rest_press, outcome.cloth);
+    outcome.shape = keep_shape(outcome.cloth, world_, bounds(), o_.largest_turn, false);
+    ++tally.trials;
+    return outcome;
+  }
+
+  /// Statics first, then motion, unless that is in vain. As run_forward().
+  Steps try_out(TriedPlan& found, bool may_end, Tally& tally) const {
+    if (found.plan.lines.empty()) return {};  // all were refused
+    if (!o_.prove) return blow_once(found, may_end, tally);
+    if (!o_.statics) return run_forward(found, may_end, tally);
+    const bool brief = physics::solves_contact(o_.run.integrator);  // else motion is slower
+    const StaticTrial trial = try_statics(found.outcome.cloth, world_, o_, brief, meter_, search_work_,
+                                          [&] { return go_on(0, tally); });
+    tally.drift = trial.drift;
+    tally.interrupted = tally.interrupted || trial.stopped;
+    found.outcome.kept = trial.kept;
+    found.outcome.kept_gust.assign(trial.kept.size(), 1);  // that is for motion to say
+    const Steps weak = weak_lines(found);
+    found.outcome.kept.assign(weak.size(), NAN);  // until motion says it, whatever ends the search
+    found.outcome.kept_gust.assign(weak.size(), NAN);
+    if (tally.interrupted || (may_end && any(weak))) return weak;
+    return run_forward(found, may_end, tally);
+  }
+
+  /// As run_forward(), of one gust by long steps; what fails gets two steps of help at once.
+  Steps blow_once(TriedPlan& found, bool may_end, Tally& tally) const {
+    Steps weak;
+    const auto in_vain = [&](const std::vector<double>& kept, bool) {
+      found.outcome.kept = kept;
+      found.outcome.kept_gust.assign(kept.size(), 1);  // that is for the gust to say
+      weak = weak_lines(found);
+      return may_end && any(weak);
+    };
+    const KeepTrial trial = try_one_gust(found.outcome.cloth, world_, o_, meter_, in_vain,
+                                         [&](double share) { return go_on(share, tally); });
+    found.outcome.kept = trial.kept;
+    found.outcome.kept_gust = trial.kept_gust;
+    tally.drift = trial.drift;
+    tally.interrupted = tally.interrupted || trial.stopped;
+    if (!may_end || !any(weak)) weak = weak_lines(found);
+    for (char& steps : weak) steps = steps > 0 ? 2 : 0;
+    return weak;
+  }
+
+  /// For those that may be helped and do not hold.
+  Steps weak_lines(const TriedPlan& found) const {
+    const std::vector<HelpedLine>& lines = found.plan.lines;
+    const KeepOutcome& outcome = found.outcome;
+    Steps weak(lines.size(), 0);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (!can_be_helped(lines[i])) continue;
+      weak[i] = std::max(steps_more(std::abs(outcome.kept[i] - 1), may_lose(outcome, o_.kept)),
+                         steps_more(std::abs(outcome.kept_gust[i] - 1), may_lose_in_gusts(outcome, o_.kept)));
+    }
+    return weak;
+  }
+
+  /// Where a trial has failed anyway, lines that hardly hold are helped with those that do not.
+  void add_near_the_edge(const TriedPlan& found, Steps& weak) const {
+    const double near = o_.prove ? near_the_edge : near_in_one_gust;
+    for (std::size_t i = 0; i < weak.size(); ++i) {
+      const double off = std::abs(found.outcome.kept_gust[i] - 1);
+      if (weak[i] == 0 && can_be_helped(found.plan.lines[i]) &&
+          off > near * may_lose_in_gusts(found.outcome, o_.kept))
+        weak[i] = 1;
+    }
+  }
+
+  /// Notes what the lines keep. Returns the steps of help that those need that may be helped and do not hold;
+  /// with `may_end` the run ends early if one is far from it.
+  Steps run_forward(TriedPlan& found, bool may_end, Tally& tally) const {
+    const bool stable = found.outcome.shape.certificate.stable();
+    tally.runs += stable ? 1 : o_.pushes;
+    const std::vector<HelpedLine>& lines = found.plan.lines;
+    Steps weak(lines.size(), 0);
+    const auto in_vain = [&](const std::vector<double>& kept, bool at_end) {
+      const double most = at_end ? may_lose_in_gusts(found.outcome, o_.kept) : 2 * (1 - o_.kept);
+      for (std::size_t i = 0; may_end && i < lines.size(); ++i)
+        weak[i] = can_be_helped(lines[i]) ? steps_more(std::abs(kept[i] - 1), most) : char(0);
+      return any(weak);
+    };
+    const double before = o_.statics ? share_of_statics : 0;
+    KeepTrial trial = try_shape(found.outcome.cloth, stable, world_, o_, meter_, in_vain,
+                                [&](double share) { return go_on(before + (1 - before) * share, tally); });
+    found.outcome.kept = std::move(trial.kept);
+    found.outcome.kept_gust = std::move(trial.kept_gust);
+    tally.drift = trial.drift;
+    tally.interrupted = tally.interrupted || trial.stopped;
+    return any(weak) ? weak : weak_lines(found);
+  }
+
+  std::optional<TriedPlan> try_forward(const KeepPlan& plan, Tally& tally) const {
+    std::optional<TriedPlan> found = try_solve(plan, tally);
+    if (found) try_out(*found, false, tally);
+    return found;
+  }
+
+  bool go_on(double share, const Tally& tally) const {
+    return !go_on_ || go_on_({tally.trials, tally.helped, share});
+  }
+
+  bool can_be_helped(const HelpedLine& line) const { return line.step < help_steps(o_); }
+
+  bool rest_needs_help(const TriedPlan& found) const {
+    return o_.whole && found.plan.rest_step < o_.presses.size() && rest_is_loose(found);
+  }
+
+  std::size_t failing(const TriedPlan& found) const {
+    const LineFlags good = good_lines(found, o_.kept);
+    return std::size_t(std::count(good.begin(), good.end(), 0));
+  }
+
+  const geometry::Mesh& mesh_;
+  const physics::Cloth& start_;
+  const physics::World& world_;
+  const KeepOptions& o_;
+  LineMeter& meter_;
+  const KeepObserver& go_on_;
+  mutable physics::StiffnessWork exact_work_, search_work_;  // of all trials; they change no bit
+};
+
+KeepReport report_of(TriedPlan& found, const KeepOptions& o, LineMeter& meter,
+                     const std::vector<LineMeter::TooLow>& low, const Tally& tally) {
+  KeepReport report;
+  report.lines = verdicts(found, meter.heights(found.outcome.cloth.particles), o, tally.interrupted);
+  for (const int id : meter.unmeasured()) report.lines.push_back(unmeasured_line(id));
+  for (const LineMeter::TooLow& line : low) report.lines.push_back(too_low_line(line, o));
+  std::sort(report.lines.begin(), report.lines.end(),
+            [](const KeptLine& a, const KeptLine& b) { return a.line < b.line; });
+  report.rest = std::move(found.outcome.shape.rest);
+  report.certificate = std::move(found.outcome.shape.certificate);
+  report.rest_press = found.outcome.rest_press;
+  report.turned = found.outcome.shape.turned;
+  report.trials = tally.trials;
+  report.runs = tally.runs;
+  report.proved = o.prove;
+  report.drift = tally.drift;
+  report.interrupted = tally.interrupted;
+  return report;
+}
+
+}  // namespace
+
+KeepReport keep_lines(geometry::Mesh& mesh, physics::Cloth& cloth, const physics::World& world,
+                      const std::vector<double>& base, const KeepOptions& options,
+                      const KeepObserver& go_on) {
+  if (mesh.number_of_vertices() != cloth.particles.size())
+    throw std::invalid_argument("keep_lines: particles for another mesh = " +
+                                std::to_string(cloth.particles.size()));
+  require_legal(options);
+  require_still(world);
+  geometry::check_mesh(mesh, "keep_lines");
+  physics::check_cloth(cloth, "keep_lines");
+  KeepOptions o = options;
+  o.bounds.gravity = o.run.gravity;
+  o.bounds.friction = o.run.friction;
+  o.bounds.gap = o.run.contact_gap;
+  LineMeter meter(mesh, base, o.line_widths);
+  physics::Cloth start = cloth;
+  for (Vec3& v : start.particles.v) v.setZero();
+  physics::PushOutReport pushed;
+  if (const auto body = standing_body(world))
+    pushed = physics::bring_out(start.particles, *body, o.run.contact_gap);
+
+  const std::vector<LineMeter::TooLow> low = meter.leave_out_low(start.particles, o.least_height);
+
+  const Keeper keeper(mesh, start, world, o, meter, go_on);
+  Tally tally;
+  TriedPlan found = keeper.help_by_stiffness(keeper.plan(), tally);
+  if (!tally.interrupted) found = keeper.help_all(std::move(found), tally);
+  if (!tally.interrupted) keeper.try_named_gusts(found, tally);
+  if (!tally.interrupted && o.height_trials > 0 &&
+      geometry::find_map(mesh, geometry::attribute::rest_position))
+    found = keeper.help_by_height(std::move(found), tally);
+  if (!tally.interrupted) keeper.try_named_gusts(found, tally);
+  if (!tally.interrupted) keeper.count_negative_eigenvalues(found);
+
+  scatter(found.outcome.cloth.particles, mesh);
+  KeepReport report = report_of(found, o, meter, low, tally);
+  report.pushed_out = pushed.moved;
+  report.farthest_push = pushed.farthest;
+  cloth = std::move(found.outcome.cloth);
+  return report;
+}
+
+}  // namespace furrow::bridge

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge/keeping/keep_trial.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+
+#include "bridge/arrays/gather.h"
+#include "geometry/fold/line_height.h"
+#include "geometry/mesh/property_names.h"
+#include "physics/base/cancel_scope.h"
+
+namespace furrow::bridge {
+namespace {
+
+using physics::Vec3;
+
+constexpr double first_part = 0.2;  // of the first run, before it is asked whether it is in vain
+constexpr int look_steps = 100;     // between two moments that are looked at, however often a run is observed
+// At what is on its way elsewhere, when the push has calmed [s].
+constexpr double first_look = 0.5, look = 0.1;
+constexpr double calm_dt = 1.0 / 30;  // of implicit steps, where nothing blows [s]
+// Of what is tried in one gust: steps before and in it [s], and over the options' its strength, which was
+// chosen on three garments, and that of the push, much of which such steps damp out at once [-].
+constexpr double first_calm_dt = 1.0 / 15, long_dt = 1.0 / 30, gust_of_long_steps = 1.2,
+                 push_of_long_steps = 2;
+constexpr double least_share = 0.005;  // of the mean edge: what is lower is not told from the mesh
+constexpr double never = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Vec3 gust_of(const KeepOptions& o, const std::vector<Vec3>& x) {
+  if (o.gust_direction.norm() > 0) return o.gust * o.gust_direction.normalized();
+  const Vec3 down = o.run.gravity.norm() > 0 ? Vec3(o.run.gravity.normalized()) : Vec3(Vec3::Zero());
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& p : x) centre += p / double(x.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3& p : x) spread += (p - centre) * (p - centre).transpose();
+  spread += 10 * spread.trace() * down * down.transpose();
+  return o.gust * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+}
+
+/// As strong, level, to the side.
+Vec3 across(const Vec3& gust, const Vec3& gravity) {
+  const Vec3 side = gust.cross(gravity.norm() > 0 ? gravity : gust.unitOrthogonal());
+  return side.norm() > 0 ? Vec3(gust.norm() * side.normalized()) : Vec3(gust.norm() * gust.unitOrthogonal());
+}
+
+void push_off(physics::Cloth& cloth, double by, std::uint64_t number) {
+  physics::Particles& p = cloth.particles;
+  std::vector<double> most(p.size(), by);
+  for (const auto& t : cloth.triangles)
+    for (int c = 0; c < 3; ++c) {
+      const int a = t[c], b = t[(c + 1) % 3];
+      const double tenth = 0.1 * (p.x[a] - p.x[b]).norm();
+      most[a] = std::min(most[a], tenth);
+      most[b] = std::min(most[b], tenth);
+    }
+  std::mt19937_64 engine(number);
+  const auto random = [&] { return double(engine() >> 11) * 0x1p-52 - 1; };
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double a = random(), b = random(), c = random();
+    if (p.inv_mass[i] > 0) p.x[i] += most[i] * Vec3(a, b, c).normalized();
+  }
+}
+
+std::vector<double> shares_of_heights(std::vector<double> heights, const std::vector<double>& at_start) {
+  for (std::size_t i = 0; i < heights.size(); ++i) heights[i] /= at_start[i];
+  return heights;
+}
+
+double farthest_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
+
+LineMeter::LineMeter(const geometry::Mesh& mesh, const std::vector<double>& base, std::vector<double> widths)
+    : shape_(mesh), widths_(std::move(widths)) {
+  for (const geometry::LineHeight& h : geometry::line_heights(shape_, widths_)) {
+    const bool known = std::size_t(h.line) < base.size() && std::isfinite(base[h.line]);
+    const double below = known ? base[h.line] : 0;
+    if (!std::isfinite(h.height)) unmeasured_.push_back(h.line);
+    if (!std::isfinite(h.height) || h.height == below) continue;
+    lines_.push_back(h.line);
+    base_.push_back(below);
+  }
+}
+
+std::vector<double> LineMeter::heights(const physics::Particles& p) {
+  const physics::CancelScope whole([] { return false; });  // a trial that was stopped is measured, too
+  scatter(p, shape_);
+  std::vector<double> result;
+  const auto all = geometry::line_heights(shape_, widths_);
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const auto at = std::find_if(all.begin(), all.end(), [&](const auto& h) { return h.line == lines_[i]; });
+    result.push_back(at == all.end() ? NAN : at->height - base_[i]);
+  }
+  return result;
+}
+
+double LineMeter::mean_edge_at(int line) const {
+  const auto id = geometry::find_map(shape_, geometry::attribute::line);
+  double sum = 0;
+  int count = 0;
+  for (const geometry::Edge e : shape_.edges()) {
+    const geometry::Vertex a = shape_.vertex(e, 0), b = shape_.vertex(e, 1);
+    if ((*id)[a] != line && (*id)[b] != line) continue;
+    sum += std::sqrt((shape_.point(a) - shape_.point(b)).squared_length());
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+std::vector<LineMeter::TooLow> LineMeter::leave_out_low(const physics::Particles& p, double least) {
+  const std::vector<double> now = heights(p);  // and shape_ lies there
+  const std::vector<int> lines = std::exchange(lines_, {});
+  const std::vector<double> base = std::exchange(base_, {});
+  std::vector<TooLow> low;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double floor = std::max(least, least_share * mean_edge_at(lines[i]));
+    if (std::abs(now[i]) < floor) {
+      low.push_back({lines[i], now[i], floor});
+      continue;
+    }
+    lines_.push_back(lines[i]);
+    base_.push_back(base[i]);
+  }
+  return low;
+}
+
+namespace {
+
+/// A cloth on its way.
+struct Run {
+  physics::Cloth cloth;
+  physics::SimulateState state;
+  double before = 0;     ///< simulated in runs before this one [s]
+  double next_look = 0;  ///< at the lines [s]
+};
+
+/// Of a run, up to so many seconds from its beginning.
+struct Part {
+  double until;                   ///< [s]
+  Vec3 gravity;                   ///< with the gust [m/s^2]
+  std::optional<double> dt = {};  ///< of implicit steps, if the options name none [s]
+};
+
+/// What goes on from a run: gusts to both sides along two level axes, and calm.
+std::vector<Part> gusts_and_calm(const KeepOptions& o, const Vec3& gust, double from, double stronger) {
+  if (!(o.gust > 0)) return {};
+  const double factor = o.run.integrator == physics::Integrator::implicit ? stronger : 1;
+  const Vec3 a = factor * gust, b = factor * across(gust, o.run.gravity);
+  std::vector<Part> parts;
+  for (const Vec3& side : {a, Vec3(-a), b, Vec3(-b)})
+    parts.push_back({from += o.gust_seconds, o.run.gravity + side});
+  parts.push_back({from + o.calm_seconds, o.run.gravity, calm_dt});
+  return parts;
+}
+
+/// Each line's worst of several runs, or on their way.
+void note(const std::vector<double>& shares, std::vector<double>& worst) {
+  for (std::size_t i = 0; i < worst.size(); ++i) {
+    const double share = std::isfinite(shares[i]) ? shares[i] : never;
+    if (!(std::abs(share - 1) <= std::abs(worst[i] - 1))) worst[i] = share;  // the first time it is NaN
+  }
+}
+
+/// What all runs of a trial have in common.
+struct Setting {
+  const physics::World& world;
+  const KeepOptions& o;
+  const std::function<bool(double)>& go_on;
+  LineMeter& meter;
+  const std::vector<double> drawn;  ///< heights at the start [m]
+  const double whole;               ///< all that is simulated [s]
+
+  /// Shares of the heights at the start.
+  std::vector<double> shares(const physics::Cloth& cloth) const {
+    return shares_of_heights(meter.heights(cloth.particles), drawn);
+  }
+
+  /// Simulates a part of the run; from next_look on it notes what lines keep.
+  physics::Outcome on_to(const Part& part, Run& run, std::vector<double>& worst) const {
+    physics::SimulateOptions options = o.run;
+    options.seconds = part.until;
+    options.gravity = part.gravity;
+    options.implicit.keep_factors = true;
+    const bool large_steps = physics::solves_contact(options.integrator);
+    if (large_steps) options.observe_steps = 1;
+    if (large_steps && !options.dt) options.dt = part.dt;
+    return physics::simulate(run.cloth, world, options, &run.state,
+                             [&](const auto& now) {
+                               const bool looks =
+                                   large_steps || now.step % look_steps == 0 || now.time >= part.until;
+                               if (looks && now.time >= run.next_look) {
+                                 note(shares(run.cloth), worst);
+                                 run.next_look += look;
+                               }
+                               return !go_on || go_on((run.before + now.time) / whole);
+                             })
+        .outcome;
+  }
+
+  /// What lines keep of a run after these parts.
+  physics::Outcome through(const std::vector<Part>& parts, Run& run, std::vector<double>& kept) const {
+    run.next_look = never;  // a gust may bend what comes back
+    for (const Part& part : parts) {
+      const physics::Outcome end = on_to(part, run, kept);
+      if (end != physics::Outcome::finished) return end;
+    }
+    note(shares(run.cloth), kept);
+    return physics::Outcome::finished;
+  }
+};
+
+}  // namespace
+
+KeepTrial try_shape(const physics::Cloth& start, bool stable, const physics::World& world,
+                    const KeepOptions& o, LineMeter& meter, const InVain& in_vain,
+                    const std::function<bool(double)>& go_on, double stronger) {
+  using physics::Outcome;
+  const int runs = stable ? 1 : o.pushes;
+  const double branch = first_part * o.seconds;
+  const std::vector<Part> gusts = gusts_and_calm(o, gust_of(o, start.particles.x), branch, stronger);
+  const double in_gusts = gusts.empty() ? 0 : gusts.back().until - branch;
+  const Setting setting{world, o, go_on, meter, meter.heights(start.particles), runs * o.seconds + in_gusts};
+  const std::vector<double> unknown(setting.drawn.size(), NAN);
+  KeepTrial trial{unknown, unknown};
+  const auto lost = [&](Outcome end) {
+    return KeepTrial{unknown, unknown, 0, end == Outcome::stopped_by_observer};
+  };
+  for (int number = 1; number <= runs; ++number) {
+    Run run{start, {}, (number - 1) * o.seconds + (number > 1 ? in_gusts : 0), stable ? never : first_look};
+    push_off(run.cloth, o.push, std::uint64_t(number));
+    Outcome end = setting.on_to({branch, o.run.gravity, calm_dt}, run, trial.kept);
+    if (end != Outcome::finished) return lost(end);
+    if (const std::vector<double> early = setting.shares(run.cloth); in_vain && in_vain(early, false))
+      return {early, unknown};
+    if (number == 1 && !gusts.empty()) {
+      Run blown = run;
+      end = setting.through(gusts, blown, trial.kept_gust);
+      if (end != Outcome::finished) return lost(end);
+      if (in_vain && in_vain(trial.kept_gust, true)) return {unknown, trial.kept_gust};
+      run.before += in_gusts;
+    }
+    end = setting.on_to({o.seconds, o.run.gravity, calm_dt}, run, trial.kept);
+    if (end != Outcome::finished) return lost(end);
+    note(setting.shares(run.cloth), trial.kept);
+    trial.drift = std::max(trial.drift, farthest_apart(run.cloth.particles.x, start.particles.x));
+  }
+  if (gusts.empty()) trial.kept_gust = trial.kept;
+  return trial;
+}
+
+KeepTrial try_one_gust(const physics::Cloth& start, const physics::World& world, const KeepOptions& options,
+                       LineMeter& meter, const InVain& in_vain, const std::function<bool(double)>& go_on) {
+  using physics::Outcome;
+  KeepOptions o = options;
+  o.run.integrator = physics::Integrator::implicit;
+  o.run.dt.reset();
+  const double calm = first_part * o.seconds, gust = calm + o.gust_seconds, all = gust + o.calm_seconds;
+  const bool blown = o.gust > 0;
+  const Setting setting{world, o, go_on, meter, meter.heights(start.particles), blown ? all : calm};
+  const std::vector<double> unknown(setting.drawn.size(), NAN);
+  KeepTrial trial{unknown, unknown};
+  const auto ended = [&](Outcome end) {
+    trial.stopped = end == Outcome::stopped_by_observer;
+    return trial;
+  };
+  Run run{start, {}, 0, never};
+  push_off(run.cloth, push_of_long_steps * o.push, 1);
+  Outcome end = setting.through({{calm, o.run.gravity, first_calm_dt}}, run, trial.kept);
+  trial.drift = farthest_apart(run.cloth.particles.x, start.particles.x);
+  if (end != Outcome::finished || (in_vain && in_vain(trial.kept, false))) return ended(end);
+  if (!blown) {
+    trial.kept_gust = trial.kept;
+    return trial;
+  }
+  const Vec3 side = gust_of_long_steps * gust_of(o, start.particles.x);
+  end = setting.through({{gust, o.run.gravity + side, long_dt}, {all, o.run.gravity, calm_dt}}, run,
+                        trial.kept_gust);
+  return ended(end);
+}
+
+}  // namespace furrow::bridge

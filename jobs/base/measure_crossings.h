@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "geometry/mesh/parts.h"
+#include "jobs/base/ends.h"
+
+namespace furrow::jobs {
+
+/// Of a mesh, as it is known after so many Loop refinements. Costs a count, and where cloth crosses the
+/// refinements, too. Throws as geometry::find_crossings().
+CrossedStart crossed_start(const geometry::Mesh& mesh, int refinements = 0);
+
+/// Counts and places what crosses in a garment now; `start` (null: only one state is known) tells old
+/// crossings from new ones. Throws as geometry::find_crossings(). Cost: some 3 us a face.
+ClothCrossings measure_crossings(const io::MeshFile& file, const CrossedStart* start = nullptr);
+
+/// What a part is called: the group that its faces alone belong to ("'button'"), else "part 2 (12 vertices)";
+/// of a garment in one piece "the garment".
+std::string name_of_part(const io::MeshFile& file, const geometry::Parts& parts, int part);
+
+}  // namespace furrow::jobs

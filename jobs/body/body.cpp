@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/body/body.h"
+
+#include "geometry/mesh/self_intersections.h"
+#include "jobs/base/output_checks.h"
+#include "jobs/base/read_inputs.h"
+#include "physics/base/cancel_scope.h"
+
+namespace furrow::jobs {
+namespace {
+
+Json measures_json(const geometry::BodyMeasures& m) {
+  Json json = Json::object();
+  const auto add = [&](const char* name, double value) {
+    json[name] = value > 0 ? Json(value) : Json(nullptr);
+  };
+  add("height", m.height), add("chest", m.chest), add("waist", m.waist), add("hip", m.hip);
+  return json;
+}
+
+}  // namespace
+
+BodyReport shape_body(const BodyJob& job, Listener& listener) {
+  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
+  if (!job.output.empty()) check_output(job.output.string());
+  check_replaced({job.output.string()}, {name_of(job.mesh, "")}, listener);
+  BodyReport report{{}, job.measures, {}, 0, job.frame};
+  take_noted_frame(report.frame, {name_of(job.mesh, "")});
+  const Context context{report.frame, listener};
+  report.mesh = read_mesh(job.mesh, context);
+  stop_if_cancelled(context);
+  geometry::Mesh& mesh = report.mesh.mesh;
+  if (!job.measures.any()) {
+    const geometry::Body body = geometry::repair_body(mesh);
+    report.shape.before = report.shape.reached = geometry::measure_body(body.points, body.triangles);
+  } else {
+    const auto before = int(geometry::count_self_intersections(mesh));
+    report.shape = geometry::shape_body(mesh, job.measures);
+    report.new_crossings = int(geometry::count_self_intersections(mesh)) - before;
+  }
+  stop_if_cancelled(context);
+  if (!job.output.empty() && job.output != "-") write_mesh(job.output, report.mesh, context);
+  return report;
+}
+
+Json to_json(const BodyReport& r) {
+  return {{"vertices", r.mesh.mesh.number_of_vertices()},
+          {"asked", measures_json(r.asked)},
+          {"before", measures_json(r.shape.before)},
+          {"reached", measures_json(r.shape.reached)},
+          {"farthest", r.shape.farthest},
+          {"rounds", r.shape.rounds},
+          {"new_crossings", r.new_crossings}};
+}
+
+}  // namespace furrow::jobs

@@ -1,0 +1,573 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/rest/drape_remarks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "io/mesh/mesh_file.h"
+#include "jobs/base/read_inputs.h"
+#include "jobs/cloth/lost_lines.h"
+#include "jobs/rest/drape_starts.h"
+#include "jobs/rest/fit.h"
+#include "jobs/rest/made_for.h"
+
+namespace furrow::jobs {
+namespace {
+
+/// The next refinement.
+std::string finer(const Draped& d) { return "--subdivide " + std::to_string(d.refinements + 1); }
+
+/// What the body does to the cloth that has come to rest on it.
+void remark_on_contact(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  const bool pierced = d.end.is_pierced(d.limits);
+  if (d.end.is_torn() && !pierced) return;  // no refinement helps
+  const bridge::FitReport& fit = d.fit;
+  const auto faces = fit.piercing.faces;
+  const std::string through = d.end.body ? words_of_piercing(*d.end.body) : "";
+  if (pierced)
+    remarks.push_back(
+        {true,
+         {"pierced",
+          d.name + ": " +
+              (faces ? through
+                     : "lies inside the body, by up to " +
+                           geometry::length_text(fit.distance.deepest_penetration)) +
+              (d.placed ? "; it is too small there, or the body leaves cloth no room; refine it with "
+                        : "; look at where the garment lies before it is draped (and at --unit), refine it "
+                          "with ") +
+              finer(d) + ", or accept it with --penetration",
+          d.name, "garment.subdivide"}});
+  else if (faces)
+    remarks.push_back(
+        {false,
+         {"body_comes_through",
+          d.name + ": " + through + "; with " + finer(d) + " the cloth follows the body more closely", d.name,
+          "garment.subdivide"}});
+  if (d.too_near)
+    remarks.push_back(
+        {false,
+         {"gap_not_kept",
+          d.name + ": " + std::to_string(d.too_near) + (d.too_near == 1 ? " vertex is" : " vertices are") +
+              " nearer to the body than the gap of " + geometry::length_text(d.gap) + ", down to " +
+              geometry::length_text(fit.distance.min) +
+              "; the cloth is too tight for it there, or the body leaves no room",
+          d.name, ""}});
+}
+
+/// A garment that lay well inside the body as it was given.
+void remark_on_start(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  constexpr double deep = 0.025;  // [m]; what was made for a body lies a few millimetres inside it
+  const physics::PushOutReport& pushed = d.report.levels.front().pushed;
+  if (d.placed || !d.fit.on_body || !(pushed.farthest > d.gap + deep)) return;
+  remarks.push_back(
+      {false,
+       {"starts_inside",
+        fmt::format(
+            "{}: lies up to {} inside the body as it is given ({} of {} vertices were brought out): if "
+            "it was made for another body, name that one with --made-for, and it is brought here",
+            d.name, geometry::length_text(pushed.farthest - d.gap), pushed.moved,
+            d.report.levels.front().vertices),
+        d.name, "made_for"}});
+}
+
+/// What could not be taken apart, and where most of it is.
+std::string words_of_tangle(const physics::ContourReport& untangled) {
+  double length = 0;
+  for (const physics::CrossingLine& l : untangled.lines) length += l.length;
+  const physics::CrossingLine& most = untangled.lines.front();
+  return fmt::format(
+      "it crosses itself as it is given, along {:.0f} mm that could not be taken apart, most "
+      "({:.0f} mm) at ({:.2f}, {:.2f}, {:.2f}) m",
+      1000 * length, 1000 * most.length, most.middle.x(), most.middle.y(), most.middle.z());
+}
+
+/// Whether most of what crosses is of two parts of a garment.
+bool crosses_between_parts(const ClothCrossings& c) {
+  std::size_t between = 0;
+  for (const CrossingPlace& p : c.places)
+    if (p.parts[0] != p.parts[1]) between += p.pairs;
+  return 2 * between > c.pairs;
+}
+
+/// What a user can do about cloth that crosses itself.
+std::string remedy_of_crossings(const Draped& d) {
+  const std::string apart =
+      crosses_between_parts(d.crossings)
+          ? "; these are separate pieces: give each as a file of its own, the inner one first (furrow drape "
+            "inner.obj outer.obj)"
+          : "";
+  if (!d.untangled.lines.empty()) return words_of_tangle(d.untangled) + ": part its layers there" + apart;
+  if (d.other && d.other->self_contact)
+    return "with contact of cloth with cloth no better rest was found: part its layers, or give it room" +
+           apart;
+  if (d.crossings.pairs <= d.crossings.from_start)
+    return "it crosses itself as it is given: part its layers before it is draped, or try --self-contact on" +
+           apart;
+  if (d.self_contact)
+    return "cloth is not held apart where it crosses itself as it is given: part its layers there" + apart;
+  return "--self-contact on keeps cloth off cloth" + apart;
+}
+
+void remark_on_crossings(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (!d.crossings.pairs) return;
+  const std::string accept =
+      d.crosses_itself() ? "; accept them with --allow-crossings " + std::to_string(d.crossings.pairs) : "";
+  remarks.push_back(
+      {d.crosses_itself(),
+       {"cloth_crosses", d.name + ": " + words(d.crossings) + "; " + remedy_of_crossings(d) + accept, d.name,
+        "garment.allow_crossings"}});
+}
+
+/// With contact of cloth with cloth it led to no success, and this is what it came to without.
+void remark_on_way_back(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (!d.other || !d.other->self_contact) return;
+  const DrapeOther& other = *d.other;
+  const std::string where = other.blocked_at
+                                ? fmt::format(" at ({:.2f}, {:.2f}, {:.2f}) m", other.blocked_at->x(),
+                                              other.blocked_at->y(), other.blocked_at->z())
+                                : "";
+  remarks.push_back(
+      {false,
+       {"contact_left_out",
+        fmt::format(
+            "{}: draped without contact of cloth with cloth, as with it the garment ends {}{} after {} "
+            "iterations, residual force {:.2g}, {} pairs of faces crossing; --self-contact on writes "
+            "that, off does not look for it",
+            d.name, other.outcome, where, other.iterations, other.residual, other.crossings),
+        d.name, "self_contact"}});
+}
+
+/// With contact it is no success either, and still the better end.
+void remark_on_way_kept(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (!d.other || d.other->self_contact) return;
+  remarks.push_back({false,
+                     {"contact_kept",
+                      fmt::format("{}: without contact of cloth with cloth the garment ends {}, {} pairs of "
+                                  "faces crossing, which is worse; --self-contact off writes that",
+                                  d.name, d.other->outcome, d.other->crossings),
+                      d.name, "self_contact"}});
+}
+
+/// Lines that lost their height, or have no vertex left to measure it by.
+void remark_on_lines(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  for (const Warning& lost : lost_lines({}, d.lines)) remarks.push_back({false, lost});
+  const auto record = io::find_wrinkle_record(d.file);
+  std::string gone;
+  for (std::size_t id = 0; record && id < record->lines.size(); ++id)
+    if (std::none_of(d.lines.begin(), d.lines.end(), [&](const LineReport& line) { return line.id == id; }))
+      gone += (gone.empty() ? "'" : ", '") + record->lines[id].name + "'";
+  if (!gone.empty())
+    remarks.push_back({false,
+                       {"lines_merged",
+                        d.name +
+                            ": whether these lines stand cannot be measured, as later lines run along them "
+                            "and took their vertices: " +
+                            gone,
+                        d.name, ""}});
+}
+
+/// Cloth that no cloth survives: the fabric's law says nothing true of it any more.
+void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (!d.end.is_torn()) return;
+  const bridge::FitStrain& strain = *d.fit.strain;
+  std::string where;
+  if (!d.fit.tight.empty()) {
+    const bridge::FitZone& zone = d.fit.tight.front();
+    where = fmt::format(", most at {:.0f} % of the body's height, {}", 100 * zone.height_share, zone.side);
+  }
+  remarks.push_back(
+      {true,
+       {"torn",
+        d.name +
+            fmt::format(": torn: {:.0f} % of the cloth is strained by more than {:.0f} %, up to {:.0f} %{}; "
+                        "the garment is too small for this body{}",
+                        100 * strain.share_over, 100 * d.fit_options.tight_strain, 100 * strain.max, where,
+                        d.placed ? "" : ", or lies inside it: look at --unit, and at where it lies"),
+        d.name, "unit"}});
+}
+
+const char* name_of(LooseUse use) {
+  return use == LooseUse::hold ? "held" : use == LooseUse::drop ? "dropped" : "simulated";
+}
+
+std::string words_of_loose(const LooseParts& loose) {
+  if (loose.use == LooseUse::drop) return fmt::format("dropped, {} vertices", loose.vertices);
+  return fmt::format("they ({} vertices, {:.2g} % of its area) were carried with the nearest cloth",
+                     loose.vertices, 100 * loose.area_share);
+}
+
+void remark_on_loose_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (d.loose.empty()) return;
+  std::string names;
+  for (std::size_t i = 0; i < std::min<std::size_t>(d.loose.size(), 5); ++i)
+    names += (i ? ", " : "") + d.loose[i];
+  if (d.loose.size() > 5) names += fmt::format(" and {} more", d.loose.size() - 5);
+  const std::string cut = d.file.repairs.duplicated_vertices
+                              ? fmt::format(
+                                    "; its file has edges or vertices that more than two faces share, "
+                                    "where it was cut open ({} vertices doubled)",
+                                    d.file.repairs.duplicated_vertices)
+                              : "";
+  remarks.push_back(
+      {d.falls_apart(),
+       {"loose_parts",
+        d.name +
+            fmt::format(": nothing holds {} of its {} parts: {}; {}{}{}", d.loose.size(), d.end.parts.size(),
+                        names, words_of_loose(d.loose_parts), cut,
+                        d.loose_parts.use == LooseUse::drop
+                            ? ""
+                            : "; join them to the garment in its file, pin them (--pin-group, --pin-box), or "
+                              "take them out (--loose drop)"),
+        d.name, "pins"}});
+}
+
+/// Why a garment that nothing carries does not rest.
+void remark_on_nothing_carried(const Draped& d, const physics::SettleReport& last,
+                               std::vector<DrapeRemark>& remarks) {
+  if (!d.end.finite) {
+    remarks.push_back(
+        {true,
+         {"numerical_failure",
+          d.name +
+              fmt::format(": numerical failure: the forces cannot be computed (residual force {:.2g} of a "
+                          "vertex's weight); look at --stretch, --rigidity, --density and --gravity, one "
+                          "of which is far beyond any cloth's",
+                          last.residual),
+          d.name, "material"}});
+    return;
+  }
+  remarks.push_back({false,
+                     {"touches_nothing",
+                      d.name + ": never came to lie on the body, which is " +
+                          geometry::length_text(d.fit.body_high - d.fit.body_low) +
+                          " tall; look at where the two are, and at --unit, which is that of both files",
+                      d.name, "unit"}});
+}
+
+/// Cloth that cloth leaves no step.
+void remark_on_block(const Draped& d, const physics::SettleReport& last, std::vector<DrapeRemark>& remarks) {
+  const physics::Vec3& at = last.self.blocked_at;
+  remarks.push_back(
+      {true,
+       {"blocked",
+        fmt::format(
+            "{}: blocked at ({:.2f}, {:.2f}, {:.2f}) m after {} iterations, residual force {:.2g} of a "
+            "vertex's weight: cloth lies so close to cloth there that no step is left; give it room "
+            "where it begins, hold more of it, or make the cloth thinner with --cloth-thickness",
+            d.name, at.x(), at.y(), at.z(), last.iterations, last.residual),
+        d.name, "self_contact"}});
+}
+
+/// Whether a part came to lie on something, far below where it was worn.
+bool came_lower(const Draped& d) {
+  const bool carried = d.report.levels.back().settle.touching > 0 || !d.end.falls();
+  return d.end.finite && d.end.lost() > 0 && d.end.fallen() > 0 && carried;
+}
+
+void remark_on_lost_parts(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  if (!came_lower(d)) return;
+  std::string names;
+  for (const PartEnd& part : d.end.parts)
+    if (part.lost) names += (names.empty() ? "" : ", ") + part.name;
+  const bool whole = d.end.falls();
+  remarks.push_back(
+      {true,
+       {"fallen",
+        fmt::format(
+            "{}: {}fell {} from where it lay before anything stopped it: the body does not carry it "
+            "where it is worn{}; look for skin that the body lacks there (holes in it are filled), put "
+            "the garment where it is worn, or hold it with a pin or a band",
+            d.name, whole ? "" : names + " ", geometry::length_text(d.end.fallen()),
+            whole ? "" : ", nor does the rest of the garment"),
+        d.name, "pins"}});
+}
+
+void remark_on_unrest(const Draped& d, std::vector<DrapeRemark>& remarks) {
+  const physics::SettleReport& last = d.report.levels.back().settle;
+  if (!d.end.finite || (last.touching == 0 && d.fit.on_body)) remark_on_nothing_carried(d, last, remarks);
+  if (!d.end.finite) return;
+  if (d.end.falls() && came_lower(d)) return;  // told of as fallen
+  if (d.end.falls()) {
+    remarks.push_back(
+        {true,
+         {"falls",
+          d.name + ": falls, as neither the body nor a pin carries it; put it where it is to be worn", d.name,
+          "pins"}});
+    return;
+  }
+  if (last.self.blocked) return remark_on_block(d, last, remarks);
+  std::ostringstream text;
+  text << d.name << ": not at rest after " << last.iterations << " iterations, residual force "
+       << last.residual << " of a vertex's weight, cloth " << geometry::length_text(last.deepest)
+       << " deep in the gap";
+  if (last.stuck)
+    text << ", and no step leads on: draw or lay it otherwise, or try --starts 4";
+  else if (last.self.cut_moves.value_or(0) > 0)
+    text << ", " << *last.self.cut_moves << " moves of vertices cut, as cloth was in their way";
+  if (!last.stuck && !d.end.is_torn())
+    text << "; give more with --max-iterations, or accept it with --residual";
+  remarks.push_back({true, {"not_at_rest", text.str(), d.name, "iterations"}});
+}
+
+Json level_json(const bridge::DrapeLevel& level) {
+  return {{"vertices", level.vertices},
+          {"pushed_out", level.pushed.moved},
+          {"farthest_push", level.pushed.farthest},
+          {"still_nearer", level.pushed.still_inside},
+          {"iterations", level.soft.iterations + level.settle.iterations},
+          {"factorisations", level.soft.factorisations + level.settle.factorisations},
+          {"residual", level.settle.residual}};
+}
+
+Json self_contact_json(const Draped& d) {
+  const physics::SelfContactReport& last = d.report.levels.back().settle.self;
+  int cut = 0, builds = 0, stopped = 0;
+  long long moves = 0;
+  for (const bridge::DrapeLevel& level : d.report.levels) {
+    moves += level.settle.self.cut_moves.value_or(0);
+    cut += level.soft.self.cut_searches + level.settle.self.cut_searches;
+    builds += level.soft.self.list_builds + level.settle.self.list_builds;
+    stopped += level.stopped;
+  }
+  Json json{{"thickness", d.thickness},
+            {"pairs", last.pairs},
+            {"nearest", last.nearest},
+            {"sliding", last.sliding},
+            {"cut_searches", cut},
+            {"list_builds", builds},
+            {"crossed_at_start", last.crossed_at_start},
+            {"exempt", last.exempt},
+            {"stopped", stopped},
+            {"friction", d.cloth_friction}};
+  if (last.cut_moves) json["cut_moves"] = moves;
+  if (d.other) json["crossings_without"] = d.other->crossings;
+  if (last.blocked) json["blocked_at"] = {last.blocked_at.x(), last.blocked_at.y(), last.blocked_at.z()};
+  return json;
+}
+
+Json to_json(const DrapeOther& other) {
+  Json json{{"self_contact", other.self_contact}, {"outcome", other.outcome},
+            {"crossings", other.crossings},       {"iterations", other.iterations},
+            {"residual_force", other.residual},   {"seconds", other.seconds}};
+  if (other.blocked_at) {
+    const physics::Vec3& at = *other.blocked_at;
+    json["blocked_at"] = {at.x(), at.y(), at.z()};
+  }
+  return json;
+}
+
+Json untangled_json(const physics::ContourReport& u) {
+  Json json{{"at_start", u.at_start}, {"left", u.left}, {"rounds", u.rounds}, {"moved_most", u.farthest}};
+  json["lines"] = Json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(10, u.lines.size()); ++i) {
+    const physics::CrossingLine& l = u.lines[i];
+    json["lines"].push_back({{"x", l.middle.x()},
+                             {"y", l.middle.y()},
+                             {"z", l.middle.z()},
+                             {"length", l.length},
+                             {"edges", l.crossings}});
+  }
+  return json;
+}
+
+void remark_on_crossed_layers(const LayerPair& p, std::size_t allowed, std::vector<DrapeRemark>& remarks) {
+  if (!p.crossings) return;
+  if (!p.touch)
+    return remarks.push_back(
+        {false,
+         {"layers_apart",
+          fmt::format("{} over {}: {} pair{} of faces cross, as one of them touches no other garment "
+                      "(touch = false)",
+                      p.outer, p.inner, p.crossings, p.crossings == 1 ? "" : "s"),
+          p.outer, "garment.touch"}});
+  const bool fails = p.crossings > allowed;
+  std::string where;
+  if (!p.places.empty()) {
+    const geometry::Point& at = p.places.front().centre;
+    where = fmt::format(", most ({}) within {:.1f} cm of ({:.2f}, {:.2f}, {:.2f}) m", p.places.front().pairs,
+                        50 * p.places.front().extent, at.x(), at.y(), at.z());
+  }
+  remarks.push_back(
+      {fails,
+       {"layers_cross",
+        fmt::format("{} over {}: {} pair{} of faces cross{}; {}{}", p.outer, p.inner, p.crossings,
+                    p.crossings == 1 ? "" : "s", where,
+                    p.began_inside() ? "the outer one lies inside as it is given: name it before the other"
+                                     : "they were not taken apart there: part them where they are given, or "
+                                       "give the outer one room",
+                    fails ? fmt::format("; accept them with --allow-crossings {}", p.crossings) : ""),
+        p.outer, "garment.allow_crossings"}});
+}
+
+Json layer_pair_json(const LayerPair& p) {
+  Json json{{"inner", p.inner},
+            {"outer", p.outer},
+            {"touch", p.touch},
+            {"crossings_at_start", p.crossings_at_start},
+            {"crossings", p.crossings},
+            {"compared_at_start", p.compared_at_start},
+            {"outside_at_start", p.outside_at_start},
+            {"compared", p.compared},
+            {"outside", p.outside}};
+  if (p.places.empty()) return json;
+  json["places"] = Json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(10, p.places.size()); ++i) {
+    const CrossingPlace& at = p.places[i];
+    json["places"].push_back({{"pairs", at.pairs},
+                              {"x", at.centre.x()},
+                              {"y", at.centre.y()},
+                              {"z", at.centre.z()},
+                              {"extent", at.extent}});
+  }
+  return json;
+}
+
+Json to_json(const DrapedLayers& layers) {
+  Json json{{"pairs", Json::array()},
+            {"edges_crossed", layers.edges_crossed},
+            {"edges_left", layers.edges_left},
+            {"untangle_rounds", layers.untangle_rounds},
+            {"moved_most", layers.moved_most},
+            {"turned", layers.turned},
+            {"contact_energy", layers.contact_energy}};
+  for (const LayerPair& p : layers.pairs) json["pairs"].push_back(layer_pair_json(p));
+  return json;
+}
+
+}  // namespace
+
+std::vector<DrapeRemark> remarks_on(const DrapedLayers& layers, std::size_t allowed) {
+  std::vector<DrapeRemark> remarks;
+  for (const LayerPair& p : layers.pairs) {
+    remark_on_crossed_layers(p, allowed, remarks);
+    if (!p.touch) continue;
+    if (p.crossings == 0 && p.began_inside())
+      remarks.push_back(
+          {false,
+           {"layer_order",
+            fmt::format("{} over {}: {} of {} vertices near it lay inside as they were given; if it is worn "
+                        "under the other, name it first",
+                        p.outer, p.inner, p.compared_at_start - p.outside_at_start, p.compared_at_start),
+            p.outer, ""}});
+    if (2 * p.outside < p.compared)
+      remarks.push_back({true,
+                         {"layer_under",
+                          fmt::format("{} over {}: {} of {} vertices near it lie inside; name the garments "
+                                      "from the inside to the outside",
+                                      p.outer, p.inner, p.compared - p.outside, p.compared),
+                          p.outer, ""}});
+  }
+  for (const std::string& name : layers.turned)
+    remarks.push_back({false,
+                       {"turned",
+                        name + ": its faces look into the body, as if it were turned inside out; the side "
+                               "away from the body counts as its outer one",
+                        name, ""}});
+  return remarks;
+}
+
+std::vector<DrapeRemark> remarks_on(std::span<const Draped> garments) {
+  std::vector<DrapeRemark> remarks;
+  for (const Draped& d : garments) {
+    if (d.report.stopped) break;
+    remark_on_start(d, remarks);
+    remark_on_strain(d, remarks);
+    remark_on_contact(d, remarks);
+    remark_on_loose_parts(d, remarks);
+    remark_on_lost_parts(d, remarks);
+    remark_on_crossings(d, remarks);
+    remark_on_way_back(d, remarks);
+    remark_on_way_kept(d, remarks);
+    if (!d.rests()) remark_on_unrest(d, remarks);
+    for (const Warning& doubt : doubts_of(d)) remarks.push_back({false, doubt});
+    if (d.end.finite) remark_on_lines(d, remarks);
+  }
+  return remarks;
+}
+
+std::string Draped::outcome() const {
+  if (report.stopped && !budget_spent) return "interrupted";
+  return (report.stopped ? "out of budget" : outcome_of(end, limits)) +
+         (end.is_pierced(limits) ? ", pierced by the body" : "") +
+         (crosses_itself() ? ", cloth crosses itself" : "") +
+         (crosses_others() ? ", crosses other garments" : "") +
+         (end.lost() > 0 && !end.falls()
+              ? fmt::format(", {} of {} parts fallen", end.lost(), end.parts.size())
+              : "") +
+         (loose.empty() ? "" : fmt::format(", {} of {} parts loose", loose.size(), end.parts.size())) +
+         (floats() && end.finite && !end.falls() ? ", " + geometry::length_text(gap) + " off the body" : "");
+}
+
+namespace {
+
+Json to_json(const physics::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json to_json(const DrapeForces& f) {
+  Json json{{"weight", to_json(f.weight)}, {"contact", to_json(f.contact)}};
+  json["pins"] = json["bands"] = Json::array();
+  for (const auto& [name, force] : f.pins)
+    json["pins"].push_back({{"name", name}, {"force", to_json(force)}});
+  for (const auto& [loop, tension] : f.bands) json["bands"].push_back({{"loop", loop}, {"tension", tension}});
+  return json;
+}
+
+}  // namespace
+
+Json to_json(const Draped& d) {
+  const bridge::DrapeLevel& last = d.report.levels.back();
+  Json levels = Json::array();
+  for (const bridge::DrapeLevel& level : d.report.levels) levels.push_back(level_json(level));
+  Json json{{"garment", d.name},
+            {"outcome", d.outcome()},
+            {"converged", d.rests()},
+            {"residual_force", last.settle.residual},
+            {"touching", last.settle.touching},
+            {"contact_depth", last.settle.deepest},
+            {"face_contacts", last.settle.face_contacts},
+            {"angle_defect", d.angle_defect},
+            {"lines", jobs::to_json(d.lines)},
+            {"gap", d.fit.on_body ? Json(d.gap) : Json(nullptr)},
+            {"gap_asked", d.fit.on_body ? Json(d.wanted_gap) : Json(nullptr)},
+            {"subdivide", d.refinements},
+            {"parts", d.end.parts.size()},
+            {"end", jobs::to_json(d.end)},
+            {"loose_parts", d.loose},
+            {"seconds", d.seconds},
+            {"levels", levels},
+            {"friction_rounds", d.report.friction_rounds},
+            {"slip", d.report.slip},
+            {"crossings", jobs::to_json(d.crossings)}};
+  if (!d.loose.empty())
+    json["loose"] = {{"pieces", d.loose.size()},
+                     {"vertices", d.loose_parts.vertices},
+                     {"area_share", d.loose_parts.area_share},
+                     {"done", name_of(d.loose_parts.use)}};
+  if (d.placed) json["placed"] = to_json(*d.placed);
+  if (d.self_contact) json["self_contact"] = self_contact_json(d);
+  if (d.other) json["other_search"] = to_json(*d.other);
+  if (d.untangled.at_start) json["untangled"] = untangled_json(d.untangled);
+  if (!d.written.empty()) json["written"] = d.written.string();
+  json["hem_height"] = d.hem_height ? Json(*d.hem_height) : Json();
+  json["energy"] = to_json(d.report.energy);
+  if (!d.report.stopped) json["forces"] = to_json(d.forces);
+  if (d.starts) json["starts"] = to_json(*d.starts);
+  json["fit"] = jobs::to_json(d.fit, d.fit_options);
+  return json;
+}
+
+Json to_json(const DrapeJobReport& report) {
+  Json json;
+  if (report.garments.size() == 1) {
+    json = to_json(report.garments[0]);
+  } else {
+    json["garments"] = Json::array();
+    for (const Draped& d : report.garments) json["garments"].push_back(to_json(d));
+  }
+  if (report.budget_spent) json["budget_spent"] = true;
+  if (report.layers) json["layers"] = to_json(*report.layers);
+  return json;
+}
+
+}  // namespace furrow::jobs
