@@ -5,6 +5,8 @@ if(furrow_studio)
     replay_test.cpp rooms_test.cpp studio_test.cpp)
   # Has functions of the system's names.
   set_source_files_properties(studio/failing_disk.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  add_test(NAME page_layout COMMAND ${FURROW_NODE} node_modules/prettier/bin/prettier.cjs --check src
+                            WORKING_DIRECTORY ${furrow_page})
   # In a real browser; 77: there is none. The longest tests begin first.
   if(NOT FURROW_SANITIZE)
     set(studio_browser studio/browser_test.mjs)

@@ -1,28 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh as the program sends it (studio/frame_bytes.h).
 
-export const enum Kind { cloth = 0, body = 1, preview = 2, moving = 3, colours = 4, movingBody = 5 }
+export const enum Kind {
+  cloth = 0,
+  body = 1,
+  preview = 2,
+  moving = 3,
+  colours = 4,
+  movingBody = 5,
+}
 
 export interface Frame {
   kind: Kind;
   positions: Float32Array;
-  undrawn: Float32Array;  // where the vertices would lie without the heights of their lines
+  undrawn: Float32Array; // where the vertices would lie without the heights of their lines
   faces: Uint32Array;
-  edges: Int32Array;      // from, to, line
+  edges: Int32Array; // from, to, line
   pinned: Uint32Array;
 }
 
 /** Where the vertices of the cloth, or of the body, are while they move. */
-export interface Moving { kind: Kind.moving | Kind.movingBody; time: number; positions: Float32Array }
+export interface Moving {
+  kind: Kind.moving | Kind.movingBody;
+  time: number;
+  positions: Float32Array;
+}
 
 /** Red, green and blue of each vertex, in [0, 255]. */
-export interface Colours { kind: Kind.colours; colours: Uint8Array }
+export interface Colours {
+  kind: Kind.colours;
+  colours: Uint8Array;
+}
 
 export function readFrame(bytes: ArrayBuffer): Frame | Moving | Colours {
   const start = new Uint32Array(bytes, 0, 4);
   if (start[0] !== 0x57525546) throw new Error("this is no mesh");
-  if (start[1] === Kind.moving || start[1] === Kind.movingBody) return { kind: start[1], time: start[3] / 1000, positions: new Float32Array(bytes, 16, 3 * start[2]) };
-  if (start[1] === Kind.colours) return { kind: Kind.colours, colours: new Uint8Array(bytes, 16, 3 * start[2]) };
+  if (start[1] === Kind.moving || start[1] === Kind.movingBody)
+    return { kind: start[1], time: start[3] / 1000, positions: new Float32Array(bytes, 16, 3 * start[2]) };
+  if (start[1] === Kind.colours)
+    return { kind: Kind.colours, colours: new Uint8Array(bytes, 16, 3 * start[2]) };
   const head = new Uint32Array(bytes, 0, 6);
   const [, kind, vertices, faces, edges, pinned] = head;
   let at = 24;
@@ -32,7 +48,11 @@ export function readFrame(bytes: ArrayBuffer): Frame | Moving | Colours {
     return list;
   };
   return {
-    kind, positions: take(Float32Array, 3 * vertices), undrawn: take(Float32Array, 3 * vertices), faces: take(Uint32Array, 3 * faces),
-    edges: take(Int32Array, 3 * edges), pinned: take(Uint32Array, pinned),
+    kind,
+    positions: take(Float32Array, 3 * vertices),
+    undrawn: take(Float32Array, 3 * vertices),
+    faces: take(Uint32Array, 3 * faces),
+    edges: take(Int32Array, 3 * edges),
+    pinned: take(Uint32Array, pinned),
   };
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The hand: while the cloth moves, it is pulled by the pointer; with the pin tool, a click holds a vertex, and what is
-// encircled is held, or with Shift let go.
+// The hand: while the cloth moves, it is pulled by the pointer; with the pin tool, a click holds a vertex, and
+// what is encircled is held, or with Shift let go.
 import * as THREE from "three";
 import type { Vector } from "./protocol";
 import type { Hit } from "./picker";
@@ -17,14 +17,20 @@ export interface HandHearer {
 
 export class Hand {
   private vertex = -1;
-  private from = new THREE.Vector3();  // where the cloth was taken
+  private from = new THREE.Vector3(); // where the cloth was taken
   private to = new THREE.Vector3();
-  private lasso: [number, number][] = [];  // of the window
-  private clicked: Hit | null = null;      // where it began
+  private lasso: [number, number][] = []; // of the window
+  private clicked: Hit | null = null; // where it began
   private trail: SVGPolylineElement;
 
-  constructor(private view: View, private does: () => "pull" | "pin" | "", private hearer: HandHearer) {
-    const canvas = view.canvas, svg = "http://www.w3.org/2000/svg", picture = document.createElementNS(svg, "svg");
+  constructor(
+    private view: View,
+    private does: () => "pull" | "pin" | "",
+    private hearer: HandHearer,
+  ) {
+    const canvas = view.canvas,
+      svg = "http://www.w3.org/2000/svg",
+      picture = document.createElementNS(svg, "svg");
     picture.setAttribute("class", "trail");
     picture.setAttribute("aria-hidden", "true");
     this.trail = picture.appendChild(document.createElementNS(svg, "polyline"));
@@ -39,7 +45,7 @@ export class Hand {
     const does = this.does();
     if (!does || e.button !== 0) return;
     const hit: Hit | null = this.view.picker.pick(e.clientX, e.clientY);
-    if (!hit) return;  // beside the cloth the camera turns
+    if (!hit) return; // beside the cloth the camera turns
     e.stopImmediatePropagation();
     this.view.canvas.setPointerCapture(e.pointerId);
     if (does === "pin") {
@@ -83,7 +89,10 @@ export class Hand {
   private showTrail() {
     const box = this.view.canvas.getBoundingClientRect();
     const points = this.isClick() ? [] : this.lasso;
-    this.trail.setAttribute("points", points.map(([x, y]) => `${(x - box.left).toFixed(1)},${(y - box.top).toFixed(1)}`).join(" "));
+    this.trail.setAttribute(
+      "points",
+      points.map(([x, y]) => `${(x - box.left).toFixed(1)},${(y - box.top).toFixed(1)}`).join(" "),
+    );
   }
 
   /** Whether the pointer has hardly moved. */

@@ -12,16 +12,22 @@ export interface HandleHearer {
 }
 
 /** Pixels within which a dot is meant; dots of a line; their distance as a share of the cloth's size. */
-const near = 14, most = 12, apart = 0.06;
+const near = 14,
+  most = 12,
+  apart = 0.06;
 
 export class Handles {
-  private points: THREE.Vector3[] = [];  // of the line, on the cloth without its lines
-  private base: THREE.Vector3[] = [];    // before the drag
+  private points: THREE.Vector3[] = []; // of the line, on the cloth without its lines
+  private base: THREE.Vector3[] = []; // before the drag
   private closed = false;
-  private dots: number[] = [];           // which of the points have a dot
+  private dots: number[] = []; // which of the points have a dot
   private grabbed = -1;
 
-  constructor(private view: View, private on: () => boolean, private hearer: HandleHearer) {
+  constructor(
+    private view: View,
+    private on: () => boolean,
+    private hearer: HandleHearer,
+  ) {
     const canvas = view.canvas;
     canvas.addEventListener("pointerdown", (e) => this.begin(e), { capture: true });
     canvas.addEventListener("pointermove", (e) => this.move(e), { capture: true });
@@ -29,7 +35,9 @@ export class Handles {
     canvas.addEventListener("pointercancel", () => this.drop(), { capture: true });
   }
 
-  get dragging() { return this.grabbed >= 0; }
+  get dragging() {
+    return this.grabbed >= 0;
+  }
 
   /** The line to be dragged; an empty list: none. */
   take(points: Vector[], closed: boolean) {
@@ -37,15 +45,28 @@ export class Handles {
     this.points = points.map((p) => new THREE.Vector3(...p));
     this.closed = closed;
     const length = this.points.reduce((sum, p, i) => sum + (i ? p.distanceTo(this.points[i - 1]) : 0), 0);
-    const n = Math.min(most, this.points.length, Math.max(3, Math.round(length / (apart * this.view.size)) + 1));
-    this.dots = this.points.length < 2 ? [] : Array.from({ length: n }, (_, k) => Math.round((k * (this.points.length - 1)) / (n - (closed ? 0 : 1))));
+    const n = Math.min(
+      most,
+      this.points.length,
+      Math.max(3, Math.round(length / (apart * this.view.size)) + 1),
+    );
+    this.dots =
+      this.points.length < 2
+        ? []
+        : Array.from({ length: n }, (_, k) =>
+            Math.round((k * (this.points.length - 1)) / (n - (closed ? 0 : 1))),
+          );
     this.dots = [...new Set(this.dots.filter((i) => i < this.points.length))];
     this.show();
   }
 
   /** Puts the dots where the cloth is now. */
   show() {
-    this.view.showHandles(this.on() ? this.dots.map((i) => this.view.picker.nearest(this.points[i])?.shown ?? this.points[i]) : []);
+    this.view.showHandles(
+      this.on()
+        ? this.dots.map((i) => this.view.picker.nearest(this.points[i])?.shown ?? this.points[i])
+        : [],
+    );
   }
 
   private begin(e: PointerEvent) {
@@ -54,9 +75,10 @@ export class Handles {
     this.dots.forEach((i, k) => {
       const shown = this.view.picker.nearest(this.points[i])?.shown;
       if (!shown) return;
-      const [x, y] = this.view.picker.windowPlace(shown), far = Math.hypot(x - e.clientX, y - e.clientY);
+      const [x, y] = this.view.picker.windowPlace(shown),
+        far = Math.hypot(x - e.clientX, y - e.clientY);
       const hit = this.view.picker.pick(x, y);
-      const hidden = !hit || hit.shown.distanceTo(shown) > 0.05 * this.view.size;  // behind the cloth, or the body
+      const hidden = !hit || hit.shown.distanceTo(shown) > 0.05 * this.view.size; // behind the cloth, or the body
       if (far < best && !hidden) {
         best = far;
         this.grabbed = k;
@@ -70,8 +92,11 @@ export class Handles {
 
   /** 1 at the grabbed dot, falling to 0 at its neighbours. */
   private share(i: number) {
-    const at = this.dots[this.grabbed], n = this.points.length, dots = this.dots;
-    const before = this.grabbed > 0 ? at - dots[this.grabbed - 1] : this.closed ? n - dots[dots.length - 1] : 1;
+    const at = this.dots[this.grabbed],
+      n = this.points.length,
+      dots = this.dots;
+    const before =
+      this.grabbed > 0 ? at - dots[this.grabbed - 1] : this.closed ? n - dots[dots.length - 1] : 1;
     const after = this.grabbed < dots.length - 1 ? dots[this.grabbed + 1] - at : this.closed ? n - at : 1;
     let off = i - at;
     if (this.closed && off > n / 2) off -= n;
@@ -115,5 +140,7 @@ export class Handles {
     this.hearer.dropped();
   }
 
-  private list() { return this.points.map((p) => p.toArray() as Vector); }
+  private list() {
+    return this.points.map((p) => p.toArray() as Vector);
+  }
 }

@@ -3,31 +3,78 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { GalleryItem } from "./protocol";
 
-export interface Files { garment: File | null; body: File | null; madeFor: File | null }
-export interface OpenWords { item?: string; files?: Files; unit?: string; up?: string }
-interface Props { items: GalleryItem[]; first: boolean; files: Files; bad: string; open(words: OpenWords): Promise<void>; close(): void }
+export interface Files {
+  garment: File | null;
+  body: File | null;
+  madeFor: File | null;
+}
+export interface OpenWords {
+  item?: string;
+  files?: Files;
+  unit?: string;
+  up?: string;
+}
+interface Props {
+  items: GalleryItem[];
+  first: boolean;
+  files: Files;
+  bad: string;
+  open(words: OpenWords): Promise<void>;
+  close(): void;
+}
 
-/** Files that were dropped together: what is called a body, a figure or a person is the body, else the second. */
+/** Files that were dropped together: what is called a body or a person is the body, else the second. */
 export function sorted(dropped: File[]): Files {
   const meshes = dropped.filter((f) => /\.(obj|ply|off|stl|glb)$/i.test(f.name));
-  const figure = meshes.length > 1 ? (meshes.find((f) => /body|figure|mannequin|avatar|human|person/i.test(f.name)) ?? meshes[1]) : null;
+  const figure =
+    meshes.length > 1
+      ? (meshes.find((f) => /body|figure|mannequin|avatar|human|person/i.test(f.name)) ?? meshes[1])
+      : null;
   return { garment: meshes.find((f) => f !== figure) ?? null, body: figure, madeFor: null };
 }
 
-function Choice({ label, value, all, change }: { label: string; value: string; all: [string, string][]; change(value: string): void }) {
+function Choice({
+  label,
+  value,
+  all,
+  change,
+}: {
+  label: string;
+  value: string;
+  all: [string, string][];
+  change(value: string): void;
+}) {
   return (
-    <label>{label}
+    <label>
+      {label}
       <select value={value} onChange={(e) => change(e.currentTarget.value)}>
-        {all.map(([word, shown]) => <option key={word} value={word}>{shown}</option>)}
+        {all.map(([word, shown]) => (
+          <option key={word} value={word}>
+            {shown}
+          </option>
+        ))}
       </select>
     </label>
   );
 }
 
-function FileField({ label, file, change }: { label: string; file: File | null; change(file: File | null): void }) {
+function FileField({
+  label,
+  file,
+  change,
+}: {
+  label: string;
+  file: File | null;
+  change(file: File | null): void;
+}) {
   return (
-    <label class="file">{label}
-      <input type="file" accept=".obj,.ply,.off,.stl,.glb" onChange={(e) => change(e.currentTarget.files?.[0] ?? null)} />
+    <label class="file">
+      {label}
+      <input
+        type="file"
+        accept=".obj,.ply,.off,.stl,.glb"
+        onChange={(e) => change(e.currentTarget.files?.[0] ?? null)}
+      />
       {file && <span class="note">{file.name}</span>}
     </label>
   );
@@ -36,9 +83,12 @@ function FileField({ label, file, change }: { label: string; file: File | null; 
 export function Open({ items, first, files, bad, open, close }: Props) {
   const dialog = useRef<HTMLDialogElement>(null);
   const [chosen, setChosen] = useState<Files>(files);
-  const [unit, setUnit] = useState(""), [up, setUp] = useState(""), [busy, setBusy] = useState(false);
+  const [unit, setUnit] = useState(""),
+    [up, setUp] = useState(""),
+    [busy, setBusy] = useState(false);
   useEffect(() => dialog.current?.showModal(), []);
-  const dropped = useRef(files);  // an effect comes after the first picture, and would take back what was chosen by then
+  // An effect comes after the first picture, and would take back what was chosen by then.
+  const dropped = useRef(files);
   useEffect(() => {
     if (dropped.current !== files) setChosen((dropped.current = files));
   }, [files]);
@@ -48,24 +98,87 @@ export function Open({ items, first, files, bad, open, close }: Props) {
     setBusy(false);
   };
   return (
-    <dialog ref={dialog} class="open" onClose={close} onCancel={(e) => first && e.preventDefault()} aria-labelledby="open-title">
+    <dialog
+      ref={dialog}
+      class="open"
+      onClose={close}
+      onCancel={(e) => first && e.preventDefault()}
+      aria-labelledby="open-title"
+    >
       <h2 id="open-title">{first ? "What do you want to draw on?" : "Open another garment"}</h2>
-      {items.length > 0 && <div class="gallery">
-        {items.map((item) => <button key={item.name} disabled={busy} onClick={() => void go({ item: item.name })}>{item.title}</button>)}
-      </div>}
+      {items.length > 0 && (
+        <div class="gallery">
+          {items.map((item) => (
+            <button key={item.name} disabled={busy} onClick={() => void go({ item: item.name })}>
+              {item.title}
+            </button>
+          ))}
+        </div>
+      )}
       <h3>Your own</h3>
-      <p class="note">Drop files anywhere on this page, or choose them: OBJ, PLY, OFF, STL or GLB, up to 64 MB each.</p>
+      <p class="note">
+        Drop files anywhere on this page, or choose them: OBJ, PLY, OFF, STL or GLB, up to 64 MB each.
+      </p>
       <div class="fields">
-        <FileField label="Garment" file={chosen.garment} change={(garment) => setChosen((c) => ({ ...c, garment }))} />
-        <FileField label="Body" file={chosen.body} change={(body) => setChosen((c) => ({ ...c, body, madeFor: body && c.madeFor }))} />
-        {chosen.body && <FileField label="Made for" file={chosen.madeFor} change={(madeFor) => setChosen((c) => ({ ...c, madeFor }))} />}
-        <Choice label="Unit" value={unit} change={setUnit} all={[["", "as its size says"], ["m", "metres"], ["cm", "centimetres"], ["mm", "millimetres"], ["inch", "inches"]]} />
-        <Choice label="Upwards" value={up} change={setUp} all={[["", "as its shape says"], ["y", "y"], ["z", "z"]]} />
+        <FileField
+          label="Garment"
+          file={chosen.garment}
+          change={(garment) => setChosen((c) => ({ ...c, garment }))}
+        />
+        <FileField
+          label="Body"
+          file={chosen.body}
+          change={(body) => setChosen((c) => ({ ...c, body, madeFor: body && c.madeFor }))}
+        />
+        {chosen.body && (
+          <FileField
+            label="Made for"
+            file={chosen.madeFor}
+            change={(madeFor) => setChosen((c) => ({ ...c, madeFor }))}
+          />
+        )}
+        <Choice
+          label="Unit"
+          value={unit}
+          change={setUnit}
+          all={[
+            ["", "as its size says"],
+            ["m", "metres"],
+            ["cm", "centimetres"],
+            ["mm", "millimetres"],
+            ["inch", "inches"],
+          ]}
+        />
+        <Choice
+          label="Upwards"
+          value={up}
+          change={setUp}
+          all={[
+            ["", "as its shape says"],
+            ["y", "y"],
+            ["z", "z"],
+          ]}
+        />
       </div>
-      {chosen.body && <p class="note">Made for: the body that the garment lies about, if it was made for another one. Drape brings it to yours.</p>}
-      {bad && <p class="say bad" role="alert">{bad}</p>}
+      {chosen.body && (
+        <p class="note">
+          Made for: the body that the garment lies about, if it was made for another one. Drape brings it to
+          yours.
+        </p>
+      )}
+      {bad && (
+        <p class="say bad" role="alert">
+          {bad}
+        </p>
+      )}
       <div class="group">
-        <button class="main" disabled={busy || !chosen.garment} onClick={() => void go({ files: chosen, unit, up })}>{busy ? "Opening …" : "Open"}</button>
+        <button
+          class="main"
+          disabled={busy || !chosen.garment}
+          onClick={() => void go({ files: chosen, unit, up })}
+        >
+          {busy ? "Opening …" : "Open"}
+        </button>
         {!first && <button onClick={() => dialog.current?.close()}>Cancel</button>}
       </div>
     </dialog>

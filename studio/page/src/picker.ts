@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of the cloth is pointed at: places of the window and of the cloth, from each other, by trees of its faces.
+// What of the cloth is pointed at: places of the window and of the cloth, by trees of its faces.
 import * as THREE from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import { type Frame } from "./frame";
 
-export interface Hit { shown: THREE.Vector3; normal: THREE.Vector3; undrawn: THREE.Vector3; vertex: number }
+export interface Hit {
+  shown: THREE.Vector3;
+  normal: THREE.Vector3;
+  undrawn: THREE.Vector3;
+  vertex: number;
+}
 
 /** What is pointed at, as it is seen now. */
 export interface Scenery {
@@ -13,8 +18,8 @@ export interface Scenery {
   readonly cloth: THREE.Mesh;
   readonly body: THREE.Mesh;
   readonly seen: { body: boolean };
-  readonly size: number;   // the cloth's diagonal [m]
-  readonly frame?: Frame;  // the cloth's
+  readonly size: number; // the cloth's diagonal [m]
+  readonly frame?: Frame; // the cloth's
 }
 
 /** Edges that belong to one face. */
@@ -22,7 +27,9 @@ function borderEdges(faces: Uint32Array): [number, number][] {
   const edges = new Map<string, [number, number] | null>();
   for (let f = 0; f < faces.length; f += 3)
     for (let k = 0; k < 3; ++k) {
-      const a = faces[f + k], b = faces[f + ((k + 1) % 3)], name = a < b ? `${a} ${b}` : `${b} ${a}`;
+      const a = faces[f + k],
+        b = faces[f + ((k + 1) % 3)],
+        name = a < b ? `${a} ${b}` : `${b} ${a}`;
       edges.set(name, edges.has(name) ? null : [a, b]);
     }
   return [...edges.values()].filter((edge) => edge !== null);
@@ -31,9 +38,9 @@ function borderEdges(faces: Uint32Array): [number, number][] {
 export class Picker {
   private clothTree?: MeshBVH;
   private bodyTree?: MeshBVH;
-  private undrawnTree?: MeshBVH;  // of the present frame, where it was asked for
-  private borders?: [number, number][];  // likewise: edges of one face
-  private isOld = false;          // things have moved since the trees were fitted
+  private undrawnTree?: MeshBVH; // of the present frame, where it was asked for
+  private borders?: [number, number][]; // likewise: edges of one face
+  private isOld = false; // things have moved since the trees were fitted
   private soon = 0;
 
   constructor(private readonly of: Scenery) {}
@@ -90,15 +97,30 @@ export class Picker {
     const before = this.of.seen.body && this.bodyTree?.raycastFirst(ray, THREE.FrontSide);
     if (before && before.distance < hit.distance - 0.01 * this.of.size) return null;
     const { a, b, c } = hit.face;
-    const at = (list: ArrayLike<number>, v: number) => new THREE.Vector3(list[3 * v], list[3 * v + 1], list[3 * v + 2]);
+    const at = (list: ArrayLike<number>, v: number) =>
+      new THREE.Vector3(list[3 * v], list[3 * v + 1], list[3 * v + 2]);
     const { positions, undrawn } = this.of.frame;
-    const weights = THREE.Triangle.getBarycoord(hit.point, at(positions, a), at(positions, b), at(positions, c), new THREE.Vector3());
+    const weights = THREE.Triangle.getBarycoord(
+      hit.point,
+      at(positions, a),
+      at(positions, b),
+      at(positions, c),
+      new THREE.Vector3(),
+    );
     if (!weights) return null;
     const normals = this.of.cloth.geometry.getAttribute("normal").array;
     const blend = (list: ArrayLike<number>) =>
-      at(list, a).multiplyScalar(weights.x).addScaledVector(at(list, b), weights.y).addScaledVector(at(list, c), weights.z);
+      at(list, a)
+        .multiplyScalar(weights.x)
+        .addScaledVector(at(list, b), weights.y)
+        .addScaledVector(at(list, c), weights.z);
     const corner = weights.x >= weights.y && weights.x >= weights.z ? a : weights.y >= weights.z ? b : c;
-    return { shown: hit.point.clone(), normal: blend(normals).normalize(), undrawn: blend(undrawn), vertex: corner };
+    return {
+      shown: hit.point.clone(),
+      normal: blend(normals).normalize(),
+      undrawn: blend(undrawn),
+      vertex: corner,
+    };
   }
 
   /** Whether cloth is within so many pixels of a place of the window, three times as many on the body. */
@@ -106,22 +128,29 @@ export class Picker {
     this.fit();
     if (this.of.seen.body && this.bodyTree?.raycastFirst(this.rayThrough(x, y), THREE.FrontSide)) pixels *= 3;
     const around = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => (k * Math.PI) / 4);
-    return [0.33, 0.67, 1].some((r) => around.some((a) => this.pick(x + r * pixels * Math.cos(a), y + r * pixels * Math.sin(a)) !== null));
+    return [0.33, 0.67, 1].some((r) =>
+      around.some((a) => this.pick(x + r * pixels * Math.cos(a), y + r * pixels * Math.sin(a)) !== null),
+    );
   }
 
   /** How long a piece of the picture is where a point lies [m a pixel]. */
   lengthOfPixel(at: THREE.Vector3): number {
     const height = this.of.canvas.getBoundingClientRect().height;
-    return (2 * at.distanceTo(this.of.camera.position) * Math.tan((this.of.camera.fov * Math.PI) / 360)) / height;
+    return (
+      (2 * at.distanceTo(this.of.camera.position) * Math.tan((this.of.camera.fov * Math.PI) / 360)) / height
+    );
   }
 
   /** The border of the cloth that a line runs towards at its end, within so much of it [m]; null: none. */
   borderAhead(end: Hit, before: Hit, most: number): Hit | null {
     if (!this.of.frame) return null;
-    const { positions, undrawn } = this.of.frame, way = end.shown.clone().sub(before.shown).normalize();
+    const { positions, undrawn } = this.of.frame,
+      way = end.shown.clone().sub(before.shown).normalize();
     const at = (list: Float32Array, v: number) => new THREE.Vector3().fromArray(list, 3 * v);
-    const on = new THREE.Vector3(), piece = new THREE.Line3();
-    let best: Hit | null = null, least = most;
+    const on = new THREE.Vector3(),
+      piece = new THREE.Line3();
+    let best: Hit | null = null,
+      least = most;
     for (const [a, b] of (this.borders ??= borderEdges(this.of.frame.faces))) {
       piece.set(at(positions, a), at(positions, b));
       const share = piece.closestPointToPointParameter(end.shown, true);
@@ -129,14 +158,22 @@ export class Picker {
       const far = on.distanceTo(end.shown);
       if (far > least || on.clone().sub(end.shown).dot(way) < 0.5 * far) continue;
       least = far;
-      best = { shown: on.clone(), normal: end.normal, undrawn: at(undrawn, a).lerp(at(undrawn, b), share), vertex: share < 0.5 ? a : b };
+      best = {
+        shown: on.clone(),
+        normal: end.normal,
+        undrawn: at(undrawn, a).lerp(at(undrawn, b), share),
+        vertex: share < 0.5 ? a : b,
+      };
     }
     return best;
   }
 
   /** Where the ray through a place of the window meets the plane through a point that faces the camera. */
   dragTo(x: number, y: number, through: THREE.Vector3): THREE.Vector3 | null {
-    const facing = new THREE.Plane().setFromNormalAndCoplanarPoint(this.of.camera.getWorldDirection(new THREE.Vector3()), through);
+    const facing = new THREE.Plane().setFromNormalAndCoplanarPoint(
+      this.of.camera.getWorldDirection(new THREE.Vector3()),
+      through,
+    );
     return this.rayThrough(x, y).intersectPlane(facing, new THREE.Vector3());
   }
 
@@ -146,7 +183,8 @@ export class Picker {
 
   /** The place of the window under which a point lies [pixels]. */
   windowPlace(point: THREE.Vector3): [number, number] {
-    const box = this.of.canvas.getBoundingClientRect(), at = point.clone().project(this.of.camera);
+    const box = this.of.canvas.getBoundingClientRect(),
+      at = point.clone().project(this.of.camera);
     return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
   }
 
@@ -155,17 +193,23 @@ export class Picker {
     if (!this.of.frame || polygon.length < 3) return [];
     this.fit();
     if (!this.clothTree) return [];
-    const inside = (x: number, y: number) => polygon.reduce((is, [ax, ay], i) => {
-      const [bx, by] = polygon[(i + 1) % polygon.length];
-      return ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax) ? !is : is;
-    }, false);
-    const found: number[] = [], eye = this.of.camera.position;
+    const inside = (x: number, y: number) =>
+      polygon.reduce((is, [ax, ay], i) => {
+        const [bx, by] = polygon[(i + 1) % polygon.length];
+        return ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax) ? !is : is;
+      }, false);
+    const found: number[] = [],
+      eye = this.of.camera.position;
     for (let v = 0; 3 * v < this.of.frame.positions.length; ++v) {
-      const at = this.placeOf(v), [x, y] = this.windowPlace(at);
+      const at = this.placeOf(v),
+        [x, y] = this.windowPlace(at);
       if (!inside(x, y)) continue;
-      const ray = new THREE.Ray(eye, at.clone().sub(eye).normalize()), way = at.distanceTo(eye) - 0.004 * this.of.size;
-      const cloth = this.clothTree.raycastFirst(ray, THREE.DoubleSide), body = this.of.seen.body && this.bodyTree?.raycastFirst(ray, THREE.FrontSide);
-      if ((!cloth || cloth.distance > way) && (!body || body.distance > way - 0.006 * this.of.size)) found.push(v);
+      const ray = new THREE.Ray(eye, at.clone().sub(eye).normalize()),
+        way = at.distanceTo(eye) - 0.004 * this.of.size;
+      const cloth = this.clothTree.raycastFirst(ray, THREE.DoubleSide),
+        body = this.of.seen.body && this.bodyTree?.raycastFirst(ray, THREE.FrontSide);
+      if ((!cloth || cloth.distance > way) && (!body || body.distance > way - 0.006 * this.of.size))
+        found.push(v);
     }
     return found;
   }
@@ -182,12 +226,16 @@ export class Picker {
     }
     const hit = this.undrawnTree.closestPointToPoint(point);
     if (!hit) return null;
-    const index = this.undrawnTree.geometry.index!.array, corners = [0, 1, 2].map((k) => index[3 * hit.faceIndex + k]);
+    const index = this.undrawnTree.geometry.index!.array,
+      corners = [0, 1, 2].map((k) => index[3 * hit.faceIndex + k]);
     const at = (list: Float32Array, v: number) => new THREE.Vector3().fromArray(list, 3 * v);
     const [a, b, c] = corners.map((v) => at(undrawn, v));
     const w = THREE.Triangle.getBarycoord(hit.point, a, b, c, new THREE.Vector3());
     if (!w) return { undrawn: hit.point.clone(), shown: at(positions, corners[0]) };
-    const shown = at(positions, corners[0]).multiplyScalar(w.x).addScaledVector(at(positions, corners[1]), w.y).addScaledVector(at(positions, corners[2]), w.z);
+    const shown = at(positions, corners[0])
+      .multiplyScalar(w.x)
+      .addScaledVector(at(positions, corners[1]), w.y)
+      .addScaledVector(at(positions, corners[2]), w.z);
     return { undrawn: hit.point.clone(), shown };
   }
 }

@@ -1,38 +1,103 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the page talks to the program: it sends what the user means, with an id, and is answered `done` or `refused`.
+// How the page talks to the program: it sends what the user means, with an id; the answer is `done` or `refused`.
 
 export interface Line {
-  name: string; on: boolean; varies: boolean; height?: number; width?: number; sharpness?: number; press?: number; closed?: boolean;
+  name: string;
+  on: boolean;
+  varies: boolean;
+  height?: number;
+  width?: number;
+  sharpness?: number;
+  press?: number;
+  closed?: boolean;
 }
 /** A closed border of the cloth: a hem, a neck, an arm hole; "top", "bottom", or a number. */
-export interface Border { name: string; length: number; held: boolean }
+export interface Border {
+  name: string;
+  length: number;
+  held: boolean;
+}
 export type Vector = [number, number, number];
 export interface Status {
-  title: string; lines: Line[]; shown: number[]; earlier: string[]; fabric: string; fabrics: { name: string; words: string }[]; borders: Border[]; wind: Vector; middle: number;
-  has_body: boolean; made_for_another: boolean; can_drape: boolean; time: number; undo: string; redo: string; step: number; pen: number;
+  title: string;
+  lines: Line[];
+  shown: number[];
+  earlier: string[];
+  fabric: string;
+  fabrics: { name: string; words: string }[];
+  borders: Border[];
+  wind: Vector;
+  middle: number;
+  has_body: boolean;
+  made_for_another: boolean;
+  can_drape: boolean;
+  time: number;
+  undo: string;
+  redo: string;
+  step: number;
+  pen: number;
 }
-export interface GalleryItem { name: string; title: string }
-export interface Verdict { name: string; verdict: "held" | "pressed" | "strutted" | "lowered" | "may_hold" | "cannot_hold"; words: string }
+export interface GalleryItem {
+  name: string;
+  title: string;
+}
+export interface Verdict {
+  name: string;
+  verdict: "held" | "pressed" | "strutted" | "lowered" | "may_hold" | "cannot_hold";
+  words: string;
+}
 export interface Done {
-  told?: string[]; outcome?: string; time?: number; words?: string; legend?: string; remarks?: string[]; written?: string[]; live?: boolean; passed_over?: boolean;
-  points?: Vector[]; verdicts?: Verdict[]; all_hold?: boolean; lost?: boolean; pairs?: number; at?: Vector; file?: string; project?: string; first?: number; steps?: string[];
+  told?: string[];
+  outcome?: string;
+  time?: number;
+  words?: string;
+  legend?: string;
+  remarks?: string[];
+  written?: string[];
+  live?: boolean;
+  passed_over?: boolean;
+  points?: Vector[];
+  verdicts?: Verdict[];
+  all_hold?: boolean;
+  lost?: boolean;
+  pairs?: number;
+  at?: Vector;
+  file?: string;
+  project?: string;
+  first?: number;
+  steps?: string[];
 }
-export interface Progress { what: string; share: number }
+export interface Progress {
+  what: string;
+  share: number;
+}
 export interface Hearer {
-  status(status: Status): void; you(client: number): void; gallery(items: GalleryItem[], open: boolean): void; opened(): void; progress(progress: Progress): void; frame(bytes: ArrayBuffer): void; gone(): void;
+  status(status: Status): void;
+  you(client: number): void;
+  gallery(items: GalleryItem[], open: boolean): void;
+  opened(): void;
+  progress(progress: Progress): void;
+  frame(bytes: ArrayBuffer): void;
+  gone(): void;
 }
 
 /** What the program would not do, and its sentence why. */
 export class Refused extends Error {}
 
-interface Waiting { resolve(done: Done): void; reject(why: Refused): void }
+interface Waiting {
+  resolve(done: Done): void;
+  reject(why: Refused): void;
+}
 
 export class Program {
   private socket: WebSocket;
   private waiting = new Map<number, Waiting>();
   private next = 1;
 
-  constructor(private token: string, hearer: Hearer) {
+  constructor(
+    private token: string,
+    hearer: Hearer,
+  ) {
     this.socket = new WebSocket(`ws://${location.host}/ws?token=${token}`);
     this.socket.binaryType = "arraybuffer";
     this.socket.onmessage = (event: MessageEvent) => {
@@ -68,7 +133,8 @@ export class Program {
   ask(what: string, body: object = {}): Promise<Done> {
     const id = this.next++;
     return new Promise((resolve, reject) => {
-      if (this.socket.readyState !== WebSocket.OPEN) return reject(new Refused("the program has ended; start furrow studio again"));
+      if (this.socket.readyState !== WebSocket.OPEN)
+        return reject(new Refused("the program has ended; start furrow studio again"));
       this.waiting.set(id, { resolve, reject });
       this.socket.send(JSON.stringify({ id, do: what, ...body }));
     });

@@ -8,12 +8,37 @@ import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeome
 import { type Frame, Kind } from "./frame";
 import { type Hit, Picker } from "./picker";
 
-export interface Seen { body: boolean; wire: boolean; lines: boolean }
+export interface Seen {
+  body: boolean;
+  wire: boolean;
+  lines: boolean;
+}
 export type Side = "front" | "back" | "right";
 
-interface Colours { ground: number; cloth: number; body: number; ridge: number; valley: number; wire: number }
-const light: Colours = { ground: 0xeceef1, cloth: 0xd9cdb8, body: 0xb9bcc2, ridge: 0xd4610f, valley: 0x2a6fd6, wire: 0x39424e };
-const dark: Colours = { ground: 0x1b1e22, cloth: 0xc9bca5, body: 0x6d737c, ridge: 0xff9a52, valley: 0x7fb0ff, wire: 0x14171b };
+interface Colours {
+  ground: number;
+  cloth: number;
+  body: number;
+  ridge: number;
+  valley: number;
+  wire: number;
+}
+const light: Colours = {
+  ground: 0xeceef1,
+  cloth: 0xd9cdb8,
+  body: 0xb9bcc2,
+  ridge: 0xd4610f,
+  valley: 0x2a6fd6,
+  wire: 0x39424e,
+};
+const dark: Colours = {
+  ground: 0x1b1e22,
+  cloth: 0xc9bca5,
+  body: 0x6d737c,
+  ridge: 0xff9a52,
+  valley: 0x7fb0ff,
+  wire: 0x14171b,
+};
 
 /** A picture that takes longer is drawn with fewer pixels while things change [ms]. */
 const slow = 45;
@@ -28,9 +53,9 @@ export class View {
   readonly cloth: THREE.Mesh;
   readonly body: THREE.Mesh;
   readonly picker = new Picker(this);
-  frame?: Frame;  // the cloth's, as it lies now
+  frame?: Frame; // the cloth's, as it lies now
   colours = light;
-  size = 1;  // the cloth's diagonal [m]
+  size = 1; // the cloth's diagonal [m]
   seen: Seen = { body: true, wire: false, lines: true };
   private scene = new THREE.Scene();
   private key = new THREE.DirectionalLight(0xffffff, 2.1);
@@ -41,11 +66,11 @@ export class View {
   private handles: THREE.Points;
   private plane: THREE.Mesh;
   private rope: THREE.Line;
-  private isWide = false;  // the body is looked at, too
+  private isWide = false; // the body is looked at, too
   private lookedFrom = new THREE.Vector3();
   private asked = false;
-  private takes = 0;      // the last picture with all pixels [ms]
-  private timed?: Frame;  // of which it was
+  private takes = 0; // the last picture with all pixels [ms]
+  private timed?: Frame; // of which it was
   private isCoarse = false;
   private fineSoon = 0;
   private framed = false;
@@ -64,15 +89,44 @@ export class View {
     this.controls.addEventListener("change", () => this.draw());
     const mesh = (material: THREE.Material) => new THREE.Mesh(new THREE.BufferGeometry(), material);
     const side = THREE.DoubleSide;
-    this.cloth = mesh(new THREE.MeshStandardMaterial({ roughness: 0.92, side, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
-    this.body = mesh(new THREE.MeshStandardMaterial({ roughness: 0.75, polygonOffset: true, polygonOffsetFactor: 3, polygonOffsetUnits: 3 }));
-    this.wire = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 }));
-    this.band = mesh(new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.55, side, depthWrite: false }));
-    this.pins = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 5, sizeAttenuation: false }));
-    this.handles = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 13, sizeAttenuation: false, depthTest: false, transparent: true }));
-    this.plane = mesh(new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.14, side, depthWrite: false }));
+    this.cloth = mesh(
+      new THREE.MeshStandardMaterial({
+        roughness: 0.92,
+        side,
+        polygonOffset: true,
+        polygonOffsetFactor: 1,
+        polygonOffsetUnits: 1,
+      }),
+    );
+    this.body = mesh(
+      new THREE.MeshStandardMaterial({
+        roughness: 0.75,
+        polygonOffset: true,
+        polygonOffsetFactor: 3,
+        polygonOffsetUnits: 3,
+      }),
+    );
+    this.wire = new THREE.LineSegments(
+      new THREE.BufferGeometry(),
+      new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 }),
+    );
+    this.band = mesh(
+      new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.55, side, depthWrite: false }),
+    );
+    this.pins = new THREE.Points(
+      new THREE.BufferGeometry(),
+      new THREE.PointsMaterial({ size: 5, sizeAttenuation: false }),
+    );
+    this.handles = new THREE.Points(
+      new THREE.BufferGeometry(),
+      new THREE.PointsMaterial({ size: 13, sizeAttenuation: false, depthTest: false, transparent: true }),
+    );
+    this.plane = mesh(
+      new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.14, side, depthWrite: false }),
+    );
     this.rope = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ depthTest: false }));
-    this.plane.add(new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial()));  // its edges, which are seen from the front, too
+    // Its edges, which are seen from the front, too.
+    this.plane.add(new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial()));
     this.plane.visible = this.rope.visible = this.handles.visible = false;
     this.handles.renderOrder = this.rope.renderOrder = 3;
     for (const solid of [this.cloth, this.body]) solid.castShadow = solid.receiveShadow = true;
@@ -93,9 +147,12 @@ export class View {
     if (!cloth.vertexColors) cloth.color.set(this.colours.cloth);
     (this.body.material as THREE.MeshStandardMaterial).color.set(this.colours.body);
     (this.wire.material as THREE.LineBasicMaterial).color.set(this.colours.wire);
-    for (const dots of [this.pins, this.handles]) (dots.material as THREE.PointsMaterial).color.set(this.colours.valley);
+    for (const dots of [this.pins, this.handles])
+      (dots.material as THREE.PointsMaterial).color.set(this.colours.valley);
     (this.plane.material as THREE.MeshBasicMaterial).color.set(this.colours.valley);
-    ((this.plane.children[0] as THREE.LineSegments).material as THREE.LineBasicMaterial).color.set(this.colours.valley);
+    ((this.plane.children[0] as THREE.LineSegments).material as THREE.LineBasicMaterial).color.set(
+      this.colours.valley,
+    );
     (this.rope.material as THREE.LineBasicMaterial).color.set(this.colours.ridge);
     this.showLines();
     this.draw();
@@ -119,15 +176,17 @@ export class View {
       this.asked = false;
       this.render(this.takes > slow);
       clearTimeout(this.fineSoon);
-      if (this.isCoarse || this.timed !== this.frame) this.fineSoon = window.setTimeout(() => this.renderFine(), 300);
+      if (this.isCoarse || this.timed !== this.frame)
+        this.fineSoon = window.setTimeout(() => this.renderFine(), 300);
     });
   }
 
   /** Nobody waits: draws with all pixels, and takes the time that this takes. */
   private renderFine() {
-    const start = performance.now(), gl = this.renderer.getContext();
+    const start = performance.now(),
+      gl = this.renderer.getContext();
     this.render(false);
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits until it is drawn
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
     this.takes = performance.now() - start;
     this.timed = this.frame;
   }
@@ -139,10 +198,12 @@ export class View {
 
   /** `ratio`: pixels of the picture a pixel of the page. */
   private renderWith(ratio: number, hasShadows: boolean) {
-    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);  // which sets the size, too
-    const fromAbove = new THREE.Vector3(-0.55, 0.75, 2.25).multiplyScalar(this.size).applyQuaternion(this.camera.quaternion);
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio); // which sets the size, too
+    const fromAbove = new THREE.Vector3(-0.55, 0.75, 2.25)
+      .multiplyScalar(this.size)
+      .applyQuaternion(this.camera.quaternion);
     this.key.target.position.copy(this.controls.target);
-    this.key.position.copy(this.controls.target).add(fromAbove);  // however far the camera is
+    this.key.position.copy(this.controls.target).add(fromAbove); // however far the camera is
     this.shade(hasShadows);
     // three counts a picture before it draws the shadows, and would take what has changed since then for sent.
     ++this.renderer.info.render.frame;
@@ -153,7 +214,8 @@ export class View {
   private shade(isOn: boolean) {
     this.key.shadow.intensity = isOn ? 1 : 0;
     this.renderer.shadowMap.needsUpdate = isOn;
-    const { camera } = this.key.shadow, around = 1.1 * this.size;
+    const { camera } = this.key.shadow,
+      around = 1.1 * this.size;
     if (camera.right === around) return;
     camera.left = camera.bottom = -around;
     camera.right = camera.top = around;
@@ -210,8 +272,18 @@ export class View {
     material.vertexColors = fits;
     material.color.set(fits ? 0xffffff : this.colours.cloth);
     if (fits) {
-      const one = new THREE.Color(), linear = Float32Array.from({ length: 256 }, (_, i) => one.setRGB(i / 255, 0, 0, THREE.SRGBColorSpace).r);
-      this.cloth.geometry.setAttribute("color", new THREE.BufferAttribute(Float32Array.from(colours!, (c) => linear[c]), 3));
+      const one = new THREE.Color(),
+        linear = Float32Array.from(
+          { length: 256 },
+          (_, i) => one.setRGB(i / 255, 0, 0, THREE.SRGBColorSpace).r,
+        );
+      this.cloth.geometry.setAttribute(
+        "color",
+        new THREE.BufferAttribute(
+          Float32Array.from(colours!, (c) => linear[c]),
+          3,
+        ),
+      );
     }
     this.draw();
   }
@@ -289,14 +361,25 @@ export class View {
       const line = edges[e + 2] < 0 ? -1 : edges[e + 2];
       if (!ends.has(line)) ends.set(line, []);
       for (const v of [edges[e], edges[e + 1]])
-        for (let k = 0; k < 3; ++k) ends.get(line)!.push(positions[3 * v + k] + 0.5 * lift * this.size * normals[3 * v + k]);
+        for (let k = 0; k < 3; ++k)
+          ends.get(line)!.push(positions[3 * v + k] + 0.5 * lift * this.size * normals[3 * v + k]);
     }
     for (const [line, points] of ends) {
       const geometry = new LineSegmentsGeometry();
       geometry.setPositions(points);
       const colour = line < 0 ? 0x8a8a8a : this.kinds[line] < 0 ? this.colours.valley : this.colours.ridge;
       const isChosen = line >= 0 && line === this.chosen;
-      this.lines.add(new LineSegments2(geometry, new LineMaterial({ color: colour, linewidth: isChosen ? 5 : 2, transparent: !isChosen, opacity: isChosen ? 1 : 0.75 })));
+      this.lines.add(
+        new LineSegments2(
+          geometry,
+          new LineMaterial({
+            color: colour,
+            linewidth: isChosen ? 5 : 2,
+            transparent: !isChosen,
+            opacity: isChosen ? 1 : 0.75,
+          }),
+        ),
+      );
     }
   }
 
@@ -312,10 +395,15 @@ export class View {
   showPlane(middle: number | null) {
     this.plane.visible = middle !== null && !!this.frame;
     if (middle !== null && this.frame) {
-      const box = new THREE.Box3().setFromBufferAttribute(this.cloth.geometry.getAttribute("position") as THREE.BufferAttribute);
-      const size = box.getSize(new THREE.Vector3()), centre = box.getCenter(new THREE.Vector3());
+      const box = new THREE.Box3().setFromBufferAttribute(
+        this.cloth.geometry.getAttribute("position") as THREE.BufferAttribute,
+      );
+      const size = box.getSize(new THREE.Vector3()),
+        centre = box.getCenter(new THREE.Vector3());
       this.plane.geometry.dispose();
-      this.plane.geometry = new THREE.PlaneGeometry(1.4 * size.z + 0.1 * this.size, 1.1 * size.y).rotateY(Math.PI / 2);
+      this.plane.geometry = new THREE.PlaneGeometry(1.4 * size.z + 0.1 * this.size, 1.1 * size.y).rotateY(
+        Math.PI / 2,
+      );
       const edges = this.plane.children[0] as THREE.LineSegments;
       edges.geometry.dispose();
       edges.geometry = new THREE.EdgesGeometry(this.plane.geometry);
@@ -336,9 +424,10 @@ export class View {
 
   /** What is seen, without lines, pins and dots and twice as fine, goes to the browser's downloads. */
   savePicture(name: string) {
-    const tools = [this.lines, this.pins, this.handles, this.rope, this.plane, this.band], seen = tools.map((t) => t.visible);
+    const tools = [this.lines, this.pins, this.handles, this.rope, this.plane, this.band],
+      seen = tools.map((t) => t.visible);
     for (const tool of tools) tool.visible = false;
-    this.renderWith(Math.max(2, devicePixelRatio), true);  // what was drawn before is gone from the canvas
+    this.renderWith(Math.max(2, devicePixelRatio), true); // what was drawn before is gone from the canvas
     this.canvas.toBlob((picture) => {
       tools.forEach((tool, i) => (tool.visible = seen[i]));
       this.draw();
@@ -364,16 +453,26 @@ export class View {
   showBand(hits: Hit[], width: number, colour: number) {
     this.band.visible = hits.length > 1;
     if (hits.length > 1) {
-      const points: number[] = [], faces: number[] = [];
+      const points: number[] = [],
+        faces: number[] = [];
       hits.forEach((hit, i) => {
-        const along = hits[Math.min(i + 1, hits.length - 1)].shown.clone().sub(hits[Math.max(i - 1, 0)].shown);
+        const along = hits[Math.min(i + 1, hits.length - 1)].shown
+          .clone()
+          .sub(hits[Math.max(i - 1, 0)].shown);
         const across = along.cross(hit.normal).normalize();
         const end = Math.min(i, hits.length - 1 - i) === 0 ? 0.35 : 1;
         for (const s of [-1, -0.12, 0.12, 1])
-          points.push(...hit.shown.clone().addScaledVector(across, 0.5 * s * width * end).addScaledVector(hit.normal, lift * this.size).toArray());
+          points.push(
+            ...hit.shown
+              .clone()
+              .addScaledVector(across, 0.5 * s * width * end)
+              .addScaledVector(hit.normal, lift * this.size)
+              .toArray(),
+          );
         if (i === 0) return;
         for (let k = 0; k < 3; ++k) {
-          const p = 4 * (i - 1) + k, q = p + 4;
+          const p = 4 * (i - 1) + k,
+            q = p + 4;
           faces.push(p, q, p + 1, p + 1, q, q + 1);
         }
       });
@@ -397,13 +496,17 @@ export class View {
   /** Looks at the whole cloth, and the body with it: from a side, or from where the camera is. */
   look(side?: Side, withBody = false) {
     if (!this.frame) return;
-    const at = (mesh: THREE.Mesh) => mesh.geometry.getAttribute("position") as THREE.BufferAttribute | undefined;
-    const box = new THREE.Box3().setFromBufferAttribute(at(this.cloth)!), body = at(this.body);
+    const at = (mesh: THREE.Mesh) =>
+      mesh.geometry.getAttribute("position") as THREE.BufferAttribute | undefined;
+    const box = new THREE.Box3().setFromBufferAttribute(at(this.cloth)!),
+      body = at(this.body);
     this.isWide = withBody && body !== undefined && this.seen.body;
     if (this.isWide) box.union(new THREE.Box3().setFromBufferAttribute(body!));
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const ways = { front: [0, 0.12, 1], back: [0, 0.12, -1], right: [1, 0.12, 0] };
-    const way = side ? new THREE.Vector3(...ways[side]) : this.camera.position.clone().sub(this.controls.target);
+    const way = side
+      ? new THREE.Vector3(...ways[side])
+      : this.camera.position.clone().sub(this.controls.target);
     const half = Math.atan(Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
     this.controls.target.copy(sphere.center);
     const distance = (1.05 * sphere.radius) / Math.sin(half);

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The state of the page: what its parts show, in one place.
+import { useRef, useState } from "preact/hooks";
+import type { ClothMap } from "./cloth";
+import type { Files } from "./open";
+import type { Done, GalleryItem, Progress, Status } from "./protocol";
+import type { Seen } from "./view";
+
+export type Tool = "look" | "ridge" | "valley" | "pin";
+export type Busy = "" | "drape" | "keep" | "give" | "play";
+
+export interface State {
+  status?: Status;
+  me: number; // this client, as the program counts them
+  gone: boolean; // the program has ended
+  tool: Tool;
+  draft: { height: number; width: number | null }; // of the next line; null: as the program chooses it
+  both: boolean; // what is drawn is mirrored
+  middle: number | null; // of the mirror, while it is dragged
+  chosen: number; // line; -1: none
+  dragging: boolean; // a line, by its dots
+  seen: Seen;
+  map: "" | ClothMap; // that the cloth's colours show
+  tangles: boolean; // they show where cloth crosses cloth
+  frames: number; // meshes that came so far
+  busy: Busy;
+  progress?: Progress;
+  words: { text: string; bad: boolean };
+  verdict?: { step: number; done: Done }; // of the shape that the step made
+  lost: boolean; // what was draped has lost lines
+  moving: number; // time of the cloth in motion [s]
+  speed: number; // of a play, over the clock's
+  help: boolean;
+  items: GalleryItem[];
+  opening: "" | "first" | "again";
+  files: Files;
+  badFile: string;
+}
+
+const first: State = {
+  me: 0,
+  gone: false,
+  tool: "look",
+  draft: { height: 0.02, width: null },
+  both: false,
+  middle: null,
+  chosen: -1,
+  dragging: false,
+  seen: { body: true, wire: false, lines: true },
+  map: "",
+  tangles: false,
+  frames: 0,
+  busy: "",
+  words: { text: "", bad: false },
+  lost: false,
+  moving: 0,
+  speed: 1,
+  help: false,
+  items: [],
+  opening: "",
+  files: { garment: null, body: null, madeFor: null },
+  badFile: "",
+};
+
+/** The state as it is now, and a change of it that the parts show. */
+export interface Page {
+  now(): State;
+  set(change: Partial<State>): void;
+}
+
+export function usePage(): Page {
+  const [, show] = useState(first);
+  const held = useRef<Page>();
+  if (!held.current) {
+    let state = first;
+    held.current = { now: () => state, set: (change) => show((state = { ...state, ...change })) };
+  }
+  return held.current;
+}
+
+export const isPen = (tool: Tool) => tool === "ridge" || tool === "valley";
+/** Whether this client has the pen, or nobody has. */
+export const mayDraw = ({ status, me }: State) => !!status && (status.pen === me || status.pen === 0);
+/** Whether the program does nothing that takes long, and would listen to this client. */
+export const isIdle = (state: State) => state.busy === "" && mayDraw(state);

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the page does: each method asks the program for something, and shows what it answers.
+import { Vector3 } from "three";
+import type { ClothActions, ClothMap } from "./cloth";
+import { Kind, readFrame } from "./frame";
+import { Hand } from "./hand";
+import { Handles } from "./handles";
+import { LineChanges } from "./line_changes";
+import { ownWidth } from "./lines";
+import type { OpenWords } from "./open";
+import { isIdle, isPen, mayDraw, type Page, type Tool } from "./page";
+import { type Drawn, Pen } from "./pen";
+import { type Done, type Hearer, Program, type Vector } from "./protocol";
+import { type Seen, View } from "./view";
+
+/** What a job says of options of the command line, in words that the page has. */
+const inPage = (text: string) =>
+  text
+    .replace(/; cloth has no contact with cloth here: .*/g, "; Tangles (T) shows where, Undo takes it back")
+    .replace(/; --[a-z-]+[^;.\n]*/g, "")
+    .replace(/furrow keep/g, "Keep")
+    .replace(/furrow drape/g, "Drape");
+const sentences = (...all: (string | string[] | undefined)[]) => all.flat().filter(Boolean).join("\n");
+
+export class Studio {
+  readonly program: Program;
+  readonly view: View;
+  readonly pen: Pen;
+  readonly handles: Handles;
+  readonly hand: Hand;
+  readonly lines: LineChanges;
+  /** What the panel of the cloth asks for. */
+  readonly cloth: ClothActions = {
+    fabric: (name) => this.setFabric(name),
+    hold: (border, on) => void this.ask("hold", { border, on }),
+    wind: (velocity) => void this.blow(velocity),
+    drape: () => void this.drape(),
+    keep: () => void this.keep(),
+    play: (seconds) => void this.play(seconds),
+    map: (of) => void this.showMap(of),
+    accept: (drapes) => this.accept(drapes),
+    takeBack: () => this.undo(),
+    pace: (speed) => this.page.set({ speed }),
+  };
+  private playsAgain = false; // once it has paused
+
+  constructor(
+    private page: Page,
+    canvas: HTMLCanvasElement,
+    token: string,
+  ) {
+    this.view = new View(canvas);
+    this.program = new Program(token, this.hearer());
+    this.lines = new LineChanges(page, this);
+    this.pen = new Pen(this.view, () => this.penSettings(), {
+      drawn: (line) => void this.draw(line),
+      tooShort: () =>
+        this.say("That was too short for a line: hold the button down and draw over the cloth."),
+    });
+    this.handles = new Handles(this.view, () => this.canDrag(), {
+      moved: (points, isLive) => {
+        page.set({ dragging: isLive });
+        this.lines.set(page.now().chosen, { points }, isLive);
+      },
+      dropped: () => {
+        page.set({ dragging: false });
+        this.lines.dropWaiting();
+        void this.program.ask("show");
+      },
+    });
+    this.hand = new Hand(this.view, () => this.handDoes(), {
+      // What the program does not want to hear any more, as the cloth has just been paused, is no fault.
+      pulls: (grip) => void this.program.ask("pull", grip ?? {}).catch(() => undefined),
+      pins: (at, border) => void this.ask(border ? "hold" : "pin", { at }),
+      encircles: (vertices, on) => {
+        if (vertices.length) void this.ask("pin", { vertices, on });
+        else this.say("There is no vertex of the cloth within that loop: draw it larger, or click.");
+      },
+    });
+  }
+
+  private hearer(): Hearer {
+    const { page } = this;
+    return {
+      status: (status) => page.set({ status }),
+      you: (me) => page.set({ me }),
+      gone: () => page.set({ gone: true }),
+      gallery: (items, open) => page.set(open ? { items } : { items, opening: "first" }),
+      opened: () => {
+        this.view.forget();
+        page.set({
+          chosen: -1,
+          verdict: undefined,
+          tool: "look",
+          words: { text: "", bad: false },
+          opening: "",
+        });
+      },
+      progress: (progress) => page.set({ progress: progress.share < 1 ? progress : undefined }),
+      frame: (bytes) => this.show(bytes),
+    };
+  }
+
+  private show(bytes: ArrayBuffer) {
+    const { page, view } = this,
+      frame = readFrame(bytes);
+    if ("time" in frame) {
+      if (frame.kind === Kind.movingBody) return view.moveBody(frame.positions);
+      view.move(frame.positions);
+      this.hand.follow();
+      return page.set({ moving: frame.time, map: "" });
+    }
+    if ("colours" in frame) return view.colour(frame.colours);
+    view.show(frame);
+    if (frame.kind !== Kind.body) {
+      this.handles.show();
+      if (!this.pen.drawing) view.showBand([], 0, 0);
+    }
+    if (frame.kind === Kind.cloth) page.set({ map: "", tangles: false });
+    page.set({ frames: page.now().frames + 1 });
+  }
+
+  say(text: string, bad = false) {
+    this.page.set({ words: { text, bad } });
+  }
+
+  /** Asks the program; what it says against it is shown in its words. */
+  async ask(what: string, body: object = {}, then?: (done: Done) => string) {
+    if (this.page.now().busy === "play") this.pause(); // what is asked then wants it still
+    try {
+      const done = await this.program.ask(what, body);
+      this.say(
+        sentences(
+          then?.(done),
+          (done.told ?? []).map((t) => `Note: ${t}`),
+        )
+          .split("\n")
+          .map(inPage)
+          .join("\n"),
+      );
+      return true;
+    } catch (e) {
+      const why = (e as Error).message;
+      this.say(why, !why.startsWith("stopped;")); // which was asked for
+      return false;
+    }
+  }
+
+  /** Asks for what takes long. */
+  private async work(busy: "drape" | "keep" | "give", body: object, then: (done: Done) => string) {
+    this.page.set({ busy });
+    await this.ask(busy, body, then);
+    this.page.set({ busy: "", progress: undefined });
+  }
+
+  private penSettings() {
+    const { tool, draft, busy } = this.page.now(),
+      { ridge, valley } = this.view.colours;
+    return {
+      on: isPen(tool) && !busy,
+      colour: tool === "valley" ? valley : ridge,
+      width: draft.width ?? ownWidth(draft.height),
+    };
+  }
+
+  private async draw({ points, closed, pressure = 0.5 }: Drawn) {
+    const { tool, draft, both, status } = this.page.now(),
+      place = status!.lines.length;
+    const size = draft.height * Math.min(2, Math.max(0.2, 2 * pressure)),
+      height = tool === "valley" ? -size : size;
+    const width = draft.width === null ? {} : { width: draft.width };
+    if (await this.ask("draw", { height, points, closed, ...width, ...(both ? { mirror: true } : {}) }))
+      this.page.set({ chosen: place }); // its sliders are open
+    else this.pen.drop();
+  }
+
+  private canDrag() {
+    const state = this.page.now();
+    return state.tool === "look" && isIdle(state) && !!state.status?.lines[state.chosen]?.on;
+  }
+
+  private handDoes() {
+    const state = this.page.now();
+    if (!mayDraw(state)) return "";
+    if (state.busy === "play") return "pull";
+    return state.tool === "pin" && !state.busy ? "pin" : "";
+  }
+
+  async drape() {
+    if (this.page.now().busy) return;
+    this.page.set({ lost: false });
+    this.say("The cloth comes to rest …");
+    await this.work("drape", {}, (done) => {
+      this.page.set({ lost: done.lost ?? false });
+      const outcome =
+        done.outcome === "at rest"
+          ? "The cloth is at rest. Draw more, or undo."
+          : `Outcome: ${done.outcome}.`;
+      return sentences(outcome, done.remarks);
+    });
+  }
+
+  async keep() {
+    if (this.page.now().busy) return;
+    this.say(
+      "The lines are tried: each has to hold, at rest and in a gust. That takes minutes on a large garment, " +
+        "and can be stopped.",
+    );
+    await this.work("keep", {}, (done) => {
+      this.page.set({ verdict: { step: this.page.now().status!.step, done } });
+      const outcome = done.all_hold
+        ? "Every line holds."
+        : "Not every line is sure to hold; the list says why.";
+      return sentences(outcome, done.remarks);
+    });
+  }
+
+  /** Back to where the lines were drawn, and they are made to last there. */
+  async keepInstead() {
+    this.page.set({ lost: false });
+    if (await this.ask("undo")) await this.keep();
+  }
+
+  /** Goes on with what was kept as it is; `drapes`: and lets the cloth come to rest. */
+  accept(drapes: boolean) {
+    this.page.set({ verdict: undefined });
+    this.view.colour(null);
+    if (drapes) void this.drape();
+  }
+
+  async showTangles() {
+    if (this.page.now().tangles) {
+      this.page.set({ tangles: false });
+      return this.view.colour(null);
+    }
+    await this.ask("tangles", {}, (done) => {
+      this.page.set({ tangles: done.pairs! > 0, map: "" });
+      if (done.at) this.view.lookAt(new Vector3(...done.at));
+      return done.words!;
+    });
+  }
+
+  /** Shows strain, the distance to the body, or mass, or the cloth's own colour again. */
+  async showMap(of: ClothMap) {
+    if (this.page.now().map === of) {
+      this.page.set({ map: "" });
+      return this.view.colour(null);
+    }
+    const what = of === "mass" ? "weigh" : "fit";
+    if (await this.ask(what, { by: of }, (done) => `${done.words}\n${done.legend}`))
+      this.page.set({ map: of });
+  }
+
+  pause() {
+    void this.program.ask("pause");
+  }
+
+  /** Moves the cloth until it is paused, or takes one step. */
+  async play(seconds?: number) {
+    const { page } = this,
+      { busy, status, tool, speed } = page.now();
+    if (busy === "play") return this.pause();
+    if (!isIdle(page.now()) || !status?.can_drape) return;
+    page.set({ busy: "play", tool: isPen(tool) ? "look" : tool, moving: status.time }); // the pointer pulls now
+    this.say("");
+    await this.ask("play", seconds ? { seconds } : { speed }, (done) =>
+      sentences(`It has moved for ${done.time!.toFixed(2)} s. Draw more, go on, or undo.`, done.remarks),
+    );
+    page.set({ busy: "" });
+    this.goOn();
+  }
+
+  /** In a wind that changes while the cloth moves, it moves on. */
+  async blow(velocity: Vector) {
+    const moves = this.page.now().busy === "play";
+    if (!(await this.ask("wind", { velocity })) || !moves) return;
+    this.playsAgain = true;
+    if (this.page.now().busy === "") this.goOn();
+  }
+
+  private goOn() {
+    if (!this.playsAgain) return;
+    this.playsAgain = false;
+    void this.play();
+  }
+
+  undo() {
+    const what = this.page.now().status?.undo;
+    this.page.set({ lost: false });
+    void this.ask("undo", {}, () => `Undone: ${what}.`);
+  }
+
+  redo() {
+    const what = this.page.now().status?.redo;
+    void this.ask("redo", {}, () => `Done again: ${what}.`);
+  }
+
+  /** So many steps back, or on where that is negative. */
+  async goBack(steps: number) {
+    this.page.set({ lost: false });
+    for (let i = 0; i < Math.abs(steps); ++i) if (!(await this.ask(steps > 0 ? "undo" : "redo"))) return;
+  }
+
+  save() {
+    void this.ask(
+      "save",
+      {},
+      (done) => `Saved in ${this.page.now().status?.title}: ${(done.written ?? []).join(", ")}.`,
+    );
+  }
+
+  give(as: string) {
+    void this.work("give", { as }, (done) => `Written: ${done.file}`);
+  }
+
+  takePicture() {
+    const name = `${this.page.now().status!.title}.png`;
+    this.view.savePicture(name);
+    this.say(`The picture goes to the browser's downloads: ${name}.`);
+  }
+
+  setFabric(name: string) {
+    void this.ask("fabric", { name }, () => `It is made of ${name} now; Drape or Play shows how that hangs.`);
+  }
+
+  async open({ item, files, unit, up }: OpenWords) {
+    const { page, program } = this,
+      sent = async (file?: File | null) => file && (await program.upload(file));
+    page.set({ badFile: "" });
+    try {
+      const garment = await sent(files?.garment),
+        body = await sent(files?.body),
+        made_for = await sent(files?.madeFor);
+      const own = {
+        garment,
+        ...(body && { body }),
+        ...(made_for && { made_for }),
+        ...(unit && { unit }),
+        ...(up && { up }),
+      };
+      const done = await program.ask("open", item ? { item } : own);
+      this.say(sentences(`Every step is kept in ${done.project}.`, done.told));
+      page.set({ files: { garment: null, body: null, madeFor: null } });
+    } catch (e) {
+      page.set({ badFile: (e as Error).message });
+    }
+  }
+
+  toggle(key: keyof Seen) {
+    const { seen } = this.page.now();
+    this.page.set({ seen: { ...seen, [key]: !seen[key] } });
+  }
+
+  /** Takes up a tool, or lays it down. */
+  pick(tool: Tool) {
+    const { tool: old, busy } = this.page.now();
+    if (tool !== "look" && busy === "play") this.pause(); // who picks up a pen wants the cloth to hold still
+    this.page.set({ tool: old === tool ? "look" : tool });
+  }
+
+  /** Drops what the pointer does, else lays the tool down. */
+  escape() {
+    if (this.pen.drawing) this.pen.drop();
+    else if (this.hand.encircling) this.hand.drop();
+    else if (this.handles.dragging) this.handles.drop();
+    else this.page.set({ tool: "look" });
+  }
+}

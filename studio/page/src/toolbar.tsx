@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Above the picture: pens, the next line's size, undo and files.
+import { mm, ownWidth, Slider } from "./lines";
+import { isIdle, type Page } from "./page";
+import type { Studio } from "./studio";
+
+const tools = [
+  ["look", "Look", "Esc"],
+  ["ridge", "Ridge", "R"],
+  ["valley", "Valley", "V"],
+  ["pin", "Pin", "P"],
+] as const;
+
+/** How the next line will be drawn. */
+function Draft({ page }: { page: Page }) {
+  const { draft, both } = page.now(),
+    set = (change: Partial<typeof draft>) => page.set({ draft: { ...page.now().draft, ...change } });
+  return (
+    <>
+      <div class="group">
+        <Slider
+          label="New height"
+          value={draft.height * 1000}
+          min={2}
+          max={100}
+          step={1}
+          text={(v) => mm(v / 1000)}
+          change={(v) => set({ height: v / 1000 })}
+        />
+      </div>
+      <div class="group">
+        <Slider
+          label="New width"
+          value={(draft.width ?? ownWidth(draft.height)) * 1000}
+          min={10}
+          max={300}
+          step={5}
+          text={(v, dragged) => (draft.width === null && !dragged ? "auto" : mm(v / 1000))}
+          change={(v) => set({ width: v / 1000 })}
+        />
+        {draft.width !== null && (
+          <button class="small" onClick={() => set({ width: null })}>
+            auto
+          </button>
+        )}
+      </div>
+      <div class="group">
+        <button
+          aria-pressed={both}
+          title="Draw each line on the other side, too (M while a pen is up)"
+          onClick={() => page.set({ both: !both })}
+        >
+          Both sides
+        </button>
+      </div>
+    </>
+  );
+}
+
+export function Toolbar({ page, studio }: { page: Page; studio?: Studio }) {
+  const state = page.now(),
+    { status, tool } = state;
+  return (
+    <header>
+      <h1 title={status?.title}>{status?.title ?? "Furrow studio"}</h1>
+      <div class="group" role="group" aria-label="Pen">
+        {tools.map(([t, label, key]) => (
+          <button
+            key={t}
+            aria-pressed={tool === t}
+            title={`${label} (${key})`}
+            onClick={() => studio?.pick(t)}
+          >
+            {label}
+          </button>
+        ))}
+      </div>
+      <Draft page={page} />
+      <div class="group">
+        <button
+          disabled={!status?.undo}
+          title={status?.undo ? `Undo: ${status.undo} (Ctrl Z)` : "Nothing to undo"}
+          onClick={() => studio?.undo()}
+        >
+          Undo
+        </button>
+        <button
+          disabled={!status?.redo}
+          title={status?.redo ? `Do again: ${status.redo} (Ctrl Y)` : "Nothing to do again"}
+          onClick={() => studio?.redo()}
+        >
+          Redo
+        </button>
+        <button title="Save (Ctrl S)" disabled={!status} onClick={() => studio?.save()}>
+          Save
+        </button>
+        <button
+          title="Another garment (O)"
+          disabled={!isIdle(state)}
+          onClick={() => page.set({ opening: "again" })}
+        >
+          Open
+        </button>
+        <button title="Keys (?)" aria-label="Help" onClick={() => page.set({ help: true })}>
+          ?
+        </button>
+      </div>
+    </header>
+  );
+}
