@@ -34,7 +34,7 @@ class BuildByCMake(build_ext):
         folder = str(ROOT / "build" / "python")
         configure = ["cmake", "-G", "Ninja", "-S", str(ROOT), "-B", folder, "-DCMAKE_BUILD_TYPE=Release",
                      "-DFURROW_COMPONENTS=python", "-DFURROW_PYTHON=ON", "-DFURROW_UNITY=ON",
-                     f"-DPython_EXECUTABLE={sys.executable}", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG"]
+                     "-DFURROW_BUILD_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG"]
         subprocess.run(configure, check=True)
         subprocess.run(["cmake", "--build", folder, "--target", "python", "-j", os.environ.get("FURROW_JOBS", "2")],
                        check=True)

@@ -114,10 +114,12 @@ if(result EQUAL 0)
   message(FATAL_ERROR "a component that does not exist was found:\n${output}")
 endif()
 
-# Its own build: quickly made, for it is linked and run, not measured.
+# Its own build: quickly made, for it is linked and run, not measured. Its tests are configured there, too; what they include
+# is held by the test `layers`.
 must(${CMAKE_COMMAND} -G Ninja -S ${ROOT} -B ${alone}/build -DFURROW_COMPONENTS=physics ${hidden}
      -DFURROW_UNITY=ON -DFURROW_UNITY_SIZE=40 -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O0")
-must(${CMAKE_COMMAND} --build ${alone}/build -j 2)
+must(${CMAKE_COMMAND} --build ${alone}/build --target physics -j 2)
+must(${CMAKE_COMMAND} --build ${alone}/build --target test_physics test_field test_pairs -- -n)
 must(${CMAKE_COMMAND} --install ${alone}/build --prefix ${alone}/installed)
 must_be_there(${alone}/installed/share/doc/furrow/physics/LICENSE)
 file(GLOB others ${alone}/installed/include/furrow/geometry ${alone}/installed/share/doc/furrow/LICENSE ${alone}/installed/bin)

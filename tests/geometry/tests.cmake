@@ -3,6 +3,7 @@ furrow_add_tests(geometry geometry LIBRARIES furrow::geometry SOURCES
   cancelling_test.cpp
   mesh/attribute_register_test.cpp
   mesh/border_loops_test.cpp
+  mesh/closest_point_test.cpp
   mesh/edge_metric_test.cpp
   mesh/measures_test.cpp
   mesh/select_vertices_test.cpp

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-furrow_add_tests(field physics LIBRARIES furrow::physics CGAL::CGAL SOURCES
+furrow_add_tests(field physics LIBRARIES furrow::physics SOURCES
   body/compare_colliders_test.cpp
   body/corner_cones_test.cpp
   body/depth_map_collider_test.cpp
