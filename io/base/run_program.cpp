@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/auxv.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -80,8 +81,12 @@ ProgramRun run_program(const std::filesystem::path& program, const std::vector<s
 }
 
 std::filesystem::path this_program() {
-  std::error_code none;
-  return std::filesystem::read_symlink("/proc/self/exe", none);
+  std::error_code failed;
+  const std::filesystem::path link = std::filesystem::read_symlink("/proc/self/exe", failed);
+  if (!failed) return link;
+  // A chroot may have no /proc: the name by which it was started, of the folder in which it was.
+  const auto* name = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+  return name ? std::filesystem::weakly_canonical(name, failed) : std::filesystem::path();
 }
 
 }  // namespace furrow::io
