@@ -15,6 +15,7 @@
 #include "jobs/chain/wrinkle_stages.h"
 #include "jobs/cloth/fabric_file.h"
 #include "jobs/cloth/recorded_material.h"
+#include "jobs/draw/recorded_drawing.h"
 #include "jobs/draw/wrinkle_reports.h"
 
 namespace furrow::cli {

@@ -8,4 +8,7 @@ namespace furrow::jobs {
 /// become null; `not_finite` says where they stood and what they were.
 Json finite_report(const Json& report);
 
+/// null where there is none.
+inline Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
 }  // namespace furrow::jobs

@@ -17,7 +17,7 @@ using bridge::Verdict;
 /// A height or a share of it; null where it is not known.
 Json share(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-const char* name_of(Verdict verdict) {
+const char* word_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::held:
       return "held";
@@ -69,7 +69,7 @@ Json to_json(const KeptLine& line, const io::WrinkleRecord& record) {
                  {"drawn", share(crest * drawn.drawn_height)},
                  {"smoothed", share(crest * drawn.smoothed_height)}});
   }
-  json.update({{"verdict", name_of(line.verdict)},
+  json.update({{"verdict", word_of(line.verdict)},
                {"height", share(told_height(line, record).height)},
                {"kept", share(line.kept)},
                {"kept_after_gust", share(line.kept_gust)},

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/chain/wrinkle.h"
 
+#include <limits>
+
 #include "geometry/mesh/errors.h"
 #include "geometry/mesh/property_names.h"
 #include "geometry/refine/subdivide.h"
-#include "io/base/bytes_file.h"
 #include "io/base/lower_case.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/relocated.h"
@@ -216,17 +217,6 @@ void look_at_lines(const WrinkleJob& job, const io::MeshFile& file, const Crosse
     context.warn(turned->code, turned->text, where, turned->help);
 }
 
-/// The garment that a wrinkled mesh was made of: where it was, or beside the mesh; unchanged.
-fs::path find_garment(const io::WrinkleRecord& record, const fs::path& wrinkled) {
-  const fs::path named = record.garment, folder = wrinkled.parent_path();
-  for (const fs::path& path : {named, folder / named, folder / named.filename()})
-    if (fs::is_regular_file(path) && io::content_hash(path) == record.garment_hash) return path;
-  throw geometry::ContentError(
-      wrinkled.string() + ": the garment '" + record.garment +
-      "' that its lines were drawn on is not there, or has changed; lay it beside this "
-      "file, or write the strokes with furrow strokes and draw them on another");
-}
-
 /// What the job's settings bring to rest, in the frame of the drawing. Throws std::invalid_argument where
 /// nothing would hold it.
 io::Scene rest_scene(const WrinkleJob& job, const Frame& frame) {
@@ -280,17 +270,14 @@ RestPlan plan_rest(const WrinkleJob& job, geometry::Mesh& garment, const Context
 }
 
 /// Lets the drawn garment come to rest as furrow drape would, and writes it before and after.
-void settle_drawn(const WrinkleJob& job, const RestPlan& plan, WrinkleReport& report,
+void settle_drawn(const WrinkleJob& job, const RestPlan& plan, const Budget& budget, WrinkleReport& report,
                   const Context& context) {
   const io::Scene& scene = plan.scene;
   if (!job.smoothed.empty() && job.smoothed != "-") write_mesh(job.smoothed, report.garment, context);
   MemoryFiles memory = job.settle->memory;
   memory.meshes[scene.garment] = report.garment;
-  Budget budget("wrinkle", job.budget, context.listener);
-  const physics::CancelScope cancelling([&budget] { return budget.cancelled(); });
-  const Context there{context.frame, budget, &memory};
-  Draped draped =
-      budget.run([&] { return drape_garment(scene, plan.body ? &*plan.body : nullptr, {}, false, there); });
+  const Context there{context.frame, context.listener, &memory};
+  Draped draped = drape_garment(scene, plan.body ? &*plan.body : nullptr, {}, false, there);
   report.budget_spent = draped.budget_spent = draped.report.stopped && budget.is_spent();
   draped.refinements = plan.refinements;
   draped.name = scene.garment.stem().string();
@@ -306,30 +293,11 @@ void settle_drawn(const WrinkleJob& job, const RestPlan& plan, WrinkleReport& re
   report.rest = std::make_shared<const Draped>(std::move(draped));
 }
 
-}  // namespace
-
-RecordedDrawing recorded_drawing(const fs::path& wrinkled, const Context& context) {
-  const io::MeshFile file = read_mesh(wrinkled, context);
-  const auto record = io::find_wrinkle_record(file);
-  const std::string name = wrinkled.string();
-  if (!record || record->strokes.empty())
-    throw std::invalid_argument(name + " holds no strokes to draw again: name a file of strokes");
-  if (record->garment.empty())
-    throw std::invalid_argument(
-        name +
-        " was drawn on a garment that was refined first, which no file holds: name the "
-        "garment and a file of strokes");
-  const bool was_kept = geometry::find_map(file.mesh, geometry::attribute::hinge_stiffness).has_value();
-  return {find_garment(*record, wrinkled), io::drawn_strokes_from(record->strokes, name), record->options,
-          was_kept};
-}
-
-WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
-  const physics::CancelScope cancelling([&listener] { return listener.cancelled(); });
-  check(job, listener);
+WrinkleReport draw_and_settle(const WrinkleJob& job, Budget& budget) {
+  check(job, budget);
   WrinkleReport report;
   report.frame = frame_of(job);
-  const Context context{report.frame, listener, job.keep ? &job.keep->memory : nullptr};
+  const Context context{report.frame, budget, job.keep ? &job.keep->memory : nullptr};
   std::optional<io::Scene> keep;
   if (job.keep) keep = scene_of(job.keep->settings, job.keep->folder);
   const io::Scene* scene = keep ? &*keep : nullptr;
@@ -358,10 +326,19 @@ WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
     report.state->file = report.garment;
   }
   stop_if_cancelled(context);
-  if (settle) settle_drawn(job, *settle, report, context);
-  warn_of_lost_ties(report.garment.mesh, job.output, listener);
+  if (settle) settle_drawn(job, *settle, budget, report, context);
+  warn_of_lost_ties(report.garment.mesh, job.output, budget);
   write(job, report, context);
   return report;
+}
+
+}  // namespace
+
+WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener) {
+  // What rests has a budget, and drawing is a part of that.
+  Budget budget("wrinkle", job.settle ? job.budget : std::numeric_limits<double>::infinity(), listener);
+  const physics::CancelScope cancelling([&budget] { return budget.cancelled(); });
+  return budget.run([&] { return draw_and_settle(job, budget); });
 }
 
 Json to_json(const WrinkleReport& report) {

@@ -42,7 +42,8 @@ struct WrinkleJob {
   std::filesystem::path made_for = {};
   /// With settle: refinements (Loop) before the lines are drawn, in [0, 4]; none: as many as the gap needs.
   std::optional<int> subdivide = {};
-  double budget = 60;  ///< with settle: processor time after which the best state so far is its end [s]; > 0
+  double budget =
+      60;  ///< with settle: processor time, drawing included, after which the best state is its end [s]; > 0
   std::filesystem::path smoothed = {};  ///< with settle: the garment as drawn; empty or "-": not written
   std::filesystem::path output;         ///< mesh, or with a state a state, to write; empty or "-": none
   std::filesystem::path inserted;  ///< mesh after insertion and before smoothing; empty or "-": not written
@@ -70,23 +71,11 @@ struct WrinkleReport {
   std::vector<Warning> failures = {};       ///< why that is no success; empty: it is
 };
 
-/// What a wrinkled PLY was made of.
-struct RecordedDrawing {
-  std::filesystem::path garment;
-  std::vector<io::DrawnStroke> strokes;
-  std::string options;  ///< the flags of `furrow wrinkle` that it was drawn with
-  bool was_kept;        ///< its shape was made to bear its weight; drawing again does not
-};
-
 /// Draws the lines into the garment (geometry/fold/wrinkle.h) and writes what the job names, each file whole
 /// or not at all. Throws physics::Cancelled, nothing written, if the listener cancels; std::invalid_argument
 /// for a job that cannot be, geometry::ContentError for files that cannot be used, std::runtime_error for
 /// outputs that cannot be written. Cost: below a second for a garment of 10,000 vertices and ten lines.
 WrinkleReport wrinkle(const WrinkleJob& job, Listener& listener);
-
-/// The untouched garment and the strokes of a wrinkled mesh, to be drawn again. Throws std::invalid_argument
-/// if it holds no strokes, geometry::ContentError if its garment is not there or has changed.
-RecordedDrawing recorded_drawing(const std::filesystem::path& wrinkled, const Context& context);
 
 /// The report for programs, and what the command line prints.
 Json to_json(const WrinkleReport& report);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/quality/fold_quality.h"
+#include "jobs/base/finite_report.h"
 
 namespace furrow::jobs {
 namespace {
@@ -35,8 +36,6 @@ void take_line(const geometry::FoldSurface& surface, const geometry::WrinkledLin
     if (found.lateral) q.lateral = std::max(q.lateral.value_or(0), *found.lateral);
   }
 }
-
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json json_of_shape(const ShapeQuality& q) {
   return {{"crest_ripple", or_null(q.crest_ripple)},

@@ -14,6 +14,7 @@
 #include "jobs/base/output_checks.h"
 #include "jobs/base/read_inputs.h"
 #include "jobs/draw/quality_targets.h"
+#include "jobs/draw/recorded_drawing.h"
 #include "physics/base/cancel_scope.h"
 
 namespace furrow::jobs {

@@ -7,6 +7,7 @@
 
 #include "io/picture/fit_colours.h"
 #include "io/picture/render_scene.h"
+#include "jobs/base/finite_report.h"
 
 namespace furrow::jobs {
 namespace {
@@ -90,8 +91,6 @@ QualityMeasure vertices_of(const QualityReport& report, bool is_fine) {
     m.why = "the garment before its folds is not known";
   return m;
 }
-
-Json or_null(const Value& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json json_of(const QualityMeasure& m) {
   Json json{{"name", m.name}, {"id", m.id}, {"value", or_null(m.value)}};

@@ -9,12 +9,12 @@
 namespace furrow::jobs {
 namespace {
 
-std::string text_of(double value) {
+std::string three_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
 }
-std::string percent(double share) { return text_of(100 * share) + " %"; }
+std::string percent(double share) { return three_digits(100 * share) + " %"; }
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -34,8 +34,8 @@ Json row_of(const Judgement& j, const JudgedCandidate& c, bool scene_dt) {
 
 std::string judged_on(const Judgement& j) {
   if (j.seconds >= j.scene_seconds) return "";
-  return "; judged on the first " + text_of(j.seconds) + " s of " + text_of(j.scene_seconds) + " s, " +
-         (j.shortened ? "as much as fits the budget; --budget takes more" : "until lines are drawn");
+  return "; judged on the first " + three_digits(j.seconds) + " s of " + three_digits(j.scene_seconds) +
+         " s, " + (j.shortened ? "as much as fits the budget; --budget takes more" : "until lines are drawn");
 }
 
 std::string broken_words(const Judgement& j) {
@@ -95,7 +95,7 @@ std::string words(const Judgement& j, bool scene_dt) {
   std::string text = "the cheapest setting within " + percent(j.options.tolerance) + " is " +
                      c.candidate.name + ": " + percent(c.error) +
                      (is_reference ? " by its own estimate" : std::string(" (") + kind_of_error(j, c) + ")") +
-                     ", " + text_of(c.cost) +
+                     ", " + three_digits(c.cost) +
                      " predicted seconds a simulated second; flags: " + flags_of(c.candidate, scene_dt) +
                      judged_on(j);
   if (j.broken != Broken::no) text += "; incomplete: " + broken_words(j);

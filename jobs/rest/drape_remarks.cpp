@@ -188,7 +188,7 @@ void remark_on_strain(const Draped& d, std::vector<DrapeRemark>& remarks) {
         d.name, "unit"}});
 }
 
-const char* name_of(LooseUse use) {
+const char* word_of(LooseUse use) {
   return use == LooseUse::hold ? "held" : use == LooseUse::drop ? "dropped" : "simulated";
 }
 
@@ -543,7 +543,7 @@ Json to_json(const Draped& d) {
     json["loose"] = {{"pieces", d.loose.size()},
                      {"vertices", d.loose_parts.vertices},
                      {"area_share", d.loose_parts.area_share},
-                     {"done", name_of(d.loose_parts.use)}};
+                     {"done", word_of(d.loose_parts.use)}};
   if (d.placed) json["placed"] = to_json(*d.placed);
   if (d.self_contact) json["self_contact"] = self_contact_json(d);
   if (d.other) json["other_search"] = to_json(*d.other);

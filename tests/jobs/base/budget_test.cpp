@@ -7,6 +7,7 @@
 
 #include "geometry/mesh/sheet.h"
 #include "jobs/chain/keep.h"
+#include "jobs/chain/wrinkle.h"
 #include "jobs/rest/drape.h"
 #include "tests/jobs/job_folders.h"
 #include "tests/jobs/recorder.h"
@@ -122,4 +123,21 @@ TEST_CASE("budget: a keep without time for its first rest state says so") {
   job.budget = 1e-6;
   tests::Recorder recorder;
   CHECK_THROWS_AS(jobs::keep(job, recorder), jobs::BudgetSpent);
+}
+
+TEST_CASE("budget: of lines that come to rest, drawing is a part") {
+  const fs::path folder = tests::empty_folder("budget_drawn");
+  jobs::WrinkleJob job;
+  job.settle = over_ball().scene;
+  job.garment = job.settle->memory.meshes["sheet"];
+  io::DrawnStroke ridge;
+  ridge.stroke.name = "ridge";
+  ridge.stroke.height = 0.01;
+  ridge.stroke.points = {{-0.05, 0.105, 0}, {0.05, 0.105, 0}};
+  job.strokes = std::vector{ridge};
+  job.smoothed = folder / "drawn.ply";
+  job.budget = 1e-6;
+  tests::Recorder recorder;
+  CHECK_THROWS_AS(jobs::wrinkle(job, recorder), jobs::BudgetSpent);
+  CHECK_FALSE(fs::exists(job.smoothed));
 }

@@ -8,6 +8,7 @@
 
 #include "geometry/mesh/sheet.h"
 #include "io/mesh/mesh_file.h"
+#include "jobs/draw/recorded_drawing.h"
 #include "jobs/mesh/transfer.h"
 #include "jobs/rest/drape.h"
 #include "physics/base/progress.h"
