@@ -42,8 +42,8 @@ struct WrinkleJob {
   std::filesystem::path made_for = {};
   /// With settle: refinements (Loop) before the lines are drawn, in [0, 4]; none: as many as the gap needs.
   std::optional<int> subdivide = {};
-  double budget =
-      60;  ///< with settle: processor time, drawing included, after which the best state is its end [s]; > 0
+  /// With settle: processor time, drawing included, after which the best state so far is its end [s]; > 0.
+  double budget = 60;
   std::filesystem::path smoothed = {};  ///< with settle: the garment as drawn; empty or "-": not written
   std::filesystem::path output;         ///< mesh, or with a state a state, to write; empty or "-": none
   std::filesystem::path inserted;  ///< mesh after insertion and before smoothing; empty or "-": not written
