@@ -39,8 +39,7 @@ int main() {
   pin(cloth.particles, std::vector<int>{0, 49});
   const double limit = stable_step(cloth).dt_limit;
   std::printf("limit of leapfrog %.3e s\n", limit);
-  for (const Case& c : {Case{"explicit Euler", {Integrator::explicit_euler}, 0.1 * limit, 4000},
-                        Case{"leapfrog", {Integrator::leapfrog}, 0.9 * limit, 4000},
+  for (const Case& c : {Case{"leapfrog", {Integrator::leapfrog}, 0.9 * limit, 4000},
                         Case{"RK4", {Integrator::rk4}, 0.9 * rk4_limit / 2 * limit, 2000},
                         Case{"implicit", {Integrator::implicit}, 1.0 / 60, 40},
                         Case{"XPBD, 10 sweeps", {Integrator::xpbd, {10, 0}}, 1.0 / 1200, 1000},

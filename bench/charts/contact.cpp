@@ -7,8 +7,8 @@
 #include "bench/accuracy_table.h"
 #include "bench/charts/charts.h"
 #include "physics/linear/stable_step.h"
+#include "tests/cases/baselines.h"
 #include "tests/cases/drop_on_ball.h"
-#include "tests/cases/semi_implicit.h"
 
 namespace furrow::bench {
 namespace {

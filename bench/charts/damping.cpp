@@ -5,7 +5,7 @@
 #include "bench/accuracy_table.h"
 #include "bench/charts/charts.h"
 #include "physics/packed/dashpots.h"
-#include "tests/cases/semi_implicit.h"
+#include "tests/cases/baselines.h"
 #include "tests/cases/swing.h"
 
 namespace furrow::bench {
@@ -67,7 +67,7 @@ void chart_damping(const std::string& folder, Effort effort) {
       const double decay = z > 0 ? fastest_decay(packed, dashpots(packed, z)) : 0;
       const auto find = [&](Integrator i) { return located(swing, i, limit, steps); };
       table.row(z, jitter, find(Integrator::leapfrog), find(semi_implicit), find(Integrator::rk4),
-                find(Integrator::explicit_euler),
+                find(explicit_euler),
                 std::min(physics::rk4_limit / 2, physics::rk4_damped_limit / decay / limit),
                 std::sqrt(1 + z * z) - z);
     }

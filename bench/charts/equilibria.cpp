@@ -8,7 +8,7 @@
 #include "bench/accuracy_table.h"
 #include "bench/charts/charts.h"
 #include "physics/contact/residual_force.h"
-#include "tests/cases/semi_implicit.h"
+#include "tests/cases/baselines.h"
 #include "tests/cases/swing.h"
 #include "tests/physics/cloth/strips.h"
 #include "tests/physics/rest/hanging_chains.h"

@@ -83,6 +83,7 @@ template <class Value, class At>
 struct Choice {
   At at;
   std::vector<std::pair<std::string, Value>> words;
+  GoneWords gone;
   static constexpr Kind kind = Kind::choice;
   std::string range() const {
     std::string list;
@@ -90,7 +91,7 @@ struct Choice {
     return list;
   }
   void read(SettingsTable& table, const char* key, auto& target) const {
-    table.choose<Value>(key, at(target), words);
+    table.choose<Value>(key, at(target), words, gone);
   }
   std::string usual(const auto& fresh) const {
     const auto found = std::find_if(words.begin(), words.end(),
@@ -99,8 +100,8 @@ struct Choice {
   }
 };
 template <class Value, class At>
-Choice<Value, At> choice(At at, std::vector<std::pair<std::string, Value>> words) {
-  return {at, std::move(words)};
+Choice<Value, At> choice(At at, std::vector<std::pair<std::string, Value>> words, GoneWords gone = {}) {
+  return {at, std::move(words), std::move(gone)};
 }
 
 /// true and false, for a field with a value for each.

@@ -406,20 +406,21 @@ const Row<Scene> rows[] = {
       .flag = "--integrator",
       .help =
           "auto (default): leapfrog, or implicit steps where those take less than half of its time (keep: "
-          "implicit); leapfrog, implicit, tr-bdf2, rk4, xpbd, or euler (the baseline that "
-          "diverges)",
+          "implicit); leapfrog, implicit, tr-bdf2, rk4, or xpbd",
       .shown_in = used_by::simulate,
       .what = "the scheme of its steps; auto is leapfrog, or implicit where that takes less than half of its "
-              "time; euler is the baseline that diverges",
+              "time",
       .used = used_by::moving},
      choice<std::optional<Integrator>>([](auto& s) -> auto& { return s.integrator; },
                                        {{"auto", {}},
                                         {"leapfrog", Integrator::leapfrog},
-                                        {"euler", Integrator::explicit_euler},
                                         {"rk4", Integrator::rk4},
                                         {"xpbd", Integrator::xpbd},
                                         {"implicit", Integrator::implicit},
-                                        {"tr-bdf2", Integrator::tr_bdf2}})},
+                                        {"tr-bdf2", Integrator::tr_bdf2}},
+                                       {{"euler",
+                                         "diverges at any step and is no choice any more; write "
+                                         "leapfrog, which costs as much a step"}})},
     {{.path = "simulation.sweeps",
       .flag = "--sweeps",
       .help = "of xpbd over all springs a step (default 10); few make the cloth softer",

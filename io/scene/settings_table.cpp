@@ -170,12 +170,15 @@ void SettingsTable::read(const char* key, std::vector<std::string>& values) {
   for (const Json& element : *item) values.push_back(text(key, element));
 }
 
-std::size_t SettingsTable::choice(const char* key, const std::vector<std::string>& words) {
+std::size_t SettingsTable::choice(const char* key, const std::vector<std::string>& words,
+                                  const GoneWords& gone) {
   const Json* item = find(key);
   if (!item) return words.size();
   const std::string word = text(key, *item);
   const auto at = std::find(words.begin(), words.end(), word);
   if (at == words.end()) {
+    for (const auto& [old, help] : gone)
+      if (word == old) fail(key, help);
     std::string list;
     for (const std::string& w : words) list += (list.empty() ? "" : ", ") + w;
     fail(key, "is none of " + list + "; did you mean " + nearest_word(word, words) + "?");

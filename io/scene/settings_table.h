@@ -27,6 +27,9 @@ inline constexpr Limits positive(const char* unit = "") { return {0, no_limit, t
 /// As messages say it after "must be": "a number > 0 [m]".
 std::string range_text(const Limits& limits);
 
+/// Words that were a choice once, each with what a message says of it.
+using GoneWords = std::vector<std::pair<std::string, std::string>>;
+
 /// Reads the keys of one table of a document, each with its type and range. Every fault is a
 /// geometry::ContentError with file, line and column; a key that nobody read is a fault, too, and the message
 /// names the nearest one that there is.
@@ -52,7 +55,8 @@ class SettingsTable {
   void read(const char* key, std::vector<std::string>& values);  ///< one string stands for a list of one
   /// One of these words.
   template <class Enum>
-  void choose(const char* key, Enum& value, const std::vector<std::pair<std::string, Enum>>& words);
+  void choose(const char* key, Enum& value, const std::vector<std::pair<std::string, Enum>>& words,
+              const GoneWords& gone = {});
 
   std::optional<SettingsTable> table(const char* key);
   std::vector<SettingsTable> tables(
@@ -69,7 +73,7 @@ class SettingsTable {
   double number(const char* key, const nlohmann::ordered_json& item, const Limits& limits) const;
   int whole(const char* key, const nlohmann::ordered_json& item, int least, int most) const;
   std::string text(const char* key, const nlohmann::ordered_json& item) const;
-  std::size_t choice(const char* key, const std::vector<std::string>& words);
+  std::size_t choice(const char* key, const std::vector<std::string>& words, const GoneWords& gone);
 
   const TomlDocument& document_;
   std::filesystem::path folder_;
@@ -80,10 +84,10 @@ class SettingsTable {
 
 template <class Enum>
 void SettingsTable::choose(const char* key, Enum& value,
-                           const std::vector<std::pair<std::string, Enum>>& words) {
+                           const std::vector<std::pair<std::string, Enum>>& words, const GoneWords& gone) {
   std::vector<std::string> names;
   for (const auto& word : words) names.push_back(word.first);
-  if (const std::size_t i = choice(key, names); i < words.size()) value = words[i].second;
+  if (const std::size_t i = choice(key, names, gone); i < words.size()) value = words[i].second;
 }
 
 }  // namespace furrow::io

@@ -65,7 +65,7 @@ Candidate implicit_at(Integrator integrator, int steps_a_second, const SceneClot
 /// The scene's own integrator and step, if it names what is not tried anyway.
 std::optional<Candidate> scenes_own(const SceneCloth& scene, double dt_limit) {
   const physics::SimulateOptions& o = scene.options;
-  if (!o.dt && o.integrator != Integrator::explicit_euler) return {};
+  if (!o.dt) return {};
   Candidate c;
   c.name = std::string(name_of(o.integrator)) + ", as the scene says";
   c.integrator = o.integrator;
@@ -98,8 +98,6 @@ const char* name_of(Integrator integrator) {
   switch (integrator) {
     case Integrator::leapfrog:
       return "leapfrog";
-    case Integrator::explicit_euler:
-      return "euler";
     case Integrator::rk4:
       return "rk4";
     case Integrator::xpbd:

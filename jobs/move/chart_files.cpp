@@ -57,8 +57,6 @@ const char* colour_of(physics::Integrator integrator) {
       return "#b71c1c";
     case physics::Integrator::tr_bdf2:
       return "#ad1457";
-    case physics::Integrator::explicit_euler:
-      break;
   }
   return "#7a4a3a";
 }

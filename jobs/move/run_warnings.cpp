@@ -56,8 +56,6 @@ std::optional<Warning> stretched_on_the_way(const io::Scene& scene, const physic
 }
 
 std::string help_of_divergence(const io::Scene& scene, const physics::SimulateReport& report) {
-  if (scene.simulation.integrator == physics::Integrator::explicit_euler)
-    return "explicit Euler always does in the end: use leapfrog";
   if (scene.simulation.dt) return "leave out --dt";
   const std::string shorter = fmt::format("take shorter steps: --dt {:.1g}", report.dt / 3);
   return scene.body ? "look for pins or cloth that start deep inside the body, or " + shorter : shorter;

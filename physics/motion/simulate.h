@@ -195,12 +195,11 @@ std::uint64_t fingerprint(const Cloth& cloth);
 void check(const SimulateState& state, std::size_t particles);
 
 enum class Integrator {
-  leapfrog,        ///< order 2, symplectic, one force a step; the choice for cloth that moves
-  explicit_euler,  ///< order 1; gains energy at any step
-  rk4,             ///< order 4, four forces a step; loses energy slowly
-  xpbd,            ///< backward Euler by sweeps over the springs: stable at any step, stiffness needs sweeps
-  implicit,        ///< backward Euler with contact in the solve, by minimisation: the choice for stiff cloth
-  tr_bdf2          ///< the same of order 2, at twice the cost a step
+  leapfrog,  ///< order 2, symplectic, one force a step; the choice for cloth that moves
+  rk4,       ///< order 4, four forces a step; loses energy slowly
+  xpbd,      ///< backward Euler by sweeps over the springs: stable at any step, stiffness needs sweeps
+  implicit,  ///< backward Euler with contact in the solve, by minimisation: the choice for stiff cloth
+  tr_bdf2    ///< the same of order 2, at twice the cost a step
 };
 
 /// Whether contact is part of a step's solve (ImplicitStep).

@@ -3,7 +3,6 @@
 
 #include <stdexcept>
 
-#include "physics/motion/euler_step.h"
 #include "physics/motion/implicit_step.h"
 #include "physics/motion/leapfrog_step.h"
 #include "physics/motion/rk4_step.h"
@@ -12,16 +11,13 @@
 namespace furrow::physics {
 namespace {
 
-/// A step that keeps nothing.
-class PlainStepper : public Stepper {
+class Leapfrog : public Stepper {
  public:
-  using Step = void (*)(Motion&, double);
-  PlainStepper(Motion& motion, Step plain_step) : motion_(motion), step_(plain_step) {}
-  void step(double dt) override { step_(motion_, dt); }
+  explicit Leapfrog(Motion& motion) : motion_(motion) {}
+  void step(double dt) override { leapfrog_step(motion_, dt); }
 
  private:
   Motion& motion_;
-  Step step_;
 };
 
 }  // namespace
@@ -29,9 +25,7 @@ class PlainStepper : public Stepper {
 std::unique_ptr<Stepper> make_stepper(Motion& motion, const StepperOptions& options) {
   switch (options.integrator) {
     case Integrator::leapfrog:
-      return std::make_unique<PlainStepper>(motion, leapfrog_step);
-    case Integrator::explicit_euler:
-      return std::make_unique<PlainStepper>(motion, euler_step);
+      return std::make_unique<Leapfrog>(motion);
     case Integrator::rk4:
       return std::make_unique<Rk4>(motion);
     case Integrator::xpbd:

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "physics/cloth/elements.h"
+#include "tests/cases/baselines.h"
 #include "tests/cases/flat_meshes.h"
 #include "tests/cases/gravity.h"
-#include "tests/cases/semi_implicit.h"
 
 namespace furrow::cases {
 namespace {

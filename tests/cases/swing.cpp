@@ -6,8 +6,8 @@
 
 #include "physics/cloth/pins.h"
 #include "physics/linear/stable_step.h"
+#include "tests/cases/baselines.h"
 #include "tests/cases/flat_meshes.h"
-#include "tests/cases/semi_implicit.h"
 
 namespace furrow::cases {
 namespace {

@@ -122,8 +122,11 @@ const Mistake mistakes[] = {
     {"a file that Git LFS did not bring", "info {d}/pointer.obj", 3,
      "error: {d}/pointer.obj: is a pointer of Git LFS, not the file itself; git lfs pull brings that"},
     {"an integrator misspelt", "simulate {m}/sheet.obj --integrator leapfrogg -o {d}/o.ply", 2,
-     "error: --integrator: simulation.integrator = \"leapfrogg\" is none of auto, leapfrog, euler, rk4, "
-     "xpbd, implicit, tr-bdf2; did you mean leapfrog?"},
+     "error: --integrator: simulation.integrator = \"leapfrogg\" is none of auto, leapfrog, rk4, xpbd, "
+     " implicit, tr-bdf2; did you mean leapfrog?"},
+    {"an integrator that left", "simulate {m}/sheet.obj --integrator euler -o {d}/o.ply", 2,
+     "error: --integrator: simulation.integrator = \"euler\" diverges at any step and is no choice any more; "
+     "write leapfrog, which costs as much a step"},
     {"a time below 0", "simulate {m}/sheet.obj --seconds -1 -o {d}/o.ply", 2,
      "error: --seconds: simulation.seconds = -1 must be a number >= 0 [s]"},
     {"a step that is too long", "simulate {m}/sheet.obj --dt 1 --seconds 2 -o {d}/o.ply", 2,

@@ -90,7 +90,7 @@ gusts = [{time = 0, factor = 0}, {time = 1, factor = 2}]
 [simulation]
 seconds = 3
 stop_at = 1
-integrator = "euler"
+integrator = "rk4"
 sweeps = 4
 threads = 2
 [output]
@@ -129,7 +129,7 @@ fps = 30
   CHECK(s.wind.swirl->rate == 4);
   CHECK(s.wind.gusts[1].factor == 2);
   CHECK(s.stop_at == 1.0);
-  CHECK(s.simulation.integrator == physics::Integrator::explicit_euler);
+  CHECK(s.simulation.integrator == physics::Integrator::rk4);
   CHECK(s.simulation.xpbd.iterations == 4);
   CHECK(s.output.animation == "a/o.pc2");
   CHECK(s.output.fps == 30);

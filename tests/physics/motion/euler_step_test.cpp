@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics/motion/euler_step.h"
-
 #include <catch2/catch.hpp>
 
 #include "physics/cloth/cloth.h"
 #include "physics/linear/stable_step.h"
 #include "physics/motion/leapfrog_step.h"
+#include "tests/cases/baselines.h"
 #include "tests/physics/cloth/test_cloths.h"
 
 using namespace furrow::physics;
+using furrow::cases::euler_step;
 using namespace furrow::tests;
 
 TEST_CASE("euler_step: it gains amplitude by sqrt(1 + z^2) each step") {

@@ -40,7 +40,7 @@ Slide slide(Integrator integrator, double friction, double angle, double dt, dou
 constexpr double incline = 3.14159265358979323846 / 6;
 
 /// A step that all take with those springs, explicit Euler too.
-double step_of(Integrator integrator) { return integrator == Integrator::explicit_euler ? 1e-4 : 5e-4; }
+double step_of(Integrator integrator) { return integrator == furrow::cases::explicit_euler ? 1e-4 : 5e-4; }
 
 }  // namespace
 

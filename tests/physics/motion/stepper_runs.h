@@ -2,7 +2,7 @@
 #pragma once
 #include "physics/cloth/pins.h"
 #include "physics/motion/leapfrog_step.h"
-#include "tests/cases/semi_implicit.h"
+#include "tests/cases/baselines.h"
 #include "tests/physics/cloth/test_cloths.h"
 
 namespace furrow::tests {
@@ -16,7 +16,7 @@ inline physics::StepperOptions solved(Integrator integrator) {
 }
 
 /// But for implicit steps, which have tests of their own (implicit_step_test.cpp).
-inline const std::vector<Integrator> all_integrators{Integrator::leapfrog, Integrator::explicit_euler,
+inline const std::vector<Integrator> all_integrators{Integrator::leapfrog, cases::explicit_euler,
                                                      cases::semi_implicit, Integrator::rk4, Integrator::xpbd};
 
 /// After steps of dt from time 0.

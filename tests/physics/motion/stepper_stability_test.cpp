@@ -68,7 +68,7 @@ TEST_CASE("stepper: each integrator keeps the momentum of a free cloth, with spr
   Cloth cloth = swinging_sheet();
   Particles& p = cloth.particles;
   for (std::size_t i = 0; i < p.size(); ++i) p.inv_mass[i] = 1 / p.mass[i];
-  const int steps = integrator == Integrator::explicit_euler ? 200 : 2000;
+  const int steps = integrator == furrow::cases::explicit_euler ? 200 : 2000;
   const Particles end =
       after(cloth, {.gravity = Vec3::Zero(), .spring_damping = damping}, {integrator}, 5e-4, steps);
   Vec3 change = Vec3::Zero();
